@@ -1,0 +1,326 @@
+//! Units: what a number measures ([`Dim`]) and the system the user speaks ([`UnitSystem`]).
+//!
+//! Inside the program everything is SI (m, kg, s, N, rad, K). A number is converted once where a command reads it and
+//! once where a report writes it; both go through [`Dim::factor`].
+//!
+//! Source: reference/model.md, "Conventions and defaults"; reference/language.md section 12.
+
+use std::fmt;
+
+/// One international foot (m).
+pub const FOOT: f64 = 0.3048;
+/// One inch (m).
+pub const INCH: f64 = 0.0254;
+/// One pound-force (N).
+pub const POUND_FORCE: f64 = 4.448_221_615_260_5;
+/// One kip (N).
+pub const KIP: f64 = 1000.0 * POUND_FORCE;
+/// One metric ton-force (N).
+pub const METRIC_TON_FORCE: f64 = 9806.65;
+/// One international knot (m/s).
+pub const KNOT: f64 = 1852.0 / 3600.0;
+/// Standard gravity (m/s2); converts a mass density to a weight density.
+pub const STANDARD_GRAVITY: f64 = 9.80665;
+
+/// The user's long length unit; it fixes the short one (inches with feet, millimetres with metres).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LengthUnit {
+    /// Feet, with inches for sections.
+    Feet,
+    /// Metres, with millimetres for sections.
+    Meters,
+}
+
+/// The user's force unit (`bforce` of the MOSES manuals).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ForceUnit {
+    /// 1000 pounds-force.
+    Kips,
+    /// Long tons-force, 2240 lbf.
+    LongTons,
+    /// Short tons-force, 2000 lbf.
+    ShortTons,
+    /// Kilonewtons.
+    Kilonewtons,
+    /// Metric tons-force.
+    MetricTons,
+    /// Newtons (ours).
+    Newtons,
+}
+
+/// The pair of units a user has chosen with `&DIMEN`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct UnitSystem {
+    /// Long length unit.
+    pub length: LengthUnit,
+    /// Force unit.
+    pub force: ForceUnit,
+}
+
+impl Default for UnitSystem {
+    /// Feet and kips, as MOSES.
+    fn default() -> Self {
+        UnitSystem { length: LengthUnit::Feet, force: ForceUnit::Kips }
+    }
+}
+
+impl UnitSystem {
+    /// SI with plain newtons: what engines use, and what tests compare in.
+    pub const SI: UnitSystem = UnitSystem { length: LengthUnit::Meters, force: ForceUnit::Newtons };
+
+    /// The two words `&DIMEN -DIMEN` takes for this system.
+    pub fn words(self) -> (&'static str, &'static str) {
+        let length = match self.length {
+            LengthUnit::Feet => "FEET",
+            LengthUnit::Meters => "METERS",
+        };
+        let force = match self.force {
+            ForceUnit::Kips => "KIPS",
+            ForceUnit::LongTons => "L-TONS",
+            ForceUnit::ShortTons => "S-TONS",
+            ForceUnit::Kilonewtons => "K-NTS",
+            ForceUnit::MetricTons => "M-TONS",
+            ForceUnit::Newtons => "N",
+        };
+        (length, force)
+    }
+
+    /// Metres in one long length unit.
+    pub fn metres(self) -> f64 {
+        match self.length {
+            LengthUnit::Feet => FOOT,
+            LengthUnit::Meters => 1.0,
+        }
+    }
+
+    /// Newtons in one force unit.
+    pub fn newtons(self) -> f64 {
+        match self.force {
+            ForceUnit::Kips => KIP,
+            ForceUnit::LongTons => 2240.0 * POUND_FORCE,
+            ForceUnit::ShortTons => 2000.0 * POUND_FORCE,
+            ForceUnit::Kilonewtons => 1000.0,
+            ForceUnit::MetricTons => METRIC_TON_FORCE,
+            ForceUnit::Newtons => 1.0,
+        }
+    }
+}
+
+/// The sentence every report carries, e.g. `Degrees, Feet, and Kips`.
+impl fmt::Display for UnitSystem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let length = match self.length {
+            LengthUnit::Feet => "Feet",
+            LengthUnit::Meters => "Meters",
+        };
+        let force = match self.force {
+            ForceUnit::Kips => "Kips",
+            ForceUnit::LongTons => "Long Tons",
+            ForceUnit::ShortTons => "Short Tons",
+            ForceUnit::Kilonewtons => "Kilonewtons",
+            ForceUnit::MetricTons => "Metric Tons",
+            ForceUnit::Newtons => "Newtons",
+        };
+        write!(f, "Degrees, {length}, and {force}")
+    }
+}
+
+/// What a number measures. The user's unit of each depends on the [`UnitSystem`]; the SI unit is in the comment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Dim {
+    /// A ratio, a count, an exponent: no unit.
+    None,
+    /// Geometry (m).
+    Length,
+    /// Section sizes and piston strokes, inches or mm (m).
+    Section,
+    /// Force, `bforce` (N).
+    Force,
+    /// Weight per length, line or spring stiffness, `bforce/blength` (N/m).
+    ForcePerLength,
+    /// Moment, `bforce-blength` (N m).
+    Moment,
+    /// Rotational stiffness, `bforce-blength/radian` (N m/rad).
+    MomentPerRadian,
+    /// Stress and moduli, ksi or MPa (Pa).
+    Stress,
+    /// Mass density of a material or of water, lb/ft3 or kg/m3 (kg/m3).
+    Density,
+    /// Angle, degrees (rad).
+    Angle,
+    /// Time, seconds (s).
+    Time,
+    /// Days (s).
+    Days,
+    /// Velocity, ft/s or m/s (m/s).
+    Velocity,
+    /// Wind speed, knots (m/s).
+    WindSpeed,
+    /// Acceleration, ft/s2 or m/s2 (m/s2).
+    Acceleration,
+    /// Thermal expansion, 1/F with feet and 1/C with metres (1/K).
+    ThermalExpansion,
+    /// Frequency, rad/s (rad/s).
+    Frequency,
+    /// Area, ft2 or m2 (m2).
+    Area,
+    /// Spectral density of elevation, ft2 s or m2 s (m2 s).
+    SpectralDensity,
+    /// Nonlinear dashpot coefficient, `bforce (s/blength)**Ex` (N (s/m)**Ex); the exponent is carried.
+    Damping(f64),
+    /// Mass, kg in every system (AQWA items).
+    Mass,
+    /// Mass per length, kg/m in every system (AQWA items).
+    MassPerLength,
+    /// Area, m2 in every system (AQWA items).
+    SquareMetres,
+    /// Length, m in every system (AQWA items).
+    Metres,
+    /// Force, N in every system (AQWA items).
+    Newtons,
+    /// Bending stiffness, N m2 in every system (AQWA items).
+    NewtonSquareMetres,
+    /// Stress, Pa in every system (AQWA items).
+    Pascals,
+    /// Mass density, kg/m3 in every system (AQWA items).
+    KilogramsPerCubicMetre,
+}
+
+impl Dim {
+    /// SI value of one user unit of this dimension.
+    pub fn factor(self, units: UnitSystem) -> f64 {
+        let (m, n) = (units.metres(), units.newtons());
+        let feet = units.length == LengthUnit::Feet;
+        match self {
+            Dim::Length => m,
+            Dim::Section => {
+                if feet {
+                    INCH
+                } else {
+                    1e-3
+                }
+            }
+            Dim::Force => n,
+            Dim::ForcePerLength => n / m,
+            Dim::Moment | Dim::MomentPerRadian => n * m,
+            Dim::Stress => {
+                if feet {
+                    KIP / (INCH * INCH)
+                } else {
+                    1e6
+                }
+            }
+            Dim::Density => {
+                if feet {
+                    POUND_FORCE / STANDARD_GRAVITY / (FOOT * FOOT * FOOT)
+                } else {
+                    1.0
+                }
+            }
+            Dim::Angle => std::f64::consts::PI / 180.0,
+            Dim::Days => 86_400.0,
+            Dim::Velocity | Dim::Acceleration => m,
+            Dim::WindSpeed => KNOT,
+            Dim::ThermalExpansion => {
+                if feet {
+                    1.8
+                } else {
+                    1.0
+                }
+            }
+            Dim::Area | Dim::SpectralDensity => m * m,
+            Dim::Damping(exponent) => n / m.powf(exponent),
+            Dim::None
+            | Dim::Time
+            | Dim::Frequency
+            | Dim::Mass
+            | Dim::MassPerLength
+            | Dim::SquareMetres
+            | Dim::Metres
+            | Dim::Newtons
+            | Dim::NewtonSquareMetres
+            | Dim::Pascals
+            | Dim::KilogramsPerCubicMetre => 1.0,
+        }
+    }
+
+    /// SI value of `value` user units.
+    pub fn to_si(self, value: f64, units: UnitSystem) -> f64 {
+        value * self.factor(units)
+    }
+
+    /// User units in `value` SI units.
+    pub fn from_si(self, value: f64, units: UnitSystem) -> f64 {
+        value / self.factor(units)
+    }
+
+    /// The user unit as printed in a column head or an axis label; empty for a plain number.
+    pub fn label(self, units: UnitSystem) -> String {
+        let feet = units.length == LengthUnit::Feet;
+        let length = if feet { "ft" } else { "m" };
+        let force = match units.force {
+            ForceUnit::Kips => "kips",
+            ForceUnit::LongTons => "l-tons",
+            ForceUnit::ShortTons => "s-tons",
+            ForceUnit::Kilonewtons => "kN",
+            ForceUnit::MetricTons => "m-tons",
+            ForceUnit::Newtons => "N",
+        };
+        match self {
+            Dim::None => String::new(),
+            Dim::Length => length.into(),
+            Dim::Section => if feet { "in" } else { "mm" }.into(),
+            Dim::Force => force.into(),
+            Dim::ForcePerLength => format!("{force}/{length}"),
+            Dim::Moment => format!("{force}-{length}"),
+            Dim::MomentPerRadian => format!("{force}-{length}/rad"),
+            Dim::Stress => if feet { "ksi" } else { "MPa" }.into(),
+            Dim::Density => if feet { "lb/ft3" } else { "kg/m3" }.into(),
+            Dim::Angle => "deg".into(),
+            Dim::Time => "s".into(),
+            Dim::Days => "days".into(),
+            Dim::Velocity => format!("{length}/s"),
+            Dim::WindSpeed => "knots".into(),
+            Dim::Acceleration => format!("{length}/s2"),
+            Dim::ThermalExpansion => if feet { "1/F" } else { "1/C" }.into(),
+            Dim::Frequency => "rad/s".into(),
+            Dim::Area => format!("{length}2"),
+            Dim::SpectralDensity => format!("{length}2-s"),
+            Dim::Damping(exponent) => format!("{force}-(s/{length})**{exponent}"),
+            Dim::Mass => "kg".into(),
+            Dim::MassPerLength => "kg/m".into(),
+            Dim::SquareMetres => "m2".into(),
+            Dim::Metres => "m".into(),
+            Dim::Newtons => "N".into(),
+            Dim::NewtonSquareMetres => "N-m2".into(),
+            Dim::Pascals => "Pa".into(),
+            Dim::KilogramsPerCubicMetre => "kg/m3".into(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn feet_and_kips_convert_as_reference_model_states() {
+        let us = UnitSystem::default();
+        assert_eq!(Dim::Force.to_si(1.0, us), 4448.2216152605);
+        assert_eq!(Dim::Length.to_si(1.0, us), 0.3048);
+        // 29,000 ksi is 199.948 GPa (NIST SP 811, ksi to Pa)
+        assert!((Dim::Stress.to_si(29_000.0, us) - 1.999_479_615e11).abs() < 1e5);
+        // sea water 1025 kg/m3 is 63.99 lb/ft3
+        assert!((Dim::Density.from_si(1025.0, us) - 63.989).abs() < 1e-3);
+    }
+
+    #[test]
+    fn going_to_si_and_back_returns_the_number() {
+        for force in [ForceUnit::LongTons, ForceUnit::MetricTons, ForceUnit::Newtons] {
+            let units = UnitSystem { length: LengthUnit::Meters, force };
+            for dim in [Dim::Section, Dim::Damping(1.5), Dim::MomentPerRadian, Dim::Angle, Dim::Days] {
+                assert!((dim.from_si(dim.to_si(12.5, units), units) - 12.5).abs() < 1e-12);
+            }
+        }
+    }
+}

@@ -1,0 +1,8 @@
+//! windlass: a MOSES-style command interpreter for marine mooring analysis.
+//!
+//! The floors of the house, top to bottom (each knows only those below it):
+//! `cli, repl | session | command, aqwa | report | solve | rod, tether | connector | hydro | post | model | table |
+//! language`. Everything below `session` can be used as a library by somebody who never types a command.
+
+pub mod language;
+pub mod table;

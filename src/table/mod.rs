@@ -1,0 +1,170 @@
+//! Results as data: named columns with dimensions, SI values inside. Engines and post-processing return a [`Table`];
+//! every report, plot, file and test reads one. A table knows nothing of how it is printed.
+
+use crate::language::units::Dim;
+
+/// One value of a column.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Cell {
+    /// A number in SI.
+    Number(f64),
+    /// A count or an ordinal (segment number, row number).
+    Integer(i64),
+    /// Text (names, states).
+    Text(String),
+    /// No value applies.
+    Missing,
+}
+
+/// How many digits a reader of the formatted report needs; files always get full precision.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Digits {
+    /// As the dimension usually is printed (decided in one place, by the report floor).
+    Usual,
+    /// This many decimals.
+    Decimals(u8),
+    /// This many significant digits in E format.
+    Scientific(u8),
+}
+
+/// A named column: one dimension, one cell a row.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    /// Short name as shown in heads, listings and files, e.g. `Ten Top`.
+    pub name: String,
+    /// Head shared with neighbouring columns of the same group, e.g. `Tension`; empty for none.
+    pub group: String,
+    /// What the numbers measure.
+    pub dim: Dim,
+    /// Digits in the formatted report.
+    pub digits: Digits,
+    /// The values, SI.
+    pub cells: Vec<Cell>,
+}
+
+/// A result: a title, facts that hold for all rows, columns of equal length, and remarks for the reader.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Table {
+    /// Title without decoration, e.g. `Properties of Line A`.
+    pub title: String,
+    /// Facts for the sub-header: name, value, dimension of the value.
+    pub facts: Vec<(String, Cell, Dim)>,
+    /// Columns; all have the same number of cells.
+    pub columns: Vec<Column>,
+    /// Remarks printed under the rows.
+    pub notes: Vec<String>,
+}
+
+/// Why a table operation could not be done.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum TableError {
+    /// A row with another number of cells than the table has columns.
+    #[error("a row of {got} cells does not fit a table of {want} columns")]
+    RowLength {
+        /// Columns of the table.
+        want: usize,
+        /// Cells offered.
+        got: usize,
+    },
+}
+
+impl Cell {
+    /// The number, if the cell holds one (integers count).
+    pub fn number(&self) -> Option<f64> {
+        match self {
+            Cell::Number(value) => Some(*value),
+            Cell::Integer(value) => Some(*value as f64),
+            Cell::Text(_) | Cell::Missing => None,
+        }
+    }
+}
+
+impl From<f64> for Cell {
+    fn from(value: f64) -> Self {
+        Cell::Number(value)
+    }
+}
+
+impl From<usize> for Cell {
+    fn from(value: usize) -> Self {
+        i64::try_from(value).map_or(Cell::Missing, Cell::Integer)
+    }
+}
+
+impl From<&str> for Cell {
+    fn from(value: &str) -> Self {
+        Cell::Text(value.to_string())
+    }
+}
+
+impl From<String> for Cell {
+    fn from(value: String) -> Self {
+        Cell::Text(value)
+    }
+}
+
+impl<T: Into<Cell>> From<Option<T>> for Cell {
+    fn from(value: Option<T>) -> Self {
+        value.map_or(Cell::Missing, Into::into)
+    }
+}
+
+impl Table {
+    /// An empty table with a title.
+    pub fn new(title: impl Into<String>) -> Self {
+        Table { title: title.into(), ..Table::default() }
+    }
+
+    /// Adds an empty column under a group head (empty text for none); returns the table for chaining.
+    pub fn column(mut self, group: &str, name: &str, dim: Dim, digits: Digits) -> Self {
+        self.columns.push(Column { name: name.into(), group: group.into(), dim, digits, cells: Vec::new() });
+        self
+    }
+
+    /// Adds a fact to the sub-header; returns the table for chaining.
+    pub fn fact(mut self, name: &str, value: impl Into<Cell>, dim: Dim) -> Self {
+        self.facts.push((name.into(), value.into(), dim));
+        self
+    }
+
+    /// Adds a remark.
+    pub fn note(&mut self, text: impl Into<String>) {
+        self.notes.push(text.into());
+    }
+
+    /// Appends a row, one cell a column, SI.
+    ///
+    /// # Errors
+    /// [`TableError::RowLength`] when the number of cells is not the number of columns; the table is unchanged.
+    pub fn push(&mut self, row: Vec<Cell>) -> Result<(), TableError> {
+        if row.len() != self.columns.len() {
+            return Err(TableError::RowLength { want: self.columns.len(), got: row.len() });
+        }
+        for (column, cell) in self.columns.iter_mut().zip(row) {
+            column.cells.push(cell);
+        }
+        Ok(())
+    }
+
+    /// Number of rows.
+    pub fn rows(&self) -> usize {
+        self.columns.first().map_or(0, |c| c.cells.len())
+    }
+
+    /// A column by its exact name.
+    pub fn get(&self, name: &str) -> Option<&Column> {
+        self.columns.iter().find(|c| c.name == name)
+    }
+
+    /// The cells of one row, left to right; empty past the end.
+    pub fn row(&self, index: usize) -> Vec<&Cell> {
+        self.columns.iter().filter_map(|c| c.cells.get(index)).collect()
+    }
+}
+
+impl Column {
+    /// The numbers of the column, SI; cells without one are skipped.
+    pub fn numbers(&self) -> Vec<f64> {
+        self.cells.iter().filter_map(Cell::number).collect()
+    }
+}
