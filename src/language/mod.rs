@@ -1,4 +1,12 @@
 //! The command language: tokens, records, numbers, variables, control flow, macros, option specs, units and
 //! diagnostics. It knows nothing of ships.
 
+pub mod args;
+pub mod diagnostic;
+pub mod number;
+pub mod record;
+pub mod select;
+pub mod source;
+pub mod spec;
+pub mod token;
 pub mod units;

@@ -1,0 +1,150 @@
+//! Choosing names: minimum uniqueness for keywords, wild characters for selectors.
+//!
+//! Source: reference/language.md sections 2 and 11.
+
+use super::diagnostic::{Diagnostic, Outcome, did_you_mean};
+use super::source::Span;
+
+/// Whose name a keyword is. A MOSES abbreviation stays valid whatever else is added: names of MOSES are looked at
+/// first, the others only where none of MOSES's fits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Owner {
+    /// From the MOSES documents.
+    Moses,
+    /// From the AQWA documents.
+    Aqwa,
+    /// Ours.
+    Ours,
+}
+
+/// What a keyword search found.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Choice<T> {
+    /// Exactly one.
+    One(T),
+    /// Several begin with the word; their names.
+    Several(Vec<&'static str>),
+    /// None begins with the word.
+    None,
+}
+
+/// Selects among keywords: an exact name wins, else the only name of MOSES that begins so, else the only other one.
+pub fn keyword<T: Copy>(word: &str, names: impl Iterator<Item = (&'static str, Owner, T)> + Clone) -> Choice<T> {
+    let begins = |name: &str| name.get(..word.len()).is_some_and(|head| head.eq_ignore_ascii_case(word));
+    if word.is_empty() {
+        return Choice::None;
+    }
+    if let Some((_, _, found)) = names.clone().find(|(name, _, _)| name.eq_ignore_ascii_case(word)) {
+        return Choice::One(found);
+    }
+    for moses in [true, false] {
+        let mut hits = names.clone().filter(|(name, owner, _)| (*owner == Owner::Moses) == moses && begins(name));
+        if let Some((first, _, found)) = hits.next() {
+            let rest: Vec<&'static str> = hits.map(|(name, _, _)| name).collect();
+            if rest.is_empty() {
+                return Choice::One(found);
+            }
+            return Choice::Several(std::iter::once(first).chain(rest).collect());
+        }
+    }
+    Choice::None
+}
+
+/// As [`keyword`], with the error a user sees: `what` says what is being chosen, e.g. `option of B_CAT`.
+///
+/// # Errors
+/// An ambiguous word (the candidates are listed) or an unknown one (the nearest names are listed).
+pub fn choose<T: Copy>(
+    word: &str,
+    span: Span,
+    what: &str,
+    names: impl Iterator<Item = (&'static str, Owner, T)> + Clone,
+) -> Outcome<T> {
+    match keyword(word, names.clone()) {
+        Choice::One(found) => Ok(found),
+        Choice::Several(list) => Err(Diagnostic::error(format!("ambiguous {what} `{word}`"), span)
+            .label(format!("could be {}", list.join(", ")))),
+        Choice::None => {
+            let mut error = Diagnostic::error(format!("unknown {what} `{word}`"), span);
+            match did_you_mean(word, names.clone().map(|(name, _, _)| name)) {
+                Some(help) => error.help.push(help),
+                None => {
+                    let all: Vec<&str> = names.map(|(name, _, _)| name).collect();
+                    if all.len() <= 24 {
+                        error.help.push(format!("known: {}", all.join(" ")));
+                    }
+                }
+            }
+            Err(error)
+        }
+    }
+}
+
+/// Whether a pattern with `@` (any run, also none) and `/` (exactly one character) fits a name, upper and lower case
+/// alike. Linear in both lengths for one `@`, their product at worst.
+pub fn matches(pattern: &str, name: &str) -> bool {
+    let pattern: Vec<char> = pattern.chars().flat_map(char::to_uppercase).collect();
+    let name: Vec<char> = name.chars().flat_map(char::to_uppercase).collect();
+    let (mut p, mut n) = (0, 0);
+    let mut back: Option<(usize, usize)> = None;
+    while n < name.len() {
+        match pattern.get(p) {
+            Some('@') => {
+                back = Some((p, n));
+                p += 1;
+            }
+            Some(c) if *c == '/' || Some(c) == name.get(n) => {
+                p += 1;
+                n += 1;
+            }
+            _ => match back {
+                Some((star, from)) => {
+                    back = Some((star, from + 1));
+                    p = star + 1;
+                    n = from + 1;
+                }
+                None => return false,
+            },
+        }
+    }
+    pattern.iter().skip(p).all(|c| *c == '@')
+}
+
+/// Whether a word holds wild characters.
+pub fn is_wild(word: &str) -> bool {
+    word.contains(['@', '/'])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const NAMES: [(&str, Owner, u8); 5] = [
+        ("-L_TENSION", Owner::Moses, 1),
+        ("-L_HORIZONTAL", Owner::Moses, 2),
+        ("-LENGTH", Owner::Moses, 3),
+        ("-LEN", Owner::Moses, 4),
+        ("-LENS", Owner::Ours, 5),
+    ];
+
+    #[test]
+    fn exact_wins_then_a_unique_prefix_of_moses() {
+        let find = |w: &str| keyword(w, NAMES.iter().copied());
+        assert_eq!(find("-len"), Choice::One(4));
+        assert_eq!(find("-L_T"), Choice::One(1));
+        assert_eq!(find("-LENG"), Choice::One(3));
+        assert_eq!(find("-LENS"), Choice::One(5));
+        assert_eq!(find("-L_"), Choice::Several(vec!["-L_TENSION", "-L_HORIZONTAL"]));
+        assert_eq!(find("-X"), Choice::None);
+    }
+
+    #[test]
+    fn wild_characters() {
+        assert!(matches("@", ""));
+        assert!(matches("ML@", "mla"));
+        assert!(matches("/LA", "MLA"));
+        assert!(!matches("/LA", "LA"));
+        assert!(matches("@A@B", "xAyAzB"));
+        assert!(!matches("A@B", "ABC"));
+    }
+}

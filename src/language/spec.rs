@@ -1,0 +1,306 @@
+//! Declarations: what a command or a class record looks like. Parsing, abbreviation, units, `&HELP`, completion, hints
+//! and the printed manual all read these; nothing about a record's form is written twice.
+
+use super::select::Owner;
+use super::units::{Dim, UnitSystem};
+
+/// What a name refers to; drives completion and the wording of errors.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Noun {
+    /// A class, `~NAME`.
+    Class,
+    /// A point, `*NAME`.
+    Point,
+    /// A body.
+    Body,
+    /// A part.
+    Part,
+    /// A connector.
+    Connector,
+    /// A curve.
+    Curve,
+    /// An environment.
+    Environment,
+    /// A selector, `:NAME`, or a name that may hold wild characters.
+    Selector,
+    /// A macro.
+    Macro,
+    /// A new name, not to be looked up.
+    New,
+}
+
+/// What a value is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Kind {
+    /// A number or expression with a dimension; becomes SI.
+    Number(Dim),
+    /// A whole number.
+    Integer,
+    /// One of these words, by minimum uniqueness.
+    Choice(&'static [&'static str]),
+    /// A name of this sort.
+    Name(Noun),
+    /// Any word.
+    Text,
+    /// A file name.
+    File,
+    /// A number whose dimension follows from the degree of freedom before it: stiffness.
+    StiffnessOfDof,
+    /// A number whose dimension follows from the degree of freedom before it: force or moment.
+    ForceOfDof,
+    /// A dashpot coefficient; its dimension follows from the exponent after it.
+    DampingCoefficient,
+}
+
+/// Whether a value must be there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Need {
+    /// An error without it.
+    Required,
+    /// May be left out; the text says what holds then.
+    Optional(&'static str),
+}
+
+/// The range a number must lie in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Range {
+    /// Anything finite.
+    Any,
+    /// Greater than zero.
+    Positive,
+    /// Zero or more.
+    NotNegative,
+    /// Between these, ends included (user units).
+    Within(f64, f64),
+}
+
+/// One value of a record or an option.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ValueSpec {
+    /// Its name in the manual, e.g. `OD`.
+    pub name: &'static str,
+    /// What it is.
+    pub kind: Kind,
+    /// Must it be there.
+    pub need: Need,
+    /// Where it must lie.
+    pub range: Range,
+    /// One line of help.
+    pub help: &'static str,
+}
+
+impl ValueSpec {
+    /// A value that must be there.
+    pub const fn new(name: &'static str, kind: Kind, help: &'static str) -> Self {
+        ValueSpec { name, kind, need: Need::Required, range: Range::Any, help }
+    }
+
+    /// The same, but it may be left out; `default` says what holds then.
+    pub const fn or(self, default: &'static str) -> Self {
+        ValueSpec { need: Need::Optional(default), ..self }
+    }
+
+    /// The same, but only greater than zero.
+    pub const fn positive(self) -> Self {
+        ValueSpec { range: Range::Positive, ..self }
+    }
+
+    /// The same, but zero or more.
+    pub const fn not_negative(self) -> Self {
+        ValueSpec { range: Range::NotNegative, ..self }
+    }
+
+    /// The same, but between two bounds (user units).
+    pub const fn within(self, low: f64, high: f64) -> Self {
+        ValueSpec { range: Range::Within(low, high), ..self }
+    }
+
+    /// True when the value must be there.
+    pub fn is_required(&self) -> bool {
+        self.need == Need::Required
+    }
+}
+
+/// An option with its values.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OptionSpec {
+    /// With its leading `-`.
+    pub name: &'static str,
+    /// Other spellings of the same, in the documents' words.
+    pub aliases: &'static [&'static str],
+    /// Whose name it is.
+    pub owner: Owner,
+    /// Values in order.
+    pub values: &'static [ValueSpec],
+    /// The last this-many values repeat as a group (0: none do).
+    pub repeat: usize,
+    /// True when the option may be given more than once in a record.
+    pub many: bool,
+    /// One line of help.
+    pub help: &'static str,
+    /// What holds without the option.
+    pub default: &'static str,
+}
+
+impl OptionSpec {
+    /// A MOSES option.
+    pub const fn new(name: &'static str, values: &'static [ValueSpec], help: &'static str) -> Self {
+        OptionSpec { name, aliases: &[], owner: Owner::Moses, values, repeat: 0, many: false, help, default: "" }
+    }
+
+    /// The same with what holds when the option is not given.
+    pub const fn default(self, default: &'static str) -> Self {
+        OptionSpec { default, ..self }
+    }
+
+    /// The same, owned by somebody else than MOSES.
+    pub const fn owner(self, owner: Owner) -> Self {
+        OptionSpec { owner, ..self }
+    }
+
+    /// The same, its last `count` values repeating as a group.
+    pub const fn repeating(self, count: usize) -> Self {
+        OptionSpec { repeat: count, ..self }
+    }
+
+    /// The same, allowed more than once.
+    pub const fn many(self) -> Self {
+        OptionSpec { many: true, ..self }
+    }
+
+    /// The same with other spellings.
+    pub const fn aliases(self, aliases: &'static [&'static str]) -> Self {
+        OptionSpec { aliases, ..self }
+    }
+}
+
+/// How the text behind a command word is read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// Words, as data and options.
+    Words,
+    /// Text as typed, to the end of the record.
+    Text,
+}
+
+/// A command or a class record.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CommandSpec {
+    /// Its name; internal commands begin with `&`.
+    pub name: &'static str,
+    /// Whose name it is.
+    pub owner: Owner,
+    /// Menus it belongs to; empty means every menu.
+    pub menus: &'static [&'static str],
+    /// Words or raw text.
+    pub form: Form,
+    /// Positional data in order.
+    pub data: &'static [ValueSpec],
+    /// The last this-many data repeat as a group (0: none do).
+    pub repeat: usize,
+    /// Options in the order of the manual.
+    pub options: &'static [OptionSpec],
+    /// One line of help.
+    pub help: &'static str,
+    /// More help: readings, conventions, what is checked.
+    pub detail: &'static str,
+    /// Records that show it at work; they run as a test.
+    pub example: &'static str,
+}
+
+impl CommandSpec {
+    /// A spec with nothing but a name and a line of help; fill in the rest with `..`.
+    pub const fn new(name: &'static str, help: &'static str) -> Self {
+        CommandSpec {
+            name,
+            owner: Owner::Moses,
+            menus: &[],
+            form: Form::Words,
+            data: &[],
+            repeat: 0,
+            options: &[],
+            help,
+            detail: "",
+            example: "",
+        }
+    }
+
+    /// The names its options answer to, aliases included.
+    pub fn option_names(&self) -> impl Iterator<Item = (&'static str, Owner, &'static OptionSpec)> + Clone + use<> {
+        let options: &'static [OptionSpec] = self.options;
+        options.iter().flat_map(|option| {
+            std::iter::once(option.name)
+                .chain(option.aliases.iter().copied())
+                .map(move |name| (name, option.owner, option))
+        })
+    }
+
+    /// The record's form as one line, e.g. `B_CAT OD [FLAG] -LEN L ...`.
+    pub fn syntax(&self) -> String {
+        let mut text = self.name.to_string();
+        text.push_str(&values_syntax(self.data, self.repeat));
+        if self.form == Form::Text {
+            text.push_str(" text");
+        }
+        if !self.options.is_empty() {
+            text.push_str(" -OPTIONS");
+        }
+        text
+    }
+}
+
+impl OptionSpec {
+    /// The option's form, e.g. `-CLUMP CW [CLEN]`.
+    pub fn syntax(&self) -> String {
+        format!("{}{}", self.name, values_syntax(self.values, self.repeat))
+    }
+}
+
+fn values_syntax(values: &[ValueSpec], repeat: usize) -> String {
+    let mut text = String::new();
+    for value in values {
+        if value.is_required() {
+            text.push_str(&format!(" {}", value.name));
+        } else {
+            text.push_str(&format!(" [{}]", value.name));
+        }
+    }
+    if repeat > 0 {
+        text.push_str(" ...");
+    }
+    text
+}
+
+/// What a value is, in words, for help and errors: `a number (kips)`, `TENSION or COMPRESSION`.
+pub fn expected(kind: Kind, units: UnitSystem) -> String {
+    let number = |label: String| if label.is_empty() { "a number".to_string() } else { format!("a number ({label})") };
+    match kind {
+        Kind::Number(dim) => number(dim.label(units)),
+        Kind::Integer => "a whole number".into(),
+        Kind::Choice(words) => match words {
+            [one] => (*one).to_string(),
+            [first @ .., last] => format!("{} or {last}", first.join(", ")),
+            [] => "a word".into(),
+        },
+        Kind::Name(noun) => match noun {
+            Noun::Class => "a class (~NAME)",
+            Noun::Point => "a point (*NAME)",
+            Noun::Body => "a body",
+            Noun::Part => "a part",
+            Noun::Connector => "a connector",
+            Noun::Curve => "a curve",
+            Noun::Environment => "an environment",
+            Noun::Selector => "a name or selector",
+            Noun::Macro => "a macro",
+            Noun::New => "a name",
+        }
+        .into(),
+        Kind::Text => "a word".into(),
+        Kind::File => "a file name".into(),
+        Kind::StiffnessOfDof => {
+            format!("a stiffness ({} or {})", Dim::ForcePerLength.label(units), Dim::MomentPerRadian.label(units))
+        }
+        Kind::ForceOfDof => format!("a force or moment ({} or {})", Dim::Force.label(units), Dim::Moment.label(units)),
+        Kind::DampingCoefficient => "a dashpot coefficient".into(),
+    }
+}
