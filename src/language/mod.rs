@@ -3,10 +3,15 @@
 
 pub mod args;
 pub mod diagnostic;
+pub mod flow;
+pub mod functions;
+pub mod logic;
 pub mod number;
 pub mod record;
 pub mod select;
 pub mod source;
 pub mod spec;
+pub mod substitution;
 pub mod token;
 pub mod units;
+pub mod variables;

@@ -1,0 +1,191 @@
+//! Macros: the picture in the header, and the variables a call makes.
+//!
+//! Source: reference/language.md section 6.
+
+use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::record::{Record, Word};
+use crate::language::select::{self, Choice, Owner};
+use crate::language::source::Span;
+use crate::language::token::Kind;
+use std::sync::Arc;
+
+/// One argument and what it is when it is not given.
+#[derive(Clone, Debug, PartialEq)]
+struct Argument {
+    name: String,
+    default: String,
+}
+
+/// An option of the picture: the variable that tells whether it was given, and its values.
+#[derive(Clone, Debug, PartialEq)]
+struct MacroOption {
+    name: String,
+    flag: Option<String>,
+    values: Vec<Argument>,
+}
+
+/// A macro as defined.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Macro {
+    /// Its name as written.
+    pub name: String,
+    /// Where it was defined.
+    pub span: Span,
+    arguments: Vec<Argument>,
+    options: Vec<MacroOption>,
+    /// Its records.
+    pub body: Arc<[Record]>,
+}
+
+impl Macro {
+    /// Reads the header `&MACRO NAME ...`.
+    ///
+    /// # Errors
+    /// A missing name, or an `=` without a name before it.
+    pub fn header(record: &Record) -> Outcome<Macro> {
+        let words = record.words();
+        let Some(name) = words.get(1) else {
+            return Err(Diagnostic::error("&MACRO lacks its name", record.whole()));
+        };
+        let fit = matches!(name.kind, Kind::Word | Kind::Internal) && name.text.chars().count() <= 64;
+        if !fit {
+            return Err(Diagnostic::error(format!("`{}` cannot name a macro", name.text), name.span));
+        }
+        let mut made = Macro {
+            name: name.text.to_string(),
+            span: name.span,
+            arguments: Vec::new(),
+            options: Vec::new(),
+            body: Arc::from([]),
+        };
+        let mut at = 2;
+        while let Some(word) = words.get(at) {
+            if word.kind == Kind::Option {
+                made.options.push(MacroOption { name: word.text.to_string(), flag: None, values: Vec::new() });
+                at += 1;
+                continue;
+            }
+            if word.text.as_ref() == "=" {
+                return Err(Diagnostic::error("an `=` in a macro header follows a name", word.span));
+            }
+            let has_default = words.get(at + 1).is_some_and(|w| w.text.as_ref() == "=");
+            let default = words.get(at + 2).filter(|_| has_default).map_or(String::new(), |w| w.text.to_string());
+            let argument = Argument { name: word.text.to_string(), default };
+            match made.options.last_mut() {
+                Some(option) if option.flag.is_none() && !has_default => option.flag = Some(argument.name),
+                Some(option) => option.values.push(argument),
+                None => made.arguments.push(argument),
+            }
+            at += if has_default { 3 } else { 1 };
+        }
+        Ok(made)
+    }
+
+    /// The macro with the records of its body.
+    pub fn with_body(self, body: Arc<[Record]>) -> Macro {
+        Macro { body, ..self }
+    }
+
+    /// The form of a call, for help and messages.
+    pub fn syntax(&self) -> String {
+        let mut text = self.name.clone();
+        for argument in &self.arguments {
+            text.push_str(&format!(" {}", argument.name));
+        }
+        for option in &self.options {
+            text.push_str(&format!(" {}", option.name));
+            for value in &option.values {
+                text.push_str(&format!(" {}", value.name));
+            }
+        }
+        text
+    }
+
+    /// The locals a call makes: name and value. `words` are those behind the macro's name.
+    ///
+    /// # Errors
+    /// An unknown or ambiguous option or a surplus argument, unless the picture is a name alone.
+    pub fn locals(&self, words: &[Word], argv: &str) -> Outcome<Vec<(String, String)>> {
+        let mut locals = vec![("ARGV".to_string(), argv.to_string())];
+        if self.arguments.is_empty() && self.options.is_empty() {
+            return Ok(locals);
+        }
+        for option in &self.options {
+            if let Some(flag) = &option.flag {
+                locals.push((flag.clone(), ".FALSE.".into()));
+            }
+            locals.extend(option.values.iter().map(|v| (v.name.clone(), v.default.clone())));
+        }
+        let mut given = 0;
+        let mut at = 0;
+        while let Some(word) = words.get(at) {
+            at += 1;
+            if word.kind == Kind::Option {
+                let option = self.option(word)?;
+                if let Some(flag) = &option.flag {
+                    locals.push((flag.clone(), ".TRUE.".into()));
+                }
+                for value in &option.values {
+                    let Some(word) = words.get(at).filter(|w| w.kind != Kind::Option) else { break };
+                    locals.push((value.name.clone(), word.text.to_string()));
+                    at += 1;
+                }
+                continue;
+            }
+            let Some(argument) = self.arguments.get(given) else {
+                return Err(Diagnostic::error(format!("macro {} takes no further argument", self.name), word.span)
+                    .help(format!("form: {}", self.syntax())));
+            };
+            locals.push((argument.name.clone(), word.text.to_string()));
+            given += 1;
+        }
+        let rest = self.arguments.get(given..).unwrap_or_default();
+        locals.extend(rest.iter().map(|a| (a.name.clone(), a.default.clone())));
+        Ok(locals)
+    }
+
+    fn option(&self, word: &Word) -> Outcome<&MacroOption> {
+        let begins =
+            |o: &&MacroOption| o.name.get(..word.text.len()).is_some_and(|head| head.eq_ignore_ascii_case(&word.text));
+        if let Some(option) = self.options.iter().find(|o| o.name.eq_ignore_ascii_case(&word.text)) {
+            return Ok(option);
+        }
+        let hits: Vec<&MacroOption> = self.options.iter().filter(begins).collect();
+        match hits.as_slice() {
+            [one] => Ok(one),
+            _ => Err(Diagnostic::error(
+                format!("unknown or ambiguous option {} of macro {}", word.text, self.name),
+                word.span,
+            )
+            .help(format!("form: {}", self.syntax()))),
+        }
+    }
+}
+
+/// Chooses among macros by the rule of keywords: exact, else a unique prefix.
+pub fn find<'a>(word: &str, macros: impl Iterator<Item = &'a Arc<Macro>>) -> Option<(bool, &'a Arc<Macro>)> {
+    let mut prefix = Vec::new();
+    for one in macros {
+        if one.name.eq_ignore_ascii_case(word) {
+            return Some((true, one));
+        }
+        if one.name.get(..word.len()).is_some_and(|head| head.eq_ignore_ascii_case(word)) {
+            prefix.push(one);
+        }
+    }
+    match prefix.as_slice() {
+        [one] => Some((false, *one)),
+        _ => None,
+    }
+}
+
+/// The control word a record begins with, if it does (abbreviations allowed as among all `internal` names).
+pub fn control_word(word: &str, internal: &[(&'static str, Owner)]) -> Option<&'static str> {
+    if !word.starts_with('&') {
+        return None;
+    }
+    match select::keyword(word, internal.iter().map(|(name, owner)| (*name, *owner, *name))) {
+        Choice::One(name) => Some(name),
+        _ => None,
+    }
+}

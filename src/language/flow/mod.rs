@@ -1,0 +1,604 @@
+//! The flow of records: files inserted into files, branches, loops and macros, down to one substituted record at a
+//! time for the session to execute.
+//!
+//! Source: reference/language.md sections 4 to 6 and 8.
+
+pub mod macros;
+pub mod specs;
+
+use super::diagnostic::{Diagnostic, Outcome};
+use super::logic;
+use super::number;
+use super::record::{self, LONGEST_RECORD, Record};
+use super::select::Owner;
+use super::source::{SourceId, Sources, Span};
+use super::substitution::{World, substitute};
+use super::variables::Variables;
+use indexmap::IndexMap;
+use macros::{Macro, control_word};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Deepest nesting of macro calls.
+pub const DEEPEST_MACRO: usize = 64;
+/// Deepest nesting of inserted files.
+pub const DEEPEST_INSERTION: usize = 32;
+/// Records executed in a run before it is taken for endless, unless the user says otherwise.
+pub const RECORD_BUDGET: u64 = 2_000_000;
+
+/// What the interpreter has to say next.
+#[derive(Debug)]
+pub enum Step {
+    /// A record to execute, every variable replaced.
+    Record(Record),
+    /// A source that was opened with this tag has been read to its end.
+    Ended(u32),
+    /// The terminal must give another line.
+    NeedLine,
+    /// Nothing is left to read.
+    Done,
+}
+
+enum Frame {
+    /// A text being read from byte `at`.
+    Source { id: SourceId, at: usize, tag: u32 },
+    /// Lines typed at a terminal, fed one at a time.
+    Terminal { lines: std::collections::VecDeque<Record> },
+    /// A loop running over its body.
+    Loop { body: Arc<[Record]>, at: usize, trips: Trips },
+    /// A macro call.
+    Macro { name: String, body: Arc<[Record]>, at: usize, called: Span },
+}
+
+enum Trips {
+    Count { variable: String, next: f64, end: f64, step: f64 },
+    List { variable: String, items: std::vec::IntoIter<String> },
+    Endless,
+}
+
+struct Branch {
+    span: Span,
+    /// The records of the current branch are read.
+    active: bool,
+    /// A branch has been taken, or the whole block is passed over.
+    settled: bool,
+    /// Number of frames when it was opened.
+    depth: usize,
+}
+
+enum Collected {
+    Loop(Trips),
+    Macro(Box<Macro>),
+    /// The header was wrong: the block is read and thrown away.
+    Nothing,
+}
+
+struct Collecting {
+    what: Collected,
+    macro_block: bool,
+    span: Span,
+    nested: usize,
+    depth: usize,
+    body: Vec<Record>,
+}
+
+/// The interpreter of records.
+pub struct Interpreter {
+    /// Every text read.
+    pub sources: Sources,
+    /// The variables.
+    pub variables: Variables,
+    /// Records that may be executed in a run.
+    pub budget: u64,
+    /// Set by Ctrl-C; the run stops at the next record.
+    pub interrupt: Arc<AtomicBool>,
+    frames: Vec<Frame>,
+    branches: Vec<Branch>,
+    collecting: Option<Collecting>,
+    macros: IndexMap<String, Arc<Macro>>,
+    spent: u64,
+    internal: Vec<(&'static str, Owner)>,
+}
+
+impl Interpreter {
+    /// An interpreter that knows these internal commands besides its own control records (their abbreviations share
+    /// one name space).
+    pub fn new(internal: impl Iterator<Item = (&'static str, Owner)>) -> Self {
+        let internal = specs::CONTROL.iter().map(|s| (s.name, s.owner)).chain(internal).collect();
+        Interpreter {
+            sources: Sources::default(),
+            variables: Variables::default(),
+            budget: RECORD_BUDGET,
+            interrupt: Arc::new(AtomicBool::new(false)),
+            frames: Vec::new(),
+            branches: Vec::new(),
+            collecting: None,
+            macros: IndexMap::new(),
+            spent: 0,
+            internal,
+        }
+    }
+
+    /// Opens a text; it is read before what is already open goes on. `tag` comes back with [`Step::Ended`].
+    ///
+    /// # Errors
+    /// Too many files open inside each other.
+    pub fn open(&mut self, name: &str, text: impl Into<Arc<str>>, tag: u32, span: Option<Span>) -> Outcome<()> {
+        let depth = self.frames.iter().filter(|f| matches!(f, Frame::Source { .. })).count();
+        if depth >= DEEPEST_INSERTION {
+            let text = format!("files are inserted into each other deeper than {DEEPEST_INSERTION}");
+            let mut error = Box::new(Diagnostic::plain(super::diagnostic::Severity::Error, text));
+            error.span = span;
+            return Err(error.help("does the file insert itself?"));
+        }
+        let id = self.sources.add(name, text, 1);
+        self.frames.push(Frame::Source { id, at: 0, tag });
+        Ok(())
+    }
+
+    /// Opens the terminal as the lowest place to read from.
+    pub fn open_terminal(&mut self) {
+        self.frames.insert(0, Frame::Terminal { lines: std::collections::VecDeque::new() });
+        for branch in &mut self.branches {
+            branch.depth += 1;
+        }
+        if let Some(collecting) = &mut self.collecting {
+            collecting.depth += 1;
+        }
+    }
+
+    /// Feeds what was typed at the terminal (one record, continuation lines joined by newlines). A new record starts
+    /// a new budget.
+    pub fn feed(&mut self, name: &str, text: &str, first_line: usize) {
+        self.spent = 0;
+        let id = self.sources.add(name, text, first_line);
+        let mut at = 0;
+        let mut made = Vec::new();
+        while at < text.len() {
+            let (record, next, _) = record::read(text, id, at);
+            made.push(record);
+            at = next;
+        }
+        if let Some(Frame::Terminal { lines }) = self.frames.iter_mut().find(|f| matches!(f, Frame::Terminal { .. })) {
+            lines.extend(made);
+        }
+    }
+
+    /// The block that is being typed and not yet closed: `loop`, `macro` or `if`.
+    pub fn pending(&self) -> Option<&'static str> {
+        match &self.collecting {
+            Some(c) if c.macro_block => Some("macro"),
+            Some(_) => Some("loop"),
+            None => self.branches.last().map(|_| "if"),
+        }
+    }
+
+    /// Abandons everything open but the terminal: after Ctrl-C or a fatal error.
+    pub fn unwind(&mut self) {
+        self.collecting = None;
+        self.branches.clear();
+        while let Some(frame) = self.frames.pop() {
+            match frame {
+                Frame::Macro { .. } => self.variables.leave(),
+                Frame::Terminal { .. } => {
+                    self.frames.push(Frame::Terminal { lines: std::collections::VecDeque::new() });
+                    return;
+                }
+                Frame::Source { .. } | Frame::Loop { .. } => {}
+            }
+        }
+    }
+
+    /// The macros defined, by name.
+    pub fn macros(&self) -> impl Iterator<Item = &Arc<Macro>> {
+        self.macros.values()
+    }
+
+    /// How the current record was reached, innermost call first, for messages.
+    pub fn trace(&self) -> Vec<String> {
+        let calls: Vec<(&String, Span)> = self
+            .frames
+            .iter()
+            .rev()
+            .filter_map(|f| match f {
+                Frame::Macro { name, called, .. } => Some((name, *called)),
+                _ => None,
+            })
+            .collect();
+        let mut lines: Vec<String> = calls
+            .iter()
+            .take(3)
+            .map(|(name, called)| format!("in macro {name}, called at {}", self.sources.place(*called)))
+            .collect();
+        if calls.len() > 3 {
+            lines.push(format!("and {} calls further out", calls.len() - 3));
+        }
+        lines
+    }
+
+    /// The next thing to do. Control records are carried out here and never returned.
+    ///
+    /// # Errors
+    /// Whatever is wrong with a control record or a substitution; the flow stays whole and goes on behind it.
+    pub fn next(&mut self, world: &mut dyn World) -> Outcome<Step> {
+        loop {
+            if self.interrupt.swap(false, Ordering::Relaxed) {
+                self.unwind();
+                return Err(Box::new(Diagnostic::plain(super::diagnostic::Severity::Error, "interrupted")));
+            }
+            let record = match self.fetch()? {
+                Ok(record) => record,
+                Err(step) => return Ok(step),
+            };
+            if record.text().len() > LONGEST_RECORD {
+                let text =
+                    format!("the record has {} characters; at most {LONGEST_RECORD} are taken", record.text().len());
+                return Err(Diagnostic::error(text, record.span(0..40)));
+            }
+            if record.is_blank() && self.collecting.is_none() {
+                continue;
+            }
+            self.spent += 1;
+            if self.spent > self.budget {
+                self.unwind();
+                let mut error =
+                    Diagnostic::error(format!("the run has executed its {} records", self.budget), record.whole());
+                error.severity = super::diagnostic::Severity::Fatal;
+                return Err(error.help("an endless &LOOP? &DEVICE -RECORDS n allows more"));
+            }
+            let control = control_word(record.first_word(), &self.internal);
+            if self.collecting.is_some() {
+                self.collect(record, control)?;
+            } else if self.branches.last().is_some_and(|b| !b.active) {
+                self.skip(&record, control, world)?;
+            } else if let Some(name) = control.filter(|n| specs::CONTROL.iter().any(|s| s.name == *n)) {
+                self.control(name, &record, world)?;
+            } else {
+                return Ok(Step::Record(substitute(&record, &self.variables, world)?));
+            }
+        }
+    }
+
+    /// The next raw record, or what to tell the session when the innermost place is empty.
+    fn fetch(&mut self) -> Outcome<Result<Record, Step>> {
+        loop {
+            let Some(frame) = self.frames.last_mut() else { return Ok(Err(Step::Done)) };
+            match frame {
+                Frame::Terminal { lines } => return Ok(lines.pop_front().ok_or(Step::NeedLine)),
+                Frame::Source { id, at, tag } => {
+                    let (id, tag) = (*id, *tag);
+                    let text = self.sources.get(id).map(|s| s.text.clone()).unwrap_or_default();
+                    if *at >= text.len() {
+                        self.close_frame()?;
+                        return Ok(Err(Step::Ended(tag)));
+                    }
+                    let (record, next, open) = record::read(&text, id, *at);
+                    *at = next;
+                    if open {
+                        return Err(Diagnostic::error(
+                            "the file ends inside a record that is continued",
+                            record.whole(),
+                        )
+                        .label("the last line ends with `\\`"));
+                    }
+                    return Ok(Ok(record));
+                }
+                Frame::Macro { body, at, .. } | Frame::Loop { body, at, .. } => {
+                    if let Some(record) = body.get(*at).cloned() {
+                        *at += 1;
+                        return Ok(Ok(record));
+                    }
+                }
+            }
+            if matches!(frame, Frame::Macro { .. }) {
+                self.close_frame()?;
+                continue;
+            }
+            self.spent += 1;
+            let result = self.check_closed();
+            self.trip();
+            result?;
+            if self.spent > self.budget || self.interrupt.load(Ordering::Relaxed) {
+                // a loop without records inside: let the caller count this one and stop
+                return Ok(Ok(Record::verbatim("&ENDLOOP", Span::default())));
+            }
+        }
+    }
+
+    /// Ends the innermost frame; an error tells of blocks it left open.
+    fn close_frame(&mut self) -> Outcome<()> {
+        let result = self.check_closed();
+        if let Some(Frame::Macro { .. }) = self.frames.pop() {
+            self.variables.leave();
+        }
+        result
+    }
+
+    /// Drops the blocks the innermost frame left open and says so.
+    fn check_closed(&mut self) -> Outcome<()> {
+        let depth = self.frames.len();
+        if self.collecting.as_ref().is_some_and(|c| c.depth >= depth)
+            && let Some(open) = self.collecting.take()
+        {
+            let name = if open.macro_block { "&MACRO" } else { "&LOOP" };
+            return Err(Diagnostic::error(format!("this {name} is not closed"), open.span)
+                .label(format!("expected &END{} before the end", name.trim_start_matches('&'))));
+        }
+        let open = self.branches.iter().position(|b| b.depth >= depth);
+        if let Some(first) = open {
+            let span = self.branches.get(first).map_or(Span::default(), |b| b.span);
+            self.branches.truncate(first);
+            return Err(Diagnostic::error("this &IF is not closed", span).label("expected &ENDIF before the end"));
+        }
+        Ok(())
+    }
+
+    /// Starts the next trip of the innermost loop, or ends it.
+    fn trip(&mut self) {
+        let Some(Frame::Loop { at, trips, .. }) = self.frames.last_mut() else { return };
+        *at = 0;
+        let assignment = match trips {
+            Trips::Endless => return,
+            Trips::Count { variable, next, end, step } => {
+                let value = *next;
+                let more = if *step > 0.0 { value <= *end } else { value >= *end };
+                *next += *step;
+                more.then(|| (variable.clone(), format!("{value}")))
+            }
+            Trips::List { variable, items } => items.next().map(|item| (variable.clone(), item)),
+        };
+        match assignment {
+            Some((variable, value)) => {
+                // the value of a loop index is short and its name exists after the first trip
+                let _ = self.variables.set_local(&variable, &value);
+            }
+            None => {
+                self.frames.pop();
+            }
+        }
+    }
+
+    /// Takes a record into the block being collected.
+    fn collect(&mut self, record: Record, control: Option<&'static str>) -> Outcome<()> {
+        let Some(collecting) = &mut self.collecting else { return Ok(()) };
+        let (open, close) = if collecting.macro_block { ("&MACRO", "&ENDMACRO") } else { ("&LOOP", "&ENDLOOP") };
+        if control == Some(open) {
+            collecting.nested += 1;
+        } else if control == Some(close) {
+            if collecting.nested == 0 {
+                return self.finish_block();
+            }
+            collecting.nested -= 1;
+        }
+        if !record.is_blank() {
+            collecting.body.push(record);
+        }
+        Ok(())
+    }
+
+    fn finish_block(&mut self) -> Outcome<()> {
+        let Some(done) = self.collecting.take() else { return Ok(()) };
+        let body: Arc<[Record]> = Arc::from(done.body);
+        match done.what {
+            Collected::Nothing => Ok(()),
+            Collected::Loop(trips) => {
+                self.frames.push(Frame::Loop { body, at: 0, trips });
+                self.trip();
+                Ok(())
+            }
+            Collected::Macro(header) => {
+                let key = header.name.to_ascii_uppercase();
+                self.macros.insert(key, Arc::new(header.with_body(body)));
+                Ok(())
+            }
+        }
+    }
+
+    /// Passes over a record of a branch not taken.
+    fn skip(&mut self, record: &Record, control: Option<&'static str>, world: &mut dyn World) -> Outcome<()> {
+        match control {
+            Some("&IF") => {
+                let depth = self.frames.len();
+                self.branches.push(Branch { span: record.whole(), active: false, settled: true, depth });
+                Ok(())
+            }
+            Some(name @ ("&ELSEIF" | "&ELSE" | "&ENDIF")) => self.control(name, record, world),
+            _ => Ok(()),
+        }
+    }
+
+    fn control(&mut self, name: &'static str, record: &Record, world: &mut dyn World) -> Outcome<()> {
+        match name {
+            "&SET" | "&LOCAL" => self.assign(name, record, world),
+            "&IF" => {
+                let depth = self.frames.len();
+                let value = self.phrase(record, world);
+                let active = matches!(value, Ok(true));
+                let settled = active || value.is_err();
+                self.branches.push(Branch { span: record.whole(), active, settled, depth });
+                value.map(|_| ())
+            }
+            "&ELSEIF" | "&ELSE" => self.other_branch(name, record, world),
+            "&ENDIF" => {
+                if self.branches.last().is_none_or(|b| b.depth != self.frames.len()) {
+                    return Err(Diagnostic::error("&ENDIF without an &IF", record.whole()));
+                }
+                self.branches.pop();
+                Ok(())
+            }
+            "&LOOP" => {
+                let trips = substitute(record, &self.variables, world).and_then(|r| read_loop(&r));
+                self.begin_block(record, false, trips.map(Collected::Loop))
+            }
+            "&MACRO" => {
+                let header = Macro::header(record);
+                self.begin_block(record, true, header.map(|h| Collected::Macro(Box::new(h))))
+            }
+            "&NEXT" | "&EXIT" => {
+                let depth = self.frames.len();
+                if !matches!(self.frames.last(), Some(Frame::Loop { .. })) {
+                    return Err(Diagnostic::error(format!("{name} outside of a &LOOP"), record.whole()));
+                }
+                if record.rest().0.is_empty() || self.phrase(record, world)? {
+                    self.branches.retain(|b| b.depth < depth);
+                    if name == "&EXIT" {
+                        self.frames.pop();
+                    } else {
+                        self.trip();
+                    }
+                }
+                Ok(())
+            }
+            "&EOFILE" => {
+                self.end_of_file();
+                Ok(())
+            }
+            _ => Err(Diagnostic::error(format!("{name} without its beginning"), record.whole())),
+        }
+    }
+
+    /// Jumps to the end of the innermost source, leaving the loops and macros inside it.
+    fn end_of_file(&mut self) {
+        while let Some(frame) = self.frames.last_mut() {
+            match frame {
+                Frame::Source { id, at, .. } => {
+                    *at = self.sources.get(*id).map_or(usize::MAX, |s| s.text.len());
+                    break;
+                }
+                Frame::Terminal { .. } => break,
+                Frame::Macro { .. } => self.variables.leave(),
+                Frame::Loop { .. } => {}
+            }
+            self.frames.pop();
+        }
+        let depth = self.frames.len();
+        self.branches.retain(|b| b.depth < depth);
+    }
+
+    fn begin_block(&mut self, record: &Record, macro_block: bool, what: Outcome<Collected>) -> Outcome<()> {
+        let (what, result) = match what {
+            Ok(what) => (what, Ok(())),
+            Err(error) => (Collected::Nothing, Err(error)),
+        };
+        let (span, depth) = (record.whole(), self.frames.len());
+        self.collecting = Some(Collecting { what, macro_block, span, nested: 0, depth, body: Vec::new() });
+        result
+    }
+
+    /// The value of the phrase behind a control word; a final `&THEN` is not part of it.
+    fn phrase(&self, record: &Record, world: &mut dyn World) -> Outcome<bool> {
+        let record = substitute(record, &self.variables, world)?;
+        let (text, range) = record.rest();
+        let upper = text.to_ascii_uppercase();
+        let text = match upper.rfind("&THEN") {
+            Some(at) if at + 5 == upper.len() => text.get(..at).unwrap_or_default(),
+            _ => text,
+        };
+        logic::evaluate(text, record.span(range))
+    }
+
+    fn other_branch(&mut self, name: &str, record: &Record, world: &mut dyn World) -> Outcome<()> {
+        let depth = self.frames.len();
+        let Some(branch) = self.branches.last().filter(|b| b.depth == depth) else {
+            return Err(Diagnostic::error(format!("{name} without an &IF"), record.whole()));
+        };
+        let conditional = name == "&ELSEIF" || !record.rest().0.is_empty();
+        let value = if branch.settled || !conditional { Ok(true) } else { self.phrase(record, world) };
+        if let Some(branch) = self.branches.last_mut() {
+            branch.active = !branch.settled && matches!(value, Ok(true));
+            branch.settled |= branch.active || value.is_err();
+        }
+        value.map(|_| ())
+    }
+
+    fn assign(&mut self, name: &str, record: &Record, world: &mut dyn World) -> Outcome<()> {
+        let record = substitute(record, &self.variables, world)?;
+        let words = record.words();
+        let form = || format!("form: {name} VAR = value (a blank follows the =)");
+        let (Some(variable), Some(equals)) = (words.get(1), words.get(2)) else {
+            return Err(Diagnostic::error(format!("{name} lacks its variable or its `=`"), record.whole()).help(form()));
+        };
+        let good = !variable.text.is_empty()
+            && variable.text.len() <= 64
+            && variable.text.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_');
+        if !good {
+            return Err(Diagnostic::error(format!("`{}` cannot name a variable", variable.text), variable.span)
+                .label("letters, digits and _ only"));
+        }
+        if equals.text.as_ref() != "=" {
+            return Err(Diagnostic::error(format!("expected `=` after {}", variable.text), equals.span).help(form()));
+        }
+        let value = record.rest().0.split_once('=').map_or("", |(_, v)| v).trim_start();
+        let value = value.strip_prefix(',').map_or(value, str::trim_start);
+        let done = if name == "&SET" {
+            self.variables.set(&variable.text, value)
+        } else {
+            self.variables.set_local(&variable.text, value)
+        };
+        done.map_err(|e| Diagnostic::error(e.to_string(), record.whole()))
+    }
+
+    /// Calls a macro with the words of a record (the first is its name).
+    ///
+    /// # Errors
+    /// Wrong arguments, or calls nested deeper than [`DEEPEST_MACRO`].
+    pub fn call(&mut self, called: &Arc<Macro>, record: &Record) -> Outcome<()> {
+        let depth = self.frames.iter().filter(|f| matches!(f, Frame::Macro { .. })).count();
+        let span = record.whole();
+        if depth >= DEEPEST_MACRO {
+            return Err(Diagnostic::error(format!("macros call each other deeper than {DEEPEST_MACRO}"), span));
+        }
+        let words = record.words();
+        let locals = called.locals(words.get(1..).unwrap_or_default(), record.rest().0)?;
+        self.variables.enter();
+        for (name, value) in locals {
+            if let Err(error) = self.variables.set_local(&name, &value) {
+                self.variables.leave();
+                return Err(Diagnostic::error(error.to_string(), span));
+            }
+        }
+        self.frames.push(Frame::Macro { name: called.name.clone(), body: called.body.clone(), at: 0, called: span });
+        Ok(())
+    }
+}
+
+/// Reads the header of a loop.
+fn read_loop(record: &Record) -> Outcome<Trips> {
+    let words = record.words();
+    let Some(variable) = words.get(1) else { return Ok(Trips::Endless) };
+    let rest = words.get(2..).unwrap_or_default();
+    if rest.first().is_some_and(|w| w.text.starts_with('(')) {
+        let text = record.rest().0;
+        let list = text.split_once('(').map_or("", |(_, list)| list);
+        let Some(list) = list.trim_end().strip_suffix(')') else {
+            return Err(Diagnostic::error("the list of a &LOOP ends with `)`", record.whole()));
+        };
+        let items = Record::verbatim(list, record.whole()).words();
+        let items: Vec<String> = items.iter().map(|w| w.text.to_string()).collect();
+        return Ok(Trips::List { variable: variable.text.to_string(), items: items.into_iter() });
+    }
+    let mut bounds = Vec::new();
+    for word in rest {
+        bounds.push(
+            number::evaluate(&word.text)
+                .map_err(|e| Diagnostic::error("a bound of &LOOP must be a number", word.span).label(e.to_string()))?,
+        );
+    }
+    let (next, end, step) = match bounds.as_slice() {
+        [begin, end] => (*begin, *end, 1.0),
+        [begin, end, step] => (*begin, *end, *step),
+        _ => {
+            return Err(Diagnostic::error(
+                "&LOOP takes INDEX BEG END [INCR], VAR ( list ), or nothing",
+                record.whole(),
+            ));
+        }
+    };
+    if [next, end, step].iter().any(|v| v.fract() != 0.0) || step == 0.0 {
+        return Err(Diagnostic::error("the bounds of &LOOP are whole numbers, its increment not zero", record.whole()));
+    }
+    Ok(Trips::Count { variable: variable.text.to_string(), next, end, step })
+}
+
+#[cfg(test)]
+mod tests;

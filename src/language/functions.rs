@@ -1,0 +1,319 @@
+//! String functions that need no model: `&NUMBER`, `&FORMAT`, `&STRING`, `&TOKEN`, `&LOGICAL`, `&V_EXIST`.
+//!
+//! Source: reference/language.md section 7. Where that text leaves a choice, the reading is in `&HELP` of the function
+//! ([`HELP`]).
+
+use super::diagnostic::{Diagnostic, Outcome};
+use super::logic;
+use super::number;
+use super::record::{Record, Word};
+use super::select::{self, Owner};
+use super::source::Span;
+use super::token::Kind;
+use super::variables::Variables;
+
+/// The functions answered here, without `&`.
+pub const NAMES: &[&str] = &["NUMBER", "FORMAT", "STRING", "TOKEN", "LOGICAL", "V_EXIST"];
+
+/// What `&HELP` says of each: name, form, meaning.
+pub const HELP: &[(&str, &str, &str)] = &[
+    (
+        "&NUMBER",
+        "&NUMBER(TYPE a b ..)",
+        "? | REAL | INTEGER (nearest) | SIN SIND COS COSD TAN TAND ACOS ASIN ATAN (D: degrees in) | ATAN2 x y | SQRT LN \
+         EXP ABS | MIN MAX MEAN SORT | INTERPOLATE x x1 y1 x2 y2 .. | NORM | DOT v1 v2 | UNIT_VEC | CROSS v1 v2 | SCALE f \
+         v | ADDV f v1 v2 (v1 + f v2) | 3PTS2Q p1 p2 p3 (origin, on x, in xy; rows are the local axes) | VECG2L q v | \
+         VECL2G q v",
+    ),
+    (
+        "&FORMAT",
+        "&FORMAT(FMT text)",
+        "Fw.d, Ew.d or Iw for a number; UPPER, LOWER, FIRST (capital first letters) or COMMA (commas between words)",
+    ),
+    ("&STRING", "&STRING(MATCH a b)", ".TRUE. when the two are equal up to the wild characters @ and / in either"),
+    ("&TOKEN", "&TOKEN(n words ..)", "the n-th word; N gives their number, a:b a range, LAST the last"),
+    ("&LOGICAL", "&LOGICAL(phrase)", ".TRUE. or .FALSE."),
+    ("&V_EXIST", "&V_EXIST(VAR)", ".TRUE. when the variable exists"),
+];
+
+/// The value of a function; `None` when it is not one of [`NAMES`].
+pub fn call(
+    name: &str,
+    arguments: &Record,
+    words: &[Word],
+    variables: &Variables,
+    span: Span,
+) -> Option<Outcome<String>> {
+    Some(match name {
+        "NUMBER" => number_function(words, span),
+        "FORMAT" => format_function(arguments, words, span),
+        "STRING" => string_function(words, span),
+        "TOKEN" => token_function(words, span),
+        "LOGICAL" => logic::evaluate(arguments.text(), span).map(|b| logic::word(b).to_string()),
+        "V_EXIST" => match words {
+            [one] => Ok(logic::word(variables.get(&one.text).is_some()).to_string()),
+            _ => Err(Diagnostic::error("&V_EXIST takes one name", span)),
+        },
+        _ => return None,
+    })
+}
+
+/// A number with at most eight significant figures and no more digits than it needs.
+pub fn eight_figures(value: f64) -> String {
+    let rounded: f64 = format!("{value:.7e}").parse().unwrap_or(value);
+    if rounded != 0.0 && !(1e-5..1e15).contains(&rounded.abs()) { format!("{rounded:E}") } else { format!("{rounded}") }
+}
+
+fn list(values: &[f64]) -> String {
+    values.iter().map(|v| eight_figures(*v)).collect::<Vec<_>>().join(" ")
+}
+
+const ACTIONS: &[&str] = &[
+    "?",
+    "REAL",
+    "INTEGER",
+    "SIN",
+    "SIND",
+    "COS",
+    "COSD",
+    "TAN",
+    "TAND",
+    "ACOS",
+    "ASIN",
+    "ATAN",
+    "ATAN2",
+    "SQRT",
+    "LN",
+    "EXP",
+    "ABS",
+    "MIN",
+    "MAX",
+    "MEAN",
+    "SORT",
+    "INTERPOLATE",
+    "NORM",
+    "DOT",
+    "UNIT_VEC",
+    "CROSS",
+    "SCALE",
+    "ADDV",
+    "3PTS2Q",
+    "VECG2L",
+    "VECL2G",
+];
+
+fn number_function(words: &[Word], span: Span) -> Outcome<String> {
+    let Some((action, rest)) = words.split_first() else {
+        return Err(Diagnostic::error("&NUMBER lacks its type", span).help(format!("known: {}", ACTIONS.join(" "))));
+    };
+    let names = ACTIONS.iter().map(|a| (*a, Owner::Moses, *a));
+    let action = select::choose(&action.text, action.span, "type of &NUMBER", names)?;
+    if action == "?" {
+        return Ok(logic::word(!rest.is_empty() && rest.iter().all(|w| number::evaluate(&w.text).is_ok())).to_string());
+    }
+    let mut x = Vec::with_capacity(rest.len());
+    for word in rest {
+        x.push(number::evaluate(&word.text).map_err(|e| {
+            Diagnostic::error(format!("&NUMBER({action} ..) needs numbers"), word.span).label(e.to_string())
+        })?);
+    }
+    let value = vector_action(action, &x).ok_or_else(|| {
+        Diagnostic::error(format!("&NUMBER({action} ..) cannot be formed from these {} numbers", x.len()), span)
+            .help(HELP.first().map_or("", |h| h.2))
+    })?;
+    if let Some(bad) = value.iter().find(|v| !v.is_finite()) {
+        return Err(
+            Diagnostic::error(format!("&NUMBER({action} ..) has no finite result"), span).label(bad.to_string())
+        );
+    }
+    Ok(if action == "INTEGER" { format!("{:.0}", value.first().copied().unwrap_or(0.0) + 0.0) } else { list(&value) })
+}
+
+/// The numbers an action makes of its arguments; `None` when their number does not fit.
+fn vector_action(action: &str, x: &[f64]) -> Option<Vec<f64>> {
+    let one = |f: fn(f64) -> f64| match x {
+        [a] => Some(vec![f(*a)]),
+        _ => None,
+    };
+    let halves = || (x.len() >= 2 && x.len().is_multiple_of(2)).then(|| x.split_at(x.len() / 2));
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(p, q)| p * q).sum::<f64>();
+    let some = (!x.is_empty()).then_some(x);
+    match action {
+        "REAL" => one(|a| a),
+        "INTEGER" => one(f64::round),
+        "SIN" => one(f64::sin),
+        "SIND" => one(|a| a.to_radians().sin()),
+        "COS" => one(f64::cos),
+        "COSD" => one(|a| a.to_radians().cos()),
+        "TAN" => one(f64::tan),
+        "TAND" => one(|a| a.to_radians().tan()),
+        "ACOS" => one(f64::acos),
+        "ASIN" => one(f64::asin),
+        "ATAN" => one(f64::atan),
+        "SQRT" => one(f64::sqrt),
+        "LN" => one(f64::ln),
+        "EXP" => one(f64::exp),
+        "ABS" => one(f64::abs),
+        "ATAN2" => match x {
+            [across, up] => Some(vec![up.atan2(*across)]),
+            _ => None,
+        },
+        "MIN" => some.map(|v| vec![v.iter().copied().fold(f64::INFINITY, f64::min)]),
+        "MAX" => some.map(|v| vec![v.iter().copied().fold(f64::NEG_INFINITY, f64::max)]),
+        "MEAN" => some.map(|v| vec![v.iter().sum::<f64>() / v.len() as f64]),
+        "SORT" => some.map(|v| {
+            let mut sorted = v.to_vec();
+            sorted.sort_by(f64::total_cmp);
+            sorted
+        }),
+        "INTERPOLATE" => interpolate(x).map(|v| vec![v]),
+        "NORM" => some.map(|v| vec![dot(v, v).sqrt()]),
+        "DOT" => halves().map(|(a, b)| vec![dot(a, b)]),
+        "UNIT_VEC" => some.map(|v| v.iter().map(|c| c / dot(v, v).sqrt()).collect()),
+        "CROSS" => match x {
+            [a, b, c, d, e, f] => Some(cross([*a, *b, *c], [*d, *e, *f]).to_vec()),
+            _ => None,
+        },
+        "SCALE" => x.split_first().filter(|(_, v)| !v.is_empty()).map(|(f, v)| v.iter().map(|c| f * c).collect()),
+        "ADDV" => {
+            let (factor, v) = x.split_first()?;
+            let half = v.len() / 2;
+            (half > 0 && v.len() == 2 * half)
+                .then(|| v.iter().zip(v.iter().skip(half)).map(|(a, b)| a + factor * b).collect())
+        }
+        "3PTS2Q" => rotation(x),
+        "VECG2L" | "VECL2G" => {
+            let (q, v) = (x.len() == 12).then(|| x.split_at(9))?;
+            let at = |i: usize| q.get(i).copied().unwrap_or(0.0);
+            let element = |row: usize, column: usize| {
+                if action == "VECG2L" { at(3 * row + column) } else { at(3 * column + row) }
+            };
+            Some((0..3).map(|r| v.iter().enumerate().map(|(c, value)| element(r, c) * value).sum()).collect())
+        }
+        _ => None,
+    }
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// Linear interpolation in pairs x1 y1 x2 y2 ..; the end values hold outside.
+fn interpolate(x: &[f64]) -> Option<f64> {
+    let (at, pairs) = x.split_first()?;
+    if pairs.len() < 2 || !pairs.len().is_multiple_of(2) {
+        return None;
+    }
+    let points: Vec<(f64, f64)> = pairs.chunks_exact(2).filter_map(|p| Some((*p.first()?, *p.get(1)?))).collect();
+    if points.windows(2).any(|w| matches!(w, [a, b] if a.0 >= b.0)) {
+        return None;
+    }
+    let after = points.partition_point(|p| p.0 <= *at);
+    match (after.checked_sub(1).and_then(|i| points.get(i)), points.get(after)) {
+        (Some(low), Some(high)) => Some(low.1 + (high.1 - low.1) * (at - low.0) / (high.0 - low.0)),
+        (Some(end), None) | (None, Some(end)) => Some(end.1),
+        (None, None) => None,
+    }
+}
+
+/// The rotation whose rows are the axes of a frame given by its origin, a point on x and a point in the xy plane.
+fn rotation(x: &[f64]) -> Option<Vec<f64>> {
+    let [a, b, c, d, e, f, g, h, i] = x else { return None };
+    let unit = |v: [f64; 3]| {
+        let length = v.iter().map(|c| c * c).sum::<f64>().sqrt();
+        (length > 0.0).then(|| v.map(|c| c / length))
+    };
+    let first = unit([d - a, e - b, f - c])?;
+    let third = unit(cross(first, [g - a, h - b, i - c]))?;
+    let second = cross(third, first);
+    Some([first, second, third].concat())
+}
+
+fn format_function(arguments: &Record, words: &[Word], span: Span) -> Outcome<String> {
+    let Some((format, rest)) = words.split_first() else {
+        return Err(Diagnostic::error("&FORMAT lacks its format", span));
+    };
+    let text = arguments.rest().0;
+    match format.text.to_ascii_uppercase().as_str() {
+        "UPPER" => return Ok(text.to_uppercase()),
+        "LOWER" => return Ok(text.to_lowercase()),
+        "FIRST" => return Ok(rest.iter().map(|w| capital(&w.text)).collect::<Vec<_>>().join(" ")),
+        "COMMA" => return Ok(rest.iter().map(|w| w.text.to_string()).collect::<Vec<_>>().join(", ")),
+        _ => {}
+    }
+    let bad = || {
+        Diagnostic::error(format!("unknown format `{}`", format.text), format.span)
+            .label("expected Fw.d, Ew.d, Iw, UPPER, LOWER, FIRST or COMMA")
+    };
+    if format.text.len() > 8 {
+        return Err(bad());
+    }
+    let letter = format.text.chars().next().unwrap_or(' ').to_ascii_uppercase();
+    let sizes = format.text.get(1..).unwrap_or_default();
+    let (width, decimals) = sizes.split_once('.').unwrap_or((sizes, "0"));
+    let (Ok(width), Ok(decimals)) = (width.parse::<usize>(), decimals.parse::<usize>()) else { return Err(bad()) };
+    if width > 256 || decimals > 64 || !"FEI".contains(letter) {
+        return Err(bad());
+    }
+    let mut out = String::new();
+    for word in rest {
+        let value = number::evaluate(&word.text)
+            .map_err(|e| Diagnostic::error("&FORMAT needs a number", word.span).label(e.to_string()))?;
+        let shown = match letter {
+            'F' => format!("{value:.decimals$}"),
+            'I' => format!("{value:.0}"),
+            _ => exponent(value, decimals),
+        };
+        out.push_str(&format!("{shown:>width$}"));
+    }
+    Ok(out)
+}
+
+fn capital(word: &str) -> String {
+    let mut letters = word.chars();
+    letters.next().map_or(String::new(), |c| c.to_uppercase().collect::<String>() + &letters.as_str().to_lowercase())
+}
+
+/// A number as `1.234E+05`.
+pub fn exponent(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$E}");
+    match text.split_once('E') {
+        Some((mantissa, power)) => match power.strip_prefix('-') {
+            Some(digits) => format!("{mantissa}E-{digits:0>2}"),
+            None => format!("{mantissa}E+{power:0>2}"),
+        },
+        None => text,
+    }
+}
+
+fn string_function(words: &[Word], span: Span) -> Outcome<String> {
+    match words {
+        [action, a, b] if "MATCH".starts_with(&action.text.to_ascii_uppercase()) => {
+            Ok(logic::word(select::matches(&a.text, &b.text) || select::matches(&b.text, &a.text)).to_string())
+        }
+        _ => Err(Diagnostic::error("&STRING has the form &STRING(MATCH a b)", span)),
+    }
+}
+
+fn token_function(words: &[Word], span: Span) -> Outcome<String> {
+    let Some((which, list)) = words.split_first() else {
+        return Err(Diagnostic::error("&TOKEN lacks the number of the word", span));
+    };
+    let text = |w: &Word| if w.kind == Kind::Quoted { format!("'{}'", w.text) } else { w.text.to_string() };
+    let index = |s: &str| number::evaluate(s).ok().filter(|v| *v >= 1.0 && v.fract() == 0.0).map(|v| v as usize);
+    if which.text.eq_ignore_ascii_case("N") {
+        return Ok(list.len().to_string());
+    }
+    if which.text.eq_ignore_ascii_case("LAST") {
+        return Ok(list.last().map(text).unwrap_or_default());
+    }
+    let range = match which.text.split_once(':') {
+        Some((from, to)) => index(from).zip(index(to)),
+        None => index(&which.text).map(|n| (n, n)),
+    };
+    let Some((from, to)) = range else {
+        return Err(Diagnostic::error("&TOKEN needs a word number", which.span).label("expected N, LAST, n or a:b"));
+    };
+    let count = (to + 1).saturating_sub(from);
+    Ok(list.iter().skip(from - 1).take(count).map(text).collect::<Vec<_>>().join(" "))
+}

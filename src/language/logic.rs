@@ -1,0 +1,180 @@
+//! Logical phrases: `%A .EQ. 3 .AND. .NOT. %DONE`.
+//!
+//! Source: reference/language.md section 5. `.EQ.` and `.NE.` compare any words (as numbers when both are numbers,
+//! else as text, upper and lower case alike); the other comparisons need numbers. `.NOT.` binds tighter than `.AND.`,
+//! that tighter than `.OR.`; parentheses may stand as words of their own.
+
+use super::diagnostic::{Diagnostic, Outcome};
+use super::number;
+use super::source::Span;
+
+/// Deepest nesting of parentheses and `.NOT.`.
+const DEEPEST: usize = 64;
+
+/// `.TRUE.` or `.FALSE.`.
+pub fn word(value: bool) -> &'static str {
+    if value { ".TRUE." } else { ".FALSE." }
+}
+
+const OPERATORS: &[&str] =
+    &[".EQ.", ".NE.", ".LT.", ".LE.", ".GT.", ".GE.", ".AND.", ".OR.", ".NOT.", ".TRUE.", ".FALSE."];
+
+/// The value of a phrase.
+///
+/// # Errors
+/// A phrase that cannot be read, or text compared as a number; the place is that of the whole phrase.
+pub fn evaluate(phrase: &str, span: Span) -> Outcome<bool> {
+    let words = split(phrase);
+    let mut reader = Reader { words: &words, at: 0 };
+    let result = reader.either(0).and_then(|value| match reader.peek() {
+        None => Ok(value),
+        Some(word) => Err(format!("`{word}` has no place here")),
+    });
+    result.map_err(|why| {
+        Diagnostic::error("the logical phrase cannot be evaluated", span)
+            .label(why)
+            .help(format!("read as: {}", words.join(" ")))
+    })
+}
+
+/// Words of a phrase; an operator is a word of its own even when no blank stands before it.
+fn split(phrase: &str) -> Vec<String> {
+    let mut words = Vec::new();
+    for raw in phrase.split([' ', '\t', ',']).filter(|w| !w.is_empty()) {
+        let upper = raw.to_ascii_uppercase();
+        let (mut from, mut at) = (0, 0);
+        while at < raw.len() {
+            let operator = upper.get(at..).and_then(|rest| OPERATORS.iter().find(|op| rest.starts_with(**op)));
+            match operator {
+                Some(operator) => {
+                    words.extend(raw.get(from..at).filter(|w| !w.is_empty()).map(str::to_string));
+                    words.push((*operator).to_string());
+                    at += operator.len();
+                    from = at;
+                }
+                None => at += 1,
+            }
+        }
+        words.extend(raw.get(from..).filter(|w| !w.is_empty()).map(str::to_string));
+    }
+    words
+}
+
+struct Reader<'a> {
+    words: &'a [String],
+    at: usize,
+}
+
+impl Reader<'_> {
+    fn peek(&self) -> Option<&str> {
+        self.words.get(self.at).map(String::as_str)
+    }
+
+    fn next(&mut self) -> Option<String> {
+        let word = self.words.get(self.at).cloned();
+        self.at += 1;
+        word
+    }
+
+    fn either(&mut self, depth: usize) -> Result<bool, String> {
+        let mut value = self.both(depth)?;
+        while self.peek() == Some(".OR.") {
+            self.at += 1;
+            value |= self.both(depth)?;
+        }
+        Ok(value)
+    }
+
+    fn both(&mut self, depth: usize) -> Result<bool, String> {
+        let mut value = self.negated(depth)?;
+        while self.peek() == Some(".AND.") {
+            self.at += 1;
+            value &= self.negated(depth)?;
+        }
+        Ok(value)
+    }
+
+    fn negated(&mut self, depth: usize) -> Result<bool, String> {
+        if depth > DEEPEST {
+            return Err("nested too deeply".into());
+        }
+        match self.peek() {
+            Some(".NOT.") => {
+                self.at += 1;
+                Ok(!self.negated(depth + 1)?)
+            }
+            Some("(") => {
+                self.at += 1;
+                let value = self.either(depth + 1)?;
+                match self.next().as_deref() {
+                    Some(")") => Ok(value),
+                    _ => Err("a `)` is missing".into()),
+                }
+            }
+            _ => self.comparison(),
+        }
+    }
+
+    fn comparison(&mut self) -> Result<bool, String> {
+        let left = self.next().ok_or("a word is missing at the end")?;
+        let Some(operator) = self.peek().filter(|w| matches!(*w, ".EQ." | ".NE." | ".LT." | ".LE." | ".GT." | ".GE."))
+        else {
+            return match left.as_str() {
+                ".TRUE." => Ok(true),
+                ".FALSE." => Ok(false),
+                other => Err(format!("`{other}` is neither .TRUE. nor .FALSE.")),
+            };
+        };
+        let operator = operator.to_string();
+        self.at += 1;
+        let right = self.next().ok_or(format!("a word is missing after {operator}"))?;
+        let numbers = (number::evaluate(&left), number::evaluate(&right));
+        if let (Ok(a), Ok(b)) = numbers {
+            return Ok(match operator.as_str() {
+                ".EQ." => a == b,
+                ".NE." => a != b,
+                ".LT." => a < b,
+                ".LE." => a <= b,
+                ".GT." => a > b,
+                _ => a >= b,
+            });
+        }
+        match operator.as_str() {
+            ".EQ." => Ok(left.eq_ignore_ascii_case(&right)),
+            ".NE." => Ok(!left.eq_ignore_ascii_case(&right)),
+            _ => {
+                let text = if numbers.0.is_err() { left } else { right };
+                Err(format!("{operator} compares numbers, and `{text}` is none"))
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn is(phrase: &str) -> bool {
+        evaluate(phrase, Span::default()).unwrap()
+    }
+
+    #[test]
+    fn comparisons_and_precedence() {
+        assert!(is("1 .EQ. 1.0"));
+        assert!(is("abc .eq. ABC"));
+        assert!(is("2.EQ.2 .AND. .NOT. 1 .GT. 2"));
+        assert!(is(".TRUE. .OR. .FALSE. .AND. .FALSE."));
+        assert!(!is("( .TRUE. .OR. .FALSE. ) .AND. .FALSE."));
+        assert!(is("2*3 .GE. 6"));
+        assert!(is("A .NE. B"));
+    }
+
+    #[test]
+    fn what_cannot_be_compared_is_an_error() {
+        for phrase in ["", "A", "A .LT. 2", "1 .EQ.", ".TRUE. .TRUE.", "( .TRUE."] {
+            assert!(evaluate(phrase, Span::default()).is_err(), "{phrase}");
+        }
+        assert!(evaluate(&".NOT. ".repeat(100_000), Span::default()).is_err());
+        assert!(evaluate(&"( ".repeat(100_000), Span::default()).is_err());
+    }
+}
