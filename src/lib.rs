@@ -4,5 +4,7 @@
 //! `cli, repl | session | command, aqwa | report | solve | rod, tether | connector | hydro | post | model | table |
 //! language`. Everything below `session` can be used as a library by somebody who never types a command.
 
+pub mod connector;
 pub mod language;
+pub mod model;
 pub mod table;

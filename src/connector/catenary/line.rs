@@ -1,0 +1,165 @@
+//! What a line is made of, and what is refused.
+
+use super::solve::State;
+
+/// A piece of line with the same properties all along.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Segment {
+    /// Unstretched length (m).
+    pub length: f64,
+    /// Submerged weight per unstretched length (N/m); negative when buoyant.
+    pub weight: f64,
+    /// Axial stiffness (N).
+    pub ea: f64,
+}
+
+/// What acts where a segment ends and the next begins.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Joint {
+    /// Nothing.
+    Free,
+    /// A submerged weight (N); negative is a lift that does not know the surface.
+    Weight(f64),
+    /// A buoy on a pendant: it keeps the joint from sinking below `depth` until its capacity is used up.
+    SpringBuoy {
+        /// Largest pull (N).
+        capacity: f64,
+        /// Depth of the held joint below the water surface (m): the length of the pendant.
+        depth: f64,
+    },
+}
+
+/// A line from a fairlead to an anchor on the bottom.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Line {
+    pub(super) segments: Vec<Segment>,
+    pub(super) joints: Vec<Joint>,
+    pub(super) anchor: f64,
+    pub(super) surface: f64,
+}
+
+/// Why a line has no answer.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum LineError {
+    /// A line without segments.
+    #[error("the line has no segments")]
+    Empty,
+    /// A joint belongs between each two segments.
+    #[error("a line of {segments} segments has {joints} joints, not one fewer")]
+    Joints {
+        /// Number of segments.
+        segments: usize,
+        /// Number of joints.
+        joints: usize,
+    },
+    /// A value that is not finite or has the wrong sign.
+    #[error("{what} of segment {segment} cannot be {value}")]
+    Value {
+        /// Which quantity.
+        what: &'static str,
+        /// Which segment, from 1.
+        segment: usize,
+        /// The value (SI).
+        value: f64,
+    },
+    /// More spring buoys than the search over their states goes through.
+    #[error("the line has {0} spring buoys; at most {most} can be solved", most = super::solve::MOST_BUOYS)]
+    TooManyBuoys(usize),
+    /// The fairlead lies below the bottom.
+    #[error("the fairlead lies {0:.3} m below the bottom")]
+    BelowBottom(f64),
+    /// A part that may not touch the bottom goes below it.
+    #[error(
+        "segment {segment} hangs {by:.3} m below the bottom, above a buoyant part of the line; such contact is not covered"
+    )]
+    Crosses {
+        /// Which segment, from 1.
+        segment: usize,
+        /// How far (m).
+        by: f64,
+    },
+    /// The iteration ended without a proven answer.
+    #[error(
+        "no configuration found at a horizontal force of {force:.6e} N: {residual:.3e} m remain after {iterations} iterations"
+    )]
+    NotConverged {
+        /// Horizontal force (N).
+        force: f64,
+        /// Vertical distance left (m).
+        residual: f64,
+        /// Iterations done.
+        iterations: usize,
+    },
+}
+
+impl Line {
+    /// A line from its fairlead to its anchor.
+    ///
+    /// `anchor` is the elevation of the anchor and of the flat, frictionless bottom (m, usually negative), `surface`
+    /// that of the water surface (m, the tide).
+    ///
+    /// # Errors
+    /// No segments, a number of joints other than one fewer than segments, values that are not finite, a length or
+    /// stiffness that is not positive, more than [`super::solve::MOST_BUOYS`] spring buoys.
+    pub fn new(segments: Vec<Segment>, joints: Vec<Joint>, anchor: f64, surface: f64) -> Result<Line, LineError> {
+        if segments.is_empty() {
+            return Err(LineError::Empty);
+        }
+        if joints.len() + 1 != segments.len() {
+            return Err(LineError::Joints { segments: segments.len(), joints: joints.len() });
+        }
+        for (index, s) in segments.iter().enumerate() {
+            let refuse = |what, value| Err(LineError::Value { what, segment: index + 1, value });
+            if !(s.length.is_finite() && s.length > 0.0) {
+                return refuse("the length", s.length);
+            }
+            if !(s.ea.is_finite() && s.ea > 0.0) {
+                return refuse("the axial stiffness", s.ea);
+            }
+            if !s.weight.is_finite() {
+                return refuse("the weight", s.weight);
+            }
+        }
+        for (index, joint) in joints.iter().enumerate() {
+            let bad = match joint {
+                Joint::Free => None,
+                Joint::Weight(w) => (!w.is_finite()).then_some(("the clump weight", *w)),
+                Joint::SpringBuoy { capacity, depth } => [("the buoy capacity", *capacity), ("the pendant", *depth)]
+                    .into_iter()
+                    .find(|(_, v)| !(v.is_finite() && *v >= 0.0)),
+            };
+            if let Some((what, value)) = bad {
+                return Err(LineError::Value { what, segment: index + 1, value });
+            }
+        }
+        for (what, value) in [("the anchor elevation", anchor), ("the water level", surface)] {
+            if !value.is_finite() {
+                return Err(LineError::Value { what, segment: segments.len(), value });
+            }
+        }
+        let buoys = joints.iter().filter(|j| matches!(j, Joint::SpringBuoy { .. })).count();
+        if buoys > super::solve::MOST_BUOYS {
+            return Err(LineError::TooManyBuoys(buoys));
+        }
+        Ok(Line { segments, joints, anchor, surface })
+    }
+
+    /// The segments, fairlead first.
+    pub fn segments(&self) -> &[Segment] {
+        &self.segments
+    }
+
+    /// Unstretched length (m).
+    pub fn length(&self) -> f64 {
+        self.segments.iter().map(|s| s.length).sum()
+    }
+
+    /// The configuration in which the fairlead at elevation `fairlead` (m) is pulled with the horizontal force `force`
+    /// (N, greater than zero).
+    ///
+    /// # Errors
+    /// [`LineError`]; a state that is returned has been proven.
+    pub fn at_horizontal_force(&self, force: f64, fairlead: f64) -> Result<State, LineError> {
+        super::solve::at_horizontal_force(self, force, fairlead)
+    }
+}

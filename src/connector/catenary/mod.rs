@@ -1,0 +1,18 @@
+//! The catenary line engine: elastic segments, clump weights, spring buoys, a flat bottom.
+//!
+//! SI throughout (m, N). Elevations are above the mean water surface z = 0. A line is described from the fairlead to
+//! the anchor. `H` is the horizontal component of the tension, the same all along a line without friction; `V` is the
+//! vertical component of the tension at a section, positive where the line rises toward the fairlead.
+//!
+//! Source of the formulas: the elastic catenary (Irvine, Cable Structures, 1981, section 1.4), written so that no
+//! difference of nearly equal numbers is formed; the spring buoy after seed 001, `-CLUMP`.
+
+mod line;
+mod section;
+mod segment;
+mod solve;
+mod table;
+
+pub use line::{Joint, Line, LineError, Segment};
+pub use solve::{Buoy, JointState, SegmentState, State};
+pub use table::{ROWS, Row, first_force, table};

@@ -1,0 +1,52 @@
+//! The thirty rows of `CONN_DESIGN TABLE`.
+//!
+//! Source: reference/solve.md, CONN_DESIGN: H_n = T (n/29)^2, n = 0..29, with T the table limit or the largest break
+//! of all segments; row 0 uses 1.4e-4 T in place of zero.
+
+use super::line::{Line, LineError};
+use super::solve::State;
+
+/// Number of rows.
+pub const ROWS: usize = 30;
+
+/// A row of the table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// The configuration.
+    pub state: State,
+    /// Largest tension / own break over the segments.
+    pub ratio: f64,
+    /// The segment that has it, from 1.
+    pub critical: usize,
+    /// Its break (N).
+    pub critical_break: f64,
+}
+
+/// The horizontal force of row 0 as a share of the largest force (1.4e-4: the value seen in MOSES's own output).
+pub fn first_force(largest: f64) -> f64 {
+    1.4e-4 * largest
+}
+
+/// The rows for a fairlead at elevation `fairlead` (m); `breaks` (N) one a segment, `largest` the largest H (N).
+///
+/// # Errors
+/// The first row that has no proven configuration.
+pub fn table(line: &Line, breaks: &[f64], largest: f64, fairlead: f64) -> Result<Vec<Row>, LineError> {
+    let last = (ROWS - 1) as f64;
+    (0..ROWS)
+        .map(|n| {
+            let share = n as f64 / last;
+            let force = if n == 0 { first_force(largest) } else { largest * share * share };
+            let state = line.at_horizontal_force(force, fairlead)?;
+            let mut row =
+                Row { ratio: 0.0, critical: 1, critical_break: breaks.first().copied().unwrap_or(0.0), state };
+            for (index, (segment, limit)) in row.state.segments.iter().zip(breaks).enumerate() {
+                let ratio = segment.top_tension.max(segment.bottom_tension) / limit;
+                if ratio > row.ratio {
+                    (row.ratio, row.critical, row.critical_break) = (ratio, index + 1, *limit);
+                }
+            }
+            Ok(row)
+        })
+        .collect()
+}

@@ -1,0 +1,114 @@
+//! Classes: what a connector is made of, and what a connector class can be asked.
+
+use super::connector::Connector;
+use super::defaults::Defaults;
+use super::environment::Surroundings;
+use super::geometry::Position;
+use crate::language::args::Args;
+use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::source::Span;
+use crate::table::Table;
+use std::fmt::Debug;
+use std::sync::Arc;
+
+/// One record of a class: SI values with their places, and the defaults in force when it was read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ClassRecord {
+    /// The record's data and options.
+    pub args: Args,
+    /// Defaults at the time of the record.
+    pub defaults: Defaults,
+}
+
+/// A class: its records, fairlead first, and the object built of them.
+#[derive(Clone, Debug)]
+pub struct Class {
+    /// Its name as written, with its `~`.
+    pub name: String,
+    /// Its records in order.
+    pub records: Vec<ClassRecord>,
+    /// What the records make.
+    pub object: Arc<dyn ConnectorClass>,
+    /// Where it was first defined.
+    pub span: Span,
+}
+
+/// Why a class could not answer.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{message}")]
+pub struct ClassError {
+    /// One sentence for the user.
+    pub message: String,
+    /// The record or value it is about, where one can be named.
+    pub span: Option<Span>,
+    /// What to change.
+    pub help: Vec<String>,
+}
+
+impl ClassError {
+    /// An error with a message alone.
+    pub fn new(message: impl Into<String>) -> Self {
+        ClassError { message: message.into(), span: None, help: Vec::new() }
+    }
+
+    /// The same at a place.
+    pub fn at(self, span: Span) -> Self {
+        ClassError { span: Some(span), ..self }
+    }
+
+    /// The same with advice.
+    pub fn help(mut self, text: impl Into<String>) -> Self {
+        self.help.push(text.into());
+        self
+    }
+
+    /// The message for the user; it points at `fallback` when the error has no place of its own.
+    pub fn diagnostic(self, fallback: Span) -> Box<Diagnostic> {
+        let mut made = Diagnostic::error(self.message, self.span.unwrap_or(fallback));
+        made.help.extend(self.help);
+        made
+    }
+}
+
+/// Where a connector's ends are when it is asked something (m, global).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placement {
+    /// The first end: the fairlead of a line.
+    pub fairlead: Position,
+    /// The other end, where the connector gives one.
+    pub other: Option<Position>,
+}
+
+/// What every connector class answers. The forces of a class join this trait with the engine that needs them.
+pub trait ConnectorClass: Debug + Send + Sync {
+    /// The class type, e.g. `B_CAT`.
+    fn kind(&self) -> &'static str;
+
+    /// Whether the class is complete enough to be used by a connector (a spring buoy needs a further segment, ...).
+    ///
+    /// # Errors
+    /// What is missing or contradicts itself, at its place.
+    fn check(&self) -> Outcome<()>;
+
+    /// Whether a connector of this class fits its ends: number of points, one body or two.
+    ///
+    /// # Errors
+    /// What does not fit.
+    fn check_ends(&self, connector: &Connector, bodies: usize) -> Outcome<()>;
+
+    /// The properties of the class as `&STATUS CLASS` prints them; one row a segment or degree of freedom.
+    fn properties(&self, name: &str, surroundings: &Surroundings) -> Table;
+
+    /// Length of the first segment (m) for geometry reports; `None` for classes without length.
+    fn first_length(&self) -> Option<f64> {
+        None
+    }
+
+    /// The thirty-row table of `CONN_DESIGN TABLE`.
+    ///
+    /// # Errors
+    /// A class that is no mooring line, or a line for which no configuration could be proven.
+    fn tabulate(&self, connector: &str, _: &Placement, _: &Surroundings) -> Result<Table, ClassError> {
+        Err(ClassError::new(format!("{connector} is of class type {}, which has no table", self.kind())))
+    }
+}

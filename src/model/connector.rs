@@ -1,0 +1,36 @@
+//! Connectors: a class between one or two points.
+
+use super::geometry::Position;
+use crate::language::source::Span;
+
+/// Where the far end of a line to ground lies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Anchor {
+    /// Direction from the fairlead, from +X toward +Y (rad).
+    pub direction: f64,
+    /// Horizontal distance from the fairlead (m).
+    pub distance: f64,
+    /// Global position of the anchor in the horizontal plane when the connector was read (m).
+    pub at: [f64; 2],
+}
+
+/// A connector.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Connector {
+    /// Its name as written.
+    pub name: String,
+    /// Its class, with `~`.
+    pub class: String,
+    /// One point (the other end is ground) or two.
+    pub points: Vec<String>,
+    /// Anchor of a line to ground.
+    pub anchor: Option<Anchor>,
+    /// Offsets of the two ends from their points, in the system of the end's body (m).
+    pub offsets: [Position; 2],
+    /// Euler angles of the element axes (rad), where given.
+    pub euler: Option<[f64; 3]>,
+    /// Whether it acts.
+    pub active: bool,
+    /// Where it was defined.
+    pub span: Span,
+}

@@ -1,0 +1,78 @@
+//! Curves of `&DATA CURVES`: pairs of numbers under a name.
+
+use crate::language::source::Span;
+use crate::language::units::Dim;
+
+/// What a curve describes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CurveKind {
+    /// Current: depth below the surface (m), velocity (m/s).
+    CurrentProfile,
+    /// Wave spectrum: period (s), density (m2 s).
+    PeriodSpectrum,
+    /// Wave spectrum: frequency (rad/s), density (m2 s).
+    FrequencySpectrum,
+    /// Marine growth: elevation (m), added diameter (m).
+    MarineGrowth,
+    /// Wind: time (s), speed (m/s).
+    WindHistory,
+    /// Load multiplier: time (s), factor.
+    LoadMultiplier,
+    /// Connector length change: time (s), length (m).
+    ConnectorLength,
+    /// Efficiency: velocity (m/s), factor.
+    Efficiency,
+    /// Drag coefficient multiplier: velocity (m/s), factor.
+    DragVelocity,
+    /// Added-mass pressure: draft or elevation (m), factor.
+    AddedMassPressure,
+}
+
+impl CurveKind {
+    /// All kinds with their names in records.
+    pub const ALL: &'static [(&'static str, CurveKind)] = &[
+        ("C_PROFILE", CurveKind::CurrentProfile),
+        ("P_SPECTRUM", CurveKind::PeriodSpectrum),
+        ("F_SPECTRUM", CurveKind::FrequencySpectrum),
+        ("M_GROWTH", CurveKind::MarineGrowth),
+        ("W_HISTORY", CurveKind::WindHistory),
+        ("LT_MULTIPLIER", CurveKind::LoadMultiplier),
+        ("CT_LENGTH", CurveKind::ConnectorLength),
+        ("EFFICIENCY", CurveKind::Efficiency),
+        ("CS_VELOCITY", CurveKind::DragVelocity),
+        ("AM_PRESSURE", CurveKind::AddedMassPressure),
+    ];
+
+    /// Its name in records.
+    pub fn name(self) -> &'static str {
+        Self::ALL.iter().find(|(_, kind)| *kind == self).map_or("", |(name, _)| name)
+    }
+
+    /// What the two columns are called, and what they measure.
+    pub fn axes(self) -> [(&'static str, Dim); 2] {
+        match self {
+            CurveKind::CurrentProfile => [("Depth", Dim::Length), ("Velocity", Dim::Velocity)],
+            CurveKind::PeriodSpectrum => [("Period", Dim::Time), ("Density", Dim::SpectralDensity)],
+            CurveKind::FrequencySpectrum => [("Frequency", Dim::Frequency), ("Density", Dim::SpectralDensity)],
+            CurveKind::MarineGrowth => [("Elevation", Dim::Length), ("Added OD", Dim::Section)],
+            CurveKind::WindHistory => [("Time", Dim::Time), ("Speed", Dim::WindSpeed)],
+            CurveKind::LoadMultiplier => [("Time", Dim::Time), ("Factor", Dim::None)],
+            CurveKind::ConnectorLength => [("Time", Dim::Time), ("Length", Dim::Length)],
+            CurveKind::Efficiency | CurveKind::DragVelocity => [("Velocity", Dim::Velocity), ("Factor", Dim::None)],
+            CurveKind::AddedMassPressure => [("Elevation", Dim::Length), ("Factor", Dim::None)],
+        }
+    }
+}
+
+/// A curve: points in the order of a growing first value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curve {
+    /// Its name as written.
+    pub name: String,
+    /// What it describes.
+    pub kind: CurveKind,
+    /// Pairs in SI.
+    pub points: Vec<(f64, f64)>,
+    /// Where it was defined.
+    pub span: Span,
+}

@@ -1,0 +1,81 @@
+//! Defaults of `&DEFAULT`, printed by `&STATUS DEFAULTS`.
+//!
+//! Source: reference/model.md, "Conventions and defaults".
+
+use crate::language::units::{INCH, KIP, STANDARD_GRAVITY};
+
+/// Material of a section where a record gives none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Material {
+    /// Mass density (kg/m3).
+    pub density: f64,
+    /// Young's modulus (Pa).
+    pub emodulus: f64,
+    /// Poisson's ratio.
+    pub poisson: f64,
+    /// Thermal expansion (1/K).
+    pub expansion: f64,
+    /// Yield stress (Pa).
+    pub yield_stress: f64,
+    /// Ultimate stress (Pa); `None`: yield / 0.6.
+    pub ultimate_stress: Option<f64>,
+}
+
+/// How coordinates of points are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coordinates {
+    /// x y z.
+    Rectangular,
+    /// radius, angle (deg) from +X toward +Y, z.
+    Cylindrical,
+    /// radius, angle (deg) in the plane, angle (deg) above the plane.
+    Spherical,
+}
+
+/// Everything `&DEFAULT` holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Defaults {
+    /// Material.
+    pub material: Material,
+    /// Sea water (kg/m3).
+    pub water_density: f64,
+    /// Air (kg/m3).
+    pub air_density: f64,
+    /// Gravity (m/s2).
+    pub gravity: f64,
+    /// Water depth (m); there is no default depth.
+    pub depth: Option<f64>,
+    /// Ramp of a time-domain run (s).
+    pub ramp: f64,
+    /// Coordinate mode of points.
+    pub coordinates: Coordinates,
+}
+
+impl Default for Defaults {
+    fn default() -> Self {
+        let ksi = KIP / (INCH * INCH);
+        Defaults {
+            material: Material {
+                density: 7850.0,
+                emodulus: 29_000.0 * ksi,
+                poisson: 0.3,
+                expansion: 1.17e-5,
+                yield_stress: 36.0 * ksi,
+                ultimate_stress: None,
+            },
+            water_density: 1025.0,
+            air_density: 1.226,
+            gravity: STANDARD_GRAVITY,
+            depth: None,
+            ramp: 0.0,
+            coordinates: Coordinates::Rectangular,
+        }
+    }
+}
+
+impl Material {
+    /// Ultimate stress (Pa): as given, else yield / 0.6 (reference/model.md: the 1.66 of the page is 1/0.6 rounded).
+    pub fn ultimate(&self) -> f64 {
+        self.ultimate_stress.unwrap_or(self.yield_stress / 0.6)
+    }
+}

@@ -1,0 +1,110 @@
+//! Environments of `&ENV`.
+//!
+//! Source: reference/model.md, "Environment". Directions are where wind, sea and current come from, from +X toward +Y.
+
+use crate::language::args::Given;
+use crate::language::source::Span;
+
+/// A sea: spectrum or regular wave.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sea {
+    /// Spectrum name.
+    pub spectrum: String,
+    /// Direction it comes from (rad).
+    pub direction: f64,
+    /// Significant height, or height of a regular wave (m).
+    pub height: f64,
+    /// Period (s).
+    pub period: f64,
+    /// Peakedness, where given.
+    pub gamma: Option<f64>,
+}
+
+/// Steady wind.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wind {
+    /// Speed (m/s).
+    pub speed: f64,
+    /// Direction it comes from (rad).
+    pub direction: f64,
+}
+
+/// Current: one velocity, or profiles with their directions.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Current {
+    /// The same at every depth.
+    Uniform {
+        /// Velocity (m/s).
+        velocity: f64,
+        /// Direction it comes from (rad).
+        direction: f64,
+    },
+    /// Curves of type C_PROFILE, each with the direction it comes from (rad).
+    Profiles(Vec<(String, f64)>),
+}
+
+/// `-TIME TOBSERV DELTA_TIME TTRA_SET NCYCLES`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TimeWindow {
+    /// Length observed (s).
+    pub observed: f64,
+    /// Step (s).
+    pub step: f64,
+    /// Time set aside for the transient (s).
+    pub transient: Option<f64>,
+    /// Number of cycles.
+    pub cycles: Option<i64>,
+}
+
+/// An environment. What was not given is `None`: the defaults then hold.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Environment {
+    /// Its name as written; empty for the unnamed one.
+    pub name: String,
+    /// Sea.
+    pub sea: Option<Sea>,
+    /// Second sea added to the first.
+    pub added_sea: Option<Sea>,
+    /// Wind.
+    pub wind: Option<Wind>,
+    /// Current.
+    pub current: Option<Current>,
+    /// Water density (kg/m3).
+    pub water_density: Option<f64>,
+    /// Depth (m).
+    pub depth: Option<f64>,
+    /// Rise of the mean water level (m).
+    pub tide: Option<f64>,
+    /// Time window.
+    pub time: Option<TimeWindow>,
+    /// Ramp (s).
+    pub ramp: Option<f64>,
+    /// Directional spreading exponent; 200 (long-crested) when not given.
+    pub spreading: Option<f64>,
+    /// Every option as last given (SI values with their places), the ones above included, by full name.
+    pub options: Vec<Given>,
+    /// Where it was defined.
+    pub span: Span,
+}
+
+/// What surrounds a line or body when it is computed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Surroundings {
+    /// Water density (kg/m3).
+    pub water_density: f64,
+    /// Air density (kg/m3).
+    pub air_density: f64,
+    /// Gravity (m/s2).
+    pub gravity: f64,
+    /// Depth below the mean water level without tide (m), where known.
+    pub depth: Option<f64>,
+    /// Rise of the water level above z = 0 (m).
+    pub tide: f64,
+}
+
+impl Surroundings {
+    /// Weight density of water (N/m3).
+    pub fn water_weight(&self) -> f64 {
+        self.water_density * self.gravity
+    }
+}

@@ -1,0 +1,119 @@
+//! The model database: bodies, parts, points, classes, connectors, curves, environments, selectors, defaults.
+//!
+//! It holds SI values and the places they were written, in the order they were defined, and knows no physics. It
+//! declares what a connector class can be asked ([`ConnectorClass`]); the floors above implement it.
+
+mod body;
+mod class;
+mod connector;
+mod curve;
+mod defaults;
+mod environment;
+mod geometry;
+mod selector;
+
+pub use body::{Body, GROUND, Part, Point};
+pub use class::{Class, ClassError, ClassRecord, ConnectorClass, Placement};
+pub use connector::{Anchor, Connector};
+pub use curve::{Curve, CurveKind};
+pub use defaults::{Coordinates, Defaults, Material};
+pub use environment::{Current, Environment, Sea, Surroundings, TimeWindow, Wind};
+pub use geometry::{Place, Position};
+pub use selector::Selector;
+
+use crate::language::diagnostic::{Diagnostic, Outcome, did_you_mean};
+use crate::language::source::Span;
+use indexmap::IndexMap;
+
+/// The whole database. Keys are names in upper case, with their marker (`~`, `*`, `:`).
+#[derive(Clone, Debug, Default)]
+pub struct Model {
+    /// Bodies.
+    pub bodies: IndexMap<String, Body>,
+    /// Parts; each belongs to a body.
+    pub parts: IndexMap<String, Part>,
+    /// Points; each belongs to a part, or to ground.
+    pub points: IndexMap<String, Point>,
+    /// Classes.
+    pub classes: IndexMap<String, Class>,
+    /// Connectors.
+    pub connectors: IndexMap<String, Connector>,
+    /// Curves.
+    pub curves: IndexMap<String, Curve>,
+    /// Environments kept under a name.
+    pub environments: IndexMap<String, Environment>,
+    /// Selectors.
+    pub selectors: IndexMap<String, Selector>,
+    /// The environment in force.
+    pub environment: Environment,
+    /// Defaults in force.
+    pub defaults: Defaults,
+    /// Defaults saved by `&DEFAULT -SAVE`, innermost last.
+    pub saved_defaults: Vec<Defaults>,
+    /// The part that points now being defined belong to.
+    pub current_part: Option<String>,
+}
+
+impl Model {
+    /// The key of a name.
+    pub fn key(name: &str) -> String {
+        name.to_ascii_uppercase()
+    }
+
+    /// What every line and body is surrounded by, from the environment in force and the defaults.
+    pub fn surroundings(&self) -> Surroundings {
+        let env = &self.environment;
+        Surroundings {
+            water_density: env.water_density.unwrap_or(self.defaults.water_density),
+            air_density: self.defaults.air_density,
+            gravity: self.defaults.gravity,
+            depth: env.depth.or(self.defaults.depth),
+            tide: env.tide.unwrap_or(0.0),
+        }
+    }
+
+    /// Global coordinates of a point (m), in the present configuration of its body.
+    pub fn global(&self, point: &Point) -> Position {
+        let part = self.parts.get(&Model::key(&point.part));
+        let in_body = part.map_or(point.at, |p| p.place.apply(point.at));
+        let body = part.and_then(|p| self.bodies.get(&Model::key(&p.body)));
+        body.map_or(in_body, |b| b.place.apply(in_body))
+    }
+
+    /// The body a point belongs to; `None` for ground.
+    pub fn body_of(&self, point: &Point) -> Option<&Body> {
+        self.parts.get(&Model::key(&point.part)).and_then(|p| self.bodies.get(&Model::key(&p.body)))
+    }
+
+    /// Connectors that use a class.
+    pub fn users_of_class(&self, class: &str) -> Vec<&str> {
+        let key = Model::key(class);
+        self.connectors.values().filter(|c| Model::key(&c.class) == key).map(|c| c.name.as_str()).collect()
+    }
+
+    /// Connectors that use a point.
+    pub fn users_of_point(&self, point: &str) -> Vec<&str> {
+        let key = Model::key(point);
+        self.connectors
+            .values()
+            .filter(|c| c.points.iter().any(|p| Model::key(p) == key))
+            .map(|c| c.name.as_str())
+            .collect()
+    }
+}
+
+/// Looks a name up in one of the model's tables.
+///
+/// # Errors
+/// An unknown name, with the nearest ones.
+pub fn find<'a, T>(table: &'a IndexMap<String, T>, name: &str, what: &str, span: Span) -> Outcome<&'a T> {
+    table.get(&Model::key(name)).ok_or_else(|| {
+        let mut error = Diagnostic::error(format!("unknown {what} {name}"), span);
+        match did_you_mean(name, table.keys().map(String::as_str)) {
+            Some(help) => error.help.push(help),
+            None if table.is_empty() => error.help.push(format!("no {what} is defined yet")),
+            None => {}
+        }
+        error
+    })
+}
