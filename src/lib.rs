@@ -7,4 +7,5 @@
 pub mod connector;
 pub mod language;
 pub mod model;
+pub mod report;
 pub mod table;

@@ -1,0 +1,307 @@
+//! The state of a disposition menu over any table: scales, shifts, chosen rows. Pure: it makes tables and texts, and the
+//! command floor disposes of them.
+//!
+//! Source: reference/solve.md, "Disposition menu". C_SCALE and C_SHIFT last until the menu ends and act on VIEW,
+//! STORE, PLOT, STATISTIC and SET_VARIABLE, not on the formatted REPORT. -RECORD counts rows, from 1.
+
+use super::columns::{NoSuchColumn, choose};
+use super::format;
+use crate::language::units::UnitSystem;
+use crate::table::{Cell, Column, Table};
+
+/// Why something could not be done with a table.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum DispositionError {
+    /// A selector that names no column.
+    #[error(transparent)]
+    Column(#[from] NoSuchColumn),
+    /// No column is left.
+    #[error("no column is chosen")]
+    Nothing,
+    /// A column of text where numbers are needed.
+    #[error("column {0} holds no numbers")]
+    Text(String),
+    /// Row numbers that choose nothing.
+    #[error("rows {from} to {to} choose none of the {rows} rows (-RECORD counts rows from 1, not times)")]
+    Rows {
+        /// First row asked for.
+        from: i64,
+        /// Last row asked for.
+        to: i64,
+        /// Rows of the table.
+        rows: usize,
+    },
+    /// Bounds that leave no row.
+    #[error("no row lies within the bounds")]
+    NoRow,
+}
+
+/// Which rows are taken.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RowChoice {
+    /// First and last row, from 1.
+    pub record: Option<(i64, i64)>,
+    /// Column selector and the bounds its values must lie in (user units).
+    pub values: Option<(String, f64, f64)>,
+}
+
+/// A table being disposed of.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Disposition {
+    /// The table as it came.
+    pub table: Table,
+    /// Factor and shift of each column, in user units: shown = value * factor + shift.
+    adjust: Vec<(f64, f64)>,
+}
+
+impl Disposition {
+    /// A menu over a table.
+    pub fn new(table: Table) -> Self {
+        let adjust = vec![(1.0, 0.0); table.columns.len()];
+        Disposition { table, adjust }
+    }
+
+    /// The columns several selectors choose, in their order; nothing given chooses all.
+    ///
+    /// # Errors
+    /// A name that fits no column, or selectors that choose nothing.
+    pub fn columns(&self, selectors: &[&str]) -> Result<Vec<usize>, DispositionError> {
+        if selectors.is_empty() {
+            return Ok((0..self.table.columns.len()).collect());
+        }
+        let mut chosen = Vec::new();
+        for selector in selectors {
+            chosen.extend(choose(&self.table, selector)?);
+        }
+        if chosen.is_empty() { Err(DispositionError::Nothing) } else { Ok(chosen) }
+    }
+
+    /// The columns of numbers that selectors choose.
+    ///
+    /// # Errors
+    /// As [`Disposition::columns`], and a column of text.
+    pub fn numeric(&self, selectors: &[&str]) -> Result<Vec<usize>, DispositionError> {
+        let chosen = self.columns(selectors)?;
+        for index in &chosen {
+            if let Some(column) = self.table.columns.get(*index)
+                && column.cells.iter().any(|c| matches!(c, Cell::Text(_)))
+            {
+                return Err(DispositionError::Text(column.name.clone()));
+            }
+        }
+        Ok(chosen)
+    }
+
+    /// Multiplies columns by a factor.
+    ///
+    /// # Errors
+    /// As [`Disposition::numeric`].
+    pub fn scale(&mut self, factor: f64, selectors: &[&str]) -> Result<Vec<usize>, DispositionError> {
+        let chosen = self.numeric(selectors)?;
+        for index in &chosen {
+            if let Some(a) = self.adjust.get_mut(*index) {
+                *a = (a.0 * factor, a.1 * factor);
+            }
+        }
+        Ok(chosen)
+    }
+
+    /// Adds a number (user units) to columns.
+    ///
+    /// # Errors
+    /// As [`Disposition::numeric`].
+    pub fn shift(&mut self, by: f64, selectors: &[&str]) -> Result<Vec<usize>, DispositionError> {
+        let chosen = self.numeric(selectors)?;
+        for index in &chosen {
+            if let Some(a) = self.adjust.get_mut(*index) {
+                a.1 += by;
+            }
+        }
+        Ok(chosen)
+    }
+
+    /// Chosen columns and rows as a table of their own; `adjusted` applies C_SCALE and C_SHIFT.
+    ///
+    /// # Errors
+    /// A row choice that leaves nothing or names no column.
+    pub fn extract(
+        &self,
+        columns: &[usize],
+        rows: &RowChoice,
+        adjusted: bool,
+        units: UnitSystem,
+    ) -> Result<Table, DispositionError> {
+        let taken = self.rows(rows, units)?;
+        let mut out = Table { columns: Vec::new(), ..self.table.clone() };
+        for index in columns {
+            let Some(column) = self.table.columns.get(*index) else { continue };
+            let (factor, shift) = self.adjust.get(*index).copied().unwrap_or((1.0, 0.0));
+            let change = |cell: &Cell| match cell.number() {
+                Some(value) if adjusted && (factor, shift) != (1.0, 0.0) => {
+                    Cell::Number(value * factor + column.dim.to_si(shift, units))
+                }
+                _ => cell.clone(),
+            };
+            let cells = taken.iter().filter_map(|row| column.cells.get(*row)).map(change).collect();
+            out.columns.push(Column { cells, ..column.clone() });
+        }
+        Ok(out)
+    }
+
+    /// The rows (from 0) a choice leaves.
+    fn rows(&self, choice: &RowChoice, units: UnitSystem) -> Result<Vec<usize>, DispositionError> {
+        let count = self.table.rows();
+        let mut taken: Vec<usize> = (0..count).collect();
+        if let Some((from, to)) = choice.record {
+            let number = |row: &usize| i64::try_from(row + 1).unwrap_or(i64::MAX);
+            taken.retain(|row| (from..=to).contains(&number(row)));
+            if taken.is_empty() {
+                return Err(DispositionError::Rows { from, to, rows: count });
+            }
+        }
+        if let Some((selector, low, high)) = &choice.values {
+            taken = self.within(taken, selector, *low, *high, units)?;
+        }
+        Ok(taken)
+    }
+
+    fn within(
+        &self,
+        mut rows: Vec<usize>,
+        selector: &str,
+        low: f64,
+        high: f64,
+        units: UnitSystem,
+    ) -> Result<Vec<usize>, DispositionError> {
+        for index in self.numeric(&[selector])? {
+            let Some(column) = self.table.columns.get(index) else { continue };
+            let (factor, shift) = self.adjust.get(index).copied().unwrap_or((1.0, 0.0));
+            rows.retain(|row| {
+                column.cells.get(*row).and_then(Cell::number).is_some_and(|value| {
+                    let shown = column.dim.from_si(value, units) * factor + shift;
+                    (low..=high).contains(&shown)
+                })
+            });
+        }
+        if rows.is_empty() { Err(DispositionError::NoRow) } else { Ok(rows) }
+    }
+
+    /// `CULL`: the rows whose columns lie within bounds (selector, low, high in user units), as a new menu's table.
+    /// Scales and shifts made so far are part of the new table.
+    ///
+    /// # Errors
+    /// A name that fits no column, or bounds that leave no row.
+    pub fn cull(&self, bounds: &[(String, f64, f64)], units: UnitSystem) -> Result<Table, DispositionError> {
+        let mut rows: Vec<usize> = (0..self.table.rows()).collect();
+        for (selector, low, high) in bounds {
+            rows = self.within(rows, selector, *low, *high, units)?;
+        }
+        let all: Vec<usize> = (0..self.table.columns.len()).collect();
+        let mut out = self.extract(&all, &RowChoice::default(), true, units)?;
+        for column in &mut out.columns {
+            column.cells = rows.iter().filter_map(|row| column.cells.get(*row)).cloned().collect();
+        }
+        Ok(out)
+    }
+
+    /// `VLIST`: number, name and unit of every column, with its range.
+    pub fn vlist(&self, units: UnitSystem) -> Vec<String> {
+        let names: Vec<String> = self.table.columns.iter().map(super::columns::long_name).collect();
+        let width = names.iter().map(|n| n.chars().count()).max().unwrap_or(0);
+        let lines = self.table.columns.iter().zip(names).enumerate().map(|(index, (column, name))| {
+            let range = column.cells.iter().filter_map(Cell::number).fold(None, |range: Option<(f64, f64)>, v| {
+                Some(range.map_or((v, v), |(low, high)| (low.min(v), high.max(v))))
+            });
+            let shown = |v: f64| format::report(&Cell::Number(v), column.dim, column.digits, units);
+            let range = range.map_or(String::new(), |(low, high)| format!("{} to {}", shown(low), shown(high)));
+            format!("{:>5}  {name:<width$}  {:<10} {range}", index + 1, column.dim.label(units)).trim_end().to_string()
+        });
+        lines.collect()
+    }
+
+    /// `VIEW`: chosen columns with row numbers and three digits more than the report.
+    ///
+    /// # Errors
+    /// As [`Disposition::extract`].
+    pub fn view(
+        &self,
+        columns: &[usize],
+        rows: &RowChoice,
+        units: UnitSystem,
+    ) -> Result<Vec<String>, DispositionError> {
+        let numbers = self.rows(rows, units)?;
+        let mut table = self.extract(columns, rows, true, units)?;
+        for column in &mut table.columns {
+            let (dim, digits) = (column.dim, column.digits);
+            for cell in &mut column.cells {
+                if let Cell::Number(_) = cell {
+                    *cell = Cell::Text(format::view(cell, dim, digits, units));
+                }
+            }
+        }
+        let mut lines = super::page::grid_right(&table, units);
+        let heads = lines.len().saturating_sub(numbers.len() + 1);
+        for (index, line) in lines.iter_mut().enumerate() {
+            let label = match index.checked_sub(heads) {
+                None => "     ".to_string(),
+                Some(0) => "-----".to_string(),
+                Some(row) => format!("{:>5}", numbers.get(row - 1).map_or(0, |n| n + 1)),
+            };
+            line.insert_str(0, &label);
+        }
+        Ok(lines)
+    }
+
+    /// `SET_VARIABLE`: the values of a column in user units, full precision, separated by blanks.
+    ///
+    /// # Errors
+    /// As [`Disposition::extract`].
+    pub fn values(&self, selector: &str, rows: &RowChoice, units: UnitSystem) -> Result<String, DispositionError> {
+        let columns = self.columns(&[selector])?;
+        let table = self.extract(&columns, rows, true, units)?;
+        let cells = table.columns.iter().flat_map(|c| c.cells.iter().map(|cell| format::full(cell, c.dim, units)));
+        Ok(cells.collect::<Vec<_>>().join(" "))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::language::units::{Dim, FOOT};
+    use crate::table::Digits;
+
+    fn menu() -> Disposition {
+        let mut t =
+            Table::new("t").column("", "X", Dim::Length, Digits::Usual).column("", "F", Dim::None, Digits::Usual);
+        for n in 1..=5 {
+            t.push(vec![Cell::Number(f64::from(n) * FOOT), Cell::Number(f64::from(n * n))]).unwrap();
+        }
+        Disposition::new(t)
+    }
+
+    #[test]
+    fn scale_and_shift_act_in_user_units_on_views_but_not_on_the_table() {
+        let mut d = menu();
+        let us = UnitSystem::default();
+        d.scale(10.0, &["X"]).unwrap();
+        d.shift(-1.0, &["1"]).unwrap();
+        let text = d.values("X", &RowChoice::default(), us).unwrap();
+        let values: Vec<f64> = text.split(' ').map(|v| v.parse().unwrap()).collect();
+        // feet to metres and back rounds once each way
+        assert!(values.iter().zip([9.0, 19.0, 29.0, 39.0, 49.0]).all(|(a, b)| (a - b).abs() < 1e-13 * b), "{text}");
+        assert_eq!(d.table.columns[0].cells[0], Cell::Number(FOOT));
+    }
+
+    #[test]
+    fn rows_are_chosen_by_number_and_by_value() {
+        let d = menu();
+        let us = UnitSystem::default();
+        let by_number = RowChoice { record: Some((2, 3)), ..RowChoice::default() };
+        assert_eq!(d.values("F", &by_number, us).unwrap(), "4 9");
+        let by_value = RowChoice { values: Some(("X".into(), 3.5, 9.0)), ..RowChoice::default() };
+        assert_eq!(d.values("F", &by_value, us).unwrap(), "16 25");
+        assert_eq!(d.cull(&[("F".into(), 4.0, 16.0), ("X".into(), 0.0, 3.1)], us).unwrap().rows(), 2);
+        let none = RowChoice { record: Some((9, 12)), ..RowChoice::default() };
+        assert!(d.values("F", &none, us).unwrap_err().to_string().contains("not times"));
+    }
+}

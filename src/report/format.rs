@@ -1,0 +1,138 @@
+//! How many digits a number is printed with: the one place that decides.
+
+use crate::language::functions::exponent;
+use crate::language::units::{Dim, ForceUnit, LengthUnit, UnitSystem};
+use crate::table::{Cell, Column, Digits};
+
+/// What a cell without a value prints as.
+const MISSING: &str = "";
+
+/// A cell of a formatted report: fixed digits, as wide as it needs.
+pub fn report(cell: &Cell, dim: Dim, digits: Digits, units: UnitSystem) -> String {
+    shown(cell, dim, digits, units, 0)
+}
+
+/// A cell of `VIEW`: three digits more than the report has.
+pub fn view(cell: &Cell, dim: Dim, digits: Digits, units: UnitSystem) -> String {
+    shown(cell, dim, digits, units, 3)
+}
+
+/// A cell of a file: the shortest text that reads back to the same number.
+pub fn full(cell: &Cell, dim: Dim, units: UnitSystem) -> String {
+    match cell {
+        Cell::Number(value) => number_in_full(dim.from_si(*value, units)),
+        Cell::Integer(value) => value.to_string(),
+        Cell::Text(text) => text.clone(),
+        Cell::Missing => String::new(),
+    }
+}
+
+/// A number as the shortest text that reads back to it; `NaN` and infinities are named.
+pub fn number_in_full(value: f64) -> String {
+    if value == 0.0 {
+        return "0".into();
+    }
+    if (1e-5..1e16).contains(&value.abs()) { format!("{value}") } else { format!("{value:e}") }
+}
+
+fn shown(cell: &Cell, dim: Dim, digits: Digits, units: UnitSystem, more: u8) -> String {
+    match cell {
+        Cell::Missing => MISSING.into(),
+        Cell::Text(text) => text.clone(),
+        Cell::Integer(value) => value.to_string(),
+        Cell::Number(value) => {
+            let value = dim.from_si(*value, units);
+            if !value.is_finite() {
+                return value.to_string();
+            }
+            match digits {
+                Digits::Usual => fixed(value, usual(dim, units) + more),
+                Digits::Decimals(count) => fixed(value, count + more),
+                Digits::Scientific(count) => exponent(value, usize::from(count + more).saturating_sub(1)),
+            }
+        }
+    }
+}
+
+/// Fixed decimals; a number that would lose all its digits, or is very long, is printed in E format instead.
+fn fixed(value: f64, decimals: u8) -> String {
+    let decimals = usize::from(decimals);
+    let smallest = 10f64.powi(-i32::try_from(decimals).unwrap_or(0));
+    if value != 0.0 && (value.abs() < 0.5 * smallest || value.abs() >= 1e12) {
+        return exponent(value, 3);
+    }
+    let text = format!("{value:.decimals$}");
+    if text.trim_start_matches('-').bytes().all(|b| b == b'0' || b == b'.') { text.replace('-', "") } else { text }
+}
+
+/// Decimals of a dimension in the user's units.
+fn usual(dim: Dim, units: UnitSystem) -> u8 {
+    let small_force = matches!(units.force, ForceUnit::Newtons);
+    match dim {
+        Dim::Length | Dim::Angle | Dim::Time | Dim::Velocity | Dim::WindSpeed | Dim::Acceleration | Dim::Area => 2,
+        Dim::Force | Dim::Moment | Dim::MomentPerRadian => {
+            if small_force {
+                0
+            } else {
+                2
+            }
+        }
+        Dim::ForcePerLength => {
+            if small_force {
+                2
+            } else {
+                4
+            }
+        }
+        Dim::Section => {
+            if units.length == LengthUnit::Feet {
+                3
+            } else {
+                1
+            }
+        }
+        Dim::Stress => {
+            if units.length == LengthUnit::Feet {
+                2
+            } else {
+                1
+            }
+        }
+        Dim::Density | Dim::KilogramsPerCubicMetre | Dim::Days | Dim::Mass | Dim::MassPerLength | Dim::Metres => 2,
+        Dim::Newtons | Dim::Pascals | Dim::NewtonSquareMetres => 0,
+        Dim::None | Dim::Frequency | Dim::SpectralDensity | Dim::Damping(_) | Dim::SquareMetres => 4,
+        Dim::ThermalExpansion => 8,
+    }
+}
+
+/// A column's head in a file or an axis: `X (ft)`.
+pub fn head(column: &Column, units: UnitSystem) -> String {
+    let label = column.dim.label(units);
+    if label.is_empty() { column.name.clone() } else { format!("{} ({label})", column.name) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_stay_meaningful_in_every_unit() {
+        let us = UnitSystem::default();
+        let show = |v: f64, dim: Dim, units| report(&Cell::Number(dim.to_si(v, units)), dim, Digits::Usual, units);
+        assert_eq!(show(0.03751, Dim::ForcePerLength, us), "0.0375");
+        assert_eq!(show(7536.62, Dim::Length, us), "7536.62");
+        assert_eq!(show(1.2e7, Dim::Force, UnitSystem::SI), "12000000");
+        assert_eq!(show(1e-9, Dim::Length, us), "1.000E-09");
+        assert_eq!(show(-1e-17, Dim::Length, us), "-1.000E-17");
+        assert_eq!(show(-0.0, Dim::Length, us), "0.00");
+        assert_eq!(report(&Cell::Number(f64::NAN), Dim::Length, Digits::Usual, us), "NaN");
+        assert_eq!(report(&Cell::Number(48720.1), Dim::None, Digits::Scientific(4), us), "4.872E+04");
+    }
+
+    #[test]
+    fn a_file_number_reads_back_to_the_same_bits() {
+        for value in [1.0 / 3.0, 1e-300, 123_456_789.123_456_79, -2.5e17] {
+            assert_eq!(number_in_full(value).parse::<f64>().unwrap().to_bits(), value.to_bits());
+        }
+    }
+}

@@ -1,0 +1,12 @@
+//! Everything that leaves the program: formatted tables, listings, plots, files, and the channels they go to. It reads
+//! tables and knows nothing of commands.
+
+pub mod columns;
+pub mod csv;
+pub mod disposition;
+pub mod files;
+pub mod format;
+pub mod output;
+pub mod page;
+pub mod plot;
+pub mod statistic;
