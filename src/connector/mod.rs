@@ -1,7 +1,17 @@
-//! Connector classes: one file a class, each a spec and an object that implements
+//! Connector classes: each file has the spec of its class types and an object that implements
 //! [`ConnectorClass`](crate::model::ConnectorClass). `catenary` is the line engine.
 
+mod aqwa;
+mod b_cat;
 pub mod catenary;
+mod checks;
+mod line;
+mod lmu;
+mod options;
+mod roller;
+mod section;
+mod sling;
+mod spring;
 
 use crate::language::diagnostic::Outcome;
 use crate::language::spec::CommandSpec;
@@ -19,4 +29,17 @@ pub struct ClassKind {
 }
 
 /// All class types, in the order of the manual.
-pub static CLASSES: &[&ClassKind] = &[];
+pub static CLASSES: &[&ClassKind] = &[
+    &spring::FOUNDATION,
+    &spring::GSPR,
+    &lmu::LMU,
+    &sling::SLING,
+    &sling::DAVIT,
+    &roller::ROLLER,
+    &line::ROD,
+    &b_cat::B_CAT,
+    &line::H_CAT,
+    &line::SL_ELEM,
+    &aqwa::CATENARY,
+    &aqwa::TETHER,
+];

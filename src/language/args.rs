@@ -168,34 +168,36 @@ fn convert(
 ) -> Outcome<Vec<Value>> {
     let mut values: Vec<Value> = Vec::with_capacity(words.len());
     let fixed = specs.len() - repeat.min(specs.len());
+    let spec_at = |index: usize| {
+        if index < specs.len() || repeat == 0 { specs.get(index) } else { specs.get(fixed + (index - fixed) % repeat) }
+    };
     for (index, word) in words.iter().enumerate() {
-        let spec = if index < specs.len() || repeat == 0 {
-            specs.get(index)
-        } else {
-            specs.get(fixed + (index - fixed) % repeat)
-        };
-        let Some(spec) = spec else {
+        // an optional datum is passed over when the word is of the type of the next one and not of its own
+        while let Some(spec) = spec_at(values.len())
+            && !spec.is_required()
+            && !fits(spec.kind, word)
+            && spec_at(values.len() + 1).is_some_and(|next| fits(next.kind, word))
+        {
+            values.push(Value { content: Content::Empty, span: word.span });
+        }
+        let Some(spec) = spec_at(values.len()) else {
             return Err(Diagnostic::error(format!("{owner} takes no further value"), word.span)
                 .label(format!("unexpected `{}`", word.text)));
         };
-        let before = index.checked_sub(1).and_then(|i| values.get(i)).cloned();
-        let before_that = index.checked_sub(2).and_then(|i| values.get(i)).cloned();
-        values.push(one(spec, word, [before, before_that], words.get(index + 1).copied(), owner, units)?);
+        let before = [1, 2].map(|back| values.len().checked_sub(back).and_then(|i| values.get(i)).cloned());
+        values.push(one(spec, word, before, words.get(index + 1).copied(), owner, units)?);
     }
     let given = values.len();
-    let wanted = specs.iter().take_while(|s| s.is_required()).count();
     let missing = if given < specs.len() {
         specs.get(given..).unwrap_or_default().iter().find(|s| s.is_required())
-    } else if repeat > 0 && (given - fixed) % repeat != 0 {
-        specs.get(fixed + (given - fixed) % repeat).filter(|s| s.is_required())
+    } else if repeat > 0 && !(given - fixed).is_multiple_of(repeat) {
+        specs.get(fixed + (given - fixed) % repeat..).unwrap_or_default().iter().find(|s| s.is_required())
     } else {
         None
     };
     if let Some(spec) = missing {
         let place = values.last().map_or(at, |v| v.span);
-        let count =
-            if repeat == 0 && specs.len() > 1 { format!(" ({given} of {wanted} given)") } else { String::new() };
-        return Err(Diagnostic::error(format!("{owner} lacks its value {}{count}", spec.name), place).label(format!(
+        return Err(Diagnostic::error(format!("{owner} lacks its value {}", spec.name), place).label(format!(
             "expected {} after this: {}",
             expected(spec.kind, units),
             spec.help

@@ -46,8 +46,11 @@ pub enum NumberError {
     TooBig,
 }
 
+/// A function by name.
+type Function = (&'static str, fn(f64) -> f64);
+
 /// The functions an expression may call, all of one argument; angles in radians, `D` at the end for degrees.
-pub const FUNCTIONS: &[(&str, fn(f64) -> f64)] = &[
+pub const FUNCTIONS: &[Function] = &[
     ("SQRT", f64::sqrt),
     ("EXP", f64::exp),
     ("LN", f64::ln),

@@ -1,0 +1,356 @@
+//! The AQWA items of seed 002 as classes: catenary section with its joint, tether/riser section. Their numbers are in
+//! kg, m, N whatever `&DIMEN` says.
+//!
+//! Source: seed 002, 5.8.3.1 to 5.8.3.3; defaults of EA, maximum tension and coefficients: reference/model.md.
+
+use super::options::aqwa;
+use super::{ClassKind, checks};
+use crate::language::args::{Args, Given};
+use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::select::Owner;
+use crate::language::source::Span;
+use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use crate::language::units::{Dim, STANDARD_GRAVITY};
+use crate::model::{ClassRecord, Connector, ConnectorClass, Surroundings};
+use crate::table::{Cell, Digits, Table};
+use std::f64::consts::FRAC_PI_4;
+use std::sync::Arc;
+
+/// The class type CATENARY: an AQWA catenary section with the joint at its end.
+pub static CATENARY: ClassKind = ClassKind { spec: &CATENARY_SPEC, segmented: true, build: build_catenary };
+/// The class type TETHER: an AQWA tether/riser section.
+pub static TETHER: ClassKind = ClassKind { spec: &TETHER_SPEC, segmented: true, build: build_tether };
+
+const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
+    ValueSpec::new(name, Kind::Number(dim), help)
+}
+
+const LENGTH: OptionSpec =
+    aqwa("-LEN", &[number("L", Dim::Metres, "length of the section").positive()], "unstretched length");
+const CA: OptionSpec =
+    aqwa("-CA", &[number("Ca", Dim::None, "added mass coefficient").not_negative()], "added mass rho Ca A")
+        .default("1.0");
+const JOINT: &[ValueSpec] = &[
+    number("MASS", Dim::Mass, "structural mass"),
+    number("DISPLACED", Dim::Mass, "mass of water displaced"),
+    number("ADDED", Dim::Mass, "added mass, constant").or("0"),
+    number("CDA", Dim::SquareMetres, "drag coefficient times area").or("0").not_negative(),
+];
+
+static CATENARY_SPEC: CommandSpec = CommandSpec {
+    owner: Owner::Aqwa,
+    data: &[
+        number("MASS", Dim::MassPerLength, "mass per unit length").positive(),
+        number("AREA", Dim::SquareMetres, "equivalent cross-sectional area").or("0").not_negative(),
+    ],
+    options: &[
+        LENGTH,
+        aqwa("-EA", &[number("EA", Dim::Newtons, "stiffness").positive()], "axial stiffness")
+            .default("5.0E6 times mass per length"),
+        aqwa(
+            "-TMAX",
+            &[number("TMAX", Dim::Newtons, "maximum expected tension").positive()],
+            "highest tension of the database",
+        )
+        .default("5.0E4 times mass per length"),
+        aqwa(
+            "-K",
+            &[
+                number("k1", Dim::Newtons, "coefficient of strain"),
+                number("k2", Dim::Newtons, "coefficient of strain squared").or("0"),
+                number("k3", Dim::Newtons, "coefficient of strain cubed").or("0"),
+            ],
+            "axial stiffness coefficients: EA(e) = EA + k1 e + k2 e2 + k3 e3",
+        ),
+        aqwa(
+            "-EI",
+            &[number("EI", Dim::NewtonSquareMetres, "bending stiffness").not_negative()],
+            "bending stiffness (cable dynamics)",
+        )
+        .default("0"),
+        CA,
+        aqwa(
+            "-CD",
+            &[number("Cd", Dim::None, "transverse drag coefficient").not_negative()],
+            "transverse drag 0.5 rho Cd V2 De",
+        )
+        .default("1.0"),
+        aqwa("-DE", &[number("De", Dim::Metres, "equivalent diameter for drag").positive()], "diameter for drag")
+            .default("that of AREA"),
+        aqwa(
+            "-CX",
+            &[number("Cx", Dim::None, "longitudinal drag coefficient").not_negative()],
+            "inline drag 0.5 rho Cx V2 De",
+        )
+        .default("0.025"),
+        aqwa("-BUOY", JOINT, "buoy at the end of the section: structural mass smaller than displaced"),
+        aqwa("-CLUMP", JOINT, "clump weight at the end of the section: structural mass larger than displaced"),
+        aqwa("-DEPANCHOR", &[number("DEPTH", Dim::Metres, "depth of the anchor").positive()], "depth at the anchor")
+            .default("depth of &ENV"),
+    ],
+    detail: "An AQWA catenary section, in kg, m and N in every unit system; one record a section, fairlead first. Buoys \
+             always have the same buoyancy and do not know where the surface is.",
+    example: "MEDIT\n~CHAIN CATENARY 170 0.0217 -LEN 600 -EA 7.0E8 -CLUMP 20000 2500\n~CHAIN CATENARY 170 0.0217 -LEN 300\nEND\n\
+              &STATUS CLASS ~CHAIN",
+    ..CommandSpec::new("CATENARY", "AQWA catenary section with its joint")
+};
+
+static TETHER_SPEC: CommandSpec = CommandSpec {
+    owner: Owner::Aqwa,
+    data: &[
+        number("OD", Dim::Metres, "outer diameter").positive(),
+        number("T", Dim::Metres, "wall thickness").positive(),
+    ],
+    options: &[
+        LENGTH,
+        aqwa(
+            "-REFINE",
+            &[ValueSpec::new("N", Kind::Integer, "number of elements").within(1.0, 10_000.0)],
+            "number of elements",
+        )
+        .default("1"),
+        aqwa(
+            "-DENSITY",
+            &[number("RHO", Dim::KilogramsPerCubicMetre, "density").positive()],
+            "density of the material",
+        )
+        .default("7850"),
+        aqwa("-EMODULUS", &[number("E", Dim::Pascals, "Young's modulus").positive()], "Young's modulus")
+            .default("&DEFAULT"),
+        CA,
+        aqwa(
+            "-CD",
+            &[number("Cd", Dim::None, "transverse drag coefficient").not_negative()],
+            "transverse drag 0.5 rho Cd V2 OD",
+        )
+        .default("0.75"),
+    ],
+    detail: "An AQWA tether or riser section, in kg, m and N in every unit system; one record a section.",
+    example: "MEDIT\n~LEG TETHER 1.1 0.035 -LEN 250 -REFINE 10\nEND\n&STATUS CLASS ~LEG",
+    ..CommandSpec::new("TETHER", "AQWA tether/riser section")
+};
+
+#[derive(Debug)]
+struct CatenarySection {
+    mass: f64,
+    area: f64,
+    length: f64,
+    ea: f64,
+    largest: f64,
+    ca: f64,
+    cd: f64,
+    diameter: f64,
+    cx: f64,
+    ei: f64,
+    joint: Option<(&'static str, f64)>,
+    joint_span: Span,
+}
+
+#[derive(Debug)]
+struct CatenaryClass(Vec<CatenarySection>);
+
+#[derive(Debug)]
+struct TetherSection {
+    od: f64,
+    thickness: f64,
+    length: f64,
+    elements: i64,
+    density: f64,
+    emodulus: f64,
+    ca: f64,
+    cd: f64,
+}
+
+#[derive(Debug)]
+struct TetherClass(Vec<TetherSection>);
+
+fn joint(args: &Args) -> Outcome<(Option<(&'static str, f64)>, Span)> {
+    let net = |given: &Given| given.number(0).unwrap_or(0.0) - given.number(1).unwrap_or(0.0);
+    let (buoy, clump) = (args.option("-BUOY"), args.option("-CLUMP"));
+    match (buoy, clump) {
+        (Some(buoy), Some(clump)) => {
+            Err(Diagnostic::error("a joint is either a buoy or a clump weight", clump.span)
+                .other(buoy.span, "the buoy"))
+        }
+        (Some(given), None) if net(given) >= 0.0 => Err(Diagnostic::error(
+            "the structural mass of a buoy must be smaller than the mass it displaces",
+            given.span,
+        )),
+        (None, Some(given)) if net(given) <= 0.0 => Err(Diagnostic::error(
+            "the structural mass of a clump weight must be larger than the mass it displaces",
+            given.span,
+        )),
+        (Some(given), None) => Ok((Some(("buoy", net(given))), given.span)),
+        (None, Some(given)) => Ok((Some(("clump", net(given))), given.span)),
+        (None, None) => Ok((None, args.span)),
+    }
+}
+
+fn build_catenary(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
+    let mut sections = Vec::new();
+    for record in records {
+        let args = &record.args;
+        let (joint, joint_span) = joint(args)?;
+        let mass = args.number(0).unwrap_or(0.0);
+        let area = args.number(1).unwrap_or(0.0);
+        let option = |name: &str, default: f64| args.option_number(name).unwrap_or(default);
+        sections.push(CatenarySection {
+            mass,
+            area,
+            length: checks::length(args, "CATENARY")?,
+            ea: option("-EA", 5.0e6 * mass),
+            largest: option("-TMAX", 5.0e4 * mass),
+            ca: option("-CA", 1.0),
+            cd: option("-CD", 1.0),
+            diameter: option("-DE", (area / FRAC_PI_4).sqrt()),
+            cx: option("-CX", 0.025),
+            ei: option("-EI", 0.0),
+            joint,
+            joint_span,
+        });
+    }
+    checks::once(records, "-DEPANCHOR")?;
+    Ok(Arc::new(CatenaryClass(sections)))
+}
+
+fn build_tether(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
+    let mut sections = Vec::new();
+    for record in records {
+        let args = &record.args;
+        let (od, thickness) = (args.number(0).unwrap_or(0.0), args.number(1).unwrap_or(0.0));
+        if 2.0 * thickness > od {
+            return Err(Diagnostic::error("the wall thickness T is larger than half of OD", args.place(1)));
+        }
+        let material = &record.defaults.material;
+        sections.push(TetherSection {
+            od,
+            thickness,
+            length: checks::length(args, "TETHER")?,
+            elements: args.option("-REFINE").and_then(|g| g.values.first()).and_then(|v| v.integer()).unwrap_or(1),
+            density: args.option_number("-DENSITY").unwrap_or(material.density),
+            emodulus: args.option_number("-EMODULUS").unwrap_or(material.emodulus),
+            ca: args.option_number("-CA").unwrap_or(1.0),
+            cd: args.option_number("-CD").unwrap_or(0.75),
+        });
+    }
+    Ok(Arc::new(TetherClass(sections)))
+}
+
+impl ConnectorClass for CatenaryClass {
+    fn kind(&self) -> &'static str {
+        "CATENARY"
+    }
+
+    fn check(&self) -> Outcome<()> {
+        match self.0.last().filter(|s| s.joint.is_some()) {
+            Some(last) => {
+                Err(Diagnostic::error("a joint lies between two sections; the last section has none", last.joint_span))
+            }
+            None => Ok(()),
+        }
+    }
+
+    fn check_ends(&self, connector: &Connector, bodies: usize) -> Outcome<()> {
+        checks::ends("CATENARY", connector, bodies, 2, 2)
+    }
+
+    fn properties(&self, name: &str, surroundings: &Surroundings) -> Table {
+        let mut table = Table::new(format!("Class {name}"))
+            .fact("Type", "CATENARY (AQWA, in kg, m, N)", Dim::None)
+            .column("", "Section", Dim::None, Digits::Usual)
+            .column("", "Length", Dim::Metres, Digits::Usual)
+            .column("", "Mass/L", Dim::MassPerLength, Digits::Usual)
+            .column("", "Area", Dim::SquareMetres, Digits::Usual)
+            .column("", "W/L in Water", Dim::None, Digits::Decimals(2))
+            .column("", "EA", Dim::Newtons, Digits::Scientific(5))
+            .column("", "Max. Tension", Dim::Newtons, Digits::Scientific(5))
+            .column("", "EI", Dim::NewtonSquareMetres, Digits::Scientific(4))
+            .column("Coefficients", "Ca", Dim::None, Digits::Decimals(3))
+            .column("Coefficients", "Cd", Dim::None, Digits::Decimals(3))
+            .column("Coefficients", "Cx", Dim::None, Digits::Decimals(3))
+            .column("", "De", Dim::Metres, Digits::Decimals(4))
+            .column("Joint", "Type", Dim::None, Digits::Usual)
+            .column("Joint", "Net Weight", Dim::Newtons, Digits::Usual);
+        for (index, s) in self.0.iter().enumerate() {
+            let water = (s.mass - surroundings.water_density * s.area) * surroundings.gravity;
+            let row: Vec<Cell> = vec![
+                (index + 1).into(),
+                s.length.into(),
+                s.mass.into(),
+                s.area.into(),
+                water.into(),
+                s.ea.into(),
+                s.largest.into(),
+                s.ei.into(),
+                s.ca.into(),
+                s.cd.into(),
+                s.cx.into(),
+                s.diameter.into(),
+                s.joint.map(|j| j.0).into(),
+                s.joint.map(|j| j.1 * STANDARD_GRAVITY).into(),
+            ];
+            // the row has one cell a column, made just above
+            let _ = table.push(row);
+        }
+        table
+    }
+
+    fn first_length(&self) -> Option<f64> {
+        self.0.first().map(|s| s.length)
+    }
+}
+
+impl ConnectorClass for TetherClass {
+    fn kind(&self) -> &'static str {
+        "TETHER"
+    }
+
+    fn check(&self) -> Outcome<()> {
+        Ok(())
+    }
+
+    fn check_ends(&self, connector: &Connector, bodies: usize) -> Outcome<()> {
+        checks::ends("TETHER", connector, bodies, 2, 2)
+    }
+
+    fn properties(&self, name: &str, surroundings: &Surroundings) -> Table {
+        let mut table = Table::new(format!("Class {name}"))
+            .fact("Type", "TETHER (AQWA, in kg, m, N)", Dim::None)
+            .column("", "Section", Dim::None, Digits::Usual)
+            .column("", "OD", Dim::Metres, Digits::Decimals(4))
+            .column("", "T", Dim::Metres, Digits::Decimals(4))
+            .column("", "Length", Dim::Metres, Digits::Usual)
+            .column("", "Elements", Dim::None, Digits::Usual)
+            .column("", "Mass/L", Dim::MassPerLength, Digits::Usual)
+            .column("", "Displaced/L", Dim::MassPerLength, Digits::Usual)
+            .column("", "EA", Dim::Newtons, Digits::Scientific(5))
+            .column("", "EI", Dim::NewtonSquareMetres, Digits::Scientific(5))
+            .column("Coefficients", "Ca", Dim::None, Digits::Decimals(3))
+            .column("Coefficients", "Cd", Dim::None, Digits::Decimals(3));
+        for (index, s) in self.0.iter().enumerate() {
+            let inner = s.od - 2.0 * s.thickness;
+            let area = FRAC_PI_4 * (s.od * s.od - inner * inner);
+            let inertia = FRAC_PI_4 / 16.0 * (s.od.powi(4) - inner.powi(4));
+            let row: Vec<Cell> = vec![
+                (index + 1).into(),
+                s.od.into(),
+                s.thickness.into(),
+                s.length.into(),
+                Cell::Integer(s.elements),
+                (s.density * area).into(),
+                (surroundings.water_density * FRAC_PI_4 * s.od * s.od).into(),
+                (s.emodulus * area).into(),
+                (s.emodulus * inertia).into(),
+                s.ca.into(),
+                s.cd.into(),
+            ];
+            // the row has one cell a column, made just above
+            let _ = table.push(row);
+        }
+        table
+    }
+
+    fn first_length(&self) -> Option<f64> {
+        self.0.first().map(|s| s.length)
+    }
+}

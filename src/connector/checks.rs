@@ -1,0 +1,124 @@
+//! Checks that several classes share.
+
+use crate::language::args::{Args, Given};
+use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::model::{ClassRecord, Connector};
+
+/// A P-Y curve: points (force N, deflection m) growing in both, as the seed asks.
+///
+/// # Errors
+/// Two points with the same force, a force that does not grow, or a deflection that does not grow, at its value.
+pub fn py_curve(given: &Given) -> Outcome<Vec<(f64, f64)>> {
+    let mut points: Vec<(f64, f64)> = Vec::new();
+    for pair in given.values.chunks_exact(2) {
+        let [p, y] = pair else { continue };
+        let (Some(force), Some(deflection)) = (p.number(), y.number()) else { continue };
+        if let Some((last_force, last_deflection)) = points.last() {
+            if force <= *last_force {
+                return Err(Diagnostic::error(
+                    format!("the forces of {} must grow from point to point", given.spec.name),
+                    p.span,
+                )
+                .label("not larger than the one before"));
+            }
+            if deflection <= *last_deflection {
+                return Err(Diagnostic::error(
+                    format!("the deflections of {} must grow with the force", given.spec.name),
+                    y.span,
+                )
+                .label("not larger than the one before"));
+            }
+        }
+        points.push((force, deflection));
+    }
+    Ok(points)
+}
+
+/// All P-Y curves of a record.
+///
+/// # Errors
+/// As [`py_curve`].
+pub fn py_curves(args: &Args) -> Outcome<()> {
+    for name in ["-X_PY", "-Y_PY", "-Z_PY"] {
+        if let Some(given) = args.option(name) {
+            py_curve(given)?;
+        }
+    }
+    Ok(())
+}
+
+/// A piston: the nominal position within the stroke, the tensions in order.
+///
+/// # Errors
+/// What contradicts itself, at its value.
+pub fn piston(args: &Args) -> Outcome<()> {
+    let Some(given) = args.option("-PISTON") else { return Ok(()) };
+    let at = |index: usize| given.values.get(index).map_or(given.span, |v| v.span);
+    if let (Some(stroke), Some(nominal)) = (given.number(1), given.number(2))
+        && nominal > stroke
+    {
+        return Err(Diagnostic::error("the nominal position LD of -PISTON lies beyond its stroke LT", at(2)));
+    }
+    match (given.word(0), given.number(5), given.number(6)) {
+        (Some("MINMAX"), _, None) => Err(Diagnostic::error("-PISTON MINMAX needs TMIN", given.span)),
+        (_, Some(most), Some(least)) if least >= most => {
+            Err(Diagnostic::error("TMIN of -PISTON must be smaller than TMAX", at(6)))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The last place an option that counts for the whole line was given; two unlike values are an error.
+///
+/// # Errors
+/// Unlike values on two records of the class, with both places.
+pub fn once<'a>(records: &'a [ClassRecord], name: &str) -> Outcome<Option<&'a Given>> {
+    let mut found: Option<&Given> = None;
+    for given in records.iter().filter_map(|r| r.args.option(name)) {
+        let contents = |g: &Given| g.values.iter().map(|v| v.content.clone()).collect::<Vec<_>>();
+        if let Some(first) = found
+            && contents(first) != contents(given)
+        {
+            return Err(Diagnostic::error(
+                format!("{name} holds for the whole line and is given two unlike values"),
+                given.span,
+            )
+            .other(first.span, "first given here"));
+        }
+        found = Some(given);
+    }
+    Ok(found)
+}
+
+/// The length of every segment must be defined (seed: "every segment's length must be defined for flexible classes").
+///
+/// # Errors
+/// A record without `-LEN`.
+pub fn length(args: &Args, kind: &str) -> Outcome<f64> {
+    args.option_number("-LEN").ok_or_else(|| {
+        Diagnostic::error(format!("{kind} lacks -LEN: every segment's length must be defined"), args.span)
+            .help("form: -LEN L")
+    })
+}
+
+/// One or two points, and a body at each end where two are needed.
+///
+/// # Errors
+/// Too many points, or two bodies for a class that only goes to ground.
+pub fn ends(kind: &str, connector: &Connector, bodies: usize, most_points: usize, most_bodies: usize) -> Outcome<()> {
+    if connector.points.len() > most_points {
+        return Err(Diagnostic::error(
+            format!("a {kind} takes {most_points} point, its other end is fixed by its class"),
+            connector.span,
+        ));
+    }
+    if bodies > most_bodies {
+        return Err(Diagnostic::error(format!("a {kind} connects a body to ground, not two bodies"), connector.span)
+            .help("use H_CAT, SL_ELEM or ROD between two bodies"));
+    }
+    if connector.anchor.is_some() && connector.points.len() > 1 {
+        return Err(Diagnostic::error("a connector between two points has no anchor", connector.span)
+            .label("-ANCHOR and a second point are given"));
+    }
+    Ok(())
+}
