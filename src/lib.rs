@@ -4,8 +4,12 @@
 //! `cli, repl | session | command, aqwa | report | solve | rod, tether | connector | hydro | post | model | table |
 //! language`. Everything below `session` can be used as a library by somebody who never types a command.
 
+pub mod cli;
+pub mod command;
 pub mod connector;
 pub mod language;
 pub mod model;
+pub mod repl;
 pub mod report;
+pub mod session;
 pub mod table;

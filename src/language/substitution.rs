@@ -23,6 +23,11 @@ pub trait World {
     /// # Errors
     /// Whatever is wrong with the arguments, at their place.
     fn function(&mut self, name: &str, words: &[Word], span: Span) -> Outcome<String>;
+
+    /// Variables that functions have set since the last call: name and value.
+    fn assignments(&mut self) -> Vec<(String, String)> {
+        Vec::new()
+    }
 }
 
 /// A world without functions, for a language used on its own.

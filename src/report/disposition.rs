@@ -149,7 +149,10 @@ impl Disposition {
     }
 
     /// The rows (from 0) a choice leaves.
-    fn rows(&self, choice: &RowChoice, units: UnitSystem) -> Result<Vec<usize>, DispositionError> {
+    ///
+    /// # Errors
+    /// A choice that leaves no row or names no column.
+    pub fn rows(&self, choice: &RowChoice, units: UnitSystem) -> Result<Vec<usize>, DispositionError> {
         let count = self.table.rows();
         let mut taken: Vec<usize> = (0..count).collect();
         if let Some((from, to)) = choice.record {
@@ -217,39 +220,6 @@ impl Disposition {
             format!("{:>5}  {name:<width$}  {:<10} {range}", index + 1, column.dim.label(units)).trim_end().to_string()
         });
         lines.collect()
-    }
-
-    /// `VIEW`: chosen columns with row numbers and three digits more than the report.
-    ///
-    /// # Errors
-    /// As [`Disposition::extract`].
-    pub fn view(
-        &self,
-        columns: &[usize],
-        rows: &RowChoice,
-        units: UnitSystem,
-    ) -> Result<Vec<String>, DispositionError> {
-        let numbers = self.rows(rows, units)?;
-        let mut table = self.extract(columns, rows, true, units)?;
-        for column in &mut table.columns {
-            let (dim, digits) = (column.dim, column.digits);
-            for cell in &mut column.cells {
-                if let Cell::Number(_) = cell {
-                    *cell = Cell::Text(format::view(cell, dim, digits, units));
-                }
-            }
-        }
-        let mut lines = super::page::grid_right(&table, units);
-        let heads = lines.len().saturating_sub(numbers.len() + 1);
-        for (index, line) in lines.iter_mut().enumerate() {
-            let label = match index.checked_sub(heads) {
-                None => "     ".to_string(),
-                Some(0) => "-----".to_string(),
-                Some(row) => format!("{:>5}", numbers.get(row - 1).map_or(0, |n| n + 1)),
-            };
-            line.insert_str(0, &label);
-        }
-        Ok(lines)
     }
 
     /// `SET_VARIABLE`: the values of a column in user units, full precision, separated by blanks.

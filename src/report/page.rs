@@ -5,8 +5,8 @@
 //! rows.
 
 use super::format;
-use crate::language::units::UnitSystem;
-use crate::table::{Cell, Table};
+use crate::language::units::{Dim, UnitSystem};
+use crate::table::{Cell, Column, Digits, Table};
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table as Grid};
 
@@ -27,8 +27,8 @@ const PAGE: usize = 132;
 const NARROW: usize = 72;
 
 /// The whole report of a table: page head, title, facts, rows, notes. Plain ASCII, no trailing blanks.
-pub fn render(table: &Table, heads: &[(usize, String)], units: UnitSystem, head: &PageHead) -> String {
-    let body = grid(table, heads, units);
+pub fn render(table: &Table, units: UnitSystem, head: &PageHead) -> String {
+    let body = grid(table, units);
     let width = body.iter().map(String::len).max().unwrap_or(0).clamp(NARROW, PAGE);
     let mut lines = Vec::new();
     lines.extend(banner(head, width));
@@ -42,7 +42,7 @@ pub fn render(table: &Table, heads: &[(usize, String)], units: UnitSystem, head:
     lines.push(String::new());
     for (name, cell, dim) in &table.facts {
         let label = dim.label(units);
-        let value = format::report(cell, *dim, crate::table::Digits::Usual, units);
+        let value = format::report(cell, *dim, Digits::Usual, units);
         let unit = if label.is_empty() || *cell == Cell::Missing { String::new() } else { format!(" {label}") };
         lines.push(format!("   {name:<32} = {value}{unit}"));
     }
@@ -59,68 +59,58 @@ pub fn render(table: &Table, heads: &[(usize, String)], units: UnitSystem, head:
     text
 }
 
-/// The rows of a table with their heads, without page head and title: what `VIEW` and listings use.
-pub fn grid(table: &Table, heads: &[(usize, String)], units: UnitSystem) -> Vec<String> {
-    let name = |index: usize, own: &str| {
-        heads.iter().find(|(i, _)| *i == index).map_or_else(|| own.to_string(), |(_, text)| text.clone())
-    };
-    let mut rows: Vec<Vec<String>> = vec![
-        table.columns.iter().enumerate().map(|(i, c)| name(i, &c.name)).collect(),
-        table.columns.iter().map(|c| c.dim.label(units)).collect(),
-    ];
-    if rows.get(1).is_some_and(|labels| labels.iter().all(String::is_empty)) {
-        rows.truncate(1);
-    }
-    let heads = rows.len();
-    for row in 0..table.rows() {
-        rows.push(
-            table
-                .columns
-                .iter()
-                .map(|c| c.cells.get(row).map_or(String::new(), |cell| format::report(cell, c.dim, c.digits, units)))
-                .collect(),
-        );
-    }
-    let text_column: Vec<bool> = table
-        .columns
-        .iter()
-        .map(|c| c.cells.iter().all(|cell| matches!(cell, Cell::Text(_) | Cell::Missing)) && !c.cells.is_empty())
-        .collect();
-    lay_out(table, &rows, heads, &text_column)
+/// The rows of a table with their heads, without page head and title: what listings use.
+pub fn grid(table: &Table, units: UnitSystem) -> Vec<String> {
+    lay_out(table, units, format::report)
 }
 
-/// As [`grid`], every column to the right.
-pub fn grid_right(table: &Table, units: UnitSystem) -> Vec<String> {
-    let mut copy = table.clone();
-    for column in &mut copy.columns {
-        // an empty integer column never shows, but keeps texts that are numbers to the right
-        column.cells.push(Cell::Integer(0));
+/// As [`grid`] with three digits more and the row numbers `numbers` (from 0) counted from 1: what `VIEW` shows.
+pub fn view(table: &Table, numbers: &[usize], units: UnitSystem) -> Vec<String> {
+    let mut lines = lay_out(table, units, format::view);
+    let heads = lines.len().saturating_sub(numbers.len() + 1);
+    for (index, line) in lines.iter_mut().enumerate() {
+        let label = match index.checked_sub(heads) {
+            None => "     ".to_string(),
+            Some(0) => "-----".to_string(),
+            Some(row) => format!("{:>5}", numbers.get(row - 1).map_or(0, |n| n + 1)),
+        };
+        line.insert_str(0, &label);
+        line.truncate(line.trim_end().len());
     }
-    let mut lines = grid(&copy, &[], units);
-    lines.pop();
     lines
 }
 
-/// Aligns rows with comfy-table and adds group heads and dashes.
-fn lay_out(table: &Table, rows: &[Vec<String>], heads: usize, text_column: &[bool]) -> Vec<String> {
+/// How a cell becomes text.
+type Shown = fn(&Cell, Dim, Digits, UnitSystem) -> String;
+
+/// Aligns the rows with comfy-table and adds heads, units, group heads and dashes. Numbers stand to the right.
+fn lay_out(table: &Table, units: UnitSystem, shown: Shown) -> Vec<String> {
+    let mut rows: Vec<Vec<String>> = vec![
+        table.columns.iter().map(|c| c.name.clone()).collect(),
+        table.columns.iter().map(|c| c.dim.label(units)).collect(),
+    ];
+    rows.retain(|row| row.iter().any(|text| !text.is_empty()));
+    let heads = rows.len();
+    let cell = |column: &Column, row: usize| {
+        column.cells.get(row).map_or(String::new(), |cell| shown(cell, column.dim, column.digits, units))
+    };
+    rows.extend((0..table.rows()).map(|row| table.columns.iter().map(|c| cell(c, row)).collect()));
     let mut grid = Grid::new();
     grid.load_style(NOTHING);
-    for row in rows {
+    for row in &rows {
         grid.add_row(row);
     }
-    for (index, text) in text_column.iter().enumerate() {
-        if let Some(column) = grid.column_mut(index) {
-            let side = if *text { CellAlignment::Left } else { CellAlignment::Right };
-            column.set_cell_alignment(side);
-            column.set_padding((1, 1));
+    for (index, column) in table.columns.iter().enumerate() {
+        let words = column.cells.iter().all(|c| matches!(c, Cell::Text(_) | Cell::Missing));
+        if let Some(place) = grid.column_mut(index) {
+            place.set_cell_alignment(if words { CellAlignment::Left } else { CellAlignment::Right });
+            place.set_padding((1, 1));
         }
     }
     let mut lines: Vec<String> = grid.lines().map(|l| l.trim_end().to_string()).collect();
-    let widths: Vec<usize> = (0..text_column.len())
-        .map(|i| rows.iter().filter_map(|r| r.get(i)).map(String::len).max().unwrap_or(0) + 2)
-        .collect();
-    let total: usize = widths.iter().sum();
-    lines.insert(heads.min(lines.len()), "-".repeat(total));
+    let width = |i: usize| rows.iter().filter_map(|r| r.get(i)).map(|t| t.chars().count()).max().unwrap_or(0) + 2;
+    let widths: Vec<usize> = (0..table.columns.len()).map(width).collect();
+    lines.insert(heads.min(lines.len()), "-".repeat(widths.iter().sum()));
     if let Some(groups) = group_heads(table, &widths) {
         lines.insert(0, groups);
     }
@@ -182,8 +172,6 @@ pub fn centre(text: &str, width: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::language::units::Dim;
-    use crate::table::Digits;
 
     #[test]
     fn a_report_has_its_title_units_groups_and_aligned_rows() {
@@ -195,7 +183,7 @@ mod tests {
         table.push(vec![0.3048.into(), 44_482.216_152_605.into(), 0.25.into()]).unwrap();
         table.note("said once");
         let head = PageHead { titles: ["Title".into(), String::new()], ..PageHead::default() };
-        let text = render(&table, &[], UnitSystem::default(), &head);
+        let text = render(&table, UnitSystem::default(), &head);
         let want = "
 ************************************************************************
 *                           *** WINDLASS ***                           *

@@ -254,9 +254,20 @@ impl Interpreter {
             } else if let Some(name) = control.filter(|n| specs::CONTROL.iter().any(|s| s.name == *n)) {
                 self.control(name, &record, world)?;
             } else {
-                return Ok(Step::Record(substitute(&record, &self.variables, world)?));
+                let record = substitute(&record, &self.variables, world)?;
+                self.take_assignments(world, record.whole())?;
+                return Ok(Step::Record(record));
             }
+            self.take_assignments(world, Span::default())?;
         }
+    }
+
+    /// Sets the variables that string functions (`&F_READ`) have filled.
+    fn take_assignments(&mut self, world: &mut dyn World, span: Span) -> Outcome<()> {
+        for (name, value) in world.assignments() {
+            self.variables.set(&name, &value).map_err(|e| Diagnostic::error(e.to_string(), span))?;
+        }
+        Ok(())
     }
 
     /// The next raw record, or what to tell the session when the innermost place is empty.

@@ -1,0 +1,75 @@
+//! `~NAME TYPE ...`: defines a class, or adds a segment to one.
+
+use super::{Call, Command, Effect, Job};
+use crate::connector::CLASSES;
+use crate::language::args;
+use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::select::choose;
+use crate::language::spec::{CommandSpec, Form};
+use crate::model::{Class, ClassRecord, Model};
+
+/// ~CLASS.
+pub static CLASS: Command = Command { spec: &SPEC, edits: false, run };
+
+static SPEC: CommandSpec = CommandSpec {
+    menus: &["INMODEL", "MEDIT"],
+    form: Form::Text,
+    detail: "Repeating the name of a line class adds the next segment, fairlead first; for the other types it replaces the \
+             class. &HELP ~CLASS TYPE shows a type.",
+    example: "MEDIT\n~WIRE B_CAT 4 -LEN 2000\n~WIRE B_CAT 3.5 -LEN 1000\nEND",
+    ..CommandSpec::new("~CLASS", "NAME TYPE ...: defines a class")
+};
+
+fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let [name, rest @ ..] = call.words else { return Ok(Effect::Done) };
+    let known = || CLASSES.iter().map(|k| (k.spec.name, k.spec.owner, *k));
+    let Some(word) = rest.first() else {
+        let types: Vec<&str> = known().map(|(n, _, _)| n).collect();
+        return Err(Diagnostic::error(format!("class {} lacks its type", name.text), name.span)
+            .label("expected a class type after this")
+            .help(format!("known: {}", types.join(" "))));
+    };
+    if name.text.len() < 2 || name.text.chars().count() > args::LONGEST_NAME {
+        return Err(Diagnostic::error(format!("`{}` cannot name a class", name.text), name.span)
+            .label(format!("expected ~ and up to {} characters", args::LONGEST_NAME - 1)));
+    }
+    let kind = choose(&word.text, word.span, "class type", known())?;
+    let read = args::read(kind.spec, name.span, rest.get(1..).unwrap_or_default(), job.units)?;
+    let record = ClassRecord { args: read, defaults: job.model.defaults };
+    let key = Model::key(&name.text);
+    let mut records = vec![record];
+    let mut remark = None;
+    let mut span = name.span;
+    if let Some(class) = job.model.classes.get(&key) {
+        if class.object.kind() != kind.spec.name {
+            return Err(Diagnostic::error(format!("{} is a {} already", class.name, class.object.kind()), word.span)
+                .other(class.span, "defined here")
+                .help(format!("DELETE {} first, or use another name", class.name)));
+        }
+        let users = job.model.users_of_class(&name.text);
+        if kind.segmented {
+            if let Some(user) = users.first() {
+                return Err(Diagnostic::error(
+                    format!("{} is used by connector {user}; a further segment would change it", class.name),
+                    name.span,
+                )
+                .other(class.span, "defined here")
+                .help("define all segments before the connector, or DELETE the connector first"));
+            }
+            records = class.records.iter().cloned().chain(records).collect();
+            span = class.span;
+        } else {
+            remark = Some(match users.len() {
+                0 => format!("{} is replaced", class.name),
+                n => format!("{} is replaced; {n} connectors use it", class.name),
+            });
+        }
+    }
+    let object = (kind.build)(&records)?;
+    job.model.classes.insert(key, Class { name: name.text.to_string(), records, object, span });
+    job.note_name(&name.text, name.span);
+    if let Some(text) = remark {
+        job.remark(text, name.span);
+    }
+    Ok(Effect::Done)
+}

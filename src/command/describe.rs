@@ -1,0 +1,226 @@
+//! `&DESCRIBE`, points, and `&INSTATE`.
+
+use super::{Call, Command, Effect, Job};
+use crate::language::args::LONGEST_NAME;
+use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::record::Word;
+use crate::language::spec::{CommandSpec, Form, Kind, Noun, OptionSpec, ValueSpec};
+use crate::language::units::Dim;
+use crate::model::{Body, Coordinates, GROUND, Model, Part, Place, Point, find};
+
+/// &DESCRIBE.
+pub static DESCRIBE: Command = Command { spec: &DESCRIBE_SPEC, edits: false, run: describe };
+/// *POINT.
+pub static POINT: Command = Command { spec: &POINT_SPEC, edits: false, run: point };
+/// &INSTATE.
+pub static INSTATE: Command = Command { spec: &INSTATE_SPEC, edits: true, run: instate };
+
+/// Most bodies (reference/model.md).
+const MOST_BODIES: usize = 50;
+
+const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
+    ValueSpec::new(name, Kind::Number(dim), help)
+}
+const PLACE: [ValueSpec; 6] = [
+    number("X", Dim::Length, "X").or("0"),
+    number("Y", Dim::Length, "Y").or("0"),
+    number("Z", Dim::Length, "Z").or("0"),
+    number("RX", Dim::Angle, "roll").or("0"),
+    number("RY", Dim::Angle, "pitch").or("0"),
+    number("RZ", Dim::Angle, "yaw").or("0"),
+];
+const BODY: ValueSpec = ValueSpec::new("BODY", Kind::Name(Noun::Body), "body");
+const LOCATION: &[ValueSpec] = &[BODY, PLACE[0], PLACE[1], PLACE[2], PLACE[3], PLACE[4], PLACE[5]];
+
+static DESCRIBE_SPEC: CommandSpec = CommandSpec {
+    data: &[
+        ValueSpec::new("KIND", Kind::Choice(&["BODY", "PART"]), "what is described"),
+        ValueSpec::new("NAME", Kind::Name(Noun::New), "its name"),
+    ],
+    options: &[
+        OptionSpec::new("-MOVE", &PLACE, "places a part in its body"),
+        OptionSpec::new(
+            "-IGNORE",
+            &[ValueSpec::new("DOF", Kind::Choice(&["X", "Y", "Z", "RX", "RY", "RZ"]), "degree of freedom")],
+            "degrees of freedom of a body left out",
+        )
+        .repeating(1),
+    ],
+    detail: "Points that follow belong to the body or part described last. Describing a known name again goes on with it.",
+    example: "&DESCRIBE BODY TBRG\n&DESCRIBE PART DECK -MOVE 0 0 20\n&STATUS BODIES",
+    ..CommandSpec::new("&DESCRIBE", "describes a body or a part")
+};
+
+static POINT_SPEC: CommandSpec = CommandSpec {
+    menus: &["INMODEL", "MEDIT"],
+    data: &[
+        number("X", Dim::Length, "x, or the radius").or("0"),
+        number("Y", Dim::Length, "y (with &DEFAULT -CYLINDER or -SPHERICAL: the angle in degrees)").or("0"),
+        number("Z", Dim::Length, "z (with -SPHERICAL: the angle above the plane)").or("0"),
+    ],
+    form: Form::Text,
+    detail: "In the system of the part described last; before any &DESCRIBE a point belongs to GROUND, in the global system.",
+    example: "MEDIT\n*MLA 400 50 20\nEND\n&STATUS POINTS",
+    ..CommandSpec::new("*POINT", "X Y Z: defines a point")
+};
+
+static INSTATE_SPEC: CommandSpec = CommandSpec {
+    options: &[
+        OptionSpec::new("-LOCATE", LOCATION, "places a body").many(),
+        OptionSpec::new("-MOVE", LOCATION, "moves a body from where it is").many(),
+        OptionSpec::new(
+            "-CONDITION",
+            &[
+                number("DRAFT", Dim::Length, "draft of the body's origin below the surface").or("0"),
+                number("ROLL", Dim::Angle, "roll").or("0"),
+                number("TRIM", Dim::Angle, "trim").or("0"),
+            ],
+            "sets draft, roll and trim of the body described last",
+        ),
+        OptionSpec::new("-PREVIOUS", &[], "puts every body back to where it was before"),
+    ],
+    detail: "Angles: yaw about Z, then pitch about Y, then roll about X, about the axes already turned.",
+    example: "&DESCRIBE BODY TBRG\n&INSTATE -LOCATE TBRG 0 0 -9\n&INSTATE -MOVE TBRG 10\n&STATUS CONFIGURATION",
+    ..CommandSpec::new("&INSTATE", "sets the initial configuration")
+};
+
+fn describe(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let name = args.word(1).unwrap_or_default().to_string();
+    let (key, span) = (Model::key(&name), args.place(1));
+    let model = &mut job.model;
+    if name.starts_with(['~', '*', ':', '#', '&', '%']) || key == GROUND {
+        return Err(Diagnostic::error(format!("`{name}` cannot name a body or part"), span));
+    }
+    if args.word(0) == Some("BODY") {
+        if args.has("-MOVE") {
+            return Err(Diagnostic::error("-MOVE places a part, not a body", args.place(0))
+                .help("&INSTATE -LOCATE places a body"));
+        }
+        if !model.bodies.contains_key(&key) {
+            if model.bodies.len() >= MOST_BODIES {
+                return Err(Diagnostic::error(format!("a model has at most {MOST_BODIES} bodies"), span));
+            }
+            let place = Place::default();
+            let body = Body { name: name.clone(), place, previous: place, ignored: Vec::new(), span };
+            model.bodies.insert(key.clone(), body);
+            model.parts.insert(key.clone(), Part { name: name.clone(), body: name.clone(), place, span });
+        }
+        if let (Some(given), Some(body)) = (args.option("-IGNORE"), model.bodies.get_mut(&key)) {
+            body.ignored = given.values.iter().filter_map(|v| v.word()).map(str::to_string).collect();
+        }
+    } else {
+        let place = args.option("-MOVE").map(|g| place_of(&g.values));
+        match model.parts.get_mut(&key) {
+            Some(part) => part.place = place.unwrap_or(part.place),
+            None => {
+                let body = model
+                    .current_part
+                    .as_ref()
+                    .and_then(|p| model.parts.get(&Model::key(p)))
+                    .map(|p| p.body.clone())
+                    .ok_or_else(|| Diagnostic::error("a part belongs to a body, and none is described yet", span))?;
+                model.parts.insert(key, Part { name: name.clone(), body, place: place.unwrap_or_default(), span });
+            }
+        }
+    }
+    model.current_part = Some(name.clone());
+    job.note_name(&name, span);
+    Ok(Effect::Done)
+}
+
+fn place_of(values: &[crate::language::args::Value]) -> Place {
+    let numbers = values.iter().filter(|v| v.word().is_none()).map(|v| v.number().unwrap_or(0.0));
+    let mut six = [0.0; 6];
+    for (slot, value) in six.iter_mut().zip(numbers) {
+        *slot = value;
+    }
+    Place::new(six)
+}
+
+fn point(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let [name, rest @ ..] = call.words else { return Ok(Effect::Done) };
+    check_point_name(name)?;
+    let args = crate::language::args::read(&POINT_SPEC, name.span, rest, job.units)?;
+    let at = [0, 1, 2].map(|i| args.number(i).unwrap_or(0.0));
+    // the angles of the other modes are degrees, not lengths
+    let angle = |value: f64| Dim::Length.from_si(value, job.units).to_radians();
+    let [a, b, c] = at;
+    let at = match job.model.defaults.coordinates {
+        Coordinates::Rectangular => at,
+        Coordinates::Cylindrical => [a * angle(b).cos(), a * angle(b).sin(), c],
+        Coordinates::Spherical => {
+            let flat = a * angle(c).cos();
+            [flat * angle(b).cos(), flat * angle(b).sin(), a * angle(c).sin()]
+        }
+    };
+    let part = job.model.current_part.clone().unwrap_or_else(|| GROUND.to_string());
+    let key = Model::key(&name.text);
+    let made = Point { name: name.text.to_string(), part, at, span: name.span };
+    if let Some(old) = job.model.points.insert(key, made) {
+        let users = job.model.users_of_point(&name.text).len();
+        job.remark(
+            match users {
+                0 => format!("point {} is redefined", old.name),
+                n => format!("point {} is redefined; {n} connectors use it", old.name),
+            },
+            name.span,
+        );
+    }
+    job.note_name(&name.text, name.span);
+    Ok(Effect::Done)
+}
+
+fn check_point_name(name: &Word) -> Outcome<()> {
+    let count = name.text.chars().count();
+    if (2..=LONGEST_NAME).contains(&count) {
+        return Ok(());
+    }
+    Err(Diagnostic::error(format!("`{}` cannot name a point", name.text), name.span)
+        .label(format!("expected * and up to {} characters", LONGEST_NAME - 1)))
+}
+
+fn instate(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let model = &mut job.model;
+    let before: Vec<Place> = model.bodies.values().map(|b| b.place).collect();
+    for given in &call.args.options {
+        let body = given.word(0).map(|name| {
+            find(&model.bodies, name, "body", given.values.first().map_or(given.span, |v| v.span))
+                .map(|b| Model::key(&b.name))
+        });
+        match given.spec.name {
+            "-PREVIOUS" => {
+                for body in model.bodies.values_mut() {
+                    std::mem::swap(&mut body.place, &mut body.previous);
+                }
+                return Ok(Effect::Done);
+            }
+            "-CONDITION" => {
+                let part = model
+                    .current_part
+                    .as_ref()
+                    .and_then(|p| model.parts.get(&Model::key(p)))
+                    .map(|p| Model::key(&p.body));
+                let body = part.and_then(|key| model.bodies.get_mut(&key)).ok_or_else(|| {
+                    Diagnostic::error("no body is described yet", given.span).help("&DESCRIBE BODY describes one")
+                })?;
+                let at = |i: usize| given.number(i).unwrap_or(0.0);
+                body.place.shift[2] = -at(0);
+                body.place.turn = [at(1), at(2), body.place.turn[2]];
+            }
+            name => {
+                let Some(key) = body.transpose()? else { continue };
+                let place = place_of(given.values.get(1..).unwrap_or_default());
+                if let Some(body) = model.bodies.get_mut(&key) {
+                    let values = body.place.values();
+                    let moved = [0, 1, 2, 3, 4, 5].map(|i| values[i] + place.values()[i]);
+                    body.place = if name == "-LOCATE" { place } else { Place::new(moved) };
+                }
+            }
+        }
+    }
+    for (body, place) in model.bodies.values_mut().zip(before) {
+        body.previous = place;
+    }
+    Ok(Effect::Done)
+}

@@ -1,0 +1,146 @@
+//! `&DEVICE`: how the program behaves.
+
+use super::{Call, Command, Effect, Job};
+use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::select::Owner;
+use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use std::path::{Path, PathBuf};
+
+/// &DEVICE.
+pub static DEVICE: Command = Command { spec: &SPEC, edits: false, run };
+
+const YES_NO: ValueSpec = ValueSpec::new("YES/NO", Kind::Choice(&["YES", "NO"]), "on or off").or("YES");
+const FILE: ValueSpec = ValueSpec::new("FILE", Kind::File, "file name");
+const ANY: ValueSpec = ValueSpec::new("VALUE", Kind::Text, "as MOSES takes it").or("none");
+
+/// An option of MOSES that has no meaning here: it is read, kept out of the way and said.
+const fn unused(name: &'static str) -> OptionSpec {
+    OptionSpec::new(name, &[ANY], "read and without effect: windlass has no such device")
+}
+
+static SPEC: CommandSpec = CommandSpec {
+    options: &[
+        OptionSpec::new("-BATCH", &[YES_NO], "stops at the first error").default("NO"),
+        OptionSpec::new(
+            "-LIMERROR",
+            &[ValueSpec::new("N", Kind::Integer, "errors").within(1.0, 1e9)],
+            "errors after which a script ends",
+        )
+        .default("10"),
+        OptionSpec::new("-SET_DATE", &[ValueSpec::new("DATE", Kind::Text, "date as printed")], "date of reports")
+            .default("today"),
+        OptionSpec::new("-OECHO", &[YES_NO], "shows the records as they are executed").default("NO"),
+        OptionSpec::new("-MECHO", &[YES_NO], "the same: shows the records as they are executed").default("NO"),
+        OptionSpec::new("-SILENT", &[YES_NO], "prints nothing on the screen but messages").default("NO"),
+        OptionSpec::new(
+            "-NAME_FIGURE",
+            &[ValueSpec::new("NAME", Kind::Text, "prefix")],
+            "prefix of the names of figures",
+        )
+        .default("FIGURE"),
+        OptionSpec::new(
+            "-FIG_NUM",
+            &[ValueSpec::new("N", Kind::Integer, "number").within(1.0, 1e6)],
+            "number of the next figure",
+        )
+        .default("1"),
+        OptionSpec::new("-AUXIN", &[FILE], "file INMODEL reads instead of ROOT.DAT"),
+        OptionSpec::new("-IAUXIN", &[FILE], "the same as -AUXIN"),
+        OptionSpec::new("-COMIN", &[FILE], "reads commands from a file next"),
+        OptionSpec::new("-ICOMIN", &[FILE], "the same as -COMIN"),
+        OptionSpec::new(
+            "-RECORDS",
+            &[ValueSpec::new("N", Kind::Integer, "records").within(1.0, 1e15)],
+            "records a run may execute",
+        )
+        .default("2000000")
+        .owner(Owner::Ours),
+        OptionSpec::new(
+            "-PLOT_SIZE",
+            &[
+                ValueSpec::new("COLUMNS", Kind::Integer, "columns").within(40.0, 200.0),
+                ValueSpec::new("LINES", Kind::Integer, "lines").within(10.0, 100.0),
+            ],
+            "size of plots in the terminal",
+        )
+        .default("90 26")
+        .owner(Owner::Ours),
+        unused("-US_DATE"),
+        unused("-CONT_ENTRY"),
+        unused("-G_DEFAULT"),
+        unused("-IDISPLAY"),
+        unused("-CLIENT"),
+        unused("-FN_LOWER"),
+        unused("-LICENSE"),
+        unused("-PROJ_ID"),
+        unused("-PRIMARY"),
+    ],
+    detail: "File names keep their case; quotes take blanks. -SET_DATE takes its date in quotes when it holds blanks.",
+    example: "&DEVICE -LIMERROR 5 -SET_DATE 2026-11-21",
+    ..CommandSpec::new("&DEVICE", "sets how the program behaves")
+};
+
+fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let mut settings = job.settings.clone();
+    let mut effect = Effect::Done;
+    let mut remarks = Vec::new();
+    for given in &call.args.options {
+        let on = given.word(0).is_none_or(|w| w != "NO");
+        let whole = given.values.first().and_then(|v| v.integer()).unwrap_or(0);
+        let word = given.word(0).unwrap_or_default();
+        match given.spec.name {
+            "-BATCH" => settings.batch = on,
+            "-LIMERROR" => settings.error_limit = whole,
+            "-SET_DATE" => settings.date = Some(word.to_string()),
+            "-OECHO" | "-MECHO" => settings.echo = on,
+            "-SILENT" => settings.silent = on,
+            "-NAME_FIGURE" => settings.figure_name = word.to_string(),
+            "-FIG_NUM" => settings.figure_number = whole,
+            "-AUXIN" | "-IAUXIN" => settings.auxiliary = Some(beside_root(job, word)),
+            "-COMIN" | "-ICOMIN" => {
+                let path = existing(job, word, given.values.first().map_or(given.span, |v| v.span))?;
+                effect = Effect::Insert { name: word.to_string(), path, tag: super::PLAIN };
+            }
+            "-RECORDS" => effect = Effect::Budget(u64::try_from(whole).unwrap_or(u64::MAX)),
+            "-PLOT_SIZE" => {
+                let size =
+                    |i: usize| given.values.get(i).and_then(|v| v.integer()).and_then(|n| usize::try_from(n).ok());
+                settings.plot_size = (size(0).unwrap_or(90), size(1).unwrap_or(26));
+            }
+            other => remarks.push((format!("{other} has no effect in windlass"), given.span)),
+        }
+    }
+    job.settings = settings;
+    for (text, span) in remarks {
+        job.remark(text, span);
+    }
+    Ok(effect)
+}
+
+/// A file name as the user means it: beside the job's root when it has no folder of its own, else as written.
+pub fn beside_root(job: &Job, name: &str) -> PathBuf {
+    let path = Path::new(name);
+    let folder = job.output.folder.root.parent().unwrap_or(Path::new(""));
+    if path.is_absolute() || path.exists() { path.to_path_buf() } else { folder.join(path) }
+}
+
+/// A file to be read: beside the job's root, or as written.
+///
+/// # Errors
+/// A file that is not there.
+pub fn existing(job: &Job, name: &str, span: crate::language::source::Span) -> Outcome<PathBuf> {
+    let path = beside_root(job, name);
+    if path.is_file() {
+        return Ok(path);
+    }
+    let near = path
+        .parent()
+        .and_then(|folder| std::fs::read_dir(if folder.as_os_str().is_empty() { Path::new(".") } else { folder }).ok())
+        .map(|entries| {
+            entries.flatten().take(1000).map(|e| e.file_name().to_string_lossy().into_owned()).collect::<Vec<_>>()
+        })
+        .unwrap_or_default();
+    let mut error = Diagnostic::error(format!("there is no file {}", path.display()), span);
+    error.help.extend(crate::language::diagnostic::did_you_mean(name, near.iter().map(String::as_str)));
+    Err(error)
+}

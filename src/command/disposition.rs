@@ -1,0 +1,365 @@
+//! The disposition menu: what can be done with a result.
+//!
+//! Source: reference/solve.md, "Disposition menu".
+
+use super::{Call, Command, Effect, Job, Menu};
+use crate::language::args::{Args, Given};
+use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::select::Owner;
+use crate::language::source::Span;
+use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
+use crate::language::units::Dim;
+use crate::report::disposition::{Disposition, DispositionError, RowChoice};
+use crate::report::plot::Chart;
+use crate::report::{columns, csv, page, statistic};
+use crate::table::Table;
+
+const MENU: &[&str] = &["DISPOSITION"];
+const COLUMN: ValueSpec =
+    ValueSpec::new("COLUMN", Kind::Name(Noun::Selector), "number, a:b, or name with wild characters");
+const RECORD: OptionSpec = OptionSpec::new(
+    "-RECORD",
+    &[
+        ValueSpec::new("I", Kind::Integer, "first row, from 1").within(1.0, 1e15),
+        ValueSpec::new("J", Kind::Integer, "last row").within(1.0, 1e15),
+    ],
+    "rows I to J (row numbers, not times)",
+);
+const VALUES: OptionSpec = OptionSpec::new(
+    "-VALUES",
+    &[
+        COLUMN,
+        ValueSpec::new("MIN", Kind::Number(Dim::None), "smallest value (user units)"),
+        ValueSpec::new("MAX", Kind::Number(Dim::None), "largest value (user units)"),
+    ],
+    "rows whose column lies within bounds",
+);
+const HARD: OptionSpec = OptionSpec::new("-HARD", &[], "to the report file OUT00001.TXT");
+const BOTH: OptionSpec = OptionSpec::new("-BOTH", &[], "to the screen and the report file");
+const HEADING: OptionSpec = OptionSpec::new(
+    "-HEADING",
+    &[ValueSpec::new("TEXT", Kind::Text, "heading, in quotes when it holds blanks")],
+    "heading above the output",
+);
+const MAG_USE: OptionSpec = OptionSpec::new("-MAG_USE", &[], "uses absolute values");
+
+const EXAMPLE: &str = "MEDIT\n*P 0 0 0\n~W B_CAT 4 -LEN 4000 -DEP 500\nCONNECTOR A ~W *P\nEND\nCONN_DESIGN\nTABLE A\nREPORT X Force\n\
+                       VLIST\nVIEW X 2:4 -RECORD 1 3\nSTORE example.csv\nPLOT X Force\nPLOT X Force figure.svg\nSTATISTIC X Force\n\
+                       SET_VARIABLE TOP 4 -RECORD 30 30\nC_SCALE 0.5 Force\nC_SHIFT 10 X\nCULL Force 0 100\nEND\nEND\nEND";
+
+const fn spec(name: &'static str, help: &'static str) -> CommandSpec {
+    CommandSpec { menus: MENU, example: EXAMPLE, ..CommandSpec::new(name, help) }
+}
+
+/// REPORT.
+pub static REPORT: Command = Command { spec: &REPORT_SPEC, edits: false, run: report };
+/// VLIST.
+pub static VLIST: Command = Command { spec: &VLIST_SPEC, edits: false, run: vlist };
+/// VIEW.
+pub static VIEW: Command = Command { spec: &VIEW_SPEC, edits: false, run: view };
+/// STORE.
+pub static STORE: Command = Command { spec: &STORE_SPEC, edits: false, run: store };
+/// PLOT.
+pub static PLOT: Command = Command { spec: &PLOT_SPEC, edits: false, run: plot };
+/// STATISTIC.
+pub static STATISTIC: Command = Command { spec: &STATISTIC_SPEC, edits: false, run: statistics };
+/// SET_VARIABLE.
+pub static SET_VARIABLE: Command = Command { spec: &SET_VARIABLE_SPEC, edits: false, run: set_variable };
+/// C_SCALE.
+pub static C_SCALE: Command = Command { spec: &C_SCALE_SPEC, edits: false, run: scale };
+/// C_SHIFT.
+pub static C_SHIFT: Command = Command { spec: &C_SHIFT_SPEC, edits: false, run: shift };
+/// CULL.
+pub static CULL: Command = Command { spec: &CULL_SPEC, edits: false, run: cull };
+
+const ANY_COLUMN: ValueSpec = COLUMN.or("all columns");
+static REPORT_SPEC: CommandSpec = CommandSpec {
+    data: &[ANY_COLUMN],
+    repeat: 1,
+    options: &[RECORD, VALUES, HARD, BOTH, HEADING],
+    detail: "The formatted report; C_SCALE and C_SHIFT do not act on it.",
+    ..spec("REPORT", "prints the formatted report")
+};
+static VLIST_SPEC: CommandSpec = spec("VLIST", "lists the columns with their units and ranges");
+static VIEW_SPEC: CommandSpec = CommandSpec {
+    data: &[ANY_COLUMN],
+    repeat: 1,
+    options: &[RECORD, VALUES, HARD, BOTH, HEADING, MAG_USE],
+    detail: "With row numbers and three digits more than the report; C_SCALE and C_SHIFT act.",
+    ..spec("VIEW", "shows columns")
+};
+static STORE_SPEC: CommandSpec = CommandSpec {
+    data: &[ValueSpec::new("FILE", Kind::File, "file name; .csv is added when it has no ending"), ANY_COLUMN],
+    repeat: 1,
+    options: &[RECORD, VALUES, MAG_USE],
+    detail: "CSV: a header of the column names with units, then numbers with full precision. A name without a folder goes to \
+             the job's folder.",
+    ..spec("STORE", "writes columns to a CSV file")
+};
+static PLOT_SPEC: CommandSpec = CommandSpec {
+    data: &[COLUMN, COLUMN, ANY_COLUMN],
+    repeat: 1,
+    options: &[
+        RECORD,
+        VALUES,
+        HEADING,
+        MAG_USE,
+        OptionSpec::new("-NO", &[], "accepted: nothing is asked before plotting"),
+        OptionSpec::new("-HARD", &[], "to the next figure file, FIGUREn.svg"),
+        OptionSpec::new(
+            "-FILE",
+            &[ValueSpec::new("FILE", Kind::File, "file name ending in .svg or .png")],
+            "to a file",
+        )
+        .owner(Owner::Ours),
+    ],
+    detail: "The first column is the independent one. A last word that ends in .svg or .png is a file name; without one the \
+             plot is drawn in the terminal.",
+    ..spec("PLOT", "plots columns against the first one")
+};
+static STATISTIC_SPEC: CommandSpec = CommandSpec {
+    data: &[COLUMN, ANY_COLUMN],
+    repeat: 1,
+    options: &[RECORD, VALUES, HARD, BOTH, MAG_USE],
+    detail: "The first column is the independent one; the extremes are given with their place in it.",
+    ..spec("STATISTIC", "mean, deviation and extremes of columns")
+};
+static SET_VARIABLE_SPEC: CommandSpec = CommandSpec {
+    data: &[ValueSpec::new("VAR", Kind::Text, "global variable"), COLUMN],
+    options: &[RECORD, VALUES],
+    ..spec("SET_VARIABLE", "puts the values of a column into a variable")
+};
+static C_SCALE_SPEC: CommandSpec = CommandSpec {
+    data: &[ValueSpec::new("F", Kind::Number(Dim::None), "factor"), COLUMN],
+    repeat: 1,
+    detail: "Lasts until END; acts on all but REPORT.",
+    ..spec("C_SCALE", "multiplies columns by a factor")
+};
+static C_SHIFT_SPEC: CommandSpec = CommandSpec {
+    data: &[ValueSpec::new("F", Kind::Number(Dim::None), "number to add (user units)"), COLUMN],
+    repeat: 1,
+    detail: "Lasts until END; acts on all but REPORT.",
+    ..spec("C_SHIFT", "adds a number to columns")
+};
+static CULL_SPEC: CommandSpec = CommandSpec {
+    data: &[
+        COLUMN,
+        ValueSpec::new("LO", Kind::Number(Dim::None), "smallest value (user units)"),
+        ValueSpec::new("HI", Kind::Number(Dim::None), "largest value (user units)"),
+    ],
+    repeat: 3,
+    detail: "Opens an inner disposition menu over the rows kept; END returns.",
+    ..spec("CULL", "keeps the rows within bounds")
+};
+
+fn here(job: &Job, span: Span) -> Outcome<&Disposition> {
+    match job.menu() {
+        Menu::Disposition(d) => Ok(d),
+        _ => Err(Diagnostic::error("no result is being disposed of", span)),
+    }
+}
+
+/// An error of the library at the word it is about, else at the command.
+fn refused(args: &Args, error: &DispositionError) -> Box<Diagnostic> {
+    let named = match error {
+        DispositionError::Column(c) => args.data.iter().find(|v| v.word() == Some(&c.name)).map(|v| v.span),
+        DispositionError::Rows { .. } => args.option("-RECORD").map(|g| g.span),
+        DispositionError::NoRow => args.option("-VALUES").map(|g| g.span),
+        _ => None,
+    };
+    Diagnostic::error(error.to_string(), named.unwrap_or(args.span)).help("VLIST lists the columns")
+}
+
+fn selectors(args: &Args, from: usize) -> Vec<&str> {
+    args.data.get(from..).unwrap_or_default().iter().filter_map(|v| v.word()).collect()
+}
+
+fn rows(args: &Args) -> RowChoice {
+    let whole = |g: &Given, i: usize| g.values.get(i).and_then(|v| v.integer()).unwrap_or(0);
+    RowChoice {
+        record: args.option("-RECORD").map(|g| (whole(g, 0), whole(g, 1))),
+        values: args.option("-VALUES").map(|g| {
+            (g.word(0).unwrap_or_default().to_string(), g.number(1).unwrap_or(0.0), g.number(2).unwrap_or(0.0))
+        }),
+    }
+}
+
+/// The columns a record chooses, as a table with scales, shifts and -MAG_USE applied.
+fn chosen(job: &Job, args: &Args, from: usize) -> Outcome<Table> {
+    let d = here(job, args.span)?;
+    let result = d.columns(&selectors(args, from)).and_then(|c| d.extract(&c, &rows(args), true, job.units));
+    let mut table = result.map_err(|e| refused(args, &e))?;
+    if args.has("-MAG_USE") {
+        for cell in table.columns.iter_mut().flat_map(|c| c.cells.iter_mut()) {
+            if let crate::table::Cell::Number(value) = cell {
+                *value = value.abs();
+            }
+        }
+    }
+    Ok(table)
+}
+
+/// Sends text where -HARD and -BOTH say.
+fn send(job: &mut Job, args: &Args, text: &str) -> Outcome<()> {
+    let hard = args.has("-HARD") || args.has("-BOTH");
+    let heading = args.option_word("-HEADING").map(|h| format!("{h}\n\n")).unwrap_or_default();
+    let text = format!("{heading}{text}");
+    if hard {
+        job.output.hard(&text).map_err(|e| Diagnostic::error(e.to_string(), args.span))?;
+    }
+    if !hard || args.has("-BOTH") {
+        job.say(&text);
+    }
+    Ok(())
+}
+
+fn report(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let d = here(job, args.span)?;
+    let table = d
+        .columns(&selectors(args, 0))
+        .and_then(|c| d.extract(&c, &rows(args), false, job.units))
+        .map_err(|e| refused(args, &e))?;
+    let text = page::render(&table, job.units, &job.page_head());
+    send(job, args, &text)?;
+    Ok(Effect::Done)
+}
+
+fn vlist(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let lines = here(job, call.args.span)?.vlist(job.units).join("\n");
+    job.say(&lines);
+    Ok(Effect::Done)
+}
+
+fn view(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let numbers = {
+        let d = here(job, args.span)?;
+        d.rows(&rows(args), job.units).map_err(|e| refused(args, &e))?
+    };
+    let table = chosen(job, args, 0)?;
+    let text = page::view(&table, &numbers, job.units).join("\n");
+    send(job, args, &text)?;
+    Ok(Effect::Done)
+}
+
+fn store(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let table = chosen(job, args, 1)?;
+    let name = args.word(0).unwrap_or_default();
+    let name = if std::path::Path::new(name).extension().is_some() { name.to_string() } else { format!("{name}.csv") };
+    let bytes = csv::bytes(&table, job.units).map_err(|e| Diagnostic::error(e.to_string(), args.place(0)))?;
+    write_file(job, &name, &bytes, args.place(0))?;
+    Ok(Effect::Done)
+}
+
+fn write_file(job: &mut Job, name: &str, bytes: &[u8], span: Span) -> Outcome<()> {
+    let path = job.output.folder.write(name, bytes).map_err(|e| Diagnostic::error(e.to_string(), span))?;
+    let text = format!("wrote {}", path.display());
+    job.say(&text);
+    Ok(())
+}
+
+fn plot(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let mut args = call.args.clone();
+    let is_file = |w: &str| [".svg", ".png"].iter().any(|e| w.to_ascii_lowercase().ends_with(e));
+    let mut file = args.option("-FILE").and_then(|g| g.values.first().cloned());
+    if file.is_none() && args.data.last().and_then(|v| v.word()).is_some_and(is_file) {
+        file = args.data.pop();
+    }
+    let here = here(job, args.span)?;
+    let numbers = here.numeric(&selectors(&args, 0)).map_err(|e| refused(&args, &e))?;
+    if numbers.len() < 2 {
+        return Err(Diagnostic::error("a plot needs the independent column and at least one more", args.span)
+            .help("VLIST lists the columns"));
+    }
+    let table = chosen(job, &args, 0)?;
+    let mut chart = Chart::of(&table, job.units);
+    if let Some(heading) = args.option_word("-HEADING") {
+        chart.title = heading.to_string();
+    }
+    let wrong = |e: crate::report::plot::PlotError| Diagnostic::error(e.to_string(), args.span);
+    let name = match file {
+        Some(value) => value.word().map(str::to_string),
+        None if args.has("-HARD") => {
+            let name = format!("{}{}.svg", job.settings.figure_name, job.settings.figure_number);
+            job.settings.figure_number += 1;
+            Some(name)
+        }
+        None => None,
+    };
+    match name {
+        Some(name) => {
+            let bytes = chart.file(&name).map_err(wrong)?;
+            write_file(job, &name, &bytes, args.span)?;
+        }
+        None => {
+            let (columns, lines) = job.settings.plot_size;
+            let text = chart.terminal(columns, lines).map_err(wrong)?;
+            job.say(&text);
+        }
+    }
+    Ok(Effect::Done)
+}
+
+fn statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    here(job, args.span)?.numeric(&selectors(args, 0)).map_err(|e| refused(args, &e))?;
+    let table = chosen(job, args, 0)?;
+    let count = table.columns.len();
+    let (independent, described) = if count > 1 { (Some(0), (1..count).collect()) } else { (None, vec![0]) };
+    let made = statistic::in_units(&table, independent, &described, job.units);
+    let text = format!("{}\n\n{}", made.title, page::grid(&made, job.units).join("\n"));
+    send(job, args, &text)?;
+    Ok(Effect::Done)
+}
+
+fn set_variable(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let name = args.word(0).unwrap_or_default();
+    let good = name.len() <= 64 && !name.is_empty() && name.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_');
+    if !good {
+        return Err(Diagnostic::error(format!("`{name}` cannot name a variable"), args.place(0)));
+    }
+    let d = here(job, args.span)?;
+    let text = d.values(args.word(1).unwrap_or_default(), &rows(args), job.units).map_err(|e| refused(args, &e))?;
+    Ok(Effect::Set(name.to_string(), text))
+}
+
+fn adjust(
+    job: &mut Job,
+    args: &Args,
+    change: impl Fn(&mut Disposition, f64, &[&str]) -> Result<Vec<usize>, DispositionError>,
+) -> Outcome<Effect> {
+    let value = args.number(0).unwrap_or(0.0);
+    if let Some(Menu::Disposition(d)) = job.menus.last_mut() {
+        change(d, value, &selectors(args, 1)).map_err(|e| refused(args, &e))?;
+    }
+    Ok(Effect::Done)
+}
+
+fn scale(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    adjust(job, &call.args, |d, v, s| d.scale(v, s))
+}
+
+fn shift(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    adjust(job, &call.args, |d, v, s| d.shift(v, s))
+}
+
+fn cull(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let bounds: Vec<(String, f64, f64)> = args
+        .data
+        .chunks_exact(3)
+        .filter_map(|g| match g {
+            [c, lo, hi] => Some((c.word()?.to_string(), lo.number()?, hi.number()?)),
+            _ => None,
+        })
+        .collect();
+    let table = here(job, args.span)?.cull(&bounds, job.units).map_err(|e| refused(args, &e))?;
+    let kept = table.rows();
+    job.menus.push(Menu::Disposition(Box::new(Disposition::new(table))));
+    let names: Vec<String> = here(job, args.span)?.table.columns.iter().map(columns::long_name).collect();
+    job.say(&format!("{kept} rows of {} columns kept; END returns to all rows", names.len()));
+    Ok(Effect::Done)
+}

@@ -1,0 +1,260 @@
+//! `&ENV`: wind, waves, current, water.
+//!
+//! Source: reference/model.md, "Environment".
+
+use super::{Call, Command, Effect, Job};
+use crate::language::args::{Args, Given};
+use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::source::Span;
+use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
+use crate::language::units::Dim;
+use crate::model::{Current, CurveKind, Environment, Model, Sea, TimeWindow, Wind, find};
+
+/// &ENV.
+pub static ENV: Command = Command { spec: &ENV_SPEC, edits: false, run };
+/// ENV within `&DATA ENVIRONMENT`.
+pub static NAMED_ENV: Command = Command { spec: &NAMED_SPEC, edits: false, run: define };
+
+const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
+    ValueSpec::new(name, Kind::Number(dim), help)
+}
+const fn text(name: &'static str, help: &'static str) -> ValueSpec {
+    ValueSpec::new(name, Kind::Text, help)
+}
+const fn curve(help: &'static str) -> ValueSpec {
+    ValueSpec::new("NAME", Kind::Name(Noun::Curve), help)
+}
+
+const SEA: &[ValueSpec] = &[
+    text("NAME", "ISSC, JONSWAP, 2JONSWAP, REGULAR, or a spectrum curve"),
+    number("DIR", Dim::Angle, "direction it comes from"),
+    number("HS", Dim::Length, "significant height, or height of a regular wave").not_negative(),
+    number("PERIOD", Dim::Time, "period").positive(),
+    number("GAMMA", Dim::None, "peakedness").or("that of the spectrum").within(0.5, 20.0),
+];
+const PERIODS: &[ValueSpec] = &[number("T", Dim::Time, "period").positive()];
+
+const OPTIONS: &[OptionSpec] = &[
+    OptionSpec::new("-DURATION", &[number("D", Dim::Days, "days").not_negative()], "days, for fatigue"),
+    OptionSpec::new("-WATER", &[number("RHO", Dim::Density, "density").positive()], "density of the water")
+        .default("&DEFAULT"),
+    OptionSpec::new(
+        "-SPGWATER",
+        &[number("SG", Dim::None, "specific gravity").positive()],
+        "specific gravity of the water",
+    ),
+    OptionSpec::new(
+        "-PROBABILITY",
+        &[text("STAT", "statistic"), number("DATA", Dim::None, "its value").or("none")],
+        "statistic of the results",
+    ),
+    OptionSpec::new("-SEA", SEA, "sea").default("none"),
+    OptionSpec::new("-A_SEA", SEA, "sea added to -SEA").default("none"),
+    OptionSpec::new("-SP_TYPE", &[text("TYPE", "type of spectrum")], "type of spectrum"),
+    OptionSpec::new("-SPREAD", &[number("EXP", Dim::None, "exponent").positive()], "spreading cos(H - th)**EXP")
+        .default("200: long-crested"),
+    OptionSpec::new("-S_PERIOD", PERIODS, "periods of the sea's components").repeating(1),
+    OptionSpec::new("-MD_PERIOD", PERIODS, "periods of the mean drift").repeating(1),
+    OptionSpec::new(
+        "-TIME",
+        &[
+            number("TOBSERV", Dim::Time, "time observed").positive(),
+            number("DELTA_TIME", Dim::Time, "time step").positive(),
+            number("TTRA_SET", Dim::Time, "time set aside for the transient").or("0").not_negative(),
+            ValueSpec::new("NCYCLES", Kind::Integer, "cycles").or("1").within(1.0, 1e6),
+        ],
+        "time window",
+    ),
+    OptionSpec::new("-RAMP", &[number("T", Dim::Time, "time").not_negative()], "ramp of the loads").default("&DEFAULT"),
+    OptionSpec::new(
+        "-T_REINFORCE",
+        &[number("TB", Dim::Time, "time")],
+        "time at which all wave components are in phase",
+    ),
+    OptionSpec::new(
+        "-WIND",
+        &[
+            number("SPEED", Dim::WindSpeed, "speed").not_negative(),
+            number("DIR", Dim::Angle, "direction it comes from"),
+        ],
+        "wind, in knots",
+    )
+    .default("none"),
+    OptionSpec::new(
+        "-W_PROFILE",
+        &[text("TYPE", "type"), number("EXP", Dim::None, "exponent").or("that of the type")],
+        "wind profile",
+    ),
+    OptionSpec::new(
+        "-W_DESIGN",
+        &[text("TYPE", "type"), number("DURATION", Dim::Time, "averaging time").or("that of the type").positive()],
+        "design wind",
+    ),
+    OptionSpec::new("-W_SPECTRUM", &[text("TYPE", "type")], "gust spectrum"),
+    OptionSpec::new("-W_HISTORY", &[curve("W_HISTORY curve")], "wind history"),
+    OptionSpec::new("-W_PERIOD", PERIODS, "periods of the gusts").repeating(1),
+    OptionSpec::new(
+        "-W_MD_CORRELATION",
+        &[number("F", Dim::None, "factor").within(-1.0, 1.0)],
+        "correlation of gusts and mean drift",
+    ),
+    OptionSpec::new(
+        "-CURRENT",
+        &[
+            ValueSpec::new("V", Kind::Text, "velocity, or name of a C_PROFILE curve"),
+            number("DIR", Dim::Angle, "direction it comes from"),
+        ],
+        "current: V DIR, or NAME1 DIR1 NAME2 DIR2 ..",
+    )
+    .repeating(2)
+    .default("none"),
+    OptionSpec::new("-TIDE", &[number("CHANGE", Dim::Length, "rise of the water level")], "tide").default("0"),
+    OptionSpec::new("-DEPTH", &[number("D", Dim::Length, "depth").positive()], "water depth").default("&DEFAULT"),
+    OptionSpec::new("-M_GROWTH", &[curve("M_GROWTH curve")], "marine growth"),
+    OptionSpec::new(
+        "-T_PRESSURE",
+        &[text("NAME", "name of temperature and pressure data")],
+        "temperature and pressure of rods",
+    ),
+    OptionSpec::new(
+        "-USE_MEAN",
+        &[ValueSpec::new("YES/NO", Kind::Choice(&["YES", "NO"]), "on or off").or("YES")],
+        "uses mean values",
+    ),
+    OptionSpec::new("-E_PERIOD", PERIODS, "encounter periods (frequency domain)").repeating(1),
+];
+
+static ENV_SPEC: CommandSpec = CommandSpec {
+    data: &[ValueSpec::new("NAME", Kind::Name(Noun::New), "name to keep it under").or("none: start from nothing")],
+    options: OPTIONS,
+    detail: "Directions are where sea, wind and current come from, from +X toward +Y: 180 is a head sea. Without a name the \
+             environment starts from the defaults; a new name too, and is kept; an old name edits what is kept. It stays in \
+             force until the next &ENV.",
+    example: "&ENV STORM -SEA ISSC 180 22 10.3 -WIND 60 180 -DEPTH 3000\n&STATUS ENVIRONMENT",
+    ..CommandSpec::new("&ENV", "sets the environment")
+};
+
+static NAMED_SPEC: CommandSpec = CommandSpec {
+    menus: &["ENVIRONMENT"],
+    data: &[ValueSpec::new("NAME", Kind::Name(Noun::New), "name to keep it under")],
+    detail: "As &ENV, but the environment is kept and not put in force.",
+    example: "&DATA ENVIRONMENT\nENV CALM -DEPTH 500\nEND",
+    ..CommandSpec { name: "ENV", help: "defines an environment", ..ENV_SPEC }
+};
+
+fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let made = build(job, &call.args)?;
+    if !made.name.is_empty() {
+        job.model.environments.insert(Model::key(&made.name), made.clone());
+    }
+    job.model.environment = made;
+    Ok(Effect::Done)
+}
+
+fn define(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let made = build(job, &call.args)?;
+    job.model.environments.insert(Model::key(&made.name), made);
+    Ok(Effect::Done)
+}
+
+fn build(job: &Job, args: &Args) -> Outcome<Environment> {
+    let name = args.word(0).unwrap_or_default();
+    let kept = job.model.environments.get(&Model::key(name)).filter(|_| !name.is_empty());
+    let mut env = kept.cloned().unwrap_or_else(|| Environment {
+        name: name.to_string(),
+        span: args.span,
+        ..Environment::default()
+    });
+    for given in &args.options {
+        apply(job, &mut env, given)?;
+        env.options.retain(|g| g.spec.name != given.spec.name);
+        env.options.push(given.clone());
+    }
+    Ok(env)
+}
+
+fn place(given: &Given, index: usize) -> Span {
+    given.values.get(index).map_or(given.span, |v| v.span)
+}
+
+fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<()> {
+    let at = |i: usize| given.number(i);
+    match given.spec.name {
+        "-WATER" => env.water_density = at(0),
+        "-SPGWATER" => env.water_density = at(0).map(|s| 1000.0 * s),
+        "-DEPTH" => env.depth = at(0),
+        "-TIDE" => env.tide = at(0),
+        "-RAMP" => env.ramp = at(0),
+        "-SPREAD" => env.spreading = at(0),
+        "-WIND" => env.wind = at(0).zip(at(1)).map(|(speed, direction)| Wind { speed, direction }),
+        "-SEA" => env.sea = Some(sea(job, given)?),
+        "-A_SEA" => env.added_sea = Some(sea(job, given)?),
+        "-TIME" => {
+            let (observed, step) = (at(0).unwrap_or(0.0), at(1).unwrap_or(0.0));
+            if step > observed {
+                return Err(Diagnostic::error("the time step is longer than the time observed", place(given, 1)));
+            }
+            env.time = Some(TimeWindow {
+                observed,
+                step,
+                transient: at(2),
+                cycles: given.values.get(3).and_then(|v| v.integer()),
+            });
+        }
+        "-CURRENT" => env.current = Some(current(job, given)?),
+        "-W_HISTORY" => known_curve(job, given, 0, CurveKind::WindHistory)?,
+        "-M_GROWTH" => known_curve(job, given, 0, CurveKind::MarineGrowth)?,
+        _ => {}
+    }
+    Ok(())
+}
+
+/// The spectra known without a curve.
+const SPECTRA: [&str; 4] = ["ISSC", "JONSWAP", "2JONSWAP", "REGULAR"];
+
+fn sea(job: &Job, given: &Given) -> Outcome<Sea> {
+    let name = given.word(0).unwrap_or_default();
+    let curve = job.model.curves.get(&Model::key(name));
+    let spectral = curve.is_some_and(|c| matches!(c.kind, CurveKind::PeriodSpectrum | CurveKind::FrequencySpectrum));
+    if !spectral && !SPECTRA.iter().any(|s| s.eq_ignore_ascii_case(name)) {
+        let curves = job.model.curves.values().map(|c| c.name.as_str());
+        let mut error = Diagnostic::error(format!("unknown spectrum {name}"), place(given, 0))
+            .label(format!("expected {} or a P_SPECTRUM or F_SPECTRUM curve", SPECTRA.join(", ")));
+        error.help.extend(crate::language::diagnostic::did_you_mean(name, SPECTRA.into_iter().chain(curves)));
+        return Err(error);
+    }
+    let at = |i: usize| given.number(i).unwrap_or(0.0);
+    Ok(Sea { spectrum: name.to_string(), direction: at(1), height: at(2), period: at(3), gamma: given.number(4) })
+}
+
+fn known_curve(job: &Job, given: &Given, index: usize, kind: CurveKind) -> Outcome<()> {
+    let name = given.values.get(index).and_then(|v| v.word()).unwrap_or_default();
+    let curve = find(&job.model.curves, name, "curve", place(given, index))?;
+    if curve.kind != kind {
+        return Err(Diagnostic::error(
+            format!("curve {name} is a {}, not a {}", curve.kind.name(), kind.name()),
+            place(given, index),
+        )
+        .other(curve.span, "defined here"));
+    }
+    Ok(())
+}
+
+fn current(job: &Job, given: &Given) -> Outcome<Current> {
+    let mut profiles = Vec::new();
+    for (index, pair) in given.values.chunks_exact(2).enumerate() {
+        let [what, direction] = pair else { continue };
+        let direction = direction.number().unwrap_or(0.0);
+        let word = what.word().unwrap_or_default();
+        if let Ok(velocity) = crate::language::number::evaluate(word) {
+            if given.values.len() > 2 {
+                return Err(Diagnostic::error("a uniform current has one velocity and one direction", what.span)
+                    .help("form: -CURRENT V DIR, or -CURRENT NAME1 DIR1 NAME2 DIR2 .."));
+            }
+            return Ok(Current::Uniform { velocity: Dim::Velocity.to_si(velocity, job.units), direction });
+        }
+        known_curve(job, given, 2 * index, CurveKind::CurrentProfile)?;
+        profiles.push((word.to_string(), direction));
+    }
+    Ok(Current::Profiles(profiles))
+}

@@ -1,0 +1,136 @@
+//! `&HELP`: everything a spec says, in words.
+
+use super::{COMMANDS, Call, Command, Effect, Job, offered};
+use crate::connector::CLASSES;
+use crate::language::diagnostic::Outcome;
+use crate::language::flow::specs::CONTROL;
+use crate::language::functions;
+use crate::language::select::{Owner, choose};
+use crate::language::spec::{CommandSpec, Kind, Need, ValueSpec, expected};
+use crate::language::units::UnitSystem;
+
+/// &HELP.
+pub static HELP: Command = Command { spec: &SPEC, edits: false, run };
+
+static SPEC: CommandSpec = CommandSpec {
+    data: &[
+        ValueSpec::new("NAME", Kind::Text, "command, function, or ~CLASS").or("what this menu offers"),
+        ValueSpec::new("TYPE", Kind::Text, "class type, after ~CLASS").or("all class types"),
+    ],
+    form: crate::language::spec::Form::Text,
+    example: "&HELP\n&HELP &DIMEN\n&HELP ~CLASS B_CAT",
+    ..CommandSpec::new("&HELP", "explains a command, a function or a class type")
+};
+
+fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let units = job.units;
+    let text = match call.words.get(1) {
+        None => overview(job),
+        Some(word) if word.text.starts_with('~') => match call.words.get(2) {
+            None => {
+                CLASSES.iter().map(|k| format!("   {:<12} {}", k.spec.name, k.spec.help)).collect::<Vec<_>>().join("\n")
+            }
+            Some(kind) => {
+                let known = CLASSES.iter().map(|k| (k.spec.name, k.spec.owner, *k));
+                describe(choose(&kind.text, kind.span, "class type", known)?.spec, "~NAME ", units)
+            }
+        },
+        Some(word) => {
+            let functions = functions::HELP.iter().chain(super::functions::HELP);
+            if let Some((name, form, meaning)) =
+                functions.into_iter().find(|(n, _, _)| n.eq_ignore_ascii_case(&word.text))
+            {
+                format!("{name}: string function\n\n   {form}\n   {meaning}")
+            } else {
+                let menu = job.menu().name();
+                let here = COMMANDS
+                    .iter()
+                    .find(|c| c.spec.name.eq_ignore_ascii_case(&word.text) && c.spec.menus.contains(&menu));
+                let known = COMMANDS.iter().map(|c| c.spec).chain(CONTROL);
+                let classes = CLASSES.iter().map(|k| k.spec);
+                let spec = match here {
+                    Some(command) => command.spec,
+                    None => {
+                        choose(&word.text, word.span, "command", known.chain(classes).map(|s| (s.name, s.owner, s)))?
+                    }
+                };
+                let lead = if CLASSES.iter().any(|k| std::ptr::eq(k.spec, spec)) { "~NAME " } else { "" };
+                describe(spec, lead, units)
+            }
+        }
+    };
+    job.say(&text);
+    Ok(Effect::Done)
+}
+
+fn overview(job: &Job) -> String {
+    let menu = job.menu();
+    let mut lines = vec![format!("Menu {} ({} leaves it). Its commands:", menu.name(), menu.end())];
+    let line = |name: &str, help: &str| format!("   {name:<14} {help}");
+    lines.extend(offered(menu.name()).filter(|c| !c.spec.menus.is_empty()).map(|c| line(c.spec.name, c.spec.help)));
+    lines.push("Commands of every menu:".into());
+    lines.extend(offered(menu.name()).filter(|c| c.spec.menus.is_empty()).map(|c| line(c.spec.name, c.spec.help)));
+    lines.push("Variables, branches, loops, macros:".into());
+    lines.extend(CONTROL.iter().map(|s| line(s.name, s.help)));
+    lines.push(
+        "String functions: ".to_string()
+            + &functions::HELP.iter().chain(super::functions::HELP).map(|f| f.0).collect::<Vec<_>>().join(" "),
+    );
+    lines.push("&HELP NAME explains one; &HELP ~CLASS lists the class types.".into());
+    lines.join("\n")
+}
+
+/// The whole help of a spec.
+pub fn describe(spec: &CommandSpec, lead: &str, units: UnitSystem) -> String {
+    let mut lines = vec![format!("{}: {}", spec.name, spec.help), String::new(), format!("   {lead}{}", spec.syntax())];
+    if !spec.menus.is_empty() {
+        lines.push(format!("   in menu {}", spec.menus.join(" or ")));
+    }
+    match spec.owner {
+        Owner::Moses => {}
+        Owner::Aqwa => lines.push("   a name of AQWA".into()),
+        Owner::Ours => lines.push("   a name of ours, not of MOSES".into()),
+    }
+    lines.push(String::new());
+    lines.extend(spec.data.iter().map(|v| format!("   {:<28} {}", v.name, value_help(v, units))));
+    for option in spec.options {
+        let default = if option.default.is_empty() { String::new() } else { format!(" [default: {}]", option.default) };
+        lines.push(format!("   {:<28} {}{default}", option.syntax(), option.help));
+        if option.values.len() > 1 || option.values.iter().any(|v| v.help != option.help) {
+            lines.extend(option.values.iter().map(|v| format!("        {:<23} {}", v.name, value_help(v, units))));
+        }
+    }
+    if !spec.detail.is_empty() {
+        lines.push(String::new());
+        lines.extend(wrap(spec.detail, 92).into_iter().map(|l| format!("   {l}")));
+    }
+    if !spec.example.is_empty() {
+        lines.push(String::new());
+        lines.push("   Example:".into());
+        lines.extend(spec.example.lines().map(|l| format!("      {l}")));
+    }
+    lines.join("\n")
+}
+
+fn value_help(value: &ValueSpec, units: UnitSystem) -> String {
+    let default = match value.need {
+        Need::Required => String::new(),
+        Need::Optional(text) => format!(" [default: {text}]"),
+    };
+    format!("{}: {}{default}", value.help, expected(value.kind, units))
+}
+
+/// Text in lines of at most `width` characters.
+fn wrap(text: &str, width: usize) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if line.len() + 1 + word.len() <= width => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_string()),
+        }
+    }
+    lines
+}

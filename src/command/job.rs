@@ -1,0 +1,215 @@
+//! The job that commands act on: model, units, menus, titles, settings, output.
+
+use crate::language::args::Args;
+use crate::language::diagnostic::{Diagnostic, Severity};
+use crate::language::source::Span;
+use crate::language::units::UnitSystem;
+use crate::model::Model;
+use crate::report::disposition::Disposition;
+use crate::report::output::Output;
+use crate::report::page::PageHead;
+use indexmap::IndexMap;
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// A menu that is open.
+#[derive(Clone, Debug)]
+pub enum Menu {
+    /// The main menu.
+    Main,
+    /// Model descriptions; names may be used before they are defined.
+    Inmodel,
+    /// Model editing; names must be defined before they are used.
+    Medit,
+    /// Connector design.
+    ConnDesign,
+    /// A result being disposed of.
+    Disposition(Box<Disposition>),
+    /// A report being written: to the screen, to the report file.
+    Report {
+        /// To the screen.
+        screen: bool,
+        /// To the report file.
+        hard: bool,
+    },
+    /// Environments being defined by `&DATA ENVIRONMENT`.
+    Environments,
+}
+
+impl Menu {
+    /// Its name, as specs and prompts use it.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Menu::Main => "MAIN",
+            Menu::Inmodel => "INMODEL",
+            Menu::Medit => "MEDIT",
+            Menu::ConnDesign => "CONN_DESIGN",
+            Menu::Disposition(_) => "DISPOSITION",
+            Menu::Report { .. } => "REPORT",
+            Menu::Environments => "ENVIRONMENT",
+        }
+    }
+
+    /// The long form of `END`.
+    pub fn end(&self) -> &'static str {
+        match self {
+            Menu::Main => "END",
+            Menu::Inmodel => "END_INMODEL",
+            Menu::Medit => "END_MEDIT",
+            Menu::ConnDesign => "END_CONN_DESIGN",
+            Menu::Disposition(_) => "END_DISPOSE",
+            Menu::Report { .. } => "END_REPORT",
+            Menu::Environments => "END_&DATA",
+        }
+    }
+}
+
+/// What `&DEVICE` sets.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// Stop at the first error.
+    pub batch: bool,
+    /// Errors after which a script ends.
+    pub error_limit: i64,
+    /// Date printed in reports instead of today's.
+    pub date: Option<String>,
+    /// Records are shown as they are executed.
+    pub echo: bool,
+    /// Nothing goes to the screen but errors.
+    pub silent: bool,
+    /// Prefix of the names of plot files.
+    pub figure_name: String,
+    /// Number of the next figure.
+    pub figure_number: i64,
+    /// The file INMODEL reads instead of ROOT.DAT.
+    pub auxiliary: Option<PathBuf>,
+    /// Columns and lines of a terminal plot.
+    pub plot_size: (usize, usize),
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Settings {
+            batch: false,
+            error_limit: 10,
+            date: None,
+            echo: false,
+            silent: false,
+            figure_name: "FIGURE".into(),
+            figure_number: 1,
+            auxiliary: None,
+            plot_size: (90, 26),
+        }
+    }
+}
+
+/// A user's file opened by `&FILE OPEN` or `USE`.
+#[derive(Debug)]
+pub enum UserFile {
+    /// Being written; the lines so far.
+    Writing(PathBuf, String),
+    /// Being read; the lines left, last first.
+    Reading(Vec<String>),
+}
+
+/// Asks the user at the terminal; `None` at the end of input.
+pub type Ask = Box<dyn FnMut(&str) -> Option<String> + Send>;
+
+/// One running job.
+pub struct Job {
+    /// The model.
+    pub model: Model,
+    /// The user's units.
+    pub units: UnitSystem,
+    /// Units saved by `&DIMEN -SAVE`.
+    pub saved_units: Vec<UnitSystem>,
+    /// Open menus, the main one first.
+    pub menus: Vec<Menu>,
+    /// `&TITLE` and `&SUBTITLE`.
+    pub titles: [String; 2],
+    /// `&DEVICE`.
+    pub settings: Settings,
+    /// The channels.
+    pub output: Output,
+    /// Warnings and notes a handler raised; the session prints them.
+    pub notices: Vec<Diagnostic>,
+    /// Severity of the last record, for `&INFO(SEVERITY ..)`.
+    pub last_severity: Option<Severity>,
+    /// CONNECTOR records of an open INMODEL, waiting for names defined later.
+    pub deferred: Vec<Args>,
+    /// Files of `&FILE`.
+    pub user_files: IndexMap<String, UserFile>,
+    /// Variables that `&F_READ` sets.
+    pub assignments: Vec<(String, String)>,
+    /// Processor time at the last `&DCPTIME`.
+    pub clock: Instant,
+    /// How `&GET` asks; absent without a terminal.
+    pub ask: Option<Ask>,
+    /// Names longer than MOSES takes have been remarked on.
+    pub long_name_said: bool,
+}
+
+impl Job {
+    /// A new job writing to these channels.
+    pub fn new(output: Output) -> Self {
+        Job {
+            model: Model::default(),
+            units: UnitSystem::default(),
+            saved_units: Vec::new(),
+            menus: vec![Menu::Main],
+            titles: Default::default(),
+            settings: Settings::default(),
+            output,
+            notices: Vec::new(),
+            last_severity: None,
+            deferred: Vec::new(),
+            user_files: IndexMap::new(),
+            assignments: Vec::new(),
+            clock: Instant::now(),
+            ask: None,
+            long_name_said: false,
+        }
+    }
+
+    /// The innermost menu.
+    pub fn menu(&self) -> &Menu {
+        self.menus.last().unwrap_or(&Menu::Main)
+    }
+
+    /// Prints text for the user (nothing when silent).
+    pub fn say(&mut self, text: &str) {
+        if self.settings.silent {
+            self.output.log(text);
+        } else {
+            self.output.text(text);
+        }
+    }
+
+    /// Raises a remark.
+    pub fn remark(&mut self, text: impl Into<String>, span: Span) {
+        self.notices.push(*Diagnostic::remark(text, span));
+    }
+
+    /// Raises a warning.
+    pub fn warn(&mut self, text: impl Into<String>, span: Span) {
+        self.notices.push(*Diagnostic::warning(text, span));
+    }
+
+    /// Says once that MOSES itself takes shorter names.
+    pub fn note_name(&mut self, name: &str, span: Span) {
+        if !self.long_name_said && name.chars().count() > 8 {
+            self.long_name_said = true;
+            self.remark(format!("{name} is longer than the 8 characters MOSES takes (said once)"), span);
+        }
+    }
+
+    /// What stands at the head of a page.
+    pub fn page_head(&self) -> PageHead {
+        PageHead { date: Some(self.date()), titles: self.titles.clone(), process: "DEFAULT".into() }
+    }
+
+    /// The date of reports: that of `&DEVICE -SET_DATE`, else today (UTC).
+    pub fn date(&self) -> String {
+        self.settings.date.clone().unwrap_or_else(|| time::OffsetDateTime::now_utc().date().to_string())
+    }
+}

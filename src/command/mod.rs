@@ -1,0 +1,142 @@
+//! What a user can type: one file a family of commands, each command one spec and one handler.
+//!
+//! A handler changes the [`Job`] only after everything that can fail has been checked, so that a record that is refused
+//! changes nothing; a command that edits in several steps says so with [`Command::edits`], and the session restores the
+//! model when it fails.
+
+mod class;
+mod conn_design;
+mod connector;
+mod curves;
+mod describe;
+mod device;
+mod disposition;
+mod environment;
+mod file;
+pub mod functions;
+pub mod help;
+mod job;
+mod menus;
+mod message;
+mod report_menu;
+mod select;
+mod status;
+mod units;
+
+pub use job::{Job, Menu, Settings};
+pub use menus::finish_inmodel;
+
+use crate::language::args::Args;
+use crate::language::diagnostic::Outcome;
+use crate::language::record::{Record, Word};
+use crate::language::select::Owner;
+use crate::language::spec::CommandSpec;
+use std::path::PathBuf;
+
+/// A record on its way to a handler.
+pub struct Call<'a> {
+    /// The record, substituted.
+    pub record: &'a Record,
+    /// Its words, the command word first.
+    pub words: &'a [Word],
+    /// Data and options, read by the command's spec (empty when the spec takes text).
+    pub args: Args,
+}
+
+/// What the session has to do after a handler.
+#[derive(Debug, PartialEq)]
+pub enum Effect {
+    /// Nothing.
+    Done,
+    /// Read a file next; the tag comes back when it ends.
+    Insert {
+        /// Name for messages.
+        name: String,
+        /// Where it is.
+        path: PathBuf,
+        /// [`PLAIN`] or [`INMODEL_FILE`].
+        tag: u32,
+    },
+    /// End the job.
+    Finish,
+    /// Set the number of records a run may execute.
+    Budget(u64),
+    /// Set a variable.
+    Set(String, String),
+}
+
+/// Tag of a file that is simply inserted.
+pub const PLAIN: u32 = 0;
+/// Tag of the model file INMODEL reads; its end closes the menu.
+pub const INMODEL_FILE: u32 = 1;
+/// Tag of the job's own script.
+pub const SCRIPT: u32 = 2;
+
+/// A command: its declaration and what it does.
+pub struct Command {
+    /// The declaration.
+    pub spec: &'static CommandSpec,
+    /// True when it edits the model in several steps that may fail half way.
+    pub edits: bool,
+    /// What it does.
+    pub run: fn(&mut Job, &Call) -> Outcome<Effect>,
+}
+
+/// Every command, in the order of the manual.
+pub static COMMANDS: &[&Command] = &[
+    &menus::INMODEL,
+    &menus::MEDIT,
+    &menus::CONN_DESIGN,
+    &describe::DESCRIBE,
+    &describe::POINT,
+    &describe::INSTATE,
+    &class::CLASS,
+    &connector::CONNECTOR,
+    &connector::DELETE,
+    &connector::RENAME,
+    &select::SELECT,
+    &environment::ENV,
+    &environment::NAMED_ENV,
+    &curves::DATA,
+    &conn_design::TABLE,
+    &disposition::REPORT,
+    &disposition::VLIST,
+    &disposition::VIEW,
+    &disposition::STORE,
+    &disposition::PLOT,
+    &disposition::STATISTIC,
+    &disposition::SET_VARIABLE,
+    &disposition::C_SCALE,
+    &disposition::C_SHIFT,
+    &disposition::CULL,
+    &status::STATUS,
+    &units::DIMEN,
+    &units::DEFAULT,
+    &device::DEVICE,
+    &file::FILE,
+    &message::TITLE,
+    &message::SUBTITLE,
+    &message::TYPE,
+    &message::CTYPE,
+    &message::CUTYPE,
+    &message::ERROR,
+    &message::DCPTIME,
+    &report_menu::REPORT,
+    &report_menu::TYPE,
+    &report_menu::CTYPE,
+    &report_menu::CUTYPE,
+    &file::INSERT,
+    &file::USE_MAC,
+    &message::FINISH,
+    &help::HELP,
+];
+
+/// The internal commands, whose names the language's control records share.
+pub fn internal_names() -> impl Iterator<Item = (&'static str, Owner)> {
+    COMMANDS.iter().filter(|c| c.spec.name.starts_with('&')).map(|c| (c.spec.name, c.spec.owner))
+}
+
+/// The commands a menu offers: its own and those of every menu.
+pub fn offered(menu: &str) -> impl Iterator<Item = &'static Command> + Clone + use<'_> {
+    COMMANDS.iter().copied().filter(move |c| c.spec.menus.is_empty() || c.spec.menus.contains(&menu))
+}

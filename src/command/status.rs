@@ -1,0 +1,426 @@
+//! `&STATUS`: what the model and the program hold.
+
+use super::{Call, Command, Effect, Job};
+use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::select::{Owner, choose, matches};
+use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
+use crate::language::units::Dim;
+use crate::model::{Coordinates, Current, Environment, Model, Sea};
+use crate::report::page;
+use crate::report::plot::Chart;
+use crate::table::{Cell, Digits, Table};
+
+/// &STATUS.
+pub static STATUS: Command = Command { spec: &SPEC, edits: false, run };
+
+const KINDS: &[(&str, Owner, &str)] = &[
+    ("CONFIGURATION", Owner::Moses, "where the bodies stand"),
+    ("CL_FLEX", Owner::Moses, "flexible connector classes with W/L, AE, break"),
+    ("G_CONNECTOR", Owner::Moses, "connector geometry"),
+    ("CURVES", Owner::Moses, "curves"),
+    ("ENVIRONMENT", Owner::Moses, "the environment in force"),
+    ("CLASSES", Owner::Ours, "the same as CL_FLEX"),
+    ("BODIES", Owner::Ours, "bodies and their parts"),
+    ("POINTS", Owner::Ours, "points, in their parts and in the global system"),
+    ("DIMENSIONS", Owner::Ours, "units"),
+    ("DEFAULTS", Owner::Ours, "defaults"),
+    ("SELECTORS", Owner::Ours, "selectors"),
+];
+
+static SPEC: CommandSpec = CommandSpec {
+    data: &[
+        ValueSpec::new(
+            "WHAT",
+            Kind::Text,
+            "CONFIGURATION, CL_FLEX, G_CONNECTOR, CURVES, ENVIRONMENT, BODIES, POINTS, ..",
+        )
+        .or("a summary"),
+        ValueSpec::new("NAME", Kind::Name(Noun::Selector), "only what fits this name or pattern").or("all"),
+    ],
+    options: &[
+        OptionSpec::new("-PLOT", &[], "plots curves"),
+        OptionSpec::new("-HARD", &[], "to the report file"),
+        OptionSpec::new("-BOTH", &[], "to the screen and the report file"),
+    ],
+    detail: "CONFIGURATION, CL_FLEX (or CLASSES), G_CONNECTOR, CURVES, ENVIRONMENT, BODIES, POINTS, DIMENSIONS, DEFAULTS, \
+             SELECTORS; alone it counts what the model holds.",
+    example: "&STATUS\n&STATUS DEFAULTS\n&STATUS DIMENSIONS",
+    ..CommandSpec::new("&STATUS", "reports what the model holds")
+};
+
+fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let names = KINDS.iter().map(|(n, o, _)| (*n, *o, *n));
+    let kind = match args.word(0) {
+        Some(word) => choose(word, args.place(0), "kind of &STATUS", names)?,
+        None => "SUMMARY",
+    };
+    let model = &job.model;
+    let pattern = args.word(1).map(str::to_string);
+    let fits = |name: &str| pattern.as_ref().is_none_or(|p| takes(model, p, name));
+    let tables = match kind {
+        "CONFIGURATION" => vec![configuration(model, &fits)],
+        "CL_FLEX" | "CLASSES" => classes(model, &fits),
+        "G_CONNECTOR" => vec![connectors(model, &fits)],
+        "CURVES" => curves(model, &fits),
+        "ENVIRONMENT" => vec![environment(job)],
+        "BODIES" => vec![bodies(model, &fits)],
+        "POINTS" => vec![points(model, &fits)],
+        "DIMENSIONS" => vec![dimensions(job)],
+        "DEFAULTS" => vec![defaults(model)],
+        "SELECTORS" => vec![selectors(model, &fits)],
+        _ => vec![summary(model)],
+    };
+    if let (true, Some(name)) = (tables.iter().all(|t| t.rows() == 0 && t.facts.is_empty()), &pattern) {
+        return Err(Diagnostic::error(format!("nothing among {kind} is called {name}"), args.place(1)));
+    }
+    let head = job.page_head();
+    let mut text = tables.iter().map(|t| page::render(t, job.units, &head)).collect::<Vec<_>>().join("\n");
+    if args.has("-PLOT") && kind == "CURVES" {
+        let (columns, lines) = job.settings.plot_size;
+        for table in &tables {
+            text.push('\n');
+            text.push_str(
+                &Chart::of(table, job.units)
+                    .terminal(columns, lines)
+                    .map_err(|e| Diagnostic::error(e.to_string(), args.span))?,
+            );
+        }
+    }
+    let hard = args.has("-HARD") || args.has("-BOTH");
+    if hard {
+        job.output.hard(&text).map_err(|e| Diagnostic::error(e.to_string(), args.span))?;
+    }
+    if !hard || args.has("-BOTH") {
+        job.say(&text);
+    }
+    Ok(Effect::Done)
+}
+
+fn takes(model: &Model, pattern: &str, name: &str) -> bool {
+    match model.selectors.get(&Model::key(pattern)) {
+        Some(selector) => selector.takes(name, model),
+        None => matches(pattern, name),
+    }
+}
+
+/// Appends a row; the callers below give one cell a column.
+fn push(table: &mut Table, row: Vec<Cell>) {
+    let fits = table.push(row);
+    debug_assert!(fits.is_ok(), "a status row must fit its table");
+}
+
+fn place_columns(mut table: Table) -> Table {
+    for name in ["X", "Y", "Z"] {
+        table = table.column("Location", name, Dim::Length, Digits::Usual);
+    }
+    for name in ["Roll", "Pitch", "Yaw"] {
+        table = table.column("Rotation", name, Dim::Angle, Digits::Usual);
+    }
+    table
+}
+
+fn configuration(model: &Model, fits: &dyn Fn(&str) -> bool) -> Table {
+    let mut table = place_columns(Table::new("Configuration").column("", "Body", Dim::None, Digits::Usual));
+    for body in model.bodies.values().filter(|b| fits(&b.name)) {
+        let mut row = vec![Cell::from(body.name.as_str())];
+        row.extend(body.place.values().map(Cell::Number));
+        push(&mut table, row);
+    }
+    table
+}
+
+fn bodies(model: &Model, fits: &dyn Fn(&str) -> bool) -> Table {
+    let table = Table::new("Bodies and Parts").column("", "Body", Dim::None, Digits::Usual).column(
+        "",
+        "Part",
+        Dim::None,
+        Digits::Usual,
+    );
+    let mut table = place_columns(table).column("", "Points", Dim::None, Digits::Usual).column(
+        "",
+        "Ignored",
+        Dim::None,
+        Digits::Usual,
+    );
+    for part in model.parts.values().filter(|p| fits(&p.body) || fits(&p.name)) {
+        let count = model.points.values().filter(|p| Model::key(&p.part) == Model::key(&part.name)).count();
+        let ignored = model.bodies.get(&Model::key(&part.body)).map_or(String::new(), |b| b.ignored.join(" "));
+        let mut row = vec![Cell::from(part.body.as_str()), Cell::from(part.name.as_str())];
+        row.extend(part.place.values().map(Cell::Number));
+        row.extend([count.into(), ignored.into()]);
+        push(&mut table, row);
+    }
+    table
+}
+
+fn points(model: &Model, fits: &dyn Fn(&str) -> bool) -> Table {
+    let mut table =
+        Table::new("Points").column("", "Name", Dim::None, Digits::Usual).column("", "Part", Dim::None, Digits::Usual);
+    for group in ["Part System", "Global System"] {
+        for name in ["X", "Y", "Z"] {
+            table = table.column(group, name, Dim::Length, Digits::Usual);
+        }
+    }
+    for point in model.points.values().filter(|p| fits(&p.name)) {
+        let mut row = vec![Cell::from(point.name.as_str()), Cell::from(point.part.as_str())];
+        row.extend(point.at.into_iter().chain(model.global(point)).map(Cell::Number));
+        push(&mut table, row);
+    }
+    table
+}
+
+fn classes(model: &Model, fits: &dyn Fn(&str) -> bool) -> Vec<Table> {
+    let surroundings = model.surroundings();
+    model
+        .classes
+        .values()
+        .filter(|c| fits(&c.name))
+        .map(|class| {
+            let mut table = class.object.properties(&class.name, &surroundings);
+            for (index, record) in class.records.iter().enumerate() {
+                let given: Vec<&str> = record.args.options.iter().map(|g| g.spec.name).collect();
+                if !given.is_empty() {
+                    table.note(format!("record {}: {}", index + 1, given.join(" ")));
+                }
+            }
+            table
+        })
+        .collect()
+}
+
+fn connectors(model: &Model, fits: &dyn Fn(&str) -> bool) -> Table {
+    let mut table = Table::new("Connector Geometry")
+        .column("", "Name", Dim::None, Digits::Usual)
+        .column("", "Class", Dim::None, Digits::Usual)
+        .column("", "Status", Dim::None, Digits::Usual)
+        .column("", "First Seg.", Dim::Length, Digits::Usual)
+        .column("Connection", "Body", Dim::None, Digits::Usual);
+    for name in ["X", "Y", "Z"] {
+        table = table.column("Connection", name, Dim::Length, Digits::Usual);
+    }
+    for connector in model.connectors.values().filter(|c| fits(&c.name)) {
+        let class = model.classes.get(&Model::key(&connector.class));
+        let status = if connector.active { "Active" } else { "Inactive" };
+        let ends: Vec<(String, Option<[f64; 3]>)> = connector
+            .points
+            .iter()
+            .map(|name| {
+                let point = model.points.get(&Model::key(name));
+                let body = point.and_then(|p| model.body_of(p)).map_or("GROUND".to_string(), |b| b.name.clone());
+                (body, point.map(|p| model.global(p)))
+            })
+            .collect();
+        let first = ends.first().cloned().unwrap_or(("GROUND".into(), None));
+        let mut row: Vec<Cell> = vec![
+            connector.name.as_str().into(),
+            connector.class.as_str().into(),
+            status.into(),
+            class.and_then(|c| c.object.first_length()).into(),
+            first.0.into(),
+        ];
+        let coordinates = |at: Option<[f64; 3]>| [0, 1, 2].map(|i| Cell::from(at.and_then(|a| a.get(i).copied())));
+        row.extend(coordinates(first.1));
+        push(&mut table, row);
+        let (body, at) = ends.get(1).cloned().unwrap_or(("GROUND".into(), None));
+        let mut row = vec![Cell::Missing, Cell::Missing, Cell::Missing, Cell::Missing, body.into()];
+        match (at, connector.anchor) {
+            (None, Some(anchor)) => {
+                row.extend(anchor.at.map(Cell::Number));
+                row.push(Cell::Missing);
+            }
+            (at, _) => row.extend(coordinates(at)),
+        }
+        push(&mut table, row);
+    }
+    table
+}
+
+fn curves(model: &Model, fits: &dyn Fn(&str) -> bool) -> Vec<Table> {
+    model
+        .curves
+        .values()
+        .filter(|c| fits(&c.name))
+        .map(|curve| {
+            let [a, b] = curve.kind.axes();
+            let mut table = Table::new(format!("Curve {}", curve.name))
+                .fact("Type", curve.kind.name(), Dim::None)
+                .column("", a.0, a.1, Digits::Usual)
+                .column("", b.0, b.1, Digits::Usual);
+            for (x, y) in &curve.points {
+                push(&mut table, vec![(*x).into(), (*y).into()]);
+            }
+            table
+        })
+        .collect()
+}
+
+fn facts_of_sea(table: Table, name: &str, sea: &Sea) -> Table {
+    let toward = sea.direction + std::f64::consts::PI;
+    table
+        .fact(name, sea.spectrum.as_str(), Dim::None)
+        .fact("   comes from", sea.direction, Dim::Angle)
+        .fact("   travels toward", toward.rem_euclid(std::f64::consts::TAU), Dim::Angle)
+        .fact("   height", sea.height, Dim::Length)
+        .fact("   period", sea.period, Dim::Time)
+        .fact("   gamma", sea.gamma, Dim::None)
+}
+
+fn environment(job: &Job) -> Table {
+    let (model, env) = (&job.model, &job.model.environment);
+    let around = model.surroundings();
+    let name = if env.name.is_empty() { "in Force" } else { &env.name };
+    let mut table = Table::new(format!("Environment {name}"))
+        .fact("Water Density", around.water_density, Dim::Density)
+        .fact("Water Depth", around.depth, Dim::Length)
+        .fact("Tide", around.tide, Dim::Length)
+        .fact("Ramp", env.ramp.unwrap_or(model.defaults.ramp), Dim::Time);
+    for (name, sea) in [("Sea", &env.sea), ("Added Sea", &env.added_sea)] {
+        if let Some(sea) = sea {
+            table = facts_of_sea(table, name, sea);
+        }
+    }
+    if env.sea.is_some() {
+        table = table.fact("Spreading Exponent", env.spreading.unwrap_or(200.0), Dim::None);
+    }
+    if let Some(wind) = env.wind {
+        table = table.fact("Wind", wind.speed, Dim::WindSpeed).fact("   comes from", wind.direction, Dim::Angle);
+    }
+    table = match &env.current {
+        None => table,
+        Some(Current::Uniform { velocity, direction }) => {
+            table.fact("Current", *velocity, Dim::Velocity).fact("   comes from", *direction, Dim::Angle)
+        }
+        Some(Current::Profiles(list)) => list.iter().fold(table, |t, (name, direction)| {
+            t.fact("Current Profile", name.as_str(), Dim::None).fact("   comes from", *direction, Dim::Angle)
+        }),
+    };
+    if let Some(time) = env.time {
+        table = table
+            .fact("Time Observed", time.observed, Dim::Time)
+            .fact("Time Step", time.step, Dim::Time)
+            .fact("Transient", time.transient, Dim::Time)
+            .fact("Cycles", time.cycles.map(Cell::Integer), Dim::None);
+    }
+    others(table, env, job)
+}
+
+/// The options kept that have no line of their own above, as they were given.
+fn others(mut table: Table, env: &Environment, job: &Job) -> Table {
+    const SHOWN: [&str; 12] = [
+        "-WATER",
+        "-SPGWATER",
+        "-DEPTH",
+        "-TIDE",
+        "-RAMP",
+        "-SEA",
+        "-A_SEA",
+        "-SPREAD",
+        "-WIND",
+        "-CURRENT",
+        "-TIME",
+        "-PLOT",
+    ];
+    for given in env.options.iter().filter(|g| !SHOWN.contains(&g.spec.name)) {
+        let dims = given.spec.values.iter().map(|v| match v.kind {
+            Kind::Number(dim) => dim,
+            _ => Dim::None,
+        });
+        let dims: Vec<Dim> = dims.collect();
+        let shown = given.values.iter().enumerate().map(|(index, value)| {
+            let dim = dims.get(index).or(dims.last()).copied().unwrap_or(Dim::None);
+            match (value.word(), value.integer(), value.number()) {
+                (Some(word), _, _) => word.to_string(),
+                (_, Some(whole), _) => whole.to_string(),
+                (_, _, Some(number)) => {
+                    let label = dim.label(job.units);
+                    let text = crate::report::format::report(&Cell::Number(number), dim, Digits::Usual, job.units);
+                    format!("{text} {label}").trim_end().to_string()
+                }
+                _ => "-".to_string(),
+            }
+        });
+        table = table.fact(given.spec.name, shown.collect::<Vec<_>>().join(", "), Dim::None);
+    }
+    table
+}
+
+fn dimensions(job: &Job) -> Table {
+    let (length, force) = job.units.words();
+    let mut table = Table::new("Dimensions")
+        .fact("Length", length, Dim::None)
+        .fact("Force", force, Dim::None)
+        .fact("Units Saved", job.saved_units.len(), Dim::None)
+        .column("", "Quantity", Dim::None, Digits::Usual)
+        .column("", "Unit", Dim::None, Digits::Usual)
+        .column("", "In SI", Dim::None, Digits::Scientific(10));
+    for (name, dim) in [
+        ("length", Dim::Length),
+        ("section size", Dim::Section),
+        ("force", Dim::Force),
+        ("force per length", Dim::ForcePerLength),
+        ("moment", Dim::Moment),
+        ("stress", Dim::Stress),
+        ("density", Dim::Density),
+        ("angle", Dim::Angle),
+        ("velocity", Dim::Velocity),
+        ("wind speed", Dim::WindSpeed),
+    ] {
+        push(&mut table, vec![name.into(), dim.label(job.units).into(), dim.factor(job.units).into()]);
+    }
+    table
+}
+
+fn defaults(model: &Model) -> Table {
+    let d = &model.defaults;
+    let mode = match d.coordinates {
+        Coordinates::Rectangular => "-RECT",
+        Coordinates::Cylindrical => "-CYLINDER",
+        Coordinates::Spherical => "-SPHERICAL",
+    };
+    Table::new("Defaults")
+        .fact("Density of Material", d.material.density, Dim::Density)
+        .fact("Young's Modulus", d.material.emodulus, Dim::Stress)
+        .fact("Poisson's Ratio", d.material.poisson, Dim::None)
+        .fact("Thermal Expansion", d.material.expansion, Dim::ThermalExpansion)
+        .fact("Yield Stress", d.material.yield_stress, Dim::Stress)
+        .fact("Ultimate Stress", d.material.ultimate(), Dim::Stress)
+        .fact("Density of Sea Water", d.water_density, Dim::Density)
+        .fact("Density of Air", d.air_density, Dim::Density)
+        .fact("Gravity", d.gravity, Dim::Acceleration)
+        .fact("Water Depth", d.depth, Dim::Length)
+        .fact("Ramp", d.ramp, Dim::Time)
+        .fact("Coordinates of Points", mode, Dim::None)
+        .fact("Directions of Sea, Wind, Current", "where they come from, from +X toward +Y", Dim::None)
+        .fact("Directions of -ANCHOR", "from fairlead to anchor, from +X toward +Y", Dim::None)
+}
+
+fn selectors(model: &Model, fits: &dyn Fn(&str) -> bool) -> Table {
+    let mut table = Table::new("Selectors")
+        .column("", "Name", Dim::None, Digits::Usual)
+        .column("", "Select", Dim::None, Digits::Usual)
+        .column("", "Except", Dim::None, Digits::Usual);
+    for s in model.selectors.values().filter(|s| fits(&s.name)) {
+        push(&mut table, vec![s.name.as_str().into(), s.select.join(" ").into(), s.except.join(" ").into()]);
+    }
+    table
+}
+
+fn summary(model: &Model) -> Table {
+    let mut table =
+        Table::new("Model").column("", "What", Dim::None, Digits::Usual).column("", "Number", Dim::None, Digits::Usual);
+    for (name, count) in [
+        ("bodies", model.bodies.len()),
+        ("parts", model.parts.len()),
+        ("points", model.points.len()),
+        ("classes", model.classes.len()),
+        ("connectors", model.connectors.len()),
+        ("curves", model.curves.len()),
+        ("environments", model.environments.len()),
+        ("selectors", model.selectors.len()),
+    ] {
+        push(&mut table, vec![name.into(), count.into()]);
+    }
+    table.note(format!("&STATUS tells of: {}", KINDS.iter().map(|k| k.0).collect::<Vec<_>>().join(" ")));
+    table
+}

@@ -1,0 +1,300 @@
+//! What the editor offers while a record is being typed: completion, hints, colours, and whether it goes on. All of it
+//! from the lexer and the specs.
+
+use crate::command::{COMMANDS, offered};
+use crate::connector::CLASSES;
+use crate::language::flow::specs::CONTROL;
+use crate::language::select::{Choice, keyword};
+use crate::language::spec::{CommandSpec, Kind as ValueKind, Noun, ValueSpec};
+use crate::language::token::{self, Kind, Token};
+use crate::session::Session;
+use rustyline::completion::{Completer, FilenameCompleter, Pair};
+use rustyline::highlight::{CmdKind, Highlighter};
+use rustyline::hint::Hinter;
+use rustyline::validate::{ValidationContext, ValidationResult, Validator};
+use rustyline::{Context, Helper};
+use std::borrow::Cow;
+use std::sync::{Arc, Mutex};
+
+/// Names to complete, taken from the session before each line.
+#[derive(Default)]
+pub struct Known {
+    menu: &'static str,
+    end: &'static str,
+    bodies: Vec<String>,
+    parts: Vec<String>,
+    points: Vec<String>,
+    classes: Vec<String>,
+    connectors: Vec<String>,
+    curves: Vec<String>,
+    environments: Vec<String>,
+    selectors: Vec<String>,
+    columns: Vec<String>,
+    macros: Vec<String>,
+    variables: Vec<String>,
+}
+
+impl Known {
+    /// Takes the names of the session as it is now.
+    pub fn update(&mut self, session: &Session) {
+        let model = &session.job.model;
+        let menu = session.job.menu();
+        *self = Known {
+            menu: menu.name(),
+            end: menu.end(),
+            bodies: model.bodies.values().map(|b| b.name.clone()).collect(),
+            parts: model.parts.values().map(|p| p.name.clone()).collect(),
+            points: model.points.values().map(|p| p.name.clone()).collect(),
+            classes: model.classes.values().map(|c| c.name.clone()).collect(),
+            connectors: model.connectors.values().map(|c| c.name.clone()).collect(),
+            curves: model.curves.values().map(|c| c.name.clone()).collect(),
+            environments: model.environments.values().map(|e| e.name.clone()).collect(),
+            selectors: model.selectors.values().map(|s| s.name.clone()).collect(),
+            columns: match menu {
+                crate::command::Menu::Disposition(d) => d.table.columns.iter().map(|c| c.name.clone()).collect(),
+                _ => Vec::new(),
+            },
+            macros: session.interpreter.macros().map(|m| m.name.clone()).collect(),
+            variables: session.interpreter.variables.names().map(str::to_string).collect(),
+        };
+    }
+
+    fn of(&self, noun: Noun) -> Vec<String> {
+        match noun {
+            Noun::Class => self.classes.clone(),
+            Noun::Point => self.points.clone(),
+            Noun::Body => self.bodies.clone(),
+            Noun::Part => self.parts.clone(),
+            Noun::Connector => self.connectors.clone(),
+            Noun::Curve => self.curves.clone(),
+            Noun::Environment => self.environments.clone(),
+            Noun::Selector if !self.columns.is_empty() => self.columns.clone(),
+            Noun::Selector => [&self.selectors, &self.connectors, &self.classes, &self.points]
+                .into_iter()
+                .flatten()
+                .cloned()
+                .collect(),
+            Noun::Macro => self.macros.clone(),
+            Noun::New => Vec::new(),
+        }
+    }
+}
+
+/// The editor's helper.
+pub struct Assistant {
+    known: Arc<Mutex<Known>>,
+    files: FilenameCompleter,
+    colour: bool,
+}
+
+impl Assistant {
+    /// A helper reading these names; `colour` paints the record.
+    pub fn new(known: Arc<Mutex<Known>>, colour: bool) -> Self {
+        Assistant { known, files: FilenameCompleter::new(), colour }
+    }
+}
+
+/// The spec of the record being typed: a command of the menu, or the class type after a class name.
+fn spec_of(menu: &str, text: &str, words: &[Token]) -> Option<(&'static CommandSpec, usize)> {
+    let word = |i: usize| words.get(i).and_then(|t| text.get(t.range.clone()));
+    let first = words.first()?;
+    match first.kind {
+        Kind::Class => {
+            let kind = keyword(word(1)?, CLASSES.iter().map(|k| (k.spec.name, k.spec.owner, k.spec)));
+            if let Choice::One(spec) = kind { Some((spec, 2)) } else { None }
+        }
+        Kind::Point => COMMANDS.iter().find(|c| c.spec.name == "*POINT").map(|c| (c.spec, 1)),
+        _ => {
+            let names = offered(menu).map(|c| c.spec).chain(CONTROL).map(|s| (s.name, s.owner, s));
+            if let Choice::One(spec) = keyword(word(0)?, names) { Some((spec, 1)) } else { None }
+        }
+    }
+}
+
+/// What stands at the end of the record: the value expected there.
+fn expected_value(spec: &'static CommandSpec, text: &str, words: &[Token], from: usize) -> Option<&'static ValueSpec> {
+    let mut data = 0;
+    let mut option: Option<(&'static crate::language::spec::OptionSpec, usize)> = None;
+    for token in words.get(from..).unwrap_or_default() {
+        let word = text.get(token.range.clone()).unwrap_or_default();
+        if token.kind == Kind::Option {
+            option = match keyword(word, spec.option_names()) {
+                Choice::One(found) => Some((found, 0)),
+                _ => None,
+            };
+            continue;
+        }
+        match &mut option {
+            Some((found, taken)) if *taken < found.values.len() || found.repeat > 0 => *taken += 1,
+            _ => data += 1,
+        }
+    }
+    if let Some((found, taken)) = option {
+        if let Some(value) = found.values.get(taken) {
+            return Some(value);
+        }
+        if found.repeat > 0 {
+            let fixed = found.values.len() - found.repeat;
+            return found.values.get(fixed + (taken - fixed) % found.repeat);
+        }
+    }
+    spec.data.get(data).or_else(|| {
+        let fixed = spec.data.len().checked_sub(spec.repeat).filter(|_| spec.repeat > 0)?;
+        spec.data.get(fixed + (data - fixed) % spec.repeat)
+    })
+}
+
+impl Completer for Assistant {
+    type Candidate = Pair;
+
+    fn complete(&self, line: &str, pos: usize, context: &Context<'_>) -> rustyline::Result<(usize, Vec<Pair>)> {
+        let before = line.get(..pos).unwrap_or(line);
+        let start = before.rfind(|c: char| c.is_whitespace() || c == ',').map_or(0, |i| i + 1);
+        let word = before.get(start..).unwrap_or_default();
+        let Ok(known) = self.known.lock() else { return Ok((start, Vec::new())) };
+        let head = before.get(..start).unwrap_or_default();
+        let words = token::words(head);
+        let mut candidates: Vec<String> = Vec::new();
+        if let Some(name) = word.strip_prefix('%') {
+            candidates.extend(known.variables.iter().filter(|v| begins(v, name)).map(|v| format!("%{v}")));
+            return Ok((start, pairs(candidates)));
+        }
+        if words.is_empty() {
+            candidates.extend(
+                offered(known.menu).map(|c| c.spec.name).filter(|n| !n.starts_with(['~', '*'])).map(str::to_string),
+            );
+            candidates.extend(CONTROL.iter().map(|s| s.name.to_string()));
+            candidates.extend(known.macros.iter().chain(&known.classes).cloned());
+            if known.menu != "MAIN" {
+                candidates.push(known.end.to_string());
+            }
+        } else if words.first().is_some_and(|w| w.kind == Kind::Class) && words.len() == 1 {
+            candidates.extend(CLASSES.iter().map(|k| k.spec.name.to_string()));
+        } else if let Some((spec, from)) = spec_of(known.menu, head, &words) {
+            if spec.name == "&HELP" {
+                candidates.extend(COMMANDS.iter().map(|c| c.spec).chain(CONTROL).map(|s| s.name.to_string()));
+                candidates.extend(CLASSES.iter().map(|k| k.spec.name.to_string()));
+            } else if word.starts_with('-') && !word.starts_with("-.") {
+                candidates.extend(spec.options.iter().map(|o| o.name.to_string()));
+            } else if let Some(value) = expected_value(spec, head, &words, from) {
+                match value.kind {
+                    ValueKind::Choice(choices) => candidates.extend(choices.iter().map(|c| (*c).to_string())),
+                    ValueKind::Name(noun) => candidates.extend(known.of(noun)),
+                    ValueKind::File => {
+                        drop(known);
+                        return self.files.complete(line, pos, context);
+                    }
+                    _ => {}
+                }
+                if word.is_empty() {
+                    candidates.extend(spec.options.iter().map(|o| o.name.to_string()));
+                }
+            } else if word.is_empty() {
+                candidates.extend(spec.options.iter().map(|o| o.name.to_string()));
+            }
+        }
+        candidates.retain(|c| begins(c, word));
+        candidates.sort();
+        candidates.dedup();
+        Ok((start, pairs(candidates)))
+    }
+}
+
+fn begins(name: &str, word: &str) -> bool {
+    name.get(..word.len()).is_some_and(|head| head.eq_ignore_ascii_case(word))
+}
+
+fn pairs(candidates: Vec<String>) -> Vec<Pair> {
+    candidates
+        .into_iter()
+        .map(|text| {
+            let replacement =
+                if text.contains(char::is_whitespace) { format!("'{text}' ") } else { format!("{text} ") };
+            Pair { display: text, replacement }
+        })
+        .collect()
+}
+
+impl Hinter for Assistant {
+    type Hint = String;
+
+    /// The rest of the record's form, from its spec, once a blank follows what has been typed.
+    fn hint(&self, line: &str, pos: usize, _: &Context<'_>) -> Option<String> {
+        if pos < line.len() || !line.ends_with(' ') || line.contains('\n') {
+            return None;
+        }
+        let known = self.known.lock().ok()?;
+        let words = token::words(line);
+        let (spec, from) = spec_of(known.menu, line, &words)?;
+        let value = expected_value(spec, line, &words, from);
+        let last = words.last().filter(|t| t.kind == Kind::Option).and_then(|t| line.get(t.range.clone()));
+        let option = last.and_then(|name| match keyword(name, spec.option_names()) {
+            Choice::One(found) => Some(found),
+            _ => None,
+        });
+        let text = match (option, value) {
+            (Some(option), _) if !option.values.is_empty() => {
+                option.syntax().get(option.name.len() + 1..).unwrap_or_default().to_string()
+            }
+            (_, Some(value)) if words.len() > from => format!("{}  ({})", value.name, value.help),
+            (_, Some(_)) => spec.syntax().get(spec.name.len() + 1..).unwrap_or_default().to_string(),
+            _ => return None,
+        };
+        Some(text)
+    }
+}
+
+impl Highlighter for Assistant {
+    fn highlight<'l>(&self, line: &'l str, _: usize) -> Cow<'l, str> {
+        if !self.colour {
+            return Cow::Borrowed(line);
+        }
+        let mut out = String::with_capacity(line.len() + 32);
+        let mut end = 0;
+        for token in token::tokens(line) {
+            let (Some(gap), Some(text)) = (line.get(end..token.range.start), line.get(token.range.clone())) else {
+                continue;
+            };
+            out.push_str(gap);
+            let paint = match token.kind {
+                Kind::Internal => "\x1b[1;35m",
+                Kind::Class | Kind::Point | Kind::Selector | Kind::Load => "\x1b[36m",
+                Kind::Option => "\x1b[33m",
+                Kind::Number => "\x1b[32m",
+                Kind::Variable => "\x1b[35m",
+                Kind::Comment => "\x1b[2m",
+                Kind::Quoted => "\x1b[32m",
+                Kind::Word if end == 0 => "\x1b[1m",
+                _ => "",
+            };
+            if paint.is_empty() {
+                out.push_str(text);
+            } else {
+                out.push_str(paint);
+                out.push_str(text);
+                out.push_str("\x1b[0m");
+            }
+            end = token.range.end;
+        }
+        out.push_str(line.get(end..).unwrap_or_default());
+        Cow::Owned(out)
+    }
+
+    fn highlight_char(&self, _: &str, _: usize, _: CmdKind) -> bool {
+        self.colour
+    }
+
+    fn highlight_hint<'h>(&self, hint: &'h str) -> Cow<'h, str> {
+        if self.colour { Cow::Owned(format!("\x1b[2m{hint}\x1b[0m")) } else { Cow::Borrowed(hint) }
+    }
+}
+
+impl Validator for Assistant {
+    /// A record goes on while its last line ends with a lone `\`.
+    fn validate(&self, context: &mut ValidationContext) -> rustyline::Result<ValidationResult> {
+        let open = context.input().lines().last().is_some_and(|line| token::line_end(line).1);
+        Ok(if open { ValidationResult::Incomplete } else { ValidationResult::Valid(None) })
+    }
+}
+
+impl Helper for Assistant {}

@@ -1,0 +1,371 @@
+//! One running job: takes records from the interpreter, finds the command each means in the present menu, and keeps the
+//! error policy.
+
+use crate::command::{self, COMMANDS, Call, Command, Effect, INMODEL_FILE, Job, Menu, PLAIN, SCRIPT, offered};
+use crate::language::args::{self, Args};
+use crate::language::diagnostic::{Diagnostic, Outcome, Severity, did_you_mean};
+use crate::language::flow::macros::{self, Macro};
+use crate::language::flow::specs::CONTROL;
+use crate::language::flow::{Interpreter, Step};
+use crate::language::record::{Record, Word};
+use crate::language::select::{Choice, keyword};
+use crate::language::source::Span;
+use crate::language::spec::Form;
+use crate::language::token::Kind;
+use crate::report::output::Output;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+use std::sync::Arc;
+
+/// Largest file read as records (bytes).
+const LARGEST_FILE: u64 = 256 << 20;
+
+/// Why a run came back.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// The terminal must give a line.
+    NeedLine,
+    /// Everything has been read.
+    Done,
+    /// `&FINISH`, a fatal error, or too many errors.
+    Finished,
+}
+
+/// A running job with its interpreter.
+pub struct Session {
+    /// What commands act on.
+    pub job: Job,
+    /// Where records come from.
+    pub interpreter: Interpreter,
+    /// Errors so far.
+    pub errors: i64,
+    /// Somebody is typing: errors do not end the run.
+    pub interactive: bool,
+}
+
+impl Session {
+    /// A session writing to these channels.
+    pub fn new(output: Output) -> Self {
+        Session {
+            job: Job::new(output),
+            interpreter: Interpreter::new(command::internal_names()),
+            errors: 0,
+            interactive: false,
+        }
+    }
+
+    /// Opens a text as the next thing to read.
+    pub fn open(&mut self, name: &str, text: String) {
+        if let Err(error) = self.interpreter.open(name, text, SCRIPT, None) {
+            self.report(*error);
+        }
+    }
+
+    /// Opens a script file.
+    ///
+    /// # Errors
+    /// A file that cannot be read as text, in one sentence.
+    pub fn open_file(&mut self, name: &str, path: &Path) -> Result<(), String> {
+        let text = read_text(path)?;
+        self.open(name, text);
+        Ok(())
+    }
+
+    /// Runs until nothing is left, a line is needed, or the job ends.
+    pub fn run(&mut self) -> End {
+        loop {
+            let over = match self.interpreter.next(&mut self.job) {
+                Ok(Step::Record(record)) => self.execute(&record),
+                Ok(Step::Ended(tag)) => {
+                    if tag == INMODEL_FILE && matches!(self.job.menu(), Menu::Inmodel) {
+                        self.leave_menu();
+                    }
+                    false
+                }
+                Ok(Step::NeedLine) => return End::NeedLine,
+                Ok(Step::Done) => {
+                    self.say_open_menus();
+                    return End::Done;
+                }
+                Err(error) => {
+                    self.report(*error);
+                    self.job.last_severity == Some(Severity::Fatal) && !self.interactive
+                }
+            };
+            if over || self.too_many_errors() {
+                return End::Finished;
+            }
+        }
+    }
+
+    fn too_many_errors(&mut self) -> bool {
+        let settings = &self.job.settings;
+        if self.interactive || self.errors == 0 {
+            return false;
+        }
+        if settings.batch {
+            return true;
+        }
+        let limit = settings.error_limit;
+        if self.errors >= limit {
+            let text = format!("{limit} errors: the run ends here (&DEVICE -LIMERROR)");
+            self.report(Diagnostic::plain(Severity::Note, text));
+            return true;
+        }
+        false
+    }
+
+    /// At the end of a run: what was left open.
+    fn say_open_menus(&mut self) {
+        if let Menu::Inmodel = self.job.menu() {
+            self.leave_menu();
+        }
+        if self.job.menus.len() > 1 {
+            let menu = self.job.menu();
+            let text = format!("the input ends inside menu {}, which {} leaves", menu.name(), menu.end());
+            self.report(Diagnostic::plain(Severity::Note, text));
+        }
+    }
+
+    /// Prints a message, counts it, and remembers how serious it was.
+    pub fn report(&mut self, mut diagnostic: Diagnostic) {
+        diagnostic.help.extend(self.interpreter.trace());
+        if matches!(diagnostic.severity, Severity::Error | Severity::Fatal) {
+            self.errors += 1;
+        }
+        self.job.last_severity = Some(diagnostic.severity);
+        let sources = &self.interpreter.sources;
+        let plain = diagnostic.render(sources, false);
+        let coloured = if self.job.output.colour { diagnostic.render(sources, true) } else { String::new() };
+        self.job.output.message(&coloured, &plain);
+    }
+
+    /// Executes a record; true when the job is over.
+    fn execute(&mut self, record: &Record) -> bool {
+        let text = record.text().trim();
+        self.job.output.log(&format!("> {text}"));
+        if self.job.settings.echo {
+            self.job.output.text(&format!("> {text}"));
+        }
+        let words = record.words();
+        let asked = self.job.last_severity;
+        self.job.last_severity = None;
+        let outcome = self.dispatch(record, &words);
+        for notice in std::mem::take(&mut self.job.notices) {
+            self.report(notice);
+        }
+        let effect = match outcome {
+            Ok(effect) => effect,
+            Err(error) => {
+                let fatal = error.severity == Severity::Fatal;
+                self.report(*error);
+                return fatal;
+            }
+        };
+        // a record that only speaks keeps the severity it may be about to ask for
+        if self.job.last_severity.is_none() && text.get(..5).is_some_and(|t| t.eq_ignore_ascii_case("&TYPE")) {
+            self.job.last_severity = asked;
+        }
+        match effect {
+            Effect::Done => false,
+            Effect::Finish => true,
+            Effect::Budget(records) => {
+                self.interpreter.budget = records;
+                false
+            }
+            Effect::Set(name, value) => {
+                if let Err(error) = self.interpreter.variables.set(&name, &value) {
+                    self.report(*Diagnostic::error(error.to_string(), record.whole()));
+                }
+                false
+            }
+            Effect::Insert { name, path, tag } => {
+                self.insert(&name, &path, tag, record.whole());
+                false
+            }
+        }
+    }
+
+    fn insert(&mut self, name: &str, path: &Path, tag: u32, span: Span) {
+        let opened = read_text(path)
+            .map_err(|text| Diagnostic::error(text, span))
+            .and_then(|text| self.interpreter.open(name, text, tag, Some(span)));
+        if let Err(error) = opened {
+            if tag != PLAIN {
+                self.job.menus.pop();
+            }
+            self.report(*error);
+        }
+    }
+
+    /// Finds what a record means and does it.
+    fn dispatch(&mut self, record: &Record, words: &[Word]) -> Outcome<Effect> {
+        let Some(first) = words.first() else { return Ok(Effect::Done) };
+        match first.kind {
+            Kind::Class => return self.invoke(in_menu("~CLASS", self.job.menu(), first)?, record, words),
+            Kind::Point => return self.invoke(in_menu("*POINT", self.job.menu(), first)?, record, words),
+            Kind::Load => {
+                return Err(Diagnostic::error(format!("load attribute {} is not known", first.text), first.span)
+                    .label("load attributes come with the bodies' loads"));
+            }
+            _ => {}
+        }
+        let word = first.text.to_ascii_uppercase();
+        if word == "END" || word.starts_with("END_") {
+            return self.end(first, &word);
+        }
+        match self.resolve(first)? {
+            Meaning::Command(command) => self.invoke(command, record, words),
+            Meaning::Macro(found) => self.interpreter.call(&found, record).map(|()| Effect::Done),
+        }
+    }
+
+    /// Exact command, exact macro, abbreviated command, abbreviated macro: in this order.
+    fn resolve(&self, first: &Word) -> Outcome<Meaning> {
+        let menu = self.job.menu();
+        let internal = first.kind == Kind::Internal;
+        let names = offered(menu.name())
+            .filter(move |c| c.spec.name.starts_with('&') == internal && !c.spec.name.starts_with(['~', '*']))
+            .map(|c| (c.spec.name, c.spec.owner, c));
+        let controls = CONTROL.iter().filter(move |_| internal).map(|s| (s.name, s.owner));
+        let found_macro = macros::find(&first.text, self.interpreter.macros());
+        let exact = names.clone().find(|(name, _, _)| name.eq_ignore_ascii_case(&first.text));
+        if let (None, Some((true, found))) = (&exact, &found_macro) {
+            return Ok(Meaning::Macro(Arc::clone(found)));
+        }
+        let all = names.clone().map(|(n, o, c)| (n, o, Some(c))).chain(controls.map(|(n, o)| (n, o, None)));
+        match keyword(&first.text, all) {
+            Choice::One(Some(command)) => Ok(Meaning::Command(command)),
+            Choice::Several(list) => Err(Diagnostic::error(format!("ambiguous command `{}`", first.text), first.span)
+                .label(format!("could be {}", list.join(", ")))),
+            Choice::One(None) | Choice::None => match found_macro {
+                Some((_, found)) => Ok(Meaning::Macro(Arc::clone(found))),
+                None => Err(unknown(first, menu, names.map(|(n, _, _)| n), self.interpreter.macros())),
+            },
+        }
+    }
+
+    fn invoke(&mut self, command: &'static Command, record: &Record, words: &[Word]) -> Outcome<Effect> {
+        let span = words.first().map_or(Span::default(), |w| w.span);
+        let args = match command.spec.form {
+            Form::Words => args::read(command.spec, span, words.get(1..).unwrap_or_default(), self.job.units)?,
+            Form::Text => Args { span, data: Vec::new(), options: Vec::new() },
+        };
+        let call = Call { record, words, args };
+        let kept = command.edits.then(|| self.job.model.clone());
+        let job = &mut self.job;
+        let outcome = catch_unwind(AssertUnwindSafe(|| (command.run)(job, &call))).unwrap_or_else(|_| {
+            Err(Diagnostic::error(format!("{} met a defect of windlass and was given up", command.spec.name), span)
+                .help("please report this record; the session goes on"))
+        });
+        if let (Err(_), Some(model)) = (&outcome, kept) {
+            self.job.model = model;
+        }
+        outcome
+    }
+
+    /// Leaves the innermost menu.
+    fn end(&mut self, first: &Word, word: &str) -> Outcome<Effect> {
+        let menu = self.job.menu();
+        if self.job.menus.len() < 2 {
+            return Err(Diagnostic::error("there is no menu to leave", first.span).help("&FINISH ends the job"));
+        }
+        if word != "END" && !menu.end().starts_with(word) {
+            return Err(Diagnostic::error(format!("{word} does not leave menu {}", menu.name()), first.span)
+                .label(format!("expected END or {}", menu.end())));
+        }
+        self.leave_menu();
+        Ok(Effect::Done)
+    }
+
+    fn leave_menu(&mut self) {
+        let inmodel = matches!(self.job.menu(), Menu::Inmodel);
+        if self.job.menus.len() > 1 {
+            self.job.menus.pop();
+        }
+        if inmodel {
+            for error in command::finish_inmodel(&mut self.job) {
+                self.report(*error);
+            }
+        }
+    }
+}
+
+enum Meaning {
+    Command(&'static Command),
+    Macro(Arc<Macro>),
+}
+
+/// A description record's command, when the menu takes descriptions.
+fn in_menu(name: &str, menu: &Menu, first: &Word) -> Outcome<&'static Command> {
+    offered(menu.name()).find(|c| c.spec.name == name).ok_or_else(|| {
+        Diagnostic::error(format!("`{}` has no place in menu {}", first.text, menu.name()), first.span)
+            .label("a description record")
+            .help("descriptions belong to INMODEL or MEDIT: enter MEDIT first")
+    })
+}
+
+/// The error for a word that names nothing here: where it would, or what is near.
+fn unknown<'a>(
+    first: &Word,
+    menu: &Menu,
+    names: impl Iterator<Item = &'static str>,
+    macros: impl Iterator<Item = &'a Arc<Macro>>,
+) -> Box<Diagnostic> {
+    let mut error = Diagnostic::error(format!("unknown command `{}` in menu {}", first.text, menu.name()), first.span);
+    let elsewhere = COMMANDS.iter().find(|c| {
+        !c.spec.menus.is_empty()
+            && c.spec.name.get(..first.text.len()).is_some_and(|h| h.eq_ignore_ascii_case(&first.text))
+    });
+    let candidates: Vec<String> = names
+        .map(str::to_string)
+        .chain(CONTROL.iter().map(|s| s.name.to_string()))
+        .chain(macros.map(|m| m.name.clone()))
+        .collect();
+    match elsewhere {
+        Some(command) => {
+            error.help.push(format!("{} belongs to menu {}", command.spec.name, command.spec.menus.join(" and ")));
+        }
+        None => error.help.extend(did_you_mean(&first.text, candidates.iter().map(String::as_str))),
+    }
+    if error.help.is_empty() {
+        error.help.push("&HELP lists what can be typed here".into());
+    }
+    error
+}
+
+/// The text of a file of records.
+///
+/// # Errors
+/// A file that is not there, too large, or not text, in one sentence.
+pub fn read_text(path: &Path) -> Result<String, String> {
+    let shown = path.display();
+    let size = std::fs::metadata(path).map_err(|e| format!("{shown}: {e}"))?.len();
+    if size > LARGEST_FILE {
+        return Err(format!("{shown} has {size} bytes; at most {LARGEST_FILE} are read"));
+    }
+    let bytes = std::fs::read(path).map_err(|e| format!("{shown}: {e}"))?;
+    text_of(&bytes).map_err(|why| format!("{shown} is not a text file: {why}"))
+}
+
+/// Bytes as text: UTF-8 without NUL; a byte order mark is taken off.
+///
+/// # Errors
+/// Where the first byte is that is no text.
+pub fn text_of(bytes: &[u8]) -> Result<String, String> {
+    let place = |at: usize| {
+        let before = bytes.get(..at).unwrap_or_default();
+        format!(
+            "line {} holds the byte 0x{:02X}",
+            1 + before.iter().filter(|b| **b == b'\n').count(),
+            bytes.get(at).copied().unwrap_or(0)
+        )
+    };
+    if let Some(at) = bytes.iter().position(|b| *b == 0) {
+        return Err(place(at));
+    }
+    match std::str::from_utf8(bytes) {
+        Ok(text) => Ok(text.strip_prefix('\u{feff}').unwrap_or(text).to_string()),
+        Err(error) => Err(place(error.valid_up_to())),
+    }
+}
