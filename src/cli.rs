@@ -73,7 +73,7 @@ pub fn run(cli: Cli) -> u8 {
     };
     session.job.output.flush();
     let script_errors = session.errors;
-    if stay && end != End::Finished || (stay && cli.interactive) {
+    if stay && (end != End::Finished || cli.interactive) {
         repl::run(&mut session, terminal);
         session.job.output.flush();
     }

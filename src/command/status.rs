@@ -1,10 +1,13 @@
 //! `&STATUS`: what the model and the program hold.
 
 use super::{Call, Command, Effect, Job};
+use crate::connector::CLASSES;
+use crate::language::args::{Given, Value};
 use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::functions::eight_figures;
 use crate::language::select::{Owner, choose, matches};
 use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
-use crate::language::units::Dim;
+use crate::language::units::{Dim, UnitSystem};
 use crate::model::{Coordinates, Current, Environment, Model, Sea};
 use crate::report::page;
 use crate::report::plot::Chart;
@@ -60,7 +63,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let fits = |name: &str| pattern.as_ref().is_none_or(|p| takes(model, p, name));
     let tables = match kind {
         "CONFIGURATION" => vec![configuration(model, &fits)],
-        "CL_FLEX" | "CLASSES" => classes(model, &fits),
+        "CL_FLEX" | "CLASSES" => classes(job, &fits),
         "G_CONNECTOR" => vec![connectors(model, &fits)],
         "CURVES" => curves(model, &fits),
         "ENVIRONMENT" => vec![environment(job)],
@@ -170,7 +173,8 @@ fn points(model: &Model, fits: &dyn Fn(&str) -> bool) -> Table {
     table
 }
 
-fn classes(model: &Model, fits: &dyn Fn(&str) -> bool) -> Vec<Table> {
+fn classes(job: &Job, fits: &dyn Fn(&str) -> bool) -> Vec<Table> {
+    let model = &job.model;
     let surroundings = model.surroundings();
     model
         .classes
@@ -179,10 +183,10 @@ fn classes(model: &Model, fits: &dyn Fn(&str) -> bool) -> Vec<Table> {
         .map(|class| {
             let mut table = class.object.properties(&class.name, &surroundings);
             for (index, record) in class.records.iter().enumerate() {
-                let given: Vec<&str> = record.args.options.iter().map(|g| g.spec.name).collect();
-                if !given.is_empty() {
-                    table.note(format!("record {}: {}", index + 1, given.join(" ")));
-                }
+                let data = as_written(&record.args.data, kind_data(class.object.kind()), job.units);
+                let options = record.args.options.iter().map(|g| option_as_written(g, job.units));
+                let words: Vec<String> = data.into_iter().chain(options).collect();
+                table.note(format!("record {}: {} {}", index + 1, class.object.kind(), words.join(" ")));
             }
             table
         })
@@ -307,42 +311,66 @@ fn environment(job: &Job) -> Table {
 
 /// The options kept that have no line of their own above, as they were given.
 fn others(mut table: Table, env: &Environment, job: &Job) -> Table {
-    const SHOWN: [&str; 12] = [
-        "-WATER",
-        "-SPGWATER",
-        "-DEPTH",
-        "-TIDE",
-        "-RAMP",
-        "-SEA",
-        "-A_SEA",
-        "-SPREAD",
-        "-WIND",
-        "-CURRENT",
-        "-TIME",
-        "-PLOT",
-    ];
+    const SHOWN: [&str; 11] =
+        ["-WATER", "-SPGWATER", "-DEPTH", "-TIDE", "-RAMP", "-SEA", "-A_SEA", "-SPREAD", "-WIND", "-CURRENT", "-TIME"];
     for given in env.options.iter().filter(|g| !SHOWN.contains(&g.spec.name)) {
-        let dims = given.spec.values.iter().map(|v| match v.kind {
-            Kind::Number(dim) => dim,
-            _ => Dim::None,
-        });
-        let dims: Vec<Dim> = dims.collect();
-        let shown = given.values.iter().enumerate().map(|(index, value)| {
-            let dim = dims.get(index).or(dims.last()).copied().unwrap_or(Dim::None);
+        let text = option_as_written(given, job.units);
+        let values = text.split_once(' ').map_or("", |(_, values)| values);
+        table = table.fact(given.spec.name, values, Dim::None);
+    }
+    table
+}
+
+/// The data specs of a class type, the repeating group continued without end.
+fn kind_data(kind: &str) -> impl Iterator<Item = &'static ValueSpec> + use<> {
+    let spec = CLASSES.iter().map(|k| k.spec).find(|s| s.name == kind);
+    let (data, repeat) = spec.map_or((&[][..], 0), |s| (s.data, s.repeat));
+    let group = data.get(data.len() - repeat..).unwrap_or_default();
+    data.iter().chain(group.iter().cycle())
+}
+
+/// An option as a record would give it now: values in the present units.
+fn option_as_written(given: &Given, units: UnitSystem) -> String {
+    let specs = given.spec.values;
+    let group = specs.get(specs.len() - given.spec.repeat.min(specs.len())..).unwrap_or_default();
+    let mut words = vec![given.spec.name.to_string()];
+    words.extend(as_written(&given.values, specs.iter().chain(group.iter().cycle()), units));
+    words.join(" ")
+}
+
+/// Values as a record would give them now; those left out are commas.
+fn as_written(values: &[Value], specs: impl Iterator<Item = &'static ValueSpec>, units: UnitSystem) -> Vec<String> {
+    let exponent = values.get(1).and_then(Value::number).unwrap_or(1.0);
+    let mut angular = false;
+    values
+        .iter()
+        .zip(specs)
+        .map(|(value, spec)| {
+            if let Some(word) = value.word() {
+                angular = word.len() == 2 && word.starts_with('R');
+            }
+            let dim = match spec.kind {
+                Kind::Number(dim) => dim,
+                Kind::StiffnessOfDof if angular => Dim::MomentPerRadian,
+                Kind::StiffnessOfDof => Dim::ForcePerLength,
+                Kind::ForceOfDof if angular => Dim::Moment,
+                Kind::ForceOfDof => Dim::Force,
+                Kind::DampingCoefficient => Dim::Damping(exponent),
+                _ => Dim::None,
+            };
             match (value.word(), value.integer(), value.number()) {
                 (Some(word), _, _) => word.to_string(),
                 (_, Some(whole), _) => whole.to_string(),
-                (_, _, Some(number)) => {
-                    let label = dim.label(job.units);
-                    let text = crate::report::format::report(&Cell::Number(number), dim, Digits::Usual, job.units);
-                    format!("{text} {label}").trim_end().to_string()
-                }
-                _ => "-".to_string(),
+                (_, _, Some(number)) => shortest(dim, number, units),
+                _ => ",".to_string(),
             }
-        });
-        table = table.fact(given.spec.name, shown.collect::<Vec<_>>().join(", "), Dim::None);
-    }
-    table
+        })
+        .collect()
+}
+
+/// A number in user units with at most eight figures, the digits a record is likely to have had.
+fn shortest(dim: Dim, si: f64, units: UnitSystem) -> String {
+    eight_figures(dim.from_si(si, units))
 }
 
 fn dimensions(job: &Job) -> Table {

@@ -240,7 +240,7 @@ fn report(connector: &str, class: &Catenary, rows: &[Row], fairlead: f64, bottom
         let _ = out.push(cells);
     }
     if let Some(first) = rows.iter().position(|r| r.ratio > 1.0) {
-        out.note(format!("rows {} to {ROWS} are beyond the breaking tension (Max T/TB above 1)", first + 1));
+        out.note(format!("{} beyond the breaking tension (Max T/TB above 1)", rows_from(first, ROWS - 1)));
     }
     let states: Vec<Option<Buoy>> = rows.iter().map(|r| r.state.joints.iter().find_map(|j| j.buoy)).collect();
     out.notes.extend(buoy_notes(&states));
@@ -248,6 +248,11 @@ fn report(connector: &str, class: &Catenary, rows: &[Row], fairlead: f64, bottom
         out.note("warning: a segment above the spring buoy hangs below the bottom in some rows (it does not see it)");
     }
     out
+}
+
+/// `row 3 is` or `rows 3 to 5 are`, counted from 1.
+fn rows_from(first: usize, last: usize) -> String {
+    if first == last { format!("row {} is", first + 1) } else { format!("rows {} to {} are", first + 1, last + 1) }
 }
 
 /// In which rows a spring buoy floats, hangs slack, or is sunk.
@@ -261,7 +266,7 @@ fn buoy_notes(states: &[Option<Buoy>]) -> Vec<String> {
     let mut from = 0;
     while let Some(Some(state)) = states.get(from) {
         let run = states.iter().skip(from).take_while(|s| **s == Some(*state)).count();
-        notes.push(format!("rows {} to {}: the spring buoy is {}", from + 1, from + run, word(state)));
+        notes.push(format!("{} with the spring buoy {}", rows_from(from, from + run - 1), word(state)));
         from += run;
     }
     notes

@@ -28,6 +28,13 @@ pub struct ClassKind {
     pub build: fn(&[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>>,
 }
 
+impl PartialEq for ClassKind {
+    /// A class type is its spec.
+    fn eq(&self, other: &Self) -> bool {
+        std::ptr::eq(self.spec, other.spec)
+    }
+}
+
 /// All class types, in the order of the manual.
 pub static CLASSES: &[&ClassKind] = &[
     &spring::FOUNDATION,

@@ -1,7 +1,7 @@
 //! Messages with a place: what is wrong, the word it is wrong with, what was expected, and the nearest known name.
 
 use super::source::{Source, Sources, Span, floor_boundary};
-use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
+use annotate_snippets::{Annotation, AnnotationKind, Group, Level, Renderer, Snippet};
 use std::ops::Range;
 
 /// How serious a message is.
@@ -96,27 +96,32 @@ impl Diagnostic {
             Severity::Error => Level::ERROR,
             Severity::Fatal => Level::ERROR.with_name("fatal error"),
         };
-        let excerpts: Vec<(Excerpt<'_>, AnnotationKind, &str)> = self
+        let places = self
             .span
             .map(|span| (span, AnnotationKind::Primary, self.label.as_str()))
             .into_iter()
-            .chain(self.other.as_ref().map(|(span, text)| (*span, AnnotationKind::Context, text.as_str())))
-            .filter_map(|(span, kind, text)| {
-                sources.get(span.source).map(|source| (Excerpt::of(source, span), kind, text))
-            })
-            .collect();
-        let mut group: Group<'_> = Group::with_title(level.primary_title(self.message.as_str()));
-        for (excerpt, kind, text) in &excerpts {
+            .chain(self.other.as_ref().map(|(span, text)| (*span, AnnotationKind::Context, text.as_str())));
+        let mut excerpts: Vec<(Excerpt<'_>, Vec<Annotation<'_>>)> = Vec::new();
+        for (span, kind, text) in places {
+            let Some(source) = sources.get(span.source) else { continue };
+            let excerpt = Excerpt::of(source, span);
             let mut annotation = kind.span(excerpt.range.clone());
             if !text.is_empty() {
-                annotation = annotation.label(*text);
+                annotation = annotation.label(text);
             }
+            match excerpts.iter_mut().find(|(e, _)| e.same_line(&excerpt)) {
+                Some((_, annotations)) => annotations.push(annotation),
+                None => excerpts.push((excerpt, vec![annotation])),
+            }
+        }
+        let mut group: Group<'_> = Group::with_title(level.primary_title(self.message.as_str()));
+        for (excerpt, annotations) in &excerpts {
             group = group.element(
                 Snippet::source(excerpt.text.as_ref())
                     .line_start(excerpt.line)
                     .path(excerpt.name)
                     .fold(true)
-                    .annotation(annotation),
+                    .annotations(annotations.clone()),
             );
         }
         for text in &self.help {
@@ -139,6 +144,10 @@ struct Excerpt<'a> {
 const SHOWN: usize = 400;
 
 impl<'a> Excerpt<'a> {
+    fn same_line(&self, other: &Self) -> bool {
+        self.name == other.name && self.line == other.line && self.text == other.text
+    }
+
     fn of(source: &'a Source, span: Span) -> Self {
         let text: &str = &source.text;
         let start = floor_boundary(text, span.start as usize);

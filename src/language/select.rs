@@ -29,7 +29,10 @@ pub enum Choice<T> {
 }
 
 /// Selects among keywords: an exact name wins, else the only name of MOSES that begins so, else the only other one.
-pub fn keyword<T: Copy>(word: &str, names: impl Iterator<Item = (&'static str, Owner, T)> + Clone) -> Choice<T> {
+pub fn keyword<T: Copy + PartialEq>(
+    word: &str,
+    names: impl Iterator<Item = (&'static str, Owner, T)> + Clone,
+) -> Choice<T> {
     let begins = |name: &str| name.get(..word.len()).is_some_and(|head| head.eq_ignore_ascii_case(word));
     if word.is_empty() {
         return Choice::None;
@@ -40,7 +43,9 @@ pub fn keyword<T: Copy>(word: &str, names: impl Iterator<Item = (&'static str, O
     for moses in [true, false] {
         let mut hits = names.clone().filter(|(name, owner, _)| (*owner == Owner::Moses) == moses && begins(name));
         if let Some((first, _, found)) = hits.next() {
-            let rest: Vec<&'static str> = hits.map(|(name, _, _)| name).collect();
+            // several spellings of the same thing are one hit
+            let rest: Vec<&'static str> =
+                hits.filter(|(_, _, other)| *other != found).map(|(name, _, _)| name).collect();
             if rest.is_empty() {
                 return Choice::One(found);
             }
@@ -54,7 +59,7 @@ pub fn keyword<T: Copy>(word: &str, names: impl Iterator<Item = (&'static str, O
 ///
 /// # Errors
 /// An ambiguous word (the candidates are listed) or an unknown one (the nearest names are listed).
-pub fn choose<T: Copy>(
+pub fn choose<T: Copy + PartialEq>(
     word: &str,
     span: Span,
     what: &str,

@@ -7,7 +7,7 @@
 use super::columns::{NoSuchColumn, choose};
 use super::format;
 use crate::language::units::UnitSystem;
-use crate::table::{Cell, Column, Table};
+use crate::table::{Cell, Column, Digits, Table};
 
 /// Why something could not be done with a table.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -215,7 +215,9 @@ impl Disposition {
             let range = column.cells.iter().filter_map(Cell::number).fold(None, |range: Option<(f64, f64)>, v| {
                 Some(range.map_or((v, v), |(low, high)| (low.min(v), high.max(v))))
             });
-            let shown = |v: f64| format::report(&Cell::Number(v), column.dim, column.digits, units);
+            let whole = column.cells.iter().all(|c| matches!(c, Cell::Integer(_)));
+            let digits = if whole { Digits::Decimals(0) } else { column.digits };
+            let shown = |v: f64| format::report(&Cell::Number(v), column.dim, digits, units);
             let range = range.map_or(String::new(), |(low, high)| format!("{} to {}", shown(low), shown(high)));
             format!("{:>5}  {name:<width$}  {:<10} {range}", index + 1, column.dim.label(units)).trim_end().to_string()
         });
@@ -238,7 +240,6 @@ impl Disposition {
 mod tests {
     use super::*;
     use crate::language::units::{Dim, FOOT};
-    use crate::table::Digits;
 
     fn menu() -> Disposition {
         let mut t =

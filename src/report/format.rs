@@ -98,9 +98,9 @@ fn usual(dim: Dim, units: UnitSystem) -> u8 {
                 1
             }
         }
-        Dim::Density | Dim::KilogramsPerCubicMetre | Dim::Days | Dim::Mass | Dim::MassPerLength | Dim::Metres => 2,
+        Dim::Density | Dim::KilogramsPerCubicMetre | Dim::Mass | Dim::MassPerLength | Dim::Metres => 2,
         Dim::Newtons | Dim::Pascals | Dim::NewtonSquareMetres => 0,
-        Dim::None | Dim::Frequency | Dim::SpectralDensity | Dim::Damping(_) | Dim::SquareMetres => 4,
+        Dim::None | Dim::Days | Dim::Frequency | Dim::SpectralDensity | Dim::Damping(_) | Dim::SquareMetres => 4,
         Dim::ThermalExpansion => 8,
     }
 }

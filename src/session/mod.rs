@@ -41,6 +41,10 @@ pub struct Session {
     pub errors: i64,
     /// Somebody is typing: errors do not end the run.
     pub interactive: bool,
+    /// Keep every message in [`Session::reports`], for programs that read them.
+    pub keep_reports: bool,
+    /// The messages kept.
+    pub reports: Vec<Diagnostic>,
 }
 
 impl Session {
@@ -51,6 +55,8 @@ impl Session {
             interpreter: Interpreter::new(command::internal_names()),
             errors: 0,
             interactive: false,
+            keep_reports: false,
+            reports: Vec::new(),
         }
     }
 
@@ -138,6 +144,9 @@ impl Session {
         let plain = diagnostic.render(sources, false);
         let coloured = if self.job.output.colour { diagnostic.render(sources, true) } else { String::new() };
         self.job.output.message(&coloured, &plain);
+        if self.keep_reports {
+            self.reports.push(diagnostic);
+        }
     }
 
     /// Executes a record; true when the job is over.

@@ -328,20 +328,24 @@ impl Interpreter {
     /// Drops the blocks the innermost frame left open and says so.
     fn check_closed(&mut self) -> Outcome<()> {
         let depth = self.frames.len();
-        if self.collecting.as_ref().is_some_and(|c| c.depth >= depth)
-            && let Some(open) = self.collecting.take()
-        {
-            let name = if open.macro_block { "&MACRO" } else { "&LOOP" };
-            return Err(Diagnostic::error(format!("this {name} is not closed"), open.span)
-                .label(format!("expected &END{} before the end", name.trim_start_matches('&'))));
+        let branch = self.branches.iter().find(|b| b.depth >= depth).map(|b| b.span);
+        self.branches.retain(|b| b.depth < depth);
+        let block = self.collecting.take_if(|c| c.depth >= depth);
+        match (block, branch) {
+            (None, None) => Ok(()),
+            (None, Some(span)) => {
+                Err(Diagnostic::error("this &IF is not closed", span).label("expected &ENDIF before the end"))
+            }
+            (Some(open), branch) => {
+                let name = if open.macro_block { "MACRO" } else { "LOOP" };
+                let error = Diagnostic::error(format!("this &{name} is not closed"), open.span)
+                    .label(format!("expected &END{name} before the end"));
+                Err(match branch {
+                    Some(span) => error.other(span, "nor is this &IF"),
+                    None => error,
+                })
+            }
         }
-        let open = self.branches.iter().position(|b| b.depth >= depth);
-        if let Some(first) = open {
-            let span = self.branches.get(first).map_or(Span::default(), |b| b.span);
-            self.branches.truncate(first);
-            return Err(Diagnostic::error("this &IF is not closed", span).label("expected &ENDIF before the end"));
-        }
-        Ok(())
     }
 
     /// Starts the next trip of the innermost loop, or ends it.
@@ -505,7 +509,8 @@ impl Interpreter {
             Some(at) if at + 5 == upper.len() => text.get(..at).unwrap_or_default(),
             _ => text,
         };
-        logic::evaluate(text, record.span(range))
+        let text = text.trim_end();
+        logic::evaluate(text, record.span(range.start..range.start + text.len()))
     }
 
     fn other_branch(&mut self, name: &str, record: &Record, world: &mut dyn World) -> Outcome<()> {

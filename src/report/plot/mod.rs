@@ -225,7 +225,7 @@ impl Chart {
             let (low, high) =
                 points().map(pick).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
             let room = if high > low { 0.03 * (high - low) } else { 0.5 * low.abs().max(1.0) };
-            (low <= high).then(|| low - room..high + room)
+            if low <= high { Some(low - room..high + room) } else { None }
         };
         Some((range(|p| p.0)?, range(|p| p.1)?))
     }

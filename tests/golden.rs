@@ -1,0 +1,81 @@
+//! Golden scripts: every `scripts/*.cif` is run as a user runs it, and its log and the CSV files it writes are compared
+//! with `tests/golden/`. Text must be equal; numbers may differ by 2e-6 of their size, the room between mathematics
+//! libraries in numbers printed with up to seven figures. `BLESS=1 cargo test --test golden` accepts what is printed.
+
+#![allow(clippy::unwrap_used)]
+
+use libtest_mimic::{Arguments, Failed, Trial};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+const TOLERANCE: f64 = 2e-6;
+
+fn main() {
+    let arguments = Arguments::from_args();
+    let mut scripts: Vec<PathBuf> = fs::read_dir("scripts").unwrap().flatten().map(|e| e.path()).collect();
+    scripts.retain(|p| p.extension().is_some_and(|e| e == "cif"));
+    scripts.sort();
+    let trials = scripts
+        .into_iter()
+        .map(|script| {
+            let name = script.file_stem().unwrap().to_string_lossy().into_owned();
+            Trial::test(name.clone(), move || check(&script, &name))
+        })
+        .collect();
+    libtest_mimic::run(&arguments, trials).exit();
+}
+
+fn check(script: &Path, name: &str) -> Result<(), Failed> {
+    let folder = tempfile::tempdir()?;
+    let out = folder.path().join("out");
+    let run = Command::new(env!("CARGO_BIN_EXE_windlass")).arg(script).arg("--out").arg(&out).output()?;
+    let mut text = format!("exit code {}\n", run.status.code().unwrap_or(-1));
+    let mut files: Vec<PathBuf> = fs::read_dir(&out)?.flatten().map(|e| e.path()).filter(|p| p.is_file()).collect();
+    files.sort();
+    for file in files {
+        let title = file.file_name().unwrap().to_string_lossy().into_owned();
+        let shown = match file.extension().and_then(|e| e.to_str()) {
+            Some("png" | "svg") => "(a picture)\n".to_string(),
+            _ => {
+                let text = fs::read_to_string(&file)?.replace(&*out.to_string_lossy(), "OUT");
+                // what &DCPTIME prints is a time of the machine
+                text.lines().filter(|l| !l.starts_with("*** time ")).map(|l| format!("{l}\n")).collect()
+            }
+        };
+        text.push_str(&format!("==== {title}\n{shown}"));
+    }
+    let golden = Path::new("tests/golden").join(format!("{name}.txt"));
+    if std::env::var_os("BLESS").is_some() {
+        fs::write(&golden, text)?;
+        return Ok(());
+    }
+    let want = fs::read_to_string(&golden).map_err(|e| format!("{}: {e}; BLESS=1 makes it", golden.display()))?;
+    compare(&want, &text)
+}
+
+fn compare(want: &str, got: &str) -> Result<(), Failed> {
+    for (number, (w, g)) in want.lines().zip(got.lines()).enumerate() {
+        if !same(w, g) {
+            return Err(format!("line {}:\n  want {w}\n  got  {g}", number + 1).into());
+        }
+    }
+    if want.lines().count() != got.lines().count() {
+        return Err(format!("{} lines wanted, {} got", want.lines().count(), got.lines().count()).into());
+    }
+    Ok(())
+}
+
+/// Equal but for numbers, which may differ within the tolerance; the blanks that fill a column may then differ too.
+fn same(want: &str, got: &str) -> bool {
+    if want == got {
+        return true;
+    }
+    let split = |s: &str| s.split([' ', ',']).filter(|w| !w.is_empty()).map(str::to_string).collect::<Vec<_>>();
+    let (want, got) = (split(want), split(got));
+    want.len() == got.len()
+        && want.iter().zip(&got).all(|(w, g)| match (w.parse::<f64>(), g.parse::<f64>()) {
+            (Ok(a), Ok(b)) => (a - b).abs() <= TOLERANCE * a.abs().max(b.abs()),
+            _ => w == g,
+        })
+}
