@@ -88,8 +88,27 @@ impl Diagnostic {
         self
     }
 
+    /// The message with every text cut to a length a person reads.
+    fn shortened(&self) -> Diagnostic {
+        let cut = |text: &str| match text.char_indices().nth(LONGEST_TEXT) {
+            Some((at, _)) => format!("{} ..", text.get(..at).unwrap_or_default()),
+            None => text.to_string(),
+        };
+        Diagnostic {
+            message: cut(&self.message),
+            label: cut(&self.label),
+            other: self.other.as_ref().map(|(span, text)| (*span, cut(text))),
+            help: self.help.iter().map(|h| cut(h)).collect(),
+            ..*self
+        }
+    }
+
     /// The message as printed: headline, place, the record with the word underlined, help lines.
     pub fn render(&self, sources: &Sources, colour: bool) -> String {
+        self.shortened().rendered(sources, colour)
+    }
+
+    fn rendered(&self, sources: &Sources, colour: bool) -> String {
         let level = match self.severity {
             Severity::Note => Level::NOTE,
             Severity::Warning => Level::WARNING,
@@ -140,6 +159,8 @@ struct Excerpt<'a> {
     range: Range<usize>,
 }
 
+/// Longest text of a message (characters).
+const LONGEST_TEXT: usize = 400;
 /// Longest piece of a source shown around a word (bytes).
 const SHOWN: usize = 400;
 

@@ -1,0 +1,135 @@
+//! Input nobody should send: each ends in an error that names the place, and the session goes on to the next record.
+
+#![allow(clippy::unwrap_used)]
+
+use std::io::Write;
+use std::process::{Command, Output, Stdio};
+
+const AFTER: &str = "\n&TYPE still here\n";
+
+/// Runs bytes as a script from standard input, in a folder of its own.
+fn run(bytes: &[u8]) -> (Output, String, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_windlass"))
+        .arg("-")
+        .current_dir(folder.path())
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut stdin = child.stdin.take().unwrap();
+    let bytes = bytes.to_vec();
+    let writer = std::thread::spawn(move || {
+        let _ = stdin.write_all(&bytes);
+    });
+    let output = child.wait_with_output().unwrap();
+    writer.join().unwrap();
+    let (out, err) = (String::from_utf8_lossy(&output.stdout).into(), String::from_utf8_lossy(&output.stderr).into());
+    (output, out, err)
+}
+
+fn refused(script: &str, message: &str) {
+    let (output, out, err) = run(format!("{script}{AFTER}").as_bytes());
+    assert_eq!(output.status.code(), Some(1), "{err}");
+    assert!(err.contains(message), "{message} is missing from\n{}", &err[..err.len().min(2000)]);
+    assert!(out.contains("still here"), "the session did not go on: {err}");
+    assert!(err.len() < 100_000, "a message of {} bytes", err.len());
+}
+
+#[test]
+fn a_line_of_ten_megabytes() {
+    refused(&"A".repeat(10 << 20), "characters; at most");
+    refused(&format!("&TYPE {}", "word ".repeat(2 << 20)), "characters; at most");
+}
+
+#[test]
+fn a_record_continued_without_end() {
+    refused(&"&TYPE x \\\n".repeat(1 << 20), "characters; at most");
+    let (_, _, err) = run(b"&TYPE x \\");
+    assert!(err.contains("ends inside a record that is continued"), "{err}");
+}
+
+#[test]
+fn binary_input() {
+    let (output, _, err) = run(&[0x7f, b'E', b'L', b'F', 0, 1, 2, 255]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(err.contains("line 1 holds the byte 0x00"), "{err}");
+    let (_, _, err) = run(b"&TYPE ok\n\xff\xfe");
+    assert!(err.contains("line 2 holds the byte 0xFF"), "{err}");
+}
+
+#[test]
+fn nesting_without_end() {
+    let deep = |n: usize| format!("{}1{}", "(".repeat(n), ")".repeat(n));
+    refused(&format!("&ENV -DEPTH {}", deep(10_000)), "too deeply nested");
+    refused(&format!("&TYPE x {}1{}", "&NUMBER(REAL ".repeat(10_000), ")".repeat(10_000)), "nested deeper");
+    refused(&format!("&IF {} .TRUE. &THEN\n&ENDIF", ".NOT. ".repeat(100_000)), "nested too deeply");
+    refused(&"&IF .TRUE. &THEN\n".repeat(50_000), "not closed");
+}
+
+#[test]
+fn a_file_that_inserts_itself() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("me.cif"), "&INSERT me.cif\n").unwrap();
+    let run = Command::new(env!("CARGO_BIN_EXE_windlass")).arg("me.cif").current_dir(folder.path()).output().unwrap();
+    let err = String::from_utf8_lossy(&run.stderr);
+    assert_eq!(run.status.code(), Some(1));
+    assert!(err.contains("does the file insert itself?"), "{err}");
+}
+
+#[test]
+fn endless_macros_and_loops() {
+    refused("&MACRO M\nM\n&ENDMACRO\nM", "macros call each other deeper than");
+    let (output, out, err) = run(b"&DEVICE -RECORDS 5000\n&LOOP\n&SET A = 1\n&ENDLOOP\n&TYPE after\n");
+    assert_eq!(output.status.code(), Some(1));
+    assert!(err.contains("has executed its 5000 records"), "{err}");
+    assert!(!out.contains("after"));
+    let (_, _, err) = run(b"&LOOP\n&ENDLOOP\n");
+    assert!(err.contains("has executed its 2000000 records"), "{err}");
+}
+
+#[test]
+fn a_variable_doubled_again_and_again() {
+    refused("&SET A = xxxxxxxx\n&LOOP I 1 9\n&SET A = %A%%A%%A%%A%%A%%A%%A%%A%\n&ENDLOOP", "longer than");
+}
+
+#[test]
+fn numbers_beyond_all_bounds() {
+    for word in ["1E400", "9**9**9**9", "1/0", "0**(-1)", "(-1)**0.5", "LN(0)", "1E308*1E308", "--", "((", "1..2", "é"]
+    {
+        refused(&format!("&ENV -DEPTH {word}"), "must be");
+    }
+}
+
+#[test]
+fn odd_characters_anywhere() {
+    for script in
+        ["&TYPE %(", "&TYPE %()", "&TYPE &POINT(", "~", "*", ":", "#", "&", "-", "%", ",,,,", "'", "\"", "\\ x"]
+    {
+        let (output, out, err) = run(format!("{script}{AFTER}").as_bytes());
+        assert!(output.status.code().is_some(), "{script} crashed: {err}");
+        assert!(out.contains("still here"), "{script}: {err}");
+    }
+}
+
+#[test]
+fn after_ten_errors_a_script_ends_and_batch_ends_at_the_first() {
+    let (_, _, err) = run("NONSENSE\n".repeat(50).as_bytes());
+    assert_eq!(err.matches("unknown command").count(), 10, "{err}");
+    let run = Command::new(env!("CARGO_BIN_EXE_windlass"))
+        .args(["--batch", "-c", "NONSENSE", "-c", "&TYPE never"])
+        .output()
+        .unwrap();
+    assert_eq!(run.status.code(), Some(1));
+    assert!(run.stdout.is_empty());
+}
+
+#[test]
+fn exit_codes_of_right_wrong_and_misused_runs() {
+    let code = |args: &[&str]| Command::new(env!("CARGO_BIN_EXE_windlass")).args(args).output().unwrap().status.code();
+    assert_eq!(code(&["-c", "&TYPE x"]), Some(0));
+    assert_eq!(code(&["-c", "NONSENSE"]), Some(1));
+    assert_eq!(code(&["no_such_file.cif"]), Some(2));
+    assert_eq!(code(&["--no-such-flag"]), Some(2));
+}
