@@ -51,7 +51,9 @@ pub fn run(cli: Cli) -> u8 {
     };
     let colour = stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty());
     let folder = JobFolder::new(root, cli.out.clone(), cli.allow_files);
-    let screen = Box::new(BufWriter::with_capacity(1 << 16, stdout()));
+    // a person sees each line as it comes; a file or a pipe is written in large pieces
+    let screen: Box<dyn Write + Send> =
+        if stdout().is_terminal() { Box::new(stdout()) } else { Box::new(BufWriter::with_capacity(1 << 16, stdout())) };
     let mut session = Session::new(Output::new(folder, screen, Box::new(stderr()), colour));
     session.job.settings.batch = cli.batch;
     session.job.output.keep_log = !matches!(input, Input::Records(_));

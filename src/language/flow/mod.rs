@@ -45,7 +45,7 @@ enum Frame {
     /// Lines typed at a terminal, fed one at a time.
     Terminal { lines: std::collections::VecDeque<Record> },
     /// A loop running over its body.
-    Loop { body: Arc<[Record]>, at: usize, trips: Trips },
+    Loop { body: Arc<[Record]>, at: usize, trips: Trips, header: Span },
     /// A macro call.
     Macro { name: String, body: Arc<[Record]>, at: usize, called: Span },
 }
@@ -311,7 +311,11 @@ impl Interpreter {
             result?;
             if self.spent > self.budget || self.interrupt.load(Ordering::Relaxed) {
                 // a loop without records inside: let the caller count this one and stop
-                return Ok(Ok(Record::verbatim("&ENDLOOP", Span::default())));
+                let header = match self.frames.last() {
+                    Some(Frame::Loop { header, .. }) => *header,
+                    _ => Span::default(),
+                };
+                return Ok(Ok(Record::verbatim("&LOOP", header)));
             }
         }
     }
@@ -397,7 +401,7 @@ impl Interpreter {
         match done.what {
             Collected::Nothing => Ok(()),
             Collected::Loop(trips) => {
-                self.frames.push(Frame::Loop { body, at: 0, trips });
+                self.frames.push(Frame::Loop { body, at: 0, trips, header: done.span });
                 self.trip();
                 Ok(())
             }

@@ -1,0 +1,226 @@
+//! The editor through a pseudo-terminal, as a person sees it: completion, hints, history, Ctrl-C, a wrong record, blocks
+//! over several lines, a resize.
+
+#![cfg(unix)]
+#![allow(clippy::unwrap_used)]
+
+use portable_pty::{Child, CommandBuilder, MasterPty, PtySize, native_pty_system};
+use std::io::{Read, Write};
+use std::num::NonZeroU16;
+use std::path::Path;
+use std::sync::mpsc::{Receiver, channel};
+use std::time::{Duration, Instant};
+
+const SIZE: PtySize = PtySize { rows: 30, cols: 100, pixel_width: 0, pixel_height: 0 };
+
+fn whole(n: u16) -> NonZeroU16 {
+    NonZeroU16::new(n).unwrap()
+}
+
+struct Terminal {
+    child: Box<dyn Child + Send + Sync>,
+    master: Box<dyn MasterPty + Send>,
+    keys: Box<dyn Write + Send>,
+    bytes: Receiver<Vec<u8>>,
+    screen: vt100::Parser,
+}
+
+impl Terminal {
+    fn start(home: &Path, arguments: &[&str]) -> Terminal {
+        let pair = native_pty_system().openpty(SIZE).unwrap();
+        let mut command = CommandBuilder::new(env!("CARGO_BIN_EXE_windlass"));
+        command.args(arguments);
+        command.cwd(home);
+        command.env("HOME", home);
+        command.env("XDG_STATE_HOME", home.join("state"));
+        command.env("TERM", "xterm-256color");
+        command.env_remove("NO_COLOR");
+        let child = pair.slave.spawn_command(command).unwrap();
+        drop(pair.slave);
+        let mut reader = pair.master.try_clone_reader().unwrap();
+        let (sender, bytes) = channel();
+        std::thread::spawn(move || {
+            let mut buffer = [0; 4096];
+            while let Ok(count) = reader.read(&mut buffer) {
+                if count == 0 || sender.send(buffer[..count].to_vec()).is_err() {
+                    break;
+                }
+            }
+        });
+        let keys = pair.master.take_writer().unwrap();
+        Terminal {
+            child,
+            master: pair.master,
+            keys,
+            bytes,
+            screen: vt100::Parser::new(whole(SIZE.rows), whole(SIZE.cols), 500),
+        }
+    }
+
+    fn press(&mut self, keys: &str) {
+        self.keys.write_all(keys.as_bytes()).unwrap();
+        self.keys.flush().unwrap();
+    }
+
+    /// Waits until something holds of the screen; the time limit only ends a test that has failed.
+    fn wait(&mut self, what: &str, holds: impl Fn(&vt100::Screen) -> bool) {
+        let limit = Instant::now() + Duration::from_secs(20);
+        while !holds(self.screen.screen()) {
+            let left = limit.saturating_duration_since(Instant::now());
+            match self.bytes.recv_timeout(left) {
+                Ok(bytes) => self.screen.process(&bytes),
+                Err(_) => {
+                    let _ = self.child.kill();
+                    panic!("{what} never came; the screen holds\n{}", self.screen.screen().contents());
+                }
+            }
+        }
+    }
+
+    /// Waits for a text anywhere on the screen.
+    fn see(&mut self, text: &str) {
+        self.wait(text, |screen| screen.contents().contains(text));
+    }
+
+    /// Waits until the editor has printed this prompt and the cursor stands behind it: only then is it in raw mode.
+    fn ready(&mut self, prompt: &str) {
+        self.wait(prompt, |screen| {
+            let (row, column) = screen.cursor_position();
+            let line = screen.rows(0, 200).nth(row.into()).unwrap_or_default();
+            line.trim_end() == prompt.trim_end() && usize::from(column) == prompt.len()
+        });
+    }
+
+    /// Types a record, sees it on the line, and enters it.
+    fn record(&mut self, text: &str) {
+        self.press(text);
+        self.see(text);
+        self.press("\r");
+    }
+
+    fn end(mut self) -> u32 {
+        self.press("\x04");
+        let limit = Instant::now() + Duration::from_secs(20);
+        loop {
+            if let Some(status) = self.child.try_wait().unwrap() {
+                return status.exit_code();
+            }
+            if Instant::now() > limit {
+                let _ = self.child.kill();
+                panic!("the program did not end; the screen holds\n{}", self.screen.screen().contents());
+            }
+            std::thread::yield_now();
+        }
+    }
+}
+
+#[test]
+fn completion_hints_a_wrong_record_and_ctrl_c() {
+    let home = tempfile::tempdir().unwrap();
+    let mut t = Terminal::start(home.path(), &[]);
+    t.ready("MAIN> ");
+    t.press("MED\t");
+    t.see("MAIN> MEDIT ");
+    t.press("\r");
+    t.ready("MEDIT> ");
+    t.record("*MLA 1 2 3");
+    t.ready("MEDIT> ");
+    t.press("~WIRE B_C\t");
+    t.see("~WIRE B_CAT ");
+    t.press("4 -LEN 100 -DEPA\t");
+    t.see("-DEPANCHOR DEPTH");
+    t.press("50\r");
+    t.ready("MEDIT> ");
+    t.press("CONNECTOR A ~\t*\t");
+    t.see("CONNECTOR A ~WIRE *MLA");
+    t.press("\r");
+    t.ready("MEDIT> ");
+    t.record("NONSENSE");
+    t.see("unknown command `NONSENSE` in menu MEDIT");
+    t.ready("MEDIT> ");
+    t.press("half a record");
+    t.see("half a record");
+    t.press("\x03");
+    t.ready("MEDIT> ");
+    t.press("~X B_CAT 4 \\\r-LEN ten");
+    t.see("-LEN ten");
+    t.press("\r");
+    t.see("L of -LEN of B_CAT must be a number (ft)");
+    t.ready("MEDIT> ");
+    t.record("&LOOP I 1 2");
+    t.ready("loop ... ");
+    t.press("\x03");
+    t.see("the open block is given up");
+    t.ready("MEDIT> ");
+    t.record("&LOOP I 1 2");
+    t.ready("loop ... ");
+    t.record("&TYPE trip %I");
+    t.ready("loop ... ");
+    t.record("&ENDLOOP");
+    t.see("trip 2");
+    t.ready("MEDIT> ");
+    assert_eq!(t.end(), 0);
+}
+
+#[test]
+fn history_lasts_from_one_session_to_the_next() {
+    let home = tempfile::tempdir().unwrap();
+    let mut t = Terminal::start(home.path(), &[]);
+    t.ready("MAIN> ");
+    t.record("&TYPE remember me");
+    t.ready("MAIN> ");
+    assert_eq!(t.end(), 0);
+    let mut t = Terminal::start(home.path(), &[]);
+    t.ready("MAIN> ");
+    t.press("\x1b[A");
+    t.see("MAIN> &TYPE remember me");
+    t.press("\r");
+    t.ready("MAIN> ");
+    assert_eq!(t.end(), 0);
+}
+
+#[test]
+fn a_resize_leaves_the_editor_working() {
+    let home = tempfile::tempdir().unwrap();
+    let mut t = Terminal::start(home.path(), &[]);
+    t.ready("MAIN> ");
+    t.press("&TYPE before");
+    t.see("&TYPE before");
+    t.master.resize(PtySize { rows: 12, cols: 60, ..SIZE }).unwrap();
+    t.screen.screen_mut().set_size(whole(12), whole(60));
+    t.press(" and after\r");
+    t.see("\nbefore and after");
+    t.ready("MAIN> ");
+    assert_eq!(t.end(), 0);
+}
+
+#[test]
+fn ctrl_c_stops_an_endless_loop_and_returns_to_the_prompt() {
+    let home = tempfile::tempdir().unwrap();
+    let script = "&DEVICE -RECORDS 1000000000000\n&TYPE begun\n&LOOP\n&SET A = 1\n&ENDLOOP\n";
+    std::fs::write(home.path().join("job.cif"), script).unwrap();
+    let mut t = Terminal::start(home.path(), &["-i", "job.cif"]);
+    t.see("begun");
+    t.press("\x03");
+    t.see("interrupted");
+    t.ready("MAIN> ");
+    t.record("&TYPE alive");
+    t.ready("MAIN> ");
+    assert_eq!(t.end(), 1);
+}
+
+#[test]
+fn a_root_runs_its_script_and_goes_on_at_the_terminal() {
+    let home = tempfile::tempdir().unwrap();
+    std::fs::write(home.path().join("barge.cif"), "&TYPE from the script\nMEDIT\n").unwrap();
+    let mut t = Terminal::start(home.path(), &["barge"]);
+    t.see("from the script");
+    t.ready("MEDIT> ");
+    assert_eq!(t.end(), 0);
+}
+
+#[test]
+fn no_colour_where_the_output_is_no_terminal() {
+    let run = std::process::Command::new(env!("CARGO_BIN_EXE_windlass")).args(["-c", "NONSENSE"]).output().unwrap();
+    assert!(!run.stderr.contains(&0x1b), "{}", String::from_utf8_lossy(&run.stderr));
+}
