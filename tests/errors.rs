@@ -83,6 +83,26 @@ fn check(script: &Path) -> Result<(), Failed> {
             )),
         }
     }
+    wrong.extend(changed(&text));
     wrong.extend(want.iter().map(|w| format!("did not come: {w:?}")));
     if wrong.is_empty() { Ok(()) } else { Err(wrong.join("\n").into()) }
+}
+
+/// Records that drew an error and changed the model all the same: each record is fed by itself and the model compared.
+fn changed(text: &str) -> Vec<String> {
+    let folder = tempfile::tempdir().unwrap();
+    let job = JobFolder::new(folder.path().join("job"), None, false);
+    let mut session = Session::new(Output::new(job, Box::new(Vec::new()), Box::new(Vec::new()), false));
+    session.interactive = true;
+    session.interpreter.open_terminal();
+    let mut wrong = Vec::new();
+    for (number, line) in text.lines().enumerate() {
+        let (before, errors) = (format!("{:?}", session.job.model), session.errors);
+        session.interpreter.feed("record", line, number + 1);
+        session.run();
+        if session.errors > errors && format!("{:?}", session.job.model) != before {
+            wrong.push(format!("line {} was refused and changed the model", number + 1));
+        }
+    }
+    wrong
 }

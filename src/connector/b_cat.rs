@@ -66,6 +66,9 @@ static SPEC: CommandSpec = CommandSpec {
 const PER_LINE: [&str; 9] =
     ["-DEPANCHOR", "-FRICTION", "-SLOPE", "-TAB_LIM", "-SEND", "-X_PY", "-X_DAMPING", "-CONVOLUTION", "-PISTON"];
 
+/// Options that would change the table and do not act in it yet: a table without them would be wrong, so none is made.
+const NOT_YET: [&str; 5] = ["-FRICTION", "-SLOPE", "-SEND", "-X_PY", "-CONVOLUTION"];
+
 #[derive(Debug)]
 struct Catenary {
     sections: Vec<LineSection>,
@@ -75,6 +78,9 @@ struct Catenary {
     friction: f64,
     slope: f64,
     limit: Option<f64>,
+    /// An option whose action on the table is not made yet, with its place.
+    not_yet: Option<(&'static str, Span)>,
+    piston: bool,
 }
 
 fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
@@ -82,6 +88,8 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
     for name in PER_LINE {
         checks::once(records, name)?;
     }
+    let not_yet =
+        NOT_YET.into_iter().find_map(|name| checks::once(records, name).ok().flatten().map(|g| (name, g.span)));
     let number = |name: &str| checks::once(records, name).map(|g| g.and_then(|g| g.number(0)));
     Ok(Arc::new(Catenary {
         sections,
@@ -91,6 +99,8 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
         friction: number("-FRICTION")?.unwrap_or(0.0),
         slope: number("-SLOPE")?.unwrap_or(0.0),
         limit: number("-TAB_LIM")?,
+        not_yet,
+        piston: checks::once(records, "-PISTON")?.is_some(),
     }))
 }
 
@@ -173,11 +183,11 @@ impl ConnectorClass for Catenary {
     }
 
     fn tabulate(&self, connector: &str, place: &Placement, surroundings: &Surroundings) -> Result<Table, ClassError> {
-        if self.friction != 0.0 || self.slope != 0.0 {
-            return Err(ClassError::new(
-                "a table with -FRICTION or -SLOPE is not made yet: the bottom is flat and smooth",
-            )
-            .help("leave both out, or wait for the complete catenary engine"));
+        if let Some((name, span)) = self.not_yet {
+            let text = format!("{name} does not act in a table yet, and a table without it would be wrong");
+            return Err(ClassError::new(text)
+                .at(span)
+                .help("this version tabulates lines without end springs on a flat, smooth bottom"));
         }
         let line = self.line(surroundings)?;
         let breaks: Vec<f64> = self.sections.iter().map(|s| s.breaking).collect();
@@ -244,6 +254,9 @@ fn report(connector: &str, class: &Catenary, rows: &[Row], fairlead: f64, bottom
     }
     let states: Vec<Option<Buoy>> = rows.iter().map(|r| r.state.joints.iter().find_map(|j| j.buoy)).collect();
     out.notes.extend(buoy_notes(&states));
+    if class.piston {
+        out.note("the piston of -PISTON stands at its nominal position");
+    }
     if rows.iter().any(|r| !r.state.below_bottom.is_empty()) {
         out.note("warning: a segment above the spring buoy hangs below the bottom in some rows (it does not see it)");
     }

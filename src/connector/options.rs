@@ -21,7 +21,7 @@ pub const SENSE: ValueSpec =
 pub const DF: ValueSpec =
     ValueSpec::new("DF", Kind::Choice(DOFS), "degree of freedom restrained, in the element system");
 /// `SPV`.
-pub const SPV: ValueSpec = ValueSpec::new("SPV", Kind::StiffnessOfDof, "spring value").not_negative();
+pub const SPV: ValueSpec = ValueSpec::new("SPV", Kind::StiffnessOfDof, "spring value").positive();
 /// `AF`.
 pub const AF: ValueSpec = ValueSpec::new("AF", Kind::ForceOfDof, "allowable force").or("not checked").positive();
 /// `OD`.
