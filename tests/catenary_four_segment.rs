@@ -6,8 +6,12 @@
 use windlass::connector::catenary::{Buoy, Joint, Line, ROWS, Row, Segment, table};
 use windlass::language::units::{FOOT, KIP};
 
-fn example(capacity: f64, pendant: f64) -> (Vec<Row>, [f64; 4]) {
-    let area = |od: f64| std::f64::consts::FRAC_PI_4 * od * od;
+fn area(od: f64) -> f64 {
+    std::f64::consts::FRAC_PI_4 * od * od
+}
+
+/// The printed line with a spring buoy of this capacity (kips) on a pendant of this length (ft).
+fn line(capacity: f64, pendant: f64) -> Line {
     let segment = |od: f64, length: f64, weight: f64, e: f64| Segment {
         length: length * FOOT,
         weight: weight * KIP / FOOT,
@@ -16,9 +20,12 @@ fn example(capacity: f64, pendant: f64) -> (Vec<Row>, [f64; 4]) {
     let wire = |length: f64| segment(4.625, length, 37.51 / 1000.0, 2900.0);
     let segments = vec![wire(500.0), wire(4000.0), segment(4.375, 2000.0, 158.2 / 1000.0, 4350.0), wire(2000.0)];
     let buoy = Joint::SpringBuoy { capacity: capacity * KIP, depth: pendant * FOOT };
-    let line = Line::new(segments, vec![buoy, Joint::Free, Joint::Free], -3000.0 * FOOT, 0.0).unwrap();
+    Line::new(segments, vec![buoy, Joint::Free, Joint::Free], -3000.0 * FOOT, 0.0).unwrap()
+}
+
+fn example(capacity: f64, pendant: f64) -> (Vec<Row>, [f64; 4]) {
     let breaks = [4.625, 4.625, 4.375, 4.625].map(|od| 60.0 * area(od) * KIP);
-    (table(&line, &breaks, breaks[0], 0.0).unwrap(), breaks)
+    (table(&line(capacity, pendant), &breaks, breaks[0], 0.0).unwrap(), breaks)
 }
 
 fn close(got: f64, want: f64, within: f64, what: &str) {
@@ -69,25 +76,19 @@ fn a_larger_buoy_on_a_pendant_is_held_and_then_sinks() {
 }
 
 #[test]
+fn segment_stiffness_is_that_of_the_solid_area() {
+    let line = line(100.0, 0.0);
+    let ea: Vec<f64> = line.segments().iter().map(|s| s.ea / KIP).collect();
+    close(ea[0], 48_720.0, 1.0, "AE of the wire");
+    close(ea[2], 65_394.0, 1.0, "AE of segment 3");
+}
+
+#[test]
 fn the_stiffness_column_is_the_difference_of_the_distance() {
     let (rows, _) = example(200.0, 50.0);
-    let line_of = |n: usize| rows[n].state.clone();
+    let line = line(200.0, 50.0);
     for n in [3, 9, 12, 20, 29] {
-        let state = line_of(n);
-        let area = |od: f64| std::f64::consts::FRAC_PI_4 * od * od;
-        let segment = |od: f64, length: f64, weight: f64, e: f64| Segment {
-            length: length * FOOT,
-            weight: weight * KIP / FOOT,
-            ea: e * area(od) * KIP,
-        };
-        let wire = |length: f64| segment(4.625, length, 37.51 / 1000.0, 2900.0);
-        let line = Line::new(
-            vec![wire(500.0), wire(4000.0), segment(4.375, 2000.0, 0.1582, 4350.0), wire(2000.0)],
-            vec![Joint::SpringBuoy { capacity: 200.0 * KIP, depth: 50.0 * FOOT }, Joint::Free, Joint::Free],
-            -3000.0 * FOOT,
-            0.0,
-        )
-        .unwrap();
+        let state = &rows[n].state;
         let d = 1e-5 * state.force;
         let up = line.at_horizontal_force(state.force + d, 0.0).unwrap();
         let down = line.at_horizontal_force(state.force - d, 0.0).unwrap();
