@@ -24,23 +24,17 @@ fn table(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let model = &job.model;
     let connector = find(&model.connectors, call.args.word(0).unwrap_or_default(), "connector", call.args.place(0))?;
     let class = find(&model.classes, &connector.class, "class", call.args.place(0))?;
-    let mut ends = Vec::new();
-    for (name, offset) in connector.points.iter().zip(connector.offsets) {
-        let point = find(&model.points, name, "point", call.args.place(0))?;
-        let mut at = model.global(point);
-        let turned =
-            model.body_of(point).map_or(offset, |b| (b.place.rotation() * nalgebra::Vector3::from(offset)).into());
-        for (value, shift) in at.iter_mut().zip(turned) {
-            *value += shift;
-        }
-        ends.push(at);
-    }
-    let place = Placement { fairlead: ends.first().copied().unwrap_or_default(), other: ends.get(1).copied() };
+    let place = Placement { fairlead: model.end(connector, 0).unwrap_or_default(), other: model.end(connector, 1) };
     let mut made = class
         .object
         .tabulate(&connector.name, &place, &model.surroundings())
         .map_err(|e| e.diagnostic(call.args.place(0)).help(format!("while tabulating connector {}", connector.name)))?;
     made.facts.insert(0, ("Line Class".into(), class.name.as_str().into(), crate::language::units::Dim::None));
+    // what concerns the whole table is said at once, whatever is then printed of it
+    let warnings: Vec<String> =
+        made.notes.iter().filter_map(|n| n.strip_prefix("warning: ")).map(str::to_string).collect();
+    let span = call.args.place(0);
+    warnings.into_iter().for_each(|text| job.warn(text, span));
     job.menus.push(Menu::Disposition(Box::new(Disposition::new(made))));
     Ok(Effect::Done)
 }

@@ -7,7 +7,7 @@ use crate::language::select::{Owner, is_wild, matches};
 use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
-use crate::model::{Anchor, Connector, Model, find};
+use crate::model::{Anchor, Connector, Model, find, unit_vector};
 
 /// CONNECTOR.
 pub static CONNECTOR: Command = Command { spec: &CONNECTOR_SPEC, edits: false, run: connector };
@@ -119,21 +119,22 @@ pub fn build_connector(job: &mut Job, args: &Args) -> Outcome<()> {
         let numbers = args.option(option).map(|g| g.numbers()).unwrap_or_default();
         [0, 1, 2].map(|i| numbers.get(i).copied().unwrap_or(0.0))
     };
-    let anchor = args.option("-ANCHOR").map(|given| {
-        let (direction, distance) = (given.number(0).unwrap_or(0.0), given.number(1).unwrap_or(0.0));
-        let [x, y, _] = points.first().map_or([0.0; 3], |p| model.global(p));
-        Anchor { direction, distance, at: [x + distance * direction.cos(), y + distance * direction.sin()] }
-    });
-    let made = Connector {
+    let mut made = Connector {
         name: name.to_string(),
         class: class.name.clone(),
         points: points.iter().map(|p| p.name.clone()).collect(),
-        anchor,
+        anchor: None,
         offsets: [vector("-GO1"), vector("-GO2")],
         euler: args.has("-EULER").then(|| vector("-EULER")),
         active: true,
         span: args.span,
     };
+    made.anchor = args.option("-ANCHOR").map(|given| {
+        let (direction, distance) = (given.number(0).unwrap_or(0.0), given.number(1).unwrap_or(0.0));
+        let [x, y, _] = model.end(&made, 0).unwrap_or_default();
+        let (cos, sin) = unit_vector(direction);
+        Anchor { direction, distance, at: [x + distance * cos, y + distance * sin] }
+    });
     class.object.check()?;
     class.object.check_ends(&made, bodies.len())?;
     let span = args.place(0);

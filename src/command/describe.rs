@@ -6,7 +6,7 @@ use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::record::Word;
 use crate::language::spec::{CommandSpec, Form, Kind, Noun, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
-use crate::model::{Body, Coordinates, GROUND, Model, Part, Place, Point, find};
+use crate::model::{Body, Coordinates, GROUND, Model, Part, Place, Point, find, unit_vector};
 
 /// &DESCRIBE.
 pub static DESCRIBE: Command = Command { spec: &DESCRIBE_SPEC, edits: false, run: describe };
@@ -144,14 +144,17 @@ fn point(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = crate::language::args::read(&POINT_SPEC, name.span, rest, job.units)?;
     let at = [0, 1, 2].map(|i| args.number(i).unwrap_or(0.0));
     // the angles of the other modes are degrees, not lengths
-    let angle = |value: f64| Dim::Length.from_si(value, job.units).to_radians();
+    let direction = |value: f64| unit_vector(Dim::Length.from_si(value, job.units).to_radians());
     let [a, b, c] = at;
     let at = match job.model.defaults.coordinates {
         Coordinates::Rectangular => at,
-        Coordinates::Cylindrical => [a * angle(b).cos(), a * angle(b).sin(), c],
+        Coordinates::Cylindrical => {
+            let (cos, sin) = direction(b);
+            [a * cos, a * sin, c]
+        }
         Coordinates::Spherical => {
-            let flat = a * angle(c).cos();
-            [flat * angle(b).cos(), flat * angle(b).sin(), a * angle(c).sin()]
+            let ((cos, sin), (flat, up)) = (direction(b), direction(c));
+            [a * flat * cos, a * flat * sin, a * up]
         }
     };
     let part = job.model.current_part.clone().unwrap_or_else(|| GROUND.to_string());

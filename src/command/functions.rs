@@ -13,7 +13,7 @@ use crate::language::source::Span;
 use crate::language::substitution::World;
 use crate::language::units::Dim;
 use crate::model::{Model, Point, Position};
-use crate::report::format::number_in_full;
+use crate::report::format::fifteen_figures;
 
 /// What `&HELP` says of each: name, form, meaning.
 pub const HELP: &[(&str, &str, &str)] = &[
@@ -85,7 +85,7 @@ fn pick(word: &Word, of: &str, list: &'static [&'static str]) -> Outcome<&'stati
 
 /// Numbers in user units, separated by blanks.
 fn numbers(values: &[f64], dim: Dim, job: &Job) -> String {
-    values.iter().map(|v| number_in_full(dim.from_si(*v, job.units))).collect::<Vec<_>>().join(" ")
+    values.iter().map(|v| fifteen_figures(dim.from_si(*v, job.units))).collect::<Vec<_>>().join(" ")
 }
 
 fn info(job: &Job, action: &Word, rest: &[Word]) -> Outcome<String> {

@@ -37,9 +37,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         },
         Some(word) => {
             let functions = functions::HELP.iter().chain(super::functions::HELP);
-            if let Some((name, form, meaning)) =
-                functions.into_iter().find(|(n, _, _)| n.eq_ignore_ascii_case(&word.text))
-            {
+            if let Some((name, form, meaning)) = find_function(functions.into_iter(), &word.text) {
                 let meaning = wrap(meaning, 92).join("\n   ");
                 format!("{name}: string function\n\n   {form}\n   {meaning}")
             } else {
@@ -62,6 +60,17 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     };
     job.say(&text);
     Ok(Effect::Done)
+}
+
+/// A function by its name; without its `&` only where no command has that name.
+fn find_function<'a>(
+    mut functions: impl Iterator<Item = &'a (&'static str, &'static str, &'static str)>,
+    word: &str,
+) -> Option<&'a (&'static str, &'static str, &'static str)> {
+    let command = COMMANDS.iter().any(|c| c.spec.name.eq_ignore_ascii_case(word));
+    functions.find(|(name, _, _)| {
+        name.eq_ignore_ascii_case(word) || (!command && name.trim_start_matches('&').eq_ignore_ascii_case(word))
+    })
 }
 
 fn overview(job: &Job) -> String {

@@ -27,6 +27,10 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     if !name.starts_with(':') || name.len() < 2 {
         return Err(Diagnostic::error(format!("`{name}` cannot name a selector"), span).label("expected :NAME"));
     }
+    if !call.args.has("-SELECT") {
+        return Err(Diagnostic::error("-SELECT is missing: a selector without names selects nothing", span)
+            .help("form: &SELECT :NAME -SELECT NAME .. -EXCEPT NAME .."));
+    }
     let list = |option: &str| -> Vec<String> {
         call.args
             .option(option)

@@ -207,10 +207,11 @@ fn connectors(model: &Model, fits: &dyn Fn(&str) -> bool) -> Table {
         let ends: Vec<(String, Option<[f64; 3]>)> = connector
             .points
             .iter()
-            .map(|name| {
+            .enumerate()
+            .map(|(index, name)| {
                 let point = model.points.get(&Model::key(name));
                 let body = point.and_then(|p| model.body_of(p)).map_or("GROUND".to_string(), |b| b.name.clone());
-                (body, point.map(|p| model.global(p)))
+                (body, model.end(connector, index))
             })
             .collect();
         let first = ends.first().cloned().unwrap_or(("GROUND".into(), None));
@@ -229,7 +230,7 @@ fn connectors(model: &Model, fits: &dyn Fn(&str) -> bool) -> Table {
         match (at, connector.anchor) {
             (None, Some(anchor)) => {
                 row.extend(anchor.at.map(Cell::Number));
-                row.push(Cell::Missing);
+                row.push(class.and_then(|c| c.object.anchor_depth(&model.surroundings())).map(|d| -d).into());
             }
             (at, _) => row.extend(coordinates(at)),
         }

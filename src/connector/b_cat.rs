@@ -106,8 +106,8 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
 
 impl Catenary {
     /// Depth of the anchor below z = 0 (m).
-    fn anchor_depth(&self, surroundings: &Surroundings) -> Result<f64, ClassError> {
-        self.depth.or(surroundings.depth).ok_or_else(|| {
+    fn known_depth(&self, surroundings: &Surroundings) -> Result<f64, ClassError> {
+        self.anchor_depth(surroundings).ok_or_else(|| {
             ClassError::new("the depth at the anchor is not known")
                 .help("give -DEPANCHOR on the class, or -DEPTH on &ENV")
         })
@@ -130,7 +130,7 @@ impl Catenary {
                 c => Joint::Weight(c),
             })
             .collect();
-        let depth = self.anchor_depth(surroundings)?;
+        let depth = self.known_depth(surroundings)?;
         Line::new(segments, joints, -depth, surroundings.tide).map_err(|e| self.class_error(&e))
     }
 
@@ -182,6 +182,10 @@ impl ConnectorClass for Catenary {
         self.sections.first().map(|s| s.length)
     }
 
+    fn anchor_depth(&self, surroundings: &Surroundings) -> Option<f64> {
+        self.depth.or(surroundings.depth)
+    }
+
     fn tabulate(&self, connector: &str, place: &Placement, surroundings: &Surroundings) -> Result<Table, ClassError> {
         if let Some((name, span)) = self.not_yet {
             let text = format!("{name} does not act in a table yet, and a table without it would be wrong");
@@ -204,7 +208,7 @@ impl ConnectorClass for Catenary {
 }
 
 fn line_bottom(class: &Catenary, surroundings: &Surroundings) -> Result<f64, ClassError> {
-    Ok(-class.anchor_depth(surroundings)?)
+    Ok(-class.known_depth(surroundings)?)
 }
 
 fn largest_break(sections: &[LineSection]) -> Option<f64> {

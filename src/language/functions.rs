@@ -265,6 +265,9 @@ fn format_function(arguments: &Record, words: &[Word], span: Span) -> Outcome<St
             'I' => format!("{value:.0}"),
             _ => exponent(value, decimals),
         };
+        let shown = if letter == 'F' && decimals == 0 { format!("{shown}.") } else { shown };
+        // as Fortran: a number that does not fit fills its field with asterisks
+        let shown = if shown.len() > width && width > 0 { "*".repeat(width) } else { shown };
         out.push_str(&format!("{shown:>width$}"));
     }
     Ok(out)

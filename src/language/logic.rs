@@ -116,9 +116,13 @@ impl Reader<'_> {
     }
 
     fn comparison(&mut self) -> Result<bool, String> {
-        let left = self.next().ok_or("a word is missing at the end")?;
-        let Some(operator) = self.peek().filter(|w| matches!(*w, ".EQ." | ".NE." | ".LT." | ".LE." | ".GT." | ".GE."))
-        else {
+        let is_comparison = |w: &str| matches!(w, ".EQ." | ".NE." | ".LT." | ".LE." | ".GT." | ".GE.");
+        // a variable or function that came to nothing leaves its place empty: the null string
+        let left = match self.peek() {
+            Some(word) if is_comparison(word) => String::new(),
+            _ => self.next().ok_or("a word is missing at the end")?,
+        };
+        let Some(operator) = self.peek().filter(|w| is_comparison(w)) else {
             return match left.as_str() {
                 ".TRUE." => Ok(true),
                 ".FALSE." => Ok(false),
@@ -127,7 +131,10 @@ impl Reader<'_> {
         };
         let operator = operator.to_string();
         self.at += 1;
-        let right = self.next().ok_or(format!("a word is missing after {operator}"))?;
+        let right = match self.peek() {
+            None | Some(".AND." | ".OR." | ")") => String::new(),
+            Some(_) => self.next().unwrap_or_default(),
+        };
         let numbers = (number::evaluate(&left), number::evaluate(&right));
         if let (Ok(a), Ok(b)) = numbers {
             return Ok(match operator.as_str() {
@@ -167,11 +174,12 @@ mod tests {
         assert!(!is("( .TRUE. .OR. .FALSE. ) .AND. .FALSE."));
         assert!(is("2*3 .GE. 6"));
         assert!(is("A .NE. B"));
+        assert!(is(".EQ. .AND. A .NE.") && !is(".EQ. X"));
     }
 
     #[test]
     fn what_cannot_be_compared_is_an_error() {
-        for phrase in ["", "A", "A .LT. 2", "1 .EQ.", ".TRUE. .TRUE.", "( .TRUE."] {
+        for phrase in ["", "A", "A .LT. 2", "1 .LT.", ".TRUE. .TRUE.", "( .TRUE."] {
             assert!(evaluate(phrase, Span::default()).is_err(), "{phrase}");
         }
         assert!(evaluate(&".NOT. ".repeat(100_000), Span::default()).is_err());

@@ -104,6 +104,11 @@ pub trait ConnectorClass: Debug + Send + Sync {
         None
     }
 
+    /// Depth of the anchor below z = 0 (m), where the class goes to ground and knows it.
+    fn anchor_depth(&self, _: &Surroundings) -> Option<f64> {
+        None
+    }
+
     /// The thirty-row table of `CONN_DESIGN TABLE`.
     ///
     /// # Errors

@@ -36,10 +36,21 @@ impl Place {
         Rotation3::from_euler_angles(roll, pitch, yaw)
     }
 
+    /// A local direction or offset in outer axes.
+    pub fn turned(&self, offset: Position) -> Position {
+        (self.rotation() * Vector3::from(offset)).into()
+    }
+
     /// Local coordinates expressed in the outer system.
     pub fn apply(&self, at: Position) -> Position {
         (self.rotation() * Vector3::from(at) + Vector3::from(self.shift)).into()
     }
+}
+
+/// Cosine and sine of a heading (rad), without the dust that pi in double precision leaves at the quarters.
+pub fn unit_vector(heading: f64) -> (f64, f64) {
+    let clean = |value: f64| if value.abs() < 4.0 * f64::EPSILON { 0.0 } else { value };
+    (clean(heading.cos()), clean(heading.sin()))
 }
 
 #[cfg(test)]

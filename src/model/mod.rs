@@ -18,7 +18,7 @@ pub use connector::{Anchor, Connector};
 pub use curve::{Curve, CurveKind};
 pub use defaults::{Coordinates, Defaults, Material};
 pub use environment::{Current, Environment, Sea, Surroundings, TimeWindow, Wind};
-pub use geometry::{Place, Position};
+pub use geometry::{Place, Position, unit_vector};
 pub use selector::Selector;
 
 use crate::language::diagnostic::{Diagnostic, Outcome, did_you_mean};
@@ -78,6 +78,17 @@ impl Model {
         let in_body = part.map_or(point.at, |p| p.place.apply(point.at));
         let body = part.and_then(|p| self.bodies.get(&Model::key(&p.body)));
         body.map_or(in_body, |b| b.place.apply(in_body))
+    }
+
+    /// Global position of one end of a connector (0 or 1), with its offset, in the present configuration; `None` when
+    /// that end is ground.
+    pub fn end(&self, connector: &Connector, index: usize) -> Option<Position> {
+        let point = connector.points.get(index).and_then(|name| self.points.get(&Model::key(name)))?;
+        let offset = connector.offsets.get(index).copied().unwrap_or_default();
+        let turned = self.body_of(point).map_or(offset, |b| b.place.turned(offset));
+        let [x, y, z] = self.global(point);
+        let [dx, dy, dz] = turned;
+        Some([x + dx, y + dy, z + dz])
     }
 
     /// The body a point belongs to; `None` for ground.

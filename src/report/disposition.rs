@@ -6,7 +6,7 @@
 
 use super::columns::{NoSuchColumn, choose};
 use super::format;
-use crate::language::units::UnitSystem;
+use crate::language::units::{Dim, UnitSystem};
 use crate::table::{Cell, Column, Digits, Table};
 
 /// Why something could not be done with a table.
@@ -246,7 +246,11 @@ impl Disposition {
         if let Some(column) = table.columns.iter().find(|c| c.cells.contains(&Cell::Missing)) {
             return Err(DispositionError::NoValue(column.name.clone()));
         }
-        let cells = table.columns.iter().flat_map(|c| c.cells.iter().map(|cell| format::full(cell, c.dim, units)));
+        let text = |cell: &Cell, dim: Dim| match cell {
+            Cell::Number(value) => format::fifteen_figures(dim.from_si(*value, units)),
+            other => format::full(other, dim, units),
+        };
+        let cells = table.columns.iter().flat_map(|c| c.cells.iter().map(move |cell| text(cell, c.dim)));
         Ok(cells.collect::<Vec<_>>().join(" "))
     }
 }
@@ -254,7 +258,7 @@ impl Disposition {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::language::units::{Dim, FOOT};
+    use crate::language::units::FOOT;
 
     fn menu() -> Disposition {
         let mut t =

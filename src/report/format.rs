@@ -27,6 +27,11 @@ pub fn full(cell: &Cell, dim: Dim, units: UnitSystem) -> String {
     }
 }
 
+/// A number for a variable: fifteen figures, so that the rounding of unit conversion does not show.
+pub fn fifteen_figures(value: f64) -> String {
+    number_in_full(format!("{value:.14e}").parse().unwrap_or(value))
+}
+
 /// A number as the shortest text that reads back to it; `NaN` and infinities are named.
 pub fn number_in_full(value: f64) -> String {
     if value == 0.0 {
