@@ -31,12 +31,17 @@ pub enum DispositionError {
         /// Rows of the table.
         rows: usize,
     },
-    /// A column without a value in some of the rows.
-    #[error("column {0} has no value in some of these rows")]
-    NoValue(String),
     /// Bounds that leave no row.
     #[error("no row lies within the bounds")]
     NoRow,
+    /// A cell without a value where each row needs one.
+    #[error("column {column} has no value in row {row}")]
+    NoValue {
+        /// The column.
+        column: String,
+        /// The row, from 1.
+        row: usize,
+    },
 }
 
 /// Which rows are taken.
@@ -144,17 +149,21 @@ impl Disposition {
         let mut out = Table { columns: Vec::new(), ..self.table.clone() };
         for index in columns {
             let Some(column) = self.table.columns.get(*index) else { continue };
-            let (factor, shift) = self.adjust.get(*index).copied().unwrap_or((1.0, 0.0));
-            let change = |cell: &Cell| match cell.number() {
-                Some(value) if adjusted && (factor, shift) != (1.0, 0.0) => {
-                    Cell::Number(value * factor + column.dim.to_si(shift, units))
-                }
-                _ => cell.clone(),
-            };
+            let change =
+                |cell: &Cell| if adjusted { self.adjusted(*index, cell, column.dim, units) } else { cell.clone() };
             let cells = taken.iter().filter_map(|row| column.cells.get(*row)).map(change).collect();
             out.columns.push(Column { cells, ..column.clone() });
         }
         Ok(out)
+    }
+
+    /// A cell of a column with C_SCALE and C_SHIFT applied.
+    fn adjusted(&self, index: usize, cell: &Cell, dim: Dim, units: UnitSystem) -> Cell {
+        let (factor, shift) = self.adjust.get(index).copied().unwrap_or((1.0, 0.0));
+        match cell.number() {
+            Some(value) if (factor, shift) != (1.0, 0.0) => Cell::Number(value * factor + dim.to_si(shift, units)),
+            _ => cell.clone(),
+        }
     }
 
     /// The rows (from 0) a choice leaves.
@@ -216,18 +225,16 @@ impl Disposition {
         Ok(out)
     }
 
-    /// `VLIST`: number, name and unit of every column, with its range.
+    /// `VLIST`: number, name and unit of every column, with its range (C_SCALE and C_SHIFT applied, as in VIEW).
     pub fn vlist(&self, units: UnitSystem) -> Vec<String> {
         let names: Vec<String> = self.table.columns.iter().map(super::columns::long_name).collect();
         let width = names.iter().map(|n| n.chars().count()).max().unwrap_or(0);
         let lines = self.table.columns.iter().zip(names).enumerate().map(|(index, (column, name))| {
-            let (factor, shift) = self.adjust.get(index).copied().unwrap_or((1.0, 0.0));
-            let shift = column.dim.to_si(shift, units);
-            let values = column.cells.iter().filter_map(Cell::number).map(|v| v * factor + shift);
-            let range = values.fold(None, |range: Option<(f64, f64)>, v| {
+            let cells: Vec<Cell> = column.cells.iter().map(|c| self.adjusted(index, c, column.dim, units)).collect();
+            let range = cells.iter().filter_map(Cell::number).fold(None, |range: Option<(f64, f64)>, v| {
                 Some(range.map_or((v, v), |(low, high)| (low.min(v), high.max(v))))
             });
-            let whole = column.cells.iter().all(|c| matches!(c, Cell::Integer(_)));
+            let whole = cells.iter().all(|c| matches!(c, Cell::Integer(_)));
             let digits = if whole { Digits::Decimals(0) } else { column.digits };
             let shown = |v: f64| format::report(&Cell::Number(v), column.dim, digits, units);
             let range = range.map_or(String::new(), |(low, high)| format!("{} to {}", shown(low), shown(high)));
@@ -239,12 +246,15 @@ impl Disposition {
     /// `SET_VARIABLE`: the values of a column in user units, full precision, separated by blanks.
     ///
     /// # Errors
-    /// As [`Disposition::extract`].
+    /// As [`Disposition::extract`], and a cell without a value, which would move those behind it to a wrong place.
     pub fn values(&self, selector: &str, rows: &RowChoice, units: UnitSystem) -> Result<String, DispositionError> {
         let columns = self.columns(&[selector])?;
         let table = self.extract(&columns, rows, true, units)?;
-        if let Some(column) = table.columns.iter().find(|c| c.cells.contains(&Cell::Missing)) {
-            return Err(DispositionError::NoValue(column.name.clone()));
+        let numbers = self.rows(rows, units)?;
+        for column in &table.columns {
+            if let Some((_, row)) = column.cells.iter().zip(&numbers).find(|(cell, _)| **cell == Cell::Missing) {
+                return Err(DispositionError::NoValue { column: column.name.clone(), row: row + 1 });
+            }
         }
         let text = |cell: &Cell, dim: Dim| match cell {
             Cell::Number(value) => format::fifteen_figures(dim.from_si(*value, units)),
@@ -293,5 +303,27 @@ mod tests {
         assert_eq!(d.cull(&[("F".into(), 4.0, 16.0), ("X".into(), 0.0, 3.1)], us).unwrap().rows(), 2);
         let none = RowChoice { record: Some((9, 12)), ..RowChoice::default() };
         assert!(d.values("F", &none, us).unwrap_err().to_string().contains("not times"));
+    }
+
+    #[test]
+    fn a_column_chosen_twice_is_scaled_once_and_the_list_shows_it() {
+        let mut d = menu();
+        d.scale(10.0, &["X", "1:2"]).unwrap();
+        d.shift(1.0, &["F", "F"]).unwrap();
+        let us = UnitSystem::default();
+        assert_eq!(d.values("F", &RowChoice { record: Some((2, 2)), values: None }, us).unwrap(), "41");
+        let list = d.vlist(us);
+        assert!(list[0].ends_with("10.00 to 50.00") && list[1].ends_with("11.0000 to 251.0000"), "{list:?}");
+    }
+
+    #[test]
+    fn a_value_that_is_missing_is_told_not_skipped() {
+        let mut d = menu();
+        d.table.columns[1].cells[2] = Cell::Missing;
+        let us = UnitSystem::default();
+        let from_two = RowChoice { record: Some((2, 5)), values: None };
+        let want = DispositionError::NoValue { column: "F".into(), row: 3 };
+        assert_eq!(d.values("F", &from_two, us), Err(want));
+        assert_eq!(d.values("F", &RowChoice { record: Some((4, 5)), values: None }, us).unwrap(), "16 25");
     }
 }

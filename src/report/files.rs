@@ -2,9 +2,10 @@
 //!
 //! Source: reference/language.md section 8. A name without a folder goes below the job's own folder (`ROOT.ans/` or
 //! `--out`); a name with a folder goes where it says. In the job's folder an earlier file is kept as `name.1`,
-//! `name.2`, ...; outside of it nothing that exists is overwritten.
+//! `name.2`, ...; outside of it nothing that exists is overwritten. Files are written whole: first under a temporary
+//! name beside the place, then renamed.
 
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::path::{Component, Path, PathBuf};
 
 /// Why a file could not be written or touched.
@@ -21,6 +22,9 @@ pub enum FileError {
     /// A file outside of the job's folder is there already.
     #[error("{} exists already, and outside of the job's folder no file is overwritten", .0.display())]
     Exists(PathBuf),
+    /// The new name of a file is taken.
+    #[error("{} exists already", .0.display())]
+    Taken(PathBuf),
     /// A file that is not the job's own.
     #[error("{} is not below the job's own folder {}", path.display(), folder.display())]
     NotOwn {
@@ -66,21 +70,19 @@ impl JobFolder {
     pub fn write(&self, name: &str, bytes: &[u8]) -> Result<PathBuf, FileError> {
         let path = self.resolve(name);
         let own = self.owns(&path);
-        let parent = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let at = |source| FileError::System { path: path.clone(), source };
-        if own {
-            std::fs::create_dir_all(parent).map_err(at)?;
+        if path.is_dir() {
+            return Err(at(ErrorKind::IsADirectory.into()));
         }
-        let mut file = tempfile::NamedTempFile::new_in(parent).map_err(at)?;
+        if own {
+            std::fs::create_dir_all(folder_of(&path)).map_err(at)?;
+        }
+        let mut file = beside(&path).map_err(at)?;
         file.write_all(bytes).and_then(|()| file.flush()).map_err(at)?;
-        make_readable(file.as_file());
         if own {
             keep_earlier(&path)?;
         }
-        file.persist_noclobber(&path).map_err(|e| match e.error.kind() {
-            std::io::ErrorKind::AlreadyExists => FileError::Exists(path.clone()),
-            _ => FileError::System { path: path.clone(), source: e.error },
-        })?;
+        put_in_place(file, &path)?;
         Ok(path)
     }
 
@@ -91,22 +93,27 @@ impl JobFolder {
     pub fn create(&self, name: &str) -> Result<std::fs::File, FileError> {
         let path = self.folder.join(name);
         let at = |source| FileError::System { path: path.clone(), source };
+        if path.is_dir() {
+            return Err(at(ErrorKind::IsADirectory.into()));
+        }
         std::fs::create_dir_all(&self.folder).map_err(at)?;
         keep_earlier(&path)?;
         std::fs::File::create_new(&path).map_err(at)
     }
 
-    /// Whether a path lies below the job's folder, links and `..` followed.
+    /// Whether a path lies below the job's folder, links and `..` followed. A path through a link that leads nowhere
+    /// is not: what is made there would be wherever the link points to.
     pub fn owns(&self, path: &Path) -> bool {
         real(&self.folder).zip(real(path)).is_some_and(|(folder, path)| path.starts_with(&folder) && path != folder)
     }
 
-    /// A path that `&FILE` may act on: taken from the job's folder, and below it unless everything is allowed.
+    /// A path that `&FILE` may act on: taken from the job's folder, and below it unless everything is allowed. What a
+    /// name means does not depend on what is allowed.
     ///
     /// # Errors
     /// [`FileError::NotOwn`].
     pub fn own(&self, name: &str) -> Result<PathBuf, FileError> {
-        let path = if self.allow_files { PathBuf::from(name) } else { self.folder.join(name) };
+        let path = self.folder.join(name);
         if self.allow_files || self.owns(&path) {
             Ok(path)
         } else {
@@ -130,11 +137,20 @@ impl JobFolder {
     /// Files that are not the job's own, a new name that exists, or what the system refuses.
     pub fn transfer(&self, from: &str, to: &str, keep: bool) -> Result<PathBuf, FileError> {
         let (from, to) = (self.own(from)?, self.own(to)?);
-        if to.symlink_metadata().is_ok() {
-            return Err(FileError::Exists(to));
+        if there(&to) {
+            return Err(FileError::Taken(to));
         }
-        let done = if keep { std::fs::copy(&from, &to).map(|_| ()) } else { std::fs::rename(&from, &to) };
-        done.map_err(|source| FileError::System { path: from, source })?;
+        let at = |source| FileError::System { path: from.clone(), source };
+        if keep {
+            if !std::fs::metadata(&from).map_err(at)?.is_file() {
+                return Err(at(std::io::Error::other("only a file can be copied")));
+            }
+            let mut file = beside(&to).map_err(|source| FileError::System { path: to.clone(), source })?;
+            std::fs::File::open(&from).and_then(|mut f| std::io::copy(&mut f, &mut file)).map_err(at)?;
+            put_in_place(file, &to)?;
+        } else {
+            std::fs::rename(&from, &to).map_err(at)?;
+        }
         Ok(to)
     }
 
@@ -149,35 +165,54 @@ impl JobFolder {
     }
 }
 
-/// Temporary files are private; answers get the permissions of ordinary files.
-fn make_readable(file: &std::fs::File) {
+/// The folder a path stands in.
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// A temporary file in the folder of a path, readable by whom the user's umask lets read.
+fn beside(path: &Path) -> std::io::Result<tempfile::NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
-        // a private answer file would still be whole, so a refusal is no reason to lose it
-        let _ = file.set_permissions(std::fs::Permissions::from_mode(0o644));
+        builder.permissions(std::fs::Permissions::from_mode(0o666));
     }
-    #[cfg(not(unix))]
-    let _ = file;
+    builder.tempfile_in(folder_of(path))
+}
+
+/// Renames a temporary file to its place, which must be free.
+fn put_in_place(file: tempfile::NamedTempFile, path: &Path) -> Result<(), FileError> {
+    match file.persist_noclobber(path) {
+        Ok(_) => Ok(()),
+        Err(e) if e.error.kind() == ErrorKind::AlreadyExists => Err(FileError::Exists(path.into())),
+        Err(e) => Err(FileError::System { path: path.into(), source: e.error }),
+    }
+}
+
+/// Whether something has this name, be it a link that leads nowhere.
+fn there(path: &Path) -> bool {
+    path.symlink_metadata().is_ok()
 }
 
 /// Moves an existing file to `name.1`, or the first number that is free.
 fn keep_earlier(path: &Path) -> Result<(), FileError> {
-    if !path.exists() {
+    if !there(path) {
         return Ok(());
     }
     for number in 1u32.. {
         let mut name = path.as_os_str().to_os_string();
         name.push(format!(".{number}"));
         let kept = PathBuf::from(name);
-        if !kept.exists() {
+        if !there(&kept) {
             return std::fs::rename(path, kept).map_err(|source| FileError::System { path: path.into(), source });
         }
     }
     Ok(())
 }
 
-/// The path with links and `..` resolved; what does not exist yet is taken as written.
+/// The path with links and `..` resolved; what does not exist yet is taken as written. `None` for a link that leads
+/// nowhere.
 fn real(path: &Path) -> Option<PathBuf> {
     let absolute = std::path::absolute(path).ok()?;
     let mut out = PathBuf::new();
@@ -191,8 +226,7 @@ fn real(path: &Path) -> Option<PathBuf> {
                 out.push(other);
                 match out.canonicalize() {
                     Ok(resolved) => out = resolved,
-                    // a link that leads nowhere could lead anywhere once the file is made
-                    Err(_) if out.symlink_metadata().is_ok() => return None,
+                    Err(_) if there(&out) => return None,
                     Err(_) => {}
                 }
             }
@@ -252,7 +286,53 @@ mod tests {
         assert!(secret.exists());
         job.write("a", b"1").unwrap();
         job.transfer("a", "b", true).unwrap();
-        assert!(matches!(job.transfer("a", "b", false), Err(FileError::Exists(_))));
+        assert!(matches!(job.transfer("a", "b", false), Err(FileError::Taken(_))));
         job.remove("b").unwrap();
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_that_leads_nowhere_is_no_way_out() {
+        let (dir, job) = job();
+        job.write("a", b"1").unwrap();
+        let outside = dir.path().join("new");
+        std::os::unix::fs::symlink(&outside, job.folder.join("link")).unwrap();
+        for keep in [true, false] {
+            assert!(matches!(job.transfer("a", "link", keep), Err(FileError::NotOwn { .. })));
+        }
+        assert!(matches!(job.write("link", b"x"), Err(FileError::Exists(_))));
+        assert!(matches!(job.make_folder("link/sub"), Err(FileError::NotOwn { .. })));
+        assert!(!outside.exists() && job.folder.join("a").exists());
+    }
+
+    #[test]
+    fn a_folder_is_neither_written_over_nor_moved_away() {
+        let (_dir, job) = job();
+        job.make_folder("sub").unwrap();
+        assert!(job.write("sub", b"1").is_err() && job.create("sub").is_err());
+        assert!(job.transfer("sub", "copy", true).is_err());
+        assert!(job.folder.join("sub").is_dir() && !job.folder.join("sub.1").exists());
+    }
+
+    #[test]
+    fn a_name_means_the_same_file_whatever_is_allowed() {
+        let (_dir, mut job) = job();
+        job.write("a", b"1").unwrap();
+        job.allow_files = true;
+        assert_eq!(job.own("a").unwrap(), job.folder.join("a"));
+        let beyond = job.folder.join("../mine");
+        assert_eq!(job.transfer("a", "../mine", true).unwrap(), beyond);
+        assert!(beyond.exists());
+    }
+
+    #[test]
+    fn names_keep_case_blanks_and_letters_of_any_alphabet() {
+        let (_dir, job) = job();
+        for name in ["Mixed Case.CSV", "anker\u{e9} \u{6d77}.csv", &"n".repeat(200)] {
+            let path = job.write(name, b"1").unwrap();
+            assert_eq!(path.file_name().unwrap().to_str(), Some(name));
+        }
+        assert!(job.write(&"n".repeat(5000), b"1").is_err());
+        assert!(job.write("", b"1").is_err() && job.write("..", b"1").is_err());
     }
 }

@@ -43,7 +43,7 @@ pub fn number_in_full(value: f64) -> String {
 fn shown(cell: &Cell, dim: Dim, digits: Digits, units: UnitSystem, more: u8) -> String {
     match cell {
         Cell::Missing => MISSING.into(),
-        Cell::Text(text) => text.clone(),
+        Cell::Text(text) => one_line(text),
         Cell::Integer(value) => value.to_string(),
         Cell::Number(value) => {
             let value = dim.from_si(*value, units);
@@ -51,19 +51,24 @@ fn shown(cell: &Cell, dim: Dim, digits: Digits, units: UnitSystem, more: u8) -> 
                 return value.to_string();
             }
             match digits {
-                Digits::Usual => fixed(value, usual(dim, units) + more),
-                Digits::Decimals(count) => fixed(value, count + more),
-                Digits::Scientific(count) => exponent(value, usize::from(count + more).saturating_sub(1)),
+                Digits::Usual => fixed(value, usual(dim, units).saturating_add(more)),
+                Digits::Decimals(count) => fixed(value, count.saturating_add(more)),
+                Digits::Scientific(count) => exponent(value, usize::from(count.saturating_add(more)).saturating_sub(1)),
             }
         }
     }
+}
+
+/// Text that keeps to its line and column: line ends, tabs and other control characters become blanks.
+fn one_line(text: &str) -> String {
+    text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
 }
 
 /// Fixed decimals; a number that would lose all its digits, or is very long, is printed in E format instead.
 fn fixed(value: f64, decimals: u8) -> String {
     let decimals = usize::from(decimals);
     let smallest = 10f64.powi(-i32::try_from(decimals).unwrap_or(0));
-    if value != 0.0 && (value.abs() < 0.5 * smallest || value.abs() >= 1e12) {
+    if value != 0.0 && (value.abs() <= 0.5 * smallest || value.abs() >= 1e12) {
         return exponent(value, 3);
     }
     let text = format!("{value:.decimals$}");
@@ -114,13 +119,35 @@ fn usual(dim: Dim, units: UnitSystem) -> u8 {
 
 /// A column's head in a file or an axis: `X (ft)`.
 pub fn head(column: &Column, units: UnitSystem) -> String {
-    let label = column.dim.label(units);
-    if label.is_empty() { column.name.clone() } else { format!("{} ({label})", column.name) }
+    named(&column.name, column.dim, units)
+}
+
+/// A name with its unit behind it.
+pub fn named(name: &str, dim: Dim, units: UnitSystem) -> String {
+    let label = dim.label(units);
+    if label.is_empty() { name.to_string() } else { format!("{name} ({label})") }
+}
+
+/// A tick label of an axis whose ticks are `step` apart and nowhere larger than `largest`: as many decimals as tell
+/// the ticks apart, E format where fixed decimals would be long.
+pub fn tick(value: f64, step: f64, largest: f64) -> String {
+    let place = |v: f64| if v > 0.0 { (v.log10() + 1e-9).floor() as i32 } else { 0 };
+    let (finest, coarsest) = (place(step), place(largest));
+    if value.abs() < 0.5 * step {
+        return "0".into();
+    }
+    if coarsest >= 9 || finest < -6 {
+        let digits = usize::try_from(place(value.abs()) - finest).unwrap_or(0);
+        return exponent(value, digits.min(16));
+    }
+    let decimals = usize::try_from(-finest).unwrap_or(0);
+    format!("{value:.decimals$}")
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
 
     #[test]
     fn digits_stay_meaningful_in_every_unit() {
@@ -140,6 +167,54 @@ mod tests {
     fn a_file_number_reads_back_to_the_same_bits() {
         for value in [1.0 / 3.0, 1e-300, 123_456_789.123_456_79, -2.5e17] {
             assert_eq!(number_in_full(value).parse::<f64>().unwrap().to_bits(), value.to_bits());
+        }
+    }
+
+    #[test]
+    fn ticks_have_the_digits_that_tell_them_apart() {
+        let ticks = |step: f64, last: i32| (0..=last).map(|k| tick(f64::from(k) * step, step, step * 10.0)).collect();
+        let list: Vec<Vec<String>> = vec![ticks(0.5, 2), ticks(200.0, 2), ticks(2e-9, 2), ticks(5e9, 2)];
+        assert_eq!(list[0], ["0", "0.5", "1.0"]);
+        assert_eq!(list[1], ["0", "200", "400"]);
+        assert_eq!(list[2], ["0", "2E-09", "4E-09"]);
+        assert_eq!(list[3], ["0", "5E+09", "1.0E+10"]);
+    }
+
+    #[test]
+    fn text_keeps_to_its_line() {
+        let cell = Cell::Text("a\nb\t\u{1b}[31mc".into());
+        assert_eq!(report(&cell, Dim::None, Digits::Usual, UnitSystem::default()), "a b  [31mc");
+    }
+
+    fn systems() -> impl Strategy<Value = UnitSystem> {
+        let lengths = prop_oneof![Just(LengthUnit::Feet), Just(LengthUnit::Meters)];
+        let forces = prop_oneof![
+            Just(ForceUnit::Kips),
+            Just(ForceUnit::LongTons),
+            Just(ForceUnit::ShortTons),
+            Just(ForceUnit::Kilonewtons),
+            Just(ForceUnit::MetricTons),
+            Just(ForceUnit::Newtons),
+        ];
+        (lengths, forces).prop_map(|(length, force)| UnitSystem { length, force })
+    }
+
+    proptest! {
+        #[test]
+        fn a_printed_number_is_rounded_never_lost(
+            value in prop_oneof![-1e7..1e7f64, -1e-3..1e-3f64, any::<f64>().prop_filter("finite", |v| v.is_finite())],
+            units in systems(),
+            more in 0u8..4,
+        ) {
+            for dim in [Dim::Length, Dim::Force, Dim::ForcePerLength, Dim::Section, Dim::Stress, Dim::None] {
+                let want = dim.from_si(value, units);
+                prop_assume!(want.is_finite());
+                let text = shown(&Cell::Number(value), dim, Digits::Usual, units, more);
+                let got: f64 = text.parse().unwrap();
+                let place = 10f64.powi(-i32::from(usual(dim, units) + more));
+                prop_assert!((got - want).abs() <= (0.5001 * place).max(0.000_51 * want.abs()), "{want} as {text}");
+                prop_assert!(want == 0.0 || got != 0.0, "{want} as {text}");
+            }
         }
     }
 }

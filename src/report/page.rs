@@ -29,7 +29,7 @@ const NARROW: usize = 72;
 /// The whole report of a table: page head, title, facts, rows, notes. Plain ASCII, no trailing blanks.
 pub fn render(table: &Table, units: UnitSystem, head: &PageHead) -> String {
     let body = grid(table, units);
-    let width = body.iter().map(String::len).max().unwrap_or(0).clamp(NARROW, PAGE);
+    let width = body.iter().map(|l| l.chars().count()).max().unwrap_or(0).clamp(NARROW, PAGE);
     let mut lines = vec![String::new()];
     lines.extend(banner(head, width));
     let spaced = spaced(&table.title);

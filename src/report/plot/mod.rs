@@ -1,19 +1,21 @@
 //! Plots: one description, drawn through plotters onto three surfaces: SVG, PNG, and the terminal.
 
+mod axis;
+mod draw;
 mod raster;
 mod terminal;
 
 use crate::language::units::UnitSystem;
-use crate::report::format;
+use crate::report::{format, page};
 use crate::table::{Cell, Table};
-use plotters::chart::{ChartBuilder, SeriesLabelPosition};
-use plotters::coord::Shift;
-use plotters::drawing::{DrawingArea, DrawingAreaErrorKind, IntoDrawingArea};
-use plotters::element::{Circle, PathElement};
-use plotters::prelude::{BLACK, Color, DrawingBackend, IntoFont, RGBColor, SVGBackend, WHITE};
-use plotters::series::LineSeries;
+use draw::{Look, draw, refused};
+use plotters::drawing::{DrawingArea, IntoDrawingArea};
+use plotters::prelude::SVGBackend;
 use std::cell::RefCell;
 use std::rc::Rc;
+
+/// Size of a plot in a file (pixels).
+const SIZE: (u32, u32) = (900, 600);
 
 /// A line of a chart; points without a finite value break it.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,6 +45,9 @@ pub enum PlotError {
     /// No finite point.
     #[error("there is nothing to plot: no finite points")]
     Empty,
+    /// A point beyond what an axis can bear.
+    #[error("the point {0:e}, {1:e} is too large to be plotted")]
+    Range(f64, f64),
     /// The plotting library or the PNG encoder refused.
     #[error("the plot could not be drawn: {0}")]
     Backend(String),
@@ -51,18 +56,22 @@ pub enum PlotError {
     Kind(String),
 }
 
-/// Colours that stay apart for colour-blind eyes (Okabe and Ito 2008), in fixed order.
-const COLOURS: [RGBColor; 7] = [
-    RGBColor(0, 114, 178),
-    RGBColor(213, 94, 0),
-    RGBColor(0, 158, 115),
-    RGBColor(204, 121, 167),
-    RGBColor(230, 159, 0),
-    RGBColor(86, 180, 233),
-    RGBColor(0, 0, 0),
-];
-/// Up to this many points a curve shows its points too.
-const FEW: usize = 60;
+impl Series {
+    /// The points that can be drawn.
+    fn finite(&self) -> impl Iterator<Item = (f64, f64)> {
+        self.points.iter().filter_map(|p| finite(*p))
+    }
+
+    /// The unbroken pieces of the line.
+    fn runs(&self) -> impl Iterator<Item = Vec<(f64, f64)>> {
+        let pieces = self.points.split(|p| finite(*p).is_none());
+        pieces.filter(|run| !run.is_empty()).map(|run| run.iter().flatten().copied().collect())
+    }
+}
+
+fn finite(point: Option<(f64, f64)>) -> Option<(f64, f64)> {
+    point.filter(|(x, y)| x.is_finite() && y.is_finite())
+}
 
 impl Chart {
     /// A chart of columns of a table against its first one.
@@ -121,8 +130,8 @@ impl Chart {
     pub fn svg(&self) -> Result<Vec<u8>, PlotError> {
         let mut text = String::new();
         {
-            let area = SVGBackend::with_string(&mut text, (900, 600)).into_drawing_area();
-            self.draw(&area, &Look::PAGE)?;
+            let area = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
+            draw(self, &area, &Look::PAGE)?;
             area.present().map_err(refused)?;
         }
         Ok(text.into_bytes())
@@ -133,19 +142,28 @@ impl Chart {
     /// # Errors
     /// [`PlotError`].
     pub fn png(&self) -> Result<Vec<u8>, PlotError> {
-        let canvas = Rc::new(RefCell::new(raster::Canvas::new(900, 600)));
-        self.draw(&DrawingArea::from(&canvas), &Look::PAGE)?;
+        let canvas = Rc::new(RefCell::new(raster::Canvas::new(SIZE.0, SIZE.1)));
+        draw(self, &DrawingArea::from(&canvas), &Look::PAGE)?;
         canvas.borrow().encode().map_err(|e| PlotError::Backend(e.to_string()))
     }
 
-    /// The chart for a terminal of so many columns and lines.
+    /// The chart for a terminal of so many columns and lines; the legend stands below.
     ///
     /// # Errors
     /// [`PlotError`].
     pub fn terminal(&self, columns: usize, lines: usize) -> Result<String, PlotError> {
-        let canvas = Rc::new(RefCell::new(terminal::Canvas::new(columns.clamp(40, 200), lines.clamp(10, 100))));
-        self.draw(&DrawingArea::from(&canvas), &Look::TERMINAL)?;
-        let mut text = canvas.borrow().text();
+        let (columns, lines) = (columns.clamp(40, 200), lines.clamp(10, 100));
+        // three lines are for the title and the names of the axes
+        let canvas = Rc::new(RefCell::new(terminal::Canvas::new(columns, lines - 3)));
+        draw(self, &DrawingArea::from(&canvas), &Look::terminal(columns, lines - 3))?;
+        let mut text = String::new();
+        for line in [page::centre(&self.title, columns), self.y_label.clone()] {
+            text.push_str(line.trim_end());
+            text.push('\n');
+        }
+        text.push_str(&canvas.borrow().text());
+        text.push_str(page::centre(&self.x_label, columns).trim_end());
+        text.push('\n');
         if self.series.len() > 1 {
             for (index, series) in self.series.iter().enumerate() {
                 text.push_str(&format!("   {}  {}\n", terminal::mark(index), series.name));
@@ -153,135 +171,6 @@ impl Chart {
         }
         Ok(text)
     }
-
-    fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, look: &Look) -> Result<(), PlotError> {
-        area.fill(&WHITE).map_err(refused)?;
-        let (x, y) = self.ranges().ok_or(PlotError::Empty)?;
-        let (x_width, y_width) = (x.end - x.start, y.end - y.start);
-        if !(x_width.is_finite() && y_width.is_finite()) {
-            return Err(PlotError::Backend("the values span more than a number can hold".into()));
-        }
-        let mut chart = ChartBuilder::on(area)
-            .caption(&self.title, ("sans-serif", look.title))
-            .margin(look.margin)
-            .x_label_area_size(look.x_area)
-            .y_label_area_size(look.y_area)
-            .build_cartesian_2d(x, y)
-            .map_err(refused)?;
-        let x_tick = |v: &f64| tick(*v, x_width);
-        let y_tick = |v: &f64| tick(*v, y_width);
-        let mut mesh = chart.configure_mesh();
-        mesh.x_desc(&self.x_label)
-            .y_desc(&self.y_label)
-            .x_labels(look.x_labels)
-            .y_labels(look.y_labels)
-            .x_label_formatter(&x_tick)
-            .y_label_formatter(&y_tick)
-            .label_style(("sans-serif", look.text))
-            .axis_desc_style(("sans-serif", look.text));
-        if look.terminal {
-            mesh.disable_mesh();
-        } else {
-            mesh.light_line_style(RGBColor(235, 235, 235)).bold_line_style(RGBColor(210, 210, 210));
-        }
-        mesh.draw().map_err(refused)?;
-        for (index, series) in self.series.iter().enumerate() {
-            let colour = if look.terminal {
-                terminal::colour(index)
-            } else {
-                COLOURS.get(index % COLOURS.len()).copied().unwrap_or(BLACK)
-            };
-            let count = series.points.iter().flatten().count();
-            let mut labelled = false;
-            for run in series.points.split(Option::is_none) {
-                let points: Vec<(f64, f64)> = run.iter().flatten().copied().collect();
-                if points.is_empty() {
-                    continue;
-                }
-                let line = chart
-                    .draw_series(LineSeries::new(points.clone(), colour.stroke_width(look.stroke)))
-                    .map_err(refused)?;
-                if !labelled && !look.terminal {
-                    line.label(&series.name)
-                        .legend(move |(x, y)| PathElement::new(vec![(x, y), (x + 20, y)], colour.stroke_width(2)));
-                    labelled = true;
-                }
-                if count <= FEW && !look.terminal {
-                    chart.draw_series(points.iter().map(|p| Circle::new(*p, 3, colour.filled()))).map_err(refused)?;
-                }
-            }
-        }
-        if self.series.len() > 1 && !look.terminal {
-            chart
-                .configure_series_labels()
-                .position(SeriesLabelPosition::UpperLeft)
-                .background_style(WHITE.mix(0.85))
-                .border_style(RGBColor(160, 160, 160))
-                .label_font(("sans-serif", look.text).into_font())
-                .draw()
-                .map_err(refused)?;
-        }
-        Ok(())
-    }
-
-    /// Ranges of both axes with a little room; `None` without a finite point.
-    fn ranges(&self) -> Option<(std::ops::Range<f64>, std::ops::Range<f64>)> {
-        let points = || self.series.iter().flat_map(|s| s.points.iter().flatten());
-        let range = |pick: fn(&(f64, f64)) -> f64| {
-            let (low, high) =
-                points().map(pick).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
-            let room = if high > low { 0.03 * (high - low) } else { 0.5 * low.abs().max(1.0) };
-            if low <= high { Some(low - room..high + room) } else { None }
-        };
-        Some((range(|p| p.0)?, range(|p| p.1)?))
-    }
-}
-
-/// Sizes that differ between a page and a terminal.
-struct Look {
-    terminal: bool,
-    title: i32,
-    text: i32,
-    margin: i32,
-    x_area: i32,
-    y_area: i32,
-    x_labels: usize,
-    y_labels: usize,
-    stroke: u32,
-}
-
-impl Look {
-    const PAGE: Look = Look {
-        terminal: false,
-        title: 22,
-        text: 15,
-        margin: 16,
-        x_area: 50,
-        y_area: 80,
-        x_labels: 10,
-        y_labels: 10,
-        stroke: 2,
-    };
-    const TERMINAL: Look = Look {
-        terminal: true,
-        title: 4,
-        text: 4,
-        margin: 0,
-        x_area: 14,
-        y_area: 22,
-        x_labels: 6,
-        y_labels: 6,
-        stroke: 1,
-    };
-}
-
-/// A tick label with no more digits than it needs on an axis of this width.
-fn tick(value: f64, width: f64) -> String {
-    if value.abs() < 1e-9 * width { "0".into() } else { crate::language::functions::eight_figures(value) }
-}
-
-fn refused<E: std::error::Error + Send + Sync>(error: DrawingAreaErrorKind<E>) -> PlotError {
-    PlotError::Backend(error.to_string())
 }
 
 #[cfg(test)]
@@ -289,6 +178,7 @@ mod tests {
     use super::*;
     use crate::language::units::Dim;
     use crate::table::Digits;
+    use proptest::prelude::*;
 
     fn chart() -> Chart {
         let mut t = Table::new("Line A").column("", "X", Dim::Length, Digits::Usual).column(
@@ -328,6 +218,61 @@ mod tests {
             series: vec![Series { name: String::new(), points }],
         };
         assert_eq!(series(vec![None]).svg(), Err(PlotError::Empty));
+        assert_eq!(series(vec![Some((f64::NAN, 1.0)), Some((0.0, f64::INFINITY))]).png(), Err(PlotError::Empty));
+        assert_eq!(series(vec![Some((0.0, 1e300))]).svg(), Err(PlotError::Range(0.0, 1e300)));
         assert!(series(vec![Some((1.0, 2.0))]).terminal(60, 15).is_ok());
+    }
+
+    #[test]
+    fn a_missing_point_breaks_the_line_and_many_points_have_no_marks() {
+        let count = |chart: &Chart, what: &str| {
+            let svg = String::from_utf8(chart.svg().unwrap()).unwrap();
+            svg.matches(what).count()
+        };
+        let broken = chart();
+        let mut whole = broken.clone();
+        whole.series[0].points[10] = Some((10.0, 100.0));
+        assert_eq!(count(&broken, "<circle"), 29);
+        assert_eq!(count(&whole, "<circle"), 30);
+        assert_eq!(count(&broken, "stroke=\"#0072B2\""), count(&whole, "stroke=\"#0072B2\"") + 1);
+        whole.series[0].points = (0..100).map(|n| Some((f64::from(n), 0.0))).collect();
+        assert_eq!(count(&whole, "<circle"), 0);
+    }
+
+    #[test]
+    fn units_that_differ_are_all_named_and_the_legend_tells_the_lines() {
+        let mut t = Table::new("t");
+        for (name, dim) in [("X", Dim::Length), ("Force", Dim::Force), ("On Bottom", Dim::Length)] {
+            t = t.column("", name, dim, Digits::Usual);
+        }
+        t.push(vec![1.0.into(), 2.0.into(), 3.0.into()]).unwrap();
+        t.push(vec![2.0.into(), 3.0.into(), 2.0.into()]).unwrap();
+        let chart = Chart::of(&t, UnitSystem::SI);
+        assert_eq!(chart.y_label, "N, m");
+        let svg = String::from_utf8(chart.svg().unwrap()).unwrap();
+        let screen = chart.terminal(60, 16).unwrap();
+        assert!(["Force", "On Bottom"].iter().all(|n| svg.contains(n) && screen.contains(n)), "{screen}");
+        assert_eq!(screen.lines().count(), 18);
+        for lines in [10, 16, 24, 41] {
+            let screen = chart.terminal(72, lines).unwrap();
+            let last: Vec<&str> = screen.lines().skip(lines - 2).take(1).flat_map(str::split_whitespace).collect();
+            assert!(last.contains(&"1.0") && last.contains(&"2.0"), "no labels under the axis of\n{screen}");
+        }
+        assert!(screen.lines().all(|l| l.chars().count() <= 60 && l == l.trim_end()), "{screen}");
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(60))]
+        #[test]
+        fn any_points_are_drawn_or_refused(
+            points in prop::collection::vec(prop::option::of((any::<f64>(), any::<f64>())), 0..6),
+            columns in 0usize..250,
+            lines in 0usize..60,
+        ) {
+            let series = vec![Series { name: "a".into(), points: points.clone() }, Series { name: "b".into(), points }];
+            let chart = Chart { title: "\u{1b}t".into(), x_label: String::new(), y_label: String::new(), series };
+            let drawn = chart.terminal(columns, lines);
+            prop_assert_eq!(drawn.is_ok(), chart.svg().is_ok());
+        }
     }
 }

@@ -1,6 +1,7 @@
-//! A pixel surface for plotters with a bitmap font, encoded as PNG: no font files, the same bytes everywhere.
+//! A pixel surface for plotters with a drawn font (Noto Sans Mono, SIL Open Font License), encoded as PNG: no font
+//! files, the same bytes everywhere.
 
-use font8x8::UnicodeFonts;
+use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster, get_raster_width};
 use plotters::style::text_anchor::{HPos, VPos};
 use plotters_backend::{
     BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind, FontTransform,
@@ -48,14 +49,15 @@ impl Canvas {
     }
 }
 
-/// Pixels of a glyph per unit of its 8 by 8 grid, for a font size: whole numbers keep the letters sharp.
-fn magnification(size: f64) -> i32 {
-    if size >= 20.0 { 2 } else { 1 }
+/// The drawn size of the font nearest to a font size of plotters.
+fn raster(size: f64) -> RasterHeight {
+    if size >= 20.0 { RasterHeight::Size24 } else { RasterHeight::Size16 }
 }
 
 fn text_size(text: &str, size: f64) -> (i32, i32) {
-    let scale = magnification(size);
-    (8 * scale * i32::try_from(text.chars().count()).unwrap_or(0), 8 * scale)
+    let pixels = |n: usize| i32::try_from(n).unwrap_or(0);
+    let letter = get_raster_width(FontWeight::Regular, raster(size));
+    (pixels(letter * text.chars().count()), pixels(raster(size).val()))
 }
 
 impl DrawingBackend for Canvas {
@@ -94,7 +96,6 @@ impl DrawingBackend for Canvas {
         at: BackendCoord,
     ) -> Result<(), DrawingErrorKind<Infallible>> {
         let (width, height) = text_size(text, style.size());
-        let scale = magnification(style.size());
         let anchor = style.anchor();
         let dx = match anchor.h_pos {
             HPos::Left => 0,
@@ -106,21 +107,22 @@ impl DrawingBackend for Canvas {
             VPos::Center => -height / 2,
             VPos::Bottom => -height,
         };
-        for (index, letter) in text.chars().enumerate() {
-            let glyph = font8x8::BASIC_FONTS.get(letter).or_else(|| font8x8::BASIC_FONTS.get('?')).unwrap_or([0; 8]);
-            let left = dx + 8 * scale * i32::try_from(index).unwrap_or(0);
-            for (row, bits) in (0i32..).zip(glyph) {
-                for column in (0..8).filter(|c| bits & (1u8 << c) != 0) {
-                    for (i, j) in (0..scale).flat_map(|i| (0..scale).map(move |j| (i, j))) {
-                        let (u, v) = (left + scale * column + i, dy + scale * row + j);
-                        let (u, v) = match style.transform() {
-                            FontTransform::None => (u, v),
-                            FontTransform::Rotate90 => (-v, u),
-                            FontTransform::Rotate180 => (-u, -v),
-                            FontTransform::Rotate270 => (v, -u),
-                        };
-                        self.blend(at.0 + u, at.1 + v, style.color());
-                    }
+        let letter_width = get_raster_width(FontWeight::Regular, raster(style.size()));
+        let colour = style.color();
+        for (letter, left) in text.chars().zip((0i32..).step_by(letter_width)) {
+            let glyph = |c| get_raster(c, FontWeight::Regular, raster(style.size()));
+            let Some(glyph) = glyph(letter).or_else(|| glyph('?')) else { continue };
+            for (row, line) in (0i32..).zip(glyph.rows()) {
+                for (column, ink) in (0i32..).zip(line) {
+                    let (u, v) = (dx + left + column, dy + row);
+                    let (u, v) = match style.transform() {
+                        FontTransform::None => (u, v),
+                        FontTransform::Rotate90 => (-v, u),
+                        FontTransform::Rotate180 => (-u, -v),
+                        FontTransform::Rotate270 => (v, -u),
+                    };
+                    let alpha = colour.alpha * f64::from(*ink) / 255.0;
+                    self.blend(at.0.saturating_add(u), at.1.saturating_add(v), BackendColor { alpha, ..colour });
                 }
             }
         }

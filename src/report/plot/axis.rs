@@ -1,0 +1,123 @@
+//! An axis: its range, its round ticks, and where a value stands between two pixels.
+
+use crate::report::format;
+use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
+use std::ops::Range;
+
+/// Values beyond this are not drawn: the arithmetic of an axis would leave the range of double precision.
+pub const LARGEST: f64 = 1e100;
+
+/// The range of an axis, and about how many ticks it bears.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    low: f64,
+    high: f64,
+    most: usize,
+}
+
+impl Axis {
+    /// An axis with at most `most` ticks that shows all `values` (finite, not beyond [`LARGEST`]) with a little room.
+    /// `None` without a value.
+    pub fn of(values: impl Iterator<Item = f64>, most: usize) -> Option<Axis> {
+        let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
+        if low > high {
+            return None;
+        }
+        let (span, size) = (high - low, low.abs().max(high.abs()));
+        // what differs by rounding only is one value
+        let room = if span > 1e-9 * size && span > 1.0 / LARGEST {
+            0.03 * span
+        } else if size > 1.0 / LARGEST {
+            0.5 * size
+        } else {
+            1.0
+        };
+        Some(Axis { low: low - room, high: high + room, most: most.max(2) })
+    }
+
+    /// Where a value stands: 0 at the low end, 1 at the high one.
+    pub fn share(&self, value: f64) -> f64 {
+        (value - self.low) / (self.high - self.low)
+    }
+
+    /// Distance of the ticks when there are at most `most`: 1, 2 or 5 times a power of ten.
+    fn step(&self, most: usize) -> f64 {
+        let rough = (self.high - self.low) / most as f64;
+        let power = 10f64.powf(rough.log10().floor());
+        [1.0, 2.0, 5.0, 10.0].into_iter().map(|m| m * power).find(|s| *s >= rough * 0.999_999).unwrap_or(10.0 * power)
+    }
+
+    /// The ticks, from the low end up.
+    fn ticks(&self, most: usize) -> Vec<f64> {
+        let step = self.step(most);
+        let (first, last) = ((self.low / step).ceil(), (self.high / step).floor());
+        // counted in whole numbers; an axis never has more ticks than it may
+        (0..=most).map(|k| first + k as f64).take_while(|k| *k <= last).map(|k| k * step).collect()
+    }
+
+    /// The label of a tick.
+    pub fn label(&self, value: f64) -> String {
+        format::tick(value, self.step(self.most), self.low.abs().max(self.high.abs()))
+    }
+}
+
+impl Ranged for Axis {
+    type FormatOption = NoDefaultFormatting;
+    type ValueType = f64;
+
+    fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
+        let length = f64::from(limit.1) - f64::from(limit.0);
+        limit.0 + (length * self.share(*value).clamp(-1.0, 2.0)).round() as i32
+    }
+
+    fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
+        // the fine mesh asks for many more points than the ticks: it gets a fifth of their distance
+        let most = if hint.max_num_points() > 2 * self.most { 5 * self.most } else { self.most };
+        self.ticks(most)
+    }
+
+    fn range(&self) -> Range<f64> {
+        self.low..self.high
+    }
+}
+
+impl ValueFormatter<f64> for Axis {
+    fn format_ext(&self, value: &f64) -> String {
+        self.label(*value)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn ticks_are_round_and_few() {
+        let axis = Axis::of([5449.0, 8021.0].into_iter(), 8).unwrap();
+        let labels: Vec<String> = axis.ticks(8).into_iter().map(|t| axis.label(t)).collect();
+        assert_eq!(labels, ["5500", "6000", "6500", "7000", "7500", "8000"]);
+        let axis = Axis::of([0.0, 2.5e-4].into_iter(), 6).unwrap();
+        let labels: Vec<String> = axis.ticks(6).into_iter().map(|t| axis.label(t)).collect();
+        assert_eq!(labels, ["0", "0.00005", "0.00010", "0.00015", "0.00020", "0.00025"]);
+    }
+
+    proptest! {
+        #[test]
+        fn any_values_have_an_axis_with_ticks_inside_it(
+            values in prop::collection::vec(any::<f64>().prop_filter("drawable", |v| v.abs() <= LARGEST), 1..5),
+            most in 2usize..12,
+        ) {
+            let axis = Axis::of(values.iter().copied(), most).unwrap();
+            prop_assert!(values.iter().all(|v| (0.0..=1.0).contains(&axis.share(*v))));
+            let ticks = axis.ticks(most);
+            prop_assert!(ticks.len() <= most + 1);
+            for tick in &ticks {
+                prop_assert!((-1e-9..=1.0 + 1e-9).contains(&axis.share(*tick)));
+                prop_assert!(axis.label(*tick).len() <= 24);
+            }
+            let labels: Vec<String> = ticks.iter().map(|t| axis.label(*t)).collect();
+            prop_assert!(labels.windows(2).all(|w| w[0] != w[1]), "{labels:?}");
+        }
+    }
+}

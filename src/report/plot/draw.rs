@@ -1,0 +1,155 @@
+//! Drawing a chart on any surface of plotters: axes, mesh, curves, legend.
+
+use super::axis::Axis;
+use super::{Chart, PlotError, Series, terminal};
+use plotters::chart::ChartBuilder;
+use plotters::coord::Shift;
+use plotters::coord::cartesian::Cartesian2d;
+use plotters::drawing::{DrawingArea, DrawingAreaErrorKind};
+use plotters::element::{Circle, PathElement, Rectangle, Text};
+use plotters::prelude::{BLACK, ChartContext, Color, DrawingBackend, RGBColor, WHITE};
+use plotters::series::LineSeries;
+
+/// Colours that stay apart for colour-blind eyes (Okabe and Ito 2008), in fixed order.
+const COLOURS: [RGBColor; 7] = [
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(230, 159, 0),
+    RGBColor(86, 180, 233),
+    RGBColor(0, 0, 0),
+];
+/// Up to this many points a curve shows its points too.
+const FEW: usize = 60;
+/// Height of a line of the legend and length of the stroke in it (pixels).
+const LEGEND: (i32, i32) = (20, 26);
+
+/// What differs between a page and a terminal: sizes in pixels of the surface, numbers of ticks.
+pub struct Look {
+    terminal: bool,
+    text: i32,
+    margin: i32,
+    areas: (i32, i32),
+    ticks: (usize, usize),
+    mark: i32,
+}
+
+impl Look {
+    /// A page of 900 by 600 pixels.
+    pub const PAGE: Look = Look { terminal: false, text: 15, margin: 16, areas: (54, 92), ticks: (10, 10), mark: 5 };
+
+    /// A terminal of so many characters; titles stand outside of the drawing.
+    pub fn terminal(columns: usize, lines: usize) -> Look {
+        let ticks = ((columns / 12).clamp(2, 10), (lines / 4).clamp(2, 10));
+        Look { terminal: true, text: 4, margin: 0, areas: (8, 22), ticks, mark: 3 }
+    }
+}
+
+type Plane<'a, B> = ChartContext<'a, B, Cartesian2d<Axis, Axis>>;
+
+/// Draws a chart.
+///
+/// # Errors
+/// A chart without a point or with one beyond all measure, or a surface that refuses.
+pub fn draw<B: DrawingBackend>(chart: &Chart, area: &DrawingArea<B, Shift>, look: &Look) -> Result<(), PlotError> {
+    let points = || chart.series.iter().flat_map(Series::finite);
+    if let Some((x, y)) = points().find(|(x, y)| x.abs().max(y.abs()) > super::axis::LARGEST) {
+        return Err(PlotError::Range(x, y));
+    }
+    let x = Axis::of(points().map(|p| p.0), look.ticks.0).ok_or(PlotError::Empty)?;
+    let y = Axis::of(points().map(|p| p.1), look.ticks.1).ok_or(PlotError::Empty)?;
+    area.fill(&WHITE).map_err(refused)?;
+    let mut builder = ChartBuilder::on(area);
+    builder.margin(look.margin).x_label_area_size(look.areas.0).y_label_area_size(look.areas.1);
+    if !look.terminal {
+        builder.caption(&chart.title, ("sans-serif", 22));
+    }
+    let mut plane = builder.build_cartesian_2d(x.clone(), y.clone()).map_err(refused)?;
+    let (x_label, y_label) = (|v: &f64| x.label(*v), |v: &f64| y.label(*v));
+    let mut mesh = plane.configure_mesh();
+    mesh.x_labels(look.ticks.0)
+        .y_labels(look.ticks.1)
+        .x_label_formatter(&x_label)
+        .y_label_formatter(&y_label)
+        .set_all_tick_mark_size(look.mark)
+        .label_style(("sans-serif", look.text));
+    if look.terminal {
+        mesh.disable_mesh();
+    } else {
+        mesh.x_desc(&chart.x_label).y_desc(&chart.y_label).axis_desc_style(("sans-serif", look.text));
+        mesh.light_line_style(RGBColor(240, 240, 240)).bold_line_style(RGBColor(215, 215, 215));
+    }
+    mesh.draw().map_err(refused)?;
+    for (index, series) in chart.series.iter().enumerate() {
+        curve(&mut plane, index, series, look)?;
+    }
+    if chart.series.len() > 1 && !look.terminal {
+        legend(chart, &plane, (&x, &y))?;
+    }
+    Ok(())
+}
+
+fn colour(index: usize) -> RGBColor {
+    COLOURS.get(index % COLOURS.len()).copied().unwrap_or(BLACK)
+}
+
+/// One line of the chart, broken where points are missing; its points too when they are few.
+fn curve<B: DrawingBackend>(
+    plane: &mut Plane<'_, B>,
+    index: usize,
+    series: &Series,
+    look: &Look,
+) -> Result<(), PlotError> {
+    let few = series.finite().count() <= FEW;
+    let (colour, stroke) = if look.terminal { (terminal::colour(index), 1) } else { (colour(index), 2) };
+    for points in series.runs() {
+        plane.draw_series(LineSeries::new(points.clone(), colour.stroke_width(stroke))).map_err(refused)?;
+        if few && !look.terminal {
+            plane.draw_series(points.iter().map(|p| Circle::new(*p, 3, colour.filled()))).map_err(refused)?;
+        }
+    }
+    Ok(())
+}
+
+/// The legend, in the corner where it hides the fewest points.
+fn legend<B: DrawingBackend>(chart: &Chart, plane: &Plane<'_, B>, axes: (&Axis, &Axis)) -> Result<(), PlotError> {
+    let area = plane.plotting_area().strip_coord_spec();
+    let (width, height) = area.dim_in_pixel();
+    let (width, height) = (i32::try_from(width).unwrap_or(0), i32::try_from(height).unwrap_or(0));
+    let letters = chart.series.iter().map(|s| s.name.chars().count()).max().unwrap_or(0);
+    let box_width = 8 * i32::try_from(letters).unwrap_or(0) + LEGEND.1 + 30;
+    let box_height = LEGEND.0 * i32::try_from(chart.series.len()).unwrap_or(0) + 10;
+    let (right, low) = (width - box_width - 10, height - box_height - 10);
+    let hidden = |corner: &(i32, i32)| {
+        let inside = |at: i32, from: i32, size: i32| (from - 8..from + size + 8).contains(&at);
+        let pixel = |share: f64, size: i32| (share * f64::from(size)).round() as i32;
+        let points = chart.series.iter().flat_map(Series::finite);
+        let covered = points.filter(|p| {
+            inside(pixel(axes.0.share(p.0), width), corner.0, box_width)
+                && inside(pixel(1.0 - axes.1.share(p.1), height), corner.1, box_height)
+        });
+        covered.count()
+    };
+    let corners = [(10, 10), (right, 10), (right, low), (10, low)];
+    let (left, top) = corners.into_iter().min_by_key(hidden).unwrap_or((10, 10));
+    let frame = [(left, top), (left + box_width, top + box_height)];
+    area.draw(&Rectangle::new(frame, WHITE.mix(0.9).filled())).map_err(refused)?;
+    area.draw(&Rectangle::new(frame, RGBColor(150, 150, 150))).map_err(refused)?;
+    for (index, series) in chart.series.iter().enumerate() {
+        let y = top + 5 + LEGEND.0 * i32::try_from(index).unwrap_or(0) + LEGEND.0 / 2;
+        let stroke = vec![(left + 10, y), (left + 10 + LEGEND.1, y)];
+        area.draw(&PathElement::new(stroke, colour(index).stroke_width(2))).map_err(refused)?;
+        if series.finite().count() <= FEW {
+            area.draw(&Circle::new((left + 10 + LEGEND.1 / 2, y), 3, colour(index).filled())).map_err(refused)?;
+        }
+        let at = (left + 20 + LEGEND.1, y - 8);
+        area.draw(&Text::new(series.name.as_str(), at, ("sans-serif", 15))).map_err(refused)?;
+    }
+    Ok(())
+}
+
+/// What a surface refuses, as an error of ours.
+pub fn refused<E: std::error::Error + Send + Sync>(error: DrawingAreaErrorKind<E>) -> PlotError {
+    PlotError::Backend(error.to_string())
+}
