@@ -1,5 +1,6 @@
 //! What a line is made of, and what is refused.
 
+use super::between::{Bottom, EndForces};
 use super::solve::State;
 
 /// A piece of line with the same properties all along.
@@ -78,6 +79,17 @@ pub enum LineError {
         /// How far (m).
         by: f64,
     },
+    /// A weightless line with slack: any shape will do.
+    #[error("a weightless line longer than the distance between its ends has no definite shape")]
+    Undetermined,
+    /// What is left of the distances between the ends is too large for an answer.
+    #[error("no configuration found between the ends: {residual:.3e} N remain of a tension of {tension:.6e} N")]
+    Unproven {
+        /// The distances left, mapped through the stiffness (N).
+        residual: f64,
+        /// Tension at the fairlead (N).
+        tension: f64,
+    },
     /// The iteration ended without a proven answer.
     #[error(
         "no configuration found at a horizontal force of {force:.6e} N: {residual:.3e} m remain after {iterations} iterations"
@@ -90,6 +102,31 @@ pub enum LineError {
         /// Iterations done.
         iterations: usize,
     },
+}
+
+impl Segment {
+    /// The forces when the fairlead lies `x` >= 0 beside and `z` above the anchor (m); with a `bottom` at the anchor's
+    /// elevation, or with none anywhere.
+    ///
+    /// # Errors
+    /// [`LineError`]; forces that are returned have been proven.
+    pub fn between(&self, x: f64, z: f64, bottom: Option<Bottom>) -> Result<EndForces, LineError> {
+        super::between::between(self, x, z, bottom)
+    }
+
+    /// Refuses values that no segment can have; `number` is the segment's, from 1.
+    pub(super) fn check(&self, number: usize) -> Result<(), LineError> {
+        for (what, value, good) in [
+            ("the length", self.length, self.length > 0.0),
+            ("the axial stiffness", self.ea, self.ea > 0.0),
+            ("the weight", self.weight, true),
+        ] {
+            if !(good && value.is_finite()) {
+                return Err(LineError::Value { what, segment: number, value });
+            }
+        }
+        Ok(())
+    }
 }
 
 impl Line {
@@ -109,16 +146,7 @@ impl Line {
             return Err(LineError::Joints { segments: segments.len(), joints: joints.len() });
         }
         for (index, s) in segments.iter().enumerate() {
-            let refuse = |what, value| Err(LineError::Value { what, segment: index + 1, value });
-            if !(s.length.is_finite() && s.length > 0.0) {
-                return refuse("the length", s.length);
-            }
-            if !(s.ea.is_finite() && s.ea > 0.0) {
-                return refuse("the axial stiffness", s.ea);
-            }
-            if !s.weight.is_finite() {
-                return refuse("the weight", s.weight);
-            }
+            s.check(index + 1)?;
         }
         for (index, joint) in joints.iter().enumerate() {
             let bad = match joint {

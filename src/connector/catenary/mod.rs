@@ -7,12 +7,15 @@
 //! Source of the formulas: the elastic catenary (Irvine, Cable Structures, 1981, section 1.4), written so that no
 //! difference of nearly equal numbers is formed; the spring buoy after seed 001, `-CLUMP`.
 
+mod between;
 mod line;
+mod search;
 mod section;
 mod segment;
 mod solve;
 mod table;
 
+pub use between::{Bottom, EndForces, Regime};
 pub use line::{Joint, Line, LineError, Segment};
 pub use solve::{Buoy, JointState, SegmentState, State};
 pub use table::{ROWS, Row, first_force, table};
