@@ -205,3 +205,53 @@ fn lines_with_buoys_are_solved_or_refused_for_a_reason() {
     assert!(buoys.iter().all(|n| *n > 30), "the sample does not meet every state: {buoys:?}");
     assert!(other.is_empty(), "{}", other.iter().take(5).cloned().collect::<Vec<_>>().join("\n"));
 }
+
+#[test]
+fn a_force_is_found_again_from_the_distance_it_gives() {
+    use proptest::strategy::ValueTree;
+    use proptest::test_runner::TestRunner;
+    let mut runner = TestRunner::deterministic();
+    let (mut found, mut wrong) = (0, Vec::new());
+    for _ in 0..1000 {
+        let (line, h) = (line(), 3.0..6.5_f64).new_tree(&mut runner).unwrap().current();
+        let h = 10f64.powf(h);
+        let Ok(there) = line.at_horizontal_force(h, 0.0) else { continue };
+        if there.x <= 0.0 {
+            continue;
+        }
+        // 1e-7 of the tension, or what the rounding of the distance makes of the force
+        match line.at_distance(there.x, 0.0) {
+            Ok(back) if (back.force - h).abs() <= 1e-7 * there.top_tension + 1e-13 * line.length() / there.dx_dh => {
+                found += 1
+            }
+            other => wrong.push(format!("{h} {there:?} {other:?}")),
+        }
+    }
+    assert!(found > 900 && wrong.is_empty(), "{found} found, {} wrong\n{}", wrong.len(), wrong.first().unwrap());
+}
+
+#[test]
+fn hostile_lines_are_errors_and_never_nan() {
+    let values = [1e-300, 1e-9, 1.0, 1e9, 1e300];
+    for length in values {
+        for weight in [-1e300, -1.0, 0.0, 1e-300, 1.0, 1e300] {
+            for (ea, h) in values.into_iter().flat_map(|ea| values.map(|h| (ea, h))) {
+                for joint in [Joint::Free, Joint::Weight(1e300), Joint::SpringBuoy { capacity: 1e300, depth: 1.0 }] {
+                    for depth in [0.0, 1.0, 1e300] {
+                        let s = Segment { length, weight, ea };
+                        let Ok(line) = Line::new(vec![s, s], vec![joint], -depth, 0.0) else { continue };
+                        let Ok(state) = line.at_horizontal_force(h, 0.0) else { continue };
+                        let line =
+                            [state.x, state.dx_dh, state.top_tension, state.anchor_vertical, state.grounded_stretched];
+                        let joints = state.joints.iter().flat_map(|j| [j.x, j.z, j.lift]);
+                        let parts = state.segments.iter().flat_map(|s| [s.top_tension, s.bottom_tension, s.grounded]);
+                        assert!(
+                            line.into_iter().chain(joints).chain(parts).all(f64::is_finite),
+                            "{s:?} {joint:?} {h} {depth}: {state:?}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+}

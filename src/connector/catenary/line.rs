@@ -79,6 +79,14 @@ pub enum LineError {
         /// How far (m).
         by: f64,
     },
+    /// The line is so long that it pulls with no horizontal force that can be told.
+    #[error("the line hangs slack: pulled with {force:.3e} N it already reaches {reach:.3} m")]
+    Slack {
+        /// The smallest horizontal force tried (N).
+        force: f64,
+        /// The distance it reaches there (m).
+        reach: f64,
+    },
     /// A weightless line with slack: any shape will do.
     #[error("a weightless line longer than the distance between its ends has no definite shape")]
     Undetermined,
@@ -189,5 +197,13 @@ impl Line {
     /// [`LineError`]; a state that is returned has been proven.
     pub fn at_horizontal_force(&self, force: f64, fairlead: f64) -> Result<State, LineError> {
         super::solve::at_horizontal_force(self, force, fairlead)
+    }
+
+    /// The configuration in which the fairlead at elevation `fairlead` (m) is `x` > 0 beside the anchor (m).
+    ///
+    /// # Errors
+    /// [`LineError`]; [`LineError::Slack`] when the line needs no horizontal force to reach so far.
+    pub fn at_distance(&self, x: f64, fairlead: f64) -> Result<State, LineError> {
+        super::solve::at_distance(self, x, fairlead)
     }
 }

@@ -4,6 +4,9 @@
 //! the anchor. `H` is the horizontal component of the tension, the same all along a line without friction; `V` is the
 //! vertical component of the tension at a section, positive where the line rises toward the fairlead.
 //!
+//! Two directions: [`Line::at_horizontal_force`] and its inverse [`Line::at_distance`] for whole lines on a flat bottom
+//! without friction; [`Segment::between`] for one segment in every regime, with or without a bottom, with friction.
+//!
 //! Source of the formulas: the elastic catenary (Irvine, Cable Structures, 1981, section 1.4), written so that no
 //! difference of nearly equal numbers is formed; the spring buoy after seed 001, `-CLUMP`.
 
