@@ -40,6 +40,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             if let Some((name, form, meaning)) =
                 functions.into_iter().find(|(n, _, _)| n.eq_ignore_ascii_case(&word.text))
             {
+                let meaning = wrap(meaning, 92).join("\n   ");
                 format!("{name}: string function\n\n   {form}\n   {meaning}")
             } else {
                 let menu = job.menu().name();

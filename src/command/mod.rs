@@ -22,6 +22,7 @@ mod report_menu;
 mod select;
 mod status;
 mod units;
+mod written;
 
 pub use job::{Job, Menu, Settings};
 pub use menus::finish_inmodel;

@@ -31,6 +31,9 @@ pub enum DispositionError {
         /// Rows of the table.
         rows: usize,
     },
+    /// A column without a value in some of the rows.
+    #[error("column {0} has no value in some of these rows")]
+    NoValue(String),
     /// Bounds that leave no row.
     #[error("no row lies within the bounds")]
     NoRow,
@@ -61,7 +64,7 @@ impl Disposition {
         Disposition { table, adjust }
     }
 
-    /// The columns several selectors choose, in their order; nothing given chooses all.
+    /// The columns several selectors choose, in their order and each once; nothing given chooses all.
     ///
     /// # Errors
     /// A name that fits no column, or selectors that choose nothing.
@@ -73,6 +76,12 @@ impl Disposition {
         for selector in selectors {
             chosen.extend(choose(&self.table, selector)?);
         }
+        let mut seen = Vec::new();
+        chosen.retain(|index| {
+            let new = !seen.contains(index);
+            seen.push(*index);
+            new
+        });
         if chosen.is_empty() { Err(DispositionError::Nothing) } else { Ok(chosen) }
     }
 
@@ -212,7 +221,10 @@ impl Disposition {
         let names: Vec<String> = self.table.columns.iter().map(super::columns::long_name).collect();
         let width = names.iter().map(|n| n.chars().count()).max().unwrap_or(0);
         let lines = self.table.columns.iter().zip(names).enumerate().map(|(index, (column, name))| {
-            let range = column.cells.iter().filter_map(Cell::number).fold(None, |range: Option<(f64, f64)>, v| {
+            let (factor, shift) = self.adjust.get(index).copied().unwrap_or((1.0, 0.0));
+            let shift = column.dim.to_si(shift, units);
+            let values = column.cells.iter().filter_map(Cell::number).map(|v| v * factor + shift);
+            let range = values.fold(None, |range: Option<(f64, f64)>, v| {
                 Some(range.map_or((v, v), |(low, high)| (low.min(v), high.max(v))))
             });
             let whole = column.cells.iter().all(|c| matches!(c, Cell::Integer(_)));
@@ -231,6 +243,9 @@ impl Disposition {
     pub fn values(&self, selector: &str, rows: &RowChoice, units: UnitSystem) -> Result<String, DispositionError> {
         let columns = self.columns(&[selector])?;
         let table = self.extract(&columns, rows, true, units)?;
+        if let Some(column) = table.columns.iter().find(|c| c.cells.contains(&Cell::Missing)) {
+            return Err(DispositionError::NoValue(column.name.clone()));
+        }
         let cells = table.columns.iter().flat_map(|c| c.cells.iter().map(|cell| format::full(cell, c.dim, units)));
         Ok(cells.collect::<Vec<_>>().join(" "))
     }

@@ -130,7 +130,7 @@ impl JobFolder {
     /// Files that are not the job's own, a new name that exists, or what the system refuses.
     pub fn transfer(&self, from: &str, to: &str, keep: bool) -> Result<PathBuf, FileError> {
         let (from, to) = (self.own(from)?, self.own(to)?);
-        if to.exists() {
+        if to.symlink_metadata().is_ok() {
             return Err(FileError::Exists(to));
         }
         let done = if keep { std::fs::copy(&from, &to).map(|_| ()) } else { std::fs::rename(&from, &to) };
@@ -189,8 +189,11 @@ fn real(path: &Path) -> Option<PathBuf> {
             Component::CurDir => {}
             other => {
                 out.push(other);
-                if let Ok(resolved) = out.canonicalize() {
-                    out = resolved;
+                match out.canonicalize() {
+                    Ok(resolved) => out = resolved,
+                    // a link that leads nowhere could lead anywhere once the file is made
+                    Err(_) if out.symlink_metadata().is_ok() => return None,
+                    Err(_) => {}
                 }
             }
         }
@@ -241,6 +244,10 @@ mod tests {
         {
             std::os::unix::fs::symlink(dir.path(), job.folder.join("link")).unwrap();
             assert!(matches!(job.remove("link/secret"), Err(FileError::NotOwn { .. })));
+            std::os::unix::fs::symlink(dir.path().join("new"), job.folder.join("nowhere")).unwrap();
+            job.write("b", b"1").unwrap();
+            assert!(matches!(job.transfer("b", "nowhere", true), Err(FileError::NotOwn { .. })));
+            job.remove("b").unwrap();
         }
         assert!(secret.exists());
         job.write("a", b"1").unwrap();

@@ -69,7 +69,7 @@ fn fixed(value: f64, decimals: u8) -> String {
 fn usual(dim: Dim, units: UnitSystem) -> u8 {
     let small_force = matches!(units.force, ForceUnit::Newtons);
     match dim {
-        Dim::Length | Dim::Angle | Dim::Time | Dim::Velocity | Dim::WindSpeed | Dim::Acceleration | Dim::Area => 2,
+        Dim::Length | Dim::Angle | Dim::Time | Dim::Velocity | Dim::WindSpeed | Dim::Area => 2,
         Dim::Force | Dim::Moment | Dim::MomentPerRadian => {
             if small_force {
                 0
@@ -98,7 +98,9 @@ fn usual(dim: Dim, units: UnitSystem) -> u8 {
                 1
             }
         }
-        Dim::Density | Dim::KilogramsPerCubicMetre | Dim::Mass | Dim::MassPerLength | Dim::Metres => 2,
+        Dim::Density | Dim::KilogramsPerCubicMetre => 3,
+        Dim::Mass | Dim::MassPerLength | Dim::Metres => 2,
+        Dim::Acceleration => 5,
         Dim::Newtons | Dim::Pascals | Dim::NewtonSquareMetres => 0,
         Dim::None | Dim::Days | Dim::Frequency | Dim::SpectralDensity | Dim::Damping(_) | Dim::SquareMetres => 4,
         Dim::ThermalExpansion => 8,

@@ -36,6 +36,7 @@ impl Output {
     pub fn text(&mut self, text: &str) {
         put(&mut self.screen, text);
         self.log(text);
+        self.flush_log();
     }
 
     /// Writes a message: in colour (if allowed) to the message stream, plain to the log.
@@ -45,6 +46,14 @@ impl Output {
         put(&mut self.messages, if self.colour { coloured } else { plain });
         let _ = self.messages.flush();
         self.log(plain);
+        self.flush_log();
+    }
+
+    /// Empties the log's buffer: what has been said is kept though the run be killed. Records alone wait in the buffer.
+    fn flush_log(&mut self) {
+        if let Some(log) = &mut self.log {
+            let _ = log.flush();
+        }
     }
 
     /// Writes text to the log only.

@@ -155,7 +155,7 @@ fn group_heads(table: &Table, widths: &[usize]) -> Option<String> {
         if column.group.is_empty() {
             line.push_str(&" ".repeat(width));
         } else {
-            let room = width - 3;
+            let room = width.saturating_sub(3);
             let text =
                 if room >= column.group.len() + 4 { format!(" {} ", column.group) } else { column.group.clone() };
             line.push_str(&format!(" /{text:-^room$}/"));

@@ -63,6 +63,9 @@ pub enum LineError {
         /// The value (SI).
         value: f64,
     },
+    /// Breaking tensions that do not fit the segments.
+    #[error("a table needs one positive breaking tension a segment and a positive largest force")]
+    Breaks,
     /// More spring buoys than the search over their states goes through.
     #[error("the line has {0} spring buoys; at most {most} can be solved", most = super::solve::MOST_BUOYS)]
     TooManyBuoys(usize),

@@ -28,6 +28,15 @@ pub struct Ends {
     pub z: f64,
 }
 
+/// How a search ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Search {
+    /// Iterations used.
+    pub iterations: usize,
+    /// Vertical distance left (m).
+    pub residual: f64,
+}
+
 /// Iterations after which a search gives up.
 const MOST_ITERATIONS: usize = 200;
 
@@ -61,12 +70,12 @@ impl Section<'_> {
     }
 
     /// The vertical force at the upper end at which the section rises by `rise` (m); the rise grows with the force.
-    /// Returns the force, the reach, and the iterations used.
+    /// Returns the force, the reach, and how it was found.
     ///
     /// # Errors
     /// [`LineError::NotConverged`] when the rise cannot be met to 1e-12 of the length, or to what 1e-9 of the tension
     /// makes of it.
-    pub fn solve(&self, h: f64, rise: f64) -> Result<(f64, Reach, usize), LineError> {
+    pub fn solve(&self, h: f64, rise: f64) -> Result<(f64, Reach, Search), LineError> {
         let length: f64 = self.segments.iter().map(|s| s.length).sum();
         let weight: f64 = self.segments.iter().map(|s| s.weight * s.length).sum();
         let step = weight.abs() + h + self.lifts.iter().map(|l| l.abs()).sum::<f64>();
@@ -74,7 +83,9 @@ impl Section<'_> {
         let mut top = 0.5 * weight + h * (rise / length).clamp(-2.0, 2.0);
         let mut grow = step;
         let mut best = (f64::INFINITY, top, Reach::default());
-        for iteration in 1..=MOST_ITERATIONS {
+        let mut iterations = 0;
+        while iterations < MOST_ITERATIONS {
+            iterations += 1;
             let reach = self.walk(h, top, |_| {});
             let off = reach.z - rise;
             if !off.is_finite() {
@@ -84,7 +95,7 @@ impl Section<'_> {
                 best = (off.abs(), top, reach);
             }
             if off == 0.0 || best.0 <= 4.0 * f64::EPSILON * (length + rise.abs()) {
-                return Ok((best.1, best.2, iteration));
+                break;
             }
             if off > 0.0 {
                 high = high.min(top);
@@ -110,9 +121,9 @@ impl Section<'_> {
         let (off, top, reach) = best;
         let tension = h.hypot(top);
         if off <= 1e-12 * length || off <= 1e-9 * tension * reach.z_v {
-            return Ok((top, reach, MOST_ITERATIONS));
+            return Ok((top, reach, Search { iterations, residual: off }));
         }
-        Err(LineError::NotConverged { force: h, residual: off, iterations: MOST_ITERATIONS })
+        Err(LineError::NotConverged { force: h, residual: off, iterations })
     }
 }
 

@@ -40,10 +40,10 @@ pub fn hanging(segment: &Segment, h: f64, low: f64) -> Reach {
     // sums over T, not differences: exact also for a weightless or a very taut segment
     let z_rigid = length * (low + high) / (t0 + t1);
     let x_rigid = length * horizontal_share(h, low, high, t0, t1);
-    let inverse = length * mean(|v| 1.0 / h.hypot(v).powi(3), low, high, h);
+    let inverse = length * mean(|v| 1.0 / h.hypot(v).powi(3), low, high);
     let (hh, hv, vv) = closed(h, low, high, t0, t1, length).unwrap_or_else(|| {
-        let hv = -length * mean(|v| h * v / h.hypot(v).powi(3), low, high, h);
-        let vv = length * mean(|v| v * v / h.hypot(v).powi(3), low, high, h);
+        let hv = -length * mean(|v| h * v / h.hypot(v).powi(3), low, high);
+        let vv = length * mean(|v| v * v / h.hypot(v).powi(3), low, high);
         (vv, hv, h * h * inverse)
     });
     Reach {
@@ -110,16 +110,21 @@ fn closed(h: f64, low: f64, high: f64, t0: f64, t1: f64, length: f64) -> Option<
     if change.abs() < 0.2 * t0.min(t1) {
         return None;
     }
-    let per = length / change;
-    let vv = per * (high / t1 - low / t0);
-    let hv = -h * per * (1.0 / t0 - 1.0 / t1);
-    let hh = per * (horizontal_share(h, low, high, t0, t1) * change / h - (high / t1 - low / t0));
+    // high/T1 - low/T0, for one sign without the difference of two numbers near one
+    let turn = if low * high > 0.0 {
+        h * h * change * (low + high) / ((high * t0 + low * t1) * t0 * t1)
+    } else {
+        high / t1 - low / t0
+    };
+    let vv = length * turn / change;
+    let hv = -h * length * (low + high) / ((t0 + t1) * t0 * t1);
+    let hh = length * (horizontal_share(h, low, high, t0, t1) / h - turn / change);
     Some((hh, hv, vv))
 }
 
 /// Mean of a smooth function of V between two values that differ little against T: Gauss with eight points, whose
 /// error there is below 1e-15.
-fn mean(f: impl Fn(f64) -> f64, low: f64, high: f64, _h: f64) -> f64 {
+fn mean(f: impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
     const NODES: [(f64, f64); 4] = [
         (0.183_434_642_495_649_8, 0.362_683_783_378_362),
         (0.525_532_409_916_329, 0.313_706_645_877_887_3),

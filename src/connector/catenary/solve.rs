@@ -3,7 +3,7 @@
 
 use super::line::{Joint, Line, LineError, Segment};
 use super::search::{Point, rising_root};
-use super::section::{Ends, Section};
+use super::section::{Ends, Search, Section};
 use super::segment::Reach;
 
 /// Most spring buoys in a line; the search goes through at most 3 to this power combinations of their states.
@@ -76,6 +76,9 @@ pub struct State {
     pub below_bottom: Vec<(usize, f64)>,
     /// Iterations of the vertical searches, for the one that was accepted.
     pub iterations: usize,
+    /// Largest vertical distance left in a section of the line (m): at most 1e-12 of its length, or what 1e-9 of the
+    /// tension makes of it.
+    pub residual: f64,
 }
 
 /// See [`Line::at_horizontal_force`].
@@ -192,9 +195,9 @@ impl Line {
             if last && section.bottom_from == 0 && upper < lower {
                 return Ok(None);
             }
-            let (top, reach, iterations) = section.solve(h, upper - lower)?;
+            let (top, reach, search) = section.solve(h, upper - lower)?;
             section.walk(h, top, |ends| work.ends.push(ends));
-            work.add(reach, iterations);
+            work.add(reach, search);
             (from, upper) = (end + 1, lower);
         }
         self.accept(h, fairlead, &lifts, work, state_of)
@@ -226,8 +229,10 @@ impl Line {
             x += ends.x;
             z -= ends.z;
             let Some(joint) = self.joints.get(index) else { break };
-            let next = work.ends.get(index + 1).map_or(0.0, |n| n.high);
-            let mut lift = lifts.get(index).copied().unwrap_or(0.0);
+            let (next, aground) =
+                work.ends.get(index + 1).map_or((0.0, false), |n| (n.high, n.ground > 0.0 && n.high == 0.0));
+            // a joint on the bottom: what the line feels is what is left of its tension's vertical part
+            let mut lift = if aground { -ends.low } else { lifts.get(index).copied().unwrap_or(0.0) };
             let buoy = state_of(index);
             if let (Joint::SpringBuoy { capacity, depth }, Some(state)) = (joint, buoy) {
                 let held = self.surface - depth;
@@ -270,6 +275,7 @@ impl Line {
             joints,
             below_bottom,
             iterations: work.iterations,
+            residual: work.residual,
         };
         let line = [state.x, state.dx_dh, state.top_tension, state.anchor_vertical, state.grounded_stretched];
         let joints = state.joints.iter().flat_map(|j| [j.x, j.z, j.lift]);
@@ -287,19 +293,21 @@ struct Work {
     x: f64,
     dx_dh: f64,
     iterations: usize,
+    residual: f64,
 }
 
 impl Work {
     fn new(segments: usize) -> Self {
-        Work { ends: Vec::with_capacity(segments), x: 0.0, dx_dh: 0.0, iterations: 0 }
+        Work { ends: Vec::with_capacity(segments), x: 0.0, dx_dh: 0.0, iterations: 0, residual: 0.0 }
     }
 
     /// A section between fixed elevations: at constant rise, dV/dH = -z_H/z_V.
-    fn add(&mut self, reach: Reach, iterations: usize) {
+    fn add(&mut self, reach: Reach, search: Search) {
         self.x += reach.x;
         let turned = if reach.z_v > 0.0 { reach.x_v * reach.z_h / reach.z_v } else { 0.0 };
         self.dx_dh += reach.x_h - turned;
-        self.iterations += iterations;
+        self.iterations += search.iterations;
+        self.residual = self.residual.max(search.residual);
     }
 }
 

@@ -30,8 +30,12 @@ pub fn first_force(largest: f64) -> f64 {
 /// The rows for a fairlead at elevation `fairlead` (m); `breaks` (N) one a segment, `largest` the largest H (N).
 ///
 /// # Errors
-/// The first row that has no proven configuration.
+/// Breaks that do not fit, or the first row that has no proven configuration.
 pub fn table(line: &Line, breaks: &[f64], largest: f64, fairlead: f64) -> Result<Vec<Row>, LineError> {
+    let positive = |v: &f64| v.is_finite() && *v > 0.0;
+    if breaks.len() != line.segments.len() || !breaks.iter().all(positive) || !positive(&largest) {
+        return Err(LineError::Breaks);
+    }
     let last = (ROWS - 1) as f64;
     (0..ROWS)
         .map(|n| {

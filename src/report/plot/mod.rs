@@ -157,6 +157,10 @@ impl Chart {
     fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, look: &Look) -> Result<(), PlotError> {
         area.fill(&WHITE).map_err(refused)?;
         let (x, y) = self.ranges().ok_or(PlotError::Empty)?;
+        let (x_width, y_width) = (x.end - x.start, y.end - y.start);
+        if !(x_width.is_finite() && y_width.is_finite()) {
+            return Err(PlotError::Backend("the values span more than a number can hold".into()));
+        }
         let mut chart = ChartBuilder::on(area)
             .caption(&self.title, ("sans-serif", look.title))
             .margin(look.margin)
@@ -164,13 +168,15 @@ impl Chart {
             .y_label_area_size(look.y_area)
             .build_cartesian_2d(x, y)
             .map_err(refused)?;
+        let x_tick = |v: &f64| tick(*v, x_width);
+        let y_tick = |v: &f64| tick(*v, y_width);
         let mut mesh = chart.configure_mesh();
         mesh.x_desc(&self.x_label)
             .y_desc(&self.y_label)
             .x_labels(look.x_labels)
             .y_labels(look.y_labels)
-            .x_label_formatter(&|v| tick(*v))
-            .y_label_formatter(&|v| tick(*v))
+            .x_label_formatter(&x_tick)
+            .y_label_formatter(&y_tick)
             .label_style(("sans-serif", look.text))
             .axis_desc_style(("sans-serif", look.text));
         if look.terminal {
@@ -269,10 +275,9 @@ impl Look {
     };
 }
 
-/// A tick label with no more digits than it needs.
-fn tick(value: f64) -> String {
-    let text = crate::language::functions::eight_figures((value * 1e6).round() / 1e6);
-    if text == "-0" { "0".into() } else { text }
+/// A tick label with no more digits than it needs on an axis of this width.
+fn tick(value: f64, width: f64) -> String {
+    if value.abs() < 1e-9 * width { "0".into() } else { crate::language::functions::eight_figures(value) }
 }
 
 fn refused<E: std::error::Error + Send + Sync>(error: DrawingAreaErrorKind<E>) -> PlotError {
