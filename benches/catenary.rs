@@ -1,10 +1,10 @@
-//! The thirty-row table of the four-segment line of seed 001.
+//! The thirty-row table of the four-segment line of seed 001; the 2,000 single lines of shared/validation, cold.
 
 #![allow(missing_docs, clippy::unwrap_used)]
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
-use windlass::connector::catenary::{Joint, Line, Segment, table};
+use windlass::connector::catenary::{Bottom, Joint, Line, Segment, table};
 use windlass::language::units::{FOOT, KIP};
 
 fn benches(c: &mut Criterion) {
@@ -24,6 +24,19 @@ fn benches(c: &mut Criterion) {
             b.iter(|| table(black_box(&line), &breaks, breaks[0], 0.0).unwrap().len())
         });
     }
+    let cases: Vec<_> = csv::Reader::from_path("tests/data/catenary_2000.csv")
+        .unwrap()
+        .records()
+        .map(|row| {
+            let row = row.unwrap();
+            let v = |i: usize| row[i].parse::<f64>().unwrap();
+            let segment = Segment { length: v(4), ea: v(5), weight: v(6) };
+            (segment, v(2), v(3), (&row[8] == "0").then(|| Bottom { friction: v(7) }))
+        })
+        .collect();
+    c.bench_function("2,000 random single lines, cold", |b| {
+        b.iter(|| cases.iter().map(|(s, x, z, bottom)| s.between(*x, *z, *bottom).unwrap().fairlead[0]).sum::<f64>())
+    });
 }
 
 criterion_group!(all, benches);

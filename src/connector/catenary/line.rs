@@ -1,5 +1,6 @@
 //! What a line is made of, and what is refused.
 
+use super::between::{Bottom, EndForces};
 use super::solve::State;
 
 /// A piece of line with the same properties all along.
@@ -81,6 +82,25 @@ pub enum LineError {
         /// How far (m).
         by: f64,
     },
+    /// The line is so long that it pulls with no horizontal force that can be told.
+    #[error("the line hangs slack: pulled with {force:.3e} N it already reaches {reach:.3} m")]
+    Slack {
+        /// The smallest horizontal force tried (N).
+        force: f64,
+        /// The distance it reaches there (m).
+        reach: f64,
+    },
+    /// A weightless line with slack: any shape will do.
+    #[error("a weightless line longer than the distance between its ends has no definite shape")]
+    Undetermined,
+    /// What is left of the distances between the ends is too large for an answer.
+    #[error("no configuration found between the ends: {residual:.3e} N remain of a tension of {tension:.6e} N")]
+    Unproven {
+        /// The distances left, mapped through the stiffness (N).
+        residual: f64,
+        /// Tension at the fairlead (N).
+        tension: f64,
+    },
     /// The iteration ended without a proven answer.
     #[error(
         "no configuration found at a horizontal force of {force:.6e} N: {residual:.3e} m remain after {iterations} iterations"
@@ -93,6 +113,31 @@ pub enum LineError {
         /// Iterations done.
         iterations: usize,
     },
+}
+
+impl Segment {
+    /// The forces when the fairlead lies `x` >= 0 beside and `z` above the anchor (m); with a `bottom` at the anchor's
+    /// elevation, or with none anywhere.
+    ///
+    /// # Errors
+    /// [`LineError`]; forces that are returned have been proven.
+    pub fn between(&self, x: f64, z: f64, bottom: Option<Bottom>) -> Result<EndForces, LineError> {
+        super::between::between(self, x, z, bottom)
+    }
+
+    /// Refuses values that no segment can have; `number` is the segment's, from 1.
+    pub(super) fn check(&self, number: usize) -> Result<(), LineError> {
+        for (what, value, good) in [
+            ("the length", self.length, self.length > 0.0),
+            ("the axial stiffness", self.ea, self.ea > 0.0),
+            ("the weight", self.weight, true),
+        ] {
+            if !(good && value.is_finite()) {
+                return Err(LineError::Value { what, segment: number, value });
+            }
+        }
+        Ok(())
+    }
 }
 
 impl Line {
@@ -112,16 +157,7 @@ impl Line {
             return Err(LineError::Joints { segments: segments.len(), joints: joints.len() });
         }
         for (index, s) in segments.iter().enumerate() {
-            let refuse = |what, value| Err(LineError::Value { what, segment: index + 1, value });
-            if !(s.length.is_finite() && s.length > 0.0) {
-                return refuse("the length", s.length);
-            }
-            if !(s.ea.is_finite() && s.ea > 0.0) {
-                return refuse("the axial stiffness", s.ea);
-            }
-            if !s.weight.is_finite() {
-                return refuse("the weight", s.weight);
-            }
+            s.check(index + 1)?;
         }
         for (index, joint) in joints.iter().enumerate() {
             let bad = match joint {
@@ -164,5 +200,13 @@ impl Line {
     /// [`LineError`]; a state that is returned has been proven.
     pub fn at_horizontal_force(&self, force: f64, fairlead: f64) -> Result<State, LineError> {
         super::solve::at_horizontal_force(self, force, fairlead)
+    }
+
+    /// The configuration in which the fairlead at elevation `fairlead` (m) is `x` > 0 beside the anchor (m).
+    ///
+    /// # Errors
+    /// [`LineError`]; [`LineError::Slack`] when the line needs no horizontal force to reach so far.
+    pub fn at_distance(&self, x: f64, fairlead: f64) -> Result<State, LineError> {
+        super::solve::at_distance(self, x, fairlead)
     }
 }

@@ -4,15 +4,21 @@
 //! the anchor. `H` is the horizontal component of the tension, the same all along a line without friction; `V` is the
 //! vertical component of the tension at a section, positive where the line rises toward the fairlead.
 //!
+//! Two directions: [`Line::at_horizontal_force`] and its inverse [`Line::at_distance`] for whole lines on a flat bottom
+//! without friction; [`Segment::between`] for one segment in every regime, with or without a bottom, with friction.
+//!
 //! Source of the formulas: the elastic catenary (Irvine, Cable Structures, 1981, section 1.4), written so that no
 //! difference of nearly equal numbers is formed; the spring buoy after seed 001, `-CLUMP`.
 
+mod between;
 mod line;
+mod search;
 mod section;
 mod segment;
 mod solve;
 mod table;
 
+pub use between::{Bottom, EndForces, Regime};
 pub use line::{Joint, Line, LineError, Segment};
 pub use solve::{Buoy, JointState, SegmentState, State};
 pub use table::{ROWS, Row, first_force, table};

@@ -2,6 +2,7 @@
 //! section between the held ones.
 
 use super::line::{Joint, Line, LineError, Segment};
+use super::search::{Point, rising_root};
 use super::section::{Ends, Search, Section};
 use super::segment::Reach;
 
@@ -115,6 +116,31 @@ pub fn at_horizontal_force(line: &Line, h: f64, fairlead: f64) -> Result<State, 
         }
     }
     Err(last.unwrap_or(LineError::NotConverged { force: h, residual: f64::NAN, iterations: combinations }))
+}
+
+/// See [`Line::at_distance`]. The distance grows with the force, also through the changes of the buoys' states.
+pub fn at_distance(line: &Line, x: f64, fairlead: f64) -> Result<State, LineError> {
+    if !(x > 0.0 && x.is_finite()) {
+        return Err(LineError::Value { what: "the horizontal distance", segment: 1, value: x });
+    }
+    let weight: f64 = line.segments.iter().map(|s| (s.weight * s.length).abs()).sum();
+    let start = if weight > 0.0 { 0.3 * weight } else { 1.0 };
+    let (force, _) = rising_root(start, x, |h| match line.at_horizontal_force(h, fairlead) {
+        Ok(state) => Point { value: state.x, slope: state.dx_dh },
+        Err(_) => Point { value: f64::NAN, slope: f64::NAN },
+    });
+    let state = line.at_horizontal_force(force, fairlead)?;
+    let off = (state.x - x).abs();
+    let residual = off / state.dx_dh;
+    if residual <= 1e-9 * state.top_tension && off <= 1e-6 * (line.length() + x)
+        || off <= 4.0 * f64::EPSILON * (line.length() + x)
+    {
+        return Ok(state);
+    }
+    if state.x > x && force < 1e-9 * start {
+        return Err(LineError::Slack { force, reach: state.x });
+    }
+    Err(LineError::Unproven { residual, tension: state.top_tension })
 }
 
 impl Line {
@@ -251,7 +277,10 @@ impl Line {
             iterations: work.iterations,
             residual: work.residual,
         };
-        if [state.x, state.dx_dh, state.top_tension, state.anchor_vertical].iter().any(|v| !v.is_finite()) {
+        let line = [state.x, state.dx_dh, state.top_tension, state.anchor_vertical, state.grounded_stretched];
+        let joints = state.joints.iter().flat_map(|j| [j.x, j.z, j.lift]);
+        let parts = state.segments.iter().flat_map(|s| [s.top_tension, s.bottom_tension]);
+        if line.into_iter().chain(joints).chain(parts).any(|v| !v.is_finite()) {
             return Err(LineError::NotConverged { force: h, residual: f64::NAN, iterations: work.iterations });
         }
         Ok(Some(state))

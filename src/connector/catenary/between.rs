@@ -1,0 +1,392 @@
+//! One segment between two given ends: positions in, end forces and tangent stiffness out.
+//!
+//! Suspended: (H, V) -> (x, z) is the gradient of a convex function (the complementary energy of the line), so that a
+//! damped Newton iteration finds the one answer; nested one-dimensional searches stand behind it. Touching the bottom:
+//! with V = 0 at the touchdown, w z = (T - H) + (T2 - H2)/(2 EA) gives T from H in closed form, and one search in H is
+//! left. Friction takes `friction` times the weight on the bottom from the tension, down to zero (Coulomb, fully
+//! mobilised toward the fairlead; Jonkman, NREL/TP-500-41958, 2007, section 2.7.2).
+
+use super::line::{LineError, Segment};
+use super::search::{Point, rising_root};
+use super::section::Section;
+use super::segment::{Reach, hanging, lifted};
+
+/// A flat bottom at the anchor's elevation.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Bottom {
+    /// Friction coefficient, zero or more.
+    pub friction: f64,
+}
+
+/// How a segment lies between its ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Regime {
+    /// Free from end to end.
+    Suspended,
+    /// Straight up and under tension from end to end.
+    VerticalTaut,
+    /// Part of it lies on the bottom under tension.
+    Contact,
+    /// The same; friction on the grounded part takes some of the tension.
+    ContactFriction,
+    /// The same; friction takes all of the tension before the anchor.
+    ContactFrictionAnchorZero,
+    /// It hangs straight down to the bottom and lies there without tension.
+    FullySlack,
+    /// All of it on the bottom, without tension.
+    OnBottomSlack,
+    /// All of it on the bottom, stretched.
+    OnBottomTaut,
+}
+
+impl Regime {
+    /// The name used in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Regime::Suspended => "suspended",
+            Regime::VerticalTaut => "vertical_taut",
+            Regime::Contact => "contact",
+            Regime::ContactFriction => "contact_friction",
+            Regime::ContactFrictionAnchorZero => "contact_friction_anchorzero",
+            Regime::FullySlack => "fully_slack",
+            Regime::OnBottomSlack => "on_bottom_slack",
+            Regime::OnBottomTaut => "on_bottom_taut",
+        }
+    }
+}
+
+/// The forces at the ends of a segment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EndForces {
+    /// How it lies.
+    pub regime: Regime,
+    /// Pull of the line on the fairlead (N): toward the anchor, and downward.
+    pub fairlead: [f64; 2],
+    /// Pull of the line on the anchor (N): toward the fairlead, and upward.
+    pub anchor: [f64; 2],
+    /// Unstretched length on the bottom (m).
+    pub grounded: f64,
+    /// d(fairlead H, V)/d(x, z) (N/m), row by row. At a change of regime, that of the regime named. Infinite in [1][1]
+    /// for [`Regime::OnBottomTaut`] alone: there V grows as the root of z.
+    pub stiffness: [[f64; 2]; 2],
+    /// What is left of the distances, mapped through the stiffness to a force (N).
+    pub residual: f64,
+    /// Newton steps.
+    pub iterations: usize,
+}
+
+/// Newton steps after which the nested search takes over.
+const MOST_STEPS: usize = 40;
+/// Largest accepted residual as a share of the tension at the fairlead.
+const PROOF: f64 = 1e-9;
+
+/// See [`Segment::between`].
+pub fn between(segment: &Segment, x: f64, z: f64, bottom: Option<Bottom>) -> Result<EndForces, LineError> {
+    segment.check(1)?;
+    let friction = bottom.map_or(0.0, |b| b.friction);
+    for (what, value, good) in [
+        ("the horizontal distance", x, x >= 0.0),
+        ("the rise", z, true),
+        ("the friction coefficient", friction, friction >= 0.0),
+    ] {
+        if !(good && value.is_finite()) {
+            return Err(LineError::Value { what, segment: 1, value });
+        }
+    }
+    if bottom.is_some() && z < 0.0 {
+        return Err(LineError::BelowBottom(-z));
+    }
+    if segment.weight < 0.0 {
+        // a buoyant line is a heavy one upside down; arched between ends above the bottom it never touches it
+        let turned = Segment { weight: -segment.weight, ..*segment };
+        let up = suspended(&turned, x, -z)?;
+        let [[a, b], [c, d]] = up.stiffness;
+        return Ok(EndForces {
+            fairlead: [up.fairlead[0], -up.fairlead[1]],
+            anchor: [up.anchor[0], -up.anchor[1]],
+            stiffness: [[a, -b], [-c, d]],
+            ..up
+        });
+    }
+    if bottom.is_some() && segment.weight > 0.0 {
+        if z == 0.0 {
+            return on_bottom(segment, x, friction);
+        }
+        if let Some(answer) = touching(segment, x, z, friction)? {
+            return Ok(answer);
+        }
+    }
+    suspended(segment, x, z)
+}
+
+/// All of the line on the bottom.
+fn on_bottom(segment: &Segment, x: f64, friction: f64) -> Result<EndForces, LineError> {
+    let Segment { length, weight, ea } = *segment;
+    let stretch = x - length;
+    let mut answer = EndForces {
+        regime: Regime::OnBottomSlack,
+        fairlead: [0.0; 2],
+        anchor: [0.0; 2],
+        grounded: length,
+        stiffness: [[0.0, 0.0], [0.0, weight]],
+        residual: 0.0,
+        iterations: 0,
+    };
+    if stretch <= 0.0 {
+        return Ok(answer);
+    }
+    let loss = friction * weight * length;
+    let partly = (2.0 * friction * weight * ea * stretch).sqrt();
+    let (h, slope) = if partly < loss {
+        (partly, friction * weight * ea / partly)
+    } else {
+        (ea * stretch / length + 0.5 * loss, ea / length)
+    };
+    if !h.is_finite() {
+        return Err(LineError::Unproven { residual: f64::NAN, tension: h });
+    }
+    answer.regime = Regime::OnBottomTaut;
+    answer.fairlead[0] = h;
+    answer.anchor[0] = (h - loss).max(0.0);
+    // the lift of the end: w z = H (sec - 1) + ..., so that V grows as the root of z: no finite stiffness
+    answer.stiffness = [[slope, 0.0], [0.0, f64::INFINITY]];
+    Ok(answer)
+}
+
+/// A line that lies on the bottom in part; `None` when it does not reach down to it with V = 0.
+fn touching(segment: &Segment, x: f64, z: f64, friction: f64) -> Result<Option<EndForces>, LineError> {
+    let Segment { length, weight, ea } = *segment;
+    let free = 2.0 * z / (1.0 + (1.0 + 2.0 * weight * z / ea).sqrt());
+    if length - free >= x {
+        return Ok(Some(EndForces {
+            regime: Regime::FullySlack,
+            fairlead: [0.0, weight * free],
+            anchor: [0.0; 2],
+            grounded: length - free,
+            stiffness: [[0.0, 0.0], [0.0, weight / (1.0 + weight * free / ea)]],
+            residual: 0.0,
+            iterations: 0,
+        }));
+    }
+    if free >= length {
+        return Ok(None);
+    }
+    // contact ends where V = w L: T - H = w z - (w L)2/(2 EA)
+    let all = weight * length;
+    let change = weight * z - 0.5 * all * (all / ea);
+    let most = if change > 0.0 { 0.5 * (all - change) * (all + change) / change } else { f64::INFINITY };
+    let reach = |h: f64| {
+        let high = vertical_of_contact(segment, h, z);
+        let reach = with_friction(segment, h, high, friction);
+        (high, reach)
+    };
+    if most.is_finite() && reach(most).1.x < x {
+        return Ok(None);
+    }
+    let start = guess(segment, x, z).0.min(most);
+    let (h, steps) = rising_root(start, x, |h| {
+        let reach = reach(h).1;
+        Point { value: reach.x, slope: reach.x_h - reach.x_v * (reach.z_h / reach.z_v) }
+    });
+    let (high, reach) = reach(h);
+    let grounded = (length - high / weight).max(0.0);
+    let anchor = (h - friction * weight * grounded).max(0.0);
+    let regime = match (friction > 0.0 && grounded > 0.0, anchor > 0.0) {
+        (false, _) => Regime::Contact,
+        (true, true) => Regime::ContactFriction,
+        (true, false) => Regime::ContactFrictionAnchorZero,
+    };
+    prove(segment, regime, [x, z], [h, high], [anchor, 0.0], &reach, grounded, steps).map(Some)
+}
+
+/// V at the fairlead of a line that touches down below it: from (T + EA)2 = (H + EA)2 + 2 EA w z.
+fn vertical_of_contact(segment: &Segment, h: f64, z: f64) -> f64 {
+    let rise = segment.weight * z;
+    let stiff = h + segment.ea;
+    let change = 2.0 * rise / ((stiff.hypot((2.0 * segment.ea * rise).sqrt()) + stiff) / segment.ea);
+    (change * (change + 2.0 * h)).sqrt()
+}
+
+/// The reach of a touching line, less the stretch that friction keeps from the grounded part.
+fn with_friction(segment: &Segment, h: f64, high: f64, friction: f64) -> Reach {
+    let (mut reach, ground) = lifted(segment, h, high);
+    let Segment { weight, ea, .. } = *segment;
+    let loss = friction * weight;
+    if loss * ground <= h {
+        reach.x -= 0.5 * loss * ground * ground / ea;
+        reach.x_v += friction * ground / ea;
+    } else {
+        reach.x += h * (0.5 * h / loss - ground) / ea;
+        reach.x_h += (h / loss - ground) / ea;
+        reach.x_v += h / (ea * weight);
+    }
+    reach
+}
+
+/// A line free from end to end; `weight` zero or more.
+fn suspended(segment: &Segment, x: f64, z: f64) -> Result<EndForces, LineError> {
+    if x == 0.0 {
+        return vertical(segment, z);
+    }
+    let all = segment.weight * segment.length;
+    let chord = x.hypot(z);
+    if all == 0.0 {
+        let tension = segment.ea * (chord - segment.length) / segment.length;
+        if tension <= 0.0 {
+            return Err(LineError::Undetermined);
+        }
+        let (h, v) = (tension * (x / chord), tension * (z / chord));
+        let reach = hanging(segment, h, v);
+        return prove(segment, Regime::Suspended, [x, z], [h, v], [h, v], &reach, 0.0, 0);
+    }
+    let (h, v) = guess(segment, x, z);
+    if let Some((h, v, reach, steps)) = newton(segment, [x, z], [h, v])
+        && let Ok(answer) = prove(segment, Regime::Suspended, [x, z], [h, v], [h, v - all], &reach, 0.0, steps)
+    {
+        return Ok(answer);
+    }
+    let section = Section { segments: std::slice::from_ref(segment), lifts: &[], bottom_from: 1 };
+    let (h, steps) = rising_root(h, x, |h| match section.solve(h, z) {
+        Ok((_, r, _)) => Point { value: r.x, slope: r.x_h - r.x_v * (r.z_h / r.z_v) },
+        Err(_) => Point { value: f64::NAN, slope: f64::NAN },
+    });
+    let (v, reach, _) = section.solve(h, z)?;
+    prove(segment, Regime::Suspended, [x, z], [h, v], [h, v - all], &reach, 0.0, steps)
+}
+
+/// Newton on both forces, each step shortened while it runs past the minimum along its own direction.
+fn newton(segment: &Segment, [x, z]: [f64; 2], start: [f64; 2]) -> Option<(f64, f64, Reach, usize)> {
+    let all = segment.weight * segment.length;
+    let [mut h, mut v] = start;
+    let mut reach = hanging(segment, h, v - all);
+    let fine = 2.0 * f64::EPSILON * (segment.length + x + z.abs());
+    let mut last = f64::INFINITY;
+    for step in 1..=MOST_STEPS {
+        let (rx, rz) = (reach.x - x, reach.z - z);
+        let off = rx.abs().max(rz.abs());
+        if off <= fine || (off <= 64.0 * fine && off >= last) {
+            return Some((h, v, reach, step));
+        }
+        last = off;
+        let [dh, dv] = mapped(&reach, -rx, -rz)?;
+        let slope = rx * dh + rz * dv;
+        let mut part = if h + dh < 0.1 * h { -0.9 * h / dh } else { 1.0 };
+        for _ in 0..30 {
+            let (a, b) = (h + part * dh, v + part * dv);
+            let next = hanging(segment, a, b - all);
+            let ahead = (next.x - x) * dh + (next.z - z) * dv;
+            if ahead <= -0.9 * slope || off <= 64.0 * fine {
+                (h, v, reach) = (a, b, next);
+                break;
+            }
+            part *= 0.5;
+        }
+    }
+    None
+}
+
+/// The line straight down and, without a bottom, back up.
+fn vertical(segment: &Segment, z: f64) -> Result<EndForces, LineError> {
+    let Segment { length, weight, ea } = *segment;
+    let all = weight * length;
+    // hanging from one end: the other end carries nothing
+    let own = length + 0.5 * all * (length / ea);
+    if all == 0.0 && z.abs() <= length {
+        return Err(LineError::Undetermined);
+    }
+    let (v, z_v) = if z.abs() >= own {
+        let middle = ea * (z.abs() - length) / length * z.signum();
+        (middle + 0.5 * all, length / ea)
+    } else {
+        // (|V1| - |V0|)/w + (V12 - V02)/(2 EA w) with V1 > 0 > V0 = V1 - w L is linear in V1
+        let slope = (2.0 / weight) * (1.0 + 0.5 * all / ea);
+        (0.5 * all + z / slope, slope)
+    };
+    let low = v - all;
+    // dx/dH at H = 0: the integral of 1/|V| and the stretch; where V changes sign the integral has no bound
+    let lateral = if v * low > 0.0 { 1.0 / (length * inverse_mean(v.abs(), low.abs()) + length / ea) } else { 0.0 };
+    let answer = EndForces {
+        regime: if v * low > 0.0 { Regime::VerticalTaut } else { Regime::Suspended },
+        fairlead: [0.0, v],
+        anchor: [0.0, low],
+        grounded: 0.0,
+        stiffness: [[lateral, 0.0], [0.0, 1.0 / z_v]],
+        residual: 0.0,
+        iterations: 0,
+    };
+    if v.is_finite() && low.is_finite() {
+        Ok(answer)
+    } else {
+        Err(LineError::Unproven { residual: f64::NAN, tension: v })
+    }
+}
+
+/// The mean of 1/V between two values of one sign: ln(a/b)/(a - b), without a difference of near equals.
+fn inverse_mean(a: f64, b: f64) -> f64 {
+    let half = (a - b) / (a + b);
+    if half.abs() < 1e-5 { 2.0 / (a + b) * (1.0 + half * half / 3.0) } else { (a / b).ln() / (a - b) }
+}
+
+/// Forces to begin with: the parabola of a taut line, or the catenary of Jonkman's start (same source) for a slack one.
+fn guess(segment: &Segment, x: f64, z: f64) -> (f64, f64) {
+    let Segment { length, weight, ea } = *segment;
+    let chord = x.hypot(z);
+    let all = weight * length;
+    if length > 1.1 * chord {
+        let lambda = (3.0 * ((length - z) * (length + z) / (x * x) - 1.0)).sqrt();
+        let h = 0.5 * weight * x / lambda;
+        return (h.max(1e-12 * all), 0.5 * (all + weight * z / lambda.tanh()));
+    }
+    // T3/EA - e T2 = (w L cos)2/24, e the strain that would do without sag
+    let strain = chord / length - 1.0;
+    let sag = (all * x / chord) * (all * x / chord) / 24.0;
+    let mut t = (sag * ea).cbrt() + (ea * strain).max(0.0);
+    for _ in 0..6 {
+        let slope = t * (3.0 * t / ea - 2.0 * strain);
+        t -= (t * t * (t / ea - strain) - sag) / slope;
+    }
+    (t * x / chord, t * z / chord + 0.5 * all)
+}
+
+/// The change of (H, V) that makes the change (x, z).
+fn mapped(reach: &Reach, x: f64, z: f64) -> Option<[f64; 2]> {
+    let [[a, b], [c, d]] = inverse(reach)?;
+    Some([a * x + b * z, c * x + d * z])
+}
+
+/// The tangent stiffness of a reach.
+fn inverse(r: &Reach) -> Option<[[f64; 2]; 2]> {
+    // eliminate V first: z_v is the sturdier pivot of a slack line, x_h that of a flat one
+    let det = r.x_h - r.x_v * (r.z_h / r.z_v);
+    let k = 1.0 / det;
+    let kzx = -k * (r.z_h / r.z_v);
+    let kxz = -k * (r.x_v / r.z_v);
+    let kzz = (1.0 - r.z_h * kxz) / r.z_v;
+    (det > 0.0 && [k, kzx, kxz, kzz].iter().all(|v| v.is_finite())).then_some([[k, kxz], [kzx, kzz]])
+}
+
+/// Makes the answer, if what is left of the distances is small enough: as a force, or below the rounding of the
+/// distances themselves.
+#[allow(clippy::too_many_arguments)]
+fn prove(
+    segment: &Segment,
+    regime: Regime,
+    [x, z]: [f64; 2],
+    fairlead: [f64; 2],
+    anchor: [f64; 2],
+    reach: &Reach,
+    grounded: f64,
+    iterations: usize,
+) -> Result<EndForces, LineError> {
+    let (rx, rz) = (reach.x - x, reach.z - z);
+    let tension = fairlead[0].hypot(fairlead[1]);
+    let residual = mapped(reach, rx, rz).map_or(f64::NAN, |[h, v]| h.hypot(v));
+    let rounding = 4.0 * f64::EPSILON * (segment.length + x + z.abs());
+    let proven = residual <= PROOF * tension || rx.abs().max(rz.abs()) <= rounding;
+    match inverse(reach) {
+        Some(stiffness) if proven && fairlead.iter().chain(&anchor).all(|v| v.is_finite()) => {
+            Ok(EndForces { regime, fairlead, anchor, grounded, stiffness, residual, iterations })
+        }
+        _ => Err(LineError::Unproven { residual, tension }),
+    }
+}

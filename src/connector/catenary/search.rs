@@ -1,0 +1,55 @@
+//! A safeguarded search for a positive root.
+
+/// A function's value and slope.
+#[derive(Clone, Copy, Debug)]
+pub struct Point {
+    pub value: f64,
+    pub slope: f64,
+}
+
+/// Steps after which a search gives up.
+const MOST_STEPS: usize = 200;
+
+/// The argument > 0 at which a rising function has the value `target`: Newton within a bracket, which is widened by
+/// factors until it holds the root, and halved in the logarithm where Newton leaves it. Returns the best argument met
+/// and the steps; the caller proves it.
+pub fn rising_root(start: f64, target: f64, f: impl Fn(f64) -> Point) -> (f64, usize) {
+    let (mut low, mut high) = (0.0_f64, f64::INFINITY);
+    let mut at = start;
+    let mut best = (f64::INFINITY, start);
+    for step in 1..=MOST_STEPS {
+        let Point { value, slope } = f(at);
+        let off = value - target;
+        if off.is_nan() {
+            return (best.1, step);
+        }
+        if off.abs() < best.0 {
+            best = (off.abs(), at);
+        }
+        if off == 0.0 {
+            return (at, step);
+        }
+        if off > 0.0 {
+            high = at;
+        } else {
+            low = at;
+        }
+        let newton = at - off / slope;
+        let inside = newton.is_finite() && newton > low && newton < high;
+        let next = if inside && newton < 16.0 * at && newton > at / 64.0 {
+            newton
+        } else if high.is_infinite() {
+            16.0 * at
+        } else if low > 0.0 {
+            low.sqrt() * high.sqrt()
+        } else {
+            at / 64.0
+        };
+        let close = 2.0 * f64::EPSILON * next;
+        if (next - at).abs() <= close || next == 0.0 || next.is_infinite() || high - low <= close {
+            return (best.1, step);
+        }
+        at = next;
+    }
+    (best.1, MOST_STEPS)
+}
