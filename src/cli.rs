@@ -77,8 +77,9 @@ pub fn run(cli: Cli) -> u8 {
     let script_errors = session.errors;
     if stay && (end != End::Finished || cli.interactive) {
         repl::run(&mut session, terminal);
-        session.job.output.flush();
     }
+    session.finish();
+    session.job.output.flush();
     let failed = if terminal && stay { script_errors > 0 } else { session.errors > 0 };
     u8::from(failed)
 }

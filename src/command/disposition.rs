@@ -92,8 +92,8 @@ static STORE_SPEC: CommandSpec = CommandSpec {
     data: &[ValueSpec::new("FILE", Kind::File, "file name; .csv is added when it has no ending"), ANY_COLUMN],
     repeat: 1,
     options: &[RECORD, VALUES, MAG_USE],
-    detail: "CSV: a header of the column names with units, then numbers with full precision. A name without a folder goes to \
-             the job's folder.",
+    detail: "CSV: a header of the column names with units, then numbers with full precision. A relative name is inside the \
+             job's folder: &HELP &FILE.",
     ..spec("STORE", "writes columns to a CSV file")
 };
 static PLOT_SPEC: CommandSpec = CommandSpec {
@@ -113,8 +113,8 @@ static PLOT_SPEC: CommandSpec = CommandSpec {
         )
         .owner(Owner::Ours),
     ],
-    detail: "The first column is the independent one. A last word that ends in .svg or .png is a file name; without one the \
-             plot is drawn in the terminal.",
+    detail: "The first column is the independent one. A last word that ends in .svg or .png is a file name, inside the \
+             job's folder when relative (&HELP &FILE); without one the plot is drawn in the terminal.",
     ..spec("PLOT", "plots columns against the first one")
 };
 static STATISTIC_SPEC: CommandSpec = CommandSpec {
@@ -254,7 +254,7 @@ fn store(job: &mut Job, call: &Call) -> Outcome<Effect> {
 }
 
 fn write_file(job: &mut Job, name: &str, bytes: &[u8], span: Span) -> Outcome<()> {
-    let path = job.output.folder.write(name, bytes).map_err(|e| Diagnostic::error(e.to_string(), span))?;
+    let path = job.output.folder.write(name, bytes).map_err(|e| super::file::refused(&e, span))?;
     let text = format!("wrote {}", path.display());
     job.say(&text);
     Ok(())

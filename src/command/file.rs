@@ -6,8 +6,9 @@ use super::{Call, Command, Effect, Job, PLAIN};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::record::Word;
 use crate::language::select::{Owner, choose};
+use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Form, Kind, ValueSpec};
-use crate::report::files::FileError;
+use crate::report::files::{FileError, Place};
 
 /// &INSERT.
 pub static INSERT: Command = Command { spec: &INSERT_SPEC, edits: false, run: insert };
@@ -32,8 +33,12 @@ static FILE_SPEC: CommandSpec = CommandSpec {
     form: Form::Text,
     data: &[ValueSpec::new("ACTION", Kind::Choice(ACTIONS), "what to do")],
     detail: "MKDIR A; RM A; MV A B; CP A B; ANS_DIRECTORY A (where answers go from now on); OPEN TYPE FILE, WRITE TYPE text, \
-             CLOSE TYPE (writes the file, whole); USE TYPE FILE (for &F_READ). RM, MV, CP and MKDIR act below the job's own \
-             folder only, unless the program was started with --allow-files.",
+             CLOSE TYPE (writes the file, whole; a file still open when the job ends is written then); USE TYPE FILE (for \
+             &F_READ). Names that are written to, here and in STORE and PLOT: a relative name, with folders or without, is \
+             inside the job's own folder (ROOT.ans or --out DIR) and may not climb out of it; a name that begins with ./ or \
+             ../ and an absolute name mean what they mean to the shell. In the job's folder an earlier file is kept as \
+             name.1; outside of it no file is overwritten, and RM, MV, CP and MKDIR need --allow-files. Folders are made by \
+             MKDIR only.",
     example: "&FILE OPEN NOTE note.txt\n&FILE WRITE NOTE one line\n&FILE CLOSE NOTE\n&FILE RM note.txt",
     ..CommandSpec::new("&FILE", "works on files")
 };
@@ -83,13 +88,7 @@ fn file(job: &mut Job, call: &Call) -> Outcome<Effect> {
     if let Some(word) = call.words.get(most) {
         return Err(Diagnostic::error(format!("&FILE {action} takes no further word"), word.span));
     }
-    let at = |error: FileError| {
-        let mut made = Diagnostic::error(error.to_string(), first.span);
-        if matches!(error, FileError::NotOwn { .. }) {
-            made.help.push("a script may only touch what is its own; --allow-files lifts this".into());
-        }
-        made
-    };
+    let at = |error| refused(&error, first.span);
     match action {
         "MKDIR" => job.output.folder.make_folder(&first.text).map_err(at).map(|_| ())?,
         "RM" => job.output.folder.remove(&first.text).map_err(at).map(|_| ())?,
@@ -102,8 +101,8 @@ fn file(job: &mut Job, call: &Call) -> Outcome<Effect> {
             job.output.folder.folder = path;
         }
         "OPEN" => {
-            let path = second()?.text.to_string().into();
-            job.user_files.insert(first.text.to_ascii_uppercase(), UserFile::Writing(path, String::new()));
+            let name = second()?;
+            open(job, first, name)?;
         }
         "WRITE" => write(job, call, first)?,
         "CLOSE" => close(job, first)?,
@@ -113,10 +112,62 @@ fn file(job: &mut Job, call: &Call) -> Outcome<Effect> {
             let text = std::fs::read_to_string(&path)
                 .map_err(|e| Diagnostic::error(format!("{}: {e}", path.display()), name.span))?;
             let lines = text.lines().rev().map(str::to_string).collect();
+            write_unclosed(job, first)?;
             job.user_files.insert(first.text.to_ascii_uppercase(), UserFile::Reading(lines));
         }
     }
     Ok(Effect::Done)
+}
+
+/// A file that could not be written or touched, at the word that names it.
+pub fn refused(error: &FileError, span: Span) -> Box<Diagnostic> {
+    let mut made = Diagnostic::error(error.to_string(), span);
+    made.help.extend(error.help().map(str::to_string));
+    made
+}
+
+fn open(job: &mut Job, kind: &Word, name: &Word) -> Outcome<()> {
+    write_unclosed(job, kind)?;
+    let place = job.output.folder.place(&name.text).map_err(|e| refused(&e, name.span))?;
+    let twin = job.user_files.iter().find(|(_, f)| matches!(f, UserFile::Writing { place: p, .. } if *p == place));
+    if let Some((other, _)) = twin {
+        let text = format!("{} is open already, as type {other}", place.path().display());
+        return Err(Diagnostic::error(text, name.span));
+    }
+    let file = UserFile::Writing { place, text: String::new(), opened: name.span };
+    job.user_files.insert(kind.text.to_ascii_uppercase(), file);
+    Ok(())
+}
+
+/// Writes the file that this type still names, because the type gets another.
+fn write_unclosed(job: &mut Job, kind: &Word) -> Outcome<()> {
+    let key = kind.text.to_ascii_uppercase();
+    if let Some(UserFile::Writing { place, text, opened }) = job.user_files.get(&key) {
+        let note = written_unclosed(&key, place, text, *opened)?;
+        job.notices.push(*note);
+        job.user_files.shift_remove(&key);
+    }
+    Ok(())
+}
+
+/// Writes a file that was not closed; the note that says so.
+fn written_unclosed(kind: &str, place: &Place, text: &str, opened: Span) -> Outcome<Box<Diagnostic>> {
+    place.write(text.as_bytes()).map_err(|e| refused(&e, opened))?;
+    let note = format!("{} was not closed and is written as it stands", place.path().display());
+    Ok(Diagnostic::remark(note, opened).help(format!("&FILE CLOSE {kind} closes it")))
+}
+
+/// At the end of the job: writes the files that were opened and never closed. Returns what is to be said of each.
+pub fn write_open_files(job: &mut Job) -> Vec<Box<Diagnostic>> {
+    std::mem::take(&mut job.user_files)
+        .iter()
+        .filter_map(|(kind, file)| match file {
+            UserFile::Writing { place, text, opened } => {
+                Some(written_unclosed(kind, place, text, *opened).unwrap_or_else(|error| error))
+            }
+            UserFile::Reading(_) => None,
+        })
+        .collect()
 }
 
 /// Largest text a user's file may grow to (bytes).
@@ -126,26 +177,27 @@ fn write(job: &mut Job, call: &Call, name: &Word) -> Outcome<()> {
     let words = crate::language::token::words(call.record.text());
     let text = words.get(3).and_then(|t| call.record.text().get(t.range.start..)).unwrap_or_default().trim_end();
     match job.user_files.get_mut(&name.text.to_ascii_uppercase()) {
-        Some(UserFile::Writing(_, lines)) if lines.len() + text.len() < LARGEST => {
+        Some(UserFile::Writing { text: lines, .. }) if lines.len() + text.len() < LARGEST => {
             lines.push_str(text);
             lines.push('\n');
             Ok(())
         }
-        Some(UserFile::Writing(..)) => Err(Diagnostic::error("the file grows too large", name.span)),
+        Some(UserFile::Writing { .. }) => Err(Diagnostic::error("the file grows too large", name.span)),
         _ => Err(Diagnostic::error(format!("no file of type {} is open for writing", name.text), name.span)
             .help("&FILE OPEN TYPE FILE opens one")),
     }
 }
 
 fn close(job: &mut Job, name: &Word) -> Outcome<()> {
-    match job.user_files.shift_remove(&name.text.to_ascii_uppercase()) {
-        Some(UserFile::Writing(path, text)) => job
-            .output
-            .folder
-            .write(&path.to_string_lossy(), text.as_bytes())
-            .map(|_| ())
-            .map_err(|e| Diagnostic::error(e.to_string(), name.span)),
-        Some(UserFile::Reading(_)) => Ok(()),
-        None => Err(Diagnostic::error(format!("no file of type {} is open", name.text), name.span)),
+    let key = name.text.to_ascii_uppercase();
+    match job.user_files.get(&key) {
+        // a file that cannot be written now stays open, and is tried again at the end of the job
+        Some(UserFile::Writing { place, text, .. }) => {
+            place.write(text.as_bytes()).map_err(|e| refused(&e, name.span))?;
+        }
+        Some(UserFile::Reading(_)) => {}
+        None => return Err(Diagnostic::error(format!("no file of type {} is open", name.text), name.span)),
     }
+    job.user_files.shift_remove(&key);
+    Ok(())
 }

@@ -6,6 +6,7 @@ use crate::language::source::Span;
 use crate::language::units::UnitSystem;
 use crate::model::Model;
 use crate::report::disposition::Disposition;
+use crate::report::files::Place;
 use crate::report::output::Output;
 use crate::report::page::PageHead;
 use indexmap::IndexMap;
@@ -106,8 +107,15 @@ impl Default for Settings {
 /// A user's file opened by `&FILE OPEN` or `USE`.
 #[derive(Debug)]
 pub enum UserFile {
-    /// Being written; the lines so far.
-    Writing(PathBuf, String),
+    /// Being written.
+    Writing {
+        /// Where it will be.
+        place: Place,
+        /// The lines so far.
+        text: String,
+        /// The name in the record that opened it.
+        opened: Span,
+    },
     /// Being read; the lines left, last first.
     Reading(Vec<String>),
 }

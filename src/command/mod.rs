@@ -24,6 +24,7 @@ mod status;
 mod units;
 mod written;
 
+pub use file::write_open_files;
 pub use job::{Job, Menu, Settings};
 pub use menus::finish_inmodel;
 

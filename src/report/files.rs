@@ -1,9 +1,9 @@
 //! Files the program writes and touches: where they go, that they are whole, and that nothing is lost.
 //!
-//! Source: reference/language.md section 8. A name without a folder goes below the job's own folder (`ROOT.ans/` or
-//! `--out`); a name with a folder goes where it says. In the job's folder an earlier file is kept as `name.1`,
-//! `name.2`, ...; outside of it nothing that exists is overwritten. Files are written whole: first under a temporary
-//! name beside the place, then renamed.
+//! Source: reference/language.md section 8. A relative name, with folders or without, is inside the job's own folder
+//! (`ROOT.ans/` or `--out`); a name that begins with `./` or `../` and an absolute one mean what they mean to the shell.
+//! In the job's folder an earlier file is kept as `name.1`, `name.2`, ...; outside of it nothing that exists is
+//! overwritten. Files are written whole: first under a temporary name beside the place, then renamed.
 
 use std::io::{ErrorKind, Write};
 use std::path::{Component, Path, PathBuf};
@@ -33,6 +33,64 @@ pub enum FileError {
         /// The job's folder.
         folder: PathBuf,
     },
+    /// A relative name that climbs out of the job's folder, or stops at it.
+    #[error("`{name}` leads to nothing below the job's own folder {}", folder.display())]
+    LeadsOut {
+        /// The name as written.
+        name: String,
+        /// The job's folder.
+        folder: PathBuf,
+    },
+    /// The folder a file would stand in is missing.
+    #[error("there is no folder {}", .0.display())]
+    NoFolder(PathBuf),
+}
+
+impl FileError {
+    /// What to do about it, for a help line.
+    pub fn help(&self) -> Option<&'static str> {
+        match self {
+            FileError::NotOwn { .. } => Some("a script may only touch what is its own; --allow-files lifts this"),
+            FileError::LeadsOut { .. } => Some("a name from the current directory begins with ./ or ../"),
+            FileError::NoFolder(_) => Some(
+                "&FILE MKDIR makes one in the job's folder; a name from the current directory begins with ./ or ../",
+            ),
+            FileError::System { .. } | FileError::Exists(_) | FileError::Taken(_) => None,
+        }
+    }
+}
+
+/// A place that was found fit for a file, to be written now or later.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Place {
+    path: PathBuf,
+    /// Below the job's folder: an earlier file is kept under a number.
+    own: bool,
+}
+
+impl Place {
+    /// Where the file will be.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Writes the file whole or not at all.
+    ///
+    /// # Errors
+    /// What the system refuses, or a file outside of the job's folder that has come up meanwhile.
+    pub fn write(&self, bytes: &[u8]) -> Result<(), FileError> {
+        let path = &self.path;
+        let at = |source| FileError::System { path: path.clone(), source };
+        if path.is_dir() {
+            return Err(at(ErrorKind::IsADirectory.into()));
+        }
+        let mut file = beside(path).map_err(at)?;
+        file.write_all(bytes).and_then(|()| file.flush()).map_err(at)?;
+        if self.own {
+            keep_earlier(path)?;
+        }
+        put_in_place(file, path)
+    }
 }
 
 /// The job's root name and its folder for answers.
@@ -57,33 +115,69 @@ impl JobFolder {
         JobFolder { root, folder, allow_files }
     }
 
-    /// Where a file named by the user goes.
-    pub fn resolve(&self, name: &str) -> PathBuf {
+    /// The path that a name in a script stands for. A relative name is below the job's folder, its `..` taken off as
+    /// they are written; one that begins with `./` or `../` and an absolute one are what they are to the shell.
+    ///
+    /// # Errors
+    /// [`FileError::LeadsOut`].
+    pub fn resolve(&self, name: &str) -> Result<PathBuf, FileError> {
         let path = Path::new(name);
-        if path.components().count() == 1 && path.file_name().is_some() { self.folder.join(path) } else { path.into() }
+        if path.components().next().is_some_and(|first| !matches!(first, Component::Normal(_))) {
+            return Ok(path.into());
+        }
+        let leads_out = || FileError::LeadsOut { name: name.into(), folder: self.folder.clone() };
+        let mut below = PathBuf::new();
+        for part in path.components() {
+            match part {
+                Component::ParentDir if !below.pop() => return Err(leads_out()),
+                Component::ParentDir => {}
+                other => below.push(other),
+            }
+        }
+        if below.as_os_str().is_empty() { Err(leads_out()) } else { Ok(self.folder.join(below)) }
+    }
+
+    /// Finds the place of a file that is to be written, and whether it can be written there.
+    ///
+    /// # Errors
+    /// A name that leads nowhere, a missing folder, a folder of that name, a place the system does not let write to,
+    /// or a file outside of the job's folder that exists.
+    pub fn place(&self, name: &str) -> Result<Place, FileError> {
+        let path = self.resolve(name)?;
+        let at = |source| FileError::System { path: path.clone(), source };
+        let own = self.stands(&path)?;
+        if path.is_dir() || name.ends_with(std::path::is_separator) {
+            return Err(at(ErrorKind::IsADirectory.into()));
+        }
+        match path.symlink_metadata() {
+            Ok(_) if !own => return Err(FileError::Exists(path)),
+            Err(error) if error.kind() != ErrorKind::NotFound => return Err(at(error)),
+            _ => {}
+        }
+        // gone again at once: it only shows that the folder takes files
+        beside(&path).map_err(at)?;
+        Ok(Place { path, own })
+    }
+
+    /// Sees that there is a folder for a path, and makes the job's own if it is that; whether the path is the job's own.
+    fn stands(&self, path: &Path) -> Result<bool, FileError> {
+        let own = self.owns(path);
+        if own {
+            std::fs::create_dir_all(&self.folder)
+                .map_err(|source| FileError::System { path: self.folder.clone(), source })?;
+        }
+        let folder = folder_of(path);
+        if folder.is_dir() { Ok(own) } else { Err(FileError::NoFolder(folder.into())) }
     }
 
     /// Writes a file whole or not at all; returns where it went.
     ///
     /// # Errors
-    /// What the system refuses, or a file outside of the job's folder that exists.
+    /// As [`JobFolder::place`] and [`Place::write`].
     pub fn write(&self, name: &str, bytes: &[u8]) -> Result<PathBuf, FileError> {
-        let path = self.resolve(name);
-        let own = self.owns(&path);
-        let at = |source| FileError::System { path: path.clone(), source };
-        if path.is_dir() {
-            return Err(at(ErrorKind::IsADirectory.into()));
-        }
-        if own {
-            std::fs::create_dir_all(folder_of(&path)).map_err(at)?;
-        }
-        let mut file = beside(&path).map_err(at)?;
-        file.write_all(bytes).and_then(|()| file.flush()).map_err(at)?;
-        if own {
-            keep_earlier(&path)?;
-        }
-        put_in_place(file, &path)?;
-        Ok(path)
+        let place = self.place(name)?;
+        place.write(bytes)?;
+        Ok(place.path)
     }
 
     /// Creates a file that grows as the job runs (a log); an earlier one is kept.
@@ -107,13 +201,13 @@ impl JobFolder {
         real(&self.folder).zip(real(path)).is_some_and(|(folder, path)| path.starts_with(&folder) && path != folder)
     }
 
-    /// A path that `&FILE` may act on: taken from the job's folder, and below it unless everything is allowed. What a
-    /// name means does not depend on what is allowed.
+    /// A path that `&FILE` may act on: below the job's folder unless everything is allowed. What a name means does not
+    /// depend on what is allowed.
     ///
     /// # Errors
-    /// [`FileError::NotOwn`].
+    /// [`FileError::NotOwn`], [`FileError::LeadsOut`].
     pub fn own(&self, name: &str) -> Result<PathBuf, FileError> {
-        let path = self.folder.join(name);
+        let path = self.resolve(name)?;
         if self.allow_files || self.owns(&path) {
             Ok(path)
         } else {
@@ -140,6 +234,7 @@ impl JobFolder {
         if there(&to) {
             return Err(FileError::Taken(to));
         }
+        self.stands(&to)?;
         let at = |source| FileError::System { path: from.clone(), source };
         if keep {
             if !std::fs::metadata(&from).map_err(at)?.is_file() {
@@ -236,103 +331,4 @@ fn real(path: &Path) -> Option<PathBuf> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn job() -> (tempfile::TempDir, JobFolder) {
-        let dir = tempfile::tempdir().unwrap();
-        let job = JobFolder::new(dir.path().join("job"), None, false);
-        (dir, job)
-    }
-
-    #[test]
-    fn an_earlier_answer_is_kept_under_a_number() {
-        let (_dir, job) = job();
-        for text in ["one", "two", "three"] {
-            job.write("t.csv", text.as_bytes()).unwrap();
-        }
-        let read = |name: &str| std::fs::read_to_string(job.folder.join(name)).unwrap();
-        assert_eq!((read("t.csv"), read("t.csv.1"), read("t.csv.2")), ("three".into(), "one".into(), "two".into()));
-    }
-
-    #[test]
-    fn nothing_outside_the_folder_is_overwritten() {
-        let (dir, job) = job();
-        let path = dir.path().join("mine.txt");
-        std::fs::write(&path, "mine").unwrap();
-        assert!(matches!(job.write(path.to_str().unwrap(), b"x"), Err(FileError::Exists(_))));
-        assert_eq!(std::fs::read_to_string(&path).unwrap(), "mine");
-        assert_eq!(std::fs::read_dir(dir.path()).unwrap().count(), 1, "no temporary file is left");
-    }
-
-    #[test]
-    fn file_commands_stay_below_the_folder_even_through_links_and_dots() {
-        let (dir, job) = job();
-        let secret = dir.path().join("secret");
-        std::fs::write(&secret, "x").unwrap();
-        std::fs::create_dir_all(job.folder.join("sub")).unwrap();
-        assert!(matches!(job.remove("../secret"), Err(FileError::NotOwn { .. })));
-        assert!(matches!(job.remove("sub/../../secret"), Err(FileError::NotOwn { .. })));
-        assert!(matches!(job.remove(secret.to_str().unwrap()), Err(FileError::NotOwn { .. })));
-        #[cfg(unix)]
-        {
-            std::os::unix::fs::symlink(dir.path(), job.folder.join("link")).unwrap();
-            assert!(matches!(job.remove("link/secret"), Err(FileError::NotOwn { .. })));
-            std::os::unix::fs::symlink(dir.path().join("new"), job.folder.join("nowhere")).unwrap();
-            job.write("b", b"1").unwrap();
-            assert!(matches!(job.transfer("b", "nowhere", true), Err(FileError::NotOwn { .. })));
-            job.remove("b").unwrap();
-        }
-        assert!(secret.exists());
-        job.write("a", b"1").unwrap();
-        job.transfer("a", "b", true).unwrap();
-        assert!(matches!(job.transfer("a", "b", false), Err(FileError::Taken(_))));
-        job.remove("b").unwrap();
-    }
-
-    #[cfg(unix)]
-    #[test]
-    fn a_link_that_leads_nowhere_is_no_way_out() {
-        let (dir, job) = job();
-        job.write("a", b"1").unwrap();
-        let outside = dir.path().join("new");
-        std::os::unix::fs::symlink(&outside, job.folder.join("link")).unwrap();
-        for keep in [true, false] {
-            assert!(matches!(job.transfer("a", "link", keep), Err(FileError::NotOwn { .. })));
-        }
-        assert!(matches!(job.write("link", b"x"), Err(FileError::Exists(_))));
-        assert!(matches!(job.make_folder("link/sub"), Err(FileError::NotOwn { .. })));
-        assert!(!outside.exists() && job.folder.join("a").exists());
-    }
-
-    #[test]
-    fn a_folder_is_neither_written_over_nor_moved_away() {
-        let (_dir, job) = job();
-        job.make_folder("sub").unwrap();
-        assert!(job.write("sub", b"1").is_err() && job.create("sub").is_err());
-        assert!(job.transfer("sub", "copy", true).is_err());
-        assert!(job.folder.join("sub").is_dir() && !job.folder.join("sub.1").exists());
-    }
-
-    #[test]
-    fn a_name_means_the_same_file_whatever_is_allowed() {
-        let (_dir, mut job) = job();
-        job.write("a", b"1").unwrap();
-        job.allow_files = true;
-        assert_eq!(job.own("a").unwrap(), job.folder.join("a"));
-        let beyond = job.folder.join("../mine");
-        assert_eq!(job.transfer("a", "../mine", true).unwrap(), beyond);
-        assert!(beyond.exists());
-    }
-
-    #[test]
-    fn names_keep_case_blanks_and_letters_of_any_alphabet() {
-        let (_dir, job) = job();
-        for name in ["Mixed Case.CSV", "anker\u{e9} \u{6d77}.csv", &"n".repeat(200)] {
-            let path = job.write(name, b"1").unwrap();
-            assert_eq!(path.file_name().unwrap().to_str(), Some(name));
-        }
-        assert!(job.write(&"n".repeat(5000), b"1").is_err());
-        assert!(job.write("", b"1").is_err() && job.write("..", b"1").is_err());
-    }
-}
+mod tests;

@@ -133,6 +133,13 @@ impl Session {
         }
     }
 
+    /// Ends the job: files that were opened and never closed are written, and said.
+    pub fn finish(&mut self) {
+        for said in command::write_open_files(&mut self.job) {
+            self.report(*said);
+        }
+    }
+
     /// Prints a message, counts it, and remembers how serious it was.
     pub fn report(&mut self, mut diagnostic: Diagnostic) {
         diagnostic.help.extend(self.interpreter.trace());

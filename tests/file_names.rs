@@ -1,0 +1,207 @@
+//! What a file name in a script means, that a bad one is refused where it is given, and that no file opened is lost.
+
+#![allow(clippy::unwrap_used)]
+
+use std::fs;
+use std::process::{Command, Output};
+
+/// Records that open the disposition menu of a short table.
+const TABLE: &str = "MEDIT\n&DESCRIBE BODY B\n*P 0 0 0\n~W B_CAT 4 -LEN 4000 -DEP 500 -BUOY 0 -WTPL .04 -EMOD 12000\n\
+                     CONNECTOR A ~W *P\nEND\nCONN_DESIGN\nTABLE A\n";
+const TABLE_END: &str = "END\nEND\n";
+
+struct Run {
+    folder: tempfile::TempDir,
+    code: Option<i32>,
+    out: String,
+    err: String,
+}
+
+impl Run {
+    /// Runs a script `here/job.cif` from the folder `here`.
+    fn of(script: &str, arguments: &[&str]) -> Run {
+        let folder = tempfile::tempdir().unwrap();
+        fs::create_dir(folder.path().join("here")).unwrap();
+        Run::within(folder, script, arguments)
+    }
+
+    fn within(folder: tempfile::TempDir, script: &str, arguments: &[&str]) -> Run {
+        let here = folder.path().join("here");
+        fs::write(here.join("job.cif"), script).unwrap();
+        let Output { status, stdout, stderr } = Command::new(env!("CARGO_BIN_EXE_windlass"))
+            .arg("job.cif")
+            .args(arguments)
+            .current_dir(&here)
+            .output()
+            .unwrap();
+        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+        Run { folder, code: status.code(), out: text(&stdout), err: text(&stderr) }
+    }
+
+    /// A file's text, its path taken from `here`.
+    fn read(&self, path: &str) -> Option<String> {
+        fs::read_to_string(self.folder.path().join("here").join(path)).ok()
+    }
+
+    /// The names in a folder, sorted.
+    fn names(&self, path: &str) -> Vec<String> {
+        let mut names: Vec<String> = fs::read_dir(self.folder.path().join("here").join(path))
+            .unwrap()
+            .map(|e| e.unwrap().file_name().into_string().unwrap())
+            .collect();
+        names.sort();
+        names
+    }
+}
+
+#[test]
+fn relative_names_with_and_without_folders_are_inside_the_jobs_folder() {
+    let script = format!(
+        "&FILE MKDIR a/b\n&FILE OPEN T a/b/n.txt\n&FILE WRITE T one\n&FILE CLOSE T\n&FILE CP a/b/n.txt a/c.txt\n\
+         &FILE MV a/c.txt d.txt\n&FILE CP d.txt e.txt\n&FILE RM e.txt\n{TABLE}STORE s X Force\nSTORE a/s X Force\n\
+         STORE a/../b X Force\nPLOT X Force a/b/p.svg\nPLOT X Force -FILE a/p.png\n{TABLE_END}"
+    );
+    for (arguments, folder) in [(&[][..], "job.ans"), (&["--out", "answers"][..], "answers")] {
+        let beside = tempfile::tempdir().unwrap();
+        // folders of the same names beside the script are none of the job's
+        fs::create_dir_all(beside.path().join("here/a/b")).unwrap();
+        let run = Run::within(beside, &script, arguments);
+        assert_eq!(run.code, Some(0), "{}", run.err);
+        assert!(run.names(".").iter().all(|name| ["a", folder, "job.cif"].contains(&name.as_str())));
+        assert_eq!((run.names("a"), run.names("a/b")), (vec!["b".to_string()], vec![]));
+        assert_eq!(run.names(folder), ["LOG00001.TXT", "a", "b.csv", "d.txt", "s.csv"]);
+        assert_eq!(run.names(&format!("{folder}/a")), ["b", "p.png", "s.csv"]);
+        assert_eq!(run.names(&format!("{folder}/a/b")), ["n.txt", "p.svg"]);
+        assert_eq!(run.read(&format!("{folder}/d.txt")).unwrap(), "one\n");
+    }
+}
+
+#[test]
+fn a_dot_or_two_in_front_and_absolute_names_mean_what_the_shell_means() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir_all(folder.path().join("here/sub")).unwrap();
+    let absolute = folder.path().join("absolute.txt");
+    let script = format!(
+        "&FILE OPEN T ./sub/n.txt\n&FILE CLOSE T\n&FILE OPEN T '{}'\n&FILE CLOSE T\n\
+         {TABLE}STORE ./s X Force\nPLOT X Force ../p.svg\n{TABLE_END}&FILE MKDIR x\n&FILE MV ./job.ans/x ./job.ans/y\n",
+        absolute.display()
+    );
+    let run = Run::within(folder, &script, &[]);
+    assert_eq!(run.code, Some(0), "{}", run.err);
+    assert_eq!(run.names("."), ["job.ans", "job.cif", "s.csv", "sub"]);
+    assert_eq!(run.names(".."), ["absolute.txt", "here", "p.svg"]);
+    assert_eq!(
+        (run.names("sub"), run.names("job.ans")),
+        (vec!["n.txt".into()], vec!["LOG00001.TXT".into(), "y".into()])
+    );
+}
+
+#[test]
+fn outside_the_jobs_folder_nothing_is_overwritten_and_the_file_actions_ask_for_allow_files() {
+    let script = format!(
+        "{TABLE}STORE ./job.cif X Force\n{TABLE_END}&FILE RM ./job.cif\n&FILE CP ./job.cif ./copy\n\
+         &FILE MV ./job.cif moved\n&FILE MKDIR ../new\n"
+    );
+    let run = Run::of(&script, &[]);
+    assert_eq!(run.code, Some(1));
+    assert_eq!(run.err.matches("no file is overwritten").count(), 1, "{}", run.err);
+    assert_eq!(run.err.matches("--allow-files lifts this").count(), 4, "{}", run.err);
+    assert_eq!((run.names("."), run.names("..")), (vec!["job.ans".into(), "job.cif".into()], vec!["here".into()]));
+    assert_eq!(run.read("job.cif").unwrap(), script);
+    let script = "&FILE CP ./job.cif ./copy\n&FILE CP ./copy copy\n&FILE MV ./copy ../moved\n&FILE MKDIR ./new\n";
+    let run = Run::of(script, &["--allow-files"]);
+    assert_eq!(run.code, Some(0), "{}", run.err);
+    assert_eq!(
+        (run.names("."), run.names("..")),
+        (vec!["job.ans".into(), "job.cif".into(), "new".into()], vec!["here".into(), "moved".into()])
+    );
+    assert_eq!(run.read("job.ans/copy").unwrap(), script);
+}
+
+#[test]
+fn a_relative_name_that_climbs_out_is_refused_by_every_command_even_with_allow_files() {
+    let script = format!(
+        "&DEVICE -LIMERROR 99\n&FILE MKDIR a\n&FILE OPEN T a/../../x\n&FILE MKDIR a/../../x\n&FILE RM a/../../job.cif\n\
+         &FILE MV a/../../job.cif x\n&FILE CP a a/../../x\n&FILE OPEN T a/..\n&FILE ANS_DIRECTORY a/../../x\n\
+         {TABLE}STORE a/../../x X Force\nPLOT X Force a/../../x.svg\n{TABLE_END}"
+    );
+    for arguments in [&[][..], &["--allow-files"]] {
+        let run = Run::of(&script, arguments);
+        assert_eq!(run.code, Some(1));
+        assert_eq!(run.err.matches("leads to nothing below the job's own folder").count(), 9, "{}", run.err);
+        assert_eq!(run.err.matches("begins with ./ or ../").count(), 9, "{}", run.err);
+        assert_eq!(run.names("."), ["job.ans", "job.cif"]);
+        assert_eq!(run.names("job.ans"), ["LOG00001.TXT", "a"]);
+    }
+}
+
+#[test]
+fn open_fails_at_open_where_the_file_could_not_be_written() {
+    let refused = |name: &str, why: &str| {
+        let script = format!("&FILE MKDIR sub\n&FILE OPEN T {name}\n&FILE WRITE T lost\n");
+        let run = Run::of(&script, &[]);
+        assert_eq!(run.code, Some(1));
+        assert!(run.err.contains(why) && run.err.contains("--> job.cif:2:14"), "{name}: {}", run.err);
+        assert!(run.err.contains("no file of type T is open"), "{name}: {}", run.err);
+        assert_eq!((run.names("."), run.names("job.ans/sub")), (vec!["job.ans".into(), "job.cif".into()], vec![]));
+    };
+    refused("none/x.txt", "there is no folder");
+    refused("./none/x.txt", "there is no folder");
+    refused("/no/such/folder/x.txt", "there is no folder");
+    refused("./job.cif/x.txt", "there is no folder");
+    refused("./job.cif", "exists already");
+    refused("sub", "is a directory");
+    refused("new/", "is a directory");
+    refused(&"n".repeat(300), "too long");
+    #[cfg(target_os = "linux")]
+    refused("/proc/x.txt", "/proc/x.txt: ");
+}
+
+#[test]
+fn a_file_never_closed_is_written_whole_and_named_however_the_job_ends() {
+    let body = "&FILE OPEN NOTE n.txt\n&FILE OPEN OUT ./o.txt\n&FILE WRITE NOTE one\n&FILE WRITE OUT two\n&FILE WRITE NOTE three\n";
+    for (end, arguments, code) in [
+        ("", &[][..], 0),
+        ("&FINISH\n", &[], 0),
+        ("&ERROR FATAL no more\n", &[], 1),
+        ("NONSENSE\n&TYPE x\n", &["--batch"], 1),
+        (&*"NONSENSE\n".repeat(30), &[], 1),
+        ("&FILE ANS_DIRECTORY other\n", &[], 0),
+    ] {
+        let run = Run::of(&format!("{body}{end}"), arguments);
+        assert_eq!(run.code, Some(code), "{end}: {}", run.err);
+        assert_eq!(run.read("job.ans/n.txt").as_deref(), Some("one\nthree\n"), "{end}");
+        assert_eq!(run.read("o.txt").as_deref(), Some("two\n"), "{end}");
+        for (name, place) in [("job.ans/n.txt", "job.cif:1:17"), ("./o.txt", "job.cif:2:16")] {
+            let note = format!("note: {name} was not closed and is written as it stands");
+            assert!(run.err.contains(&note) && run.err.contains(place), "{end}: {}", run.err);
+        }
+    }
+}
+
+#[test]
+fn a_type_opened_again_first_writes_what_it_had_and_one_file_has_one_type() {
+    let run = Run::of(
+        "&FILE OPEN T a.txt\n&FILE WRITE T first\n&FILE OPEN T a.txt\n&FILE WRITE T second\n&FILE OPEN U a.txt\n\
+         &FILE CLOSE T\n",
+        &[],
+    );
+    assert!(run.err.contains("a.txt was not closed") && run.err.contains("is open already, as type T"), "{}", run.err);
+    assert_eq!(run.names("job.ans"), ["LOG00001.TXT", "a.txt", "a.txt.1"]);
+    let read = |name: &str| run.read(&format!("job.ans/{name}")).unwrap();
+    assert_eq!((read("a.txt"), read("a.txt.1")), ("second\n".into(), "first\n".into()));
+}
+
+#[test]
+fn a_file_that_could_not_be_written_at_the_end_is_an_error() {
+    let run = Run::of("&FILE OPEN T a.txt\n&FILE WRITE T x\n&FILE MKDIR a.txt\n", &[]);
+    assert_eq!(run.code, Some(1));
+    assert!(run.err.contains("a.txt: is a directory") && run.err.contains("job.cif:1:14"), "{}", run.err);
+}
+
+#[test]
+fn the_help_of_file_states_the_rule_of_names() {
+    let run = Run::of("&HELP &FILE\n", &[]);
+    let text = run.out.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(text.contains("a relative name, with folders or without, is inside the job's own folder"), "{text}");
+}
