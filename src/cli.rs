@@ -1,11 +1,12 @@
 //! The command line: what is run, from where, and the exit code.
 
+use crate::language::source::Text;
 use crate::repl;
 use crate::report::files::JobFolder;
 use crate::report::output::Output;
-use crate::session::{End, Session, text_of};
+use crate::session::{End, Session, read_all};
 use clap::Parser;
-use std::io::{BufWriter, IsTerminal, Read, Write, stderr, stdin, stdout};
+use std::io::{BufWriter, IsTerminal, Write, stderr, stdin, stdout};
 use std::path::{Path, PathBuf};
 
 /// A command interpreter for marine mooring analysis, in the style of MOSES.
@@ -34,7 +35,7 @@ pub struct Cli {
 /// Where records come from.
 enum Input {
     Records(Vec<String>),
-    Script { name: String, text: String, then_terminal: bool },
+    Script { name: String, text: Text, then_terminal: bool },
     Terminal,
 }
 
@@ -122,8 +123,6 @@ fn input(cli: &Cli, terminal: bool) -> Result<(Input, PathBuf), String> {
 }
 
 fn standard_input() -> Result<Input, String> {
-    let mut bytes = Vec::new();
-    stdin().read_to_end(&mut bytes).map_err(|e| format!("standard input: {e}"))?;
-    let text = text_of(&bytes).map_err(|why| format!("standard input is not text: {why}"))?;
+    let text = read_all(stdin(), "standard input")?;
     Ok(Input::Script { name: "standard input".into(), text, then_terminal: false })
 }

@@ -53,10 +53,92 @@ fn a_record_continued_without_end() {
 #[test]
 fn binary_input() {
     let (output, _, err) = run(&[0x7f, b'E', b'L', b'F', 0, 1, 2, 255]);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(err.contains("line 1 holds the byte 0x00"), "{err}");
-    let (_, _, err) = run(b"&TYPE ok\n\xff\xfe");
-    assert!(err.contains("line 2 holds the byte 0xFF"), "{err}");
+    assert_eq!(output.status.code(), Some(1));
+    assert!(err.contains("the byte 0x00 is not text") && err.contains("standard input:1:5"), "{err}");
+    assert_eq!(err.matches("is not text").count(), 1, "one error of a line: {err}");
+    let (output, out, err) =
+        run(b"\xef\xbb\xbf&TYPE one\n&TYPE caf\xc3\xa9\xff\xfe\r\n&TYPE two\n$ \xe9\n&TYPE a\0b\n&TYPE three");
+    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(out.lines().collect::<Vec<_>>(), ["one", "two", "three"], "{err}");
+    for (byte, place) in [("0xFF", "2:11"), ("0xE9", "4:3"), ("0x00", "5:8")] {
+        let (message, place) = (format!("the byte {byte} is not text"), format!("standard input:{place}"));
+        assert!(err.contains(&message) && err.contains(&place), "{message} at {place}: {err}");
+    }
+    assert_eq!(err.matches("error:").count(), 3, "{err}");
+    assert!(err.contains("&TYPE caf\u{e9}\u{fffd}\u{fffd}"), "what was read is shown: {err}");
+}
+
+#[test]
+fn a_record_continued_over_a_bad_line_is_one_error_and_does_not_run_in_part() {
+    let (output, out, err) = run(b"&TYPE one \\\n\xff two \\\n&TYPE three\n&TYPE four\n");
+    assert_eq!((output.status.code(), out.as_str()), (Some(1), "four\n"), "{err}");
+    assert!(err.contains("standard input:2:1") && err.matches("error:").count() == 1, "{err}");
+}
+
+#[test]
+fn binary_lines_of_a_script_an_inserted_file_and_the_auxiliary_file_are_errors_there_and_the_others_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, bytes: &[u8]| std::fs::write(folder.path().join(name), bytes).unwrap();
+    write(
+        "job.cif",
+        b"&TYPE a\n\xff\n&INSERT in.cif\nINMODEL\n&TYPE d\nMEDIT\n*R 1 1 1\nEND\n&TYPE %(&NAMES(POINTS))\n",
+    );
+    write("in.cif", b"&TYPE b\n  \0\n&TYPE c\n");
+    write("job.dat", b"*P 0 0 0\n*Q 0 0 \xc3\n*S 0 0 0\n");
+    let run = |arguments: &[&str]| {
+        Command::new(env!("CARGO_BIN_EXE_windlass")).args(arguments).current_dir(folder.path()).output().unwrap()
+    };
+    let output = run(&["job.cif"]);
+    let (out, err) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    assert_eq!(output.status.code(), Some(1));
+    assert!(["a", "b", "c", "d"].iter().all(|word| out.lines().any(|l| l == *word)), "{out}{err}");
+    for place in ["job.cif:2:1", "in.cif:2:3", "job.dat:2:8"] {
+        assert!(err.contains(place), "{place}: {err}");
+    }
+    assert_eq!(err.matches("is not text").count(), 3, "{err}");
+    let output = run(&["--batch", "job.cif"]);
+    assert_eq!((output.status.code(), &*output.stdout), (Some(1), &b"a\n"[..]), "--batch stops at the bad line");
+}
+
+#[test]
+fn binary_lines_of_a_pipe_read_as_a_terminal_are_errors_and_the_others_run() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("bad.cif"), b"\xff\n".repeat(1000)).unwrap();
+    let input = folder.path().join("input");
+    std::fs::write(&input, b"&TYPE a\n&TYPE \xff\n&TYPE b \\\n c\n&INSERT bad.cif\n&TYPE \0\n&TYPE d").unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_windlass"))
+        .args(["-i", "-c", "&TYPE first"])
+        .current_dir(folder.path())
+        .stdin(std::fs::File::open(&input).unwrap())
+        .output()
+        .unwrap();
+    let (out, err) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(out.lines().collect::<Vec<_>>(), ["first", "a", "b   c", "d"], "{err}");
+    for (place, count) in
+        [("terminal:2:7", 1), ("terminal:6:7", 1), ("bad.cif:", 10), ("what was being read is given up", 1)]
+    {
+        assert_eq!(err.matches(place).count(), count, "{place}: {err}");
+    }
+}
+
+#[test]
+fn a_huge_binary_file_ends_at_the_limit_of_errors_in_seconds() {
+    // a generator of no statistical merit: bytes of every value, 64 MB
+    let mut state = 1u32;
+    let noise: Vec<u8> = std::iter::repeat_with(|| {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (state >> 24) as u8
+    })
+    .take(64 << 20)
+    .collect();
+    for bytes in [noise, b"\xff\n".repeat(16 << 20), vec![0; 64 << 20]] {
+        let started = std::time::Instant::now();
+        let (output, _, err) = run(&bytes);
+        assert_eq!(output.status.code(), Some(1));
+        assert!((1..=10).contains(&err.matches("error:").count()) && err.len() < 20_000, "{} bytes", err.len());
+        assert!(started.elapsed().as_secs() < 20, "{:?}", started.elapsed());
+    }
 }
 
 #[test]

@@ -178,15 +178,22 @@ impl<'a> Excerpt<'a> {
         let from = head.rfind('\n').map_or(0, |i| i + 1);
         let to = tail.find('\n').map_or(text.len(), |i| end + i);
         let line = source.first_line + head.bytes().filter(|b| *b == b'\n').count();
-        if to - from <= SHOWN {
-            let shown = text.get(from..to).unwrap_or_default();
-            return Excerpt { name: &source.name, text: shown.into(), line, range: start - from..end - from };
-        }
-        let from = floor_boundary(text, start.saturating_sub(60).max(from));
-        let end = floor_boundary(text, end.min(start + 80)).max(start);
-        let to = floor_boundary(text, (end + 60).min(to)).max(end);
+        let (from, to, end) = if to - from <= SHOWN {
+            (from, to, end)
+        } else {
+            let from = floor_boundary(text, start.saturating_sub(60).max(from));
+            let end = floor_boundary(text, end.min(start + 80)).max(start);
+            (from, floor_boundary(text, (end + 60).min(to)).max(end), end)
+        };
         let shown = text.get(from..to).unwrap_or_default();
-        Excerpt { name: &source.name, text: shown.into(), line, range: start - from..end - from }
+        let range = start - from..end - from;
+        if !shown.contains('\0') {
+            return Excerpt { name: &source.name, text: shown.into(), line, range };
+        }
+        // bytes that are no text stand as NUL in a source
+        let legible = |text: &str| text.replace('\0', "\u{fffd}");
+        let moved = |at: usize| legible(shown.get(..at).unwrap_or_default()).len();
+        Excerpt { name: &source.name, text: legible(shown).into(), line, range: moved(range.start)..moved(range.end) }
     }
 }
 

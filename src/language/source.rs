@@ -1,6 +1,7 @@
 //! Texts the program reads, and places in them. Every token keeps its [`Span`] through continuation, substitution,
 //! macros and insertions, so that a message can always show the file, line and column it speaks of.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 /// Identifies one text: a file, a command-line record, a line typed at the terminal.
@@ -31,6 +32,46 @@ impl Span {
     }
 }
 
+/// A text as it was read. A byte that has no place in records (NUL, or one that is not UTF-8) stands in it as NUL, so
+/// that every byte keeps its offset.
+#[derive(Clone, Debug, Default)]
+pub struct Text {
+    text: Arc<str>,
+    /// The bytes as they were, when some of them are not UTF-8.
+    raw: Option<Arc<[u8]>>,
+}
+
+impl Text {
+    /// Bytes as a text; a byte order mark is taken off.
+    pub fn from_bytes(mut bytes: Vec<u8>) -> Self {
+        if bytes.starts_with("\u{feff}".as_bytes()) {
+            bytes.drain(..'\u{feff}'.len_utf8());
+        }
+        let bytes = match String::from_utf8(bytes) {
+            Ok(text) => return Text { text: text.into(), raw: None },
+            Err(error) => error.into_bytes(),
+        };
+        let mut text = String::with_capacity(bytes.len());
+        for chunk in bytes.utf8_chunks() {
+            text.push_str(chunk.valid());
+            text.extend(std::iter::repeat_n('\0', chunk.invalid().len()));
+        }
+        Text { text: text.into(), raw: Some(bytes.into()) }
+    }
+}
+
+impl From<String> for Text {
+    fn from(text: String) -> Self {
+        Text::from_bytes(text.into_bytes())
+    }
+}
+
+impl From<&str> for Text {
+    fn from(text: &str) -> Self {
+        Text::from(text.to_string())
+    }
+}
+
 /// One text with its name and the number of its first line.
 #[derive(Clone, Debug)]
 pub struct Source {
@@ -38,8 +79,18 @@ pub struct Source {
     pub name: String,
     /// The text.
     pub text: Arc<str>,
+    /// The bytes as they were, when some of them are not UTF-8.
+    raw: Option<Arc<[u8]>>,
     /// Number of the first line (terminal lines are sources of their own, numbered on).
     pub first_line: usize,
+}
+
+impl Source {
+    /// The first byte of a range that has no place in records: where it is, and what.
+    pub fn bad_byte(&self, range: Range<usize>) -> Option<(usize, u8)> {
+        let at = range.start + self.text.get(range)?.find('\0')?;
+        Some((at, self.raw.as_ref().and_then(|raw| raw.get(at).copied()).unwrap_or(0)))
+    }
 }
 
 /// All texts read in a run; grows only.
@@ -50,9 +101,10 @@ pub struct Sources {
 
 impl Sources {
     /// Registers a text.
-    pub fn add(&mut self, name: impl Into<String>, text: impl Into<Arc<str>>, first_line: usize) -> SourceId {
+    pub fn add(&mut self, name: impl Into<String>, text: impl Into<Text>, first_line: usize) -> SourceId {
         let id = SourceId(u32::try_from(self.list.len()).unwrap_or(u32::MAX));
-        self.list.push(Source { name: name.into(), text: text.into(), first_line });
+        let Text { text, raw } = text.into();
+        self.list.push(Source { name: name.into(), text, raw, first_line });
         id
     }
 
@@ -88,4 +140,22 @@ pub fn floor_boundary(text: &str, offset: usize) -> usize {
         at -= 1;
     }
     at
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_byte_keeps_its_place_and_the_bad_ones_are_found() {
+        let mut sources = Sources::default();
+        let id = sources.add("a", Text::from_bytes(b"\xef\xbb\xbfa\xe9b\n\0\n\xc3\xa9\xff".to_vec()), 1);
+        let source = sources.get(id).unwrap();
+        assert_eq!(&*source.text, "a\0b\n\0\n\u{e9}\0");
+        assert_eq!(source.bad_byte(0..4), Some((1, 0xe9)));
+        assert_eq!(source.bad_byte(4..6), Some((4, 0)));
+        assert_eq!(source.bad_byte(6..9), Some((8, 0xff)));
+        assert_eq!(source.bad_byte(6..8), None);
+        assert_eq!(sources.place(Span::new(id, 8, 9)), "a:3:2");
+    }
 }

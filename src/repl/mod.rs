@@ -2,11 +2,15 @@
 
 mod assist;
 
+use crate::language::record::LONGEST_RECORD;
+use crate::language::source::Text;
+use crate::language::token;
 use crate::session::{End, Session};
 use assist::{Assistant, Known};
 use rustyline::error::ReadlineError;
 use rustyline::history::FileHistory;
 use rustyline::{CompletionType, Config, Editor};
+use std::io::BufRead;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 
@@ -44,9 +48,16 @@ pub fn run(session: &mut Session, terminal: bool) {
         if let Ok(mut known) = known.lock() {
             known.update(session);
         }
+        if !terminal {
+            let Some(bytes) = piped() else { break };
+            let lines = bytes.iter().filter(|b| **b == b'\n').count();
+            session.interpreter.feed("terminal", Text::from_bytes(bytes), line_number);
+            line_number += lines;
+            continue;
+        }
         match editor.readline(&prompt(session)) {
             Ok(line) => {
-                session.interpreter.feed("terminal", &line, line_number);
+                session.interpreter.feed("terminal", line.as_str(), line_number);
                 line_number += line.lines().count().max(1);
             }
             Err(ReadlineError::Interrupted) => {
@@ -63,6 +74,22 @@ pub fn run(session: &mut Session, terminal: bool) {
         if made.is_some_and(|m| m.is_ok()) {
             // losing the history is no reason to end with an error
             let _ = editor.append_history(path);
+        }
+    }
+}
+
+/// The next record of a standard input that is no terminal, with the lines it is continued over; `None` at the end.
+fn piped() -> Option<Vec<u8>> {
+    let mut bytes = Vec::new();
+    loop {
+        let start = bytes.len();
+        let read = std::io::stdin().lock().read_until(b'\n', &mut bytes);
+        let line = String::from_utf8_lossy(bytes.get(start..).unwrap_or_default());
+        if !matches!(read, Ok(1..)) {
+            return (!bytes.is_empty()).then_some(bytes);
+        }
+        if !token::line_end(&line).1 || bytes.len() > LONGEST_RECORD {
+            return Some(bytes);
         }
     }
 }

@@ -9,15 +9,16 @@ use crate::language::flow::specs::CONTROL;
 use crate::language::flow::{Interpreter, Step};
 use crate::language::record::{Record, Word};
 use crate::language::select::{Choice, keyword};
-use crate::language::source::Span;
+use crate::language::source::{Span, Text};
 use crate::language::spec::Form;
 use crate::language::token::Kind;
 use crate::report::output::Output;
+use std::io::Read;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::Arc;
 
-/// Largest file read as records (bytes).
+/// Largest file or stream read as records (bytes).
 const LARGEST_FILE: u64 = 256 << 20;
 
 /// Why a run came back.
@@ -45,6 +46,8 @@ pub struct Session {
     pub keep_reports: bool,
     /// The messages kept.
     pub reports: Vec<Diagnostic>,
+    /// Errors when the terminal was last asked for a line.
+    errors_at_prompt: i64,
 }
 
 impl Session {
@@ -57,11 +60,12 @@ impl Session {
             interactive: false,
             keep_reports: false,
             reports: Vec::new(),
+            errors_at_prompt: 0,
         }
     }
 
     /// Opens a text as the next thing to read.
-    pub fn open(&mut self, name: &str, text: String) {
+    pub fn open(&mut self, name: &str, text: impl Into<Text>) {
         if let Err(error) = self.interpreter.open(name, text, SCRIPT, None) {
             self.report(*error);
         }
@@ -70,7 +74,7 @@ impl Session {
     /// Opens a script file.
     ///
     /// # Errors
-    /// A file that cannot be read as text, in one sentence.
+    /// A file that cannot be read, in one sentence.
     pub fn open_file(&mut self, name: &str, path: &Path) -> Result<(), String> {
         let text = read_text(path)?;
         self.open(name, text);
@@ -88,7 +92,10 @@ impl Session {
                     }
                     false
                 }
-                Ok(Step::NeedLine) => return End::NeedLine,
+                Ok(Step::NeedLine) => {
+                    self.errors_at_prompt = self.errors;
+                    return End::NeedLine;
+                }
                 Ok(Step::Done) => {
                     self.say_open_menus();
                     return End::Done;
@@ -106,13 +113,21 @@ impl Session {
 
     fn too_many_errors(&mut self) -> bool {
         let settings = &self.job.settings;
-        if self.interactive || self.errors == 0 {
+        let limit = settings.error_limit;
+        if self.interactive {
+            if self.errors - self.errors_at_prompt >= limit && !self.interpreter.at_terminal() {
+                self.interpreter.unwind();
+                let text = format!("{limit} errors: what was being read is given up (&DEVICE -LIMERROR)");
+                self.report(Diagnostic::plain(Severity::Note, text));
+            }
+            return false;
+        }
+        if self.errors == 0 {
             return false;
         }
         if settings.batch {
             return true;
         }
-        let limit = settings.error_limit;
         if self.errors >= limit {
             let text = format!("{limit} errors: the run ends here (&DEVICE -LIMERROR)");
             self.report(Diagnostic::plain(Severity::Note, text));
@@ -353,35 +368,22 @@ fn unknown<'a>(
 /// The text of a file of records.
 ///
 /// # Errors
-/// A file that is not there, too large, or not text, in one sentence.
-pub fn read_text(path: &Path) -> Result<String, String> {
+/// A file that is not there or too large, in one sentence.
+pub fn read_text(path: &Path) -> Result<Text, String> {
     let shown = path.display();
-    let size = std::fs::metadata(path).map_err(|e| format!("{shown}: {e}"))?.len();
-    if size > LARGEST_FILE {
-        return Err(format!("{shown} has {size} bytes; at most {LARGEST_FILE} are read"));
-    }
-    let bytes = std::fs::read(path).map_err(|e| format!("{shown}: {e}"))?;
-    text_of(&bytes).map_err(|why| format!("{shown} is not a text file: {why}"))
+    let at = |e| format!("{shown}: {e}");
+    read_all(std::fs::File::open(path).map_err(at)?, &shown.to_string())
 }
 
-/// Bytes as text: UTF-8 without NUL; a byte order mark is taken off.
+/// The text of a stream of records.
 ///
 /// # Errors
-/// Where the first byte is that is no text.
-pub fn text_of(bytes: &[u8]) -> Result<String, String> {
-    let place = |at: usize| {
-        let before = bytes.get(..at).unwrap_or_default();
-        format!(
-            "line {} holds the byte 0x{:02X}",
-            1 + before.iter().filter(|b| **b == b'\n').count(),
-            bytes.get(at).copied().unwrap_or(0)
-        )
-    };
-    if let Some(at) = bytes.iter().position(|b| *b == 0) {
-        return Err(place(at));
+/// A stream that breaks or is too long, in one sentence.
+pub fn read_all(from: impl Read, name: &str) -> Result<Text, String> {
+    let mut bytes = Vec::new();
+    from.take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(|e| format!("{name}: {e}"))?;
+    if bytes.len() as u64 > LARGEST_FILE {
+        return Err(format!("{name} has more than {LARGEST_FILE} bytes"));
     }
-    match std::str::from_utf8(bytes) {
-        Ok(text) => Ok(text.strip_prefix('\u{feff}').unwrap_or(text).to_string()),
-        Err(error) => Err(place(error.valid_up_to())),
-    }
+    Ok(Text::from_bytes(bytes))
 }

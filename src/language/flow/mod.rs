@@ -10,11 +10,12 @@ pub mod specs;
 use super::diagnostic::{Diagnostic, Outcome};
 use super::record::{self, LONGEST_RECORD, Record};
 use super::select::Owner;
-use super::source::{SourceId, Sources, Span};
+use super::source::{SourceId, Sources, Span, Text};
 use super::substitution::{World, substitute};
 use super::variables::Variables;
 use indexmap::IndexMap;
 use macros::{Macro, control_word};
+use std::collections::VecDeque;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -41,8 +42,8 @@ pub enum Step {
 enum Frame {
     /// A text being read from byte `at`.
     Source { id: SourceId, at: usize, tag: u32 },
-    /// Lines typed at a terminal, fed one at a time.
-    Terminal { lines: std::collections::VecDeque<Record> },
+    /// What was typed at a terminal and is not read yet; each text from a byte.
+    Terminal { typed: VecDeque<(SourceId, usize)> },
     /// A loop running over its body.
     Loop { body: Arc<[Record]>, at: usize, trips: Trips, header: Span },
     /// A macro call.
@@ -122,7 +123,7 @@ impl Interpreter {
     ///
     /// # Errors
     /// Too many files open inside each other.
-    pub fn open(&mut self, name: &str, text: impl Into<Arc<str>>, tag: u32, span: Option<Span>) -> Outcome<()> {
+    pub fn open(&mut self, name: &str, text: impl Into<Text>, tag: u32, span: Option<Span>) -> Outcome<()> {
         let depth = self.frames.iter().filter(|f| matches!(f, Frame::Source { .. })).count();
         if depth >= DEEPEST_INSERTION {
             let text = format!("files are inserted into each other deeper than {DEEPEST_INSERTION}");
@@ -137,7 +138,7 @@ impl Interpreter {
 
     /// Opens the terminal as the lowest place to read from.
     pub fn open_terminal(&mut self) {
-        self.frames.insert(0, Frame::Terminal { lines: std::collections::VecDeque::new() });
+        self.frames.insert(0, Frame::Terminal { typed: VecDeque::new() });
         for branch in &mut self.branches {
             branch.depth += 1;
         }
@@ -148,18 +149,11 @@ impl Interpreter {
 
     /// Feeds what was typed at the terminal (one record, continuation lines joined by newlines). A new record starts
     /// a new budget.
-    pub fn feed(&mut self, name: &str, text: &str, first_line: usize) {
+    pub fn feed(&mut self, name: &str, text: impl Into<Text>, first_line: usize) {
         self.spent = 0;
         let id = self.sources.add(name, text, first_line);
-        let mut at = 0;
-        let mut made = Vec::new();
-        while at < text.len() {
-            let (record, next, _) = record::read(text, id, at);
-            made.push(record);
-            at = next;
-        }
-        if let Some(Frame::Terminal { lines }) = self.frames.iter_mut().find(|f| matches!(f, Frame::Terminal { .. })) {
-            lines.extend(made);
+        if let Some(Frame::Terminal { typed }) = self.frames.iter_mut().find(|f| matches!(f, Frame::Terminal { .. })) {
+            typed.push_back((id, 0));
         }
     }
 
@@ -172,6 +166,11 @@ impl Interpreter {
         }
     }
 
+    /// Nothing is being read but what is typed.
+    pub fn at_terminal(&self) -> bool {
+        matches!(self.frames.last(), Some(Frame::Terminal { .. }) | None)
+    }
+
     /// Abandons everything open but the terminal: after Ctrl-C or a fatal error.
     pub fn unwind(&mut self) {
         self.collecting = None;
@@ -180,7 +179,7 @@ impl Interpreter {
             match frame {
                 Frame::Macro { .. } => self.variables.leave(),
                 Frame::Terminal { .. } => {
-                    self.frames.push(Frame::Terminal { lines: std::collections::VecDeque::new() });
+                    self.frames.push(Frame::Terminal { typed: VecDeque::new() });
                     return;
                 }
                 Frame::Source { .. } | Frame::Loop { .. } => {}
@@ -274,16 +273,20 @@ impl Interpreter {
         loop {
             let Some(frame) = self.frames.last_mut() else { return Ok(Err(Step::Done)) };
             match frame {
-                Frame::Terminal { lines } => return Ok(lines.pop_front().ok_or(Step::NeedLine)),
+                Frame::Terminal { typed } => {
+                    let Some((id, at)) = typed.front_mut() else { return Ok(Err(Step::NeedLine)) };
+                    if let Some((record, _)) = record_at(&self.sources, *id, at)? {
+                        return Ok(Ok(record));
+                    }
+                    typed.pop_front();
+                    continue;
+                }
                 Frame::Source { id, at, tag } => {
-                    let (id, tag) = (*id, *tag);
-                    let text = self.sources.get(id).map(|s| s.text.clone()).unwrap_or_default();
-                    if *at >= text.len() {
+                    let tag = *tag;
+                    let Some((record, open)) = record_at(&self.sources, *id, at)? else {
                         self.close_frame()?;
                         return Ok(Err(Step::Ended(tag)));
-                    }
-                    let (record, next, open) = record::read(&text, id, *at);
-                    *at = next;
+                    };
                     if open {
                         return Err(Diagnostic::error(
                             "the file ends inside a record that is continued",
@@ -398,6 +401,22 @@ impl Interpreter {
         self.frames.push(Frame::Macro { name: called.name.clone(), body: called.body.clone(), at: 0, called: span });
         Ok(())
     }
+}
+
+/// The record that stands at a byte of a source, and whether the text ends while it is continued; `at` moves behind it.
+/// `None` at the end of the text.
+///
+/// # Errors
+/// A record that holds a byte that is no text; `at` has moved on all the same.
+fn record_at(sources: &Sources, id: SourceId, at: &mut usize) -> Outcome<Option<(Record, bool)>> {
+    let from = *at;
+    let Some(source) = sources.get(id).filter(|s| from < s.text.len()) else { return Ok(None) };
+    let (record, next, open) = record::read(&source.text, id, from);
+    *at = next;
+    let Some((bad, byte)) = source.bad_byte(from..next) else { return Ok(Some((record, open))) };
+    Err(Diagnostic::error(format!("the byte 0x{byte:02X} is not text"), Span::new(id, bad, bad + 1))
+        .label("the record is passed over")
+        .help("records are text in UTF-8, without NUL"))
 }
 
 #[cfg(test)]
