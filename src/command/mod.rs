@@ -18,6 +18,7 @@ pub mod help;
 mod job;
 mod menus;
 mod message;
+mod offsets;
 mod report_menu;
 mod select;
 mod status;
