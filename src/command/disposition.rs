@@ -7,7 +7,7 @@ use crate::language::args::{Args, Given};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
 use crate::language::source::Span;
-use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
+use crate::language::spec::{CommandSpec, Kind, Noun, Opens, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
 use crate::report::disposition::{Disposition, DispositionError, RowChoice};
 use crate::report::plot::Chart;
@@ -142,6 +142,7 @@ static C_SHIFT_SPEC: CommandSpec = CommandSpec {
     ..spec("C_SHIFT", "adds a number to columns")
 };
 static CULL_SPEC: CommandSpec = CommandSpec {
+    opens: Opens::Menu("DISPOSITION"),
     data: &[
         COLUMN,
         ValueSpec::new("LO", Kind::Number(Dim::None), "smallest value (user units)"),

@@ -26,7 +26,7 @@ mod units;
 mod written;
 
 pub use job::{Job, Menu, Settings};
-pub use menus::finish_inmodel;
+pub use menus::{finish_inmodel, opened_by};
 
 use crate::language::args::Args;
 use crate::language::diagnostic::Outcome;
