@@ -4,16 +4,19 @@
 #![allow(clippy::unwrap_used)]
 
 use std::fs;
-use windlass::command::{COMMANDS, offered};
+use windlass::command::{COMMANDS, offered, opened_by};
 use windlass::connector::CLASSES;
 use windlass::language::flow::specs::CONTROL;
+use windlass::language::record;
 use windlass::language::select::{Choice, Owner, keyword};
-use windlass::language::spec::CommandSpec;
+use windlass::language::source::SourceId;
+use windlass::language::spec::{CommandSpec, Opens};
 use windlass::report::files::JobFolder;
 use windlass::report::output::Output;
 use windlass::session::Session;
 
-const MENUS: [&str; 7] = ["MAIN", "INMODEL", "MEDIT", "CONN_DESIGN", "DISPOSITION", "REPORT", "ENVIRONMENT"];
+const MENUS: [&str; 9] =
+    ["MAIN", "INMODEL", "MEDIT", "CONN_DESIGN", "DISPOSITION", "REPORT", "ENVIRONMENT", "CURVES", "SELECT"];
 
 fn specs() -> Vec<&'static CommandSpec> {
     COMMANDS.iter().map(|c| c.spec).chain(CLASSES.iter().map(|k| k.spec)).chain(CONTROL).collect()
@@ -134,6 +137,36 @@ fn every_example_of_the_help_runs_without_an_error() {
 }
 
 #[test]
+fn a_command_opens_a_menu_in_its_example_exactly_when_its_spec_says_so() {
+    let mut opened = Vec::new();
+    for spec in specs() {
+        let folder = tempfile::tempdir().unwrap();
+        let job = JobFolder::new(folder.path().join("job"), None, false);
+        let mut session = Session::new(Output::new(job, Box::new(Vec::new()), Box::new(Vec::new()), false));
+        session.interactive = true;
+        session.interpreter.open_terminal();
+        for line in spec.example.lines() {
+            let (read, _, _) = record::read(line, SourceId::default(), 0);
+            let words = read.words();
+            let first = words.first().map(|w| w.text.to_ascii_uppercase()).unwrap_or_default();
+            let command = offered(session.job.menu().name()).find(|c| c.spec.name == first);
+            let said = command.and_then(|c| opened_by(&session.job, c.spec, &words));
+            let depth = session.job.menus.len();
+            session.interpreter.feed("example", line, 1);
+            session.run();
+            let found = (session.job.menus.len() > depth).then(|| session.job.menu().end());
+            let end = said.map(|name| windlass::command::Menu::Refused(name).end());
+            assert_eq!(end, found, "`{line}` in the example of {}", spec.name);
+            opened.extend(command.filter(|_| found.is_some()).map(|c| c.spec.name));
+        }
+    }
+    let openers = COMMANDS.iter().filter(|c| c.spec.opens != Opens::Nothing);
+    for command in openers {
+        assert!(opened.contains(&command.spec.name), "no example shows {} open its menu", command.spec.name);
+    }
+}
+
+#[test]
 fn every_command_and_class_type_stands_in_a_golden_script() {
     let mut text = String::new();
     for entry in fs::read_dir("scripts").unwrap().chain(fs::read_dir("scripts/insert").unwrap()).flatten() {
@@ -146,6 +179,7 @@ fn every_command_and_class_type_stands_in_a_golden_script() {
         let there = match spec.name {
             "~CLASS" => words.iter().any(|w| w.starts_with('~')),
             "*POINT" => words.iter().any(|w| w.starts_with('*')),
+            ":SELECTOR" => words.iter().any(|w| w.starts_with(':')),
             name => words.contains(&name),
         };
         assert!(there, "{} stands in no script", spec.name);

@@ -2,7 +2,7 @@
 
 use super::{Call, Command, Effect, Job, Menu};
 use crate::language::diagnostic::Outcome;
-use crate::language::spec::{CommandSpec, Kind, Noun, ValueSpec};
+use crate::language::spec::{CommandSpec, Kind, Noun, Opens, ValueSpec};
 use crate::model::{Placement, find};
 use crate::report::disposition::Disposition;
 
@@ -10,6 +10,7 @@ use crate::report::disposition::Disposition;
 pub static TABLE: Command = Command { spec: &TABLE_SPEC, edits: false, run: table };
 
 static TABLE_SPEC: CommandSpec = CommandSpec {
+    opens: Opens::Menu("DISPOSITION"),
     menus: &["CONN_DESIGN"],
     data: &[ValueSpec::new("LINE", Kind::Name(Noun::Connector), "connector")],
     detail: "Thirty rows with horizontal forces T (n/29)**2 up to T, the table limit or the largest breaking tension of all \

@@ -1,10 +1,12 @@
-//! `&DATA`: curves, and the menu that defines environments.
+//! `&DATA`: curves and environments, a curve in one record or many of either in a menu.
+//!
+//! Source: reference/model.md, "Curves".
 
 use super::{Call, Command, Effect, Job, Menu};
+use crate::language::args;
 use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::number;
 use crate::language::select::{Owner, choose};
-use crate::language::spec::{CommandSpec, Form, Kind, ValueSpec};
+use crate::language::spec::{CommandSpec, Form, Kind, Noun, Opens, ValueSpec};
 use crate::model::{Curve, CurveKind, Model};
 
 /// &DATA.
@@ -12,17 +14,157 @@ pub static DATA: Command = Command { spec: &SPEC, edits: false, run };
 
 static SPEC: CommandSpec = CommandSpec {
     form: Form::Text,
+    opens: Opens::AtMost("CURVES", 1),
     data: &[ValueSpec::new("KIND", Kind::Choice(&["CURVES", "ENVIRONMENT"]), "what is defined")],
     detail: "&DATA CURVES TYPE NAME a1 b1 a2 b2 .. with TYPE C_PROFILE (depth, velocity), P_SPECTRUM (period, density), \
              F_SPECTRUM (frequency, density), M_GROWTH (elevation, added OD), W_HISTORY (time, knots), LT_MULTIPLIER, \
-             CT_LENGTH, EFFICIENCY, CS_VELOCITY or AM_PRESSURE; the first value grows. &DATA ENVIRONMENT opens a menu of ENV \
-             records up to END.",
-    example: "&DATA CURVES C_PROFILE CUR 0 3.0 100 2.0 500 0.5\n&STATUS CURVES CUR",
+             CT_LENGTH, EFFICIENCY, CS_VELOCITY or AM_PRESSURE; the first value grows. &DATA CURVES alone opens a menu of \
+             such records, TYPE NAME a1 b1 .., up to END. &DATA ENVIRONMENT opens a menu of ENV records up to END.",
+    example: "&DATA CURVES C_PROFILE CUR 0 3.0 100 2.0 500 0.5\n&DATA CURVES\nM_GROWTH MG -100 0 0 2\nEND\n&STATUS CURVES CUR",
     ..CommandSpec::new("&DATA", "defines curves and environments")
 };
 
+const fn curve(name: &'static str, help: &'static str, example: &'static str) -> CommandSpec {
+    CommandSpec {
+        menus: &["CURVES"],
+        repeat: 2,
+        detail: "At least two pairs, the first value growing from pair to pair. A name given again is redefined.",
+        example,
+        ..CommandSpec::new(name, help)
+    }
+}
+
+/// The data of a curve's record: its name, then pairs.
+const fn pairs(kind: CurveKind) -> [ValueSpec; 3] {
+    let [(first, of_first), (second, of_second)] = kind.axes();
+    [
+        ValueSpec::new("NAME", Kind::Name(Noun::New), "name of the curve"),
+        ValueSpec::new(first, Kind::Number(of_first), "grows from pair to pair"),
+        ValueSpec::new(second, Kind::Number(of_second), "value there"),
+    ]
+}
+
+/// C_PROFILE within `&DATA CURVES`.
+pub static C_PROFILE: Command = Command {
+    spec: &CommandSpec {
+        data: &pairs(CurveKind::CurrentProfile),
+        ..curve(
+            "C_PROFILE",
+            "current: depth below the surface and velocity",
+            "&DATA CURVES\nC_PROFILE CUR 0 3.0 100 2.0 500 0.5\nEND",
+        )
+    },
+    edits: false,
+    run: |job, call| define(job, call, CurveKind::CurrentProfile),
+};
+/// P_SPECTRUM within `&DATA CURVES`.
+pub static P_SPECTRUM: Command = Command {
+    spec: &CommandSpec {
+        data: &pairs(CurveKind::PeriodSpectrum),
+        ..curve("P_SPECTRUM", "wave or wind spectrum by period", "&DATA CURVES\nP_SPECTRUM SWELL 5 0 11 25 20 0\nEND")
+    },
+    edits: false,
+    run: |job, call| define(job, call, CurveKind::PeriodSpectrum),
+};
+/// F_SPECTRUM within `&DATA CURVES`.
+pub static F_SPECTRUM: Command = Command {
+    spec: &CommandSpec {
+        data: &pairs(CurveKind::FrequencySpectrum),
+        ..curve(
+            "F_SPECTRUM",
+            "wave or wind spectrum by frequency",
+            "&DATA CURVES\nF_SPECTRUM WAVES 0.3 0 0.6 25 1.2 0\nEND",
+        )
+    },
+    edits: false,
+    run: |job, call| define(job, call, CurveKind::FrequencySpectrum),
+};
+/// M_GROWTH within `&DATA CURVES`.
+pub static M_GROWTH: Command = Command {
+    spec: &CommandSpec {
+        data: &pairs(CurveKind::MarineGrowth),
+        ..curve(
+            "M_GROWTH",
+            "marine growth: elevation and added diameter",
+            "&DATA CURVES\nM_GROWTH GROW -100 0 -50 1 0 2\nEND",
+        )
+    },
+    edits: false,
+    run: |job, call| define(job, call, CurveKind::MarineGrowth),
+};
+/// W_HISTORY within `&DATA CURVES`.
+pub static W_HISTORY: Command = Command {
+    spec: &CommandSpec {
+        data: &pairs(CurveKind::WindHistory),
+        ..curve("W_HISTORY", "wind: time and speed", "&DATA CURVES\nW_HISTORY BLOW 0 20 60 35 120 25\nEND")
+    },
+    edits: false,
+    run: |job, call| define(job, call, CurveKind::WindHistory),
+};
+/// LT_MULTIPLIER within `&DATA CURVES`.
+pub static LT_MULTIPLIER: Command = Command {
+    spec: &CommandSpec {
+        data: &pairs(CurveKind::LoadMultiplier),
+        ..curve(
+            "LT_MULTIPLIER",
+            "multiplier of a load: time and factor",
+            "&DATA CURVES\nLT_MULTIPLIER RISE 0 0 60 1\nEND",
+        )
+    },
+    edits: false,
+    run: |job, call| define(job, call, CurveKind::LoadMultiplier),
+};
+/// CT_LENGTH within `&DATA CURVES`.
+pub static CT_LENGTH: Command = Command {
+    spec: &CommandSpec {
+        data: &pairs(CurveKind::ConnectorLength),
+        ..curve(
+            "CT_LENGTH",
+            "change of a connector's length: time and length",
+            "&DATA CURVES\nCT_LENGTH HAUL 0 0 600 -50\nEND",
+        )
+    },
+    edits: false,
+    run: |job, call| define(job, call, CurveKind::ConnectorLength),
+};
+/// EFFICIENCY within `&DATA CURVES`.
+pub static EFFICIENCY: Command = Command {
+    spec: &CommandSpec {
+        data: &pairs(CurveKind::Efficiency),
+        ..curve("EFFICIENCY", "efficiency: velocity and factor", "&DATA CURVES\nEFFICIENCY PROP 0 1 10 0.6\nEND")
+    },
+    edits: false,
+    run: |job, call| define(job, call, CurveKind::Efficiency),
+};
+/// CS_VELOCITY within `&DATA CURVES`.
+pub static CS_VELOCITY: Command = Command {
+    spec: &CommandSpec {
+        data: &pairs(CurveKind::DragVelocity),
+        ..curve(
+            "CS_VELOCITY",
+            "multiplier of drag: velocity and factor",
+            "&DATA CURVES\nCS_VELOCITY DRAG 0 1.2 5 0.7\nEND",
+        )
+    },
+    edits: false,
+    run: |job, call| define(job, call, CurveKind::DragVelocity),
+};
+/// AM_PRESSURE within `&DATA CURVES`.
+pub static AM_PRESSURE: Command = Command {
+    spec: &CommandSpec {
+        data: &pairs(CurveKind::AddedMassPressure),
+        ..curve(
+            "AM_PRESSURE",
+            "multiplier of added-mass pressure: elevation and factor",
+            "&DATA CURVES\nAM_PRESSURE PRES -30 1 0 0.5\nEND",
+        )
+    },
+    edits: false,
+    run: |job, call| define(job, call, CurveKind::AddedMassPressure),
+};
+
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    let form = "form: &DATA CURVES TYPE NAME a1 b1 a2 b2 .. or &DATA ENVIRONMENT";
+    let form = "form: &DATA CURVES [TYPE NAME a1 b1 a2 b2 ..] or &DATA ENVIRONMENT";
     let Some(kind) = call.words.get(1) else {
         return Err(Diagnostic::error("&DATA lacks what it defines", call.record.whole()).help(form));
     };
@@ -31,38 +173,38 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         job.menus.push(Menu::Environments);
         return Ok(Effect::Done);
     }
-    let [_, _, kind, name, values @ ..] = call.words else {
-        return Err(Diagnostic::error("a curve has a type, a name and pairs of values", call.record.whole()).help(form));
+    let words = call.words.get(2..).unwrap_or_default();
+    let Some((kind, values)) = words.split_first() else {
+        job.menus.push(Menu::Curves);
+        return Ok(Effect::Done);
     };
-    let kinds = CurveKind::ALL.iter().map(|(n, k)| (*n, Owner::Moses, *k));
-    let kind = choose(&kind.text, kind.span, "type of curve", kinds)?;
-    let [first, second] = kind.axes();
+    // one curve in one record: read as the menu's record is
+    let kinds = super::offered("CURVES").filter(|c| !c.spec.menus.is_empty()).map(|c| (c.spec.name, c.spec.owner, c));
+    let command = choose(&kind.text, kind.span, "type of curve", kinds)?;
+    let args = args::read(command.spec, kind.span, values, job.units)?;
+    (command.run)(job, &Call { record: call.record, words, args })
+}
+
+fn define(job: &mut Job, call: &Call, kind: CurveKind) -> Outcome<Effect> {
+    let args = &call.args;
+    let (name, span) = (args.word(0).unwrap_or_default(), args.place(0));
+    let [(first, _), _] = kind.axes();
     let mut points: Vec<(f64, f64)> = Vec::new();
-    for pair in values.chunks(2) {
-        let [a, b] = pair else {
-            let span = pair.first().map_or(name.span, |w| w.span);
-            return Err(Diagnostic::error("the values of a curve come in pairs", span)
-                .label(format!("{} without {}", first.0, second.0)));
-        };
-        let read = |word: &crate::language::record::Word, axis: (&str, crate::language::units::Dim)| {
-            number::evaluate(&word.text).map(|v| axis.1.to_si(v, job.units)).map_err(|e| {
-                Diagnostic::error(format!("{} of a {} curve must be a number", axis.0, kind.name()), word.span)
-                    .label(e.to_string())
-            })
-        };
-        let point = (read(a, first)?, read(b, second)?);
+    for pair in args.data.get(1..).unwrap_or_default().chunks_exact(2) {
+        let [a, b] = pair else { continue };
+        let point = (a.number().unwrap_or_default(), b.number().unwrap_or_default());
         if points.last().is_some_and(|last| point.0 <= last.0) {
-            return Err(Diagnostic::error(format!("{} of a curve must grow from point to point", first.0), a.span)
+            return Err(Diagnostic::error(format!("{first} of a curve must grow from point to point"), a.span)
                 .label("not larger than the one before"));
         }
         points.push(point);
     }
     if points.len() < 2 {
-        return Err(Diagnostic::error("a curve has at least two points", name.span));
+        return Err(Diagnostic::error("a curve has at least two points", span));
     }
-    let made = Curve { name: name.text.to_string(), kind, points, span: name.span };
-    if job.model.curves.insert(Model::key(&name.text), made).is_some() {
-        job.remark(format!("curve {} is redefined", name.text), name.span);
+    let made = Curve { name: name.to_string(), kind, points, span };
+    if job.model.curves.insert(Model::key(name), made).is_some() {
+        job.remark(format!("curve {name} is redefined"), span);
     }
     Ok(Effect::Done)
 }

@@ -7,11 +7,11 @@ use crate::language::args::{Args, Given};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
 use crate::language::source::Span;
-use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
+use crate::language::spec::{CommandSpec, Kind, Noun, Opens, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
 use crate::report::disposition::{Disposition, DispositionError, RowChoice};
 use crate::report::plot::Chart;
-use crate::report::{columns, csv, page, statistic};
+use crate::report::{csv, page, statistic};
 use crate::table::Table;
 
 const MENU: &[&str] = &["DISPOSITION"];
@@ -142,13 +142,15 @@ static C_SHIFT_SPEC: CommandSpec = CommandSpec {
     ..spec("C_SHIFT", "adds a number to columns")
 };
 static CULL_SPEC: CommandSpec = CommandSpec {
+    opens: Opens::Menu("DISPOSITION"),
     data: &[
         COLUMN,
         ValueSpec::new("LO", Kind::Number(Dim::None), "smallest value (user units)"),
         ValueSpec::new("HI", Kind::Number(Dim::None), "largest value (user units)"),
     ],
     repeat: 3,
-    detail: "Opens an inner disposition menu over the rows kept; END returns.",
+    detail: "Opens an inner disposition menu over the rows kept; END returns. The values stay as they came, and C_SCALE and \
+             C_SHIFT made so far go on acting in it as before.",
     ..spec("CULL", "keeps the rows within bounds")
 };
 
@@ -356,10 +358,9 @@ fn cull(job: &mut Job, call: &Call) -> Outcome<Effect> {
             _ => None,
         })
         .collect();
-    let table = here(job, args.span)?.cull(&bounds, job.units).map_err(|e| refused(args, &e))?;
-    let kept = table.rows();
-    job.menus.push(Menu::Disposition(Box::new(Disposition::new(table))));
-    let names: Vec<String> = here(job, args.span)?.table.columns.iter().map(columns::long_name).collect();
-    job.say(&format!("{kept} rows of {} columns kept; END returns to all rows", names.len()));
+    let culled = here(job, args.span)?.cull(&bounds, job.units).map_err(|e| refused(args, &e))?;
+    let (rows, columns) = (culled.table.rows(), culled.table.columns.len());
+    job.menus.push(Menu::Disposition(Box::new(culled)));
+    job.say(&format!("{rows} rows of {columns} columns kept; END returns to all rows"));
     Ok(Effect::Done)
 }

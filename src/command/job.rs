@@ -35,6 +35,12 @@ pub enum Menu {
     },
     /// Environments being defined by `&DATA ENVIRONMENT`.
     Environments,
+    /// Curves being defined by `&DATA CURVES`.
+    Curves,
+    /// Selectors being defined by `&SELECT`.
+    Selectors,
+    /// The menu of this name whose opener was refused: its commands are passed over up to its `END`.
+    Refused(&'static str),
 }
 
 impl Menu {
@@ -48,19 +54,23 @@ impl Menu {
             Menu::Disposition(_) => "DISPOSITION",
             Menu::Report { .. } => "REPORT",
             Menu::Environments => "ENVIRONMENT",
+            Menu::Curves => "CURVES",
+            Menu::Selectors => "SELECT",
+            Menu::Refused(name) => name,
         }
     }
 
     /// The long form of `END`.
     pub fn end(&self) -> &'static str {
-        match self {
-            Menu::Main => "END",
-            Menu::Inmodel => "END_INMODEL",
-            Menu::Medit => "END_MEDIT",
-            Menu::ConnDesign => "END_CONN_DESIGN",
-            Menu::Disposition(_) => "END_DISPOSE",
-            Menu::Report { .. } => "END_REPORT",
-            Menu::Environments => "END_&DATA",
+        match self.name() {
+            "INMODEL" => "END_INMODEL",
+            "MEDIT" => "END_MEDIT",
+            "CONN_DESIGN" => "END_CONN_DESIGN",
+            "DISPOSITION" => "END_DISPOSE",
+            "REPORT" => "END_REPORT",
+            "ENVIRONMENT" | "CURVES" => "END_&DATA",
+            "SELECT" => "END_&SELECT",
+            _ => "END",
         }
     }
 }

@@ -3,7 +3,9 @@
 use super::connector::build_connector;
 use super::{Call, Command, Effect, INMODEL_FILE, Job, Menu};
 use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::spec::CommandSpec;
+use crate::language::record::Word;
+use crate::language::spec::{CommandSpec, Opens};
+use std::path::PathBuf;
 
 /// INMODEL.
 pub static INMODEL: Command = Command { spec: &INMODEL_SPEC, edits: false, run: inmodel };
@@ -13,6 +15,7 @@ pub static MEDIT: Command = Command { spec: &MEDIT_SPEC, edits: false, run: medi
 pub static CONN_DESIGN: Command = Command { spec: &CONN_DESIGN_SPEC, edits: false, run: conn_design };
 
 static INMODEL_SPEC: CommandSpec = CommandSpec {
+    opens: Opens::UnlessFile("INMODEL"),
     menus: &["MAIN"],
     detail: "Reads model descriptions from ROOT.DAT, or from the file of &DEVICE -AUXIN; without either the records follow \
              up to END. A CONNECTOR may name classes and points that are defined later.",
@@ -20,28 +23,43 @@ static INMODEL_SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("INMODEL", "reads the model")
 };
 static MEDIT_SPEC: CommandSpec = CommandSpec {
+    opens: Opens::Menu("MEDIT"),
     menus: &["MAIN"],
     detail: "Names must be defined before they are used.",
     example: "MEDIT\n*P 0 0 0\nEND",
     ..CommandSpec::new("MEDIT", "edits the model, up to END")
 };
 static CONN_DESIGN_SPEC: CommandSpec = CommandSpec {
+    opens: Opens::Menu("CONN_DESIGN"),
     menus: &["MAIN"],
     detail: "TABLE tabulates a line.",
     example: "CONN_DESIGN\nEND",
     ..CommandSpec::new("CONN_DESIGN", "connector design, up to END")
 };
 
+/// The menu that a record of this command opens, so that an `END` of its own belongs to it.
+pub fn opened_by(job: &Job, spec: &CommandSpec, words: &[Word]) -> Option<&'static str> {
+    match spec.opens {
+        Opens::Nothing => None,
+        Opens::Menu(name) => Some(name),
+        Opens::AtMost(name, count) => (words.len() <= count + 1).then_some(name),
+        Opens::UnlessFile(name) => model_file(job).is_none().then_some(name),
+    }
+}
+
+/// The file INMODEL reads: that of `&DEVICE -AUXIN`, there or not, else ROOT.DAT when there is one.
+fn model_file(job: &Job) -> Option<PathBuf> {
+    let root = &job.output.folder.root;
+    let beside = || ["dat", "DAT"].iter().map(|e| root.with_extension(e)).find(|p| p.exists());
+    job.settings.auxiliary.clone().or_else(beside)
+}
+
 fn inmodel(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    let root = job.output.folder.root.clone();
-    let found = match &job.settings.auxiliary {
-        Some(path) if !path.exists() => {
-            let text = format!("the auxiliary input {} does not exist", path.display());
-            return Err(Diagnostic::error(text, call.args.span).help("set by &DEVICE -AUXIN"));
-        }
-        Some(path) => Some(path.clone()),
-        None => ["dat", "DAT"].iter().map(|e| root.with_extension(e)).find(|p| p.exists()),
-    };
+    let found = model_file(job);
+    if let Some(path) = found.as_ref().filter(|p| !p.exists()) {
+        let text = format!("the auxiliary input {} does not exist", path.display());
+        return Err(Diagnostic::error(text, call.args.span).help("set by &DEVICE -AUXIN"));
+    }
     job.menus.push(Menu::Inmodel);
     Ok(match found {
         Some(path) => Effect::Insert { name: path.display().to_string(), path, tag: INMODEL_FILE },

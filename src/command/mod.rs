@@ -18,6 +18,7 @@ pub mod help;
 mod job;
 mod menus;
 mod message;
+mod offsets;
 mod report_menu;
 mod select;
 mod status;
@@ -26,7 +27,7 @@ mod written;
 
 pub use file::write_open_files;
 pub use job::{Job, Menu, Settings};
-pub use menus::finish_inmodel;
+pub use menus::{finish_inmodel, opened_by};
 
 use crate::language::args::Args;
 use crate::language::diagnostic::Outcome;
@@ -104,9 +105,20 @@ pub static COMMANDS: &[&Command] = &[
     &connector::DELETE,
     &connector::RENAME,
     &select::SELECT,
+    &select::SELECTOR,
     &environment::ENV,
     &environment::NAMED_ENV,
     &curves::DATA,
+    &curves::C_PROFILE,
+    &curves::P_SPECTRUM,
+    &curves::F_SPECTRUM,
+    &curves::M_GROWTH,
+    &curves::W_HISTORY,
+    &curves::LT_MULTIPLIER,
+    &curves::CT_LENGTH,
+    &curves::EFFICIENCY,
+    &curves::CS_VELOCITY,
+    &curves::AM_PRESSURE,
     &conn_design::TABLE,
     &disposition::REPORT,
     &disposition::VLIST,

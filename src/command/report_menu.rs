@@ -3,7 +3,7 @@
 use super::message::underlined;
 use super::{Call, Command, Effect, Job, Menu};
 use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::spec::{CommandSpec, Form, Kind, OptionSpec, ValueSpec};
+use crate::language::spec::{CommandSpec, Form, Kind, Opens, OptionSpec, ValueSpec};
 use crate::report::page::centre;
 
 /// &REPORT.
@@ -16,6 +16,7 @@ pub static CTYPE: Command = Command { spec: &CTYPE_SPEC, edits: false, run: cent
 pub static CUTYPE: Command = Command { spec: &CUTYPE_SPEC, edits: false, run: headline };
 
 static REPORT_SPEC: CommandSpec = CommandSpec {
+    opens: Opens::Menu("REPORT"),
     data: &[
         ValueSpec::new("H1", Kind::Text, "first heading").or("none"),
         ValueSpec::new("H2", Kind::Text, "second heading").or("none"),

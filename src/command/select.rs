@@ -1,42 +1,74 @@
-//! `&SELECT`: selectors.
+//! `&SELECT`: selectors, one in a record or many in a menu.
+//!
+//! Source: reference/language.md sections 10 and 11.
 
-use super::{Call, Command, Effect, Job};
+use super::{Call, Command, Effect, Job, Menu};
 use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
+use crate::language::source::Span;
+use crate::language::spec::{CommandSpec, Kind, Noun, Opens, OptionSpec, ValueSpec};
 use crate::model::{Model, Selector};
 
 /// &SELECT.
 pub static SELECT: Command = Command { spec: &SPEC, edits: false, run };
+/// A selector's record within the menu of `&SELECT`.
+pub static SELECTOR: Command = Command { spec: &SELECTOR_SPEC, edits: false, run: record };
 
 const NAMES: &[ValueSpec] = &[ValueSpec::new("NAME", Kind::Name(Noun::Selector), "name, pattern or selector")];
 
+const OPTIONS: &[OptionSpec] = &[
+    OptionSpec::new("-SELECT", NAMES, "names taken in").repeating(1),
+    OptionSpec::new("-EXCEPT", NAMES, "names taken out again").repeating(1),
+];
+
 static SPEC: CommandSpec = CommandSpec {
-    data: &[ValueSpec::new(":NAME", Kind::Name(Noun::Selector), "the selector")],
-    options: &[
-        OptionSpec::new("-SELECT", NAMES, "names taken in").repeating(1),
-        OptionSpec::new("-EXCEPT", NAMES, "names taken out again").repeating(1),
-    ],
-    detail: "@ stands for any run of characters, / for exactly one. A selector given again is replaced.",
-    example: "&SELECT :BOW -SELECT *ML@ -EXCEPT *MLD",
-    ..CommandSpec::new("&SELECT", "defines a selector")
+    opens: Opens::AtMost("SELECT", 0),
+    data: &[ValueSpec::new(":NAME", Kind::Name(Noun::Selector), "the selector").or("a menu of selectors")],
+    options: OPTIONS,
+    detail: "@ stands for any run of characters, / for exactly one. A selector given again is replaced. &SELECT alone opens a \
+             menu of records :NAME -SELECT NAME .. -EXCEPT NAME .., up to END.",
+    example: "&SELECT :BOW -SELECT *ML@ -EXCEPT *MLD\n&SELECT\n:STERN -SELECT *MLC *MLD\nEND\n&STATUS SELECTORS",
+    ..CommandSpec::new("&SELECT", "defines selectors")
+};
+
+static SELECTOR_SPEC: CommandSpec = CommandSpec {
+    menus: &["SELECT"],
+    options: OPTIONS,
+    detail: "The record is :NAME -SELECT NAME .. -EXCEPT NAME ..; what &SELECT does in one record.",
+    example: "&SELECT\n:BOW -SELECT *ML@ -EXCEPT *MLD\n:STERN -SELECT *MLD\nEND\n&STATUS SELECTORS",
+    ..CommandSpec::new(":SELECTOR", ":NAME -SELECT NAME ..: defines a selector")
 };
 
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    let name = call.args.word(0).unwrap_or_default().to_string();
-    let span = call.args.place(0);
+    match call.args.word(0) {
+        Some(name) => define(job, call, name, call.args.place(0)),
+        None if call.args.options.is_empty() => {
+            job.menus.push(Menu::Selectors);
+            Ok(Effect::Done)
+        }
+        None => Err(Diagnostic::error("&SELECT lacks the name of the selector", call.args.span).help(FORM)),
+    }
+}
+
+fn record(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let name = call.words.first().map_or("", |w| &w.text);
+    define(job, call, name, call.args.span)
+}
+
+const FORM: &str = "form: &SELECT :NAME -SELECT NAME .. -EXCEPT NAME ..";
+
+fn define(job: &mut Job, call: &Call, name: &str, span: Span) -> Outcome<Effect> {
     if !name.starts_with(':') || name.len() < 2 {
         return Err(Diagnostic::error(format!("`{name}` cannot name a selector"), span).label("expected :NAME"));
     }
     if !call.args.has("-SELECT") {
-        return Err(Diagnostic::error("-SELECT is missing: a selector without names selects nothing", span)
-            .help("form: &SELECT :NAME -SELECT NAME .. -EXCEPT NAME .."));
+        return Err(Diagnostic::error("-SELECT is missing: a selector without names selects nothing", span).help(FORM));
     }
     let list = |option: &str| -> Vec<String> {
         call.args
             .option(option)
             .map_or(Vec::new(), |g| g.values.iter().filter_map(|v| v.word()).map(str::to_string).collect())
     };
-    let made = Selector { name: name.clone(), select: list("-SELECT"), except: list("-EXCEPT"), span };
-    job.model.selectors.insert(Model::key(&name), made);
+    let made = Selector { name: name.to_string(), select: list("-SELECT"), except: list("-EXCEPT"), span };
+    job.model.selectors.insert(Model::key(name), made);
     Ok(Effect::Done)
 }

@@ -1,5 +1,6 @@
 //! `&STATUS`: what the model and the program hold.
 
+use super::offsets::offsets;
 use super::written::{as_written, kind_data, option_as_written};
 use super::{Call, Command, Effect, Job};
 use crate::language::diagnostic::{Diagnostic, Outcome};
@@ -62,7 +63,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let tables = match kind {
         "CONFIGURATION" => vec![configuration(model, &fits)],
         "CL_FLEX" | "CLASSES" => classes(job, &fits),
-        "G_CONNECTOR" => vec![connectors(model, &fits)],
+        "G_CONNECTOR" => std::iter::once(connectors(model, &fits)).chain(offsets(model, &fits)).collect(),
         "CURVES" => curves(model, &fits),
         "ENVIRONMENT" => vec![environment(job)],
         "BODIES" => vec![bodies(model, &fits)],
@@ -106,7 +107,7 @@ fn takes(model: &Model, pattern: &str, name: &str) -> bool {
 }
 
 /// Appends a row; the callers below give one cell a column.
-fn push(table: &mut Table, row: Vec<Cell>) {
+pub(super) fn push(table: &mut Table, row: Vec<Cell>) {
     let fits = table.push(row);
     debug_assert!(fits.is_ok(), "a status row must fit its table");
 }

@@ -183,6 +183,19 @@ pub enum Form {
     Text,
 }
 
+/// Whether a record of a command opens a menu, which an `END` of its own leaves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Opens {
+    /// It opens none.
+    Nothing,
+    /// The menu of this name.
+    Menu(&'static str),
+    /// The menu of this name when at most this many words follow the command; with more it is complete in itself.
+    AtMost(&'static str, usize),
+    /// The menu of this name, unless a file of the job's gives the menu's records.
+    UnlessFile(&'static str),
+}
+
 /// A command or a class record.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CommandSpec {
@@ -192,6 +205,8 @@ pub struct CommandSpec {
     pub owner: Owner,
     /// Menus it belongs to; empty means every menu.
     pub menus: &'static [&'static str],
+    /// The menu it opens.
+    pub opens: Opens,
     /// Words or raw text.
     pub form: Form,
     /// Positional data in order.
@@ -215,6 +230,7 @@ impl CommandSpec {
             name,
             owner: Owner::Moses,
             menus: &[],
+            opens: Opens::Nothing,
             form: Form::Words,
             data: &[],
             repeat: 0,

@@ -49,7 +49,7 @@ impl CurveKind {
     }
 
     /// What the two columns are called, and what they measure.
-    pub fn axes(self) -> [(&'static str, Dim); 2] {
+    pub const fn axes(self) -> [(&'static str, Dim); 2] {
         match self {
             CurveKind::CurrentProfile => [("Depth", Dim::Length), ("Velocity", Dim::Velocity)],
             CurveKind::PeriodSpectrum => [("Period", Dim::Time), ("Density", Dim::SpectralDensity)],

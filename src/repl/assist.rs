@@ -104,6 +104,7 @@ fn spec_of(menu: &str, text: &str, words: &[Token]) -> Option<(&'static CommandS
             if let Choice::One(spec) = kind { Some((spec, 2)) } else { None }
         }
         Kind::Point => COMMANDS.iter().find(|c| c.spec.name == "*POINT").map(|c| (c.spec, 1)),
+        Kind::Selector => COMMANDS.iter().find(|c| c.spec.name == ":SELECTOR").map(|c| (c.spec, 1)),
         _ => {
             let names = offered(menu).map(|c| c.spec).chain(CONTROL).map(|s| (s.name, s.owner, s));
             if let Choice::One(spec) = keyword(word(0)?, names) { Some((spec, 1)) } else { None }
@@ -161,7 +162,10 @@ impl Completer for Assistant {
         }
         if words.is_empty() {
             candidates.extend(
-                offered(known.menu).map(|c| c.spec.name).filter(|n| !n.starts_with(['~', '*'])).map(str::to_string),
+                offered(known.menu)
+                    .map(|c| c.spec.name)
+                    .filter(|n| !n.starts_with(['~', '*', ':']))
+                    .map(str::to_string),
             );
             candidates.extend(CONTROL.iter().map(|s| s.name.to_string()));
             candidates.extend(known.macros.iter().chain(&known.classes).cloned());

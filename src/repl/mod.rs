@@ -19,7 +19,7 @@ const HISTORY: usize = 5000;
 
 /// Talks with the user until `&FINISH` or Ctrl-D.
 pub fn run(session: &mut Session, terminal: bool) {
-    session.interactive = true;
+    session.take_terminal();
     session.interpreter.open_terminal();
     let known = Arc::new(Mutex::new(Known::default()));
     let config = Config::builder()

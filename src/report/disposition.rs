@@ -207,19 +207,18 @@ impl Disposition {
         if rows.is_empty() { Err(DispositionError::NoRow) } else { Ok(rows) }
     }
 
-    /// `CULL`: the rows whose columns lie within bounds (selector, low, high in user units), as a new menu's table.
-    /// Scales and shifts made so far are part of the new table.
+    /// `CULL`: the rows whose columns lie within bounds (selector, low, high in user units), as a new menu. The values
+    /// stay as they came; scales and shifts made so far go on acting in the new menu.
     ///
     /// # Errors
     /// A name that fits no column, or bounds that leave no row.
-    pub fn cull(&self, bounds: &[(String, f64, f64)], units: UnitSystem) -> Result<Table, DispositionError> {
+    pub fn cull(&self, bounds: &[(String, f64, f64)], units: UnitSystem) -> Result<Disposition, DispositionError> {
         let mut rows: Vec<usize> = (0..self.table.rows()).collect();
         for (selector, low, high) in bounds {
             rows = self.within(rows, selector, *low, *high, units)?;
         }
-        let all: Vec<usize> = (0..self.table.columns.len()).collect();
-        let mut out = self.extract(&all, &RowChoice::default(), true, units)?;
-        for column in &mut out.columns {
+        let mut out = self.clone();
+        for column in &mut out.table.columns {
             column.cells = rows.iter().filter_map(|row| column.cells.get(*row)).cloned().collect();
         }
         Ok(out)
@@ -300,7 +299,7 @@ mod tests {
         assert_eq!(d.values("F", &by_number, us).unwrap(), "4 9");
         let by_value = RowChoice { values: Some(("X".into(), 3.5, 9.0)), ..RowChoice::default() };
         assert_eq!(d.values("F", &by_value, us).unwrap(), "16 25");
-        assert_eq!(d.cull(&[("F".into(), 4.0, 16.0), ("X".into(), 0.0, 3.1)], us).unwrap().rows(), 2);
+        assert_eq!(d.cull(&[("F".into(), 4.0, 16.0), ("X".into(), 0.0, 3.1)], us).unwrap().table.rows(), 2);
         let none = RowChoice { record: Some((9, 12)), ..RowChoice::default() };
         assert!(d.values("F", &none, us).unwrap_err().to_string().contains("not times"));
     }
@@ -314,6 +313,25 @@ mod tests {
         assert_eq!(d.values("F", &RowChoice { record: Some((2, 2)), values: None }, us).unwrap(), "41");
         let list = d.vlist(us);
         assert!(list[0].ends_with("10.00 to 50.00") && list[1].ends_with("11.0000 to 251.0000"), "{list:?}");
+    }
+
+    #[test]
+    fn culled_rows_keep_their_values_and_the_scales_and_shifts_made_before() {
+        let mut d = menu();
+        let us = UnitSystem::default();
+        d.scale(2.0, &["F"]).unwrap();
+        d.shift(-1.0, &["F", "X"]).unwrap();
+        // F shows 2 n n - 1: rows 2 and 3 show 7 and 17
+        let mut culled = d.cull(&[("F".into(), 7.0, 17.0)], us).unwrap();
+        assert_eq!(culled.table.columns[1].cells, [Cell::Number(4.0), Cell::Number(9.0)]);
+        let kept = RowChoice { record: Some((2, 3)), values: None };
+        for column in [0, 1] {
+            let before = d.extract(&[column], &kept, true, us).unwrap();
+            assert_eq!(culled.extract(&[column], &RowChoice::default(), true, us).unwrap(), before);
+        }
+        culled.shift(1.0, &["F"]).unwrap();
+        assert_eq!(culled.values("F", &RowChoice::default(), us).unwrap(), "8 18");
+        assert_eq!(d.values("F", &kept, us).unwrap(), "7 17");
     }
 
     #[test]

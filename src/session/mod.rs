@@ -1,6 +1,8 @@
 //! One running job: takes records from the interpreter, finds the command each means in the present menu, and keeps the
 //! error policy.
 
+mod refused;
+
 use crate::command::{self, COMMANDS, Call, Command, Effect, INMODEL_FILE, Job, Menu, PLAIN, SCRIPT, offered};
 use crate::language::args::{self, Args};
 use crate::language::diagnostic::{Diagnostic, Outcome, Severity, did_you_mean};
@@ -84,9 +86,13 @@ impl Session {
     /// Runs until nothing is left, a line is needed, or the job ends.
     pub fn run(&mut self) -> End {
         loop {
+            self.interpreter.passing = self.passing();
             let over = match self.interpreter.next(&mut self.job) {
                 Ok(Step::Record(record)) => self.execute(&record),
                 Ok(Step::Ended(tag)) => {
+                    while tag == INMODEL_FILE && self.passing() {
+                        self.leave_menu();
+                    }
                     if tag == INMODEL_FILE && matches!(self.job.menu(), Menu::Inmodel) {
                         self.leave_menu();
                     }
@@ -232,21 +238,27 @@ impl Session {
     /// Finds what a record means and does it.
     fn dispatch(&mut self, record: &Record, words: &[Word]) -> Outcome<Effect> {
         let Some(first) = words.first() else { return Ok(Effect::Done) };
+        let word = first.text.to_ascii_uppercase();
+        if word == "END" || word.starts_with("END_") {
+            return self.end(first, &word);
+        }
+        if self.pass_over(first, words) {
+            return Ok(Effect::Done);
+        }
         match first.kind {
             Kind::Class => return self.invoke(in_menu("~CLASS", self.job.menu(), first)?, record, words),
             Kind::Point => return self.invoke(in_menu("*POINT", self.job.menu(), first)?, record, words),
+            Kind::Selector => return self.invoke(in_menu(":SELECTOR", self.job.menu(), first)?, record, words),
             Kind::Load => {
                 return Err(Diagnostic::error(format!("load attribute {} is not known", first.text), first.span)
                     .label("load attributes come with the bodies' loads"));
             }
             _ => {}
         }
-        let word = first.text.to_ascii_uppercase();
-        if word == "END" || word.starts_with("END_") {
-            return self.end(first, &word);
-        }
         match self.resolve(first)? {
-            Meaning::Command(command) => self.invoke(command, record, words),
+            Meaning::Command(command) => {
+                self.invoke(command, record, words).map_err(|error| self.refuse(command, words, error))
+            }
             Meaning::Macro(found) => self.interpreter.call(&found, record).map(|()| Effect::Done),
         }
     }
@@ -256,7 +268,7 @@ impl Session {
         let menu = self.job.menu();
         let internal = first.kind == Kind::Internal;
         let names = offered(menu.name())
-            .filter(move |c| c.spec.name.starts_with('&') == internal && !c.spec.name.starts_with(['~', '*']))
+            .filter(move |c| c.spec.name.starts_with('&') == internal && !c.spec.name.starts_with(['~', '*', ':']))
             .map(|c| (c.spec.name, c.spec.owner, c));
         let controls = CONTROL.iter().filter(move |_| internal).map(|s| (s.name, s.owner));
         let found_macro = macros::find(&first.text, self.interpreter.macros());
@@ -283,14 +295,18 @@ impl Session {
             Form::Text => Args { span, data: Vec::new(), options: Vec::new() },
         };
         let call = Call { record, words, args };
+        let open = self.job.menus.len();
         let kept = command.edits.then(|| self.job.model.clone());
         let job = &mut self.job;
         let outcome = catch_unwind(AssertUnwindSafe(|| (command.run)(job, &call))).unwrap_or_else(|_| {
             Err(Diagnostic::error(format!("{} met a defect of windlass and was given up", command.spec.name), span)
                 .help("please report this record; the session goes on"))
         });
-        if let (Err(_), Some(model)) = (&outcome, kept) {
-            self.job.model = model;
+        if outcome.is_err() {
+            self.job.menus.truncate(open);
+            if let Some(model) = kept {
+                self.job.model = model;
+            }
         }
         outcome
     }
@@ -330,9 +346,13 @@ enum Meaning {
 /// A description record's command, when the menu takes descriptions.
 fn in_menu(name: &str, menu: &Menu, first: &Word) -> Outcome<&'static Command> {
     offered(menu.name()).find(|c| c.spec.name == name).ok_or_else(|| {
+        let (what, help) = match first.kind {
+            Kind::Selector => ("a selector", "&SELECT opens the menu of selectors; &SELECT :NAME .. defines one"),
+            _ => ("a description record", "descriptions belong to INMODEL or MEDIT: enter MEDIT first"),
+        };
         Diagnostic::error(format!("`{}` has no place in menu {}", first.text, menu.name()), first.span)
-            .label("a description record")
-            .help("descriptions belong to INMODEL or MEDIT: enter MEDIT first")
+            .label(what)
+            .help(help)
     })
 }
 

@@ -90,6 +90,8 @@ pub struct Interpreter {
     pub variables: Variables,
     /// Records that may be executed in a run.
     pub budget: u64,
+    /// Plain records are being passed over: one that cannot be substituted comes as it stands.
+    pub passing: bool,
     /// Set by Ctrl-C; the run stops at the next record.
     pub interrupt: Arc<AtomicBool>,
     frames: Vec<Frame>,
@@ -109,6 +111,7 @@ impl Interpreter {
             sources: Sources::default(),
             variables: Variables::default(),
             budget: RECORD_BUDGET,
+            passing: false,
             interrupt: Arc::new(AtomicBool::new(false)),
             frames: Vec::new(),
             branches: Vec::new(),
@@ -252,7 +255,10 @@ impl Interpreter {
             } else if let Some(name) = control.filter(|n| specs::CONTROL.iter().any(|s| s.name == *n)) {
                 self.control(name, &record, world)?;
             } else {
-                let record = substitute(&record, &self.variables, world)?;
+                let record = match substitute(&record, &self.variables, world) {
+                    Err(_) if self.passing && !record.first_word().starts_with(['&', '%']) => record,
+                    substituted => substituted?,
+                };
                 self.take_assignments(world, record.whole())?;
                 return Ok(Step::Record(record));
             }
