@@ -136,7 +136,8 @@ impl Catenary {
 
     fn class_error(&self, error: &LineError) -> ClassError {
         let segment = match error {
-            LineError::Value { segment, .. } | LineError::Crosses { segment, .. } => Some(*segment),
+            LineError::Value { segment, .. } | LineError::Pendant { segment, .. } => Some(*segment),
+            LineError::Law(segment) => Some(*segment),
             _ => None,
         };
         let place = segment.and_then(|n| self.places.get(n.saturating_sub(1)));

@@ -6,9 +6,10 @@
 //! left. Friction takes `friction` times the weight on the bottom from the tension, down to zero (Coulomb, fully
 //! mobilised toward the fairlead; Jonkman, NREL/TP-500-41958, 2007, section 2.7.2).
 
+use super::chain::Chain;
+use super::element::{Element, Ground, Tilt, vertical_of_contact};
 use super::line::{LineError, Segment};
 use super::search::{Point, rising_root};
-use super::section::Section;
 use super::segment::{Reach, hanging, lifted};
 
 /// A flat bottom at the anchor's elevation.
@@ -199,14 +200,6 @@ fn touching(segment: &Segment, x: f64, z: f64, friction: f64) -> Result<Option<E
     prove(segment, regime, [x, z], [h, high], [anchor, 0.0], &reach, grounded, steps).map(Some)
 }
 
-/// V at the fairlead of a line that touches down below it: from (T + EA)2 = (H + EA)2 + 2 EA w z.
-fn vertical_of_contact(segment: &Segment, h: f64, z: f64) -> f64 {
-    let rise = segment.weight * z;
-    let stiff = h + segment.ea;
-    let change = 2.0 * rise / ((stiff.hypot((2.0 * segment.ea * rise).sqrt()) + stiff) / segment.ea);
-    (change * (change + 2.0 * h)).sqrt()
-}
-
 /// The reach of a touching line, less the stretch that friction keeps from the grounded part.
 fn with_friction(segment: &Segment, h: f64, high: f64, friction: f64) -> Reach {
     let (mut reach, ground) = lifted(segment, h, high);
@@ -245,12 +238,15 @@ fn suspended(segment: &Segment, x: f64, z: f64) -> Result<EndForces, LineError> 
     {
         return Ok(answer);
     }
-    let section = Section { segments: std::slice::from_ref(segment), lifts: &[], bottom_from: 1 };
-    let (h, steps) = rising_root(h, x, |h| match section.solve(h, z) {
-        Ok((_, r, _)) => Point { value: r.x, slope: r.x_h - r.x_v * (r.z_h / r.z_v) },
+    let elements = vec![Element::Length { segment: *segment, law: None, sees_bottom: false }];
+    let ground = Ground { tilt: Tilt::FLAT, friction: 0.0, least: 0.0 };
+    let chain = Chain { elements, pulls: Vec::new(), ground };
+    let (h, steps) = rising_root(h, x, |h| match chain.rest(h, z, 0.0, 0.0, None) {
+        Ok(rested) => Point { value: rested.t, slope: rested.t_by[0] },
         Err(_) => Point { value: f64::NAN, slope: f64::NAN },
     });
-    let (v, reach, _) = section.solve(h, z)?;
+    let v = chain.rest(h, z, 0.0, 0.0, None)?.held.first().map_or(f64::NAN, |held| held.q_hi);
+    let reach = hanging(segment, h, v - all);
     prove(segment, Regime::Suspended, [x, z], [h, v], [h, v - all], &reach, 0.0, steps)
 }
 

@@ -1,7 +1,9 @@
 //! What a line is made of, and what is refused.
 
 use super::between::{Bottom, EndForces};
-use super::solve::State;
+use super::chain::{Chain, Pull};
+use super::element::{Element, Ground, Tilt};
+use super::law::Law;
 
 /// A piece of line with the same properties all along.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,15 +30,38 @@ pub enum Joint {
         /// Depth of the held joint below the water surface (m): the length of the pendant.
         depth: f64,
     },
+    /// A buoy fixed to the line: under water it lifts, above it weighs.
+    Buoy {
+        /// Displaced water less its weight (N).
+        lift: f64,
+        /// Weight in air (N).
+        weight: f64,
+    },
+}
+
+/// The sea bottom under a line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Floor {
+    /// Elevation under the anchor (m).
+    pub elevation: f64,
+    /// Vertical over horizontal distance, positive when it rises from the anchor toward the fairlead (seed 001,
+    /// `-SLOPE`).
+    pub slope: f64,
+    /// Friction coefficient, zero or more.
+    pub friction: f64,
 }
 
 /// A line from a fairlead to an anchor on the bottom.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Line {
     pub(super) segments: Vec<Segment>,
+    pub(super) laws: Vec<Option<Law>>,
+    pub(super) springs: [Option<Law>; 2],
     pub(super) joints: Vec<Joint>,
     pub(super) anchor: f64,
     pub(super) surface: f64,
+    pub(super) floor: Option<Floor>,
+    pub(super) chain: Chain,
 }
 
 /// Why a line has no answer.
@@ -66,33 +91,37 @@ pub enum LineError {
     /// Breaking tensions that do not fit the segments.
     #[error("a table needs one positive breaking tension a segment and a positive largest force")]
     Breaks,
-    /// More spring buoys than the search over their states goes through.
-    #[error("the line has {0} spring buoys; at most {most} can be solved", most = super::solve::MOST_BUOYS)]
-    TooManyBuoys(usize),
     /// The fairlead lies below the bottom.
     #[error("the fairlead lies {0:.3} m below the bottom")]
     BelowBottom(f64),
-    /// A part that may not touch the bottom goes below it.
-    #[error(
-        "segment {segment} hangs {by:.3} m below the bottom, above a buoyant part of the line; such contact is not covered"
-    )]
-    Crosses {
+    /// The anchor lies below the bottom.
+    #[error("the anchor lies {0:.3} m below the bottom")]
+    AnchorBelow(f64),
+    /// A pendant longer than the water is deep would hold its joint below the bottom.
+    #[error("the pendant of segment {segment} is {by:.3} m longer than the water is deep there")]
+    Pendant {
         /// Which segment, from 1.
         segment: usize,
-        /// How far (m).
+        /// How much (m).
         by: f64,
     },
-    /// The line is so long that it pulls with no horizontal force that can be told.
-    #[error("the line hangs slack: pulled with {force:.3e} N it already reaches {reach:.3} m")]
-    Slack {
-        /// The smallest horizontal force tried (N).
-        force: f64,
-        /// The distance it reaches there (m).
-        reach: f64,
+    /// The line hanging straight down already pulls more.
+    #[error("no position has the tension {tension:.6e} N: the line hanging straight down has {least:.6e} N")]
+    Weight {
+        /// The tension asked for (N).
+        tension: f64,
+        /// The smallest one (N).
+        least: f64,
     },
+    /// A stretch law that does not grow.
+    #[error("the tension of segment {0} does not grow with its strain")]
+    Law(usize),
     /// A weightless line with slack: any shape will do.
     #[error("a weightless line longer than the distance between its ends has no definite shape")]
     Undetermined,
+    /// A slack line with buoys over a slope: where its heaps lie depends on how it was laid.
+    #[error("a slack line with buoyant parts over a sloped bottom has no definite shape")]
+    SlackSlope,
     /// What is left of the distances between the ends is too large for an answer.
     #[error("no configuration found between the ends: {residual:.3e} N remain of a tension of {tension:.6e} N")]
     Unproven {
@@ -148,7 +177,7 @@ impl Line {
     ///
     /// # Errors
     /// No segments, a number of joints other than one fewer than segments, values that are not finite, a length or
-    /// stiffness that is not positive, more than [`super::solve::MOST_BUOYS`] spring buoys.
+    /// stiffness that is not positive.
     pub fn new(segments: Vec<Segment>, joints: Vec<Joint>, anchor: f64, surface: f64) -> Result<Line, LineError> {
         if segments.is_empty() {
             return Err(LineError::Empty);
@@ -166,6 +195,9 @@ impl Line {
                 Joint::SpringBuoy { capacity, depth } => [("the buoy capacity", *capacity), ("the pendant", *depth)]
                     .into_iter()
                     .find(|(_, v)| !(v.is_finite() && *v >= 0.0)),
+                Joint::Buoy { lift, weight } => [("the buoy's lift", *lift), ("the buoy's weight", *weight)]
+                    .into_iter()
+                    .find(|(_, v)| !(v.is_finite() && *v >= 0.0)),
             };
             if let Some((what, value)) = bad {
                 return Err(LineError::Value { what, segment: index + 1, value });
@@ -176,11 +208,111 @@ impl Line {
                 return Err(LineError::Value { what, segment: segments.len(), value });
             }
         }
-        let buoys = joints.iter().filter(|j| matches!(j, Joint::SpringBuoy { .. })).count();
-        if buoys > super::solve::MOST_BUOYS {
-            return Err(LineError::TooManyBuoys(buoys));
+        let floor = Floor { elevation: anchor, slope: 0.0, friction: 0.0 };
+        let laws = vec![None; segments.len()];
+        let ground = Ground { tilt: Tilt::FLAT, friction: 0.0, least: 0.0 };
+        let chain = Chain { elements: Vec::new(), pulls: Vec::new(), ground };
+        let springs = [None, None];
+        Line { segments, laws, springs, joints, anchor, surface, floor: Some(floor), chain }.assembled()
+    }
+
+    /// The line over another bottom, or over none.
+    ///
+    /// # Errors
+    /// Values that are not finite, negative friction, an anchor below the bottom, a pendant longer than the depth.
+    pub fn over(self, floor: Option<Floor>) -> Result<Line, LineError> {
+        if let Some(Floor { elevation, slope, friction }) = floor {
+            for (what, value, good) in [
+                ("the bottom's elevation", elevation, true),
+                ("the bottom's slope", slope, true),
+                ("the friction coefficient", friction, friction >= 0.0),
+            ] {
+                if !(good && value.is_finite()) {
+                    return Err(LineError::Value { what, segment: self.segments.len(), value });
+                }
+            }
+            if self.anchor < elevation {
+                return Err(LineError::AnchorBelow(elevation - self.anchor));
+            }
         }
-        Ok(Line { segments, joints, anchor, surface })
+        Line { floor, ..self }.assembled()
+    }
+
+    /// The line with springs in series at the fairlead and at the anchor, stretching along the tension there (seed 001,
+    /// `-SEND` and `-X_PY`); `None` is rigid.
+    ///
+    /// # Errors
+    /// A spring that does not stretch with its tension.
+    pub fn with_springs(self, springs: [Option<Law>; 2]) -> Result<Line, LineError> {
+        if springs.iter().flatten().any(|law| !law.grows()) {
+            return Err(LineError::Law(1));
+        }
+        Line { springs, ..self }.assembled()
+    }
+
+    /// The line with stretch laws in place of the stiffness of its segments, one a segment.
+    ///
+    /// # Errors
+    /// A law whose tension does not grow with the strain; another number of laws than segments.
+    pub fn with_laws(self, laws: Vec<Option<Law>>) -> Result<Line, LineError> {
+        if laws.len() != self.segments.len() {
+            return Err(LineError::Joints { segments: self.segments.len(), joints: laws.len() });
+        }
+        if let Some(bad) = laws.iter().position(|l| l.as_ref().is_some_and(|l| !l.grows())) {
+            return Err(LineError::Law(bad + 1));
+        }
+        Line { laws, ..self }.assembled()
+    }
+
+    /// Elevation from which heights above the bottom are counted (m).
+    pub(super) fn datum(&self) -> f64 {
+        self.floor.map_or(self.anchor, |f| f.elevation)
+    }
+
+    /// The first joint's number in the chain: one further when a spring is before it.
+    pub(super) fn first_joint(&self) -> usize {
+        usize::from(self.springs[0].is_some())
+    }
+
+    /// Makes the chain that is solved.
+    fn assembled(mut self) -> Result<Line, LineError> {
+        let last_buoy = self.joints.iter().rposition(|j| matches!(j, Joint::SpringBuoy { .. }));
+        let sees = |index: usize| self.floor.is_some() && last_buoy.is_none_or(|b| index > b);
+        let surface = self.surface - self.datum();
+        let flat = self.floor.is_none_or(|f| f.slope == 0.0);
+        let [first, last] = self.springs.clone();
+        let mut elements: Vec<Element> = first.map(Element::Link).into_iter().collect();
+        let mut pulls: Vec<Pull> = elements.iter().map(|_| Pull { on_bottom: sees(0), ..Pull::default() }).collect();
+        for (index, (segment, law)) in self.segments.iter().zip(&self.laws).enumerate() {
+            elements.push(Element::Length { segment: *segment, law: law.clone(), sees_bottom: sees(index) });
+            let Some(joint) = self.joints.get(index) else { continue };
+            let on_bottom = sees(index) || sees(index + 1);
+            let (lift, steps) = match joint {
+                Joint::Free => (0.0, Vec::new()),
+                Joint::Weight(w) => (-w, Vec::new()),
+                Joint::SpringBuoy { capacity, depth } => {
+                    let held = surface - depth;
+                    if held < 0.0 && on_bottom && flat {
+                        return Err(LineError::Pendant { segment: index + 1, by: -held });
+                    }
+                    (*capacity, if *capacity > 0.0 { vec![(held, *capacity)] } else { Vec::new() })
+                }
+                Joint::Buoy { lift, weight } => (*lift, vec![(surface, lift + weight)]),
+            };
+            pulls.push(Pull { lift, steps, on_bottom });
+        }
+        if let Some(law) = last {
+            elements.push(Element::Link(law));
+            pulls.push(Pull { on_bottom: sees(self.segments.len()), ..Pull::default() });
+        }
+        let floor = self.floor.unwrap_or(Floor { elevation: 0.0, slope: 0.0, friction: 0.0 });
+        let weight: f64 =
+            elements.iter().map(|e| e.weight().abs()).sum::<f64>() + pulls.iter().map(|p| p.lift.abs()).sum::<f64>();
+        let stiffest = self.segments.iter().fold(f64::INFINITY, |m, s| s.ea.min(m));
+        let least = if weight > 0.0 { 1e-11 * weight } else { 1e-11 * stiffest };
+        let ground = Ground { tilt: Tilt::new(floor.slope), friction: floor.friction, least };
+        self.chain = Chain { elements, pulls, ground };
+        Ok(self)
     }
 
     /// The segments, fairlead first.
@@ -191,22 +323,5 @@ impl Line {
     /// Unstretched length (m).
     pub fn length(&self) -> f64 {
         self.segments.iter().map(|s| s.length).sum()
-    }
-
-    /// The configuration in which the fairlead at elevation `fairlead` (m) is pulled with the horizontal force `force`
-    /// (N, greater than zero).
-    ///
-    /// # Errors
-    /// [`LineError`]; a state that is returned has been proven.
-    pub fn at_horizontal_force(&self, force: f64, fairlead: f64) -> Result<State, LineError> {
-        super::solve::at_horizontal_force(self, force, fairlead)
-    }
-
-    /// The configuration in which the fairlead at elevation `fairlead` (m) is `x` > 0 beside the anchor (m).
-    ///
-    /// # Errors
-    /// [`LineError`]; [`LineError::Slack`] when the line needs no horizontal force to reach so far.
-    pub fn at_distance(&self, x: f64, fairlead: f64) -> Result<State, LineError> {
-        super::solve::at_distance(self, x, fairlead)
     }
 }

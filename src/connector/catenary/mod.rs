@@ -11,14 +11,22 @@
 //! difference of nearly equal numbers is formed; the spring buoy after seed 001, `-CLUMP`.
 
 mod between;
+mod chain;
+mod element;
+mod law;
 mod line;
+mod policy;
 mod search;
-mod section;
 mod segment;
+mod settle;
+mod shape;
 mod solve;
+mod state;
 mod table;
 
 pub use between::{Bottom, EndForces, Regime};
-pub use line::{Joint, Line, LineError, Segment};
-pub use solve::{Buoy, JointState, SegmentState, State};
+pub use law::Law;
+pub use line::{Floor, Joint, Line, LineError, Segment};
+pub use shape::ShapePoint;
+pub use state::{Buoy, JointState, SegmentState, State};
 pub use table::{ROWS, Row, first_force, table};

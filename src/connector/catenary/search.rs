@@ -13,7 +13,7 @@ const MOST_STEPS: usize = 200;
 /// The argument > 0 at which a rising function has the value `target`: Newton within a bracket, which is widened by
 /// factors until it holds the root, and halved in the logarithm where Newton leaves it. Returns the best argument met
 /// and the steps; the caller proves it.
-pub fn rising_root(start: f64, target: f64, f: impl Fn(f64) -> Point) -> (f64, usize) {
+pub fn rising_root(start: f64, target: f64, mut f: impl FnMut(f64) -> Point) -> (f64, usize) {
     let (mut low, mut high) = (0.0_f64, f64::INFINITY);
     let mut at = start;
     let mut best = (f64::INFINITY, start);

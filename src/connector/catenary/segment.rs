@@ -122,17 +122,19 @@ fn closed(h: f64, low: f64, high: f64, t0: f64, t1: f64, length: f64) -> Option<
     Some((hh, hv, vv))
 }
 
+/// Places and weights of Gauss's rule with eight points, for the half interval.
+pub const GAUSS: [(f64, f64); 4] = [
+    (0.183_434_642_495_649_8, 0.362_683_783_378_362),
+    (0.525_532_409_916_329, 0.313_706_645_877_887_3),
+    (0.796_666_477_413_626_7, 0.222_381_034_453_374_47),
+    (0.960_289_856_497_536_2, 0.101_228_536_290_376_26),
+];
+
 /// Mean of a smooth function of V between two values that differ little against T: Gauss with eight points, whose
 /// error there is below 1e-15.
 fn mean(f: impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
-    const NODES: [(f64, f64); 4] = [
-        (0.183_434_642_495_649_8, 0.362_683_783_378_362),
-        (0.525_532_409_916_329, 0.313_706_645_877_887_3),
-        (0.796_666_477_413_626_7, 0.222_381_034_453_374_47),
-        (0.960_289_856_497_536_2, 0.101_228_536_290_376_26),
-    ];
     let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
-    0.5 * NODES.iter().map(|(x, w)| w * (f(middle - half * x) + f(middle + half * x))).sum::<f64>()
+    0.5 * GAUSS.iter().map(|(x, w)| w * (f(middle - half * x) + f(middle + half * x))).sum::<f64>()
 }
 
 #[cfg(test)]

@@ -1,329 +1,420 @@
-//! The configuration of a whole line at a given horizontal force: the states of its spring buoys, then section by
-//! section between the held ones.
+//! The configuration of a whole line, at a given horizontal force or between two given ends.
 
-use super::line::{Joint, Line, LineError, Segment};
+use super::chain::{Held, Rested, Stand};
+use super::element::{Element, Tilt, stretch};
+use super::line::{Joint, Line, LineError};
 use super::search::{Point, rising_root};
-use super::section::{Ends, Search, Section};
-use super::segment::Reach;
+use super::segment::hanging;
+use super::state::{Buoy, JointState, SegmentState, State};
 
-/// Most spring buoys in a line; the search goes through at most 3 to this power combinations of their states.
-pub const MOST_BUOYS: usize = 5;
-
-/// How a spring buoy stands.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Buoy {
-    /// The joint is above the end of its pendant: no pull.
-    Slack,
-    /// The joint hangs on its pendant; the buoy floats.
-    Held,
-    /// The buoy is pulled under with all its capacity.
-    Sunk,
-}
-
-/// A segment in a configuration.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SegmentState {
-    /// Tension at the end toward the fairlead (N).
-    pub top_tension: f64,
-    /// Tension at the end toward the anchor (N).
-    pub bottom_tension: f64,
-    /// Vertical force at the end toward the fairlead (N, positive where the line rises toward the fairlead).
-    pub top_vertical: f64,
-    /// Vertical force at the end toward the anchor (N).
-    pub bottom_vertical: f64,
-    /// Unstretched length on the bottom (m).
-    pub grounded: f64,
-}
-
-/// A joint in a configuration.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct JointState {
-    /// Horizontal distance from the fairlead (m).
-    pub x: f64,
-    /// Elevation (m).
-    pub z: f64,
-    /// Force applied to the line there (N, upward; a clump weight on the bottom is carried by the bottom).
-    pub lift: f64,
-    /// State of the spring buoy, if there is one.
-    pub buoy: Option<Buoy>,
-}
-
-/// A line in equilibrium.
-#[derive(Clone, Debug, PartialEq)]
-pub struct State {
-    /// Horizontal force (N).
-    pub force: f64,
-    /// Horizontal distance from fairlead to anchor (m).
-    pub x: f64,
-    /// Derivative of the distance with respect to the horizontal force at a fixed fairlead elevation (m/N).
-    pub dx_dh: f64,
-    /// Vertical force of the line on the fairlead (N, downward).
-    pub top_vertical: f64,
-    /// Tension at the fairlead (N).
-    pub top_tension: f64,
-    /// Vertical pull on the anchor (N, upward).
-    pub anchor_vertical: f64,
-    /// Unstretched length on the bottom (m).
-    pub grounded: f64,
-    /// The same, stretched (m).
-    pub grounded_stretched: f64,
-    /// Segments, fairlead first.
-    pub segments: Vec<SegmentState>,
-    /// Joints, fairlead first.
-    pub joints: Vec<JointState>,
-    /// Segments (from 1) that hang below the bottom because the seed lets those above a spring buoy ignore it, with
-    /// how far (m).
-    pub below_bottom: Vec<(usize, f64)>,
-    /// Iterations of the vertical searches, for the one that was accepted.
-    pub iterations: usize,
-    /// Largest vertical distance left in a section of the line (m): at most 1e-12 of its length, or what 1e-9 of the
-    /// tension makes of it.
-    pub residual: f64,
-}
-
-/// See [`Line::at_horizontal_force`].
-pub fn at_horizontal_force(line: &Line, h: f64, fairlead: f64) -> Result<State, LineError> {
-    for (what, value, good) in
-        [("the horizontal force", h, h > 0.0), ("the fairlead elevation", fairlead, fairlead.is_finite())]
-    {
-        if !(good && value.is_finite()) {
-            return Err(LineError::Value { what, segment: 1, value });
-        }
-    }
-    if fairlead < line.anchor && line.bottom_from() == 0 {
-        return Err(LineError::BelowBottom(line.anchor - fairlead));
-    }
-    let buoys: Vec<usize> =
-        line.joints.iter().enumerate().filter(|(_, j)| matches!(j, Joint::SpringBuoy { .. })).map(|(i, _)| i).collect();
-    let mut states = vec![Buoy::Slack; buoys.len()];
-    let mut last = None;
-    // all combinations, sunk first: tables spend most of their rows there
-    let combinations = 3usize.pow(u32::try_from(buoys.len()).unwrap_or(0));
-    for number in 0..combinations {
-        let mut rest = number;
-        for state in &mut states {
-            *state = match rest % 3 {
-                0 => Buoy::Sunk,
-                1 => Buoy::Held,
-                _ => Buoy::Slack,
-            };
-            rest /= 3;
-        }
-        match line.assume(h, fairlead, &buoys, &states) {
-            Ok(Some(state)) => return Ok(state),
-            Ok(None) => {}
-            Err(error) => last = Some(error),
-        }
-    }
-    Err(last.unwrap_or(LineError::NotConverged { force: h, residual: f64::NAN, iterations: combinations }))
-}
-
-/// See [`Line::at_distance`]. The distance grows with the force, also through the changes of the buoys' states.
-pub fn at_distance(line: &Line, x: f64, fairlead: f64) -> Result<State, LineError> {
-    if !(x > 0.0 && x.is_finite()) {
-        return Err(LineError::Value { what: "the horizontal distance", segment: 1, value: x });
-    }
-    let weight: f64 = line.segments.iter().map(|s| (s.weight * s.length).abs()).sum();
-    let start = if weight > 0.0 { 0.3 * weight } else { 1.0 };
-    let (force, _) = rising_root(start, x, |h| match line.at_horizontal_force(h, fairlead) {
-        Ok(state) => Point { value: state.x, slope: state.dx_dh },
-        Err(_) => Point { value: f64::NAN, slope: f64::NAN },
-    });
-    let state = line.at_horizontal_force(force, fairlead)?;
-    let off = (state.x - x).abs();
-    let residual = off / state.dx_dh;
-    if residual <= 1e-9 * state.top_tension && off <= 1e-6 * (line.length() + x)
-        || off <= 4.0 * f64::EPSILON * (line.length() + x)
-    {
-        return Ok(state);
-    }
-    if state.x > x && force < 1e-9 * start {
-        return Err(LineError::Slack { force, reach: state.x });
-    }
-    Err(LineError::Unproven { residual, tension: state.top_tension })
-}
+/// Largest accepted residual as a share of the tension at the fairlead.
+const PROOF: f64 = 1e-9;
 
 impl Line {
-    /// The first segment from which on the bottom carries the line: below the last buoyant part.
-    fn bottom_from(&self) -> usize {
-        let lifts = |joint: &Joint| match joint {
-            Joint::SpringBuoy { .. } => true,
-            Joint::Weight(w) => *w < 0.0,
-            Joint::Free => false,
+    /// The configuration in which the fairlead at elevation `fairlead` (m) is pulled with the horizontal force `force`
+    /// (N, greater than zero).
+    ///
+    /// # Errors
+    /// [`LineError`]; a state that is returned has been proven.
+    pub fn at_horizontal_force(&self, force: f64, fairlead: f64) -> Result<State, LineError> {
+        self.check_fairlead(fairlead)?;
+        positive("the horizontal force", force)?;
+        if self.tilt() == Tilt::FLAT {
+            let rested = self.rest(force, self.height(0.0, fairlead).1, None)?;
+            return self.state(rested, None, fairlead);
+        }
+        // the height above a sloped bottom depends on the distance; the force grows with that
+        let start = self.length();
+        let (x, _) = rising_root(start, force, |x| match self.at_distance(x, fairlead) {
+            Ok(state) => Point { value: state.force, slope: state.stiffness[0][0] },
+            Err(_) => Point { value: f64::NAN, slope: f64::NAN },
+        });
+        let state = self.at_distance(x, fairlead)?;
+        let residual = (state.force - force).abs();
+        if residual <= PROOF * state.top_tension {
+            return Ok(state);
+        }
+        Err(LineError::Unproven { residual, tension: state.top_tension })
+    }
+
+    /// The configuration in which the fairlead at elevation `fairlead` (m) is `x` >= 0 beside the anchor (m). When the
+    /// line needs no horizontal force to reach so far, the state has none.
+    ///
+    /// # Errors
+    /// [`LineError`]; a state that is returned has been proven.
+    pub fn at_distance(&self, x: f64, fairlead: f64) -> Result<State, LineError> {
+        self.check_fairlead(fairlead)?;
+        if !(x >= 0.0 && x.is_finite()) {
+            return Err(LineError::Value { what: "the horizontal distance", segment: 1, value: x });
+        }
+        let (at, height) = self.height(x, fairlead);
+        let target = at - self.anchor_place().0;
+        let chain = &self.chain;
+        let least = chain.ground.least;
+        let weight: f64 = chain.elements.iter().map(|e| e.weight().abs()).sum();
+        let start = (0.3 * weight).max(16.0 * least);
+        let mut near: Option<Rested> = None;
+        let mut failed = None;
+        let mut found: Option<Rested> = None;
+        // over a slope the tension along it can be less than nothing where the line is steep
+        let lifts: f64 = chain.pulls.iter().map(|p| p.lift.abs()).sum();
+        let short = (x.hypot(fairlead - self.anchor) - chain.length()).max(0.0);
+        let taut = short / self.segments.iter().map(|s| s.length / s.ea).sum::<f64>();
+        let shift = chain.ground.tilt.sin.abs() * (weight + lifts + 2.0 * taut);
+        let tension = |p: f64| if shift > 0.0 { p - shift } else { p.max(least) };
+        let (_, steps) = rising_root(start + shift, target, |p| match self.rest(tension(p), height, near.as_ref()) {
+            Ok(rested) => {
+                // without horizontal force nothing changes any more; over a slope that begins at a tension above none
+                let lacks = rested.held.iter().fold(0.0, |m: f64, h| m.max(h.lacks)) > 4.0 * least;
+                let limp = shift == 0.0 && p <= least && rested.t >= target;
+                let point = match (lacks, limp) {
+                    (true, _) => Point { value: target - chain.length(), slope: f64::NAN },
+                    (_, true) => Point { value: target, slope: rested.t_by[0] },
+                    _ => Point { value: rested.t, slope: rested.t_by[0] },
+                };
+                near = Some(rested.clone());
+                let better = |f: &Rested| (rested.t - target).abs() <= (f.t - target).abs();
+                if !lacks && found.as_ref().is_none_or(better) {
+                    found = Some(rested);
+                }
+                point
+            }
+            Err(error) => {
+                // over a slope there is none at all for a tension too small; whatever is found is proven
+                failed = Some(error);
+                let skip = shift > 0.0 || chain.ground.friction > 0.0;
+                Point { value: if skip { target - chain.length() } else { f64::NAN }, slope: f64::NAN }
+            }
+        });
+        let Some(mut rested) = found else {
+            return Err(failed.unwrap_or(LineError::NotConverged {
+                force: start,
+                residual: f64::NAN,
+                iterations: steps,
+            }));
         };
-        let joint = self.joints.iter().rposition(lifts).map_or(0, |i| i + 1);
-        let segment = self.segments.iter().rposition(|s| s.weight <= 0.0).map_or(0, |i| i + 1);
-        joint.max(segment)
+        rested.iterations += steps;
+        match (self.state(rested, Some((x, target)), fairlead), failed) {
+            (Err(LineError::Unproven { .. }), Some(reason)) => Err(reason),
+            (outcome, _) => outcome,
+        }
     }
 
-    /// The last joint that carries a spring buoy: segments up to it ignore the bottom.
-    fn last_spring_buoy(&self) -> Option<usize> {
-        self.joints.iter().rposition(|j| matches!(j, Joint::SpringBuoy { .. }))
+    /// The configuration in which the tension at the fairlead, at elevation `fairlead` (m), is `tension` (N).
+    ///
+    /// # Errors
+    /// [`LineError`]; among them a tension less than that of the line hanging straight down.
+    pub fn at_tension(&self, tension: f64, fairlead: f64) -> Result<State, LineError> {
+        self.check_fairlead(fairlead)?;
+        positive("the tension", tension)?;
+        let (force, _) = rising_root(0.7 * tension, tension, |h| match self.at_horizontal_force(h, fairlead) {
+            Ok(s) => {
+                // T dT = H dH + V dV, dV/dH at a fixed elevation
+                let turn = s.stiffness[1][0] / s.stiffness[0][0];
+                let slope = (s.force + s.top_vertical * turn) / s.top_tension;
+                Point { value: s.top_tension, slope }
+            }
+            Err(_) => Point { value: f64::NAN, slope: f64::NAN },
+        });
+        let state = self.at_horizontal_force(force, fairlead)?;
+        if (state.top_tension - tension).abs() <= PROOF * tension {
+            return Ok(state);
+        }
+        if let Ok(hanging) = self.at_distance(0.0, fairlead)
+            && hanging.top_tension > tension
+        {
+            return Err(LineError::Weight { tension, least: hanging.top_tension });
+        }
+        Err(LineError::Unproven { residual: (state.top_tension - tension).abs(), tension })
     }
 
-    /// Solves with the buoys in assumed states; `None` when the result contradicts them.
-    fn assume(&self, h: f64, fairlead: f64, buoys: &[usize], states: &[Buoy]) -> Result<Option<State>, LineError> {
-        let state_of = |joint: usize| buoys.iter().position(|b| *b == joint).and_then(|i| states.get(i)).copied();
-        let lifts: Vec<f64> = self
-            .joints
-            .iter()
-            .enumerate()
-            .map(|(index, joint)| match (joint, state_of(index)) {
-                (Joint::Weight(w), _) => -w,
-                (Joint::SpringBuoy { capacity, .. }, Some(Buoy::Sunk)) => *capacity,
-                _ => 0.0,
+    /// The inclination of the bottom.
+    pub(super) fn tilt(&self) -> Tilt {
+        self.chain.ground.tilt
+    }
+
+    /// A place beside and above the anchor in axes along the bottom: t and n (m).
+    fn height(&self, x: f64, z: f64) -> (f64, f64) {
+        self.tilt().turned(x, z - self.datum())
+    }
+
+    /// The anchor in axes along the bottom (m).
+    fn anchor_place(&self) -> (f64, f64) {
+        self.height(0.0, self.anchor)
+    }
+
+    fn rest(&self, p: f64, height: f64, near: Option<&Rested>) -> Result<Rested, LineError> {
+        let (at, low) = self.anchor_place();
+        if self.elements_see_bottom() && height < 0.0 {
+            return Err(LineError::BelowBottom(-height));
+        }
+        let warm = self.chain.rest(p, height, low, at, near);
+        if warm.is_err() && near.is_some() {
+            return self.chain.rest(p, height, low, at, None);
+        }
+        warm
+    }
+
+    /// Whether the bottom carries the first piece.
+    fn elements_see_bottom(&self) -> bool {
+        let lengths = self.chain.elements.iter().filter_map(|e| match e {
+            Element::Length { sees_bottom, segment, .. } => Some(*sees_bottom && segment.weight > 0.0),
+            Element::Link(_) => None,
+        });
+        lengths.take(1).any(|sees| sees)
+    }
+
+    fn check_fairlead(&self, fairlead: f64) -> Result<(), LineError> {
+        if fairlead.is_finite() {
+            return Ok(());
+        }
+        Err(LineError::Value { what: "the fairlead elevation", segment: 1, value: fairlead })
+    }
+
+    /// The state of a rested chain; `wanted` is the distance and the reach along t that were asked for, if they were.
+    fn state(&self, rested: Rested, wanted: Option<(f64, f64)>, fairlead: f64) -> Result<State, LineError> {
+        let tilt = self.tilt();
+        let (Some(first), Some(last)) = (rested.held.first().copied(), rested.held.last().copied()) else {
+            return Err(LineError::Empty);
+        };
+        let least = self.chain.ground.least;
+        let [t_p, t_n] = rested.t_by;
+        let [q_p, q_n] = rested.q_by;
+        let mut force = tilt.back(first.p_hi, first.q_hi);
+        let mut far = tilt.back(last.p_lo, last.q_lo);
+        let scale = force.0.hypot(force.1).max(far.0.hypot(far.1));
+        let off = wanted.map_or(0.0, |(_, t)| rested.t - t);
+        // the least tension already reaches so far: no horizontal force at all
+        let limit = if tilt == Tilt::FLAT { 4.0 * least } else { 1e-9 * scale };
+        let slack = wanted.is_some() && force.0 <= limit && off >= 0.0;
+        let residual = if slack { 0.0 } else { (off / t_p).abs() * (1.0 + (q_p).abs()) };
+        let fine = 4.0 * f64::EPSILON * (self.length() + rested.t.abs());
+        if !(residual <= PROOF * scale || off.abs() <= fine) {
+            return Err(LineError::Unproven { residual, tension: scale });
+        }
+        let loose = |h: &Held| h.ground > 0.0 || (h.q_hi > 0.0 && h.q_lo < 0.0);
+        let mut stiffness = turned(tilt, t_p, t_n, q_p, q_n);
+        if slack {
+            if self.weightless() && off > fine {
+                return Err(LineError::Undetermined);
+            }
+            let buoyant =
+                self.chain.pulls.iter().any(|p| p.lift > 0.0) || self.chain.elements.iter().any(|e| e.weight() < 0.0);
+            if tilt != Tilt::FLAT && buoyant {
+                return Err(LineError::SlackSlope);
+            }
+            (force, far) = (still(force, least), still(far, least));
+            if rested.held.iter().any(loose) {
+                stiffness = [[0.0, 0.0], [0.0, q_n]];
+            }
+        }
+        let places = self.places(&rested, wanted.map(|w| w.0), fairlead);
+        let x = wanted.map_or_else(|| places.last().map_or(0.0, |p| p.0), |w| w.0);
+        let segments = self.segment_states(&rested, slack.then_some(least));
+        let state = State {
+            force: force.0,
+            x,
+            dx_dh: if tilt == Tilt::FLAT || slack { t_p } else { 1.0 / stiffness[0][0] },
+            top_vertical: force.1,
+            top_tension: force.0.hypot(force.1),
+            anchor_horizontal: far.0,
+            anchor_vertical: far.1,
+            stiffness,
+            grounded: segments.iter().map(|s| s.grounded).sum(),
+            grounded_stretched: rested.held.iter().map(|h| h.ground_stretched).sum(),
+            touchdown: self.touchdown(&rested, &places),
+            joints: self.joint_states(&rested, &places),
+            below_bottom: self.below_bottom(&rested),
+            above_surface: self.above_surface(&rested, &places),
+            segments,
+            slack,
+            iterations: rested.iterations,
+            residual,
+            unbalance: rested.unbalance,
+            places,
+            rested,
+        };
+        if !state.is_finite() {
+            return Err(LineError::NotConverged { force: force.0, residual: f64::NAN, iterations: state.iterations });
+        }
+        Ok(state)
+    }
+
+    /// Whether nothing pulls the line down or up.
+    fn weightless(&self) -> bool {
+        self.chain.elements.iter().all(|e| e.weight() == 0.0) && self.chain.pulls.iter().all(|p| p.lift == 0.0)
+    }
+
+    /// Ends of the pieces: distance from the fairlead and elevation (m).
+    fn places(&self, rested: &Rested, x: Option<f64>, fairlead: f64) -> Vec<(f64, f64)> {
+        let tilt = self.tilt();
+        let (mut t, _) = self.anchor_place();
+        // a slack line lies straight from the anchor, what is too long in a heap at the touchdown
+        let mut lies = x.map_or(f64::INFINITY, |x| self.height(x, fairlead).0 - t);
+        lies -= rested.held.iter().map(|h| h.upper.t + h.lower.t).sum::<f64>();
+        let mut places: Vec<(f64, f64)> = Vec::with_capacity(rested.n.len());
+        for (i, n) in rested.n.iter().enumerate().rev() {
+            places.push((t, *n));
+            if let Some(held) = i.checked_sub(1).and_then(|i| rested.held.get(i)) {
+                let legs = held.upper.t + held.lower.t;
+                let rest = (held.t - legs).min(lies.max(0.0));
+                lies -= rest;
+                t += legs + rest;
+            }
+        }
+        places.reverse();
+        let origin = x.unwrap_or_else(|| places.first().map_or(0.0, |(t, n)| tilt.back(*t, *n).0));
+        let count = places.len();
+        let place = |(i, (t, n)): (usize, (f64, f64))| {
+            let (x, z) = tilt.back(t, n);
+            match i {
+                0 => (0.0, fairlead),
+                i if i + 1 == count => (origin, self.anchor),
+                _ => (origin - x, z + self.datum()),
+            }
+        };
+        places.into_iter().enumerate().map(place).collect()
+    }
+
+    /// The rested lengths of line, without the springs at the ends.
+    pub(super) fn lengths<'a>(&'a self, rested: &'a Rested) -> impl Iterator<Item = (usize, &'a Element, &'a Held)> {
+        let parts = self.chain.elements.iter().zip(&rested.held).enumerate();
+        parts.filter(|(_, (e, _))| matches!(e, Element::Length { .. })).map(|(i, (e, h))| (i, e, h))
+    }
+
+    fn segment_states(&self, rested: &Rested, slack: Option<f64>) -> Vec<SegmentState> {
+        let tilt = self.tilt();
+        self.lengths(rested)
+            .map(|(_, _, h)| {
+                let clean = |force: (f64, f64)| slack.map_or(force, |least| still(force, least));
+                let (top, bottom) = (clean(tilt.back(h.p_hi, h.q_hi)), clean(tilt.back(h.p_lo, h.q_lo)));
+                SegmentState {
+                    top_tension: top.0.hypot(top.1),
+                    bottom_tension: bottom.0.hypot(bottom.1),
+                    top_horizontal: top.0,
+                    bottom_horizontal: bottom.0,
+                    top_vertical: top.1,
+                    bottom_vertical: bottom.1,
+                    grounded: h.ground,
+                }
             })
-            .collect();
-        let bottom_from = self.bottom_from();
-        let mut work = Work::new(self.segments.len());
-        let (mut from, mut upper) = (0, fairlead);
-        for end in 0..self.segments.len() {
-            let last = end + 1 == self.segments.len();
-            let held = match (self.joints.get(end), state_of(end)) {
-                (Some(Joint::SpringBuoy { depth, .. }), Some(Buoy::Held)) => Some(self.surface - depth),
+            .collect()
+    }
+
+    fn joint_states(&self, rested: &Rested, places: &[(f64, f64)]) -> Vec<JointState> {
+        let first = self.first_joint();
+        let state = |(j, joint): (usize, &Joint)| {
+            let at = j + first;
+            let (x, z) = places.get(at + 1).copied().unwrap_or_default();
+            let value = |list: &[f64]| list.get(at).copied().unwrap_or(0.0);
+            let (lift, reaction) = (value(&rested.lifts), value(&rested.reactions).max(0.0));
+            let buoy = match (joint, rested.policy.stands.get(at)) {
+                (Joint::SpringBuoy { .. } | Joint::Buoy { .. }, Some(stand)) => Some(match stand {
+                    Stand::Free(0) | Stand::Bottom => Buoy::Sunk,
+                    Stand::Free(_) => Buoy::Slack,
+                    Stand::Step(_) => Buoy::Held,
+                }),
                 _ => None,
             };
-            if !last && held.is_none() {
-                continue;
-            }
-            let lower = held.unwrap_or(self.anchor);
-            let section = Section {
-                segments: self.segments.get(from..=end).unwrap_or_default(),
-                lifts: lifts.get(from..end).unwrap_or_default(),
-                bottom_from: bottom_from.saturating_sub(from),
-            };
-            if last && section.bottom_from == 0 && upper < lower {
-                return Ok(None);
-            }
-            let (top, reach, search) = section.solve(h, upper - lower)?;
-            section.walk(h, top, |ends| work.ends.push(ends));
-            work.add(reach, search);
-            (from, upper) = (end + 1, lower);
-        }
-        self.accept(h, fairlead, &lifts, work, state_of)
-    }
-
-    /// Makes the state of a walked line, unless it contradicts what was assumed of its buoys.
-    fn accept(
-        &self,
-        h: f64,
-        fairlead: f64,
-        lifts: &[f64],
-        work: Work,
-        state_of: impl Fn(usize) -> Option<Buoy>,
-    ) -> Result<Option<State>, LineError> {
-        let scale = 1e-9 * (self.length() + fairlead.abs() + self.anchor.abs());
-        let (mut x, mut z) = (0.0, fairlead);
-        let mut joints = Vec::with_capacity(self.joints.len());
-        let mut below_bottom = Vec::new();
-        let last_buoy = self.last_spring_buoy();
-        for (index, ends) in work.ends.iter().enumerate() {
-            if let Some(segment) = self.segments.get(index)
-                && let Some(by) = sag_below(segment, h, ends, z - ends.z - self.anchor).filter(|by| *by > scale)
-            {
-                if last_buoy.is_none_or(|b| index > b) {
-                    return Err(LineError::Crosses { segment: index + 1, by });
-                }
-                below_bottom.push((index + 1, by));
-            }
-            x += ends.x;
-            z -= ends.z;
-            let Some(joint) = self.joints.get(index) else { break };
-            let (next, aground) =
-                work.ends.get(index + 1).map_or((0.0, false), |n| (n.high, n.ground > 0.0 && n.high == 0.0));
-            // a joint on the bottom: what the line feels is what is left of its tension's vertical part
-            let mut lift = if aground { -ends.low } else { lifts.get(index).copied().unwrap_or(0.0) };
-            let buoy = state_of(index);
-            if let (Joint::SpringBuoy { capacity, depth }, Some(state)) = (joint, buoy) {
-                let held = self.surface - depth;
-                let fits = match state {
-                    Buoy::Slack => z >= held - scale,
-                    Buoy::Sunk => z <= held + scale,
-                    Buoy::Held => {
-                        lift = next - ends.low;
-                        let slip = 1e-9 * (capacity + h);
-                        z = held;
-                        lift >= -slip && lift <= capacity + slip
-                    }
-                };
-                if !fits {
-                    return Ok(None);
-                }
-            }
-            joints.push(JointState { x, z, lift, buoy });
-        }
-        let top_vertical = work.ends.first().map_or(0.0, |e| e.high);
-        let anchor_vertical = work.ends.last().map_or(0.0, |e| e.low);
-        let stretched = |(ends, segment): (&Ends, &Segment)| ends.ground * (1.0 + h / segment.ea);
-        let segments = work.ends.iter().map(|e| SegmentState {
-            top_tension: h.hypot(e.high),
-            bottom_tension: h.hypot(e.low),
-            top_vertical: e.high,
-            bottom_vertical: e.low,
-            grounded: e.ground,
-        });
-        let state = State {
-            force: h,
-            x: work.x,
-            dx_dh: work.dx_dh,
-            top_vertical,
-            top_tension: h.hypot(top_vertical),
-            anchor_vertical,
-            grounded: work.ends.iter().map(|e| e.ground).sum(),
-            grounded_stretched: work.ends.iter().zip(&self.segments).map(stretched).sum(),
-            segments: segments.collect(),
-            joints,
-            below_bottom,
-            iterations: work.iterations,
-            residual: work.residual,
+            // what the line feels of a clump that the bottom carries
+            let lift = if matches!(joint, Joint::Weight(_)) { lift + reaction * self.tilt().cos } else { lift };
+            JointState { x, z, lift, reaction, buoy }
         };
-        let line = [state.x, state.dx_dh, state.top_tension, state.anchor_vertical, state.grounded_stretched];
-        let joints = state.joints.iter().flat_map(|j| [j.x, j.z, j.lift]);
-        let parts = state.segments.iter().flat_map(|s| [s.top_tension, s.bottom_tension]);
-        if line.into_iter().chain(joints).chain(parts).any(|v| !v.is_finite()) {
-            return Err(LineError::NotConverged { force: h, residual: f64::NAN, iterations: work.iterations });
+        self.joints.iter().enumerate().map(state).collect()
+    }
+
+    /// Where the line, seen from the fairlead, first meets the bottom: distance from the fairlead and elevation (m).
+    fn touchdown(&self, rested: &Rested, places: &[(f64, f64)]) -> Option<(f64, f64)> {
+        let tilt = self.tilt();
+        let (index, element, held) = self.lengths(rested).find(|(_, _, h)| h.ground > 0.0)?;
+        let Element::Length { segment, law, .. } = element else { return None };
+        let (x, z) = places.get(index).copied()?;
+        if held.above == 0.0 {
+            return Some((x, z));
         }
-        Ok(Some(state))
+        let p = held.p_hi - segment.weight * tilt.sin * held.above;
+        let leg = stretch(segment, law.as_ref(), tilt, held.above, p, 0.0);
+        let (dx, dz) = tilt.back(leg.x, leg.z);
+        Some((x + dx, z - dz))
+    }
+
+    /// Segments that do not see the bottom and hang below it, with how far (m).
+    fn below_bottom(&self, rested: &Rested) -> Vec<(usize, f64)> {
+        if self.floor.is_none() {
+            return Vec::new();
+        }
+        let tilt = self.tilt();
+        let scale = 1e-9 * (self.length() + self.anchor.abs());
+        let mut list = Vec::new();
+        for (number, (index, element, held)) in self.lengths(rested).enumerate() {
+            let Element::Length { segment, law, sees_bottom: false } = element else { continue };
+            let end = |i: usize| rested.n.get(i).copied().unwrap_or(0.0);
+            let mut lowest = end(index).min(end(index + 1));
+            if held.q_lo < 0.0 && held.q_hi > 0.0 && segment.weight > 0.0 {
+                let s = -held.q_lo / (segment.weight * tilt.cos);
+                lowest = end(index + 1) + stretch(segment, law.as_ref(), tilt, s, held.p_lo, held.q_lo).z;
+            }
+            if lowest < -scale {
+                list.push((number + 1, -lowest));
+            }
+        }
+        list
+    }
+
+    /// Buoyant segments, and segments that begin at a buoyant joint, that rise above the water surface, with how far
+    /// (m).
+    fn above_surface(&self, rested: &Rested, places: &[(f64, f64)]) -> Vec<(usize, f64)> {
+        let tilt = self.tilt();
+        let scale = 1e-9 * (self.length() + self.anchor.abs());
+        let mut list = Vec::new();
+        for (number, (index, element, held)) in self.lengths(rested).enumerate() {
+            let Element::Length { segment, .. } = element else { continue };
+            let (_, low) = places.get(index + 1).copied().unwrap_or_default();
+            let lifted = self.joints.get(number).is_some_and(|j| matches!(j, Joint::Weight(w) if *w < 0.0));
+            let mut highest = if lifted { low } else { f64::NEG_INFINITY };
+            if segment.weight < 0.0 {
+                let (h, v) = tilt.back(held.p_lo, held.q_lo);
+                let (_, top) = tilt.back(held.p_hi, held.q_hi);
+                highest = highest.max(low);
+                if v > 0.0 && top < 0.0 {
+                    let part = super::line::Segment { length: -v / segment.weight, ..*segment };
+                    highest = highest.max(low + hanging(&part, h, v).z);
+                }
+            }
+            if highest > self.surface + scale {
+                list.push((number + 1, highest - self.surface));
+            }
+        }
+        list
     }
 }
 
-/// Sums over the sections of a line.
-struct Work {
-    ends: Vec<Ends>,
-    x: f64,
-    dx_dh: f64,
-    iterations: usize,
-    residual: f64,
+fn positive(what: &'static str, value: f64) -> Result<(), LineError> {
+    if value > 0.0 && value.is_finite() {
+        return Ok(());
+    }
+    Err(LineError::Value { what, segment: 1, value })
 }
 
-impl Work {
-    fn new(segments: usize) -> Self {
-        Work { ends: Vec::with_capacity(segments), x: 0.0, dx_dh: 0.0, iterations: 0, residual: 0.0 }
-    }
-
-    /// A section between fixed elevations: at constant rise, dV/dH = -z_H/z_V.
-    fn add(&mut self, reach: Reach, search: Search) {
-        self.x += reach.x;
-        let turned = if reach.z_v > 0.0 { reach.x_v * reach.z_h / reach.z_v } else { 0.0 };
-        self.dx_dh += reach.x_h - turned;
-        self.iterations += search.iterations;
-        self.residual = self.residual.max(search.residual);
-    }
-}
-
-/// How far below the bottom (m) the lowest point of a free segment lies, when it hangs below its lower end or that end
-/// itself is below; `height` is the elevation of the lower end above the bottom (m).
-fn sag_below(segment: &Segment, h: f64, ends: &Ends, height: f64) -> Option<f64> {
-    if ends.ground > 0.0 {
-        return None;
-    }
-    let sag = if ends.low < 0.0 && ends.high > 0.0 && segment.weight > 0.0 {
-        // from the lower end, where V is negative, down to V = 0
-        let v = -ends.low;
-        (v * v / (h.hypot(v) + h) + 0.5 * v * v / segment.ea) / segment.weight
+/// H and V of a slack line, solved with the least tension: without what that is.
+fn still((h, v): (f64, f64), least: f64) -> (f64, f64) {
+    if h.hypot(v) <= 64.0 * least {
+        (0.0, 0.0)
+    } else if h.abs() <= 64.0 * least {
+        (0.0, v.signum() * h.hypot(v))
     } else {
-        0.0
-    };
-    let lowest = height - sag;
-    (lowest < 0.0).then_some(-lowest)
+        (h, v)
+    }
+}
+
+/// d(H, V)/d(x, z) at the fairlead from the derivatives in axes along the bottom.
+fn turned(tilt: Tilt, t_p: f64, t_n: f64, q_p: f64, q_n: f64) -> [[f64; 2]; 2] {
+    let [[a, b], [c, d]] = [[1.0 / t_p, -t_n / t_p], [q_p / t_p, q_n - q_p * t_n / t_p]];
+    if tilt == Tilt::FLAT {
+        return [[a, b], [c, d]];
+    }
+    // rows are forces, columns displacements: both turn
+    let ((a, b), (c, d)) = (tilt.back(a, b), tilt.back(c, d));
+    let ((a, c), (b, d)) = (tilt.back(a, c), tilt.back(b, d));
+    [[a, b], [c, d]]
 }

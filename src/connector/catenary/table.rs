@@ -4,13 +4,13 @@
 //! of all segments; row 0 uses 1.4e-4 T in place of zero.
 
 use super::line::{Line, LineError};
-use super::solve::State;
+use super::state::State;
 
 /// Number of rows.
 pub const ROWS: usize = 30;
 
 /// A row of the table.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Row {
     /// The configuration.
     pub state: State,

@@ -1,0 +1,85 @@
+//! Where a chain touches the bottom or is held, and the sections between such places.
+
+use super::chain::{Chain, Held, Stand};
+use super::element::{Element, Part};
+
+/// Which pieces rest on the bottom, and how the joints stand.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Policy {
+    pub rests: Vec<bool>,
+    pub stands: Vec<Stand>,
+}
+
+/// A run of line between two places of known height.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Section {
+    /// The first piece, and whether only its lower leg belongs to it.
+    pub from: usize,
+    pub begins_with_leg: bool,
+    /// The last piece, and whether only its upper leg belongs to it.
+    pub to: usize,
+    pub ends_with_leg: bool,
+}
+
+impl Section {
+    /// The joint of known height at its upper end; none at the fairlead or on the bottom within a piece.
+    pub fn start_joint(&self) -> Option<usize> {
+        if self.begins_with_leg { None } else { self.from.checked_sub(1) }
+    }
+
+    /// Whether its upper end is on the bottom within a piece.
+    pub fn starts_free(&self) -> bool {
+        self.begins_with_leg
+    }
+
+    /// The joint of known height at its lower end; none at the anchor or on the bottom within a piece.
+    pub fn end_joint(&self, count: usize) -> Option<usize> {
+        if self.ends_with_leg || self.to + 1 >= count { None } else { Some(self.to) }
+    }
+
+    /// Its parts: piece, part, whether that is the piece's lower leg.
+    pub fn parts<'a>(&self, held: &'a [Held]) -> impl Iterator<Item = (usize, &'a Part, bool)> + use<'a> {
+        let own = *self;
+        held.iter().enumerate().skip(own.from).take(own.to + 1 - own.from).map(move |(i, h)| {
+            let lower = i == own.from && own.begins_with_leg;
+            (i, if lower { &h.lower } else { &h.upper }, lower)
+        })
+    }
+}
+
+impl Policy {
+    /// The sections of a chain of so many pieces, from the fairlead down.
+    pub fn sections(&self, count: usize) -> Vec<Section> {
+        let mut list = Vec::with_capacity(count);
+        let (mut from, mut begins_with_leg) = (0, false);
+        for i in 0..count {
+            if self.rests.get(i).copied().unwrap_or(false) {
+                list.push(Section { from, begins_with_leg, to: i, ends_with_leg: true });
+                (from, begins_with_leg) = (i, true);
+            }
+            let fast = self.stands.get(i).is_none_or(|s| !matches!(s, Stand::Free(_)));
+            if fast {
+                list.push(Section { from, begins_with_leg, to: i, ends_with_leg: false });
+                (from, begins_with_leg) = (i + 1, false);
+            }
+        }
+        list
+    }
+}
+
+/// A policy to begin with: joints that are not lifted, and the pieces between them, lie on the bottom.
+pub fn first_policy(chain: &Chain) -> Policy {
+    let stands: Vec<Stand> = chain
+        .pulls
+        .iter()
+        .map(|p| match p.steps.is_empty() {
+            true if p.on_bottom && p.lift <= 0.0 => Stand::Bottom,
+            true => Stand::Free(0),
+            false => Stand::Step(0),
+        })
+        .collect();
+    let low = |j: Option<usize>| j.is_none_or(|j| stands.get(j).is_none_or(|s| *s == Stand::Bottom));
+    let rests = |(i, e): (usize, &Element)| e.can_rest() && low(i.checked_sub(1)) && low(Some(i)) && i > 0;
+    let rests = chain.elements.iter().enumerate().map(rests).collect();
+    Policy { rests, stands }
+}
