@@ -16,6 +16,7 @@ mod file;
 pub mod functions;
 pub mod help;
 mod job;
+mod line_types;
 mod menus;
 mod message;
 mod report_menu;
@@ -26,6 +27,7 @@ mod written;
 
 pub use job::{Job, Menu, Settings};
 pub use menus::finish_inmodel;
+pub use status::kinds as status_kinds;
 
 use crate::language::args::Args;
 use crate::language::diagnostic::Outcome;
