@@ -131,7 +131,15 @@ fn completion_hints_a_wrong_record_and_ctrl_c() {
     t.see("-DEPANCHOR DEPTH");
     t.press("50\r");
     t.ready("MEDIT> ");
-    t.press("CONNECTOR A ~\t*\t");
+    t.press("~LEG B_CAT -TY\tWIRE_S\t");
+    t.see("~LEG B_CAT -TYPE WIRE_SPIRAL");
+    t.press("3.5 -LEN 100\r");
+    t.ready("MEDIT> ");
+    t.press("&STATUS LIN\tHM\t");
+    t.see("&STATUS LINE_TYPES HMPE");
+    t.press("\x03");
+    t.ready("MEDIT> ");
+    t.press("CONNECTOR A ~W\t*\t");
     t.see("CONNECTOR A ~WIRE *MLA");
     t.press("\r");
     t.ready("MEDIT> ");

@@ -1,7 +1,7 @@
 //! `~NAME TYPE ...`: defines a class, or adds a segment to one.
 
 use super::{Call, Command, Effect, Job};
-use crate::connector::CLASSES;
+use crate::connector::{CLASSES, type_notices};
 use crate::language::args;
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::choose;
@@ -35,6 +35,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     }
     let kind = choose(&word.text, word.span, "class type", known())?;
     let read = args::read(kind.spec, name.span, rest.get(1..).unwrap_or_default(), job.units)?;
+    let notices = type_notices(&read, job.units);
     let record = ClassRecord { args: read, defaults: job.model.defaults };
     let key = Model::key(&name.text);
     let mut records = vec![record];
@@ -68,6 +69,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let object = (kind.build)(&records)?;
     job.model.classes.insert(key, Class { name: name.text.to_string(), records, object, span });
     job.note_name(&name.text, name.span);
+    job.notices.extend(notices);
     if let Some(text) = remark {
         job.remark(text, name.span);
     }

@@ -131,7 +131,7 @@ fn value_help(value: &ValueSpec, units: UnitSystem) -> String {
 }
 
 /// Text in lines of at most `width` characters.
-fn wrap(text: &str, width: usize) -> Vec<String> {
+pub(super) fn wrap(text: &str, width: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
         match lines.last_mut() {

@@ -16,6 +16,7 @@ mod file;
 pub mod functions;
 pub mod help;
 mod job;
+mod line_types;
 mod menus;
 mod message;
 mod offsets;
@@ -28,6 +29,7 @@ mod written;
 pub use file::write_open_files;
 pub use job::{Job, Menu, Settings};
 pub use menus::{finish_inmodel, opened_by};
+pub use status::kinds as status_kinds;
 
 use crate::language::args::Args;
 use crate::language::diagnostic::Outcome;

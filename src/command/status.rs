@@ -2,7 +2,7 @@
 
 use super::offsets::offsets;
 use super::written::{as_written, kind_data, option_as_written};
-use super::{Call, Command, Effect, Job};
+use super::{Call, Command, Effect, Job, line_types};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::{Owner, choose, matches};
 use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
@@ -27,17 +27,28 @@ const KINDS: &[(&str, Owner, &str)] = &[
     ("DIMENSIONS", Owner::Ours, "units"),
     ("DEFAULTS", Owner::Ours, "defaults"),
     ("SELECTORS", Owner::Ours, "selectors"),
+    ("LINE_TYPES", Owner::Ours, "chains and ropes of the library, for -TYPE"),
 ];
+
+/// What &STATUS can tell of, for completion.
+pub fn kinds() -> impl Iterator<Item = (&'static str, Owner, &'static str)> + Clone {
+    KINDS.iter().map(|(name, owner, _)| (*name, *owner, *name))
+}
 
 static SPEC: CommandSpec = CommandSpec {
     data: &[
         ValueSpec::new(
             "WHAT",
             Kind::Text,
-            "CONFIGURATION, CL_FLEX, G_CONNECTOR, CURVES, ENVIRONMENT, BODIES, POINTS, ..",
+            "CONFIGURATION, CL_FLEX, G_CONNECTOR, CURVES, ENVIRONMENT, BODIES, POINTS, LINE_TYPES, ..",
         )
         .or("a summary"),
-        ValueSpec::new("NAME", Kind::Name(Noun::Selector), "only what fits this name or pattern").or("all"),
+        ValueSpec::new(
+            "NAME",
+            Kind::Name(Noun::Selector),
+            "only what fits this name or pattern; of LINE_TYPES also a diameter",
+        )
+        .or("all"),
     ],
     options: &[
         OptionSpec::new("-PLOT", &[], "plots curves"),
@@ -45,16 +56,16 @@ static SPEC: CommandSpec = CommandSpec {
         OptionSpec::new("-BOTH", &[], "to the screen and the report file"),
     ],
     detail: "CONFIGURATION, CL_FLEX (or CLASSES), G_CONNECTOR, CURVES, ENVIRONMENT, BODIES, POINTS, DIMENSIONS, DEFAULTS, \
-             SELECTORS; alone it counts what the model holds.",
-    example: "&STATUS\n&STATUS DEFAULTS\n&STATUS DIMENSIONS",
+             SELECTORS; alone it counts what the model holds. LINE_TYPES lists the chains and ropes that -TYPE of a line \
+             class knows; LINE_TYPES 3 gives their values at a nominal diameter, LINE_TYPES CHAIN_R4 the formulas of one.",
+    example: "&STATUS\n&STATUS DEFAULTS\n&STATUS DIMENSIONS\n&STATUS LINE_TYPES 3",
     ..CommandSpec::new("&STATUS", "reports what the model holds")
 };
 
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
-    let names = KINDS.iter().map(|(n, o, _)| (*n, *o, *n));
     let kind = match args.word(0) {
-        Some(word) => choose(word, args.place(0), "kind of &STATUS", names)?,
+        Some(word) => choose(word, args.place(0), "kind of &STATUS", kinds())?,
         None => "SUMMARY",
     };
     let model = &job.model;
@@ -71,6 +82,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         "DIMENSIONS" => vec![dimensions(job)],
         "DEFAULTS" => vec![defaults(model)],
         "SELECTORS" => vec![selectors(model, &fits)],
+        "LINE_TYPES" => line_types::tables(job, pattern.as_deref(), args.place(1))?,
         _ => vec![summary(model)],
     };
     if let (true, Some(name)) = (tables.iter().all(|t| t.rows() == 0 && t.facts.is_empty()), &pattern) {
@@ -106,7 +118,7 @@ fn takes(model: &Model, pattern: &str, name: &str) -> bool {
     }
 }
 
-/// Appends a row; the callers below give one cell a column.
+/// Appends a row; the callers give one cell a column.
 pub(super) fn push(table: &mut Table, row: Vec<Cell>) {
     let fits = table.push(row);
     debug_assert!(fits.is_ok(), "a status row must fit its table");

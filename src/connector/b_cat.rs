@@ -19,11 +19,12 @@ pub static B_CAT: ClassKind = ClassKind { spec: &SPEC, segmented: true, build };
 
 static SPEC: CommandSpec = CommandSpec {
     data: &[
-        o::OD,
+        o::LINE_OD,
         ValueSpec::new("FLAG", Kind::Choice(&["EXACT"]), "solve exactly instead of from a table").or("table"),
     ],
     options: &[
         o::LEN,
+        o::TYPE,
         o::DEPANCHOR,
         o::REFINE,
         o::IG_STIFF,
@@ -54,9 +55,10 @@ static SPEC: CommandSpec = CommandSpec {
     ],
     detail: "One record a segment, fairlead first, all with the same class name. A negative -CLUMP is a spring buoy: \
              the joint stays CLEN below the surface until the pull reaches the buoy's displacement, then sinks; the \
-             segments above it do not see the bottom. Per segment: OD, -LEN, material, diameters, -CLUMP, -B_TENSION, \
-             -C_SN. Per line, on any record: FLAG, -DEPANCHOR, -FRICTION, -SLOPE, -TAB_LIM, -SEND, -X_PY, -X_DAMPING, \
-             -CONVOLUTION, -PISTON. Connects a body to ground.",
+             segments above it do not see the bottom. -TYPE NAME D takes a chain or rope of the library (&STATUS LINE_TYPES) \
+             instead of OD. Per segment: OD, -TYPE, -LEN, material, diameters, -CLUMP, -B_TENSION, -C_SN. Per line, on any \
+             record: FLAG, -DEPANCHOR, -FRICTION, -SLOPE, -TAB_LIM, -SEND, -X_PY, -X_DAMPING, -CONVOLUTION, -PISTON. \
+             Connects a body to ground.",
     example: "MEDIT\n~WIRE B_CAT 4.625 -LEN 500 -BUOY 0 -WTPL 37.51/1000 -EMOD 29000*0.1 -CLUMP -100\n\
               ~WIRE B_CAT 4.625 -LEN 4000 -BUOY 0 -WTPL 37.51/1000 -EMOD 29000*0.1 -DEPANCHOR 3000\nEND\n&STATUS CLASS ~WIRE",
     ..CommandSpec::new("B_CAT", "catenary to ground")

@@ -55,9 +55,10 @@ static ROD_SPEC: CommandSpec = CommandSpec {
 };
 
 static H_CAT_SPEC: CommandSpec = CommandSpec {
-    data: &[o::OD, ValueSpec::new("FLAG", Kind::Choice(&["EXACT"]), "with its weight").or("weightless")],
+    data: &[o::LINE_OD, ValueSpec::new("FLAG", Kind::Choice(&["EXACT"]), "with its weight").or("weightless")],
     options: &[
         o::LEN,
+        o::TYPE,
         o::REFINE,
         o::IG_STIFF,
         o::SEND,
@@ -90,7 +91,10 @@ static H_CAT_SPEC: CommandSpec = CommandSpec {
 };
 
 static SL_ELEM_SPEC: CommandSpec = CommandSpec {
-    data: &[o::OD, ValueSpec::new("FLAG", Kind::Choice(&["TENSION"]), "tension only").or("tension and compression")],
+    data: &[
+        o::LINE_OD,
+        ValueSpec::new("FLAG", Kind::Choice(&["TENSION"]), "tension only").or("tension and compression"),
+    ],
     detail: "Its force depends only on the distance between the ends and acts along the line between them.",
     example: "MEDIT\n~TIE SL_ELEM 3 TENSION -LEN 50\nEND\n&STATUS CLASS ~TIE",
     ..CommandSpec { name: "SL_ELEM", help: "spring along the chord between its ends", ..H_CAT_SPEC }

@@ -6,12 +6,15 @@ mod b_cat;
 pub mod catenary;
 mod checks;
 mod line;
+pub mod line_types;
 mod lmu;
 mod options;
 mod roller;
 mod section;
 mod sling;
 mod spring;
+
+pub use section::type_notices;
 
 use crate::language::diagnostic::Outcome;
 use crate::language::spec::CommandSpec;

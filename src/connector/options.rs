@@ -27,6 +27,19 @@ pub const AF: ValueSpec = ValueSpec::new("AF", Kind::ForceOfDof, "allowable forc
 /// `OD`.
 pub const OD: ValueSpec = number("OD", Dim::Section, "outside diameter").positive();
 
+/// `OD` of a line, which `-TYPE` may stand for.
+pub const LINE_OD: ValueSpec = OD.or("diameter of -TYPE");
+/// `-TYPE NAME D`.
+pub const TYPE: OptionSpec = OptionSpec::new(
+    "-TYPE",
+    &[
+        ValueSpec::new("NAME", Kind::Name(Noun::LineType), "name in &STATUS LINE_TYPES"),
+        number("D", Dim::Section, "nominal diameter").positive(),
+    ],
+    "weight, buoyancy, AE, break and diameters of a chain or rope of the library; other options override it",
+)
+.owner(Owner::Ours);
+
 /// `-LEN L` of a segment.
 pub const LEN: OptionSpec =
     OptionSpec::new("-LEN", &[number("L", Dim::Length, "length of the segment").positive()], "length of the segment")

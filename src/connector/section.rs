@@ -1,11 +1,16 @@
 //! The section of a line's segment: what its diameter, material and load options amount to.
 //!
 //! Source: seed 001 (B_CAT) and reference/model.md: AE and break use the full area pi/4 OD^2; the submerged weight per
-//! length is WTPLEN - DISPLEN - rho_w g pi/4 BUOYDIA^2.
+//! length is WTPLEN - DISPLEN - rho_w g pi/4 BUOYDIA^2. With -TYPE these come from the library of line types; an option
+//! given beside it overrides it.
 
 use super::checks;
-use crate::language::diagnostic::Outcome;
-use crate::language::units::Dim;
+use super::line_types::{LineType, library};
+use crate::language::args::{Args, Given};
+use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::select::{Owner, choose};
+use crate::language::source::Span;
+use crate::language::units::{Dim, UnitSystem};
 use crate::model::{ClassRecord, Surroundings};
 use crate::table::{Cell, Digits, Table};
 use std::f64::consts::FRAC_PI_4;
@@ -38,47 +43,153 @@ pub struct LineSection {
     pub pendant: f64,
     /// Elements.
     pub refine: i64,
+    /// Its type of the library.
+    pub of_type: Option<OfType>,
+}
+
+/// What a section of the library has beside weight, stiffness and strength.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OfType {
+    /// The type.
+    pub line_type: &'static LineType,
+    /// Nominal diameter (m).
+    pub diameter: f64,
+    /// Diameter for drag (m).
+    pub drag: f64,
+    /// Diameter for added mass (m).
+    pub added_mass: f64,
+    /// Diameter for wind (m).
+    pub wind: f64,
+}
+
+impl OfType {
+    /// From `-TYPE NAME D` and the diameters given beside it.
+    fn read(args: &Args) -> Outcome<Option<OfType>> {
+        let Some((line_type, diameter)) = typed(args)? else { return Ok(None) };
+        if !line_type.has_values(diameter) {
+            let text = format!("the formulas of {} give no line at this diameter", line_type.name);
+            return Err(Diagnostic::error(text, diameter_place(args)).label("far outside of their range"));
+        }
+        let drag = line_type.drag.ratio * diameter;
+        Ok(Some(OfType {
+            line_type,
+            diameter,
+            drag: args.option_number("-DRAGDIAMETER").unwrap_or(drag),
+            added_mass: args.option_number("-AMASDIAMETER").unwrap_or(line_type.volume_diameter(diameter)),
+            wind: args.option_number("-WINDDIAMETER").unwrap_or(drag),
+        }))
+    }
+}
+
+/// The type a record names, and its nominal diameter (m).
+fn typed(args: &Args) -> Outcome<Option<(&'static LineType, f64)>> {
+    let Some(given) = args.option("-TYPE") else { return Ok(None) };
+    let (Some(name), Some(diameter)) = (given.values.first(), given.number(1)) else { return Ok(None) };
+    let names = library().types.iter().map(|t| (t.name.as_str(), Owner::Ours, t));
+    Ok(Some((choose(name.word().unwrap_or_default(), name.span, "line type", names)?, diameter)))
+}
+
+/// Where D of `-TYPE` stands.
+fn diameter_place(args: &Args) -> Span {
+    args.option("-TYPE").and_then(|g| g.values.get(1)).map_or(args.span, |v| v.span)
+}
+
+/// What a record with `-TYPE` should tell its writer: a diameter outside the range of the formulas, and which options
+/// override the type. Diameters are told in the user's `units`.
+pub fn type_notices(args: &Args, units: UnitSystem) -> Vec<Diagnostic> {
+    const OVERRIDE: [(&str, &str); 12] = [
+        ("-WTPLEN", "weight"),
+        ("-SPGRAVITY", "weight, of the solid area"),
+        ("-DENSITY", "weight, of the solid area"),
+        ("-DISPLEN", "buoyancy"),
+        ("-BUOYDIAMETER", "buoyancy"),
+        ("-EMODULUS", "AE, of the solid area"),
+        ("-FYIELD", "break, of the solid area"),
+        ("-TENSTR", "break, of the solid area"),
+        ("-B_TENSION", "break"),
+        ("-DRAGDIAMETER", "drag"),
+        ("-WINDDIAMETER", "wind"),
+        ("-AMASDIAMETER", "added mass"),
+    ];
+    let Ok(Some((line_type, diameter))) = typed(args) else { return Vec::new() };
+    let mut notices = Vec::new();
+    if !line_type.covers(diameter) {
+        let written = |d: f64| format!("{:.3}", Dim::Section.from_si(d, units));
+        let short = |d: f64| written(d).trim_end_matches('0').trim_end_matches('.').to_string();
+        let [given, least, most] = [diameter, line_type.diameter.least, line_type.diameter.most].map(short);
+        let (name, unit) = (&line_type.name, Dim::Section.label(units));
+        let text =
+            format!("{given} {unit} is outside of {least} to {most} {unit}, which the formulas of {name} are held for");
+        notices.push(*Diagnostic::warning(text, diameter_place(args)));
+    }
+    let given: Vec<(&Given, &str)> =
+        OVERRIDE.iter().filter_map(|(name, what)| args.option(name).map(|g| (g, *what))).collect();
+    let listed: Vec<String> = given.iter().map(|(g, what)| format!("{} ({what})", g.spec.name)).collect();
+    if let Some(first) = given.iter().map(|(g, _)| g.span).min_by_key(|s| s.start) {
+        let verb = if given.len() == 1 { "overrides" } else { "override" };
+        notices.push(*Diagnostic::remark(format!("{} {verb} what {} gives", listed.join(", "), line_type.name), first));
+    }
+    if args.number(0).is_some() {
+        let text =
+            format!("OD is the diameter listed, and of the solid area; {} itself has D of -TYPE", line_type.name);
+        notices.push(*Diagnostic::remark(text, args.place(0)));
+    }
+    notices
 }
 
 impl LineSection {
     /// From a record whose first datum is OD (and second T for a tube).
     ///
     /// # Errors
-    /// A record without `-LEN`, a wall thicker than the radius, P-Y curves or pistons that contradict themselves.
+    /// A record without `-LEN`, one with neither OD nor `-TYPE`, an unknown type or one without values at its diameter, a
+    /// wall thicker than the radius, P-Y curves or pistons that contradict themselves.
     pub fn read(record: &ClassRecord, kind: &str, tube: bool) -> Outcome<LineSection> {
         let args = &record.args;
         let material = &record.defaults.material;
-        let od = args.number(0).unwrap_or(0.0);
+        let of_type = OfType::read(args)?;
+        let od = args.number(0).or(of_type.map(|t| t.diameter)).ok_or_else(|| {
+            Diagnostic::error(format!("{kind} lacks its value OD"), args.span)
+                .label("expected a diameter after this, or -TYPE NAME D")
+                .help("&STATUS LINE_TYPES lists the types")
+        })?;
         let thickness = if tube { args.number(1) } else { None };
         if let Some(t) = thickness
             && 2.0 * t > od
         {
-            return Err(crate::language::diagnostic::Diagnostic::error(
-                "the wall thickness T is larger than half of OD",
-                args.place(1),
-            ));
+            return Err(Diagnostic::error("the wall thickness T is larger than half of OD", args.place(1)));
         }
         let length = checks::length(args, kind)?;
         checks::py_curves(args)?;
         checks::piston(args)?;
         let area = FRAC_PI_4 * (od * od - thickness.map_or(0.0, |t| (od - 2.0 * t).powi(2)));
         let number = |name: &str| args.option_number(name);
-        let density = number("-DENSITY").or(number("-SPGRAVITY").map(|s| s * FRESH_WATER)).unwrap_or(material.density);
-        let emodulus = number("-EMODULUS").unwrap_or(material.emodulus);
-        let ultimate = number("-TENSTR").or(number("-FYIELD").map(|y| y / 0.6)).unwrap_or(material.ultimate());
+        let solid_weight = |density: f64| density * record.defaults.gravity * area;
+        let density = number("-DENSITY").or(number("-SPGRAVITY").map(|s| s * FRESH_WATER));
+        let ultimate = number("-TENSTR").or(number("-FYIELD").map(|y| y / 0.6));
+        // the type's value, where the record has one
+        let from_type = |of: fn(&LineType, f64) -> f64| of_type.map(|t| of(t.line_type, t.diameter));
+        let weight = number("-WTPLEN")
+            .or(density.map(solid_weight))
+            .or(from_type(|t, d| t.mass.at(d)).map(|mass| mass * record.defaults.gravity))
+            .unwrap_or(solid_weight(material.density));
+        let ea = number("-EMODULUS").map(|e| e * area).or(from_type(|t, d| t.ea.at(d)));
+        let breaking = number("-B_TENSION").or(ultimate.map(|u| u * area)).or(from_type(|t, d| t.breaking.at(d)));
+        // a displacement given stands for the type's, else it would count twice
+        let displaced = from_type(LineType::volume_diameter).map(|d| if args.has("-DISPLEN") { 0.0 } else { d });
         let clump = args.option("-CLUMP");
         Ok(LineSection {
             od,
             thickness,
             length,
-            ea: emodulus * area,
-            weight: number("-WTPLEN").unwrap_or(density * record.defaults.gravity * area),
+            ea: ea.unwrap_or(material.emodulus * area),
+            weight,
             displacement: number("-DISPLEN").unwrap_or(0.0),
-            buoyancy_diameter: number("-BUOYDIAMETER").unwrap_or(od),
-            breaking: number("-B_TENSION").unwrap_or(ultimate * area),
+            buoyancy_diameter: number("-BUOYDIAMETER").or(displaced).unwrap_or(od),
+            breaking: breaking.unwrap_or(material.ultimate() * area),
             clump: clump.and_then(|c| c.number(0)).unwrap_or(0.0),
             pendant: clump.and_then(|c| c.number(1)).unwrap_or(0.0),
             refine: args.option("-REFINE").and_then(|g| g.values.first()).and_then(|v| v.integer()).unwrap_or(1),
+            of_type,
         })
     }
 
@@ -108,9 +219,16 @@ pub fn properties(name: &str, kind: &str, sections: &[LineSection], surroundings
         .column("", "Elements", Dim::None, Digits::Usual)
         .column("End of Segment", "Clump", Dim::Force, Digits::Usual)
         .column("End of Segment", "Pendant", Dim::Length, Digits::Usual);
+    let typed = sections.iter().any(|s| s.of_type.is_some());
+    if typed {
+        table = table.column("", "Type", Dim::None, Digits::Usual);
+        for name in ["Buoyancy", "Drag", "Add. Mass", "Wind"] {
+            table = table.column("Diameter for", name, Dim::Section, Digits::Usual);
+        }
+    }
     for (index, s) in sections.iter().enumerate() {
         let pendant = if s.clump < 0.0 { Cell::Number(s.pendant) } else { Cell::Missing };
-        let row = vec![
+        let mut row: Vec<Cell> = vec![
             (index + 1).into(),
             s.od.into(),
             s.length.into(),
@@ -122,6 +240,11 @@ pub fn properties(name: &str, kind: &str, sections: &[LineSection], surroundings
             s.clump.into(),
             pendant,
         ];
+        if typed {
+            let of = |value: fn(&OfType) -> f64| Cell::from(s.of_type.as_ref().map(value));
+            row.push(s.of_type.map(|t| t.line_type.name.as_str()).into());
+            row.extend([s.buoyancy_diameter.into(), of(|t| t.drag), of(|t| t.added_mass), of(|t| t.wind)]);
+        }
         // the row has one cell a column, made just above
         let _ = table.push(row);
     }

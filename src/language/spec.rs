@@ -25,6 +25,8 @@ pub enum Noun {
     Selector,
     /// A macro.
     Macro,
+    /// A line type of the library.
+    LineType,
     /// A new name, not to be looked up.
     New,
 }
@@ -308,6 +310,7 @@ pub fn expected(kind: Kind, units: UnitSystem) -> String {
             Noun::Environment => "an environment",
             Noun::Selector => "a name or selector",
             Noun::Macro => "a macro",
+            Noun::LineType => "a line type",
             Noun::New => "a name",
         }
         .into(),

@@ -1,8 +1,9 @@
 //! What the editor offers while a record is being typed: completion, hints, colours, and whether it goes on. All of it
 //! from the lexer and the specs.
 
-use crate::command::{COMMANDS, offered};
+use crate::command::{COMMANDS, offered, status_kinds};
 use crate::connector::CLASSES;
+use crate::connector::line_types::library;
 use crate::language::flow::specs::CONTROL;
 use crate::language::select::{Choice, keyword};
 use crate::language::spec::{CommandSpec, Kind as ValueKind, Noun, ValueSpec};
@@ -75,9 +76,14 @@ impl Known {
                 .cloned()
                 .collect(),
             Noun::Macro => self.macros.clone(),
+            Noun::LineType => line_type_names().collect(),
             Noun::New => Vec::new(),
         }
     }
+}
+
+fn line_type_names() -> impl Iterator<Item = String> {
+    library().types.iter().map(|t| t.name.clone())
 }
 
 /// The editor's helper.
@@ -110,6 +116,12 @@ fn spec_of(menu: &str, text: &str, words: &[Token]) -> Option<(&'static CommandS
             if let Choice::One(spec) = keyword(word(0)?, names) { Some((spec, 1)) } else { None }
         }
     }
+}
+
+/// Whether the first datum of a `&STATUS` record is LINE_TYPES.
+fn tells_of_line_types(text: &str, words: &[Token]) -> bool {
+    let word = words.get(1).and_then(|t| text.get(t.range.clone())).unwrap_or_default();
+    keyword(word, status_kinds()) == Choice::One("LINE_TYPES")
 }
 
 /// What stands at the end of the record: the value expected there.
@@ -178,6 +190,10 @@ impl Completer for Assistant {
             if spec.name == "&HELP" {
                 candidates.extend(COMMANDS.iter().map(|c| c.spec).chain(CONTROL).map(|s| s.name.to_string()));
                 candidates.extend(CLASSES.iter().map(|k| k.spec.name.to_string()));
+            } else if spec.name == "&STATUS" && words.len() == 1 && !word.starts_with('-') {
+                candidates.extend(status_kinds().map(|(name, _, _)| name.to_string()));
+            } else if spec.name == "&STATUS" && words.len() == 2 && tells_of_line_types(head, &words) {
+                candidates.extend(line_type_names());
             } else if word.starts_with('-') && !word.starts_with("-.") {
                 candidates.extend(spec.options.iter().map(|o| o.name.to_string()));
             } else if let Some(value) = expected_value(spec, head, &words, from) {
