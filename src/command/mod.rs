@@ -16,6 +16,7 @@ mod file;
 pub mod functions;
 pub mod help;
 mod job;
+mod lines;
 mod menus;
 mod message;
 mod offsets;
@@ -66,6 +67,8 @@ pub enum Effect {
     Budget(u64),
     /// Set a variable.
     Set(String, String),
+    /// Print this after the notices.
+    Say(String),
 }
 
 /// Tag of a file that is simply inserted.
@@ -120,6 +123,7 @@ pub static COMMANDS: &[&Command] = &[
     &curves::CS_VELOCITY,
     &curves::AM_PRESSURE,
     &conn_design::TABLE,
+    &lines::LINES,
     &disposition::REPORT,
     &disposition::VLIST,
     &disposition::VIEW,
