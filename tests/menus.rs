@@ -79,7 +79,7 @@ fn every_opener_that_is_refused_waits_for_its_own_end() {
         ("MEDIT now\n*Q 1 2 x\n~V WRONG 1\nCONNECTOR B ~V *Q\nEND_MEDIT\n", "takes no further value"),
         ("INMODEL now\n*Q 1 2 x\n~V WRONG 1\nEND_INMODEL\n", "takes no further value"),
         ("CONN_DESIGN\nTABLE A\nCULL Nope 0 1\nVIEW\nEND\nVLIST\nEND\nEND\n", "no column is called Nope"),
-        ("CONN_DESIGN\nTABLE A\nCULL X 1E8 1E9\nVIEW\nC_SCALE 2 x\nEND\nEND\nEND\n", "no row lies"),
+        ("CONN_DESIGN\nTABLE A\nCULL X -1E9 1E9\nVIEW\nC_SCALE 2 x\nEND\nEND\nEND\n", "no row is left"),
         ("&REPORT a b c\nTYPE x\nCUTYPE y\nEND_REPORT\n", "takes no further value"),
         ("&DATA CURVS\nC_PROFILE C 0 1\nEND_&DATA\n", "unknown kind of &DATA"),
     ] {
@@ -203,13 +203,15 @@ fn offsets_and_angles_of_a_connector_are_read_back_and_said_only_where_given() {
 fn inside_cull_every_output_is_the_one_before_it_with_fewer_rows() {
     let out = "REPORT X Force\nVIEW X Force\nVLIST\nSTATISTIC X Force\nSET_VARIABLE F Force\n&TYPE forces %F\n";
     let scaled = format!("{MODEL}CONN_DESIGN\nTABLE A\nC_SCALE 2 Force\nC_SHIFT -100 X\n");
-    let all = run(&format!("{scaled}CULL Force -1 1E9\n&TYPE /cut/\n{out}END\n&TYPE /cut/\n{out}END\nEND\n"));
+    let all = run(&format!("{scaled}CULL Force -9 -1\n&TYPE /cut/\n{out}END\n&TYPE /cut/\n{out}END\nEND\n"));
     let parts: Vec<&str> = all.text.split("/cut/\n").collect();
     assert_eq!(parts[1], parts[2], "all rows kept");
     let rows = "REPORT X Force -RECORD 10 12\nSET_VARIABLE F Force -RECORD 10 12\n&TYPE forces %F\n";
-    let few =
-        "CULL Force 140 220\n&TYPE /cut/\nREPORT X Force\nSET_VARIABLE F Force\n&TYPE forces %F\nEND\n&TYPE /cut/\n";
+    let few = "CULL Force -1 140 220 1E9\n&TYPE /cut/\nREPORT X Force\nSET_VARIABLE F Force\n&TYPE forces %F\nEND\n&TYPE /cut/\n";
     let some = run(&format!("{scaled}{few}{rows}END\nEND\n"));
     let parts: Vec<&str> = some.text.split("/cut/\n").collect();
-    assert_eq!(parts[1], parts[2], "three rows kept");
+    // the notes alone say of which rows they are
+    let said = "   of the whole table, by its row numbers before CULL:\n   row 30 is beyond";
+    assert!(parts[1].contains(said), "{}", parts[1]);
+    assert_eq!(parts[1].replace(said, "   row 30 is beyond"), parts[2], "three rows kept");
 }

@@ -45,7 +45,7 @@ const MAG_USE: OptionSpec = OptionSpec::new("-MAG_USE", &[], "uses absolute valu
 
 const EXAMPLE: &str = "MEDIT\n*P 0 0 0\n~W B_CAT 4 -LEN 4000 -DEP 500\nCONNECTOR A ~W *P\nEND\nCONN_DESIGN\nTABLE A\nREPORT X Force\n\
                        VLIST\nVIEW X 2:4 -RECORD 1 3\nSTORE example.csv\nPLOT X Force\nPLOT X Force figure.svg\nSTATISTIC X Force\n\
-                       SET_VARIABLE TOP 4 -RECORD 30 30\nC_SCALE 0.5 Force\nC_SHIFT 10 X\nCULL Force 0 100\nEND\nEND\nEND";
+                       SET_VARIABLE TOP 4 -RECORD 30 30\nC_SCALE 0.5 Force\nC_SHIFT 10 X\nCULL Force 0 50 200 300\nEND\nEND\nEND";
 
 const fn spec(name: &'static str, help: &'static str) -> CommandSpec {
     CommandSpec { menus: MENU, example: EXAMPLE, ..CommandSpec::new(name, help) }
@@ -145,13 +145,16 @@ static CULL_SPEC: CommandSpec = CommandSpec {
     opens: Opens::Menu("DISPOSITION"),
     data: &[
         COLUMN,
-        ValueSpec::new("LO", Kind::Number(Dim::None), "smallest value (user units)"),
-        ValueSpec::new("HI", Kind::Number(Dim::None), "largest value (user units)"),
+        ValueSpec::new("EXL", Kind::Number(Dim::None), "lower end of a range to exclude (user units)"),
+        ValueSpec::new("EXU", Kind::Number(Dim::None), "upper end of that range (user units)"),
     ],
-    repeat: 3,
-    detail: "Opens an inner disposition menu over the rows kept; END returns. The values stay as they came, and C_SCALE and \
+    repeat: 2,
+    detail: "Goes by one column: a row whose value, as VIEW shows it (user units, C_SCALE and C_SHIFT applied), lies inside of \
+             any of the ranges, ends included, is left out; all others are kept, also those without a value. CULL 1 0 50 \
+             200 300 leaves out the rows with column 1 between 0 and 50 or between 200 and 300. Opens an inner disposition \
+             menu over the rows kept, which are numbered anew; END returns. The values stay as they came, and C_SCALE and \
              C_SHIFT made so far go on acting in it as before.",
-    ..spec("CULL", "keeps the rows within bounds")
+    ..spec("CULL", "leaves out the rows inside of ranges")
 };
 
 fn here(job: &Job, span: Span) -> Outcome<&Disposition> {
@@ -167,6 +170,7 @@ fn refused(args: &Args, error: &DispositionError) -> Box<Diagnostic> {
         DispositionError::Column(c) => args.data.iter().find(|v| v.word() == Some(&c.name)).map(|v| v.span),
         DispositionError::Rows { .. } => args.option("-RECORD").map(|g| g.span),
         DispositionError::NoRow => args.option("-VALUES").map(|g| g.span),
+        DispositionError::NotOne { .. } => Some(args.place(0)),
         _ => None,
     };
     Diagnostic::error(error.to_string(), named.unwrap_or(args.span)).help("VLIST lists the columns")
@@ -248,8 +252,7 @@ fn view(job: &mut Job, call: &Call) -> Outcome<Effect> {
 fn store(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let table = chosen(job, args, 1)?;
-    let name = args.word(0).unwrap_or_default();
-    let name = if std::path::Path::new(name).extension().is_some() { name.to_string() } else { format!("{name}.csv") };
+    let name = super::file::with_csv_ending(args.word(0).unwrap_or_default());
     let bytes = csv::bytes(&table, job.units).map_err(|e| Diagnostic::error(e.to_string(), args.place(0)))?;
     write_file(job, &name, &bytes, args.place(0))?;
     Ok(Effect::Done)
@@ -350,15 +353,20 @@ fn shift(job: &mut Job, call: &Call) -> Outcome<Effect> {
 
 fn cull(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
-    let bounds: Vec<(String, f64, f64)> = args
-        .data
-        .chunks_exact(3)
-        .filter_map(|g| match g {
-            [c, lo, hi] => Some((c.word()?.to_string(), lo.number()?, hi.number()?)),
-            _ => None,
-        })
-        .collect();
-    let culled = here(job, args.span)?.cull(&bounds, job.units).map_err(|e| refused(args, &e))?;
+    let mut excluded = Vec::new();
+    for pair in args.data.get(1..).unwrap_or_default().chunks_exact(2) {
+        if let [lower, upper] = pair
+            && let (Some(low), Some(high)) = (lower.number(), upper.number())
+        {
+            if low > high {
+                return Err(Diagnostic::error(format!("the range from {low} to {high} holds nothing"), upper.span)
+                    .label("expected no less than the value before it"));
+            }
+            excluded.push((low, high));
+        }
+    }
+    let column = args.word(0).unwrap_or_default();
+    let culled = here(job, args.span)?.cull(column, &excluded, job.units).map_err(|e| refused(args, &e))?;
     let (rows, columns) = (culled.table.rows(), culled.table.columns.len());
     job.menus.push(Menu::Disposition(Box::new(culled)));
     job.say(&format!("{rows} rows of {columns} columns kept; END returns to all rows"));

@@ -34,7 +34,7 @@ static FILE_SPEC: CommandSpec = CommandSpec {
     data: &[ValueSpec::new("ACTION", Kind::Choice(ACTIONS), "what to do")],
     detail: "MKDIR A; RM A; MV A B; CP A B; ANS_DIRECTORY A (where answers go from now on); OPEN TYPE FILE, WRITE TYPE text, \
              CLOSE TYPE (writes the file, whole; a file still open when the job ends is written then); USE TYPE FILE (for \
-             &F_READ). Names that are written to, here and in STORE and PLOT: a relative name, with folders or without, is \
+             &F_READ). Names that are written to, here and in STORE, PLOT and LINES: a relative name, with folders or without, is \
              inside the job's own folder (ROOT.ans or --out DIR) and may not climb out of it; a name that begins with ./ or \
              ../ and an absolute name mean what they mean to the shell. In the job's folder an earlier file is kept as \
              name.1; outside of it no file is overwritten, and RM, MV, CP and MKDIR need --allow-files. Folders are made by \
@@ -117,6 +117,11 @@ fn file(job: &mut Job, call: &Call) -> Outcome<Effect> {
         }
     }
     Ok(Effect::Done)
+}
+
+/// The name of a CSV file: .csv is added when it has no ending.
+pub fn with_csv_ending(name: &str) -> String {
+    if std::path::Path::new(name).extension().is_some() { name.to_string() } else { format!("{name}.csv") }
 }
 
 /// A file that could not be written or touched, at the word that names it.

@@ -11,6 +11,8 @@ use crate::report::output::Output;
 use crate::report::page::PageHead;
 use indexmap::IndexMap;
 use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 /// A menu that is open.
@@ -165,6 +167,8 @@ pub struct Job {
     pub ask: Option<Ask>,
     /// Names longer than MOSES takes have been remarked on.
     pub long_name_said: bool,
+    /// Set by Ctrl-C: a command that takes long gives up, and the run ends behind it.
+    pub interrupt: Arc<AtomicBool>,
 }
 
 impl Job {
@@ -186,7 +190,13 @@ impl Job {
             clock: Instant::now(),
             ask: None,
             long_name_said: false,
+            interrupt: Arc::default(),
         }
+    }
+
+    /// Whether Ctrl-C has been pressed since the record began.
+    pub fn interrupted(&self) -> bool {
+        self.interrupt.load(Ordering::Relaxed)
     }
 
     /// The innermost menu.

@@ -17,6 +17,7 @@ pub mod functions;
 pub mod help;
 mod job;
 mod line_types;
+mod lines;
 mod menus;
 mod message;
 mod offsets;
@@ -68,6 +69,8 @@ pub enum Effect {
     Budget(u64),
     /// Set a variable.
     Set(String, String),
+    /// Print this after the notices.
+    Say(String),
 }
 
 /// Tag of a file that is simply inserted.
@@ -122,6 +125,7 @@ pub static COMMANDS: &[&Command] = &[
     &curves::CS_VELOCITY,
     &curves::AM_PRESSURE,
     &conn_design::TABLE,
+    &lines::LINES,
     &disposition::REPORT,
     &disposition::VLIST,
     &disposition::VIEW,

@@ -75,7 +75,7 @@ pub fn choose<T: Copy + PartialEq>(
                 Some(help) => error.help.push(help),
                 None => {
                     let all: Vec<&str> = names.map(|(name, _, _)| name).collect();
-                    if all.len() <= 24 {
+                    if (1..=24).contains(&all.len()) {
                         error.help.push(format!("known: {}", all.join(" ")));
                     }
                 }
@@ -141,6 +141,16 @@ mod tests {
         assert_eq!(find("-LENS"), Choice::One(5));
         assert_eq!(find("-L_"), Choice::Several(vec!["-L_TENSION", "-L_HORIZONTAL"]));
         assert_eq!(find("-X"), Choice::None);
+    }
+
+    #[test]
+    fn an_unknown_word_where_nothing_is_known_lists_nothing() {
+        let none: [(&'static str, Owner, u8); 0] = [];
+        let help = |names: &[(&'static str, Owner, u8)]| {
+            choose("-Q", Span::default(), "option of A", names.iter().copied()).unwrap_err().help
+        };
+        assert!(help(&none).is_empty());
+        assert_eq!(help(&NAMES), ["known: -L_TENSION -L_HORIZONTAL -LENGTH -LEN -LENS"]);
     }
 
     #[test]

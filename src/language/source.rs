@@ -93,6 +93,9 @@ impl Source {
     }
 }
 
+/// Largest file or stream that is read (bytes).
+pub const LARGEST_FILE: u64 = 256 << 20;
+
 /// All texts read in a run; grows only.
 #[derive(Clone, Debug, Default)]
 pub struct Sources {

@@ -34,6 +34,17 @@ pub enum DispositionError {
     /// Bounds that leave no row.
     #[error("no row lies within the bounds")]
     NoRow,
+    /// Ranges to exclude that leave no row.
+    #[error("no row is left: every value of {0} lies inside of the ranges to exclude")]
+    AllCulled(String),
+    /// Several columns where one is needed.
+    #[error("CULL goes by one column, and {selector} names {count}")]
+    NotOne {
+        /// The selector.
+        selector: String,
+        /// Columns it names.
+        count: usize,
+    },
     /// A cell without a value where each row needs one.
     #[error("column {column} has no value in row {row}")]
     NoValue {
@@ -61,6 +72,9 @@ pub struct Disposition {
     /// Factor and shift of each column, in user units: shown = value * factor + shift.
     adjust: Vec<(f64, f64)>,
 }
+
+/// Stands above the notes of a culled table, whose rows have other numbers.
+const OF_THE_WHOLE: &str = "of the whole table, by its row numbers before CULL:";
 
 impl Disposition {
     /// A menu over a table.
@@ -195,31 +209,52 @@ impl Disposition {
         units: UnitSystem,
     ) -> Result<Vec<usize>, DispositionError> {
         for index in self.numeric(&[selector])? {
-            let Some(column) = self.table.columns.get(index) else { continue };
-            let (factor, shift) = self.adjust.get(index).copied().unwrap_or((1.0, 0.0));
-            rows.retain(|row| {
-                column.cells.get(*row).and_then(Cell::number).is_some_and(|value| {
-                    let shown = column.dim.from_si(value, units) * factor + shift;
-                    (low..=high).contains(&shown)
-                })
-            });
+            rows.retain(|row| self.shown(index, *row, units).is_some_and(|value| (low..=high).contains(&value)));
         }
         if rows.is_empty() { Err(DispositionError::NoRow) } else { Ok(rows) }
     }
 
-    /// `CULL`: the rows whose columns lie within bounds (selector, low, high in user units), as a new menu. The values
-    /// stay as they came; scales and shifts made so far go on acting in the new menu.
+    /// The number of a cell as VIEW shows it: user units, scaled and shifted, without the rounding of the conversion.
+    fn shown(&self, column: usize, row: usize, units: UnitSystem) -> Option<f64> {
+        let (factor, shift) = self.adjust.get(column).copied().unwrap_or((1.0, 0.0));
+        let column = self.table.columns.get(column)?;
+        let value = column.dim.from_si(column.cells.get(row)?.number()?, units) * factor + shift;
+        Some(format::rounded_to_fifteen_figures(value))
+    }
+
+    /// `CULL`: the rows whose value of one column lies inside of none of the ranges (ends included, as VIEW shows it), as
+    /// a new menu. A cell without a value lies inside of none. The values stay as they came; scales and shifts made so far
+    /// go on acting in the new menu.
     ///
     /// # Errors
-    /// A name that fits no column, or bounds that leave no row.
-    pub fn cull(&self, bounds: &[(String, f64, f64)], units: UnitSystem) -> Result<Disposition, DispositionError> {
-        let mut rows: Vec<usize> = (0..self.table.rows()).collect();
-        for (selector, low, high) in bounds {
-            rows = self.within(rows, selector, *low, *high, units)?;
+    /// A selector of no column, of several, or of one of text; ranges that leave no row.
+    pub fn cull(
+        &self,
+        selector: &str,
+        excluded: &[(f64, f64)],
+        units: UnitSystem,
+    ) -> Result<Disposition, DispositionError> {
+        let chosen = self.numeric(&[selector])?;
+        let &[index] = chosen.as_slice() else {
+            return Err(DispositionError::NotOne { selector: selector.into(), count: chosen.len() });
+        };
+        let outside = |row: &usize| {
+            let value = self.shown(index, *row, units);
+            !value.is_some_and(|value| excluded.iter().any(|(low, high)| (*low..=*high).contains(&value)))
+        };
+        let rows: Vec<usize> = (0..self.table.rows()).filter(outside).collect();
+        if rows.is_empty() {
+            let name = self.table.columns.get(index).map_or_else(String::new, super::columns::long_name);
+            return Err(DispositionError::AllCulled(name));
         }
         let mut out = self.clone();
         for column in &mut out.table.columns {
             column.cells = rows.iter().filter_map(|row| column.cells.get(*row)).cloned().collect();
+        }
+        let notes = &mut out.table.notes;
+        let renumbered = rows.len() < self.table.rows() && notes.first().is_some_and(|first| first != OF_THE_WHOLE);
+        if renumbered {
+            notes.insert(0, OF_THE_WHOLE.into());
         }
         Ok(out)
     }
@@ -299,7 +334,6 @@ mod tests {
         assert_eq!(d.values("F", &by_number, us).unwrap(), "4 9");
         let by_value = RowChoice { values: Some(("X".into(), 3.5, 9.0)), ..RowChoice::default() };
         assert_eq!(d.values("F", &by_value, us).unwrap(), "16 25");
-        assert_eq!(d.cull(&[("F".into(), 4.0, 16.0), ("X".into(), 0.0, 3.1)], us).unwrap().table.rows(), 2);
         let none = RowChoice { record: Some((9, 12)), ..RowChoice::default() };
         assert!(d.values("F", &none, us).unwrap_err().to_string().contains("not times"));
     }
@@ -322,7 +356,7 @@ mod tests {
         d.scale(2.0, &["F"]).unwrap();
         d.shift(-1.0, &["F", "X"]).unwrap();
         // F shows 2 n n - 1: rows 2 and 3 show 7 and 17
-        let mut culled = d.cull(&[("F".into(), 7.0, 17.0)], us).unwrap();
+        let mut culled = d.cull("F", &[(0.0, 6.9), (17.1, 1e9)], us).unwrap();
         assert_eq!(culled.table.columns[1].cells, [Cell::Number(4.0), Cell::Number(9.0)]);
         let kept = RowChoice { record: Some((2, 3)), values: None };
         for column in [0, 1] {
@@ -332,6 +366,53 @@ mod tests {
         culled.shift(1.0, &["F"]).unwrap();
         assert_eq!(culled.values("F", &RowChoice::default(), us).unwrap(), "8 18");
         assert_eq!(d.values("F", &kept, us).unwrap(), "7 17");
+    }
+
+    #[test]
+    fn cull_excludes_the_rows_inside_of_any_range_ends_included_in_user_units() {
+        let mut d = menu();
+        d.table.columns[1].cells[2] = Cell::Missing;
+        let us = UnitSystem::default();
+        let kept = |column: &str, ranges: &[(f64, f64)]| {
+            let rows = d.cull(column, ranges, us).map(|c| c.table.columns[0].clone());
+            rows.map(|c| c.numbers().iter().map(|x| (x / FOOT).round() as i32).collect::<Vec<_>>())
+        };
+        assert_eq!(kept("X", &[(2.0, 3.0), (4.5, 9.0)]), Ok(vec![1, 4]));
+        assert_eq!(kept("1", &[(1.5, 3.5), (0.0, 1.0)]), Ok(vec![4, 5]));
+        assert_eq!(kept("X", &[(2.1, 2.9)]), Ok(vec![1, 2, 3, 4, 5]));
+        // a cell without a value lies inside of no range
+        assert_eq!(kept("F", &[(-1e9, 20.0)]), Ok(vec![3, 5]));
+        assert_eq!(kept("X", &[(0.0, 1e9)]), Err(DispositionError::AllCulled("X".into())));
+        assert_eq!(kept("1:2", &[(0.0, 1.0)]), Err(DispositionError::NotOne { selector: "1:2".into(), count: 2 }));
+    }
+
+    #[test]
+    fn the_ends_of_a_range_hold_after_the_conversion_of_units() {
+        let us = UnitSystem::default();
+        let mut t = Table::new("t").column("", "X", Dim::Length, Digits::Usual);
+        for n in 1..=2000 {
+            t.push(vec![Cell::Number(Dim::Length.to_si(f64::from(n) * 0.1, us))]).unwrap();
+        }
+        let d = Disposition::new(t);
+        for n in 1..=2000 {
+            let at: f64 = format!("{}.{}", n / 10, n % 10).parse().unwrap();
+            assert_eq!(d.cull("X", &[(at, at)], us).unwrap().table.rows(), 1999, "{at}");
+            let only = RowChoice { record: None, values: Some(("X".into(), at, at)) };
+            assert_eq!(d.rows(&only, us).unwrap().len(), 1, "{at}");
+        }
+    }
+
+    #[test]
+    fn notes_of_a_culled_table_say_once_that_they_are_of_the_whole_table() {
+        let mut d = menu();
+        d.table.note("row 5 is beyond the breaking tension");
+        let us = UnitSystem::default();
+        let notes = |d: &Disposition| d.table.notes.join("; ");
+        assert_eq!(notes(&d.cull("X", &[(8.0, 9.0)], us).unwrap()), "row 5 is beyond the breaking tension");
+        let once = d.cull("X", &[(1.0, 1.0)], us).unwrap();
+        let want = "of the whole table, by its row numbers before CULL:; row 5 is beyond the breaking tension";
+        assert_eq!(notes(&once), want);
+        assert_eq!(notes(&once.cull("X", &[(2.0, 2.0)], us).unwrap()), want);
     }
 
     #[test]

@@ -79,17 +79,53 @@ impl Place {
     /// # Errors
     /// What the system refuses, or a file outside of the job's folder that has come up meanwhile.
     pub fn write(&self, bytes: &[u8]) -> Result<(), FileError> {
-        let path = &self.path;
-        let at = |source| FileError::System { path: path.clone(), source };
-        if path.is_dir() {
+        let mut file = self.begin()?;
+        file.write_all(bytes).map_err(|source| FileError::System { path: self.path.clone(), source })?;
+        file.finish()
+    }
+
+    /// Begins a file that is written piece by piece.
+    ///
+    /// # Errors
+    /// What the system refuses.
+    pub fn begin(&self) -> Result<Growing, FileError> {
+        let at = |source| FileError::System { path: self.path.clone(), source };
+        if self.path.is_dir() {
             return Err(at(ErrorKind::IsADirectory.into()));
         }
-        let mut file = beside(path).map_err(at)?;
-        file.write_all(bytes).and_then(|()| file.flush()).map_err(at)?;
-        if self.own {
+        Ok(Growing { file: beside(&self.path).map_err(at)?, place: self.clone() })
+    }
+}
+
+/// A file being written piece by piece: at its place only once it is finished; dropped before, it leaves nothing.
+#[derive(Debug)]
+pub struct Growing {
+    file: tempfile::NamedTempFile,
+    place: Place,
+}
+
+impl Write for Growing {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.file.write(bytes)
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        self.file.flush()
+    }
+}
+
+impl Growing {
+    /// Puts the file at its place, whole.
+    ///
+    /// # Errors
+    /// What the system refuses, or a file outside of the job's folder that has come up meanwhile.
+    pub fn finish(mut self) -> Result<(), FileError> {
+        let path = &self.place.path;
+        self.file.flush().map_err(|source| FileError::System { path: path.clone(), source })?;
+        if self.place.own {
             keep_earlier(path)?;
         }
-        put_in_place(file, path)
+        put_in_place(self.file, path)
     }
 }
 

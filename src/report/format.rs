@@ -29,7 +29,12 @@ pub fn full(cell: &Cell, dim: Dim, units: UnitSystem) -> String {
 
 /// A number for a variable: fifteen figures, so that the rounding of unit conversion does not show.
 pub fn fifteen_figures(value: f64) -> String {
-    number_in_full(format!("{value:.14e}").parse().unwrap_or(value))
+    number_in_full(rounded_to_fifteen_figures(value))
+}
+
+/// A number rounded to fifteen figures: what was written in user units comes back as it was written.
+pub fn rounded_to_fifteen_figures(value: f64) -> f64 {
+    format!("{value:.14e}").parse().unwrap_or(value)
 }
 
 /// A number as the shortest text that reads back to it; `NaN` and infinities are named.

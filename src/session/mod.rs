@@ -11,7 +11,7 @@ use crate::language::flow::specs::CONTROL;
 use crate::language::flow::{Interpreter, Step};
 use crate::language::record::{Record, Word};
 use crate::language::select::{Choice, keyword};
-use crate::language::source::{Span, Text};
+use crate::language::source::{LARGEST_FILE, Span, Text};
 use crate::language::spec::Form;
 use crate::language::token::Kind;
 use crate::report::output::Output;
@@ -19,9 +19,6 @@ use std::io::Read;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::Arc;
-
-/// Largest file or stream read as records (bytes).
-const LARGEST_FILE: u64 = 256 << 20;
 
 /// Why a run came back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,9 +52,10 @@ pub struct Session {
 impl Session {
     /// A session writing to these channels.
     pub fn new(output: Output) -> Self {
+        let interpreter = Interpreter::new(command::internal_names());
         Session {
-            job: Job::new(output),
-            interpreter: Interpreter::new(command::internal_names()),
+            job: Job { interrupt: Arc::clone(&interpreter.interrupt), ..Job::new(output) },
+            interpreter,
             errors: 0,
             interactive: false,
             keep_reports: false,
@@ -208,6 +206,10 @@ impl Session {
             Effect::Finish => true,
             Effect::Budget(records) => {
                 self.interpreter.budget = records;
+                false
+            }
+            Effect::Say(text) => {
+                self.job.say(&text);
                 false
             }
             Effect::Set(name, value) => {

@@ -1,0 +1,184 @@
+//! LINES: many single lines of a CSV file, each solved between its two given ends.
+
+mod input;
+
+use super::{Call, Command, Effect, Job, file};
+use crate::connector::catenary::EndForces;
+use crate::language::diagnostic::{Diagnostic, Outcome, Severity};
+use crate::language::select::Owner;
+use crate::language::spec::{CommandSpec, Kind, ValueSpec};
+use crate::language::units::Dim;
+use crate::report::files::{Growing, Place};
+use crate::report::format::number_in_full;
+use crate::report::page;
+use crate::table::{Digits, Table};
+use input::{Input, InputError, Row};
+use std::collections::BTreeMap;
+
+/// LINES.
+pub static LINES: Command = Command { spec: &LINES_SPEC, edits: false, run: lines };
+
+static LINES_SPEC: CommandSpec = CommandSpec {
+    owner: Owner::Ours,
+    menus: &["CONN_DESIGN"],
+    data: &[
+        ValueSpec::new("IN", Kind::File, "CSV file to read; looked for where it says, then beside the script"),
+        ValueSpec::new("OUT", Kind::File, "CSV file to write; .csv is added when it has no ending"),
+    ],
+    detail: "One line of a single segment a row, in SI units whatever &DIMEN says. The columns, in any order: id; x_m and z_m, \
+             the fairlead beside (zero or more) and above the anchor; length_m, unstretched; EA_N; w_N_per_m, submerged weight \
+             per unstretched length, negative when buoyant; friction; suspended, 1 without a bottom, 0 with a flat one at the \
+             anchor that has this friction. Blank or without a column, friction and suspended are 0. Upper and lower case and \
+             blanks around names do not matter. OUT has all columns of IN as they are, then fairlead_H_N and fairlead_V_N (the \
+             pull on the fairlead, toward the anchor and downward), anchor_H_N and anchor_V_N (the pull on the anchor, toward \
+             the fairlead and upward), grounded_length_m (unstretched), regime, residual (N, what is left of the distances \
+             mapped through the stiffness) and error, with full precision. A column of IN that has one of these names goes \
+             through with _in added to its name. A row that cannot be solved has its reason under error; the first ten are \
+             also warned of, by their lines in the file. A relative OUT is inside the job's folder: &HELP &FILE. It is written \
+             whole, or not at all after Ctrl-C.",
+    example: "&FILE OPEN IN lines.csv\n&FILE WRITE IN id,x_m,z_m,length_m,EA_N,w_N_per_m\n\
+              &FILE WRITE IN A1,850,120,900,5E8,1500\n&FILE CLOSE IN\nCONN_DESIGN\nLINES job.ans/lines.csv solved\nEND",
+    ..CommandSpec::new("LINES", "solves the single lines of a CSV file")
+};
+
+/// The columns added.
+const ADDED: [&str; 8] =
+    ["fairlead_H_N", "fairlead_V_N", "anchor_H_N", "anchor_V_N", "grounded_length_m", "regime", "residual", "error"];
+
+/// Refused rows that are told one by one.
+const TOLD: u64 = 10;
+
+fn lines(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let (name, span) = (args.word(0).unwrap_or_default(), args.place(0));
+    let path = super::device::existing(job, name, span)?;
+    let unusable = |error: InputError| {
+        let mut made = Diagnostic::error(format!("{name} cannot be used: {error}"), span);
+        if let InputError::NoColumn { help, .. } = error {
+            made.help.push(help);
+        }
+        made
+    };
+    let mut input = Input::open(&path).map_err(unusable)?;
+    let out = file::with_csv_ending(args.word(1).unwrap_or_default());
+    let refused = |error| file::refused(&error, args.place(1));
+    let place = job.output.folder.place(&out).map_err(refused)?;
+    let lost = |error: csv::Error| Diagnostic::error(format!("{}: {error}", place.path().display()), args.place(1));
+    let mut writer = csv::Writer::from_writer(place.begin().map_err(refused)?);
+    writer.write_record(heads(&input.heads)).map_err(lost)?;
+    let width = input.heads.len();
+    let mut tally = Tally::default();
+    while let Some(row) = input.next().map_err(unusable)? {
+        if job.interrupted() {
+            let text = format!("LINES is given up at line {} of {name}: {out} is not written", row.line);
+            return Err(Diagnostic::error(text, args.span));
+        }
+        let solved = solve(&row);
+        tally.count(name, &row, &solved);
+        write_row(&mut writer, &row, width, &solved).map_err(lost)?;
+    }
+    if tally.solved + tally.refused == 0 {
+        return Err(unusable(InputError::Empty));
+    }
+    let whole = writer.into_inner().map_err(|e| lost(e.into_error().into()))?;
+    whole.finish().map_err(refused)?;
+    job.notices.append(&mut tally.warnings);
+    if tally.refused > TOLD {
+        let text =
+            format!("{} further rows of {name} are refused; the column error of {out} says why", tally.refused - TOLD);
+        job.notices.push(Diagnostic::plain(Severity::Warning, text));
+    }
+    Ok(Effect::Say(tally.summary(name, &place, job)))
+}
+
+fn solve(row: &Row) -> Result<EndForces, String> {
+    let case = row.case()?;
+    case.segment.between(case.x, case.z, case.bottom).map_err(|error| error.to_string())
+}
+
+/// The header of the output: no two names alike that were not so in the input.
+fn heads(given: &[String]) -> Vec<String> {
+    let mut heads: Vec<String> = given.to_vec();
+    for head in &mut heads {
+        if ADDED.iter().any(|added| head.eq_ignore_ascii_case(added)) {
+            head.push_str("_in");
+            while given.contains(head) {
+                head.push_str("_in");
+            }
+        }
+    }
+    heads.extend(ADDED.map(String::from));
+    heads
+}
+
+fn write_row(
+    writer: &mut csv::Writer<Growing>,
+    row: &Row,
+    width: usize,
+    solved: &Result<EndForces, String>,
+) -> csv::Result<()> {
+    for at in 0..width {
+        writer.write_field(row.cells.get(at).unwrap_or_default())?;
+    }
+    let added = match solved {
+        Ok(forces) => {
+            let ([fairlead_h, fairlead_v], [anchor_h, anchor_v]) = (forces.fairlead, forces.anchor);
+            let [a, b, c, d, e] = [fairlead_h, fairlead_v, anchor_h, anchor_v, forces.grounded].map(number_in_full);
+            [a, b, c, d, e, forces.regime.name().into(), number_in_full(forces.residual), String::new()]
+        }
+        Err(reason) => {
+            let mut added = ADDED.map(|_| String::new());
+            if let Some(error) = added.last_mut() {
+                error.clone_from(reason);
+            }
+            added
+        }
+    };
+    for cell in added {
+        writer.write_field(cell)?;
+    }
+    writer.write_record(None::<&[u8]>)
+}
+
+/// What came of the rows.
+#[derive(Default)]
+struct Tally {
+    solved: u64,
+    refused: u64,
+    regimes: BTreeMap<&'static str, usize>,
+    warnings: Vec<Diagnostic>,
+}
+
+impl Tally {
+    fn count(&mut self, name: &str, row: &Row, solved: &Result<EndForces, String>) {
+        match solved {
+            Ok(forces) => {
+                self.solved += 1;
+                *self.regimes.entry(forces.regime.name()).or_default() += 1;
+            }
+            Err(reason) => {
+                self.refused += 1;
+                if self.refused <= TOLD {
+                    let id = row.id();
+                    let id = if id.is_empty() { id } else { format!(" (id {id})") };
+                    let text = format!("{name}:{}: {reason}{id}", row.line);
+                    self.warnings.push(Diagnostic::plain(Severity::Warning, text));
+                }
+            }
+        }
+    }
+
+    /// The lines by regime, and how many rows were solved and refused.
+    fn summary(&self, name: &str, place: &Place, job: &Job) -> String {
+        let mut table =
+            Table::new("").column("", "Regime", Dim::None, Digits::Usual).column("", "Lines", Dim::None, Digits::Usual);
+        for (regime, lines) in &self.regimes {
+            // the row has one cell a column, made just above
+            let _ = table.push(vec![(*regime).into(), (*lines).into()]);
+        }
+        let mut text = if self.solved > 0 { page::grid(&table, job.units) } else { Vec::new() };
+        text.push(format!("{name}: {} rows solved, {} refused", self.solved, self.refused));
+        text.push(format!("wrote {}", place.path().display()));
+        text.join("\n")
+    }
+}

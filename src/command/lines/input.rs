@@ -1,0 +1,394 @@
+//! The rows of a CSV file of lines: which column gives what, the line each row begins at, and what is wrong with a row.
+
+use crate::connector::catenary::{Bottom, Segment};
+use crate::language::diagnostic::nearest;
+use crate::language::source::LARGEST_FILE;
+use crate::language::spec::Range;
+use csv::ByteRecord;
+use std::borrow::Cow;
+use std::fs::File;
+use std::io::{BufRead, BufReader, Read};
+use std::path::Path;
+
+/// Longest row taken (bytes); a quote that is never closed ends here.
+const LONGEST_ROW: usize = 1 << 20;
+/// Headers listed in a message.
+const LISTED: usize = 16;
+
+/// Why a file of lines cannot be used at all.
+#[derive(Debug, thiserror::Error)]
+pub enum InputError {
+    /// The system, or what the CSV reader refuses.
+    #[error("{0}")]
+    Unreadable(String),
+    /// Nothing in it.
+    #[error("it is empty: expected a header of column names and rows below it")]
+    Empty,
+    /// A needed column is not there.
+    #[error("it has no column {name}")]
+    NoColumn {
+        /// The column.
+        name: &'static str,
+        /// The nearest headers, or all.
+        help: String,
+    },
+    /// A column that is needed once stands twice.
+    #[error("column {0} stands in it twice")]
+    Twice(&'static str),
+}
+
+impl From<csv::Error> for InputError {
+    fn from(error: csv::Error) -> Self {
+        InputError::Unreadable(error.to_string())
+    }
+}
+
+/// One line to be solved, SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Case {
+    /// The line.
+    pub segment: Segment,
+    /// Horizontal distance of the fairlead from the anchor (m).
+    pub x: f64,
+    /// Elevation of the fairlead above the anchor (m).
+    pub z: f64,
+    /// The bottom; none for a suspended line.
+    pub bottom: Option<Bottom>,
+}
+
+/// Where the data of a case stand in a row.
+#[derive(Debug)]
+struct Columns {
+    id: usize,
+    x: usize,
+    z: usize,
+    length: usize,
+    ea: usize,
+    weight: usize,
+    friction: Option<usize>,
+    suspended: Option<usize>,
+}
+
+const NEEDED: [&str; 6] = ["id", "x_m", "z_m", "length_m", "EA_N", "w_N_per_m"];
+const FRICTION: &str = "friction";
+const SUSPENDED: &str = "suspended";
+
+impl Columns {
+    fn of(heads: &[String]) -> Result<Self, InputError> {
+        let find = |name: &'static str| {
+            let mut places = (0..).zip(heads).filter(|(_, head)| head.eq_ignore_ascii_case(name)).map(|(at, _)| at);
+            match (places.next(), places.next()) {
+                (found, None) => Ok(found),
+                _ => Err(InputError::Twice(name)),
+            }
+        };
+        let needed = |name| find(name)?.ok_or_else(|| InputError::NoColumn { name, help: near(name, heads) });
+        let [id, x, z, length, ea, weight] = NEEDED;
+        Ok(Columns {
+            id: needed(id)?,
+            x: needed(x)?,
+            z: needed(z)?,
+            length: needed(length)?,
+            ea: needed(ea)?,
+            weight: needed(weight)?,
+            friction: find(FRICTION)?,
+            suspended: find(SUSPENDED)?,
+        })
+    }
+}
+
+/// What stands in a header instead of a column that is not there.
+fn near(name: &str, heads: &[String]) -> String {
+    let known = |head: &str| NEEDED.iter().chain(&[FRICTION, SUSPENDED]).any(|n| n.eq_ignore_ascii_case(head));
+    let others = || heads.iter().map(String::as_str).filter(|head| !known(head));
+    let all =
+        |list: Vec<&str>| list.into_iter().map(|head| format!("`{}`", brief(head))).collect::<Vec<_>>().join(", ");
+    match nearest(name, others()) {
+        _ if heads.len() == 1 => format!(
+            "columns are separated by commas, and {} holds none",
+            all(heads.iter().map(String::as_str).collect())
+        ),
+        close if !close.is_empty() => format!("the nearest header is {}", all(close)),
+        _ => format!("its headers are {}", all(heads.iter().map(String::as_str).take(LISTED).collect())),
+    }
+}
+
+/// A file of lines being read.
+pub struct Input {
+    /// The column names, without the blanks around them.
+    pub heads: Vec<String>,
+    columns: Columns,
+    reader: csv::Reader<ByLine>,
+    record: ByteRecord,
+}
+
+impl std::fmt::Debug for Input {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Input").field("columns", &self.columns).finish_non_exhaustive()
+    }
+}
+
+impl Input {
+    /// Opens a file and reads its header.
+    ///
+    /// # Errors
+    /// What the system refuses, a file that is empty or too large, a column that is missing or stands twice.
+    pub fn open(path: &Path) -> Result<Self, InputError> {
+        let system = |e: std::io::Error| InputError::Unreadable(e.to_string());
+        let file = File::open(path).map_err(system)?;
+        if file.metadata().map_err(system)?.len() > LARGEST_FILE {
+            return Err(InputError::Unreadable(format!("it has more than {LARGEST_FILE} bytes")));
+        }
+        let mut reader = csv::ReaderBuilder::new().has_headers(false).flexible(true).from_reader(ByLine::new(file));
+        let mut record = ByteRecord::new();
+        if !reader.read_byte_record(&mut record)? {
+            return Err(InputError::Empty);
+        }
+        let heads: Vec<String> = record.iter().map(|cell| String::from_utf8_lossy(cell).trim().to_string()).collect();
+        let columns = Columns::of(&heads)?;
+        Ok(Input { heads, columns, reader, record })
+    }
+
+    /// The next row; `None` behind the last.
+    ///
+    /// # Errors
+    /// What the system or the CSV reader refuses.
+    pub fn next(&mut self) -> Result<Option<Row<'_>>, InputError> {
+        self.reader.get_mut().row = 0;
+        if !self.reader.read_byte_record(&mut self.record)? {
+            return Ok(None);
+        }
+        let inner = self.record.as_slice().iter().filter(|byte| **byte == b'\n').count() as u64;
+        let line = self.reader.get_ref().lines.saturating_sub(inner);
+        Ok(Some(Row { line, cells: &self.record, heads: self.heads.len(), columns: &self.columns }))
+    }
+}
+
+/// One row of the file.
+pub struct Row<'a> {
+    /// The line of the file it begins at, from 1.
+    pub line: u64,
+    /// What it holds.
+    pub cells: &'a ByteRecord,
+    heads: usize,
+    columns: &'a Columns,
+}
+
+impl Row<'_> {
+    /// The line it describes.
+    ///
+    /// # Errors
+    /// What is wrong with the row, in one sentence.
+    pub fn case(&self) -> Result<Case, String> {
+        let surplus = self.cells.iter().skip(self.heads).any(|cell| !cell.trim_ascii().is_empty());
+        if self.cells.len() < self.heads || surplus {
+            return Err(format!("it has {} cells under {} headers", self.cells.len(), self.heads));
+        }
+        let c = self.columns;
+        let [_, x, z, length, ea, weight] = NEEDED;
+        let segment = Segment {
+            length: self.needed(c.length, length, Range::Positive)?,
+            weight: self.needed(c.weight, weight, Range::Any)?,
+            ea: self.needed(c.ea, ea, Range::Positive)?,
+        };
+        let (x, z) = (self.needed(c.x, x, Range::NotNegative)?, self.needed(c.z, z, Range::Any)?);
+        let optional = |at: Option<usize>, name, range| match at {
+            Some(at) => self.number(at, name, range).map(|value| value.unwrap_or(0.0)),
+            None => Ok(0.0),
+        };
+        let friction = optional(c.friction, FRICTION, Range::NotNegative)?;
+        let suspended = optional(c.suspended, SUSPENDED, Range::Any)?;
+        let bottom = match suspended {
+            0.0 => Some(Bottom { friction }),
+            1.0 => None,
+            other => return Err(format!("{SUSPENDED} must be 0 or 1, this is {other}")),
+        };
+        Ok(Case { segment, x, z, bottom })
+    }
+
+    /// What the row calls its line.
+    pub fn id(&self) -> String {
+        brief(&self.text(self.columns.id))
+    }
+
+    fn text(&self, at: usize) -> Cow<'_, str> {
+        match String::from_utf8_lossy(self.cells.get(at).unwrap_or_default()) {
+            Cow::Borrowed(text) => text.trim().into(),
+            Cow::Owned(text) => text.trim().to_string().into(),
+        }
+    }
+
+    fn needed(&self, at: usize, name: &str, range: Range) -> Result<f64, String> {
+        self.number(at, name, range)?.ok_or_else(|| format!("{name} is missing"))
+    }
+
+    /// The number of a cell; `None` of a blank one.
+    fn number(&self, at: usize, name: &str, range: Range) -> Result<Option<f64>, String> {
+        let text = self.text(at);
+        if text.is_empty() {
+            return Ok(None);
+        }
+        let value = text.parse::<f64>().ok().filter(|value| value.is_finite());
+        let value = value.ok_or_else(|| format!("{name} must be a finite number, this is `{}`", brief(&text)))?;
+        let wrong = match range {
+            Range::Positive if value <= 0.0 => "greater than zero",
+            Range::NotNegative if value < 0.0 => "zero or more",
+            _ => return Ok(Some(value)),
+        };
+        Err(format!("{name} must be {wrong}, this is {value}"))
+    }
+}
+
+/// A text short enough for a message, on one line.
+fn brief(text: &str) -> String {
+    const MOST: usize = 24;
+    let shown = text.chars().take(MOST).map(|c| if c.is_control() { ' ' } else { c });
+    let end = if text.chars().count() > MOST { " .." } else { "" };
+    shown.chain(end.chars()).collect()
+}
+
+/// The bytes of a file, handed out a line at a time, so that it is known at which line a row has ended.
+struct ByLine {
+    file: BufReader<File>,
+    /// Lines handed out, the last perhaps in part.
+    lines: u64,
+    within: bool,
+    /// Bytes handed out for the present row.
+    row: usize,
+}
+
+impl ByLine {
+    fn new(file: File) -> Self {
+        ByLine { file: BufReader::with_capacity(1 << 16, file), lines: 0, within: false, row: 0 }
+    }
+}
+
+impl Read for ByLine {
+    fn read(&mut self, into: &mut [u8]) -> std::io::Result<usize> {
+        let have = self.file.fill_buf()?;
+        let line = have.iter().position(|byte| *byte == b'\n').map_or(have, |end| have.split_at(end + 1).0);
+        let taken = line.take(into.len() as u64).read(into)?;
+        if taken > 0 {
+            self.lines += u64::from(!self.within);
+            self.within = taken < line.len() || !line.ends_with(b"\n");
+        }
+        self.file.consume(taken);
+        self.row += taken;
+        if self.row > LONGEST_ROW {
+            let text = format!("the row that ends behind line {} has more than {LONGEST_ROW} bytes", self.lines);
+            return Err(std::io::Error::other(format!("{text}; is a quote not closed?")));
+        }
+        Ok(taken)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const HEAD: &str = "id,x_m,z_m,length_m,EA_N,w_N_per_m";
+
+    fn open(bytes: &[u8]) -> Result<Input, InputError> {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("in.csv");
+        std::fs::write(&path, bytes).unwrap();
+        Input::open(&path)
+    }
+
+    /// Line and id of each row.
+    fn rows(bytes: &[u8]) -> Vec<(u64, String)> {
+        let mut input = open(bytes).unwrap();
+        let mut rows = Vec::new();
+        while let Some(row) = input.next().unwrap() {
+            rows.push((row.line, row.id()));
+        }
+        rows
+    }
+
+    fn case(text: &str) -> Result<Case, String> {
+        open(text.as_bytes()).unwrap().next().unwrap().unwrap().case()
+    }
+
+    #[test]
+    fn a_row_has_the_number_of_the_line_it_begins_at_whatever_ends_the_lines() {
+        let text = format!("{HEAD}\na,1\n\n\"b\nb\",2\n\nc\nd,\"x\n\n\"\ne");
+        let want: Vec<(u64, String)> =
+            [(2, "a"), (4, "b b"), (7, "c"), (8, "d"), (11, "e")].map(|(l, t)| (l, t.to_string())).to_vec();
+        assert_eq!(rows(text.as_bytes()), want);
+        let crlf = rows(text.replace('\n', "\r\n").as_bytes());
+        assert_eq!(crlf.iter().map(|r| r.0).collect::<Vec<_>>(), [2, 4, 7, 8, 11]);
+        let mixed = format!("\u{feff}{HEAD}\r\na\n\r\nb\r\nc\n");
+        assert_eq!(rows(mixed.as_bytes()).iter().map(|r| r.0).collect::<Vec<_>>(), [2, 4, 5]);
+        // rows longer than the buffers of the reader
+        let long = "z".repeat(200_000);
+        let text = format!("{HEAD}\na,{long}\nb,\"{long}\n{long}\"\nc\n");
+        assert_eq!(rows(text.as_bytes()).iter().map(|r| r.0).collect::<Vec<_>>(), [2, 3, 5]);
+    }
+
+    #[test]
+    fn names_are_found_in_any_order_and_case_with_blanks_quotes_and_a_byte_order_mark() {
+        let text = "\u{feff} w_n_per_m ,\"length_m\",ID, Z_M,x_m ,ea_n\r\n 5 ,\" 7\",q,3,4,1e6\r\n";
+        let want = Case {
+            segment: Segment { length: 7.0, weight: 5.0, ea: 1e6 },
+            x: 4.0,
+            z: 3.0,
+            bottom: Some(Bottom { friction: 0.0 }),
+        };
+        assert_eq!(case(text), Ok(want));
+    }
+
+    #[test]
+    fn friction_and_suspended_are_zero_where_absent_or_blank() {
+        let with = |friction: &str, suspended: &str| {
+            case(&format!("{HEAD},friction,suspended\n1,4,3,7,1e6,5,{friction},{suspended}\n")).map(|c| c.bottom)
+        };
+        assert_eq!(with("", " "), Ok(Some(Bottom { friction: 0.0 })));
+        assert_eq!(with("0.5", "0"), Ok(Some(Bottom { friction: 0.5 })));
+        assert_eq!(with("0.5", "1.0"), Ok(None));
+        assert_eq!(with("0.5", "2"), Err("suspended must be 0 or 1, this is 2".into()));
+        assert_eq!(with("-1", "0"), Err("friction must be zero or more, this is -1".into()));
+    }
+
+    #[test]
+    fn each_kind_of_bad_cell_is_told_by_its_column() {
+        for (row, want) in [
+            ("1,4,3,7,1e6", "it has 5 cells under 6 headers"),
+            ("1,4,3,7,1e6,5,6", "it has 7 cells under 6 headers"),
+            ("1,,3,7,1e6,5", "x_m is missing"),
+            ("1,4,3,-7,1e6,5", "length_m must be greater than zero, this is -7"),
+            ("1,4,3,7,0,5", "EA_N must be greater than zero, this is 0"),
+            ("1,-4,3,7,1e6,5", "x_m must be zero or more, this is -4"),
+            ("1,4,3,7,1e6,inf", "w_N_per_m must be a finite number, this is `inf`"),
+            ("1,4,\"3,5\",7,1e6,5", "z_m must be a finite number, this is `3,5`"),
+            ("1,4,\"a\nb\u{1b}[31m and much more text than that\",7,1e6,5", "`a b [31m and much more t ..`"),
+        ] {
+            let found = case(&format!("{HEAD}\n{row}\n")).unwrap_err();
+            assert!(found.ends_with(want), "{row}: {found}");
+        }
+        assert!(case(&format!("{HEAD}\n1,4,3,7,1e6,5,, \n")).is_ok(), "blank cells behind the last header");
+    }
+
+    #[test]
+    fn a_header_that_lacks_a_column_names_it_and_what_is_nearest() {
+        let of = |head: &str| match open(head.as_bytes()) {
+            Err(InputError::NoColumn { name, help }) => format!("{name}: {help}"),
+            other => format!("{other:?}"),
+        };
+        assert_eq!(of("id,x_m,z_m,lenght_m,EA_N,w_N_per_m\n"), "length_m: the nearest header is `lenght_m`");
+        assert_eq!(of("id;x_m;z_m\n"), "id: columns are separated by commas, and `id;x_m;z_m` holds none");
+        assert_eq!(of("id,X,z_m\n"), "x_m: its headers are `id`, `X`, `z_m`");
+        assert!(matches!(open(b"id,x_m,X_M,z_m,length_m,EA_N,w_N_per_m"), Err(InputError::Twice("x_m"))));
+        for nothing in [&b""[..], b"\n\r\n", b"\xef\xbb\xbf"] {
+            assert!(matches!(open(nothing), Err(InputError::Empty)), "{nothing:?}");
+        }
+    }
+
+    #[test]
+    fn a_quote_that_is_never_closed_ends_at_the_longest_row() {
+        let mut input = open(format!("{HEAD}\n\"{}", "a,b\n".repeat(1 << 20)).as_bytes()).unwrap();
+        let error = input.next().map(|_| ()).unwrap_err().to_string();
+        assert!(error.contains("more than 1048576 bytes; is a quote not closed?"), "{error}");
+        assert!(input.next().is_ok_and(|row| row.is_none()), "nothing is read behind it");
+        assert!(open(&vec![b'x'; 2 << 20]).is_err());
+    }
+}
