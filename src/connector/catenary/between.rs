@@ -240,13 +240,17 @@ pub(super) fn prove_contact(
 fn vertical_of_contact(segment: &Segment, h: f64, z: f64) -> f64 {
     let rise = segment.weight * z;
     let stiff = h + segment.ea;
-    let change = 2.0 * rise / (((stiff * stiff + 2.0 * segment.ea * rise).sqrt() + stiff) / segment.ea);
+    let both = 2.0 * segment.ea * rise;
+    let change = both / ((stiff * stiff + both).sqrt() + stiff);
     (change * (change + 2.0 * h)).sqrt()
 }
 
 /// The reach of a touching line, less the stretch that friction keeps from the grounded part.
 fn with_friction(segment: &Segment, h: f64, high: f64, friction: f64) -> Reach {
     let (mut reach, ground) = lifted(segment, h, high);
+    if friction == 0.0 {
+        return reach;
+    }
     let Segment { weight, ea, .. } = *segment;
     let loss = friction * weight;
     if loss * ground <= h {
@@ -418,10 +422,9 @@ pub(super) fn prove(
     iterations: usize,
 ) -> Result<EndForces, LineError> {
     let (rx, rz) = (reach.x - x, reach.z - z);
-    let size = |h: f64, v: f64| (h * h + v * v).sqrt();
-    let tension = size(fairlead[0], fairlead[1]);
+    let tension = fairlead[0].hypot(fairlead[1]);
     let stiffness = inverse(reach);
-    let residual = stiffness.map_or(f64::NAN, |[[a, b], [c, d]]| size(a * rx + b * rz, c * rx + d * rz));
+    let residual = stiffness.map_or(f64::NAN, |[[a, b], [c, d]]| (a * rx + b * rz).hypot(c * rx + d * rz));
     let rounding = 4.0 * f64::EPSILON * (segment.length + x + z.abs());
     let proven = residual <= PROOF * tension || rx.abs().max(rz.abs()) <= rounding;
     match stiffness {

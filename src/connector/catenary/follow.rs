@@ -39,8 +39,9 @@ fn warm(segment: &Segment, x: f64, z: f64, bottom: Option<Bottom>, last: &EndFor
             suspended(&segment.turned(), [x, -z], &last.turned()).map(EndForces::turned)
         }
         (Regime::Suspended, None) if segment.weight > 0.0 => suspended(segment, [x, z], last),
-        (Regime::Suspended, Some(_)) if segment.weight > 0.0 && z > 0.0 => suspended(segment, [x, z], last)
-            .filter(|answer| answer.anchor[1] > 10.0 * PROOF * answer.fairlead[0].hypot(answer.fairlead[1])),
+        (Regime::Suspended, Some(_)) if segment.weight > 0.0 && z > 0.0 => {
+            suspended(segment, [x, z], last).filter(|answer| answer.anchor[1] > near(answer.fairlead))
+        }
         (Regime::Contact | Regime::ContactFriction | Regime::ContactFrictionAnchorZero, Some(Bottom { friction }))
             if segment.weight > 0.0 && z > 0.0 =>
         {
@@ -65,12 +66,20 @@ fn contact(segment: &Segment, at: [f64; 2], friction: f64, last: &EndForces) -> 
         ([h, high], reach)
     })?;
     let answer = prove_contact(segment, at, fairlead, &reach, friction, steps).ok()?;
-    let [h, v] = fairlead;
-    let near = 10.0 * PROOF * h.hypot(v);
+    let (h, near) = (fairlead[0], near(fairlead));
     let lifts = answer.grounded * segment.weight <= near;
     let slackens = h <= near;
     let slips = friction > 0.0 && (h - friction * segment.weight * answer.grounded).abs() <= near;
     (!(lifts || slackens || slips)).then_some(answer)
+}
+
+/// The force within which another regime is too near to tell.
+fn near(fairlead: [f64; 2]) -> f64 {
+    10.0 * PROOF * square(fairlead).sqrt()
+}
+
+fn square([h, v]: [f64; 2]) -> f64 {
+    h * h + v * v
 }
 
 /// Newton on both forces from where the last stiffness puts them. `evaluate` takes forces and returns those it stands
@@ -91,7 +100,6 @@ fn newton(
         let (rx, rz) = (x - reach.x, z - reach.z);
         let change = mapped(&reach, rx, rz)?;
         let off = rx.abs().max(rz.abs());
-        let square = |[h, v]: [f64; 2]| h * h + v * v;
         if off <= fine || (off <= 64.0 * fine && off >= before) || square(change) <= CLOSE * CLOSE * square(at) {
             return (at[0] > 0.0).then_some((at, reach, step));
         }

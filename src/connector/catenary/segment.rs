@@ -89,19 +89,20 @@ pub fn lifted(segment: &Segment, h: f64, high: f64) -> (Reach, f64) {
     let hanging = high / weight;
     let ground = (length - hanging).max(0.0);
     // asinh(V/H) = 2 atanh(u), T - H = u V
-    let scale = 1.0 / (t + h);
+    let (scale, per_t, per_weight, per_ea) = (1.0 / (t + h), 1.0 / t, 1.0 / weight, 1.0 / ea);
     let u = high * scale;
     let bend = bend(u, h * scale);
     let lift = high * u;
-    let ratio = lift / t;
+    let ratio = lift * per_t;
+    let x_v = -ratio * per_weight;
     let reach = Reach {
-        x: 2.0 * h * u / weight * (1.0 + bend) + h * hanging / ea + ground * (1.0 + h / ea),
-        z: (lift + 0.5 * high * high / ea) / weight,
+        x: 2.0 * h * u / weight * (1.0 + bend) + h * per_ea * hanging + ground * (1.0 + h * per_ea),
+        z: (lift + 0.5 * high * high * per_ea) / weight,
         // asinh(V/H) - V/T
-        x_h: 2.0 * u * (bend + 0.5 * ratio) / weight + (hanging + ground) / ea,
-        x_v: -ratio / weight,
-        z_h: -ratio / weight,
-        z_v: (high / t + high / ea) / weight,
+        x_h: 2.0 * u * (bend + 0.5 * ratio) * per_weight + (hanging + ground) * per_ea,
+        x_v,
+        z_h: x_v,
+        z_v: high * (per_t + per_ea) * per_weight,
     };
     (reach, ground)
 }
