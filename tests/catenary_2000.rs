@@ -3,7 +3,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use windlass::connector::catenary::{Bottom, Segment};
+use windlass::connector::catenary::{Bottom, EndForces, Segment};
 
 struct Case {
     id: String,
@@ -138,5 +138,60 @@ fn a_vertical_line_is_the_limit_of_a_nearly_vertical_one() {
         if at.stiffness[0][0] > 0.0 {
             assert!((at.stiffness[0][0] / near.stiffness[0][0] - 1.0).abs() < 1e-6, "{weight} {z}: {at:?} {near:?}");
         }
+    }
+}
+
+/// The larger of the differences at fairlead and anchor, as a share of the tension at the fairlead.
+fn apart(a: &EndForces, b: &EndForces) -> f64 {
+    let pairs = a.fairlead.iter().zip(&b.fairlead).chain(a.anchor.iter().zip(&b.anchor));
+    let most = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    if most == 0.0 { 0.0 } else { most / a.fairlead[0].hypot(a.fairlead[1]) }
+}
+
+#[test]
+fn a_followed_line_is_the_cold_one_all_along_its_path() {
+    let (mut worst, mut warm) = (0.0_f64, 0);
+    for c in cases() {
+        let mut last = c.segment.between(c.x, c.z, c.bottom).unwrap();
+        for n in 1..=100 {
+            let phase = std::f64::consts::TAU * f64::from(n) / 100.0;
+            let x = (c.x + 0.01 * c.segment.length * phase.sin()).max(0.0);
+            let rise = 0.005 * c.segment.length * (phase.cos() - 1.0);
+            let z = if c.bottom.is_some() { (c.z + rise).max(0.0) } else { c.z + rise };
+            let cold = c.segment.between(x, z, c.bottom).unwrap();
+            last = c.segment.follow(x, z, c.bottom, &last).unwrap();
+            assert_eq!(last.regime, cold.regime, "{} step {n}", c.id);
+            assert_eq!(last.at, [x, z]);
+            assert!((last.grounded - cold.grounded).abs() <= 1e-8 * c.segment.length, "{} step {n}", c.id);
+            let error = apart(&cold, &last);
+            assert!(error <= 1e-9, "{} step {n}: {error:.2e}\n{cold:?}\n{last:?}", c.id);
+            worst = worst.max(error);
+            warm += u32::from(last != cold);
+        }
+    }
+    println!("largest difference {worst:.2e}, {warm} followed");
+}
+
+#[test]
+fn whatever_a_line_is_followed_from_it_comes_out_the_same() {
+    let cases = cases();
+    let answers: Vec<_> = cases.iter().map(|c| c.segment.between(c.x, c.z, c.bottom).unwrap()).collect();
+    for (n, (c, answer)) in cases.iter().zip(&answers).enumerate() {
+        for far in (1..40).map(|k| &answers[(n + 37 * k) % answers.len()]) {
+            let spoilt = [f64::NAN, f64::INFINITY, -1.0, 0.0, 1e300];
+            let spoilt = spoilt.into_iter().flat_map(|v| {
+                let at = EndForces { at: [v, v], ..*answer };
+                let forces = EndForces { fairlead: [v, -v], ..*answer };
+                [at, forces, EndForces { stiffness: [[v, 0.0], [v, -v]], ..*answer }]
+            });
+            for last in [*far, EndForces { regime: answer.regime, ..*far }].into_iter().chain(spoilt) {
+                let got = c.segment.follow(c.x, c.z, c.bottom, &last).unwrap();
+                assert_eq!(got.regime, answer.regime, "{} from {last:?}", c.id);
+                let error = apart(answer, &got);
+                assert!(error <= 1e-9, "{} from {last:?}: {error:.2e}", c.id);
+            }
+        }
+        assert!(c.segment.follow(-1.0, c.z, c.bottom, answer).is_err());
+        assert!(c.segment.follow(c.x, f64::NAN, c.bottom, answer).is_err());
     }
 }

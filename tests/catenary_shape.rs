@@ -15,7 +15,7 @@ fn mixed(slope: f64, friction: f64) -> Line {
 
 #[test]
 fn the_shape_runs_from_the_fairlead_to_the_anchor_along_the_tension() {
-    for (slope, friction, x) in [(0.0, 0.0, 1900.0), (0.0, 0.6, 1950.0), (0.05, 0.0, 1950.0), (-0.05, 0.4, 1960.0)] {
+    for (slope, friction, x) in [(0.0, 0.0, 1900.0), (0.0, 0.6, 1950.0), (0.05, 0.0, 2020.0), (-0.05, 0.4, 1960.0)] {
         let line = mixed(slope, friction);
         let state = line.at_distance(x, -10.0).unwrap();
         let shape = line.shape(&state, 4000);

@@ -61,6 +61,8 @@ impl Regime {
 pub struct EndForces {
     /// How it lies.
     pub regime: Regime,
+    /// Where the fairlead is: beside and above the anchor (m).
+    pub at: [f64; 2],
     /// Pull of the line on the fairlead (N): toward the anchor, and downward.
     pub fairlead: [f64; 2],
     /// Pull of the line on the anchor (N): toward the fairlead, and upward.
@@ -76,13 +78,33 @@ pub struct EndForces {
     pub iterations: usize,
 }
 
+impl EndForces {
+    /// The same line upside down.
+    pub(super) fn turned(self) -> Self {
+        let EndForces { at: [x, z], fairlead, anchor, stiffness: [[a, b], [c, d]], .. } = self;
+        EndForces {
+            at: [x, -z],
+            fairlead: [fairlead[0], -fairlead[1]],
+            anchor: [anchor[0], -anchor[1]],
+            stiffness: [[a, -b], [-c, d]],
+            ..self
+        }
+    }
+}
+
 /// Newton steps after which the nested search takes over.
 const MOST_STEPS: usize = 40;
 /// Largest accepted residual as a share of the tension at the fairlead.
-const PROOF: f64 = 1e-9;
+pub(super) const PROOF: f64 = 1e-9;
 
 /// See [`Segment::between`].
 pub fn between(segment: &Segment, x: f64, z: f64, bottom: Option<Bottom>) -> Result<EndForces, LineError> {
+    check(segment, x, z, bottom)?;
+    cold(segment, x, z, bottom)
+}
+
+/// Refuses what is no line or no place for its end.
+pub(super) fn check(segment: &Segment, x: f64, z: f64, bottom: Option<Bottom>) -> Result<(), LineError> {
     segment.check(1)?;
     let friction = bottom.map_or(0.0, |b| b.friction);
     for (what, value, good) in [
@@ -97,19 +119,18 @@ pub fn between(segment: &Segment, x: f64, z: f64, bottom: Option<Bottom>) -> Res
     if bottom.is_some() && z < 0.0 {
         return Err(LineError::BelowBottom(-z));
     }
+    Ok(())
+}
+
+/// The forces without an answer to begin with, for numbers that were checked.
+pub(super) fn cold(segment: &Segment, x: f64, z: f64, bottom: Option<Bottom>) -> Result<EndForces, LineError> {
     if segment.weight < 0.0 {
         // a buoyant line is a heavy one upside down; arched between ends above the bottom it never touches it
-        let turned = Segment { weight: -segment.weight, ..*segment };
-        let up = suspended(&turned, x, -z)?;
-        let [[a, b], [c, d]] = up.stiffness;
-        return Ok(EndForces {
-            fairlead: [up.fairlead[0], -up.fairlead[1]],
-            anchor: [up.anchor[0], -up.anchor[1]],
-            stiffness: [[a, -b], [-c, d]],
-            ..up
-        });
+        return suspended(&segment.turned(), x, -z).map(EndForces::turned);
     }
-    if bottom.is_some() && segment.weight > 0.0 {
+    if let Some(Bottom { friction }) = bottom
+        && segment.weight > 0.0
+    {
         if z == 0.0 {
             return on_bottom(segment, x, friction);
         }
@@ -126,6 +147,7 @@ fn on_bottom(segment: &Segment, x: f64, friction: f64) -> Result<EndForces, Line
     let stretch = x - length;
     let mut answer = EndForces {
         regime: Regime::OnBottomSlack,
+        at: [x, 0.0],
         fairlead: [0.0; 2],
         anchor: [0.0; 2],
         grounded: length,
@@ -161,6 +183,7 @@ fn touching(segment: &Segment, x: f64, z: f64, friction: f64) -> Result<Option<E
     if length - free >= x {
         return Ok(Some(EndForces {
             regime: Regime::FullySlack,
+            at: [x, z],
             fairlead: [0.0, weight * free],
             anchor: [0.0; 2],
             grounded: length - free,
@@ -176,20 +199,34 @@ fn touching(segment: &Segment, x: f64, z: f64, friction: f64) -> Result<Option<E
     let all = weight * length;
     let change = weight * z - 0.5 * all * (all / ea);
     let most = if change > 0.0 { 0.5 * (all - change) * (all + change) / change } else { f64::INFINITY };
-    let reach = |h: f64| {
-        let high = vertical_of_contact(segment, h, z);
-        let reach = with_friction(segment, h, high, friction);
-        (high, reach)
-    };
-    if most.is_finite() && reach(most).1.x < x {
+    if most.is_finite() && in_contact(segment, most, z, friction).1.x < x {
         return Ok(None);
     }
     let start = guess(segment, x, z).0.min(most);
     let (h, steps) = rising_root(start, x, |h| {
-        let reach = reach(h).1;
+        let reach = in_contact(segment, h, z, friction).1;
         Point { value: reach.x, slope: reach.x_h - reach.x_v * (reach.z_h / reach.z_v) }
     });
-    let (high, reach) = reach(h);
+    let (high, reach) = in_contact(segment, h, z, friction);
+    prove_contact(segment, [x, z], [h, high], &reach, friction, steps).map(Some)
+}
+
+/// V at the fairlead of a line that touches down below it under the tension `h`, and its reach.
+pub(super) fn in_contact(segment: &Segment, h: f64, z: f64, friction: f64) -> (f64, Reach) {
+    let high = vertical_of_contact(segment, h, z);
+    (high, with_friction(segment, h, high, friction))
+}
+
+/// Makes the answer of a line that lies on the bottom in part.
+pub(super) fn prove_contact(
+    segment: &Segment,
+    at: [f64; 2],
+    [h, high]: [f64; 2],
+    reach: &Reach,
+    friction: f64,
+    steps: usize,
+) -> Result<EndForces, LineError> {
+    let Segment { length, weight, .. } = *segment;
     let grounded = (length - high / weight).max(0.0);
     let anchor = (h - friction * weight * grounded).max(0.0);
     let regime = match (friction > 0.0 && grounded > 0.0, anchor > 0.0) {
@@ -197,12 +234,15 @@ fn touching(segment: &Segment, x: f64, z: f64, friction: f64) -> Result<Option<E
         (true, true) => Regime::ContactFriction,
         (true, false) => Regime::ContactFrictionAnchorZero,
     };
-    prove(segment, regime, [x, z], [h, high], [anchor, 0.0], &reach, grounded, steps).map(Some)
+    prove(segment, regime, at, [h, high], [anchor, 0.0], reach, grounded, steps)
 }
 
 /// The reach of a touching line, less the stretch that friction keeps from the grounded part.
 fn with_friction(segment: &Segment, h: f64, high: f64, friction: f64) -> Reach {
     let (mut reach, ground) = lifted(segment, h, high);
+    if friction == 0.0 {
+        return reach;
+    }
     let Segment { weight, ea, .. } = *segment;
     let loss = friction * weight;
     if loss * ground <= h {
@@ -303,6 +343,7 @@ fn vertical(segment: &Segment, z: f64) -> Result<EndForces, LineError> {
     let lateral = if v * low > 0.0 { 1.0 / (length * inverse_mean(v.abs(), low.abs()) + length / ea) } else { 0.0 };
     let answer = EndForces {
         regime: if v * low > 0.0 { Regime::VerticalTaut } else { Regime::Suspended },
+        at: [0.0, z],
         fairlead: [0.0, v],
         anchor: [0.0, low],
         grounded: 0.0,
@@ -345,7 +386,7 @@ fn guess(segment: &Segment, x: f64, z: f64) -> (f64, f64) {
 }
 
 /// The change of (H, V) that makes the change (x, z).
-fn mapped(reach: &Reach, x: f64, z: f64) -> Option<[f64; 2]> {
+pub(super) fn mapped(reach: &Reach, x: f64, z: f64) -> Option<[f64; 2]> {
     let [[a, b], [c, d]] = inverse(reach)?;
     Some([a * x + b * z, c * x + d * z])
 }
@@ -353,18 +394,19 @@ fn mapped(reach: &Reach, x: f64, z: f64) -> Option<[f64; 2]> {
 /// The tangent stiffness of a reach.
 fn inverse(r: &Reach) -> Option<[[f64; 2]; 2]> {
     // eliminate V first: z_v is the sturdier pivot of a slack line, x_h that of a flat one
-    let det = r.x_h - r.x_v * (r.z_h / r.z_v);
+    let soft = 1.0 / r.z_v;
+    let det = r.x_h - r.x_v * (r.z_h * soft);
     let k = 1.0 / det;
-    let kzx = -k * (r.z_h / r.z_v);
-    let kxz = -k * (r.x_v / r.z_v);
-    let kzz = (1.0 - r.z_h * kxz) / r.z_v;
+    let kzx = -k * (r.z_h * soft);
+    let kxz = -k * (r.x_v * soft);
+    let kzz = (1.0 - r.z_h * kxz) * soft;
     (det > 0.0 && [k, kzx, kxz, kzz].iter().all(|v| v.is_finite())).then_some([[k, kxz], [kzx, kzz]])
 }
 
 /// Makes the answer, if what is left of the distances is small enough: as a force, or below the rounding of the
 /// distances themselves.
 #[allow(clippy::too_many_arguments)]
-fn prove(
+pub(super) fn prove(
     segment: &Segment,
     regime: Regime,
     [x, z]: [f64; 2],
@@ -376,12 +418,13 @@ fn prove(
 ) -> Result<EndForces, LineError> {
     let (rx, rz) = (reach.x - x, reach.z - z);
     let tension = fairlead[0].hypot(fairlead[1]);
-    let residual = mapped(reach, rx, rz).map_or(f64::NAN, |[h, v]| h.hypot(v));
+    let stiffness = inverse(reach);
+    let residual = stiffness.map_or(f64::NAN, |[[a, b], [c, d]]| (a * rx + b * rz).hypot(c * rx + d * rz));
     let rounding = 4.0 * f64::EPSILON * (segment.length + x + z.abs());
     let proven = residual <= PROOF * tension || rx.abs().max(rz.abs()) <= rounding;
-    match inverse(reach) {
+    match stiffness {
         Some(stiffness) if proven && fairlead.iter().chain(&anchor).all(|v| v.is_finite()) => {
-            Ok(EndForces { regime, fairlead, anchor, grounded, stiffness, residual, iterations })
+            Ok(EndForces { regime, at: [x, z], fairlead, anchor, grounded, stiffness, residual, iterations })
         }
         _ => Err(LineError::Unproven { residual, tension }),
     }

@@ -266,6 +266,7 @@ fn mean_strain(segment: &Segment, law: Option<&Law>, a: f64, b: f64) -> (f64, f6
 pub fn vertical_of_contact(segment: &Segment, h: f64, z: f64) -> f64 {
     let rise = segment.weight * z;
     let stiff = h + segment.ea;
-    let change = 2.0 * rise / ((stiff.hypot((2.0 * segment.ea * rise).sqrt()) + stiff) / segment.ea);
+    let both = 2.0 * segment.ea * rise;
+    let change = both / ((stiff * stiff + both).sqrt() + stiff);
     (change * (change + 2.0 * h)).sqrt()
 }

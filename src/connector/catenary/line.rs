@@ -154,6 +154,20 @@ impl Segment {
         super::between::between(self, x, z, bottom)
     }
 
+    /// The same as [`Segment::between`], sooner: for a fairlead that has moved a little since `last`. What `last` holds
+    /// decides how long the search takes, and the answer only within the proof.
+    ///
+    /// # Errors
+    /// Those of [`Segment::between`].
+    pub fn follow(&self, x: f64, z: f64, bottom: Option<Bottom>, last: &EndForces) -> Result<EndForces, LineError> {
+        super::follow::follow(self, x, z, bottom, last)
+    }
+
+    /// The same segment upside down: a buoyant one for a heavy one.
+    pub(super) fn turned(&self) -> Segment {
+        Segment { weight: -self.weight, ..*self }
+    }
+
     /// Refuses values that no segment can have; `number` is the segment's, from 1.
     pub(super) fn check(&self, number: usize) -> Result<(), LineError> {
         for (what, value, good) in [

@@ -5,7 +5,8 @@
 //! vertical component of the tension at a section, positive where the line rises toward the fairlead.
 //!
 //! Two directions: [`Line::at_horizontal_force`] and its inverse [`Line::at_distance`] for whole lines on a flat bottom
-//! without friction; [`Segment::between`] for one segment in every regime, with or without a bottom, with friction.
+//! without friction; [`Segment::between`] for one segment in every regime, with or without a bottom, with friction, and [`Segment::follow`] for the
+//! same at a fairlead that moves.
 //!
 //! Source of the formulas: the elastic catenary (Irvine, Cable Structures, 1981, section 1.4), written so that no
 //! difference of nearly equal numbers is formed; the spring buoy after seed 001, `-CLUMP`.
@@ -13,6 +14,7 @@
 mod between;
 mod chain;
 mod element;
+mod follow;
 mod law;
 mod line;
 mod policy;

@@ -31,28 +31,51 @@ impl std::ops::AddAssign for Reach {
 /// A segment hanging free between a lower section with vertical force `low` and an upper one with `low + w L`.
 ///
 /// x = (H/w)(asinh(V1/H) - asinh(V0/H)) + H L/EA, z = (T1 - T0)/w + (V0 + V1) L/(2 EA)
-/// (Irvine 1981, eqs 1.36 and 1.37, in forces).
+/// (Irvine 1981, eqs 1.36 and 1.37, in forces). With tan phi = V/H = sinh theta, half the change of theta has the
+/// hyperbolic tangent u = |V1 - V0|/(T0 + T1); what follows is in forces divided by T0 + T1, and forms no difference of
+/// nearly equal numbers for a weightless, a very taut or a vertical segment.
 pub fn hanging(segment: &Segment, h: f64, low: f64) -> Reach {
     let Segment { length, weight, ea } = *segment;
-    let high = low + weight * length;
-    let (t0, t1) = (h.hypot(low), h.hypot(high));
-    let flexibility = length / ea;
-    // sums over T, not differences: exact also for a weightless or a very taut segment
-    let z_rigid = length * (low + high) / (t0 + t1);
-    let x_rigid = length * horizontal_share(h, low, high, t0, t1);
-    let inverse = length * mean(|v| 1.0 / h.hypot(v).powi(3), low, high);
-    let (hh, hv, vv) = closed(h, low, high, t0, t1, length).unwrap_or_else(|| {
-        let hv = -length * mean(|v| h * v / h.hypot(v).powi(3), low, high);
-        let vv = length * mean(|v| v * v / h.hypot(v).powi(3), low, high);
-        (vv, hv, h * h * inverse)
-    });
+    let change = weight * length;
+    let high = low + change;
+    let (t0, t1) = ((h * h + low * low).sqrt(), (h * h + high * high).sqrt());
+    let scale = 1.0 / (t0 + t1);
+    let (a, p, q) = (h * scale, low * scale, high * scale);
+    let (aa, pq, tt) = (a * a, p * q, (t0 * scale) * (t1 * scale));
+    let vertical = p * p + q * q;
+    // (1 - u2)/2 = a2 + t0 t1 + p q
+    let half = if pq < 0.0 { aa + aa * (aa + vertical) / (tt - pq) } else { aa + (tt + pq) };
+    let u = change.abs() * scale;
+    let bend = bend(u, half);
+    // t0 t1 - a2
+    let over = (aa * vertical + pq * pq) / (tt + aa);
+    let share = 1.0 / (half * tt);
+    let (flexibility, compliance) = (length / ea, length * scale);
+    let x_v = -compliance * a * (p + q) * (half * share);
     Reach {
-        x: x_rigid + h * flexibility,
-        z: z_rigid + 0.5 * (low + high) * flexibility,
-        x_h: hh + flexibility,
-        x_v: hv,
-        z_h: hv,
-        z_v: vv + flexibility,
+        x: 2.0 * length * a * (1.0 + bend) + h * flexibility,
+        z: length * (p + q) + 0.5 * (low + high) * flexibility,
+        x_h: compliance * (2.0 * bend + (2.0 * half * over - aa * u * u) * share) + flexibility,
+        x_v,
+        z_h: x_v,
+        z_v: compliance * aa * share + flexibility,
+    }
+}
+
+/// atanh(u)/u - 1, with `half` = (1 - u2)/2 free of cancellation.
+fn bend(u: f64, half: f64) -> f64 {
+    let q = u * u;
+    if q < 1.0 / 64.0 {
+        // u2/3 + u4/5 + ...: the tenth term is below 1e-16 of the first
+        let square = q * q;
+        let low = (1.0 / 3.0 + q / 5.0) + square * (1.0 / 7.0 + q / 9.0);
+        let high = (1.0 / 11.0 + q / 13.0) + square * (1.0 / 15.0 + q / 17.0 + square / 19.0);
+        q * (low + square * square * high)
+    } else {
+        let y = u * (1.0 + u) / half;
+        let sum = 1.0 + y;
+        // ln(1 + y), with what the sum rounds away
+        0.5 * (sum.ln() + (y - (sum - 1.0)) / sum) / u - 1.0
     }
 }
 
@@ -62,64 +85,26 @@ pub fn hanging(segment: &Segment, h: f64, low: f64) -> Reach {
 /// Returns the reach of the whole segment and the unstretched length on the bottom. `weight` must be positive.
 pub fn lifted(segment: &Segment, h: f64, high: f64) -> (Reach, f64) {
     let Segment { length, weight, ea } = *segment;
-    let t = h.hypot(high);
+    let t = (h * h + high * high).sqrt();
     let hanging = high / weight;
     let ground = (length - hanging).max(0.0);
-    let ratio = high * high / (t * (t + h));
-    let rise = (high / h).asinh();
-    let x_h_rigid = small_difference(high / h).map_or(rise - high / t, |series| series) / weight;
+    // asinh(V/H) = 2 atanh(u), T - H = u V
+    let (scale, per_t, per_weight, per_ea) = (1.0 / (t + h), 1.0 / t, 1.0 / weight, 1.0 / ea);
+    let u = high * scale;
+    let bend = bend(u, h * scale);
+    let lift = high * u;
+    let ratio = lift * per_t;
+    let x_v = -ratio * per_weight;
     let reach = Reach {
-        x: h / weight * rise + h * hanging / ea + ground * (1.0 + h / ea),
-        z: (high * high / (t + h) + 0.5 * high * high / ea) / weight,
-        x_h: x_h_rigid + (hanging + ground) / ea,
-        x_v: -ratio / weight,
-        z_h: -ratio / weight,
-        z_v: (high / t + high / ea) / weight,
+        x: 2.0 * h * u / weight * (1.0 + bend) + h * per_ea * hanging + ground * (1.0 + h * per_ea),
+        z: (lift + 0.5 * high * high * per_ea) / weight,
+        // asinh(V/H) - V/T
+        x_h: 2.0 * u * (bend + 0.5 * ratio) * per_weight + (hanging + ground) * per_ea,
+        x_v,
+        z_h: x_v,
+        z_v: high * (per_t + per_ea) * per_weight,
     };
     (reach, ground)
-}
-
-/// asinh(a) - a/sqrt(1+a2) for small a, where the difference would lose its digits: a3/3 - 3 a5/10 + 15 a7/56 - ...
-fn small_difference(a: f64) -> Option<f64> {
-    let q = a * a;
-    (q < 1e-2).then(|| {
-        let c = [1.0 / 3.0, -3.0 / 10.0, 15.0 / 56.0, -35.0 / 144.0, 315.0 / 1408.0, -693.0 / 3328.0, 3003.0 / 15360.0];
-        a * q * c.iter().rev().fold(0.0, |sum, c| sum * q + c)
-    })
-}
-
-/// Mean of H/T over the segment: the horizontal reach of an inextensible one per length.
-fn horizontal_share(h: f64, low: f64, high: f64, t0: f64, t1: f64) -> f64 {
-    let change = high - low;
-    if change == 0.0 {
-        return h / t0;
-    }
-    let sine = if low * high > 0.0 {
-        // asinh(a) - asinh(b) = asinh((a2 - b2)/(a sqrt(1+b2) + b sqrt(1+a2))) for a, b of one sign
-        change * (low + high) / (high * t0 + low * t1)
-    } else {
-        (high * t0 - low * t1) / (h * h)
-    };
-    h * sine.asinh() / change
-}
-
-/// The integrals of V2/T3, -H V/T3 and H2/T3 over the segment in closed form; `None` where differences would lose
-/// digits, that is where V changes little against T.
-fn closed(h: f64, low: f64, high: f64, t0: f64, t1: f64, length: f64) -> Option<(f64, f64, f64)> {
-    let change = high - low;
-    if change.abs() < 0.2 * t0.min(t1) {
-        return None;
-    }
-    // high/T1 - low/T0, for one sign without the difference of two numbers near one
-    let turn = if low * high > 0.0 {
-        h * h * change * (low + high) / ((high * t0 + low * t1) * t0 * t1)
-    } else {
-        high / t1 - low / t0
-    };
-    let vv = length * turn / change;
-    let hv = -h * length * (low + high) / ((t0 + t1) * t0 * t1);
-    let hh = length * (horizontal_share(h, low, high, t0, t1) / h - turn / change);
-    Some((hh, hv, vv))
 }
 
 /// Places and weights of Gauss's rule with eight points, for the half interval.
@@ -129,13 +114,6 @@ pub const GAUSS: [(f64, f64); 4] = [
     (0.796_666_477_413_626_7, 0.222_381_034_453_374_47),
     (0.960_289_856_497_536_2, 0.101_228_536_290_376_26),
 ];
-
-/// Mean of a smooth function of V between two values that differ little against T: Gauss with eight points, whose
-/// error there is below 1e-15.
-fn mean(f: impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
-    let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
-    0.5 * GAUSS.iter().map(|(x, w)| w * (f(middle - half * x) + f(middle + half * x))).sum::<f64>()
-}
 
 #[cfg(test)]
 mod tests {
@@ -170,6 +148,15 @@ mod tests {
             assert!(((plus.x - minus.x) / (2e-6 * h) - reach.x_h).abs() < 1e-5 * scale);
             assert!(((plus.z - minus.z) / (2e-6 * h) - reach.z_h).abs() < 1e-5 * scale);
         }
+    }
+
+    #[test]
+    fn the_bend_is_that_of_the_library_on_both_sides_of_its_series() {
+        for u in [1e-3, 0.05, 0.12, 0.124_999, 0.125_001, 0.3, 0.9, 0.999_9] {
+            let (got, want) = (bend(u, 0.5 * (1.0 - u) * (1.0 + u)), u.atanh() / u - 1.0);
+            assert!((got - want).abs() < 4e-16 * (1.0 + want), "{u}: {got} {want}");
+        }
+        assert_eq!(bend(0.0, 0.5), 0.0);
     }
 
     #[test]

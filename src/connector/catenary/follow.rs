@@ -1,0 +1,116 @@
+//! One segment whose fairlead moves: Newton from the last answer.
+//!
+//! The last forces plus the last stiffness times the displacement are off by the square of the displacement, so that
+//! one or two Newton steps are left. Wherever that does not lead to a proven answer at once, or leads so near another
+//! regime that rounding decides, the search of [`Segment::between`] answers as if nothing were known.
+
+use super::between::{Bottom, EndForces, PROOF, Regime, check, cold, in_contact, mapped, prove, prove_contact};
+use super::line::{LineError, Segment};
+use super::segment::{Reach, hanging};
+
+/// Evaluations of the line after which the cold search takes over.
+const MOST_STEPS: usize = 8;
+/// Residual as a share of the tension at which a warm search ends: well inside the proof, so that the start does not
+/// show.
+const CLOSE: f64 = 1e-2 * PROOF;
+
+/// See [`Segment::follow`].
+pub fn follow(
+    segment: &Segment,
+    x: f64,
+    z: f64,
+    bottom: Option<Bottom>,
+    last: &EndForces,
+) -> Result<EndForces, LineError> {
+    check(segment, x, z, bottom)?;
+    match warm(segment, x, z, bottom, last) {
+        Some(answer) => Ok(answer),
+        None => cold(segment, x, z, bottom),
+    }
+}
+
+/// The answer near the last one, if there is one in the same regime.
+fn warm(segment: &Segment, x: f64, z: f64, bottom: Option<Bottom>, last: &EndForces) -> Option<EndForces> {
+    if x == 0.0 {
+        return None;
+    }
+    match (last.regime, bottom) {
+        (Regime::Suspended, _) if segment.weight < 0.0 => {
+            suspended(&segment.turned(), [x, -z], &last.turned()).map(EndForces::turned)
+        }
+        (Regime::Suspended, None) if segment.weight > 0.0 => suspended(segment, [x, z], last),
+        (Regime::Suspended, Some(_)) if segment.weight > 0.0 && z > 0.0 => {
+            suspended(segment, [x, z], last).filter(|answer| answer.anchor[1] > near(answer.fairlead))
+        }
+        (Regime::Contact | Regime::ContactFriction | Regime::ContactFrictionAnchorZero, Some(Bottom { friction }))
+            if segment.weight > 0.0 && z > 0.0 =>
+        {
+            contact(segment, [x, z], friction, last)
+        }
+        _ => None,
+    }
+}
+
+/// A line free from end to end.
+fn suspended(segment: &Segment, at: [f64; 2], last: &EndForces) -> Option<EndForces> {
+    let all = segment.weight * segment.length;
+    let (fairlead, reach, steps) = newton(segment, at, last, |[h, v]| ([h, v], hanging(segment, h, v - all)))?;
+    let [h, v] = fairlead;
+    prove(segment, Regime::Suspended, at, fairlead, [h, v - all], &reach, 0.0, steps).ok()
+}
+
+/// A line that lies on the bottom in part: V follows from H.
+fn contact(segment: &Segment, at: [f64; 2], friction: f64, last: &EndForces) -> Option<EndForces> {
+    let (fairlead, reach, steps) = newton(segment, at, last, |[h, _]| {
+        let (high, reach) = in_contact(segment, h, at[1], friction);
+        ([h, high], reach)
+    })?;
+    let answer = prove_contact(segment, at, fairlead, &reach, friction, steps).ok()?;
+    let (h, near) = (fairlead[0], near(fairlead));
+    let lifts = answer.grounded * segment.weight <= near;
+    let slackens = h <= near;
+    let slips = friction > 0.0 && (h - friction * segment.weight * answer.grounded).abs() <= near;
+    (!(lifts || slackens || slips)).then_some(answer)
+}
+
+/// The force within which another regime is too near to tell.
+fn near(fairlead: [f64; 2]) -> f64 {
+    10.0 * PROOF * square(fairlead).sqrt()
+}
+
+fn square([h, v]: [f64; 2]) -> f64 {
+    h * h + v * v
+}
+
+/// Newton on both forces from where the last stiffness puts them. `evaluate` takes forces and returns those it stands
+/// for with the reach.
+fn newton(
+    segment: &Segment,
+    [x, z]: [f64; 2],
+    last: &EndForces,
+    evaluate: impl Fn([f64; 2]) -> ([f64; 2], Reach),
+) -> Option<([f64; 2], Reach, usize)> {
+    let [[a, b], [c, d]] = last.stiffness;
+    let (dx, dz) = (x - last.at[0], z - last.at[1]);
+    let mut forces = stepped(last.fairlead, [a * dx + b * dz, c * dx + d * dz]);
+    let fine = 2.0 * f64::EPSILON * (segment.length + x + z.abs());
+    let mut before = f64::INFINITY;
+    for step in 1..=MOST_STEPS {
+        let (at, reach) = evaluate(forces);
+        let (rx, rz) = (x - reach.x, z - reach.z);
+        let change = mapped(&reach, rx, rz)?;
+        let off = rx.abs().max(rz.abs());
+        if off <= fine || (off <= 64.0 * fine && off >= before) || square(change) <= CLOSE * CLOSE * square(at) {
+            return (at[0] > 0.0).then_some((at, reach, step));
+        }
+        before = off;
+        forces = stepped(at, change);
+    }
+    None
+}
+
+/// The forces after a change, which is shortened where it would turn H around.
+fn stepped([h, v]: [f64; 2], [dh, dv]: [f64; 2]) -> [f64; 2] {
+    let part = if h + dh < 0.1 * h { -0.9 * h / dh } else { 1.0 };
+    [h + part * dh, v + part * dv]
+}
