@@ -3,7 +3,7 @@
 use super::{Call, Command, Effect, Job, Menu};
 use crate::language::diagnostic::Outcome;
 use crate::language::spec::{CommandSpec, Kind, Noun, Opens, ValueSpec};
-use crate::model::{Placement, find};
+use crate::model::find;
 use crate::report::disposition::Disposition;
 
 /// TABLE.
@@ -25,10 +25,10 @@ fn table(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let model = &job.model;
     let connector = find(&model.connectors, call.args.word(0).unwrap_or_default(), "connector", call.args.place(0))?;
     let class = find(&model.classes, &connector.class, "class", call.args.place(0))?;
-    let place = Placement { fairlead: model.end(connector, 0).unwrap_or_default(), other: model.end(connector, 1) };
-    let mut made = class
-        .object
-        .tabulate(&connector.name, &place, &model.surroundings())
+    let place = model.placement(connector);
+    let line = class.object.line(&place, &model.surroundings());
+    let mut made = line
+        .and_then(|l| l.tabulate(&connector.name))
         .map_err(|e| e.diagnostic(call.args.place(0)).help(format!("while tabulating connector {}", connector.name)))?;
     made.facts.insert(0, ("Line Class".into(), class.name.as_str().into(), crate::language::units::Dim::None));
     // what concerns the whole table is said at once, whatever is then printed of it

@@ -126,6 +126,7 @@ pub fn build_connector(job: &mut Job, args: &Args) -> Outcome<()> {
         anchor: None,
         offsets: [vector("-GO1"), vector("-GO2")],
         euler: args.has("-EULER").then(|| vector("-EULER")),
+        first_length: None,
         active: true,
         span: args.span,
     };

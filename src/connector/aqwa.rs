@@ -1,8 +1,10 @@
-//! The AQWA items of seed 002 as classes: catenary section with its joint, tether/riser section. Their numbers are in
-//! kg, m, N whatever `&DIMEN` says.
+//! CATENARY: an AQWA catenary section with the joint at its end as a class. Its numbers are in kg, m, N whatever
+//! `&DIMEN` says.
 //!
-//! Source: seed 002, 5.8.3.1 to 5.8.3.3; defaults of EA, maximum tension and coefficients: reference/model.md.
+//! Source: seed 002, 5.8.3.1 and 5.8.3.2; defaults of EA, maximum tension and coefficients: reference/model.md.
 
+use super::catenary::{Floor, Joint, Law, Line, Segment};
+use super::mooring::{Mooring, line_error};
 use super::options::aqwa;
 use super::{ClassKind, checks};
 use crate::language::args::{Args, Given};
@@ -11,23 +13,24 @@ use crate::language::select::Owner;
 use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::language::units::{Dim, STANDARD_GRAVITY};
-use crate::model::{ClassRecord, Connector, ConnectorClass, Surroundings};
+use crate::model::{ClassError, ClassRecord, Connector, ConnectorClass, LineModel, Placement, Surroundings};
 use crate::table::{Cell, Digits, Table};
 use std::f64::consts::FRAC_PI_4;
 use std::sync::Arc;
 
 /// The class type CATENARY: an AQWA catenary section with the joint at its end.
 pub static CATENARY: ClassKind = ClassKind { spec: &CATENARY_SPEC, segmented: true, build: build_catenary };
-/// The class type TETHER: an AQWA tether/riser section.
-pub static TETHER: ClassKind = ClassKind { spec: &TETHER_SPEC, segmented: true, build: build_tether };
 
-const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
+/// A number of an AQWA record.
+pub const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(dim), help)
 }
 
-const LENGTH: OptionSpec =
+/// `-LEN L` in metres.
+pub const LENGTH: OptionSpec =
     aqwa("-LEN", &[number("L", Dim::Metres, "length of the section").positive()], "unstretched length");
-const CA: OptionSpec =
+/// `-CA Ca`.
+pub const CA: OptionSpec =
     aqwa("-CA", &[number("Ca", Dim::None, "added mass coefficient").not_negative()], "added mass rho Ca A")
         .default("1.0");
 const JOINT: &[ValueSpec] = &[
@@ -95,41 +98,6 @@ static CATENARY_SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("CATENARY", "AQWA catenary section with its joint")
 };
 
-static TETHER_SPEC: CommandSpec = CommandSpec {
-    owner: Owner::Aqwa,
-    data: &[
-        number("OD", Dim::Metres, "outer diameter").positive(),
-        number("T", Dim::Metres, "wall thickness").positive(),
-    ],
-    options: &[
-        LENGTH,
-        aqwa(
-            "-REFINE",
-            &[ValueSpec::new("N", Kind::Integer, "number of elements").within(1.0, 10_000.0)],
-            "number of elements",
-        )
-        .default("1"),
-        aqwa(
-            "-DENSITY",
-            &[number("RHO", Dim::KilogramsPerCubicMetre, "density").positive()],
-            "density of the material",
-        )
-        .default("7850"),
-        aqwa("-EMODULUS", &[number("E", Dim::Pascals, "Young's modulus").positive()], "Young's modulus")
-            .default("&DEFAULT"),
-        CA,
-        aqwa(
-            "-CD",
-            &[number("Cd", Dim::None, "transverse drag coefficient").not_negative()],
-            "transverse drag 0.5 rho Cd V2 OD",
-        )
-        .default("0.75"),
-    ],
-    detail: "An AQWA tether or riser section, in kg, m and N in every unit system; one record a section.",
-    example: "MEDIT\n~LEG TETHER 1.1 0.035 -LEN 250 -REFINE 10\nEND\n&STATUS CLASS ~LEG",
-    ..CommandSpec::new("TETHER", "AQWA tether/riser section")
-};
-
 #[derive(Debug)]
 struct CatenarySection {
     mass: f64,
@@ -137,6 +105,9 @@ struct CatenarySection {
     length: f64,
     ea: f64,
     largest: f64,
+    /// k1, k2, k3, where given.
+    coefficients: Option<[f64; 3]>,
+    span: Span,
     ca: f64,
     cd: f64,
     diameter: f64,
@@ -147,22 +118,20 @@ struct CatenarySection {
 }
 
 #[derive(Debug)]
-struct CatenaryClass(Vec<CatenarySection>);
-
-#[derive(Debug)]
-struct TetherSection {
-    od: f64,
-    thickness: f64,
-    length: f64,
-    elements: i64,
-    density: f64,
-    emodulus: f64,
-    ca: f64,
-    cd: f64,
+struct CatenaryClass {
+    sections: Vec<CatenarySection>,
+    depth: Option<f64>,
 }
 
-#[derive(Debug)]
-struct TetherClass(Vec<TetherSection>);
+impl CatenarySection {
+    /// How it stretches: along the polynomial of -K up to the strain at the maximum tension and straight on; without -K
+    /// no tension beyond the maximum (seed 002, 5.8.3.1).
+    fn law(&self) -> Option<Law> {
+        let Some(k) = self.coefficients else { return Some(Law::Capped { ea: self.ea, most: self.largest }) };
+        let most = Law::Polynomial { ea: self.ea, k, most: f64::INFINITY }.stretch(self.largest).0;
+        Some(Law::Polynomial { ea: self.ea, k, most })
+    }
+}
 
 fn joint(args: &Args) -> Outcome<(Option<(&'static str, f64)>, Span)> {
     let net = |given: &Given| given.number(0).unwrap_or(0.0) - given.number(1).unwrap_or(0.0);
@@ -200,6 +169,8 @@ fn build_catenary(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
             length: checks::length(args, "CATENARY")?,
             ea: option("-EA", 5.0e6 * mass),
             largest: option("-TMAX", 5.0e4 * mass),
+            coefficients: args.option("-K").map(|g| [0, 1, 2].map(|i| g.number(i).unwrap_or(0.0))),
+            span: args.span,
             ca: option("-CA", 1.0),
             cd: option("-CD", 1.0),
             diameter: option("-DE", (area / FRAC_PI_4).sqrt()),
@@ -209,31 +180,8 @@ fn build_catenary(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
             joint_span,
         });
     }
-    checks::once(records, "-DEPANCHOR")?;
-    Ok(Arc::new(CatenaryClass(sections)))
-}
-
-fn build_tether(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
-    let mut sections = Vec::new();
-    for record in records {
-        let args = &record.args;
-        let (od, thickness) = (args.number(0).unwrap_or(0.0), args.number(1).unwrap_or(0.0));
-        if 2.0 * thickness > od {
-            return Err(Diagnostic::error("the wall thickness T is larger than half of OD", args.place(1)));
-        }
-        let material = &record.defaults.material;
-        sections.push(TetherSection {
-            od,
-            thickness,
-            length: checks::length(args, "TETHER")?,
-            elements: args.option("-REFINE").and_then(|g| g.values.first()).and_then(|v| v.integer()).unwrap_or(1),
-            density: args.option_number("-DENSITY").unwrap_or(material.density),
-            emodulus: args.option_number("-EMODULUS").unwrap_or(material.emodulus),
-            ca: args.option_number("-CA").unwrap_or(1.0),
-            cd: args.option_number("-CD").unwrap_or(0.75),
-        });
-    }
-    Ok(Arc::new(TetherClass(sections)))
+    let depth = checks::once(records, "-DEPANCHOR")?.and_then(|g| g.number(0));
+    Ok(Arc::new(CatenaryClass { sections, depth }))
 }
 
 impl ConnectorClass for CatenaryClass {
@@ -242,7 +190,7 @@ impl ConnectorClass for CatenaryClass {
     }
 
     fn check(&self) -> Outcome<()> {
-        match self.0.last().filter(|s| s.joint.is_some()) {
+        match self.sections.last().filter(|s| s.joint.is_some()) {
             Some(last) => {
                 Err(Diagnostic::error("a joint lies between two sections; the last section has none", last.joint_span))
             }
@@ -271,7 +219,7 @@ impl ConnectorClass for CatenaryClass {
             .column("", "De", Dim::Metres, Digits::Decimals(4))
             .column("Joint", "Type", Dim::None, Digits::Usual)
             .column("Joint", "Net Weight", Dim::Newtons, Digits::Usual);
-        for (index, s) in self.0.iter().enumerate() {
+        for (index, s) in self.sections.iter().enumerate() {
             let water = (s.mass - surroundings.water_density * s.area) * surroundings.gravity;
             let row: Vec<Cell> = vec![
                 (index + 1).into(),
@@ -295,62 +243,52 @@ impl ConnectorClass for CatenaryClass {
         table
     }
 
-    fn first_length(&self) -> Option<f64> {
-        self.0.first().map(|s| s.length)
-    }
-}
-
-impl ConnectorClass for TetherClass {
-    fn kind(&self) -> &'static str {
-        "TETHER"
+    fn anchor_depth(&self, surroundings: &Surroundings) -> Option<f64> {
+        self.depth.or(surroundings.depth)
     }
 
-    fn check(&self) -> Outcome<()> {
-        Ok(())
-    }
-
-    fn check_ends(&self, connector: &Connector, bodies: usize) -> Outcome<()> {
-        checks::ends("TETHER", connector, bodies, 2, 2)
-    }
-
-    fn properties(&self, name: &str, surroundings: &Surroundings) -> Table {
-        let mut table = Table::new(format!("Class {name}"))
-            .fact("Type", "TETHER (AQWA, in kg, m, N)", Dim::None)
-            .column("", "Section", Dim::None, Digits::Usual)
-            .column("", "OD", Dim::Metres, Digits::Decimals(4))
-            .column("", "T", Dim::Metres, Digits::Decimals(4))
-            .column("", "Length", Dim::Metres, Digits::Usual)
-            .column("", "Elements", Dim::None, Digits::Usual)
-            .column("", "Mass/L", Dim::MassPerLength, Digits::Usual)
-            .column("", "Displaced/L", Dim::MassPerLength, Digits::Usual)
-            .column("", "EA", Dim::Newtons, Digits::Scientific(5))
-            .column("", "EI", Dim::NewtonSquareMetres, Digits::Scientific(5))
-            .column("Coefficients", "Ca", Dim::None, Digits::Decimals(3))
-            .column("Coefficients", "Cd", Dim::None, Digits::Decimals(3));
-        for (index, s) in self.0.iter().enumerate() {
-            let inner = s.od - 2.0 * s.thickness;
-            let area = FRAC_PI_4 * (s.od * s.od - inner * inner);
-            let inertia = FRAC_PI_4 / 16.0 * (s.od.powi(4) - inner.powi(4));
-            let row: Vec<Cell> = vec![
-                (index + 1).into(),
-                s.od.into(),
-                s.thickness.into(),
-                s.length.into(),
-                Cell::Integer(s.elements),
-                (s.density * area).into(),
-                (surroundings.water_density * FRAC_PI_4 * s.od * s.od).into(),
-                (s.emodulus * area).into(),
-                (s.emodulus * inertia).into(),
-                s.ca.into(),
-                s.cd.into(),
-            ];
-            // the row has one cell a column, made just above
-            let _ = table.push(row);
-        }
-        table
+    fn line(&self, place: &Placement, surroundings: &Surroundings) -> Result<Box<dyn LineModel>, ClassError> {
+        let [_, _, far] = place.other.ok_or_else(|| {
+            ClassError::new("the other end of the line has no place")
+                .help("give a second point, or -ANCHOR on the connector and -DEPANCHOR or &ENV -DEPTH")
+        })?;
+        let count = self.sections.len();
+        let length = |i: usize, s: &CatenarySection| place.first_length.filter(|_| i == 0).unwrap_or(s.length);
+        let segments = self.sections.iter().enumerate().map(|(i, s)| Segment {
+            length: length(i, s),
+            weight: (s.mass - surroundings.water_density * s.area) * surroundings.gravity,
+            ea: s.ea,
+        });
+        // a buoy never knows the surface (seed 002, 5.8.3.2): a weight less than nothing
+        let joint =
+            |s: &CatenarySection| s.joint.map_or(Joint::Free, |(_, net)| Joint::Weight(net * surroundings.gravity));
+        let joints = self.sections.iter().take(count.saturating_sub(1)).map(joint);
+        let places: Vec<Span> = self.sections.iter().map(|s| s.span).collect();
+        // ends on a structure see no bottom, an anchor lies on it
+        let floor = place.to_ground.then_some(Floor { elevation: far, slope: 0.0, friction: 0.0 });
+        let line = Line::new(segments.collect(), joints.collect(), far, surroundings.tide)
+            .and_then(|l| l.over(floor))
+            .and_then(|l| l.with_laws(self.sections.iter().map(CatenarySection::law).collect()))
+            .map_err(|e| line_error(&e, &places))?;
+        let largest = self.sections.iter().map(|s| s.largest).reduce(f64::max).unwrap_or(0.0);
+        Ok(Box::new(Mooring {
+            line,
+            breaks: self.sections.iter().map(|s| s.largest).collect(),
+            largest,
+            exact: true,
+            place: *place,
+            surface: surroundings.tide,
+            bottom: surroundings.depth.map(|d| -d),
+            places,
+            notes: vec![
+                "breaks are the maximum expected tensions of -TMAX; beyond them the tension is held (with -K: \
+                         continues straight)"
+                    .into(),
+            ],
+        }))
     }
 
     fn first_length(&self) -> Option<f64> {
-        self.0.first().map(|s| s.length)
+        self.sections.first().map(|s| s.length)
     }
 }

@@ -3,15 +3,16 @@
 //! Source: seed 001, "An B_CAT class describes a catenary line"; which options hold per segment and which per line:
 //! reference/model.md, last section.
 
-use super::catenary::{Buoy, Joint, Line, LineError, ROWS, Row, Segment, table};
+use super::catenary::{Floor, Law, Line, LineError};
+use super::mooring::{Mooring, end_springs, line_error, parts};
 use super::section::{LineSection, properties};
 use super::{ClassKind, checks, options as o};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Kind, ValueSpec};
 use crate::language::units::Dim;
-use crate::model::{ClassError, ClassRecord, Connector, ConnectorClass, Placement, Surroundings};
-use crate::table::{Cell, Digits, Table};
+use crate::model::{ClassError, ClassRecord, Connector, ConnectorClass, LineModel, Placement, Surroundings};
+use crate::table::Table;
 use std::sync::Arc;
 
 /// The class type.
@@ -68,9 +69,6 @@ static SPEC: CommandSpec = CommandSpec {
 const PER_LINE: [&str; 9] =
     ["-DEPANCHOR", "-FRICTION", "-SLOPE", "-TAB_LIM", "-SEND", "-X_PY", "-X_DAMPING", "-CONVOLUTION", "-PISTON"];
 
-/// Options that would change the table and do not act in it yet: a table without them would be wrong, so none is made.
-const NOT_YET: [&str; 5] = ["-FRICTION", "-SLOPE", "-SEND", "-X_PY", "-CONVOLUTION"];
-
 #[derive(Debug)]
 struct Catenary {
     sections: Vec<LineSection>,
@@ -80,8 +78,9 @@ struct Catenary {
     friction: f64,
     slope: f64,
     limit: Option<f64>,
-    /// An option whose action on the table is not made yet, with its place.
-    not_yet: Option<(&'static str, Span)>,
+    springs: [Option<Law>; 2],
+    /// Where a viscoelastic spring is asked for.
+    convolution: Option<Span>,
     piston: bool,
 }
 
@@ -90,8 +89,6 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
     for name in PER_LINE {
         checks::once(records, name)?;
     }
-    let not_yet =
-        NOT_YET.into_iter().find_map(|name| checks::once(records, name).ok().flatten().map(|g| (name, g.span)));
     let number = |name: &str| checks::once(records, name).map(|g| g.and_then(|g| g.number(0)));
     Ok(Arc::new(Catenary {
         sections,
@@ -101,7 +98,8 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
         friction: number("-FRICTION")?.unwrap_or(0.0),
         slope: number("-SLOPE")?.unwrap_or(0.0),
         limit: number("-TAB_LIM")?,
-        not_yet,
+        springs: end_springs(records)?,
+        convolution: checks::once(records, "-CONVOLUTION")?.map(|g| g.span),
         piston: checks::once(records, "-PISTON")?.is_some(),
     }))
 }
@@ -115,36 +113,49 @@ impl Catenary {
         })
     }
 
-    fn line(&self, surroundings: &Surroundings) -> Result<Line, ClassError> {
-        let segments = self
-            .sections
-            .iter()
-            .map(|s| Segment { length: s.length, weight: s.submerged(surroundings), ea: s.ea })
-            .collect();
-        let joints = self
-            .sections
-            .split_last()
-            .map_or(&[][..], |(_, before)| before)
-            .iter()
-            .map(|s| match s.clump {
-                0.0 => Joint::Free,
-                c if c < 0.0 => Joint::SpringBuoy { capacity: -c, depth: s.pendant },
-                c => Joint::Weight(c),
-            })
-            .collect();
+    fn made(&self, place: &Placement, surroundings: &Surroundings) -> Result<Mooring, ClassError> {
+        if let Some(span) = self.convolution {
+            return Err(ClassError::new("-CONVOLUTION does not act yet, and a line without its spring would be wrong")
+                .at(span)
+                .help("a spring of -X_PY or -SEND acts"));
+        }
         let depth = self.known_depth(surroundings)?;
-        Line::new(segments, joints, -depth, surroundings.tide).map_err(|e| self.class_error(&e))
-    }
-
-    fn class_error(&self, error: &LineError) -> ClassError {
-        let segment = match error {
-            LineError::Value { segment, .. } | LineError::Pendant { segment, .. } => Some(*segment),
-            LineError::Law(segment) => Some(*segment),
-            _ => None,
-        };
-        let place = segment.and_then(|n| self.places.get(n.saturating_sub(1)));
-        let made = ClassError::new(error.to_string());
-        place.map_or(made.clone(), |span| made.at(*span))
+        let error = |e: LineError| line_error(&e, &self.places);
+        let (segments, joints) = parts(&self.sections, place, |s| s.submerged(surroundings));
+        let floor = Floor { elevation: -depth, slope: self.slope, friction: self.friction };
+        let line = Line::new(segments, joints, -depth, surroundings.tide)
+            .and_then(|l| l.over(Some(floor)))
+            .and_then(|l| l.with_springs(self.springs.clone()))
+            .map_err(error)?;
+        if depth <= -surroundings.tide {
+            return Err(ClassError::new("the anchor lies above the water surface").help("check -DEPANCHOR"));
+        }
+        let [_, _, fairlead] = place.fairlead;
+        if fairlead < -depth {
+            return Err(
+                ClassError::new("the fairlead lies below the anchor's depth").help("check &INSTATE and -DEPANCHOR")
+            );
+        }
+        let mut notes = Vec::new();
+        if let Some(known) = surroundings.depth.filter(|d| (d - depth).abs() > 0.2 * d.max(depth) && self.slope == 0.0)
+        {
+            let share = depth / known;
+            notes.push(format!("warning: -DEPANCHOR is {share:.2} of the depth of &ENV"));
+        }
+        if self.piston {
+            notes.push("the piston of -PISTON stands at its nominal position".into());
+        }
+        Ok(Mooring {
+            line,
+            breaks: self.sections.iter().map(|s| s.breaking).collect(),
+            largest: self.limit.or(largest_break(&self.sections)).unwrap_or(0.0),
+            exact: self.exact,
+            place: *place,
+            surface: surroundings.tide,
+            bottom: Some(-depth),
+            places: self.places.clone(),
+            notes,
+        })
     }
 }
 
@@ -189,105 +200,11 @@ impl ConnectorClass for Catenary {
         self.depth.or(surroundings.depth)
     }
 
-    fn tabulate(&self, connector: &str, place: &Placement, surroundings: &Surroundings) -> Result<Table, ClassError> {
-        if let Some((name, span)) = self.not_yet {
-            let text = format!("{name} does not act in a table yet, and a table without it would be wrong");
-            return Err(ClassError::new(text)
-                .at(span)
-                .help("this version tabulates lines without end springs on a flat, smooth bottom"));
-        }
-        let line = self.line(surroundings)?;
-        let breaks: Vec<f64> = self.sections.iter().map(|s| s.breaking).collect();
-        let largest = self.limit.or(largest_break(&self.sections)).unwrap_or(0.0);
-        let [_, _, fairlead] = place.fairlead;
-        if fairlead < line_bottom(self, surroundings)? {
-            return Err(
-                ClassError::new("the fairlead lies below the anchor's depth").help("check &INSTATE and -DEPANCHOR")
-            );
-        }
-        let rows = table(&line, &breaks, largest, fairlead).map_err(|e| self.class_error(&e))?;
-        Ok(report(connector, self, &rows, fairlead, line_bottom(self, surroundings)?))
+    fn line(&self, place: &Placement, surroundings: &Surroundings) -> Result<Box<dyn LineModel>, ClassError> {
+        Ok(Box::new(self.made(place, surroundings)?))
     }
-}
-
-fn line_bottom(class: &Catenary, surroundings: &Surroundings) -> Result<f64, ClassError> {
-    Ok(-class.known_depth(surroundings)?)
 }
 
 fn largest_break(sections: &[LineSection]) -> Option<f64> {
     sections.iter().map(|s| s.breaking).reduce(f64::max)
-}
-
-/// The twelve columns of reference/solve.md, CONN_DESIGN.
-fn report(connector: &str, class: &Catenary, rows: &[Row], fairlead: f64, bottom: f64) -> Table {
-    let mut out = Table::new(format!("Properties of Line {connector}"))
-        .fact("Water Depth", -bottom, Dim::Length)
-        .fact("Fairlead Above Mean Water", fairlead, Dim::Length)
-        .fact("Length of First Segment", class.first_length(), Dim::Length)
-        .column("", "X", Dim::Length, Digits::Usual)
-        .column("Horizontal", "Force", Dim::Force, Digits::Usual)
-        .column("Horizontal", "DF/DX", Dim::ForcePerLength, Digits::Decimals(3))
-        .column("Tension", "Ten Top", Dim::Force, Digits::Usual)
-        .column("Tension", "Max T/TB", Dim::None, Digits::Decimals(3))
-        .column("Tension", "Cri Break", Dim::Force, Digits::Usual)
-        .column("Tension", "Crit. Seg", Dim::None, Digits::Usual)
-        .column("Anchor", "V. Pull", Dim::Force, Digits::Usual)
-        .column("Anchor", "H. Pull", Dim::Force, Digits::Usual)
-        .column("", "Line on Bottom", Dim::Length, Digits::Usual)
-        .column("1st Connection", "Height Ab Anchor", Dim::Length, Digits::Usual)
-        .column("1st Connection", "Net Force Applied", Dim::Force, Digits::Usual);
-    for row in rows {
-        let s = &row.state;
-        let joint = s.joints.first();
-        let cells: Vec<Cell> = vec![
-            s.x.into(),
-            s.force.into(),
-            (1.0 / s.dx_dh).into(),
-            s.top_tension.into(),
-            row.ratio.into(),
-            row.critical_break.into(),
-            row.critical.into(),
-            s.anchor_vertical.into(),
-            s.force.into(),
-            s.grounded_stretched.into(),
-            joint.map(|j| j.z - bottom).into(),
-            joint.map(|j| j.lift).into(),
-        ];
-        // the row has one cell a column, made just above
-        let _ = out.push(cells);
-    }
-    if let Some(first) = rows.iter().position(|r| r.ratio > 1.0) {
-        out.note(format!("{} beyond the breaking tension (Max T/TB above 1)", rows_from(first, ROWS - 1)));
-    }
-    let states: Vec<Option<Buoy>> = rows.iter().map(|r| r.state.joints.iter().find_map(|j| j.buoy)).collect();
-    out.notes.extend(buoy_notes(&states));
-    if class.piston {
-        out.note("the piston of -PISTON stands at its nominal position");
-    }
-    if rows.iter().any(|r| !r.state.below_bottom.is_empty()) {
-        out.note("warning: a segment above the spring buoy hangs below the bottom in some rows (it does not see it)");
-    }
-    out
-}
-
-/// `row 3 is` or `rows 3 to 5 are`, counted from 1.
-fn rows_from(first: usize, last: usize) -> String {
-    if first == last { format!("row {} is", first + 1) } else { format!("rows {} to {} are", first + 1, last + 1) }
-}
-
-/// In which rows a spring buoy floats, hangs slack, or is sunk.
-fn buoy_notes(states: &[Option<Buoy>]) -> Vec<String> {
-    let word = |b: &Buoy| match b {
-        Buoy::Slack => "slack",
-        Buoy::Held => "held by its pendant",
-        Buoy::Sunk => "sunk",
-    };
-    let mut notes = Vec::new();
-    let mut from = 0;
-    while let Some(Some(state)) = states.get(from) {
-        let run = states.iter().skip(from).take_while(|s| **s == Some(*state)).count();
-        notes.push(format!("{} with the spring buoy {}", rows_from(from, from + run - 1), word(state)));
-        from += run;
-    }
-    notes
 }

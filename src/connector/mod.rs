@@ -5,14 +5,19 @@ mod aqwa;
 mod b_cat;
 pub mod catenary;
 mod checks;
-mod line;
+mod chord;
+mod h_cat;
 pub mod line_types;
 mod lmu;
+mod mooring;
 mod options;
+mod rod;
 mod roller;
 mod section;
+mod sl_elem;
 mod sling;
 mod spring;
+mod tether;
 
 pub use section::type_notices;
 
@@ -46,10 +51,10 @@ pub static CLASSES: &[&ClassKind] = &[
     &sling::SLING,
     &sling::DAVIT,
     &roller::ROLLER,
-    &line::ROD,
+    &rod::ROD,
     &b_cat::B_CAT,
-    &line::H_CAT,
-    &line::SL_ELEM,
+    &h_cat::H_CAT,
+    &sl_elem::SL_ELEM,
     &aqwa::CATENARY,
-    &aqwa::TETHER,
+    &tether::TETHER,
 ];

@@ -3,7 +3,7 @@
 use super::connector::Connector;
 use super::defaults::Defaults;
 use super::environment::Surroundings;
-use super::geometry::Position;
+use super::line::{LineModel, Placement};
 use crate::language::args::Args;
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::source::Span;
@@ -70,15 +70,6 @@ impl ClassError {
     }
 }
 
-/// Where a connector's ends are when it is asked something (m, global).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Placement {
-    /// The first end: the fairlead of a line.
-    pub fairlead: Position,
-    /// The other end, where the connector gives one.
-    pub other: Option<Position>,
-}
-
 /// What every connector class answers. The forces of a class join this trait with the engine that needs them.
 pub trait ConnectorClass: Debug + Send + Sync {
     /// The class type, e.g. `B_CAT`.
@@ -109,11 +100,11 @@ pub trait ConnectorClass: Debug + Send + Sync {
         None
     }
 
-    /// The thirty-row table of `CONN_DESIGN TABLE`.
+    /// The line a connector of this class makes between two places.
     ///
     /// # Errors
-    /// A class that is no mooring line, or a line for which no configuration could be proven.
-    fn tabulate(&self, connector: &str, _: &Placement, _: &Surroundings) -> Result<Table, ClassError> {
-        Err(ClassError::new(format!("{connector} is of class type {}, which has no table", self.kind())))
+    /// A class that is no mooring line, or values that make none here.
+    fn line(&self, _: &Placement, _: &Surroundings) -> Result<Box<dyn LineModel>, ClassError> {
+        Err(ClassError::new(format!("a connector of class type {} is no mooring line", self.kind())))
     }
 }

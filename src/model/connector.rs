@@ -29,6 +29,8 @@ pub struct Connector {
     pub offsets: [Position; 2],
     /// Euler angles of the element axes (rad), where given.
     pub euler: Option<[f64; 3]>,
+    /// Length of its first segment in place of the class's (m), where `&CONNECTOR` gave one.
+    pub first_length: Option<f64>,
     /// Whether it acts.
     pub active: bool,
     /// Where it was defined.

@@ -10,15 +10,17 @@ mod curve;
 mod defaults;
 mod environment;
 mod geometry;
+mod line;
 mod selector;
 
 pub use body::{Body, GROUND, Part, Point};
-pub use class::{Class, ClassError, ClassRecord, ConnectorClass, Placement};
+pub use class::{Class, ClassError, ClassRecord, ConnectorClass};
 pub use connector::{Anchor, Connector};
 pub use curve::{Curve, CurveKind};
 pub use defaults::{Coordinates, Defaults, Material};
 pub use environment::{Current, Environment, Sea, Surroundings, TimeWindow, Wind};
 pub use geometry::{Place, Position, unit_vector};
+pub use line::{Condition, LineLoads, LineModel, Placement};
 pub use selector::Selector;
 
 use crate::language::diagnostic::{Diagnostic, Outcome, did_you_mean};
@@ -89,6 +91,19 @@ impl Model {
         let [x, y, z] = self.global(point);
         let [dx, dy, dz] = turned;
         Some([x + dx, y + dy, z + dz])
+    }
+
+    /// The ends of a connector, in the present configuration.
+    pub fn placement(&self, connector: &Connector) -> Placement {
+        let depth =
+            self.classes.get(&Model::key(&connector.class)).and_then(|c| c.object.anchor_depth(&self.surroundings()));
+        let far = connector.anchor.zip(depth).map(|(a, d)| [a.at[0], a.at[1], -d]);
+        Placement {
+            fairlead: self.end(connector, 0).unwrap_or_default(),
+            other: self.end(connector, 1).or(far),
+            to_ground: connector.points.len() < 2,
+            first_length: connector.first_length,
+        }
     }
 
     /// The body a point belongs to; `None` for ground.

@@ -20,6 +20,8 @@ pub enum Law {
         /// Largest strain of the polynomial.
         most: f64,
     },
+    /// One after the other: their elongations add.
+    Series(Vec<Law>),
     /// Linear up to a tension that cannot be passed: beyond it the line yields (seed 002: no extrapolation beyond the
     /// maximum tension). For definite answers it keeps a millionth of its stiffness.
     Capped {
@@ -40,6 +42,9 @@ impl Law {
     pub fn stretch(&self, tension: f64) -> (f64, f64) {
         match self {
             Law::Linear(k) => (tension / k, 1.0 / k),
+            Law::Series(laws) => {
+                laws.iter().map(|l| l.stretch(tension)).fold((0.0, 0.0), |a, b| (a.0 + b.0, a.1 + b.1))
+            }
             Law::Capped { ea, most } if tension <= *most => (tension / ea, 1.0 / ea),
             Law::Capped { ea, most } => (most / ea + (tension - most) / (LEFT * ea), 1.0 / (LEFT * ea)),
             Law::Curve(points) => {
@@ -104,6 +109,7 @@ impl Law {
                 before.zip(points).all(|(a, b)| b.0 > a.0 && b.1 > a.1)
             }
             Law::Linear(k) => *k > 0.0,
+            Law::Series(laws) => laws.iter().all(Law::grows),
             Law::Capped { ea, most } => *ea > 0.0 && *most > 0.0,
         }
     }

@@ -113,6 +113,14 @@ pub enum LineError {
         /// The smallest one (N).
         least: f64,
     },
+    /// No length of the first segment gives the force.
+    #[error("no length of the first segment gives {wanted:.6e} N; the nearest is {nearest:.6e} N")]
+    NoLength {
+        /// The force asked for (N).
+        wanted: f64,
+        /// The nearest one found (N).
+        nearest: f64,
+    },
     /// A stretch law that does not grow.
     #[error("the tension of segment {0} does not grow with its strain")]
     Law(usize),
@@ -276,6 +284,28 @@ impl Line {
             return Err(LineError::Law(bad + 1));
         }
         Line { laws, ..self }.assembled()
+    }
+
+    /// The line with another length of its first segment (m).
+    ///
+    /// # Errors
+    /// A length that is not positive.
+    pub fn with_first_length(mut self, length: f64) -> Result<Line, LineError> {
+        if let Some(first) = self.segments.first_mut() {
+            first.length = length;
+            first.check(1)?;
+        }
+        self.assembled()
+    }
+
+    /// Elevation of the anchor (m).
+    pub fn anchor(&self) -> f64 {
+        self.anchor
+    }
+
+    /// The bottom, if there is one.
+    pub fn floor(&self) -> Option<Floor> {
+        self.floor
     }
 
     /// Elevation from which heights above the bottom are counted (m).

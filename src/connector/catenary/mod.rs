@@ -11,10 +11,12 @@
 //! Source of the formulas: the elastic catenary (Irvine, Cable Structures, 1981, section 1.4), written so that no
 //! difference of nearly equal numbers is formed; the spring buoy after seed 001, `-CLUMP`.
 
+mod adjust;
 mod between;
 mod chain;
 mod element;
 mod follow;
+mod interpolate;
 mod law;
 mod line;
 mod policy;
@@ -26,9 +28,12 @@ mod solve;
 mod state;
 mod table;
 
+pub use adjust::Aim;
 pub use between::{Bottom, EndForces, Regime};
+pub use interpolate::{FromTable, Interpolated};
 pub use law::Law;
 pub use line::{Floor, Joint, Line, LineError, Segment};
+pub use search::{Point, rising_root};
 pub use shape::ShapePoint;
 pub use state::{Buoy, JointState, SegmentState, State};
 pub use table::{ROWS, Row, first_force, table};

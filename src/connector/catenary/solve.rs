@@ -195,7 +195,7 @@ impl Line {
         let loose = |h: &Held| h.ground > 0.0 || (h.q_hi > 0.0 && h.q_lo < 0.0);
         let mut stiffness = turned(tilt, t_p, t_n, q_p, q_n);
         if slack {
-            if self.weightless() && off > fine {
+            if self.weightless() && off > 1e-9 * (self.length() + rested.t.abs()) {
                 return Err(LineError::Undetermined);
             }
             let buoyant =

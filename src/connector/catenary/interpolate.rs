@@ -1,0 +1,129 @@
+//! Forces of a line from its table: a monotone cubic in the horizontal distance.
+//!
+//! Source: seed 001, B_CAT without EXACT; reference/solve.md for the rows. Monotone cubic: Fritsch and Carlson, SIAM
+//! Journal on Numerical Analysis 17 (1980), 238-246.
+
+use super::table::Row;
+
+/// One quantity against the distance.
+#[derive(Clone, Debug)]
+struct Curve {
+    y: Vec<f64>,
+    slope: Vec<f64>,
+}
+
+impl Curve {
+    /// A curve through the points, with these slopes or slopes of its own, reduced until it is monotone.
+    fn new(x: &[f64], y: Vec<f64>, slopes: Option<Vec<f64>>) -> Curve {
+        let secants: Vec<f64> = x
+            .iter()
+            .zip(&y)
+            .zip(x.iter().skip(1).zip(y.iter().skip(1)))
+            .map(|((x0, y0), (x1, y1))| if x1 > x0 { (y1 - y0) / (x1 - x0) } else { 0.0 })
+            .collect();
+        let between = |i: usize| {
+            let before = i.checked_sub(1).and_then(|i| secants.get(i)).copied();
+            let after = secants.get(i).copied();
+            match (before, after) {
+                (Some(a), Some(b)) if a * b <= 0.0 => 0.0,
+                (Some(a), Some(b)) => 2.0 * a * b / (a + b),
+                (a, b) => a.or(b).unwrap_or(0.0),
+            }
+        };
+        let mut slope = slopes.unwrap_or_else(|| (0..y.len()).map(between).collect());
+        for (i, s) in slope.iter_mut().enumerate() {
+            // within three times either secant a cubic is monotone
+            for secant in [i.checked_sub(1).and_then(|i| secants.get(i)), secants.get(i)].into_iter().flatten() {
+                *s = if *s * secant <= 0.0 { 0.0 } else { s.signum() * s.abs().min(3.0 * secant.abs()) };
+            }
+        }
+        Curve { y, slope }
+    }
+
+    /// Value and slope between points `i` and `i + 1`, `h` apart, at the share `t` of the way.
+    fn at(&self, i: usize, h: f64, t: f64) -> (f64, f64) {
+        let (Some(y0), Some(y1), Some(s0), Some(s1)) =
+            (self.y.get(i), self.y.get(i + 1), self.slope.get(i), self.slope.get(i + 1))
+        else {
+            return (f64::NAN, f64::NAN);
+        };
+        let (a, b) = (h * s0 - (y1 - y0), (y1 - y0) - h * s1);
+        let u = 1.0 - t;
+        let value = u * y0 + t * y1 + t * u * (a * u + b * t);
+        let slope = (y1 - y0) / h + (u - t) * (a * u + b * t) / h + t * u * (b - a) / h;
+        (value, slope)
+    }
+}
+
+/// A line's table as functions of the horizontal distance.
+#[derive(Clone, Debug)]
+pub struct Interpolated {
+    x: Vec<f64>,
+    force: Curve,
+    rest: [Curve; 5],
+}
+
+/// What the table gives at a distance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FromTable {
+    /// Horizontal force (N) and its derivative by the distance (N/m).
+    pub force: f64,
+    pub stiffness: f64,
+    /// Vertical force at the fairlead (N, downward).
+    pub vertical: f64,
+    /// Horizontal and vertical pull on the anchor (N).
+    pub anchor: [f64; 2],
+    /// Unstretched length on the bottom (m).
+    pub grounded: f64,
+    /// Largest tension over own break.
+    pub ratio: f64,
+    /// The segment that has it, from 1.
+    pub critical: usize,
+    /// Whether the distance lies beyond the table.
+    pub beyond: bool,
+}
+
+impl Interpolated {
+    /// From the rows of [`super::table`].
+    pub fn new(rows: &[Row]) -> Interpolated {
+        let of = |f: fn(&Row) -> f64| rows.iter().map(f).collect::<Vec<f64>>();
+        let x = of(|r| r.state.x);
+        let force = Curve::new(&x, of(|r| r.state.force), Some(of(|r| 1.0 / r.state.dx_dh)));
+        let rest = [
+            of(|r| r.state.top_vertical),
+            of(|r| r.state.anchor_horizontal),
+            of(|r| r.state.anchor_vertical),
+            of(|r| r.state.grounded),
+            of(|r| r.ratio),
+        ]
+        .map(|y| Curve::new(&x, y, None));
+        Interpolated { x, force, rest }
+    }
+
+    /// At a distance (m); beyond the table on straight lines, with no force less than none.
+    pub fn at(&self, x: f64, rows: &[Row]) -> FromTable {
+        let (first, last) = (self.x.first().copied().unwrap_or(0.0), self.x.last().copied().unwrap_or(0.0));
+        let inside = x.clamp(first, last);
+        let i = self.x.partition_point(|v| *v <= inside).clamp(1, self.x.len().saturating_sub(1).max(1)) - 1;
+        let from = self.x.get(i).copied().unwrap_or(0.0);
+        let h = self.x.get(i + 1).copied().unwrap_or(from) - from;
+        let t = if h > 0.0 { (inside - from) / h } else { 0.0 };
+        let one = |curve: &Curve| {
+            let (value, slope) = curve.at(i, h, t);
+            (value + slope * (x - inside), slope)
+        };
+        let (force, stiffness) = one(&self.force);
+        let [vertical, anchor_h, anchor_v, grounded, ratio] = self.rest.each_ref().map(|c| one(c).0);
+        let critical_row = if t < 0.5 { i } else { i + 1 };
+        FromTable {
+            force: force.max(0.0),
+            stiffness: if force > 0.0 { stiffness } else { 0.0 },
+            vertical,
+            anchor: [anchor_h.max(0.0), anchor_v.max(0.0)],
+            grounded: grounded.max(0.0),
+            ratio: ratio.max(0.0),
+            critical: rows.get(critical_row).map_or(1, |r| r.critical),
+            beyond: x > last,
+        }
+    }
+}

@@ -1,0 +1,94 @@
+//! A spring along the chord between two ends: a weightless line, or one that also pushes.
+
+use super::catenary::{Law, Point, rising_root};
+use super::mooring::Mooring;
+use crate::model::{ClassError, Condition, LineLoads, LineModel};
+use crate::table::Table;
+
+/// A weightless line between two places.
+#[derive(Clone, Debug)]
+pub struct Chord {
+    /// The line as a mooring: its tables, shapes and lengths under tension.
+    pub line: Mooring,
+    /// Springs in series with its segments.
+    pub springs: [Option<Law>; 2],
+    /// Whether it also pushes.
+    pub pushes: bool,
+}
+
+impl Chord {
+    /// Force along the chord at an elongation (m), tension positive (N), and its slope (N/m).
+    fn force(&self, elongation: f64) -> (f64, f64) {
+        if elongation == 0.0 || (elongation < 0.0 && !self.pushes) {
+            return (0.0, 0.0);
+        }
+        let mut laws: Vec<Law> = self.line.line.segments().iter().map(|s| Law::Linear(s.ea / s.length)).collect();
+        laws.extend(self.springs.iter().flatten().cloned());
+        let law = Law::Series(laws);
+        let start = elongation.abs() / law.stretch(0.0).1;
+        let at = |t: f64| {
+            let (value, slope) = law.stretch(t);
+            Point { value, slope }
+        };
+        let (force, _) = rising_root(start, elongation.abs(), at);
+        (force.copysign(elongation), 1.0 / law.stretch(force).1)
+    }
+}
+
+impl LineModel for Chord {
+    fn tabulate(&self, connector: &str) -> Result<Table, ClassError> {
+        self.line.tabulate(connector)
+    }
+
+    fn geometry(&self, connector: &str, condition: Condition) -> Result<Table, ClassError> {
+        self.line.geometry(connector, condition)
+    }
+
+    fn loads(&self) -> Result<LineLoads, ClassError> {
+        let [x, y, z] = self.line.place.fairlead;
+        let [fx, fy, _] = self.line.place.other.unwrap_or(self.line.place.fairlead);
+        let along = [fx - x, fy - y, self.line.line.anchor() - z];
+        let chord = along.iter().map(|v| v * v).sum::<f64>().sqrt();
+        let unit = if chord > 0.0 { along.map(|v| v / chord) } else { [0.0, 0.0, -1.0] };
+        let (force, slope) = self.force(chord - self.line.line.length());
+        let across = if chord > 0.0 { force / chord } else { 0.0 };
+        let row = |i: usize| {
+            let a = unit.get(i).copied().unwrap_or(0.0);
+            let mut row = unit.map(|b| -slope * a * b + across * a * b);
+            if let Some(own) = row.get_mut(i) {
+                *own -= across;
+            }
+            row
+        };
+        let ratios = self.line.breaks.iter().map(|b| force.max(0.0) / b);
+        let (critical, ratio) =
+            ratios.enumerate().fold((1, 0.0), |best, (i, r)| if r > best.1 { (i + 1, r) } else { best });
+        let mut notes = self.line.notes.clone();
+        if ratio > 1.0 {
+            notes.push("warning: the line is beyond its breaking tension".into());
+        }
+        if force == 0.0 && chord < self.line.line.length() {
+            notes.push("the line is slack".into());
+        }
+        Ok(LineLoads {
+            fairlead: unit.map(|u| force * u),
+            other: unit.map(|u| -force * u),
+            stiffness: [row(0), row(1), row(2)],
+            distance: along[0].hypot(along[1]),
+            tension: force,
+            ratio,
+            critical,
+            grounded: 0.0,
+            solution: "exact",
+            notes,
+        })
+    }
+
+    fn distance(&self, condition: Condition) -> Result<f64, ClassError> {
+        self.line.distance(condition)
+    }
+
+    fn first_length(&self, condition: Condition) -> Result<f64, ClassError> {
+        self.line.first_length(condition)
+    }
+}

@@ -1,0 +1,191 @@
+//! H_CAT: a hanging catenary between a body and ground or another body; it knows neither bottom nor surface.
+//!
+//! Source: seed 001; reference/model.md: weightless unless EXACT, then with its weight in air.
+
+use super::catenary::{Law, Line};
+use super::chord::Chord;
+use super::mooring::{Mooring, end_springs, line_error, parts};
+use super::section::{LineSection, properties};
+use super::{ClassKind, checks, options as o};
+use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::source::Span;
+use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use crate::language::units::Dim;
+use crate::model::{ClassError, ClassRecord, Connector, ConnectorClass, LineModel, Placement, Surroundings};
+use crate::table::Table;
+use std::sync::Arc;
+
+/// The class type.
+pub static H_CAT: ClassKind = ClassKind { spec: &H_CAT_SPEC, segmented: true, build };
+
+/// Options of lines between two places.
+pub const LINE_OPTIONS: &[OptionSpec] = &[
+    o::LEN,
+    o::TYPE,
+    o::REFINE,
+    o::IG_STIFF,
+    o::SEND,
+    o::X_PY,
+    o::X_DAMPING,
+    o::SPGRAVITY,
+    o::DENSITY,
+    o::CONVOLUTION,
+    o::EMODULUS,
+    o::POI_RAT,
+    o::ALPHA,
+    o::FYIELD,
+    o::TENSTR,
+    o::WTPLEN,
+    o::DISPLEN,
+    o::PISTON,
+    o::B_TENSION,
+    o::C_SN,
+    o::TAB_LIM,
+    o::CLUMP,
+    o::BUOYDIAMETER,
+    o::DRAGDIAMETER,
+    o::WINDDIAMETER,
+    o::AMASDIAMETER,
+];
+
+static H_CAT_SPEC: CommandSpec = CommandSpec {
+    data: &[o::LINE_OD, ValueSpec::new("FLAG", Kind::Choice(&["EXACT"]), "with its weight").or("weightless")],
+    options: LINE_OPTIONS,
+    detail: "A hanging catenary: it knows neither bottom nor surface, and takes no buoys. Without EXACT it is weightless: \
+             a spring along the chord that only pulls.",
+    example: "MEDIT\n~HANG H_CAT 3 EXACT -LEN 400\nEND\n&STATUS CLASS ~HANG",
+    ..CommandSpec::new("H_CAT", "hanging catenary")
+};
+
+/// Options that hold for the whole line.
+const PER_LINE: [&str; 6] = ["-SEND", "-X_PY", "-X_DAMPING", "-CONVOLUTION", "-PISTON", "-TAB_LIM"];
+
+#[derive(Debug)]
+struct Hanging {
+    sections: Vec<LineSection>,
+    places: Vec<Span>,
+    exact: bool,
+    springs: [Option<Law>; 2],
+    convolution: Option<Span>,
+    limit: Option<f64>,
+    piston: bool,
+}
+
+/// Refuses spring buoys and options of the whole line given twice.
+///
+/// # Errors
+/// Both, at their places.
+pub fn check_records(records: &[ClassRecord], kind: &str) -> Outcome<()> {
+    for record in records {
+        if let Some(clump) = record.args.option("-CLUMP").filter(|c| c.number(0).is_some_and(|w| w < 0.0)) {
+            let article = if kind.starts_with(['A', 'E', 'H', 'S']) { "an" } else { "a" };
+            return Err(
+                Diagnostic::error(format!("{article} {kind} takes no spring buoy"), clump.span).help("use B_CAT")
+            );
+        }
+    }
+    for name in PER_LINE {
+        checks::once(records, name)?;
+    }
+    Ok(())
+}
+
+/// A spring of -CONVOLUTION has no engine yet.
+///
+/// # Errors
+/// Always, where there is one.
+pub fn refuse_convolution(convolution: Option<Span>) -> Result<(), ClassError> {
+    convolution.map_or(Ok(()), |span| {
+        Err(ClassError::new("-CONVOLUTION does not act yet, and a line without its spring would be wrong")
+            .at(span)
+            .help("a spring of -X_PY or -SEND acts"))
+    })
+}
+
+fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
+    check_records(records, "H_CAT")?;
+    Ok(Arc::new(Hanging {
+        sections: records.iter().map(|r| LineSection::read(r, "H_CAT", false)).collect::<Outcome<Vec<_>>>()?,
+        places: records.iter().map(|r| r.args.span).collect(),
+        exact: records.iter().any(|r| r.args.word(1) == Some("EXACT")),
+        springs: end_springs(records)?,
+        convolution: checks::once(records, "-CONVOLUTION")?.map(|g| g.span),
+        limit: checks::once(records, "-TAB_LIM")?.and_then(|g| g.number(0)),
+        piston: checks::once(records, "-PISTON")?.is_some(),
+    }))
+}
+
+impl ConnectorClass for Hanging {
+    fn kind(&self) -> &'static str {
+        "H_CAT"
+    }
+
+    fn check(&self) -> Outcome<()> {
+        Ok(())
+    }
+
+    fn check_ends(&self, connector: &Connector, bodies: usize) -> Outcome<()> {
+        checks::ends("H_CAT", connector, bodies, 2, 2)
+    }
+
+    fn properties(&self, name: &str, surroundings: &Surroundings) -> Table {
+        let flag = if self.exact { "EXACT" } else { "weightless" };
+        properties(name, "H_CAT", &self.sections, surroundings).fact("Flag", flag, Dim::None)
+    }
+
+    fn first_length(&self) -> Option<f64> {
+        self.sections.first().map(|s| s.length)
+    }
+
+    fn anchor_depth(&self, surroundings: &Surroundings) -> Option<f64> {
+        surroundings.depth
+    }
+
+    fn line(&self, place: &Placement, surroundings: &Surroundings) -> Result<Box<dyn LineModel>, ClassError> {
+        refuse_convolution(self.convolution)?;
+        let weight = |s: &LineSection| if self.exact { s.in_air() } else { 0.0 };
+        let mut line = hung(&self.sections, &self.springs, place, surroundings, &self.places, weight)?;
+        line.largest = self.limit.unwrap_or(line.largest);
+        if self.piston {
+            line.notes.push("the piston of -PISTON stands at its nominal position".into());
+        }
+        if !self.exact && self.sections.iter().all(|s| s.clump == 0.0) {
+            return Ok(Box::new(Chord { line, springs: self.springs.clone(), pushes: false }));
+        }
+        Ok(Box::new(line))
+    }
+}
+
+/// A line between two places that sees neither bottom nor surface.
+///
+/// # Errors
+/// An end whose place is not known, values that make no line.
+pub fn hung(
+    sections: &[LineSection],
+    springs: &[Option<Law>; 2],
+    place: &Placement,
+    surroundings: &Surroundings,
+    places: &[Span],
+    weight: impl Fn(&LineSection) -> f64,
+) -> Result<Mooring, ClassError> {
+    let [_, _, far] = place.other.ok_or_else(|| {
+        ClassError::new("the other end of the line has no place")
+            .help("give a second point, or -ANCHOR on the connector")
+    })?;
+    let (segments, joints) = parts(sections, place, weight);
+    let line = Line::new(segments, joints, far, surroundings.tide)
+        .and_then(|l| l.over(None))
+        .and_then(|l| l.with_springs(springs.clone()))
+        .map_err(|e| line_error(&e, places))?;
+    Ok(Mooring {
+        line,
+        breaks: sections.iter().map(|s| s.breaking).collect(),
+        largest: sections.iter().map(|s| s.breaking).reduce(f64::max).unwrap_or(0.0),
+        exact: true,
+        place: *place,
+        surface: surroundings.tide,
+        bottom: surroundings.depth.map(|d| -d),
+        places: places.to_vec(),
+        notes: Vec::new(),
+    })
+}

@@ -1,0 +1,99 @@
+//! SL_ELEM: a spring along the chord between its ends, both ways or in tension only.
+//!
+//! Source: seed 001; reference/model.md.
+
+use super::catenary::Law;
+use super::chord::Chord;
+use super::h_cat::{LINE_OPTIONS, check_records, hung, refuse_convolution};
+use super::mooring::end_springs;
+use super::section::{LineSection, properties};
+use super::{ClassKind, checks, options as o};
+use crate::language::diagnostic::Outcome;
+use crate::language::source::Span;
+use crate::language::spec::{CommandSpec, Kind, ValueSpec};
+use crate::language::units::Dim;
+use crate::model::{ClassError, ClassRecord, Connector, ConnectorClass, LineModel, Placement, Surroundings};
+use crate::table::Table;
+use std::sync::Arc;
+
+/// The class type.
+pub static SL_ELEM: ClassKind = ClassKind { spec: &SL_ELEM_SPEC, segmented: true, build };
+
+static SL_ELEM_SPEC: CommandSpec = CommandSpec {
+    data: &[
+        o::LINE_OD,
+        ValueSpec::new("FLAG", Kind::Choice(&["TENSION"]), "tension only").or("tension and compression"),
+    ],
+    detail: "Its force depends only on the distance between the ends and acts along the line between them.",
+    example: "MEDIT\n~TIE SL_ELEM 3 TENSION -LEN 50\nEND\n&STATUS CLASS ~TIE",
+    options: LINE_OPTIONS,
+    ..CommandSpec::new("SL_ELEM", "spring along the chord between its ends")
+};
+
+#[derive(Debug)]
+struct Spring {
+    sections: Vec<LineSection>,
+    places: Vec<Span>,
+    tension: bool,
+    springs: [Option<Law>; 2],
+    convolution: Option<Span>,
+    limit: Option<f64>,
+    notes: Vec<String>,
+}
+
+fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
+    check_records(records, "SL_ELEM")?;
+    let sections = records.iter().map(|r| LineSection::read(r, "SL_ELEM", false)).collect::<Outcome<Vec<_>>>()?;
+    let mut notes = Vec::new();
+    if sections.iter().any(|s| s.clump != 0.0) {
+        notes.push("warning: -CLUMP does not act on an SL_ELEM, which is straight".into());
+    }
+    if checks::once(records, "-PISTON")?.is_some() {
+        notes.push("the piston of -PISTON stands at its nominal position".into());
+    }
+    Ok(Arc::new(Spring {
+        places: records.iter().map(|r| r.args.span).collect(),
+        tension: records.iter().any(|r| r.args.word(1) == Some("TENSION")),
+        springs: end_springs(records)?,
+        convolution: checks::once(records, "-CONVOLUTION")?.map(|g| g.span),
+        limit: checks::once(records, "-TAB_LIM")?.and_then(|g| g.number(0)),
+        sections,
+        notes,
+    }))
+}
+
+impl ConnectorClass for Spring {
+    fn kind(&self) -> &'static str {
+        "SL_ELEM"
+    }
+
+    fn check(&self) -> Outcome<()> {
+        Ok(())
+    }
+
+    fn check_ends(&self, connector: &Connector, bodies: usize) -> Outcome<()> {
+        checks::ends("SL_ELEM", connector, bodies, 2, 2)
+    }
+
+    fn properties(&self, name: &str, surroundings: &Surroundings) -> Table {
+        let flag = if self.tension { "TENSION" } else { "tension and compression" };
+        properties(name, "SL_ELEM", &self.sections, surroundings).fact("Flag", flag, Dim::None)
+    }
+
+    fn first_length(&self) -> Option<f64> {
+        self.sections.first().map(|s| s.length)
+    }
+
+    fn anchor_depth(&self, surroundings: &Surroundings) -> Option<f64> {
+        surroundings.depth
+    }
+
+    fn line(&self, place: &Placement, surroundings: &Surroundings) -> Result<Box<dyn LineModel>, ClassError> {
+        refuse_convolution(self.convolution)?;
+        let straight: Vec<LineSection> = self.sections.iter().map(|s| LineSection { clump: 0.0, ..*s }).collect();
+        let mut line = hung(&straight, &self.springs, place, surroundings, &self.places, |_| 0.0)?;
+        line.largest = self.limit.unwrap_or(line.largest);
+        line.notes.clone_from(&self.notes);
+        Ok(Box::new(Chord { line, springs: self.springs.clone(), pushes: !self.tension }))
+    }
+}

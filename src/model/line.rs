@@ -1,0 +1,99 @@
+//! What a mooring line between two places answers, whatever its class.
+
+use super::class::ClassError;
+use super::geometry::Position;
+use crate::table::Table;
+
+/// Where a connector's ends are when it is asked something (m, global).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placement {
+    /// The first end: the fairlead of a line.
+    pub fairlead: Position,
+    /// The other end; the elevation of an anchor is the class's to say.
+    pub other: Option<Position>,
+    /// Whether the other end is an anchor in the ground.
+    pub to_ground: bool,
+    /// Length of the first segment in place of the class's (m).
+    pub first_length: Option<f64>,
+}
+
+impl Placement {
+    /// Horizontal distance between the ends (m), and the direction from the first to the other.
+    pub fn span(&self) -> (f64, [f64; 2]) {
+        let [x, y, _] = self.fairlead;
+        let [ox, oy, _] = self.other.unwrap_or(self.fairlead);
+        let distance = (ox - x).hypot(oy - y);
+        if distance > 0.0 { (distance, [(ox - x) / distance, (oy - y) / distance]) } else { (0.0, [1.0, 0.0]) }
+    }
+}
+
+/// In which configuration a line is asked for; its fairlead keeps its elevation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Condition {
+    /// Between its ends as they are.
+    Placed,
+    /// At this horizontal distance (m).
+    Distance(f64),
+    /// Pulled with this horizontal force at the fairlead (N).
+    Horizontal(f64),
+    /// With this tension at the fairlead (N).
+    Tension(f64),
+}
+
+/// What a line does to what it is attached to, and what it bears.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LineLoads {
+    /// Force of the line on its first end (N, global).
+    pub fairlead: Position,
+    /// Force of the line on its other end (N, global).
+    pub other: Position,
+    /// d(force on the first end)/d(its position) (N/m, global), row by row.
+    pub stiffness: [[f64; 3]; 3],
+    /// Horizontal distance between the ends (m).
+    pub distance: f64,
+    /// Tension at the fairlead (N).
+    pub tension: f64,
+    /// Largest tension over own break.
+    pub ratio: f64,
+    /// The segment that has it, from 1.
+    pub critical: usize,
+    /// Unstretched length on the bottom (m).
+    pub grounded: f64,
+    /// How it was found: exactly, or from a table.
+    pub solution: &'static str,
+    /// What a user should know of it; `warning: ` before what is dangerous.
+    pub notes: Vec<String>,
+}
+
+/// A mooring line between two places.
+pub trait LineModel {
+    /// The thirty-row table of `CONN_DESIGN TABLE`.
+    ///
+    /// # Errors
+    /// A line for which no configuration could be proven.
+    fn tabulate(&self, connector: &str) -> Result<Table, ClassError>;
+
+    /// The shape of the line: arc length, position, tension, angle, one row a point.
+    ///
+    /// # Errors
+    /// A condition that no configuration meets.
+    fn geometry(&self, connector: &str, condition: Condition) -> Result<Table, ClassError>;
+
+    /// What the line does between its ends as they are.
+    ///
+    /// # Errors
+    /// A line for which no configuration could be proven.
+    fn loads(&self) -> Result<LineLoads, ClassError>;
+
+    /// The horizontal distance between the ends under a condition (m).
+    ///
+    /// # Errors
+    /// A condition that no configuration meets.
+    fn distance(&self, condition: Condition) -> Result<f64, ClassError>;
+
+    /// The length of the first segment (m) with which the condition holds between the ends as they are.
+    ///
+    /// # Errors
+    /// A condition that no length meets.
+    fn first_length(&self, condition: Condition) -> Result<f64, ClassError>;
+}
