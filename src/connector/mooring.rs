@@ -346,9 +346,9 @@ fn stiffness(along: [f64; 2], k: [[f64; 2]; 2], across: f64) -> [[f64; 3]; 3] {
 
 /// The twelve columns of reference/solve.md, CONN_DESIGN.
 fn report(mooring: &Mooring, connector: &str, rows: &[Row]) -> Table {
-    let bottom = mooring.line.floor().map_or(mooring.line.anchor(), |f| f.elevation);
+    let bottom = mooring.line.floor().map(|f| f.elevation).or(mooring.bottom);
     let mut out = Table::new(format!("Properties of Line {connector}"))
-        .fact("Water Depth", mooring.surface - bottom, Dim::Length)
+        .fact("Water Depth", bottom.map(|b| -b), Dim::Length)
         .fact("Fairlead Above Mean Water", mooring.fairlead(), Dim::Length)
         .fact("Length of First Segment", mooring.line.segments().first().map(|s| s.length), Dim::Length)
         .column("", "X", Dim::Length, Digits::Usual)
