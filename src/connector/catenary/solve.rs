@@ -93,6 +93,16 @@ impl Line {
                 iterations: steps,
             }));
         };
+        // little may hang: without horizontal force means little against that
+        let hanging = rested.held.first().map_or(0.0, |h| h.q_hi.abs());
+        if shift == 0.0 && rested.t >= target && hanging * 1e-11 < least && rested.held.iter().all(|h| h.p_hi <= least)
+        {
+            let mut finer = chain.clone();
+            finer.ground.least = 1e-11 * hanging.max(f64::MIN_POSITIVE / f64::EPSILON);
+            let (at, low) = self.anchor_place();
+            let finer = finer.rest(finer.ground.least, height, low, at, Some(&rested));
+            rested = finer.unwrap_or(rested);
+        }
         rested.iterations += steps;
         match (self.state(rested, Some((x, target)), fairlead), failed) {
             (Err(LineError::Unproven { .. }), Some(reason)) => Err(reason),
@@ -177,7 +187,10 @@ impl Line {
         let (Some(first), Some(last)) = (rested.held.first().copied(), rested.held.last().copied()) else {
             return Err(LineError::Empty);
         };
-        let least = self.chain.ground.least;
+        let mut least = self.chain.ground.least;
+        if tilt == Tilt::FLAT {
+            least = least.min(first.p_hi);
+        }
         let [t_p, t_n] = rested.t_by;
         let [q_p, q_n] = rested.q_by;
         let mut force = tilt.back(first.p_hi, first.q_hi);
@@ -401,7 +414,7 @@ fn still((h, v): (f64, f64), least: f64) -> (f64, f64) {
     if h.hypot(v) <= 64.0 * least {
         (0.0, 0.0)
     } else if h.abs() <= 64.0 * least {
-        (0.0, v.signum() * h.hypot(v))
+        (0.0, v)
     } else {
         (h, v)
     }
