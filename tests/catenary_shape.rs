@@ -148,3 +148,37 @@ fn a_pendant_longer_than_the_depth_and_a_law_that_falls_are_refused() {
     let falling = Law::Polynomial { ea: 1e8, k: [-5e9, 0.0, 0.0], most: 0.05 };
     assert_eq!(line.with_laws(vec![Some(falling)]).unwrap_err(), LineError::Law(1));
 }
+
+#[test]
+fn both_stiffnesses_are_the_differences_of_the_forces_at_their_ends() {
+    let hung = Line::new(vec![CHAIN, ROPE], vec![Joint::Weight(2e4)], -150.0, 0.0).unwrap().over(None).unwrap();
+    let lines = [
+        (mixed(0.0, 0.0), 1950.0),
+        (mixed(0.0, 0.3), 1970.0),
+        (mixed(0.03, 0.0), 2040.0),
+        (mixed(-0.03, 0.2), 2000.0),
+        (hung, 900.0),
+    ];
+    for (line, x) in lines {
+        let middle = line.at_distance(x, -10.0).unwrap();
+        for axis in 0..2 {
+            let at = |by: f64| {
+                let s = line
+                    .at_distance(x + if axis == 0 { by } else { 0.0 }, -10.0 + if axis == 1 { by } else { 0.0 })
+                    .unwrap();
+                [[s.force, s.top_vertical], [s.anchor_horizontal, s.anchor_vertical]]
+            };
+            let (plus, minus) = (at(1e-4), at(-1e-4));
+            for row in 0..2 {
+                for (end, matrix) in [middle.stiffness, middle.coupling].into_iter().enumerate() {
+                    let want = (plus[end][row] - minus[end][row]) / 2e-4;
+                    let scale = middle.stiffness[0][0].abs() + middle.stiffness[1][1].abs();
+                    assert!(
+                        (matrix[row][axis] - want).abs() < 1e-5 * scale,
+                        "{x} {end} {row} {axis}: {matrix:?} {want}"
+                    );
+                }
+            }
+        }
+    }
+}

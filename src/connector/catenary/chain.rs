@@ -95,6 +95,9 @@ pub struct Rested {
     pub t_by: [f64; 2],
     /// Derivatives of q at the fairlead by the same.
     pub q_by: [f64; 2],
+    /// Derivatives of p and of q at the anchor by the same.
+    pub far_p_by: [f64; 2],
+    pub far_q_by: [f64; 2],
     /// Largest height left between two known ones (m), and what it makes as a force (N).
     pub left: f64,
     pub unbalance: f64,
@@ -141,15 +144,18 @@ impl Chain {
     /// Derivatives of the reach and of q at the fairlead.
     fn rates(&self, rested: &mut Rested) {
         for (index, (dp, dtop)) in [(1.0, 0.0), (0.0, 1.0)].into_iter().enumerate() {
-            let (t, q) = self.change(rested, dp, dtop);
-            if let (Some(t_by), Some(q_by)) = (rested.t_by.get_mut(index), rested.q_by.get_mut(index)) {
-                (*t_by, *q_by) = (t, q);
+            let values = self.change(rested, dp, dtop);
+            let lists = [&mut rested.t_by, &mut rested.q_by, &mut rested.far_p_by, &mut rested.far_q_by];
+            for (list, value) in lists.into_iter().zip(values) {
+                if let Some(place) = list.get_mut(index) {
+                    *place = value;
+                }
             }
         }
     }
 
-    /// How the reach and q at the fairlead change with the tension and the height there.
-    fn change(&self, rested: &Rested, dp: f64, dtop: f64) -> (f64, f64) {
+    /// How the reach, q at the fairlead, p and q at the anchor change with the tension and the height at the fairlead.
+    fn change(&self, rested: &Rested, dp: f64, dtop: f64) -> [f64; 4] {
         let count = self.elements.len();
         let Ground { tilt, friction, least } = self.ground;
         let mut dps = vec![dp; count];
@@ -159,6 +165,7 @@ impl Chain {
         let mut dq_hi = vec![0.0; count];
         let mut dq_lo = vec![0.0; count];
         let mut dt = vec![0.0; count];
+        let mut far = dp;
         for _ in 0..MOST_ROUNDS {
             for section in rested.policy.sections(count) {
                 let start = match section.start_joint() {
@@ -213,6 +220,7 @@ impl Chain {
                     }
                 }
                 next_leaves.push(leave);
+                far = out;
                 let Some(stand) = rested.policy.stands.get(i) else { continue };
                 let line = at(&dq_lo) - dq_hi.get(i + 1).copied().unwrap_or(0.0);
                 let change = match stand {
@@ -242,7 +250,8 @@ impl Chain {
                 break;
             }
         }
-        (dt.iter().sum(), dq_hi.first().copied().unwrap_or(0.0))
+        let end = |list: Option<&f64>| list.copied().unwrap_or(0.0);
+        [dt.iter().sum(), end(dq_hi.first()), far, end(dq_lo.last())]
     }
 
     /// How the height of a joint that stands fast changes: at the end of a pendant over a slope.

@@ -206,7 +206,8 @@ impl Line {
             return Err(LineError::Unproven { residual, tension: scale });
         }
         let loose = |h: &Held| h.ground > 0.0 || (h.q_hi > 0.0 && h.q_lo < 0.0);
-        let mut stiffness = turned(tilt, t_p, t_n, q_p, q_n);
+        let mut stiffness = turned(tilt, [t_p, t_n], [1.0, 0.0], [q_p, q_n]);
+        let mut coupling = turned(tilt, [t_p, t_n], rested.far_p_by, rested.far_q_by);
         if slack {
             if self.weightless() && off > 1e-9 * (self.length() + rested.t.abs()) {
                 return Err(LineError::Undetermined);
@@ -219,6 +220,9 @@ impl Line {
             (force, far) = (still(force, least), still(far, least));
             if rested.held.iter().any(loose) {
                 stiffness = [[0.0, 0.0], [0.0, q_n]];
+                // between two legs the far one does not feel the near one; free, both carry
+                let [_, far] = rested.far_q_by;
+                coupling = [[0.0, 0.0], [0.0, far]];
             }
         }
         let places = self.places(&rested, wanted.map(|w| w.0), fairlead);
@@ -233,6 +237,7 @@ impl Line {
             anchor_horizontal: far.0,
             anchor_vertical: far.1,
             stiffness,
+            coupling,
             grounded: segments.iter().map(|s| s.grounded).sum(),
             grounded_stretched: rested.held.iter().map(|h| h.ground_stretched).sum(),
             touchdown: self.touchdown(&rested, &places),
@@ -420,9 +425,11 @@ fn still((h, v): (f64, f64), least: f64) -> (f64, f64) {
     }
 }
 
-/// d(H, V)/d(x, z) at the fairlead from the derivatives in axes along the bottom.
-fn turned(tilt: Tilt, t_p: f64, t_n: f64, q_p: f64, q_n: f64) -> [[f64; 2]; 2] {
-    let [[a, b], [c, d]] = [[1.0 / t_p, -t_n / t_p], [q_p / t_p, q_n - q_p * t_n / t_p]];
+/// d(H, V)/d(x, z of the fairlead) of forces whose derivatives by the tension and the height at the fairlead are `p_by`
+/// along the bottom and `q_by` normal to it; `t_by` those of the reach.
+fn turned(tilt: Tilt, [t_p, t_n]: [f64; 2], p_by: [f64; 2], q_by: [f64; 2]) -> [[f64; 2]; 2] {
+    let row = |[by_p, by_n]: [f64; 2]| (by_p / t_p, by_n - by_p * t_n / t_p);
+    let ((a, b), (c, d)) = (row(p_by), row(q_by));
     if tilt == Tilt::FLAT {
         return [[a, b], [c, d]];
     }

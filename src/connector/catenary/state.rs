@@ -67,6 +67,8 @@ pub struct State {
     /// d(H, V at the fairlead)/d(x, z of the fairlead) (N/m), row by row. Infinite in [1][1] for a line that lies on
     /// the bottom up to its fairlead: there V grows as the root of z.
     pub stiffness: [[f64; 2]; 2],
+    /// d(H, V at the anchor)/d(x, z of the fairlead) (N/m), row by row.
+    pub coupling: [[f64; 2]; 2],
     /// Unstretched length on the bottom (m).
     pub grounded: f64,
     /// The same, stretched (m).
