@@ -182,3 +182,18 @@ fn both_stiffnesses_are_the_differences_of_the_forces_at_their_ends() {
         }
     }
 }
+
+#[test]
+fn a_followed_line_has_the_forces_of_one_begun_anew() {
+    for line in [mixed(0.0, 0.0), mixed(0.0, 0.4), mixed(0.04, 0.2)] {
+        let mut last = line.at_distance(1900.0, -10.0).unwrap();
+        for step in 0..300 {
+            let t = f64::from(step) * 0.1;
+            let (x, z) = (1950.0 + 60.0 * t.sin(), -10.0 + 4.0 * (1.7 * t).cos());
+            let (next, anew) = (line.follow(x, z, &last).unwrap(), line.at_distance(x, z).unwrap());
+            let off = (next.force - anew.force).hypot(next.top_vertical - anew.top_vertical);
+            assert!(off <= 1e-8 * anew.top_tension, "{step}: {off} {}", anew.top_tension);
+            last = next;
+        }
+    }
+}

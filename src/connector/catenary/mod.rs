@@ -20,6 +20,7 @@ mod interpolate;
 mod law;
 mod line;
 mod policy;
+mod read;
 mod search;
 mod segment;
 mod settle;
