@@ -23,7 +23,7 @@ fn session(records: &str) -> Session {
 }
 
 fn place(fairlead: [f64; 3], other: [f64; 3], to_ground: bool) -> Placement {
-    Placement { fairlead, other: Some(other), to_ground, first_length: None }
+    Placement { fairlead, other: Some(other), to_ground, first_length: None, series: None }
 }
 
 fn with<T>(records: &str, place: Placement, ask: impl Fn(&dyn LineModel) -> T) -> T {
@@ -399,4 +399,27 @@ fn a_line_that_sees_neither_bottom_nor_surface_says_when_it_crosses_them() {
     for text in ["below the sea bottom", "crosses the water surface"] {
         assert!(got.notes.iter().any(|n| n.contains(text)), "{:?}", got.notes);
     }
+}
+
+#[test]
+fn a_viscoelastic_spring_is_in_series_with_its_long_term_stiffness() {
+    let curves = "END\n&DATA CONVOLUTION TIME CREEP 0 4E6 10 2E6 1000 1E6\n&DATA CONVOLUTION FREQ SLOW 0.01 5E5 1 2E6\nMEDIT\n\
+                  &DESCRIBE BODY B\n*A 0 0 0\n*B 0 0 0\n";
+    let area = std::f64::consts::FRAC_PI_4 * 0.01;
+    let k = 2e11 * area / 50.0;
+    for (name, spring) in [("CREEP", 1e6), ("SLOW", 5e5)] {
+        let records =
+            format!("{curves}*C 52 0 0\n~L SL_ELEM 100 -LEN 50 -EMOD 200000 -CONVOLUTION {name}\nCONNECTOR S ~L *A *C");
+        let session = session(&records);
+        let model = &session.job.model;
+        let connector = model.connectors.get("S").unwrap_or_else(|| panic!("{:?}", session.reports));
+        let class = &model.classes[&connector.class];
+        let line = class.object.line(&model.placement(connector), &model.surroundings()).unwrap();
+        near(line.loads().unwrap().tension, 2.0 / (1.0 / k + 1.0 / spring), 1e-10);
+    }
+    let missing = session("~L SL_ELEM 100 -LEN 50 -CONVOLUTION NONE");
+    let class = &missing.job.model.classes["~L"];
+    let error =
+        class.object.line(&place([0.0; 3], [52.0, 0.0, 0.0], false), &missing.job.model.surroundings()).err().unwrap();
+    assert!(error.message.contains("no convolution curve is called NONE"), "{error}");
 }

@@ -5,7 +5,9 @@
 use super::{Call, Command, Effect, Job, Menu};
 use crate::language::args;
 use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::record::Word;
 use crate::language::select::{Owner, choose};
+use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Form, Kind, Noun, Opens, ValueSpec};
 use crate::model::{Curve, CurveKind, Model};
 
@@ -15,11 +17,13 @@ pub static DATA: Command = Command { spec: &SPEC, edits: false, run };
 static SPEC: CommandSpec = CommandSpec {
     form: Form::Text,
     opens: Opens::AtMost("CURVES", 1),
-    data: &[ValueSpec::new("KIND", Kind::Choice(&["CURVES", "ENVIRONMENT"]), "what is defined")],
+    data: &[ValueSpec::new("KIND", Kind::Choice(&["CURVES", "CONVOLUTION", "ENVIRONMENT"]), "what is defined")],
     detail: "&DATA CURVES TYPE NAME a1 b1 a2 b2 .. with TYPE C_PROFILE (depth, velocity), P_SPECTRUM (period, density), \
              F_SPECTRUM (frequency, density), M_GROWTH (elevation, added OD), W_HISTORY (time, knots), LT_MULTIPLIER, \
              CT_LENGTH, EFFICIENCY, CS_VELOCITY or AM_PRESSURE; the first value grows. &DATA CURVES alone opens a menu of \
-             such records, TYPE NAME a1 b1 .., up to END. &DATA ENVIRONMENT opens a menu of ENV records up to END.",
+             such records, TYPE NAME a1 b1 .., up to END. &DATA CONVOLUTION TIME NAME t1 K1 .. or FREQUENCY NAME f1 K1 .. is the \
+             stiffness of a viscoelastic spring, which -CONVOLUTION of a class puts in series: K of the first time is the \
+             short-term, of the last the long-term stiffness, with which statics work. &DATA ENVIRONMENT opens a menu of ENV records up to END.",
     example: "&DATA CURVES C_PROFILE CUR 0 3.0 100 2.0 500 0.5\n&DATA CURVES\nM_GROWTH MG -100 0 0 2\nEND\n&STATUS CURVES CUR",
     ..CommandSpec::new("&DATA", "defines curves and environments")
 };
@@ -164,16 +168,21 @@ pub static AM_PRESSURE: Command = Command {
 };
 
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    let form = "form: &DATA CURVES [TYPE NAME a1 b1 a2 b2 ..] or &DATA ENVIRONMENT";
+    let form =
+        "form: &DATA CURVES [TYPE NAME a1 b1 a2 b2 ..], &DATA CONVOLUTION TIME NAME t1 K1 .. or &DATA ENVIRONMENT";
     let Some(kind) = call.words.get(1) else {
         return Err(Diagnostic::error("&DATA lacks what it defines", call.record.whole()).help(form));
     };
-    let names = [("CURVES", Owner::Moses, true), ("ENVIRONMENT", Owner::Moses, false)];
-    if !choose(&kind.text, kind.span, "kind of &DATA", names.into_iter())? {
-        job.menus.push(Menu::Environments);
-        return Ok(Effect::Done);
-    }
+    let names = ["CURVES", "CONVOLUTION", "ENVIRONMENT"].map(|name| (name, Owner::Moses, name));
     let words = call.words.get(2..).unwrap_or_default();
+    match choose(&kind.text, kind.span, "kind of &DATA", names.into_iter())? {
+        "ENVIRONMENT" => {
+            job.menus.push(Menu::Environments);
+            return Ok(Effect::Done);
+        }
+        "CONVOLUTION" => return convolution(job, call, kind.span, words),
+        _ => {}
+    }
     let Some((kind, values)) = words.split_first() else {
         job.menus.push(Menu::Curves);
         return Ok(Effect::Done);
@@ -183,6 +192,34 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let command = choose(&kind.text, kind.span, "type of curve", kinds)?;
     let args = args::read(command.spec, kind.span, values, job.units)?;
     (command.run)(job, &Call { record: call.record, words, args })
+}
+
+static BY_TIME: CommandSpec = CommandSpec {
+    data: &pairs(CurveKind::ConvolutionTime),
+    repeat: 2,
+    ..CommandSpec::new("&DATA CONVOLUTION TIME", "viscoelastic spring by time")
+};
+
+static BY_FREQUENCY: CommandSpec = CommandSpec {
+    data: &pairs(CurveKind::ConvolutionFrequency),
+    repeat: 2,
+    ..CommandSpec::new("&DATA CONVOLUTION FREQUENCY", "viscoelastic spring by frequency")
+};
+
+fn convolution(job: &mut Job, call: &Call, span: Span, words: &[Word]) -> Outcome<Effect> {
+    let Some((of, values)) = words.split_first() else {
+        return Err(Diagnostic::error("&DATA CONVOLUTION lacks TIME or FREQUENCY", span)
+            .help("form: &DATA CONVOLUTION TIME NAME t1 K1 t2 K2 .."));
+    };
+    let kinds = [("TIME", CurveKind::ConvolutionTime), ("FREQUENCY", CurveKind::ConvolutionFrequency)];
+    let names = kinds.into_iter().map(|(name, kind)| (name, Owner::Moses, kind));
+    let kind = choose(&of.text, of.span, "convolution", names)?;
+    let spec = if kind == CurveKind::ConvolutionTime { &BY_TIME } else { &BY_FREQUENCY };
+    let args = args::read(spec, of.span, values, job.units)?;
+    if let Some(bad) = args.data.iter().skip(2).step_by(2).find(|v| v.number().is_some_and(|k| k <= 0.0)) {
+        return Err(Diagnostic::error("a stiffness must be greater than zero", bad.span));
+    }
+    define(job, &Call { record: call.record, words, args }, kind)
 }
 
 fn define(job: &mut Job, call: &Call, kind: CurveKind) -> Outcome<Effect> {

@@ -4,7 +4,7 @@
 //! reference/model.md, last section.
 
 use super::catenary::{Floor, Law, Line, LineError};
-use super::mooring::{Mooring, end_springs, line_error, parts};
+use super::mooring::{Mooring, convolution, end_springs, line_error, parts, with_series};
 use super::section::{LineSection, properties};
 use super::{ClassKind, checks, options as o};
 use crate::language::diagnostic::{Diagnostic, Outcome};
@@ -79,8 +79,8 @@ struct Catenary {
     slope: f64,
     limit: Option<f64>,
     springs: [Option<Law>; 2],
-    /// Where a viscoelastic spring is asked for.
-    convolution: Option<Span>,
+    /// The curve of a viscoelastic spring, with its place.
+    convolution: Option<(String, Span)>,
     piston: bool,
 }
 
@@ -99,7 +99,7 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
         slope: number("-SLOPE")?.unwrap_or(0.0),
         limit: number("-TAB_LIM")?,
         springs: end_springs(records)?,
-        convolution: checks::once(records, "-CONVOLUTION")?.map(|g| g.span),
+        convolution: convolution(records)?,
         piston: checks::once(records, "-PISTON")?.is_some(),
     }))
 }
@@ -114,18 +114,14 @@ impl Catenary {
     }
 
     fn made(&self, place: &Placement, surroundings: &Surroundings) -> Result<Mooring, ClassError> {
-        if let Some(span) = self.convolution {
-            return Err(ClassError::new("-CONVOLUTION does not act yet, and a line without its spring would be wrong")
-                .at(span)
-                .help("a spring of -X_PY or -SEND acts"));
-        }
         let depth = self.known_depth(surroundings)?;
         let error = |e: LineError| line_error(&e, &self.places);
         let (segments, joints) = parts(&self.sections, place, |s| s.submerged(surroundings));
+        let springs = with_series(&self.springs, self.convolution.as_ref(), place)?;
         let floor = Floor { elevation: -depth, slope: self.slope, friction: self.friction };
         let line = Line::new(segments, joints, -depth, surroundings.tide)
             .and_then(|l| l.over(Some(floor)))
-            .and_then(|l| l.with_springs(self.springs.clone()))
+            .and_then(|l| l.with_springs(springs))
             .map_err(error)?;
         if depth <= -surroundings.tide {
             return Err(ClassError::new("the anchor lies above the water surface").help("check -DEPANCHOR"));
@@ -198,6 +194,10 @@ impl ConnectorClass for Catenary {
 
     fn anchor_depth(&self, surroundings: &Surroundings) -> Option<f64> {
         self.depth.or(surroundings.depth)
+    }
+
+    fn series_curve(&self) -> Option<(&str, Span)> {
+        self.convolution.as_ref().map(|(name, span)| (name.as_str(), *span))
     }
 
     fn line(&self, place: &Placement, surroundings: &Surroundings) -> Result<Box<dyn LineModel>, ClassError> {

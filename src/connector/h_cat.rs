@@ -4,7 +4,7 @@
 
 use super::catenary::{Law, Line};
 use super::chord::Chord;
-use super::mooring::{Mooring, end_springs, line_error, parts};
+use super::mooring::{Mooring, convolution, end_springs, line_error, parts, with_series};
 use super::section::{LineSection, properties};
 use super::{ClassKind, checks, options as o};
 use crate::language::diagnostic::{Diagnostic, Outcome};
@@ -66,7 +66,7 @@ struct Hanging {
     places: Vec<Span>,
     exact: bool,
     springs: [Option<Law>; 2],
-    convolution: Option<Span>,
+    convolution: Option<(String, Span)>,
     limit: Option<f64>,
     piston: bool,
 }
@@ -90,18 +90,6 @@ pub fn check_records(records: &[ClassRecord], kind: &str) -> Outcome<()> {
     Ok(())
 }
 
-/// A spring of -CONVOLUTION has no engine yet.
-///
-/// # Errors
-/// Always, where there is one.
-pub fn refuse_convolution(convolution: Option<Span>) -> Result<(), ClassError> {
-    convolution.map_or(Ok(()), |span| {
-        Err(ClassError::new("-CONVOLUTION does not act yet, and a line without its spring would be wrong")
-            .at(span)
-            .help("a spring of -X_PY or -SEND acts"))
-    })
-}
-
 fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
     check_records(records, "H_CAT")?;
     Ok(Arc::new(Hanging {
@@ -109,7 +97,7 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
         places: records.iter().map(|r| r.args.span).collect(),
         exact: records.iter().any(|r| r.args.word(1) == Some("EXACT")),
         springs: end_springs(records)?,
-        convolution: checks::once(records, "-CONVOLUTION")?.map(|g| g.span),
+        convolution: convolution(records)?,
         limit: checks::once(records, "-TAB_LIM")?.and_then(|g| g.number(0)),
         piston: checks::once(records, "-PISTON")?.is_some(),
     }))
@@ -141,16 +129,20 @@ impl ConnectorClass for Hanging {
         surroundings.depth
     }
 
+    fn series_curve(&self) -> Option<(&str, Span)> {
+        self.convolution.as_ref().map(|(name, span)| (name.as_str(), *span))
+    }
+
     fn line(&self, place: &Placement, surroundings: &Surroundings) -> Result<Box<dyn LineModel>, ClassError> {
-        refuse_convolution(self.convolution)?;
+        let springs = with_series(&self.springs, self.convolution.as_ref(), place)?;
         let weight = |s: &LineSection| if self.exact { s.in_air() } else { 0.0 };
-        let mut line = hung(&self.sections, &self.springs, place, surroundings, &self.places, weight)?;
+        let mut line = hung(&self.sections, &springs, place, surroundings, &self.places, weight)?;
         line.largest = self.limit.unwrap_or(line.largest);
         if self.piston {
             line.notes.push("the piston of -PISTON stands at its nominal position".into());
         }
         if !self.exact && self.sections.iter().all(|s| s.clump == 0.0) {
-            return Ok(Box::new(Chord { line, springs: self.springs.clone(), pushes: false }));
+            return Ok(Box::new(Chord { line, springs, pushes: false }));
         }
         Ok(Box::new(line))
     }

@@ -7,6 +7,7 @@ pub mod catenary;
 mod checks;
 mod chord;
 mod h_cat;
+mod line_report;
 pub mod line_types;
 mod lmu;
 mod mooring;

@@ -5,6 +5,7 @@ use super::catenary::{
     table,
 };
 use super::checks;
+use super::line_report::{buoy_word, report};
 use super::section::LineSection;
 use crate::language::diagnostic::Outcome;
 use crate::language::source::Span;
@@ -39,7 +40,8 @@ pub struct Mooring {
 }
 
 impl Mooring {
-    fn fairlead(&self) -> f64 {
+    /// Elevation of the first end (m).
+    pub fn fairlead(&self) -> f64 {
         let [_, _, z] = self.place.fairlead;
         z
     }
@@ -136,6 +138,37 @@ pub fn end_springs(records: &[ClassRecord]) -> Outcome<[Option<Law>; 2]> {
         (spring, curve) => spring.or(curve),
     };
     Ok([first, spring(1)])
+}
+
+/// The end springs with the long-term stiffness of a viscoelastic one in series at the first end (seed 001,
+/// `-CONVOLUTION`; statics: reference/model.md).
+///
+/// # Errors
+/// A curve that is not defined, or is no convolution.
+pub fn with_series(
+    springs: &[Option<Law>; 2],
+    curve: Option<&(String, Span)>,
+    place: &Placement,
+) -> Result<[Option<Law>; 2], ClassError> {
+    let [first, last] = springs.clone();
+    let Some((name, span)) = curve else { return Ok([first, last]) };
+    let stiffness = place.series.ok_or_else(|| {
+        ClassError::new(format!("no convolution curve is called {name}"))
+            .at(*span)
+            .help(format!("define it: &DATA CONVOLUTION TIME {name} T1 K1 T2 K2 .."))
+    })?;
+    let spring = Law::Linear(stiffness);
+    let first = first.map_or(spring.clone(), |law| Law::Series(vec![law, spring]));
+    Ok([Some(first), last])
+}
+
+/// The curve that -CONVOLUTION names, with its place.
+///
+/// # Errors
+/// Two unlike ones.
+pub fn convolution(records: &[ClassRecord]) -> Outcome<Option<(String, Span)>> {
+    let given = checks::once(records, "-CONVOLUTION")?;
+    Ok(given.and_then(|g| g.values.first().and_then(|v| v.word()).map(|name| (name.to_string(), g.span))))
 }
 
 /// The error of a line, at the record of the segment it is about.
@@ -342,87 +375,4 @@ fn stiffness(along: [f64; 2], k: [[f64; 2]; 2], across: f64) -> [[f64; 3]; 3] {
         [plane(ux, uy, 0.0), plane(uy, uy, 1.0), xz * uy],
         [zx * ux, zx * uy, -zz],
     ]
-}
-
-/// The twelve columns of reference/solve.md, CONN_DESIGN.
-fn report(mooring: &Mooring, connector: &str, rows: &[Row]) -> Table {
-    let bottom = mooring.line.floor().map(|f| f.elevation).or(mooring.bottom);
-    let mut out = Table::new(format!("Properties of Line {connector}"))
-        .fact("Water Depth", bottom.map(|b| -b), Dim::Length)
-        .fact("Fairlead Above Mean Water", mooring.fairlead(), Dim::Length)
-        .fact("Length of First Segment", mooring.line.segments().first().map(|s| s.length), Dim::Length)
-        .column("", "X", Dim::Length, Digits::Usual)
-        .column("Horizontal", "Force", Dim::Force, Digits::Usual)
-        .column("Horizontal", "DF/DX", Dim::ForcePerLength, Digits::Decimals(3))
-        .column("Tension", "Ten Top", Dim::Force, Digits::Usual)
-        .column("Tension", "Max T/TB", Dim::None, Digits::Decimals(3))
-        .column("Tension", "Cri Break", Dim::Force, Digits::Usual)
-        .column("Tension", "Crit. Seg", Dim::None, Digits::Usual)
-        .column("Anchor", "V. Pull", Dim::Force, Digits::Usual)
-        .column("Anchor", "H. Pull", Dim::Force, Digits::Usual)
-        .column("", "Line on Bottom", Dim::Length, Digits::Usual)
-        .column("1st Connection", "Height Ab Anchor", Dim::Length, Digits::Usual)
-        .column("1st Connection", "Net Force Applied", Dim::Force, Digits::Usual);
-    for row in rows {
-        let s = &row.state;
-        let joint = s.joints.first();
-        let cells: Vec<Cell> = vec![
-            s.x.into(),
-            s.force.into(),
-            (1.0 / s.dx_dh).into(),
-            s.top_tension.into(),
-            row.ratio.into(),
-            row.critical_break.into(),
-            row.critical.into(),
-            s.anchor_vertical.into(),
-            s.anchor_horizontal.into(),
-            s.grounded_stretched.into(),
-            joint.map(|j| j.z - mooring.line.anchor()).into(),
-            joint.map(|j| j.lift).into(),
-        ];
-        // the row has one cell a column, made just above
-        let _ = out.push(cells);
-    }
-    if let Some(first) = rows.iter().position(|r| r.ratio > 1.0) {
-        out.note(format!("{} beyond the breaking tension (Max T/TB above 1)", rows_from(first, rows.len() - 1)));
-    }
-    let states: Vec<Option<Buoy>> = rows.iter().map(|r| r.state.joints.iter().find_map(|j| j.buoy)).collect();
-    out.notes.extend(buoy_notes(&states));
-    out.notes.extend(mooring.notes.clone());
-    if rows.iter().any(|r| !r.state.below_bottom.is_empty()) {
-        out.note("warning: a segment above the spring buoy hangs below the bottom in some rows (it does not see it)");
-    }
-    if let Some(first) = rows.iter().position(|r| !r.state.above_surface.is_empty()) {
-        let last = rows.iter().rposition(|r| !r.state.above_surface.is_empty()).unwrap_or(first);
-        let which = rows_from(first, last);
-        out.note(format!(
-            "warning: {which} with a buoyant part of the line above the water surface, which it does not see"
-        ));
-    }
-    out
-}
-
-/// `row 3 is` or `rows 3 to 5 are`, counted from 1.
-fn rows_from(first: usize, last: usize) -> String {
-    if first == last { format!("row {} is", first + 1) } else { format!("rows {} to {} are", first + 1, last + 1) }
-}
-
-fn buoy_word(buoy: Buoy) -> &'static str {
-    match buoy {
-        Buoy::Slack => "slack",
-        Buoy::Held => "held by its pendant",
-        Buoy::Sunk => "sunk",
-    }
-}
-
-/// In which rows a spring buoy floats, hangs slack, or is sunk.
-fn buoy_notes(states: &[Option<Buoy>]) -> Vec<String> {
-    let mut notes = Vec::new();
-    let mut from = 0;
-    while let Some(Some(state)) = states.get(from) {
-        let run = states.iter().skip(from).take_while(|s| **s == Some(*state)).count();
-        notes.push(format!("{} with the spring buoy {}", rows_from(from, from + run - 1), buoy_word(*state)));
-        from += run;
-    }
-    notes
 }

@@ -4,8 +4,8 @@
 
 use super::catenary::Law;
 use super::chord::Chord;
-use super::h_cat::{LINE_OPTIONS, check_records, hung, refuse_convolution};
-use super::mooring::end_springs;
+use super::h_cat::{LINE_OPTIONS, check_records, hung};
+use super::mooring::{convolution, end_springs, with_series};
 use super::section::{LineSection, properties};
 use super::{ClassKind, checks, options as o};
 use crate::language::diagnostic::Outcome;
@@ -36,7 +36,7 @@ struct Spring {
     places: Vec<Span>,
     tension: bool,
     springs: [Option<Law>; 2],
-    convolution: Option<Span>,
+    convolution: Option<(String, Span)>,
     limit: Option<f64>,
     notes: Vec<String>,
 }
@@ -55,7 +55,7 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
         places: records.iter().map(|r| r.args.span).collect(),
         tension: records.iter().any(|r| r.args.word(1) == Some("TENSION")),
         springs: end_springs(records)?,
-        convolution: checks::once(records, "-CONVOLUTION")?.map(|g| g.span),
+        convolution: convolution(records)?,
         limit: checks::once(records, "-TAB_LIM")?.and_then(|g| g.number(0)),
         sections,
         notes,
@@ -88,12 +88,16 @@ impl ConnectorClass for Spring {
         surroundings.depth
     }
 
+    fn series_curve(&self) -> Option<(&str, Span)> {
+        self.convolution.as_ref().map(|(name, span)| (name.as_str(), *span))
+    }
+
     fn line(&self, place: &Placement, surroundings: &Surroundings) -> Result<Box<dyn LineModel>, ClassError> {
-        refuse_convolution(self.convolution)?;
+        let springs = with_series(&self.springs, self.convolution.as_ref(), place)?;
         let straight: Vec<LineSection> = self.sections.iter().map(|s| LineSection { clump: 0.0, ..*s }).collect();
-        let mut line = hung(&straight, &self.springs, place, surroundings, &self.places, |_| 0.0)?;
+        let mut line = hung(&straight, &springs, place, surroundings, &self.places, |_| 0.0)?;
         line.largest = self.limit.unwrap_or(line.largest);
         line.notes.clone_from(&self.notes);
-        Ok(Box::new(Chord { line, springs: self.springs.clone(), pushes: !self.tension }))
+        Ok(Box::new(Chord { line, springs, pushes: !self.tension }))
     }
 }

@@ -100,6 +100,11 @@ pub trait ConnectorClass: Debug + Send + Sync {
         None
     }
 
+    /// The convolution curve of a viscoelastic spring in series, where the class names one, with its place.
+    fn series_curve(&self) -> Option<(&str, Span)> {
+        None
+    }
+
     /// The line a connector of this class makes between two places.
     ///
     /// # Errors

@@ -26,6 +26,10 @@ pub enum CurveKind {
     DragVelocity,
     /// Added-mass pressure: draft or elevation (m), factor.
     AddedMassPressure,
+    /// Viscoelastic spring: time (s), stiffness (N/m).
+    ConvolutionTime,
+    /// Viscoelastic spring: frequency (rad/s), stiffness (N/m).
+    ConvolutionFrequency,
 }
 
 impl CurveKind {
@@ -41,6 +45,8 @@ impl CurveKind {
         ("EFFICIENCY", CurveKind::Efficiency),
         ("CS_VELOCITY", CurveKind::DragVelocity),
         ("AM_PRESSURE", CurveKind::AddedMassPressure),
+        ("CONVOLUTION TIME", CurveKind::ConvolutionTime),
+        ("CONVOLUTION FREQUENCY", CurveKind::ConvolutionFrequency),
     ];
 
     /// Its name in records.
@@ -60,6 +66,8 @@ impl CurveKind {
             CurveKind::ConnectorLength => [("Time", Dim::Time), ("Length", Dim::Length)],
             CurveKind::Efficiency | CurveKind::DragVelocity => [("Velocity", Dim::Velocity), ("Factor", Dim::None)],
             CurveKind::AddedMassPressure => [("Elevation", Dim::Length), ("Factor", Dim::None)],
+            CurveKind::ConvolutionTime => [("Time", Dim::Time), ("Stiffness", Dim::ForcePerLength)],
+            CurveKind::ConvolutionFrequency => [("Frequency", Dim::Frequency), ("Stiffness", Dim::ForcePerLength)],
         }
     }
 }
@@ -75,4 +83,16 @@ pub struct Curve {
     pub points: Vec<(f64, f64)>,
     /// Where it was defined.
     pub span: Span,
+}
+
+impl Curve {
+    /// The long-term stiffness of a convolution curve (N/m): that of the last time, or of the lowest frequency; `None`
+    /// for other curves.
+    pub fn long_term_stiffness(&self) -> Option<f64> {
+        match self.kind {
+            CurveKind::ConvolutionTime => self.points.last().map(|p| p.1),
+            CurveKind::ConvolutionFrequency => self.points.first().map(|p| p.1),
+            _ => None,
+        }
+    }
 }

@@ -15,6 +15,8 @@ pub struct Placement {
     pub to_ground: bool,
     /// Length of the first segment in place of the class's (m).
     pub first_length: Option<f64>,
+    /// Long-term stiffness of the viscoelastic spring of the class (N/m), where its curve is defined.
+    pub series: Option<f64>,
 }
 
 impl Placement {

@@ -95,14 +95,17 @@ impl Model {
 
     /// The ends of a connector, in the present configuration.
     pub fn placement(&self, connector: &Connector) -> Placement {
-        let depth =
-            self.classes.get(&Model::key(&connector.class)).and_then(|c| c.object.anchor_depth(&self.surroundings()));
+        let class = self.classes.get(&Model::key(&connector.class));
+        let depth = class.and_then(|c| c.object.anchor_depth(&self.surroundings()));
+        let series =
+            class.and_then(|c| c.object.series_curve()).and_then(|(name, _)| self.curves.get(&Model::key(name)));
         let far = connector.anchor.zip(depth).map(|(a, d)| [a.at[0], a.at[1], -d]);
         Placement {
             fairlead: self.end(connector, 0).unwrap_or_default(),
             other: self.end(connector, 1).or(far),
             to_ground: connector.points.len() < 2,
             first_length: connector.first_length,
+            series: series.and_then(Curve::long_term_stiffness),
         }
     }
 
