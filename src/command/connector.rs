@@ -134,7 +134,7 @@ pub fn build_connector(job: &mut Job, args: &Args) -> Outcome<()> {
         let (direction, distance) = (given.number(0).unwrap_or(0.0), given.number(1).unwrap_or(0.0));
         let [x, y, _] = model.end(&made, 0).unwrap_or_default();
         let (cos, sin) = unit_vector(direction);
-        Anchor { direction, distance, at: [x + distance * cos, y + distance * sin] }
+        Anchor { direction, distance, at: [x + distance * cos, y + distance * sin], elevation: None }
     });
     class.object.check()?;
     class.object.check_ends(&made, bodies.len())?;

@@ -283,10 +283,7 @@ fn connector(job: &Job, action: &Word, rest: &[Word], span: Span) -> Outcome<Str
         "POINTS" => found.points.join(" "),
         "STATUS" => if found.active { "ACTIVE" } else { "INACTIVE" }.into(),
         "ANCHOR" => found.anchor.map_or(String::new(), |a| numbers(&a.at, Dim::Length, job)),
-        _ => {
-            let class = job.model.classes.get(&Model::key(&found.class));
-            class.and_then(|c| c.object.first_length()).map_or(String::new(), |l| numbers(&[l], Dim::Length, job))
-        }
+        _ => job.model.first_length(found).map_or(String::new(), |l| numbers(&[l], Dim::Length, job)),
     })
 }
 

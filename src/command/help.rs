@@ -37,9 +37,15 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         },
         Some(word) => {
             let functions = functions::HELP.iter().chain(super::functions::HELP);
-            if let Some((name, form, meaning)) = find_function(functions.into_iter(), &word.text) {
+            let function = find_function(functions.into_iter(), &word.text).map(|(name, form, meaning)| {
                 let meaning = wrap(meaning, 92).join("\n   ");
                 format!("{name}: string function\n\n   {form}\n   {meaning}")
+            });
+            let both = COMMANDS.iter().find(|c| c.spec.name.eq_ignore_ascii_case(&word.text));
+            if let (Some(text), Some(command)) = (&function, both) {
+                format!("{}\n\n{text}", describe(command.spec, "", units))
+            } else if let Some(text) = function {
+                text
             } else {
                 let menu = job.menu().name();
                 let here = COMMANDS

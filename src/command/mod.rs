@@ -4,6 +4,7 @@
 //! changes nothing; a command that edits in several steps says so with [`Command::edits`], and the session restores the
 //! model when it fails.
 
+mod alter;
 mod class;
 mod conn_design;
 mod connector;
@@ -109,6 +110,7 @@ pub static COMMANDS: &[&Command] = &[
     &connector::CONNECTOR,
     &connector::DELETE,
     &connector::RENAME,
+    &alter::ALTER,
     &select::SELECT,
     &select::SELECTOR,
     &environment::ENV,

@@ -215,7 +215,6 @@ fn connectors(model: &Model, fits: &dyn Fn(&str) -> bool) -> Table {
         table = table.column("Connection", name, Dim::Length, Digits::Usual);
     }
     for connector in model.connectors.values().filter(|c| fits(&c.name)) {
-        let class = model.classes.get(&Model::key(&connector.class));
         let status = if connector.active { "Active" } else { "Inactive" };
         let ends: Vec<(String, Option<[f64; 3]>)> = connector
             .points
@@ -232,7 +231,7 @@ fn connectors(model: &Model, fits: &dyn Fn(&str) -> bool) -> Table {
             connector.name.as_str().into(),
             connector.class.as_str().into(),
             status.into(),
-            class.and_then(|c| c.object.first_length()).into(),
+            model.first_length(connector).into(),
             first.0.into(),
         ];
         let coordinates = |at: Option<[f64; 3]>| [0, 1, 2].map(|i| Cell::from(at.and_then(|a| a.get(i).copied())));
@@ -243,7 +242,7 @@ fn connectors(model: &Model, fits: &dyn Fn(&str) -> bool) -> Table {
         match (at, connector.anchor) {
             (None, Some(anchor)) => {
                 row.extend(anchor.at.map(Cell::Number));
-                row.push(class.and_then(|c| c.object.anchor_depth(&model.surroundings())).map(|d| -d).into());
+                row.push(model.placement(connector).other.map(|[_, _, z]| z).into());
             }
             (at, _) => row.extend(coordinates(at)),
         }

@@ -114,7 +114,10 @@ impl Catenary {
     }
 
     fn made(&self, place: &Placement, surroundings: &Surroundings) -> Result<Mooring, ClassError> {
-        let depth = self.known_depth(surroundings)?;
+        let depth = match place.other {
+            Some([_, _, anchor]) if place.to_ground => -anchor,
+            _ => self.known_depth(surroundings)?,
+        };
         let error = |e: LineError| line_error(&e, &self.places);
         let (segments, joints) = parts(&self.sections, place, |s| s.submerged(surroundings));
         let springs = with_series(&self.springs, self.convolution.as_ref(), place)?;
@@ -124,7 +127,7 @@ impl Catenary {
             .and_then(|l| l.with_springs(springs))
             .map_err(error)?;
         if depth <= -surroundings.tide {
-            return Err(ClassError::new("the anchor lies above the water surface").help("check -DEPANCHOR"));
+            return Err(ClassError::new("the anchor lies above the water surface").help("check -DEPANCHOR and -ANCHOR"));
         }
         let [_, _, fairlead] = place.fairlead;
         if fairlead < -depth {
@@ -136,7 +139,7 @@ impl Catenary {
         if let Some(known) = surroundings.depth.filter(|d| (d - depth).abs() > 0.2 * d.max(depth) && self.slope == 0.0)
         {
             let share = depth / known;
-            notes.push(format!("warning: -DEPANCHOR is {share:.2} of the depth of &ENV"));
+            notes.push(format!("warning: the depth of the anchor is {share:.2} of the depth of &ENV"));
         }
         if self.piston {
             notes.push("the piston of -PISTON stands at its nominal position".into());

@@ -17,6 +17,19 @@ pub struct Chord {
 }
 
 impl Chord {
+    /// From the first end to the other (m, global).
+    fn along(&self) -> [f64; 3] {
+        let [x, y, z] = self.line.place.fairlead;
+        let [fx, fy, _] = self.line.place.other.unwrap_or(self.line.place.fairlead);
+        [fx - x, fy - y, self.line.line.anchor() - z]
+    }
+
+    /// Distance between the ends, and its horizontal part (m).
+    fn chord(&self) -> (f64, f64) {
+        let [x, y, z] = self.along();
+        (x.hypot(y).hypot(z), x.hypot(y))
+    }
+
     /// Force along the chord at an elongation (m), tension positive (N), and its slope (N/m).
     fn force(&self, elongation: f64) -> (f64, f64) {
         if elongation == 0.0 || (elongation < 0.0 && !self.pushes) {
@@ -45,10 +58,8 @@ impl LineModel for Chord {
     }
 
     fn loads(&self) -> Result<LineLoads, ClassError> {
-        let [x, y, z] = self.line.place.fairlead;
-        let [fx, fy, _] = self.line.place.other.unwrap_or(self.line.place.fairlead);
-        let along = [fx - x, fy - y, self.line.line.anchor() - z];
-        let chord = along.iter().map(|v| v * v).sum::<f64>().sqrt();
+        let along = self.along();
+        let (chord, _) = self.chord();
         let unit = if chord > 0.0 { along.map(|v| v / chord) } else { [0.0, 0.0, -1.0] };
         let (force, slope) = self.force(chord - self.line.line.length());
         let across = if chord > 0.0 { force / chord } else { 0.0 };
@@ -89,6 +100,22 @@ impl LineModel for Chord {
     }
 
     fn first_length(&self, condition: Condition) -> Result<f64, ClassError> {
-        self.line.first_length(condition)
+        let (chord, horizontal) = self.chord();
+        let tension = match condition {
+            Condition::Tension(tension) => tension,
+            Condition::Horizontal(force) if horizontal > 0.0 => force * chord / horizontal,
+            Condition::Horizontal(_) => return Err(ClassError::new("a vertical line has no horizontal force")),
+            Condition::Placed | Condition::Distance(_) => return self.line.first_length(condition),
+        };
+        let segments = self.line.line.segments();
+        let (first, others) = segments.split_first().ok_or_else(|| ClassError::new("the line has no segments"))?;
+        let stretched = |length: f64, ea: f64| length * (1.0 + tension / ea);
+        let others: f64 = others.iter().map(|s| stretched(s.length, s.ea)).sum();
+        let springs: f64 = self.springs.iter().flatten().map(|law| law.stretch(tension).0).sum();
+        let length = (chord - others - springs) / stretched(1.0, first.ea);
+        if length > 0.0 {
+            return Ok(length);
+        }
+        Err(ClassError::new("the rest of the line is too long: no length of the first segment makes it so tight"))
     }
 }

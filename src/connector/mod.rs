@@ -6,6 +6,7 @@ mod b_cat;
 pub mod catenary;
 mod checks;
 mod chord;
+mod first_length;
 mod h_cat;
 mod line_report;
 pub mod line_types;

@@ -4,6 +4,7 @@ use super::catenary::{
     Aim, FromTable, Interpolated, Joint, Law, Line, LineError, Row, Segment, SegmentState, ShapePoint, State, table,
 };
 use super::checks;
+use super::first_length::for_tension;
 use super::line_report::{buoy_word, report};
 use super::section::LineSection;
 use crate::language::diagnostic::Outcome;
@@ -307,16 +308,14 @@ impl LineModel for Mooring {
     fn first_length(&self, condition: Condition) -> Result<f64, ClassError> {
         let (x, _) = self.place.span();
         let z = self.fairlead();
-        self.line.first_length(x, z, condition_value(condition)).map_err(|e| self.error(&e))
-    }
-}
-
-/// Which force is asked for: the horizontal one or the tension, and its value; none for a distance.
-fn condition_value(condition: Condition) -> Option<Aim> {
-    match condition {
-        Condition::Horizontal(force) => Some(Aim::Horizontal(force)),
-        Condition::Tension(tension) => Some(Aim::Tension(tension)),
-        Condition::Placed | Condition::Distance(_) => None,
+        let aim = match condition {
+            Condition::Tension(tension) => {
+                return for_tension(&self.line, [x, z], tension, |e| self.error(e));
+            }
+            Condition::Horizontal(force) => Some(Aim::Horizontal(force)),
+            Condition::Placed | Condition::Distance(_) => None,
+        };
+        self.line.first_length(x, z, aim).map_err(|e| self.error(&e))
     }
 }
 

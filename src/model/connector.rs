@@ -10,8 +10,10 @@ pub struct Anchor {
     pub direction: f64,
     /// Horizontal distance from the fairlead (m).
     pub distance: f64,
-    /// Global position of the anchor in the horizontal plane when the connector was read (m).
+    /// Global position of the anchor in the horizontal plane (m).
     pub at: [f64; 2],
+    /// Its elevation (m), where `&CONNECTOR -ANCHOR` gave one; else the class's or the environment's depth says it.
+    pub elevation: Option<f64>,
 }
 
 /// A connector.

@@ -9,7 +9,7 @@ use crate::table::Table;
 pub struct Placement {
     /// The first end: the fairlead of a line.
     pub fairlead: Position,
-    /// The other end; the elevation of an anchor is the class's to say.
+    /// The other end; the elevation of an anchor is its own, else from the depth its class says.
     pub other: Option<Position>,
     /// Whether the other end is an anchor in the ground.
     pub to_ground: bool,

@@ -99,7 +99,10 @@ impl Model {
         let depth = class.and_then(|c| c.object.anchor_depth(&self.surroundings()));
         let series =
             class.and_then(|c| c.object.series_curve()).and_then(|(name, _)| self.curves.get(&Model::key(name)));
-        let far = connector.anchor.zip(depth).map(|(a, d)| [a.at[0], a.at[1], -d]);
+        let far = connector.anchor.and_then(|a| {
+            let [x, y] = a.at;
+            a.elevation.or(depth.map(|d| -d)).map(|z| [x, y, z])
+        });
         Placement {
             fairlead: self.end(connector, 0).unwrap_or_default(),
             other: self.end(connector, 1).or(far),
@@ -107,6 +110,12 @@ impl Model {
             first_length: connector.first_length,
             series: series.and_then(Curve::long_term_stiffness),
         }
+    }
+
+    /// Length of a connector's first segment (m): its own, else its class's; `None` for classes without length.
+    pub fn first_length(&self, connector: &Connector) -> Option<f64> {
+        let class = || self.classes.get(&Model::key(&connector.class)).and_then(|c| c.object.first_length());
+        connector.first_length.or_else(class)
     }
 
     /// The body a point belongs to; `None` for ground.

@@ -1,0 +1,356 @@
+//! `&CONNECTOR`: what is changed of connectors that exist: whether they act, the length of their first segment, the
+//! place of their anchor; given, or solved for a force at the fairlead.
+//!
+//! Source: reference/model.md, &CONNECTOR.
+
+use super::{Call, Command, Effect, Job};
+use crate::language::args::{Args, Given, Value};
+use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::select::{is_wild, matches};
+use crate::language::source::Span;
+use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
+use crate::language::units::{Dim, UnitSystem};
+use crate::model::{Anchor, ClassError, Condition, Connector, LineLoads, LineModel, Model, find, unit_vector};
+use crate::report::format::report;
+use crate::table::{Cell, Digits};
+
+/// &CONNECTOR.
+pub static ALTER: Command = Command { spec: &SPEC, edits: true, run };
+
+/// Share of a force within which what is found must bear what was asked for.
+const PROOF: f64 = 1e-6;
+
+/// Share of a force by which the table of a class may miss it before a warning.
+const TABLE: f64 = 0.01;
+
+const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
+    ValueSpec::new(name, Kind::Number(dim), help)
+}
+const HORIZONTAL: &[ValueSpec] =
+    &[number("F", Dim::Force, "horizontal force at the fairlead, present configuration").positive()];
+const TENSION: &[ValueSpec] = &[number("F", Dim::Force, "tension at the fairlead, present configuration").positive()];
+
+static SPEC: CommandSpec = CommandSpec {
+    data: &[ValueSpec::new(":SEL", Kind::Name(Noun::Selector), "connector, pattern or selector")],
+    repeat: 1,
+    options: &[
+        OptionSpec::new(
+            "-LENGTH",
+            &[number("L", Dim::Length, "its length, unstretched").positive()],
+            "gives the first segment this length",
+        )
+        .many(),
+        OptionSpec::new("-L_DELTA", &[number("DL", Dim::Length, "added to it")], "makes the first segment longer")
+            .many(),
+        OptionSpec::new("-L_HORIZONTAL", HORIZONTAL, "solves the length of the first segment").many(),
+        OptionSpec::new("-L_TENSION", TENSION, "solves the length of the first segment").many(),
+        OptionSpec::new(
+            "-ANCHOR",
+            &[
+                number("X", Dim::Length, "global X"),
+                number("Y", Dim::Length, "global Y"),
+                number("Z", Dim::Length, "global Z, negative below the mean water surface"),
+            ],
+            "puts the anchor there",
+        )
+        .many(),
+        OptionSpec::new("-A_HORIZONTAL", HORIZONTAL, "solves the place of the anchor along its direction").many(),
+        OptionSpec::new("-A_TENSION", TENSION, "solves the place of the anchor along its direction").many(),
+        OptionSpec::new("-ACTIVE", &[], "the connector acts").many(),
+        OptionSpec::new("-INACTIVE", &[], "the connector does not act").many(),
+    ],
+    detail: "An option acts on the names before it: those since the option before, else the same as that one's. Options act in \
+             the order given; if one connector cannot be solved, or its line has no \
+             configuration behind a change, the record changes nothing. Lengths are those of the connector: \
+             its class and the other connectors of the class keep theirs. -A_HORIZONTAL and -A_TENSION keep the direction from \
+             the fairlead and the depth. An anchor put at X Y Z has the depth -Z whatever -DEPANCHOR and &ENV say; under a B_CAT \
+             the bottom goes with it. What solves does so exactly, also for a class whose forces come from its table, and \
+             passes over connectors that are inactive.",
+    example: "MEDIT\n&DESCRIBE BODY TBRG\n*MLA 400 50 20\n*MLB 400 -50 20\n\
+              ~WIRE b_cat 4.19 EXACT -DEP 500 -LEN 4000 -BUOY 0 -WTPL .0125\n\
+              CONNECTOR A -ANC 45 20 ~WIRE *MLA\nCONNECTOR B -ANC -45 20 ~WIRE *MLB\nEND\n\
+              &CONNECTOR @ -A_TENSION 50 A -L_DELTA -10 B -L_HORIZONTAL 60\n&CONNECTOR B -INACTIVE\n&STATUS G_CONNECTOR",
+    ..CommandSpec::new("&CONNECTOR", "changes connectors: length, anchor, activity")
+};
+
+fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let mut said = Said { units: job.units, lines: Vec::new(), warnings: Vec::new() };
+    for (given, names) in groups(args)? {
+        let keys = selected(&job.model, names).map_err(|error| match job.deferred.as_slice() {
+            [] => error,
+            _ => error.help("the connectors of INMODEL are made at its END"),
+        })?;
+        for key in keys {
+            if job.interrupted() {
+                return Err(Diagnostic::error("&CONNECTOR is given up: nothing is changed", args.span));
+            }
+            let Some(mut made) = job.model.connectors.get(&key).cloned() else { continue };
+            let text = change(&job.model, &mut made, given, &mut said).map_err(|error| {
+                let elsewhere = error.span.is_some();
+                let message = format!("connector {}: {}", made.name, error.message);
+                let error = ClassError { message, ..error }.diagnostic(given.span);
+                if elsewhere { error.other(given.span, "asked for here") } else { error }
+            })?;
+            said.lines.push(format!("connector {}: {text}", made.name));
+            job.model.connectors.insert(key, made);
+        }
+    }
+    let Said { lines, warnings, .. } = said;
+    warnings.into_iter().for_each(|(text, span)| job.warn(text, span));
+    Ok(Effect::Say(lines.join("\n")))
+}
+
+/// Each option with the names it acts on.
+///
+/// # Errors
+/// An option before any name, names behind the last option.
+fn groups(args: &Args) -> Outcome<Vec<(&Given, &[Value])>> {
+    const FORM: &str = "form: &CONNECTOR NAME .. -OPTION VALUE; an option acts on the names before it";
+    let (mut from, mut to) = (0, 0);
+    let mut made = Vec::new();
+    for given in &args.options {
+        if given.after > to {
+            (from, to) = (to, given.after);
+        }
+        let names = args.data.get(from..to).unwrap_or_default();
+        if names.is_empty() {
+            let text = format!("no connector is named before {}", given.spec.name);
+            return Err(Diagnostic::error(text, given.span).help(FORM));
+        }
+        made.push((given, names));
+    }
+    match args.data.get(to) {
+        None => Ok(made),
+        Some(name) => {
+            let text = format!("no option acts on {}", name.word().unwrap_or_default());
+            Err(Diagnostic::error(text, name.span).help(FORM))
+        }
+    }
+}
+
+/// Keys of the connectors that names, patterns and selectors choose, each once.
+///
+/// # Errors
+/// A name that is none, a pattern or selector that chooses no connector.
+fn selected(model: &Model, names: &[Value]) -> Outcome<Vec<String>> {
+    let mut keys: Vec<String> = Vec::new();
+    for value in names {
+        let name = value.word().unwrap_or_default();
+        let all = || model.connectors.values().map(|c| c.name.as_str());
+        let found: Vec<&str> = if name.starts_with(':') {
+            let selector = find(&model.selectors, name, "selector", value.span)?;
+            all().filter(|n| selector.takes(n, model)).collect()
+        } else if is_wild(name) && !model.connectors.contains_key(&Model::key(name)) {
+            all().filter(|n| matches(name, n)).collect()
+        } else {
+            vec![find(&model.connectors, name, "connector", value.span)?.name.as_str()]
+        };
+        if found.is_empty() {
+            return Err(Diagnostic::error(format!("{name} chooses no connector"), value.span));
+        }
+        for key in found.into_iter().map(Model::key) {
+            if !keys.contains(&key) {
+                keys.push(key);
+            }
+        }
+    }
+    Ok(keys)
+}
+
+/// What is told when the whole record has gone well.
+struct Said {
+    units: UnitSystem,
+    lines: Vec<String>,
+    warnings: Vec<(String, Span)>,
+}
+
+impl Said {
+    fn digits(&self, si: f64, dim: Dim) -> String {
+        report(&Cell::Number(si), dim, Digits::Usual, self.units)
+    }
+
+    fn measured(&self, si: f64, dim: Dim) -> String {
+        format!("{} {}", self.digits(si, dim), dim.label(self.units))
+    }
+
+    fn warn(&mut self, connector: &Connector, given: &Given, text: &str) {
+        self.warnings.push((format!("connector {}: {text}", connector.name), given.span));
+    }
+}
+
+/// What an option asks for at the fairlead.
+fn aim(given: &Given) -> Option<Condition> {
+    let force = given.number(0)?;
+    match given.spec.name {
+        "-L_HORIZONTAL" | "-A_HORIZONTAL" => Some(Condition::Horizontal(force)),
+        "-L_TENSION" | "-A_TENSION" => Some(Condition::Tension(force)),
+        _ => None,
+    }
+}
+
+/// Changes one connector by one option; what is said of it.
+fn change(model: &Model, made: &mut Connector, given: &Given, said: &mut Said) -> Result<String, ClassError> {
+    let option = given.spec.name;
+    if let "-ACTIVE" | "-INACTIVE" = option {
+        made.active = option == "-ACTIVE";
+        return Ok(if made.active { "active" } else { "inactive" }.into());
+    }
+    let aim = aim(given);
+    if aim.is_some() && !made.active {
+        return Ok(format!("inactive, passed over by {option}"));
+    }
+    let old = (model.first_length(made), made.anchor);
+    let value = given.number(0).unwrap_or(0.0);
+    match (option, aim) {
+        ("-LENGTH", _) => made.first_length = Some(value),
+        ("-L_DELTA", _) => {
+            line(model, made)?;
+            let length = old.0.unwrap_or(0.0) + value;
+            if length <= 0.0 {
+                let text = format!("its first segment is {} long", said.measured(length - value, Dim::Length));
+                return Err(ClassError::new(text).help("-L_DELTA must leave more than nothing of it"));
+            }
+            made.first_length = Some(length);
+        }
+        ("-L_HORIZONTAL" | "-L_TENSION", Some(aim)) => {
+            line(model, made)?;
+            placed(model, made)?;
+            made.first_length = Some(line(model, made)?.first_length(aim)?);
+        }
+        ("-ANCHOR", _) => {
+            alone(made)?;
+            let [y, z] = [1, 2].map(|i| given.number(i).unwrap_or(0.0));
+            move_anchor(model, made, [value, y]);
+            if let Some(anchor) = &mut made.anchor {
+                anchor.elevation = Some(z);
+            }
+        }
+        (_, Some(aim)) => {
+            alone(made)?;
+            let made_of = line(model, made)?;
+            let anchor = made.anchor.ok_or_else(no_anchor)?;
+            placed(model, made)?;
+            let distance = made_of.distance(aim)?;
+            if distance < 0.0 {
+                return Err(ClassError::new("the anchor would lie beyond the fairlead, against its direction"));
+            }
+            let place = model.placement(made);
+            let [x, y, _] = place.fairlead;
+            let (apart, along) = place.span();
+            let (cos, sin) = unit_vector(anchor.direction);
+            let [ux, uy] = if apart > 0.0 { along } else { [cos, sin] };
+            move_anchor(model, made, [x + distance * ux, y + distance * uy]);
+        }
+        _ => {}
+    }
+    let found = line(model, made)?;
+    let forces = forces(found.as_ref(), model, made, given, said)?;
+    Ok(format!("{}{forces}", told(made, given, old, said)))
+}
+
+/// The line a connector makes.
+fn line(model: &Model, connector: &Connector) -> Result<Box<dyn LineModel>, ClassError> {
+    let class = model.classes.get(&Model::key(&connector.class));
+    let class = class.ok_or_else(|| ClassError::new(format!("its class {} is not defined", connector.class)))?;
+    class.object.line(&model.placement(connector), &model.surroundings())
+}
+
+fn no_anchor() -> ClassError {
+    ClassError::new("it has no anchor").help("give one with -ANCHOR X Y Z")
+}
+
+/// A connector whose other end has a place.
+fn placed(model: &Model, connector: &Connector) -> Result<(), ClassError> {
+    model.placement(connector).other.map(|_| ()).ok_or_else(no_anchor)
+}
+
+/// A connector that may have an anchor.
+fn alone(connector: &Connector) -> Result<(), ClassError> {
+    if connector.points.len() > 1 {
+        return Err(
+            ClassError::new("it lies between two points and has no anchor").help("-L_TENSION changes its length")
+        );
+    }
+    Ok(())
+}
+
+/// Puts the anchor at a place; its direction and distance from the fairlead follow.
+fn move_anchor(model: &Model, connector: &mut Connector, at: [f64; 2]) {
+    let [x, y, _] = model.placement(connector).fairlead;
+    let [ax, ay] = at;
+    let distance = (ax - x).hypot(ay - y);
+    let old = connector.anchor.map(|a| a.direction);
+    // a direction that is kept keeps the number it was given as
+    let same = |direction: &f64| {
+        let (cos, sin) = unit_vector(*direction);
+        (x + distance * cos - ax).hypot(y + distance * sin - ay) <= 1e-9 * distance
+    };
+    let direction = old.filter(same).unwrap_or_else(|| (ay - y).atan2(ax - x));
+    let elevation = connector.anchor.and_then(|a| a.elevation);
+    connector.anchor = Some(Anchor { direction, distance, at, elevation });
+}
+
+/// The new length or place beside the old one.
+fn told(made: &Connector, given: &Given, old: (Option<f64>, Option<Anchor>), said: &Said) -> String {
+    let length = |l: f64| said.digits(l, Dim::Length);
+    match made.anchor.filter(|_| given.spec.name.starts_with("-A")) {
+        Some(anchor) => {
+            let [x, y] = anchor.at.map(length);
+            let z = anchor.elevation.map_or(String::new(), |z| format!(" {}", length(z)));
+            let was = old.1.map_or("no anchor".into(), |a| length(a.distance));
+            let away = said.measured(anchor.distance, Dim::Length);
+            let toward = said.measured(anchor.direction, Dim::Angle);
+            format!("anchor at {x} {y}{z}, {away} from the fairlead toward {toward} (was {was})")
+        }
+        None => {
+            let now = said.measured(made.first_length.unwrap_or(0.0), Dim::Length);
+            format!("first segment {now} (was {})", old.0.map_or("none".into(), length))
+        }
+    }
+}
+
+/// The forces at the fairlead after a change. What was solved for is proven here: the line between its new ends bears it.
+fn forces(
+    found: &dyn LineModel,
+    model: &Model,
+    made: &Connector,
+    given: &Given,
+    said: &mut Said,
+) -> Result<String, ClassError> {
+    let Some([_, _, anchor]) = model.placement(made).other else { return Ok(String::new()) };
+    let aim = aim(given);
+    let class = model.classes.get(&Model::key(&made.class));
+    if let ("-ANCHOR", Some(depth)) =
+        (given.spec.name, class.and_then(|c| c.object.anchor_depth(&model.surroundings())))
+        && (depth + anchor).abs() > 1e-3 * depth
+    {
+        let (own, other) = (said.measured(-anchor, Dim::Length), said.measured(depth, Dim::Length));
+        said.warn(made, given, &format!("the depth of its anchor is now {own}, not the {other} of -DEPANCHOR or &ENV"));
+    }
+    let LineLoads { fairlead: [fx, fy, _], tension, solution, notes, .. } = found.loads()?;
+    for note in notes.iter().filter_map(|n| n.strip_prefix("warning: ")) {
+        said.warn(made, given, note);
+    }
+    let horizontal = fx.hypot(fy);
+    let [h, t] = [horizontal, tension].map(|f| said.measured(f, Dim::Force));
+    let asked = match aim {
+        Some(Condition::Horizontal(force)) => Some(("horizontal force", force, horizontal)),
+        Some(Condition::Tension(force)) => Some(("tension", force, tension)),
+        _ => None,
+    };
+    let table = solution == "table";
+    if let Some((what, wanted, got)) = asked.filter(|(_, wanted, got)| (got - wanted).abs() > PROOF * wanted) {
+        let [wants, gets] = [wanted, got].map(|f| said.measured(f, Dim::Force));
+        if !table {
+            return Err(ClassError::new(format!("its {what} would be {gets}, not {wants}")));
+        }
+        if (got - wanted).abs() > TABLE * wanted {
+            let text =
+                format!("its table of thirty points gives a {what} of {gets}, not {wants}: EXACT on its class does");
+            said.warn(made, given, &text);
+        }
+    }
+    let source = if table { " (from its table of thirty points)" } else { "" };
+    Ok(format!(", horizontal force {h}, tension {t}{source}"))
+}
