@@ -200,6 +200,10 @@ impl ConnectorClass for Catenary {
         self.depth.or(surroundings.depth)
     }
 
+    fn is_line(&self) -> bool {
+        true
+    }
+
     fn line(&self, place: &Placement, surroundings: &Surroundings) -> Result<Box<dyn LineModel>, ClassError> {
         Ok(Box::new(self.made(place, surroundings)?))
     }

@@ -141,6 +141,10 @@ impl ConnectorClass for Hanging {
         surroundings.depth
     }
 
+    fn is_line(&self) -> bool {
+        true
+    }
+
     fn line(&self, place: &Placement, surroundings: &Surroundings) -> Result<Box<dyn LineModel>, ClassError> {
         refuse_convolution(self.convolution)?;
         let weight = |s: &LineSection| if self.exact { s.in_air() } else { 0.0 };

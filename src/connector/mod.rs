@@ -10,6 +10,7 @@ mod h_cat;
 pub mod line_types;
 mod lmu;
 mod mooring;
+mod mooring_table;
 mod options;
 mod rod;
 mod roller;

@@ -1,15 +1,15 @@
 //! A mooring line between two places: what every class made of catenary segments answers.
 
 use super::catenary::{
-    Aim, Buoy, FromTable, Interpolated, Joint, Law, Line, LineError, Row, Segment, SegmentState, ShapePoint, State,
-    table,
+    Aim, FromTable, Interpolated, Joint, Law, Line, LineError, Row, Segment, SegmentState, ShapePoint, State, table,
 };
 use super::checks;
+use super::mooring_table::{buoy_word, report};
 use super::section::LineSection;
 use crate::language::diagnostic::Outcome;
 use crate::language::source::Span;
 use crate::language::units::Dim;
-use crate::model::{ClassError, ClassRecord, Condition, LineLoads, LineModel, Placement};
+use crate::model::{ClassError, ClassRecord, Condition, Configuration, LineLoads, LineModel, Placement};
 use crate::table::{Cell, Digits, Table};
 
 /// Points inside each segment in a shape table.
@@ -39,7 +39,8 @@ pub struct Mooring {
 }
 
 impl Mooring {
-    fn fairlead(&self) -> f64 {
+    /// Elevation of its fairlead (m).
+    pub fn fairlead(&self) -> f64 {
         let [_, _, z] = self.place.fairlead;
         z
     }
@@ -48,11 +49,20 @@ impl Mooring {
         line_error(error, &self.places)
     }
 
+    /// Horizontal distance of the ends as they are (m), and the direction from the first to the other.
+    fn placed(&self) -> Result<(f64, [f64; 2]), ClassError> {
+        if self.place.other.is_none() {
+            return Err(
+                ClassError::new("the other end of the line has no place").help("give the connector its -ANCHOR")
+            );
+        }
+        Ok(self.place.span())
+    }
+
     fn state(&self, condition: Condition) -> Result<State, ClassError> {
-        let (placed, _) = self.place.span();
         let z = self.fairlead();
         let found = match condition {
-            Condition::Placed => self.line.at_distance(placed, z),
+            Condition::Placed => self.line.at_distance(self.placed()?.0, z),
             Condition::Distance(x) => self.line.at_distance(x, z),
             Condition::Horizontal(force) => self.line.at_horizontal_force(force, z),
             Condition::Tension(tension) => self.line.at_tension(tension, z),
@@ -201,10 +211,9 @@ impl LineModel for Mooring {
             .column("", "Touchdown", Dim::Length, Digits::Usual)
             .column("", "Joint", Dim::Length, Digits::Usual);
         let shape = self.line.shape(&state, SHAPE_POINTS);
-        let last = shape.last().map_or(0.0, |p| p.x);
         for (index, point) in shape.iter().enumerate() {
             // the row has one cell a column, made just above
-            let _ = out.push(self.shape_row(&state, point, shape.get(index + 1), last));
+            let _ = out.push(self.shape_row(&state, point, shape.get(index + 1)));
         }
         out.notes = self.remarks(&state);
         out.notes.extend(state.joints.iter().enumerate().filter_map(|(i, j)| {
@@ -213,11 +222,30 @@ impl LineModel for Mooring {
         if state.slack {
             out.note("the line needs no horizontal force to reach so far");
         }
+        if !self.exact && condition == Condition::Placed {
+            out.note("solved exactly; the forces of this class between its ends come from its table (B_CAT EXACT)");
+        }
         Ok(out)
     }
 
+    fn configuration(&self, condition: Condition) -> Result<Configuration, ClassError> {
+        let state = self.state(condition)?;
+        let (ratio, critical) = self.ratio(&state);
+        Ok(Configuration {
+            distance: state.x,
+            horizontal: state.force,
+            vertical: state.top_vertical,
+            tension: state.top_tension,
+            ratio,
+            critical,
+            anchor: [state.anchor_horizontal, state.anchor_vertical],
+            on_bottom: state.grounded_stretched,
+            notes: self.remarks(&state),
+        })
+    }
+
     fn loads(&self) -> Result<LineLoads, ClassError> {
-        let (distance, along) = self.place.span();
+        let (distance, along) = self.placed()?;
         if self.exact {
             let state = match self.state(Condition::Placed) {
                 Ok(state) => state,
@@ -273,7 +301,7 @@ impl LineModel for Mooring {
     }
 
     fn first_length(&self, condition: Condition) -> Result<f64, ClassError> {
-        let (x, _) = self.place.span();
+        let (x, _) = self.placed()?;
         let z = self.fairlead();
         self.line.first_length(x, z, condition_value(condition)).map_err(|e| self.error(&e))
     }
@@ -308,12 +336,15 @@ impl Mooring {
         })
     }
 
-    fn shape_row(&self, state: &State, point: &ShapePoint, next: Option<&ShapePoint>, last: f64) -> Vec<Cell> {
-        let bottom = self.line.floor().map(|f| f.elevation + (last - point.x) * f.slope).or(self.bottom);
+    fn shape_row(&self, state: &State, point: &ShapePoint, next: Option<&ShapePoint>) -> Vec<Cell> {
+        let bottom = self.line.floor().map(|f| f.elevation + (state.x - point.x) * f.slope).or(self.bottom);
         let near = |x: f64, z: f64| (point.x - x).abs() + (point.z - z).abs() <= 1e-9 * (self.line.length() + x.abs());
         let touchdown = state.touchdown.is_some_and(|(x, z)| near(x, z));
         let joint = next.is_some_and(|n| n.segment > point.segment);
         let limit = self.breaks.get(point.segment.saturating_sub(1)).copied();
+        // less than what a solution is proven to is no force
+        let force = |f: f64| if f.abs() <= 1e-9 * state.top_tension { 0.0 } else { f };
+        let point = ShapePoint { horizontal: force(point.horizontal), vertical: force(point.vertical), ..*point };
         vec![
             point.x.into(),
             point.z.into(),
@@ -342,87 +373,4 @@ fn stiffness(along: [f64; 2], k: [[f64; 2]; 2], across: f64) -> [[f64; 3]; 3] {
         [plane(ux, uy, 0.0), plane(uy, uy, 1.0), xz * uy],
         [zx * ux, zx * uy, -zz],
     ]
-}
-
-/// The twelve columns of reference/solve.md, CONN_DESIGN.
-fn report(mooring: &Mooring, connector: &str, rows: &[Row]) -> Table {
-    let bottom = mooring.line.floor().map(|f| f.elevation).or(mooring.bottom);
-    let mut out = Table::new(format!("Properties of Line {connector}"))
-        .fact("Water Depth", bottom.map(|b| -b), Dim::Length)
-        .fact("Fairlead Above Mean Water", mooring.fairlead(), Dim::Length)
-        .fact("Length of First Segment", mooring.line.segments().first().map(|s| s.length), Dim::Length)
-        .column("", "X", Dim::Length, Digits::Usual)
-        .column("Horizontal", "Force", Dim::Force, Digits::Usual)
-        .column("Horizontal", "DF/DX", Dim::ForcePerLength, Digits::Decimals(3))
-        .column("Tension", "Ten Top", Dim::Force, Digits::Usual)
-        .column("Tension", "Max T/TB", Dim::None, Digits::Decimals(3))
-        .column("Tension", "Cri Break", Dim::Force, Digits::Usual)
-        .column("Tension", "Crit. Seg", Dim::None, Digits::Usual)
-        .column("Anchor", "V. Pull", Dim::Force, Digits::Usual)
-        .column("Anchor", "H. Pull", Dim::Force, Digits::Usual)
-        .column("", "Line on Bottom", Dim::Length, Digits::Usual)
-        .column("1st Connection", "Height Ab Anchor", Dim::Length, Digits::Usual)
-        .column("1st Connection", "Net Force Applied", Dim::Force, Digits::Usual);
-    for row in rows {
-        let s = &row.state;
-        let joint = s.joints.first();
-        let cells: Vec<Cell> = vec![
-            s.x.into(),
-            s.force.into(),
-            (1.0 / s.dx_dh).into(),
-            s.top_tension.into(),
-            row.ratio.into(),
-            row.critical_break.into(),
-            row.critical.into(),
-            s.anchor_vertical.into(),
-            s.anchor_horizontal.into(),
-            s.grounded_stretched.into(),
-            joint.map(|j| j.z - mooring.line.anchor()).into(),
-            joint.map(|j| j.lift).into(),
-        ];
-        // the row has one cell a column, made just above
-        let _ = out.push(cells);
-    }
-    if let Some(first) = rows.iter().position(|r| r.ratio > 1.0) {
-        out.note(format!("{} beyond the breaking tension (Max T/TB above 1)", rows_from(first, rows.len() - 1)));
-    }
-    let states: Vec<Option<Buoy>> = rows.iter().map(|r| r.state.joints.iter().find_map(|j| j.buoy)).collect();
-    out.notes.extend(buoy_notes(&states));
-    out.notes.extend(mooring.notes.clone());
-    if rows.iter().any(|r| !r.state.below_bottom.is_empty()) {
-        out.note("warning: a segment above the spring buoy hangs below the bottom in some rows (it does not see it)");
-    }
-    if let Some(first) = rows.iter().position(|r| !r.state.above_surface.is_empty()) {
-        let last = rows.iter().rposition(|r| !r.state.above_surface.is_empty()).unwrap_or(first);
-        let which = rows_from(first, last);
-        out.note(format!(
-            "warning: {which} with a buoyant part of the line above the water surface, which it does not see"
-        ));
-    }
-    out
-}
-
-/// `row 3 is` or `rows 3 to 5 are`, counted from 1.
-fn rows_from(first: usize, last: usize) -> String {
-    if first == last { format!("row {} is", first + 1) } else { format!("rows {} to {} are", first + 1, last + 1) }
-}
-
-fn buoy_word(buoy: Buoy) -> &'static str {
-    match buoy {
-        Buoy::Slack => "slack",
-        Buoy::Held => "held by its pendant",
-        Buoy::Sunk => "sunk",
-    }
-}
-
-/// In which rows a spring buoy floats, hangs slack, or is sunk.
-fn buoy_notes(states: &[Option<Buoy>]) -> Vec<String> {
-    let mut notes = Vec::new();
-    let mut from = 0;
-    while let Some(Some(state)) = states.get(from) {
-        let run = states.iter().skip(from).take_while(|s| **s == Some(*state)).count();
-        notes.push(format!("{} with the spring buoy {}", rows_from(from, from + run - 1), buoy_word(*state)));
-        from += run;
-    }
-    notes
 }

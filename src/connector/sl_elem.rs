@@ -88,6 +88,10 @@ impl ConnectorClass for Spring {
         surroundings.depth
     }
 
+    fn is_line(&self) -> bool {
+        true
+    }
+
     fn line(&self, place: &Placement, surroundings: &Surroundings) -> Result<Box<dyn LineModel>, ClassError> {
         refuse_convolution(self.convolution)?;
         let straight: Vec<LineSection> = self.sections.iter().map(|s| LineSection { clump: 0.0, ..*s }).collect();
