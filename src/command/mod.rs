@@ -4,6 +4,7 @@
 //! changes nothing; a command that edits in several steps says so with [`Command::edits`], and the session restores the
 //! model when it fails.
 
+mod chosen;
 mod class;
 mod conn_design;
 mod connector;
@@ -13,6 +14,7 @@ mod device;
 mod disposition;
 mod environment;
 mod file;
+mod forces;
 pub mod functions;
 pub mod help;
 mod job;
@@ -25,6 +27,7 @@ mod report_menu;
 mod select;
 mod status;
 mod units;
+mod vary;
 mod written;
 
 pub use file::write_open_files;
@@ -125,6 +128,8 @@ pub static COMMANDS: &[&Command] = &[
     &curves::CS_VELOCITY,
     &curves::AM_PRESSURE,
     &conn_design::TABLE,
+    &conn_design::GEOMETRY,
+    &conn_design::PROPERTIES,
     &lines::LINES,
     &disposition::REPORT,
     &disposition::VLIST,
