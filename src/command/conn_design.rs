@@ -49,7 +49,7 @@ static TABLE_SPEC: CommandSpec = CommandSpec {
     detail: "Thirty rows with horizontal forces T (n/29)**2 up to T, the table limit or the largest breaking tension of all \
              segments; the fairlead stays at its present height. Rows beyond the breaking tension are kept and said. With \
              -VARY the rows are those of one parameter in place of the force: LENGTH (of the first segment), FAIRLEAD \
-             (its elevation above the mean water; 1 ft higher is also 1 ft deeper where no spring buoy sees the surface), \
+             (its elevation above the mean water; without spring buoys, 1 ft higher acts as water deeper by 1 ft), \
              DISTANCE (horizontal, between the ends), HORIZONTAL (force at the fairlead) or TENSION (at the fairlead). LENGTH and \
              FAIRLEAD are varied between the ends as they are, or at the -HORIZONTAL force, the -TENSION or the -DISTANCE \
              given. A value without a configuration has a row without numbers, and a warning. Line on Bottom is stretched. \
