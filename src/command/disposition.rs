@@ -34,8 +34,10 @@ const VALUES: OptionSpec = OptionSpec::new(
     ],
     "rows whose column lies within bounds",
 );
-const HARD: OptionSpec = OptionSpec::new("-HARD", &[], "to the report file OUT00001.TXT");
-const BOTH: OptionSpec = OptionSpec::new("-BOTH", &[], "to the screen and the report file");
+/// -HARD.
+pub(super) const HARD: OptionSpec = OptionSpec::new("-HARD", &[], "to the report file OUT00001.TXT");
+/// -BOTH.
+pub(super) const BOTH: OptionSpec = OptionSpec::new("-BOTH", &[], "to the screen and the report file");
 const HEADING: OptionSpec = OptionSpec::new(
     "-HEADING",
     &[ValueSpec::new("TEXT", Kind::Text, "heading, in quotes when it holds blanks")],
@@ -206,7 +208,7 @@ fn chosen(job: &Job, args: &Args, from: usize) -> Outcome<Table> {
 }
 
 /// Sends text where -HARD and -BOTH say.
-fn send(job: &mut Job, args: &Args, text: &str) -> Outcome<()> {
+pub(super) fn send(job: &mut Job, args: &Args, text: &str) -> Outcome<()> {
     let hard = args.has("-HARD") || args.has("-BOTH");
     let heading = args.option_word("-HEADING").map(|h| format!("{h}\n\n")).unwrap_or_default();
     let text = format!("{heading}{text}");

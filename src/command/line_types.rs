@@ -4,6 +4,7 @@ use super::Job;
 use super::help::wrap;
 use super::status::push;
 use crate::connector::line_types::{Formula, LineType, library};
+use crate::language::args::Value;
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::number;
 use crate::language::select::matches;
@@ -11,13 +12,30 @@ use crate::language::source::Span;
 use crate::language::units::Dim;
 use crate::table::{Digits, Table};
 
-/// The tables for what follows LINE_TYPES: nothing, a nominal diameter in the user's section unit, or a name or pattern.
+/// The tables for what follows LINE_TYPES: nothing, nominal diameters in the user's section unit, names or patterns.
 ///
 /// # Errors
-/// A diameter that is not greater than zero, or that no formula has a value for.
-pub fn tables(job: &Job, word: Option<&str>, place: Span) -> Outcome<Vec<Table>> {
+/// A diameter that is not greater than zero, or that no formula has a value for; a name of no type.
+pub fn tables(job: &Job, data: &[Value]) -> Outcome<Vec<Table>> {
     let types = &library().types;
-    let Some(word) = word else { return Ok(vec![list(types)]) };
+    let mut tables = Vec::new();
+    for given in data.iter().skip(1) {
+        if let Some(word) = given.word() {
+            let found = named(job, types, word, given.span)?;
+            if found.is_empty() {
+                return Err(Diagnostic::error(format!("nothing among LINE_TYPES is called {word}"), given.span));
+            }
+            tables.extend(found);
+        }
+    }
+    if tables.is_empty() {
+        tables.push(list(types));
+    }
+    Ok(tables)
+}
+
+/// The tables of a diameter, a name or a pattern.
+fn named(job: &Job, types: &[LineType], word: &str, place: Span) -> Outcome<Vec<Table>> {
     if let Ok(value) = number::evaluate(word) {
         let diameter = Dim::Section.to_si(value, job.units);
         if diameter > 0.0 && types.iter().any(|t| t.has_values(diameter)) {

@@ -5,6 +5,7 @@
 //! model when it fails.
 
 mod alter;
+mod chosen;
 mod class;
 mod conn_design;
 mod connector;
@@ -14,6 +15,7 @@ mod device;
 mod disposition;
 mod environment;
 mod file;
+mod forces;
 pub mod functions;
 pub mod help;
 mod job;
@@ -26,6 +28,7 @@ mod report_menu;
 mod select;
 mod status;
 mod units;
+mod vary;
 mod written;
 
 pub use file::write_open_files;
@@ -127,6 +130,8 @@ pub static COMMANDS: &[&Command] = &[
     &curves::CS_VELOCITY,
     &curves::AM_PRESSURE,
     &conn_design::TABLE,
+    &conn_design::GEOMETRY,
+    &conn_design::PROPERTIES,
     &lines::LINES,
     &disposition::REPORT,
     &disposition::VLIST,

@@ -1,13 +1,16 @@
 //! `&STATUS`: what the model and the program hold.
 
+use super::chosen::{Chosen, raise};
+use super::disposition::{BOTH, HARD, send};
+use super::forces::forces;
 use super::offsets::offsets;
 use super::written::{as_written, kind_data, option_as_written};
 use super::{Call, Command, Effect, Job, line_types};
 use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::select::{Owner, choose, matches};
+use crate::language::select::{Owner, choose};
 use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
-use crate::model::{Coordinates, Current, Environment, Model, Sea};
+use crate::model::{Class, Coordinates, Current, Environment, Model, Sea};
 use crate::report::page;
 use crate::report::plot::Chart;
 use crate::table::{Cell, Digits, Table};
@@ -19,6 +22,7 @@ const KINDS: &[(&str, Owner, &str)] = &[
     ("CONFIGURATION", Owner::Moses, "where the bodies stand"),
     ("CL_FLEX", Owner::Moses, "flexible connector classes with W/L, AE, break"),
     ("G_CONNECTOR", Owner::Moses, "connector geometry"),
+    ("F_CONNECTOR", Owner::Moses, "forces of the connectors between their ends as they are"),
     ("CURVES", Owner::Moses, "curves"),
     ("ENVIRONMENT", Owner::Moses, "the environment in force"),
     ("CLASSES", Owner::Ours, "the same as CL_FLEX"),
@@ -40,7 +44,7 @@ static SPEC: CommandSpec = CommandSpec {
         ValueSpec::new(
             "WHAT",
             Kind::Text,
-            "CONFIGURATION, CL_FLEX, G_CONNECTOR, CURVES, ENVIRONMENT, BODIES, POINTS, LINE_TYPES, ..",
+            "CONFIGURATION, CL_FLEX, G_CONNECTOR, F_CONNECTOR, CURVES, ENVIRONMENT, BODIES, POINTS, LINE_TYPES, ..",
         )
         .or("a summary"),
         ValueSpec::new(
@@ -50,15 +54,17 @@ static SPEC: CommandSpec = CommandSpec {
         )
         .or("all"),
     ],
-    options: &[
-        OptionSpec::new("-PLOT", &[], "plots curves"),
-        OptionSpec::new("-HARD", &[], "to the report file"),
-        OptionSpec::new("-BOTH", &[], "to the screen and the report file"),
-    ],
-    detail: "CONFIGURATION, CL_FLEX (or CLASSES), G_CONNECTOR, CURVES, ENVIRONMENT, BODIES, POINTS, DIMENSIONS, DEFAULTS, \
+    repeat: 1,
+    options: &[OptionSpec::new("-PLOT", &[], "plots curves"), HARD, BOTH],
+    detail: "CONFIGURATION, CL_FLEX (or CLASSES), G_CONNECTOR, F_CONNECTOR, CURVES, ENVIRONMENT, BODIES, POINTS, DIMENSIONS, DEFAULTS, \
              SELECTORS; alone it counts what the model holds. LINE_TYPES lists the chains and ropes that -TYPE of a line \
-             class knows; LINE_TYPES 3 gives their values at a nominal diameter, LINE_TYPES CHAIN_R4 the formulas of one.",
-    example: "&STATUS\n&STATUS DEFAULTS\n&STATUS DIMENSIONS\n&STATUS LINE_TYPES 3",
+             class knows; LINE_TYPES 3 gives their values at a nominal diameter, LINE_TYPES CHAIN_R4 the formulas of one. \
+             F_CONNECTOR solves every line between its ends as they are, exactly or from its table as its class says: the \
+             force it exerts on its first end in the global system, its tension and the largest share of a segment's break, \
+             what its anchor bears (V. Pull upward, H. Pull toward the first end), and the unstretched length on the bottom. \
+             A line without a solution has a row without numbers and a warning that says why.",
+    example: "MEDIT\n*P 0 0 10\n~W B_CAT 4 EXACT -LEN 4000 -DEP 500\nCONNECTOR A -ANC 0 3900 ~W *P\nEND\n&STATUS F_CONNECTOR A\n\
+              &STATUS\n&STATUS DEFAULTS\n&STATUS DIMENSIONS\n&STATUS LINE_TYPES 3",
     ..CommandSpec::new("&STATUS", "reports what the model holds")
 };
 
@@ -69,12 +75,13 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         None => "SUMMARY",
     };
     let model = &job.model;
-    let pattern = args.word(1).map(str::to_string);
-    let fits = |name: &str| pattern.as_ref().is_none_or(|p| takes(model, p, name));
+    let chosen = Chosen::of(call, 1, model);
+    let fits = |name: &str| chosen.takes(name);
     let tables = match kind {
         "CONFIGURATION" => vec![configuration(model, &fits)],
-        "CL_FLEX" | "CLASSES" => classes(job, &fits),
+        "CL_FLEX" | "CLASSES" => classes(job, &|class| fits(&class.name)),
         "G_CONNECTOR" => std::iter::once(connectors(model, &fits)).chain(offsets(model, &fits)).collect(),
+        "F_CONNECTOR" => vec![forces(model, &fits)],
         "CURVES" => curves(model, &fits),
         "ENVIRONMENT" => vec![environment(job)],
         "BODIES" => vec![bodies(model, &fits)],
@@ -82,12 +89,10 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         "DIMENSIONS" => vec![dimensions(job)],
         "DEFAULTS" => vec![defaults(model)],
         "SELECTORS" => vec![selectors(model, &fits)],
-        "LINE_TYPES" => line_types::tables(job, pattern.as_deref(), args.place(1))?,
+        "LINE_TYPES" => line_types::tables(job, &args.data)?,
         _ => vec![summary(model)],
     };
-    if let (true, Some(name)) = (tables.iter().all(|t| t.rows() == 0 && t.facts.is_empty()), &pattern) {
-        return Err(Diagnostic::error(format!("nothing among {kind} is called {name}"), args.place(1)));
-    }
+    chosen.check(kind, &tables)?;
     let head = job.page_head();
     let mut text = tables.iter().map(|t| page::render(t, job.units, &head)).collect::<Vec<_>>().join("\n");
     if args.has("-PLOT") && kind == "CURVES" {
@@ -101,21 +106,9 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             );
         }
     }
-    let hard = args.has("-HARD") || args.has("-BOTH");
-    if hard {
-        job.output.hard(&text).map_err(|e| Diagnostic::error(e.to_string(), args.span))?;
-    }
-    if !hard || args.has("-BOTH") {
-        job.say(&text);
-    }
+    send(job, args, &text)?;
+    tables.iter().for_each(|t| raise(job, t, args.place(1)));
     Ok(Effect::Done)
-}
-
-fn takes(model: &Model, pattern: &str, name: &str) -> bool {
-    match model.selectors.get(&Model::key(pattern)) {
-        Some(selector) => selector.takes(name, model),
-        None => matches(pattern, name),
-    }
 }
 
 /// Appends a row; the callers give one cell a column.
@@ -184,13 +177,14 @@ fn points(model: &Model, fits: &dyn Fn(&str) -> bool) -> Table {
     table
 }
 
-fn classes(job: &Job, fits: &dyn Fn(&str) -> bool) -> Vec<Table> {
+/// The property tables of the classes that fit, with their records as they were given.
+pub(super) fn classes(job: &Job, fits: &dyn Fn(&Class) -> bool) -> Vec<Table> {
     let model = &job.model;
     let surroundings = model.surroundings();
     model
         .classes
         .values()
-        .filter(|c| fits(&c.name))
+        .filter(|c| fits(c))
         .map(|class| {
             let mut table = class.object.properties(&class.name, &surroundings);
             for (index, record) in class.records.iter().enumerate() {

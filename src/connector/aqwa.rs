@@ -247,6 +247,10 @@ impl ConnectorClass for CatenaryClass {
         self.depth.or(surroundings.depth)
     }
 
+    fn is_line(&self) -> bool {
+        true
+    }
+
     fn line(&self, place: &Placement, surroundings: &Surroundings) -> Result<Box<dyn LineModel>, ClassError> {
         let [_, _, far] = place.other.ok_or_else(|| {
             ClassError::new("the other end of the line has no place")

@@ -203,6 +203,10 @@ impl ConnectorClass for Catenary {
         self.convolution.as_ref().map(|(name, span)| (name.as_str(), *span))
     }
 
+    fn is_line(&self) -> bool {
+        true
+    }
+
     fn line(&self, place: &Placement, surroundings: &Surroundings) -> Result<Box<dyn LineModel>, ClassError> {
         Ok(Box::new(self.made(place, surroundings)?))
     }

@@ -2,7 +2,7 @@
 
 use super::catenary::{Law, Point, rising_root};
 use super::mooring::Mooring;
-use crate::model::{ClassError, Condition, LineLoads, LineModel};
+use crate::model::{ClassError, Condition, Configuration, LineLoads, LineModel};
 use crate::table::Table;
 
 /// A weightless line between two places.
@@ -46,6 +46,23 @@ impl Chord {
         let (force, _) = rising_root(start, elongation.abs(), at);
         (force.copysign(elongation), 1.0 / law.stretch(force).1)
     }
+
+    /// Largest tension over own break at a force (N), and the segment that has it, from 1.
+    fn ratio(&self, force: f64) -> (f64, usize) {
+        let ratios = self.line.breaks.iter().map(|b| force.max(0.0) / b);
+        ratios.enumerate().fold((0.0, 1), |best, (i, r)| if r > best.0 { (r, i + 1) } else { best })
+    }
+
+    fn remarks(&self, force: f64, chord: f64, ratio: f64) -> Vec<String> {
+        let mut notes = self.line.notes.clone();
+        if ratio > 1.0 {
+            notes.push("warning: the line is beyond its breaking tension".into());
+        }
+        if force == 0.0 && chord < self.line.line.length() {
+            notes.push("the line is slack".into());
+        }
+        notes
+    }
 }
 
 impl LineModel for Chord {
@@ -54,7 +71,36 @@ impl LineModel for Chord {
     }
 
     fn geometry(&self, connector: &str, condition: Condition) -> Result<Table, ClassError> {
+        if self.configuration(condition)?.tension < 0.0 {
+            return Err(ClassError::new("the spring is pushed together: it is straight between its ends"));
+        }
         self.line.geometry(connector, condition)
+    }
+
+    fn configuration(&self, condition: Condition) -> Result<Configuration, ClassError> {
+        let distance = match condition {
+            Condition::Placed => self.line.place.span().0,
+            Condition::Distance(x) => x,
+            Condition::Horizontal(_) | Condition::Tension(_) => return self.line.configuration(condition),
+        };
+        let [_, _, fairlead] = self.line.place.fairlead;
+        let drop = fairlead - self.line.line.anchor();
+        let chord = distance.hypot(drop);
+        let (force, _) = self.force(chord - self.line.line.length());
+        let (horizontal, vertical) =
+            if chord > 0.0 { (force * distance / chord, force * drop / chord) } else { (0.0, force) };
+        let (ratio, critical) = self.ratio(force);
+        Ok(Configuration {
+            distance,
+            horizontal,
+            vertical,
+            tension: force,
+            ratio,
+            critical,
+            anchor: [horizontal, vertical],
+            on_bottom: 0.0,
+            notes: self.remarks(force, chord, ratio),
+        })
     }
 
     fn loads(&self) -> Result<LineLoads, ClassError> {
@@ -71,16 +117,7 @@ impl LineModel for Chord {
             }
             row
         };
-        let ratios = self.line.breaks.iter().map(|b| force.max(0.0) / b);
-        let (critical, ratio) =
-            ratios.enumerate().fold((1, 0.0), |best, (i, r)| if r > best.1 { (i + 1, r) } else { best });
-        let mut notes = self.line.notes.clone();
-        if ratio > 1.0 {
-            notes.push("warning: the line is beyond its breaking tension".into());
-        }
-        if force == 0.0 && chord < self.line.line.length() {
-            notes.push("the line is slack".into());
-        }
+        let (ratio, critical) = self.ratio(force);
         Ok(LineLoads {
             fairlead: unit.map(|u| force * u),
             other: unit.map(|u| -force * u),
@@ -91,7 +128,7 @@ impl LineModel for Chord {
             critical,
             grounded: 0.0,
             solution: "exact",
-            notes,
+            notes: self.remarks(force, chord, ratio),
         })
     }
 

@@ -133,6 +133,10 @@ impl ConnectorClass for Hanging {
         self.convolution.as_ref().map(|(name, span)| (name.as_str(), *span))
     }
 
+    fn is_line(&self) -> bool {
+        true
+    }
+
     fn line(&self, place: &Placement, surroundings: &Surroundings) -> Result<Box<dyn LineModel>, ClassError> {
         let springs = with_series(&self.springs, self.convolution.as_ref(), place)?;
         let weight = |s: &LineSection| if self.exact { s.in_air() } else { 0.0 };

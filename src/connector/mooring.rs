@@ -5,12 +5,12 @@ use super::catenary::{
 };
 use super::checks;
 use super::first_length::for_tension;
-use super::line_report::{buoy_word, report};
+use super::mooring_table::{buoy_word, report};
 use super::section::LineSection;
 use crate::language::diagnostic::Outcome;
 use crate::language::source::Span;
 use crate::language::units::Dim;
-use crate::model::{ClassError, ClassRecord, Condition, LineLoads, LineModel, Placement};
+use crate::model::{ClassError, ClassRecord, Condition, Configuration, LineLoads, LineModel, Placement};
 use crate::table::{Cell, Digits, Table};
 
 /// Points inside each segment in a shape table.
@@ -40,7 +40,7 @@ pub struct Mooring {
 }
 
 impl Mooring {
-    /// Elevation of the first end (m).
+    /// Elevation of its fairlead (m).
     pub fn fairlead(&self) -> f64 {
         let [_, _, z] = self.place.fairlead;
         z
@@ -50,11 +50,20 @@ impl Mooring {
         line_error(error, &self.places)
     }
 
+    /// Horizontal distance of the ends as they are (m), and the direction from the first to the other.
+    fn placed(&self) -> Result<(f64, [f64; 2]), ClassError> {
+        if self.place.other.is_none() {
+            return Err(
+                ClassError::new("the other end of the line has no place").help("give the connector its -ANCHOR")
+            );
+        }
+        Ok(self.place.span())
+    }
+
     fn state(&self, condition: Condition) -> Result<State, ClassError> {
-        let (placed, _) = self.place.span();
         let z = self.fairlead();
         let found = match condition {
-            Condition::Placed => self.line.at_distance(placed, z),
+            Condition::Placed => self.line.at_distance(self.placed()?.0, z),
             Condition::Distance(x) => self.line.at_distance(x, z),
             Condition::Horizontal(force) => self.line.at_horizontal_force(force, z),
             Condition::Tension(tension) => self.line.at_tension(tension, z),
@@ -234,10 +243,9 @@ impl LineModel for Mooring {
             .column("", "Touchdown", Dim::Length, Digits::Usual)
             .column("", "Joint", Dim::Length, Digits::Usual);
         let shape = self.line.shape(&state, SHAPE_POINTS);
-        let last = shape.last().map_or(0.0, |p| p.x);
         for (index, point) in shape.iter().enumerate() {
             // the row has one cell a column, made just above
-            let _ = out.push(self.shape_row(&state, point, shape.get(index + 1), last));
+            let _ = out.push(self.shape_row(&state, point, shape.get(index + 1)));
         }
         out.notes = self.remarks(&state);
         out.notes.extend(state.joints.iter().enumerate().filter_map(|(i, j)| {
@@ -246,11 +254,30 @@ impl LineModel for Mooring {
         if state.slack {
             out.note("the line needs no horizontal force to reach so far");
         }
+        if !self.exact && condition == Condition::Placed {
+            out.note("solved exactly; the forces of this class between its ends come from its table (B_CAT EXACT)");
+        }
         Ok(out)
     }
 
+    fn configuration(&self, condition: Condition) -> Result<Configuration, ClassError> {
+        let state = self.state(condition)?;
+        let (ratio, critical) = self.ratio(&state);
+        Ok(Configuration {
+            distance: state.x,
+            horizontal: state.force,
+            vertical: state.top_vertical,
+            tension: state.top_tension,
+            ratio,
+            critical,
+            anchor: [state.anchor_horizontal, state.anchor_vertical],
+            on_bottom: state.grounded_stretched,
+            notes: self.remarks(&state),
+        })
+    }
+
     fn loads(&self) -> Result<LineLoads, ClassError> {
-        let (distance, along) = self.place.span();
+        let (distance, along) = self.placed()?;
         if self.exact {
             let state = match self.state(Condition::Placed) {
                 Ok(state) => state,
@@ -306,7 +333,7 @@ impl LineModel for Mooring {
     }
 
     fn first_length(&self, condition: Condition) -> Result<f64, ClassError> {
-        let (x, _) = self.place.span();
+        let (x, _) = self.placed()?;
         let z = self.fairlead();
         let aim = match condition {
             Condition::Tension(tension) => {
@@ -339,12 +366,15 @@ impl Mooring {
         })
     }
 
-    fn shape_row(&self, state: &State, point: &ShapePoint, next: Option<&ShapePoint>, last: f64) -> Vec<Cell> {
-        let bottom = self.line.floor().map(|f| f.elevation + (last - point.x) * f.slope).or(self.bottom);
+    fn shape_row(&self, state: &State, point: &ShapePoint, next: Option<&ShapePoint>) -> Vec<Cell> {
+        let bottom = self.line.floor().map(|f| f.elevation + (state.x - point.x) * f.slope).or(self.bottom);
         let near = |x: f64, z: f64| (point.x - x).abs() + (point.z - z).abs() <= 1e-9 * (self.line.length() + x.abs());
         let touchdown = state.touchdown.is_some_and(|(x, z)| near(x, z));
         let joint = next.is_some_and(|n| n.segment > point.segment);
         let limit = self.breaks.get(point.segment.saturating_sub(1)).copied();
+        // less than what a solution is proven to is no force
+        let force = |f: f64| if f.abs() <= 1e-9 * state.top_tension { 0.0 } else { f };
+        let point = ShapePoint { horizontal: force(point.horizontal), vertical: force(point.vertical), ..*point };
         vec![
             point.x.into(),
             point.z.into(),

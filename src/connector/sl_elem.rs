@@ -92,6 +92,10 @@ impl ConnectorClass for Spring {
         self.convolution.as_ref().map(|(name, span)| (name.as_str(), *span))
     }
 
+    fn is_line(&self) -> bool {
+        true
+    }
+
     fn line(&self, place: &Placement, surroundings: &Surroundings) -> Result<Box<dyn LineModel>, ClassError> {
         let springs = with_series(&self.springs, self.convolution.as_ref(), place)?;
         let straight: Vec<LineSection> = self.sections.iter().map(|s| LineSection { clump: 0.0, ..*s }).collect();

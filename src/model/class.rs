@@ -105,6 +105,11 @@ pub trait ConnectorClass: Debug + Send + Sync {
         None
     }
 
+    /// Whether [`ConnectorClass::line`] makes lines.
+    fn is_line(&self) -> bool {
+        false
+    }
+
     /// The line a connector of this class makes between two places.
     ///
     /// # Errors

@@ -67,6 +67,39 @@ pub struct LineLoads {
     pub notes: Vec<String>,
 }
 
+/// A line in one configuration, in its own vertical plane.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Configuration {
+    /// Horizontal distance between the ends (m).
+    pub distance: f64,
+    /// Horizontal force of the line on its first end, toward the other (N).
+    pub horizontal: f64,
+    /// Vertical force of the line on its first end (N, downward).
+    pub vertical: f64,
+    /// Tension at the fairlead (N); negative of a spring that pushes.
+    pub tension: f64,
+    /// Largest tension over own break.
+    pub ratio: f64,
+    /// The segment that has it, from 1.
+    pub critical: usize,
+    /// Horizontal pull on the anchor toward the fairlead, and vertical one upward (N).
+    pub anchor: [f64; 2],
+    /// Stretched length on the bottom (m).
+    pub on_bottom: f64,
+    /// What a user should know of it; `warning: ` before what is dangerous.
+    pub notes: Vec<String>,
+}
+
+impl LineLoads {
+    /// Horizontal pull on the other end toward the first, and vertical one upward (N); `along` is the direction from
+    /// the first end to the other.
+    pub fn anchor(&self, along: [f64; 2]) -> [f64; 2] {
+        let [x, y, z] = self.other;
+        // no pull is zero without a sign
+        [0.0 - x * along[0] - y * along[1], z]
+    }
+}
+
 /// A mooring line between two places.
 pub trait LineModel {
     /// The thirty-row table of `CONN_DESIGN TABLE`.
@@ -80,6 +113,12 @@ pub trait LineModel {
     /// # Errors
     /// A condition that no configuration meets.
     fn geometry(&self, connector: &str, condition: Condition) -> Result<Table, ClassError>;
+
+    /// The line in one configuration, solved exactly whatever its forces between its ends come from.
+    ///
+    /// # Errors
+    /// A condition that no configuration meets.
+    fn configuration(&self, condition: Condition) -> Result<Configuration, ClassError>;
 
     /// What the line does between its ends as they are.
     ///

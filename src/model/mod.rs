@@ -20,7 +20,7 @@ pub use curve::{Curve, CurveKind};
 pub use defaults::{Coordinates, Defaults, Material};
 pub use environment::{Current, Environment, Sea, Surroundings, TimeWindow, Wind};
 pub use geometry::{Place, Position, unit_vector};
-pub use line::{Condition, LineLoads, LineModel, Placement};
+pub use line::{Condition, Configuration, LineLoads, LineModel, Placement};
 pub use selector::Selector;
 
 use crate::language::diagnostic::{Diagnostic, Outcome, did_you_mean};

@@ -20,8 +20,10 @@ const COLOURS: [RGBColor; 7] = [
     RGBColor(86, 180, 233),
     RGBColor(0, 0, 0),
 ];
-/// Up to this many points a curve shows its points too.
+/// Up to this many points a curve shows its points too, where no other column is of marks alone.
 const FEW: usize = 60;
+/// Radius of a point of a curve, and of a mark that stands alone (pixels).
+const RADII: (i32, i32) = (3, 6);
 /// Height of a line of the legend and length of the stroke in it (pixels).
 const LEGEND: (i32, i32) = (20, 26);
 
@@ -81,8 +83,11 @@ pub fn draw<B: DrawingBackend>(chart: &Chart, area: &DrawingArea<B, Shift>, look
         mesh.light_line_style(RGBColor(240, 240, 240)).bold_line_style(RGBColor(215, 215, 215));
     }
     mesh.draw().map_err(refused)?;
-    for (index, series) in chart.series.iter().enumerate() {
-        curve(&mut plane, index, series, look)?;
+    // marks that stand alone are drawn last, so that no line hides them
+    for marks in [false, true] {
+        for (index, series) in chart.series.iter().enumerate().filter(|(_, s)| s.is_marks() == marks) {
+            curve(&mut plane, index, series, (look, shows_points(chart, series)))?;
+        }
     }
     if chart.series.len() > 1 && !look.terminal {
         legend(chart, &plane, (&x, &y))?;
@@ -94,19 +99,30 @@ fn colour(index: usize) -> RGBColor {
     COLOURS.get(index % COLOURS.len()).copied().unwrap_or(BLACK)
 }
 
-/// One line of the chart, broken where points are missing; its points too when they are few.
+/// Whether a curve shows its points: they are few, and would not be taken for the marks of another column.
+fn shows_points(chart: &Chart, series: &Series) -> bool {
+    series.finite().count() <= FEW && !chart.series.iter().any(|s| s.is_marks() && s.finite().next().is_some())
+}
+
+/// One line of the chart, broken where points are missing; its points too when they are to be shown, and always one that
+/// stands alone.
 fn curve<B: DrawingBackend>(
     plane: &mut Plane<'_, B>,
     index: usize,
     series: &Series,
-    look: &Look,
+    (look, points_too): (&Look, bool),
 ) -> Result<(), PlotError> {
-    let few = series.finite().count() <= FEW;
-    let (colour, stroke) = if look.terminal { (terminal::colour(index), 1) } else { (colour(index), 2) };
+    let marks = series.is_marks();
+    let (colour, stroke) = if look.terminal { (terminal::colour(index, marks), 1) } else { (colour(index), 2) };
+    let radius = match (look.terminal, marks) {
+        (true, _) => 0,
+        (false, true) => RADII.1,
+        (false, false) => RADII.0,
+    };
     for points in series.runs() {
         plane.draw_series(LineSeries::new(points.clone(), colour.stroke_width(stroke))).map_err(refused)?;
-        if few && !look.terminal {
-            plane.draw_series(points.iter().map(|p| Circle::new(*p, 3, colour.filled()))).map_err(refused)?;
+        if points.len() == 1 || (points_too && !look.terminal) {
+            plane.draw_series(points.iter().map(|p| Circle::new(*p, radius, colour.filled()))).map_err(refused)?;
         }
     }
     Ok(())
@@ -139,9 +155,13 @@ fn legend<B: DrawingBackend>(chart: &Chart, plane: &Plane<'_, B>, axes: (&Axis, 
     for (index, series) in chart.series.iter().enumerate() {
         let y = top + 5 + LEGEND.0 * i32::try_from(index).unwrap_or(0) + LEGEND.0 / 2;
         let stroke = vec![(left + 10, y), (left + 10 + LEGEND.1, y)];
-        area.draw(&PathElement::new(stroke, colour(index).stroke_width(2))).map_err(refused)?;
-        if series.finite().count() <= FEW {
-            area.draw(&Circle::new((left + 10 + LEGEND.1 / 2, y), 3, colour(index).filled())).map_err(refused)?;
+        let marks = series.is_marks();
+        if !marks {
+            area.draw(&PathElement::new(stroke, colour(index).stroke_width(2))).map_err(refused)?;
+        }
+        if marks || shows_points(chart, series) {
+            let radius = if marks { RADII.1 } else { RADII.0 };
+            area.draw(&Circle::new((left + 10 + LEGEND.1 / 2, y), radius, colour(index).filled())).map_err(refused)?;
         }
         let at = (left + 20 + LEGEND.1, y - 8);
         area.draw(&Text::new(series.name.as_str(), at, ("sans-serif", 15))).map_err(refused)?;

@@ -17,7 +17,7 @@ use std::rc::Rc;
 /// Size of a plot in a file (pixels).
 const SIZE: (u32, u32) = (900, 600);
 
-/// A line of a chart; points without a finite value break it.
+/// A line of a chart; points without a finite value break it, and where no two neighbours have one there are marks alone.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
     /// Name in the legend.
@@ -60,6 +60,11 @@ impl Series {
     /// The points that can be drawn.
     fn finite(&self) -> impl Iterator<Item = (f64, f64)> {
         self.points.iter().filter_map(|p| finite(*p))
+    }
+
+    /// Whether no two neighbouring points are there: marks, and no line between them.
+    fn is_marks(&self) -> bool {
+        self.runs().all(|run| run.len() == 1)
     }
 
     /// The unbroken pieces of the line.
@@ -237,6 +242,45 @@ mod tests {
         assert_eq!(count(&broken, "stroke=\"#0072B2\""), count(&whole, "stroke=\"#0072B2\"") + 1);
         whole.series[0].points = (0..100).map(|n| Some((f64::from(n), 0.0))).collect();
         assert_eq!(count(&whole, "<circle"), 0);
+    }
+
+    #[test]
+    fn a_column_of_single_points_is_marks_that_no_line_hides_and_no_line_joins() {
+        let line = Series { name: "Z".into(), points: (0..9).map(|n| Some((f64::from(n), 1.0))).collect() };
+        let at = |rows: &[usize]| {
+            let point = |n: usize| rows.contains(&n).then_some((n as f64, 1.0));
+            Series { name: "Joint".into(), points: (0..9).map(point).collect() }
+        };
+        let chart = |series| Chart { title: String::new(), x_label: String::new(), y_label: String::new(), series };
+        // a gap, then a point by itself within a line, then marks that stand before the line among the columns
+        let mut broken = line.clone();
+        broken.points[4] = None;
+        broken.points[6] = None;
+        for (series, large, small) in [
+            (vec![line.clone(), at(&[2, 5])], 3, 0),
+            (vec![at(&[2, 5]), line.clone()], 3, 0),
+            (vec![broken.clone(), at(&[2])], 2, 1),
+            (vec![line.clone(), broken], 0, 18),
+        ] {
+            let marks: Vec<(usize, usize)> = series
+                .iter()
+                .enumerate()
+                .filter(|(_, s)| s.name == "Joint")
+                .map(|(i, s)| (i, s.finite().count()))
+                .collect();
+            let drawn = chart(series);
+            let svg = String::from_utf8(drawn.svg().unwrap()).unwrap();
+            let circles = |radius: &str| svg.matches(&format!("r=\"{radius}\"")).count();
+            assert_eq!((circles("6"), circles("3")), (large, small), "{svg}");
+            let screen = drawn.terminal(60, 16).unwrap();
+            let plot: String = screen.lines().take(14).collect();
+            for (index, count) in marks {
+                assert_eq!(plot.matches(terminal::mark(index)).count(), count, "{screen}");
+            }
+            let whole =
+                Chart { series: drawn.series.iter().filter(|s| s.name != "Joint").cloned().collect(), ..drawn.clone() };
+            assert_eq!(drawn.png().unwrap() != whole.png().unwrap(), large > 0);
+        }
     }
 
     #[test]

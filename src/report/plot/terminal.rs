@@ -25,9 +25,10 @@ pub fn mark(index: usize) -> char {
     MARKS.get(index % MARKS.len()).copied().unwrap_or('*')
 }
 
-/// The colour that stands for a line on this surface; it tells [`Canvas`] which mark to use.
-pub fn colour(index: usize) -> RGBColor {
-    RGBColor(1, 1, u8::try_from(index % MARKS.len()).unwrap_or(0))
+/// The colour that stands for a line on this surface; it tells [`Canvas`] which mark to use, and with `alone` to use one
+/// for the first line too.
+pub fn colour(index: usize, alone: bool) -> RGBColor {
+    RGBColor(1, if alone { 2 } else { 1 }, u8::try_from(index % MARKS.len()).unwrap_or(0))
 }
 
 impl Canvas {
@@ -91,15 +92,16 @@ impl DrawingBackend for Canvas {
         let white = colour.rgb == (255, 255, 255);
         if let Some(cell) = self.cell(at.0, at.1).filter(|_| !white && colour.alpha > 0.0) {
             let line = match colour.rgb {
-                (1, 1, index) => usize::from(index),
-                _ => 0,
+                (1, 2, index) => Some(usize::from(index)),
+                (1, 1, index) if index > 0 => Some(usize::from(index)),
+                _ => None,
             };
-            if line == 0 {
-                if let Some(dots) = self.dots.get_mut(cell) {
-                    *dots |= bit(at.0, at.1);
+            if let Some(line) = line {
+                if let Some(slot) = self.marks.get_mut(cell) {
+                    *slot = Some(mark(line));
                 }
-            } else if let Some(slot) = self.marks.get_mut(cell) {
-                *slot = Some(mark(line));
+            } else if let Some(dots) = self.dots.get_mut(cell) {
+                *dots |= bit(at.0, at.1);
             }
         }
         Ok(())

@@ -1,4 +1,4 @@
-//! The table of a mooring line as it is printed.
+//! The thirty rows of a mooring line as the table of `CONN_DESIGN TABLE`.
 
 use super::catenary::{Buoy, Row};
 use super::mooring::Mooring;
@@ -68,7 +68,7 @@ fn rows_from(first: usize, last: usize) -> String {
     if first == last { format!("row {} is", first + 1) } else { format!("rows {} to {} are", first + 1, last + 1) }
 }
 
-/// How a spring buoy stands, in words.
+/// How a buoy stands, in a word.
 pub fn buoy_word(buoy: Buoy) -> &'static str {
     match buoy {
         Buoy::Slack => "slack",

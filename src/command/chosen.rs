@@ -1,0 +1,101 @@
+//! The names a record gives to choose among what the model holds.
+
+use super::{Call, Job};
+use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::select::matches;
+use crate::language::source::Span;
+use crate::model::Model;
+use crate::table::Table;
+use std::cell::Cell;
+
+/// Names, patterns and selectors; none given chooses all. It remembers which of them chose something.
+pub struct Chosen<'a> {
+    model: &'a Model,
+    given: Vec<(&'a str, Span, Cell<bool>)>,
+    asked: Cell<bool>,
+}
+
+impl<'a> Chosen<'a> {
+    /// The words of a record from a position on.
+    pub fn of(call: &'a Call, from: usize, model: &'a Model) -> Self {
+        let values = call.args.data.get(from..).unwrap_or_default().iter();
+        let given = values.filter_map(|v| Some((v.word()?, v.span, Cell::new(false)))).collect();
+        Chosen { model, given, asked: Cell::new(false) }
+    }
+
+    /// Whether no name is given.
+    pub fn all(&self) -> bool {
+        self.given.is_empty()
+    }
+
+    /// Whether a name is chosen.
+    pub fn takes(&self, name: &str) -> bool {
+        self.asked.set(true);
+        self.given.iter().fold(self.given.is_empty(), |taken, (pattern, _, used)| {
+            let fits = match self.model.selectors.get(&Model::key(pattern)) {
+                Some(selector) => selector.takes(name, self.model),
+                None => matches(pattern, name),
+            };
+            used.set(used.get() || fits);
+            taken || fits
+        })
+    }
+
+    /// Refuses a name that chose nothing for these tables.
+    ///
+    /// # Errors
+    /// The first such name, at its place.
+    pub fn check(&self, what: &str, tables: &[Table]) -> Outcome<()> {
+        let empty = tables.iter().all(|t| t.rows() == 0 && t.facts.is_empty());
+        let unused = self.given.iter().find(|(_, _, used)| empty || (self.asked.get() && !used.get()));
+        unused.map_or(Ok(()), |(name, span, _)| {
+            Err(Diagnostic::error(format!("nothing among {what} is called {name}"), *span))
+        })
+    }
+}
+
+/// The remarks of several things, each text once, with the names of all it holds for; `warning: ` stays in front.
+pub fn gathered(list: &[(String, Vec<String>)]) -> Vec<String> {
+    /// Names written out; of more the number is told.
+    const MOST: usize = 8;
+    let mut texts: Vec<(&str, Vec<&str>)> = Vec::new();
+    for (name, notes) in list {
+        for note in notes {
+            match texts.iter_mut().find(|(text, _)| text == note) {
+                Some((_, names)) => names.push(name),
+                None => texts.push((note, vec![name])),
+            }
+        }
+    }
+    let line = |(text, names): (&str, Vec<&str>)| {
+        let (mark, text) = text.strip_prefix(WARNING).map_or(("", text), |rest| (WARNING, rest));
+        let more = names.len().saturating_sub(MOST);
+        let names = names.into_iter().take(MOST).collect::<Vec<_>>().join(", ");
+        let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+        format!("{mark}{names}{more}: {text}")
+    };
+    texts.into_iter().map(line).collect()
+}
+
+/// What stands before a note that warns.
+pub const WARNING: &str = "warning: ";
+
+/// Raises the warnings among the notes of a table at once: they concern all of it, whatever is then printed of it.
+pub fn raise(job: &mut Job, table: &Table, span: Span) {
+    let warnings = table.notes.iter().filter_map(|n| n.strip_prefix(WARNING));
+    warnings.for_each(|text| job.warn(text, span));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::gathered;
+
+    #[test]
+    fn a_remark_of_several_things_is_told_once_with_all_their_names() {
+        let both = || vec!["warning: it breaks".to_string(), "it is slack".into()];
+        let list = [("A".to_string(), both()), ("B".into(), vec!["warning: it breaks".into()])];
+        assert_eq!(gathered(&list), ["warning: A, B: it breaks", "A: it is slack"]);
+        let many: Vec<_> = (1..=10).map(|n| (n.to_string(), both())).collect();
+        assert_eq!(gathered(&many)[1], "1, 2, 3, 4, 5, 6, 7, 8 and 2 more: it is slack");
+    }
+}

@@ -1,0 +1,210 @@
+//! `TABLE LINE -VARY`: what a line does for each of several values of one parameter.
+
+use super::Job;
+use super::chosen::gathered;
+use super::status::push;
+use crate::language::args::{Args, Given};
+use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::select::Owner;
+use crate::language::source::Span;
+use crate::language::spec::{Kind, OptionSpec, ValueSpec};
+use crate::language::units::Dim;
+use crate::model::{Class, ClassError, Condition, Configuration, Connector, Placement};
+use crate::report::format::number_in_full;
+use crate::table::{Cell, Digits, Table};
+
+/// -VARY.
+pub const VARY: OptionSpec = OptionSpec::new(
+    "-VARY",
+    &[
+        ValueSpec::new(
+            "NAME",
+            Kind::Choice(&["LENGTH", "FAIRLEAD", "DISTANCE", "HORIZONTAL", "TENSION"]),
+            "what is varied",
+        ),
+        ValueSpec::new("V", Kind::Number(Dim::None), "value (length or force, user units)"),
+    ],
+    "one row a value of this parameter",
+)
+.repeating(1)
+.owner(Owner::Ours);
+
+/// What can be varied.
+#[derive(Clone, Copy, PartialEq)]
+enum Parameter {
+    Length,
+    Fairlead,
+    Distance,
+    Horizontal,
+    Tension,
+}
+
+impl Parameter {
+    fn of(word: &str) -> Parameter {
+        match word {
+            "LENGTH" => Parameter::Length,
+            "FAIRLEAD" => Parameter::Fairlead,
+            "DISTANCE" => Parameter::Distance,
+            "HORIZONTAL" => Parameter::Horizontal,
+            _ => Parameter::Tension,
+        }
+    }
+
+    /// Name in heads.
+    fn name(self) -> &'static str {
+        match self {
+            Parameter::Length => "Length",
+            Parameter::Fairlead => "Fairlead",
+            Parameter::Distance => "Distance",
+            Parameter::Horizontal => "Horizontal",
+            Parameter::Tension => "Tension",
+        }
+    }
+
+    fn dim(self) -> Dim {
+        match self {
+            Parameter::Length | Parameter::Fairlead | Parameter::Distance => Dim::Length,
+            Parameter::Horizontal | Parameter::Tension => Dim::Force,
+        }
+    }
+
+    /// What its values must be where a value is not.
+    fn lacks(self, value: f64) -> Option<&'static str> {
+        match self {
+            Parameter::Fairlead => None,
+            Parameter::Distance => (value < 0.0).then_some("zero or more"),
+            _ => (value <= 0.0).then_some("greater than zero"),
+        }
+    }
+}
+
+/// A warning about a value, at its place.
+type Missing = Vec<(String, Span)>;
+
+/// The table of a connector for the values of -VARY, and a warning for each of them that has no configuration.
+///
+/// # Errors
+/// A value out of range, a condition beside a parameter that is one itself, no configuration for any of the values.
+pub fn tabulate(
+    job: &Job,
+    (connector, class): (&Connector, &Class),
+    vary: &Given,
+    held: Condition,
+    args: &Args,
+) -> Outcome<(Table, Missing)> {
+    let parameter = Parameter::of(vary.word(0).unwrap_or_default());
+    let (unit, around) = (parameter.dim().label(job.units), job.model.surroundings());
+    let place = job.model.placement(connector);
+    if !matches!(parameter, Parameter::Length | Parameter::Fairlead)
+        && let Some(other) = args.options.iter().find(|g| !std::ptr::eq(g.spec, vary.spec))
+    {
+        let text = format!("{} cannot hold while the {} is varied", other.spec.name, parameter.name().to_lowercase());
+        return Err(Diagnostic::error(text, other.span).other(vary.span, "varied here"));
+    }
+    let mut table = empty(parameter, class, connector, &place, held);
+    let (mut notes, mut missing, mut first): (Vec<_>, Missing, _) = (Vec::new(), Vec::new(), None);
+    for (given, span) in vary.values.iter().filter_map(|v| Some((v.number()?, v.span))) {
+        let value = value(parameter, given, span, job)?;
+        let named = format!("{} {} {unit}", parameter.name(), number_in_full(given));
+        let (place, condition) = at(parameter, value, place, held);
+        let found = class.object.line(&place, &around).and_then(|line| line.configuration(condition));
+        let mut row = vec![Cell::Number(value)];
+        match found {
+            Ok(found) => {
+                row.extend(numbers(&found));
+                notes.push((named, found.notes));
+            }
+            Err(error) => {
+                row.extend([const { Cell::Missing }; 9]);
+                missing.push((format!("{named}: {error}"), span));
+                first = first.or(Some((error, span)));
+            }
+        }
+        push(&mut table, row);
+    }
+    if let (true, Some((error, span))) = (notes.is_empty(), first) {
+        return Err(without(error, span, connector));
+    }
+    table.notes = gathered(&notes);
+    table.notes.extend(missing.iter().map(|(text, _)| text.clone()));
+    Ok((table, missing))
+}
+
+/// The error when none of the values has a configuration.
+fn without(error: ClassError, span: Span, connector: &Connector) -> Box<Diagnostic> {
+    error.diagnostic(span).help(format!("connector {} has a configuration for none of the values", connector.name))
+}
+
+/// A value (user units) in SI.
+fn value(parameter: Parameter, given: f64, span: Span, job: &Job) -> Outcome<f64> {
+    let name = parameter.name().to_uppercase();
+    let si = parameter.dim().to_si(given, job.units);
+    if !si.is_finite() {
+        return Err(Diagnostic::error(format!("a value of -VARY {name} is too large"), span));
+    }
+    match parameter.lacks(given) {
+        Some(want) => Err(Diagnostic::error(format!("a value of -VARY {name} must be {want}"), span)
+            .label(format!("this is {given}"))),
+        None => Ok(si),
+    }
+}
+
+/// Where the ends are, and the configuration, with a value of the parameter.
+fn at(parameter: Parameter, value: f64, place: Placement, held: Condition) -> (Placement, Condition) {
+    let [x, y, _] = place.fairlead;
+    match parameter {
+        Parameter::Length => (Placement { first_length: Some(value), ..place }, held),
+        Parameter::Fairlead => (Placement { fairlead: [x, y, value], ..place }, held),
+        Parameter::Distance => (place, Condition::Distance(value)),
+        Parameter::Horizontal => (place, Condition::Horizontal(value)),
+        Parameter::Tension => (place, Condition::Tension(value)),
+    }
+}
+
+/// The table without rows: what is varied, what is held, the columns.
+fn empty(parameter: Parameter, class: &Class, connector: &Connector, place: &Placement, held: Condition) -> Table {
+    let [_, _, fairlead] = place.fairlead;
+    let mut table = Table::new(format!("Line {} with Varied {}", connector.name, parameter.name()));
+    if parameter != Parameter::Fairlead {
+        table = table.fact("Fairlead Above Mean Water", fairlead, Dim::Length);
+    }
+    if parameter != Parameter::Length {
+        let first = place.first_length.or_else(|| class.object.first_length());
+        table = table.fact("Length of First Segment", first, Dim::Length);
+    }
+    if matches!(parameter, Parameter::Length | Parameter::Fairlead) {
+        table = match held {
+            Condition::Placed => table.fact("Horizontal Distance", place.span().0, Dim::Length),
+            Condition::Distance(x) => table.fact("Horizontal Distance", x, Dim::Length),
+            Condition::Horizontal(force) => table.fact("Horizontal Force", force, Dim::Force),
+            Condition::Tension(tension) => table.fact("Tension at Top", tension, Dim::Force),
+        };
+    }
+    table
+        .column("Varied", parameter.name(), parameter.dim(), Digits::Usual)
+        .column("", "X", Dim::Length, Digits::Usual)
+        .column("Horizontal", "Force", Dim::Force, Digits::Usual)
+        .column("Vertical", "V. Force", Dim::Force, Digits::Usual)
+        .column("Tension", "Ten Top", Dim::Force, Digits::Usual)
+        .column("Tension", "Max T/TB", Dim::None, Digits::Decimals(3))
+        .column("Tension", "Crit. Seg", Dim::None, Digits::Usual)
+        .column("Anchor", "V. Pull", Dim::Force, Digits::Usual)
+        .column("Anchor", "H. Pull", Dim::Force, Digits::Usual)
+        .column("", "Line on Bottom", Dim::Length, Digits::Usual)
+}
+
+/// The columns behind the value.
+fn numbers(found: &Configuration) -> [Cell; 9] {
+    let [horizontal, vertical] = found.anchor;
+    [
+        found.distance.into(),
+        found.horizontal.into(),
+        found.vertical.into(),
+        found.tension.into(),
+        found.ratio.into(),
+        found.critical.into(),
+        vertical.into(),
+        horizontal.into(),
+        found.on_bottom.into(),
+    ]
+}
