@@ -423,3 +423,14 @@ fn a_viscoelastic_spring_is_in_series_with_its_long_term_stiffness() {
         class.object.line(&place([0.0; 3], [52.0, 0.0, 0.0], false), &missing.job.model.surroundings()).err().unwrap();
     assert!(error.message.contains("no convolution curve is called NONE"), "{error}");
 }
+
+#[test]
+fn the_table_of_an_aqwa_line_ends_where_its_tension_is_the_largest_expected() {
+    for options in ["", "-EA 7E8 -TMAX 5E6", "-EA 7E8 -TMAX 5E6 -K 1E9 1E10"] {
+        let records = format!("~L CATENARY 170 0.02 -LEN 900 -DEP 150 {options}");
+        let rows = with(&records, place([0.0; 3], [850.0, 0.0, -150.0], true), |l| l.tabulate("A").unwrap());
+        let limit = if options.is_empty() { 5.0e4 * 170.0 } else { 5e6 };
+        near(rows.row(29)[3].number().unwrap(), limit, 1e-6);
+        assert!(rows.row(29)[0].number().unwrap() < 900.0 * 1.05, "{:?}", rows.row(29)[0]);
+    }
+}

@@ -81,6 +81,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             [] => error,
             _ => error.help("the connectors of INMODEL are made at its END"),
         })?;
+        let units = job.units;
         for key in keys {
             if job.interrupted() {
                 return Err(Diagnostic::error("&CONNECTOR is given up: nothing is changed", args.span));
@@ -89,7 +90,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             let text = change(&job.model, &mut made, given, &mut said).map_err(|error| {
                 let elsewhere = error.span.is_some();
                 let message = format!("connector {}: {}", made.name, error.message);
-                let error = ClassError { message, ..error }.diagnostic(given.span);
+                let error = ClassError { message, ..error }.diagnostic(given.span, units);
                 if elsewhere { error.other(given.span, "asked for here") } else { error }
             })?;
             said.lines.push(format!("connector {}: {text}", made.name));

@@ -147,7 +147,7 @@ fn table(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let line = class.object.line(&job.model.placement(connector), &job.model.surroundings());
     let made = line
         .and_then(|l| l.tabulate(&connector.name))
-        .map_err(|e| e.diagnostic(span).help(format!("while tabulating connector {}", connector.name)))?;
+        .map_err(|e| e.diagnostic(span, job.units).help(format!("while tabulating connector {}", connector.name)))?;
     Ok(dispose(job, &name, made, span))
 }
 
@@ -158,7 +158,7 @@ fn geometry(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let line = class.object.line(&job.model.placement(connector), &job.model.surroundings());
     let made = line
         .and_then(|l| l.geometry(&connector.name, condition))
-        .map_err(|e| e.diagnostic(span).help(format!("while shaping connector {}", connector.name)))?;
+        .map_err(|e| e.diagnostic(span, job.units).help(format!("while shaping connector {}", connector.name)))?;
     Ok(dispose(job, &name, made, span))
 }
 

@@ -2,12 +2,12 @@
 
 use super::chosen::{WARNING, gathered};
 use super::status::push;
-use crate::language::units::Dim;
+use crate::language::units::{Dim, UnitSystem};
 use crate::model::{ClassError, Connector, LineLoads, Model};
 use crate::table::{Cell, Digits, Table};
 
 /// One row a connector. Those that are inactive, of a class that makes no line, or without a solution have no forces.
-pub fn forces(model: &Model, fits: &dyn Fn(&str) -> bool) -> Table {
+pub fn forces(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem) -> Table {
     let mut table = Table::new("Connector Forces")
         .column("", "Name", Dim::None, Digits::Usual)
         .column("", "Class", Dim::None, Digits::Usual)
@@ -39,7 +39,7 @@ pub fn forces(model: &Model, fits: &dyn Fn(&str) -> bool) -> Table {
                     (loads.solution, Some(loads))
                 }
                 Err(error) => {
-                    notes.push((connector.name.clone(), vec![format!("{WARNING}{error}")]));
+                    notes.push((connector.name.clone(), vec![format!("{WARNING}{}", error.text(units))]));
                     ("none", None)
                 }
             },

@@ -81,7 +81,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         "CONFIGURATION" => vec![configuration(model, &fits)],
         "CL_FLEX" | "CLASSES" => classes(job, &|class| fits(&class.name)),
         "G_CONNECTOR" => std::iter::once(connectors(model, &fits)).chain(offsets(model, &fits)).collect(),
-        "F_CONNECTOR" => vec![forces(model, &fits)],
+        "F_CONNECTOR" => vec![forces(model, &fits, job.units)],
         "CURVES" => curves(model, &fits),
         "ENVIRONMENT" => vec![environment(job)],
         "BODIES" => vec![bodies(model, &fits)],

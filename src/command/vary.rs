@@ -8,7 +8,7 @@ use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
 use crate::language::source::Span;
 use crate::language::spec::{Kind, OptionSpec, ValueSpec};
-use crate::language::units::Dim;
+use crate::language::units::{Dim, UnitSystem};
 use crate::model::{Class, ClassError, Condition, Configuration, Connector, Placement};
 use crate::report::format::number_in_full;
 use crate::table::{Cell, Digits, Table};
@@ -116,14 +116,14 @@ pub fn tabulate(
             }
             Err(error) => {
                 row.extend([const { Cell::Missing }; 9]);
-                missing.push((format!("{named}: {error}"), span));
+                missing.push((format!("{named}: {}", error.text(job.units)), span));
                 first = first.or(Some((error, span)));
             }
         }
         push(&mut table, row);
     }
     if let (true, Some((error, span))) = (notes.is_empty(), first) {
-        return Err(without(error, span, connector));
+        return Err(without(error, span, connector, job.units));
     }
     table.notes = gathered(&notes);
     table.notes.extend(missing.iter().map(|(text, _)| text.clone()));
@@ -131,8 +131,10 @@ pub fn tabulate(
 }
 
 /// The error when none of the values has a configuration.
-fn without(error: ClassError, span: Span, connector: &Connector) -> Box<Diagnostic> {
-    error.diagnostic(span).help(format!("connector {} has a configuration for none of the values", connector.name))
+fn without(error: ClassError, span: Span, connector: &Connector, units: UnitSystem) -> Box<Diagnostic> {
+    error
+        .diagnostic(span, units)
+        .help(format!("connector {} has a configuration for none of the values", connector.name))
 }
 
 /// A value (user units) in SI.

@@ -4,7 +4,7 @@
 //! Source: seed 002, 5.8.3.1 and 5.8.3.2; defaults of EA, maximum tension and coefficients: reference/model.md.
 
 use super::catenary::{Floor, Joint, Law, Line, Segment};
-use super::mooring::{Mooring, line_error};
+use super::mooring::{Mooring, line_error, no_other_end};
 use super::options::aqwa;
 use super::{ClassKind, checks};
 use crate::language::args::{Args, Given};
@@ -252,10 +252,7 @@ impl ConnectorClass for CatenaryClass {
     }
 
     fn line(&self, place: &Placement, surroundings: &Surroundings) -> Result<Box<dyn LineModel>, ClassError> {
-        let [_, _, far] = place.other.ok_or_else(|| {
-            ClassError::new("the other end of the line has no place")
-                .help("give a second point, or -ANCHOR on the connector and -DEPANCHOR or &ENV -DEPTH")
-        })?;
+        let [_, _, far] = place.other.ok_or_else(no_other_end)?;
         let count = self.sections.len();
         let length = |i: usize, s: &CatenarySection| place.first_length.filter(|_| i == 0).unwrap_or(s.length);
         let segments = self.sections.iter().enumerate().map(|(i, s)| Segment {
@@ -274,7 +271,10 @@ impl ConnectorClass for CatenaryClass {
             .and_then(|l| l.over(floor))
             .and_then(|l| l.with_laws(self.sections.iter().map(CatenarySection::law).collect()))
             .map_err(|e| line_error(&e, &places))?;
-        let largest = self.sections.iter().map(|s| s.largest).reduce(f64::max).unwrap_or(0.0);
+        // the table ends where the first section would pass its maximum: at a tension, not at a horizontal force
+        let [_, _, fairlead] = place.fairlead;
+        let least = self.sections.iter().map(|s| s.largest).fold(f64::INFINITY, f64::min);
+        let largest = line.at_tension(least, fairlead).map_or(least, |s| s.force);
         Ok(Box::new(Mooring {
             line,
             breaks: self.sections.iter().map(|s| s.largest).collect(),

@@ -3,6 +3,7 @@
 //! lengths is the one that is meant.
 
 use super::catenary::{Aim, Line, LineError};
+use crate::language::units::Dim;
 use crate::model::ClassError;
 
 /// Most steps of each search.
@@ -42,14 +43,13 @@ pub fn for_tension(
             if there <= wanted {
                 return between(before.0, least, wanted, tension);
             }
-            let text =
-                format!("no length of the first segment gives {wanted:.6e} N; the least tension is {there:.6e} N");
-            return Err(ClassError::new(text));
+            let text = "no length of the first segment gives {}; the least tension is {}";
+            return Err(ClassError::of(text, &[(wanted, Dim::Force), (there, Dim::Force)]));
         }
         walked = [last, next];
         step *= 1.5;
     }
-    Err(ClassError::new(format!("no length of the first segment found that gives {wanted:.6e} N")))
+    Err(ClassError::of("no length of the first segment found that gives {}", &[(wanted, Dim::Force)]))
 }
 
 /// The length between a tight and a slacker one at which the tension is what is wanted.
@@ -74,8 +74,8 @@ fn between(
     if (found - wanted).abs() <= 1e-9 * wanted {
         return Ok(slack);
     }
-    let text = format!("no length of the first segment gives {wanted:.6e} N; the nearest is {found:.6e} N");
-    Err(ClassError::new(text))
+    let text = "no length of the first segment gives {}; the nearest is {}";
+    Err(ClassError::of(text, &[(wanted, Dim::Force), (found, Dim::Force)]))
 }
 
 /// The length of the least tension between two, and that tension: by golden sections.

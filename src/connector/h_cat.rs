@@ -4,7 +4,7 @@
 
 use super::catenary::{Law, Line};
 use super::chord::Chord;
-use super::mooring::{Mooring, convolution, end_springs, line_error, parts, with_series};
+use super::mooring::{Mooring, convolution, end_springs, line_error, no_other_end, parts, with_series};
 use super::section::{LineSection, properties};
 use super::{ClassKind, checks, options as o};
 use crate::language::diagnostic::{Diagnostic, Outcome};
@@ -164,10 +164,7 @@ pub fn hung(
     places: &[Span],
     weight: impl Fn(&LineSection) -> f64,
 ) -> Result<Mooring, ClassError> {
-    let [_, _, far] = place.other.ok_or_else(|| {
-        ClassError::new("the other end of the line has no place")
-            .help("give a second point, or -ANCHOR on the connector")
-    })?;
+    let [_, _, far] = place.other.ok_or_else(no_other_end)?;
     let (segments, joints) = parts(sections, place, weight);
     let line = Line::new(segments, joints, far, surroundings.tide)
         .and_then(|l| l.over(None))

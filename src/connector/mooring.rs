@@ -53,9 +53,7 @@ impl Mooring {
     /// Horizontal distance of the ends as they are (m), and the direction from the first to the other.
     fn placed(&self) -> Result<(f64, [f64; 2]), ClassError> {
         if self.place.other.is_none() {
-            return Err(
-                ClassError::new("the other end of the line has no place").help("give the connector its -ANCHOR")
-            );
+            return Err(no_other_end());
         }
         Ok(self.place.span())
     }
@@ -180,6 +178,13 @@ pub fn convolution(records: &[ClassRecord]) -> Outcome<Option<(String, Span)>> {
     Ok(given.and_then(|g| g.values.first().and_then(|v| v.word()).map(|name| (name.to_string(), g.span))))
 }
 
+/// A line whose other end is not known.
+pub fn no_other_end() -> ClassError {
+    ClassError::new("the other end of the line has no place")
+        .help("with -ANCHOR on the connector: give the depth there, by -DEPANCHOR or by -DEPTH on &ENV")
+        .help("without: give -ANCHOR or a second point")
+}
+
 /// The error of a line, at the record of the segment it is about.
 pub fn line_error(error: &LineError, places: &[Span]) -> ClassError {
     let segment = match error {
@@ -188,7 +193,28 @@ pub fn line_error(error: &LineError, places: &[Span]) -> ClassError {
         }
         _ => None,
     };
-    let made = ClassError::new(error.to_string());
+    let (length, force) = (Dim::Length, Dim::Force);
+    let made = match error {
+        LineError::BelowBottom(by) => ClassError::of("the fairlead lies {} below the bottom", &[(*by, length)]),
+        LineError::AnchorBelow(by) => ClassError::of("the anchor lies {} below the bottom", &[(*by, length)]),
+        LineError::Pendant { segment, by } => {
+            let text = format!("the pendant of segment {segment} is {{}} longer than the water is deep there");
+            ClassError::of(text, &[(*by, length)])
+        }
+        LineError::Weight { tension, least } => ClassError::of(
+            "no position has the tension {}: the line hanging straight down has {}",
+            &[(*tension, force), (*least, force)],
+        ),
+        LineError::NoLength { wanted, nearest } => ClassError::of(
+            "no length of the first segment gives {}; the nearest is {}",
+            &[(*wanted, force), (*nearest, force)],
+        ),
+        LineError::Unproven { residual, tension } => ClassError::of(
+            "no configuration found between the ends: {} remain of a tension of {}",
+            &[(*residual, force), (*tension, force)],
+        ),
+        _ => ClassError::new(error.to_string()),
+    };
     let made = match error {
         LineError::BelowBottom(_) => made.help("check &INSTATE and -DEPANCHOR"),
         LineError::Undetermined => made.help("give it weight, or pull it tight"),
@@ -209,7 +235,8 @@ impl LineModel for Mooring {
                 "{connector} breaks before its table begins: hanging straight down, segment {} bears {:.3} of its break",
                 first.critical, first.ratio
             );
-            return Err(ClassError::new(text).help("a line shorter than the depth at its anchor cannot reach it"));
+            return Err(ClassError::new(text)
+                .help("a line too short for the depth at its anchor, or with too small a break, cannot hang there"));
         }
         Ok(report(self, connector, &rows))
     }

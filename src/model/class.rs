@@ -6,7 +6,9 @@ use super::environment::Surroundings;
 use super::line::{LineModel, Placement};
 use crate::language::args::Args;
 use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::functions::eight_figures;
 use crate::language::source::Span;
+use crate::language::units::{Dim, ForceUnit, LengthUnit, UnitSystem};
 use crate::table::Table;
 use std::fmt::Debug;
 use std::sync::Arc;
@@ -34,21 +36,45 @@ pub struct Class {
 }
 
 /// Why a class could not answer.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{message}")]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ClassError {
-    /// One sentence for the user.
+    /// One sentence for the user; `{}` stands for each of the values.
     pub message: String,
+    /// Values in SI with what they measure: told in the user's units.
+    pub values: Vec<(f64, Dim)>,
     /// The record or value it is about, where one can be named.
     pub span: Option<Span>,
     /// What to change.
     pub help: Vec<String>,
 }
 
+impl std::fmt::Display for ClassError {
+    /// The sentence in metres and newtons.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let si = UnitSystem { length: LengthUnit::Meters, force: ForceUnit::Newtons };
+        f.write_str(&self.text(si))
+    }
+}
+
+impl std::error::Error for ClassError {}
+
 impl ClassError {
     /// An error with a message alone.
     pub fn new(message: impl Into<String>) -> Self {
-        ClassError { message: message.into(), span: None, help: Vec::new() }
+        ClassError { message: message.into(), values: Vec::new(), span: None, help: Vec::new() }
+    }
+
+    /// An error that names values: `{}` in the message stands for each.
+    pub fn of(message: impl Into<String>, values: &[(f64, Dim)]) -> Self {
+        ClassError { values: values.to_vec(), ..ClassError::new(message) }
+    }
+
+    /// The sentence with its values in these units.
+    pub fn text(&self, units: UnitSystem) -> String {
+        self.values.iter().fold(self.message.clone(), |text, (value, dim)| {
+            let told = format!("{} {}", eight_figures(dim.from_si(*value, units)), dim.label(units));
+            text.replacen("{}", told.trim_end(), 1)
+        })
     }
 
     /// The same at a place.
@@ -63,8 +89,8 @@ impl ClassError {
     }
 
     /// The message for the user; it points at `fallback` when the error has no place of its own.
-    pub fn diagnostic(self, fallback: Span) -> Box<Diagnostic> {
-        let mut made = Diagnostic::error(self.message, self.span.unwrap_or(fallback));
+    pub fn diagnostic(self, fallback: Span, units: UnitSystem) -> Box<Diagnostic> {
+        let mut made = Diagnostic::error(self.text(units), self.span.unwrap_or(fallback));
         made.help.extend(self.help);
         made
     }
