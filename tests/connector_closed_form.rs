@@ -219,7 +219,7 @@ fn a_hanging_line_gets_the_tighter_of_two_lengths_from_any_present_one_or_hears_
     }
     let least = w * span / 2.0 * 1.508_879_561_538_3;
     let left = run(&hung(1100.0, 0.99 * least));
-    let said = format!("the least tension is {:.5}", least);
+    let said = format!("the least tension is {:.6}", least);
     assert!(left.messages.iter().any(|m| m.contains(&said)), "{said}: {:?}", left.messages);
     clean(&hung(1100.0, 1.000_01 * least));
 }
