@@ -1,5 +1,5 @@
 //! Connector classes: each file has the spec of its class types and an object that implements
-//! [`ConnectorClass`](crate::model::ConnectorClass). `catenary` is the line engine.
+//! [`ConnectorClass`]. `catenary` is the line engine.
 
 mod aqwa;
 mod b_cat;

@@ -69,7 +69,7 @@ pub struct EndForces {
     pub anchor: [f64; 2],
     /// Unstretched length on the bottom (m).
     pub grounded: f64,
-    /// d(fairlead H, V)/d(x, z) (N/m), row by row. At a change of regime, that of the regime named. Infinite in [1][1]
+    /// d(fairlead H, V)/d(x, z) (N/m), row by row. At a change of regime, that of the regime named. Infinite in its last place
     /// for [`Regime::OnBottomTaut`] alone: there V grows as the root of z.
     pub stiffness: [[f64; 2]; 2],
     /// What is left of the distances, mapped through the stiffness to a force (N).

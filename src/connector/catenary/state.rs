@@ -64,7 +64,7 @@ pub struct State {
     pub anchor_horizontal: f64,
     /// Vertical pull on the anchor (N, upward).
     pub anchor_vertical: f64,
-    /// d(H, V at the fairlead)/d(x, z of the fairlead) (N/m), row by row. Infinite in [1][1] for a line that lies on
+    /// d(H, V at the fairlead)/d(x, z of the fairlead) (N/m), row by row. Infinite in its last place for a line that lies on
     /// the bottom up to its fairlead: there V grows as the root of z.
     pub stiffness: [[f64; 2]; 2],
     /// d(H, V at the anchor)/d(x, z of the fairlead) (N/m), row by row.
