@@ -249,7 +249,9 @@ fn without_exact_the_forces_are_those_of_the_thirty_rows_and_monotone_between_th
         assert_eq!(got.stiffness[2], [0.0; 3]);
         assert!((0..3).all(|i| got.stiffness[i][2] == 0.0), "no vertical stiffness");
         let middle = 0.5 * (number(row, 0) + number(row + 1, 0));
-        let between = loads(TABLED, at(middle)).fairlead[0];
+        let halfway = loads(TABLED, at(middle));
+        let between = halfway.fairlead[0];
+        assert_eq!(-halfway.other[0], between, "no friction: the anchor is pulled with the same");
         assert!(between > number(row, 1) && between < number(row + 1, 1));
         let want = loads(&exact, at(middle));
         assert_eq!(want.solution, "exact");

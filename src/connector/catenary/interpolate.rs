@@ -91,7 +91,8 @@ impl Interpolated {
         let force = Curve::new(&x, of(|r| r.state.force), Some(of(|r| 1.0 / r.state.dx_dh)));
         let rest = [
             of(|r| r.state.top_vertical),
-            of(|r| r.state.anchor_horizontal),
+            // what friction takes: without any, the anchor's pull is the force
+            of(|r| r.state.force - r.state.anchor_horizontal),
             of(|r| r.state.anchor_vertical),
             of(|r| r.state.grounded),
             of(|r| r.ratio),
@@ -113,13 +114,14 @@ impl Interpolated {
             (value + slope * (x - inside), slope)
         };
         let (force, stiffness) = one(&self.force);
-        let [vertical, anchor_h, anchor_v, grounded, ratio] = self.rest.each_ref().map(|c| one(c).0);
+        let [vertical, taken, anchor_v, grounded, ratio] = self.rest.each_ref().map(|c| one(c).0);
+        let force = force.max(0.0);
         let critical_row = if t < 0.5 { i } else { i + 1 };
         FromTable {
-            force: force.max(0.0),
+            force,
             stiffness: if force > 0.0 { stiffness } else { 0.0 },
             vertical,
-            anchor: [anchor_h.max(0.0), anchor_v.max(0.0)],
+            anchor: [(force - taken).max(0.0), anchor_v.max(0.0)],
             grounded: grounded.max(0.0),
             ratio: ratio.max(0.0),
             critical: rows.get(critical_row).map_or(1, |r| r.critical),
