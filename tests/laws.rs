@@ -8,10 +8,13 @@ use windlass::report::files::JobFolder;
 use windlass::report::output::Output;
 use windlass::session::Session;
 
+/// A line class, records of it, its ends, whether to ground, and whether its forces have an energy.
+type Example = (&'static str, &'static str, [f64; 3], [f64; 3], bool, bool);
+
 /// Records of each line class, between ends where every part of its law acts: the fairlead, the other end, to ground; and
 /// whether its forces have an energy: friction, mobilised toward the fairlead, depends on the vertical force alone and has
 /// none.
-const EXAMPLES: &[(&str, &str, [f64; 3], [f64; 3], bool, bool)] = &[
+const EXAMPLES: &[Example] = &[
     (
         "B_CAT",
         "~L B_CAT 100 EXACT -LEN 500 -BUOY 0 -WTPL 900 -DEP 200 -SEND 4E6 -CLUMP 5E4\n~L B_CAT 80 -LEN 600 -BUOY 0 -WTPL 500",
