@@ -135,6 +135,8 @@ fn the_line_with_a_given_tension_has_it_and_less_than_its_weight_is_refused() {
         let state = line.at_tension(9e5, 0.0).unwrap();
         assert!((state.top_tension - 9e5).abs() < 1e-3, "{}", state.top_tension);
         assert!(line.at_tension(1e3, 0.0).is_err());
+        let state = line.at_vertical_force(5e5, 0.0).unwrap();
+        assert!((state.top_vertical - 5e5).abs() < 1e-3, "{}", state.top_vertical);
     }
     assert!(matches!(mixed(0.0, 0.0).at_tension(1e3, 0.0), Err(LineError::Weight { .. })));
 }

@@ -28,6 +28,12 @@ const HORIZONTAL: OptionSpec = OptionSpec::new(
     "pulled out until it has this horizontal force",
 )
 .owner(Owner::Ours);
+const VERTICAL: OptionSpec = OptionSpec::new(
+    "-VERTICAL",
+    &[ValueSpec::new("F", Kind::Number(Dim::Force), "vertical force at the fairlead").positive()],
+    "pulled out until it has this vertical force",
+)
+.owner(Owner::Ours);
 const TENSION: OptionSpec = OptionSpec::new(
     "-TENSION",
     &[ValueSpec::new("F", Kind::Number(Dim::Force), "tension at the fairlead").positive()],
@@ -65,7 +71,7 @@ static GEOMETRY_SPEC: CommandSpec = CommandSpec {
     opens: Opens::Menu("DISPOSITION"),
     menus: &["CONN_DESIGN"],
     data: &[LINE],
-    options: &[HORIZONTAL, TENSION, DISTANCE],
+    options: &[HORIZONTAL, VERTICAL, TENSION, DISTANCE],
     detail: "The shape of the line between its ends as they are, or with one of the options; the fairlead keeps its height. \
              X is the horizontal distance from the fairlead, Z the elevation, Arc Length the unstretched length from the \
              fairlead; forces are those in the line, the angle is above the horizontal. Bottom and Surface are there to be \
@@ -103,6 +109,7 @@ fn condition(args: &Args) -> Outcome<Condition> {
         let made = match g.spec.name {
             "-HORIZONTAL" => Condition::Horizontal(value),
             "-TENSION" => Condition::Tension(value),
+            "-VERTICAL" => Condition::Vertical(value),
             "-DISTANCE" => Condition::Distance(value),
             _ => return None,
         };

@@ -180,6 +180,7 @@ fn empty(parameter: Parameter, class: &Class, connector: &Connector, place: &Pla
             Condition::Distance(x) => table.fact("Horizontal Distance", x, Dim::Length),
             Condition::Horizontal(force) => table.fact("Horizontal Force", force, Dim::Force),
             Condition::Tension(tension) => table.fact("Tension at Top", tension, Dim::Force),
+            Condition::Vertical(force) => table.fact("Vertical Force", force, Dim::Force),
         };
     }
     table

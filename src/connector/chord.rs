@@ -81,7 +81,9 @@ impl LineModel for Chord {
         let distance = match condition {
             Condition::Placed => self.line.place.span().0,
             Condition::Distance(x) => x,
-            Condition::Horizontal(_) | Condition::Tension(_) => return self.line.configuration(condition),
+            Condition::Horizontal(_) | Condition::Tension(_) | Condition::Vertical(_) => {
+                return self.line.configuration(condition);
+            }
         };
         let [_, _, fairlead] = self.line.place.fairlead;
         let drop = fairlead - self.line.line.anchor();
@@ -142,7 +144,9 @@ impl LineModel for Chord {
             Condition::Tension(tension) => tension,
             Condition::Horizontal(force) if horizontal > 0.0 => force * chord / horizontal,
             Condition::Horizontal(_) => return Err(ClassError::new("a vertical line has no horizontal force")),
-            Condition::Placed | Condition::Distance(_) => return self.line.first_length(condition),
+            Condition::Placed | Condition::Distance(_) | Condition::Vertical(_) => {
+                return self.line.first_length(condition);
+            }
         };
         let segments = self.line.line.segments();
         let (first, others) = segments.split_first().ok_or_else(|| ClassError::new("the line has no segments"))?;

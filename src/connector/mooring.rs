@@ -65,6 +65,7 @@ impl Mooring {
             Condition::Distance(x) => self.line.at_distance(x, z),
             Condition::Horizontal(force) => self.line.at_horizontal_force(force, z),
             Condition::Tension(tension) => self.line.at_tension(tension, z),
+            Condition::Vertical(force) => self.line.at_vertical_force(force, z),
         };
         found.map_err(|e| self.error(&e))
     }
@@ -201,9 +202,9 @@ pub fn line_error(error: &LineError, places: &[Span]) -> ClassError {
             let text = format!("the pendant of segment {segment} is {{}} longer than the water is deep there");
             ClassError::of(text, &[(*by, length)])
         }
-        LineError::Weight { tension, least } => ClassError::of(
-            "no position has the tension {}: the line hanging straight down has {}",
-            &[(*tension, force), (*least, force)],
+        LineError::Weight { what, wanted, least } => ClassError::of(
+            format!("no position has the {what} {{}}: the line hanging straight down has {{}}"),
+            &[(*wanted, force), (*least, force)],
         ),
         LineError::NoLength { wanted, nearest } => ClassError::of(
             "no length of the first segment gives {}; the nearest is {}",
@@ -367,6 +368,9 @@ impl LineModel for Mooring {
                 return for_tension(&self.line, [x, z], tension, |e| self.error(e));
             }
             Condition::Horizontal(force) => Some(Aim::Horizontal(force)),
+            Condition::Vertical(_) => {
+                return Err(ClassError::new("a length is solved for a horizontal force or a tension"));
+            }
             Condition::Placed | Condition::Distance(_) => None,
         };
         self.line.first_length(x, z, aim).map_err(|e| self.error(&e))

@@ -40,6 +40,8 @@ pub enum Condition {
     Horizontal(f64),
     /// With this tension at the fairlead (N).
     Tension(f64),
+    /// With this vertical force on the fairlead (N, downward).
+    Vertical(f64),
 }
 
 /// What a line does to what it is attached to, and what it bears.

@@ -106,10 +106,12 @@ pub enum LineError {
         by: f64,
     },
     /// The line hanging straight down already pulls more.
-    #[error("no position has the tension {tension:.6e} N: the line hanging straight down has {least:.6e} N")]
+    #[error("no position has the {what} {wanted:.6e} N: the line hanging straight down has {least:.6e} N")]
     Weight {
-        /// The tension asked for (N).
-        tension: f64,
+        /// Which force at the fairlead.
+        what: &'static str,
+        /// The one asked for (N).
+        wanted: f64,
         /// The smallest one (N).
         least: f64,
     },

@@ -134,27 +134,51 @@ impl Line {
     /// # Errors
     /// [`LineError`]; among them a tension less than that of the line hanging straight down.
     pub fn at_tension(&self, tension: f64, fairlead: f64) -> Result<State, LineError> {
-        self.check_fairlead(fairlead)?;
         positive("the tension", tension)?;
-        let (force, _) = rising_root(0.7 * tension, tension, |h| match self.at_horizontal_force(h, fairlead) {
+        // T dT = H dH + V dV
+        let by = |s: &State, turn: f64| (s.top_tension, (s.force + s.top_vertical * turn) / s.top_tension);
+        self.at_value(("tension", tension), fairlead, 0.7 * tension, by)
+    }
+
+    /// The configuration in which the vertical force of the line on its fairlead, at elevation `fairlead` (m), is
+    /// `vertical` (N, downward).
+    ///
+    /// # Errors
+    /// [`LineError`]; among them a force less than that of the line hanging straight down.
+    pub fn at_vertical_force(&self, vertical: f64, fairlead: f64) -> Result<State, LineError> {
+        positive("the vertical force", vertical)?;
+        self.at_value(("vertical force", vertical), fairlead, vertical, |s, turn| (s.top_vertical, turn))
+    }
+
+    /// The configuration in which a force that grows with the horizontal one is `wanted`; `by` gives it and its
+    /// derivative by H, from a state and its dV/dH at a fixed elevation.
+    fn at_value(
+        &self,
+        (what, wanted): (&'static str, f64),
+        fairlead: f64,
+        start: f64,
+        by: impl Fn(&State, f64) -> (f64, f64),
+    ) -> Result<State, LineError> {
+        self.check_fairlead(fairlead)?;
+        let at = |s: &State| by(s, s.stiffness[1][0] / s.stiffness[0][0]);
+        let (force, _) = rising_root(start, wanted, |h| match self.at_horizontal_force(h, fairlead) {
             Ok(s) => {
-                // T dT = H dH + V dV, dV/dH at a fixed elevation
-                let turn = s.stiffness[1][0] / s.stiffness[0][0];
-                let slope = (s.force + s.top_vertical * turn) / s.top_tension;
-                Point { value: s.top_tension, slope }
+                let (value, slope) = at(&s);
+                Point { value, slope }
             }
             Err(_) => Point { value: f64::NAN, slope: f64::NAN },
         });
         let state = self.at_horizontal_force(force, fairlead)?;
-        if (state.top_tension - tension).abs() <= PROOF * tension {
+        let off = (at(&state).0 - wanted).abs();
+        if off <= PROOF * wanted {
             return Ok(state);
         }
         if let Ok(hanging) = self.at_distance(0.0, fairlead)
-            && hanging.top_tension > tension
+            && by(&hanging, 0.0).0 > wanted
         {
-            return Err(LineError::Weight { tension, least: hanging.top_tension });
+            return Err(LineError::Weight { what, wanted, least: by(&hanging, 0.0).0 });
         }
-        Err(LineError::Unproven { residual: (state.top_tension - tension).abs(), tension })
+        Err(LineError::Unproven { residual: off, tension: state.top_tension })
     }
 
     /// The inclination of the bottom.
