@@ -12,6 +12,7 @@ mod describe;
 mod device;
 mod disposition;
 mod environment;
+mod environment_table;
 mod file;
 pub mod functions;
 pub mod help;
@@ -20,6 +21,7 @@ mod line_types;
 mod lines;
 mod menus;
 mod message;
+mod names;
 mod offsets;
 mod report_menu;
 mod select;
@@ -107,8 +109,8 @@ pub static COMMANDS: &[&Command] = &[
     &describe::INSTATE,
     &class::CLASS,
     &connector::CONNECTOR,
-    &connector::DELETE,
-    &connector::RENAME,
+    &names::DELETE,
+    &names::RENAME,
     &select::SELECT,
     &select::SELECTOR,
     &environment::ENV,
