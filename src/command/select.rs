@@ -75,15 +75,10 @@ fn define(job: &mut Job, call: &Call, name: &str, span: Span) -> Outcome<Effect>
     };
     for value in call.args.options.iter().flat_map(|given| given.values.iter()) {
         if let Some(used) = value.word().filter(|word| word.starts_with(':')) {
-            find(&job.model.selectors, used, "selector", value.span).or_else(|unknown| {
-                match Model::key(used) == key {
-                    true => Err(circular(name, used, value.span)),
-                    false => Err(unknown),
-                }
-            })?;
             if job.model.reaches(used, &key) {
                 return Err(circular(name, used, value.span));
             }
+            find(&job.model.selectors, used, "selector", value.span)?;
         }
     }
     let made = Selector { name: name.to_string(), select: list("-SELECT"), except: list("-EXCEPT"), span };

@@ -123,8 +123,8 @@ pub fn convolutions(args: &Args, list: &[Restraint], symmetric: bool) -> Outcome
     let mut seen: Vec<(&str, Span)> = Vec::new();
     for value in args.all("-CONVOLUTION").filter_map(|given| given.values.first()) {
         let Some(dof) = value.word() else { continue };
-        let restrained = |dof: &str| list.iter().any(|r| r.dof == dof);
-        if !restrained(dof) && !(symmetric && restrained(&dof.replace('Z', "Y"))) {
+        let like_y = dof.replace('Z', "Y");
+        if !list.iter().any(|r| r.dof == dof || (symmetric && r.dof == like_y)) {
             let known: Vec<&str> = list.iter().map(|r| r.dof.as_str()).collect();
             return Err(Diagnostic::error(format!("degree of freedom {dof} is not restrained"), value.span)
                 .label(format!("expected {}", known.join(" or "))));
