@@ -57,8 +57,9 @@ static SPEC: CommandSpec = CommandSpec {
         OptionSpec::new("-BOTH", &[], "to the screen and the report file"),
     ],
     detail: "CONFIGURATION, CL_FLEX (or CLASSES), G_CONNECTOR, CURVES, ENVIRONMENT, BODIES, POINTS, DIMENSIONS, DEFAULTS, \
-             SELECTORS; alone it counts what the model holds. ENVIRONMENT alone is the one in force, with a NAME the one kept under it. LINE_TYPES lists the chains and ropes that -TYPE of a line \
-             class knows; LINE_TYPES 3 gives their values at a nominal diameter, LINE_TYPES CHAIN_R4 the formulas of one.",
+             SELECTORS; alone it counts what the model holds. ENVIRONMENT alone is the one in force, with a NAME the one kept \
+             under it. LINE_TYPES lists the chains and ropes that -TYPE of a line class knows; LINE_TYPES 3 gives their \
+             values at a nominal diameter, LINE_TYPES CHAIN_R4 the formulas of one.",
     example: "&STATUS\n&STATUS DEFAULTS\n&STATUS DIMENSIONS\n&STATUS LINE_TYPES 3",
     ..CommandSpec::new("&STATUS", "reports what the model holds")
 };
