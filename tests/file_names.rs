@@ -205,3 +205,62 @@ fn the_help_of_file_states_the_rule_of_names() {
     let text = run.out.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(text.contains("a relative name, with folders or without, is inside the job's own folder"), "{text}");
 }
+
+#[test]
+fn the_log_of_the_running_job_and_open_files_are_neither_removed_nor_moved() {
+    let script = format!(
+        "&DEVICE -LIMERROR 99\n&FILE OPEN T a.txt\n&FILE CLOSE T\n&FILE OPEN T a.txt\n&FILE CP LOG00001.TXT copy\n\
+         &FILE USE U copy\n&FILE RM LOG00001.TXT\n&FILE MV LOG00001.TXT b.txt\n&FILE RM ./job.ans/../job.ans/LOG00001.TXT\n\
+         &FILE OPEN V LOG00001.TXT\n{TABLE}STORE LOG00001.TXT X Force\n{TABLE_END}&FILE RM a.txt\n&FILE MV copy c\n\
+         &TYPE the log goes on\n&FILE CLOSE T\n&FILE RM a.txt.1\n&FILE CLOSE U\n&FILE RM copy\n"
+    );
+    for arguments in [&[][..], &["--allow-files"]] {
+        let run = Run::of(&script, arguments);
+        assert_eq!(run.err.matches("is in use: this job has it open").count(), 7, "{}", run.err);
+        assert_eq!(run.err.matches("error: ").count(), 7, "{}", run.err);
+        assert!(run.err.contains("job.cif:8:10") && run.err.contains("&FILE CLOSE U closes it"), "{}", run.err);
+        assert_eq!(run.names("job.ans"), ["LOG00001.TXT", "a.txt"]);
+        assert!(run.read("job.ans/LOG00001.TXT").unwrap().contains("the log goes on"));
+    }
+}
+
+#[test]
+fn a_script_reads_back_what_it_wrote_by_the_same_name() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir_all(folder.path().join("here")).unwrap();
+    fs::write(folder.path().join("here/n.txt"), "beside the script\n").unwrap();
+    fs::write(folder.path().join("here/only.txt"), "only beside\n").unwrap();
+    let script = "&FILE OPEN T n.txt\n&FILE WRITE T mine\n&FILE CLOSE T\n&FILE MKDIR sub\n&FILE CP n.txt sub/m.txt\n\
+                  &FILE USE R n.txt\n&IF &F_READ(R LINE) &THEN\n&ENDIF\n&TYPE <%LINE%>\n\
+                  &FILE USE R sub/m.txt\n&IF &F_READ(R LINE) &THEN\n&ENDIF\n&TYPE <%LINE%>\n\
+                  &FILE USE R ./n.txt\n&IF &F_READ(R LINE) &THEN\n&ENDIF\n&TYPE <%LINE%>\n\
+                  &FILE USE R only.txt\n&IF &F_READ(R LINE) &THEN\n&ENDIF\n&TYPE <%LINE%>\n\
+                  &TYPE &INFO(FILE_EXISTS sub/m.txt) &INFO(FILE_EXISTS only.txt) &INFO(FILE_EXISTS m.txt)\n";
+    let run = Run::within(folder, script, &[]);
+    assert_eq!(run.code, Some(0), "{}", run.err);
+    let want = "<mine>\n<mine>\n<beside the script>\n<only beside>\n.TRUE. .TRUE. .FALSE.";
+    assert!(run.out.contains(want), "{}", run.out);
+}
+
+#[cfg(unix)]
+#[test]
+fn open_plot_and_store_make_nothing_through_a_link_out_of_the_jobs_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir_all(folder.path().join("here/job.ans")).unwrap();
+    fs::create_dir(folder.path().join("out")).unwrap();
+    std::os::unix::fs::symlink(folder.path().join("out"), folder.path().join("here/job.ans/link")).unwrap();
+    let script = format!("&FILE OPEN T link/x\n{TABLE}STORE link/s X Force\nPLOT X Force link/p.svg\n{TABLE_END}");
+    let run = Run::within(folder, &script, &[]);
+    assert_eq!(run.err.matches("is not below the job's own folder").count(), 3, "{}", run.err);
+    assert!(run.names("../out").is_empty());
+}
+
+#[test]
+fn a_copy_or_move_that_is_refused_points_at_the_name_it_is_about() {
+    let script = "&FILE OPEN T h.txt\n&FILE CLOSE T\n&FILE CP h.txt ./new.txt\n&FILE MV h.txt ./new.txt\n&FILE CP h.txt h.txt\n\
+                  &FILE CP none new.txt\n&FILE MV ./job.cif new.txt\n&FILE CP h.txt none/x\n";
+    let run = Run::of(script, &[]);
+    for place in ["job.cif:3:16", "job.cif:4:16", "job.cif:5:16", "job.cif:6:10", "job.cif:7:10", "job.cif:8:16"] {
+        assert!(run.err.contains(place), "{place}: {}", run.err);
+    }
+}

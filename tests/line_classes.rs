@@ -419,7 +419,7 @@ fn a_viscoelastic_spring_is_in_series_with_its_long_term_stiffness() {
         let line = class.object.line(&model.placement(connector), &model.surroundings()).unwrap();
         near(line.loads().unwrap().tension, 2.0 / (1.0 / k + 1.0 / spring), 1e-10);
     }
-    let missing = session("~L SL_ELEM 100 -LEN 50 -CONVOLUTION NONE");
+    let missing = session("END\nINMODEL\n~L SL_ELEM 100 -LEN 50 -CONVOLUTION NONE");
     let class = &missing.job.model.classes["~L"];
     let error =
         class.object.line(&place([0.0; 3], [52.0, 0.0, 0.0], false), &missing.job.model.surroundings()).err().unwrap();

@@ -167,7 +167,9 @@ fn the_menu_of_curves_makes_the_curves_that_one_record_each_makes_in_any_units()
     let kinds =
         "C_PROFILE P_SPECTRUM F_SPECTRUM M_GROWTH W_HISTORY LT_MULTIPLIER CT_LENGTH EFFICIENCY CS_VELOCITY AM_PRESSURE";
     for units in ["", "&DIMEN -DIMEN METERS M-TONS\n"] {
-        let record = |kind: &str| format!("{kind} N_{kind} -1 2 3/2 4\n");
+        // a spectrum has no negative periods
+        let first = |kind: &str| if kind.ends_with("SPECTRUM") { "0" } else { "-1" };
+        let record = |kind: &str| format!("{kind} N_{kind} {} 2 3/2 4\n", first(kind));
         let menu: String = kinds.split(' ').map(record).collect();
         let single: String = kinds.split(' ').map(|k| format!("&DATA CURVES {}", record(k))).collect();
         let (menu, single) = (run(&format!("{units}&DATA CURVES\n{menu}END\n")), run(&format!("{units}{single}")));
@@ -180,8 +182,8 @@ fn the_menu_of_curves_makes_the_curves_that_one_record_each_makes_in_any_units()
 
 #[test]
 fn the_menu_of_selectors_makes_the_selectors_that_one_record_each_makes() {
-    let menu = run("&SELECT\n:A -SEL *M@ :B -EXC *MD\n:B -EXCEPT X -SELECT Y Z\nEND_&SELECT\n");
-    let single = run("&SELECT :A -SEL *M@ :B -EXC *MD\n&SELECT :B -EXCEPT X -SELECT Y Z\n");
+    let menu = run("&SELECT\n:B -EXCEPT X -SELECT Y Z\n:A -SEL *M@ :B -EXC *MD\nEND_&SELECT\n");
+    let single = run("&SELECT :B -EXCEPT X -SELECT Y Z\n&SELECT :A -SEL *M@ :B -EXC *MD\n");
     assert_eq!((menu.session.errors, menu.session.job.menus.len()), (0, 1), "{:?}", menu.messages);
     assert_eq!(without_places(&menu).1.len(), 2);
     assert_eq!(without_places(&menu), without_places(&single));

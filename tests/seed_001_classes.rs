@@ -52,6 +52,7 @@ fn example_value(value: &ValueSpec, number: usize) -> String {
 
 #[test]
 fn every_option_of_every_class_type_is_read_and_listed_back() {
+    let curve = "&DATA CONVOLUTION TIME NAME1 0 4 10 2\n";
     for kind in CLASSES {
         let spec = kind.spec;
         for option in spec.options {
@@ -69,6 +70,7 @@ fn every_option_of_every_class_type_is_read_and_listed_back() {
             match option.name {
                 "-PISTON" => text = "MAX 12 4 1 1 100 10".into(),
                 "-TYPE" => text = "CHAIN_R4 4".into(),
+                "-C_SN" => text = "WIRE".into(),
                 "-CLUMP" if spec.name == "CATENARY" => text = "100 50".into(),
                 "-BUOY" => text = "50 100".into(),
                 _ => {}
@@ -76,7 +78,7 @@ fn every_option_of_every_class_type_is_read_and_listed_back() {
             let needs_length = spec.options.iter().any(|o| o.name == "-LEN") && option.name != "-LEN";
             let length = if needs_length { "-LEN 10" } else { "" };
             let record = format!("~C {} {} {length} {} {text}", spec.name, data.join(" "), option.name);
-            let (out, messages) = run(&format!("MEDIT\n{record}\nEND\n&STATUS CL_FLEX\n"));
+            let (out, messages) = run(&format!("{curve}MEDIT\n{record}\nEND\n&STATUS CL_FLEX\n"));
             assert!(messages.is_empty(), "{record}: {messages:?}");
             let listed = format!("{} {text}", option.name);
             assert!(out.contains(listed.trim()), "`{listed}` is not listed back by\n{out}");

@@ -1,10 +1,10 @@
 //! The names a record gives to choose among what the model holds.
 
 use super::{Call, Job};
-use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use crate::language::select::matches;
 use crate::language::source::Span;
-use crate::model::Model;
+use crate::model::{Model, Thing};
 use crate::table::Table;
 use std::cell::Cell;
 
@@ -41,15 +41,17 @@ impl<'a> Chosen<'a> {
         })
     }
 
-    /// Refuses a name that chose nothing for these tables.
+    /// Refuses a name that chose nothing for these tables of such things.
     ///
     /// # Errors
-    /// The first such name, at its place.
-    pub fn check(&self, what: &str, tables: &[Table]) -> Outcome<()> {
+    /// The first such name, at its place, with near ones.
+    pub fn check(&self, what: &str, tables: &[Table], things: &[Thing]) -> Outcome<()> {
         let empty = tables.iter().all(|t| t.rows() == 0 && t.facts.is_empty());
         let unused = self.given.iter().find(|(_, _, used)| empty || (self.asked.get() && !used.get()));
         unused.map_or(Ok(()), |(name, span, _)| {
-            Err(Diagnostic::error(format!("nothing among {what} is called {name}"), *span))
+            let mut error = Diagnostic::error(format!("nothing among {what} is called {name}"), *span);
+            error.help.extend(did_you_mean(name, things.iter().flat_map(|t| self.model.names(*t))));
+            Err(error)
         })
     }
 }

@@ -1,12 +1,13 @@
 //! `~NAME TYPE ...`: defines a class, or adds a segment to one.
 
-use super::{Call, Command, Effect, Job};
+use super::{Call, Command, Effect, Job, Menu};
 use crate::connector::{CLASSES, type_notices};
-use crate::language::args;
+use crate::language::args::{self, Args};
 use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::name;
 use crate::language::select::choose;
-use crate::language::spec::{CommandSpec, Form};
-use crate::model::{Class, ClassRecord, Model};
+use crate::language::spec::{CommandSpec, Form, Noun};
+use crate::model::{Class, ClassRecord, Curve, CurveKind, Model, find};
 
 /// ~CLASS.
 pub static CLASS: Command = Command { spec: &SPEC, edits: false, run };
@@ -15,7 +16,8 @@ static SPEC: CommandSpec = CommandSpec {
     menus: &["INMODEL", "MEDIT"],
     form: Form::Text,
     detail: "Repeating the name of a line class adds the next segment, fairlead first; for the other types it replaces the \
-             class. &HELP ~CLASS TYPE shows a type.",
+             class. In MEDIT the curves it names exist; in INMODEL they may be defined up to its END. &HELP ~CLASS TYPE \
+             shows a type.",
     example: "MEDIT\n~WIRE B_CAT 4 -LEN 2000\n~WIRE B_CAT 3.5 -LEN 1000\nEND",
     ..CommandSpec::new("~CLASS", "NAME TYPE ...: defines a class")
 };
@@ -29,13 +31,14 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             .label("expected a class type after this")
             .help(format!("known: {}", types.join(" "))));
     };
-    if name.text.len() < 2 || name.text.chars().count() > args::LONGEST_NAME {
-        return Err(Diagnostic::error(format!("`{}` cannot name a class", name.text), name.span)
-            .label(format!("expected ~ and up to {} characters", args::LONGEST_NAME - 1)));
-    }
+    name::check(&name.text, Some('~'), "class", name.span)?;
     let kind = choose(&word.text, word.span, "class type", known())?;
     let read = args::read(kind.spec, name.span, rest.get(1..).unwrap_or_default(), job.units)?;
-    let notices = type_notices(&read, job.units);
+    if matches!(job.menu(), Menu::Medit) {
+        known_curves(job, &read)?;
+    }
+    let mut notices = type_notices(&read, job.units);
+    notices.extend(unknown_fatigue(&read));
     let record = ClassRecord { args: read, defaults: job.model.defaults };
     let key = Model::key(&name.text);
     let mut records = vec![record];
@@ -74,4 +77,29 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         job.remark(text, name.span);
     }
     Ok(Effect::Done)
+}
+
+/// Sees that the curves a record names exist and are convolutions: no other curve has a place in a class.
+///
+/// # Errors
+/// An unknown curve, or one of another sort, at its word.
+pub fn known_curves(job: &Job, args: &Args) -> Outcome<()> {
+    for value in args.options.iter().flat_map(|given| given.named(Noun::Curve)) {
+        let Some(name) = value.word() else { continue };
+        let curve: &Curve = find(&job.model.curves, name, "curve", value.span)
+            .map_err(|e| e.help(format!("&DATA CONVOLUTION TIME {name} T1 K1 T2 K2 .. defines it")))?;
+        if !matches!(curve.kind, CurveKind::ConvolutionTime | CurveKind::ConvolutionFrequency) {
+            let text = format!("curve {name} is a {}, not a CONVOLUTION", curve.kind.name());
+            return Err(Diagnostic::error(text, value.span).other(curve.span, "defined here"));
+        }
+    }
+    Ok(())
+}
+
+/// What is said of a fatigue curve that nothing defines.
+fn unknown_fatigue(args: &Args) -> Option<Diagnostic> {
+    let value = args.option("-C_SN").and_then(|given| given.values.first())?;
+    let name = value.word().filter(|w| !["CHAIN", "WIRE"].iter().any(|known| known.eq_ignore_ascii_case(w)))?;
+    let text = format!("{name} is kept as the name of an S-N curve that is not defined here; CHAIN and WIRE are known");
+    Some(*Diagnostic::remark(text, value.span))
 }

@@ -9,7 +9,7 @@ use crate::language::select::Owner;
 use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Kind, Noun, Opens, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
-use crate::model::{Class, Condition, Connector, find};
+use crate::model::{Class, Condition, Connector, Thing, find};
 use crate::report::disposition::Disposition;
 use crate::report::page;
 use crate::table::Table;
@@ -175,7 +175,7 @@ fn properties(job: &mut Job, call: &Call) -> Outcome<Effect> {
         let tables = status::classes(job, &|class| {
             if chosen.all() { class.object.is_line() } else { chosen.takes(&class.name) }
         });
-        chosen.check("the classes", &tables)?;
+        chosen.check("the classes", &tables, &[Thing::Class])?;
         if tables.is_empty() {
             return Err(Diagnostic::error("no class of a line is defined yet", call.args.span));
         }

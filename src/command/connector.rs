@@ -1,20 +1,15 @@
-//! `CONNECTOR`, and the deletion and renaming of anything in the model.
+//! `CONNECTOR`.
 
 use super::{Call, Command, Effect, Job, Menu};
 use crate::language::args::Args;
-use crate::language::diagnostic::{Diagnostic, Outcome, did_you_mean};
-use crate::language::select::{Owner, is_wild, matches};
-use crate::language::source::Span;
+use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::name as rule;
 use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
-use crate::model::{Anchor, Connector, Model, find, unit_vector};
+use crate::model::{Anchor, Connector, Model, Point, find, unit_vector};
 
 /// CONNECTOR.
 pub static CONNECTOR: Command = Command { spec: &CONNECTOR_SPEC, edits: false, run: connector };
-/// DELETE.
-pub static DELETE: Command = Command { spec: &DELETE_SPEC, edits: true, run: delete };
-/// RENAME.
-pub static RENAME: Command = Command { spec: &RENAME_SPEC, edits: false, run: rename };
 
 const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(dim), help)
@@ -52,36 +47,15 @@ static CONNECTOR_SPEC: CommandSpec = CommandSpec {
         )
         .default("body axes of the first node"),
     ],
-    detail: "With one point the other end is ground. In INMODEL the names may be defined later.",
+    detail: "With one point the other end is ground. In INMODEL the names may be defined later. No body, part, curve or \
+             environment has the name of a connector: DELETE NAME means one thing.",
     example: "MEDIT\n&DESCRIBE BODY TBRG\n*MLA 400 50 20\n~WIRE b_cat 4.19 -DEP 500 -LEN 4000 -BUOY 0 -WTPL .0125\n\
               CONNECTOR A -ANC -45 20 ~WIRE *MLA\nEND\n&STATUS G_CONNECTOR",
     ..CommandSpec::new("CONNECTOR", "connects a point to ground or two points")
 };
 
-static DELETE_SPEC: CommandSpec = CommandSpec {
-    owner: Owner::Ours,
-    menus: &["INMODEL", "MEDIT"],
-    data: &[ValueSpec::new("NAME", Kind::Name(Noun::Selector), "what to delete; wild characters may be used")],
-    repeat: 1,
-    detail: "Names are those of connectors, classes, points, parts, bodies, curves, environments and selectors. What is \
-             still used is not deleted.",
-    example: "MEDIT\n*P 0 0 0\nDELETE *P\nEND",
-    ..CommandSpec::new("DELETE", "deletes things from the model")
-};
-
-static RENAME_SPEC: CommandSpec = CommandSpec {
-    owner: Owner::Ours,
-    menus: &["INMODEL", "MEDIT"],
-    data: &[
-        ValueSpec::new("OLD", Kind::Name(Noun::Selector), "present name"),
-        ValueSpec::new("NEW", Kind::Name(Noun::Selector), "new name, with the same marker"),
-    ],
-    detail: "What refers to the thing follows.",
-    example: "MEDIT\n*P 0 0 0\nRENAME *P *Q\nEND",
-    ..CommandSpec::new("RENAME", "renames a connector, class, point or body")
-};
-
 fn connector(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    rule::check(call.args.word(0).unwrap_or_default(), None, "connector", call.args.place(0))?;
     if matches!(job.menu(), Menu::Inmodel) {
         job.deferred.push(call.args.clone());
         return Ok(Effect::Done);
@@ -102,17 +76,20 @@ pub fn build_connector(job: &mut Job, args: &Args) -> Outcome<()> {
             .other(old.span, "defined here")
             .help(format!("DELETE {name} first, or use another name")));
     }
+    model.free_name(name, &[], args.place(0))?;
     let class = find(&model.classes, args.word(1).unwrap_or_default(), "class", args.place(1))?;
     let mut points = Vec::new();
-    let mut bodies: Vec<&str> = Vec::new();
+    let mut on_bodies = 0;
     for index in 2..args.data.len() {
         let Some(word) = args.word(index) else { continue };
         let point = find(&model.points, word, "point", args.place(index))?;
-        if let Some(body) = model.body_of(point)
-            && !bodies.contains(&body.name.as_str())
-        {
-            bodies.push(&body.name);
+        if points.iter().any(|p: &&Point| p.name == point.name) {
+            return Err(Diagnostic::error(
+                format!("{} cannot be both ends of a connector", point.name),
+                args.place(index),
+            ));
         }
+        on_bodies += usize::from(model.body_of(point).is_some());
         points.push(point);
     }
     let vector = |option: &str| {
@@ -137,158 +114,9 @@ pub fn build_connector(job: &mut Job, args: &Args) -> Outcome<()> {
         Anchor { direction, distance, at: [x + distance * cos, y + distance * sin], elevation: None }
     });
     class.object.check()?;
-    class.object.check_ends(&made, bodies.len())?;
+    class.object.check_ends(&made, on_bodies)?;
     let span = args.place(0);
     job.model.connectors.insert(Model::key(name), made);
     job.note_name(name, span);
     Ok(())
-}
-
-fn delete(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    for value in &call.args.data {
-        let Some(pattern) = value.word() else { continue };
-        let names: Vec<String> = all_names(&job.model)
-            .into_iter()
-            .filter(|n| n.eq_ignore_ascii_case(pattern) || (is_wild(pattern) && matches(pattern, n)))
-            .collect();
-        if names.is_empty() {
-            let known = all_names(&job.model);
-            let mut error = Diagnostic::error(format!("nothing is called {pattern}"), value.span);
-            error.help.extend(did_you_mean(pattern, known.iter().map(String::as_str)));
-            return Err(error);
-        }
-        for name in names {
-            let what = remove(&mut job.model, &name, value.span)?;
-            job.remark(format!("{what} {name} is deleted"), value.span);
-        }
-    }
-    Ok(Effect::Done)
-}
-
-fn all_names(model: &Model) -> Vec<String> {
-    let mut names: Vec<String> = model.connectors.values().map(|c| c.name.clone()).collect();
-    names.extend(model.classes.values().map(|c| c.name.clone()));
-    names.extend(model.points.values().map(|p| p.name.clone()));
-    names.extend(model.parts.values().map(|p| p.name.clone()));
-    names.extend(model.bodies.values().map(|b| b.name.clone()));
-    names.extend(model.curves.values().map(|c| c.name.clone()));
-    names.extend(model.environments.values().map(|e| e.name.clone()));
-    names.extend(model.selectors.values().map(|s| s.name.clone()));
-    names.dedup_by(|a, b| a.eq_ignore_ascii_case(b));
-    names
-}
-
-/// Takes one thing out of the model; returns what it was.
-fn remove(model: &mut Model, name: &str, span: Span) -> Outcome<&'static str> {
-    let key = Model::key(name);
-    let used = |by: Vec<&str>| match by.first() {
-        Some(user) => Err(Diagnostic::error(format!("{name} is used by {user} and is not deleted"), span)),
-        None => Ok(()),
-    };
-    if model.connectors.shift_remove(&key).is_some() {
-        return Ok("connector");
-    }
-    if model.classes.contains_key(&key) {
-        used(model.users_of_class(name))?;
-        model.classes.shift_remove(&key);
-        return Ok("class");
-    }
-    if model.points.contains_key(&key) {
-        used(model.users_of_point(name))?;
-        model.points.shift_remove(&key);
-        return Ok("point");
-    }
-    if model.bodies.contains_key(&key) {
-        let points: Vec<String> = model
-            .points
-            .values()
-            .filter(|p| model.body_of(p).is_some_and(|b| Model::key(&b.name) == key))
-            .map(|p| p.name.clone())
-            .collect();
-        for point in &points {
-            used(model.users_of_point(point))?;
-        }
-        for point in points {
-            model.points.shift_remove(&Model::key(&point));
-        }
-        model.parts.retain(|_, p| Model::key(&p.body) != key);
-        model.bodies.shift_remove(&key);
-        if model.current_part.as_ref().is_some_and(|p| !model.parts.contains_key(&Model::key(p))) {
-            model.current_part = None;
-        }
-        return Ok("body");
-    }
-    if model.parts.contains_key(&key) {
-        used(model.points.values().filter(|p| Model::key(&p.part) == key).map(|p| p.name.as_str()).collect())?;
-        model.parts.shift_remove(&key);
-        return Ok("part");
-    }
-    if model.curves.shift_remove(&key).is_some() {
-        return Ok("curve");
-    }
-    if model.environments.shift_remove(&key).is_some() {
-        return Ok("environment");
-    }
-    model.selectors.shift_remove(&key);
-    Ok("selector")
-}
-
-fn rename(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    let (old, new) = (call.args.word(0).unwrap_or_default(), call.args.word(1).unwrap_or_default());
-    let span = call.args.place(0);
-    let mark = |name: &str| name.chars().next().filter(|c| "~*:".contains(*c));
-    if mark(old) != mark(new) {
-        return Err(Diagnostic::error("the new name must have the same marker as the old one", call.args.place(1)));
-    }
-    let model = &mut job.model;
-    let (from, to) = (Model::key(old), Model::key(new));
-    if all_names(model).iter().any(|n| Model::key(n) == to) {
-        return Err(Diagnostic::error(format!("{new} exists already"), call.args.place(1)));
-    }
-    let what = if let Some(index) = model.connectors.get_index_of(&from) {
-        move_entry(&mut model.connectors, index, to, |c| c.name = new.to_string());
-        "connector"
-    } else if let Some(index) = model.classes.get_index_of(&from) {
-        move_entry(&mut model.classes, index, to, |c| c.name = new.to_string());
-        for user in model.connectors.values_mut().filter(|c| Model::key(&c.class) == from) {
-            user.class = new.to_string();
-        }
-        "class"
-    } else if let Some(index) = model.points.get_index_of(&from) {
-        move_entry(&mut model.points, index, to, |p| p.name = new.to_string());
-        for point in model.connectors.values_mut().flat_map(|c| c.points.iter_mut()).filter(|p| Model::key(p) == from) {
-            *point = new.to_string();
-        }
-        "point"
-    } else if let Some(index) = model.bodies.get_index_of(&from) {
-        move_entry(&mut model.bodies, index, to.clone(), |b| b.name = new.to_string());
-        for part in model.parts.values_mut().filter(|p| Model::key(&p.body) == from) {
-            part.body = new.to_string();
-        }
-        if let Some(index) = model.parts.get_index_of(&from) {
-            move_entry(&mut model.parts, index, to, |p| p.name = new.to_string());
-            for point in model.points.values_mut().filter(|p| Model::key(&p.part) == from) {
-                point.part = new.to_string();
-            }
-            if model.current_part.as_ref().is_some_and(|p| Model::key(p) == from) {
-                model.current_part = Some(new.to_string());
-            }
-        }
-        "body"
-    } else {
-        let known = all_names(model);
-        let mut error = Diagnostic::error(format!("no connector, class, point or body is called {old}"), span);
-        error.help.extend(did_you_mean(old, known.iter().map(String::as_str)));
-        return Err(error);
-    };
-    job.remark(format!("{what} {old} is now {new}"), span);
-    Ok(Effect::Done)
-}
-
-/// Gives an entry a new key at its old place.
-fn move_entry<T>(table: &mut indexmap::IndexMap<String, T>, index: usize, key: String, change: impl FnOnce(&mut T)) {
-    if let Some((_, mut entry)) = table.shift_remove_index(index) {
-        change(&mut entry);
-        table.shift_insert(index, key, entry);
-    }
 }

@@ -5,11 +5,12 @@
 use super::{Call, Command, Effect, Job, Menu};
 use crate::language::args;
 use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::name as rule;
 use crate::language::record::Word;
 use crate::language::select::{Owner, choose};
 use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Form, Kind, Noun, Opens, ValueSpec};
-use crate::model::{Curve, CurveKind, Model};
+use crate::model::{Curve, CurveKind, Model, Thing};
 
 /// &DATA.
 pub static DATA: Command = Command { spec: &SPEC, edits: false, run };
@@ -41,11 +42,14 @@ const fn curve(name: &'static str, help: &'static str, example: &'static str) ->
 /// The data of a curve's record: its name, then pairs.
 const fn pairs(kind: CurveKind) -> [ValueSpec; 3] {
     let [(first, of_first), (second, of_second)] = kind.axes();
-    [
-        ValueSpec::new("NAME", Kind::Name(Noun::New), "name of the curve"),
-        ValueSpec::new(first, Kind::Number(of_first), "grows from pair to pair"),
-        ValueSpec::new(second, Kind::Number(of_second), "value there"),
-    ]
+    let grows = ValueSpec::new(first, Kind::Number(of_first), "grows from pair to pair");
+    let value = ValueSpec::new(second, Kind::Number(of_second), "value there");
+    let name = ValueSpec::new("NAME", Kind::Name(Noun::New), "name of the curve");
+    match kind {
+        // a spectrum has energy at real waves only
+        CurveKind::PeriodSpectrum | CurveKind::FrequencySpectrum => [name, grows.not_negative(), value.not_negative()],
+        _ => [name, grows, value],
+    }
 }
 
 /// C_PROFILE within `&DATA CURVES`.
@@ -225,6 +229,8 @@ fn convolution(job: &mut Job, call: &Call, span: Span, words: &[Word]) -> Outcom
 fn define(job: &mut Job, call: &Call, kind: CurveKind) -> Outcome<Effect> {
     let args = &call.args;
     let (name, span) = (args.word(0).unwrap_or_default(), args.place(0));
+    rule::check(name, None, "curve", span)?;
+    job.model.free_name(name, &[Thing::Curve], span)?;
     let [(first, _), _] = kind.axes();
     let mut points: Vec<(f64, f64)> = Vec::new();
     for pair in args.data.get(1..).unwrap_or_default().chunks_exact(2) {

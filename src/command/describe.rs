@@ -1,12 +1,11 @@
 //! `&DESCRIBE`, points, and `&INSTATE`.
 
 use super::{Call, Command, Effect, Job};
-use crate::language::args::LONGEST_NAME;
 use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::record::Word;
+use crate::language::name as rule;
 use crate::language::spec::{CommandSpec, Form, Kind, Noun, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
-use crate::model::{Body, Coordinates, GROUND, Model, Part, Place, Point, find, unit_vector};
+use crate::model::{Body, Coordinates, GROUND, Model, Part, Place, Point, Thing, find, unit_vector};
 
 /// &DESCRIBE.
 pub static DESCRIBE: Command = Command { spec: &DESCRIBE_SPEC, edits: false, run: describe };
@@ -89,9 +88,14 @@ fn describe(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let name = args.word(1).unwrap_or_default().to_string();
     let (key, span) = (Model::key(&name), args.place(1));
     let model = &mut job.model;
-    if name.starts_with(['~', '*', ':', '#', '&', '%']) || key == GROUND {
-        return Err(Diagnostic::error(format!("`{name}` cannot name a body or part"), span));
+    rule::check(&name, None, "body or part", span)?;
+    if key == GROUND {
+        return Err(
+            Diagnostic::error(format!("`{name}` cannot name a body or part"), span).label("it is the ground's name")
+        );
     }
+    let mine: &[Thing] = if args.word(0) == Some("BODY") { &[Thing::Body] } else { &[Thing::Body, Thing::Part] };
+    model.free_name(&name, mine, span)?;
     if args.word(0) == Some("BODY") {
         if args.has("-MOVE") {
             return Err(Diagnostic::error("-MOVE places a part, not a body", args.place(0))
@@ -140,7 +144,7 @@ fn place_of(values: &[crate::language::args::Value]) -> Place {
 
 fn point(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let [name, rest @ ..] = call.words else { return Ok(Effect::Done) };
-    check_point_name(name)?;
+    rule::check(&name.text, Some('*'), "point", name.span)?;
     let args = crate::language::args::read(&POINT_SPEC, name.span, rest, job.units)?;
     let at = [0, 1, 2].map(|i| args.number(i).unwrap_or(0.0));
     // the angles of the other modes are degrees, not lengths
@@ -172,15 +176,6 @@ fn point(job: &mut Job, call: &Call) -> Outcome<Effect> {
     }
     job.note_name(&name.text, name.span);
     Ok(Effect::Done)
-}
-
-fn check_point_name(name: &Word) -> Outcome<()> {
-    let count = name.text.chars().count();
-    if (2..=LONGEST_NAME).contains(&count) {
-        return Ok(());
-    }
-    Err(Diagnostic::error(format!("`{}` cannot name a point", name.text), name.span)
-        .label(format!("expected * and up to {} characters", LONGEST_NAME - 1)))
 }
 
 fn instate(job: &mut Job, call: &Call) -> Outcome<Effect> {

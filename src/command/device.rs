@@ -3,6 +3,7 @@
 use super::{Call, Command, Effect, Job};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
+use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use std::path::{Path, PathBuf};
 
@@ -124,11 +125,26 @@ pub fn beside_root(job: &Job, name: &str) -> PathBuf {
     if path.is_absolute() || path.exists() { path.to_path_buf() } else { folder.join(path) }
 }
 
+/// A file that a script may have written: in the job's folder when it is there, else as [`beside_root`].
+pub fn found(job: &Job, name: &str) -> PathBuf {
+    let own = job.output.folder.resolve(name).ok().filter(|path| path.exists());
+    own.unwrap_or_else(|| beside_root(job, name))
+}
+
+/// A file to be read that a script may have written, as [`found`].
+///
+/// # Errors
+/// A file that is not there.
+pub fn readable(job: &Job, name: &str, span: Span) -> Outcome<PathBuf> {
+    let path = found(job, name);
+    if path.is_file() { Ok(path) } else { existing(job, name, span) }
+}
+
 /// A file to be read: beside the job's root, or as written.
 ///
 /// # Errors
 /// A file that is not there.
-pub fn existing(job: &Job, name: &str, span: crate::language::source::Span) -> Outcome<PathBuf> {
+pub fn existing(job: &Job, name: &str, span: Span) -> Outcome<PathBuf> {
     let path = beside_root(job, name);
     if path.is_file() {
         return Ok(path);

@@ -169,7 +169,11 @@ fn here(job: &Job, span: Span) -> Outcome<&Disposition> {
 /// An error of the library at the word it is about, else at the command.
 fn refused(args: &Args, error: &DispositionError) -> Box<Diagnostic> {
     let named = match error {
-        DispositionError::Column(c) => args.data.iter().find(|v| v.word() == Some(&c.name)).map(|v| v.span),
+        // the last of that name: a file or variable before the columns may have it too
+        DispositionError::Column(c) => {
+            let given = args.option("-VALUES").map_or(&[][..], |g| &g.values);
+            args.data.iter().rev().chain(given).find(|v| v.word() == Some(&c.name)).map(|v| v.span)
+        }
         DispositionError::Rows { .. } => args.option("-RECORD").map(|g| g.span),
         DispositionError::NoRow => args.option("-VALUES").map(|g| g.span),
         DispositionError::NotOne { .. } => Some(args.place(0)),

@@ -4,11 +4,12 @@
 
 use super::{Call, Command, Effect, Job};
 use crate::language::args::{Args, Given};
-use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::diagnostic::{Diagnostic, Outcome, did_you_mean};
+use crate::language::name as rule;
 use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
-use crate::model::{Current, CurveKind, Environment, Model, Sea, TimeWindow, Wind, find};
+use crate::model::{Current, Curve, CurveKind, Environment, Model, Sea, Thing, TimeWindow, Wind, find};
 
 /// &ENV.
 pub static ENV: Command = Command { spec: &ENV_SPEC, edits: false, run };
@@ -32,6 +33,15 @@ const SEA: &[ValueSpec] = &[
     number("PERIOD", Dim::Time, "period").positive(),
     number("GAMMA", Dim::None, "peakedness").or("that of the spectrum").within(0.5, 20.0),
 ];
+const fn choice(name: &'static str, words: &'static [&'static str], help: &'static str) -> ValueSpec {
+    ValueSpec::new(name, Kind::Choice(words), help)
+}
+/// Codes and laws of the mean wind; reference/model.md names no types, so these are the field's usual ones.
+const PROFILES: &[&str] = &["POWER", "LOGARITHMIC", "API", "NPD", "ISO", "ABS", "DNV"];
+/// Codes of a design wind.
+const DESIGN_WINDS: &[&str] = &["API", "NPD", "ISO", "ABS", "DNV"];
+/// Gust spectra known without a curve.
+const GUSTS: [&str; 7] = ["API", "NPD", "ISO", "OCHI", "HARRIS", "DAVENPORT", "KAIMAL"];
 const PERIODS: &[ValueSpec] = &[number("T", Dim::Time, "period").positive()];
 
 const OPTIONS: &[OptionSpec] = &[
@@ -45,12 +55,19 @@ const OPTIONS: &[OptionSpec] = &[
     ),
     OptionSpec::new(
         "-PROBABILITY",
-        &[text("STAT", "statistic"), number("DATA", Dim::None, "its value").or("none")],
+        &[
+            choice("STAT", &["RMS", "SIGNIFICANT", "MAXIMUM", "TIME", "PROBABILITY"], "statistic"),
+            number("DATA", Dim::None, "its value").or("none"),
+        ],
         "statistic of the results",
     ),
     OptionSpec::new("-SEA", SEA, "sea").default("none"),
     OptionSpec::new("-A_SEA", SEA, "sea added to -SEA").default("none"),
-    OptionSpec::new("-SP_TYPE", &[text("TYPE", "type of spectrum")], "type of spectrum"),
+    OptionSpec::new(
+        "-SP_TYPE",
+        &[choice("TYPE", &["PEAK", "MEAN", "ZERO_CROSSING"], "peak, mean or zero-crossing period")],
+        "type of the spectrum's period",
+    ),
     OptionSpec::new("-SPREAD", &[number("EXP", Dim::None, "exponent").positive()], "spreading cos(H - th)**EXP")
         .default("200: long-crested"),
     OptionSpec::new("-S_PERIOD", PERIODS, "periods of the sea's components").repeating(1),
@@ -82,15 +99,22 @@ const OPTIONS: &[OptionSpec] = &[
     .default("none"),
     OptionSpec::new(
         "-W_PROFILE",
-        &[text("TYPE", "type"), number("EXP", Dim::None, "exponent").or("that of the type")],
+        &[choice("TYPE", PROFILES, "type"), number("EXP", Dim::None, "exponent").or("that of the type").not_negative()],
         "wind profile",
     ),
     OptionSpec::new(
         "-W_DESIGN",
-        &[text("TYPE", "type"), number("DURATION", Dim::Time, "averaging time").or("that of the type").positive()],
+        &[
+            choice("TYPE", DESIGN_WINDS, "type"),
+            number("DURATION", Dim::Time, "averaging time").or("that of the type").positive(),
+        ],
         "design wind",
     ),
-    OptionSpec::new("-W_SPECTRUM", &[text("TYPE", "type")], "gust spectrum"),
+    OptionSpec::new(
+        "-W_SPECTRUM",
+        &[text("TYPE", "API, NPD, ISO, OCHI, HARRIS, DAVENPORT, KAIMAL, or a spectrum curve")],
+        "gust spectrum",
+    ),
     OptionSpec::new("-W_HISTORY", &[curve("W_HISTORY curve")], "wind history"),
     OptionSpec::new("-W_PERIOD", PERIODS, "periods of the gusts").repeating(1),
     OptionSpec::new(
@@ -101,7 +125,7 @@ const OPTIONS: &[OptionSpec] = &[
     OptionSpec::new(
         "-CURRENT",
         &[
-            ValueSpec::new("V", Kind::Text, "velocity, or name of a C_PROFILE curve"),
+            ValueSpec::new("V", Kind::Text, "velocity (zero or more), or name of a C_PROFILE curve"),
             number("DIR", Dim::Angle, "direction it comes from"),
         ],
         "current: V DIR, or NAME1 DIR1 NAME2 DIR2 ..",
@@ -129,7 +153,8 @@ static ENV_SPEC: CommandSpec = CommandSpec {
     options: OPTIONS,
     detail: "Directions are where sea, wind and current come from, from +X toward +Y: 180 is a head sea. Without a name the \
              environment starts from the defaults; a new name too, and is kept; an old name edits what is kept. It stays in \
-             force until the next &ENV.",
+             force until the next &ENV. The sources list no types for -PROBABILITY, -SP_TYPE, -W_PROFILE, -W_DESIGN and \
+             -W_SPECTRUM: those taken are the field's usual ones. Depth and tide together must leave water.",
     example: "&ENV STORM -SEA ISSC 180 22 10.3 -WIND 60 180 -DEPTH 3000\n&STATUS ENVIRONMENT",
     ..CommandSpec::new("&ENV", "sets the environment")
 };
@@ -159,6 +184,10 @@ fn define(job: &mut Job, call: &Call) -> Outcome<Effect> {
 
 fn build(job: &Job, args: &Args) -> Outcome<Environment> {
     let name = args.word(0).unwrap_or_default();
+    if !name.is_empty() {
+        rule::check(name, None, "environment", args.place(0))?;
+        job.model.free_name(name, &[Thing::Environment], args.place(0))?;
+    }
     let kept = job.model.environments.get(&Model::key(name)).filter(|_| !name.is_empty());
     let mut env = kept.cloned().unwrap_or_else(|| Environment {
         name: name.to_string(),
@@ -170,7 +199,33 @@ fn build(job: &Job, args: &Args) -> Outcome<Environment> {
         env.options.retain(|g| g.spec.name != given.spec.name);
         env.options.push(given.clone());
     }
+    leaves_water(job, args, &env)?;
     Ok(env)
+}
+
+/// Sees that depth and tide leave water, where this record gives one of them.
+fn leaves_water(job: &Job, args: &Args, env: &Environment) -> Outcome<()> {
+    let around = job.model.surroundings_in(env);
+    let Some(given) = args.option("-TIDE").or(args.option("-DEPTH")) else { return Ok(()) };
+    match around.depth {
+        Some(depth) if depth + around.tide <= 0.0 => {
+            let shown = |length: f64| Dim::Length.from_si(length, job.units);
+            let text = format!("a depth of {} with a tide of {} leaves no water", shown(depth), shown(around.tide));
+            Err(Diagnostic::error(text, place(given, 0)))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Periods, each once.
+fn periods(given: &Given) -> Outcome<()> {
+    for (index, value) in given.values.iter().enumerate() {
+        if let Some(first) = given.values.iter().take(index).find(|v| v.content == value.content) {
+            return Err(Diagnostic::error(format!("{} has the same period twice", given.spec.name), value.span)
+                .other(first.span, "first given here"));
+        }
+    }
+    Ok(())
 }
 
 fn place(given: &Given, index: usize) -> Span {
@@ -202,6 +257,8 @@ fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<()> {
             });
         }
         "-CURRENT" => env.current = Some(current(job, given)?),
+        "-S_PERIOD" | "-MD_PERIOD" | "-W_PERIOD" | "-E_PERIOD" => periods(given)?,
+        "-W_SPECTRUM" => spectrum(job, given, &GUSTS)?,
         "-W_HISTORY" => known_curve(job, given, 0, CurveKind::WindHistory)?,
         "-M_GROWTH" => known_curve(job, given, 0, CurveKind::MarineGrowth)?,
         _ => {}
@@ -214,17 +271,32 @@ const SPECTRA: [&str; 4] = ["ISSC", "JONSWAP", "2JONSWAP", "REGULAR"];
 
 fn sea(job: &Job, given: &Given) -> Outcome<Sea> {
     let name = given.word(0).unwrap_or_default();
-    let curve = job.model.curves.get(&Model::key(name));
-    let spectral = curve.is_some_and(|c| matches!(c.kind, CurveKind::PeriodSpectrum | CurveKind::FrequencySpectrum));
-    if !spectral && !SPECTRA.iter().any(|s| s.eq_ignore_ascii_case(name)) {
-        let curves = job.model.curves.values().map(|c| c.name.as_str());
-        let mut error = Diagnostic::error(format!("unknown spectrum {name}"), place(given, 0))
-            .label(format!("expected {} or a P_SPECTRUM or F_SPECTRUM curve", SPECTRA.join(", ")));
-        error.help.extend(crate::language::diagnostic::did_you_mean(name, SPECTRA.into_iter().chain(curves)));
-        return Err(error);
-    }
+    spectrum(job, given, &SPECTRA)?;
     let at = |i: usize| given.number(i).unwrap_or(0.0);
     Ok(Sea { spectrum: name.to_string(), direction: at(1), height: at(2), period: at(3), gamma: given.number(4) })
+}
+
+/// Sees that the first word names a known spectrum or a curve that is one.
+fn spectrum(job: &Job, given: &Given, known: &[&str]) -> Outcome<()> {
+    let (name, span) = (given.word(0).unwrap_or_default(), place(given, 0));
+    if known.iter().any(|s| s.eq_ignore_ascii_case(name)) {
+        return Ok(());
+    }
+    let spectral = |c: &Curve| matches!(c.kind, CurveKind::PeriodSpectrum | CurveKind::FrequencySpectrum);
+    let expected = format!("expected {} or a P_SPECTRUM or F_SPECTRUM curve", known.join(", "));
+    match job.model.curves.get(&Model::key(name)) {
+        Some(curve) if spectral(curve) => Ok(()),
+        Some(curve) => {
+            let text = format!("curve {name} is a {}, not a spectrum", curve.kind.name());
+            Err(Diagnostic::error(text, span).label(expected).other(curve.span, "defined here"))
+        }
+        None => {
+            let curves = job.model.curves.values().filter(|c| spectral(c)).map(|c| c.name.as_str());
+            let mut error = Diagnostic::error(format!("unknown spectrum {name}"), span).label(expected);
+            error.help.extend(did_you_mean(name, known.iter().copied().chain(curves)));
+            Err(error)
+        }
+    }
 }
 
 fn known_curve(job: &Job, given: &Given, index: usize, kind: CurveKind) -> Outcome<()> {
@@ -250,6 +322,11 @@ fn current(job: &Job, given: &Given) -> Outcome<Current> {
             if given.values.len() > 2 {
                 return Err(Diagnostic::error("a uniform current has one velocity and one direction", what.span)
                     .help("form: -CURRENT V DIR, or -CURRENT NAME1 DIR1 NAME2 DIR2 .."));
+            }
+            if velocity < 0.0 {
+                return Err(Diagnostic::error("V of -CURRENT must be zero or more", what.span)
+                    .label(format!("this is {velocity}"))
+                    .help("a current from the other side has another direction"));
             }
             return Ok(Current::Uniform { velocity: Dim::Velocity.to_si(velocity, job.units), direction });
         }

@@ -1,6 +1,6 @@
 //! `&INSERT`, `USE_MAC` and `&FILE`.
 
-use super::device::existing;
+use super::device::{existing, readable};
 use super::job::UserFile;
 use super::{Call, Command, Effect, Job, PLAIN};
 use crate::language::diagnostic::{Diagnostic, Outcome};
@@ -8,7 +8,7 @@ use crate::language::record::Word;
 use crate::language::select::{Owner, choose};
 use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Form, Kind, ValueSpec};
-use crate::report::files::{FileError, Place};
+use crate::report::files::{FileError, Place, Side, lies_in};
 
 /// &INSERT.
 pub static INSERT: Command = Command { spec: &INSERT_SPEC, edits: false, run: insert };
@@ -37,8 +37,11 @@ static FILE_SPEC: CommandSpec = CommandSpec {
              &F_READ). Names that are written to, here and in STORE, PLOT and LINES: a relative name, with folders or without, is \
              inside the job's own folder (ROOT.ans or --out DIR) and may not climb out of it; a name that begins with ./ or \
              ../ and an absolute name mean what they mean to the shell. In the job's folder an earlier file is kept as \
-             name.1; outside of it no file is overwritten, and RM, MV, CP and MKDIR need --allow-files. Folders are made by \
-             MKDIR only.",
+             name.1; outside of it no file is overwritten, and RM, MV, CP and MKDIR need --allow-files, and so does a name that a link \
+             leads out of the folder. Folders are made by MKDIR only. The job's log and report and the files that are \
+             open are neither removed nor moved. A relative name that USE reads is looked for in the job's folder first, \
+             where a script's own files are, then beside the script and in the current directory; &INFO(FILE_EXISTS \
+             name) looks in the same places.",
     example: "&FILE OPEN NOTE note.txt\n&FILE WRITE NOTE one line\n&FILE CLOSE NOTE\n&FILE RM note.txt",
     ..CommandSpec::new("&FILE", "works on files")
 };
@@ -91,10 +94,19 @@ fn file(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let at = |error| refused(&error, first.span);
     match action {
         "MKDIR" => job.output.folder.make_folder(&first.text).map_err(at).map(|_| ())?,
-        "RM" => job.output.folder.remove(&first.text).map_err(at).map(|_| ())?,
+        "RM" => {
+            not_open(job, first)?;
+            job.output.folder.remove(&first.text).map_err(at).map(|_| ())?;
+        }
         "MV" | "CP" => {
-            let to = second()?;
-            job.output.folder.transfer(&first.text, &to.text, action == "CP").map_err(at)?;
+            let (to, keep) = (second()?, action == "CP");
+            if !keep {
+                not_open(job, first)?;
+            }
+            job.output.folder.transfer(&first.text, &to.text, keep).map_err(|(side, error)| match side {
+                Side::From => at(error),
+                Side::To => refused(&error, to.span),
+            })?;
         }
         "ANS_DIRECTORY" => {
             let path = job.output.folder.own(&first.text).map_err(at)?;
@@ -108,15 +120,30 @@ fn file(job: &mut Job, call: &Call) -> Outcome<Effect> {
         "CLOSE" => close(job, first)?,
         _ => {
             let name = second()?;
-            let path = existing(job, &name.text, name.span)?;
+            let path = readable(job, &name.text, name.span)?;
             let text = std::fs::read_to_string(&path)
                 .map_err(|e| Diagnostic::error(format!("{}: {e}", path.display()), name.span))?;
             let lines = text.lines().rev().map(str::to_string).collect();
             write_unclosed(job, first)?;
-            job.user_files.insert(first.text.to_ascii_uppercase(), UserFile::Reading(lines));
+            job.user_files.insert(first.text.to_ascii_uppercase(), UserFile::Reading { path, lines });
         }
     }
     Ok(Effect::Done)
+}
+
+/// Sees that a type of `&FILE` has neither a file nor one in this folder open.
+fn not_open(job: &Job, name: &Word) -> Outcome<()> {
+    let Ok(path) = job.output.folder.resolve(&name.text) else { return Ok(()) };
+    let of = |file: &UserFile| match file {
+        UserFile::Writing { place, .. } => lies_in(place.path(), &path),
+        UserFile::Reading { path: read, .. } => lies_in(read, &path),
+    };
+    match job.user_files.iter().find(|(_, file)| of(file)) {
+        Some((kind, _)) => {
+            Err(refused(&FileError::InUse(path), name.span).help(format!("&FILE CLOSE {kind} closes it")))
+        }
+        None => Ok(()),
+    }
 }
 
 /// The name of a CSV file: .csv is added when it has no ending.
@@ -170,7 +197,7 @@ pub fn write_open_files(job: &mut Job) -> Vec<Box<Diagnostic>> {
             UserFile::Writing { place, text, opened } => {
                 Some(written_unclosed(kind, place, text, *opened).unwrap_or_else(|error| error))
             }
-            UserFile::Reading(_) => None,
+            UserFile::Reading { .. } => None,
         })
         .collect()
 }
@@ -200,7 +227,7 @@ fn close(job: &mut Job, name: &Word) -> Outcome<()> {
         Some(UserFile::Writing { place, text, .. }) => {
             place.write(text.as_bytes()).map_err(|e| refused(&e, name.span))?;
         }
-        Some(UserFile::Reading(_)) => {}
+        Some(UserFile::Reading { .. }) => {}
         None => return Err(Diagnostic::error(format!("no file of type {} is open", name.text), name.span)),
     }
     job.user_files.shift_remove(&key);

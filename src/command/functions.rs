@@ -21,7 +21,7 @@ pub const HELP: &[(&str, &str, &str)] = &[
         "&INFO",
         "&INFO(NAME data)",
         "SEVERITY ERROR|WARNING (did the previous record raise it) | MENU DATE T_OF_DAY TITLE SUBTITLE ROOT CWD | units: \
-         BFORCE LFORCE BLENGTH LLENGTH | FILE_EXISTS name",
+         BFORCE LFORCE BLENGTH LLENGTH | FILE_EXISTS name (in the job's folder, else beside the script, as for &FILE USE)",
     ),
     (
         "&POINT",
@@ -123,7 +123,7 @@ fn info(job: &Job, action: &Word, rest: &[Word]) -> Outcome<String> {
         "CWD" => std::env::current_dir().map(|d| format!("{}/", d.display())).unwrap_or_default(),
         "BFORCE" | "LFORCE" => job.units.words().1.into(),
         "BLENGTH" | "LLENGTH" => job.units.words().0.into(),
-        _ => logic::word(super::device::beside_root(job, &first()).exists()).into(),
+        _ => logic::word(super::device::found(job, &first()).exists()).into(),
     })
 }
 
@@ -313,7 +313,7 @@ fn names(job: &Job, kind: &Word, rest: &[Word]) -> Outcome<String> {
 fn f_read(job: &mut Job, words: &[Word], span: Span) -> Outcome<String> {
     let [file, variable] = words else { return Err(Diagnostic::error("&F_READ takes TYPE and VAR", span)) };
     match job.user_files.get_mut(&file.text.to_ascii_uppercase()) {
-        Some(UserFile::Reading(lines)) => match lines.pop() {
+        Some(UserFile::Reading { lines, .. }) => match lines.pop() {
             Some(line) => {
                 job.assignments.push((variable.text.to_string(), line));
                 Ok(logic::word(false).into())

@@ -5,6 +5,7 @@ use crate::connector::CLASSES;
 use crate::language::diagnostic::Outcome;
 use crate::language::flow::specs::CONTROL;
 use crate::language::functions;
+use crate::language::name;
 use crate::language::select::{Owner, choose};
 use crate::language::spec::{CommandSpec, Kind, Need, ValueSpec, expected};
 use crate::language::units::UnitSystem;
@@ -92,6 +93,7 @@ fn overview(job: &Job) -> String {
         "String functions: ".to_string()
             + &functions::HELP.iter().chain(super::functions::HELP).map(|f| f.0).collect::<Vec<_>>().join(" "),
     );
+    lines.extend(wrap(name::RULE, 96));
     lines.push("&HELP NAME explains one; &HELP ~CLASS lists the class types.".into());
     lines.join("\n")
 }

@@ -128,8 +128,13 @@ pub enum UserFile {
         /// The name in the record that opened it.
         opened: Span,
     },
-    /// Being read; the lines left, last first.
-    Reading(Vec<String>),
+    /// Being read.
+    Reading {
+        /// Where it is.
+        path: PathBuf,
+        /// The lines left, last first.
+        lines: Vec<String>,
+    },
 }
 
 /// Asks the user at the terminal; `None` at the end of input.

@@ -1,5 +1,6 @@
 //! The commands that open menus, and the end of INMODEL.
 
+use super::class::known_curves;
 use super::connector::build_connector;
 use super::{Call, Command, Effect, INMODEL_FILE, Job, Menu};
 use crate::language::diagnostic::{Diagnostic, Outcome};
@@ -77,8 +78,11 @@ fn conn_design(job: &mut Job, _: &Call) -> Outcome<Effect> {
     Ok(Effect::Done)
 }
 
-/// Builds the connectors that waited for names defined later; returns what is wrong with each that cannot be built.
+/// Builds the connectors that waited for names defined later; returns what is wrong with each that cannot be built, and
+/// with the curves that classes name.
 pub fn finish_inmodel(job: &mut Job) -> Vec<Box<Diagnostic>> {
     let waiting = std::mem::take(&mut job.deferred);
-    waiting.iter().filter_map(|args| build_connector(job, args).err()).collect()
+    let records = job.model.classes.values().flat_map(|class| class.records.iter());
+    let curves: Vec<_> = records.filter_map(|r| known_curves(job, &r.args).err()).collect();
+    curves.into_iter().chain(waiting.iter().filter_map(|args| build_connector(job, args).err())).collect()
 }

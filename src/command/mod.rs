@@ -14,6 +14,7 @@ mod describe;
 mod device;
 mod disposition;
 mod environment;
+mod environment_table;
 mod file;
 mod forces;
 pub mod functions;
@@ -23,6 +24,7 @@ mod line_types;
 mod lines;
 mod menus;
 mod message;
+mod names;
 mod offsets;
 mod report_menu;
 mod select;
@@ -111,8 +113,8 @@ pub static COMMANDS: &[&Command] = &[
     &describe::INSTATE,
     &class::CLASS,
     &connector::CONNECTOR,
-    &connector::DELETE,
-    &connector::RENAME,
+    &names::DELETE,
+    &names::RENAME,
     &alter::ALTER,
     &select::SELECT,
     &select::SELECTOR,

@@ -4,9 +4,10 @@
 
 use super::{Call, Command, Effect, Job, Menu};
 use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::name as rule;
 use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Kind, Noun, Opens, OptionSpec, ValueSpec};
-use crate::model::{Model, Selector};
+use crate::model::{Model, Selector, find};
 
 /// &SELECT.
 pub static SELECT: Command = Command { spec: &SPEC, edits: false, run };
@@ -54,21 +55,33 @@ fn record(job: &mut Job, call: &Call) -> Outcome<Effect> {
     define(job, call, name, call.args.span)
 }
 
+fn circular(name: &str, used: &str, span: Span) -> Box<Diagnostic> {
+    let label = if name.eq_ignore_ascii_case(used) { "this is itself".into() } else { format!("it selects by {name}") };
+    Diagnostic::error(format!("selector {name} would select by itself"), span).label(label)
+}
+
 const FORM: &str = "form: &SELECT :NAME -SELECT NAME .. -EXCEPT NAME ..";
 
 fn define(job: &mut Job, call: &Call, name: &str, span: Span) -> Outcome<Effect> {
-    if !name.starts_with(':') || name.len() < 2 {
-        return Err(Diagnostic::error(format!("`{name}` cannot name a selector"), span).label("expected :NAME"));
-    }
+    rule::check(name, Some(':'), "selector", span)?;
     if !call.args.has("-SELECT") {
         return Err(Diagnostic::error("-SELECT is missing: a selector without names selects nothing", span).help(FORM));
     }
+    let key = Model::key(name);
     let list = |option: &str| -> Vec<String> {
         call.args
             .option(option)
             .map_or(Vec::new(), |g| g.values.iter().filter_map(|v| v.word()).map(str::to_string).collect())
     };
+    for value in call.args.options.iter().flat_map(|given| given.values.iter()) {
+        if let Some(used) = value.word().filter(|word| word.starts_with(':')) {
+            if job.model.reaches(used, &key) {
+                return Err(circular(name, used, value.span));
+            }
+            find(&job.model.selectors, used, "selector", value.span)?;
+        }
+    }
     let made = Selector { name: name.to_string(), select: list("-SELECT"), except: list("-EXCEPT"), span };
-    job.model.selectors.insert(Model::key(name), made);
+    job.model.selectors.insert(key, made);
     Ok(Effect::Done)
 }

@@ -2,6 +2,7 @@
 
 use super::chosen::{Chosen, raise};
 use super::disposition::{BOTH, HARD, send};
+use super::environment_table::environments;
 use super::forces::forces;
 use super::offsets::offsets;
 use super::written::{as_written, kind_data, option_as_written};
@@ -10,7 +11,7 @@ use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::{Owner, choose};
 use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
-use crate::model::{Class, Coordinates, Current, Environment, Model, Sea};
+use crate::model::{Class, Coordinates, Model, Thing};
 use crate::report::page;
 use crate::report::plot::Chart;
 use crate::table::{Cell, Digits, Table};
@@ -24,7 +25,7 @@ const KINDS: &[(&str, Owner, &str)] = &[
     ("G_CONNECTOR", Owner::Moses, "connector geometry"),
     ("F_CONNECTOR", Owner::Moses, "forces of the connectors between their ends as they are"),
     ("CURVES", Owner::Moses, "curves"),
-    ("ENVIRONMENT", Owner::Moses, "the environment in force"),
+    ("ENVIRONMENT", Owner::Moses, "the environment in force, or one kept under a name"),
     ("CLASSES", Owner::Ours, "the same as CL_FLEX"),
     ("BODIES", Owner::Ours, "bodies and their parts"),
     ("POINTS", Owner::Ours, "points, in their parts and in the global system"),
@@ -57,7 +58,8 @@ static SPEC: CommandSpec = CommandSpec {
     repeat: 1,
     options: &[OptionSpec::new("-PLOT", &[], "plots curves"), HARD, BOTH],
     detail: "CONFIGURATION, CL_FLEX (or CLASSES), G_CONNECTOR, F_CONNECTOR, CURVES, ENVIRONMENT, BODIES, POINTS, DIMENSIONS, DEFAULTS, \
-             SELECTORS; alone it counts what the model holds. LINE_TYPES lists the chains and ropes that -TYPE of a line \
+             SELECTORS; alone it counts what the model holds. ENVIRONMENT alone is the one in force, with a NAME the one kept \
+             under it. LINE_TYPES lists the chains and ropes that -TYPE of a line \
              class knows; LINE_TYPES 3 gives their values at a nominal diameter, LINE_TYPES CHAIN_R4 the formulas of one. \
              F_CONNECTOR solves every line between its ends as they are, exactly or from its table as its class says: the \
              force it exerts on its first end in the global system, its tension and the largest share of a segment's break, \
@@ -83,7 +85,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         "G_CONNECTOR" => std::iter::once(connectors(model, &fits)).chain(offsets(model, &fits)).collect(),
         "F_CONNECTOR" => vec![forces(model, &fits, job.units)],
         "CURVES" => curves(model, &fits),
-        "ENVIRONMENT" => vec![environment(job)],
+        "ENVIRONMENT" => environments(job, (!chosen.all()).then_some(&fits)),
         "BODIES" => vec![bodies(model, &fits)],
         "POINTS" => vec![points(model, &fits)],
         "DIMENSIONS" => vec![dimensions(job)],
@@ -92,7 +94,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         "LINE_TYPES" => line_types::tables(job, &args.data)?,
         _ => vec![summary(model)],
     };
-    chosen.check(kind, &tables)?;
+    chosen.check(kind, &tables, things(kind))?;
     let head = job.page_head();
     let mut text = tables.iter().map(|t| page::render(t, job.units, &head)).collect::<Vec<_>>().join("\n");
     if args.has("-PLOT") && kind == "CURVES" {
@@ -109,6 +111,21 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     send(job, args, &text)?;
     tables.iter().for_each(|t| raise(job, t, args.place(1)));
     Ok(Effect::Done)
+}
+
+/// The things whose names a kind of &STATUS takes.
+fn things(kind: &str) -> &'static [Thing] {
+    match kind {
+        "CONFIGURATION" => &[Thing::Body],
+        "BODIES" => &[Thing::Body, Thing::Part],
+        "CL_FLEX" | "CLASSES" => &[Thing::Class],
+        "G_CONNECTOR" | "F_CONNECTOR" => &[Thing::Connector],
+        "CURVES" => &[Thing::Curve],
+        "ENVIRONMENT" => &[Thing::Environment],
+        "POINTS" => &[Thing::Point],
+        "SELECTORS" => &[Thing::Selector],
+        _ => &[],
+    }
 }
 
 /// Appends a row; the callers give one cell a column.
@@ -262,68 +279,6 @@ fn curves(model: &Model, fits: &dyn Fn(&str) -> bool) -> Vec<Table> {
             table
         })
         .collect()
-}
-
-fn facts_of_sea(table: Table, name: &str, sea: &Sea) -> Table {
-    let toward = sea.direction + std::f64::consts::PI;
-    table
-        .fact(name, sea.spectrum.as_str(), Dim::None)
-        .fact("   comes from", sea.direction, Dim::Angle)
-        .fact("   travels toward", toward.rem_euclid(std::f64::consts::TAU), Dim::Angle)
-        .fact("   height", sea.height, Dim::Length)
-        .fact("   period", sea.period, Dim::Time)
-        .fact("   gamma", sea.gamma, Dim::None)
-}
-
-fn environment(job: &Job) -> Table {
-    let (model, env) = (&job.model, &job.model.environment);
-    let around = model.surroundings();
-    let name = if env.name.is_empty() { "in Force" } else { &env.name };
-    let mut table = Table::new(format!("Environment {name}"))
-        .fact("Water Density", around.water_density, Dim::Density)
-        .fact("Water Depth", around.depth, Dim::Length)
-        .fact("Tide", around.tide, Dim::Length)
-        .fact("Ramp", env.ramp.unwrap_or(model.defaults.ramp), Dim::Time);
-    for (name, sea) in [("Sea", &env.sea), ("Added Sea", &env.added_sea)] {
-        if let Some(sea) = sea {
-            table = facts_of_sea(table, name, sea);
-        }
-    }
-    if env.sea.is_some() {
-        table = table.fact("Spreading Exponent", env.spreading.unwrap_or(200.0), Dim::None);
-    }
-    if let Some(wind) = env.wind {
-        table = table.fact("Wind", wind.speed, Dim::WindSpeed).fact("   comes from", wind.direction, Dim::Angle);
-    }
-    table = match &env.current {
-        None => table,
-        Some(Current::Uniform { velocity, direction }) => {
-            table.fact("Current", *velocity, Dim::Velocity).fact("   comes from", *direction, Dim::Angle)
-        }
-        Some(Current::Profiles(list)) => list.iter().fold(table, |t, (name, direction)| {
-            t.fact("Current Profile", name.as_str(), Dim::None).fact("   comes from", *direction, Dim::Angle)
-        }),
-    };
-    if let Some(time) = env.time {
-        table = table
-            .fact("Time Observed", time.observed, Dim::Time)
-            .fact("Time Step", time.step, Dim::Time)
-            .fact("Transient", time.transient, Dim::Time)
-            .fact("Cycles", time.cycles.map(Cell::Integer), Dim::None);
-    }
-    others(table, env, job)
-}
-
-/// The options kept that have no line of their own above, as they were given.
-fn others(mut table: Table, env: &Environment, job: &Job) -> Table {
-    const SHOWN: [&str; 11] =
-        ["-WATER", "-SPGWATER", "-DEPTH", "-TIDE", "-RAMP", "-SEA", "-A_SEA", "-SPREAD", "-WIND", "-CURRENT", "-TIME"];
-    for given in env.options.iter().filter(|g| !SHOWN.contains(&g.spec.name)) {
-        let text = option_as_written(given, job.units);
-        let values = text.split_once(' ').map_or("", |(_, values)| values);
-        table = table.fact(given.spec.name, values, Dim::None);
-    }
-    table
 }
 
 fn dimensions(job: &Job) -> Table {

@@ -101,10 +101,10 @@ pub fn length(args: &Args, kind: &str) -> Outcome<f64> {
     })
 }
 
-/// One or two points, and a body at each end where two are needed.
+/// One or two points, of which `bodies` are on a body, and the most of both that the class takes.
 ///
 /// # Errors
-/// Too many points, or two bodies for a class that only goes to ground.
+/// Too many points, or both on bodies (be it the same) for a class that only goes to ground.
 pub fn ends(kind: &str, connector: &Connector, bodies: usize, most_points: usize, most_bodies: usize) -> Outcome<()> {
     if connector.points.len() > most_points {
         return Err(Diagnostic::error(
@@ -113,8 +113,11 @@ pub fn ends(kind: &str, connector: &Connector, bodies: usize, most_points: usize
         ));
     }
     if bodies > most_bodies {
-        return Err(Diagnostic::error(format!("a {kind} connects a body to ground, not two bodies"), connector.span)
-            .help("use H_CAT, SL_ELEM or ROD between two bodies"));
+        return Err(Diagnostic::error(
+            format!("a {kind} connects a body to ground, and both points are on bodies"),
+            connector.span,
+        )
+        .help("use H_CAT, SL_ELEM or ROD between two points of bodies"));
     }
     if connector.anchor.is_some() && connector.points.len() > 1 {
         return Err(Diagnostic::error("a connector between two points has no anchor", connector.span)

@@ -2,7 +2,7 @@
 //!
 //! Source: seed 001 and its Figure 7. All three sizes are in inches or mm; OD(1) is the pin, OD(2) the mouth of the cone.
 
-use super::spring::{Restraint, no_anchor, restraint_table, restraints, symmetric};
+use super::spring::{Restraint, convolutions, no_anchor, restraint_table, restraints, symmetric};
 use super::{ClassKind, checks, options as o};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::source::Span;
@@ -62,7 +62,9 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
     }
     checks::py_curves(args)?;
     let list = restraints(args, 3)?;
-    Ok(Arc::new(PinInCone { length, pin, mouth, symmetric: symmetric(args, &list, true)?, restraints: list }))
+    let symmetric = symmetric(args, &list, true)?;
+    convolutions(args, &list, symmetric)?;
+    Ok(Arc::new(PinInCone { length, pin, mouth, symmetric, restraints: list }))
 }
 
 impl ConnectorClass for PinInCone {

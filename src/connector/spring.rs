@@ -115,15 +115,40 @@ pub fn symmetric(args: &Args, list: &[Restraint], default: bool) -> Outcome<bool
     Ok(on)
 }
 
+/// Sees that `-CONVOLUTION DF NAME` acts in a degree of freedom that is restrained, once in each.
+///
+/// # Errors
+/// Another degree of freedom, or one given twice, at its word.
+pub fn convolutions(args: &Args, list: &[Restraint], symmetric: bool) -> Outcome<()> {
+    let mut seen: Vec<(&str, Span)> = Vec::new();
+    for value in args.all("-CONVOLUTION").filter_map(|given| given.values.first()) {
+        let Some(dof) = value.word() else { continue };
+        let like_y = dof.replace('Z', "Y");
+        if !list.iter().any(|r| r.dof == dof || (symmetric && r.dof == like_y)) {
+            let known: Vec<&str> = list.iter().map(|r| r.dof.as_str()).collect();
+            return Err(Diagnostic::error(format!("degree of freedom {dof} is not restrained"), value.span)
+                .label(format!("expected {}", known.join(" or "))));
+        }
+        if let Some((_, first)) = seen.iter().find(|(other, _)| *other == dof) {
+            return Err(Diagnostic::error(format!("-CONVOLUTION is given twice for {dof}"), value.span)
+                .other(*first, "first given here"));
+        }
+        seen.push((dof, value.span));
+    }
+    Ok(())
+}
+
 fn build_kind(records: &[ClassRecord], kind: &'static str) -> Outcome<Arc<dyn ConnectorClass>> {
     let Some(record) = records.last() else { return Err(Diagnostic::error("a class needs a record", Span::default())) };
     let args = &record.args;
     checks::py_curves(args)?;
     let list = restraints(args, 1)?;
+    let symmetric = symmetric(args, &list, false)?;
+    convolutions(args, &list, symmetric)?;
     Ok(Arc::new(Spring {
         kind,
         sense: args.word(0).unwrap_or("BOTH").to_string(),
-        symmetric: symmetric(args, &list, false)?,
+        symmetric,
         restraints: list,
         offset: args.option_number("-LEN").unwrap_or(0.0),
     }))

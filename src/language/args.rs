@@ -5,17 +5,15 @@
 //! left out or repeat are taken until a word of another type comes; the remaining words are positional data.
 
 use super::diagnostic::{Diagnostic, Outcome};
+use super::name;
 use super::number;
 use super::record::Word;
 use super::select::{self, Owner};
 use super::source::Span;
-use super::spec::{CommandSpec, Kind, Need, OptionSpec, Range, ValueSpec, expected};
+use super::spec::{CommandSpec, Kind, Need, Noun, OptionSpec, Range, ValueSpec, expected};
 use super::token::{Kind as Lex, is_numeric};
 use super::units::{Dim, UnitSystem};
 use std::sync::Arc;
-
-/// Longest name taken (characters).
-pub const LONGEST_NAME: usize = 64;
 
 /// What a value turned out to be.
 #[derive(Clone, Debug, PartialEq)]
@@ -148,9 +146,9 @@ fn fits(kind: Kind, word: &Word) -> bool {
                 && select::keyword(&word.text, choices.iter().map(|c| (*c, Owner::Moses, ())))
                     == select::Choice::One(())
         }
-        Kind::Name(super::spec::Noun::Class) => word.kind == Lex::Class,
-        Kind::Name(super::spec::Noun::Point) => word.kind == Lex::Point,
-        Kind::Name(super::spec::Noun::Selector) => {
+        Kind::Name(Noun::Class) => word.kind == Lex::Class,
+        Kind::Name(Noun::Point) => word.kind == Lex::Point,
+        Kind::Name(Noun::Selector) => {
             matches!(word.kind, Lex::Word | Lex::Selector | Lex::Quoted | Lex::Point | Lex::Class)
         }
         Kind::Name(_) | Kind::Text | Kind::File => matches!(word.kind, Lex::Word | Lex::Quoted) && !numeric,
@@ -258,7 +256,7 @@ fn one(
             Content::Word(Arc::from(select::choose(&word.text, span, &what, names)?))
         }
         Kind::Name(noun) => {
-            name(spec, noun, word, owner, units)?;
+            noun_fits(spec, noun, word, owner, units)?;
             Content::Word(word.text.clone())
         }
         Kind::Text | Kind::File => Content::Word(word.text.clone()),
@@ -266,8 +264,8 @@ fn one(
     Ok(Value { content, span })
 }
 
-fn name(spec: &ValueSpec, noun: super::spec::Noun, word: &Word, owner: &str, units: UnitSystem) -> Outcome<()> {
-    use super::spec::Noun;
+/// Whether a word can be a name of this sort.
+fn noun_fits(spec: &ValueSpec, noun: Noun, word: &Word, owner: &str, units: UnitSystem) -> Outcome<()> {
     let fitting = match noun {
         Noun::Class => word.kind == Lex::Class && word.text.len() > 1,
         Noun::Point => word.kind == Lex::Point && word.text.len() > 1,
@@ -281,8 +279,8 @@ fn name(spec: &ValueSpec, noun: super::spec::Noun, word: &Word, owner: &str, uni
         )
         .label(format!("`{}` is not one", word.text)));
     }
-    if word.text.chars().count() > LONGEST_NAME {
-        return Err(Diagnostic::error(format!("a name may have at most {LONGEST_NAME} characters"), word.span)
+    if word.text.chars().count() > name::LONGEST {
+        return Err(Diagnostic::error(format!("a name may have at most {} characters", name::LONGEST), word.span)
             .label(format!("this one has {}", word.text.chars().count())));
     }
     Ok(())
@@ -351,6 +349,12 @@ impl Given {
     /// A word by its position.
     pub fn word(&self, index: usize) -> Option<&str> {
         self.values.get(index).and_then(Value::word)
+    }
+
+    /// The values that name a thing of this sort.
+    pub fn named(&self, noun: Noun) -> impl Iterator<Item = &Value> {
+        let specs = self.spec.values.iter();
+        self.values.iter().zip(specs).filter(move |(_, s)| s.kind == Kind::Name(noun)).map(|(value, _)| value)
     }
 
     /// All numbers in order.

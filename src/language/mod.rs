@@ -6,6 +6,7 @@ pub mod diagnostic;
 pub mod flow;
 pub mod functions;
 pub mod logic;
+pub mod name;
 pub mod number;
 pub mod record;
 pub mod select;

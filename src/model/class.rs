@@ -107,7 +107,7 @@ pub trait ConnectorClass: Debug + Send + Sync {
     /// What is missing or contradicts itself, at its place.
     fn check(&self) -> Outcome<()>;
 
-    /// Whether a connector of this class fits its ends: number of points, one body or two.
+    /// Whether a connector of this class fits its ends: number of points, and how many of them are on bodies.
     ///
     /// # Errors
     /// What does not fit.

@@ -4,6 +4,7 @@
 
 use crate::language::args::Given;
 use crate::language::source::Span;
+use crate::language::spec::Noun;
 
 /// A sea: spectrum or regular wave.
 #[derive(Clone, Debug, PartialEq)]
@@ -85,6 +86,20 @@ pub struct Environment {
     pub options: Vec<Given>,
     /// Where it was defined.
     pub span: Span,
+}
+
+impl Environment {
+    /// The curves it names: current profiles, spectra, those of its options.
+    pub fn curves(&self) -> Box<dyn Iterator<Item = &str> + '_> {
+        let profiles = match &self.current {
+            Some(Current::Profiles(list)) => list.as_slice(),
+            _ => &[],
+        };
+        let seas = [&self.sea, &self.added_sea].into_iter().flatten().map(|s| s.spectrum.as_str());
+        let gusts = self.options.iter().filter(|g| g.spec.name == "-W_SPECTRUM").filter_map(|g| g.word(0));
+        let named = self.options.iter().flat_map(|g| g.named(Noun::Curve)).filter_map(|v| v.word()).chain(gusts);
+        Box::new(profiles.iter().map(|(name, _)| name.as_str()).chain(seas).chain(named))
+    }
 }
 
 /// What surrounds a line or body when it is computed.

@@ -11,6 +11,7 @@ mod defaults;
 mod environment;
 mod geometry;
 mod line;
+mod names;
 mod selector;
 
 pub use body::{Body, GROUND, Part, Point};
@@ -21,6 +22,7 @@ pub use defaults::{Coordinates, Defaults, Material};
 pub use environment::{Current, Environment, Sea, Surroundings, TimeWindow, Wind};
 pub use geometry::{Place, Position, unit_vector};
 pub use line::{Condition, Configuration, LineLoads, LineModel, Placement};
+pub use names::Thing;
 pub use selector::Selector;
 
 use crate::language::diagnostic::{Diagnostic, Outcome, did_you_mean};
@@ -64,7 +66,11 @@ impl Model {
 
     /// What every line and body is surrounded by, from the environment in force and the defaults.
     pub fn surroundings(&self) -> Surroundings {
-        let env = &self.environment;
+        self.surroundings_in(&self.environment)
+    }
+
+    /// What every line and body would be surrounded by in an environment.
+    pub fn surroundings_in(&self, env: &Environment) -> Surroundings {
         Surroundings {
             water_density: env.water_density.unwrap_or(self.defaults.water_density),
             air_density: self.defaults.air_density,

@@ -27,6 +27,27 @@ impl Selector {
     }
 }
 
+impl Model {
+    /// Whether a selector selects by the one of this key, directly or through others, or is it.
+    pub fn reaches(&self, selector: &str, key: &str) -> bool {
+        let mut seen = vec![Model::key(selector)];
+        let mut at = 0;
+        while let Some(next) = seen.get(at).cloned() {
+            if next == key {
+                return true;
+            }
+            let names = self.selectors.get(&next).into_iter().flat_map(|s| s.select.iter().chain(&s.except));
+            for name in names.map(|n| Model::key(n)).filter(|n| n.starts_with(':')) {
+                if !seen.contains(&name) {
+                    seen.push(name);
+                }
+            }
+            at += 1;
+        }
+        false
+    }
+}
+
 fn takes(select: &[String], except: &[String], name: &str, model: &Model, depth: usize) -> bool {
     let fits = |pattern: &String| match pattern.strip_prefix(':') {
         Some(_) if depth < 16 => model

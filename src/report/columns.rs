@@ -1,6 +1,7 @@
 //! Choosing columns of a table as the disposition menu does: a number, `a:b`, or a name with wild characters.
 //!
-//! Source: reference/solve.md, "Disposition menu"; numbers past the last column are dropped, as there.
+//! Source: reference/solve.md, "Disposition menu". The surplus columns it drops are those beyond what a command takes; a number
+//! of no column is an error.
 
 use crate::language::diagnostic::did_you_mean;
 use crate::language::select::matches;
@@ -24,21 +25,28 @@ pub fn long_name(column: &Column) -> String {
 /// The columns (from 0) a selector chooses, in the table's order.
 ///
 /// # Errors
-/// A name that fits no column.
+/// A name that fits no column, a number or range beyond the columns, a range that runs backward.
 pub fn choose(table: &Table, selector: &str) -> Result<Vec<usize>, NoSuchColumn> {
     let count = table.columns.len();
+    let refused = |help: String| NoSuchColumn { name: selector.to_string(), help: Some(help) };
     // a number too long for the machine is past the last column too
     let number = |text: &str| {
         let digits = !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
         digits.then(|| text.parse::<usize>().unwrap_or(usize::MAX))
     };
-    if let Some(n) = number(selector) {
-        return Ok((1..=count).filter(|i| *i == n).map(|i| i - 1).collect());
-    }
-    if let Some((from, to)) = selector.split_once(':')
-        && let (Some(from), Some(to)) = (number(from), number(to))
-    {
-        return Ok((1..=count).filter(|i| (from..=to).contains(i)).map(|i| i - 1).collect());
+    let range = match (number(selector), selector.split_once(':')) {
+        (Some(n), _) => Some((n, n)),
+        (None, Some((from, to))) => number(from).zip(number(to)),
+        (None, None) => None,
+    };
+    if let Some((from, to)) = range {
+        if from > to {
+            return Err(refused(format!("{from} is behind {to}")));
+        }
+        if from < 1 || to > count {
+            return Err(refused(format!("their numbers are 1 to {count}")));
+        }
+        return Ok((from - 1..to).collect());
     }
     let fits = |test: &dyn Fn(&Column) -> bool| -> Vec<usize> {
         table.columns.iter().enumerate().filter(|(_, c)| test(c)).map(|(i, _)| i).collect()
@@ -77,19 +85,19 @@ mod tests {
     fn by_number_range_name_wild_character_and_prefix() {
         let table = table(&["X", "Force", "DF/DX", "Ten Top"]);
         assert_eq!(choose(&table, "2"), Ok(vec![1]));
-        assert_eq!(choose(&table, "3:9"), Ok(vec![2, 3]));
-        assert_eq!(choose(&table, "7"), Ok(vec![]));
+        assert_eq!(choose(&table, "3:4"), Ok(vec![2, 3]));
         assert_eq!(choose(&table, "ten@"), Ok(vec![3]));
         assert_eq!(choose(&table, "fo"), Ok(vec![1]));
         assert!(choose(&table, "Tne Top").unwrap_err().to_string().contains("Ten Top"));
     }
 
     #[test]
-    fn surplus_numbers_are_dropped_and_two_readings_are_told() {
+    fn numbers_of_no_column_are_refused_and_two_readings_are_told() {
         let table = table(&["Force", "Form"]);
-        for surplus in ["0", "99999999999999999999999", "3:99999999999999999999999", "2:1"] {
-            assert_eq!(choose(&table, surplus), Ok(vec![]), "{surplus}");
+        for beyond in ["0", "3", "0:1", "1:3", "99999999999999999999999", "3:99999999999999999999999"] {
+            assert!(choose(&table, beyond).unwrap_err().to_string().contains("their numbers are 1 to 2"), "{beyond}");
         }
+        assert!(choose(&table, "2:1").unwrap_err().to_string().contains("2 is behind 1"));
         assert!(choose(&table, "fo").unwrap_err().to_string().contains("it could be Force or Form"));
         assert!(choose(&table, "").is_err());
     }

@@ -41,6 +41,9 @@ pub enum FileError {
         /// The job's folder.
         folder: PathBuf,
     },
+    /// A file that the job itself is writing.
+    #[error("{} is in use: this job has it open", .0.display())]
+    InUse(PathBuf),
     /// The folder a file would stand in is missing.
     #[error("there is no folder {}", .0.display())]
     NoFolder(PathBuf),
@@ -55,7 +58,7 @@ impl FileError {
             FileError::NoFolder(_) => Some(
                 "&FILE MKDIR makes one in the job's folder; a name from the current directory begins with ./ or ../",
             ),
-            FileError::System { .. } | FileError::Exists(_) | FileError::Taken(_) => None,
+            FileError::System { .. } | FileError::Exists(_) | FileError::Taken(_) | FileError::InUse(_) => None,
         }
     }
 }
@@ -138,6 +141,17 @@ pub struct JobFolder {
     pub folder: PathBuf,
     /// `--allow-files`: `&FILE` may act anywhere.
     pub allow_files: bool,
+    /// Files that grow as the job runs (its log and report), links followed.
+    growing: Vec<PathBuf>,
+}
+
+/// Which of two names an error is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// The present name.
+    From,
+    /// The new name.
+    To,
 }
 
 impl JobFolder {
@@ -148,7 +162,7 @@ impl JobFolder {
             name.push(".ans");
             PathBuf::from(name)
         });
-        JobFolder { root, folder, allow_files }
+        JobFolder { root, folder, allow_files, growing: Vec::new() }
     }
 
     /// The path that a name in a script stands for. A relative name is below the job's folder, its `..` taken off as
@@ -158,7 +172,7 @@ impl JobFolder {
     /// [`FileError::LeadsOut`].
     pub fn resolve(&self, name: &str) -> Result<PathBuf, FileError> {
         let path = Path::new(name);
-        if path.components().next().is_some_and(|first| !matches!(first, Component::Normal(_))) {
+        if !is_inside(name) {
             return Ok(path.into());
         }
         let leads_out = || FileError::LeadsOut { name: name.into(), folder: self.folder.clone() };
@@ -177,9 +191,10 @@ impl JobFolder {
     ///
     /// # Errors
     /// A name that leads nowhere, a missing folder, a folder of that name, a place the system does not let write to,
-    /// or a file outside of the job's folder that exists.
+    /// a file outside of the job's folder that exists, a name inside of it that a link leads out of it, a file in use.
     pub fn place(&self, name: &str) -> Result<Place, FileError> {
-        let path = self.resolve(name)?;
+        let path = if is_inside(name) { self.own(name)? } else { self.resolve(name)? };
+        self.not_in_use(&path)?;
         let at = |source| FileError::System { path: path.clone(), source };
         let own = self.stands(&path)?;
         if path.is_dir() || name.ends_with(std::path::is_separator) {
@@ -220,7 +235,7 @@ impl JobFolder {
     ///
     /// # Errors
     /// What the system refuses.
-    pub fn create(&self, name: &str) -> Result<std::fs::File, FileError> {
+    pub fn create(&mut self, name: &str) -> Result<std::fs::File, FileError> {
         let path = self.folder.join(name);
         let at = |source| FileError::System { path: path.clone(), source };
         if path.is_dir() {
@@ -228,7 +243,17 @@ impl JobFolder {
         }
         std::fs::create_dir_all(&self.folder).map_err(at)?;
         keep_earlier(&path)?;
-        std::fs::File::create_new(&path).map_err(at)
+        let file = std::fs::File::create_new(&path).map_err(at)?;
+        self.growing.extend(real(&path));
+        Ok(file)
+    }
+
+    /// Sees that a path is no file that grows as the job runs, nor a folder above one.
+    fn not_in_use(&self, path: &Path) -> Result<(), FileError> {
+        match self.growing.iter().find(|file| lies_in(file, path)) {
+            Some(file) => Err(FileError::InUse(file.clone())),
+            None => Ok(()),
+        }
     }
 
     /// Whether a path lies below the job's folder, links and `..` followed. A path through a link that leads nowhere
@@ -254,9 +279,10 @@ impl JobFolder {
     /// Deletes a file.
     ///
     /// # Errors
-    /// A file that is not the job's own, or what the system refuses.
+    /// A file that is not the job's own or in use, or what the system refuses.
     pub fn remove(&self, name: &str) -> Result<PathBuf, FileError> {
         let path = self.own(name)?;
+        self.not_in_use(&path)?;
         std::fs::remove_file(&path).map_err(|source| FileError::System { path: path.clone(), source })?;
         Ok(path)
     }
@@ -264,21 +290,27 @@ impl JobFolder {
     /// Renames or copies a file; the new name must be free.
     ///
     /// # Errors
-    /// Files that are not the job's own, a new name that exists, or what the system refuses.
-    pub fn transfer(&self, from: &str, to: &str, keep: bool) -> Result<PathBuf, FileError> {
-        let (from, to) = (self.own(from)?, self.own(to)?);
-        if there(&to) {
-            return Err(FileError::Taken(to));
+    /// Files that are not the job's own, a file to rename that is in use, a new name that exists, or what the system
+    /// refuses; each with the name it is about.
+    pub fn transfer(&self, from: &str, to: &str, keep: bool) -> Result<PathBuf, (Side, FileError)> {
+        let from = self.own(from).map_err(|e| (Side::From, e))?;
+        let beyond = |e| (Side::To, e);
+        let to = self.own(to).map_err(beyond)?;
+        if !keep {
+            self.not_in_use(&from).map_err(|e| (Side::From, e))?;
         }
-        self.stands(&to)?;
-        let at = |source| FileError::System { path: from.clone(), source };
+        if there(&to) {
+            return Err(beyond(FileError::Taken(to)));
+        }
+        self.stands(&to).map_err(beyond)?;
+        let at = |source| (Side::From, FileError::System { path: from.clone(), source });
         if keep {
             if !std::fs::metadata(&from).map_err(at)?.is_file() {
                 return Err(at(std::io::Error::other("only a file can be copied")));
             }
-            let mut file = beside(&to).map_err(|source| FileError::System { path: to.clone(), source })?;
+            let mut file = beside(&to).map_err(|source| beyond(FileError::System { path: to.clone(), source }))?;
             std::fs::File::open(&from).and_then(|mut f| std::io::copy(&mut f, &mut file)).map_err(at)?;
-            put_in_place(file, &to)?;
+            put_in_place(file, &to).map_err(beyond)?;
         } else {
             std::fs::rename(&from, &to).map_err(at)?;
         }
@@ -294,6 +326,16 @@ impl JobFolder {
         std::fs::create_dir_all(&path).map_err(|source| FileError::System { path: path.clone(), source })?;
         Ok(path)
     }
+}
+
+/// Whether a name is inside the job's folder by its spelling: relative, and not beginning with `./` or `../`.
+pub fn is_inside(name: &str) -> bool {
+    !Path::new(name).components().next().is_some_and(|first| !matches!(first, Component::Normal(_)))
+}
+
+/// Whether a path is a file or folder, or lies in that folder, links and `..` followed.
+pub fn lies_in(path: &Path, folder: &Path) -> bool {
+    real(path).zip(real(folder)).is_some_and(|(path, folder)| path.starts_with(folder))
 }
 
 /// The folder a path stands in.

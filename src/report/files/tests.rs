@@ -44,13 +44,13 @@ fn file_commands_stay_below_the_folder_even_through_links_and_dots() {
         assert!(matches!(job.remove("link/secret"), Err(FileError::NotOwn { .. })));
         std::os::unix::fs::symlink(dir.path().join("new"), job.folder.join("nowhere")).unwrap();
         job.write("b", b"1").unwrap();
-        assert!(matches!(job.transfer("b", "nowhere", true), Err(FileError::NotOwn { .. })));
+        assert!(matches!(job.transfer("b", "nowhere", true), Err((Side::To, FileError::NotOwn { .. }))));
         job.remove("b").unwrap();
     }
     assert!(secret.exists());
     job.write("a", b"1").unwrap();
     job.transfer("a", "b", true).unwrap();
-    assert!(matches!(job.transfer("a", "b", false), Err(FileError::Taken(_))));
+    assert!(matches!(job.transfer("a", "b", false), Err((Side::To, FileError::Taken(_)))));
     job.remove("b").unwrap();
 }
 
@@ -62,16 +62,16 @@ fn a_link_that_leads_nowhere_is_no_way_out() {
     let outside = dir.path().join("new");
     std::os::unix::fs::symlink(&outside, job.folder.join("link")).unwrap();
     for keep in [true, false] {
-        assert!(matches!(job.transfer("a", "link", keep), Err(FileError::NotOwn { .. })));
+        assert!(matches!(job.transfer("a", "link", keep), Err((Side::To, FileError::NotOwn { .. }))));
     }
-    assert!(matches!(job.write("link", b"x"), Err(FileError::Exists(_))));
+    assert!(matches!(job.write("link", b"x"), Err(FileError::NotOwn { .. })));
     assert!(matches!(job.make_folder("link/sub"), Err(FileError::NotOwn { .. })));
     assert!(!outside.exists() && job.folder.join("a").exists());
 }
 
 #[test]
 fn a_folder_is_neither_written_over_nor_moved_away() {
-    let (_dir, job) = job();
+    let (_dir, mut job) = job();
     job.make_folder("sub").unwrap();
     assert!(job.write("sub", b"1").is_err() && job.create("sub").is_err());
     assert!(job.transfer("sub", "copy", true).is_err());
@@ -125,7 +125,7 @@ fn a_subfolder_is_made_by_mkdir_and_then_takes_files() {
     job.write("sub/x", b"1").unwrap();
     job.write("sub/x", b"2").unwrap();
     job.transfer("sub/x.1", "y", false).unwrap();
-    assert!(matches!(job.transfer("y", "none/y", false), Err(FileError::NoFolder(_))));
+    assert!(matches!(job.transfer("y", "none/y", false), Err((Side::To, FileError::NoFolder(_)))));
     let read = |name: &str| std::fs::read_to_string(job.folder.join(name)).unwrap();
     assert_eq!((read("sub/x"), read("y")), ("2".into(), "1".into()));
 }
@@ -148,4 +148,35 @@ fn a_place_is_refused_when_asked_for_and_leaves_nothing_behind() {
     assert!(matches!(place.write(b"2"), Err(FileError::Exists(_))));
     assert_eq!(std::fs::read_dir(dir.path()).unwrap().count(), 3, "mine, new, and the job's folder");
     assert_eq!(std::fs::read_dir(&job.folder).unwrap().count(), 0);
+}
+
+#[cfg(unix)]
+#[test]
+fn no_file_is_made_through_a_link_that_leads_out_of_the_folder_unless_everything_is_allowed() {
+    let (dir, mut job) = job();
+    std::fs::create_dir_all(&job.folder).unwrap();
+    let outside = dir.path().join("outside");
+    std::fs::create_dir(&outside).unwrap();
+    std::os::unix::fs::symlink(&outside, job.folder.join("link")).unwrap();
+    assert!(matches!(job.place("link/x"), Err(FileError::NotOwn { .. })));
+    assert!(matches!(job.write("link/x", b"1"), Err(FileError::NotOwn { .. })));
+    assert_eq!(std::fs::read_dir(&outside).unwrap().count(), 0);
+    job.allow_files = true;
+    job.write("link/x", b"1").unwrap();
+    assert!(outside.join("x").exists());
+}
+
+#[test]
+fn a_file_that_grows_is_neither_deleted_nor_moved_nor_written_over() {
+    let (_dir, mut job) = job();
+    let _log = job.create("log").unwrap();
+    assert!(matches!(job.remove("log"), Err(FileError::InUse(_))));
+    assert!(matches!(job.write("log", b"x"), Err(FileError::InUse(_))));
+    assert!(matches!(job.transfer("log", "b", false), Err((Side::From, FileError::InUse(_)))));
+    job.allow_files = true;
+    let (folder, beside) = (job.folder.clone(), job.folder.with_extension("away"));
+    let moved = job.transfer(folder.to_str().unwrap(), beside.to_str().unwrap(), false);
+    assert!(matches!(moved, Err((Side::From, FileError::InUse(_)))), "nor its folder");
+    job.transfer("log", "copy", true).unwrap();
+    assert!(job.folder.join("log").exists() && job.folder.join("copy").exists());
 }

@@ -1,0 +1,78 @@
+//! The part of `&STATUS` that tells of environments.
+
+use super::Job;
+use super::written::option_as_written;
+use crate::language::units::Dim;
+use crate::model::{Current, Environment, Sea};
+use crate::table::{Cell, Table};
+
+/// The environment in force, or those kept under a name that is chosen.
+pub(super) fn environments(job: &Job, chosen: Option<&dyn Fn(&str) -> bool>) -> Vec<Table> {
+    let model = &job.model;
+    match chosen {
+        None => vec![environment(job, &model.environment)],
+        Some(fits) => model.environments.values().filter(|e| fits(&e.name)).map(|e| environment(job, e)).collect(),
+    }
+}
+
+fn facts_of_sea(table: Table, name: &str, sea: &Sea) -> Table {
+    let toward = sea.direction + std::f64::consts::PI;
+    table
+        .fact(name, sea.spectrum.as_str(), Dim::None)
+        .fact("   comes from", sea.direction, Dim::Angle)
+        .fact("   travels toward", toward.rem_euclid(std::f64::consts::TAU), Dim::Angle)
+        .fact("   height", sea.height, Dim::Length)
+        .fact("   period", sea.period, Dim::Time)
+        .fact("   gamma", sea.gamma, Dim::None)
+}
+
+fn environment(job: &Job, env: &Environment) -> Table {
+    let model = &job.model;
+    let around = model.surroundings_in(env);
+    let name = if env.name.is_empty() { "in Force" } else { &env.name };
+    let mut table = Table::new(format!("Environment {name}"))
+        .fact("Water Density", around.water_density, Dim::Density)
+        .fact("Water Depth", around.depth, Dim::Length)
+        .fact("Tide", around.tide, Dim::Length)
+        .fact("Ramp", env.ramp.unwrap_or(model.defaults.ramp), Dim::Time);
+    for (name, sea) in [("Sea", &env.sea), ("Added Sea", &env.added_sea)] {
+        if let Some(sea) = sea {
+            table = facts_of_sea(table, name, sea);
+        }
+    }
+    if env.sea.is_some() {
+        table = table.fact("Spreading Exponent", env.spreading.unwrap_or(200.0), Dim::None);
+    }
+    if let Some(wind) = env.wind {
+        table = table.fact("Wind", wind.speed, Dim::WindSpeed).fact("   comes from", wind.direction, Dim::Angle);
+    }
+    table = match &env.current {
+        None => table,
+        Some(Current::Uniform { velocity, direction }) => {
+            table.fact("Current", *velocity, Dim::Velocity).fact("   comes from", *direction, Dim::Angle)
+        }
+        Some(Current::Profiles(list)) => list.iter().fold(table, |t, (name, direction)| {
+            t.fact("Current Profile", name.as_str(), Dim::None).fact("   comes from", *direction, Dim::Angle)
+        }),
+    };
+    if let Some(time) = env.time {
+        table = table
+            .fact("Time Observed", time.observed, Dim::Time)
+            .fact("Time Step", time.step, Dim::Time)
+            .fact("Transient", time.transient, Dim::Time)
+            .fact("Cycles", time.cycles.map(Cell::Integer), Dim::None);
+    }
+    others(table, env, job)
+}
+
+/// The options kept that have no line of their own above, as they were given.
+fn others(mut table: Table, env: &Environment, job: &Job) -> Table {
+    const SHOWN: [&str; 11] =
+        ["-WATER", "-SPGWATER", "-DEPTH", "-TIDE", "-RAMP", "-SEA", "-A_SEA", "-SPREAD", "-WIND", "-CURRENT", "-TIME"];
+    for given in env.options.iter().filter(|g| !SHOWN.contains(&g.spec.name)) {
+        let text = option_as_written(given, job.units);
+        let values = text.split_once(' ').map_or("", |(_, values)| values);
+        table = table.fact(given.spec.name, values, Dim::None);
+    }
+    table
+}

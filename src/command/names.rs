@@ -1,0 +1,166 @@
+//! `DELETE` and `RENAME`: of anything in the model that has a name.
+
+use super::{Call, Command, Effect, Job};
+use crate::language::args::Content;
+use crate::language::diagnostic::{Diagnostic, Outcome, did_you_mean};
+use crate::language::name;
+use crate::language::select::{Owner, is_wild, matches};
+use crate::language::source::Span;
+use crate::language::spec::{CommandSpec, Kind, Noun, ValueSpec};
+use crate::model::{Model, Thing};
+use std::sync::Arc;
+
+/// DELETE.
+pub static DELETE: Command = Command { spec: &DELETE_SPEC, edits: true, run: delete };
+/// RENAME.
+pub static RENAME: Command = Command { spec: &RENAME_SPEC, edits: false, run: rename };
+
+static DELETE_SPEC: CommandSpec = CommandSpec {
+    owner: Owner::Ours,
+    menus: &["INMODEL", "MEDIT"],
+    data: &[ValueSpec::new("NAME", Kind::Name(Noun::Selector), "what to delete; wild characters may be used")],
+    repeat: 1,
+    detail: "Names are those of connectors, classes, points, parts, bodies, curves, environments and selectors; a name means \
+             one thing, since connectors, bodies, parts, curves and environments all have different names. A body goes \
+             with its parts and points. What is still used is not deleted: a class or point by a connector, a curve by \
+             a class or an environment (also by the one in force), a selector by another. With one name that is refused \
+             nothing is deleted.",
+    example: "MEDIT\n*P 0 0 0\nDELETE *P\nEND",
+    ..CommandSpec::new("DELETE", "deletes things from the model")
+};
+
+static RENAME_SPEC: CommandSpec = CommandSpec {
+    owner: Owner::Ours,
+    menus: &["INMODEL", "MEDIT"],
+    data: &[
+        ValueSpec::new("OLD", Kind::Name(Noun::Selector), "present name"),
+        ValueSpec::new("NEW", Kind::Name(Noun::Selector), "new name, with the same marker"),
+    ],
+    detail: "What refers to the thing by its name follows: connectors, parts, points, selectors. A selector's pattern with \
+             wild characters stays as it is. &HELP alone says what a name may be.",
+    example: "MEDIT\n*P 0 0 0\nRENAME *P *Q\nEND",
+    ..CommandSpec::new("RENAME", "renames a connector, class, point or body")
+};
+
+fn delete(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let mut deleted = Vec::new();
+    for value in &call.args.data {
+        let Some(pattern) = value.word() else { continue };
+        let fits = |name: &str| name.eq_ignore_ascii_case(pattern) || (is_wild(pattern) && matches(pattern, name));
+        let all = job.model.things();
+        let chosen: Vec<(Thing, String)> =
+            all.iter().filter(|(_, name)| fits(name)).map(|(thing, name)| (*thing, name.to_string())).collect();
+        if chosen.is_empty() {
+            let mut error = Diagnostic::error(format!("nothing is called {pattern}"), value.span);
+            error.help.extend(did_you_mean(pattern, all.iter().map(|(_, name)| *name)));
+            return Err(error);
+        }
+        for (thing, name) in &chosen {
+            let stays = |user: &&str| !chosen.iter().any(|(_, other)| other == user);
+            if let Some(user) = job.model.users(*thing, name).into_iter().find(stays) {
+                let text = format!("{name} is used by {user} and is not deleted");
+                return Err(Diagnostic::error(text, value.span));
+            }
+        }
+        for (thing, name) in chosen {
+            remove(&mut job.model, thing, &name);
+            deleted.push((thing, name, value.span));
+        }
+    }
+    for (thing, name, span) in deleted {
+        job.remark(format!("{} {name} is deleted", thing.word()), span);
+    }
+    Ok(Effect::Done)
+}
+
+/// Takes one thing out of the model, a body with its parts and points.
+fn remove(model: &mut Model, thing: Thing, name: &str) {
+    let key = Model::key(name);
+    match thing {
+        Thing::Connector => drop(model.connectors.shift_remove(&key)),
+        Thing::Class => drop(model.classes.shift_remove(&key)),
+        Thing::Point => drop(model.points.shift_remove(&key)),
+        Thing::Environment => drop(model.environments.shift_remove(&key)),
+        Thing::Curve => drop(model.curves.shift_remove(&key)),
+        Thing::Selector => drop(model.selectors.shift_remove(&key)),
+        Thing::Part => drop(model.parts.shift_remove(&key)),
+        Thing::Body => {
+            let parts = &model.parts;
+            let own = |part: &str| parts.get(&Model::key(part)).is_some_and(|p| Model::key(&p.body) == key);
+            model.points.retain(|_, p| !own(&p.part));
+            model.parts.retain(|_, p| Model::key(&p.body) != key);
+            model.bodies.shift_remove(&key);
+        }
+    }
+    if model.current_part.as_ref().is_some_and(|p| !model.parts.contains_key(&Model::key(p))) {
+        model.current_part = None;
+    }
+}
+
+fn rename(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let (old, new) = (call.args.word(0).unwrap_or_default(), call.args.word(1).unwrap_or_default());
+    let (span, place) = (call.args.place(0), call.args.place(1));
+    let model = &mut job.model;
+    let known = model.things();
+    let renamed = |t: &Thing| matches!(t, Thing::Connector | Thing::Class | Thing::Point | Thing::Body);
+    let found = known.iter().find(|(t, name)| renamed(t) && name.eq_ignore_ascii_case(old)).map(|(t, _)| *t);
+    if name::marker(old) != name::marker(new) {
+        return Err(Diagnostic::error("the new name must have the same marker as the old one", place));
+    }
+    let Some(thing) = found else {
+        let mut error = Diagnostic::error(format!("no connector, class, point or body is called {old}"), span);
+        error.help.extend(did_you_mean(old, known.iter().filter(|(t, _)| renamed(t)).map(|(_, name)| *name)));
+        return Err(error);
+    };
+    name::check(new, name::marker(old), thing.word(), place)?;
+    taken(model, new, place)?;
+    let (from, to) = (Model::key(old), Model::key(new));
+    let follow = |name: &mut String| {
+        if Model::key(name) == from {
+            *name = new.to_string();
+        }
+    };
+    match thing {
+        Thing::Connector => move_entry(&mut model.connectors, &from, to, |c| c.name = new.to_string()),
+        Thing::Class => {
+            move_entry(&mut model.classes, &from, to, |c| c.name = new.to_string());
+            model.connectors.values_mut().for_each(|c| follow(&mut c.class));
+        }
+        Thing::Point => {
+            move_entry(&mut model.points, &from, to, |p| p.name = new.to_string());
+            model.connectors.values_mut().flat_map(|c| c.points.iter_mut()).for_each(follow);
+        }
+        _ => {
+            move_entry(&mut model.bodies, &from, to.clone(), |b| b.name = new.to_string());
+            model.parts.values_mut().for_each(|p| follow(&mut p.body));
+            move_entry(&mut model.parts, &from, to, |p| p.name = new.to_string());
+            model.points.values_mut().for_each(|p| follow(&mut p.part));
+            model.current_part.iter_mut().for_each(follow);
+        }
+    }
+    model.selectors.values_mut().flat_map(|s| s.select.iter_mut().chain(&mut s.except)).for_each(follow);
+    // CONNECTOR records of an open INMODEL name their class and points
+    for value in job.deferred.iter_mut().flat_map(|args| args.data.iter_mut().skip(1)) {
+        if value.word().is_some_and(|word| Model::key(word) == from) {
+            value.content = Content::Word(Arc::from(new));
+        }
+    }
+    job.remark(format!("{} {old} is now {new}", thing.word()), span);
+    Ok(Effect::Done)
+}
+
+/// Sees that nothing has a name yet.
+fn taken(model: &Model, new: &str, place: Span) -> Outcome<()> {
+    match Thing::ALL.into_iter().find_map(|thing| model.defined(thing, new)) {
+        Some(span) => Err(Diagnostic::error(format!("{new} exists already"), place).other(span, "defined here")),
+        None => Ok(()),
+    }
+}
+
+/// Gives an entry a new key at its old place.
+fn move_entry<T>(table: &mut indexmap::IndexMap<String, T>, from: &str, to: String, change: impl FnOnce(&mut T)) {
+    if let Some((index, _, mut entry)) = table.shift_remove_full(from) {
+        change(&mut entry);
+        table.shift_insert(index, to, entry);
+    }
+}

@@ -1,0 +1,151 @@
+//! What things are called: the sorts of things that have names, which names are taken, and what uses a thing.
+//!
+//! Connectors, bodies, parts, curves and environments share one set of names, so that a name means one thing; classes,
+//! points and selectors are told apart by their markers. A body and its own part have one name.
+
+use super::Model;
+use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::name::with_article;
+use crate::language::source::Span;
+use crate::language::spec::Noun;
+
+/// A sort of thing that has a name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Thing {
+    /// A connector.
+    Connector,
+    /// A class.
+    Class,
+    /// A point.
+    Point,
+    /// A body.
+    Body,
+    /// A part.
+    Part,
+    /// An environment kept under a name.
+    Environment,
+    /// A curve.
+    Curve,
+    /// A selector.
+    Selector,
+}
+
+impl Thing {
+    /// All sorts.
+    pub const ALL: [Thing; 8] = [
+        Thing::Connector,
+        Thing::Class,
+        Thing::Point,
+        Thing::Body,
+        Thing::Part,
+        Thing::Environment,
+        Thing::Curve,
+        Thing::Selector,
+    ];
+
+    /// The word for it.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Thing::Connector => "connector",
+            Thing::Class => "class",
+            Thing::Point => "point",
+            Thing::Body => "body",
+            Thing::Part => "part",
+            Thing::Environment => "environment",
+            Thing::Curve => "curve",
+            Thing::Selector => "selector",
+        }
+    }
+}
+
+/// The sorts without a marker, which share one set of names.
+const UNMARKED: [Thing; 5] = [Thing::Connector, Thing::Body, Thing::Part, Thing::Environment, Thing::Curve];
+
+impl Model {
+    /// The names of one sort, as written, in the order of their definition.
+    pub fn names(&self, thing: Thing) -> Vec<&str> {
+        match thing {
+            Thing::Connector => self.connectors.values().map(|c| c.name.as_str()).collect(),
+            Thing::Class => self.classes.values().map(|c| c.name.as_str()).collect(),
+            Thing::Point => self.points.values().map(|p| p.name.as_str()).collect(),
+            Thing::Body => self.bodies.values().map(|b| b.name.as_str()).collect(),
+            Thing::Part => self.parts.values().map(|p| p.name.as_str()).collect(),
+            Thing::Environment => self.environments.values().map(|e| e.name.as_str()).collect(),
+            Thing::Curve => self.curves.values().map(|c| c.name.as_str()).collect(),
+            Thing::Selector => self.selectors.values().map(|s| s.name.as_str()).collect(),
+        }
+    }
+
+    /// Everything that has a name, each with its sort; a body's own part goes with the body.
+    pub fn things(&self) -> Vec<(Thing, &str)> {
+        let list = Thing::ALL.into_iter().flat_map(|t| self.names(t).into_iter().map(move |name| (t, name)));
+        list.filter(|(thing, name)| *thing != Thing::Part || !self.bodies.contains_key(&Model::key(name))).collect()
+    }
+
+    /// Where a thing was defined; `None` when there is no such thing.
+    pub fn defined(&self, thing: Thing, name: &str) -> Option<Span> {
+        let key = Model::key(name);
+        match thing {
+            Thing::Connector => self.connectors.get(&key).map(|c| c.span),
+            Thing::Class => self.classes.get(&key).map(|c| c.span),
+            Thing::Point => self.points.get(&key).map(|p| p.span),
+            Thing::Body => self.bodies.get(&key).map(|b| b.span),
+            Thing::Part => self.parts.get(&key).map(|p| p.span),
+            Thing::Environment => self.environments.get(&key).map(|e| e.span),
+            Thing::Curve => self.curves.get(&key).map(|c| c.span),
+            Thing::Selector => self.selectors.get(&key).map(|s| s.span),
+        }
+    }
+
+    /// Sees that a name without a marker is no other thing's; a thing of one of the sorts `mine` may have it already.
+    ///
+    /// # Errors
+    /// A name that is taken, with the place of its definition.
+    pub fn free_name(&self, name: &str, mine: &[Thing], span: Span) -> Outcome<()> {
+        if mine.iter().any(|thing| self.defined(*thing, name).is_some()) {
+            return Ok(());
+        }
+        match UNMARKED.into_iter().find_map(|thing| self.defined(thing, name).map(|place| (thing, place))) {
+            None => Ok(()),
+            Some((thing, place)) => {
+                Err(Diagnostic::error(format!("{name} is the name of {} already", with_article(thing.word())), span)
+                    .other(place, "defined here")
+                    .help("connectors, bodies, parts, curves and environments all have different names"))
+            }
+        }
+    }
+
+    /// The names of what cannot do without a thing.
+    pub fn users(&self, thing: Thing, name: &str) -> Vec<&str> {
+        let key = Model::key(name);
+        match thing {
+            Thing::Class => self.users_of_class(name),
+            Thing::Point => self.users_of_point(name),
+            Thing::Body => {
+                let own = self.points.values().filter(|p| self.body_of(p).is_some_and(|b| Model::key(&b.name) == key));
+                own.flat_map(|p| self.users_of_point(&p.name)).collect()
+            }
+            Thing::Part => {
+                self.points.values().filter(|p| Model::key(&p.part) == key).map(|p| p.name.as_str()).collect()
+            }
+            Thing::Curve => self.users_of_curve(&key),
+            Thing::Selector => {
+                let names = |list: &[String]| list.iter().any(|n| Model::key(n) == key);
+                let users = self.selectors.values().filter(|s| names(&s.select) || names(&s.except));
+                users.map(|s| s.name.as_str()).collect()
+            }
+            Thing::Connector | Thing::Environment => Vec::new(),
+        }
+    }
+
+    fn users_of_curve(&self, key: &str) -> Vec<&str> {
+        let uses = |mut curves: Box<dyn Iterator<Item = &str> + '_>| curves.any(|c| Model::key(c) == key);
+        let classes = self.classes.values().filter(|class| {
+            let options = class.records.iter().flat_map(|r| r.args.options.iter());
+            uses(Box::new(options.flat_map(|g| g.named(Noun::Curve)).filter_map(|v| v.word())))
+        });
+        let kept = self.environments.values().filter(|e| uses(e.curves())).map(|e| e.name.as_str());
+        let in_force = uses(self.environment.curves()).then_some("the environment in force");
+        classes.map(|c| c.name.as_str()).chain(kept).chain(in_force).collect()
+    }
+}
