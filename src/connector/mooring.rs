@@ -1,8 +1,7 @@
 //! A mooring line between two places: what every class made of catenary segments answers.
 
 use super::catenary::{
-    Aim, Buoy, FromTable, Interpolated, Joint, Law, Line, LineError, Row, Segment, SegmentState, ShapePoint, State,
-    table,
+    Aim, FromTable, Interpolated, Joint, Law, Line, LineError, Row, Segment, SegmentState, ShapePoint, State, table,
 };
 use super::checks;
 use super::line_report::{buoy_word, report};

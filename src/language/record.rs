@@ -154,7 +154,8 @@ impl Record {
 }
 
 /// Reads the record that starts at byte `start` of a source: joins continuation lines with a blank and takes comments
-/// off. Returns the record, the start of the next, and whether the text ended while a continuation was open.
+/// off, also a line of comment between continued ones. Returns the record, the start of the next, and whether the text
+/// ended while a continuation was open.
 pub fn read(text: &str, source: SourceId, start: usize) -> (Record, usize, bool) {
     let mut record = Record::default();
     let mut at = start;
@@ -167,7 +168,8 @@ pub fn read(text: &str, source: SourceId, start: usize) -> (Record, usize, bool)
             record.push_verbatim(line, Span::new(source, at, at + line_length));
             return (record, next, false);
         }
-        let (end, continued) = token::line_end(line);
+        let (end, _) = token::line_end(line);
+        let continued = token::goes_on(line, at != start);
         let kept = line.get(..end).unwrap_or_default();
         if !record.text.is_empty() {
             record.push_replaced(" ", Span::new(source, at, at));
@@ -197,6 +199,21 @@ mod tests {
         assert_eq!(words.len(), 7);
         assert_eq!(sources.place(words[3].span), "a.cif:2:3");
         assert_eq!(sources.place(words[6].span), "a.cif:3:8");
+    }
+
+    #[test]
+    fn a_comment_line_inside_a_continued_record_is_passed_over() {
+        let text = "~W B_CAT 4 -LEN 3000 \\\n$ a remark\n   $ another \\\n  -DEP 500\nEND\n";
+        let mut sources = super::super::source::Sources::default();
+        let id = sources.add("a.cif", text, 1);
+        let (record, next, open) = read(text, id, 0);
+        assert_eq!((&text[next..], open), ("END\n", false));
+        let words = record.words();
+        assert_eq!(words.len(), 7, "{}", record.text());
+        assert_eq!(sources.place(words[6].span), "a.cif:4:8");
+        // a comment that begins a record is a record of its own, and a continued record does not end in one
+        assert_eq!(read("$ x \\\nEND\n", id, 0).1, 6);
+        assert!(read("A \\\n$ x", id, 0).2);
     }
 
     #[test]

@@ -310,9 +310,9 @@ impl Highlighter for Assistant {
 }
 
 impl Validator for Assistant {
-    /// A record goes on while its last line ends with a lone `\`.
+    /// A record goes on while its last line, or the one before lines of comment, ends with a lone `\`.
     fn validate(&self, context: &mut ValidationContext) -> rustyline::Result<ValidationResult> {
-        let open = context.input().lines().last().is_some_and(|line| token::line_end(line).1);
+        let open = context.input().lines().fold(false, |open, line| token::goes_on(line, open));
         Ok(if open { ValidationResult::Incomplete } else { ValidationResult::Valid(None) })
     }
 }

@@ -88,7 +88,7 @@ fn piped() -> Option<Vec<u8>> {
         if !matches!(read, Ok(1..)) {
             return (!bytes.is_empty()).then_some(bytes);
         }
-        if !token::line_end(&line).1 || bytes.len() > LONGEST_RECORD {
+        if !token::goes_on(&line, start > 0) || bytes.len() > LONGEST_RECORD {
             return Some(bytes);
         }
     }
