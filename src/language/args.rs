@@ -153,7 +153,9 @@ fn fits(kind: Kind, word: &Word) -> bool {
         Kind::Name(super::spec::Noun::Selector) => {
             matches!(word.kind, Lex::Word | Lex::Selector | Lex::Quoted | Lex::Point | Lex::Class)
         }
-        Kind::Name(_) | Kind::Text | Kind::File => matches!(word.kind, Lex::Word | Lex::Quoted) && !numeric,
+        Kind::ChoiceOrName(..) | Kind::Name(_) | Kind::Text | Kind::File => {
+            matches!(word.kind, Lex::Word | Lex::Quoted) && !numeric
+        }
     }
 }
 
@@ -261,7 +263,7 @@ fn one(
             name(spec, noun, word, owner, units)?;
             Content::Word(word.text.clone())
         }
-        Kind::Text | Kind::File => Content::Word(word.text.clone()),
+        Kind::ChoiceOrName(..) | Kind::Text | Kind::File => Content::Word(word.text.clone()),
     };
     Ok(Value { content, span })
 }

@@ -152,6 +152,13 @@ impl Session {
         }
     }
 
+    /// No more is typed: says which block was not closed.
+    pub fn end_of_typing(&mut self) {
+        if let Err(error) = self.interpreter.end_of_typing() {
+            self.report(*error);
+        }
+    }
+
     /// Ends the job: files that were opened and never closed are written, and said.
     pub fn finish(&mut self) {
         for said in command::write_open_files(&mut self.job) {

@@ -190,6 +190,14 @@ impl Interpreter {
         }
     }
 
+    /// Ends what is typed, as the end of a file ends what is read from it.
+    ///
+    /// # Errors
+    /// A block that is not closed; it is given up.
+    pub fn end_of_typing(&mut self) -> Outcome<()> {
+        self.check_closed()
+    }
+
     /// The macros defined, by name.
     pub fn macros(&self) -> impl Iterator<Item = &Arc<Macro>> {
         self.macros.values()
