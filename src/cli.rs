@@ -64,6 +64,7 @@ pub fn run(cli: Cli) -> u8 {
     let screen: Box<dyn Write + Send> =
         if stdout().is_terminal() { Box::new(stdout()) } else { Box::new(BufWriter::with_capacity(1 << 16, stdout())) };
     let mut session = Session::new(Output::new(folder, screen, Box::new(stderr()), colour));
+    session.job.output.columns = screen_columns;
     session.job.settings.batch = cli.batch;
     session.job.output.keep_log = cli.out.is_some() || !matches!(input, Input::Records(_));
     let interrupt = session.interpreter.interrupt.clone();
@@ -89,6 +90,12 @@ pub fn run(cli: Cli) -> u8 {
     session.job.output.flush();
     let failed = if terminal && stay { script_errors > 0 } else { session.errors > 0 };
     u8::from(failed)
+}
+
+/// Columns of standard output when it is a terminal; one that does not tell has 80.
+fn screen_columns() -> Option<usize> {
+    let size = || terminal_size::terminal_size_of(stdout());
+    stdout().is_terminal().then(|| size().map(|(width, _)| usize::from(width.0)).filter(|w| *w > 0).unwrap_or(80))
 }
 
 fn input(cli: &Cli, terminal: bool) -> Result<(Input, PathBuf), String> {

@@ -331,6 +331,34 @@ fn ctrl_d_says_which_block_was_not_closed() {
 }
 
 #[test]
+fn a_plot_is_as_wide_as_the_terminal_unless_its_size_is_set() {
+    let home = tempfile::tempdir().unwrap();
+    let mut t = Terminal::start(home.path(), &[]);
+    t.ready("MAIN> ");
+    t.record("&DATA CURVES C_PROFILE CUR 0 1 100 2");
+    t.ready("MAIN> ");
+    for (columns, setting, width) in
+        [(100, "&TYPE as it is", 99..=100), (60, "&TYPE as it is", 58..=60), (60, "&DEVICE -PLOT_SIZE 45 12", 40..=45)]
+    {
+        t.master.resize(PtySize { rows: 60, cols: columns, ..SIZE }).unwrap();
+        t.screen.screen_mut().set_size(whole(60), whole(columns));
+        t.press("\x0c");
+        t.ready("MAIN> ");
+        t.record(setting);
+        t.ready("MAIN> ");
+        t.press("\x0c");
+        t.wait("a cleared screen", |screen| screen.contents().trim() == "MAIN>");
+        t.record("&STATUS CURVES -PLOT");
+        t.ready("MAIN> ");
+        let rows: Vec<String> = t.screen.screen().rows(0, 300).collect();
+        let plotted = |row: &&String| row.contains(|c| ('\u{2800}'..='\u{28ff}').contains(&c));
+        let got = rows.iter().filter(plotted).map(|r| r.trim_end().chars().count()).max().unwrap_or(0);
+        assert!(width.contains(&got), "{got} of {columns}\n{}", rows.join("\n"));
+    }
+    assert_eq!(t.end(), 0);
+}
+
+#[test]
 fn a_comment_line_inside_a_continued_record_waits_for_the_rest() {
     let home = tempfile::tempdir().unwrap();
     let mut t = Terminal::start(home.path(), &[]);
