@@ -61,3 +61,39 @@ fn a_missing_script_is_named_as_it_was_typed() {
     assert_eq!((code, err.as_str()), (Some(2), "windlass: there is no file nofile.cif\n"));
     assert!(run(&["nofile"]).2.contains("there is no file nofile, nor nofile.cif"));
 }
+
+#[test]
+fn a_macro_named_as_an_abbreviation_is_called_and_one_named_as_a_command_is_refused() {
+    let called = ["-c", "&MACRO &TYP A", "-c", "&TYPE mine %A", "-c", "&ENDMACRO", "-c", "&TYP 1", "-c", "&TYPE own"];
+    assert_eq!(run(&called), (Some(0), "mine 1\nown\n".into(), String::new()));
+    let (code, out, err) = run(&["-c", "&MACRO &TYPE A", "-c", "&TYPE mine", "-c", "&ENDMACRO", "-c", "&TYPE own"]);
+    assert_eq!((code, out.as_str()), (Some(1), "own\n"));
+    assert!(err.contains("macro &TYPE cannot be called"), "{err}");
+}
+
+#[test]
+fn a_point_whose_first_coordinate_is_left_out_has_the_others_in_their_places() {
+    let point =
+        |record: &str| run(&["-c", "MEDIT", "-c", record, "-c", "&TYPE at &POINT(COORDINATES *D)", "-c", "END"]).1;
+    assert_eq!(point("*D , 1"), "at 0 1 0\n");
+    assert_eq!(point("*D, 1"), "at 1 0 0\n");
+}
+
+#[test]
+fn a_part_turned_by_a_quarter_has_exact_coordinates() {
+    let records = "MEDIT\n&DESCRIBE BODY B\n&DESCRIBE PART P -MOVE 0 0 0 0 0 90\n*C 10 0 0\n\
+                   &TYPE at &POINT(COORDINATES *C -GLOBAL)\nEND";
+    assert_eq!(run(&["-c", records]).1, "at 0 10 0\n");
+}
+
+#[test]
+fn a_plot_that_goes_to_no_terminal_is_ninety_columns_wide() {
+    let plot = ["-c", "&DATA CURVES C_PROFILE CUR 0 1 100 2", "-c", "&STATUS CURVES -PLOT"];
+    let widest = |text: &str| {
+        let plotted = text.lines().filter(|l| l.contains(|c| ('\u{2800}'..='\u{28ff}').contains(&c)));
+        plotted.map(|l| l.chars().count()).max().unwrap_or(0)
+    };
+    assert!((88..=90).contains(&widest(&run(&plot).1)));
+    let set = run(&["-c", "&DEVICE -PLOT_SIZE 50 12", plot[0], plot[1], plot[2], plot[3]]).1;
+    assert!((48..=50).contains(&widest(&set)), "{set}");
+}
