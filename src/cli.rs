@@ -15,7 +15,10 @@ use std::path::{Path, PathBuf};
 pub struct Cli {
     /// A script (model.cif), a ROOT (runs ROOT.cif, then the terminal), or - for standard input
     pub job: Option<String>,
-    /// Execute a record; may be given several times
+    /// What cannot be taken besides the job
+    #[arg(hide = true)]
+    pub surplus: Vec<String>,
+    /// Execute a record; may be given several times, and blocks go on from one to the next
     #[arg(short = 'c', value_name = "RECORD", allow_hyphen_values = true)]
     pub commands: Vec<String>,
     /// Stay at the terminal after the script
@@ -34,8 +37,13 @@ pub struct Cli {
 
 /// Where records come from.
 enum Input {
-    Records(Vec<String>),
-    Script { name: String, text: Text, then_terminal: bool },
+    /// All records of `-c`, one a line.
+    Records(String),
+    Script {
+        name: String,
+        text: Text,
+        then_terminal: bool,
+    },
     Terminal,
 }
 
@@ -56,16 +64,15 @@ pub fn run(cli: Cli) -> u8 {
     let screen: Box<dyn Write + Send> =
         if stdout().is_terminal() { Box::new(stdout()) } else { Box::new(BufWriter::with_capacity(1 << 16, stdout())) };
     let mut session = Session::new(Output::new(folder, screen, Box::new(stderr()), colour));
+    session.job.output.columns = screen_columns;
     session.job.settings.batch = cli.batch;
-    session.job.output.keep_log = !matches!(input, Input::Records(_));
+    session.job.output.keep_log = cli.out.is_some() || !matches!(input, Input::Records(_));
     let interrupt = session.interpreter.interrupt.clone();
     // without the handler Ctrl-C ends the program, which loses no file
     let _ = ctrlc::set_handler(move || interrupt.store(true, std::sync::atomic::Ordering::Relaxed));
     let (end, stay) = match input {
         Input::Records(records) => {
-            for (index, record) in records.iter().enumerate().rev() {
-                session.open(&format!("-c {}", index + 1), record.clone());
-            }
+            session.open("-c", records);
             (session.run(), cli.interactive)
         }
         Input::Script { name, text, then_terminal } => {
@@ -85,13 +92,24 @@ pub fn run(cli: Cli) -> u8 {
     u8::from(failed)
 }
 
+/// Columns of standard output when it is a terminal; one that does not tell has 80.
+fn screen_columns() -> Option<usize> {
+    let size = || terminal_size::terminal_size_of(stdout());
+    stdout().is_terminal().then(|| size().map(|(width, _)| usize::from(width.0)).filter(|w| *w > 0).unwrap_or(80))
+}
+
 fn input(cli: &Cli, terminal: bool) -> Result<(Input, PathBuf), String> {
     let here = PathBuf::from("windlass");
     if !cli.commands.is_empty() {
-        if cli.job.is_some() {
-            return Err("a script and -c cannot be given together".into());
+        if let Some(job) = &cli.job {
+            return Err(format!(
+                "a script and -c cannot be given together; if `{job}` is a record, it needs a -c of its own"
+            ));
         }
-        return Ok((Input::Records(cli.commands.clone()), here));
+        return Ok((Input::Records(cli.commands.join("\n")), here));
+    }
+    if let Some(surplus) = cli.surplus.first() {
+        return Err(format!("one script at a time: `{surplus}` is one too many"));
     }
     let Some(job) = &cli.job else {
         return if terminal { Ok((Input::Terminal, here)) } else { Ok((standard_input()?, here)) };
@@ -117,7 +135,11 @@ fn input(cli: &Cli, terminal: bool) -> Result<(Input, PathBuf), String> {
         }
     }
     if path.extension().is_some() || !terminal {
-        return Err(format!("there is no file {job}, nor {job}.cif"));
+        let script = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("cif"));
+        return Err(format!(
+            "there is no file {job}{}",
+            if script { String::new() } else { format!(", nor {job}.cif") }
+        ));
     }
     Ok((Input::Terminal, path.into()))
 }

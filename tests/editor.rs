@@ -232,3 +232,139 @@ fn no_colour_where_the_output_is_no_terminal() {
     let run = std::process::Command::new(env!("CARGO_BIN_EXE_windlass")).args(["-c", "NONSENSE"]).output().unwrap();
     assert!(!run.stderr.contains(&0x1b), "{}", String::from_utf8_lossy(&run.stderr));
 }
+
+#[test]
+fn records_typed_ahead_all_run_in_order() {
+    let home = tempfile::tempdir().unwrap();
+    let mut t = Terminal::start(home.path(), &[]);
+    t.ready("MAIN> ");
+    let many: String = (3..40).map(|i| format!("*P{i} {i} 0 0\r")).collect();
+    t.press(&format!(
+        "MEDIT\r*A 1 1 1\r*B 1 1 1\r{many}&TYPE names &TOKEN(1 &NAMES(POINTS)) &TOKEN(N &NAMES(POINTS))\r"
+    ));
+    t.see("names *A 39");
+    t.ready("MEDIT> ");
+    t.press("&TYPE got &GET(name)\rJoe\r&TYPE and on\r");
+    t.see("got Joe");
+    t.see("\nand on");
+    t.ready("MEDIT> ");
+    t.press("\x1b[A\x1b[A");
+    t.wait("the last record but one", |screen| {
+        let (row, _) = screen.cursor_position();
+        screen.rows(0, 200).nth(row.into()).is_some_and(|line| line.trim_end() == "MEDIT> &TYPE got &GET(name)")
+    });
+    t.press("\x03");
+    t.ready("MEDIT> ");
+    assert_eq!(t.end(), 0);
+}
+
+#[test]
+fn completion_offers_words_of_every_sort_and_no_lone_dash() {
+    let home = tempfile::tempdir().unwrap();
+    let mut t = Terminal::start(home.path(), &[]);
+    t.ready("MAIN> ");
+    t.record("MEDIT");
+    t.ready("MEDIT> ");
+    t.record("&DESCRIBE BODY TBRG");
+    t.ready("MEDIT> ");
+    for (keys, line) in [
+        ("~W B_CAT 4 -LEN \t5", "~W B_CAT 4 -LEN 5"),
+        ("&STATUS CO\t!", "&STATUS CONFIGURATION !"),
+        ("&HELP STATI\t!", "&HELP STATISTIC !"),
+        ("&HELP DIM\t!", "&HELP &DIMEN !"),
+        ("&HELP &NUM\t!", "&HELP &NUMBER !"),
+        ("&ENV -SEA JON\t1", "&ENV -SEA JONSWAP 1"),
+        ("&ENV X -USE_MEAN N\t!", "&ENV X -USE_MEAN NO !"),
+        ("&TYPE &NUM\tREAL", "&TYPE &NUMBER(REAL"),
+        ("&TYPE 1-&NUM\tREAL", "&TYPE 1-&NUMBER(REAL"),
+        ("DELETE TB\t!", "DELETE TBRG !"),
+    ] {
+        t.press(keys);
+        t.see(&format!("MEDIT> {line}"));
+        t.press("\x03");
+        t.ready("MEDIT> ");
+    }
+    for (keys, shown) in [("&STATUS C\t", "CL_FLEX"), ("&HELP ST\t", "STORE"), ("~W B_CAT 4 \t", "-DEPANCHOR")] {
+        t.press(keys);
+        t.see(shown);
+        t.press("\x03");
+        t.ready("MEDIT> ");
+    }
+    assert_eq!(t.end(), 0);
+}
+
+#[test]
+fn ctrl_c_leaves_the_line_without_its_hint() {
+    let home = tempfile::tempdir().unwrap();
+    let mut t = Terminal::start(home.path(), &[]);
+    t.ready("MAIN> ");
+    t.press("&DIMEN -DIMEN ");
+    t.wait("the hint", |screen| {
+        screen
+            .contents()
+            .lines()
+            .any(|l| l.len() > "MAIN> &DIMEN -DIMEN ".len() && l.starts_with("MAIN> &DIMEN -DIMEN "))
+    });
+    t.press("\x03");
+    t.ready("MAIN> ");
+    let screen = t.screen.screen().contents();
+    assert!(screen.lines().any(|l| l.trim_end() == "MAIN> &DIMEN -DIMEN"), "{screen}");
+    assert_eq!(t.end(), 0);
+}
+
+#[test]
+fn ctrl_d_says_which_block_was_not_closed() {
+    let home = tempfile::tempdir().unwrap();
+    for (record, prompt, said) in [
+        ("&LOOP I 1 2", "loop ... ", "this &LOOP is not closed"),
+        ("&IF .TRUE. &THEN", "if ... ", "this &IF is not closed"),
+        ("&MACRO M", "macro ... ", "this &MACRO is not closed"),
+    ] {
+        let mut t = Terminal::start(home.path(), &[]);
+        t.ready("MAIN> ");
+        t.record(record);
+        t.ready(prompt);
+        t.press("\x04");
+        t.see(said);
+        t.see("terminal:1:1");
+    }
+}
+
+#[test]
+fn a_plot_is_as_wide_as_the_terminal_unless_its_size_is_set() {
+    let home = tempfile::tempdir().unwrap();
+    let mut t = Terminal::start(home.path(), &[]);
+    t.ready("MAIN> ");
+    t.record("&DATA CURVES C_PROFILE CUR 0 1 100 2");
+    t.ready("MAIN> ");
+    for (columns, setting, width) in
+        [(100, "&TYPE as it is", 99..=100), (60, "&TYPE as it is", 58..=60), (60, "&DEVICE -PLOT_SIZE 45 12", 40..=45)]
+    {
+        t.master.resize(PtySize { rows: 60, cols: columns, ..SIZE }).unwrap();
+        t.screen.screen_mut().set_size(whole(60), whole(columns));
+        t.press("\x0c");
+        t.ready("MAIN> ");
+        t.record(setting);
+        t.ready("MAIN> ");
+        t.press("\x0c");
+        t.wait("a cleared screen", |screen| screen.contents().trim() == "MAIN>");
+        t.record("&STATUS CURVES -PLOT");
+        t.ready("MAIN> ");
+        let rows: Vec<String> = t.screen.screen().rows(0, 300).collect();
+        let plotted = |row: &&String| row.contains(|c| ('\u{2800}'..='\u{28ff}').contains(&c));
+        let got = rows.iter().filter(plotted).map(|r| r.trim_end().chars().count()).max().unwrap_or(0);
+        assert!(width.contains(&got), "{got} of {columns}\n{}", rows.join("\n"));
+    }
+    assert_eq!(t.end(), 0);
+}
+
+#[test]
+fn a_comment_line_inside_a_continued_record_waits_for_the_rest() {
+    let home = tempfile::tempdir().unwrap();
+    let mut t = Terminal::start(home.path(), &[]);
+    t.ready("MAIN> ");
+    t.press("&TYPE one \\\r$ a remark\rtwo\r");
+    t.wait("both halves", |screen| screen.contents().lines().any(|l| l.starts_with("one") && l.ends_with("two")));
+    t.ready("MAIN> ");
+    assert_eq!(t.end(), 0);
+}

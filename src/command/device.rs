@@ -64,7 +64,7 @@ static SPEC: CommandSpec = CommandSpec {
             ],
             "size of plots in the terminal",
         )
-        .default("90 26")
+        .default("the terminal's width, else 90; 26")
         .owner(Owner::Ours),
         unused("-US_DATE"),
         unused("-CONT_ENTRY"),
@@ -106,7 +106,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             "-PLOT_SIZE" => {
                 let size =
                     |i: usize| given.values.get(i).and_then(|v| v.integer()).and_then(|n| usize::try_from(n).ok());
-                settings.plot_size = (size(0).unwrap_or(90), size(1).unwrap_or(26));
+                settings.plot_size = size(0).zip(size(1));
             }
             other => remarks.push((format!("{other} has no effect in windlass"), given.span)),
         }

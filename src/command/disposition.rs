@@ -305,7 +305,7 @@ fn plot(job: &mut Job, call: &Call) -> Outcome<Effect> {
             write_file(job, &name, &bytes, args.span)?;
         }
         None => {
-            let (columns, lines) = job.settings.plot_size;
+            let (columns, lines) = job.plot_size();
             let text = chart.terminal(columns, lines).map_err(wrong)?;
             job.say(&text);
         }

@@ -27,7 +27,7 @@ const fn curve(help: &'static str) -> ValueSpec {
 }
 
 const SEA: &[ValueSpec] = &[
-    text("NAME", "ISSC, JONSWAP, 2JONSWAP, REGULAR, or a spectrum curve"),
+    ValueSpec::new("NAME", Kind::ChoiceOrName(&SPECTRA, Noun::Curve), "a spectrum, or a curve of one"),
     number("DIR", Dim::Angle, "direction it comes from"),
     number("HS", Dim::Length, "significant height, or height of a regular wave").not_negative(),
     number("PERIOD", Dim::Time, "period").positive(),

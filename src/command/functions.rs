@@ -2,8 +2,8 @@
 //!
 //! Source: reference/language.md section 7. An unknown point gives a null string, as there.
 
-use super::Job;
 use super::job::UserFile;
+use super::{COMMANDS, Job};
 use crate::language::diagnostic::{Diagnostic, Outcome, Severity};
 use crate::language::logic;
 use crate::language::number;
@@ -72,6 +72,16 @@ impl World for Job {
             "CONNECTOR" => connector(self, action, rest, span),
             _ => names(self, action, rest),
         }
+    }
+
+    fn menus_of_command(&self, name: &str) -> Option<Vec<&'static str>> {
+        let same: Vec<_> = COMMANDS.iter().filter(|c| c.spec.name.eq_ignore_ascii_case(name)).collect();
+        let leaves = name.eq_ignore_ascii_case("END") || name.get(..4).is_some_and(|n| n.eq_ignore_ascii_case("END_"));
+        if leaves || same.iter().any(|c| c.spec.menus.is_empty()) {
+            return Some(Vec::new());
+        }
+        let menus: Vec<&str> = same.iter().flat_map(|c| c.spec.menus).copied().collect();
+        (!menus.is_empty()).then_some(menus)
     }
 
     fn assignments(&mut self) -> Vec<(String, String)> {

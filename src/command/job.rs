@@ -96,8 +96,8 @@ pub struct Settings {
     pub figure_number: i64,
     /// The file INMODEL reads instead of ROOT.DAT.
     pub auxiliary: Option<PathBuf>,
-    /// Columns and lines of a terminal plot.
-    pub plot_size: (usize, usize),
+    /// Columns and lines of a terminal plot, when they were set.
+    pub plot_size: Option<(usize, usize)>,
 }
 
 impl Default for Settings {
@@ -111,7 +111,7 @@ impl Default for Settings {
             figure_name: "FIGURE".into(),
             figure_number: 1,
             auxiliary: None,
-            plot_size: (90, 26),
+            plot_size: None,
         }
     }
 }
@@ -234,6 +234,11 @@ impl Job {
             self.long_name_said = true;
             self.remark(format!("{name} is longer than the 8 characters MOSES takes (said once)"), span);
         }
+    }
+
+    /// Columns and lines of a terminal plot: those of `&DEVICE -PLOT_SIZE`, else as wide as the terminal, else 90.
+    pub fn plot_size(&self) -> (usize, usize) {
+        self.settings.plot_size.unwrap_or_else(|| ((self.output.columns)().unwrap_or(90), 26))
     }
 
     /// What stands at the head of a page.

@@ -98,7 +98,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let head = job.page_head();
     let mut text = tables.iter().map(|t| page::render(t, job.units, &head)).collect::<Vec<_>>().join("\n");
     if args.has("-PLOT") && kind == "CURVES" {
-        let (columns, lines) = job.settings.plot_size;
+        let (columns, lines) = job.plot_size();
         for table in &tables {
             text.push('\n');
             text.push_str(

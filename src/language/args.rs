@@ -69,6 +69,8 @@ pub struct Args {
 pub fn read(spec: &'static CommandSpec, command: Span, words: &[Word], units: UnitSystem) -> Outcome<Args> {
     let mut args = Args { span: command, data: Vec::new(), options: Vec::new() };
     let mut data: Vec<&Word> = Vec::new();
+    // words behind an option that could have been its choice and are none of it
+    let mut declined: Vec<(&Word, &'static OptionSpec, &'static ValueSpec)> = Vec::new();
     let mut at = 0;
     while let Some(word) = words.get(at) {
         if word.kind == Lex::Option {
@@ -86,13 +88,27 @@ pub fn read(spec: &'static CommandSpec, command: Span, words: &[Word], units: Un
                 .map_err(|error| hint(error, &option.syntax()))?;
             args.options.push(Given { spec: option, span: word.span, values, after: data.len() });
             at += 1 + taken.len();
+            if let (Some(next), Some(value)) = (words.get(at), option.values.get(taken.len()))
+                && matches!(value.kind, Kind::Choice(_))
+            {
+                declined.push((next, option, value));
+            }
         } else {
             data.push(word);
             at += 1;
         }
     }
-    args.data = convert(spec.data, spec.repeat, spec.name, command, &data, units)
-        .map_err(|error| hint(error, &spec.syntax()))?;
+    args.data = convert(spec.data, spec.repeat, spec.name, command, &data, units).map_err(|error| {
+        let meant = declined.iter().find(|(word, ..)| error.span == Some(word.span));
+        match meant {
+            Some((word, option, value)) => Diagnostic::error(
+                format!("{} of {} of {} must be {}", value.name, option.name, spec.name, expected(value.kind, units)),
+                word.span,
+            )
+            .label(format!("nor can this be a datum: {}", error.message)),
+            None => hint(error, &spec.syntax()),
+        }
+    })?;
     Ok(args)
 }
 
@@ -151,7 +167,9 @@ fn fits(kind: Kind, word: &Word) -> bool {
         Kind::Name(Noun::Selector) => {
             matches!(word.kind, Lex::Word | Lex::Selector | Lex::Quoted | Lex::Point | Lex::Class)
         }
-        Kind::Name(_) | Kind::Text | Kind::File => matches!(word.kind, Lex::Word | Lex::Quoted) && !numeric,
+        Kind::ChoiceOrName(..) | Kind::Name(_) | Kind::Text | Kind::File => {
+            matches!(word.kind, Lex::Word | Lex::Quoted) && !numeric
+        }
     }
 }
 
@@ -259,7 +277,7 @@ fn one(
             noun_fits(spec, noun, word, owner, units)?;
             Content::Word(word.text.clone())
         }
-        Kind::Text | Kind::File => Content::Word(word.text.clone()),
+        Kind::ChoiceOrName(..) | Kind::Text | Kind::File => Content::Word(word.text.clone()),
     };
     Ok(Value { content, span })
 }

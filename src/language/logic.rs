@@ -2,7 +2,8 @@
 //!
 //! Source: reference/language.md section 5. `.EQ.` and `.NE.` compare any words (as numbers when both are numbers,
 //! else as text, upper and lower case alike); the other comparisons need numbers. `.NOT.` binds tighter than `.AND.`,
-//! that tighter than `.OR.`; parentheses may stand as words of their own.
+//! that tighter than `.OR.`. A parenthesis that its own word does not match groups conditions: `(1 .EQ. 1)`; matched ones
+//! are arithmetic: `(1+2)*3`.
 
 use super::diagnostic::{Diagnostic, Outcome};
 use super::number;
@@ -47,7 +48,7 @@ fn split(phrase: &str) -> Vec<String> {
             let operator = upper.get(at..).and_then(|rest| OPERATORS.iter().find(|op| rest.starts_with(**op)));
             match operator {
                 Some(operator) => {
-                    words.extend(raw.get(from..at).filter(|w| !w.is_empty()).map(str::to_string));
+                    operand(raw.get(from..at).unwrap_or_default(), &mut words);
                     words.push((*operator).to_string());
                     at += operator.len();
                     from = at;
@@ -55,9 +56,34 @@ fn split(phrase: &str) -> Vec<String> {
                 None => at += 1,
             }
         }
-        words.extend(raw.get(from..).filter(|w| !w.is_empty()).map(str::to_string));
+        operand(raw.get(from..).unwrap_or_default(), &mut words);
     }
     words
+}
+
+/// Adds a word that holds no operator; the parentheses at its ends that it does not match itself are words of their own.
+fn operand(mut word: &str, words: &mut Vec<String>) {
+    let (mut open, mut surplus) = (0usize, 0usize);
+    for character in word.chars() {
+        match character {
+            '(' => open += 1,
+            ')' if open > 0 => open -= 1,
+            ')' => surplus += 1,
+            _ => {}
+        }
+    }
+    while let Some(rest) = word.strip_prefix('(').filter(|_| open > 0) {
+        words.push("(".into());
+        (word, open) = (rest, open - 1);
+    }
+    let mut closing = 0;
+    while let Some(rest) = word.strip_suffix(')').filter(|_| closing < surplus) {
+        (word, closing) = (rest, closing + 1);
+    }
+    if !word.is_empty() {
+        words.push(word.to_string());
+    }
+    words.extend(std::iter::repeat_n(")".to_string(), closing));
 }
 
 struct Reader<'a> {
@@ -178,11 +204,29 @@ mod tests {
     }
 
     #[test]
+    fn parentheses_group_conditions_with_and_without_blanks() {
+        assert!(is("(1 .EQ. 1)") && !is("(1 .EQ. 2)") && is("(3 .GT. 2)") && is("(.TRUE.)"));
+        assert!(is("(2 .EQ. 3) .OR. (1 .EQ. 1)") && is("(1.EQ.2).OR.(1.EQ.1)"));
+        assert!(!is("((1 .EQ. 1) .OR. .TRUE.) .AND. (.FALSE.)"));
+        assert!(is(".NOT. (A .EQ. B)") && is(".NOT.(A.EQ.B)") && is("(A .EQ. ) .OR. ( .EQ. )"));
+    }
+
+    #[test]
+    fn parentheses_of_arithmetic_and_functions_stay_in_their_words() {
+        assert!(is("(1+2)*3 .EQ. 9") && is("((1+2)*3 .EQ. 9)") && is("9 .EQ. 3*(1+2)"));
+        assert!(is("(SQRT(16) .EQ. 4)") && is("(3*(1+2) .EQ. (4+5))") && is("((3) .GT. (2))"));
+        for phrase in ["(1 .EQ. 1", "1 .EQ. 1)", "((1 .EQ. 1)", "1) .EQ. 1", "()"] {
+            assert!(evaluate(phrase, Span::default()).is_err(), "{phrase}");
+        }
+    }
+
+    #[test]
     fn what_cannot_be_compared_is_an_error() {
         for phrase in ["", "A", "A .LT. 2", "1 .LT.", ".TRUE. .TRUE.", "( .TRUE."] {
             assert!(evaluate(phrase, Span::default()).is_err(), "{phrase}");
         }
         assert!(evaluate(&".NOT. ".repeat(100_000), Span::default()).is_err());
         assert!(evaluate(&"( ".repeat(100_000), Span::default()).is_err());
+        assert!(evaluate(&"(".repeat(100_000), Span::default()).is_err());
     }
 }

@@ -8,6 +8,7 @@
 
 use meval::shunting_yard::to_rpn;
 use meval::tokenizer::{Operation, Token, tokenize};
+use std::f64::consts::FRAC_1_SQRT_2;
 
 /// Longest expression taken (bytes).
 const LONGEST: usize = 4096;
@@ -62,10 +63,51 @@ pub const FUNCTIONS: &[Function] = &[
     ("ASIN", f64::asin),
     ("ACOS", f64::acos),
     ("ATAN", f64::atan),
-    ("SIND", |x| x.to_radians().sin()),
-    ("COSD", |x| x.to_radians().cos()),
-    ("TAND", |x| x.to_radians().tan()),
+    ("SIND", sine_of_degrees),
+    ("COSD", cosine_of_degrees),
+    ("TAND", tangent_of_degrees),
 ];
+
+/// The sine of an angle in degrees, exact at the multiples of 30 and 90 where a double can be.
+pub fn sine_of_degrees(angle: f64) -> f64 {
+    // the remainder and both differences are exact
+    let turn = angle.abs() % 360.0;
+    let (half, sign) = if turn >= 180.0 { (turn - 180.0, -1.0) } else { (turn, 1.0) };
+    let acute = if half > 90.0 { 180.0 - half } else { half };
+    sign * angle.signum() * acute_sine(acute) + 0.0
+}
+
+/// The cosine of an angle in degrees, exact at the multiples of 60 and 90 where a double can be.
+pub fn cosine_of_degrees(angle: f64) -> f64 {
+    let turn = angle.abs() % 360.0;
+    let half = if turn > 180.0 { 360.0 - turn } else { turn };
+    if half > 90.0 { -acute_cosine(180.0 - half) } else { acute_cosine(half) }
+}
+
+/// The tangent of an angle in degrees; infinite at the odd multiples of 90, where it has no value.
+pub fn tangent_of_degrees(angle: f64) -> f64 {
+    sine_of_degrees(angle) / cosine_of_degrees(angle) + 0.0
+}
+
+/// The sine of 0 to 90 degrees, from the nearer of the two axes.
+fn acute_sine(angle: f64) -> f64 {
+    match angle {
+        30.0 => 0.5,
+        45.0 => FRAC_1_SQRT_2,
+        small if small < 45.0 => small.to_radians().sin(),
+        _ => (90.0 - angle).to_radians().cos(),
+    }
+}
+
+/// The cosine of 0 to 90 degrees, from the nearer of the two axes.
+fn acute_cosine(angle: f64) -> f64 {
+    match angle {
+        60.0 => 0.5,
+        45.0 => FRAC_1_SQRT_2,
+        small if small < 45.0 => small.to_radians().cos(),
+        _ => (90.0 - angle).to_radians().sin(),
+    }
+}
 
 /// The value of a word read as a number.
 ///
@@ -234,6 +276,44 @@ mod tests {
         ] {
             let got = evaluate(text).unwrap();
             assert!((got - want).abs() <= 1e-12 * want.abs(), "{text} gave {got}, not {want}");
+        }
+    }
+
+    #[test]
+    fn degrees_are_exact_at_the_quarters_and_where_a_double_can_be() {
+        for (text, want) in [
+            ("SIND(180)", 0.0),
+            ("SIND(-360)", 0.0),
+            ("SIND(270)", -1.0),
+            ("SIND(-90)", -1.0),
+            ("SIND(30)", 0.5),
+            ("SIND(150)", 0.5),
+            ("SIND(-390)", -0.5),
+            ("COSD(90)", 0.0),
+            ("COSD(-270)", 0.0),
+            ("COSD(180)", -1.0),
+            ("COSD(60)", 0.5),
+            ("COSD(240)", -0.5),
+            ("COSD(360000060)", 0.5),
+            ("TAND(45)", 1.0),
+            ("TAND(135)", -1.0),
+            ("TAND(180)", 0.0),
+        ] {
+            let got = evaluate(text).unwrap();
+            assert!(got == want && (got != 0.0 || got.is_sign_positive()), "{text} gave {got}, not {want}");
+        }
+        for text in ["TAND(90)", "TAND(-90)", "TAND(270)", "TAND(450)"] {
+            assert_eq!(evaluate(text), Err(NumberError::NotFinite("TAND")), "{text}");
+        }
+    }
+
+    #[test]
+    fn degrees_agree_with_radians_all_round() {
+        for tenth in -8000..8000 {
+            let degrees = f64::from(tenth) / 10.0 + 0.03;
+            let radians = degrees.to_radians();
+            assert!((sine_of_degrees(degrees) - radians.sin()).abs() < 5e-15, "{degrees}");
+            assert!((cosine_of_degrees(degrees) - radians.cos()).abs() < 5e-15, "{degrees}");
         }
     }
 

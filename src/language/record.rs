@@ -120,6 +120,20 @@ impl Record {
             .collect()
     }
 
+    /// The words of a command's record: a comma set off from the first word leaves the first datum empty, `P ,2`; one that
+    /// ends the first word separates, `P, 2`.
+    pub fn fields(&self) -> Vec<Word> {
+        let mut words = self.words();
+        let lead = self.text.len() - self.text.trim_start().len();
+        let rest = self.text.get(lead + self.first_word().len()..).unwrap_or_default();
+        let after = rest.trim_start();
+        if after.starts_with(',') && after.len() < rest.len() && !words.is_empty() {
+            let comma = self.text.len() - after.len();
+            words.insert(1, Word { kind: Kind::Empty, text: Arc::from(""), span: self.span(comma..comma + 1) });
+        }
+        words
+    }
+
     /// The first word's text, empty for a blank or comment record.
     pub fn first_word(&self) -> &str {
         let text = self.text.trim_start();
@@ -154,7 +168,8 @@ impl Record {
 }
 
 /// Reads the record that starts at byte `start` of a source: joins continuation lines with a blank and takes comments
-/// off. Returns the record, the start of the next, and whether the text ended while a continuation was open.
+/// off, also a line of comment between continued ones. Returns the record, the start of the next, and whether the text
+/// ended while a continuation was open.
 pub fn read(text: &str, source: SourceId, start: usize) -> (Record, usize, bool) {
     let mut record = Record::default();
     let mut at = start;
@@ -167,7 +182,8 @@ pub fn read(text: &str, source: SourceId, start: usize) -> (Record, usize, bool)
             record.push_verbatim(line, Span::new(source, at, at + line_length));
             return (record, next, false);
         }
-        let (end, continued) = token::line_end(line);
+        let (end, _) = token::line_end(line);
+        let continued = token::goes_on(line, at != start);
         let kept = line.get(..end).unwrap_or_default();
         if !record.text.is_empty() {
             record.push_replaced(" ", Span::new(source, at, at));
@@ -197,6 +213,35 @@ mod tests {
         assert_eq!(words.len(), 7);
         assert_eq!(sources.place(words[3].span), "a.cif:2:3");
         assert_eq!(sources.place(words[6].span), "a.cif:3:8");
+    }
+
+    #[test]
+    fn a_comment_line_inside_a_continued_record_is_passed_over() {
+        let text = "~W B_CAT 4 -LEN 3000 \\\n$ a remark\n   $ another \\\n  -DEP 500\nEND\n";
+        let mut sources = super::super::source::Sources::default();
+        let id = sources.add("a.cif", text, 1);
+        let (record, next, open) = read(text, id, 0);
+        assert_eq!((&text[next..], open), ("END\n", false));
+        let words = record.words();
+        assert_eq!(words.len(), 7, "{}", record.text());
+        assert_eq!(sources.place(words[6].span), "a.cif:4:8");
+        // a comment that begins a record is a record of its own, and a continued record does not end in one
+        assert_eq!(read("$ x \\\nEND\n", id, 0).1, 6);
+        assert!(read("A \\\n$ x", id, 0).2);
+    }
+
+    #[test]
+    fn a_comma_set_off_from_the_command_leaves_its_first_datum_empty() {
+        let fields = |text: &str| {
+            let words = Record::verbatim(text, Span::new(SourceId::default(), 0, text.len())).fields();
+            words.iter().map(|w| w.text.to_string()).collect::<Vec<_>>()
+        };
+        assert_eq!(fields("*D , 1"), ["*D", "", "1"]);
+        assert_eq!(fields(" P ,,2"), ["P", "", "", "2"]);
+        assert_eq!(fields("P, 2 , 3"), ["P", "2", "3"]);
+        assert_eq!(fields("P,2"), ["P", "2"]);
+        assert_eq!(fields("P,,2"), ["P", "", "2"]);
+        assert!(fields("").is_empty() && fields(", A").len() == 2);
     }
 
     #[test]

@@ -42,6 +42,8 @@ pub enum Kind {
     Choice(&'static [&'static str]),
     /// A name of this sort.
     Name(Noun),
+    /// One of these words, or a name of this sort; as typed.
+    ChoiceOrName(&'static [&'static str], Noun),
     /// Any word.
     Text,
     /// A file name.
@@ -300,6 +302,7 @@ pub fn expected(kind: Kind, units: UnitSystem) -> String {
             [first @ .., last] => format!("{} or {last}", first.join(", ")),
             [] => "a word".into(),
         },
+        Kind::ChoiceOrName(words, noun) => format!("{} or {}", words.join(", "), expected(Kind::Name(noun), units)),
         Kind::Name(noun) => match noun {
             Noun::Class => "a class (~NAME)",
             Noun::Point => "a point (*NAME)",

@@ -24,6 +24,12 @@ pub trait World {
     /// Whatever is wrong with the arguments, at their place.
     fn function(&mut self, name: &str, words: &[Word], span: Span) -> Outcome<String>;
 
+    /// The menus in which a command keeps a macro of this name from being called, empty for every menu; `None` when
+    /// there is no such command.
+    fn menus_of_command(&self, _: &str) -> Option<Vec<&'static str>> {
+        None
+    }
+
     /// Variables that functions have set since the last call: name and value.
     fn assignments(&mut self) -> Vec<(String, String)> {
         Vec::new()

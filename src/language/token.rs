@@ -117,6 +117,12 @@ pub fn line_end(line: &str) -> (usize, bool) {
     (mark.unwrap_or(line.len()), mark.is_some())
 }
 
+/// Whether the record of a physical line goes on in the next one; `inside`: the line itself continues a record, where a
+/// line of comment is passed over.
+pub fn goes_on(line: &str, inside: bool) -> bool {
+    (inside && line.trim_start().starts_with('$')) || line_end(line).1
+}
+
 /// Whether a word can only be read as a number or an arithmetic expression, as opposed to a name.
 pub fn is_numeric(kind: Kind, text: &str) -> bool {
     match kind {

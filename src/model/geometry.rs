@@ -3,7 +3,8 @@
 //! Source: reference/model.md, "Bodies, parts, axes": yaw about Z, then pitch about Y, then roll about X, each about the
 //! axes already turned.
 
-use nalgebra::{Rotation3, Vector3};
+use nalgebra::{Matrix3, Rotation3, Vector3};
+use std::f64::consts::FRAC_PI_2;
 
 /// Coordinates x, y, z (m).
 pub type Position = [f64; 3];
@@ -30,10 +31,13 @@ impl Place {
         [x, y, z, roll, pitch, yaw]
     }
 
-    /// The rotation from local to outer axes.
+    /// The rotation from local to outer axes; exact at multiples of a quarter turn.
     pub fn rotation(&self) -> Rotation3<f64> {
-        let [roll, pitch, yaw] = self.turn;
-        Rotation3::from_euler_angles(roll, pitch, yaw)
+        let [(cr, sr), (cp, sp), (cy, sy)] = self.turn.map(unit_vector);
+        let about_x = Matrix3::new(1.0, 0.0, 0.0, 0.0, cr, -sr, 0.0, sr, cr);
+        let about_y = Matrix3::new(cp, 0.0, sp, 0.0, 1.0, 0.0, -sp, 0.0, cp);
+        let about_z = Matrix3::new(cy, -sy, 0.0, sy, cy, 0.0, 0.0, 0.0, 1.0);
+        Rotation3::from_matrix_unchecked(about_z * about_y * about_x)
     }
 
     /// A local direction or offset in outer axes.
@@ -47,10 +51,19 @@ impl Place {
     }
 }
 
-/// Cosine and sine of a heading (rad), without the dust that pi in double precision leaves at the quarters.
-pub fn unit_vector(heading: f64) -> (f64, f64) {
-    let clean = |value: f64| if value.abs() < 4.0 * f64::EPSILON { 0.0 } else { value };
-    (clean(heading.cos()), clean(heading.sin()))
+/// Cosine and sine of an angle (rad); exact at multiples of a quarter turn, as near as a double comes to them.
+pub fn unit_vector(angle: f64) -> (f64, f64) {
+    let quarters = (angle / FRAC_PI_2).round();
+    let near = (angle - quarters * FRAC_PI_2).abs() <= 4.0 * f64::EPSILON * angle.abs().max(1.0);
+    if !near {
+        return (angle.cos(), angle.sin());
+    }
+    match quarters.rem_euclid(4.0) {
+        1.0 => (0.0, 1.0),
+        2.0 => (-1.0, 0.0),
+        3.0 => (0.0, -1.0),
+        _ => (1.0, 0.0),
+    }
 }
 
 #[cfg(test)]
@@ -65,6 +78,30 @@ mod tests {
         let got = place.apply([1.0, 0.0, 0.0]);
         for (a, b) in got.iter().zip([1.0, 2.0, 2.0]) {
             assert!((a - b).abs() < 1e-12, "{got:?}");
+        }
+    }
+
+    #[test]
+    fn quarter_turns_are_exact() {
+        for quarters in -9..=9 {
+            let turn = f64::from(quarters * 90).to_radians();
+            for axis in 0..3 {
+                let mut place = Place::default();
+                place.turn[axis] = turn;
+                assert!(place.rotation().matrix().iter().all(|e| *e == e.round()), "{quarters} about {axis}");
+            }
+        }
+        assert_eq!(Place::new([0.0, 0.0, 0.0, 0.0, 0.0, FRAC_PI_2]).apply([10.0, 0.0, 0.0]), [0.0, 10.0, 0.0]);
+        assert_eq!(unit_vector(f64::from(7200 + 270).to_radians()), (0.0, -1.0));
+    }
+
+    #[test]
+    fn rotations_are_those_of_euler_angles() {
+        for step in 0..200 {
+            let [roll, pitch, yaw] = [0.37, 0.91, -1.13].map(|rate| rate * f64::from(step));
+            let place = Place::new([0.0, 0.0, 0.0, roll, pitch, yaw]);
+            let difference = place.rotation().matrix() - Rotation3::from_euler_angles(roll, pitch, yaw).matrix();
+            assert!(difference.amax() < 1e-14, "{difference}");
         }
     }
 }

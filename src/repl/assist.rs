@@ -5,6 +5,7 @@ use crate::command::{COMMANDS, offered, status_kinds};
 use crate::connector::CLASSES;
 use crate::connector::line_types::library;
 use crate::language::flow::specs::CONTROL;
+use crate::language::functions;
 use crate::language::select::{Choice, keyword};
 use crate::language::spec::{CommandSpec, Kind as ValueKind, Noun, ValueSpec};
 use crate::language::token::{self, Kind, Token};
@@ -70,11 +71,20 @@ impl Known {
             Noun::Curve => self.curves.clone(),
             Noun::Environment => self.environments.clone(),
             Noun::Selector if !self.columns.is_empty() => self.columns.clone(),
-            Noun::Selector => [&self.selectors, &self.connectors, &self.classes, &self.points]
-                .into_iter()
-                .flatten()
-                .cloned()
-                .collect(),
+            Noun::Selector => [
+                &self.selectors,
+                &self.connectors,
+                &self.classes,
+                &self.points,
+                &self.bodies,
+                &self.parts,
+                &self.curves,
+                &self.environments,
+            ]
+            .into_iter()
+            .flatten()
+            .cloned()
+            .collect(),
             Noun::Macro => self.macros.clone(),
             Noun::LineType => line_type_names().collect(),
             Noun::New => Vec::new(),
@@ -91,12 +101,14 @@ pub struct Assistant {
     known: Arc<Mutex<Known>>,
     files: FilenameCompleter,
     colour: bool,
+    /// The user answers a question, which is no record.
+    pub asking: bool,
 }
 
 impl Assistant {
     /// A helper reading these names; `colour` paints the record.
     pub fn new(known: Arc<Mutex<Known>>, colour: bool) -> Self {
-        Assistant { known, files: FilenameCompleter::new(), colour }
+        Assistant { known, files: FilenameCompleter::new(), colour, asking: false }
     }
 }
 
@@ -124,8 +136,13 @@ fn tells_of_line_types(text: &str, words: &[Token]) -> bool {
     keyword(word, status_kinds()) == Choice::One("LINE_TYPES")
 }
 
-/// What stands at the end of the record: the value expected there.
-fn expected_value(spec: &'static CommandSpec, text: &str, words: &[Token], from: usize) -> Option<&'static ValueSpec> {
+/// What stands at the end of the record: the value expected there, and whether an option must have it.
+fn expected_value(
+    spec: &'static CommandSpec,
+    text: &str,
+    words: &[Token],
+    from: usize,
+) -> Option<(&'static ValueSpec, bool)> {
     let mut data = 0;
     let mut option: Option<(&'static crate::language::spec::OptionSpec, usize)> = None;
     for token in words.get(from..).unwrap_or_default() {
@@ -144,23 +161,38 @@ fn expected_value(spec: &'static CommandSpec, text: &str, words: &[Token], from:
     }
     if let Some((found, taken)) = option {
         if let Some(value) = found.values.get(taken) {
-            return Some(value);
+            return Some((value, value.is_required()));
         }
         if found.repeat > 0 {
             let fixed = found.values.len() - found.repeat;
-            return found.values.get(fixed + (taken - fixed) % found.repeat);
+            let within = (taken - fixed) % found.repeat;
+            return found.values.get(fixed + within).map(|value| (value, within > 0 && value.is_required()));
         }
     }
-    spec.data.get(data).or_else(|| {
+    let datum = spec.data.get(data).or_else(|| {
         let fixed = spec.data.len().checked_sub(spec.repeat).filter(|_| spec.repeat > 0)?;
         spec.data.get(fixed + (data - fixed) % spec.repeat)
-    })
+    });
+    datum.map(|value| (value, false))
+}
+
+/// The string functions, each as it begins.
+fn string_functions() -> impl Iterator<Item = String> {
+    functions::HELP.iter().chain(crate::command::functions::HELP).map(|(name, _, _)| format!("{name}("))
+}
+
+/// Where a string function may begin within a word.
+fn function_start(word: &str) -> Option<usize> {
+    word.rfind('&').filter(|at| !word.get(..*at).is_some_and(|head| head.ends_with(|c: char| c.is_alphanumeric())))
 }
 
 impl Completer for Assistant {
     type Candidate = Pair;
 
     fn complete(&self, line: &str, pos: usize, context: &Context<'_>) -> rustyline::Result<(usize, Vec<Pair>)> {
+        if self.asking {
+            return Ok((pos, Vec::new()));
+        }
         let before = line.get(..pos).unwrap_or(line);
         let start = before.rfind(|c: char| c.is_whitespace() || c == ',').map_or(0, |i| i + 1);
         let word = before.get(start..).unwrap_or_default();
@@ -170,8 +202,9 @@ impl Completer for Assistant {
         let mut candidates: Vec<String> = Vec::new();
         if let Some(name) = word.strip_prefix('%') {
             candidates.extend(known.variables.iter().filter(|v| begins(v, name)).map(|v| format!("%{v}")));
-            return Ok((start, pairs(candidates)));
+            return Ok((start, sorted(candidates)));
         }
+        let spec = spec_of(known.menu, head, &words);
         if words.is_empty() {
             candidates.extend(
                 offered(known.menu)
@@ -184,39 +217,47 @@ impl Completer for Assistant {
             if known.menu != "MAIN" {
                 candidates.push(known.end.to_string());
             }
+        } else if spec.is_some_and(|(spec, _)| spec.name == "&HELP") {
+            if words.len() == 1 {
+                candidates.extend(COMMANDS.iter().map(|c| c.spec).chain(CONTROL).map(|s| s.name.to_string()));
+                candidates.extend(string_functions().map(|name| name.trim_end_matches('(').to_string()));
+            }
+            candidates.extend(CLASSES.iter().map(|k| k.spec.name.to_string()));
+            candidates.retain(|c| begins(c, word) || c.strip_prefix('&').is_some_and(|bare| begins(bare, word)));
+            return Ok((start, sorted(candidates)));
+        } else if let Some(at) = function_start(word) {
+            let name = word.get(at..).unwrap_or_default();
+            return Ok((start + at, sorted(string_functions().filter(|f| begins(f, name)).collect())));
         } else if words.first().is_some_and(|w| w.kind == Kind::Class) && words.len() == 1 {
             candidates.extend(CLASSES.iter().map(|k| k.spec.name.to_string()));
-        } else if let Some((spec, from)) = spec_of(known.menu, head, &words) {
-            if spec.name == "&HELP" {
-                candidates.extend(COMMANDS.iter().map(|c| c.spec).chain(CONTROL).map(|s| s.name.to_string()));
-                candidates.extend(CLASSES.iter().map(|k| k.spec.name.to_string()));
-            } else if spec.name == "&STATUS" && words.len() == 1 && !word.starts_with('-') {
+        } else if let Some((spec, from)) = spec {
+            let expected = expected_value(spec, head, &words, from);
+            let begins_option = word.starts_with('-') && !word.starts_with("-.");
+            if spec.name == "&STATUS" && words.len() == 1 && !begins_option {
                 candidates.extend(status_kinds().map(|(name, _, _)| name.to_string()));
             } else if spec.name == "&STATUS" && words.len() == 2 && tells_of_line_types(head, &words) {
                 candidates.extend(line_type_names());
-            } else if word.starts_with('-') && !word.starts_with("-.") {
-                candidates.extend(spec.options.iter().map(|o| o.name.to_string()));
-            } else if let Some(value) = expected_value(spec, head, &words, from) {
+            } else if let (false, Some((value, _))) = (begins_option, expected) {
                 match value.kind {
                     ValueKind::Choice(choices) => candidates.extend(choices.iter().map(|c| (*c).to_string())),
                     ValueKind::Name(noun) => candidates.extend(known.of(noun)),
+                    ValueKind::ChoiceOrName(choices, noun) => {
+                        candidates.extend(choices.iter().map(|c| (*c).to_string()).chain(known.of(noun)));
+                    }
                     ValueKind::File => {
                         drop(known);
                         return self.files.complete(line, pos, context);
                     }
                     _ => {}
                 }
-                if word.is_empty() {
-                    candidates.extend(spec.options.iter().map(|o| o.name.to_string()));
-                }
-            } else if word.is_empty() {
+            }
+            // where an option still lacks a value no other can begin
+            if begins_option || (word.is_empty() && !expected.is_some_and(|(_, must)| must)) {
                 candidates.extend(spec.options.iter().map(|o| o.name.to_string()));
             }
         }
         candidates.retain(|c| begins(c, word));
-        candidates.sort();
-        candidates.dedup();
-        Ok((start, pairs(candidates)))
+        Ok((start, sorted(candidates)))
     }
 }
 
@@ -224,12 +265,18 @@ fn begins(name: &str, word: &str) -> bool {
     name.get(..word.len()).is_some_and(|head| head.eq_ignore_ascii_case(word))
 }
 
-fn pairs(candidates: Vec<String>) -> Vec<Pair> {
+/// The candidates in order, each once; a word that is complete is followed by a blank.
+fn sorted(mut candidates: Vec<String>) -> Vec<Pair> {
+    candidates.sort();
+    candidates.dedup();
     candidates
         .into_iter()
         .map(|text| {
-            let replacement =
-                if text.contains(char::is_whitespace) { format!("'{text}' ") } else { format!("{text} ") };
+            let replacement = match text.as_str() {
+                open if open.ends_with('(') => text.clone(),
+                several if several.contains(char::is_whitespace) => format!("'{text}' "),
+                _ => format!("{text} "),
+            };
             Pair { display: text, replacement }
         })
         .collect()
@@ -240,13 +287,13 @@ impl Hinter for Assistant {
 
     /// The rest of the record's form, from its spec, once a blank follows what has been typed.
     fn hint(&self, line: &str, pos: usize, _: &Context<'_>) -> Option<String> {
-        if pos < line.len() || !line.ends_with(' ') || line.contains('\n') {
+        if self.asking || pos < line.len() || !line.ends_with(' ') || line.contains('\n') {
             return None;
         }
         let known = self.known.lock().ok()?;
         let words = token::words(line);
         let (spec, from) = spec_of(known.menu, line, &words)?;
-        let value = expected_value(spec, line, &words, from);
+        let value = expected_value(spec, line, &words, from).map(|(value, _)| value);
         let last = words.last().filter(|t| t.kind == Kind::Option).and_then(|t| line.get(t.range.clone()));
         let option = last.and_then(|name| match keyword(name, spec.option_names()) {
             Choice::One(found) => Some(found),
@@ -266,7 +313,7 @@ impl Hinter for Assistant {
 
 impl Highlighter for Assistant {
     fn highlight<'l>(&self, line: &'l str, _: usize) -> Cow<'l, str> {
-        if !self.colour {
+        if self.asking || !self.colour {
             return Cow::Borrowed(line);
         }
         let mut out = String::with_capacity(line.len() + 32);
@@ -310,9 +357,9 @@ impl Highlighter for Assistant {
 }
 
 impl Validator for Assistant {
-    /// A record goes on while its last line ends with a lone `\`.
+    /// A record goes on while its last line, or the one before lines of comment, ends with a lone `\`.
     fn validate(&self, context: &mut ValidationContext) -> rustyline::Result<ValidationResult> {
-        let open = context.input().lines().last().is_some_and(|line| token::line_end(line).1);
+        let open = !self.asking && context.input().lines().fold(false, |open, line| token::goes_on(line, open));
         Ok(if open { ValidationResult::Incomplete } else { ValidationResult::Valid(None) })
     }
 }

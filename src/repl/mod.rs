@@ -7,38 +7,38 @@ use crate::language::source::Text;
 use crate::language::token;
 use crate::session::{End, Session};
 use assist::{Assistant, Known};
+use rustyline::config::Configurer;
 use rustyline::error::ReadlineError;
 use rustyline::history::FileHistory;
-use rustyline::{CompletionType, Config, Editor};
-use std::io::BufRead;
+use rustyline::{
+    Cmd, CompletionType, ConditionalEventHandler, Config, Editor, Event, EventContext, EventHandler, KeyEvent,
+    RepeatCount,
+};
+use std::io::{BufRead, Write};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 
 /// Records kept in the history file.
 const HISTORY: usize = 5000;
 
+/// The one editor of a session: what is typed ahead waits in it for the next record or question.
+type Line = Editor<Assistant, FileHistory>;
+
 /// Talks with the user until `&FINISH` or Ctrl-D.
 pub fn run(session: &mut Session, terminal: bool) {
     session.take_terminal();
     session.interpreter.open_terminal();
     let known = Arc::new(Mutex::new(Known::default()));
-    let config = Config::builder()
-        .completion_type(CompletionType::List)
-        .max_history_size(HISTORY)
-        .map(|b| b.auto_add_history(true).build())
-        .unwrap_or_default();
-    let Ok(mut editor) = Editor::<Assistant, FileHistory>::with_config(config) else { return };
     let colour = terminal && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty());
-    editor.set_helper(Some(Assistant::new(Arc::clone(&known), colour)));
+    let Ok(mut line) = editor(Assistant::new(Arc::clone(&known), colour)) else { return };
     let history = history_file();
     if let Some(path) = &history {
         // a first run has no history yet
-        let _ = editor.load_history(path);
+        let _ = line.load_history(path);
     }
-    session.job.ask = Some(Box::new(|prompt: &str| {
-        let mut asker = rustyline::DefaultEditor::new().ok()?;
-        asker.readline(&format!("{prompt}? ")).ok()
-    }));
+    let line = Arc::new(Mutex::new(line));
+    let asked = Arc::clone(&line);
+    session.job.ask = Some(Box::new(move |prompt: &str| answer(&asked, prompt)));
     if terminal {
         session.job.say("windlass: &HELP lists the commands, Tab completes, Ctrl-D leaves");
     }
@@ -49,13 +49,17 @@ pub fn run(session: &mut Session, terminal: bool) {
             known.update(session);
         }
         if !terminal {
-            let Some(bytes) = piped() else { break };
+            let Some(bytes) = piped() else {
+                session.end_of_typing();
+                break;
+            };
             let lines = bytes.iter().filter(|b| **b == b'\n').count();
             session.interpreter.feed("terminal", Text::from_bytes(bytes), line_number);
             line_number += lines;
             continue;
         }
-        match editor.readline(&prompt(session)) {
+        let Ok(typed) = line.lock().map(|mut line| line.readline(&prompt(session))) else { break };
+        match typed {
             Ok(line) => {
                 session.interpreter.feed("terminal", line.as_str(), line_number);
                 line_number += line.lines().count().max(1);
@@ -66,15 +70,60 @@ pub fn run(session: &mut Session, terminal: bool) {
                     session.job.say("the open block is given up");
                 }
             }
-            Err(_) => break,
+            Err(_) => {
+                session.end_of_typing();
+                break;
+            }
         }
     }
-    if let Some(path) = &history {
+    if let (Some(path), Ok(mut line)) = (&history, line.lock()) {
         let made = path.parent().map(std::fs::create_dir_all);
         if made.is_some_and(|m| m.is_ok()) {
             // losing the history is no reason to end with an error
-            let _ = editor.append_history(path);
+            let _ = line.append_history(path);
         }
+    }
+}
+
+fn editor(assistant: Assistant) -> rustyline::Result<Line> {
+    let config = Config::builder()
+        .completion_type(CompletionType::List)
+        .completion_show_all_if_ambiguous(true)
+        .max_history_size(HISTORY)?
+        .auto_add_history(true)
+        .build();
+    let mut line = Editor::with_config(config)?;
+    line.set_helper(Some(assistant));
+    line.bind_sequence(KeyEvent::ctrl('C'), EventHandler::Conditional(Box::new(WipeHint)));
+    Ok(line)
+}
+
+/// What the user answers to a question; `None` when the answer is refused (Ctrl-C, Ctrl-D).
+fn answer(line: &Mutex<Line>, prompt: &str) -> Option<String> {
+    let mut line = line.lock().ok()?;
+    if let Some(assistant) = line.helper_mut() {
+        assistant.asking = true;
+    }
+    line.set_auto_add_history(false);
+    let typed = line.readline(&format!("{prompt}? "));
+    line.set_auto_add_history(true);
+    if let Some(assistant) = line.helper_mut() {
+        assistant.asking = false;
+    }
+    typed.ok()
+}
+
+/// Takes the hint off the screen before Ctrl-C leaves the line as it stands; the cursor is in front of the hint.
+struct WipeHint;
+
+impl ConditionalEventHandler for WipeHint {
+    fn handle(&self, _: &Event, _: RepeatCount, _: bool, context: &EventContext) -> Option<Cmd> {
+        if context.has_hint() {
+            let mut screen = std::io::stdout();
+            // a screen that is gone has no hint to take off
+            let _ = screen.write_all(b"\x1b[J").and_then(|()| screen.flush());
+        }
+        None
     }
 }
 
@@ -88,7 +137,7 @@ fn piped() -> Option<Vec<u8>> {
         if !matches!(read, Ok(1..)) {
             return (!bytes.is_empty()).then_some(bytes);
         }
-        if !token::line_end(&line).1 || bytes.len() > LONGEST_RECORD {
+        if !token::goes_on(&line, start > 0) || bytes.len() > LONGEST_RECORD {
             return Some(bytes);
         }
     }

@@ -20,6 +20,8 @@ pub struct Output {
     messages: Box<dyn Write + Send>,
     /// Messages may use colour.
     pub colour: bool,
+    /// Columns of the screen as it is now; `None` when it is no terminal.
+    pub columns: fn() -> Option<usize>,
     /// No log and no report file: a job that was given records on the command line only.
     pub keep_log: bool,
     log: Option<std::fs::File>,
@@ -35,7 +37,17 @@ impl Output {
         messages: Box<dyn Write + Send>,
         colour: bool,
     ) -> Self {
-        Output { folder, screen, messages, colour, keep_log: true, log: None, report: None, log_failed: false }
+        Output {
+            folder,
+            screen,
+            messages,
+            colour,
+            columns: || None,
+            keep_log: true,
+            log: None,
+            report: None,
+            log_failed: false,
+        }
     }
 
     /// Writes text to the screen and the log; a newline is added where it lacks one.

@@ -152,6 +152,13 @@ impl Session {
         }
     }
 
+    /// No more is typed: says which block was not closed.
+    pub fn end_of_typing(&mut self) {
+        if let Err(error) = self.interpreter.end_of_typing() {
+            self.report(*error);
+        }
+    }
+
     /// Ends the job: files that were opened and never closed are written, and said.
     pub fn finish(&mut self) {
         for said in command::write_open_files(&mut self.job) {
@@ -182,7 +189,7 @@ impl Session {
         if self.job.settings.echo {
             self.job.output.text(&format!("> {text}"));
         }
-        let words = record.words();
+        let words = record.fields();
         let asked = self.job.last_severity;
         self.job.last_severity = None;
         let outcome = self.dispatch(record, &words);

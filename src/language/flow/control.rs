@@ -1,8 +1,9 @@
 //! Carrying out control records: branches, loops, macros, variables.
 
-use super::macros::Macro;
+use super::macros::{Macro, control_word};
+use super::specs::CONTROL;
 use super::{Branch, Collected, Collecting, Frame, Interpreter, Trips};
-use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::diagnostic::{Diagnostic, Outcome, Severity};
 use crate::language::record::Record;
 use crate::language::substitution::{World, substitute};
 use crate::language::{logic, number};
@@ -87,8 +88,12 @@ impl Interpreter {
                 self.begin_block(record, false, trips.map(Collected::Loop))
             }
             "&MACRO" => {
-                let header = Macro::header(record);
-                self.begin_block(record, true, header.map(|h| Collected::Macro(Box::new(h))))
+                let header = Macro::header(record).and_then(|header| self.callable(header, world));
+                let (header, said) = match header {
+                    Ok((header, said)) => (Ok(Collected::Macro(Box::new(header))), said),
+                    Err(error) => (Err(error), Ok(())),
+                };
+                self.begin_block(record, true, header).and(said)
             }
             "&NEXT" | "&EXIT" => {
                 let depth = self.frames.len();
@@ -129,6 +134,28 @@ impl Interpreter {
         }
         let depth = self.frames.len();
         self.branches.retain(|b| b.depth < depth);
+    }
+
+    /// A header whose macro can be called, with a warning where a command of some menus has its name.
+    fn callable(&self, header: Macro, world: &dyn World) -> Outcome<(Macro, Outcome<()>)> {
+        let taken = |command: &str, place: &str| {
+            Diagnostic::error(format!("macro {} cannot be called{place}", header.name), header.span)
+                .label(format!("this is the command {command}"))
+        };
+        if let Some(control) =
+            control_word(&header.name, &self.internal).filter(|n| CONTROL.iter().any(|s| s.name == *n))
+        {
+            return Err(taken(control, ""));
+        }
+        match world.menus_of_command(&header.name) {
+            None => Ok((header, Ok(()))),
+            Some(menus) if menus.is_empty() => Err(taken(&header.name.to_ascii_uppercase(), "")),
+            Some(menus) => {
+                let mut warning = taken(&header.name.to_ascii_uppercase(), &format!(" in {}", menus.join(", ")));
+                warning.severity = Severity::Warning;
+                Ok((header, Err(warning)))
+            }
+        }
     }
 
     fn begin_block(&mut self, record: &Record, macro_block: bool, what: Outcome<Collected>) -> Outcome<()> {
@@ -228,8 +255,15 @@ fn read_loop(record: &Record) -> Outcome<Trips> {
             ));
         }
     };
-    if [next, end, step].iter().any(|v| v.fract() != 0.0) || step == 0.0 {
-        return Err(Diagnostic::error("the bounds of &LOOP are whole numbers, its increment not zero", record.whole()));
+    for (index, (bound, word)) in bounds.iter().zip(rest).enumerate() {
+        let what = if index == 2 { "the increment" } else { "a bound" };
+        if bound.fract() != 0.0 {
+            return Err(Diagnostic::error(format!("{what} of &LOOP must be a whole number"), word.span)
+                .label(format!("this is {bound}")));
+        }
+        if index == 2 && *bound == 0.0 {
+            return Err(Diagnostic::error("the increment of &LOOP may not be zero", word.span));
+        }
     }
     Ok(Trips::Count { variable: variable.text.to_string(), next, end, step })
 }

@@ -16,6 +16,14 @@ struct Argument {
     default: String,
 }
 
+impl Argument {
+    /// The local that a word of a call makes; a field left out takes the default.
+    fn given(&self, word: &Word) -> (String, String) {
+        let value = if word.kind == Kind::Empty { self.default.clone() } else { word.text.to_string() };
+        (self.name.clone(), value)
+    }
+}
+
 /// An option of the picture: the variable that tells whether it was given, and its values.
 #[derive(Clone, Debug, PartialEq)]
 struct MacroOption {
@@ -127,7 +135,7 @@ impl Macro {
                 }
                 for value in &option.values {
                     let Some(word) = words.get(at).filter(|w| w.kind != Kind::Option) else { break };
-                    locals.push((value.name.clone(), word.text.to_string()));
+                    locals.push(value.given(word));
                     at += 1;
                 }
                 continue;
@@ -136,7 +144,7 @@ impl Macro {
                 return Err(Diagnostic::error(format!("macro {} takes no further argument", self.name), word.span)
                     .help(format!("form: {}", self.syntax())));
             };
-            locals.push((argument.name.clone(), word.text.to_string()));
+            locals.push(argument.given(word));
             given += 1;
         }
         let rest = self.arguments.get(given..).unwrap_or_default();

@@ -190,6 +190,14 @@ impl Interpreter {
         }
     }
 
+    /// Ends what is typed, as the end of a file ends what is read from it.
+    ///
+    /// # Errors
+    /// A block that is not closed; it is given up.
+    pub fn end_of_typing(&mut self) -> Outcome<()> {
+        self.check_closed()
+    }
+
     /// The macros defined, by name.
     pub fn macros(&self) -> impl Iterator<Item = &Arc<Macro>> {
         self.macros.values()
@@ -395,7 +403,7 @@ impl Interpreter {
         if depth >= DEEPEST_MACRO {
             return Err(Diagnostic::error(format!("macros call each other deeper than {DEEPEST_MACRO}"), span));
         }
-        let words = record.words();
+        let words = record.fields();
         let locals = called.locals(words.get(1..).unwrap_or_default(), record.rest().0)?;
         self.variables.enter();
         for (name, value) in locals {

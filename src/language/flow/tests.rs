@@ -61,6 +61,44 @@ fn macros_take_arguments_options_and_defaults() {
 }
 
 #[test]
+fn an_argument_left_out_between_commas_takes_its_default() {
+    let script = "&MACRO P A B = 5 -OPT FLAG V = 7 W = 8\n%A|%B|%V|%W\n&ENDMACRO\n";
+    for (call, got) in [
+        ("P 1,,", "1|5|7|8"),
+        ("P ,2", "|2|7|8"),
+        ("P,2", "2|5|7|8"),
+        ("P 1,,-OPT ,, 3", "1|5|7|3"),
+        ("P ,,", "|5|7|8"),
+    ] {
+        assert_eq!(run(&format!("{script}{call}")), [got], "{call}");
+    }
+}
+
+#[test]
+fn a_macro_named_as_a_control_record_or_an_abbreviation_of_one_is_an_error() {
+    for name in ["&LOOP", "&loo", "&SE"] {
+        let script = format!("&MACRO {name} A\nX\n&ENDMACRO\nY");
+        assert_eq!(run(&script), [format!("! macro {name} cannot be called"), "Y".into()]);
+    }
+    assert_eq!(run("&MACRO &MINE\nX\n&ENDMACRO\n&MINE"), ["X"]);
+}
+
+#[test]
+fn a_wrong_bound_of_a_loop_is_the_place_of_the_error() {
+    for (header, message, column) in [
+        ("&LOOP I 1 5 0", "the increment of &LOOP may not be zero", 13),
+        ("&LOOP I 1 2 0.5", "the increment of &LOOP must be a whole number", 13),
+        ("&LOOP I 1 2.5", "a bound of &LOOP must be a whole number", 11),
+    ] {
+        let mut interpreter = Interpreter::new(std::iter::empty());
+        interpreter.open("t.cif", format!("{header}\n&ENDLOOP\n"), 0, None).unwrap();
+        let error = interpreter.next(&mut Nowhere).unwrap_err();
+        assert_eq!(error.message, message);
+        assert_eq!(interpreter.sources.place(error.span.unwrap()), format!("t.cif:1:{column}"));
+    }
+}
+
+#[test]
 fn a_local_ends_with_its_macro_and_hides_the_global() {
     let script = "&SET A = outer\n&MACRO M\n&LOCAL A = inner\nX %A\n&ENDMACRO\nM\nX %A";
     assert_eq!(run(script), ["X inner", "X outer"]);

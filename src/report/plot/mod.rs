@@ -157,7 +157,7 @@ impl Chart {
     /// # Errors
     /// [`PlotError`].
     pub fn terminal(&self, columns: usize, lines: usize) -> Result<String, PlotError> {
-        let (columns, lines) = (columns.clamp(40, 200), lines.clamp(10, 100));
+        let (columns, lines) = (columns.clamp(20, 200), lines.clamp(10, 100));
         // three lines are for the title and the names of the axes
         let canvas = Rc::new(RefCell::new(terminal::Canvas::new(columns, lines - 3)));
         draw(self, &DrawingArea::from(&canvas), &Look::terminal(columns, lines - 3))?;
