@@ -120,20 +120,6 @@ impl Record {
             .collect()
     }
 
-    /// The words of a command's record: a comma set off from the first word leaves the first datum empty, `P ,2`; one that
-    /// ends the first word separates, `P, 2`.
-    pub fn fields(&self) -> Vec<Word> {
-        let mut words = self.words();
-        let lead = self.text.len() - self.text.trim_start().len();
-        let rest = self.text.get(lead + self.first_word().len()..).unwrap_or_default();
-        let after = rest.trim_start();
-        if after.starts_with(',') && after.len() < rest.len() && !words.is_empty() {
-            let comma = self.text.len() - after.len();
-            words.insert(1, Word { kind: Kind::Empty, text: Arc::from(""), span: self.span(comma..comma + 1) });
-        }
-        words
-    }
-
     /// The first word's text, empty for a blank or comment record.
     pub fn first_word(&self) -> &str {
         let text = self.text.trim_start();
@@ -228,20 +214,6 @@ mod tests {
         // a comment that begins a record is a record of its own, and a continued record does not end in one
         assert_eq!(read("$ x \\\nEND\n", id, 0).1, 6);
         assert!(read("A \\\n$ x", id, 0).2);
-    }
-
-    #[test]
-    fn a_comma_set_off_from_the_command_leaves_its_first_datum_empty() {
-        let fields = |text: &str| {
-            let words = Record::verbatim(text, Span::new(SourceId::default(), 0, text.len())).fields();
-            words.iter().map(|w| w.text.to_string()).collect::<Vec<_>>()
-        };
-        assert_eq!(fields("*D , 1"), ["*D", "", "1"]);
-        assert_eq!(fields(" P ,,2"), ["P", "", "", "2"]);
-        assert_eq!(fields("P, 2 , 3"), ["P", "2", "3"]);
-        assert_eq!(fields("P,2"), ["P", "2"]);
-        assert_eq!(fields("P,,2"), ["P", "", "2"]);
-        assert!(fields("").is_empty() && fields(", A").len() == 2);
     }
 
     #[test]

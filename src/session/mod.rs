@@ -189,7 +189,7 @@ impl Session {
         if self.job.settings.echo {
             self.job.output.text(&format!("> {text}"));
         }
-        let words = record.fields();
+        let words = record.words();
         let asked = self.job.last_severity;
         self.job.last_severity = None;
         let outcome = self.dispatch(record, &words);

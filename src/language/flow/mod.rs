@@ -403,7 +403,7 @@ impl Interpreter {
         if depth >= DEEPEST_MACRO {
             return Err(Diagnostic::error(format!("macros call each other deeper than {DEEPEST_MACRO}"), span));
         }
-        let words = record.fields();
+        let words = record.words();
         let locals = called.locals(words.get(1..).unwrap_or_default(), record.rest().0)?;
         self.variables.enter();
         for (name, value) in locals {

@@ -65,7 +65,7 @@ fn an_argument_left_out_between_commas_takes_its_default() {
     let script = "&MACRO P A B = 5 -OPT FLAG V = 7 W = 8\n%A|%B|%V|%W\n&ENDMACRO\n";
     for (call, got) in [
         ("P 1,,", "1|5|7|8"),
-        ("P ,2", "|2|7|8"),
+        ("P ,,2", "|2|7|8"),
         ("P,2", "2|5|7|8"),
         ("P 1,,-OPT ,, 3", "1|5|7|3"),
         ("P ,,", "|5|7|8"),
