@@ -72,11 +72,11 @@ fn a_macro_named_as_an_abbreviation_is_called_and_one_named_as_a_command_is_refu
 }
 
 #[test]
-fn a_point_whose_first_coordinate_is_left_out_has_the_others_in_their_places() {
+fn a_comma_with_blanks_around_it_is_one_separator_and_two_leave_a_datum_empty() {
     let point =
         |record: &str| run(&["-c", "MEDIT", "-c", record, "-c", "&TYPE at &POINT(COORDINATES *D)", "-c", "END"]).1;
-    assert_eq!(point("*D , 1"), "at 0 1 0\n");
-    assert_eq!(point("*D, 1"), "at 1 0 0\n");
+    assert_eq!(point("*D , 1"), "at 1 0 0\n");
+    assert_eq!(point("*D ,, 1"), "at 0 1 0\n");
 }
 
 #[test]

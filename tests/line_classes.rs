@@ -266,8 +266,17 @@ fn beyond_the_table_the_force_goes_on_straight_and_that_is_said() {
     let got = loads(TABLED, at(last(0) + 2.0));
     near(got.fairlead[0], last(1) + 2.0 * last(2), 1e-9);
     assert!(got.notes.iter().any(|n| n.contains("beyond the table")), "{:?}", got.notes);
-    let before = rows.row(0)[0].number().unwrap() - 100.0;
-    assert_eq!(loads(TABLED, at(before)).fairlead[0], 0.0);
+}
+
+#[test]
+fn nearer_than_its_first_row_a_tabled_line_is_solved_exactly() {
+    let exact = TABLED.replace("100 -LEN", "100 EXACT -LEN");
+    for x in [0.0, 50.0, 900.0] {
+        let (got, want) = (loads(TABLED, at(x)), loads(&exact, at(x)));
+        assert_eq!((got.fairlead, got.grounded), (want.fairlead, want.grounded));
+        assert!(got.fairlead[2] < 0.0 && got.grounded < 1500.0, "{got:?}");
+        assert!(got.notes.iter().any(|n| n.contains("solved exactly")), "{:?}", got.notes);
+    }
 }
 
 #[test]

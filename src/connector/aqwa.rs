@@ -12,7 +12,7 @@ use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
 use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
-use crate::language::units::{Dim, STANDARD_GRAVITY};
+use crate::language::units::Dim;
 use crate::model::{ClassError, ClassRecord, Connector, ConnectorClass, LineModel, Placement, Surroundings};
 use crate::table::{Cell, Digits, Table};
 use std::f64::consts::FRAC_PI_4;
@@ -235,7 +235,7 @@ impl ConnectorClass for CatenaryClass {
                 s.cx.into(),
                 s.diameter.into(),
                 s.joint.map(|j| j.0).into(),
-                s.joint.map(|j| j.1 * STANDARD_GRAVITY).into(),
+                s.joint.map(|j| j.1 * surroundings.gravity).into(),
             ];
             // the row has one cell a column, made just above
             let _ = table.push(row);

@@ -130,7 +130,7 @@ impl Catenary {
             return Err(ClassError::new("the anchor lies above the water surface").help("check -DEPANCHOR and -ANCHOR"));
         }
         let [_, _, fairlead] = place.fairlead;
-        if fairlead < -depth {
+        if self.slope == 0.0 && fairlead < -depth {
             return Err(
                 ClassError::new("the fairlead lies below the anchor's depth").help("check &INSTATE and -DEPANCHOR")
             );

@@ -58,6 +58,10 @@ impl Chord {
         if ratio > 1.0 {
             notes.push("warning: the line is beyond its breaking tension".into());
         }
+        if force != 0.0 && chord == 0.0 {
+            notes
+                .push("warning: its ends coincide; the direction of its force is not defined, and taken upward".into());
+        }
         if force == 0.0 && chord < self.line.line.length() {
             notes.push("the line is slack".into());
         }

@@ -10,6 +10,7 @@ mod first_length;
 mod h_cat;
 pub mod line_types;
 mod lmu;
+mod loads;
 mod mooring;
 mod mooring_table;
 mod options;

@@ -1,8 +1,6 @@
 //! A mooring line between two places: what every class made of catenary segments answers.
 
-use super::catenary::{
-    Aim, FromTable, Interpolated, Joint, Law, Line, LineError, Row, Segment, SegmentState, ShapePoint, State, table,
-};
+use super::catenary::{Aim, Joint, Law, Line, LineError, Row, Segment, SegmentState, ShapePoint, State, table};
 use super::checks;
 use super::first_length::for_tension;
 use super::mooring_table::{buoy_word, report};
@@ -51,14 +49,14 @@ impl Mooring {
     }
 
     /// Horizontal distance of the ends as they are (m), and the direction from the first to the other.
-    fn placed(&self) -> Result<(f64, [f64; 2]), ClassError> {
+    pub(super) fn placed(&self) -> Result<(f64, [f64; 2]), ClassError> {
         if self.place.other.is_none() {
             return Err(no_other_end());
         }
         Ok(self.place.span())
     }
 
-    fn state(&self, condition: Condition) -> Result<State, ClassError> {
+    pub(super) fn state(&self, condition: Condition) -> Result<State, ClassError> {
         let z = self.fairlead();
         let found = match condition {
             Condition::Placed => self.line.at_distance(self.placed()?.0, z),
@@ -71,7 +69,7 @@ impl Mooring {
     }
 
     /// The largest tension over own break, and the segment that has it, from 1.
-    fn ratio(&self, state: &State) -> (f64, usize) {
+    pub(super) fn ratio(&self, state: &State) -> (f64, usize) {
         let one = |s: &SegmentState| s.top_tension.max(s.bottom_tension);
         state.segments.iter().zip(&self.breaks).enumerate().fold((0.0, 1), |best, (i, (s, limit))| {
             let ratio = one(s) / limit;
@@ -80,7 +78,7 @@ impl Mooring {
     }
 
     /// What is dangerous or surprising about a state.
-    fn remarks(&self, state: &State) -> Vec<String> {
+    pub(super) fn remarks(&self, state: &State) -> Vec<String> {
         let mut notes = self.notes.clone();
         for (segment, _) in &state.below_bottom {
             notes.push(format!(
@@ -107,7 +105,7 @@ impl Mooring {
         notes
     }
 
-    fn rows(&self) -> Result<Vec<Row>, ClassError> {
+    pub(super) fn rows(&self) -> Result<Vec<Row>, ClassError> {
         table(&self.line, &self.breaks, self.largest, self.fairlead()).map_err(|e| self.error(&e))
     }
 }
@@ -189,9 +187,8 @@ pub fn no_other_end() -> ClassError {
 /// The error of a line, at the record of the segment it is about.
 pub fn line_error(error: &LineError, places: &[Span]) -> ClassError {
     let segment = match error {
-        LineError::Value { segment, .. } | LineError::Pendant { segment, .. } | LineError::Law(segment) => {
-            Some(*segment)
-        }
+        LineError::Value { segment, value, .. } if value.abs() < 1e100 => Some(*segment),
+        LineError::Pendant { segment, .. } | LineError::Law(segment) => Some(*segment),
         _ => None,
     };
     let (length, force) = (Dim::Length, Dim::Force);
@@ -210,16 +207,22 @@ pub fn line_error(error: &LineError, places: &[Span]) -> ClassError {
             "no length of the first segment gives {}; the nearest is {}",
             &[(*wanted, force), (*nearest, force)],
         ),
-        LineError::Unproven { residual, tension } => ClassError::of(
-            "no configuration found between the ends: {} remain of a tension of {}",
-            &[(*residual, force), (*tension, force)],
+        LineError::Unproven { tension, .. } if tension.is_finite() => ClassError::of(
+            "no configuration between the ends could be proven, near a tension of {}",
+            &[(*tension, force)],
         ),
+        LineError::NotConverged { force: at, .. } if at.is_finite() => {
+            ClassError::of("no configuration found, near a force of {}", &[(*at, force)])
+        }
         _ => ClassError::new(error.to_string()),
     };
     let made = match error {
         LineError::BelowBottom(_) => made.help("check &INSTATE and -DEPANCHOR"),
         LineError::Undetermined => made.help("give it weight, or pull it tight"),
         LineError::Pendant { .. } => made.help("make CLEN shorter than the depth"),
+        LineError::Slides => made.help("give the bottom friction larger than its slope, or pull the line tight"),
+        LineError::Unproven { .. } | LineError::NotConverged { .. } => made
+            .help("change the length, the place of the anchor or the buoys a little; without friction more is solved"),
         _ => made,
     };
     match segment.and_then(|n| places.get(n.saturating_sub(1))) {
@@ -305,55 +308,7 @@ impl LineModel for Mooring {
     }
 
     fn loads(&self) -> Result<LineLoads, ClassError> {
-        let (distance, along) = self.placed()?;
-        if self.exact {
-            let state = match self.state(Condition::Placed) {
-                Ok(state) => state,
-                Err(error) => return self.limp(distance).ok_or(error),
-            };
-            let (ratio, critical) = self.ratio(&state);
-            let kept = state.stiffness;
-            let across = if distance > 0.0 { state.force / distance } else { kept[0][0] };
-            return Ok(LineLoads {
-                fairlead: [state.force * along[0], state.force * along[1], -state.top_vertical],
-                other: [
-                    -state.anchor_horizontal * along[0],
-                    -state.anchor_horizontal * along[1],
-                    state.anchor_vertical,
-                ],
-                stiffness: stiffness(along, kept, across),
-                distance,
-                tension: state.top_tension,
-                ratio,
-                critical,
-                grounded: state.grounded,
-                solution: "exact",
-                notes: self.remarks(&state),
-            });
-        }
-        let rows = self.rows()?;
-        let FromTable { force, stiffness: slope, vertical, anchor, grounded, ratio, critical, beyond } =
-            Interpolated::new(&rows).at(distance, &rows);
-        let mut notes = self.notes.clone();
-        if beyond {
-            notes.push("warning: beyond the table; its last slope is continued".into());
-        }
-        if ratio > 1.0 {
-            notes.push("warning: the line is beyond its breaking tension".into());
-        }
-        let across = if distance > 0.0 { force / distance } else { slope };
-        Ok(LineLoads {
-            fairlead: [force * along[0], force * along[1], -vertical],
-            other: [-anchor[0] * along[0], -anchor[0] * along[1], anchor[1]],
-            stiffness: stiffness(along, [[slope, 0.0], [0.0, 0.0]], across),
-            distance,
-            tension: force.hypot(vertical),
-            ratio,
-            critical,
-            grounded,
-            solution: "table",
-            notes,
-        })
+        if self.exact { self.exact_loads() } else { self.tabled_loads() }
     }
 
     fn distance(&self, condition: Condition) -> Result<f64, ClassError> {
@@ -378,25 +333,6 @@ impl LineModel for Mooring {
 }
 
 impl Mooring {
-    /// A weightless line that is not tight: no force.
-    fn limp(&self, distance: f64) -> Option<LineLoads> {
-        let z = self.fairlead();
-        let weightless = self.line.segments().iter().all(|s| s.weight == 0.0);
-        let limp = weightless && matches!(self.line.at_distance(distance, z), Err(LineError::Undetermined));
-        limp.then(|| LineLoads {
-            fairlead: [0.0; 3],
-            other: [0.0; 3],
-            stiffness: [[0.0; 3]; 3],
-            distance,
-            tension: 0.0,
-            ratio: 0.0,
-            critical: 1,
-            grounded: 0.0,
-            solution: "exact",
-            notes: self.notes.clone(),
-        })
-    }
-
     fn shape_row(&self, state: &State, point: &ShapePoint, next: Option<&ShapePoint>) -> Vec<Cell> {
         let bottom = self.line.floor().map(|f| f.elevation + (state.x - point.x) * f.slope).or(self.bottom);
         let near = |x: f64, z: f64| (point.x - x).abs() + (point.z - z).abs() <= 1e-9 * (self.line.length() + x.abs());
@@ -422,16 +358,4 @@ impl Mooring {
             joint.then_some(point.z).into(),
         ]
     }
-}
-
-/// d(force on the first end)/d(its position): `k` is d(H, V)/d(x, z), `across` H over the distance.
-fn stiffness(along: [f64; 2], k: [[f64; 2]; 2], across: f64) -> [[f64; 3]; 3] {
-    let [ux, uy] = along;
-    let [[xx, xz], [zx, zz]] = k;
-    let plane = |a: f64, b: f64, same: f64| -xx * a * b - across * (same - a * b);
-    [
-        [plane(ux, ux, 1.0), plane(ux, uy, 0.0), xz * ux],
-        [plane(ux, uy, 0.0), plane(uy, uy, 1.0), xz * uy],
-        [zx * ux, zx * uy, -zz],
-    ]
 }

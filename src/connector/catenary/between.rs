@@ -8,7 +8,7 @@
 
 use super::chain::Chain;
 use super::element::{Element, Ground, Tilt, vertical_of_contact};
-use super::line::{LineError, Segment};
+use super::line::{LARGEST, LineError, Segment};
 use super::search::{Point, rising_root};
 use super::segment::{Reach, hanging, lifted};
 
@@ -108,8 +108,8 @@ pub(super) fn check(segment: &Segment, x: f64, z: f64, bottom: Option<Bottom>) -
     segment.check(1)?;
     let friction = bottom.map_or(0.0, |b| b.friction);
     for (what, value, good) in [
-        ("the horizontal distance", x, x >= 0.0),
-        ("the rise", z, true),
+        ("the horizontal distance", x, (0.0..LARGEST).contains(&x)),
+        ("the rise", z, (segment.weight * z).abs().max(z.abs()) < LARGEST),
         ("the friction coefficient", friction, friction >= 0.0),
     ] {
         if !(good && value.is_finite()) {

@@ -101,7 +101,7 @@ impl Interpolated {
         Interpolated { x, force, rest }
     }
 
-    /// At a distance (m); beyond the table on straight lines, with no force less than none.
+    /// At a distance (m) not nearer than the first row; beyond the last one on straight lines.
     pub fn at(&self, x: f64, rows: &[Row]) -> FromTable {
         let (first, last) = (self.x.first().copied().unwrap_or(0.0), self.x.last().copied().unwrap_or(0.0));
         let inside = x.clamp(first, last);

@@ -79,7 +79,7 @@ pub enum LineError {
         joints: usize,
     },
     /// A value that is not finite or has the wrong sign.
-    #[error("{what} of segment {segment} cannot be {value}")]
+    #[error("{what} of segment {segment} cannot be {}", told(*.value))]
     Value {
         /// Which quantity.
         what: &'static str,
@@ -129,6 +129,9 @@ pub enum LineError {
     /// A weightless line with slack: any shape will do.
     #[error("a weightless line longer than the distance between its ends has no definite shape")]
     Undetermined,
+    /// A part without tension on a slope that friction does not hold.
+    #[error("a slack part of the line, or a clump, slides down the sloped bottom: friction does not hold it")]
+    Slides,
     /// A slack line with buoys over a slope: where its heaps lie depends on how it was laid.
     #[error("a slack line with buoyant parts over a sloped bottom has no definite shape")]
     SlackSlope,
@@ -153,6 +156,14 @@ pub enum LineError {
         iterations: usize,
     },
 }
+
+/// A value in as many digits as one reads.
+fn told(value: f64) -> String {
+    if value == 0.0 || (1e-4..1e9).contains(&value.abs()) { value.to_string() } else { format!("{value:.3e}") }
+}
+
+/// Lengths (m) and forces (N) from which on the squares that are formed of them have no room in a double.
+pub(super) const LARGEST: f64 = 1e140;
 
 impl Segment {
     /// The forces when the fairlead lies `x` >= 0 beside and `z` above the anchor (m); with a `bottom` at the anchor's
@@ -181,9 +192,9 @@ impl Segment {
     /// Refuses values that no segment can have; `number` is the segment's, from 1.
     pub(super) fn check(&self, number: usize) -> Result<(), LineError> {
         for (what, value, good) in [
-            ("the length", self.length, self.length > 0.0),
-            ("the axial stiffness", self.ea, self.ea > 0.0),
-            ("the weight", self.weight, true),
+            ("the length", self.length, self.length > 0.0 && self.length < LARGEST),
+            ("the axial stiffness", self.ea, self.ea > 0.0 && self.ea < LARGEST),
+            ("the weight", self.weight, (self.weight * self.length).abs() < LARGEST),
         ] {
             if !(good && value.is_finite()) {
                 return Err(LineError::Value { what, segment: number, value });

@@ -25,7 +25,7 @@ impl Line {
         let scale = force.0.hypot(force.1).max(far.0.hypot(far.1));
         let off = wanted.map_or(0.0, |(_, t)| rested.t - t);
         // the least tension already reaches so far: no horizontal force at all
-        let limit = if tilt == Tilt::FLAT { 4.0 * least } else { 1e-9 * scale };
+        let limit = if tilt == Tilt::FLAT { 4.0 * least } else { (1e-9 * scale).max(64.0 * least) };
         let slack = wanted.is_some() && force.0 <= limit && off >= 0.0;
         let residual = if slack { 0.0 } else { (off / t_p).abs() * (1.0 + (q_p).abs()) };
         let fine = 4.0 * f64::EPSILON * (self.length() + rested.t.abs());
@@ -39,6 +39,9 @@ impl Line {
             if self.weightless() && off > 1e-9 * (self.length() + rested.t.abs()) {
                 return Err(LineError::Undetermined);
             }
+            if -tilt.sin > self.chain.ground.friction * tilt.cos {
+                return Err(LineError::Slides);
+            }
             let buoyant =
                 self.chain.pulls.iter().any(|p| p.lift > 0.0) || self.chain.elements.iter().any(|e| e.weight() < 0.0);
             if tilt != Tilt::FLAT && buoyant {
@@ -51,6 +54,9 @@ impl Line {
                 let [_, far] = rested.far_q_by;
                 coupling = [[0.0, 0.0], [0.0, far]];
             }
+        }
+        if self.slides(&rested) {
+            return Err(LineError::Slides);
         }
         let places = self.places(&rested, wanted.map(|w| w.0), fairlead);
         let x = wanted.map_or_else(|| places.last().map_or(0.0, |p| p.0), |w| w.0);
@@ -83,6 +89,28 @@ impl Line {
             return Err(LineError::NotConverged { force: force.0, residual: f64::NAN, iterations: state.iterations });
         }
         Ok(state)
+    }
+
+    /// Whether something without tension lies on a slope steeper than friction holds, or a clump is pulled downhill with
+    /// more than friction bears.
+    fn slides(&self, rested: &Rested) -> bool {
+        let ground = &self.chain.ground;
+        if ground.tilt == Tilt::FLAT {
+            return false;
+        }
+        let steep = ground.tilt.sin > ground.friction * ground.tilt.cos;
+        let heap = |h: &Held| h.rests && h.ground > 1e-9 * self.length() && h.leave <= ground.least;
+        if steep && rested.held.iter().any(heap) {
+            return true;
+        }
+        rested.policy.stands.iter().enumerate().any(|(j, stand)| {
+            let value = |list: &[f64]| list.get(j).copied().unwrap_or(0.0);
+            let above = rested.held.get(j).map_or(0.0, |h| h.p_lo);
+            let along = above + value(&rested.lifts) * ground.tilt.sin;
+            let held = ground.friction * value(&rested.reactions).max(0.0);
+            *stand == Stand::Bottom
+                && along < -held - 1e-9 * (above.abs() + value(&rested.lifts).abs()) - 64.0 * ground.least
+        })
     }
 
     /// Whether nothing pulls the line down or up.

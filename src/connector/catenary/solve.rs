@@ -2,7 +2,7 @@
 
 use super::chain::Rested;
 use super::element::{Element, Tilt};
-use super::line::{Line, LineError};
+use super::line::{LARGEST, Line, LineError};
 use super::search::{Point, rising_root};
 use super::state::State;
 
@@ -55,7 +55,7 @@ impl Line {
 
     fn between_ends(&self, x: f64, fairlead: f64, last: Option<&State>) -> Result<State, LineError> {
         self.check_fairlead(fairlead)?;
-        if !(x >= 0.0 && x.is_finite()) {
+        if !(0.0..LARGEST).contains(&x) {
             return Err(LineError::Value { what: "the horizontal distance", segment: 1, value: x });
         }
         let (at, height) = self.height(x, fairlead);

@@ -1,0 +1,106 @@
+//! What a mooring line does to what it is attached to: exactly, or from its table.
+
+use super::catenary::{FromTable, Interpolated, LineError};
+use super::mooring::Mooring;
+use crate::model::{ClassError, Condition, LineLoads};
+
+impl Mooring {
+    /// The loads of the exact solution.
+    ///
+    /// # Errors
+    /// A line for which no configuration could be proven.
+    pub fn exact_loads(&self) -> Result<LineLoads, ClassError> {
+        let (distance, along) = self.placed()?;
+        let state = match self.state(Condition::Placed) {
+            Ok(state) => state,
+            Err(error) => return self.limp(distance).ok_or(error),
+        };
+        let (ratio, critical) = self.ratio(&state);
+        let kept = state.stiffness;
+        let across = if distance > 0.0 { state.force / distance } else { kept[0][0] };
+        Ok(LineLoads {
+            fairlead: [state.force * along[0], state.force * along[1], -state.top_vertical],
+            other: [-state.anchor_horizontal * along[0], -state.anchor_horizontal * along[1], state.anchor_vertical],
+            stiffness: stiffness(along, kept, across),
+            distance,
+            tension: state.top_tension,
+            ratio,
+            critical,
+            grounded: state.grounded,
+            solution: "exact",
+            notes: self.remarks(&state),
+        })
+    }
+
+    /// The loads by interpolation in the table of thirty points; nearer than its first row those of the exact solution.
+    ///
+    /// # Errors
+    /// A line for which no table could be made.
+    pub fn tabled_loads(&self) -> Result<LineLoads, ClassError> {
+        let (distance, along) = self.placed()?;
+        let rows = self.rows()?;
+        if rows.first().is_some_and(|first| distance < first.state.x) {
+            let mut loads = self.exact_loads()?;
+            loads.notes.push("nearer than the first row of its table, and solved exactly there".into());
+            return Ok(loads);
+        }
+        let FromTable { force, stiffness: slope, vertical, anchor, grounded, ratio, critical, beyond } =
+            Interpolated::new(&rows).at(distance, &rows);
+        let mut notes = self.notes.clone();
+        if beyond {
+            notes.push("warning: beyond the table; its last slope is continued".into());
+        }
+        if rows.iter().any(|r| !r.state.below_bottom.is_empty()) {
+            notes.push(
+                "warning: a segment above the spring buoy hangs below the bottom in some rows of its table".into(),
+            );
+        }
+        if ratio > 1.0 {
+            notes.push("warning: the line is beyond its breaking tension".into());
+        }
+        let across = if distance > 0.0 { force / distance } else { slope };
+        Ok(LineLoads {
+            fairlead: [force * along[0], force * along[1], -vertical],
+            other: [-anchor[0] * along[0], -anchor[0] * along[1], anchor[1]],
+            stiffness: stiffness(along, [[slope, 0.0], [0.0, 0.0]], across),
+            distance,
+            tension: force.hypot(vertical),
+            ratio,
+            critical,
+            grounded,
+            solution: "table",
+            notes,
+        })
+    }
+
+    /// A weightless line that is not tight: no force.
+    fn limp(&self, distance: f64) -> Option<LineLoads> {
+        let z = self.fairlead();
+        let weightless = self.line.segments().iter().all(|s| s.weight == 0.0);
+        let limp = weightless && matches!(self.line.at_distance(distance, z), Err(LineError::Undetermined));
+        limp.then(|| LineLoads {
+            fairlead: [0.0; 3],
+            other: [0.0; 3],
+            stiffness: [[0.0; 3]; 3],
+            distance,
+            tension: 0.0,
+            ratio: 0.0,
+            critical: 1,
+            grounded: 0.0,
+            solution: "exact",
+            notes: self.notes.clone(),
+        })
+    }
+}
+
+/// d(force on the first end)/d(its position): `k` is d(H, V)/d(x, z), `across` H over the distance.
+fn stiffness(along: [f64; 2], k: [[f64; 2]; 2], across: f64) -> [[f64; 3]; 3] {
+    let [ux, uy] = along;
+    let [[xx, xz], [zx, zz]] = k;
+    let plane = |a: f64, b: f64, same: f64| -xx * a * b - across * (same - a * b);
+    [
+        [plane(ux, ux, 1.0), plane(ux, uy, 0.0), xz * ux],
+        [plane(ux, uy, 0.0), plane(uy, uy, 1.0), xz * uy],
+        [zx * ux, zx * uy, -zz],
+    ]
+}
