@@ -55,11 +55,11 @@ static TABLE_SPEC: CommandSpec = CommandSpec {
     detail: "Thirty rows with horizontal forces T (n/29)**2 up to T, the table limit or the largest breaking tension of all \
              segments; the fairlead stays at its present height. Rows beyond the breaking tension are kept and said. With \
              -VARY the rows are those of one parameter in place of the force: LENGTH (of the first segment), FAIRLEAD \
-             (its elevation above the mean water; without spring buoys, 1 ft higher acts as water deeper by 1 ft), \
-             DISTANCE (horizontal, between the ends), HORIZONTAL (force at the fairlead) or TENSION (at the fairlead). LENGTH and \
-             FAIRLEAD are varied between the ends as they are, or at the -HORIZONTAL force, the -TENSION or the -DISTANCE \
-             given. A value without a configuration has a row without numbers, and a warning. Line on Bottom is stretched. \
-             The result goes to the disposition menu, which ends with END.",
+             (elevation of the fairlead), DEPTH (of the anchor), FRICTION, SLOPE, WEIGHT and STIFFNESS (factors on all \
+             segments), DISTANCE, HORIZONTAL (force) or TENSION (at the fairlead); all but the last three are varied between \
+             the ends as they are, or at the -HORIZONTAL force, the -TENSION or the -DISTANCE given. A value without a \
+             configuration has a row without numbers and a warning. Line on Bottom is stretched. The result goes to the \
+             disposition menu, which ends with END.",
     example: "MEDIT\n&DESCRIBE BODY TBRG\n*MLA 400 50 20\n~WIRE b_cat 4.19 -DEP 500 -LEN 4000 -BUOY 0 -WTPL .0125\n\
               CONNECTOR A -ANC -45 3900 ~WIRE *MLA\nEND\nCONN_DESIGN\nTABLE A\nVIEW X Force\nEND\n\
               TABLE A -VARY LENGTH 3950 4000 4050\nVIEW Length 'Ten Top'\nEND\n\
@@ -145,11 +145,8 @@ fn table(job: &mut Job, call: &Call) -> Outcome<Effect> {
         return Ok(effect);
     }
     if let Some(option) = args.options.first() {
-        return Err(Diagnostic::error(
-            format!("{} of TABLE goes with -VARY LENGTH or FAIRLEAD", option.spec.name),
-            option.span,
-        )
-        .help("GEOMETRY shows a line in one configuration"));
+        return Err(Diagnostic::error(format!("{} of TABLE goes with -VARY", option.spec.name), option.span)
+            .help("GEOMETRY shows a line in one configuration"));
     }
     let line = class.object.line(&job.model.placement(connector), &job.model.surroundings());
     let made = line

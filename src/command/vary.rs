@@ -9,7 +9,7 @@ use crate::language::select::Owner;
 use crate::language::source::Span;
 use crate::language::spec::{Kind, OptionSpec, ValueSpec};
 use crate::language::units::{Dim, UnitSystem};
-use crate::model::{Class, ClassError, Condition, Configuration, Connector, Placement};
+use crate::model::{Class, ClassError, Condition, Configuration, Connector, LineChange, Placement};
 use crate::report::format::number_in_full;
 use crate::table::{Cell, Digits, Table};
 
@@ -19,10 +19,21 @@ pub const VARY: OptionSpec = OptionSpec::new(
     &[
         ValueSpec::new(
             "NAME",
-            Kind::Choice(&["LENGTH", "FAIRLEAD", "DISTANCE", "HORIZONTAL", "TENSION"]),
+            Kind::Choice(&[
+                "LENGTH",
+                "FAIRLEAD",
+                "DEPTH",
+                "FRICTION",
+                "SLOPE",
+                "WEIGHT",
+                "STIFFNESS",
+                "DISTANCE",
+                "HORIZONTAL",
+                "TENSION",
+            ]),
             "what is varied",
         ),
-        ValueSpec::new("V", Kind::Number(Dim::None), "value (length or force, user units)"),
+        ValueSpec::new("V", Kind::Number(Dim::None), "value (user units); of WEIGHT and STIFFNESS a factor"),
     ],
     "one row a value of this parameter",
 )
@@ -34,6 +45,11 @@ pub const VARY: OptionSpec = OptionSpec::new(
 enum Parameter {
     Length,
     Fairlead,
+    Depth,
+    Friction,
+    Slope,
+    Weight,
+    Stiffness,
     Distance,
     Horizontal,
     Tension,
@@ -44,6 +60,11 @@ impl Parameter {
         match word {
             "LENGTH" => Parameter::Length,
             "FAIRLEAD" => Parameter::Fairlead,
+            "DEPTH" => Parameter::Depth,
+            "FRICTION" => Parameter::Friction,
+            "SLOPE" => Parameter::Slope,
+            "WEIGHT" => Parameter::Weight,
+            "STIFFNESS" => Parameter::Stiffness,
             "DISTANCE" => Parameter::Distance,
             "HORIZONTAL" => Parameter::Horizontal,
             _ => Parameter::Tension,
@@ -55,6 +76,11 @@ impl Parameter {
         match self {
             Parameter::Length => "Length",
             Parameter::Fairlead => "Fairlead",
+            Parameter::Depth => "Depth",
+            Parameter::Friction => "Friction",
+            Parameter::Slope => "Slope",
+            Parameter::Weight => "Weight",
+            Parameter::Stiffness => "Stiffness",
             Parameter::Distance => "Distance",
             Parameter::Horizontal => "Horizontal",
             Parameter::Tension => "Tension",
@@ -63,16 +89,33 @@ impl Parameter {
 
     fn dim(self) -> Dim {
         match self {
-            Parameter::Length | Parameter::Fairlead | Parameter::Distance => Dim::Length,
+            Parameter::Length | Parameter::Fairlead | Parameter::Depth | Parameter::Distance => Dim::Length,
+            Parameter::Friction | Parameter::Slope | Parameter::Weight | Parameter::Stiffness => Dim::None,
             Parameter::Horizontal | Parameter::Tension => Dim::Force,
+        }
+    }
+
+    /// Whether it says itself in which configuration the line is.
+    fn is_condition(self) -> bool {
+        matches!(self, Parameter::Distance | Parameter::Horizontal | Parameter::Tension)
+    }
+
+    /// What it changes of the line itself.
+    fn change(self, value: f64) -> Option<LineChange> {
+        match self {
+            Parameter::Friction => Some(LineChange::Friction(value)),
+            Parameter::Slope => Some(LineChange::Slope(value)),
+            Parameter::Weight => Some(LineChange::Weight(value)),
+            Parameter::Stiffness => Some(LineChange::Stiffness(value)),
+            _ => None,
         }
     }
 
     /// What its values must be where a value is not.
     fn lacks(self, value: f64) -> Option<&'static str> {
         match self {
-            Parameter::Fairlead => None,
-            Parameter::Distance => (value < 0.0).then_some("zero or more"),
+            Parameter::Fairlead | Parameter::Slope => None,
+            Parameter::Distance | Parameter::Friction => (value < 0.0).then_some("zero or more"),
             _ => (value <= 0.0).then_some("greater than zero"),
         }
     }
@@ -95,7 +138,7 @@ pub fn tabulate(
     let parameter = Parameter::of(vary.word(0).unwrap_or_default());
     let (unit, around) = (parameter.dim().label(job.units), job.model.surroundings());
     let place = job.model.placement(connector);
-    if !matches!(parameter, Parameter::Length | Parameter::Fairlead)
+    if parameter.is_condition()
         && let Some(other) = args.options.iter().find(|g| !std::ptr::eq(g.spec, vary.spec))
     {
         let text = format!("{} cannot hold while the {} is varied", other.spec.name, parameter.name().to_lowercase());
@@ -107,7 +150,12 @@ pub fn tabulate(
         let value = value(parameter, given, span, job)?;
         let named = format!("{} {} {unit}", parameter.name(), number_in_full(given));
         let (place, condition) = at(parameter, value, place, held);
-        let found = class.object.line(&place, &around).and_then(|line| line.configuration(condition));
+        let line = class.object.line(&place, &around);
+        let line = match parameter.change(value) {
+            Some(change) => line.and_then(|l| l.changed(change)),
+            None => line,
+        };
+        let found = line.and_then(|line| line.configuration(condition));
         let mut row = vec![Cell::Number(value)];
         match found {
             Ok(found) => {
@@ -157,6 +205,11 @@ fn at(parameter: Parameter, value: f64, place: Placement, held: Condition) -> (P
     match parameter {
         Parameter::Length => (Placement { first_length: Some(value), ..place }, held),
         Parameter::Fairlead => (Placement { fairlead: [x, y, value], ..place }, held),
+        Parameter::Depth => {
+            let other = place.other.map(|[x, y, _]| [x, y, -value]);
+            (Placement { other, ..place }, held)
+        }
+        Parameter::Friction | Parameter::Slope | Parameter::Weight | Parameter::Stiffness => (place, held),
         Parameter::Distance => (place, Condition::Distance(value)),
         Parameter::Horizontal => (place, Condition::Horizontal(value)),
         Parameter::Tension => (place, Condition::Tension(value)),
@@ -174,7 +227,7 @@ fn empty(parameter: Parameter, class: &Class, connector: &Connector, place: &Pla
         let first = place.first_length.or_else(|| class.object.first_length());
         table = table.fact("Length of First Segment", first, Dim::Length);
     }
-    if matches!(parameter, Parameter::Length | Parameter::Fairlead) {
+    if !parameter.is_condition() {
         table = match held {
             Condition::Placed => table.fact("Horizontal Distance", place.span().0, Dim::Length),
             Condition::Distance(x) => table.fact("Horizontal Distance", x, Dim::Length),

@@ -2,7 +2,7 @@
 
 use super::catenary::{Law, Point, rising_root};
 use super::mooring::Mooring;
-use crate::model::{ClassError, Condition, Configuration, LineLoads, LineModel};
+use crate::model::{ClassError, Condition, Configuration, LineChange, LineLoads, LineModel};
 use crate::table::Table;
 
 /// A weightless line between two places.
@@ -136,6 +136,14 @@ impl LineModel for Chord {
             solution: "exact",
             notes: self.remarks(force, chord, ratio),
         })
+    }
+
+    fn changed(&self, change: LineChange) -> Result<Box<dyn LineModel>, ClassError> {
+        if matches!(change, LineChange::Weight(_)) {
+            return Err(ClassError::new("the line has no weight"));
+        }
+        let line = self.line.with(change)?;
+        Ok(Box::new(Chord { line, springs: self.springs.clone(), pushes: self.pushes }))
     }
 
     fn distance(&self, condition: Condition) -> Result<f64, ClassError> {

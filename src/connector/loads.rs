@@ -1,8 +1,8 @@
 //! What a mooring line does to what it is attached to: exactly, or from its table.
 
-use super::catenary::{FromTable, Interpolated, LineError};
-use super::mooring::Mooring;
-use crate::model::{ClassError, Condition, LineLoads};
+use super::catenary::{Floor, FromTable, Interpolated, LineError};
+use super::mooring::{Mooring, line_error};
+use crate::model::{ClassError, Condition, LineChange, LineLoads};
 
 impl Mooring {
     /// The loads of the exact solution.
@@ -71,6 +71,32 @@ impl Mooring {
             solution: "table",
             notes,
         })
+    }
+
+    /// The mooring with a change of its line or of the bottom.
+    ///
+    /// # Errors
+    /// A change of what it does not have.
+    pub fn with(&self, change: LineChange) -> Result<Mooring, ClassError> {
+        let line = self.line.clone();
+        let floor = |of: fn(f64, Floor) -> Floor, value: f64| {
+            line.floor().map(|f| of(value, f)).ok_or_else(|| ClassError::new("the line sees no bottom"))
+        };
+        let made = match change {
+            LineChange::Friction(value) => {
+                let floor = floor(|friction, f| Floor { friction, ..f }, value)?;
+                line.over(Some(floor))
+            }
+            LineChange::Slope(value) => {
+                let floor = floor(|slope, f| Floor { slope, ..f }, value)?;
+                line.over(Some(floor))
+            }
+            LineChange::Weight(factor) => line.scaled(factor, 1.0).unwrap_or(Err(LineError::Empty)),
+            LineChange::Stiffness(factor) => line
+                .scaled(1.0, factor)
+                .ok_or_else(|| ClassError::new("the line stretches by a law of its own, not by one stiffness"))?,
+        };
+        Ok(Mooring { line: made.map_err(|e| line_error(&e, &self.places))?, ..self.clone() })
     }
 
     /// A weightless line that is not tight: no force.

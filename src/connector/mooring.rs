@@ -8,7 +8,7 @@ use super::section::LineSection;
 use crate::language::diagnostic::Outcome;
 use crate::language::source::Span;
 use crate::language::units::Dim;
-use crate::model::{ClassError, ClassRecord, Condition, Configuration, LineLoads, LineModel, Placement};
+use crate::model::{ClassError, ClassRecord, Condition, Configuration, LineChange, LineLoads, LineModel, Placement};
 use crate::table::{Cell, Digits, Table};
 
 /// Points inside each segment in a shape table.
@@ -309,6 +309,10 @@ impl LineModel for Mooring {
 
     fn loads(&self) -> Result<LineLoads, ClassError> {
         if self.exact { self.exact_loads() } else { self.tabled_loads() }
+    }
+
+    fn changed(&self, change: LineChange) -> Result<Box<dyn LineModel>, ClassError> {
+        Ok(Box::new(self.with(change)?))
     }
 
     fn distance(&self, condition: Condition) -> Result<f64, ClassError> {

@@ -44,6 +44,19 @@ pub enum Condition {
     Vertical(f64),
 }
 
+/// A change of a line itself, to see what it does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LineChange {
+    /// Another friction coefficient of the bottom.
+    Friction(f64),
+    /// Another slope of the bottom.
+    Slope(f64),
+    /// All weights in water times this.
+    Weight(f64),
+    /// All axial stiffnesses times this.
+    Stiffness(f64),
+}
+
 /// What a line does to what it is attached to, and what it bears.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LineLoads {
@@ -127,6 +140,12 @@ pub trait LineModel {
     /// # Errors
     /// A line for which no configuration could be proven.
     fn loads(&self) -> Result<LineLoads, ClassError>;
+
+    /// The line with a change.
+    ///
+    /// # Errors
+    /// A change of what the line does not have: a bottom, a weight, a stiffness that is one number.
+    fn changed(&self, change: LineChange) -> Result<Box<dyn LineModel>, ClassError>;
 
     /// The horizontal distance between the ends under a condition (m).
     ///

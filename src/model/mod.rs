@@ -21,7 +21,7 @@ pub use curve::{Curve, CurveKind};
 pub use defaults::{Coordinates, Defaults, Material};
 pub use environment::{Current, Environment, Sea, Surroundings, TimeWindow, Wind};
 pub use geometry::{Place, Position, unit_vector};
-pub use line::{Condition, Configuration, LineLoads, LineModel, Placement};
+pub use line::{Condition, Configuration, LineChange, LineLoads, LineModel, Placement};
 pub use names::Thing;
 pub use selector::Selector;
 

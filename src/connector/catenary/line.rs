@@ -311,6 +311,25 @@ impl Line {
         self.assembled()
     }
 
+    /// The line with its weights and its axial stiffnesses times factors; `None` when a segment stretches by a law of its
+    /// own and the stiffness is asked for.
+    ///
+    /// # Errors
+    /// Factors that make no line.
+    pub fn scaled(mut self, weight: f64, stiffness: f64) -> Option<Result<Line, LineError>> {
+        if stiffness != 1.0 && self.laws.iter().any(Option::is_some) {
+            return None;
+        }
+        for (index, segment) in self.segments.iter_mut().enumerate() {
+            segment.weight *= weight;
+            segment.ea *= stiffness;
+            if let Err(error) = segment.check(index + 1) {
+                return Some(Err(error));
+            }
+        }
+        Some(self.assembled())
+    }
+
     /// Elevation of the anchor (m).
     pub fn anchor(&self) -> f64 {
         self.anchor
