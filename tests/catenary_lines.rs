@@ -315,3 +315,14 @@ fn numbers_whose_squares_have_no_room_are_refused_and_never_answered_wrongly() {
         assert!(segment.between(x, z, None).is_err(), "{segment:?}");
     }
 }
+
+#[test]
+fn a_slack_line_whose_fairlead_lies_on_the_bottom_pulls_with_nothing() {
+    let heavy = Segment { length: 100.0, weight: 1000.0, ea: 1e9 };
+    let light = Segment { length: 50.0, weight: -100.0, ea: 1e9 };
+    let line = Line::new(vec![heavy, light, heavy], vec![Joint::Free; 2], -100.0, 0.0).unwrap();
+    for x in [0.0, 150.0] {
+        let state = line.at_distance(x, -100.0).unwrap();
+        assert!(state.force == 0.0 && state.top_vertical.abs() <= 1e-6, "{x}: {state:?}");
+    }
+}

@@ -114,10 +114,14 @@ impl Line {
         };
         // little may hang: without horizontal force means little against that
         let hanging = rested.held.first().map_or(0.0, |h| h.q_hi.abs());
-        if shift == 0.0 && rested.t >= target && hanging * 1e-11 < least && rested.held.iter().all(|h| h.p_hi <= least)
+        if shift == 0.0
+            && rested.t >= target
+            && hanging > least
+            && hanging * 1e-11 < least
+            && rested.held.iter().all(|h| h.p_hi <= least)
         {
             let mut finer = chain.clone();
-            finer.ground.least = 1e-11 * hanging.max(f64::MIN_POSITIVE / f64::EPSILON);
+            finer.ground.least = 1e-11 * hanging;
             let (at, low) = self.anchor_place();
             let finer = finer.rest(finer.ground.least, height, low, at, Some(&rested));
             rested = finer.unwrap_or(rested);
