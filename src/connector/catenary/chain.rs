@@ -131,6 +131,13 @@ impl Chain {
         Err(LineError::NotConverged { force: p, residual: f64::NAN, iterations })
     }
 
+    /// A chain to begin with that nothing holds up.
+    pub fn afloat(&self, p: f64) -> Rested {
+        let held = Held { p_hi: p, leave: p, ..Held::default() };
+        let policy = Policy { rests: vec![false; self.elements.len()], stands: vec![Stand::Free(0); self.pulls.len()] };
+        Rested { held: vec![held; self.elements.len()], policy, ..Rested::default() }
+    }
+
     /// Unstretched length (m).
     pub fn length(&self) -> f64 {
         self.elements.iter().map(Element::length).sum()

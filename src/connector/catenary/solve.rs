@@ -206,10 +206,12 @@ impl Line {
             return Err(LineError::BelowBottom(-height));
         }
         let warm = self.chain.rest(p, height, low, at, near);
-        if warm.is_err() && near.is_some() {
-            return self.chain.rest(p, height, low, at, None);
+        if warm.is_ok() {
+            return warm;
         }
-        warm
+        // begun anew: with what is not lifted on the bottom, then with nothing there
+        let cold = if near.is_some() { self.chain.rest(p, height, low, at, None) } else { warm };
+        cold.or_else(|error| self.chain.rest(p, height, low, at, Some(&self.chain.afloat(p))).map_err(|_| error))
     }
 
     /// Whether the bottom carries the first piece.
