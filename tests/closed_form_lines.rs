@@ -3,28 +3,12 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod common;
+
 use std::collections::HashMap;
-use std::io::Write;
-use std::sync::{Arc, Mutex};
 use windlass::connector::CLASSES;
 use windlass::model::Placement;
-use windlass::report::files::JobFolder;
-use windlass::report::output::Output;
 use windlass::session::Session;
-
-#[derive(Clone, Default)]
-struct Screen(Arc<Mutex<Vec<u8>>>);
-
-impl Write for Screen {
-    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        self.0.lock().unwrap().extend_from_slice(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> std::io::Result<()> {
-        Ok(())
-    }
-}
 
 /// What a job printed, what it said, and the columns of the CSV file it stored.
 struct Done {
@@ -49,11 +33,7 @@ impl Done {
 
 /// Runs records in metres and newtons; `change` may edit the session before the last of them.
 fn run(records: &str, change: impl Fn(&mut Session), last: &str) -> Done {
-    let screen = Screen::default();
-    let folder = tempfile::tempdir().unwrap();
-    let job = JobFolder::new(folder.path().join("job"), None, false);
-    let mut session = Session::new(Output::new(job, Box::new(screen.clone()), Box::new(std::io::sink()), false));
-    session.keep_reports = true;
+    let (mut session, screen, folder) = common::session();
     session.job.settings.error_limit = i64::MAX;
     session.interactive = true;
     session.open("records", format!("&DIMEN -DIMEN METERS N\n{records}\n"));
@@ -73,7 +53,7 @@ fn run(records: &str, change: impl Fn(&mut Session), last: &str) -> Done {
             }
         }
     }
-    let text = String::from_utf8(screen.0.lock().unwrap().clone()).unwrap();
+    let text = screen.text();
     let errors = session.errors;
     Done { text, said: session.reports.iter().map(|r| r.message.clone()).collect(), errors, stored }
 }
@@ -283,9 +263,7 @@ fn a_spring_along_the_chord_has_its_ae_over_l_at_any_distance_that_is_varied() {
 #[test]
 fn exactly_the_classes_that_make_lines_say_so() {
     for kind in CLASSES {
-        let folder = tempfile::tempdir().unwrap();
-        let job = JobFolder::new(folder.path().join("job"), None, false);
-        let mut session = Session::new(Output::new(job, Box::new(std::io::sink()), Box::new(std::io::sink()), false));
+        let (mut session, _screen, _folder) = common::session();
         session.open("example", format!("&ENV -DEPTH 5000\n{}", kind.spec.example));
         session.run();
         let class = session.job.model.classes.values().next().unwrap();

@@ -2,27 +2,10 @@
 
 #![allow(clippy::unwrap_used)]
 
-use std::io::Write;
-use std::sync::{Arc, Mutex};
+mod common;
+
 use windlass::language::units::{FOOT, KIP};
 use windlass::model::{Connector, LineLoads, Model};
-use windlass::report::files::JobFolder;
-use windlass::report::output::Output;
-use windlass::session::Session;
-
-#[derive(Clone, Default)]
-struct Screen(Arc<Mutex<Vec<u8>>>);
-
-impl Write for Screen {
-    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        self.0.lock().unwrap().extend_from_slice(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> std::io::Result<()> {
-        Ok(())
-    }
-}
 
 /// What records leave: the model, what they print, the messages and their help.
 struct Left {
@@ -33,16 +16,12 @@ struct Left {
 }
 
 fn run(records: &str) -> Left {
-    let screen = Screen::default();
-    let folder = tempfile::tempdir().unwrap();
-    let job = JobFolder::new(folder.path().join("job"), None, false);
-    let mut session = Session::new(Output::new(job, Box::new(screen.clone()), Box::new(std::io::sink()), false));
-    session.keep_reports = true;
+    let (mut session, screen, _folder) = common::session();
     session.job.settings.error_limit = i64::MAX;
     session.open("records", records.to_string());
     session.run();
     session.job.output.flush();
-    let text = String::from_utf8(screen.0.lock().unwrap().clone()).unwrap();
+    let text = screen.text();
     let messages = session.reports.iter().map(|r| r.message.clone()).collect();
     let help = session.reports.iter().flat_map(|r| r.help.clone()).collect();
     Left { model: session.job.model.clone(), text, messages, help }

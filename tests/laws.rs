@@ -2,10 +2,10 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod common;
+
 use windlass::connector::CLASSES;
 use windlass::model::{LineLoads, Placement};
-use windlass::report::files::JobFolder;
-use windlass::report::output::Output;
 use windlass::session::Session;
 
 /// A line class, records of it, its ends, whether to ground, and whether its forces have an energy.
@@ -48,12 +48,10 @@ struct Bench(Session);
 
 impl Bench {
     fn new(records: &str) -> Bench {
-        let folder = tempfile::tempdir().unwrap();
-        let job = JobFolder::new(folder.path().join("job"), None, false);
-        let sink = || Box::new(std::io::sink());
-        let mut session = Session::new(Output::new(job, sink(), sink(), false));
+        let (mut session, screen, _folder) = common::session();
         session.open("records", format!("&DIMEN -DIMEN METERS N\n&ENV -DEPTH 300\nMEDIT\n{records}\nEND\n"));
         session.run();
+        assert!(!session.job.model.classes.is_empty(), "{records}: {:?} {}", session.reports, screen.text());
         Bench(session)
     }
 

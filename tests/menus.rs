@@ -4,25 +4,9 @@
 
 #![allow(clippy::unwrap_used)]
 
-use std::io::Write;
-use std::sync::{Arc, Mutex};
-use windlass::report::files::JobFolder;
-use windlass::report::output::Output;
+mod common;
+
 use windlass::session::{End, Session};
-
-#[derive(Clone, Default)]
-struct Screen(Arc<Mutex<Vec<u8>>>);
-
-impl Write for Screen {
-    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        self.0.lock().unwrap().extend_from_slice(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> std::io::Result<()> {
-        Ok(())
-    }
-}
 
 /// What a script prints, its messages, and the session behind it.
 struct Run {
@@ -33,16 +17,12 @@ struct Run {
 }
 
 fn run_with(script: &str, prepare: impl Fn(&mut Session)) -> Run {
-    let screen = Screen::default();
-    let folder = tempfile::tempdir().unwrap();
-    let job = JobFolder::new(folder.path().join("job"), None, false);
-    let mut session = Session::new(Output::new(job, Box::new(screen.clone()), Box::new(std::io::sink()), false));
-    session.keep_reports = true;
+    let (mut session, screen, _folder) = common::session();
     prepare(&mut session);
     session.open("script", script.to_string());
     let end = session.run();
     session.job.output.flush();
-    let text = String::from_utf8(screen.0.lock().unwrap().clone()).unwrap();
+    let text = screen.text();
     let messages = session.reports.iter().map(|r| r.message.clone()).collect();
     Run { text, messages, session, end }
 }

@@ -3,37 +3,15 @@
 
 #![allow(clippy::unwrap_used)]
 
-use std::io::Write;
-use std::sync::{Arc, Mutex};
-use windlass::report::files::JobFolder;
-use windlass::report::output::Output;
-use windlass::session::Session;
-
-#[derive(Clone, Default)]
-struct Screen(Arc<Mutex<Vec<u8>>>);
-
-impl Write for Screen {
-    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        self.0.lock().unwrap().extend_from_slice(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> std::io::Result<()> {
-        Ok(())
-    }
-}
+mod common;
 
 /// What a script prints, and its messages with their help lines.
 fn run(script: &str) -> (String, Vec<String>) {
-    let screen = Screen::default();
-    let folder = tempfile::tempdir().unwrap();
-    let job = JobFolder::new(folder.path().join("job"), None, false);
-    let mut session = Session::new(Output::new(job, Box::new(screen.clone()), Box::new(std::io::sink()), false));
-    session.keep_reports = true;
+    let (mut session, screen, _folder) = common::session();
     session.open("script", script.to_string());
     session.run();
     session.job.output.flush();
-    let text = String::from_utf8(screen.0.lock().unwrap().clone()).unwrap();
+    let text = screen.text();
     let said = session.reports.iter().map(|r| format!("{} {}", r.message, r.help.join(" ")).trim().to_string());
     (text, said.collect())
 }

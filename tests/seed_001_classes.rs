@@ -3,40 +3,19 @@
 
 #![allow(clippy::unwrap_used)]
 
-use std::io::Write;
-use std::sync::{Arc, Mutex};
+mod common;
+
 use windlass::connector::CLASSES;
 use windlass::language::spec::{Kind, ValueSpec};
-use windlass::report::files::JobFolder;
-use windlass::report::output::Output;
-use windlass::session::Session;
-
-#[derive(Clone, Default)]
-struct Screen(Arc<Mutex<Vec<u8>>>);
-
-impl Write for Screen {
-    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        self.0.lock().unwrap().extend_from_slice(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> std::io::Result<()> {
-        Ok(())
-    }
-}
 
 /// Runs records; what they print, and the messages.
 fn run(records: &str) -> (String, Vec<String>) {
-    let screen = Screen::default();
-    let folder = tempfile::tempdir().unwrap();
-    let job = JobFolder::new(folder.path().join("job"), None, false);
-    let mut session = Session::new(Output::new(job, Box::new(screen.clone()), Box::new(std::io::sink()), false));
-    session.keep_reports = true;
+    let (mut session, screen, _folder) = common::session();
     session.job.settings.error_limit = i64::MAX;
     session.open("records", records.to_string());
     session.run();
     session.job.output.flush();
-    let text = String::from_utf8(screen.0.lock().unwrap().clone()).unwrap();
+    let text = screen.text();
     (text, session.reports.iter().map(|r| r.message.clone()).collect())
 }
 
