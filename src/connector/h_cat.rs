@@ -108,10 +108,6 @@ impl ConnectorClass for Hanging {
         "H_CAT"
     }
 
-    fn check(&self) -> Outcome<()> {
-        Ok(())
-    }
-
     fn check_ends(&self, connector: &Connector, bodies: usize) -> Outcome<()> {
         checks::ends("H_CAT", connector, bodies, 2, 2)
     }

@@ -72,10 +72,6 @@ impl ConnectorClass for PinInCone {
         "LMU"
     }
 
-    fn check(&self) -> Outcome<()> {
-        Ok(())
-    }
-
     fn check_ends(&self, connector: &Connector, bodies: usize) -> Outcome<()> {
         no_anchor("LMU", connector)?;
         checks::ends("LMU", connector, bodies, 2, 2)

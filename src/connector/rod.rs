@@ -71,10 +71,6 @@ impl ConnectorClass for Rod {
         "ROD"
     }
 
-    fn check(&self) -> Outcome<()> {
-        Ok(())
-    }
-
     fn check_ends(&self, connector: &Connector, bodies: usize) -> Outcome<()> {
         checks::ends("ROD", connector, bodies, 2, 2)
     }

@@ -62,10 +62,6 @@ impl ConnectorClass for Roller {
         "ROLLER"
     }
 
-    fn check(&self) -> Outcome<()> {
-        Ok(())
-    }
-
     fn check_ends(&self, connector: &Connector, bodies: usize) -> Outcome<()> {
         no_anchor("ROLLER", connector)?;
         checks::ends("ROLLER", connector, bodies, 1, 1)

@@ -67,10 +67,6 @@ impl ConnectorClass for Spring {
         "SL_ELEM"
     }
 
-    fn check(&self) -> Outcome<()> {
-        Ok(())
-    }
-
     fn check_ends(&self, connector: &Connector, bodies: usize) -> Outcome<()> {
         checks::ends("SL_ELEM", connector, bodies, 2, 2)
     }

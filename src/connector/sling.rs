@@ -54,10 +54,6 @@ impl ConnectorClass for Sling {
         self.kind
     }
 
-    fn check(&self) -> Outcome<()> {
-        Ok(())
-    }
-
     fn check_ends(&self, connector: &Connector, bodies: usize) -> Outcome<()> {
         no_anchor(self.kind, connector)?;
         checks::ends(self.kind, connector, bodies, 1, 1)

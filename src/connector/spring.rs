@@ -167,10 +167,6 @@ impl ConnectorClass for Spring {
         self.kind
     }
 
-    fn check(&self) -> Outcome<()> {
-        Ok(())
-    }
-
     fn check_ends(&self, connector: &Connector, bodies: usize) -> Outcome<()> {
         no_anchor(self.kind, connector)?;
         checks::ends(self.kind, connector, bodies, 2, 2)

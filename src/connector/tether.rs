@@ -95,10 +95,6 @@ impl ConnectorClass for TetherClass {
         "TETHER"
     }
 
-    fn check(&self) -> Outcome<()> {
-        Ok(())
-    }
-
     fn check_ends(&self, connector: &Connector, bodies: usize) -> Outcome<()> {
         checks::ends("TETHER", connector, bodies, 2, 2)
     }
