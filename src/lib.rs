@@ -7,6 +7,7 @@
 pub mod cli;
 pub mod command;
 pub mod connector;
+pub mod hydro;
 pub mod language;
 pub mod model;
 pub mod repl;

@@ -6,7 +6,7 @@ use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::name as rule;
 use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
-use crate::model::{Anchor, Connector, Model, Point, find, unit_vector};
+use crate::model::{Anchor, Connector, Model, Point, Pose, find, unit_vector};
 
 /// CONNECTOR.
 pub static CONNECTOR: Command = Command { spec: &CONNECTOR_SPEC, edits: false, run: connector };
@@ -102,11 +102,15 @@ pub fn build_connector(job: &mut Job, args: &Args) -> Outcome<()> {
         points: points.iter().map(|p| p.name.clone()).collect(),
         anchor: None,
         offsets: [vector("-GO1"), vector("-GO2")],
+        defined: Default::default(),
         euler: args.has("-EULER").then(|| vector("-EULER")),
         first_length: None,
         active: true,
         span: args.span,
     };
+    let first = model.end_pose(&made, 0).unwrap_or_default();
+    let ground = Pose { axes: Pose::default().axes, ..first };
+    made.defined = [first, model.end_pose(&made, 1).unwrap_or(ground)];
     made.anchor = args.option("-ANCHOR").map(|given| {
         let (direction, distance) = (given.number(0).unwrap_or(0.0), given.number(1).unwrap_or(0.0));
         let [x, y, _] = model.end(&made, 0).unwrap_or_default();

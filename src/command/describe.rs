@@ -108,7 +108,9 @@ fn describe(job: &mut Job, call: &Call) -> Outcome<Effect> {
             let place = Place::default();
             let body = Body { name: name.clone(), place, previous: place, ignored: Vec::new(), span };
             model.bodies.insert(key.clone(), body);
-            model.parts.insert(key.clone(), Part { name: name.clone(), body: name.clone(), place, span });
+            model
+                .parts
+                .insert(key.clone(), Part { name: name.clone(), body: name.clone(), place, weights: Vec::new(), span });
         }
         if let (Some(given), Some(body)) = (args.option("-IGNORE"), model.bodies.get_mut(&key)) {
             body.ignored = given.values.iter().filter_map(|v| v.word()).map(str::to_string).collect();
@@ -124,7 +126,10 @@ fn describe(job: &mut Job, call: &Call) -> Outcome<Effect> {
                     .and_then(|p| model.parts.get(&Model::key(p)))
                     .map(|p| p.body.clone())
                     .ok_or_else(|| Diagnostic::error("a part belongs to a body, and none is described yet", span))?;
-                model.parts.insert(key, Part { name: name.clone(), body, place: place.unwrap_or_default(), span });
+                model.parts.insert(
+                    key,
+                    Part { name: name.clone(), body, place: place.unwrap_or_default(), weights: Vec::new(), span },
+                );
             }
         }
     }

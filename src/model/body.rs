@@ -2,6 +2,7 @@
 
 use super::geometry::{Place, Position};
 use crate::language::source::Span;
+use nalgebra::{Matrix3, Vector3};
 
 /// The part that points outside of any body belong to: fixed in the global system.
 pub const GROUND: &str = "GROUND";
@@ -30,8 +31,64 @@ pub struct Part {
     pub body: String,
     /// Where it stands in its body.
     pub place: Place,
+    /// Weights it carries.
+    pub weights: Vec<Weight>,
     /// Where it was defined.
     pub span: Span,
+}
+
+/// A weight at a place of a part.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Weight {
+    /// Its centre, in the part (m).
+    pub at: Position,
+    /// The weight (N).
+    pub weight: f64,
+    /// Radii of gyration about axes through its centre, along those of the part (m).
+    pub radii: [f64; 3],
+    /// Where it was given.
+    pub span: Span,
+}
+
+/// Mass of a rigid body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mass {
+    /// Mass (kg).
+    pub mass: f64,
+    /// Centre of gravity, in the body (m).
+    pub centre: Vector3<f64>,
+    /// Moments of inertia about the body's origin, body axes (kg m2).
+    pub inertia: Matrix3<f64>,
+}
+
+impl Default for Mass {
+    fn default() -> Self {
+        Mass { mass: 0.0, centre: Vector3::zeros(), inertia: Matrix3::zeros() }
+    }
+}
+
+impl Mass {
+    /// That of all weights of parts, each placed in the body, under this gravity (m/s2).
+    pub fn of<'a>(parts: impl Iterator<Item = &'a Part>, gravity: f64) -> Self {
+        let mut sum = Mass::default();
+        let mut first = Vector3::zeros();
+        for part in parts {
+            let turn = *part.place.rotation().matrix();
+            for weight in &part.weights {
+                let mass = weight.weight / gravity;
+                let at = Vector3::from(part.place.apply(weight.at));
+                let own = weight.radii.map(|k| mass * k * k);
+                let own = turn * Matrix3::from_diagonal(&own.into()) * turn.transpose();
+                sum.mass += mass;
+                first += mass * at;
+                sum.inertia += own + mass * (Matrix3::identity() * at.norm_squared() - at * at.transpose());
+            }
+        }
+        if sum.mass != 0.0 {
+            sum.centre = first / sum.mass;
+        }
+        sum
+    }
 }
 
 /// A named point.

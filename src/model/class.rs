@@ -2,6 +2,7 @@
 
 use super::connector::Connector;
 use super::defaults::Defaults;
+use super::element::{Connection, Element};
 use super::environment::Surroundings;
 use super::line::{LineModel, Placement};
 use crate::language::args::Args;
@@ -131,6 +132,14 @@ pub trait ConnectorClass: Debug + Send + Sync {
     /// The convolution curve of a viscoelastic spring in series, where the class names one, with its place.
     fn series_curve(&self) -> Option<(&str, Span)> {
         None
+    }
+
+    /// What a connector of this class is to an engine.
+    ///
+    /// # Errors
+    /// A class whose connectors an assembly takes care of, or values that make none here.
+    fn element(&self, _: &Connection) -> Result<Box<dyn Element>, ClassError> {
+        Err(ClassError::new(format!("a connector of class type {} exerts no force", self.kind())))
     }
 
     /// Whether [`ConnectorClass::line`] makes lines.

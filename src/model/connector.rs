@@ -1,6 +1,7 @@
 //! Connectors: a class between one or two points.
 
 use super::geometry::Position;
+use super::pose::Pose;
 use crate::language::source::Span;
 
 /// Where the far end of a line to ground lies.
@@ -29,6 +30,9 @@ pub struct Connector {
     pub anchor: Option<Anchor>,
     /// Offsets of the two ends from their points, in the system of the end's body (m).
     pub offsets: [Position; 2],
+    /// Where its two ends stood when it was defined; behind a single point the ground end stands where the point was, with
+    /// global axes.
+    pub defined: [Pose; 2],
     /// Euler angles of the element axes (rad), where given.
     pub euler: Option<[f64; 3]>,
     /// Length of its first segment in place of the class's (m), where `&CONNECTOR` gave one.

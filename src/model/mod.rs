@@ -8,21 +8,25 @@ mod class;
 mod connector;
 mod curve;
 mod defaults;
+mod element;
 mod environment;
 mod geometry;
 mod line;
 mod names;
+mod pose;
 mod selector;
 
-pub use body::{Body, GROUND, Part, Point};
+pub use body::{Body, GROUND, Mass, Part, Point, Weight};
 pub use class::{Class, ClassError, ClassRecord, ConnectorClass};
 pub use connector::{Anchor, Connector};
 pub use curve::{Curve, CurveKind};
 pub use defaults::{Coordinates, Defaults, Material};
+pub use element::{Connection, Element, End, Guess, Response, Situation, SpringState, Summary, TimeStep};
 pub use environment::{Current, Environment, Sea, Surroundings, TimeWindow, Wind};
 pub use geometry::{Place, Position, unit_vector};
 pub use line::{Condition, Configuration, LineChange, LineLoads, LineModel, Placement};
 pub use names::Thing;
+pub use pose::{Pose, Six};
 pub use selector::Selector;
 
 use crate::language::diagnostic::{Diagnostic, Outcome, did_you_mean};
@@ -99,6 +103,23 @@ impl Model {
         Some([x + dx, y + dy, z + dz])
     }
 
+    /// The pose of one end of a connector (0 or 1), in the present configuration: its point with its offset and the axes of
+    /// its body; `None` when it has no such point.
+    pub fn end_pose(&self, connector: &Connector, index: usize) -> Option<Pose> {
+        let point = connector.points.get(index).and_then(|name| self.points.get(&Model::key(name)))?;
+        let body = self.body_of(point).map(|b| Pose::of(&b.place)).unwrap_or_default();
+        self.end(connector, index).map(|at| Pose { origin: at.into(), ..body })
+    }
+
+    /// The poses of both ends of a connector, in the present configuration. Behind a single point stands the anchor of a line,
+    /// else the place where the point was when the connector was defined.
+    pub fn end_poses(&self, connector: &Connector) -> [Pose; 2] {
+        let first = self.end_pose(connector, 0).unwrap_or_default();
+        let [_, defined] = connector.defined;
+        let anchor = || self.placement(connector).other.filter(|_| connector.anchor.is_some()).map(Pose::at);
+        [first, self.end_pose(connector, 1).or_else(anchor).unwrap_or(defined)]
+    }
+
     /// The ends of a connector, in the present configuration.
     pub fn placement(&self, connector: &Connector) -> Placement {
         let class = self.classes.get(&Model::key(&connector.class));
@@ -127,6 +148,12 @@ impl Model {
     /// The body a point belongs to; `None` for ground.
     pub fn body_of(&self, point: &Point) -> Option<&Body> {
         self.parts.get(&Model::key(&point.part)).and_then(|p| self.bodies.get(&Model::key(&p.body)))
+    }
+
+    /// The parts of a body.
+    pub fn parts_of<'a>(&'a self, body: &'a Body) -> impl Iterator<Item = &'a Part> {
+        let key = Model::key(&body.name);
+        self.parts.values().filter(move |p| Model::key(&p.body) == key)
     }
 
     /// Connectors that use a class.

@@ -1,0 +1,121 @@
+//! What acts on a body besides its connectors: weight, buoyancy, wind, current, mean wave drift.
+//!
+//! Each kind of load is one file with a type that implements [`BodyLoad`]; [`Floating`] gathers those of a body.
+
+mod weight;
+
+use crate::model::{Body, ClassError, Mass, Model, Pose, Six};
+use nalgebra::{Matrix3, Matrix6, Vector3};
+use std::fmt::Debug;
+
+/// Categories of force that reports tell apart.
+///
+/// Source: reference/model.md, "Weights and loads"; those that have no load yet come with the issues that bring them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Category {
+    /// Weights.
+    Weight,
+    /// Hydrostatic pressure.
+    Buoyancy,
+    /// Wind.
+    Wind,
+    /// Viscous drag of current.
+    ViscousDrag,
+    /// Mean wave drift.
+    WaveDrift,
+    /// Flexible connectors.
+    FlexConnectors,
+    /// Restraints.
+    RigidConnectors,
+}
+
+impl Category {
+    /// All, in the order of reports.
+    pub const ALL: [Category; 7] = [
+        Category::Weight,
+        Category::Buoyancy,
+        Category::Wind,
+        Category::ViscousDrag,
+        Category::WaveDrift,
+        Category::FlexConnectors,
+        Category::RigidConnectors,
+    ];
+
+    /// Its name in reports (MOSES).
+    pub const fn name(self) -> &'static str {
+        match self {
+            Category::Weight => "WEIGHT",
+            Category::Buoyancy => "BUOYANCY",
+            Category::Wind => "WIND",
+            Category::ViscousDrag => "V_DRAG",
+            Category::WaveDrift => "W_DRIFT",
+            Category::FlexConnectors => "FLEX_CONNECTORS",
+            Category::RigidConnectors => "RIGID_CONNECTORS",
+        }
+    }
+}
+
+/// A force on a body at rest, and how it changes with the body's place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Load {
+    /// Force (N) and moment (N m) about the body's origin, global axes.
+    pub wrench: Six,
+    /// -d(wrench)/d(translation of the origin, rotation vector), global axes.
+    pub stiffness: Matrix6<f64>,
+}
+
+impl Load {
+    /// Nothing.
+    pub fn none() -> Self {
+        Load { wrench: Six::zeros(), stiffness: Matrix6::zeros() }
+    }
+
+    /// A force (N, global) that does not change, on a point that moves with the body; `arm` is from the origin to it.
+    pub fn constant(force: Vector3<f64>, arm: Vector3<f64>) -> Self {
+        let moment = arm.cross(&force);
+        let mut stiffness = Matrix6::zeros();
+        // d(arm x F) = (turn x arm) x F = F x (arm x turn)
+        stiffness.fixed_view_mut::<3, 3>(3, 3).copy_from(&(-cross(force) * cross(arm)));
+        Load { wrench: Six::new(force.x, force.y, force.z, moment.x, moment.y, moment.z), stiffness }
+    }
+}
+
+/// The matrix that makes the cross product `a x b` of a vector b.
+pub fn cross(a: Vector3<f64>) -> Matrix3<f64> {
+    a.cross_matrix()
+}
+
+/// One kind of load on one body.
+pub trait BodyLoad: Debug + Send + Sync {
+    /// The category reports count it in.
+    fn category(&self) -> Category;
+
+    /// The load on the body in a pose.
+    ///
+    /// # Errors
+    /// A pose for which it has no value.
+    fn load(&self, pose: &Pose) -> Result<Load, ClassError>;
+}
+
+/// A body with all that acts on it besides its connectors.
+#[derive(Debug)]
+pub struct Floating {
+    /// Its mass.
+    pub mass: Mass,
+    /// What acts on it.
+    pub loads: Vec<Box<dyn BodyLoad>>,
+}
+
+impl Floating {
+    /// That of a body of the model, in the environment in force.
+    ///
+    /// # Errors
+    /// Loads that contradict themselves, or need what is not defined.
+    pub fn of(model: &Model, body: &Body) -> Result<Self, ClassError> {
+        let gravity = model.defaults.gravity;
+        let mass = Mass::of(model.parts_of(body), gravity);
+        let mut loads: Vec<Box<dyn BodyLoad>> = Vec::new();
+        loads.extend(weight::of(&mass, gravity));
+        Ok(Floating { mass, loads })
+    }
+}

@@ -1,0 +1,29 @@
+//! The weight of a body.
+
+use super::{BodyLoad, Category, Load};
+use crate::model::{ClassError, Mass, Pose};
+use nalgebra::Vector3;
+
+#[derive(Debug)]
+struct Weight {
+    /// In newtons.
+    weight: f64,
+    /// Centre of gravity in the body (m).
+    centre: Vector3<f64>,
+}
+
+/// The weight of a mass; none of a body without mass.
+pub fn of(mass: &Mass, gravity: f64) -> Option<Box<dyn BodyLoad>> {
+    let made = Weight { weight: mass.mass * gravity, centre: mass.centre };
+    (mass.mass != 0.0).then(|| Box::new(made) as Box<dyn BodyLoad>)
+}
+
+impl BodyLoad for Weight {
+    fn category(&self) -> Category {
+        Category::Weight
+    }
+
+    fn load(&self, pose: &Pose) -> Result<Load, ClassError> {
+        Ok(Load::constant(Vector3::new(0.0, 0.0, -self.weight), pose.axes * self.centre))
+    }
+}

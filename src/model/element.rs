@@ -1,0 +1,166 @@
+//! What an engine asks of a connector: the wrench on each of its ends, how it changes, and the state it would leave.
+//!
+//! An engine holds the states of all its elements in one vector, gives each its committed part, and commits the trial part
+//! only with an accepted step. In statics there is no step: rates are zero and a trial state is where the element comes to
+//! rest.
+
+use super::class::ClassError;
+use super::connector::Connector;
+use super::curve::Curve;
+use super::environment::Surroundings;
+use super::pose::{Pose, Six};
+use nalgebra::Matrix6;
+use std::any::Any;
+use std::fmt::Debug;
+
+/// An end of a connector: a point of a body with that body's axes, or a place in the ground.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct End {
+    /// The point (m, global) and the axes of its body; global axes on the ground.
+    pub pose: Pose,
+    /// Velocity of the point (m/s) and rotation of its body (rad/s), global axes.
+    pub velocity: Six,
+}
+
+impl End {
+    /// An end at rest.
+    pub fn still(pose: Pose) -> Self {
+        End { pose, velocity: Six::zeros() }
+    }
+}
+
+/// A step of a time-domain engine, to the end of which an element is evaluated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TimeStep {
+    /// Time at its end (s).
+    pub time: f64,
+    /// Its length (s).
+    pub dt: f64,
+}
+
+/// In which situation an element is evaluated.
+#[derive(Clone, Copy, Debug)]
+pub struct Situation<'a> {
+    /// The ends, in the order of the connector's points; a second end in the ground stands behind a single point.
+    pub ends: &'a [End],
+    /// The step; `None` in statics.
+    pub step: Option<TimeStep>,
+    /// Water, depth, gravity.
+    pub surroundings: &'a Surroundings,
+}
+
+/// What a solver of an element remembers from its last answer to be quicker with the next. The answer does not depend on
+/// it but for rounding.
+pub type Guess = Option<Box<dyn Any + Send>>;
+
+/// What an element answers. Blocks are in the order of ends, row by row: block `i * ends + j` is that of the wrench on end `i` and
+/// the motion of end `j`.
+#[derive(Clone, Debug, Default)]
+pub struct Response {
+    /// Wrench on each end: force (N) and moment (N m) about the end's point, global axes.
+    pub wrench: Vec<Six>,
+    /// -d(wrench)/d(translation of the point, rotation vector), global axes (N/m, N/rad, N, N m/rad): positive where the
+    /// element holds back.
+    pub stiffness: Vec<Matrix6<f64>>,
+    /// -d(wrench)/d(velocity); empty when the wrench depends on no rate.
+    pub damping: Vec<Matrix6<f64>>,
+}
+
+impl Response {
+    /// All zero for so many ends, without rates.
+    pub fn clear(&mut self, ends: usize) {
+        self.wrench.clear();
+        self.wrench.resize(ends, Six::zeros());
+        self.stiffness.clear();
+        self.stiffness.resize(ends * ends, Matrix6::zeros());
+        self.damping.clear();
+    }
+}
+
+/// One degree of freedom of a spring, in element axes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpringState {
+    /// X Y Z RX RY RZ.
+    pub dof: String,
+    /// Deflection (m or rad).
+    pub deflection: f64,
+    /// Force on the first end (N or N m).
+    pub force: f64,
+    /// Allowable force (N or N m), where one is given.
+    pub allowable: Option<f64>,
+}
+
+/// What a report tells of an element in a situation, beside the wrench on its ends.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Summary {
+    /// Tension at the first end (N), of elements that have one; negative of a spring that pushes.
+    pub tension: Option<f64>,
+    /// Largest tension over own break, or force over allowable.
+    pub ratio: Option<f64>,
+    /// The segment that has it, from 1.
+    pub critical: Option<usize>,
+    /// Unstretched length on the bottom (m).
+    pub grounded: Option<f64>,
+    /// How it was found: `exact`, `table`, ...
+    pub solution: &'static str,
+    /// Deflections and forces of springs.
+    pub springs: Vec<SpringState>,
+    /// What a user should know; `warning: ` before what is dangerous.
+    pub notes: Vec<String>,
+}
+
+/// A connector as an engine sees it. Its parameters do not change.
+pub trait Element: Debug + Send + Sync {
+    /// Number of values of its state.
+    fn states(&self) -> usize {
+        0
+    }
+
+    /// Its state before anything has happened, in SI.
+    fn start(&self, _state: &mut [f64]) {}
+
+    /// The wrench on its ends and how it changes; `trial` is the state at the end of the step.
+    ///
+    /// # Errors
+    /// A situation for which no answer could be proven.
+    fn evaluate(
+        &self,
+        at: &Situation,
+        committed: &[f64],
+        trial: &mut [f64],
+        guess: &mut Guess,
+        out: &mut Response,
+    ) -> Result<(), ClassError>;
+
+    /// What a report tells of it.
+    ///
+    /// # Errors
+    /// As [`Element::evaluate`].
+    fn summary(&self, at: &Situation, committed: &[f64]) -> Result<Summary, ClassError>;
+
+    /// Whether its force belongs to RIGID_CONNECTORS (restraints) rather than to FLEX_CONNECTORS.
+    fn rigid(&self) -> bool {
+        false
+    }
+}
+
+/// What a class is told of the connector that an element is made of.
+#[derive(Clone, Copy)]
+pub struct Connection<'a> {
+    /// The connector.
+    pub connector: &'a Connector,
+    /// Where its two ends stand now; the second in the ground where it has one point.
+    pub ends: [Pose; 2],
+    /// Whether the second end is in the ground.
+    pub to_ground: bool,
+    /// The curve of a name.
+    pub curve: &'a dyn Fn(&str) -> Option<&'a Curve>,
+    /// Water, depth, gravity.
+    pub surroundings: &'a Surroundings,
+}
+
+impl Debug for Connection<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Connection").field("connector", &self.connector).field("ends", &self.ends).finish()
+    }
+}
