@@ -13,4 +13,5 @@ pub mod model;
 pub mod repl;
 pub mod report;
 pub mod session;
+pub mod solve;
 pub mod table;

@@ -9,6 +9,7 @@ use crate::report::disposition::Disposition;
 use crate::report::files::Place;
 use crate::report::output::Output;
 use crate::report::page::PageHead;
+use crate::solve::Options;
 use indexmap::IndexMap;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -172,6 +173,8 @@ pub struct Job {
     pub ask: Option<Ask>,
     /// Names longer than MOSES takes have been remarked on.
     pub long_name_said: bool,
+    /// What `&EQUI` was last given.
+    pub equilibrium: Options,
     /// Set by Ctrl-C: a command that takes long gives up, and the run ends behind it.
     pub interrupt: Arc<AtomicBool>,
 }
@@ -195,6 +198,7 @@ impl Job {
             clock: Instant::now(),
             ask: None,
             long_name_said: false,
+            equilibrium: Options::default(),
             interrupt: Arc::default(),
         }
     }

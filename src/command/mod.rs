@@ -15,6 +15,7 @@ mod device;
 mod disposition;
 mod environment;
 mod environment_table;
+mod equilibrium;
 mod file;
 mod forces;
 pub mod functions;
@@ -116,6 +117,7 @@ pub static COMMANDS: &[&Command] = &[
     &names::DELETE,
     &names::RENAME,
     &alter::ALTER,
+    &equilibrium::EQUI,
     &select::SELECT,
     &select::SELECTOR,
     &environment::ENV,

@@ -1,9 +1,13 @@
 //! A spring along the chord between two ends: a weightless line, or one that also pushes.
 
 use super::catenary::{Law, Point, rising_root};
-use super::mooring::Mooring;
-use crate::model::{ClassError, Condition, Configuration, LineChange, LineLoads, LineModel};
+use super::mooring::{Mooring, no_other_end};
+use crate::model::{
+    ClassError, Condition, Configuration, Element, End, Guess, LineChange, LineLoads, LineModel, Response, Situation,
+    Summary,
+};
 use crate::table::Table;
+use nalgebra::{Matrix3, Vector3};
 
 /// A weightless line between two places.
 #[derive(Clone, Debug)]
@@ -32,12 +36,23 @@ impl Chord {
 
     /// Force along the chord at an elongation (m), tension positive (N), and its slope (N/m).
     fn force(&self, elongation: f64) -> (f64, f64) {
-        if elongation == 0.0 || (elongation < 0.0 && !self.pushes) {
-            return (0.0, 0.0);
-        }
+        self.force_of(&self.law(), elongation)
+    }
+
+    /// All that gives way, in series.
+    fn law(&self) -> Law {
         let mut laws: Vec<Law> = self.line.line.segments().iter().map(|s| Law::Linear(s.ea / s.length)).collect();
         laws.extend(self.springs.iter().flatten().cloned());
-        let law = Law::Series(laws);
+        Law::Series(laws)
+    }
+
+    fn force_of(&self, law: &Law, elongation: f64) -> (f64, f64) {
+        if elongation < 0.0 && !self.pushes {
+            return (0.0, 0.0);
+        }
+        if elongation == 0.0 {
+            return (0.0, if self.pushes { 1.0 / law.stretch(0.0).1 } else { 0.0 });
+        }
         let start = elongation.abs() / law.stretch(0.0).1;
         let at = |t: f64| {
             let (value, slope) = law.stretch(t);
@@ -69,7 +84,74 @@ impl Chord {
     }
 }
 
+/// A spring along the chord, as an engine sees it.
+#[derive(Clone, Debug)]
+pub struct ChordElement {
+    chord: Chord,
+    /// All that gives way, in series.
+    law: Law,
+}
+
+impl ChordElement {
+    /// The chord between these ends.
+    fn between(&self, ends: &[End]) -> Vector3<f64> {
+        let at = |i: usize| ends.get(i).map_or(Vector3::zeros(), |e| e.pose.origin);
+        at(1) - at(0)
+    }
+}
+
+impl Element for ChordElement {
+    fn evaluate(
+        &self,
+        at: &Situation,
+        _committed: &[f64],
+        _trial: &mut [f64],
+        _guess: &mut Guess,
+        out: &mut Response,
+    ) -> Result<(), ClassError> {
+        out.clear(2);
+        let along = self.between(at.ends);
+        let chord = along.norm();
+        let unit = if chord > 0.0 { along / chord } else { -Vector3::z() };
+        let (force, slope) = self.chord.force_of(&self.law, chord - self.chord.line.line.length());
+        let across = if chord > 0.0 { force / chord } else { 0.0 };
+        let pull = unit * force;
+        let k = unit * unit.transpose() * (slope - across) + Matrix3::identity() * across;
+        if let [near, far] = out.wrench.as_mut_slice() {
+            near.fixed_rows_mut::<3>(0).copy_from(&pull);
+            far.fixed_rows_mut::<3>(0).copy_from(&-pull);
+        }
+        for (index, block) in out.stiffness.iter_mut().enumerate() {
+            let sign = if index == 0 || index == 3 { 1.0 } else { -1.0 };
+            block.fixed_view_mut::<3, 3>(0, 0).copy_from(&(k * sign));
+        }
+        Ok(())
+    }
+
+    fn summary(&self, at: &Situation, _committed: &[f64]) -> Result<Summary, ClassError> {
+        let chord = self.between(at.ends).norm();
+        let (force, _) = self.chord.force_of(&self.law, chord - self.chord.line.line.length());
+        let (ratio, critical) = self.chord.ratio(force);
+        Ok(Summary {
+            tension: Some(force),
+            ratio: Some(ratio),
+            critical: Some(critical),
+            grounded: Some(0.0),
+            solution: "exact",
+            springs: Vec::new(),
+            notes: self.chord.remarks(force, chord, ratio),
+        })
+    }
+}
+
 impl LineModel for Chord {
+    fn element(&self) -> Result<Box<dyn Element>, ClassError> {
+        if self.line.place.other.is_none() {
+            return Err(no_other_end());
+        }
+        Ok(Box::new(ChordElement { chord: self.clone(), law: self.law() }))
+    }
+
     fn tabulate(&self, connector: &str) -> Result<Table, ClassError> {
         self.line.tabulate(connector)
     }

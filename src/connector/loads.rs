@@ -1,6 +1,6 @@
 //! What a mooring line does to what it is attached to: exactly, or from its table.
 
-use super::catenary::{Floor, FromTable, Interpolated, LineError};
+use super::catenary::{Floor, FromTable, Interpolated, LineError, Row};
 use super::mooring::{Mooring, line_error};
 use crate::model::{ClassError, Condition, LineChange, LineLoads};
 
@@ -37,15 +37,23 @@ impl Mooring {
     /// # Errors
     /// A line for which no table could be made.
     pub fn tabled_loads(&self) -> Result<LineLoads, ClassError> {
-        let (distance, along) = self.placed()?;
         let rows = self.rows()?;
+        self.from_table(&rows, &Interpolated::new(&rows))
+    }
+
+    /// The same from a table that is there.
+    ///
+    /// # Errors
+    /// No exact solution, nearer than the first row.
+    pub(super) fn from_table(&self, rows: &[Row], forces: &Interpolated) -> Result<LineLoads, ClassError> {
+        let (distance, along) = self.placed()?;
         if rows.first().is_some_and(|first| distance < first.state.x) {
             let mut loads = self.exact_loads()?;
             loads.notes.push("nearer than the first row of its table, and solved exactly there".into());
             return Ok(loads);
         }
-        let FromTable { force, stiffness: slope, vertical, anchor, grounded, ratio, critical, beyond } =
-            Interpolated::new(&rows).at(distance, &rows);
+        let FromTable { force, stiffness: slope, vertical, vertical_slope, anchor, grounded, ratio, critical, beyond } =
+            forces.at(distance, rows);
         let mut notes = self.notes.clone();
         if beyond {
             notes.push("warning: beyond the table; its last slope is continued".into());
@@ -62,7 +70,7 @@ impl Mooring {
         Ok(LineLoads {
             fairlead: [force * along[0], force * along[1], -vertical],
             other: [-anchor[0] * along[0], -anchor[0] * along[1], anchor[1]],
-            stiffness: stiffness(along, [[slope, 0.0], [0.0, 0.0]], across),
+            stiffness: stiffness(along, [[slope, 0.0], [vertical_slope, 0.0]], across),
             distance,
             tension: force.hypot(vertical),
             ratio,
@@ -102,8 +110,7 @@ impl Mooring {
     /// A weightless line that is not tight: no force.
     fn limp(&self, distance: f64) -> Option<LineLoads> {
         let z = self.fairlead();
-        let weightless = self.line.segments().iter().all(|s| s.weight == 0.0);
-        let limp = weightless && matches!(self.line.at_distance(distance, z), Err(LineError::Undetermined));
+        let limp = self.weightless() && matches!(self.line.at_distance(distance, z), Err(LineError::Undetermined));
         limp.then(|| LineLoads {
             fairlead: [0.0; 3],
             other: [0.0; 3],

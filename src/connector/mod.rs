@@ -8,6 +8,7 @@ mod checks;
 mod chord;
 mod first_length;
 mod h_cat;
+mod line_element;
 pub mod line_types;
 mod lmu;
 mod loads;

@@ -3,12 +3,15 @@
 use super::catenary::{Aim, Joint, Law, Line, LineError, Row, Segment, SegmentState, ShapePoint, State, table};
 use super::checks;
 use super::first_length::for_tension;
+use super::line_element::LineElement;
 use super::mooring_table::{buoy_word, report};
 use super::section::LineSection;
 use crate::language::diagnostic::Outcome;
 use crate::language::source::Span;
 use crate::language::units::Dim;
-use crate::model::{ClassError, ClassRecord, Condition, Configuration, LineChange, LineLoads, LineModel, Placement};
+use crate::model::{
+    ClassError, ClassRecord, Condition, Configuration, Element, LineChange, LineLoads, LineModel, Placement,
+};
 use crate::table::{Cell, Digits, Table};
 
 /// Points inside each segment in a shape table.
@@ -44,7 +47,7 @@ impl Mooring {
         z
     }
 
-    fn error(&self, error: &LineError) -> ClassError {
+    pub(super) fn error(&self, error: &LineError) -> ClassError {
         line_error(error, &self.places)
     }
 
@@ -309,6 +312,10 @@ impl LineModel for Mooring {
 
     fn loads(&self) -> Result<LineLoads, ClassError> {
         if self.exact { self.exact_loads() } else { self.tabled_loads() }
+    }
+
+    fn element(&self) -> Result<Box<dyn Element>, ClassError> {
+        Ok(Box::new(LineElement::new(self.clone())?))
     }
 
     fn changed(&self, change: LineChange) -> Result<Box<dyn LineModel>, ClassError> {

@@ -102,6 +102,8 @@ pub trait BodyLoad: Debug + Send + Sync {
 pub struct Floating {
     /// Its mass.
     pub mass: Mass,
+    /// Added mass about its origin, body axes (kg, kg m, kg m2).
+    pub added_mass: Matrix6<f64>,
     /// What acts on it.
     pub loads: Vec<Box<dyn BodyLoad>>,
 }
@@ -116,6 +118,14 @@ impl Floating {
         let mass = Mass::of(model.parts_of(body), gravity);
         let mut loads: Vec<Box<dyn BodyLoad>> = Vec::new();
         loads.extend(weight::of(&mass, gravity));
-        Ok(Floating { mass, loads })
+        Ok(Floating { mass, added_mass: Matrix6::zeros(), loads })
+    }
+
+    /// The added mass in a pose, global axes.
+    pub fn added(&self, pose: &Pose) -> Matrix6<f64> {
+        let mut turn = Matrix6::zeros();
+        turn.fixed_view_mut::<3, 3>(0, 0).copy_from(&pose.axes);
+        turn.fixed_view_mut::<3, 3>(3, 3).copy_from(&pose.axes);
+        turn * self.added_mass * turn.transpose()
     }
 }

@@ -138,7 +138,10 @@ pub trait ConnectorClass: Debug + Send + Sync {
     ///
     /// # Errors
     /// A class whose connectors an assembly takes care of, or values that make none here.
-    fn element(&self, _: &Connection) -> Result<Box<dyn Element>, ClassError> {
+    fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
+        if self.is_line() {
+            return self.line(&connection.placement, connection.surroundings)?.element();
+        }
         Err(ClassError::new(format!("a connector of class type {} exerts no force", self.kind())))
     }
 

@@ -8,6 +8,7 @@ use super::class::ClassError;
 use super::connector::Connector;
 use super::curve::Curve;
 use super::environment::Surroundings;
+use super::line::Placement;
 use super::pose::{Pose, Six};
 use nalgebra::Matrix6;
 use std::any::Any;
@@ -138,6 +139,12 @@ pub trait Element: Debug + Send + Sync {
     /// As [`Element::evaluate`].
     fn summary(&self, at: &Situation, committed: &[f64]) -> Result<Summary, ClassError>;
 
+    /// Whether its parameters depend on where its ends were when it was made, so that a solver makes it anew where they
+    /// come to rest.
+    fn made_for_place(&self) -> bool {
+        false
+    }
+
     /// Whether its force belongs to RIGID_CONNECTORS (restraints) rather than to FLEX_CONNECTORS.
     fn rigid(&self) -> bool {
         false
@@ -153,6 +160,8 @@ pub struct Connection<'a> {
     pub ends: [Pose; 2],
     /// Whether the second end is in the ground.
     pub to_ground: bool,
+    /// How the ends of a line are told to its class.
+    pub placement: Placement,
     /// The curve of a name.
     pub curve: &'a dyn Fn(&str) -> Option<&'a Curve>,
     /// Water, depth, gravity.

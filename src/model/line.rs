@@ -1,6 +1,7 @@
 //! What a mooring line between two places answers, whatever its class.
 
 use super::class::ClassError;
+use super::element::Element;
 use super::geometry::Position;
 use crate::table::Table;
 
@@ -146,6 +147,12 @@ pub trait LineModel {
     /// # Errors
     /// A change of what the line does not have: a bottom, a weight, a stiffness that is one number.
     fn changed(&self, change: LineChange) -> Result<Box<dyn LineModel>, ClassError>;
+
+    /// The line as an engine sees it.
+    ///
+    /// # Errors
+    /// A line between moving ends that rests on the bottom; a table that cannot be made.
+    fn element(&self) -> Result<Box<dyn Element>, ClassError>;
 
     /// The horizontal distance between the ends under a condition (m).
     ///

@@ -120,6 +120,27 @@ impl Model {
         [first, self.end_pose(connector, 1).or_else(anchor).unwrap_or(defined)]
     }
 
+    /// The element a connector is to an engine, between its ends as they are.
+    ///
+    /// # Errors
+    /// A class that is not defined or exerts no force; values that make no element here.
+    pub fn element(&self, connector: &Connector) -> Result<Box<dyn Element>, ClassError> {
+        let class = self.classes.get(&Model::key(&connector.class));
+        let class = class.ok_or_else(|| ClassError::new(format!("there is no class {}", connector.class)))?;
+        let on_body = |name: &String| self.points.get(&Model::key(name)).is_some_and(|p| self.body_of(p).is_some());
+        let to_ground = !connector.points.get(1).is_some_and(on_body);
+        let mut placement = self.placement(connector);
+        placement.to_ground = to_ground;
+        class.object.element(&Connection {
+            connector,
+            ends: self.end_poses(connector),
+            to_ground,
+            placement,
+            curve: &|name| self.curves.get(&Model::key(name)),
+            surroundings: &self.surroundings(),
+        })
+    }
+
     /// The ends of a connector, in the present configuration.
     pub fn placement(&self, connector: &Connector) -> Placement {
         let class = self.classes.get(&Model::key(&connector.class));

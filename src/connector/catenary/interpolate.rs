@@ -71,6 +71,8 @@ pub struct FromTable {
     pub stiffness: f64,
     /// Vertical force at the fairlead (N, downward).
     pub vertical: f64,
+    /// Its derivative by the distance (N/m).
+    pub vertical_slope: f64,
     /// Horizontal and vertical pull on the anchor (N).
     pub anchor: [f64; 2],
     /// Unstretched length on the bottom (m).
@@ -114,13 +116,15 @@ impl Interpolated {
             (value + slope * (x - inside), slope)
         };
         let (force, stiffness) = one(&self.force);
-        let [vertical, taken, anchor_v, grounded, ratio] = self.rest.each_ref().map(|c| one(c).0);
+        let [(vertical, vertical_slope), (taken, _), (anchor_v, _), (grounded, _), (ratio, _)] =
+            self.rest.each_ref().map(one);
         let force = force.max(0.0);
         let critical_row = if t < 0.5 { i } else { i + 1 };
         FromTable {
             force,
             stiffness: if force > 0.0 { stiffness } else { 0.0 },
             vertical,
+            vertical_slope,
             anchor: [(force - taken).max(0.0), anchor_v.max(0.0)],
             grounded: grounded.max(0.0),
             ratio: ratio.max(0.0),

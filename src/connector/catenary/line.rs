@@ -330,6 +330,12 @@ impl Line {
         Some(self.assembled())
     }
 
+    /// Its segment, when it has one alone, that stretches by its stiffness and has no springs at its ends.
+    pub fn single(&self) -> Option<Segment> {
+        let plain = self.laws.iter().all(Option::is_none) && self.springs.iter().all(Option::is_none);
+        self.segments.first().copied().filter(|_| plain && self.segments.len() == 1)
+    }
+
     /// Elevation of the anchor (m).
     pub fn anchor(&self) -> f64 {
         self.anchor

@@ -1,0 +1,125 @@
+//! `&EQUI`: brings the bodies to rest.
+//!
+//! Source: reference/solve.md, "&EQUI".
+
+use super::chosen::raise;
+use super::disposition::{BOTH, HARD, send};
+use super::{Call, Command, Effect, Job};
+use crate::language::args::Given;
+use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::source::Span;
+use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
+use crate::language::units::{Dim, UnitSystem};
+use crate::model::{Model, find};
+use crate::report::page;
+use crate::solve::{FREEDOMS, Options, SolveError, settle, tables};
+
+/// &EQUI.
+pub static EQUI: Command = Command { spec: &SPEC, edits: true, run };
+
+const TOLERANCE: ValueSpec =
+    ValueSpec::new("T", Kind::Number(Dim::None), "largest acceleration left, as a share of gravity").within(1e-12, 1.0);
+
+static SPEC: CommandSpec = CommandSpec {
+    options: &[
+        OptionSpec::new("-DEFAULTS", &[], "forgets what was given before"),
+        OptionSpec::new(
+            "-ITER_MAX",
+            &[ValueSpec::new("N", Kind::Integer, "steps").within(1.0, 100_000.0)],
+            "most steps of the solution",
+        )
+        .default("50"),
+        OptionSpec::new(
+            "-TOLERANCE",
+            &[TOLERANCE, ValueSpec { name: "R", ..TOLERANCE }.or("the same: rotation, times the radius of gyration")],
+            "largest accelerations left",
+        )
+        .default("0.001"),
+        OptionSpec::new(
+            "-IGNORE",
+            &[
+                ValueSpec::new("BODY", Kind::Name(Noun::Body), "body"),
+                ValueSpec::new("DOF", Kind::Choice(&FREEDOMS), "a freedom that does not move in this solution"),
+                MORE,
+                MORE,
+                MORE,
+                MORE,
+                MORE,
+            ],
+            "holds freedoms of a body, this time",
+        )
+        .many(),
+        HARD,
+        BOTH,
+    ],
+    detail: "All bodies and active connectors in the environment in force. Newton's iteration with the analytic stiffness goes on as \
+             far as rounding lets it; what is left is reported, and must be less than the tolerance, which is a \
+             share of gravity: 0.001 means a force of a thousandth of the body's weight. Far from rest, or where the stiffness is not \
+             stable, a share of the mass helps it. Options but -IGNORE are remembered. Freedoms are global directions at the body's \
+             origin. A direction that nothing holds, and no force acts in, stays as it is and is told. The result is the \
+             configuration from then on; &INSTATE -PREVIOUS goes back. \
+             Several equilibria may exist; none is promised. Connectors that are tabulated (B_CAT without EXACT) are tabulated anew at the \
+             elevation their fairleads come to.",
+    example: "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n*A 0 0 20\n&DESCRIBE BODY LOAD\n*HOOK 0 0 2\n*CG 0 0 0\n#WEIGHT *CG 500 1 1 1\n\
+              ~TIE SL_ELEM 60 TENSION -LEN 10\nCONNECTOR T ~TIE *HOOK *A\nEND\n&INSTATE -LOCATE LOAD 0 0 8\n\
+              &EQUI -ITER_MAX 100 -IGNORE LOAD RZ\n&STATUS F_CONNECTOR",
+    ..CommandSpec::new("&EQUI", "finds the equilibrium of bodies and connectors")
+};
+
+const MORE: ValueSpec = ValueSpec::new("DOF", Kind::Choice(&FREEDOMS), "a further one").or("no more");
+
+/// The freedoms one -IGNORE holds, each with the number of its body.
+fn ignored(model: &Model, given: &Given) -> Outcome<Vec<(usize, usize)>> {
+    let place = given.values.first().map_or(given.span, |v| v.span);
+    let body = find(&model.bodies, given.word(0).unwrap_or_default(), "body", place)?;
+    let index = model.bodies.get_index_of(&Model::key(&body.name)).unwrap_or(0);
+    let words = given.values.iter().skip(1).filter_map(|v| v.word());
+    Ok(words.filter_map(|w| FREEDOMS.iter().position(|f| *f == w)).map(|f| (index, f)).collect())
+}
+
+/// What a record asks for, beside what was asked for before.
+fn options(job: &Job, call: &Call) -> Outcome<Options> {
+    let args = &call.args;
+    let before = if args.has("-DEFAULTS") { Options::default() } else { job.equilibrium.clone() };
+    let mut made = Options { ignored: Vec::new(), ..before };
+    if let Some(most) = args.option("-ITER_MAX").and_then(|g| g.values.first()).and_then(|v| v.integer()) {
+        made.most = usize::try_from(most).unwrap_or(made.most);
+    }
+    if let Some(given) = args.option("-TOLERANCE") {
+        let shift = given.number(0).unwrap_or(made.tolerance[0]);
+        made.tolerance = [shift, given.number(1).unwrap_or(shift)];
+    }
+    for given in args.all("-IGNORE") {
+        made.ignored.extend(ignored(&job.model, given)?);
+    }
+    Ok(made)
+}
+
+/// The message of an engine, with who it is about.
+pub(super) fn told(wrong: SolveError, model: &Model, span: Span, units: UnitSystem) -> Box<Diagnostic> {
+    let SolveError { who, mut error } = wrong;
+    if let Some(who) = who {
+        let what = if model.bodies.contains_key(&Model::key(&who)) { "body" } else { "connector" };
+        error.message = format!("{what} {who}: {}", error.message);
+    }
+    error.diagnostic(span, units)
+}
+
+fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let options = options(job, call)?;
+    if job.model.bodies.is_empty() {
+        return Err(
+            Diagnostic::error("there is no body to bring to rest", call.args.span).help("&DESCRIBE BODY describes one")
+        );
+    }
+    let settled = settle(&mut job.model, &options).map_err(|e| told(e, &job.model, call.args.span, job.units))?;
+    let forces = tables::by_category(&settled.system, &settled.state)
+        .map_err(|e| told(e, &job.model, call.args.span, job.units))?;
+    job.equilibrium = Options { ignored: Vec::new(), ..options };
+    let list = [tables::rest(&job.model, &settled), forces, tables::periods(&settled.system, &settled.state)];
+    let head = job.page_head();
+    let text = list.iter().map(|t| page::render(t, job.units, &head)).collect::<Vec<_>>().join("\n");
+    send(job, &call.args, &text)?;
+    list.iter().for_each(|t| raise(job, t, call.args.span));
+    Ok(Effect::Done)
+}

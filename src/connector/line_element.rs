@@ -1,0 +1,244 @@
+//! A mooring line as an engine sees it: forces on its two ends at any place of these, followed from one place to the next.
+
+use super::catenary::{Bottom, EndForces, Interpolated, Line, LineError, Row, Segment, State};
+use super::mooring::Mooring;
+use crate::model::{ClassError, Element, End, Guess, Placement, Response, Situation, Summary};
+use nalgebra::{Matrix6, Vector3};
+
+/// How the forces are found.
+#[derive(Clone, Debug)]
+enum Solver {
+    /// One segment without springs: the quickest.
+    Segment { segment: Segment, bottom: Option<Bottom> },
+    /// The whole line.
+    Whole,
+    /// From its table, made at the elevation its fairlead had when the element was made.
+    Table { rows: Vec<Row>, forces: Box<Interpolated> },
+}
+
+/// A line between two ends.
+#[derive(Clone, Debug)]
+pub struct LineElement {
+    mooring: Mooring,
+    solver: Solver,
+}
+
+/// What the solver of a line remembers.
+enum Last {
+    Segment(EndForces),
+    Whole(Box<State>),
+}
+
+/// Forces in the line's vertical plane.
+struct Plane {
+    /// On the first end: toward the other, and downward (N).
+    fairlead: [f64; 2],
+    /// On the other end: toward the first, and upward (N).
+    anchor: [f64; 2],
+    /// d(fairlead)/d(distance, rise of the first end) (N/m).
+    stiffness: [[f64; 2]; 2],
+    /// d(anchor)/d(distance, rise of the first end) (N/m).
+    coupling: [[f64; 2]; 2],
+}
+
+impl LineElement {
+    /// The element of a line whose ends are where its placement says.
+    ///
+    /// # Errors
+    /// A line that sees the bottom between ends that both move; a table that cannot be made.
+    pub fn new(mooring: Mooring) -> Result<Self, ClassError> {
+        mooring.placed()?;
+        let line = &mooring.line;
+        if line.floor().is_some() && !mooring.place.to_ground {
+            return Err(ClassError::new("a line that lies on the bottom needs its other end in the ground")
+                .help("use H_CAT between two bodies"));
+        }
+        let flat = line.floor().is_none_or(|f| f.slope == 0.0 && f.elevation == line.anchor());
+        let solver = match line.single() {
+            _ if !mooring.exact => {
+                let rows = mooring.rows()?;
+                let forces = Box::new(Interpolated::new(&rows));
+                Solver::Table { rows, forces }
+            }
+            Some(segment) if flat => {
+                let bottom = line.floor().map(|f| Bottom { friction: f.friction });
+                Solver::Segment { segment, bottom }
+            }
+            _ => Solver::Whole,
+        };
+        Ok(LineElement { mooring, solver })
+    }
+
+    /// Horizontal distance, its direction from the first end to the other, and the elevation of the first end in the line's
+    /// own system: a line that sees neither bottom nor surface goes up and down with its other end.
+    fn between(&self, ends: &[End]) -> (f64, [f64; 2], f64) {
+        let at = |i: usize| ends.get(i).map_or(Vector3::zeros(), |e| e.pose.origin);
+        let (from, to) = (at(0), at(1));
+        let (dx, dy) = (to.x - from.x, to.y - from.y);
+        let x = dx.hypot(dy);
+        let along = if x > 0.0 { [dx / x, dy / x] } else { [1.0, 0.0] };
+        let z = if self.mooring.place.to_ground { from.z } else { self.mooring.line.anchor() + from.z - to.z };
+        (x, along, z)
+    }
+
+    fn plane(&self, x: f64, z: f64, guess: &mut Guess) -> Result<Plane, LineError> {
+        match &self.solver {
+            Solver::Segment { segment, bottom } => {
+                let rise = z - self.mooring.line.anchor();
+                let last = guess.as_mut().and_then(|g| g.downcast_mut::<Last>());
+                let found = match last {
+                    Some(Last::Segment(last)) => {
+                        let found = segment.follow(x, rise, *bottom, last)?;
+                        *last = found;
+                        found
+                    }
+                    _ => {
+                        let found = segment.between(x, rise, *bottom)?;
+                        *guess = Some(Box::new(Last::Segment(found)));
+                        found
+                    }
+                };
+                Ok(Plane {
+                    fairlead: found.fairlead,
+                    anchor: found.anchor,
+                    stiffness: found.stiffness,
+                    // what hangs free pulls at both ends with the difference of its weight, which does not change
+                    coupling: found.stiffness,
+                })
+            }
+            Solver::Whole => whole(&self.mooring.line, x, z, guess),
+            Solver::Table { rows, forces } => {
+                if rows.first().is_some_and(|first| x < first.state.x) {
+                    return whole(&self.mooring.line, x, z, guess);
+                }
+                let found = forces.at(x, rows);
+                Ok(Plane {
+                    fairlead: [found.force, found.vertical],
+                    anchor: found.anchor,
+                    stiffness: [[found.stiffness, 0.0], [found.vertical_slope, 0.0]],
+                    coupling: [[found.stiffness, 0.0], [0.0, 0.0]],
+                })
+            }
+        }
+    }
+
+    /// The line with its ends there.
+    fn moved(&self, ends: &[End]) -> Mooring {
+        let at = |i: usize| ends.get(i).map(|e| e.pose.origin.into());
+        let place = Placement { fairlead: at(0).unwrap_or_default(), other: at(1), ..self.mooring.place };
+        let (_, _, z) = self.between(ends);
+        let [x, y, own] = place.fairlead;
+        // elevations in the line's own system
+        let rise = z - own;
+        Mooring {
+            place: Placement { fairlead: [x, y, z], ..place },
+            surface: self.mooring.surface + rise,
+            bottom: self.mooring.bottom.map(|b| b + rise),
+            ..self.mooring.clone()
+        }
+    }
+}
+
+fn whole(line: &Line, x: f64, z: f64, guess: &mut Guess) -> Result<Plane, LineError> {
+    let last = guess.as_ref().and_then(|g| g.downcast_ref::<Last>());
+    let state = match last {
+        Some(Last::Whole(last)) => line.follow(x, z, last)?,
+        _ => line.at_distance(x, z)?,
+    };
+    let plane = Plane {
+        fairlead: [state.force, state.top_vertical],
+        anchor: [state.anchor_horizontal, state.anchor_vertical],
+        stiffness: state.stiffness,
+        coupling: state.coupling,
+    };
+    match guess.as_mut().and_then(|g| g.downcast_mut::<Last>()) {
+        Some(Last::Whole(last)) => **last = state,
+        _ => *guess = Some(Box::new(Last::Whole(Box::new(state)))),
+    }
+    Ok(plane)
+}
+
+/// -d(force)/d(place of the first end) for a force `sign` (pull toward the other end, downward): `k` is d(pull)/d(x, z),
+/// `across` the horizontal pull over the distance.
+fn block(along: [f64; 2], k: [[f64; 2]; 2], across: f64, sign: f64) -> Matrix6<f64> {
+    let [ux, uy] = along;
+    // a fairlead on the bottom is held there without a slope that has an end
+    let [[xx, xz], [zx, zz]] = k.map(|row| row.map(|v| if v.is_finite() { v } else { xx_of(k) }));
+    let plane = |a: f64, b: f64, same: f64| sign * (xx * a * b + across * (same - a * b));
+    let mut block = Matrix6::zeros();
+    block[(0, 0)] = plane(ux, ux, 1.0);
+    block[(0, 1)] = plane(ux, uy, 0.0);
+    block[(1, 0)] = block[(0, 1)];
+    block[(1, 1)] = plane(uy, uy, 1.0);
+    block[(0, 2)] = -sign * xz * ux;
+    block[(1, 2)] = -sign * xz * uy;
+    block[(2, 0)] = -sign * zx * ux;
+    block[(2, 1)] = -sign * zx * uy;
+    block[(2, 2)] = sign * zz;
+    block
+}
+
+/// A finite measure of a line's stiffness.
+fn xx_of(k: [[f64; 2]; 2]) -> f64 {
+    let [[xx, _], _] = k;
+    if xx.is_finite() { xx } else { 0.0 }
+}
+
+impl Element for LineElement {
+    fn evaluate(
+        &self,
+        at: &Situation,
+        _committed: &[f64],
+        _trial: &mut [f64],
+        guess: &mut Guess,
+        out: &mut Response,
+    ) -> Result<(), ClassError> {
+        out.clear(2);
+        let (x, along, z) = self.between(at.ends);
+        let plane = match self.plane(x, z, guess) {
+            Ok(plane) => plane,
+            Err(LineError::Undetermined) if self.mooring.weightless() => return Ok(()),
+            Err(error) => return Err(self.mooring.error(&error)),
+        };
+        let [ux, uy] = along;
+        let ([h, v], [far_h, far_v]) = (plane.fairlead, plane.anchor);
+        let over = |force: f64, k: [[f64; 2]; 2]| if x > 0.0 { force / x } else { xx_of(k) };
+        let first = block(along, plane.stiffness, over(h, plane.stiffness), 1.0);
+        let other = block(along, plane.coupling, over(far_h, plane.coupling), -1.0);
+        if let [near, far] = out.wrench.as_mut_slice() {
+            (near[0], near[1], near[2]) = (h * ux, h * uy, -v);
+            (far[0], far[1], far[2]) = (-far_h * ux, -far_h * uy, far_v);
+        }
+        if let [k11, k12, k21, k22] = out.stiffness.as_mut_slice() {
+            (*k11, *k12, *k21, *k22) = (first, -first, other, -other);
+        }
+        Ok(())
+    }
+
+    fn summary(&self, at: &Situation, _committed: &[f64]) -> Result<Summary, ClassError> {
+        let loads = match &self.solver {
+            Solver::Table { rows, forces } => self.moved(at.ends).from_table(rows, forces)?,
+            _ => self.moved(at.ends).exact_loads()?,
+        };
+        Ok(Summary {
+            tension: Some(loads.tension),
+            ratio: Some(loads.ratio),
+            critical: Some(loads.critical),
+            grounded: Some(loads.grounded),
+            solution: loads.solution,
+            springs: Vec::new(),
+            notes: loads.notes,
+        })
+    }
+
+    fn made_for_place(&self) -> bool {
+        matches!(self.solver, Solver::Table { .. })
+    }
+}
+
+impl Mooring {
+    /// Whether none of its segments weighs anything.
+    pub(super) fn weightless(&self) -> bool {
+        self.line.segments().iter().all(|s| s.weight == 0.0)
+    }
+}

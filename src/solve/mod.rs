@@ -1,0 +1,13 @@
+//! Engines over the model: the system of bodies and connectors, its equilibrium, its stiffness and natural periods, its
+//! restoring forces. They know nothing of commands, files or printing.
+
+mod equilibrium;
+mod modes;
+mod settle;
+mod system;
+pub mod tables;
+
+pub use equilibrium::{Equilibrium, Options, equilibrium};
+pub use modes::{Mode, modes};
+pub use settle::{Settled, settle};
+pub use system::{Contribution, FREEDOMS, Node, SolveError, State, System};

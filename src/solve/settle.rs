@@ -1,0 +1,54 @@
+//! The equilibrium of a model: the system is made, solved, and made anew where a part of it depends on where it came to
+//! rest.
+
+use super::equilibrium::{Equilibrium, Options, equilibrium};
+use super::system::{SolveError, State, System};
+use crate::model::{Model, Place};
+
+/// Most times a system is made anew.
+const MOST: usize = 12;
+
+/// A model at rest.
+#[derive(Debug)]
+pub struct Settled {
+    /// How it was found.
+    pub found: Equilibrium,
+    /// The system there.
+    pub system: System,
+    /// Its forces and stiffness there.
+    pub state: State,
+}
+
+/// Brings the bodies of a model to rest and leaves them there; their `previous` place is the one they came from.
+///
+/// # Errors
+/// As [`equilibrium`]; the model is then where the last solution had it: callers keep a copy.
+pub fn settle(model: &mut Model, options: &Options) -> Result<Settled, SolveError> {
+    let start: Vec<Place> = model.bodies.values().map(|b| b.place).collect();
+    let mut system = System::of(model, &[])?;
+    let mut state = system.state(model);
+    let mut found = equilibrium(&system, &mut state, options)?;
+    system.place(&state, model);
+    for _ in 0..MOST {
+        if !system.made_for_place() {
+            break;
+        }
+        system = System::of(model, &[])?;
+        state = system.state(model);
+        let again = equilibrium(&system, &mut state, options)?;
+        system.place(&state, model);
+        let moved = again.steps > 1;
+        found = Equilibrium {
+            steps: found.steps + again.steps,
+            evaluations: found.evaluations + again.evaluations,
+            ..again
+        };
+        if !moved {
+            break;
+        }
+    }
+    for (body, place) in model.bodies.values_mut().zip(start) {
+        body.previous = place;
+    }
+    Ok(Settled { found, system, state })
+}

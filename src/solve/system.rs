@@ -1,0 +1,345 @@
+//! The system of bodies and connectors: who hangs on whom, what acts on each body, how that changes with their places.
+
+use crate::hydro::{Category, Floating, Load};
+use crate::model::{
+    Body, ClassError, Connector, Element, End, Guess, Mass, Model, Pose, Response, Situation, Six, Surroundings,
+};
+use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Vector3};
+
+/// Degrees of freedom of a body, in order.
+pub const FREEDOMS: [&str; 6] = ["X", "Y", "Z", "RX", "RY", "RZ"];
+
+/// Why a system could not be made or solved.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SolveError {
+    /// The connector or body it is about, as written.
+    pub who: Option<String>,
+    /// What is wrong.
+    pub error: ClassError,
+}
+
+impl SolveError {
+    /// An error of the whole system.
+    pub fn new(error: ClassError) -> Self {
+        SolveError { who: None, error }
+    }
+
+    fn of(who: &str) -> impl Fn(ClassError) -> SolveError + '_ {
+        move |error| SolveError { who: Some(who.to_string()), error }
+    }
+}
+
+/// A body of the system.
+#[derive(Debug)]
+pub struct Node {
+    /// Its name as written.
+    pub name: String,
+    /// Its key in the model.
+    pub key: String,
+    /// What acts on it besides connectors.
+    pub floating: Floating,
+    /// Which of its freedoms move.
+    pub free: [bool; 6],
+}
+
+/// What an end of a connector is fixed to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Attachment {
+    Ground(Pose),
+    /// A body by its number, and the point in its system (m).
+    Body(usize, Vector3<f64>),
+}
+
+/// A connector of the system.
+#[derive(Debug)]
+struct Link {
+    name: String,
+    element: Box<dyn Element>,
+    ends: [Attachment; 2],
+    /// Where its values stand in the vector of states.
+    states: std::ops::Range<usize>,
+}
+
+/// A force on a body that is told apart.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contribution {
+    /// The body's number.
+    pub body: usize,
+    /// The connector, or none for a load of the body itself.
+    pub connector: Option<String>,
+    /// Its category.
+    pub category: Category,
+    /// Force and moment about the body's origin, global axes.
+    pub load: Load,
+}
+
+/// Where everything is, and what is left unbalanced there.
+#[derive(Debug, Default)]
+pub struct State {
+    /// Poses of the bodies.
+    pub poses: Vec<Pose>,
+    /// Sum of forces and moments about the origins of the bodies, six a body, global axes.
+    pub residual: DVector<f64>,
+    /// -d(residual)/d(motion of the bodies), six a body.
+    pub stiffness: DMatrix<f64>,
+    /// Largest force of a connector on each body (N): the measure of a body without weight.
+    pub pull: Vec<f64>,
+    guesses: Vec<Guess>,
+    response: Response,
+    trial: Vec<f64>,
+}
+
+/// Bodies and connectors as engines see them.
+#[derive(Debug)]
+pub struct System {
+    /// Its bodies, in the order of the model.
+    pub nodes: Vec<Node>,
+    links: Vec<Link>,
+    /// States of all connectors, committed.
+    pub states: Vec<f64>,
+    surroundings: Surroundings,
+    /// Acceleration of gravity (m/s2).
+    pub gravity: f64,
+}
+
+impl System {
+    /// The system of a model in its present configuration and environment; `left_out` names connectors that do not act
+    /// beside those that are inactive.
+    ///
+    /// # Errors
+    /// The connector or body that makes no part of it, and why.
+    pub fn of(model: &Model, left_out: &[String]) -> Result<Self, SolveError> {
+        let node = |(key, body): (&String, &Body)| {
+            let floating = Floating::of(model, body).map_err(SolveError::of(&body.name))?;
+            let free = FREEDOMS.map(|f| !body.ignored.iter().any(|i| i == f));
+            Ok(Node { name: body.name.clone(), key: key.clone(), floating, free })
+        };
+        let nodes = model.bodies.iter().map(node).collect::<Result<Vec<_>, SolveError>>()?;
+        let mut states = Vec::new();
+        let mut links = Vec::new();
+        for connector in model.connectors.values() {
+            if !connector.active || left_out.iter().any(|name| name.eq_ignore_ascii_case(&connector.name)) {
+                continue;
+            }
+            let element = model.element(connector).map_err(SolveError::of(&connector.name))?;
+            let from = states.len();
+            states.resize(from + element.states(), 0.0);
+            if let Some(own) = states.get_mut(from..) {
+                element.start(own);
+            }
+            let ends = attachments(model, connector);
+            links.push(Link { name: connector.name.clone(), element, ends, states: from..states.len() });
+        }
+        Ok(System { nodes, links, states, surroundings: model.surroundings(), gravity: model.defaults.gravity })
+    }
+
+    /// A state with the bodies where they stand in the model.
+    pub fn state(&self, model: &Model) -> State {
+        let poses = self.nodes.iter().map(|n| model.bodies.get(&n.key).map(|b| Pose::of(&b.place)).unwrap_or_default());
+        State { poses: poses.collect(), ..State::default() }
+    }
+
+    /// Evaluates everything at the poses of a state.
+    ///
+    /// # Errors
+    /// The connector or body that has no answer there.
+    pub fn evaluate(&self, state: &mut State) -> Result<(), SolveError> {
+        let size = 6 * self.nodes.len();
+        state.residual.resize_vertically_mut(size, 0.0);
+        state.residual.fill(0.0);
+        if state.stiffness.nrows() != size {
+            state.stiffness = DMatrix::zeros(size, size);
+        }
+        state.stiffness.fill(0.0);
+        state.pull.clear();
+        state.pull.resize(self.nodes.len(), 0.0);
+        state.guesses.resize_with(self.links.len(), || None);
+        state.trial.resize(self.states.len(), 0.0);
+        for (index, (node, pose)) in self.nodes.iter().zip(&state.poses).enumerate() {
+            for load in &node.floating.loads {
+                let load = load.load(pose).map_err(SolveError::of(&node.name))?;
+                let mut at = state.residual.fixed_rows_mut::<6>(6 * index);
+                at += load.wrench;
+                let mut block = state.stiffness.fixed_view_mut::<6, 6>(6 * index, 6 * index);
+                block += load.stiffness;
+            }
+        }
+        for (link, guess) in self.links.iter().zip(&mut state.guesses) {
+            let ends = link.ends.map(|end| End::still(pose_of(&end, &state.poses)));
+            let committed = self.states.get(link.states.clone()).unwrap_or_default();
+            let trial = state.trial.get_mut(link.states.clone()).unwrap_or_default();
+            let at = Situation { ends: &ends, step: None, surroundings: &self.surroundings };
+            link.element
+                .evaluate(&at, committed, trial, guess, &mut state.response)
+                .map_err(SolveError::of(&link.name))?;
+            let arms = link.ends.map(|end| arm(&end, &state.poses));
+            for (i, (end, wrench)) in link.ends.iter().zip(&state.response.wrench).enumerate() {
+                let Attachment::Body(body, _) = end else { continue };
+                let [a, ..] = arms;
+                let own = if i == 0 { a } else { arms[1] };
+                let mut at = state.residual.fixed_rows_mut::<6>(6 * body);
+                at += carried(wrench, own);
+                let force = wrench.fixed_rows::<3>(0).norm();
+                if let Some(pull) = state.pull.get_mut(*body) {
+                    *pull = pull.max(force);
+                }
+                for (j, other) in link.ends.iter().enumerate() {
+                    let Attachment::Body(column, _) = other else { continue };
+                    let Some(block) = state.response.stiffness.get(2 * i + j) else { continue };
+                    let far = if j == 0 { a } else { arms[1] };
+                    let mut moved = transferred(block, own, far);
+                    if i == j {
+                        moved += turning(wrench, own);
+                    }
+                    let mut at = state.stiffness.fixed_view_mut::<6, 6>(6 * body, 6 * column);
+                    at += moved;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Every force on every body, told apart: loads of the body by category, and each connector.
+    ///
+    /// # Errors
+    /// As [`System::evaluate`].
+    pub fn contributions(&self, poses: &[Pose]) -> Result<Vec<Contribution>, SolveError> {
+        let mut list = Vec::new();
+        for (body, (node, pose)) in self.nodes.iter().zip(poses).enumerate() {
+            for load in &node.floating.loads {
+                let (category, load) = (load.category(), load.load(pose).map_err(SolveError::of(&node.name))?);
+                list.push(Contribution { body, connector: None, category, load });
+            }
+        }
+        let (mut response, mut trial) = (Response::default(), vec![0.0; self.states.len()]);
+        for link in &self.links {
+            let ends = link.ends.map(|end| End::still(pose_of(&end, poses)));
+            let committed = self.states.get(link.states.clone()).unwrap_or_default();
+            let own = trial.get_mut(link.states.clone()).unwrap_or_default();
+            let at = Situation { ends: &ends, step: None, surroundings: &self.surroundings };
+            let evaluated = link.element.evaluate(&at, committed, own, &mut None, &mut response);
+            evaluated.map_err(SolveError::of(&link.name))?;
+            let category = if link.element.rigid() { Category::RigidConnectors } else { Category::FlexConnectors };
+            for (i, end) in link.ends.iter().enumerate() {
+                let Attachment::Body(body, _) = end else { continue };
+                let own = arm(end, poses);
+                let (Some(wrench), Some(block)) = (response.wrench.get(i), response.stiffness.get(3 * i)) else {
+                    continue;
+                };
+                let stiffness = transferred(block, own, own) + turning(wrench, own);
+                let load = Load { wrench: carried(wrench, own), stiffness };
+                list.push(Contribution { body: *body, connector: Some(link.name.clone()), category, load });
+            }
+        }
+        Ok(list)
+    }
+
+    /// Whether a connector was made for the place of its ends, so that the system is to be made anew where it comes to rest.
+    pub fn made_for_place(&self) -> bool {
+        self.links.iter().any(|l| l.element.made_for_place())
+    }
+
+    /// The mass matrix of all bodies about their origins in these poses, global axes, six a body (kg, kg m, kg m2), with
+    /// added mass.
+    pub fn mass_matrix(&self, poses: &[Pose]) -> DMatrix<f64> {
+        let size = 6 * self.nodes.len();
+        let mut matrix = DMatrix::zeros(size, size);
+        for (index, (node, pose)) in self.nodes.iter().zip(poses).enumerate() {
+            let block = mass_block(&node.floating.mass, pose) + node.floating.added(pose);
+            matrix.fixed_view_mut::<6, 6>(6 * index, 6 * index).copy_from(&block);
+        }
+        matrix
+    }
+
+    /// Puts the bodies of a model where a state has them, remembering where they were.
+    pub fn place(&self, state: &State, model: &mut Model) {
+        let before: Vec<_> = model.bodies.values().map(|b| b.place).collect();
+        for (body, place) in model.bodies.values_mut().zip(before) {
+            body.previous = place;
+        }
+        for (node, pose) in self.nodes.iter().zip(&state.poses) {
+            if let Some(body) = model.bodies.get_mut(&node.key) {
+                body.place = pose.place(&body.place);
+            }
+        }
+    }
+}
+
+/// What the ends of a connector are fixed to.
+fn attachments(model: &Model, connector: &Connector) -> [Attachment; 2] {
+    let poses = model.end_poses(connector);
+    let on_body = |i: usize| {
+        let point = connector.points.get(i).and_then(|name| model.points.get(&Model::key(name)))?;
+        let body = model.body_of(point)?;
+        let index = model.bodies.get_index_of(&Model::key(&body.name))?;
+        let at = poses.get(i)?.origin;
+        Some(Attachment::Body(index, Pose::of(&body.place).local(at)))
+    };
+    let [first, second] = poses;
+    [on_body(0).unwrap_or(Attachment::Ground(first)), on_body(1).unwrap_or(Attachment::Ground(second))]
+}
+
+fn pose_of(end: &Attachment, poses: &[Pose]) -> Pose {
+    match end {
+        Attachment::Ground(pose) => *pose,
+        Attachment::Body(index, at) => {
+            let body = poses.get(*index).copied().unwrap_or_default();
+            Pose { origin: body.point(*at), axes: body.axes }
+        }
+    }
+}
+
+/// From the body's origin to the end (m, global).
+fn arm(end: &Attachment, poses: &[Pose]) -> Vector3<f64> {
+    match end {
+        Attachment::Ground(_) => Vector3::zeros(),
+        Attachment::Body(index, at) => poses.get(*index).map_or(Matrix3::identity(), |p| p.axes) * at,
+    }
+}
+
+/// A wrench about a point as one about the origin that `arm` leads from.
+fn carried(wrench: &Six, arm: Vector3<f64>) -> Six {
+    let force = Vector3::new(wrench[0], wrench[1], wrench[2]);
+    let moment = arm.cross(&force);
+    let mut carried = *wrench;
+    carried[3] += moment.x;
+    carried[4] += moment.y;
+    carried[5] += moment.z;
+    carried
+}
+
+/// A stiffness block between two ends as one between the origins of their bodies, for a wrench that keeps its arm.
+fn transferred(block: &Matrix6<f64>, row: Vector3<f64>, column: Vector3<f64>) -> Matrix6<f64> {
+    let mut moved = *block;
+    // the far end moves by turn x arm: columns
+    let far = column.cross_matrix();
+    for rows in [0, 3] {
+        let force = block.fixed_view::<3, 3>(rows, 0) * far;
+        let mut at = moved.fixed_view_mut::<3, 3>(rows, 3);
+        at -= force;
+    }
+    // moment about the origin: rows
+    let near = row.cross_matrix();
+    for columns in [0, 3] {
+        let moment = near * moved.fixed_view::<3, 3>(0, columns);
+        let mut at = moved.fixed_view_mut::<3, 3>(3, columns);
+        at += moment;
+    }
+    moved
+}
+
+/// What an arm that turns with its body adds: -d(arm x force)/d(turn).
+fn turning(wrench: &Six, arm: Vector3<f64>) -> Matrix6<f64> {
+    let force = Vector3::new(wrench[0], wrench[1], wrench[2]);
+    Load::constant(force, arm).stiffness
+}
+
+fn mass_block(mass: &Mass, pose: &Pose) -> Matrix6<f64> {
+    let mut block = Matrix6::zeros();
+    let arm = (pose.axes * mass.centre).cross_matrix() * mass.mass;
+    block.fixed_view_mut::<3, 3>(0, 0).copy_from(&(Matrix3::identity() * mass.mass));
+    block.fixed_view_mut::<3, 3>(0, 3).copy_from(&-arm);
+    block.fixed_view_mut::<3, 3>(3, 0).copy_from(&arm);
+    block.fixed_view_mut::<3, 3>(3, 3).copy_from(&(pose.axes * mass.inertia * pose.axes.transpose()));
+    block
+}

@@ -1,0 +1,144 @@
+//! What engines found, as tables.
+
+use super::modes::modes;
+use super::settle::Settled;
+use super::system::{Contribution, FREEDOMS, SolveError, State, System};
+use crate::hydro::Category;
+use crate::language::units::Dim;
+use crate::model::{Model, Six};
+use crate::table::{Cell, Digits, Table};
+
+const COMPONENTS: [&str; 6] = ["FX", "FY", "FZ", "MX", "MY", "MZ"];
+
+fn with_components(mut table: Table) -> Table {
+    for (index, name) in COMPONENTS.into_iter().enumerate() {
+        let (group, dim) = if index < 3 { ("Force", Dim::Force) } else { ("Moment", Dim::Moment) };
+        table = table.column(group, name, dim, Digits::Usual);
+    }
+    table
+}
+
+fn push(table: &mut Table, row: Vec<Cell>) {
+    let fits = table.push(row);
+    debug_assert!(fits.is_ok(), "a row must fit its table");
+}
+
+/// Where the bodies are at rest, and what is left on them.
+pub fn rest(model: &Model, settled: &Settled) -> Table {
+    let mut table = Table::new("Equilibrium")
+        .fact("Steps", settled.found.steps, Dim::None)
+        .fact("Evaluations", settled.found.evaluations, Dim::None)
+        .column("", "Body", Dim::None, Digits::Usual);
+    for name in ["X", "Y", "Z"] {
+        table = table.column("Location", name, Dim::Length, Digits::Usual);
+    }
+    for name in ["Roll", "Pitch", "Yaw"] {
+        table = table.column("Rotation", name, Dim::Angle, Digits::Usual);
+    }
+    for (name, dim) in [("Force", Dim::Force), ("Moment", Dim::Moment), ("Accel/g", Dim::None)] {
+        table = table.column("Left", name, dim, Digits::Scientific(2));
+    }
+    for (index, node) in settled.system.nodes.iter().enumerate() {
+        let Some(body) = model.bodies.get(&node.key) else { continue };
+        let left = settled.state.residual.rows(6 * index, 6);
+        let moving = |from: usize| {
+            let held = left.iter().zip(node.free).skip(from).take(3).filter(|(_, free)| *free);
+            held.fold(0.0_f64, |sum, (v, _)| sum.hypot(*v))
+        };
+        let mass = node.floating.mass.mass;
+        let share = if mass > 0.0 { Cell::from(moving(0) / (mass * settled.system.gravity)) } else { Cell::Missing };
+        let mut row = vec![Cell::from(node.name.as_str())];
+        row.extend(body.place.values().map(Cell::Number));
+        row.extend([moving(0).into(), moving(3).into(), share]);
+        push(&mut table, row);
+    }
+    for (body, freedom) in &settled.found.loose {
+        table.note(format!("warning: nothing holds {body} in {freedom}: its place there is where it was"));
+    }
+    table
+}
+
+/// The forces on each body by category, about its origin, global axes.
+///
+/// # Errors
+/// A connector that cannot be evaluated.
+pub fn by_category(system: &System, state: &State) -> Result<Table, SolveError> {
+    let all = system.contributions(&state.poses)?;
+    let table =
+        Table::new("Forces on Bodies by Category").fact("Moments About", "the origins of the bodies", Dim::None);
+    let mut table = with_components(table.column("", "Body", Dim::None, Digits::Usual).column(
+        "",
+        "Category",
+        Dim::None,
+        Digits::Usual,
+    ));
+    for (body, node) in system.nodes.iter().enumerate() {
+        let mut total = Six::zeros();
+        for category in Category::ALL {
+            let of = |c: &&Contribution| c.body == body && c.category == category;
+            let mut any = false;
+            let sum = all.iter().filter(of).fold(Six::zeros(), |sum, c| {
+                any = true;
+                sum + c.load.wrench
+            });
+            if any {
+                total += sum;
+                push(&mut table, wrench_row(&node.name, category.name(), &sum));
+            }
+        }
+        push(&mut table, wrench_row(&node.name, "TOTAL", &total));
+    }
+    Ok(table)
+}
+
+fn wrench_row(body: &str, what: &str, wrench: &Six) -> Vec<Cell> {
+    let mut row = vec![Cell::from(body), Cell::from(what)];
+    row.extend(wrench.iter().map(|v| Cell::Number(*v)));
+    row
+}
+
+/// Eigenvalues of the stiffness against the mass, and natural periods.
+pub fn periods(system: &System, state: &State) -> Table {
+    let mut table = Table::new("Natural Periods")
+        .column("", "Mode", Dim::None, Digits::Usual)
+        .column("", "Eigenvalue", Dim::None, Digits::Scientific(5))
+        .column("", "Period", Dim::Time, Digits::Usual)
+        .column("Moves Most", "Body", Dim::None, Digits::Usual)
+        .column("Moves Most", "Freedom", Dim::None, Digits::Usual);
+    for (index, mode) in modes(system, state).into_iter().enumerate() {
+        // a period of 17 hours holds nothing
+        let held = mode.eigenvalue.abs() > 1e-8;
+        let period = mode.period.filter(|_| held);
+        if held && mode.eigenvalue < 0.0 {
+            let (body, freedom) = &mode.most;
+            table.note(format!("warning: not stable: mode {} moves {body} in {freedom}", index + 1));
+        }
+        push(
+            &mut table,
+            vec![(index + 1).into(), mode.eigenvalue.into(), period.into(), mode.most.0.into(), mode.most.1.into()],
+        );
+    }
+    table.note("eigenvalues in rad2/s2, of the stiffness against mass and added mass; undamped");
+    table
+}
+
+/// A six by six stiffness: rows are forces, columns motions.
+pub fn stiffness(title: &str, matrix: &nalgebra::Matrix6<f64>) -> Vec<Table> {
+    let mut forces = Table::new(format!("{title}: Forces")).column("", "Force", Dim::None, Digits::Usual);
+    let mut moments = Table::new(format!("{title}: Moments")).column("", "Moment", Dim::None, Digits::Usual);
+    for (index, name) in FREEDOMS.into_iter().enumerate() {
+        let (group, force, moment) = if index < 3 {
+            ("Translation", Dim::ForcePerLength, Dim::Force)
+        } else {
+            ("Rotation", Dim::Force, Dim::MomentPerRadian)
+        };
+        forces = forces.column(group, name, force, Digits::Scientific(6));
+        moments = moments.column(group, name, moment, Digits::Scientific(6));
+    }
+    for (row, name) in COMPONENTS.into_iter().enumerate() {
+        let mut cells = vec![Cell::from(name)];
+        cells.extend(matrix.row(row).iter().map(|v| Cell::Number(*v)));
+        push(if row < 3 { &mut forces } else { &mut moments }, cells);
+    }
+    vec![forces, moments]
+}

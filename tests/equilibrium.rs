@@ -1,0 +1,112 @@
+//! Equilibrium against numbers that can be derived by hand.
+
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use windlass::language::source::Span;
+use windlass::model::{Model, Weight};
+use windlass::session::Session;
+use windlass::solve::{Options, SolveError, System, modes, settle};
+
+/// The model that records make, in metres and newtons; each `weights` is one of the body's own part.
+fn model(records: &str, weights: &[(&str, [f64; 3], f64, [f64; 3])]) -> Model {
+    let (mut session, screen, _folder): (Session, _, _) = common::session();
+    session.open("records", format!("&DIMEN -DIMEN METERS N\n{records}\n"));
+    session.run();
+    assert!(
+        session.reports.iter().all(|r| r.severity != windlass::language::diagnostic::Severity::Error),
+        "{}",
+        screen.text()
+    );
+    let mut model = session.job.model.clone();
+    for (part, at, weight, radii) in weights {
+        let made = Weight { at: *at, weight: *weight, radii: *radii, span: Span::default() };
+        model.parts.get_mut(*part).unwrap().weights.push(made);
+    }
+    model
+}
+
+const HUNG: &str = "MEDIT\n*A 0 0 0\n&DESCRIBE BODY LOAD\n*HOOK 0 0 2\n~TIE SL_ELEM 50 TENSION -LEN 10\n\
+                    CONNECTOR T ~TIE *HOOK *A\nEND\n&INSTATE -LOCATE LOAD 3 1 -11 10 5 0";
+
+fn z_of(model: &Model, body: &str) -> [f64; 6] {
+    model.bodies.get(body).unwrap().place.values()
+}
+
+#[test]
+fn a_weight_on_a_spring_hangs_below_it_stretched_by_its_weight() {
+    let mut model = model(HUNG, &[("LOAD", [0.0, 0.0, 0.0], 1e5, [1.0, 1.0, 1.0])]);
+    let found = settle(&mut model, &Options::default()).unwrap();
+    let ea = 29000.0 * 6894757.293168361 * std::f64::consts::FRAC_PI_4 * 0.05 * 0.05;
+    let want = [0.0, 0.0, -10.0 * (1.0 + 1e5 / ea) - 2.0, 0.0, 0.0];
+    for (got, want) in z_of(&model, "LOAD").iter().zip(want) {
+        assert!((got - want).abs() < 1e-8, "{got} {want} {:?}", found.found);
+    }
+    assert!(found.found.measure < 1e-10, "{:?}", found.found);
+    assert_eq!(found.found.loose, [("LOAD".to_string(), "RZ".to_string())]);
+}
+
+#[test]
+fn its_periods_are_those_of_a_spring_and_of_a_double_pendulum() {
+    let mut model = model(HUNG, &[("LOAD", [0.0, 0.0, 0.0], 1e5, [1.0, 1.0, 1.0])]);
+    let found = settle(&mut model, &Options::default()).unwrap();
+    let list = modes(&found.system, &found.state);
+    let ea = 29000.0 * 6894757.293168361 * std::f64::consts::FRAC_PI_4 * 0.05 * 0.05;
+    let (g, m) = (9.80665, 1e5 / 9.80665);
+    let heave = ea / 10.0 / m;
+    assert!((list.last().unwrap().eigenvalue / heave - 1.0).abs() < 1e-9, "{list:?}");
+    // a body of radius of gyration k hung at b below a string of length l: w4 l k2 - w2 g (k2 + b2 + b l) + g2 b = 0
+    let (l, b, k2): (f64, f64, f64) = (10.0 * (1.0 + 1e5 / ea), 2.0, 1.0);
+    let (p, q) = (g * (k2 + b * b + b * l), g * g * b);
+    let root = (p * p - 4.0 * l * k2 * q).sqrt();
+    for (index, want) in
+        [(1, (p - root) / (2.0 * l * k2)), (2, (p - root) / (2.0 * l * k2)), (3, (p + root) / (2.0 * l * k2))]
+    {
+        assert!((list[index].eigenvalue / want - 1.0).abs() < 1e-6, "{index} {want} {list:?}");
+    }
+}
+
+#[test]
+fn the_stiffness_of_the_system_is_the_difference_of_its_forces() {
+    let records = "&ENV -DEPTH 200\nMEDIT\n&DESCRIBE BODY A\n*A1 10 5 -2\n*A2 -10 4 3\n&DESCRIBE BODY B\n*B1 0 -6 1\n*B2 3 3 3\n\
+                   ~C B_CAT 100 EXACT -LEN 300 -BUOY 0 -WTPL 900 -CLUMP 2E4\n~C B_CAT 80 -LEN 200 -BUOY 0 -WTPL 500\n\
+                   ~S B_CAT 100 EXACT -LEN 400 -BUOY 0 -WTPL 900\n\
+                   ~H H_CAT 100 EXACT -LEN 60 -WTPL 700\n~T SL_ELEM 50 -LEN 40\n\
+                   CONNECTOR C1 -ANC 10 420 ~C *A1\nCONNECTOR S1 -ANC 160 330 ~S *A2\nEND\n\
+                   &INSTATE -LOCATE A 0 0 0 10 -20 35 -LOCATE B 20 50 4 -15 30 100\nMEDIT\n\
+                   CONNECTOR H1 ~H *A1 *B1\nCONNECTOR T1 ~T *A2 *B2\nEND";
+    let weights = [("A", [0.0, 1.0, 3.0], 1e6, [5.0, 5.0, 5.0]), ("B", [2.0, 1.0, 0.0], 1e6, [5.0, 5.0, 5.0])];
+    let model = model(records, &weights);
+    let system = System::of(&model, &[]).unwrap();
+    let mut state = system.state(&model);
+    system.evaluate(&mut state).unwrap();
+    let start = state.poses.clone();
+    let stiffness = state.stiffness.clone();
+    let scale = stiffness.amax();
+    for column in 0..12 {
+        let mut sides = [1.0, -1.0].map(|sign| {
+            let mut motion = windlass::model::Six::zeros();
+            motion[column % 6] = sign * 1e-5;
+            state.poses = start.clone();
+            state.poses[column / 6] = start[column / 6].moved(&motion);
+            system.evaluate(&mut state).unwrap();
+            state.residual.clone()
+        });
+        let [plus, minus] = &mut sides;
+        for row in 0..12 {
+            let slope = -(plus[row] - minus[row]) / 2e-5;
+            let got = stiffness[(row, column)];
+            assert!((slope - got).abs() < 2e-7 * scale, "[{row}][{column}]: {got} is not {slope}");
+        }
+    }
+}
+
+#[test]
+fn a_weight_that_nothing_holds_is_refused_with_its_name_and_direction() {
+    let records = "MEDIT\n&DESCRIBE BODY LOAD\n*HOOK 0 0 2\nEND";
+    let mut model = model(records, &[("LOAD", [0.0, 0.0, 0.0], 1e5, [1.0, 1.0, 1.0])]);
+    let SolveError { who, error } = settle(&mut model, &Options::default()).unwrap_err();
+    assert_eq!(who.as_deref(), Some("LOAD"));
+    assert!(error.message.contains("nothing holds it in Z") && error.message.contains("WEIGHT"), "{error}");
+}
