@@ -217,7 +217,7 @@ impl Element for LineElement {
 
     fn summary(&self, at: &Situation, _committed: &[f64]) -> Result<Summary, ClassError> {
         let loads = match &self.solver {
-            Solver::Table { rows, forces } => self.moved(at.ends).from_table(rows, forces)?,
+            Solver::Table { rows, forces } => self.moved(at.ends).by_table(rows, forces)?,
             _ => self.moved(at.ends).exact_loads()?,
         };
         Ok(Summary {

@@ -38,14 +38,14 @@ impl Mooring {
     /// A line for which no table could be made.
     pub fn tabled_loads(&self) -> Result<LineLoads, ClassError> {
         let rows = self.rows()?;
-        self.from_table(&rows, &Interpolated::new(&rows))
+        self.by_table(&rows, &Interpolated::new(&rows))
     }
 
     /// The same from a table that is there.
     ///
     /// # Errors
     /// No exact solution, nearer than the first row.
-    pub(super) fn from_table(&self, rows: &[Row], forces: &Interpolated) -> Result<LineLoads, ClassError> {
+    pub(super) fn by_table(&self, rows: &[Row], forces: &Interpolated) -> Result<LineLoads, ClassError> {
         let (distance, along) = self.placed()?;
         if rows.first().is_some_and(|first| distance < first.state.x) {
             let mut loads = self.exact_loads()?;
