@@ -271,6 +271,7 @@ fn exactly_the_classes_that_make_lines_say_so() {
             fairlead: [0.0; 3],
             other: Some([9.0, 0.0, -9.0]),
             to_ground: false,
+            anchored: false,
             first_length: None,
             series: None,
         };

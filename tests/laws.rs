@@ -57,7 +57,8 @@ impl Bench {
 
     fn loads(&self, fairlead: [f64; 3], other: [f64; 3], to_ground: bool) -> LineLoads {
         let model = &self.0.job.model;
-        let place = Placement { fairlead, other: Some(other), to_ground, first_length: None, series: None };
+        let anchored = to_ground;
+        let place = Placement { fairlead, other: Some(other), to_ground, anchored, first_length: None, series: None };
         let class = model.classes.values().next_back().unwrap();
         class.object.line(&place, &model.surroundings()).unwrap().loads().unwrap()
     }

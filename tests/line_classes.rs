@@ -18,7 +18,7 @@ fn session(records: &str) -> Session {
 }
 
 fn place(fairlead: [f64; 3], other: [f64; 3], to_ground: bool) -> Placement {
-    Placement { fairlead, other: Some(other), to_ground, first_length: None, series: None }
+    Placement { fairlead, other: Some(other), to_ground, anchored: to_ground, first_length: None, series: None }
 }
 
 fn with<T>(records: &str, place: Placement, ask: impl Fn(&dyn LineModel) -> T) -> T {

@@ -102,11 +102,11 @@ fn describe(job: &mut Job, call: &Call) -> Outcome<Effect> {
                 .help("&INSTATE -LOCATE places a body"));
         }
         if !model.bodies.contains_key(&key) {
-            if model.bodies.len() >= MOST_BODIES {
+            if model.bodies.values().filter(|b| b.junction.is_none()).count() >= MOST_BODIES {
                 return Err(Diagnostic::error(format!("a model has at most {MOST_BODIES} bodies"), span));
             }
             let place = Place::default();
-            let body = Body { name: name.clone(), place, previous: place, ignored: Vec::new(), span };
+            let body = Body { name: name.clone(), place, previous: place, ignored: Vec::new(), junction: None, span };
             model.bodies.insert(key.clone(), body);
             model
                 .parts

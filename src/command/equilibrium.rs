@@ -113,7 +113,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         );
     }
     let settled = settle(&mut job.model, &options).map_err(|e| told(e, &job.model, call.args.span, job.units))?;
-    let forces = tables::by_category(&settled.system, &settled.state)
+    let forces = tables::by_category(&settled.system, &settled.state, &|_| true)
         .map_err(|e| told(e, &job.model, call.args.span, job.units))?;
     job.equilibrium = Options { ignored: Vec::new(), ..options };
     let list = [tables::rest(&job.model, &settled), forces, tables::periods(&settled.system, &settled.state)];

@@ -3,11 +3,21 @@
 use super::chosen::{WARNING, gathered};
 use super::status::push;
 use crate::language::units::{Dim, UnitSystem};
-use crate::model::{ClassError, Connector, LineLoads, Model};
+use crate::model::{ClassError, Connector, End, Model, Response, Situation, Summary};
 use crate::table::{Cell, Digits, Table};
 
-/// One row a connector. Those that are inactive, of a class that makes no line, or without a solution have no forces.
-pub fn forces(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem) -> Table {
+/// What one connector does between its ends.
+struct Found {
+    /// Force on the first end, and on the other (N, global).
+    forces: [[f64; 3]; 2],
+    /// Horizontal distance between the ends (m).
+    distance: f64,
+    summary: Summary,
+}
+
+/// One row a connector, and a second table with the springs of those that have some. Those that are inactive or without a
+/// solution have no forces.
+pub fn forces(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem) -> Vec<Table> {
     let mut table = Table::new("Connector Forces")
         .column("", "Name", Dim::None, Digits::Usual)
         .column("", "Class", Dim::None, Digits::Usual)
@@ -23,20 +33,15 @@ pub fn forces(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem) -> 
         .column("Anchor", "V. Pull", Dim::Force, Digits::Usual)
         .column("Anchor", "H. Pull", Dim::Force, Digits::Usual)
         .column("On Bottom", "Unstretched", Dim::Length, Digits::Usual);
-    let (mut notes, mut others): (Vec<(String, Vec<String>)>, Vec<String>) = (Vec::new(), Vec::new());
+    let mut notes: Vec<(String, Vec<String>)> = Vec::new();
+    let mut springs = spring_table();
     for connector in model.connectors.values().filter(|c| fits(&c.name)) {
-        let class = model.classes.get(&Model::key(&connector.class));
-        let line = class.is_some_and(|c| c.object.is_line());
-        let (solution, loads) = match (connector.active, line) {
-            (false, _) => ("inactive", None),
-            (true, false) => {
-                others.extend(class.map(|c| format!("{} ({})", connector.name, c.object.kind())));
-                ("no line", None)
-            }
-            (true, true) => match loads(model, connector) {
-                Ok(mut loads) => {
-                    notes.push((connector.name.clone(), std::mem::take(&mut loads.notes)));
-                    (loads.solution, Some(loads))
+        let (solution, found) = match connector.active {
+            false => ("inactive", None),
+            true => match found(model, connector) {
+                Ok(mut found) => {
+                    notes.push((connector.name.clone(), std::mem::take(&mut found.summary.notes)));
+                    (found.summary.solution, Some(found))
                 }
                 Err(error) => {
                     notes.push((connector.name.clone(), vec![format!("{WARNING}{}", error.text(units))]));
@@ -44,40 +49,76 @@ pub fn forces(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem) -> 
                 }
             },
         };
+        if let Some(found) = &found {
+            spring_rows(&mut springs, connector, &found.summary);
+        }
         let mut row: Vec<Cell> = vec![connector.name.as_str().into(), connector.class.as_str().into(), solution.into()];
-        row.extend(numbers(loads.as_ref(), model.placement(connector).span().1));
+        row.extend(numbers(found.as_ref()));
         push(&mut table, row);
     }
     table.notes = gathered(&notes);
-    if !others.is_empty() {
-        table.note(format!(
-            "classes of these types make no line yet, and their forces are not computed: {}",
-            others.join(", ")
-        ));
-    }
-    table
+    let springs = Some(springs).filter(|s| s.rows() > 0);
+    std::iter::once(table).chain(springs).collect()
 }
 
-fn loads(model: &Model, connector: &Connector) -> Result<LineLoads, ClassError> {
-    let class = model.classes.get(&Model::key(&connector.class));
-    let class = class.ok_or_else(|| ClassError::new(format!("there is no class {}", connector.class)))?;
-    class.object.line(&model.placement(connector), &model.surroundings())?.loads()
+fn found(model: &Model, connector: &Connector) -> Result<Found, ClassError> {
+    let element = model.element(connector)?;
+    let ends = model.end_poses(connector).map(End::still);
+    let mut committed = vec![0.0; element.states()];
+    element.start(&mut committed);
+    let surroundings = model.surroundings();
+    let at = Situation { ends: &ends, step: None, surroundings: &surroundings };
+    let (mut out, mut trial) = (Response::default(), committed.clone());
+    element.evaluate(&at, &committed, &mut trial, &mut None, &mut out)?;
+    let force = |i: usize| out.wrench.get(i).map_or([0.0; 3], |w| [w[0], w[1], w[2]]);
+    let [first, second] = ends.map(|e| e.pose.origin);
+    let distance = (second - first).xy().norm();
+    Ok(Found { forces: [force(0), force(1)], distance, summary: element.summary(&at, &committed)? })
 }
 
-/// The ten numbers of a row; `along` is the direction from the first end to the other.
-fn numbers(loads: Option<&LineLoads>, along: [f64; 2]) -> [Cell; 10] {
-    let Some(loads) = loads else { return [const { Cell::Missing }; 10] };
-    let ([fx, fy, fz], [horizontal, vertical]) = (loads.fairlead, loads.anchor(along));
+/// The ten numbers of a row.
+fn numbers(found: Option<&Found>) -> [Cell; 10] {
+    let Some(Found { forces, distance, summary }) = found else { return [const { Cell::Missing }; 10] };
+    let [[fx, fy, fz], [ax, ay, az]] = *forces;
+    let line = |value: f64| if summary.tension.is_some() { Cell::from(value) } else { Cell::Missing };
     [
-        loads.distance.into(),
+        (*distance).into(),
         fx.into(),
         fy.into(),
         fz.into(),
-        loads.tension.into(),
-        loads.ratio.into(),
-        loads.critical.into(),
-        vertical.into(),
-        horizontal.into(),
-        loads.grounded.into(),
+        summary.tension.into(),
+        summary.ratio.into(),
+        summary.critical.into(),
+        // no pull is zero without a sign
+        line(az + 0.0),
+        line(ax.hypot(ay)),
+        summary.grounded.into(),
     ]
+}
+
+fn spring_table() -> Table {
+    Table::new("Springs of Connectors")
+        .column("", "Name", Dim::None, Digits::Usual)
+        .column("", "DF", Dim::None, Digits::Usual)
+        .column("Translation", "Deflection", Dim::Length, Digits::Decimals(4))
+        .column("Translation", "Force", Dim::Force, Digits::Usual)
+        .column("Translation", "Allowable", Dim::Force, Digits::Usual)
+        .column("Rotation", "Angle", Dim::Angle, Digits::Decimals(4))
+        .column("Rotation", "Moment", Dim::Moment, Digits::Usual)
+        .column("Rotation", "Allow. Moment", Dim::Moment, Digits::Usual)
+        .column("", "Unity", Dim::None, Digits::Decimals(3))
+}
+
+fn spring_rows(table: &mut Table, connector: &Connector, summary: &Summary) {
+    for spring in &summary.springs {
+        let own: [Cell; 3] = [spring.deflection.into(), spring.force.into(), spring.allowable.into()];
+        let none = || [const { Cell::Missing }; 3];
+        let unity = spring.allowable.map(|a| spring.force.abs() / a);
+        let mut row: Vec<Cell> = vec![connector.name.as_str().into(), spring.dof.as_str().into()];
+        let turns = spring.dof.len() > 1;
+        row.extend(if turns { none() } else { own.clone() });
+        row.extend(if turns { own } else { none() });
+        row.push(unity.into());
+        push(table, row);
+    }
 }

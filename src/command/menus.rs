@@ -44,6 +44,10 @@ pub fn opened_by(job: &Job, spec: &CommandSpec, words: &[Word]) -> Option<&'stat
         Opens::Nothing => None,
         Opens::Menu(name) => Some(name),
         Opens::AtMost(name, count) => (words.len() <= count + 1).then_some(name),
+        Opens::WithOption(name, option) => {
+            let given = |w: &Word| w.text.len() >= 3 && option.starts_with(&w.text.to_ascii_uppercase());
+            words.iter().any(given).then_some(name)
+        }
         Opens::UnlessFile(name) => model_file(job).is_none().then_some(name),
     }
 }

@@ -5,6 +5,7 @@
 //! model when it fails.
 
 mod alter;
+mod body_status;
 mod chosen;
 mod class;
 mod conn_design;
@@ -21,6 +22,7 @@ mod forces;
 pub mod functions;
 pub mod help;
 mod job;
+mod junction;
 mod line_types;
 mod lines;
 mod menus;
@@ -114,6 +116,7 @@ pub static COMMANDS: &[&Command] = &[
     &describe::INSTATE,
     &class::CLASS,
     &connector::CONNECTOR,
+    &junction::JUNCTION,
     &names::DELETE,
     &names::RENAME,
     &alter::ALTER,

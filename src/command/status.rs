@@ -6,12 +6,13 @@ use super::environment_table::environments;
 use super::forces::forces;
 use super::offsets::offsets;
 use super::written::{as_written, kind_data, option_as_written};
-use super::{Call, Command, Effect, Job, line_types};
+use super::{Call, Command, Effect, Job, Menu, body_status, line_types};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::{Owner, choose};
-use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
+use crate::language::spec::{CommandSpec, Kind, Noun, Opens, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
 use crate::model::{Class, Coordinates, Model, Thing};
+use crate::report::disposition::Disposition;
 use crate::report::page;
 use crate::report::plot::Chart;
 use crate::table::{Cell, Digits, Table};
@@ -24,6 +25,8 @@ const KINDS: &[(&str, Owner, &str)] = &[
     ("CL_FLEX", Owner::Moses, "flexible connector classes with W/L, AE, break"),
     ("G_CONNECTOR", Owner::Moses, "connector geometry"),
     ("F_CONNECTOR", Owner::Moses, "forces of the connectors between their ends as they are"),
+    ("FORCE", Owner::Moses, "what acts on the bodies where they stand, by category"),
+    ("STIFFNESS", Owner::Ours, "stiffness of bodies and connectors about a point"),
     ("CURVES", Owner::Moses, "curves"),
     ("ENVIRONMENT", Owner::Moses, "the environment in force, or one kept under a name"),
     ("CLASSES", Owner::Ours, "the same as CL_FLEX"),
@@ -45,7 +48,7 @@ static SPEC: CommandSpec = CommandSpec {
         ValueSpec::new(
             "WHAT",
             Kind::Text,
-            "CONFIGURATION, CL_FLEX, G_CONNECTOR, F_CONNECTOR, CURVES, ENVIRONMENT, BODIES, POINTS, LINE_TYPES, ..",
+            "CONFIGURATION, CL_FLEX, G_CONNECTOR, F_CONNECTOR, FORCE, STIFFNESS, CURVES, ENVIRONMENT, BODIES, ..",
         )
         .or("a summary"),
         ValueSpec::new(
@@ -56,15 +59,31 @@ static SPEC: CommandSpec = CommandSpec {
         .or("all"),
     ],
     repeat: 1,
-    options: &[OptionSpec::new("-PLOT", &[], "plots curves"), HARD, BOTH],
-    detail: "CONFIGURATION, CL_FLEX (or CLASSES), G_CONNECTOR, F_CONNECTOR, CURVES, ENVIRONMENT, BODIES, POINTS, DIMENSIONS, DEFAULTS, \
+    opens: Opens::WithOption("DISPOSITION", "-DISPOSE"),
+    options: &[
+        OptionSpec::new("-PLOT", &[], "plots curves"),
+        body_status::ABOUT,
+        OptionSpec::new(
+            "-DISPOSE",
+            &[ValueSpec::new("N", Kind::Integer, "which of its tables").or("1").within(1.0, 1e6)],
+            "opens the disposition menu over a table instead of printing",
+        )
+        .owner(Owner::Ours),
+        HARD,
+        BOTH,
+    ],
+    detail: "CONFIGURATION, CL_FLEX (or CLASSES), G_CONNECTOR, F_CONNECTOR, FORCE, STIFFNESS, CURVES, ENVIRONMENT, BODIES, POINTS, DIMENSIONS, DEFAULTS, \
              SELECTORS; alone it counts what the model holds. ENVIRONMENT alone is the one in force, with a NAME the one kept \
              under it. LINE_TYPES lists the chains and ropes that -TYPE of a line \
              class knows; LINE_TYPES 3 gives their values at a nominal diameter, LINE_TYPES CHAIN_R4 the formulas of one. \
              F_CONNECTOR solves every line between its ends as they are, exactly or from its table as its class says: the \
              force it exerts on its first end in the global system, its tension and the largest share of a segment's break, \
              what its anchor bears (V. Pull upward, H. Pull toward the first end), and the unstretched length on the bottom. \
-             A line without a solution has a row without numbers and a warning that says why.",
+             A line without a solution has a row without numbers and a warning that says why. FORCE sums what acts on each body \
+             where it stands, about its origin. STIFFNESS is the change of these forces with the motion of one body, the others held: \
+             -d(force)/d(translation of the point, rotation in radians) in global axes, about the body's origin or the point of -ABOUT, \
+             taken to move with the body; with names of connectors that of each of them. -DISPOSE takes a table to the disposition menu: \
+             REPORT, VIEW, STORE, PLOT.",
     example: "MEDIT\n*P 0 0 10\n~W B_CAT 4 EXACT -LEN 4000 -DEP 500\nCONNECTOR A -ANC 0 3900 ~W *P\nEND\n&STATUS F_CONNECTOR A\n\
               &STATUS\n&STATUS DEFAULTS\n&STATUS DIMENSIONS\n&STATUS LINE_TYPES 3",
     ..CommandSpec::new("&STATUS", "reports what the model holds")
@@ -83,7 +102,9 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         "CONFIGURATION" => vec![configuration(model, &fits)],
         "CL_FLEX" | "CLASSES" => classes(job, &|class| fits(&class.name)),
         "G_CONNECTOR" => std::iter::once(connectors(model, &fits)).chain(offsets(model, &fits)).collect(),
-        "F_CONNECTOR" => vec![forces(model, &fits, job.units)],
+        "F_CONNECTOR" => forces(model, &fits, job.units),
+        "FORCE" => body_status::forces(job, call, &fits)?,
+        "STIFFNESS" => body_status::stiffness(job, call, &chosen)?,
         "CURVES" => curves(model, &fits),
         "ENVIRONMENT" => environments(job, (!chosen.all()).then_some(&fits)),
         "BODIES" => vec![bodies(model, &fits)],
@@ -95,6 +116,17 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         _ => vec![summary(model)],
     };
     chosen.check(kind, &tables, things(kind))?;
+    if let Some(given) = args.option("-DISPOSE") {
+        let wanted = given.values.first().and_then(|v| v.integer()).unwrap_or(1);
+        let index = usize::try_from(wanted - 1).unwrap_or(0);
+        let Some(table) = tables.get(index).cloned() else {
+            let text = format!("{kind} makes no table {wanted} here: there are {}", tables.len());
+            return Err(Diagnostic::error(text, given.span));
+        };
+        raise(job, &table, args.place(1));
+        job.menus.push(Menu::Disposition(Box::new(Disposition::new(table))));
+        return Ok(Effect::Done);
+    }
     let head = job.page_head();
     let mut text = tables.iter().map(|t| page::render(t, job.units, &head)).collect::<Vec<_>>().join("\n");
     if args.has("-PLOT") && kind == "CURVES" {
@@ -116,7 +148,8 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
 /// The things whose names a kind of &STATUS takes.
 fn things(kind: &str) -> &'static [Thing] {
     match kind {
-        "CONFIGURATION" => &[Thing::Body],
+        "CONFIGURATION" | "FORCE" => &[Thing::Body],
+        "STIFFNESS" => &[Thing::Body, Thing::Connector],
         "BODIES" => &[Thing::Body, Thing::Part],
         "CL_FLEX" | "CLASSES" => &[Thing::Class],
         "G_CONNECTOR" | "F_CONNECTOR" => &[Thing::Connector],

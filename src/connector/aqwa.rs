@@ -266,7 +266,7 @@ impl ConnectorClass for CatenaryClass {
         let joints = self.sections.iter().take(count.saturating_sub(1)).map(joint);
         let places: Vec<Span> = self.sections.iter().map(|s| s.span).collect();
         // ends on a structure see no bottom, an anchor lies on it
-        let floor = place.to_ground.then_some(Floor { elevation: far, slope: 0.0, friction: 0.0 });
+        let floor = place.anchored.then_some(Floor { elevation: far, slope: 0.0, friction: 0.0 });
         let line = Line::new(segments.collect(), joints.collect(), far, surroundings.tide)
             .and_then(|l| l.over(floor))
             .and_then(|l| l.with_laws(self.sections.iter().map(CatenarySection::law).collect()))

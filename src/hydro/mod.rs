@@ -2,6 +2,7 @@
 //!
 //! Each kind of load is one file with a type that implements [`BodyLoad`]; [`Floating`] gathers those of a body.
 
+mod junction;
 mod weight;
 
 use crate::model::{Body, ClassError, Mass, Model, Pose, Six};
@@ -23,6 +24,8 @@ pub enum Category {
     ViscousDrag,
     /// Mean wave drift.
     WaveDrift,
+    /// What the sea bottom carries (ours).
+    Bottom,
     /// Flexible connectors.
     FlexConnectors,
     /// Restraints.
@@ -31,12 +34,13 @@ pub enum Category {
 
 impl Category {
     /// All, in the order of reports.
-    pub const ALL: [Category; 7] = [
+    pub const ALL: [Category; 8] = [
         Category::Weight,
         Category::Buoyancy,
         Category::Wind,
         Category::ViscousDrag,
         Category::WaveDrift,
+        Category::Bottom,
         Category::FlexConnectors,
         Category::RigidConnectors,
     ];
@@ -49,6 +53,7 @@ impl Category {
             Category::Wind => "WIND",
             Category::ViscousDrag => "V_DRAG",
             Category::WaveDrift => "W_DRIFT",
+            Category::Bottom => "BOTTOM",
             Category::FlexConnectors => "FLEX_CONNECTORS",
             Category::RigidConnectors => "RIGID_CONNECTORS",
         }
@@ -78,6 +83,51 @@ impl Load {
         stiffness.fixed_view_mut::<3, 3>(3, 3).copy_from(&(-cross(force) * cross(arm)));
         Load { wrench: Six::new(force.x, force.y, force.z, moment.x, moment.y, moment.z), stiffness }
     }
+}
+
+impl Load {
+    /// The same about another point that moves with the body; `arm` is from the present one to it.
+    pub fn about(&self, arm: Vector3<f64>) -> Self {
+        let stiffness = transferred(&self.stiffness, -arm, -arm) + turning(&self.wrench, -arm);
+        Load { wrench: carried(&self.wrench, -arm), stiffness }
+    }
+}
+
+/// A wrench about a point as one about the origin that `arm` leads from.
+pub fn carried(wrench: &Six, arm: Vector3<f64>) -> Six {
+    let force = Vector3::new(wrench[0], wrench[1], wrench[2]);
+    let moment = arm.cross(&force);
+    let mut carried = *wrench;
+    carried[3] += moment.x;
+    carried[4] += moment.y;
+    carried[5] += moment.z;
+    carried
+}
+
+/// A stiffness block between two points as one between the origins that the arms lead from, for a wrench that keeps its arm.
+pub fn transferred(block: &Matrix6<f64>, row: Vector3<f64>, column: Vector3<f64>) -> Matrix6<f64> {
+    let mut moved = *block;
+    // the far point moves by turn x arm: columns
+    let far = cross(column);
+    for rows in [0, 3] {
+        let force = block.fixed_view::<3, 3>(rows, 0) * far;
+        let mut at = moved.fixed_view_mut::<3, 3>(rows, 3);
+        at -= force;
+    }
+    // moment about the origin: rows
+    let near = cross(row);
+    for columns in [0, 3] {
+        let moment = near * moved.fixed_view::<3, 3>(0, columns);
+        let mut at = moved.fixed_view_mut::<3, 3>(3, columns);
+        at += moment;
+    }
+    moved
+}
+
+/// What an arm that turns with its body adds: -d(arm x force)/d(turn).
+pub fn turning(wrench: &Six, arm: Vector3<f64>) -> Matrix6<f64> {
+    let force = Vector3::new(wrench[0], wrench[1], wrench[2]);
+    Load::constant(force, arm).stiffness
 }
 
 /// The matrix that makes the cross product `a x b` of a vector b.
@@ -118,6 +168,9 @@ impl Floating {
         let mass = Mass::of(model.parts_of(body), gravity);
         let mut loads: Vec<Box<dyn BodyLoad>> = Vec::new();
         loads.extend(weight::of(&mass, gravity));
+        if let Some(junction) = &body.junction {
+            loads.extend(junction::of(junction, &mass, &model.surroundings()));
+        }
         Ok(Floating { mass, added_mass: Matrix6::zeros(), loads })
     }
 

@@ -196,6 +196,8 @@ pub enum Opens {
     Menu(&'static str),
     /// The menu of this name when at most this many words follow the command; with more it is complete in itself.
     AtMost(&'static str, usize),
+    /// The menu of this name when it has this option, in full or not.
+    WithOption(&'static str, &'static str),
     /// The menu of this name, unless a file of the job's gives the menu's records.
     UnlessFile(&'static str),
 }

@@ -18,8 +18,19 @@ pub struct Body {
     pub previous: Place,
     /// Degrees of freedom left out (X Y Z RX RY RZ).
     pub ignored: Vec<String>,
+    /// What it is when it is no rigid body but a point where connectors meet.
+    pub junction: Option<Junction>,
     /// Where it was defined.
     pub span: Span,
+}
+
+/// A point in the sea, or on its bottom, where connectors meet; its weight is that of its part.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Junction {
+    /// Buoyancy when it is all under water (N): that of a sphere in the water of the defaults when it was defined.
+    pub displacement: f64,
+    /// Volume of that sphere (m3).
+    pub volume: f64,
 }
 
 /// A part of a body; every attribute of a body belongs to a part.

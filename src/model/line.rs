@@ -12,8 +12,10 @@ pub struct Placement {
     pub fairlead: Position,
     /// The other end; the elevation of an anchor is its own, else from the depth its class says.
     pub other: Option<Position>,
-    /// Whether the other end is an anchor in the ground.
+    /// Whether the other end is in the ground.
     pub to_ground: bool,
+    /// Whether it is an anchor, and no point.
+    pub anchored: bool,
     /// Length of the first segment in place of the class's (m).
     pub first_length: Option<f64>,
     /// Long-term stiffness of the viscoelastic spring of the class (N/m), where its curve is defined.

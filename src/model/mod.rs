@@ -16,7 +16,7 @@ mod names;
 mod pose;
 mod selector;
 
-pub use body::{Body, GROUND, Mass, Part, Point, Weight};
+pub use body::{Body, GROUND, Junction, Mass, Part, Point, Weight};
 pub use class::{Class, ClassError, ClassRecord, ConnectorClass};
 pub use connector::{Anchor, Connector};
 pub use curve::{Curve, CurveKind};
@@ -127,14 +127,11 @@ impl Model {
     pub fn element(&self, connector: &Connector) -> Result<Box<dyn Element>, ClassError> {
         let class = self.classes.get(&Model::key(&connector.class));
         let class = class.ok_or_else(|| ClassError::new(format!("there is no class {}", connector.class)))?;
-        let on_body = |name: &String| self.points.get(&Model::key(name)).is_some_and(|p| self.body_of(p).is_some());
-        let to_ground = !connector.points.get(1).is_some_and(on_body);
-        let mut placement = self.placement(connector);
-        placement.to_ground = to_ground;
+        let placement = self.placement(connector);
         class.object.element(&Connection {
             connector,
             ends: self.end_poses(connector),
-            to_ground,
+            to_ground: placement.to_ground,
             placement,
             curve: &|name| self.curves.get(&Model::key(name)),
             surroundings: &self.surroundings(),
@@ -147,6 +144,7 @@ impl Model {
         let depth = class.and_then(|c| c.object.anchor_depth(&self.surroundings()));
         let series =
             class.and_then(|c| c.object.series_curve()).and_then(|(name, _)| self.curves.get(&Model::key(name)));
+        let on_body = |name: &String| self.points.get(&Model::key(name)).is_some_and(|p| self.body_of(p).is_some());
         let far = connector.anchor.and_then(|a| {
             let [x, y] = a.at;
             a.elevation.or(depth.map(|d| -d)).map(|z| [x, y, z])
@@ -154,7 +152,8 @@ impl Model {
         Placement {
             fairlead: self.end(connector, 0).unwrap_or_default(),
             other: self.end(connector, 1).or(far),
-            to_ground: connector.points.len() < 2,
+            to_ground: !connector.points.get(1).is_some_and(on_body),
+            anchored: connector.points.len() < 2,
             first_length: connector.first_length,
             series: series.and_then(Curve::long_term_stiffness),
         }

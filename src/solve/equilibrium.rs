@@ -65,7 +65,7 @@ impl Unknowns {
         for (body, node) in system.nodes.iter().enumerate() {
             let own = &node.floating.mass;
             let pull = state.pull.get(body).copied().unwrap_or(0.0) / system.gravity;
-            let mass = if own.mass > 0.0 { own.mass } else { pull.max(1.0) };
+            let mass = if node.junction { own.mass.max(pull).max(1e-3) } else { own.mass };
             let about = own.inertia.trace() / 3.0 - mass * own.centre.norm_squared() * 2.0 / 3.0;
             let radius = if about > 1e-12 * mass { (about / mass).sqrt() } else { 1.0 };
             for (freedom, free) in node.free.iter().enumerate() {
@@ -139,12 +139,22 @@ impl Unknowns {
 /// A place on the way that cannot be evaluated; no equilibrium within the steps: the body and freedom that is left, and
 /// what acts on it most; a direction that nothing holds, with a force in it.
 pub fn equilibrium(system: &System, state: &mut State, options: &Options) -> Result<Equilibrium, SolveError> {
+    for node in &system.nodes {
+        if !node.junction && node.floating.mass.mass <= 0.0 && node.free.contains(&true) {
+            let error = ClassError::new("it has no weight").help(format!(
+                "give it one: #WEIGHT *POINT W KX KY KZ; or leave it out: &DESCRIBE BODY {} -IGNORE X Y Z RX RY RZ",
+                node.name
+            ));
+            return Err(SolveError { who: Some(node.name.clone()), error });
+        }
+    }
     system.evaluate(state)?;
-    let unknowns = Unknowns::of(system, state, options);
     let mut evaluations = 1;
     let mut help = 0.0;
     let mut best = f64::INFINITY;
     for steps in 0..=options.most {
+        // a junction is measured by what pulls at it now
+        let unknowns = Unknowns::of(system, state, options);
         let residual = unknowns.residual(state);
         let (worst, at) = unknowns.worst(&residual, options);
         let settled = worst <= 1.0 && (worst <= POLISH || worst >= 0.5 * best);
@@ -205,6 +215,7 @@ pub fn equilibrium(system: &System, state: &mut State, options: &Options) -> Res
             help = 0.0;
         }
     }
+    let unknowns = Unknowns::of(system, state, options);
     let residual = unknowns.residual(state);
     Err(failure(system, state, &unknowns, unknowns.worst(&residual, options).1, options))
 }

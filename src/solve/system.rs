@@ -1,8 +1,8 @@
 //! The system of bodies and connectors: who hangs on whom, what acts on each body, how that changes with their places.
 
-use crate::hydro::{Category, Floating, Load};
+use crate::hydro::{Category, Floating, Load, carried, transferred, turning};
 use crate::model::{
-    Body, ClassError, Connector, Element, End, Guess, Mass, Model, Pose, Response, Situation, Six, Surroundings,
+    Body, ClassError, Connector, Element, End, Guess, Mass, Model, Pose, Response, Situation, Surroundings,
 };
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Vector3};
 
@@ -38,6 +38,8 @@ pub struct Node {
     pub key: String,
     /// What acts on it besides connectors.
     pub floating: Floating,
+    /// Whether it is a point where connectors meet, which may be without weight.
+    pub junction: bool,
     /// Which of its freedoms move.
     pub free: [bool; 6],
 }
@@ -112,7 +114,7 @@ impl System {
         let node = |(key, body): (&String, &Body)| {
             let floating = Floating::of(model, body).map_err(SolveError::of(&body.name))?;
             let free = FREEDOMS.map(|f| !body.ignored.iter().any(|i| i == f));
-            Ok(Node { name: body.name.clone(), key: key.clone(), floating, free })
+            Ok(Node { name: body.name.clone(), key: key.clone(), floating, junction: body.junction.is_some(), free })
         };
         let nodes = model.bodies.iter().map(node).collect::<Result<Vec<_>, SolveError>>()?;
         let mut states = Vec::new();
@@ -295,43 +297,6 @@ fn arm(end: &Attachment, poses: &[Pose]) -> Vector3<f64> {
         Attachment::Ground(_) => Vector3::zeros(),
         Attachment::Body(index, at) => poses.get(*index).map_or(Matrix3::identity(), |p| p.axes) * at,
     }
-}
-
-/// A wrench about a point as one about the origin that `arm` leads from.
-fn carried(wrench: &Six, arm: Vector3<f64>) -> Six {
-    let force = Vector3::new(wrench[0], wrench[1], wrench[2]);
-    let moment = arm.cross(&force);
-    let mut carried = *wrench;
-    carried[3] += moment.x;
-    carried[4] += moment.y;
-    carried[5] += moment.z;
-    carried
-}
-
-/// A stiffness block between two ends as one between the origins of their bodies, for a wrench that keeps its arm.
-fn transferred(block: &Matrix6<f64>, row: Vector3<f64>, column: Vector3<f64>) -> Matrix6<f64> {
-    let mut moved = *block;
-    // the far end moves by turn x arm: columns
-    let far = column.cross_matrix();
-    for rows in [0, 3] {
-        let force = block.fixed_view::<3, 3>(rows, 0) * far;
-        let mut at = moved.fixed_view_mut::<3, 3>(rows, 3);
-        at -= force;
-    }
-    // moment about the origin: rows
-    let near = row.cross_matrix();
-    for columns in [0, 3] {
-        let moment = near * moved.fixed_view::<3, 3>(0, columns);
-        let mut at = moved.fixed_view_mut::<3, 3>(3, columns);
-        at += moment;
-    }
-    moved
-}
-
-/// What an arm that turns with its body adds: -d(arm x force)/d(turn).
-fn turning(wrench: &Six, arm: Vector3<f64>) -> Matrix6<f64> {
-    let force = Vector3::new(wrench[0], wrench[1], wrench[2]);
-    Load::constant(force, arm).stiffness
 }
 
 fn mass_block(mass: &Mass, pose: &Pose) -> Matrix6<f64> {

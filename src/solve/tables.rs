@@ -5,8 +5,9 @@ use super::settle::Settled;
 use super::system::{Contribution, FREEDOMS, SolveError, State, System};
 use crate::hydro::Category;
 use crate::language::units::Dim;
-use crate::model::{Model, Six};
+use crate::model::{Model, Position, Six};
 use crate::table::{Cell, Digits, Table};
+use nalgebra::{Matrix6, Vector3};
 
 const COMPONENTS: [&str; 6] = ["FX", "FY", "FZ", "MX", "MY", "MZ"];
 
@@ -58,11 +59,11 @@ pub fn rest(model: &Model, settled: &Settled) -> Table {
     table
 }
 
-/// The forces on each body by category, about its origin, global axes.
+/// The forces on each body that fits, by category, about its origin, global axes.
 ///
 /// # Errors
 /// A connector that cannot be evaluated.
-pub fn by_category(system: &System, state: &State) -> Result<Table, SolveError> {
+pub fn by_category(system: &System, state: &State, fits: &dyn Fn(&str) -> bool) -> Result<Table, SolveError> {
     let all = system.contributions(&state.poses)?;
     let table =
         Table::new("Forces on Bodies by Category").fact("Moments About", "the origins of the bodies", Dim::None);
@@ -72,8 +73,8 @@ pub fn by_category(system: &System, state: &State) -> Result<Table, SolveError> 
         Dim::None,
         Digits::Usual,
     ));
-    for (body, node) in system.nodes.iter().enumerate() {
-        let mut total = Six::zeros();
+    for (body, node) in system.nodes.iter().enumerate().filter(|(_, n)| fits(&n.name)) {
+        let (mut total, mut size) = (Six::zeros(), Six::zeros());
         for category in Category::ALL {
             let of = |c: &&Contribution| c.body == body && c.category == category;
             let mut any = false;
@@ -83,12 +84,26 @@ pub fn by_category(system: &System, state: &State) -> Result<Table, SolveError> 
             });
             if any {
                 total += sum;
-                push(&mut table, wrench_row(&node.name, category.name(), &sum));
+                size = size.sup(&sum.abs());
+                push(&mut table, wrench_row(&node.name, category.name(), &without_rounding(&sum, &size)));
             }
         }
-        push(&mut table, wrench_row(&node.name, "TOTAL", &total));
+        push(&mut table, wrench_row(&node.name, "TOTAL", &without_rounding(&total, &size)));
     }
     Ok(table)
+}
+
+/// What is less than rounding leaves of the largest force or moment is nothing.
+fn without_rounding(wrench: &Six, size: &Six) -> Six {
+    let (force, moment) = (size.fixed_rows::<3>(0).amax(), size.fixed_rows::<3>(3).amax());
+    let mut kept = *wrench;
+    for (index, value) in kept.iter_mut().enumerate() {
+        let largest = if index < 3 { force } else { moment };
+        if value.abs() <= 1e-12 * largest {
+            *value = 0.0;
+        }
+    }
+    kept
 }
 
 fn wrench_row(body: &str, what: &str, wrench: &Six) -> Vec<Cell> {
@@ -122,8 +137,43 @@ pub fn periods(system: &System, state: &State) -> Table {
     table
 }
 
+/// The stiffness of the bodies that fit, with all that acts on them, and of each of the connectors named, about a point (m,
+/// global), else about the bodies' origins. A connector between two bodies has one for each.
+///
+/// # Errors
+/// A connector that cannot be evaluated.
+pub fn stiffnesses(
+    system: &System,
+    state: &State,
+    about: Option<Position>,
+    fits: &dyn Fn(&str) -> bool,
+    connectors: &[&str],
+) -> Result<Vec<Table>, SolveError> {
+    let all = system.contributions(&state.poses)?;
+    let mut list = Vec::new();
+    for (body, (node, pose)) in system.nodes.iter().zip(&state.poses).enumerate() {
+        let arm = about.map_or(Vector3::zeros(), |at| Vector3::from(at) - pose.origin);
+        let own = || all.iter().filter(move |c| c.body == body);
+        let point = |table: Table| {
+            let [x, y, z]: Position = (pose.origin + arm).into();
+            let table = table.fact("About X", x, Dim::Length).fact("Y", y, Dim::Length);
+            table.fact("Z", z, Dim::Length)
+        };
+        if fits(&node.name) {
+            let sum = own().fold(Matrix6::zeros(), |sum, c| sum + c.load.about(arm).stiffness);
+            list.extend(stiffness(&format!("Stiffness of {}", node.name), &sum).map(point));
+        }
+        for c in own() {
+            let Some(name) = c.connector.as_deref().filter(|name| connectors.contains(name)) else { continue };
+            let title = format!("Stiffness of {name} on {}", node.name);
+            list.extend(stiffness(&title, &c.load.about(arm).stiffness).map(point));
+        }
+    }
+    Ok(list)
+}
+
 /// A six by six stiffness: rows are forces, columns motions.
-pub fn stiffness(title: &str, matrix: &nalgebra::Matrix6<f64>) -> Vec<Table> {
+fn stiffness(title: &str, matrix: &Matrix6<f64>) -> [Table; 2] {
     let mut forces = Table::new(format!("{title}: Forces")).column("", "Force", Dim::None, Digits::Usual);
     let mut moments = Table::new(format!("{title}: Moments")).column("", "Moment", Dim::None, Digits::Usual);
     for (index, name) in FREEDOMS.into_iter().enumerate() {
@@ -140,5 +190,5 @@ pub fn stiffness(title: &str, matrix: &nalgebra::Matrix6<f64>) -> Vec<Table> {
         cells.extend(matrix.row(row).iter().map(|v| Cell::Number(*v)));
         push(if row < 3 { &mut forces } else { &mut moments }, cells);
     }
-    vec![forces, moments]
+    [forces, moments]
 }

@@ -1,0 +1,47 @@
+//! `&STATUS FORCE` and `&STATUS STIFFNESS`: what acts on the bodies where they stand, and how it changes.
+
+use super::chosen::Chosen;
+use super::equilibrium::told;
+use super::{Call, Job};
+use crate::language::diagnostic::Outcome;
+use crate::language::spec::{Kind, OptionSpec, ValueSpec};
+use crate::language::units::Dim;
+use crate::model::Position;
+use crate::solve::{System, tables};
+use crate::table::Table;
+
+const fn number(name: &'static str) -> ValueSpec {
+    ValueSpec::new(name, Kind::Number(Dim::Length), "global coordinate")
+}
+
+/// `-ABOUT X Y Z` of `&STATUS STIFFNESS`.
+pub const ABOUT: OptionSpec =
+    OptionSpec::new("-ABOUT", &[number("X"), number("Y"), number("Z")], "point of STIFFNESS and its moments")
+        .default("the body's origin");
+
+/// The forces on the bodies by category.
+///
+/// # Errors
+/// A connector or body that cannot be evaluated.
+pub fn forces(job: &Job, call: &Call, fits: &dyn Fn(&str) -> bool) -> Outcome<Vec<Table>> {
+    let wrong = |e| told(e, &job.model, call.args.place(0), job.units);
+    let system = System::of(&job.model, &[]).map_err(wrong)?;
+    let state = system.state(&job.model);
+    Ok(vec![tables::by_category(&system, &state, fits).map_err(wrong)?])
+}
+
+/// The stiffness of the bodies that are named, of all where no connector is named either, and that of each connector named.
+///
+/// # Errors
+/// A connector or body that cannot be evaluated.
+pub fn stiffness(job: &Job, call: &Call, chosen: &Chosen) -> Outcome<Vec<Table>> {
+    let wrong = |e| told(e, &job.model, call.args.place(0), job.units);
+    let about: Option<Position> = call.args.option("-ABOUT").map(|g| [0, 1, 2].map(|i| g.number(i).unwrap_or(0.0)));
+    let system = System::of(&job.model, &[]).map_err(wrong)?;
+    let state = system.state(&job.model);
+    let named = |name: &str| !chosen.all() && chosen.takes(name);
+    let connectors: Vec<&str> =
+        job.model.connectors.values().map(|c| c.name.as_str()).filter(|name| named(name)).collect();
+    let bodies = |name: &str| chosen.takes(name);
+    tables::stiffnesses(&system, &state, about, &bodies, &connectors).map_err(wrong)
+}

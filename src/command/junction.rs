@@ -1,0 +1,92 @@
+//! `JUNCTION`: a point in the sea where lines meet.
+
+use super::{Call, Command, Effect, Job};
+use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::name as rule;
+use crate::language::select::Owner;
+use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
+use crate::language::units::Dim;
+use crate::model::{Body, Junction, Model, Part, Place, Point, Weight};
+
+/// JUNCTION.
+pub static JUNCTION: Command = Command { spec: &SPEC, edits: false, run };
+
+/// Most junctions: a solution takes the cube of their number.
+const MOST: usize = 200;
+
+const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
+    ValueSpec::new(name, Kind::Number(dim), help)
+}
+
+static SPEC: CommandSpec = CommandSpec {
+    owner: Owner::Ours,
+    menus: &["INMODEL", "MEDIT"],
+    data: &[
+        ValueSpec::new("NAME", Kind::Name(Noun::New), "its name"),
+        number("X", Dim::Length, "global X where it begins").or("0"),
+        number("Y", Dim::Length, "global Y").or("0"),
+        number("Z", Dim::Length, "global Z, negative below the surface").or("0"),
+    ],
+    options: &[
+        OptionSpec::new(
+            "-WEIGHT",
+            &[number("W", Dim::Force, "weight in air").not_negative()],
+            "weight of what is there",
+        )
+        .default("0"),
+        OptionSpec::new(
+            "-DISPLACEMENT",
+            &[number("B", Dim::Force, "buoyancy when it is all under water").not_negative()],
+            "a buoy: a sphere of this largest buoyancy",
+        )
+        .default("0"),
+    ],
+    detail: "A point with three freedoms that &EQUI solves with the bodies: the knot of a bridle or a Y-line, a buoy between two \
+             lines, a clump weight where three meet. It makes the point *NAME, which connectors name as any other; lines between it and a \
+             body or another junction are H_CAT, its lines to anchors B_CAT. X Y Z is where the solution begins; &INSTATE moves it by \
+             its NAME. The sea bottom carries it within 10 mm of the depth of &ENV, without friction. The sphere of \
+             -DISPLACEMENT floats with as much of it under water as it needs.",
+    example: "&ENV -DEPTH 100\nMEDIT\n*A 0 0 10\nJUNCTION KNOT 60 0 -60 -WEIGHT 5\n~UP H_CAT 3 EXACT -LEN 95\n~LEG B_CAT 3 EXACT -LEN 250\n\
+              CONNECTOR UP ~UP *A *KNOT\nCONNECTOR L1 -ANC 30 230 ~LEG *KNOT\nCONNECTOR L2 -ANC -30 230 ~LEG *KNOT\nEND\n&EQUI\n&STATUS F_CONNECTOR",
+    ..CommandSpec::new("JUNCTION", "a point in the sea where lines meet")
+};
+
+fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let name = args.word(0).unwrap_or_default();
+    let (key, span) = (Model::key(name), args.place(0));
+    let model = &mut job.model;
+    rule::check(name, None, "junction", span)?;
+    model.free_name(name, &[], span)?;
+    let point = format!("*{name}");
+    if let Some(old) = model.points.get(&Model::key(&point)) {
+        return Err(Diagnostic::error(format!("there is a point {point} already"), span)
+            .other(old.span, "defined here")
+            .help("a junction makes the point of its name"));
+    }
+    if model.bodies.values().filter(|b| b.junction.is_some()).count() >= MOST {
+        return Err(Diagnostic::error(format!("a model has at most {MOST} junctions"), span));
+    }
+    let at = [1, 2, 3].map(|i| args.number(i).unwrap_or(0.0));
+    let [x, y, z] = at;
+    let displacement = args.option_number("-DISPLACEMENT").unwrap_or(0.0);
+    let volume = displacement / (model.defaults.water_density * model.defaults.gravity);
+    let weight = args.option_number("-WEIGHT").unwrap_or(0.0);
+    let weights = if weight > 0.0 { vec![Weight { at: [0.0; 3], weight, radii: [0.0; 3], span }] } else { Vec::new() };
+    let place = Place::new([x, y, z, 0.0, 0.0, 0.0]);
+    let body = Body {
+        name: name.to_string(),
+        place,
+        previous: place,
+        ignored: ["RX", "RY", "RZ"].map(str::to_string).into(),
+        junction: Some(Junction { displacement, volume }),
+        span,
+    };
+    let part = Part { name: name.to_string(), body: name.to_string(), place: Place::default(), weights, span };
+    model.bodies.insert(key.clone(), body);
+    model.parts.insert(key, part);
+    let made = Point { name: point.clone(), part: name.to_string(), at: [0.0; 3], span };
+    model.points.insert(Model::key(&point), made);
+    job.note_name(name, span);
+    Ok(Effect::Done)
+}

@@ -1,0 +1,76 @@
+//! What acts on a point where connectors meet: the buoyancy of a sphere, and the sea bottom.
+
+use super::{BodyLoad, Category, Load};
+use crate::model::{ClassError, Junction, Mass, Pose, Surroundings};
+use std::f64::consts::PI;
+
+/// A sphere about the origin.
+#[derive(Debug)]
+struct Sphere {
+    radius: f64,
+    /// Weight of the water (N/m3) and its level (m).
+    water: f64,
+    level: f64,
+}
+
+/// A bottom that pushes the more the nearer the origin is to it.
+#[derive(Debug)]
+struct Bottom {
+    /// Its elevation (m).
+    elevation: f64,
+    /// Height from which on it pushes (m).
+    reach: f64,
+    /// Force by the square of what is missing of the reach (N/m2).
+    hardness: f64,
+}
+
+/// Height above the bottom from which on it carries a junction (m): small against any line, so that what lies there lies as
+/// good as on it, and above it, where a line to its anchor has an answer.
+const REACH: f64 = 0.01;
+
+/// The loads of a junction besides its weight.
+pub fn of(junction: &Junction, mass: &Mass, around: &Surroundings) -> Vec<Box<dyn BodyLoad>> {
+    let mut list: Vec<Box<dyn BodyLoad>> = Vec::new();
+    if junction.volume > 0.0 {
+        let radius = (0.75 * junction.volume / PI).cbrt();
+        list.push(Box::new(Sphere { radius, water: around.water_weight(), level: around.tide }));
+    }
+    if let Some(depth) = around.depth {
+        // half of the reach carries the weight and a ton of line
+        let carried = mass.mass * around.gravity + 1e4;
+        list.push(Box::new(Bottom { elevation: -depth, reach: REACH, hardness: 4.0 * carried / (REACH * REACH) }));
+    }
+    list
+}
+
+/// A force straight up on the origin, and its decrease by the elevation.
+fn upward(force: f64, stiffness: f64) -> Load {
+    let mut load = Load::none();
+    load.wrench[2] = force;
+    load.stiffness[(2, 2)] = stiffness;
+    load
+}
+
+impl BodyLoad for Sphere {
+    fn category(&self) -> Category {
+        Category::Buoyancy
+    }
+
+    fn load(&self, pose: &Pose) -> Result<Load, ClassError> {
+        let r = self.radius;
+        let h = (self.level - pose.origin.z + r).clamp(0.0, 2.0 * r);
+        let (volume, plane) = (PI * h * h * (3.0 * r - h) / 3.0, PI * h * (2.0 * r - h));
+        Ok(upward(self.water * volume, self.water * plane))
+    }
+}
+
+impl BodyLoad for Bottom {
+    fn category(&self) -> Category {
+        Category::Bottom
+    }
+
+    fn load(&self, pose: &Pose) -> Result<Load, ClassError> {
+        let missing = (self.reach - (pose.origin.z - self.elevation)).max(0.0);
+        Ok(upward(self.hardness * missing * missing, 2.0 * self.hardness * missing))
+    }
+}
