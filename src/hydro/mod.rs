@@ -2,6 +2,7 @@
 //!
 //! Each kind of load is one file with a type that implements [`BodyLoad`]; [`Floating`] gathers those of a body.
 
+pub mod hull;
 mod junction;
 mod weight;
 
