@@ -2,7 +2,19 @@
 //!
 //! Each kind of load is one file with a type that implements [`BodyLoad`]; [`Floating`] gathers those of a body.
 
+pub mod area;
+pub mod coefficients;
+pub mod current;
+pub mod drag;
+pub mod drift;
+mod gathered;
+pub mod heading;
+pub mod plate;
+pub mod spectrum;
+pub mod steady;
+pub mod stream;
 mod weight;
+pub mod wind;
 
 use crate::model::{Body, ClassError, Mass, Model, Pose, Six};
 use nalgebra::{Matrix3, Matrix6, Vector3};
@@ -104,6 +116,10 @@ pub struct Floating {
     pub mass: Mass,
     /// What acts on it.
     pub loads: Vec<Box<dyn BodyLoad>>,
+    /// Added mass about its origin, body axes (kg, kg m, kg m2), of `#AMASS`.
+    pub added_mass: Matrix6<f64>,
+    /// Linear damping about its origin, body axes (N s/m, N s, N m s), of `#DRAG` and `#DAMP`.
+    pub damping: Matrix6<f64>,
 }
 
 impl Floating {
@@ -116,6 +132,8 @@ impl Floating {
         let mass = Mass::of(model.parts_of(body), gravity);
         let mut loads: Vec<Box<dyn BodyLoad>> = Vec::new();
         loads.extend(weight::of(&mass, gravity));
-        Ok(Floating { mass, loads })
+        let gathered = gathered::of(model, body)?;
+        loads.extend(gathered.loads);
+        Ok(Floating { mass, loads, added_mass: gathered.added_mass, damping: gathered.damping })
     }
 }
