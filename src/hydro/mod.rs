@@ -2,9 +2,21 @@
 //!
 //! Each kind of load is one file with a type that implements [`BodyLoad`]; [`Floating`] gathers those of a body.
 
+pub mod area;
+pub mod coefficients;
+pub mod current;
+pub mod drag;
+pub mod drift;
+mod gathered;
+pub mod heading;
 pub mod hull;
 mod junction;
+pub mod plate;
+pub mod spectrum;
+pub mod steady;
+pub mod stream;
 mod weight;
+pub mod wind;
 
 use crate::model::{Body, ClassError, Mass, Model, Pose, Six};
 use nalgebra::{Matrix3, Matrix6, Vector3};
@@ -153,10 +165,12 @@ pub trait BodyLoad: Debug + Send + Sync {
 pub struct Floating {
     /// Its mass.
     pub mass: Mass,
-    /// Added mass about its origin, body axes (kg, kg m, kg m2).
-    pub added_mass: Matrix6<f64>,
     /// What acts on it.
     pub loads: Vec<Box<dyn BodyLoad>>,
+    /// Added mass about its origin, body axes (kg, kg m, kg m2), of `#AMASS`.
+    pub added_mass: Matrix6<f64>,
+    /// Linear damping about its origin, body axes (N s/m, N s, N m s), of `#DRAG` and `#DAMP`.
+    pub damping: Matrix6<f64>,
 }
 
 impl Floating {
@@ -172,7 +186,9 @@ impl Floating {
         if let Some(junction) = &body.junction {
             loads.extend(junction::of(junction, &mass, &model.surroundings()));
         }
-        Ok(Floating { mass, added_mass: Matrix6::zeros(), loads })
+        let gathered = gathered::of(model, body)?;
+        loads.extend(gathered.loads);
+        Ok(Floating { mass, loads, added_mass: gathered.added_mass, damping: gathered.damping })
     }
 
     /// The added mass in a pose, global axes.

@@ -12,6 +12,7 @@ mod element;
 mod environment;
 mod geometry;
 mod line;
+mod load;
 mod names;
 mod pose;
 mod selector;
@@ -25,6 +26,7 @@ pub use element::{Connection, Element, End, Guess, Response, Situation, SpringSt
 pub use environment::{Current, Environment, Sea, Surroundings, TimeWindow, Wind};
 pub use geometry::{Place, Position, unit_vector};
 pub use line::{Condition, Configuration, LineChange, LineLoads, LineModel, Placement};
+pub use load::{Fluid, LoadKind, Multipliers, PartLoad};
 pub use names::Thing;
 pub use pose::{Pose, Six};
 pub use selector::Selector;
@@ -42,6 +44,10 @@ pub struct Model {
     pub parts: IndexMap<String, Part>,
     /// Points; each belongs to a part, or to ground.
     pub points: IndexMap<String, Point>,
+    /// Loads of wind, current and waves on parts, and matrices of drag, damping and added mass.
+    pub loads: Vec<PartLoad>,
+    /// Multipliers of `&APPLY`.
+    pub multipliers: Multipliers,
     /// Classes.
     pub classes: IndexMap<String, Class>,
     /// Connectors.

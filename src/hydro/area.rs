@@ -1,0 +1,76 @@
+//! Wind or current on areas along the axes of a body: `#AREA`, and `-CS_WIND` and `-CS_CURRENT` of a piece.
+//!
+//! Our reading: each value is an area times a shape coefficient along one axis of the body, and the force along it is
+//! `1/2 rho A |w| w` with w the component and |w| the whole speed in body axes, on the point given. In a stream along one axis
+//! this is the drag of that area alone.
+
+use super::steady::{Medium, Steady};
+use super::stream::{Place, Push};
+use super::{BodyLoad, Category, Load};
+use crate::model::{ClassError, Pose, Six};
+use nalgebra::{Matrix6x3, Vector3};
+use std::sync::Arc;
+
+/// Areas in a stream, at a point of a body.
+#[derive(Debug)]
+pub struct AreaLoad {
+    steady: Arc<Steady>,
+    place: Place,
+    /// Columns: directions of the areas in the body; their sizes times shape coefficients (m2).
+    axes: nalgebra::Matrix3<f64>,
+    areas: Vector3<f64>,
+}
+
+impl AreaLoad {
+    /// Wind on areas along the axes of the body (m2, shape coefficient included) at a point of it (m), whatever its height.
+    pub fn wind(steady: Arc<Steady>, areas: [f64; 3], at: Vector3<f64>) -> Self {
+        AreaLoad::new(steady, Place { at, medium: Medium::Air, shared: false }, areas)
+    }
+
+    /// The same for current.
+    pub fn current(steady: Arc<Steady>, areas: [f64; 3], at: Vector3<f64>) -> Self {
+        AreaLoad::new(steady, Place { at, medium: Medium::Water, shared: false }, areas)
+    }
+
+    /// Areas along the axes of the body, at a place.
+    pub fn new(steady: Arc<Steady>, place: Place, areas: [f64; 3]) -> Self {
+        AreaLoad { steady, place, axes: nalgebra::Matrix3::identity(), areas: areas.into() }
+    }
+
+    /// The same areas along other axes: the columns of a matrix, in the body.
+    pub fn along(self, axes: nalgebra::Matrix3<f64>) -> Self {
+        AreaLoad { axes, ..self }
+    }
+
+    fn push(&self, stream: Vector3<f64>) -> Push {
+        let speed = stream.norm();
+        if speed == 0.0 {
+            return Push::none();
+        }
+        let half = 0.5 * self.steady.density(self.place.medium);
+        let tensor = self.axes * nalgebra::Matrix3::from_diagonal(&(self.areas * half)) * self.axes.transpose();
+        let force = tensor * stream * speed;
+        let mut by_velocity = Matrix6x3::zeros();
+        let change = tensor * speed + (tensor * stream) * stream.transpose() / speed;
+        by_velocity.fixed_rows_mut::<3>(0).copy_from(&change);
+        Push { wrench: Six::new(force.x, force.y, force.z, 0.0, 0.0, 0.0), by_velocity }
+    }
+}
+
+/// The category of what a stream exerts.
+pub(super) fn category(medium: Medium) -> Category {
+    match medium {
+        Medium::Air => Category::Wind,
+        Medium::Water => Category::ViscousDrag,
+    }
+}
+
+impl BodyLoad for AreaLoad {
+    fn category(&self) -> Category {
+        category(self.place.medium)
+    }
+
+    fn load(&self, pose: &Pose) -> Result<Load, ClassError> {
+        Ok(self.place.load(&self.steady, pose, |stream| self.push(stream)))
+    }
+}

@@ -1,0 +1,86 @@
+//! `#DRIFT`: mean wave drift from a table of coefficients over the square of the wave amplitude, by period and heading.
+//!
+//! The mean in a sea is `2 * sum of S dw D(w)`, in a regular wave `D a^2` (Faltinsen, Sea Loads on Ships and Offshore
+//! Structures, 1990, section 5). D is straight over frequency between the periods given and constant beyond the first and the
+//! last; spreading of the sea is not regarded. The layout is that of MOSES's report of mean drift forces (reference/solve.md).
+
+use super::heading::ByHeading;
+use super::spectrum::Waves;
+use super::steady::{Medium, Steady};
+use super::stream::{Place, Push};
+use super::{BodyLoad, Category, Load};
+use crate::model::{ClassError, Pose, Six};
+use nalgebra::{Matrix6x3, Vector3};
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+/// Coefficients of one heading: the direction the waves come from in the body (rad); period (s), six coefficients (N/m2, N/m).
+pub type DriftRow = (f64, Vec<(f64, [f64; 6])>);
+
+/// The mean drift of one sea on a body.
+#[derive(Debug)]
+pub struct DriftLoad {
+    steady: Arc<Steady>,
+    at: Vector3<f64>,
+    toward: Vector3<f64>,
+    /// Mean force (N) and moment (N m) by the direction the sea comes from in the body.
+    mean: ByHeading,
+}
+
+impl DriftLoad {
+    /// The mean drift of a sea that travels toward a horizontal direction, about a point of the body (m).
+    ///
+    /// # Errors
+    /// A table whose headings make none; see [`ByHeading::new`].
+    pub fn new(
+        steady: Arc<Steady>,
+        at: Vector3<f64>,
+        (toward, waves): (Vector3<f64>, &Waves),
+        rows: &[DriftRow],
+        symmetric: bool,
+    ) -> Result<Self, ClassError> {
+        let mut means: Vec<(f64, [f64; 6])> = rows.iter().map(|(h, rows)| (*h, mean(waves, rows).into())).collect();
+        means.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Ok(DriftLoad { steady, at, toward, mean: ByHeading::new(&means, symmetric)? })
+    }
+
+    /// The same for a part that stands turned about z by an angle (rad) in its body.
+    pub fn turned(self, angle: f64, axes: impl Fn(Six) -> Six) -> Self {
+        DriftLoad { mean: self.mean.turned(angle, axes), ..self }
+    }
+}
+
+/// The mean over waves of coefficients over the square of the amplitude, by periods that grow.
+pub fn mean(waves: &Waves, rows: &[(f64, [f64; 6])]) -> Six {
+    let by_frequency: Vec<(f64, Six)> = rows.iter().rev().map(|(t, c)| (TAU / t, Six::from(*c))).collect();
+    let at = |w: f64| {
+        let next = by_frequency.partition_point(|r| r.0 <= w);
+        match (next.checked_sub(1).and_then(|i| by_frequency.get(i)), by_frequency.get(next)) {
+            (Some((low, a)), Some((high, b))) => a + (b - a) * ((w - low) / (high - low)),
+            (Some(end), None) | (None, Some(end)) => end.1,
+            (None, None) => Six::zeros(),
+        }
+    };
+    waves.energies.iter().map(|(w, energy)| at(*w) * (2.0 * energy)).sum()
+}
+
+impl BodyLoad for DriftLoad {
+    fn category(&self) -> Category {
+        Category::WaveDrift
+    }
+
+    fn load(&self, pose: &Pose) -> Result<Load, ClassError> {
+        let travel = pose.axes.transpose() * self.toward;
+        let square = travel.x * travel.x + travel.y * travel.y;
+        if square < 1e-12 {
+            return Err(ClassError::new("the drift of waves has no heading: they travel along the body's z axis"));
+        }
+        let (value, slope) = self.mean.at((-travel.y).atan2(-travel.x));
+        let turned = nalgebra::RowVector3::new(-travel.y, travel.x, 0.0) / square;
+        let by_velocity: Matrix6x3<f64> = slope * turned;
+        // a stream of speed one: only its direction counts
+        let place = Place { at: self.at, medium: Medium::Water, shared: false };
+        let push = Push { wrench: value, by_velocity };
+        Ok(place.load_in(&self.steady, pose, (self.toward, Vector3::zeros()), |_| push))
+    }
+}

@@ -1,0 +1,191 @@
+//! The loads of wind, current and waves that records have put on the parts of a body.
+
+use super::area::AreaLoad;
+use super::coefficients::CoefficientLoad;
+use super::drag::{LinearDrag, at_origin, turned};
+use super::drift::{DriftLoad, DriftRow};
+use super::heading::ByHeading;
+use super::plate::PlateLoad;
+use super::steady::{Medium, Steady};
+use super::stream::Place;
+use super::{BodyLoad, Category, Load};
+use crate::model::{Body, ClassError, Fluid, LoadKind, Model, Part, PartLoad, Pose};
+use nalgebra::{Matrix3, Matrix6, Vector3};
+use std::sync::Arc;
+
+/// What records have put on a body.
+#[derive(Debug)]
+pub struct Gathered {
+    /// Its loads in the environment in force.
+    pub loads: Vec<Box<dyn BodyLoad>>,
+    /// Added mass about the origin of the body.
+    pub added_mass: Matrix6<f64>,
+    /// Damping about the origin of the body.
+    pub damping: Matrix6<f64>,
+}
+
+/// A load times its multiplier.
+#[derive(Debug)]
+struct Multiplied {
+    load: Box<dyn BodyLoad>,
+    factor: f64,
+}
+
+impl BodyLoad for Multiplied {
+    fn category(&self) -> Category {
+        self.load.category()
+    }
+
+    fn load(&self, pose: &Pose) -> Result<Load, ClassError> {
+        let load = self.load.load(pose)?;
+        Ok(Load { wrench: load.wrench * self.factor, stiffness: load.stiffness * self.factor })
+    }
+}
+
+/// Where a part stands in its body.
+struct Frame<'a> {
+    part: &'a Part,
+    axes: Matrix3<f64>,
+}
+
+impl Frame<'_> {
+    fn point(&self, load: &PartLoad) -> Vector3<f64> {
+        self.part.place.apply(load.at).into()
+    }
+
+    /// Sees that tables by heading make sense in the body.
+    fn upright(&self, load: &PartLoad) -> Result<(), ClassError> {
+        let [roll, pitch, _] = self.part.place.turn;
+        if roll == 0.0 && pitch == 0.0 {
+            return Ok(());
+        }
+        let text = format!("{} is a table by heading; its part may not be rolled or pitched in its body", load.kind.name());
+        Err(ClassError::new(text).at(load.span))
+    }
+
+    /// Six values in the axes of the part, in those of the body.
+    fn turned(&self, values: [f64; 6]) -> [f64; 6] {
+        let [a, b, c, d, e, f] = values;
+        let (force, moment) = (self.axes * Vector3::new(a, b, c), self.axes * Vector3::new(d, e, f));
+        [force.x, force.y, force.z, moment.x, moment.y, moment.z]
+    }
+}
+
+/// Gathers what is on a body.
+///
+/// # Errors
+/// Loads that make no sense, or an environment that cannot be computed.
+pub fn of(model: &Model, body: &Body) -> Result<Gathered, ClassError> {
+    let mut sum = Gathered { loads: Vec::new(), added_mass: Matrix6::zeros(), damping: Matrix6::zeros() };
+    let drifts = |l: &PartLoad| matches!(l.kind, LoadKind::Drift { .. });
+    let mut around: Option<Arc<Steady>> = None;
+    for part in model.parts_of(body) {
+        let mine: Vec<&PartLoad> =
+            model.loads.iter().filter(|l| Model::key(&l.part) == Model::key(&part.name)).collect();
+        if mine.is_empty() {
+            continue;
+        }
+        let steady = match &around {
+            Some(known) => Arc::clone(known),
+            // a spectrum that cannot be computed matters only where waves push
+            None if model.loads.iter().any(drifts) => Arc::new(Steady::of(model)?),
+            None => Arc::new(Steady::streams(model, &model.environment)?),
+        };
+        around = Some(Arc::clone(&steady));
+        let frame = Frame { part, axes: *part.place.rotation().matrix() };
+        let first = sum.loads.len();
+        for load in &mine {
+            one(&mut sum, &steady, &frame, load)?;
+        }
+        drift(&mut sum, &steady, &frame, &mine)?;
+        let rest = sum.loads.split_off(first);
+        sum.loads.extend(rest.into_iter().map(|load| {
+            let factor = model.multipliers.of(load.category().name(), &part.name);
+            if factor == 1.0 { load } else { Box::new(Multiplied { load, factor }) }
+        }));
+    }
+    Ok(sum)
+}
+
+/// Adds one record but those of drift, of which several make one table.
+fn one(sum: &mut Gathered, steady: &Arc<Steady>, frame: &Frame, load: &PartLoad) -> Result<(), ClassError> {
+    let at = frame.point(load);
+    match &load.kind {
+        LoadKind::Drag(matrix) => {
+            sum.damping += at_origin(matrix, &frame.axes, at);
+            if !steady.still(Medium::Water) {
+                let made = LinearDrag::new(Arc::clone(steady), at, &turned(matrix, &frame.axes));
+                sum.loads.push(Box::new(made));
+            }
+        }
+        LoadKind::Damping(matrix) => sum.damping += at_origin(matrix, &frame.axes, at),
+        LoadKind::AddedMass(matrix) => sum.added_mass += at_origin(matrix, &frame.axes, at),
+        LoadKind::Drift { .. } => {}
+        _ => {
+            let media: &[Medium] = match load.fluid {
+                Fluid::ByHeight => &[Medium::Air, Medium::Water],
+                Fluid::Air => &[Medium::Air],
+                Fluid::Water => &[Medium::Water],
+            };
+            for medium in media.iter().copied().filter(|m| !steady.still(*m)) {
+                let place = Place { at, medium, shared: load.fluid == Fluid::ByHeight };
+                sum.loads.push(in_stream(Arc::clone(steady), frame, place, load)?);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The load that a stream makes of a record.
+fn in_stream(
+    steady: Arc<Steady>,
+    frame: &Frame,
+    place: Place,
+    load: &PartLoad,
+) -> Result<Box<dyn BodyLoad>, ClassError> {
+    Ok(match &load.kind {
+        LoadKind::Area(areas) => Box::new(AreaLoad::new(steady, place, *areas).along(frame.axes)),
+        LoadKind::Plate { area, normal } => {
+            Box::new(PlateLoad::new(steady, place, *area, frame.axes * Vector3::from(*normal)))
+        }
+        LoadKind::Coefficients { rows, symmetric } => {
+            frame.upright(load)?;
+            let table = by_heading(frame, rows, *symmetric).map_err(|e| e.at(load.span))?;
+            Box::new(CoefficientLoad::new(steady, place, table))
+        }
+        _ => return Err(ClassError::new(format!("{} is no load of a stream", load.kind.name())).at(load.span)),
+    })
+}
+
+/// A table of a part as one of its body. The mirror of a symmetric one is that of the part.
+fn by_heading(frame: &Frame, rows: &[(f64, [f64; 6])], symmetric: bool) -> Result<ByHeading, ClassError> {
+    let table = ByHeading::new(rows, symmetric)?;
+    let [_, _, yaw] = frame.part.place.turn;
+    Ok(if yaw == 0.0 { table } else { table.turned(yaw, |six| frame.turned(six.into()).into()) })
+}
+
+/// Adds the mean drift of every sea, one table for each point that has records of it.
+fn drift(sum: &mut Gathered, steady: &Arc<Steady>, frame: &Frame, mine: &[&PartLoad]) -> Result<(), ClassError> {
+    let mut tables: Vec<(&PartLoad, Vec<DriftRow>, bool)> = Vec::new();
+    for load in mine {
+        let LoadKind::Drift { heading, rows, symmetric } = &load.kind else { continue };
+        match tables.iter_mut().find(|(first, ..)| first.at == load.at) {
+            Some((_, table, mirrored)) => {
+                table.push((*heading, rows.clone()));
+                *mirrored |= symmetric;
+            }
+            None => tables.push((load, vec![(*heading, rows.clone())], *symmetric)),
+        }
+    }
+    for (load, table, symmetric) in tables {
+        frame.upright(load)?;
+        for (toward, waves) in &steady.waves {
+            let made = DriftLoad::new(Arc::clone(steady), frame.point(load), (*toward, waves), &table, symmetric);
+            let made = made.map_err(|e| e.at(load.span))?;
+            let [_, _, yaw] = frame.part.place.turn;
+            let turn = |six: crate::model::Six| frame.turned(six.into()).into();
+            sum.loads.push(Box::new(if yaw == 0.0 { made } else { made.turned(yaw, turn) }));
+        }
+    }
+    Ok(())
+}

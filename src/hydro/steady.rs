@@ -1,0 +1,109 @@
+//! What is steady around a body: water, wind, current, and the mean of the waves.
+
+use super::current::CurrentField;
+use super::spectrum::Waves;
+use super::wind::WindField;
+use crate::model::{ClassError, Environment, Model, Surroundings};
+use nalgebra::Vector3;
+use std::sync::Arc;
+
+/// Half the height over which what is decided by the height of a point passes from current to wind (m). The sources say
+/// only "above" and "below"; a jump would keep an equilibrium near it from being found.
+pub const PASSAGE: f64 = 0.25;
+
+/// Air or water.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Medium {
+    /// Air, with the wind.
+    Air,
+    /// Water, with the current.
+    Water,
+}
+
+/// What surrounds bodies at rest.
+#[derive(Clone, Debug)]
+pub struct Steady {
+    /// Densities, depth, tide, gravity.
+    pub around: Surroundings,
+    /// Wind.
+    pub wind: Option<WindField>,
+    /// Current.
+    pub current: CurrentField,
+    /// The seas, each with the horizontal direction it travels toward.
+    pub waves: Vec<(Vector3<f64>, Arc<Waves>)>,
+}
+
+impl Steady {
+    /// That of the environment in force.
+    ///
+    /// # Errors
+    /// An environment that cannot be computed.
+    pub fn of(model: &Model) -> Result<Self, ClassError> {
+        Steady::within(model, &model.environment)
+    }
+
+    /// That of an environment.
+    ///
+    /// # Errors
+    /// An environment that cannot be computed: a spectrum or a wind without a formula, a curve that is not there.
+    pub fn within(model: &Model, env: &Environment) -> Result<Self, ClassError> {
+        let around = model.surroundings_in(env);
+        let bottom = around.depth.map(|d| d + around.tide);
+        let mut waves = Vec::new();
+        for sea in [&env.sea, &env.added_sea].into_iter().flatten().filter(|s| s.height > 0.0) {
+            let (cos, sin) = crate::model::unit_vector(sea.direction);
+            waves.push((Vector3::new(-cos, -sin, 0.0), Arc::new(Waves::of(model, env, sea)?)));
+        }
+        Ok(Steady { around, wind: WindField::of(env)?, current: CurrentField::of(model, env, bottom)?, waves })
+    }
+
+    /// The same without its seas: what wind and current need.
+    ///
+    /// # Errors
+    /// As [`Steady::within`], but for the seas.
+    pub fn streams(model: &Model, env: &Environment) -> Result<Self, ClassError> {
+        Steady::within(model, &Environment { sea: None, added_sea: None, ..env.clone() })
+    }
+
+    /// Velocity (m/s, global) of air or water at a global height (m), and its change with the height (1/s).
+    pub fn velocity(&self, medium: Medium, z: f64) -> (Vector3<f64>, Vector3<f64>) {
+        match (medium, &self.wind) {
+            (Medium::Air, Some(wind)) => {
+                let (speed, change) = wind.speed(z - self.around.tide);
+                (wind.toward * speed, wind.toward * change)
+            }
+            (Medium::Air, None) => (Vector3::zeros(), Vector3::zeros()),
+            (Medium::Water, _) => {
+                let (velocity, change) = self.current.at_depth(self.around.tide - z);
+                (velocity, -change)
+            }
+        }
+    }
+
+    /// Density of air or water (kg/m3).
+    pub fn density(&self, medium: Medium) -> f64 {
+        match medium {
+            Medium::Air => self.around.air_density,
+            Medium::Water => self.around.water_density,
+        }
+    }
+
+    /// Whether nothing moves in it.
+    pub fn still(&self, medium: Medium) -> bool {
+        match medium {
+            Medium::Air => self.wind.is_none_or(|w| w.speed == 0.0),
+            Medium::Water => self.current.is_none(),
+        }
+    }
+
+    /// How much a point at a global height (m) is in air or in water, from 0 to 1, and the change with the height (1/m):
+    /// a smooth passage of half a metre about the surface.
+    pub fn share(&self, medium: Medium, z: f64) -> (f64, f64) {
+        let s = ((z - self.around.tide) / PASSAGE).clamp(-1.0, 1.0);
+        let (air, change) = (0.5 + 0.75 * s - 0.25 * s * s * s, 0.75 * (1.0 - s * s) / PASSAGE);
+        match medium {
+            Medium::Air => (air, change),
+            Medium::Water => (1.0 - air, -change),
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! A load that a stream of air or water exerts on a point of a body, and its exact tangent.
+
+use super::steady::{Medium, Steady};
+use super::{Load, cross};
+use crate::model::{Pose, Six};
+use nalgebra::{Matrix3, Matrix6x3, Vector3};
+
+/// Force and moment about the point, in body axes, in a stream of a velocity in body axes; and how they change with it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Push {
+    /// Force (N) and moment (N m).
+    pub wrench: Six,
+    /// d(wrench)/d(velocity).
+    pub by_velocity: Matrix6x3<f64>,
+}
+
+impl Push {
+    /// Nothing.
+    pub fn none() -> Self {
+        Push { wrench: Six::zeros(), by_velocity: Matrix6x3::zeros() }
+    }
+}
+
+/// Where and in what a point load acts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// The point, in the body (m).
+    pub at: Vector3<f64>,
+    /// In air or water.
+    pub medium: Medium,
+    /// Whether the height of the point decides how much of it acts.
+    pub shared: bool,
+}
+
+impl Place {
+    /// The load on the body that `push` makes in the stream at the point.
+    ///
+    /// With F, M in global axes, r the arm from the origin and u(z) the stream: the body turns under the stream, so that a
+    /// rotation d turns F and M and changes the velocity in body axes by that of `u x d`; the point rises with the
+    /// translation and with `d x r`.
+    pub fn load(&self, steady: &Steady, pose: &Pose, push: impl Fn(Vector3<f64>) -> Push) -> Load {
+        let stream = steady.velocity(self.medium, pose.point(self.at).z);
+        self.load_in(steady, pose, stream, push)
+    }
+
+    /// The same in a stream given: its velocity (m/s, global), and the change of that with the height (1/s).
+    pub fn load_in(
+        &self,
+        steady: &Steady,
+        pose: &Pose,
+        (stream, slope): (Vector3<f64>, Vector3<f64>),
+        push: impl Fn(Vector3<f64>) -> Push,
+    ) -> Load {
+        let (axes, arm) = (pose.axes, pose.axes * self.at);
+        let z = pose.origin.z + arm.z;
+        let (share, share_slope) = if self.shared { steady.share(self.medium, z) } else { (1.0, 0.0) };
+        let Push { wrench, by_velocity } = push(axes.transpose() * stream);
+        let halves = |m: &Matrix6x3<f64>| -> [Matrix3<f64>; 2] {
+            [m.fixed_rows::<3>(0).into_owned(), m.fixed_rows::<3>(3).into_owned()]
+        };
+        let global = |v: Vector3<f64>| axes * v;
+        let (force, moment) = (
+            global(wrench.fixed_rows::<3>(0).into_owned()),
+            global(wrench.fixed_rows::<3>(3).into_owned()),
+        );
+        // change with the rotation of the axes, then with the height
+        let turn = |v: Vector3<f64>, j: Matrix3<f64>| axes * j * axes.transpose() * cross(stream) - cross(v);
+        let rise = |v: Vector3<f64>, j: Matrix3<f64>| (axes * j * (axes.transpose() * slope)) * share + v * share_slope;
+        let [jf, jm] = halves(&by_velocity);
+        let (force_turn, moment_turn) = (turn(force, jf) * share, turn(moment, jm) * share);
+        let (force_rise, moment_rise) = (rise(force, jf), rise(moment, jm));
+        let (force, moment) = (force * share, moment * share);
+        let about_origin = moment + arm.cross(&force);
+        // height: dz = e_z . translation + (arm x e_z) . rotation
+        let lift = arm.cross(&Vector3::z());
+        let force_turn = force_turn + force_rise * lift.transpose();
+        let moment_turn =
+            moment_turn + moment_rise * lift.transpose() + cross(arm) * force_turn + cross(force) * cross(arm);
+        let moment_rise = moment_rise + arm.cross(&force_rise);
+        let mut stiffness = nalgebra::Matrix6::zeros();
+        stiffness.fixed_view_mut::<3, 1>(0, 2).copy_from(&-force_rise);
+        stiffness.fixed_view_mut::<3, 1>(3, 2).copy_from(&-moment_rise);
+        stiffness.fixed_view_mut::<3, 3>(0, 3).copy_from(&-force_turn);
+        stiffness.fixed_view_mut::<3, 3>(3, 3).copy_from(&-moment_turn);
+        let wrench = Six::new(force.x, force.y, force.z, about_origin.x, about_origin.y, about_origin.z);
+        Load { wrench, stiffness }
+    }
+}

@@ -1,0 +1,227 @@
+//! Mean wind over the height above the water.
+//!
+//! The speed of `&ENV -WIND` is the mean over the averaging time of its formula, 10 m above the water. `-W_PROFILE` gives
+//! the growth with height; `-W_DESIGN` turns the mean into that of another averaging time. The formulas and their
+//! constants are written from memory of the standards named, but for that of ISO, which was compared with a published
+//! program (ckunte.net/2016/wind).
+
+use crate::language::units::Dim;
+use crate::model::{ClassError, Environment};
+use nalgebra::Vector3;
+
+/// Height at which the wind of `&ENV` blows (m).
+pub const REFERENCE: f64 = 10.0;
+/// Below this height (m) the wind is that of this height: the formulas do not hold among the waves.
+pub const LOWEST: f64 = 1.0;
+
+/// How the mean wind grows with height.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Profile {
+    /// `(z/10)^exponent`.
+    Power(f64),
+    /// `ln(z/z0) / ln(10/z0)` with this roughness (m).
+    Logarithmic(f64),
+    /// `1 + C ln(z/10)` with this C.
+    Logarithm(f64),
+    /// ABS: the square root of the height coefficient of pressure.
+    Abs,
+}
+
+/// How the mean over another time follows from the mean over the time of the formula.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Gust {
+    None,
+    /// API: `1 + g I(z)`, with this g.
+    Api(f64),
+    /// ISO and NPD: `1 - 0.41 Iu(z) ln(t/3600)`, with 0.06 (1 + 0.043 U), and the logarithm.
+    Froya(f64, f64),
+    /// DNV: `1 - 0.047 ln(t/600) / (1 + 0.137 ln(z/10))`, with the logarithm.
+    Dnv(f64),
+}
+
+/// Middle of each band of height of the ABS rules (m) and its coefficient of pressure.
+///
+/// Source: ABS MODU Rules Part 3 Chapter 1, height coefficients (bands of 50 ft; the same as 46 CFR 174.055, Table (a)).
+const ABS_BANDS: [(f64, f64); 18] = [
+    (7.62, 1.00),
+    (22.86, 1.10),
+    (38.10, 1.20),
+    (53.34, 1.30),
+    (68.58, 1.37),
+    (83.82, 1.43),
+    (99.06, 1.48),
+    (114.30, 1.52),
+    (129.54, 1.56),
+    (144.78, 1.60),
+    (160.02, 1.63),
+    (175.26, 1.67),
+    (190.50, 1.70),
+    (205.74, 1.72),
+    (220.98, 1.75),
+    (236.22, 1.77),
+    (251.46, 1.79),
+    (266.70, 1.80),
+];
+
+/// The wind of an environment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WindField {
+    /// Mean speed 10 m above the water, over the averaging time of the formula (m/s).
+    pub speed: f64,
+    /// Horizontal direction it blows toward.
+    pub toward: Vector3<f64>,
+    /// Its growth with height.
+    pub profile: Profile,
+    gust: Gust,
+}
+
+impl WindField {
+    /// The wind of an environment; `None` when it has none.
+    ///
+    /// # Errors
+    /// An exponent for a formula that has none, or an averaging time that the formula of the design wind does not reach.
+    pub fn of(env: &Environment) -> Result<Option<Self>, ClassError> {
+        let Some(wind) = env.wind else { return Ok(None) };
+        let given = |name: &str| env.options.iter().find(|g| g.spec.name == name);
+        let (profile, design) = (given("-W_PROFILE"), given("-W_DESIGN"));
+        let kind = profile.or(design).and_then(|g| g.word(0)).unwrap_or("POWER");
+        let exponent = profile.and_then(|g| g.number(1));
+        let law = law(kind, exponent, wind.speed).map_err(|e| profile.map_or(e.clone(), |g| e.at(g.span)))?;
+        let gust = match design {
+            None => Gust::None,
+            Some(g) => gust(g.word(0).unwrap_or_default(), g.number(1), wind.speed).map_err(|e| e.at(g.span))?,
+        };
+        Ok(Some(WindField::new(wind.speed, wind.direction, law, gust)))
+    }
+
+    /// A wind of a speed (m/s, 10 m above the water) from a direction (rad), with a profile.
+    pub fn steady(speed: f64, from: f64, profile: Profile) -> Self {
+        WindField::new(speed, from, profile, Gust::None)
+    }
+
+    fn new(speed: f64, from: f64, profile: Profile, gust: Gust) -> Self {
+        let (cos, sin) = crate::model::unit_vector(from);
+        WindField { speed, toward: Vector3::new(-cos, -sin, 0.0), profile, gust }
+    }
+
+    /// Speed (m/s) at a height above the water (m), and its change with the height (1/s).
+    pub fn speed(&self, height: f64) -> (f64, f64) {
+        let z = height.max(LOWEST);
+        let log = (z / REFERENCE).ln();
+        let (factor, rise) = match self.profile {
+            Profile::Power(a) => {
+                let f = (a * log).exp();
+                (f, a * f / z)
+            }
+            Profile::Logarithmic(z0) => {
+                let whole = (REFERENCE / z0).ln();
+                (1.0 + log / whole, 1.0 / (whole * z))
+            }
+            Profile::Logarithm(c) => (1.0 + c * log, c / z),
+            Profile::Abs => abs(z),
+        };
+        let (gust, growth) = self.gust.factor(z);
+        let change = if height > LOWEST { rise * gust + factor * growth } else { 0.0 };
+        (self.speed * factor * gust, self.speed * change)
+    }
+}
+
+impl Gust {
+    /// The factor at a height (m), and its change with the height.
+    fn factor(self, z: f64) -> (f64, f64) {
+        match self {
+            Gust::None => (1.0, 0.0),
+            Gust::Api(g) => {
+                // turbulence intensity of API RP 2A, 20 m being the height of the surface layer
+                let exponent: f64 = if z <= 20.0 { -0.125 } else { -0.275 };
+                let intensity = 0.15 * (z / 20.0).powf(exponent);
+                (1.0 + g * intensity, g * intensity * exponent / z)
+            }
+            Gust::Froya(level, log) => {
+                let intensity = level * (z / REFERENCE).powf(-0.22);
+                (1.0 - 0.41 * intensity * log, 0.41 * 0.22 * intensity * log / z)
+            }
+            Gust::Dnv(log) => {
+                let whole = 1.0 + 0.137 * (z / REFERENCE).ln();
+                (1.0 - 0.047 * log / whole, 0.047 * log * 0.137 / (whole * whole * z))
+            }
+        }
+    }
+}
+
+/// The profile of a name.
+///
+/// - POWER: exponent 1/7 unless given (DNV-RP-C205 2.3.2.9 has 0.12 to 0.14 for open sea).
+/// - LOGARITHMIC: DNV-RP-C205 2.3.2.5 with the roughness of Charnock, `z0 = Ac/g (0.4 U10 / ln(10/z0))^2`, Ac 0.014.
+/// - API: API RP 2A-WSD, 20th edition, 2.3.2: power of 0.125, hourly mean. Later editions have the formula of ISO.
+/// - NPD: Froya wind, DNV-RP-C205 2.3.2.13: C = 0.0573 sqrt(1 + 0.148 U), hourly mean.
+/// - ISO: ISO 19901-1:2005, A.7.3: C = 0.0573 sqrt(1 + 0.15 U), hourly mean.
+/// - DNV: DNV-RP-C205 2.3.2.11: C = 0.137, mean over 10 minutes.
+/// - ABS: MODU Rules, mean over one minute; its steps are joined by straight lines between the middles of the bands.
+fn law(kind: &str, exponent: Option<f64>, speed: f64) -> Result<Profile, ClassError> {
+    match (kind, exponent) {
+        ("POWER", a) => Ok(Profile::Power(a.unwrap_or(1.0 / 7.0))),
+        ("API", a) => Ok(Profile::Power(a.unwrap_or(0.125))),
+        (_, Some(_)) => Err(ClassError::new(format!("the {kind} wind profile has no exponent"))
+            .help("-W_PROFILE POWER and API take one")),
+        ("LOGARITHMIC", _) => Ok(Profile::Logarithmic(roughness(speed))),
+        ("NPD", _) => Ok(Profile::Logarithm(0.0573 * (1.0 + 0.148 * speed).sqrt())),
+        ("ISO", _) => Ok(Profile::Logarithm(0.0573 * (1.0 + 0.15 * speed).sqrt())),
+        ("DNV", _) => Ok(Profile::Logarithm(0.137)),
+        ("ABS", _) => Ok(Profile::Abs),
+        _ => Err(ClassError::new(format!("there is no wind profile {kind}"))),
+    }
+}
+
+/// Charnock's roughness of the sea under a wind of this speed at 10 m (m).
+fn roughness(speed: f64) -> f64 {
+    const CHARNOCK: f64 = 0.014;
+    const KARMAN: f64 = 0.4;
+    let mut z0: f64 = 1e-4;
+    // the logarithm changes slowly: each turn gains a figure or more
+    for _ in 0..60 {
+        let shear = KARMAN * speed / (REFERENCE / z0).ln();
+        z0 = (CHARNOCK / crate::language::units::STANDARD_GRAVITY * shear * shear).clamp(1e-7, 0.1);
+    }
+    z0
+}
+
+/// The conversion of a design wind.
+///
+/// - API: API RP 2A-WSD, 20th edition, 2.3.2: `1 + g(t) I(z)`, `g = 3 + ln((3/t)^0.6)` for t up to 60 s.
+/// - NPD, ISO: `1 - 0.41 Iu(z) ln(t/3600)`, `Iu = 0.06 (1 + 0.043 U) (z/10)^-0.22`, for t up to an hour.
+/// - DNV: `U(T, z) = U10 (1 + 0.137 ln(z/10) - 0.047 ln(T/600))`.
+/// - ABS: none.
+fn gust(kind: &str, duration: Option<f64>, speed: f64) -> Result<Gust, ClassError> {
+    let refuse = |text: &str, limit: f64| Err(ClassError::of(text, &[(limit, Dim::Time)]));
+    match (kind, duration) {
+        (_, None) => Ok(Gust::None),
+        ("API", Some(t)) if t == 3600.0 => Ok(Gust::None),
+        ("API", Some(t)) if t <= 60.0 => Ok(Gust::Api(3.0 + 0.6 * (3.0 / t).ln())),
+        ("API", _) => {
+            refuse("the gust factor of API reaches an averaging time of {}, and has the mean over 3600 s", 60.0)
+        }
+        ("NPD" | "ISO", Some(t)) if t <= 3600.0 => Ok(Gust::Froya(0.06 * (1.0 + 0.043 * speed), (t / 3600.0).ln())),
+        ("NPD" | "ISO", _) => refuse("the formula of the design wind reaches an averaging time of {}", 3600.0),
+        ("DNV", Some(t)) if t <= 3600.0 => Ok(Gust::Dnv((t / 600.0).ln())),
+        ("DNV", _) => refuse("the formula of the design wind reaches an averaging time of {}", 3600.0),
+        ("ABS", Some(t)) if t == 60.0 => Ok(Gust::None),
+        _ => refuse("the rules of ABS have no other averaging time than {}", 60.0),
+    }
+}
+
+/// Factor of speed of ABS at a height, and its change.
+fn abs(z: f64) -> (f64, f64) {
+    let (mut pressure, mut rise) = (1.0, 0.0);
+    for pair in ABS_BANDS.windows(2) {
+        let [(low, at_low), (high, at_high)] = pair else { continue };
+        if z >= *high {
+            (pressure, rise) = (*at_high, 0.0);
+        } else if z >= *low {
+            rise = (at_high - at_low) / (high - low);
+            pressure = at_low + rise * (z - low);
+        }
+    }
+    let root = f64::sqrt(pressure);
+    (root, 0.5 * rise / root)
+}
