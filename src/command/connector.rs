@@ -6,7 +6,7 @@ use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::name as rule;
 use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
-use crate::model::{Anchor, Connector, Model, Point, Pose, find, unit_vector};
+use crate::model::{Anchor, Connector, Model, Point, Pose, Tug, find, unit_vector};
 
 /// CONNECTOR.
 pub static CONNECTOR: Command = Command { spec: &CONNECTOR_SPEC, edits: false, run: connector };
@@ -33,6 +33,14 @@ static CONNECTOR_SPEC: CommandSpec = CommandSpec {
                 number("DTA", Dim::Length, "horizontal distance from fairlead to anchor").not_negative(),
             ],
             "where the anchor lies, in the present configuration",
+        ),
+        OptionSpec::new(
+            "-TUG",
+            &[
+                number("ANG", Dim::Angle, "direction it pulls toward, from +X toward +Y"),
+                number("DIST", Dim::Length, "distance of the tug, where it is drawn").not_negative(),
+            ],
+            "where the tug of a TUG_BOAT is",
         ),
         OptionSpec::new("-GO1", OFFSET, "offset of the first end from its point"),
         OptionSpec::new("-GO2", OFFSET, "offset of the second end from its point"),
@@ -101,6 +109,9 @@ pub fn build_connector(job: &mut Job, args: &Args) -> Outcome<()> {
         class: class.name.clone(),
         points: points.iter().map(|p| p.name.clone()).collect(),
         anchor: None,
+        tug: args
+            .option("-TUG")
+            .map(|g| Tug { direction: g.number(0).unwrap_or(0.0), distance: g.number(1).unwrap_or(0.0) }),
         offsets: [vector("-GO1"), vector("-GO2")],
         defined: Default::default(),
         euler: args.has("-EULER").then(|| vector("-EULER")),

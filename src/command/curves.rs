@@ -3,13 +3,14 @@
 //! Source: reference/model.md, "Curves".
 
 use super::{Call, Command, Effect, Job, Menu};
+use crate::connector::viscous::Viscoelastic;
 use crate::language::args;
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::name as rule;
 use crate::language::record::Word;
 use crate::language::select::{Owner, choose};
 use crate::language::source::Span;
-use crate::language::spec::{CommandSpec, Form, Kind, Noun, Opens, ValueSpec};
+use crate::language::spec::{CommandSpec, Form, Kind, Noun, Opens, OptionSpec, ValueSpec};
 use crate::model::{Curve, CurveKind, Model, Thing};
 
 /// &DATA.
@@ -23,8 +24,12 @@ static SPEC: CommandSpec = CommandSpec {
              F_SPECTRUM (frequency, density), M_GROWTH (elevation, added OD), W_HISTORY (time, knots), LT_MULTIPLIER, \
              CT_LENGTH, EFFICIENCY, CS_VELOCITY or AM_PRESSURE; the first value grows. &DATA CURVES alone opens a menu of \
              such records, TYPE NAME a1 b1 .., up to END. &DATA CONVOLUTION TIME NAME t1 K1 .. or FREQUENCY NAME f1 K1 .. is the \
-             stiffness of a viscoelastic spring, which -CONVOLUTION of a class puts in series: K of the first time is the \
-             short-term, of the last the long-term stiffness, with which statics work. &DATA ENVIRONMENT opens a menu of ENV records up to END.",
+             stiffness of a viscoelastic spring, which -CONVOLUTION of a class puts in series: its force is the integral of \
+             K(s) v(t - s) over s, v being the rate of its deflection. K of the first time is the \
+             short-term, of the last the long-term stiffness, with which statics work; by frequency K is the stiffness in phase, \
+             that of the first frequency the long-term one. -NDOF M behind either: the time domain works with M exponentials fitted \
+             to the curve (least squares, none negative, times spaced on a log scale; at most one fewer than points), M 5 unless given; \
+             &STATUS CURVES tells them and how far they are off. In RX, RY, RZ K is a moment per radian, in the same units. &DATA ENVIRONMENT opens a menu of ENV records up to END.",
     example: "&DATA CURVES C_PROFILE CUR 0 3.0 100 2.0 500 0.5\n&DATA CURVES\nM_GROWTH MG -100 0 0 2\nEND\n&STATUS CURVES CUR",
     ..CommandSpec::new("&DATA", "defines curves and environments")
 };
@@ -198,15 +203,27 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     (command.run)(job, &Call { record: call.record, words, args })
 }
 
+/// Exponentials where `-NDOF` says nothing.
+const EXPONENTIALS: i64 = 5;
+
+const NDOF: &[OptionSpec] = &[OptionSpec::new(
+    "-NDOF",
+    &[ValueSpec::new("M", Kind::Integer, "number of exponentials").within(1.0, 20.0)],
+    "exponentials fitted to the curve",
+)
+.default("5")];
+
 static BY_TIME: CommandSpec = CommandSpec {
     data: &pairs(CurveKind::ConvolutionTime),
     repeat: 2,
+    options: NDOF,
     ..CommandSpec::new("&DATA CONVOLUTION TIME", "viscoelastic spring by time")
 };
 
 static BY_FREQUENCY: CommandSpec = CommandSpec {
     data: &pairs(CurveKind::ConvolutionFrequency),
     repeat: 2,
+    options: NDOF,
     ..CommandSpec::new("&DATA CONVOLUTION FREQUENCY", "viscoelastic spring by frequency")
 };
 
@@ -225,6 +242,9 @@ fn convolution(job: &mut Job, call: &Call, span: Span, words: &[Word]) -> Outcom
     }
     define(job, &Call { record: call.record, words, args }, kind)
 }
+
+/// Share of the largest stiffness above which a fit is warned of.
+const POOR: f64 = 0.05;
 
 fn define(job: &mut Job, call: &Call, kind: CurveKind) -> Outcome<Effect> {
     let args = &call.args;
@@ -245,7 +265,16 @@ fn define(job: &mut Job, call: &Call, kind: CurveKind) -> Outcome<Effect> {
     if points.len() < 2 {
         return Err(Diagnostic::error("a curve has at least two points", span));
     }
-    let made = Curve { name: name.to_string(), kind, points, span };
+    let exponentials = args.option("-NDOF").and_then(|g| g.values.first()?.integer()).unwrap_or(EXPONENTIALS);
+    let exponentials = usize::try_from(exponentials).unwrap_or(1);
+    let made = Curve { name: name.to_string(), kind, points, exponentials, metres: job.units.metres(), span };
+    if let Some(fit) = Viscoelastic::fit(&made).filter(|fit| fit.error > POOR) {
+        let text = format!(
+            "the exponentials of curve {name} are off by {:.0} per cent of its largest stiffness",
+            100.0 * fit.error
+        );
+        job.warn(text, span);
+    }
     if job.model.curves.insert(Model::key(name), made).is_some() {
         job.remark(format!("curve {name} is redefined"), span);
     }

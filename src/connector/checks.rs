@@ -2,12 +2,12 @@
 
 use crate::language::args::{Args, Given};
 use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::model::{ClassRecord, Connector};
+use crate::model::{ClassError, ClassRecord, Connection, Connector};
 
 /// A P-Y curve: points (force N, deflection m) growing in both, as the seed asks.
 ///
 /// # Errors
-/// Two points with the same force, a force that does not grow, or a deflection that does not grow, at its value.
+/// A point with a force and no deflection or the other way round, two points with the same force, a force that does not grow, or a deflection that does not grow, at its value.
 pub fn py_curve(given: &Given) -> Outcome<Vec<(f64, f64)>> {
     let mut points: Vec<(f64, f64)> = Vec::new();
     for pair in given.values.chunks_exact(2) {
@@ -28,6 +28,13 @@ pub fn py_curve(given: &Given) -> Outcome<Vec<(f64, f64)>> {
                 )
                 .label("not larger than the one before"));
             }
+        }
+        if (force == 0.0) != (deflection == 0.0) {
+            return Err(Diagnostic::error(
+                format!("{} begins at zero force and zero deflection", given.spec.name),
+                p.span,
+            )
+            .label("one of the two is zero alone"));
         }
         points.push((force, deflection));
     }
@@ -112,6 +119,9 @@ pub fn ends(kind: &str, connector: &Connector, bodies: usize, most_points: usize
             connector.span,
         ));
     }
+    if connector.tug.is_some() {
+        return Err(Diagnostic::error(format!("-TUG belongs to a TUG_BOAT, not to a {kind}"), connector.span));
+    }
     if bodies > most_bodies {
         return Err(Diagnostic::error(
             format!("a {kind} connects a body to ground, and both points are on bodies"),
@@ -122,6 +132,18 @@ pub fn ends(kind: &str, connector: &Connector, bodies: usize, most_points: usize
     if connector.anchor.is_some() && connector.points.len() > 1 {
         return Err(Diagnostic::error("a connector between two points has no anchor", connector.span)
             .label("-ANCHOR and a second point are given"));
+    }
+    Ok(())
+}
+
+/// A class whose connectors act in an assembly, which gives the second end.
+///
+/// # Errors
+/// A connector outside of one: its second end would be the ground.
+pub fn in_assembly(kind: &str, connection: &Connection) -> Result<(), ClassError> {
+    if connection.to_ground {
+        let text = format!("a {kind} exerts no force of its own: the assembly it belongs to gives its second end");
+        return Err(ClassError::new(text).at(connection.connector.span));
     }
     Ok(())
 }

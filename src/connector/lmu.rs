@@ -2,14 +2,18 @@
 //!
 //! Source: seed 001 and its Figure 7. All three sizes are in inches or mm; OD(1) is the pin, OD(2) the mouth of the cone.
 
-use super::spring::{Restraint, convolutions, no_anchor, restraint_table, restraints, symmetric};
+use super::foundation::OPTIONS;
+use super::spring::{Springs, no_anchor, restraint_table};
+use super::zero_law::{Contact, Sense};
+use super::zero_length::{ZeroLength, element_turns};
 use super::{ClassKind, checks, options as o};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Kind, ValueSpec};
 use crate::language::units::Dim;
-use crate::model::{ClassRecord, Connector, ConnectorClass, Surroundings};
+use crate::model::{ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Surroundings};
 use crate::table::Table;
+use nalgebra::{Matrix3, Vector3};
 use std::sync::Arc;
 
 /// The class type.
@@ -25,21 +29,24 @@ static SPEC: CommandSpec = CommandSpec {
         o::AF,
     ],
     repeat: 3,
-    options: &[
-        o::SYMMETRIC,
-        o::IG_STIFF,
-        o::CONVOLUTION_DF,
-        o::X_PY,
-        o::Y_PY,
-        o::Z_PY,
-        o::X_DAMPING,
-        o::Y_DAMPING,
-        o::Z_DAMPING,
-        o::FRICTION_MU,
-    ],
-    detail: "A GSPR with a SENSE of COMPRESSION whose deformation follows from the cone: T = (OD(2) - OD(1)) / (2 LEN). \
-             The first point is the tip of the pin, the second the top of the cone. Symmetric unless -SYMMETRIC NO.",
-    example: "MEDIT\n~LMU1 LMU 60 24 48 X 5000 1000 Y 800 300\nEND\n&STATUS CLASS ~LMU1",
+    options: OPTIONS,
+    detail: "A GSPR with a SENSE of COMPRESSION whose deflections follow from the cone: T = (OD(2) - OD(1)) / (2 LEN). The first point \
+             is the tip of the pin, the second the top of the cone. The cone's axis, element X, is the z axis of the second point's body, \
+             upward out of the mouth, turned by -EULER of the connector; element Y and Z are that body's x and y. D_v is how far the tip \
+             is below the mouth along the axis, D_h how far from the axis. No force for D_v < 0. Sides: d = max(0, D_h - T max(0, LEN - \
+             D_v)) deflects Y (and Z), which push the pin toward the axis. Bottom: c = max(0, D_v - LEN) + T d compresses X, which \
+             pushes the pin out of the cone. That is the text of the manual with two signs mended: taken literally it pulls a centred \
+             pin outward, and unloads one that has landed. With unlike SPV in X and Y these forces have no energy. A tip beside the mouth \
+             is warned of. Symmetric unless -SYMMETRIC NO or Z properties are given. &HELP ~CLASS FOUNDATION tells of the options.",
+    example: "MEDIT
+&DESCRIBE BODY DECK
+*PIN 0 0 0
+*CONE 0 0 0 -GROUND
+~LMU1 LMU 60 24 48 X 5000 1000 Y 800 300
+\
+              CONNECTOR L1 ~LMU1 *PIN *CONE
+END
+&STATUS CLASS ~LMU1",
     ..CommandSpec::new("LMU", "leg mating unit: a pin in a cone")
 };
 
@@ -48,9 +55,11 @@ struct PinInCone {
     length: f64,
     pin: f64,
     mouth: f64,
-    restraints: Vec<Restraint>,
-    symmetric: bool,
+    springs: Springs,
 }
+
+/// Element axes of an upright cone in its body: X along z, Y along x, Z along y.
+const UPRIGHT: Matrix3<f64> = Matrix3::new(0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0);
 
 fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
     let Some(record) = records.last() else { return Err(Diagnostic::error("a class needs a record", Span::default())) };
@@ -60,11 +69,14 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
     if mouth < pin {
         return Err(Diagnostic::error("the cone's mouth OD(2) is smaller than the pin OD(1)", args.place(2)));
     }
-    checks::py_curves(args)?;
-    let list = restraints(args, 3)?;
-    let symmetric = symmetric(args, &list, true)?;
-    convolutions(args, &list, symmetric)?;
-    Ok(Arc::new(PinInCone { length, pin, mouth, symmetric, restraints: list }))
+    Ok(Arc::new(PinInCone { length, pin, mouth, springs: Springs::read(args, 3, true)? }))
+}
+
+impl PinInCone {
+    /// Tangent of the angle between the cone's side and its axis.
+    fn tangent(&self) -> f64 {
+        (self.mouth - self.pin) / (2.0 * self.length)
+    }
 }
 
 impl ConnectorClass for PinInCone {
@@ -78,15 +90,34 @@ impl ConnectorClass for PinInCone {
     }
 
     fn properties(&self, name: &str, _: &Surroundings) -> Table {
-        restraint_table(name, "LMU", &self.restraints)
+        restraint_table(name, "LMU", &self.springs.restraints)
             .fact("Length", self.length, Dim::Section)
             .fact("Pin OD(1)", self.pin, Dim::Section)
             .fact("Cone Mouth OD(2)", self.mouth, Dim::Section)
-            .fact("Cone Tangent T", (self.mouth - self.pin) / (2.0 * self.length), Dim::None)
-            .fact("Symmetric about X", if self.symmetric { "YES" } else { "NO" }, Dim::None)
+            .fact("Cone Tangent T", self.tangent(), Dim::None)
+            .fact("Symmetric about X", if self.springs.symmetric { "YES" } else { "NO" }, Dim::None)
     }
 
     fn first_length(&self) -> Option<f64> {
         Some(self.length)
+    }
+
+    fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
+        // the cone carries the axes, the pin is displaced in them
+        let holder = 1;
+        let (turn, other_turn) = element_turns(connection, holder, UPRIGHT);
+        let contact = Contact::Cone { length: self.length, tangent: self.tangent() };
+        let law = self.springs.law(connection, Sense::Compression, contact)?;
+        let (listed, ignored) = (self.springs.listed(), self.springs.ignored());
+        Ok(Box::new(ZeroLength {
+            holder,
+            turn,
+            other_turn,
+            rest: Vector3::zeros(),
+            law,
+            listed,
+            rigid: false,
+            ignored,
+        }))
     }
 }

@@ -6,7 +6,12 @@ mod b_cat;
 pub mod catenary;
 mod checks;
 mod chord;
+mod davit;
 mod first_length;
+mod fix;
+mod foundation;
+mod gap;
+mod gspr;
 mod h_cat;
 mod line_element;
 pub mod line_types;
@@ -15,13 +20,21 @@ mod loads;
 mod mooring;
 mod mooring_table;
 mod options;
+mod restraint;
 mod rod;
 mod roller;
 mod section;
 mod sl_elem;
 mod sling;
+mod spr;
 mod spring;
+mod spring_law;
 mod tether;
+mod tie;
+mod tug_boat;
+pub mod viscous;
+mod zero_law;
+mod zero_length;
 
 pub use section::type_notices;
 
@@ -49,11 +62,11 @@ impl PartialEq for ClassKind {
 
 /// All class types, in the order of the manual.
 pub static CLASSES: &[&ClassKind] = &[
-    &spring::FOUNDATION,
-    &spring::GSPR,
+    &foundation::FOUNDATION,
+    &gspr::GSPR,
     &lmu::LMU,
     &sling::SLING,
-    &sling::DAVIT,
+    &davit::DAVIT,
     &roller::ROLLER,
     &rod::ROD,
     &b_cat::B_CAT,
@@ -61,4 +74,8 @@ pub static CLASSES: &[&ClassKind] = &[
     &sl_elem::SL_ELEM,
     &aqwa::CATENARY,
     &tether::TETHER,
+    &fix::FIX,
+    &spr::SPR,
+    &gap::GAP,
+    &tug_boat::TUG_BOAT,
 ];

@@ -44,6 +44,14 @@ pub const TYPE: OptionSpec = OptionSpec::new(
 pub const LEN: OptionSpec =
     OptionSpec::new("-LEN", &[number("L", Dim::Length, "length of the segment").positive()], "length of the segment")
         .aliases(&["-LENGTH"]);
+/// `-LEN L` of a GSPR.
+pub const LEN_OFFSET: OptionSpec = OptionSpec::new(
+    "-LEN",
+    &[number("L", Dim::Length, "offset along element X").not_negative()],
+    "the spring begins this far along element X",
+)
+.aliases(&["-LENGTH"])
+.default("0");
 /// `-REFINE N`.
 pub const REFINE: OptionSpec = OptionSpec::new(
     "-REFINE",

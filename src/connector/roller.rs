@@ -2,14 +2,16 @@
 //!
 //! Source: seed 001. Gaps are in inches or mm; the second end is taken care of by the assembly.
 
-use super::spring::{Restraint, no_anchor, restraint_table, restraints};
+use super::spring::{Restraint, Springs, no_anchor, restraint_table, restraints};
+use super::zero_law::{Contact, Sense};
 use super::{ClassKind, checks, options as o};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
-use crate::model::{ClassRecord, Connector, ConnectorClass, Surroundings};
+use crate::model::{ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Surroundings};
 use crate::table::Table;
+use nalgebra::Vector3;
 use std::sync::Arc;
 
 /// The class type.
@@ -36,25 +38,51 @@ static SPEC: CommandSpec = CommandSpec {
             "gaps of the lower and upper roller",
         ),
     ],
-    detail: "With neither -Y_ROLLER nor -Z_ROLLER lateral motion is restrained and the pipe cannot go below the roller. \
-             A one-sided restraint: Z- 0, Z+ 10000.",
+    detail: "Pipe Y is lateral and Z upward: the axes of the node's body, turned by -EULER of the connector. -Y_ROLLER Y- Y+ and -Z_ROLLER \
+             Z- Z+: the pipe moves freely by so much on each side of the node; beyond, the physical roller there pushes it back with \
+             the SPV of Y or Z (1.0E9 N/m where none is given). With neither, lateral motion is restrained and the pipe cannot go below \
+             the node; it can lift off. With one of them only, nothing restrains the other direction. A one-sided restraint: Z- 0, Z+ \
+             10000. X, RX, RY and RZ are springs that act always; SENSE is read and says nothing, as rollers only push. -Y_PY and -Z_PY \
+             are in series with the rollers. A single point: the pipe assembly takes care of the other end, and without one it exerts \
+             no force.",
     example: "MEDIT\n~ROLL ROLLER COMPRESSION Y 100 Z 100 -Z_ROLLER 0 10000\nEND\n&STATUS CLASS ~ROLL",
     ..CommandSpec::new("ROLLER", "rollers that carry a pipe")
 };
 
+/// Stiffness of a physical roller whose SPV is not given (N/m).
+const STIFF: f64 = 1e9;
+
 #[derive(Debug)]
 struct Roller {
-    restraints: Vec<Restraint>,
-    sides: Option<(f64, f64)>,
-    heights: Option<(f64, f64)>,
+    given: Vec<Restraint>,
+    springs: Springs,
+    sides: Option<[f64; 2]>,
+    heights: Option<[f64; 2]>,
 }
 
 fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
     let Some(record) = records.last() else { return Err(Diagnostic::error("a class needs a record", Span::default())) };
     let args = &record.args;
-    checks::py_curves(args)?;
-    let gaps = |name: &str| args.option(name).and_then(|g| Some((g.number(0)?, g.number(1)?)));
-    Ok(Arc::new(Roller { restraints: restraints(args, 1)?, sides: gaps("-Y_ROLLER"), heights: gaps("-Z_ROLLER") }))
+    let gaps = |name: &str| args.option(name).and_then(|g| Some([g.number(0)?, g.number(1)?]));
+    let given = restraints(args, 1, 3)?;
+    let mut all = given.clone();
+    for dof in ["Y", "Z"] {
+        if !all.iter().any(|r| r.dof == dof) {
+            all.push(Restraint { dof: dof.into(), stiffness: STIFF, allowable: None });
+        }
+    }
+    let springs = Springs::of(args, all, false, Vec::new())?;
+    Ok(Arc::new(Roller { given, springs, sides: gaps("-Y_ROLLER"), heights: gaps("-Z_ROLLER") }))
+}
+
+impl Roller {
+    /// Gaps in Y and Z (m).
+    fn gaps(&self) -> [Option<[f64; 2]>; 2] {
+        match (self.sides, self.heights) {
+            (None, None) => [Some([0.0, 0.0]), Some([0.0, f64::INFINITY])],
+            gaps => gaps.into(),
+        }
+    }
 }
 
 impl ConnectorClass for Roller {
@@ -68,9 +96,9 @@ impl ConnectorClass for Roller {
     }
 
     fn properties(&self, name: &str, _: &Surroundings) -> Table {
-        let mut table = restraint_table(name, "ROLLER", &self.restraints);
+        let mut table = restraint_table(name, "ROLLER", &self.given);
         for (label, gaps) in [("Y", self.sides), ("Z", self.heights)] {
-            if let Some((below, above)) = gaps {
+            if let Some([below, above]) = gaps {
                 table = table.fact(&format!("Gap {label}-"), below, Dim::Section).fact(
                     &format!("Gap {label}+"),
                     above,
@@ -82,5 +110,11 @@ impl ConnectorClass for Roller {
             table.note("no gaps: no lateral motion, and the pipe cannot go below the roller");
         }
         table
+    }
+
+    /// Between the node and the point of the pipe that an assembly gives: it asks with `to_ground` false.
+    fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
+        checks::in_assembly("ROLLER", connection)?;
+        self.springs.element(connection, Sense::Both, Contact::Gaps(self.gaps()), Vector3::zeros())
     }
 }

@@ -1,62 +1,19 @@
-//! GSPR and FOUNDATION: generalized springs of zero length, in chosen degrees of freedom.
+//! What the zero-length classes share: reading their springs, and making the element of them.
 //!
-//! Source: seed 001. A FOUNDATION is a GSPR that is checked in a FOUNDATION check.
+//! Source: seed 001.
 
-use super::{ClassKind, checks, options as o};
+use super::spring_law::{Dashpot, Elastic, Group};
+use super::viscous::Viscoelastic;
+use super::zero_law::{Contact, Friction, Sense, ZeroLaw};
+use super::zero_length::{ZeroLength, element_turns};
+use super::{checks, options as o};
 use crate::language::args::Args;
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::source::Span;
-use crate::language::spec::CommandSpec;
 use crate::language::units::Dim;
-use crate::model::{ClassRecord, Connector, ConnectorClass, Surroundings};
+use crate::model::{ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Surroundings};
 use crate::table::{Cell, Digits, Table};
-use std::sync::Arc;
-
-/// The class type GSPR.
-pub static GSPR: ClassKind = ClassKind { spec: &GSPR_SPEC, segmented: false, build: build_gspr };
-/// The class type FOUNDATION.
-pub static FOUNDATION: ClassKind = ClassKind { spec: &FOUNDATION_SPEC, segmented: false, build: build_foundation };
-
-static GSPR_SPEC: CommandSpec = CommandSpec {
-    data: &[o::SENSE, o::DF, o::SPV, o::AF],
-    repeat: 3,
-    options: &[
-        o::LEN,
-        o::SYMMETRIC,
-        o::IG_STIFF,
-        o::CONVOLUTION_DF,
-        o::X_PY,
-        o::Y_PY,
-        o::Z_PY,
-        o::X_DAMPING,
-        o::Y_DAMPING,
-        o::Z_DAMPING,
-        o::FRICTION_MU,
-    ],
-    detail: "SENSE TENSION: no load while the element X displacement is negative; COMPRESSION: none while it is positive; \
-             BOTH or left out: always. -LEN is an offset along element X. Element axes are the body axes of the first \
-             node unless -EULER is given on the connector.",
-    example: "MEDIT\n~FENDER GSPR COMPRESSION X 1000 500 -X_PY 10 0.1 50 0.3\nEND\n&STATUS CLASS ~FENDER",
-    ..CommandSpec::new("GSPR", "generalized spring")
-};
-
-static FOUNDATION_SPEC: CommandSpec = CommandSpec {
-    options: &[
-        o::SYMMETRIC,
-        o::IG_STIFF,
-        o::CONVOLUTION_DF,
-        o::X_PY,
-        o::Y_PY,
-        o::Z_PY,
-        o::X_DAMPING,
-        o::Y_DAMPING,
-        o::Z_DAMPING,
-        o::FRICTION_MU,
-    ],
-    detail: "A GSPR of zero length that is checked in a FOUNDATION check.",
-    example: "MEDIT\n~PAD FOUNDATION COMPRESSION Z 5000 800 X 100 50\nEND\n&STATUS CLASS ~PAD",
-    ..CommandSpec { name: "FOUNDATION", help: "generalized spring with a foundation check", ..GSPR_SPEC }
-};
+use nalgebra::{Matrix3, Vector3};
 
 /// One restrained degree of freedom.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,22 +26,27 @@ pub struct Restraint {
     pub allowable: Option<f64>,
 }
 
-#[derive(Debug)]
-struct Spring {
-    kind: &'static str,
-    sense: String,
-    restraints: Vec<Restraint>,
-    offset: f64,
-    symmetric: bool,
+/// The springs, dashpots and friction of a record.
+#[derive(Clone, Debug)]
+pub struct Springs {
+    /// As given.
+    pub restraints: Vec<Restraint>,
+    /// Whether Z is as Y.
+    pub symmetric: bool,
+    curves: [Option<Vec<(f64, f64)>>; 3],
+    dashpots: [Option<Dashpot>; 3],
+    convolutions: Vec<(usize, String, Span)>,
+    friction: Option<f64>,
+    ignored: bool,
 }
 
-/// Restraints in data from position `from`, three values each.
+/// Restraints in data from position `from`, so many values each.
 ///
 /// # Errors
 /// The same degree of freedom twice.
-pub fn restraints(args: &Args, from: usize) -> Outcome<Vec<Restraint>> {
+pub fn restraints(args: &Args, from: usize, values: usize) -> Outcome<Vec<Restraint>> {
     let mut list: Vec<(Restraint, Span)> = Vec::new();
-    for group in args.data.get(from..).unwrap_or_default().chunks(3) {
+    for group in args.data.get(from..).unwrap_or_default().chunks(values) {
         let (Some(dof), Some(span)) = (group.first().and_then(|v| v.word()), group.first().map(|v| v.span)) else {
             continue;
         };
@@ -99,70 +61,210 @@ pub fn restraints(args: &Args, from: usize) -> Outcome<Vec<Restraint>> {
     Ok(list.into_iter().map(|(r, _)| r).collect())
 }
 
-/// Checks `-SYMMETRIC`: only Y properties are given then.
+/// The number of a degree of freedom, 0 to 5.
+fn index(dof: &str) -> Option<usize> {
+    o::DOFS.iter().position(|d| *d == dof)
+}
+
+/// Checks `-SYMMETRIC`: only Y properties are given then. Where it is the default, Z properties do away with it.
 ///
 /// # Errors
 /// A Z property beside -SYMMETRIC.
-pub fn symmetric(args: &Args, list: &[Restraint], default: bool) -> Outcome<bool> {
+fn symmetric(args: &Args, list: &[Restraint], default: bool) -> Outcome<bool> {
     let on = args.switch("-SYMMETRIC", default);
-    let given = args.option("-SYMMETRIC").filter(|_| on);
-    if let Some(given) = given {
-        let has_z = list.iter().any(|r| r.dof.ends_with('Z')) || args.has("-Z_PY") || args.has("-Z_DAMPING");
-        if has_z {
-            return Err(Diagnostic::error("with -SYMMETRIC only the Y properties are given; Z follows", given.span));
-        }
+    let has_z = list.iter().any(|r| r.dof.ends_with('Z')) || args.has("-Z_PY") || args.has("-Z_DAMPING");
+    if let Some(given) = args.option("-SYMMETRIC").filter(|_| on)
+        && has_z
+    {
+        return Err(Diagnostic::error("with -SYMMETRIC only the Y properties are given; Z follows", given.span));
     }
-    Ok(on)
+    Ok(on && !has_z)
 }
 
-/// Sees that `-CONVOLUTION DF NAME` acts in a degree of freedom that is restrained, once in each.
+/// A degree of freedom on which an option acts must be restrained.
+fn restrained(list: &[Restraint], dof: &str, symmetric: bool, at: Span) -> Outcome<()> {
+    let like_y = dof.replace('Z', "Y");
+    if list.iter().any(|r| r.dof == dof || (symmetric && r.dof == like_y)) {
+        return Ok(());
+    }
+    let known: Vec<&str> = list.iter().map(|r| r.dof.as_str()).collect();
+    Err(Diagnostic::error(format!("degree of freedom {dof} is not restrained"), at)
+        .label(format!("expected {}", known.join(" or "))))
+}
+
+/// `-CONVOLUTION DF NAME`: each acts in a degree of freedom that is restrained, once in each.
 ///
 /// # Errors
 /// Another degree of freedom, or one given twice, at its word.
-pub fn convolutions(args: &Args, list: &[Restraint], symmetric: bool) -> Outcome<()> {
-    let mut seen: Vec<(&str, Span)> = Vec::new();
-    for value in args.all("-CONVOLUTION").filter_map(|given| given.values.first()) {
-        let Some(dof) = value.word() else { continue };
-        let like_y = dof.replace('Z', "Y");
-        if !list.iter().any(|r| r.dof == dof || (symmetric && r.dof == like_y)) {
-            let known: Vec<&str> = list.iter().map(|r| r.dof.as_str()).collect();
-            return Err(Diagnostic::error(format!("degree of freedom {dof} is not restrained"), value.span)
-                .label(format!("expected {}", known.join(" or "))));
+fn convolutions(args: &Args, list: &[Restraint], symmetric: bool) -> Outcome<Vec<(usize, String, Span)>> {
+    let mut seen: Vec<(usize, String, Span)> = Vec::new();
+    for given in args.all("-CONVOLUTION") {
+        let (Some(value), Some(name)) = (given.values.first(), given.values.get(1)) else { continue };
+        let (Some(dof), Some(name_word)) = (value.word(), name.word()) else { continue };
+        restrained(list, dof, symmetric, value.span)?;
+        let Some(number) = index(dof) else { continue };
+        if seen.iter().any(|(other, ..)| *other == number) {
+            return Err(Diagnostic::error(format!("-CONVOLUTION is given twice for {dof}"), value.span));
         }
-        if let Some((_, first)) = seen.iter().find(|(other, _)| *other == dof) {
-            return Err(Diagnostic::error(format!("-CONVOLUTION is given twice for {dof}"), value.span)
-                .other(*first, "first given here"));
-        }
-        seen.push((dof, value.span));
+        seen.push((number, name_word.to_string(), name.span));
     }
-    Ok(())
+    Ok(seen)
 }
 
-fn build_kind(records: &[ClassRecord], kind: &'static str) -> Outcome<Arc<dyn ConnectorClass>> {
-    let Some(record) = records.last() else { return Err(Diagnostic::error("a class needs a record", Span::default())) };
-    let args = &record.args;
-    checks::py_curves(args)?;
-    let list = restraints(args, 1)?;
-    let symmetric = symmetric(args, &list, false)?;
-    convolutions(args, &list, symmetric)?;
-    Ok(Arc::new(Spring {
-        kind,
-        sense: args.word(0).unwrap_or("BOTH").to_string(),
-        symmetric,
-        restraints: list,
-        offset: args.option_number("-LEN").unwrap_or(0.0),
-    }))
+impl Springs {
+    /// Reads a record whose restraints begin at a datum.
+    ///
+    /// # Errors
+    /// What contradicts itself, at its place.
+    pub fn read(args: &Args, from: usize, symmetric_default: bool) -> Outcome<Self> {
+        let list = restraints(args, from, 3)?;
+        let symmetric = symmetric(args, &list, symmetric_default)?;
+        let convolutions = convolutions(args, &list, symmetric)?;
+        Springs::of(args, list, symmetric, convolutions)
+    }
+
+    /// Reads the options of a record beside restraints that are known.
+    ///
+    /// # Errors
+    /// As [`Springs::read`].
+    pub fn of(
+        args: &Args,
+        list: Vec<Restraint>,
+        symmetric: bool,
+        convolutions: Vec<(usize, String, Span)>,
+    ) -> Outcome<Self> {
+        let mut curves = [None, None, None];
+        for ((name, dof), slot) in [("-X_PY", "X"), ("-Y_PY", "Y"), ("-Z_PY", "Z")].into_iter().zip(&mut curves) {
+            let Some(given) = args.option(name) else { continue };
+            let points = checks::py_curve(given)?;
+            restrained(&list, dof, symmetric, given.span)?;
+            *slot = Some(points);
+        }
+        let dashpots = ["-X_DAMPING", "-Y_DAMPING", "-Z_DAMPING"].map(|name| {
+            let given = args.option(name)?;
+            let most = given.number(2).unwrap_or(f64::INFINITY);
+            Some(Dashpot { coefficient: given.number(0)?, exponent: given.number(1)?, most })
+        });
+        let friction = args.option_number("-FRICTION");
+        let ignored = args.has("-IG_STIFF");
+        Ok(Springs { restraints: list, symmetric, curves, dashpots, convolutions, friction, ignored })
+    }
+
+    /// Every degree of freedom that has a spring, Z ones of a symmetric element among them.
+    fn all(&self) -> Vec<(usize, f64, Option<f64>)> {
+        let own = |r: &Restraint| index(&r.dof).map(|dof| (dof, r.stiffness, r.allowable));
+        let mut list: Vec<_> = self.restraints.iter().filter_map(own).collect();
+        if self.symmetric {
+            let like: Vec<_> = list.iter().filter(|r| r.0 % 3 == 1).map(|r| (r.0 + 1, r.1, r.2)).collect();
+            list.extend(like);
+        }
+        list.sort_by_key(|r| r.0);
+        list
+    }
+
+    /// The law of the springs.
+    ///
+    /// # Errors
+    /// A convolution curve that is not there.
+    pub fn law(&self, connection: &Connection, sense: Sense, contact: Contact) -> Result<ZeroLaw, ClassError> {
+        let all = self.all();
+        let mut groups: Vec<Group> = Vec::new();
+        for (dof, stiffness, _) in &all {
+            // of a symmetric element the second lateral translation acts with the first
+            if self.symmetric && *dof == 2 {
+                if let Some(group) = groups.iter_mut().find(|g| g.dofs.first() == Some(&1)) {
+                    group.dofs.push(2);
+                }
+                continue;
+            }
+            let curve = self.curves.get(*dof).and_then(Option::as_deref);
+            let elastic = Elastic::new(*stiffness, curve);
+            groups.push(Group { dofs: vec![*dof], elastic, viscous: self.viscous(*dof, connection)? });
+        }
+        let mut dashpots = Vec::new();
+        for (axis, dashpot) in self.dashpots.iter().enumerate() {
+            let takes = |other: usize| axis == other || (self.symmetric && axis == 1 && other == 2);
+            dashpots.extend(dashpot.map(|d| (d, [takes(0), takes(1), takes(2)])));
+        }
+        let friction = match self.friction {
+            None => Friction::None,
+            Some(mu) if all.iter().any(|r| r.0 == 1 || r.0 == 2) => Friction::Limit(mu),
+            Some(mu) => Friction::Rate(mu),
+        };
+        Ok(ZeroLaw { sense, contact, groups, dashpots, friction })
+    }
+
+    fn viscous(&self, dof: usize, connection: &Connection) -> Result<Option<Viscoelastic>, ClassError> {
+        // Z of a symmetric element stands for Y and the other way round
+        let like = |d: usize| if self.symmetric && d % 3 == 2 { d - 1 } else { d };
+        let Some((_, name, span)) = self.convolutions.iter().find(|(d, ..)| like(*d) == like(dof)) else {
+            return Ok(None);
+        };
+        let missing = || {
+            let text = format!("no convolution curve is called {name}");
+            ClassError::new(text).at(*span).help(format!("define it: &DATA CONVOLUTION TIME {name} T1 K1 T2 K2 .."))
+        };
+        let curve = (connection.curve)(name).ok_or_else(missing)?;
+        let fit = Viscoelastic::fit(curve).ok_or_else(missing)?;
+        let factor = if dof > 2 { curve.metres * curve.metres } else { 1.0 };
+        Ok(Some(fit.law.times(factor)))
+    }
+
+    /// The element of a connector whose axes are carried by the first end.
+    ///
+    /// # Errors
+    /// As [`Springs::law`].
+    pub fn element(
+        &self,
+        connection: &Connection,
+        sense: Sense,
+        contact: Contact,
+        rest: Vector3<f64>,
+    ) -> Result<Box<dyn Element>, ClassError> {
+        let (turn, other_turn) = element_turns(connection, 0, Matrix3::identity());
+        let law = self.law(connection, sense, contact)?;
+        let (listed, ignored) = (self.listed(), self.ignored);
+        Ok(Box::new(ZeroLength { holder: 0, turn, other_turn, rest, law, listed, rigid: false, ignored }))
+    }
+
+    /// What reports list.
+    pub fn listed(&self) -> Vec<(usize, Option<f64>)> {
+        self.all().into_iter().map(|(dof, _, allowable)| (dof, allowable)).collect()
+    }
+
+    /// Whether `-IG_STIFF` is given.
+    pub fn ignored(&self) -> bool {
+        self.ignored
+    }
 }
 
-fn build_gspr(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
-    build_kind(records, "GSPR")
+/// GSPR and FOUNDATION: generalized springs in chosen degrees of freedom.
+#[derive(Debug)]
+pub struct Generalized {
+    kind: &'static str,
+    sense: Sense,
+    springs: Springs,
+    offset: f64,
 }
 
-fn build_foundation(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
-    build_kind(records, "FOUNDATION")
+impl Generalized {
+    /// Reads the last of a class's records.
+    ///
+    /// # Errors
+    /// What contradicts itself, at its place.
+    pub fn read(records: &[ClassRecord], kind: &'static str) -> Outcome<Self> {
+        let record = records.last().ok_or_else(|| Diagnostic::error("a class needs a record", Span::default()))?;
+        let args = &record.args;
+        Ok(Generalized {
+            kind,
+            sense: Sense::of(args.word(0)),
+            springs: Springs::read(args, 1, false)?,
+            offset: args.option_number("-LEN").unwrap_or(0.0),
+        })
+    }
 }
 
-impl ConnectorClass for Spring {
+impl ConnectorClass for Generalized {
     fn kind(&self) -> &'static str {
         self.kind
     }
@@ -173,14 +275,18 @@ impl ConnectorClass for Spring {
     }
 
     fn properties(&self, name: &str, _: &Surroundings) -> Table {
-        restraint_table(name, self.kind, &self.restraints)
-            .fact("Sense", self.sense.as_str(), Dim::None)
+        restraint_table(name, self.kind, &self.springs.restraints)
+            .fact("Sense", self.sense.word(), Dim::None)
             .fact("Offset along X", self.offset, Dim::Length)
-            .fact("Symmetric about X", if self.symmetric { "YES" } else { "NO" }, Dim::None)
+            .fact("Symmetric about X", if self.springs.symmetric { "YES" } else { "NO" }, Dim::None)
     }
 
     fn first_length(&self) -> Option<f64> {
         Some(self.offset)
+    }
+
+    fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
+        self.springs.element(connection, self.sense, Contact::Whole, Vector3::x() * self.offset)
     }
 }
 

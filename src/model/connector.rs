@@ -17,6 +17,15 @@ pub struct Anchor {
     pub elevation: Option<f64>,
 }
 
+/// Where a tug pulls, of `-TUG`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tug {
+    /// Direction it pulls toward in the global horizontal plane, from +X toward +Y (rad).
+    pub direction: f64,
+    /// Its distance from the point (m): where it is drawn.
+    pub distance: f64,
+}
+
 /// A connector.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Connector {
@@ -28,6 +37,8 @@ pub struct Connector {
     pub points: Vec<String>,
     /// Anchor of a line to ground.
     pub anchor: Option<Anchor>,
+    /// The tug of a TUG_BOAT.
+    pub tug: Option<Tug>,
     /// Offsets of the two ends from their points, in the system of the end's body (m).
     pub offsets: [Position; 2],
     /// Where its two ends stood when it was defined; behind a single point the ground end stands where the point was, with

@@ -81,6 +81,11 @@ pub struct Curve {
     pub kind: CurveKind,
     /// Pairs in SI.
     pub points: Vec<(f64, f64)>,
+    /// Exponentials that stand for a convolution curve in the time domain (`-NDOF`).
+    pub exponentials: usize,
+    /// Metres in the unit of length it was given in: a stiffness per length of a curve that acts in a rotation is a moment
+    /// per radian in the same units.
+    pub metres: f64,
     /// Where it was defined.
     pub span: Span,
 }

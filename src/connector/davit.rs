@@ -1,0 +1,26 @@
+//! DAVIT: a line from which a pipe hangs while it is laid.
+//!
+//! Source: seed 001: as a SLING.
+
+use super::ClassKind;
+use super::sling::{DATA, DETAIL, OPTIONS};
+use super::tie::TieClass;
+use crate::language::diagnostic::Outcome;
+use crate::language::spec::CommandSpec;
+use crate::model::{ClassRecord, ConnectorClass};
+use std::sync::Arc;
+
+/// The class type.
+pub static DAVIT: ClassKind = ClassKind { spec: &SPEC, segmented: false, build };
+
+static SPEC: CommandSpec = CommandSpec {
+    data: DATA,
+    options: OPTIONS,
+    detail: DETAIL,
+    example: "MEDIT\n~DV1 DAVIT 2 -LEN 30\nEND\n&STATUS CLASS ~DV1",
+    ..CommandSpec::new("DAVIT", "davit line of a pipe being laid")
+};
+
+fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
+    Ok(Arc::new(TieClass::read(records, "DAVIT")?))
+}

@@ -1,0 +1,49 @@
+//! FIX: a restraint that holds chosen degrees of freedom rigidly.
+//!
+//! Source: reference/model.md, "Rigid". The reference restrains only translations in a simulation; here rotations are held as well.
+
+use super::restraint::Restraining;
+use super::spring::Restraint;
+use super::{ClassKind, options as o};
+use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::spec::CommandSpec;
+use crate::model::{ClassRecord, ConnectorClass};
+use std::sync::Arc;
+
+/// The class type.
+pub static FIX: ClassKind = ClassKind { spec: &SPEC, segmented: false, build };
+
+/// Stiffness of what is rigid (N/m, N m/rad): rounding of positions of a thousand metres, some 1E-13 m, stays below a newton.
+pub const RIGID: f64 = 1e12;
+
+static SPEC: CommandSpec = CommandSpec {
+    data: &[o::DF.or("all six")],
+    repeat: 1,
+    options: &[o::IG_STIFF],
+    detail: "Holds these degrees of freedom of the second end against the first as they stood when the connector was defined: place the \
+             bodies first. Axes are those of the first node's body, turned by -EULER; global on ground. Rigid means 1.0E12 N/m and \
+             1.0E12 N m/rad: stiff, and small enough that rounding of positions stays below a newton. With one node it holds to the \
+             ground. Rotations are held in the time domain as well. Its force belongs to RIGID_CONNECTORS.",
+    example: "MEDIT\n*P 0 0 0\n~HINGE FIX X Y Z\n~CLAMP FIX\nCONNECTOR H ~HINGE *P\nEND\n&STATUS CLASS ~HINGE",
+    ..CommandSpec::new("FIX", "rigid restraint")
+};
+
+fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
+    let given = records.last().map(|r| r.args.data.as_slice()).unwrap_or_default();
+    let mut list: Vec<Restraint> = Vec::new();
+    for value in given {
+        let Some(dof) = value.word() else { continue };
+        if list.iter().any(|r| r.dof == dof) {
+            return Err(Diagnostic::error(format!("degree of freedom {dof} is given twice"), value.span));
+        }
+        list.push(held(dof));
+    }
+    if list.is_empty() {
+        list = o::DOFS.iter().map(|dof| held(dof)).collect();
+    }
+    Ok(Arc::new(Restraining::new(records, "FIX", list)))
+}
+
+fn held(dof: &str) -> Restraint {
+    Restraint { dof: dof.to_string(), stiffness: RIGID, allowable: None }
+}

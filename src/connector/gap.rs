@@ -1,0 +1,36 @@
+//! GAP: a rigid contact that only pushes, with friction.
+//!
+//! Source: reference/model.md, "Rigid": `GAP COEF`.
+
+use super::fix::RIGID;
+use super::restraint::Restraining;
+use super::spring::Restraint;
+use super::zero_law::Friction;
+use super::{ClassKind, options as o};
+use crate::language::diagnostic::Outcome;
+use crate::language::spec::{CommandSpec, Kind, ValueSpec};
+use crate::language::units::Dim;
+use crate::model::{ClassRecord, ConnectorClass};
+use std::sync::Arc;
+
+/// The class type.
+pub static GAP: ClassKind = ClassKind { spec: &SPEC, segmented: false, build };
+
+static SPEC: CommandSpec = CommandSpec {
+    data: &[ValueSpec::new("COEF", Kind::Number(Dim::None), "coefficient of friction").or("0").not_negative()],
+    options: &[o::IG_STIFF],
+    detail: "In contact as the ends stood when the connector was defined: place the bodies first. It pushes rigidly (1.0E12 N/m) while the \
+             second end has come nearer along element X than it stood then, and never pulls. While it pushes the ends stick to one \
+             another in Y and Z, as stiffly, up to COEF times the push, beyond which they slide; where they stick is remembered from \
+             step to step. Axes are those of the first node's body, turned by -EULER; global on ground. Its force belongs to \
+             RIGID_CONNECTORS.",
+    example: "MEDIT\n*P 0 0 0\n~REST GAP 0.3\nCONNECTOR G -EULER 0 90 0 ~REST *P\nEND\n&STATUS CLASS ~REST",
+    ..CommandSpec::new("GAP", "rigid contact with friction")
+};
+
+fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
+    let mu = records.last().and_then(|r| r.args.number(0)).unwrap_or(0.0);
+    let push = Restraint { dof: "X".into(), stiffness: RIGID, allowable: None };
+    let friction = if mu > 0.0 { Friction::Stick { mu, stiffness: RIGID } } else { Friction::None };
+    Ok(Arc::new(Restraining::new(records, "GAP", vec![push]).pushing(friction)))
+}

@@ -1,0 +1,83 @@
+//! What the restraints FIX, SPR and GAP share: no deflection as the ends stood when the connector was defined.
+//!
+//! Source: reference/model.md, "Rigid": the program sets the offset of the second end at definition.
+
+use super::checks;
+use super::spring::{Restraint, no_anchor, restraint_table};
+use super::spring_law::{Elastic, Group};
+use super::zero_law::{Contact, Friction, Sense, ZeroLaw};
+use super::zero_length::{ZeroLength, defined_displacement, element_turns};
+use crate::language::diagnostic::Outcome;
+use crate::language::units::Dim;
+use crate::model::{ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Surroundings};
+use crate::table::Table;
+use nalgebra::Matrix3;
+
+/// A class of restraints.
+#[derive(Debug)]
+pub struct Restraining {
+    kind: &'static str,
+    restraints: Vec<Restraint>,
+    sense: Sense,
+    friction: Friction,
+    ignored: bool,
+}
+
+impl Restraining {
+    /// Of a class with these springs, that act both ways.
+    pub fn new(records: &[ClassRecord], kind: &'static str, restraints: Vec<Restraint>) -> Self {
+        let ignored = records.last().is_some_and(|r| r.args.has("-IG_STIFF"));
+        Restraining { kind, restraints, sense: Sense::Both, friction: Friction::None, ignored }
+    }
+
+    /// The same that only pushes along X, with friction.
+    #[must_use]
+    pub fn pushing(self, friction: Friction) -> Self {
+        Restraining { sense: Sense::Compression, friction, ..self }
+    }
+}
+
+impl ConnectorClass for Restraining {
+    fn kind(&self) -> &'static str {
+        self.kind
+    }
+
+    fn check_ends(&self, connector: &Connector, bodies: usize) -> Outcome<()> {
+        no_anchor(self.kind, connector)?;
+        checks::ends(self.kind, connector, bodies, 2, 2)
+    }
+
+    fn properties(&self, name: &str, _: &Surroundings) -> Table {
+        let table = restraint_table(name, self.kind, &self.restraints);
+        match self.friction {
+            Friction::Stick { mu, .. } => table.fact("Friction", mu, Dim::None),
+            _ => table,
+        }
+    }
+
+    fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
+        let (turn, other_turn) = element_turns(connection, 0, Matrix3::identity());
+        let list = || {
+            let dof = |r: &Restraint| super::options::DOFS.iter().position(|d| *d == r.dof);
+            self.restraints.iter().filter_map(move |r| dof(r).map(|d| (d, r.stiffness)))
+        };
+        let group = |(dof, stiffness)| Group { dofs: vec![dof], elastic: Elastic::new(stiffness, None), viscous: None };
+        let law = ZeroLaw {
+            sense: self.sense,
+            contact: Contact::Whole,
+            groups: list().map(group).collect(),
+            dashpots: Vec::new(),
+            friction: self.friction,
+        };
+        Ok(Box::new(ZeroLength {
+            holder: 0,
+            turn,
+            other_turn,
+            rest: defined_displacement(connection, &turn),
+            law,
+            listed: list().map(|(dof, _)| (dof, None)).collect(),
+            rigid: true,
+            ignored: self.ignored,
+        }))
+    }
+}

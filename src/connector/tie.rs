@@ -1,0 +1,130 @@
+//! A weightless line that only pulls, along the chord between its ends: what SLING and DAVIT are.
+//!
+//! Source: seed 001: lines whose force depends only upon the distance between the ends, of stiffness AE/L.
+
+use super::checks;
+use super::section::{LineSection, properties};
+use super::spring::no_anchor;
+use crate::language::diagnostic::Outcome;
+use crate::language::units::Dim;
+use crate::model::{
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Guess, Response, Situation, Summary,
+    Surroundings,
+};
+use crate::table::Table;
+use nalgebra::{Matrix3, Matrix6};
+
+/// The force of a tie on its first end, toward the second.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tie {
+    /// AE (N).
+    pub ea: f64,
+    /// Unstretched length (m).
+    pub length: f64,
+    /// Breaking tension (N).
+    pub breaking: f64,
+}
+
+impl Tie {
+    /// Tension at a distance of its ends (N), and its slope (N/m).
+    pub fn tension(&self, distance: f64) -> (f64, f64) {
+        let stiffness = self.ea / self.length;
+        let stretch = distance - self.length;
+        if stretch > 0.0 { (stiffness * stretch, stiffness) } else { (0.0, 0.0) }
+    }
+
+    fn chord(at: &Situation) -> Result<(nalgebra::Vector3<f64>, f64), ClassError> {
+        let [first, second] = at.ends else { return Err(ClassError::new("a sling has two ends")) };
+        let apart = second.pose.origin - first.pose.origin;
+        Ok((apart, apart.norm()))
+    }
+}
+
+impl Element for Tie {
+    fn evaluate(
+        &self,
+        at: &Situation,
+        _: &[f64],
+        _: &mut [f64],
+        _: &mut Guess,
+        out: &mut Response,
+    ) -> Result<(), ClassError> {
+        let (apart, distance) = Tie::chord(at)?;
+        let (tension, slope) = self.tension(distance);
+        out.clear(2);
+        if tension == 0.0 {
+            return Ok(());
+        }
+        let n = apart / distance;
+        let block = n * n.transpose() * slope + (Matrix3::identity() - n * n.transpose()) * (tension / distance);
+        let mut whole = Matrix6::zeros();
+        whole.fixed_view_mut::<3, 3>(0, 0).copy_from(&block);
+        out.stiffness = vec![whole, -whole, -whole, whole];
+        for (wrench, sign) in out.wrench.iter_mut().zip([1.0, -1.0]) {
+            wrench.fixed_rows_mut::<3>(0).copy_from(&(n * (sign * tension)));
+        }
+        Ok(())
+    }
+
+    fn summary(&self, at: &Situation, _: &[f64]) -> Result<Summary, ClassError> {
+        let (_, distance) = Tie::chord(at)?;
+        let (tension, _) = self.tension(distance);
+        let ratio = tension / self.breaking;
+        let mut notes = Vec::new();
+        if tension == 0.0 {
+            notes.push("it is slack".to_string());
+        }
+        if ratio > 1.0 {
+            notes.push("warning: it is beyond its breaking tension".into());
+        }
+        let (tension, ratio, critical) = (Some(tension), Some(ratio), Some(1));
+        Ok(Summary { tension, ratio, critical, solution: "exact", notes, ..Summary::default() })
+    }
+}
+
+/// A class of ties in an assembly.
+#[derive(Debug)]
+pub struct TieClass {
+    kind: &'static str,
+    section: Option<LineSection>,
+}
+
+impl TieClass {
+    /// Reads the last of a class's records.
+    ///
+    /// # Errors
+    /// No length.
+    pub fn read(records: &[ClassRecord], kind: &'static str) -> Outcome<Self> {
+        let section = records.last().map(|r| LineSection::read(r, kind, false)).transpose()?;
+        Ok(TieClass { kind, section })
+    }
+}
+
+impl ConnectorClass for TieClass {
+    fn kind(&self) -> &'static str {
+        self.kind
+    }
+
+    fn check_ends(&self, connector: &Connector, bodies: usize) -> Outcome<()> {
+        no_anchor(self.kind, connector)?;
+        checks::ends(self.kind, connector, bodies, 1, 1)
+    }
+
+    fn properties(&self, name: &str, surroundings: &Surroundings) -> Table {
+        let stiffness = self.section.map(|s| s.ea / s.length);
+        let section = self.section.as_slice();
+        properties(name, self.kind, section, surroundings).fact("Stiffness AE/L", stiffness, Dim::ForcePerLength)
+    }
+
+    fn first_length(&self) -> Option<f64> {
+        self.section.map(|s| s.length)
+    }
+
+    /// Between the node and the end that an assembly gives: it asks with `to_ground` false.
+    fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
+        let section = self.section.ok_or_else(|| ClassError::new("the class has no record"))?;
+        checks::in_assembly(self.kind, connection)?;
+        let length = connection.connector.first_length.unwrap_or(section.length);
+        Ok(Box::new(Tie { ea: section.ea, length, breaking: section.breaking }))
+    }
+}

@@ -1,0 +1,93 @@
+//! TUG_BOAT: a constant horizontal force.
+//!
+//! Source: reference/model.md (the names TUG_BOAT and -TUG ANG DIST); that the force is constant is our reading.
+
+use super::ClassKind;
+use super::spring::no_anchor;
+use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::spec::{CommandSpec, Kind, ValueSpec};
+use crate::language::units::Dim;
+use crate::model::{
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Guess, Response, Situation, Summary,
+    Surroundings, unit_vector,
+};
+use crate::table::Table;
+use std::sync::Arc;
+
+/// The class type.
+pub static TUG_BOAT: ClassKind = ClassKind { spec: &SPEC, segmented: false, build };
+
+static SPEC: CommandSpec = CommandSpec {
+    data: &[ValueSpec::new("FORCE", Kind::Number(Dim::Force), "bollard pull").not_negative()],
+    detail: "Pulls its point with FORCE toward the direction ANG of -TUG ANG DIST on the connector, degrees from +X toward +Y in the global \
+             horizontal plane, wherever the body goes and turns: it has no stiffness. DIST is where the tug is drawn. The tug itself \
+             bears the reaction, and is no part of the model.",
+    example: "MEDIT\n&DESCRIBE BODY BARGE\n*BITT 0 0 5\n~TUG TUG_BOAT 60\nCONNECTOR T1 -TUG 180 300 ~TUG *BITT\nEND\n&STATUS CLASS ~TUG",
+    ..CommandSpec::new("TUG_BOAT", "constant pull of a tug")
+};
+
+#[derive(Debug)]
+struct Tugs {
+    force: f64,
+}
+
+/// The force on its point (N, global).
+#[derive(Debug)]
+struct Pull {
+    force: [f64; 2],
+}
+
+fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
+    Ok(Arc::new(Tugs { force: records.last().and_then(|r| r.args.number(0)).unwrap_or(0.0) }))
+}
+
+impl ConnectorClass for Tugs {
+    fn kind(&self) -> &'static str {
+        "TUG_BOAT"
+    }
+
+    fn check_ends(&self, connector: &Connector, _: usize) -> Outcome<()> {
+        no_anchor("TUG_BOAT", connector)?;
+        if connector.points.len() > 1 {
+            return Err(Diagnostic::error("a TUG_BOAT takes 1 point, its other end is the tug", connector.span));
+        }
+        if connector.tug.is_none() {
+            return Err(Diagnostic::error("a TUG_BOAT needs -TUG ANG DIST on its connector", connector.span));
+        }
+        Ok(())
+    }
+
+    fn properties(&self, name: &str, _: &Surroundings) -> Table {
+        Table::new(format!("Class {name}")).fact("Type", "TUG_BOAT", Dim::None).fact("Force", self.force, Dim::Force)
+    }
+
+    fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
+        let tug = connection.connector.tug.ok_or_else(|| ClassError::new("the connector has no -TUG"))?;
+        let (cos, sin) = unit_vector(tug.direction);
+        Ok(Box::new(Pull { force: [self.force * cos, self.force * sin] }))
+    }
+}
+
+impl Element for Pull {
+    fn evaluate(
+        &self,
+        _: &Situation,
+        _: &[f64],
+        _: &mut [f64],
+        _: &mut Guess,
+        out: &mut Response,
+    ) -> Result<(), ClassError> {
+        out.clear(2);
+        let [x, y] = self.force;
+        if let Some(wrench) = out.wrench.first_mut() {
+            wrench.x = x;
+            wrench.y = y;
+        }
+        Ok(())
+    }
+
+    fn summary(&self, _: &Situation, _: &[f64]) -> Result<Summary, ClassError> {
+        let [x, y] = self.force;
+        Ok(Summary { tension: Some(x.hypot(y)), solution: "exact", ..Summary::default() })
+    }
+}
