@@ -429,7 +429,7 @@ fn a_nearly_level_and_a_nearly_upright_tube_go_smoothly_to_the_limit() {
         Tube { ends: [-axis, axis], diameter: 2.0 * r }.wet(&Pose::default(), 0.4)
     };
     let upright = at(0.0);
-    for power in 5..320 {
+    for power in 5..306 {
         let lean = 10f64.powi(-power);
         // the centre of buoyancy moves by its height over the middle, 24.8 m, times the lean; the volume is 50.4 pi
         agree(&at(lean), &upright, 1.0, 2e-12 + 50.4 * PI * 25.0 * lean, &format!("upright {lean:e}"));
