@@ -5,6 +5,7 @@
 //! model when it fails.
 
 mod alter;
+mod apply;
 mod chosen;
 mod class;
 mod conn_design;
@@ -22,6 +23,8 @@ pub mod help;
 mod job;
 mod line_types;
 mod lines;
+mod loads;
+mod loads_table;
 mod menus;
 mod message;
 mod names;
@@ -111,6 +114,14 @@ pub static COMMANDS: &[&Command] = &[
     &describe::DESCRIBE,
     &describe::POINT,
     &describe::INSTATE,
+    &loads::AREA,
+    &loads::PLATE,
+    &loads::TABLE,
+    &loads::DRIFT,
+    &loads::DRAG,
+    &loads::DAMP,
+    &loads::AMASS,
+    &apply::APPLY,
     &class::CLASS,
     &connector::CONNECTOR,
     &names::DELETE,
