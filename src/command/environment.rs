@@ -154,7 +154,16 @@ static ENV_SPEC: CommandSpec = CommandSpec {
     detail: "Directions are where sea, wind and current come from, from +X toward +Y: 180 is a head sea. Without a name the \
              environment starts from the defaults; a new name too, and is kept; an old name edits what is kept. It stays in \
              force until the next &ENV. The sources list no types for -PROBABILITY, -SP_TYPE, -W_PROFILE, -W_DESIGN and \
-             -W_SPECTRUM: those taken are the field's usual ones. Depth and tide together must leave water.",
+             -W_SPECTRUM: those taken are the field's usual ones. Depth and tide together must leave water. \
+             -WIND is the mean 10 m above the water over the time of the formula (1 h for API, NPD, ISO; 10 min for DNV; 1 min for \
+             ABS); below 1 m it is that of 1 m. -W_PROFILE: POWER, exponent 1/7 unless given (also without the option); \
+             LOGARITHMIC, with Charnock's roughness; API RP 2A 20th edition, exponent 0.125; NPD (Froya) and ISO 19901-1; DNV-RP-C205; \
+             ABS MODU rules, joined between the middles of their bands. -W_DESIGN turns the mean into that of DURATION by the gust \
+             factor of its code, and gives the profile where -W_PROFILE does not. Currents of several curves add up as vectors; a curve \
+             counts depth from the actual surface, tide included, is straight between its points and constant beyond them; below \
+             the bottom there is none. PERIOD is the mean period of ISSC, the peak period of JONSWAP, REGULAR's own, and that to which \
+             the peak of a curve is moved; -SP_TYPE says otherwise for ISSC and JONSWAP, whose GAMMA is 3.3 unless given. No source \
+             gives a formula of 2JONSWAP: what needs it says so.",
     example: "&ENV STORM -SEA ISSC 180 22 10.3 -WIND 60 180 -DEPTH 3000\n&STATUS ENVIRONMENT",
     ..CommandSpec::new("&ENV", "sets the environment")
 };

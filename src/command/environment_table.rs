@@ -1,7 +1,9 @@
 //! The part of `&STATUS` that tells of environments.
 
 use super::Job;
+use super::chosen::WARNING;
 use super::written::option_as_written;
+use crate::hydro::steady::Steady;
 use crate::language::units::Dim;
 use crate::model::{Current, Environment, Sea};
 use crate::table::{Cell, Table};
@@ -15,12 +17,33 @@ pub(super) fn environments(job: &Job, chosen: Option<&dyn Fn(&str) -> bool>) -> 
     }
 }
 
+/// The direction something travels toward that comes from a direction (rad).
+fn opposite(from: f64) -> f64 {
+    (from + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU)
+}
+
+/// The sum of currents at the surface, and at half depth and at the bottom where the depth is known.
+fn depths(mut table: Table, steady: &Steady) -> Table {
+    let deep = steady.around.depth.map(|d| d + steady.around.tide);
+    let places = [("at surface", Some(0.0)), ("at half depth", deep.map(|d| 0.5 * d)), ("at bottom", deep)];
+    for (name, depth) in places {
+        let Some(depth) = depth else { continue };
+        let velocity = steady.current.at_depth(depth).0;
+        table = table.fact(&format!("Current {name}"), velocity.norm(), Dim::Velocity);
+        if velocity.norm() > 0.0 {
+            let toward = velocity.y.atan2(velocity.x).rem_euclid(std::f64::consts::TAU);
+            table =
+                table.fact("   comes from", opposite(toward), Dim::Angle).fact("   travels toward", toward, Dim::Angle);
+        }
+    }
+    table
+}
+
 fn facts_of_sea(table: Table, name: &str, sea: &Sea) -> Table {
-    let toward = sea.direction + std::f64::consts::PI;
     table
         .fact(name, sea.spectrum.as_str(), Dim::None)
         .fact("   comes from", sea.direction, Dim::Angle)
-        .fact("   travels toward", toward.rem_euclid(std::f64::consts::TAU), Dim::Angle)
+        .fact("   travels toward", opposite(sea.direction), Dim::Angle)
         .fact("   height", sea.height, Dim::Length)
         .fact("   period", sea.period, Dim::Time)
         .fact("   gamma", sea.gamma, Dim::None)
@@ -43,18 +66,39 @@ fn environment(job: &Job, env: &Environment) -> Table {
     if env.sea.is_some() {
         table = table.fact("Spreading Exponent", env.spreading.unwrap_or(200.0), Dim::None);
     }
+    let steady = Steady::streams(model, env);
+    let field = steady.as_ref().ok();
     if let Some(wind) = env.wind {
-        table = table.fact("Wind", wind.speed, Dim::WindSpeed).fact("   comes from", wind.direction, Dim::Angle);
+        table = table.fact("Wind", wind.speed, Dim::WindSpeed).fact("   comes from", wind.direction, Dim::Angle).fact(
+            "   travels toward",
+            opposite(wind.direction),
+            Dim::Angle,
+        );
+        if let Some(field) = field.and_then(|s| s.wind) {
+            let at = |height: f64| field.speed(height).0;
+            table = table.fact("   speed at 10 m", at(10.0), Dim::WindSpeed).fact(
+                "   speed at 50 m",
+                at(50.0),
+                Dim::WindSpeed,
+            );
+        }
     }
     table = match &env.current {
         None => table,
-        Some(Current::Uniform { velocity, direction }) => {
-            table.fact("Current", *velocity, Dim::Velocity).fact("   comes from", *direction, Dim::Angle)
+        Some(Current::Uniform { velocity, direction }) => table
+            .fact("Current", *velocity, Dim::Velocity)
+            .fact("   comes from", *direction, Dim::Angle)
+            .fact("   travels toward", opposite(*direction), Dim::Angle),
+        Some(Current::Profiles(list)) => {
+            let named = list.iter().fold(table, |t, (name, direction)| {
+                t.fact("Current Profile", name.as_str(), Dim::None).fact("   comes from", *direction, Dim::Angle)
+            });
+            field.map_or(named.clone(), |f| depths(named, f))
         }
-        Some(Current::Profiles(list)) => list.iter().fold(table, |t, (name, direction)| {
-            t.fact("Current Profile", name.as_str(), Dim::None).fact("   comes from", *direction, Dim::Angle)
-        }),
     };
+    if let Err(error) = &steady {
+        table.note(format!("{WARNING}{}", error.text(job.units)));
+    }
     if let Some(time) = env.time {
         table = table
             .fact("Time Observed", time.observed, Dim::Time)

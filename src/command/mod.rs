@@ -5,6 +5,7 @@
 //! model when it fails.
 
 mod alter;
+mod apply;
 mod body_status;
 mod chosen;
 mod class;
@@ -25,6 +26,8 @@ mod job;
 mod junction;
 mod line_types;
 mod lines;
+mod loads;
+mod loads_table;
 mod menus;
 mod message;
 mod names;
@@ -114,6 +117,14 @@ pub static COMMANDS: &[&Command] = &[
     &describe::DESCRIBE,
     &describe::POINT,
     &describe::INSTATE,
+    &loads::AREA,
+    &loads::PLATE,
+    &loads::TABLE,
+    &loads::DRIFT,
+    &loads::DRAG,
+    &loads::DAMP,
+    &loads::AMASS,
+    &apply::APPLY,
     &class::CLASS,
     &connector::CONNECTOR,
     &junction::JUNCTION,

@@ -83,11 +83,17 @@ fn remove(model: &mut Model, thing: Thing, name: &str) {
         Thing::Environment => drop(model.environments.shift_remove(&key)),
         Thing::Curve => drop(model.curves.shift_remove(&key)),
         Thing::Selector => drop(model.selectors.shift_remove(&key)),
-        Thing::Part => drop(model.parts.shift_remove(&key)),
+        Thing::Part => {
+            model.loads.retain(|l| Model::key(&l.part) != key);
+            model.multipliers.parts.shift_remove(&key);
+            model.parts.shift_remove(&key);
+        }
         Thing::Body => {
             let parts = &model.parts;
             let own = |part: &str| parts.get(&Model::key(part)).is_some_and(|p| Model::key(&p.body) == key);
             model.points.retain(|_, p| !own(&p.part));
+            model.loads.retain(|l| !own(&l.part));
+            model.multipliers.parts.retain(|part, _| !own(part));
             model.parts.retain(|_, p| Model::key(&p.body) != key);
             model.bodies.shift_remove(&key);
         }
@@ -133,8 +139,12 @@ fn rename(job: &mut Job, call: &Call) -> Outcome<Effect> {
         _ => {
             move_entry(&mut model.bodies, &from, to.clone(), |b| b.name = new.to_string());
             model.parts.values_mut().for_each(|p| follow(&mut p.body));
-            move_entry(&mut model.parts, &from, to, |p| p.name = new.to_string());
+            move_entry(&mut model.parts, &from, to.clone(), |p| p.name = new.to_string());
             model.points.values_mut().for_each(|p| follow(&mut p.part));
+            model.loads.iter_mut().for_each(|l| follow(&mut l.part));
+            if let Some(factor) = model.multipliers.parts.shift_remove(&from) {
+                model.multipliers.parts.insert(to.clone(), factor);
+            }
             model.current_part.iter_mut().for_each(follow);
         }
     }

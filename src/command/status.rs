@@ -4,6 +4,7 @@ use super::chosen::{Chosen, raise};
 use super::disposition::{BOTH, HARD, send};
 use super::environment_table::environments;
 use super::forces::forces;
+use super::loads_table::loads;
 use super::offsets::offsets;
 use super::written::{as_written, kind_data, option_as_written};
 use super::{Call, Command, Effect, Job, Menu, body_status, line_types};
@@ -30,6 +31,7 @@ const KINDS: &[(&str, Owner, &str)] = &[
     ("CURVES", Owner::Moses, "curves"),
     ("ENVIRONMENT", Owner::Moses, "the environment in force, or one kept under a name"),
     ("CLASSES", Owner::Ours, "the same as CL_FLEX"),
+    ("LOADS", Owner::Ours, "loads of wind, current and waves on parts, and the forces they come to"),
     ("BODIES", Owner::Ours, "bodies and their parts"),
     ("POINTS", Owner::Ours, "points, in their parts and in the global system"),
     ("DIMENSIONS", Owner::Ours, "units"),
@@ -72,7 +74,7 @@ static SPEC: CommandSpec = CommandSpec {
         HARD,
         BOTH,
     ],
-    detail: "CONFIGURATION, CL_FLEX (or CLASSES), G_CONNECTOR, F_CONNECTOR, FORCE, STIFFNESS, CURVES, ENVIRONMENT, BODIES, POINTS, DIMENSIONS, DEFAULTS, \
+    detail: "CONFIGURATION, CL_FLEX (or CLASSES), G_CONNECTOR, F_CONNECTOR, FORCE, STIFFNESS, CURVES, ENVIRONMENT, BODIES, POINTS, LOADS, DIMENSIONS, DEFAULTS, \
              SELECTORS; alone it counts what the model holds. ENVIRONMENT alone is the one in force, with a NAME the one kept \
              under it. LINE_TYPES lists the chains and ropes that -TYPE of a line \
              class knows; LINE_TYPES 3 gives their values at a nominal diameter, LINE_TYPES CHAIN_R4 the formulas of one. \
@@ -107,6 +109,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         "STIFFNESS" => body_status::stiffness(job, call, &chosen)?,
         "CURVES" => curves(model, &fits),
         "ENVIRONMENT" => environments(job, (!chosen.all()).then_some(&fits)),
+        "LOADS" => loads(job, &fits),
         "BODIES" => vec![bodies(model, &fits)],
         "POINTS" => vec![points(model, &fits)],
         "DIMENSIONS" => vec![dimensions(job)],
@@ -150,7 +153,7 @@ fn things(kind: &str) -> &'static [Thing] {
     match kind {
         "CONFIGURATION" | "FORCE" => &[Thing::Body],
         "STIFFNESS" => &[Thing::Body, Thing::Connector],
-        "BODIES" => &[Thing::Body, Thing::Part],
+        "BODIES" | "LOADS" => &[Thing::Body, Thing::Part],
         "CL_FLEX" | "CLASSES" => &[Thing::Class],
         "G_CONNECTOR" | "F_CONNECTOR" => &[Thing::Connector],
         "CURVES" => &[Thing::Curve],

@@ -59,7 +59,8 @@ impl Frame<'_> {
         if roll == 0.0 && pitch == 0.0 {
             return Ok(());
         }
-        let text = format!("{} is a table by heading; its part may not be rolled or pitched in its body", load.kind.name());
+        let text =
+            format!("{} is a table by heading; its part may not be rolled or pitched in its body", load.kind.name());
         Err(ClassError::new(text).at(load.span))
     }
 

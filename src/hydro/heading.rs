@@ -102,7 +102,8 @@ mod tests {
             assert!((table.at(-heading).0 - mirrored).amax() < 1e-12);
         }
         for step in -50..50 {
-            let at = 0.131 * f64::from(step);
+            // between headings: at one the second derivative jumps
+            let at = 0.131 * f64::from(step) + 0.01;
             let h = 1e-5;
             let by_difference = (table.at(at + h).0 - table.at(at - h).0) / (2.0 * h);
             assert!((table.at(at).1 - by_difference).amax() < 1e-8, "{at}");

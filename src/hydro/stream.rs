@@ -59,10 +59,8 @@ impl Place {
             [m.fixed_rows::<3>(0).into_owned(), m.fixed_rows::<3>(3).into_owned()]
         };
         let global = |v: Vector3<f64>| axes * v;
-        let (force, moment) = (
-            global(wrench.fixed_rows::<3>(0).into_owned()),
-            global(wrench.fixed_rows::<3>(3).into_owned()),
-        );
+        let (force, moment) =
+            (global(wrench.fixed_rows::<3>(0).into_owned()), global(wrench.fixed_rows::<3>(3).into_owned()));
         // change with the rotation of the axes, then with the height
         let turn = |v: Vector3<f64>, j: Matrix3<f64>| axes * j * axes.transpose() * cross(stream) - cross(v);
         let rise = |v: Vector3<f64>, j: Matrix3<f64>| (axes * j * (axes.transpose() * slope)) * share + v * share_slope;

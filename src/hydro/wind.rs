@@ -196,7 +196,7 @@ fn gust(kind: &str, duration: Option<f64>, speed: f64) -> Result<Gust, ClassErro
     let refuse = |text: &str, limit: f64| Err(ClassError::of(text, &[(limit, Dim::Time)]));
     match (kind, duration) {
         (_, None) => Ok(Gust::None),
-        ("API", Some(t)) if t == 3600.0 => Ok(Gust::None),
+        ("API", Some(3600.0)) => Ok(Gust::None),
         ("API", Some(t)) if t <= 60.0 => Ok(Gust::Api(3.0 + 0.6 * (3.0 / t).ln())),
         ("API", _) => {
             refuse("the gust factor of API reaches an averaging time of {}, and has the mean over 3600 s", 60.0)
@@ -205,7 +205,7 @@ fn gust(kind: &str, duration: Option<f64>, speed: f64) -> Result<Gust, ClassErro
         ("NPD" | "ISO", _) => refuse("the formula of the design wind reaches an averaging time of {}", 3600.0),
         ("DNV", Some(t)) if t <= 3600.0 => Ok(Gust::Dnv((t / 600.0).ln())),
         ("DNV", _) => refuse("the formula of the design wind reaches an averaging time of {}", 3600.0),
-        ("ABS", Some(t)) if t == 60.0 => Ok(Gust::None),
+        ("ABS", Some(60.0)) => Ok(Gust::None),
         _ => refuse("the rules of ABS have no other averaging time than {}", 60.0),
     }
 }

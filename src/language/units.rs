@@ -168,6 +168,15 @@ pub enum Dim {
     SpectralDensity,
     /// Nonlinear dashpot coefficient, `bforce (s/blength)**Ex` (N (s/m)**Ex); the exponent is carried.
     Damping(f64),
+    /// `bforce`, `blength` and seconds to whole powers (N, m and s to the same): coefficients and matrices.
+    Derived {
+        /// Power of force.
+        force: i8,
+        /// Power of length.
+        length: i8,
+        /// Power of seconds.
+        seconds: i8,
+    },
     /// Mass, kg in every system (AQWA items).
     Mass,
     /// Mass per length, kg/m in every system (AQWA items).
@@ -230,6 +239,7 @@ impl Dim {
             }
             Dim::Area | Dim::SpectralDensity => m * m,
             Dim::Damping(exponent) => n / m.powf(exponent),
+            Dim::Derived { force, length, .. } => n.powi(force.into()) * m.powi(length.into()),
             Dim::None
             | Dim::Time
             | Dim::Frequency
@@ -287,6 +297,7 @@ impl Dim {
             Dim::Area => format!("{length}2"),
             Dim::SpectralDensity => format!("{length}2-s"),
             Dim::Damping(exponent) => format!("{force}-(s/{length})**{exponent}"),
+            Dim::Derived { force: f, length: l, seconds: s } => derived([(force, f), (length, l), ("s", s)]),
             Dim::Mass => "kg".into(),
             Dim::MassPerLength => "kg/m".into(),
             Dim::SquareMetres => "m2".into(),
@@ -296,6 +307,24 @@ impl Dim {
             Dim::Pascals => "Pa".into(),
             Dim::KilogramsPerCubicMetre => "kg/m3".into(),
         }
+    }
+}
+
+/// Units to powers, as `kips-s2/ft2`.
+fn derived(units: [(&str, i8); 3]) -> String {
+    let of = |sign: i8| {
+        let some = units.iter().filter(|(_, power)| power.signum() == sign);
+        let text = some.map(|(unit, power)| match power.abs() {
+            1 => (*unit).to_string(),
+            n => format!("{unit}{n}"),
+        });
+        text.collect::<Vec<_>>().join("-")
+    };
+    let (over, under) = (of(1), of(-1));
+    match (over.is_empty(), under.is_empty()) {
+        (_, true) => over,
+        (true, _) => format!("1/{under}"),
+        _ => format!("{over}/{under}"),
     }
 }
 
@@ -312,6 +341,15 @@ mod tests {
         assert!((Dim::Stress.to_si(29_000.0, us) - 1.999_479_615e11).abs() < 1e5);
         // sea water 1025 kg/m3 is 63.99 lb/ft3
         assert!((Dim::Density.from_si(1025.0, us) - 63.989).abs() < 1e-3);
+    }
+
+    #[test]
+    fn derived_units_are_products_of_their_powers() {
+        let us = UnitSystem::default();
+        let dim = Dim::Derived { force: 1, length: -2, seconds: 2 };
+        assert_eq!(dim.to_si(1.0, us), KIP / (FOOT * FOOT));
+        assert_eq!(dim.label(us), "kips-s2/ft2");
+        assert_eq!(Dim::Derived { force: 0, length: -1, seconds: -2 }.label(us), "1/ft-s2");
     }
 
     #[test]

@@ -117,7 +117,13 @@ fn usual(dim: Dim, units: UnitSystem) -> u8 {
         Dim::Mass | Dim::MassPerLength | Dim::Metres => 2,
         Dim::Acceleration => 5,
         Dim::Newtons | Dim::Pascals | Dim::NewtonSquareMetres => 0,
-        Dim::None | Dim::Days | Dim::Frequency | Dim::SpectralDensity | Dim::Damping(_) | Dim::SquareMetres => 4,
+        Dim::None
+        | Dim::Days
+        | Dim::Frequency
+        | Dim::SpectralDensity
+        | Dim::Damping(_)
+        | Dim::Derived { .. }
+        | Dim::SquareMetres => 4,
         Dim::ThermalExpansion => 8,
     }
 }

@@ -258,10 +258,6 @@ impl Session {
             Kind::Class => return self.invoke(in_menu("~CLASS", self.job.menu(), first)?, record, words),
             Kind::Point => return self.invoke(in_menu("*POINT", self.job.menu(), first)?, record, words),
             Kind::Selector => return self.invoke(in_menu(":SELECTOR", self.job.menu(), first)?, record, words),
-            Kind::Load => {
-                return Err(Diagnostic::error(format!("load attribute {} is not known", first.text), first.span)
-                    .label("load attributes come with the bodies' loads"));
-            }
             _ => {}
         }
         match self.resolve(first)? {

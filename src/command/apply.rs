@@ -1,0 +1,60 @@
+//! `&APPLY`: multipliers of loads.
+//!
+//! Source: reference/model.md, "Weights and loads": multipliers compound.
+
+use super::{Call, Command, Effect};
+use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
+use crate::language::units::Dim;
+use crate::model::{Model, find};
+
+/// &APPLY.
+pub static APPLY: Command = Command { spec: &SPEC, edits: false, run };
+
+const VALUE: ValueSpec = ValueSpec::new("VALUE", Kind::Number(Dim::None), "multiplier").within(-1e6, 1e6);
+const CATEGORY: &[ValueSpec] =
+    &[ValueSpec::new("CATEGORY", Kind::Choice(&["WIND", "V_DRAG", "W_DRIFT"]), "category of force"), VALUE];
+
+static SPEC: CommandSpec = CommandSpec {
+    options: &[
+        OptionSpec::new("-FRACTION", &[], "values are fractions").default("as with -FRACTION"),
+        OptionSpec::new("-PERCENT", &[], "values are percent"),
+        OptionSpec::new("-CATEGORY", CATEGORY, "multiplier of a category of force").many(),
+        OptionSpec::new("-FORCE", CATEGORY, "the same as -CATEGORY").many(),
+        OptionSpec::new(
+            "-LOAD_GROUP",
+            &[ValueSpec::new("PART", Kind::Name(Noun::Part), "body or part: each has a group of its name"), VALUE],
+            "multiplier of the loads of a part",
+        )
+        .many(),
+    ],
+    detail: "Each record sets multipliers anew; a load has the product of that of its category and that of its part: 0.5 of \
+             both leave a quarter. They act on wind (WIND), current (V_DRAG) and mean wave drift (W_DRIFT); the other \
+             categories have no multiplier yet. The sources do not tell -CATEGORY and -FORCE apart.",
+    example: "&DESCRIBE BODY TBRG\n&APPLY -PERCENT -FORCE WIND 50 -LOAD_GROUP TBRG 120\n&STATUS LOADS",
+    ..CommandSpec::new("&APPLY", "sets multipliers of loads")
+};
+
+fn run(job: &mut super::Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let unit = match (args.has("-FRACTION"), args.option("-PERCENT")) {
+        (true, Some(given)) => {
+            return Err(Diagnostic::error("-FRACTION and -PERCENT contradict each other", given.span));
+        }
+        (_, Some(_)) => 0.01,
+        _ => 1.0,
+    };
+    let mut made = job.model.multipliers.clone();
+    for given in &args.options {
+        let (Some(name), Some(value)) = (given.word(0), given.number(1)) else { continue };
+        if given.spec.name == "-LOAD_GROUP" {
+            let span = given.values.first().map_or(given.span, |v| v.span);
+            find(&job.model.parts, name, "part", span)?;
+            made.parts.insert(Model::key(name), value * unit);
+        } else {
+            made.categories.insert(name.to_string(), value * unit);
+        }
+    }
+    job.model.multipliers = made;
+    Ok(Effect::Done)
+}
