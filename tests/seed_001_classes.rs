@@ -38,8 +38,15 @@ fn every_option_of_every_class_type_is_read_and_listed_back() {
             let values: Vec<String> = option.values.iter().enumerate().map(|(i, v)| example_value(v, i)).collect();
             let data: Vec<String> = match spec.name {
                 _ if option.name == "-TYPE" => Vec::new(),
-                "LMU" => ["60 24 48 X 1 1"].map(String::from).to_vec(),
+                "LMU" if !option.name.ends_with("_PY") => ["60 24 48 X 1 1"].map(String::from).to_vec(),
                 "ROD" => ["12 0.5"].map(String::from).to_vec(),
+                "SPR" => ["X 1"].map(String::from).to_vec(),
+                "FIX" => Vec::new(),
+                "FOUNDATION" | "GSPR" if option.name == "-Y_PY" => ["TENSION X 1 1 Y 1 1"].map(String::from).to_vec(),
+                "FOUNDATION" | "GSPR" if option.name == "-Z_PY" => ["TENSION X 1 1 Z 1 1"].map(String::from).to_vec(),
+                "LMU" if option.name == "-Y_PY" => ["60 24 48 X 1 1 Y 1 1"].map(String::from).to_vec(),
+                "LMU" if option.name == "-Z_PY" => ["60 24 48 X 1 1 Z 1 1"].map(String::from).to_vec(),
+                "LMU" => ["60 24 48 X 1 1"].map(String::from).to_vec(),
                 "FOUNDATION" | "GSPR" | "ROLLER" => ["TENSION X 1 1"].map(String::from).to_vec(),
                 "TETHER" => ["1 0.03"].map(String::from).to_vec(),
                 "CATENARY" => ["170 0.02"].map(String::from).to_vec(),

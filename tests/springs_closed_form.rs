@@ -89,7 +89,10 @@ fn a_gspr_pulls_with_its_spring_values_along_the_axes_of_the_first_body() {
     // a quarter turn of the first body about Z: its X is global Y
     let turned = [0.0, 0.0, 0.0, 0.0, 0.0, std::f64::consts::FRAC_PI_2];
     let (got, _) = joint.at(turned, [0.1, 0.2, -0.3, 0.0, 0.0, 0.0], [0.0; 3], None);
-    near(got.wrench[0].as_slice(), &[20.0, 200.0, -90.0, 0.2 * -90.0 + 0.3 * 200.0, -0.3 * 20.0 + 0.1 * 90.0, 20.0 - 4.0]);
+    near(
+        got.wrench[0].as_slice(),
+        &[20.0, 200.0, -90.0, 0.2 * -90.0 + 0.3 * 200.0, -0.3 * 20.0 + 0.1 * 90.0, 20.0 - 4.0],
+    );
     near(&got.wrench[1].as_slice()[..3], &[-20.0, -200.0, 90.0]);
     // -EULER by the same angle, the body not turned
     let euler = Joint::new("~C GSPR X 1000 Y 200 Z 300", "-EULER 0 0 90 ~C *A *B");
@@ -233,7 +236,8 @@ fn friction_without_lateral_springs_acts_against_the_relative_velocity() {
     near(&joint.passing([0.1, 0.0, 0.0], [0.0, 3.0, 4.0]), &[0.0; 3]);
 }
 
-const VISCOUS: &str = "&DATA CONVOLUTION TIME SOFT 0 5000 2 3819.5920 4 3103.6383 8 2406.0059 12 2149.3612 20 2020.2138 60 2000 -NDOF 1";
+const VISCOUS: &str =
+    "&DATA CONVOLUTION TIME SOFT 0 5000 2 3819.5920 4 3103.6383 8 2406.0059 12 2149.3612 20 2020.2138 60 2000 -NDOF 1";
 
 #[test]
 fn a_viscoelastic_spring_is_in_series_with_its_own_stiffness_by_time() {
@@ -291,6 +295,7 @@ fn the_report_has_deflections_forces_and_the_largest_share_of_an_allowable() {
     near(&[list[1].1, list[1].2], &[0.3, 60.0]);
     assert!(told.notes[0].contains("beyond its allowable"));
     assert!(joint.element.ignored_stiffness() && !joint.element.rigid());
+    assert!(joint.session.job.model.classes.values().all(|c| c.object.foundation()));
 }
 
 /// An upright cone of 1 m, mouth 0.8 m, for a pin of 0.4 m: T = 0.2; the pin is the first end, the cone the second.

@@ -53,6 +53,8 @@ const fn pairs(kind: CurveKind) -> [ValueSpec; 3] {
     match kind {
         // a spectrum has energy at real waves only
         CurveKind::PeriodSpectrum | CurveKind::FrequencySpectrum => [name, grows.not_negative(), value.not_negative()],
+        // a relaxation begins at time zero
+        CurveKind::ConvolutionTime | CurveKind::ConvolutionFrequency => [name, grows.not_negative(), value.positive()],
         _ => [name, grows, value],
     }
 }
@@ -237,9 +239,6 @@ fn convolution(job: &mut Job, call: &Call, span: Span, words: &[Word]) -> Outcom
     let kind = choose(&of.text, of.span, "convolution", names)?;
     let spec = if kind == CurveKind::ConvolutionTime { &BY_TIME } else { &BY_FREQUENCY };
     let args = args::read(spec, of.span, values, job.units)?;
-    if let Some(bad) = args.data.iter().skip(2).step_by(2).find(|v| v.number().is_some_and(|k| k <= 0.0)) {
-        return Err(Diagnostic::error("a stiffness must be greater than zero", bad.span));
-    }
     define(job, &Call { record: call.record, words, args }, kind)
 }
 

@@ -11,6 +11,7 @@ mod chosen;
 mod class;
 mod conn_design;
 mod connector;
+mod curve_table;
 mod curves;
 mod describe;
 mod device;

@@ -1,6 +1,7 @@
 //! `&STATUS`: what the model and the program hold.
 
 use super::chosen::{Chosen, raise};
+use super::curve_table::{chart, curves};
 use super::disposition::{BOTH, HARD, send};
 use super::environment_table::environments;
 use super::forces::forces;
@@ -134,7 +135,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let mut text = tables.iter().map(|t| page::render(t, job.units, &head)).collect::<Vec<_>>().join("\n");
     if args.has("-PLOT") && kind == "CURVES" {
         let (columns, lines) = job.plot_size();
-        for table in &tables {
+        for table in tables.iter().filter(|t| chart(t)) {
             text.push('\n');
             text.push_str(
                 &Chart::of(table, job.units)
@@ -296,25 +297,6 @@ fn connectors(model: &Model, fits: &dyn Fn(&str) -> bool) -> Table {
         push(&mut table, row);
     }
     table
-}
-
-fn curves(model: &Model, fits: &dyn Fn(&str) -> bool) -> Vec<Table> {
-    model
-        .curves
-        .values()
-        .filter(|c| fits(&c.name))
-        .map(|curve| {
-            let [a, b] = curve.kind.axes();
-            let mut table = Table::new(format!("Curve {}", curve.name))
-                .fact("Type", curve.kind.name(), Dim::None)
-                .column("", a.0, a.1, Digits::Usual)
-                .column("", b.0, b.1, Digits::Usual);
-            for (x, y) in &curve.points {
-                push(&mut table, vec![(*x).into(), (*y).into()]);
-            }
-            table
-        })
-        .collect()
 }
 
 fn dimensions(job: &Job) -> Table {

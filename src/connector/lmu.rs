@@ -38,15 +38,8 @@ static SPEC: CommandSpec = CommandSpec {
              pushes the pin out of the cone. That is the text of the manual with two signs mended: taken literally it pulls a centred \
              pin outward, and unloads one that has landed. With unlike SPV in X and Y these forces have no energy. A tip beside the mouth \
              is warned of. Symmetric unless -SYMMETRIC NO or Z properties are given. &HELP ~CLASS FOUNDATION tells of the options.",
-    example: "MEDIT
-&DESCRIBE BODY DECK
-*PIN 0 0 0
-*CONE 0 0 0 -GROUND
-~LMU1 LMU 60 24 48 X 5000 1000 Y 800 300
-\
-              CONNECTOR L1 ~LMU1 *PIN *CONE
-END
-&STATUS CLASS ~LMU1",
+    example: "MEDIT\n*CONE 0 0 0\n&DESCRIBE BODY DECK\n*PIN 0 0 0\n~LMU1 LMU 60 24 48 X 5000 1000 Y 800 300\n\
+              CONNECTOR L1 ~LMU1 *PIN *CONE\nEND\n&STATUS CLASS ~LMU1",
     ..CommandSpec::new("LMU", "leg mating unit: a pin in a cone")
 };
 

@@ -82,7 +82,7 @@ pub const Z_PY: OptionSpec =
     OptionSpec::new("-Z_PY", PY, "nonlinear spring in series with the z stiffness").repeating(2);
 
 const DASHPOT: &[ValueSpec] = &[
-    ValueSpec::new("Co", Kind::DampingCoefficient, "dashpot coefficient").not_negative(),
+    ValueSpec::new("Co", Kind::DampingCoefficient, "coefficient, in force times (time/length)**Ex").not_negative(),
     number("Ex", Dim::None, "exponent of the velocity").positive(),
     number("Fo", Dim::Force, "largest force").or("no limit").positive(),
 ];

@@ -103,8 +103,11 @@ fn convolutions(args: &Args, list: &[Restraint], symmetric: bool) -> Outcome<Vec
         let (Some(dof), Some(name_word)) = (value.word(), name.word()) else { continue };
         restrained(list, dof, symmetric, value.span)?;
         let Some(number) = index(dof) else { continue };
-        if seen.iter().any(|(other, ..)| *other == number) {
-            return Err(Diagnostic::error(format!("-CONVOLUTION is given twice for {dof}"), value.span));
+        // of a symmetric element Y and Z are the same
+        let like = |d: usize| if symmetric && d % 3 == 2 { d - 1 } else { d };
+        if let Some((.., first)) = seen.iter().find(|(other, ..)| like(*other) == like(number)) {
+            return Err(Diagnostic::error(format!("-CONVOLUTION is given twice for {dof}"), value.span)
+                .other(*first, "first given here"));
         }
         seen.push((number, name_word.to_string(), name.span));
     }
@@ -245,6 +248,7 @@ pub struct Generalized {
     sense: Sense,
     springs: Springs,
     offset: f64,
+    foundation: bool,
 }
 
 impl Generalized {
@@ -260,7 +264,14 @@ impl Generalized {
             sense: Sense::of(args.word(0)),
             springs: Springs::read(args, 1, false)?,
             offset: args.option_number("-LEN").unwrap_or(0.0),
+            foundation: false,
         })
+    }
+
+    /// The same, told of in a FOUNDATION check.
+    #[must_use]
+    pub fn checked(self) -> Self {
+        Generalized { foundation: true, ..self }
     }
 }
 
@@ -283,6 +294,10 @@ impl ConnectorClass for Generalized {
 
     fn first_length(&self) -> Option<f64> {
         Some(self.offset)
+    }
+
+    fn foundation(&self) -> bool {
+        self.foundation
     }
 
     fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {

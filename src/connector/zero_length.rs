@@ -124,9 +124,6 @@ impl ZeroLength {
     fn answer(&self, at: &Situation, committed: &[f64], trial: &mut [f64]) -> Result<(Motion, Answer), ClassError> {
         let motion = self.motion(at)?;
         let answer = self.law.answer(&motion.q, &motion.rate, at.step.map(|s| s.dt), committed, trial);
-        if answer.force.iter().any(|f| !f.is_finite()) {
-            return Err(ClassError::new("the force of the spring is not finite"));
-        }
         Ok((motion, answer))
     }
 
@@ -219,6 +216,10 @@ impl Element for ZeroLength {
     ) -> Result<(), ClassError> {
         let (motion, answer) = self.answer(at, committed, trial)?;
         self.respond(&motion, &answer, out);
+        let blocks = out.stiffness.iter().chain(&out.damping).flat_map(|b| b.iter());
+        if out.wrench.iter().flat_map(|w| w.iter()).chain(blocks).any(|v| !v.is_finite()) {
+            return Err(ClassError::new("the force of the spring, or its stiffness, is too large a number"));
+        }
         Ok(())
     }
 

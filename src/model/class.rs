@@ -134,6 +134,11 @@ pub trait ConnectorClass: Debug + Send + Sync {
         None
     }
 
+    /// Whether a FOUNDATION check reports its connectors: the ratio and the springs of their summaries (seed 001).
+    fn foundation(&self) -> bool {
+        false
+    }
+
     /// What a connector of this class is to an engine.
     ///
     /// # Errors
