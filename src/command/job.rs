@@ -1,5 +1,6 @@
 //! The job that commands act on: model, units, menus, titles, settings, output.
 
+use super::pgen::Planes;
 use crate::language::args::Args;
 use crate::language::diagnostic::{Diagnostic, Severity};
 use crate::language::source::Span;
@@ -41,6 +42,14 @@ pub enum Menu {
     Curves,
     /// Selectors being defined by `&SELECT`.
     Selectors,
+    /// Surfaces of hulls being defined by `&SURFACE`.
+    Surface,
+    /// A surface of panels being given by `BLOCK`.
+    Block,
+    /// A surface of panels being given by `MESH`.
+    Mesh,
+    /// Sections of a hull being given by `PGEN`.
+    Planes(Box<Planes>),
     /// The menu of this name whose opener was refused: its commands are passed over up to its `END`.
     Refused(&'static str),
 }
@@ -58,6 +67,10 @@ impl Menu {
             Menu::Environments => "ENVIRONMENT",
             Menu::Curves => "CURVES",
             Menu::Selectors => "SELECT",
+            Menu::Surface => "SURFACE",
+            Menu::Block => "BLOCK",
+            Menu::Mesh => "MESH",
+            Menu::Planes(_) => "PGEN",
             Menu::Refused(name) => name,
         }
     }
@@ -72,6 +85,10 @@ impl Menu {
             "REPORT" => "END_REPORT",
             "ENVIRONMENT" | "CURVES" => "END_&DATA",
             "SELECT" => "END_&SELECT",
+            "SURFACE" => "END_&SURFACE",
+            "BLOCK" => "END_BLOCK",
+            "MESH" => "END_MESH",
+            "PGEN" => "END_PGEN",
             _ => "END",
         }
     }

@@ -5,6 +5,7 @@
 //! model when it fails.
 
 mod alter;
+mod body_tables;
 mod chosen;
 mod class;
 mod conn_design;
@@ -19,6 +20,7 @@ mod file;
 mod forces;
 pub mod functions;
 pub mod help;
+mod hydrostatic;
 mod job;
 mod line_types;
 mod lines;
@@ -26,16 +28,20 @@ mod menus;
 mod message;
 mod names;
 mod offsets;
+mod pgen;
+mod piece;
 mod report_menu;
 mod select;
 mod status;
+mod surface;
 mod units;
 mod vary;
+mod weight;
 mod written;
 
 pub use file::write_open_files;
 pub use job::{Job, Menu, Settings};
-pub use menus::{finish_inmodel, opened_by};
+pub use menus::{finish, opened_by};
 pub use status::kinds as status_kinds;
 
 use crate::language::args::Args;
@@ -111,6 +117,18 @@ pub static COMMANDS: &[&Command] = &[
     &describe::DESCRIBE,
     &describe::POINT,
     &describe::INSTATE,
+    &weight::ITEM,
+    &weight::WEIGHT,
+    &hydrostatic::HYDROSTATIC,
+    &piece::PANEL,
+    &pgen::PGEN,
+    &pgen::PLANE,
+    &surface::SURFACE,
+    &surface::BLOCK,
+    &surface::MESH,
+    &surface::TUBE,
+    &surface::MOVE_BLOCK,
+    &surface::LIST_BLOCK,
     &class::CLASS,
     &connector::CONNECTOR,
     &names::DELETE,

@@ -140,6 +140,15 @@ fn take<'a>(option: &OptionSpec, words: &'a [Word]) -> &'a [Word] {
             None => break,
         };
         let must = value.is_required() && !again;
+        if word.kind != Lex::Option
+            && !must
+            && !fits(value.kind, word)
+            && option.values.get(index + 1).is_some_and(|next| !value.is_required() && fits(next.kind, word))
+        {
+            // passed over, as `convert` does
+            index += 1;
+            continue;
+        }
         if word.kind == Lex::Option || (!must && !fits(value.kind, word)) {
             break;
         }
