@@ -8,10 +8,10 @@ mod common;
 use common::session;
 use nalgebra::{Vector3, Vector6};
 use windlass::hydro::hull::Hydrostatics;
-use windlass::hydro::{Category, Floating, Hull};
+use windlass::hydro::{Category, Floating, Hull, balanced};
 use windlass::language::diagnostic::Severity;
 use windlass::language::units::{FOOT, KIP};
-use windlass::model::{Mass, Model, Pose};
+use windlass::model::{Mass, Model, Place, Pose};
 
 /// The model of records that must draw no error; and the texts of what else they draw.
 fn model(records: &str) -> (Model, Vec<String>) {
@@ -60,13 +60,12 @@ fn the_barge_has_the_hydrostatics_of_its_box() {
 fn panels_boxes_sections_and_meshes_of_one_form_have_one_buoyancy() {
     let body = "&DESCRIBE BODY B\n&INSTATE -LOCATE B 0 0 -9 3 2 30\n";
     let want = state(&model(&format!("{body}&SURFACE\nBLOCK HULL 0 -50 0 400 50 20\nEND\n")).0);
-    let corners = "*A 0 -50 0\n*B 400 -50 0\n*C 400 50 0\n*D 0 50 0\n*E 0 -50 20\n*F 400 -50 20\n*G 400 50 20\n*H 0 50 20\n";
+    let corners =
+        "*A 0 -50 0\n*B 400 -50 0\n*C 400 50 0\n*D 0 50 0\n*E 0 -50 20\n*F 400 -50 20\n*G 400 50 20\n*H 0 50 20\n";
     let faces = "*A *D *C *B|*E *F *G *H|*A *B *F *E|*B *C *G *F|*C *D *H *G|*D *A *E *H";
     let outward: String = faces.split('|').map(|f| format!("PANEL {f}\n")).collect();
-    let inward: String = faces
-        .split('|')
-        .map(|f| format!("PANEL {}\n", f.split(' ').rev().collect::<Vec<_>>().join(" ")))
-        .collect();
+    let inward: String =
+        faces.split('|').map(|f| format!("PANEL {}\n", f.split(' ').rev().collect::<Vec<_>>().join(" "))).collect();
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("box.obj");
     let obj = "v 0 -500 0\nv 4000 -500 0\nv 4000 500 0\nv 0 500 0\nv 0 -500 200\nv 4000 -500 200\nv 4000 500 200\nv 0 500 200\n\
@@ -209,7 +208,8 @@ fn an_open_piece_is_warned_of_and_gives_no_buoyancy() {
 #[test]
 fn overlapping_pieces_are_found_with_their_place_and_an_interior_within_its_exterior_is_none() {
     let two = |p: &str| {
-        let records = format!("&DESCRIBE BODY B\n&SURFACE\nBLOCK A 0 0 0 10 10 10\nBLOCK B 5 5 5 8 8 8 -PERM {p}\nEND\n");
+        let records =
+            format!("&DESCRIBE BODY B\n&SURFACE\nBLOCK A 0 0 0 10 10 10\nBLOCK B 5 5 5 8 8 8 -PERM {p}\nEND\n");
         model(&records).1
     };
     assert!(two("1").iter().any(|s| s.contains("pieces A and B overlap at")), "{:?}", two("1"));
@@ -233,9 +233,11 @@ fn conditions_of_several_bodies_keep_their_place_and_heading() {
 
 #[test]
 fn roll_lifts_starboard_and_trim_sinks_the_stern() {
-    let (model, _) = model("MEDIT\n&DESCRIBE BODY A\n*STARBOARD 0 10 0\n*STERN 10 0 0\nEND\n&INSTATE -CONDITION 0 5 0\n");
+    let (model, _) =
+        model("MEDIT\n&DESCRIBE BODY A\n*STARBOARD 0 10 0\n*STERN 10 0 0\nEND\n&INSTATE -CONDITION 0 5 0\n");
     assert!(model.global(&model.points["*STARBOARD"])[2] > 0.0);
-    let (model, _) = self::model("MEDIT\n&DESCRIBE BODY A\n*STARBOARD 0 10 0\n*STERN 10 0 0\nEND\n&INSTATE -CONDITION 0 0 5\n");
+    let (model, _) =
+        self::model("MEDIT\n&DESCRIBE BODY A\n*STARBOARD 0 10 0\n*STERN 10 0 0\nEND\n&INSTATE -CONDITION 0 0 5\n");
     assert!(model.global(&model.points["*STERN"])[2] < 0.0);
 }
 
@@ -247,4 +249,30 @@ fn a_move_and_its_opposite_restore_the_configuration() {
     for (a, b) in place.values().into_iter().zip(want) {
         assert!((a - b).abs() < 1e-15 * (1.0 + b), "{place:?}");
     }
+}
+
+#[test]
+fn the_righting_arm_of_a_box_is_that_of_a_wall_sided_ship() {
+    // while neither bilge nor deck edge crosses the surface (tan roll < 9 / 50): GZ = sin roll (GM + BM tan^2 roll / 2), with the draft
+    // that carries the weight; trim stays zero, and the heading does not matter
+    let (model, _) = model(BARGE);
+    let floating = Floating::of(&model, &model.bodies[0]).unwrap();
+    let draft = 23000.0 * KIP / (1025.0 * 9.80665) / FOOT.powi(3) / 40_000.0;
+    let bm = 10_000.0 / 12.0 / draft;
+    let gm = draft / 2.0 + bm - 12.0;
+    for (degrees, yaw) in [(0.5f64, 0.0), (5.0, 1.0), (10.0, -2.0), (-10.0, 3.0)] {
+        let roll = degrees.to_radians();
+        let found = balanced(&floating, &Place::new([5.0, 6.0, -2.0, roll, 0.0, yaw])).unwrap();
+        let want = roll.sin() * (gm + 0.5 * bm * roll.tan().powi(2));
+        near(found.arm / FOOT, want, 1e-8);
+        assert!(found.place.turn[1].abs() < 1e-9, "{found:?}");
+    }
+}
+
+#[test]
+fn a_body_that_cannot_float_has_no_righting_arm() {
+    let (model, _) =
+        model("MEDIT\n&DESCRIBE BODY B\n*P 5 5 5\n#WEIGHT *P 5000\nEND\n&SURFACE\nBLOCK H 0 0 0 10 10 10\nEND\n");
+    let floating = Floating::of(&model, &model.bodies[0]).unwrap();
+    assert!(balanced(&floating, &Place::default()).unwrap_err().message.contains("no balance"));
 }

@@ -15,7 +15,7 @@ use windlass::report::files::JobFolder;
 use windlass::report::output::Output;
 use windlass::session::Session;
 
-const MENUS: [&str; 13] = [
+const MENUS: [&str; 14] = [
     "MAIN",
     "INMODEL",
     "MEDIT",
@@ -29,6 +29,7 @@ const MENUS: [&str; 13] = [
     "BLOCK",
     "MESH",
     "PGEN",
+    "HSTATICS",
 ];
 
 fn specs() -> Vec<&'static CommandSpec> {

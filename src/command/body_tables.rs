@@ -57,7 +57,10 @@ fn note_mass(table: &mut Table, body: &Body, mass: &Mass) {
     } else if mass.mass < 0.0 {
         table.note(format!("{WARNING}{}: the weights take off more than they put on", body.name));
     } else if mass.radii().iter().any(|k| k.is_none_or(|k| k == 0.0)) {
-        table.note(format!("{} has a radius of gyration of zero: it can be in equilibrium and cannot be moved in time", body.name));
+        table.note(format!(
+            "{} has a radius of gyration of zero: it can be in equilibrium and cannot be moved in time",
+            body.name
+        ));
     }
 }
 
@@ -83,10 +86,15 @@ pub fn pieces(model: &Model, fits: Fits) -> Table {
                 Shape::Block { .. } => "box".into(),
                 Shape::Tube { .. } => "tube".into(),
             };
-            let mut cells = vec![part.body.as_str().into(), part.name.as_str().into(), piece.name.as_str().into(), form.into()];
+            let mut cells =
+                vec![part.body.as_str().into(), part.name.as_str().into(), piece.name.as_str().into(), form.into()];
             cells.push(Cell::from(piece.permeability));
             let [low, high] = piece.shape.extent().map_or([None, None], |[a, b]| [Some(a), Some(b)]);
-            cells.extend([low, high].into_iter().flat_map(|at| [0, 1, 2].map(|i| Cell::from(at.and_then(|a| a.get(i).copied())))));
+            cells.extend(
+                [low, high]
+                    .into_iter()
+                    .flat_map(|at| [0, 1, 2].map(|i| Cell::from(at.and_then(|a| a.get(i).copied())))),
+            );
             cells.extend([piece.cs_wind, piece.cs_current].map(|cs| Cell::from(cs.map(|x| x.to_string()).join(" "))));
             push(&mut table, cells);
         }

@@ -119,7 +119,11 @@ fn describe(job: &mut Job, call: &Call) -> Outcome<Effect> {
     if let Some(given) = args.options.iter().find(|g| of(g.spec.name) != kind) {
         let whose = of(given.spec.name).to_ascii_lowercase();
         let error = Diagnostic::error(format!("{} belongs to a {whose}", given.spec.name), given.span);
-        return Err(if whose == "part" && kind == "BODY" { error.help("&INSTATE -LOCATE places a body") } else { error });
+        return Err(if whose == "part" && kind == "BODY" {
+            error.help("&INSTATE -LOCATE places a body")
+        } else {
+            error
+        });
     }
     if kind == "PIECE" {
         let piece = piece::begun(job, args, &name, span, Shape::Panels(Vec::new()))?;

@@ -49,8 +49,16 @@ static SPEC: CommandSpec = CommandSpec {
         number("K55", Dim::MomentPerRadian, "stiffness of pitch").or("0, or as -KRY"),
     ],
     options: &[
-        ours("-BUOYANCY", &[number("B", Dim::Force, "upward force").not_negative()], "buoyancy when the body floats at rest: BFEQ"),
-        ours("-ZCGE", &[number("Z", Dim::Length, "height in the global system")], "height of the point when the body floats at rest"),
+        ours(
+            "-BUOYANCY",
+            &[number("B", Dim::Force, "upward force").not_negative()],
+            "buoyancy when the body floats at rest: BFEQ",
+        ),
+        ours(
+            "-ZCGE",
+            &[number("Z", Dim::Length, "height in the global system")],
+            "height of the point when the body floats at rest",
+        ),
         ours("-KX", FORCE_ROW, "row of the force in x"),
         ours("-KY", FORCE_ROW, "row of the force in y"),
         ours("-KZ", FORCE_ROW, "row of the force in z"),
@@ -88,7 +96,9 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
                 return Err(Diagnostic::error(format!("{name} is given twice"), given.span)
                     .other(args.place(n - 1), "first given here"));
             }
-            (Some(given), None) => stiffness.set_row(n, &RowVector6::from_iterator(given.numbers().into_iter().chain([0.0; 6]).take(6))),
+            (Some(given), None) => {
+                stiffness.set_row(n, &RowVector6::from_iterator(given.numbers().into_iter().chain([0.0; 6]).take(6)))
+            }
             (None, single) => stiffness[(n, n)] = single.unwrap_or(0.0),
         }
     }

@@ -48,6 +48,8 @@ pub enum Menu {
     Block,
     /// A surface of panels being given by `MESH`.
     Mesh,
+    /// Hydrostatics of the body of this name.
+    Hydrostatics(String),
     /// Sections of a hull being given by `PGEN`.
     Planes(Box<Planes>),
     /// The menu of this name whose opener was refused: its commands are passed over up to its `END`.
@@ -71,6 +73,7 @@ impl Menu {
             Menu::Block => "BLOCK",
             Menu::Mesh => "MESH",
             Menu::Planes(_) => "PGEN",
+            Menu::Hydrostatics(_) => "HSTATICS",
             Menu::Refused(name) => name,
         }
     }
@@ -89,6 +92,7 @@ impl Menu {
             "BLOCK" => "END_BLOCK",
             "MESH" => "END_MESH",
             "PGEN" => "END_PGEN",
+            "HSTATICS" => "END_HSTATICS",
             _ => "END",
         }
     }

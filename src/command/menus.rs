@@ -86,7 +86,7 @@ fn conn_design(job: &mut Job, _: &Call) -> Outcome<Effect> {
 
 /// What a menu that has been left still does: INMODEL builds the connectors that waited for names defined later, PGEN
 /// the piece of its planes, and a piece given by panels is complete. Returns what is wrong; `at` is the record that left it.
-pub fn finish(job: &mut Job, left: Menu, at: Option<Span>) -> Vec<Box<Diagnostic>> {
+pub fn finish(job: &mut Job, left: Menu, at: Option<Span>) -> Vec<Diagnostic> {
     match left {
         Menu::Inmodel => {
             let mut told = piece::completed(job, at);
@@ -94,16 +94,16 @@ pub fn finish(job: &mut Job, left: Menu, at: Option<Span>) -> Vec<Box<Diagnostic
             told
         }
         Menu::Medit | Menu::Block | Menu::Mesh => piece::completed(job, at),
-        Menu::Planes(planes) => pgen::build(job, *planes, at).err().into_iter().collect(),
+        Menu::Planes(planes) => pgen::build(job, *planes, at).err().into_iter().map(|e| *e).collect(),
         _ => Vec::new(),
     }
 }
 
 /// Builds the connectors that waited for names defined later; returns what is wrong with each that cannot be built, and
 /// with the curves that classes name.
-fn finish_inmodel(job: &mut Job) -> Vec<Box<Diagnostic>> {
+fn finish_inmodel(job: &mut Job) -> Vec<Diagnostic> {
     let waiting = std::mem::take(&mut job.deferred);
     let records = job.model.classes.values().flat_map(|class| class.records.iter());
     let curves: Vec<_> = records.filter_map(|r| known_curves(job, &r.args).err()).collect();
-    curves.into_iter().chain(waiting.iter().filter_map(|args| build_connector(job, args).err())).collect()
+    curves.into_iter().chain(waiting.iter().filter_map(|args| build_connector(job, args).err())).map(|e| *e).collect()
 }

@@ -20,6 +20,7 @@ mod file;
 mod forces;
 pub mod functions;
 pub mod help;
+mod hstatics;
 mod hydrostatic;
 mod job;
 mod line_types;
@@ -129,6 +130,9 @@ pub static COMMANDS: &[&Command] = &[
     &surface::TUBE,
     &surface::MOVE_BLOCK,
     &surface::LIST_BLOCK,
+    &hstatics::HSTATICS,
+    &hstatics::CFORM,
+    &hstatics::RARM,
     &class::CLASS,
     &connector::CONNECTOR,
     &names::DELETE,

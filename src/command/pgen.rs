@@ -85,7 +85,10 @@ fn pgen(job: &mut Job, call: &Call) -> Outcome<Effect> {
                     .help("form: PGEN NAME -OPTIONS, or &DESCRIBE PIECE NAME -OPTIONS and then PGEN")
             })?;
             if let Some(given) = args.options.first() {
-                return Err(Diagnostic::error(format!("{} belongs to &DESCRIBE PIECE {name}", given.spec.name), given.span));
+                return Err(Diagnostic::error(
+                    format!("{} belongs to &DESCRIBE PIECE {name}", given.spec.name),
+                    given.span,
+                ));
             }
             Err(name)
         }
@@ -122,9 +125,14 @@ fn plane(job: &mut Job, call: &Call) -> Outcome<Effect> {
             return Err(Diagnostic::error("a section is given by -RECTANGLE or by -CARTESIAN", second.span));
         }
     };
-    if let Some(value) = args.data.get(1..).unwrap_or_default().iter().step_by(2).find(|v| {
-        args.options.is_empty() && v.number().is_some_and(|y| y < 0.0)
-    }) {
+    if let Some(value) = args
+        .data
+        .get(1..)
+        .unwrap_or_default()
+        .iter()
+        .step_by(2)
+        .find(|v| args.options.is_empty() && v.number().is_some_and(|y| y < 0.0))
+    {
         return Err(Diagnostic::error("a half-breadth must be zero or more", value.span));
     }
     if outline.len() < 2 {
@@ -157,8 +165,9 @@ pub fn build(job: &mut Job, planes: Planes, at: Option<Span>) -> Outcome<()> {
     if planes.sections.len() < 2 {
         return Err(Diagnostic::error("a hull needs two or more sections", span).other(planes.span, "begun here"));
     }
+    let flat = planes.sections.iter().all(|(_, outline)| outline.iter().all(|[y, _]| *y == 0.0));
     let panels = panels(planes.sections);
-    if panels.is_empty() {
+    if flat || panels.is_empty() {
         return Err(Diagnostic::error("the sections enclose nothing", span).other(planes.span, "begun here"));
     }
     match planes.piece {
@@ -171,7 +180,7 @@ pub fn build(job: &mut Job, planes: Planes, at: Option<Span>) -> Outcome<()> {
         }
     }
     let told = piece::completed(job, at);
-    job.notices.extend(told.into_iter().map(|d| *d));
+    job.notices.extend(told);
     Ok(())
 }
 

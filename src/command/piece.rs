@@ -41,7 +41,11 @@ pub const OPTIONS: [OptionSpec; 12] = [
     OptionSpec::new("-OBSTACLE", &[], "stops what moves against it; kept"),
     OptionSpec::new(
         "-DIFTYPE",
-        &[ValueSpec::new("TYPE", Kind::Choice(&["3DDIF", "NONE"]), "with three-dimensional diffraction, or without any")],
+        &[ValueSpec::new(
+            "TYPE",
+            Kind::Choice(&["3DDIF", "NONE"]),
+            "with three-dimensional diffraction, or without any",
+        )],
         "diffraction; kept",
     ),
     OptionSpec::new(
@@ -197,9 +201,8 @@ pub fn begun(job: &mut Job, args: &Args, name: &str, span: Span, shape: Shape) -
         let list: Vec<String> = kept.iter().map(|g| option_as_written(g, job.units)).collect();
         job.remark(format!("kept, without effect yet: {}", list.join(" ")), span);
     }
-    let factors = |option: &str| {
-        args.option(option).map_or([1.0; 3], |g| [0, 1, 2].map(|i| g.number(i).unwrap_or(1.0)))
-    };
+    let factors =
+        |option: &str| args.option(option).map_or([1.0; 3], |g| [0, 1, 2].map(|i| g.number(i).unwrap_or(1.0)));
     Ok(Piece {
         name: name.to_string(),
         permeability: args.option_number("-PERMEABILITY").unwrap_or(1.0),
@@ -229,11 +232,11 @@ pub fn add(job: &mut Job, piece: Piece, complete: bool) {
 /// A record begins something else: the piece whose panels were being given is complete. Its faults are warned of.
 pub fn finished(job: &mut Job) {
     let found = completed(job, None);
-    job.notices.extend(found.into_iter().map(|d| *d));
+    job.notices.extend(found);
 }
 
 /// The piece whose panels were being given is complete: what is wrong with it, at the record that completes it, else at its name.
-pub fn completed(job: &mut Job, at: Option<Span>) -> Vec<Box<Diagnostic>> {
+pub fn completed(job: &mut Job, at: Option<Span>) -> Vec<Diagnostic> {
     let Some(name) = job.model.current_piece.take() else { return Vec::new() };
     let Some((part, piece)) = job.model.piece(&name) else { return Vec::new() };
     let Some(body) = job.model.bodies.get(&Model::key(&part.body)) else { return Vec::new() };
@@ -241,7 +244,7 @@ pub fn completed(job: &mut Job, at: Option<Span>) -> Vec<Box<Diagnostic>> {
     let told = faults.into_iter().map(|fault| {
         let (text, span) = (fault.error.text(job.units), at.unwrap_or(piece.span));
         let told = if fault.remark { Diagnostic::remark(text, span) } else { Diagnostic::warning(text, span) };
-        if at.is_some() { told.other(piece.span, "the piece") } else { told }
+        *if at.is_some() { told.other(piece.span, "the piece") } else { told }
     });
     told.collect()
 }

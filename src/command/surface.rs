@@ -209,7 +209,9 @@ fn mesh(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let panels = mesh_of(job, args, name, span)?;
     let scale = Dim::Length.to_si(args.option_number("-SCALE").unwrap_or(1.0), job.units);
     let scaled = panels.into_iter().map(|p| p.into_iter().map(|at| at.map(|x| scale * x)).collect()).collect();
-    let by = args.option("-MOVE").map_or(Place::default(), |g| Place::new([0, 1, 2, 3, 4, 5].map(|i| g.number(i).unwrap_or(0.0))));
+    let by = args
+        .option("-MOVE")
+        .map_or(Place::default(), |g| Place::new([0, 1, 2, 3, 4, 5].map(|i| g.number(i).unwrap_or(0.0))));
     whole(job, args, Shape::Panels(scaled).moved(&by))
 }
 
@@ -232,7 +234,8 @@ fn mesh_of(job: &Job, args: &Args, name: &str, span: Span) -> Outcome<Vec<Vec<Po
         return Err(unusable(format!("it has more than {LARGEST_FILE} bytes")));
     }
     let bytes = std::fs::read(&path).map_err(|e| unusable(e.to_string()))?;
-    Ok(read_mesh(kind, &bytes).map_err(|e| unusable(e.to_string()))?.panels)
+    let panels = read_mesh(kind, &bytes).map_err(|e| unusable(e.to_string()))?.panels;
+    if panels.is_empty() { Err(unusable("it has no panels".into())) } else { Ok(panels) }
 }
 
 fn tube(job: &mut Job, call: &Call) -> Outcome<Effect> {

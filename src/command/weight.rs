@@ -80,15 +80,21 @@ fn item(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let model = &job.model;
     let point = find(&model.points, args.word(0).unwrap_or_default(), "point", args.place(0))?;
     if model.body_of(point).is_none() {
-        return Err(Diagnostic::error(format!("{} is a point of the ground and carries no weight", point.name), args.place(0))
-            .other(point.span, "defined here")
-            .help("points behind &DESCRIBE BODY or PART belong to it"));
+        return Err(Diagnostic::error(
+            format!("{} is a point of the ground and carries no weight", point.name),
+            args.place(0),
+        )
+        .other(point.span, "defined here")
+        .help("points behind &DESCRIBE BODY or PART belong to it"));
     }
     let radii = [2, 3, 4].map(|i| args.number(i).unwrap_or(0.0));
     let weight = args.number(1).unwrap_or_default();
     if weight == 0.0 {
-        return Err(Diagnostic::error("a weight of zero weighs nothing", args.place(1))
-            .label(if radii == [0.0; 3] { "" } else { "radii of gyration need a weight" }));
+        return Err(Diagnostic::error("a weight of zero weighs nothing", args.place(1)).label(if radii == [0.0; 3] {
+            ""
+        } else {
+            "radii of gyration need a weight"
+        }));
     }
     let (at, key, span) = (point.at, Model::key(&point.part), args.place(1));
     if let Some(text) = no_body_has(radii, job.units) {
@@ -169,14 +175,14 @@ fn missing(job: &Job, given: &Given, now: &Mass) -> Outcome<Option<Weight>> {
         return if off <= 1e-9 * (centre.norm() + now.centre.norm()) {
             Ok(None)
         } else {
-            Err(Diagnostic::error("nothing is left to add, and the centre of gravity is elsewhere", place(2)).label(
-                format!("the weights there already make the total, {} from here", told(off, Dim::Length)),
-            ))
+            Err(Diagnostic::error("nothing is left to add, and the centre of gravity is elsewhere", place(2))
+                .label(format!("the weights there already make the total, {} from here", told(off, Dim::Length))))
         };
     }
     let at = moment / lacking;
     let arm = at - centre;
-    let there = now.inertia_about(centre) + lacking * (Matrix3::identity() * arm.norm_squared() - arm * arm.transpose());
+    let there =
+        now.inertia_about(centre) + lacking * (Matrix3::identity() * arm.norm_squared() - arm * arm.transpose());
     let mut radii = [0.0; 3];
     for (i, radius) in radii.iter_mut().enumerate() {
         let Some(wanted) = given.number(5 + i).map(|k| total * k * k) else { continue };
@@ -189,7 +195,11 @@ fn missing(job: &Job, given: &Given, now: &Mass) -> Outcome<Option<Weight>> {
                 place(5 + i),
             )
             .label(format!("with what is there already the radius is at least {most}"))
-            .help(format!("it would be {} at {}", told(lacking * gravity, Dim::Force), [at.x, at.y, at.z].map(|x| told(x, Dim::Length)).join(", "))));
+            .help(format!(
+                "it would be {} at {}",
+                told(lacking * gravity, Dim::Force),
+                [at.x, at.y, at.z].map(|x| told(x, Dim::Length)).join(", ")
+            )));
         }
         *radius = (own.max(0.0) / lacking).sqrt();
     }

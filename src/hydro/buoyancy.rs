@@ -161,13 +161,17 @@ fn told(name: &str, faults: &[Fault]) -> Vec<PieceFault> {
 fn sentence(name: &str, fault: &Fault) -> ClassError {
     const AT: &str = "({}, {}, {})";
     let (what, places): (String, Vec<[f64; 3]>) = match fault {
-        Fault::Open { edge } => (format!("it is open: there is a panel on one side only of the edge from {AT} to {AT}"), edge.to_vec()),
+        Fault::Open { edge } => {
+            (format!("it is open: there is a panel on one side only of the edge from {AT} to {AT}"), edge.to_vec())
+        }
         Fault::Crowded { edge, faces } => (format!("{faces} panels meet at the edge from {AT} to {AT}"), edge.to_vec()),
         Fault::Turned { edge } => {
             (format!("the panels at the edge from {AT} to {AT} look to different sides"), edge.to_vec())
         }
         Fault::InsideOut { at, .. } => (format!("the part at {AT} is inside out"), vec![*at]),
-        Fault::Cut { at, .. } => (format!("panels cut each other at {AT}; what they both enclose counts twice"), vec![*at]),
+        Fault::Cut { at, .. } => {
+            (format!("panels cut each other at {AT}; what they both enclose counts twice"), vec![*at])
+        }
         Fault::Degenerate { at, .. } => (format!("a panel at {AT} has no area"), vec![*at]),
     };
     let values: Vec<(f64, Dim)> = places.into_iter().flatten().map(|x| (x, Dim::Length)).collect();
@@ -185,7 +189,10 @@ pub fn piece_faults(model: &Model, body: &Body, part: &Part, piece: &Piece) -> V
         }
         let Some(Form::Surface(second)) = Solidified::of(other.0, other.1).form else { continue };
         if let Some(at) = intersect(&surface, &second) {
-            let text = format!("pieces {} and {} overlap at ({{}}, {{}}, {{}}); what they share counts twice", other.1.name, piece.name);
+            let text = format!(
+                "pieces {} and {} overlap at ({{}}, {{}}, {{}}); what they share counts twice",
+                other.1.name, piece.name
+            );
             let error = ClassError::of(text, &at.map(|x| (x, Dim::Length)));
             faults.push(PieceFault { error, fatal: false, remark: false });
         }

@@ -5,9 +5,11 @@
 mod buoyancy;
 pub mod hull;
 mod linear;
+mod righting;
 mod weight;
 
 pub use buoyancy::{Hull, PieceFault, piece_faults};
+pub use righting::{Balanced, balanced};
 
 use crate::model::{Body, ClassError, Mass, Model, Pose, Six};
 use nalgebra::{Matrix3, Matrix6, Vector3};
@@ -123,7 +125,8 @@ impl Floating {
         loads.extend(weight::of(&mass, gravity));
         let hull = Hull::of(model, body)?;
         if let (Some(_), Some(linear)) = (&hull, &body.linear) {
-            let text = format!("{} has a hull and a linear hydrostatic stiffness: its buoyancy would count twice", body.name);
+            let text =
+                format!("{} has a hull and a linear hydrostatic stiffness: its buoyancy would count twice", body.name);
             return Err(ClassError::new(text)
                 .at(linear.span)
                 .help("leave out #HYDROSTATIC, or give the pieces -PERMEABILITY 0"));

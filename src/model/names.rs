@@ -64,7 +64,8 @@ impl Thing {
 }
 
 /// The sorts without a marker, which share one set of names.
-const UNMARKED: [Thing; 6] = [Thing::Connector, Thing::Body, Thing::Part, Thing::Piece, Thing::Environment, Thing::Curve];
+const UNMARKED: [Thing; 6] =
+    [Thing::Connector, Thing::Body, Thing::Part, Thing::Piece, Thing::Environment, Thing::Curve];
 
 impl Model {
     /// The names of one sort, as written, in the order of their definition.

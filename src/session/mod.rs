@@ -336,8 +336,8 @@ impl Session {
             return;
         }
         if let Some(menu) = self.job.menus.pop() {
-            for error in command::finish(&mut self.job, menu, at) {
-                self.report(*error);
+            for told in command::finish(&mut self.job, menu, at) {
+                self.report(told);
             }
         }
     }
