@@ -272,7 +272,7 @@ fn an_upright_tube_is_its_section_times_its_draft() {
 fn a_level_tube_is_its_segment_times_its_length() {
     let (r, l) = (1.5, 12.0);
     let tube = Tube { ends: [Vector3::new(-6.0, 0.0, 0.0), Vector3::new(6.0, 0.0, 0.0)], diameter: 2.0 * r };
-    for half in [1e-5, 1e-3, 0.2, 1.0, FRAC_PI_2, 2.5, 3.14159] {
+    for half in [1e-5, 1e-3, 0.2, 1.0, FRAC_PI_2, 2.5, PI - 1e-5] {
         // the chord is r cos(half) below the axis; for small angles from the depth of the lowest point
         let depth = 2.0 * r * (half / 2.0f64).sin().powi(2);
         let wet = tube.wet(&pose([0.0, 0.0, r], [0.0, 0.0, 30.0]), depth);
@@ -429,7 +429,7 @@ fn a_nearly_level_and_a_nearly_upright_tube_go_smoothly_to_the_limit() {
         Tube { ends: [-axis, axis], diameter: 2.0 * r }.wet(&Pose::default(), 0.4)
     };
     let upright = at(0.0);
-    for power in 5..320 {
+    for power in 5..306 {
         let lean = 10f64.powi(-power);
         // the centre of buoyancy moves by its height over the middle, 24.8 m, times the lean; the volume is 50.4 pi
         agree(&at(lean), &upright, 1.0, 2e-12 + 50.4 * PI * 25.0 * lean, &format!("upright {lean:e}"));

@@ -119,14 +119,16 @@ impl Solid for Surface {
     fn wet(&self, pose: &Pose, level: f64) -> Wet {
         let drop = pose.origin.z - level;
         let axes = &pose.axes;
+        let place = |p: &Vector3<f64>| {
+            let mut at = axes * p;
+            at.z += drop;
+            at
+        };
+        let placed: Vec<Vector3<f64>> = self.vertices.iter().map(place).collect();
+        let corner = |n: u32| placed.get(n as usize).copied();
         let mut sum = Sum::default();
-        for face in 0..self.faces.len() {
-            let Some(corners) = self.corners(face) else { continue };
-            let [a, b, c] = corners.map(|p| {
-                let mut at = axes * p;
-                at.z += drop;
-                at
-            });
+        for &[a, b, c] in &self.faces {
+            let (Some(a), Some(b), Some(c)) = (corner(a), corner(b), corner(c)) else { continue };
             match [a.z < 0.0, b.z < 0.0, c.z < 0.0] {
                 [true, true, true] => sum.triangle(a, b, c),
                 [false, false, false] => {}

@@ -80,16 +80,17 @@ impl Standing {
         }
         let axis = span / length;
         let cosine = axis.x.hypot(axis.y);
-        let ahead = Vector2::new(axis.x, axis.y).try_normalize(f64::MIN_POSITIVE).unwrap_or_else(Vector2::x);
+        // by `hypot`, as squares of a small lean vanish
+        let ahead = if cosine > 0.0 { Vector2::new(axis.x / cosine, axis.y / cosine) } else { Vector2::x() };
         let height = foot.z + (pose.origin.z - level);
         Some(Standing { foot, axis, ahead, height, sine: axis.z, cosine, length, radius })
     }
 
     /// Where sections are cut. With the rise R of a section's highest point over its centre, h1 and h2 the heights of the
-    /// centres at the zone's ends, A = sqrt(R - h), B = sqrt(R + h): the half angle is 2 atan(A / B), and sums and
+    /// centres at the zone's ends, A = sqrt(1 - h/R), B = sqrt(1 + h/R): the half angle is 2 atan(A / B), and sums and
     /// differences of two of them follow without loss from
-    /// sin(mean) = (A1 B2 + A2 B1) / 2R, cos(mean) = (B1 B2 - A1 A2) / 2R,
-    /// tan(half) = 2R (h2 - h1) / (A1 B2 + A2 B1) / (B1 B2 + A1 A2).
+    /// sin(mean) = (A1 B2 + A2 B1) / 2, cos(mean) = (B1 B2 - A1 A2) / 2,
+    /// tan(half) = 2 (h2 - h1) / R / (A1 B2 + A2 B1) / (B1 B2 + A1 A2).
     fn zone(&self) -> Zone {
         let rise = self.cosine * self.radius;
         let (foot, head) = (self.height, self.height + self.sine * self.length);
@@ -116,15 +117,16 @@ impl Standing {
         let (h1, h2) = (if below { -rise } else { foot }, if above { rise } else { head });
         let difference = if below || above { h2 - h1 } else { self.sine * self.length };
         let long = if below || above { difference / self.sine } else { self.length };
-        let root = |h: f64| ((rise - h).max(0.0).sqrt(), (rise + h).max(0.0).sqrt());
+        // heights in units of the rise: it may be as small as numbers get
+        let root = |h: f64| ((1.0 - h / rise).max(0.0).sqrt(), (1.0 + h / rise).max(0.0).sqrt());
         let ((a1, b1), (a2, b2)) = (root(h1), root(h2));
         let crossed = a1 * b2 + a2 * b1;
         if crossed <= 0.0 {
             // level, and its top in the surface but for rounding
             return all(self.length, PI);
         }
-        let (sin, cos) = (crossed / (2.0 * rise), (b1 * b2 - a1 * a2) / (2.0 * rise));
-        let half = (2.0 * rise * difference / crossed).max(0.0).atan2(b1 * b2 + a1 * a2);
+        let (sin, cos) = (crossed / 2.0, (b1 * b2 - a1 * a2) / 2.0);
+        let half = (2.0 * (difference / rise) / crossed).max(0.0).atan2(b1 * b2 + a1 * a2);
         Zone { from, long, mean: sin.atan2(cos), sin, cos, half, ends: [2.0 * a1.atan2(b1), 2.0 * a2.atan2(b2)] }
     }
 
