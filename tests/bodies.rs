@@ -276,3 +276,19 @@ fn a_body_that_cannot_float_has_no_righting_arm() {
     let floating = Floating::of(&model, &model.bodies[0]).unwrap();
     assert!(balanced(&floating, &Place::default()).unwrap_err().message.contains("no balance"));
 }
+
+#[test]
+fn the_report_of_hydrostatics_has_the_users_units() {
+    let (mut session, screen, _folder) = session();
+    session.open(
+        "records",
+        format!("{BARGE}&STATUS HYDROSTATICS\n&STATUS WEIGHT\nHSTATICS\nCFORM 9 1 2\nREPORT\nEND\nEND\n"),
+    );
+    session.run();
+    let text = screen.text();
+    // 360,000 ft3; BM 100^2 / (12 x 9); the weight of water over 40,000 ft2, 63.989 lb/ft3; GM = 4.5 + 92.593 - 12
+    for wanted in ["360000.00 ft3", "92.59 ft", "2.55955E+03", "85.09 ft", "23000.00", "118.00"] {
+        assert!(text.contains(wanted), "{wanted} in {text}");
+    }
+    assert!(session.reports.is_empty(), "{:?}", session.reports);
+}
