@@ -4,7 +4,9 @@
 
 mod common;
 
-use windlass::model::{Connection, Element, End, Model, Place, Pose, Response, Situation, Six, Summary, TimeStep};
+use windlass::model::{
+    Connection, Element, End, Model, Place, Placement, Pose, Response, Situation, Six, Summary, TimeStep,
+};
 use windlass::session::Session;
 
 /// A spring between a point of a body and another, or the ground, as records define it.
@@ -31,7 +33,14 @@ impl Joint {
         let curve = |name: &str| model.curves.get(&Model::key(name));
         let ends = model.end_poses(connector);
         let surroundings = model.surroundings();
-        let made = Connection { connector, ends, to_ground: false, curve: &curve, surroundings: &surroundings };
+        let made = Connection {
+            connector,
+            ends,
+            to_ground: false,
+            placement: Placement::default(),
+            curve: &curve,
+            surroundings: &surroundings,
+        };
         let element = class.object.element(&made).unwrap();
         let state = vec![0.0; element.states()];
         Joint { session, element, state }
@@ -120,7 +129,14 @@ fn a_single_node_is_held_to_where_it_was_when_the_connector_was_defined() {
     let connector = model.connectors.values().next().unwrap();
     let ends = model.end_poses(connector);
     let surroundings = model.surroundings();
-    let made = Connection { connector, ends, to_ground: true, curve: &|_| None, surroundings: &surroundings };
+    let made = Connection {
+        connector,
+        ends,
+        to_ground: true,
+        placement: Placement::default(),
+        curve: &|_| None,
+        surroundings: &surroundings,
+    };
     let element = model.classes.values().next().unwrap().object.element(&made).unwrap();
     let mut out = Response::default();
     let at = Situation { ends: &ends.map(End::still), step: None, surroundings: &surroundings };
@@ -276,7 +292,14 @@ fn a_curve_in_feet_is_a_moment_per_radian_in_feet_where_it_acts_in_a_rotation() 
     let ends = [Pose::of(&Place::new([0.0, 0.0, 0.0, 0.1, 0.0, 0.0])), Pose::default()];
     let surroundings = model.surroundings();
     let curve = |name: &str| model.curves.get(&Model::key(name));
-    let made = Connection { connector, ends, to_ground: true, curve: &curve, surroundings: &surroundings };
+    let made = Connection {
+        connector,
+        ends,
+        to_ground: true,
+        placement: Placement::default(),
+        curve: &curve,
+        surroundings: &surroundings,
+    };
     let element = model.classes.values().next().unwrap().object.element(&made).unwrap();
     let at = Situation { ends: &ends.map(End::still), step: None, surroundings: &surroundings };
     let summary = element.summary(&at, &vec![0.0; element.states()]).unwrap();

@@ -1,6 +1,6 @@
 //! `&HELP`: everything a spec says, in words.
 
-use super::{COMMANDS, Call, Command, Effect, Job, offered};
+use super::{COMMANDS, Call, Command, Effect, Job, offered, status};
 use crate::connector::CLASSES;
 use crate::language::diagnostic::Outcome;
 use crate::language::flow::specs::CONTROL;
@@ -61,7 +61,12 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
                     }
                 };
                 let lead = if CLASSES.iter().any(|k| std::ptr::eq(k.spec, spec)) { "~NAME " } else { "" };
-                describe(spec, lead, units)
+                let mut text = describe(spec, lead, units);
+                if std::ptr::eq(spec, status::STATUS.spec) {
+                    text.push_str("\n\n   It tells of:");
+                    status::kinds_told().for_each(|(name, help)| text.push_str(&format!("\n      {name:<14} {help}")));
+                }
+                text
             }
         }
     };

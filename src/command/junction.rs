@@ -80,9 +80,10 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         previous: place,
         ignored: ["RX", "RY", "RZ"].map(str::to_string).into(),
         junction: Some(Junction { displacement, volume }),
+        linear: None,
         span,
     };
-    let part = Part { name: name.to_string(), body: name.to_string(), place: Place::default(), weights, span };
+    let part = Part { weights, ..Part::new(name, name, Place::default(), span) };
     model.bodies.insert(key.clone(), body);
     model.parts.insert(key, part);
     let made = Point { name: point.clone(), part: name.to_string(), at: [0.0; 3], span };

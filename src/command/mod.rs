@@ -7,6 +7,7 @@
 mod alter;
 mod apply;
 mod body_status;
+mod body_tables;
 mod chosen;
 mod class;
 mod conn_design;
@@ -23,6 +24,8 @@ mod file;
 mod forces;
 pub mod functions;
 pub mod help;
+mod hstatics;
+mod hydrostatic;
 mod job;
 mod junction;
 mod line_types;
@@ -33,16 +36,20 @@ mod menus;
 mod message;
 mod names;
 mod offsets;
+mod pgen;
+mod piece;
 mod report_menu;
 mod select;
 mod status;
+mod surface;
 mod units;
 mod vary;
+mod weight;
 mod written;
 
 pub use file::write_open_files;
 pub use job::{Job, Menu, Settings};
-pub use menus::{finish_inmodel, opened_by};
+pub use menus::{finish, opened_by};
 pub use status::kinds as status_kinds;
 
 use crate::language::args::Args;
@@ -126,6 +133,21 @@ pub static COMMANDS: &[&Command] = &[
     &loads::DAMP,
     &loads::AMASS,
     &apply::APPLY,
+    &weight::ITEM,
+    &weight::WEIGHT,
+    &hydrostatic::HYDROSTATIC,
+    &piece::PANEL,
+    &pgen::PGEN,
+    &pgen::PLANE,
+    &surface::SURFACE,
+    &surface::BLOCK,
+    &surface::MESH,
+    &surface::TUBE,
+    &surface::MOVE_BLOCK,
+    &surface::LIST_BLOCK,
+    &hstatics::HSTATICS,
+    &hstatics::CFORM,
+    &hstatics::RARM,
     &class::CLASS,
     &connector::CONNECTOR,
     &junction::JUNCTION,

@@ -8,7 +8,7 @@ use super::forces::forces;
 use super::loads_table::loads;
 use super::offsets::offsets;
 use super::written::{as_written, kind_data, option_as_written};
-use super::{Call, Command, Effect, Job, Menu, body_status, line_types};
+use super::{Call, Command, Effect, Job, Menu, body_status, body_tables, line_types};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::{Owner, choose};
 use crate::language::spec::{CommandSpec, Kind, Noun, Opens, OptionSpec, ValueSpec};
@@ -33,6 +33,9 @@ const KINDS: &[(&str, Owner, &str)] = &[
     ("ENVIRONMENT", Owner::Moses, "the environment in force, or one kept under a name"),
     ("CLASSES", Owner::Ours, "the same as CL_FLEX"),
     ("LOADS", Owner::Ours, "loads of wind, current and waves on parts, and the forces they come to"),
+    ("WEIGHT", Owner::Ours, "weights, centers and radii of gyration of bodies and parts"),
+    ("PIECES", Owner::Ours, "pieces of hulls"),
+    ("HYDROSTATICS", Owner::Ours, "what bodies displace where they are, and their hydrostatic stiffness"),
     ("BODIES", Owner::Ours, "bodies and their parts"),
     ("POINTS", Owner::Ours, "points, in their parts and in the global system"),
     ("DIMENSIONS", Owner::Ours, "units"),
@@ -41,6 +44,11 @@ const KINDS: &[(&str, Owner, &str)] = &[
     ("LINE_TYPES", Owner::Ours, "chains and ropes of the library, for -TYPE"),
 ];
 
+/// What &STATUS can tell of, with one line each, for its help.
+pub fn kinds_told() -> impl Iterator<Item = (&'static str, &'static str)> {
+    KINDS.iter().map(|(name, _, help)| (*name, *help))
+}
+
 /// What &STATUS can tell of, for completion.
 pub fn kinds() -> impl Iterator<Item = (&'static str, Owner, &'static str)> + Clone {
     KINDS.iter().map(|(name, owner, _)| (*name, *owner, *name))
@@ -48,12 +56,7 @@ pub fn kinds() -> impl Iterator<Item = (&'static str, Owner, &'static str)> + Cl
 
 static SPEC: CommandSpec = CommandSpec {
     data: &[
-        ValueSpec::new(
-            "WHAT",
-            Kind::Text,
-            "CONFIGURATION, CL_FLEX, G_CONNECTOR, F_CONNECTOR, FORCE, STIFFNESS, CURVES, ENVIRONMENT, BODIES, ..",
-        )
-        .or("a summary"),
+        ValueSpec::new("WHAT", Kind::Text, "what to tell of, as listed below").or("a summary"),
         ValueSpec::new(
             "NAME",
             Kind::Name(Noun::Selector),
@@ -75,8 +78,7 @@ static SPEC: CommandSpec = CommandSpec {
         HARD,
         BOTH,
     ],
-    detail: "CONFIGURATION, CL_FLEX (or CLASSES), G_CONNECTOR, F_CONNECTOR, FORCE, STIFFNESS, CURVES, ENVIRONMENT, BODIES, POINTS, LOADS, DIMENSIONS, DEFAULTS, \
-             SELECTORS; alone it counts what the model holds. ENVIRONMENT alone is the one in force, with a NAME the one kept \
+    detail: "Alone it counts what the model holds. ENVIRONMENT alone is the one in force, with a NAME the one kept \
              under it. LINE_TYPES lists the chains and ropes that -TYPE of a line \
              class knows; LINE_TYPES 3 gives their values at a nominal diameter, LINE_TYPES CHAIN_R4 the formulas of one. \
              F_CONNECTOR solves every line between its ends as they are, exactly or from its table as its class says: the \
@@ -111,6 +113,9 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         "CURVES" => curves(model, &fits),
         "ENVIRONMENT" => environments(job, (!chosen.all()).then_some(&fits)),
         "LOADS" => loads(job, &fits),
+        "WEIGHT" => vec![body_tables::weights(model, &fits)],
+        "PIECES" => vec![body_tables::pieces(model, &fits)],
+        "HYDROSTATICS" => body_tables::hydrostatics(model, &fits, job.units),
         "BODIES" => vec![bodies(model, &fits)],
         "POINTS" => vec![points(model, &fits)],
         "DIMENSIONS" => vec![dimensions(job)],
@@ -154,7 +159,9 @@ fn things(kind: &str) -> &'static [Thing] {
     match kind {
         "CONFIGURATION" | "FORCE" => &[Thing::Body],
         "STIFFNESS" => &[Thing::Body, Thing::Connector],
-        "BODIES" | "LOADS" => &[Thing::Body, Thing::Part],
+        "BODIES" | "LOADS" | "WEIGHT" => &[Thing::Body, Thing::Part],
+        "HYDROSTATICS" => &[Thing::Body],
+        "PIECES" => &[Thing::Piece, Thing::Body, Thing::Part],
         "CL_FLEX" | "CLASSES" => &[Thing::Class],
         "G_CONNECTOR" | "F_CONNECTOR" => &[Thing::Connector],
         "CURVES" => &[Thing::Curve],

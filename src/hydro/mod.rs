@@ -3,6 +3,7 @@
 //! Each kind of load is one file with a type that implements [`BodyLoad`]; [`Floating`] gathers those of a body.
 
 pub mod area;
+mod buoyancy;
 pub mod coefficients;
 pub mod current;
 pub mod drag;
@@ -11,12 +12,17 @@ mod gathered;
 pub mod heading;
 pub mod hull;
 mod junction;
+mod linear;
 pub mod plate;
+mod righting;
 pub mod spectrum;
 pub mod steady;
 pub mod stream;
 mod weight;
 pub mod wind;
+
+pub use buoyancy::{Hull, PieceFault, piece_faults};
+pub use righting::{Balanced, balanced};
 
 use crate::model::{Body, ClassError, Mass, Model, Pose, Six};
 use nalgebra::{Matrix3, Matrix6, Vector3};
@@ -186,6 +192,16 @@ impl Floating {
         if let Some(junction) = &body.junction {
             loads.extend(junction::of(junction, &mass, &model.surroundings()));
         }
+        let hull = Hull::of(model, body)?;
+        if let (Some(_), Some(linear)) = (&hull, &body.linear) {
+            let text =
+                format!("{} has a hull and a linear hydrostatic stiffness: its buoyancy would count twice", body.name);
+            return Err(ClassError::new(text)
+                .at(linear.span)
+                .help("leave out #HYDROSTATIC, or give the pieces -PERMEABILITY 0"));
+        }
+        loads.extend(hull.map(|hull| Box::new(hull) as Box<dyn BodyLoad>));
+        loads.extend(linear::of(body));
         let gathered = gathered::of(model, body)?;
         loads.extend(gathered.loads);
         Ok(Floating { mass, loads, added_mass: gathered.added_mass, damping: gathered.damping })

@@ -6,7 +6,7 @@ use super::geometry::Position;
 use crate::table::Table;
 
 /// Where a connector's ends are when it is asked something (m, global).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Placement {
     /// The first end: the fairlead of a line.
     pub fairlead: Position,
