@@ -7,8 +7,8 @@ mod common;
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use windlass::connector::CLASSES;
 use windlass::model::{
-    ClassError, Connection, Connector, Element, End, Model, Place, Pose, Response, Situation, Six, Surroundings,
-    TimeStep,
+    ClassError, Connection, Connector, Element, End, Model, Place, Placement, Pose, Response, Situation, Six,
+    Surroundings, TimeStep,
 };
 use windlass::session::Session;
 
@@ -191,10 +191,15 @@ impl Bench {
         let class = model.classes.values().next().unwrap();
         let curve = |name: &str| model.curves.get(&Model::key(name));
         let surroundings = model.surroundings();
+        let to_ground = self.connector.points.len() < 2 && class.object.is_line();
+        let [fairlead, other] = self.ends.map(|e| e.origin.into());
+        let placement =
+            Placement { fairlead, other: Some(other), to_ground, anchored: to_ground, ..Placement::default() };
         class.object.element(&Connection {
             connector: &self.connector,
             ends: self.ends,
-            to_ground: self.connector.points.len() < 2 && class.object.is_line(),
+            to_ground,
+            placement,
             curve: &curve,
             surroundings: &surroundings,
         })
@@ -273,6 +278,7 @@ fn every_class_that_has_an_element_is_under_the_laws() {
             connector,
             ends,
             to_ground: false,
+            placement: Placement::default(),
             curve: &|_| None,
             surroundings: &surroundings,
         });
