@@ -1,6 +1,6 @@
 //! A mooring line as an engine sees it: forces on its two ends at any place of these, followed from one place to the next.
 
-use super::catenary::{Bottom, EndForces, Interpolated, Line, LineError, Row, Segment, State};
+use super::catenary::{Bottom, EndForces, Interpolated, Line, LineError, Regime, Row, Segment, State};
 use super::mooring::Mooring;
 use crate::model::{ClassError, Element, End, Guess, Placement, Response, Situation, Summary};
 use nalgebra::{Matrix6, Vector3};
@@ -102,8 +102,7 @@ impl LineElement {
                     fairlead: found.fairlead,
                     anchor: found.anchor,
                     stiffness: found.stiffness,
-                    // what hangs free pulls at both ends with the difference of its weight, which does not change
-                    coupling: found.stiffness,
+                    coupling: at_anchor(&found, bottom.map_or(0.0, |b| b.friction)),
                 })
             }
             Solver::Whole => whole(&self.mooring.line, x, z, guess),
@@ -136,6 +135,23 @@ impl LineElement {
             bottom: self.mooring.bottom.map(|b| b + rise),
             ..self.mooring.clone()
         }
+    }
+}
+
+/// d(pull on the anchor)/d(place of the fairlead) of one segment.
+fn at_anchor(found: &EndForces, friction: f64) -> [[f64; 2]; 2] {
+    let [horizontal, vertical] = found.stiffness;
+    let none = [0.0; 2];
+    match found.regime {
+        // what hangs free pulls at both ends with the difference of its weight, which does not change
+        Regime::Suspended | Regime::VerticalTaut => found.stiffness,
+        Regime::Contact | Regime::OnBottomTaut => [horizontal, none],
+        // what is lifted is no longer held by friction, and weighs on the fairlead
+        Regime::ContactFriction => {
+            let [[xx, xz], [zx, zz]] = [horizontal, vertical];
+            [[xx + friction * zx, xz + friction * zz], none]
+        }
+        Regime::ContactFrictionAnchorZero | Regime::FullySlack | Regime::OnBottomSlack => [none; 2],
     }
 }
 
