@@ -27,6 +27,7 @@ mod menus;
 mod message;
 mod names;
 mod offsets;
+mod picture;
 mod report_menu;
 mod select;
 mod status;
@@ -148,6 +149,7 @@ pub static COMMANDS: &[&Command] = &[
     &disposition::C_SHIFT,
     &disposition::CULL,
     &status::STATUS,
+    &picture::PICTURE,
     &units::DIMEN,
     &units::DEFAULT,
     &device::DEVICE,

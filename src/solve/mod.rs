@@ -3,6 +3,7 @@
 
 mod equilibrium;
 mod modes;
+pub mod scene;
 mod settle;
 mod system;
 pub mod tables;
