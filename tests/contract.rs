@@ -15,8 +15,22 @@ use windlass::report::files::JobFolder;
 use windlass::report::output::Output;
 use windlass::session::Session;
 
-const MENUS: [&str; 9] =
-    ["MAIN", "INMODEL", "MEDIT", "CONN_DESIGN", "DISPOSITION", "REPORT", "ENVIRONMENT", "CURVES", "SELECT"];
+const MENUS: [&str; 14] = [
+    "MAIN",
+    "INMODEL",
+    "MEDIT",
+    "CONN_DESIGN",
+    "DISPOSITION",
+    "REPORT",
+    "ENVIRONMENT",
+    "CURVES",
+    "SELECT",
+    "SURFACE",
+    "BLOCK",
+    "MESH",
+    "PGEN",
+    "HSTATICS",
+];
 
 fn specs() -> Vec<&'static CommandSpec> {
     COMMANDS.iter().map(|c| c.spec).chain(CLASSES.iter().map(|k| k.spec)).chain(CONTROL).collect()

@@ -1,11 +1,12 @@
 //! `&DESCRIBE`, points, and `&INSTATE`.
 
+use super::piece::{self, OPTIONS};
 use super::{Call, Command, Effect, Job};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::name as rule;
 use crate::language::spec::{CommandSpec, Form, Kind, Noun, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
-use crate::model::{Body, Coordinates, GROUND, Model, Part, Place, Point, Thing, find, unit_vector};
+use crate::model::{Body, Coordinates, GROUND, Model, Part, Place, Point, Shape, Thing, find, unit_vector};
 
 /// &DESCRIBE.
 pub static DESCRIBE: Command = Command { spec: &DESCRIBE_SPEC, edits: false, run: describe };
@@ -33,7 +34,7 @@ const LOCATION: &[ValueSpec] = &[BODY, PLACE[0], PLACE[1], PLACE[2], PLACE[3], P
 
 static DESCRIBE_SPEC: CommandSpec = CommandSpec {
     data: &[
-        ValueSpec::new("KIND", Kind::Choice(&["BODY", "PART"]), "what is described"),
+        ValueSpec::new("KIND", Kind::Choice(&["BODY", "PART", "PIECE"]), "what is described"),
         ValueSpec::new("NAME", Kind::Name(Noun::New), "its name"),
     ],
     options: &[
@@ -44,10 +45,26 @@ static DESCRIBE_SPEC: CommandSpec = CommandSpec {
             "degrees of freedom of a body left out",
         )
         .repeating(1),
+        OPTIONS[0],
+        OPTIONS[1],
+        OPTIONS[2],
+        OPTIONS[3],
+        OPTIONS[4],
+        OPTIONS[5],
+        OPTIONS[6],
+        OPTIONS[7],
+        OPTIONS[8],
+        OPTIONS[9],
+        OPTIONS[10],
+        OPTIONS[11],
     ],
-    detail: "Points that follow belong to the body or part described last. Describing a known name again goes on with it.",
-    example: "&DESCRIBE BODY TBRG\n&DESCRIBE PART DECK -MOVE 0 0 20\n&STATUS BODIES",
-    ..CommandSpec::new("&DESCRIBE", "describes a body or a part")
+    detail: "Points that follow belong to the body or part described last. Describing a known body or part again goes on with it. PIECE \
+             begins a surface: its PANEL records follow, or PGEN; it is complete at the next &DESCRIBE, PGEN or &SURFACE, and at END. \
+             &HELP &SURFACE says how pieces are read.",
+    example: "&DESCRIBE BODY TBRG\n&DESCRIBE PART DECK -MOVE 0 0 20\n&STATUS BODIES\nMEDIT\n&DESCRIBE PIECE WEDGE -PERM 1\n\
+              PANEL 0 0 0  0 9 0  9 0 0\nPANEL 0 0 0  9 0 0  0 0 9\nPANEL 0 0 0  0 0 9  0 9 0\nPANEL 9 0 0  0 9 0  0 0 9\nEND\n\
+              &STATUS PIECES",
+    ..CommandSpec::new("&DESCRIBE", "describes a body, a part or a piece")
 };
 
 static POINT_SPEC: CommandSpec = CommandSpec {
@@ -70,16 +87,22 @@ static INSTATE_SPEC: CommandSpec = CommandSpec {
         OptionSpec::new(
             "-CONDITION",
             &[
-                number("DRAFT", Dim::Length, "draft of the body's origin below the surface").or("0"),
+                BODY.or("the body described last"),
+                number("DRAFT", Dim::Length, "draft of the body's origin below the mean surface").or("0"),
                 number("ROLL", Dim::Angle, "roll").or("0"),
-                number("TRIM", Dim::Angle, "trim").or("0"),
+                number("TRIM", Dim::Angle, "trim: the pitch").or("0"),
             ],
-            "sets draft, roll and trim of the body described last",
-        ),
+            "sets draft, roll and trim of a body",
+        )
+        .many(),
         OptionSpec::new("-PREVIOUS", &[], "puts every body back to where it was before"),
     ],
-    detail: "Angles: yaw about Z, then pitch about Y, then roll about X, about the axes already turned.",
-    example: "&DESCRIBE BODY TBRG\n&INSTATE -LOCATE TBRG 0 0 -9\n&INSTATE -MOVE TBRG 10\n&STATUS CONFIGURATION",
+    detail: "Options act in the order given. Angles: yaw about Z, then pitch about Y, then roll about X, about the axes already turned. \
+             -CONDITION leaves x, y and yaw; with x aft, y to starboard and z up a roll lifts the starboard side and a trim sinks the stern. \
+             -MOVE adds to the six numbers of &STATUS CONFIGURATION, angles to angles, so that moving back by the same numbers restores them \
+             to the digit; x, y, z are global. -PREVIOUS stands alone: it goes back to before the last &INSTATE or equilibrium, and given \
+             again it returns.",
+    example: "&DESCRIBE BODY TBRG\n&INSTATE -CONDITION 9 0 1\n&INSTATE -LOCATE TBRG 0 0 -9\n&INSTATE -MOVE TBRG 10\n&STATUS CONFIGURATION",
     ..CommandSpec::new("&INSTATE", "sets the initial configuration")
 };
 
@@ -87,6 +110,26 @@ fn describe(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let name = args.word(1).unwrap_or_default().to_string();
     let (key, span) = (Model::key(&name), args.place(1));
+    let kind = args.word(0).unwrap_or_default();
+    let of = |option: &str| match option {
+        "-MOVE" => "PART",
+        "-IGNORE" => "BODY",
+        _ => "PIECE",
+    };
+    if let Some(given) = args.options.iter().find(|g| of(g.spec.name) != kind) {
+        let whose = of(given.spec.name).to_ascii_lowercase();
+        let error = Diagnostic::error(format!("{} belongs to a {whose}", given.spec.name), given.span);
+        return Err(if whose == "part" && kind == "BODY" {
+            error.help("&INSTATE -LOCATE places a body")
+        } else {
+            error
+        });
+    }
+    if kind == "PIECE" {
+        let piece = piece::begun(job, args, &name, span, Shape::Panels(Vec::new()))?;
+        piece::add(job, piece, false);
+        return Ok(Effect::Done);
+    }
     let model = &mut job.model;
     rule::check(&name, None, "body or part", span)?;
     if key == GROUND {
@@ -97,20 +140,14 @@ fn describe(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let mine: &[Thing] = if args.word(0) == Some("BODY") { &[Thing::Body] } else { &[Thing::Body, Thing::Part] };
     model.free_name(&name, mine, span)?;
     if args.word(0) == Some("BODY") {
-        if args.has("-MOVE") {
-            return Err(Diagnostic::error("-MOVE places a part, not a body", args.place(0))
-                .help("&INSTATE -LOCATE places a body"));
-        }
         if !model.bodies.contains_key(&key) {
             if model.bodies.len() >= MOST_BODIES {
                 return Err(Diagnostic::error(format!("a model has at most {MOST_BODIES} bodies"), span));
             }
             let place = Place::default();
-            let body = Body { name: name.clone(), place, previous: place, ignored: Vec::new(), span };
+            let body = Body { name: name.clone(), place, previous: place, ignored: Vec::new(), linear: None, span };
             model.bodies.insert(key.clone(), body);
-            model
-                .parts
-                .insert(key.clone(), Part { name: name.clone(), body: name.clone(), place, weights: Vec::new(), span });
+            model.parts.insert(key.clone(), Part::new(&name, &name, place, span));
         }
         if let (Some(given), Some(body)) = (args.option("-IGNORE"), model.bodies.get_mut(&key)) {
             body.ignored = given.values.iter().filter_map(|v| v.word()).map(str::to_string).collect();
@@ -126,14 +163,12 @@ fn describe(job: &mut Job, call: &Call) -> Outcome<Effect> {
                     .and_then(|p| model.parts.get(&Model::key(p)))
                     .map(|p| p.body.clone())
                     .ok_or_else(|| Diagnostic::error("a part belongs to a body, and none is described yet", span))?;
-                model.parts.insert(
-                    key,
-                    Part { name: name.clone(), body, place: place.unwrap_or_default(), weights: Vec::new(), span },
-                );
+                model.parts.insert(key, Part::new(&name, &body, place.unwrap_or_default(), span));
             }
         }
     }
     model.current_part = Some(name.clone());
+    piece::finished(job);
     job.note_name(&name, span);
     Ok(Effect::Done)
 }
@@ -186,6 +221,9 @@ fn point(job: &mut Job, call: &Call) -> Outcome<Effect> {
 fn instate(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let model = &mut job.model;
     let before: Vec<Place> = model.bodies.values().map(|b| b.place).collect();
+    if let (Some(given), true) = (call.args.option("-PREVIOUS"), call.args.options.len() > 1) {
+        return Err(Diagnostic::error("-PREVIOUS stands alone", given.span));
+    }
     for given in &call.args.options {
         let body = given.word(0).map(|name| {
             find(&model.bodies, name, "body", given.values.first().map_or(given.span, |v| v.span))
@@ -199,15 +237,12 @@ fn instate(job: &mut Job, call: &Call) -> Outcome<Effect> {
                 return Ok(Effect::Done);
             }
             "-CONDITION" => {
-                let part = model
-                    .current_part
-                    .as_ref()
-                    .and_then(|p| model.parts.get(&Model::key(p)))
-                    .map(|p| Model::key(&p.body));
-                let body = part.and_then(|key| model.bodies.get_mut(&key)).ok_or_else(|| {
+                let key = body.transpose()?.or_else(|| model.current_body().map(|b| Model::key(&b.name)));
+                let body = key.and_then(|key| model.bodies.get_mut(&key)).ok_or_else(|| {
                     Diagnostic::error("no body is described yet", given.span).help("&DESCRIBE BODY describes one")
                 })?;
-                let at = |i: usize| given.number(i).unwrap_or(0.0);
+                let from = usize::from(given.word(0).is_some() || given.values.first().is_some_and(|v| !v.is_given()));
+                let at = |i: usize| given.number(from + i).unwrap_or(0.0);
                 body.place.shift[2] = -at(0);
                 body.place.turn = [at(1), at(2), body.place.turn[2]];
             }

@@ -12,7 +12,7 @@ use crate::language::select::{Owner, choose, matches};
 use crate::language::source::Span;
 use crate::language::substitution::World;
 use crate::language::units::Dim;
-use crate::model::{Model, Point, Position};
+use crate::model::{Mass, Model, Point, Position};
 use crate::report::format::fifteen_figures;
 
 /// What `&HELP` says of each: name, form, meaning.
@@ -33,7 +33,7 @@ pub const HELP: &[(&str, &str, &str)] = &[
     (
         "&BODY",
         "&BODY(ACTION NAME)",
-        "LOCATION (x y z roll pitch yaw) | PARTS | POINTS; WEIGHT, CG and RADII come with the bodies' weights",
+        "LOCATION (x y z roll pitch yaw) | PARTS | POINTS | WEIGHT | CG | RADII (center of gravity and radii of gyration, in the body)",
     ),
     ("&CONNECTOR", "&CONNECTOR(ACTION NAME)", "CLASS | POINTS | STATUS | ANCHOR (x y) | LENGTH (of the first segment)"),
     (
@@ -278,8 +278,17 @@ fn body(job: &Job, action: &Word, rest: &[Word], span: Span) -> Outcome<String> 
             model.points.values().filter(own).map(|p| p.name.as_str()).collect::<Vec<_>>().join(" ")
         }
         other => {
-            return Err(Diagnostic::error(format!("&BODY({other} ..) needs the weight of the body"), action.span)
-                .label("bodies have no weight in this version"));
+            let gravity = model.defaults.gravity;
+            let mass = Mass::of(model.parts_of(found), gravity);
+            if mass.mass == 0.0 {
+                return Err(Diagnostic::error(format!("{} has no weight", found.name), name.span)
+                    .help("#WEIGHT and &WEIGHT -TOTAL give one"));
+            }
+            match other {
+                "WEIGHT" => numbers(&[mass.mass * gravity], Dim::Force, job),
+                "CG" => numbers(mass.centre.as_slice(), Dim::Length, job),
+                _ => numbers(&mass.radii().map(|k| k.unwrap_or(0.0)), Dim::Length, job),
+            }
         }
     })
 }

@@ -1,5 +1,6 @@
 //! The job that commands act on: model, units, menus, titles, settings, output.
 
+use super::pgen::Planes;
 use crate::language::args::Args;
 use crate::language::diagnostic::{Diagnostic, Severity};
 use crate::language::source::Span;
@@ -42,6 +43,16 @@ pub enum Menu {
     Curves,
     /// Selectors being defined by `&SELECT`.
     Selectors,
+    /// Surfaces of hulls being defined by `&SURFACE`.
+    Surface,
+    /// A surface of panels being given by `BLOCK`.
+    Block,
+    /// A surface of panels being given by `MESH`.
+    Mesh,
+    /// Hydrostatics of the body of this name.
+    Hydrostatics(String),
+    /// Sections of a hull being given by `PGEN`.
+    Planes(Box<Planes>),
     /// The menu of this name whose opener was refused: its commands are passed over up to its `END`.
     Refused(&'static str),
 }
@@ -59,6 +70,11 @@ impl Menu {
             Menu::Environments => "ENVIRONMENT",
             Menu::Curves => "CURVES",
             Menu::Selectors => "SELECT",
+            Menu::Surface => "SURFACE",
+            Menu::Block => "BLOCK",
+            Menu::Mesh => "MESH",
+            Menu::Planes(_) => "PGEN",
+            Menu::Hydrostatics(_) => "HSTATICS",
             Menu::Refused(name) => name,
         }
     }
@@ -73,6 +89,11 @@ impl Menu {
             "REPORT" => "END_REPORT",
             "ENVIRONMENT" | "CURVES" => "END_&DATA",
             "SELECT" => "END_&SELECT",
+            "SURFACE" => "END_&SURFACE",
+            "BLOCK" => "END_BLOCK",
+            "MESH" => "END_MESH",
+            "PGEN" => "END_PGEN",
+            "HSTATICS" => "END_HSTATICS",
             _ => "END",
         }
     }

@@ -2,10 +2,12 @@
 
 use super::class::known_curves;
 use super::connector::build_connector;
-use super::{Call, Command, Effect, INMODEL_FILE, Job, Menu};
+use super::{Call, Command, Effect, INMODEL_FILE, Job, Menu, pgen, piece};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::record::Word;
+use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Opens};
+use crate::language::token::Kind as Lex;
 use std::path::PathBuf;
 
 /// INMODEL.
@@ -44,6 +46,10 @@ pub fn opened_by(job: &Job, spec: &CommandSpec, words: &[Word]) -> Option<&'stat
         Opens::Nothing => None,
         Opens::Menu(name) => Some(name),
         Opens::AtMost(name, count) => (words.len() <= count + 1).then_some(name),
+        Opens::Short(name, count) => {
+            let data = words.iter().skip(1).take_while(|w| w.kind != Lex::Option).count();
+            (data <= count).then_some(name)
+        }
         Opens::UnlessFile(name) => model_file(job).is_none().then_some(name),
     }
 }
@@ -78,11 +84,26 @@ fn conn_design(job: &mut Job, _: &Call) -> Outcome<Effect> {
     Ok(Effect::Done)
 }
 
+/// What a menu that has been left still does: INMODEL builds the connectors that waited for names defined later, PGEN
+/// the piece of its planes, and a piece given by panels is complete. Returns what is wrong; `at` is the record that left it.
+pub fn finish(job: &mut Job, left: Menu, at: Option<Span>) -> Vec<Diagnostic> {
+    match left {
+        Menu::Inmodel => {
+            let mut told = piece::completed(job, at);
+            told.extend(finish_inmodel(job));
+            told
+        }
+        Menu::Medit | Menu::Block | Menu::Mesh => piece::completed(job, at),
+        Menu::Planes(planes) => pgen::build(job, *planes, at).err().into_iter().map(|e| *e).collect(),
+        _ => Vec::new(),
+    }
+}
+
 /// Builds the connectors that waited for names defined later; returns what is wrong with each that cannot be built, and
 /// with the curves that classes name.
-pub fn finish_inmodel(job: &mut Job) -> Vec<Box<Diagnostic>> {
+fn finish_inmodel(job: &mut Job) -> Vec<Diagnostic> {
     let waiting = std::mem::take(&mut job.deferred);
     let records = job.model.classes.values().flat_map(|class| class.records.iter());
     let curves: Vec<_> = records.filter_map(|r| known_curves(job, &r.args).err()).collect();
-    curves.into_iter().chain(waiting.iter().filter_map(|args| build_connector(job, args).err())).collect()
+    curves.into_iter().chain(waiting.iter().filter_map(|args| build_connector(job, args).err())).map(|e| *e).collect()
 }

@@ -5,6 +5,7 @@
 //! model when it fails.
 
 mod alter;
+mod body_tables;
 mod chosen;
 mod class;
 mod conn_design;
@@ -20,6 +21,8 @@ mod file;
 mod forces;
 pub mod functions;
 pub mod help;
+mod hstatics;
+mod hydrostatic;
 mod job;
 mod line_types;
 mod lines;
@@ -27,17 +30,21 @@ mod menus;
 mod message;
 mod names;
 mod offsets;
+mod pgen;
 mod picture;
+mod piece;
 mod report_menu;
 mod select;
 mod status;
+mod surface;
 mod units;
 mod vary;
+mod weight;
 mod written;
 
 pub use file::write_open_files;
 pub use job::{Job, Menu, Settings};
-pub use menus::{finish_inmodel, opened_by};
+pub use menus::{finish, opened_by};
 pub use status::kinds as status_kinds;
 
 use crate::language::args::Args;
@@ -113,6 +120,21 @@ pub static COMMANDS: &[&Command] = &[
     &describe::DESCRIBE,
     &describe::POINT,
     &describe::INSTATE,
+    &weight::ITEM,
+    &weight::WEIGHT,
+    &hydrostatic::HYDROSTATIC,
+    &piece::PANEL,
+    &pgen::PGEN,
+    &pgen::PLANE,
+    &surface::SURFACE,
+    &surface::BLOCK,
+    &surface::MESH,
+    &surface::TUBE,
+    &surface::MOVE_BLOCK,
+    &surface::LIST_BLOCK,
+    &hstatics::HSTATICS,
+    &hstatics::CFORM,
+    &hstatics::RARM,
     &class::CLASS,
     &connector::CONNECTOR,
     &names::DELETE,

@@ -7,7 +7,7 @@ use crate::language::name;
 use crate::language::select::{Owner, is_wild, matches};
 use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Kind, Noun, ValueSpec};
-use crate::model::{Model, Thing};
+use crate::model::{Model, Piece, Thing};
 use std::sync::Arc;
 
 /// DELETE.
@@ -20,9 +20,9 @@ static DELETE_SPEC: CommandSpec = CommandSpec {
     menus: &["INMODEL", "MEDIT"],
     data: &[ValueSpec::new("NAME", Kind::Name(Noun::Selector), "what to delete; wild characters may be used")],
     repeat: 1,
-    detail: "Names are those of connectors, classes, points, parts, bodies, curves, environments and selectors; a name means \
-             one thing, since connectors, bodies, parts, curves and environments all have different names. A body goes \
-             with its parts and points. What is still used is not deleted: a class or point by a connector, a curve by \
+    detail: "Names are those of connectors, classes, points, parts, bodies, pieces, curves, environments and selectors; a name \
+             means one thing, since connectors, bodies, parts, pieces, curves and environments all have different names. A \
+             body goes with its parts, points, weights and pieces. What is still used is not deleted: a class or point by a connector, a curve by \
              a class or an environment (also by the one in force), a selector by another. With one name that is refused \
              nothing is deleted.",
     example: "MEDIT\n*P 0 0 0\nDELETE *P\nEND",
@@ -84,6 +84,10 @@ fn remove(model: &mut Model, thing: Thing, name: &str) {
         Thing::Curve => drop(model.curves.shift_remove(&key)),
         Thing::Selector => drop(model.selectors.shift_remove(&key)),
         Thing::Part => drop(model.parts.shift_remove(&key)),
+        Thing::Piece => {
+            let other = |piece: &Piece| !piece.name.eq_ignore_ascii_case(name);
+            model.parts.values_mut().for_each(|part| part.pieces.retain(other));
+        }
         Thing::Body => {
             let parts = &model.parts;
             let own = |part: &str| parts.get(&Model::key(part)).is_some_and(|p| Model::key(&p.body) == key);
@@ -94,6 +98,9 @@ fn remove(model: &mut Model, thing: Thing, name: &str) {
     }
     if model.current_part.as_ref().is_some_and(|p| !model.parts.contains_key(&Model::key(p))) {
         model.current_part = None;
+    }
+    if model.current_piece.as_ref().is_some_and(|piece| model.piece(piece).is_none()) {
+        model.current_piece = None;
     }
 }
 

@@ -76,14 +76,16 @@ static SPEC: CommandSpec = CommandSpec {
         .default("that of &TITLE")
         .owner(Owner::Ours),
     ],
-    detail: "Draws the system as it stands now: bodies as the convex outline of their points, mooring lines in the shape they \
+    detail: "Draws the system as it stands now: bodies as their hull pieces, each as its convex \
+             outline with its sharp edges, or as the convex outline of their points where they have none, mooring lines in the shape they \
              hang in between their ends, other connectors straight, with anchors, fairleads, touchdowns and joints. Both \
              directions of a view have the same scale, but for heights with -EXAGGERATE. The viewer of an elevation looks \
              horizontally from the direction of -FROM: from -90 (-Y) X runs to the right. SIDE and PORT look from -Y, \
              STARBOARD from +Y, BOW from -X and STERN from +X, X taken to run aft and Y to starboard. In an elevation the \
              water stands at the tide and the bottom at the depth of &ENV, else at that of the lines. Lines are solved \
              exactly, whatever their forces come from; one without a solution is dashed between its ends, with a warning. \
-             A NAME chooses connectors and bodies, and with a connector come its bodies. Without -HARD, -FILE or -FORMAT the \
+             A NAME chooses connectors and bodies, and with a connector come its bodies; the VIEW may be left out, but for a NAME \
+             that begins one. Without -HARD, -FILE or -FORMAT the \
              picture is drawn in the terminal; in a terminal names that find no place are left out, in a file that is said. \
              A relative file name is inside the job's folder: &HELP &FILE.",
     example: "MEDIT\n&DESCRIBE BODY BARGE\n*BOW 0 0 20\n*STERN 400 0 20\n~W B_CAT 4 -LEN 2200 -DEP 500\n\

@@ -6,7 +6,7 @@ use super::environment_table::environments;
 use super::forces::forces;
 use super::offsets::offsets;
 use super::written::{as_written, kind_data, option_as_written};
-use super::{Call, Command, Effect, Job, line_types};
+use super::{Call, Command, Effect, Job, body_tables, line_types};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::{Owner, choose};
 use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
@@ -27,6 +27,9 @@ const KINDS: &[(&str, Owner, &str)] = &[
     ("CURVES", Owner::Moses, "curves"),
     ("ENVIRONMENT", Owner::Moses, "the environment in force, or one kept under a name"),
     ("CLASSES", Owner::Ours, "the same as CL_FLEX"),
+    ("WEIGHT", Owner::Ours, "weights, centers and radii of gyration of bodies and parts"),
+    ("PIECES", Owner::Ours, "pieces of hulls"),
+    ("HYDROSTATICS", Owner::Ours, "what bodies displace where they are, and their hydrostatic stiffness"),
     ("BODIES", Owner::Ours, "bodies and their parts"),
     ("POINTS", Owner::Ours, "points, in their parts and in the global system"),
     ("DIMENSIONS", Owner::Ours, "units"),
@@ -45,7 +48,7 @@ static SPEC: CommandSpec = CommandSpec {
         ValueSpec::new(
             "WHAT",
             Kind::Text,
-            "CONFIGURATION, CL_FLEX, G_CONNECTOR, F_CONNECTOR, CURVES, ENVIRONMENT, BODIES, POINTS, LINE_TYPES, ..",
+            "CONFIGURATION, CL_FLEX, G_CONNECTOR, F_CONNECTOR, CURVES, ENVIRONMENT, WEIGHT, HYDROSTATICS, ..",
         )
         .or("a summary"),
         ValueSpec::new(
@@ -57,8 +60,8 @@ static SPEC: CommandSpec = CommandSpec {
     ],
     repeat: 1,
     options: &[OptionSpec::new("-PLOT", &[], "plots curves"), HARD, BOTH],
-    detail: "CONFIGURATION, CL_FLEX (or CLASSES), G_CONNECTOR, F_CONNECTOR, CURVES, ENVIRONMENT, BODIES, POINTS, DIMENSIONS, DEFAULTS, \
-             SELECTORS; alone it counts what the model holds. ENVIRONMENT alone is the one in force, with a NAME the one kept \
+    detail: "CONFIGURATION, CL_FLEX (or CLASSES), G_CONNECTOR, F_CONNECTOR, CURVES, ENVIRONMENT, WEIGHT, PIECES, HYDROSTATICS, BODIES, POINTS, DIMENSIONS, \
+             DEFAULTS, SELECTORS; alone it counts what the model holds. ENVIRONMENT alone is the one in force, with a NAME the one kept \
              under it. LINE_TYPES lists the chains and ropes that -TYPE of a line \
              class knows; LINE_TYPES 3 gives their values at a nominal diameter, LINE_TYPES CHAIN_R4 the formulas of one. \
              F_CONNECTOR solves every line between its ends as they are, exactly or from its table as its class says: the \
@@ -86,6 +89,9 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         "F_CONNECTOR" => vec![forces(model, &fits, job.units)],
         "CURVES" => curves(model, &fits),
         "ENVIRONMENT" => environments(job, (!chosen.all()).then_some(&fits)),
+        "WEIGHT" => vec![body_tables::weights(model, &fits)],
+        "PIECES" => vec![body_tables::pieces(model, &fits)],
+        "HYDROSTATICS" => body_tables::hydrostatics(model, &fits, job.units),
         "BODIES" => vec![bodies(model, &fits)],
         "POINTS" => vec![points(model, &fits)],
         "DIMENSIONS" => vec![dimensions(job)],
@@ -117,7 +123,9 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
 fn things(kind: &str) -> &'static [Thing] {
     match kind {
         "CONFIGURATION" => &[Thing::Body],
-        "BODIES" => &[Thing::Body, Thing::Part],
+        "BODIES" | "WEIGHT" => &[Thing::Body, Thing::Part],
+        "HYDROSTATICS" => &[Thing::Body],
+        "PIECES" => &[Thing::Piece, Thing::Body, Thing::Part],
         "CL_FLEX" | "CLASSES" => &[Thing::Class],
         "G_CONNECTOR" | "F_CONNECTOR" => &[Thing::Connector],
         "CURVES" => &[Thing::Curve],

@@ -2,7 +2,14 @@
 //!
 //! Each kind of load is one file with a type that implements [`BodyLoad`]; [`Floating`] gathers those of a body.
 
+mod buoyancy;
+pub mod hull;
+mod linear;
+mod righting;
 mod weight;
+
+pub use buoyancy::{Hull, PieceFault, piece_faults};
+pub use righting::{Balanced, balanced};
 
 use crate::model::{Body, ClassError, Mass, Model, Pose, Six};
 use nalgebra::{Matrix3, Matrix6, Vector3};
@@ -118,6 +125,16 @@ impl Floating {
         let mass = Mass::of(model.parts_of(body), gravity);
         let mut loads: Vec<Box<dyn BodyLoad>> = Vec::new();
         loads.extend(weight::of(&mass, gravity));
+        let hull = Hull::of(model, body)?;
+        if let (Some(_), Some(linear)) = (&hull, &body.linear) {
+            let text =
+                format!("{} has a hull and a linear hydrostatic stiffness: its buoyancy would count twice", body.name);
+            return Err(ClassError::new(text)
+                .at(linear.span)
+                .help("leave out #HYDROSTATIC, or give the pieces -PERMEABILITY 0"));
+        }
+        loads.extend(hull.map(|hull| Box::new(hull) as Box<dyn BodyLoad>));
+        loads.extend(linear::of(body));
         Ok(Floating { mass, added_mass: Matrix6::zeros(), loads })
     }
 

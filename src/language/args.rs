@@ -139,11 +139,13 @@ fn take<'a>(option: &OptionSpec, words: &'a [Word]) -> &'a [Word] {
             }
             None => break,
         };
-        let must = value.is_required() && !again;
-        if word.kind == Lex::Option || (!must && !fits(value.kind, word)) {
+        // as in `convert`, an optional value is passed over when the word is of the type of the next one
+        let passed = (!value.is_required() || again) && !fits(value.kind, word);
+        let next = option.values.get(index + 1).is_some_and(|next| passed && fits(next.kind, word));
+        if word.kind == Lex::Option || (passed && !next) {
             break;
         }
-        count += 1;
+        count += usize::from(!passed);
         index += 1;
     }
     words.get(..count).unwrap_or_default()

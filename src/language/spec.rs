@@ -196,6 +196,9 @@ pub enum Opens {
     Menu(&'static str),
     /// The menu of this name when at most this many words follow the command; with more it is complete in itself.
     AtMost(&'static str, usize),
+    /// The menu of this name when at most this many words stand between the command and its first option; with more it is
+    /// complete in itself.
+    Short(&'static str, usize),
     /// The menu of this name, unless a file of the job's gives the menu's records.
     UnlessFile(&'static str),
 }

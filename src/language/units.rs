@@ -164,6 +164,8 @@ pub enum Dim {
     Frequency,
     /// Area, ft2 or m2 (m2).
     Area,
+    /// Volume, ft3 or m3 (m3).
+    Volume,
     /// Spectral density of elevation, ft2 s or m2 s (m2 s).
     SpectralDensity,
     /// Nonlinear dashpot coefficient, `bforce (s/blength)**Ex` (N (s/m)**Ex); the exponent is carried.
@@ -229,6 +231,7 @@ impl Dim {
                 }
             }
             Dim::Area | Dim::SpectralDensity => m * m,
+            Dim::Volume => m * m * m,
             Dim::Damping(exponent) => n / m.powf(exponent),
             Dim::None
             | Dim::Time
@@ -285,6 +288,7 @@ impl Dim {
             Dim::ThermalExpansion => if feet { "1/F" } else { "1/C" }.into(),
             Dim::Frequency => "rad/s".into(),
             Dim::Area => format!("{length}2"),
+            Dim::Volume => format!("{length}3"),
             Dim::SpectralDensity => format!("{length}2-s"),
             Dim::Damping(exponent) => format!("{force}-(s/{length})**{exponent}"),
             Dim::Mass => "kg".into(),

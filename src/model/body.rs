@@ -1,6 +1,7 @@
 //! Bodies, their parts, and points.
 
 use super::geometry::{Place, Position};
+use super::hull::{LinearHydrostatics, Piece};
 use crate::language::source::Span;
 use nalgebra::{Matrix3, Vector3};
 
@@ -18,6 +19,8 @@ pub struct Body {
     pub previous: Place,
     /// Degrees of freedom left out (X Y Z RX RY RZ).
     pub ignored: Vec<String>,
+    /// Buoyancy by a constant stiffness, instead of that of a hull.
+    pub linear: Option<LinearHydrostatics>,
     /// Where it was defined.
     pub span: Span,
 }
@@ -33,6 +36,8 @@ pub struct Part {
     pub place: Place,
     /// Weights it carries.
     pub weights: Vec<Weight>,
+    /// Surfaces of its hull.
+    pub pieces: Vec<Piece>,
     /// Where it was defined.
     pub span: Span,
 }
@@ -59,6 +64,14 @@ pub struct Mass {
     pub centre: Vector3<f64>,
     /// Moments of inertia about the body's origin, body axes (kg m2).
     pub inertia: Matrix3<f64>,
+}
+
+impl Part {
+    /// A part without weights and pieces.
+    pub fn new(name: &str, body: &str, place: Place, span: Span) -> Self {
+        let (name, body) = (name.to_string(), body.to_string());
+        Part { name, body, place, weights: Vec::new(), pieces: Vec::new(), span }
+    }
 }
 
 impl Default for Mass {
@@ -88,6 +101,25 @@ impl Mass {
             sum.centre = first / sum.mass;
         }
         sum
+    }
+
+    /// Moments of inertia about another point of the body (m), its axes (kg m2).
+    pub fn inertia_about(&self, point: Vector3<f64>) -> Matrix3<f64> {
+        let of = |arm: Vector3<f64>| self.mass * (Matrix3::identity() * arm.norm_squared() - arm * arm.transpose());
+        // Steiner: from the origin to the centre of gravity, and on to the point
+        self.inertia - of(self.centre) + of(self.centre - point)
+    }
+
+    /// Radii of gyration about axes through the centre of gravity along those of the body (m); `None` where the moment of
+    /// inertia is negative or there is no mass.
+    pub fn radii(&self) -> [Option<f64>; 3] {
+        let about = self.inertia_about(self.centre);
+        [0, 1, 2].map(|i| {
+            let (square, size) = (about[(i, i)] / self.mass, self.inertia[(i, i)] / self.mass);
+            // of a point away from the origin rounding leaves a little of either sign
+            let square = if square.abs() <= 1e-12 * size.abs() { 0.0 } else { square };
+            (square >= 0.0).then(|| square.sqrt())
+        })
     }
 }
 

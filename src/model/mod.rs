@@ -11,6 +11,7 @@ mod defaults;
 mod element;
 mod environment;
 mod geometry;
+mod hull;
 mod line;
 mod names;
 mod pose;
@@ -24,6 +25,7 @@ pub use defaults::{Coordinates, Defaults, Material};
 pub use element::{Connection, Element, End, Guess, Response, Situation, SpringState, Summary, TimeStep};
 pub use environment::{Current, Environment, Sea, Surroundings, TimeWindow, Wind};
 pub use geometry::{Place, Position, unit_vector};
+pub use hull::{LinearHydrostatics, Piece, Shape, box_panels};
 pub use line::{Condition, Configuration, LineChange, LineLoads, LineModel, Placement};
 pub use names::Thing;
 pub use pose::{Pose, Six};
@@ -60,6 +62,8 @@ pub struct Model {
     pub saved_defaults: Vec<Defaults>,
     /// The part that points now being defined belong to.
     pub current_part: Option<String>,
+    /// The piece that panels now being given belong to.
+    pub current_piece: Option<String>,
 }
 
 impl Model {
@@ -175,6 +179,24 @@ impl Model {
     pub fn parts_of<'a>(&'a self, body: &'a Body) -> impl Iterator<Item = &'a Part> {
         let key = Model::key(&body.name);
         self.parts.values().filter(move |p| Model::key(&p.body) == key)
+    }
+
+    /// The body of the part described last.
+    pub fn current_body(&self) -> Option<&Body> {
+        let part = self.current_part.as_ref().and_then(|p| self.parts.get(&Model::key(p)))?;
+        self.bodies.get(&Model::key(&part.body))
+    }
+
+    /// A piece by its name, with its part.
+    pub fn piece(&self, name: &str) -> Option<(&Part, &Piece)> {
+        let pieces = self.parts.values().flat_map(|part| part.pieces.iter().map(move |piece| (part, piece)));
+        pieces.into_iter().find(|(_, piece)| piece.name.eq_ignore_ascii_case(name))
+    }
+
+    /// A piece by its name, to be changed.
+    pub fn piece_mut(&mut self, name: &str) -> Option<&mut Piece> {
+        let pieces = self.parts.values_mut().flat_map(|part| part.pieces.iter_mut());
+        pieces.into_iter().find(|piece| piece.name.eq_ignore_ascii_case(name))
     }
 
     /// Connectors that use a class.

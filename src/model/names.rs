@@ -1,9 +1,10 @@
 //! What things are called: the sorts of things that have names, which names are taken, and what uses a thing.
 //!
-//! Connectors, bodies, parts, curves and environments share one set of names, so that a name means one thing; classes,
-//! points and selectors are told apart by their markers. A body and its own part have one name.
+//! Connectors, bodies, parts, pieces, curves and environments share one set of names, so that a name means one thing;
+//! classes, points and selectors are told apart by their markers. A body and its own part have one name, and a piece may have
+//! that of its body or part.
 
-use super::Model;
+use super::{Model, Piece};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::name::with_article;
 use crate::language::source::Span;
@@ -22,6 +23,8 @@ pub enum Thing {
     Body,
     /// A part.
     Part,
+    /// A piece of a hull.
+    Piece,
     /// An environment kept under a name.
     Environment,
     /// A curve.
@@ -32,12 +35,13 @@ pub enum Thing {
 
 impl Thing {
     /// All sorts.
-    pub const ALL: [Thing; 8] = [
+    pub const ALL: [Thing; 9] = [
         Thing::Connector,
         Thing::Class,
         Thing::Point,
         Thing::Body,
         Thing::Part,
+        Thing::Piece,
         Thing::Environment,
         Thing::Curve,
         Thing::Selector,
@@ -51,6 +55,7 @@ impl Thing {
             Thing::Point => "point",
             Thing::Body => "body",
             Thing::Part => "part",
+            Thing::Piece => "piece",
             Thing::Environment => "environment",
             Thing::Curve => "curve",
             Thing::Selector => "selector",
@@ -59,7 +64,8 @@ impl Thing {
 }
 
 /// The sorts without a marker, which share one set of names.
-const UNMARKED: [Thing; 5] = [Thing::Connector, Thing::Body, Thing::Part, Thing::Environment, Thing::Curve];
+const UNMARKED: [Thing; 6] =
+    [Thing::Connector, Thing::Body, Thing::Part, Thing::Piece, Thing::Environment, Thing::Curve];
 
 impl Model {
     /// The names of one sort, as written, in the order of their definition.
@@ -70,16 +76,22 @@ impl Model {
             Thing::Point => self.points.values().map(|p| p.name.as_str()).collect(),
             Thing::Body => self.bodies.values().map(|b| b.name.as_str()).collect(),
             Thing::Part => self.parts.values().map(|p| p.name.as_str()).collect(),
+            Thing::Piece => self.parts.values().flat_map(|p| p.pieces.iter().map(|s| s.name.as_str())).collect(),
             Thing::Environment => self.environments.values().map(|e| e.name.as_str()).collect(),
             Thing::Curve => self.curves.values().map(|c| c.name.as_str()).collect(),
             Thing::Selector => self.selectors.values().map(|s| s.name.as_str()).collect(),
         }
     }
 
-    /// Everything that has a name, each with its sort; a body's own part goes with the body.
+    /// Everything that has a name, each with its sort; a body's own part goes with the body, and so does a piece of its name.
     pub fn things(&self) -> Vec<(Thing, &str)> {
         let list = Thing::ALL.into_iter().flat_map(|t| self.names(t).into_iter().map(move |name| (t, name)));
-        list.filter(|(thing, name)| *thing != Thing::Part || !self.bodies.contains_key(&Model::key(name))).collect()
+        let taken = |thing: Thing, name: &str| match thing {
+            Thing::Part => self.bodies.contains_key(&Model::key(name)),
+            Thing::Piece => self.parts.contains_key(&Model::key(name)),
+            _ => false,
+        };
+        list.filter(|(thing, name)| !taken(*thing, name)).collect()
     }
 
     /// Where a thing was defined; `None` when there is no such thing.
@@ -91,6 +103,7 @@ impl Model {
             Thing::Point => self.points.get(&key).map(|p| p.span),
             Thing::Body => self.bodies.get(&key).map(|b| b.span),
             Thing::Part => self.parts.get(&key).map(|p| p.span),
+            Thing::Piece => self.piece(name).map(|(_, piece)| piece.span),
             Thing::Environment => self.environments.get(&key).map(|e| e.span),
             Thing::Curve => self.curves.get(&key).map(|c| c.span),
             Thing::Selector => self.selectors.get(&key).map(|s| s.span),
@@ -110,7 +123,7 @@ impl Model {
             Some((thing, place)) => {
                 Err(Diagnostic::error(format!("{name} is the name of {} already", with_article(thing.word())), span)
                     .other(place, "defined here")
-                    .help("connectors, bodies, parts, curves and environments all have different names"))
+                    .help("connectors, bodies, parts, pieces, curves and environments all have different names"))
             }
         }
     }
@@ -134,7 +147,7 @@ impl Model {
                 let users = self.selectors.values().filter(|s| names(&s.select) || names(&s.except));
                 users.map(|s| s.name.as_str()).collect()
             }
-            Thing::Connector | Thing::Environment => Vec::new(),
+            Thing::Connector | Thing::Environment | Thing::Piece => Vec::new(),
         }
     }
 
@@ -145,7 +158,12 @@ impl Model {
             uses(Box::new(options.flat_map(|g| g.named(Noun::Curve)).filter_map(|v| v.word())))
         });
         let kept = self.environments.values().filter(|e| uses(e.curves())).map(|e| e.name.as_str());
+        let kept_by = |piece: &&Piece| {
+            let curves = piece.kept.iter().flat_map(|g| g.named(Noun::Curve)).filter_map(|v| v.word());
+            uses(Box::new(curves))
+        };
+        let pieces = self.parts.values().flat_map(|p| p.pieces.iter()).filter(kept_by).map(|p| p.name.as_str());
         let in_force = uses(self.environment.curves()).then_some("the environment in force");
-        classes.map(|c| c.name.as_str()).chain(kept).chain(in_force).collect()
+        classes.map(|c| c.name.as_str()).chain(kept).chain(pieces).chain(in_force).collect()
     }
 }

@@ -84,7 +84,7 @@ fn fixed(value: f64, decimals: u8) -> String {
 fn usual(dim: Dim, units: UnitSystem) -> u8 {
     let small_force = matches!(units.force, ForceUnit::Newtons);
     match dim {
-        Dim::Length | Dim::Angle | Dim::Time | Dim::Velocity | Dim::WindSpeed | Dim::Area => 2,
+        Dim::Length | Dim::Angle | Dim::Time | Dim::Velocity | Dim::WindSpeed | Dim::Area | Dim::Volume => 2,
         Dim::Force | Dim::Moment | Dim::MomentPerRadian => {
             if small_force {
                 0

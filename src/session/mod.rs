@@ -89,10 +89,10 @@ impl Session {
                 Ok(Step::Record(record)) => self.execute(&record),
                 Ok(Step::Ended(tag)) => {
                     while tag == INMODEL_FILE && self.passing() {
-                        self.leave_menu();
+                        self.leave_menu(None);
                     }
                     if tag == INMODEL_FILE && matches!(self.job.menu(), Menu::Inmodel) {
-                        self.leave_menu();
+                        self.leave_menu(None);
                     }
                     false
                 }
@@ -143,7 +143,7 @@ impl Session {
     /// At the end of a run: what was left open.
     fn say_open_menus(&mut self) {
         if let Menu::Inmodel = self.job.menu() {
-            self.leave_menu();
+            self.leave_menu(None);
         }
         if self.job.menus.len() > 1 {
             let menu = self.job.menu();
@@ -258,10 +258,6 @@ impl Session {
             Kind::Class => return self.invoke(in_menu("~CLASS", self.job.menu(), first)?, record, words),
             Kind::Point => return self.invoke(in_menu("*POINT", self.job.menu(), first)?, record, words),
             Kind::Selector => return self.invoke(in_menu(":SELECTOR", self.job.menu(), first)?, record, words),
-            Kind::Load => {
-                return Err(Diagnostic::error(format!("load attribute {} is not known", first.text), first.span)
-                    .label("load attributes come with the bodies' loads"));
-            }
             _ => {}
         }
         match self.resolve(first)? {
@@ -330,18 +326,18 @@ impl Session {
             return Err(Diagnostic::error(format!("{word} does not leave menu {}", menu.name()), first.span)
                 .label(format!("expected END or {}", menu.end())));
         }
-        self.leave_menu();
+        self.leave_menu(Some(first.span));
         Ok(Effect::Done)
     }
 
-    fn leave_menu(&mut self) {
-        let inmodel = matches!(self.job.menu(), Menu::Inmodel);
-        if self.job.menus.len() > 1 {
-            self.job.menus.pop();
+    /// Leaves the innermost menu; `at` is the word that leaves it.
+    fn leave_menu(&mut self, at: Option<Span>) {
+        if self.job.menus.len() < 2 {
+            return;
         }
-        if inmodel {
-            for error in command::finish_inmodel(&mut self.job) {
-                self.report(*error);
+        if let Some(menu) = self.job.menus.pop() {
+            for told in command::finish(&mut self.job, menu, at) {
+                self.report(told);
             }
         }
     }

@@ -3,6 +3,7 @@
 
 mod equilibrium;
 mod modes;
+mod outline;
 pub mod scene;
 mod settle;
 mod system;

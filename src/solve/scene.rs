@@ -1,6 +1,8 @@
 //! What the system looks like: bodies, lines in their solved shape, anchors, the water surface and the sea bottom, as
 //! polylines and marks in global coordinates.
 
+pub use super::outline::Outline;
+use super::outline::outline;
 use crate::model::{Body, ClassError, Condition, Connector, Model, Placement, Position};
 use crate::table::{Cell, Table};
 use std::collections::BTreeSet;
@@ -64,17 +66,6 @@ pub struct Mark {
     pub name: String,
     /// Where it is (m, global).
     pub at: Position,
-}
-
-/// The outline of a body: what its projection is the convex hull of, and the edges seen on it.
-#[derive(Clone, Debug, PartialEq, Default)]
-pub struct Outline {
-    /// The body.
-    pub name: String,
-    /// The origin of its axes (m, global).
-    pub origin: Position,
-    /// Places it reaches; in a picture it is filled within their convex hull (m, global).
-    pub corners: Vec<Position>,
 }
 
 /// All that is drawn of a system, in global coordinates (m).
@@ -158,20 +149,9 @@ impl Scene {
 
     /// Every place that a picture must show (m).
     pub fn places(&self) -> impl Iterator<Item = Position> + '_ {
-        let bodies = self.bodies.iter().flat_map(|b| b.corners.iter().copied());
+        let bodies = self.bodies.iter().flat_map(|b| b.shapes.iter().flatten().copied());
         let paths = self.paths.iter().flat_map(|p| p.points.iter().copied());
         bodies.chain(paths).chain(self.marks.iter().map(|m| m.at))
-    }
-}
-
-/// The outline of a body: all points of its parts.
-fn outline(model: &Model, body: &Body) -> Outline {
-    let parts: BTreeSet<String> = model.parts_of(body).map(|p| Model::key(&p.name)).collect();
-    let points = model.points.values().filter(|p| parts.contains(&Model::key(&p.part)));
-    Outline {
-        name: body.name.clone(),
-        origin: body.place.apply([0.0; 3]),
-        corners: points.map(|p| model.global(p)).collect(),
     }
 }
 
@@ -270,7 +250,7 @@ impl Shape {
         let at = |heights: Vec<Option<f64>>| -> Vec<(f64, f64)> {
             xs.iter().zip(heights).filter_map(|(x, z)| x.zip(z)).collect()
         };
-        let curve = smooth(&at(column("Z")), &column("Angle"));
+        let curve = smooth(&at(column("Z")), &column("Angle"), &column("Arc Length"));
         let mut marks = Vec::new();
         for (sign, name) in [(Sign::Touchdown, "Touchdown"), (Sign::Joint, "Joint")] {
             let mark = |(x, z)| Mark { sign, name: String::new(), at: place(x, z) };
@@ -282,16 +262,16 @@ impl Shape {
     }
 }
 
-/// The rows of a shape with points between where the line turns: cubics with its known directions at both rows.
-/// Angles are above the horizontal, toward the fairlead (rad).
-fn smooth(rows: &[(f64, f64)], angles: &[Option<f64>]) -> Vec<(f64, f64)> {
+/// The rows of a shape with points between where the line turns: cubics in the arc length with its known directions at
+/// both rows. Angles are above the horizontal, toward the fairlead (rad); arcs are lengths from the fairlead (m).
+fn smooth(rows: &[(f64, f64)], angles: &[Option<f64>], arcs: &[Option<f64>]) -> Vec<(f64, f64)> {
     let mut out: Vec<(f64, f64)> = rows.first().copied().into_iter().collect();
-    for (pair, turn) in rows.windows(2).zip(angles.windows(2)) {
-        let ([a, b], [Some(from), Some(to)]) = (pair, turn) else {
+    for ((pair, turn), arc) in rows.windows(2).zip(angles.windows(2)).zip(arcs.windows(2)) {
+        let ([a, b], [Some(from), Some(to)], [Some(start), Some(end)]) = (pair, turn, arc) else {
             out.extend(pair.last());
             continue;
         };
-        let chord = (b.0 - a.0).hypot(b.1 - a.1);
+        let arc = end - start;
         let turned = (to - from).abs();
         let pieces = if turned < CORNER { ((turned / TURN).ceil() as usize).clamp(1, MOST_BETWEEN) } else { 1 };
         for step in 1..pieces {
@@ -299,8 +279,8 @@ fn smooth(rows: &[(f64, f64)], angles: &[Option<f64>]) -> Vec<(f64, f64)> {
             let (t2, t3) = (t * t, t * t * t);
             let (h00, h10) = (2.0 * t3 - 3.0 * t2 + 1.0, t3 - 2.0 * t2 + t);
             let (h01, h11) = (3.0 * t2 - 2.0 * t3, t3 - t2);
-            let x = h00 * a.0 + h01 * b.0 + chord * (h10 * from.cos() + h11 * to.cos());
-            let z = h00 * a.1 + h01 * b.1 - chord * (h10 * from.sin() + h11 * to.sin());
+            let x = h00 * a.0 + h01 * b.0 + arc * (h10 * from.cos() + h11 * to.cos());
+            let z = h00 * a.1 + h01 * b.1 - arc * (h10 * from.sin() + h11 * to.sin());
             out.push((x, z));
         }
         out.push(*b);

@@ -4,12 +4,13 @@ use super::labels::{Label, Sheet};
 use super::view::{Frame, Seen, View, hull};
 use crate::report::plot::draw::refused;
 use crate::report::plot::{PlotError, terminal};
-use crate::solve::scene::{Scene, Sign, Stroke};
+use crate::solve::scene::{Outline, Scene, Sign, Stroke};
 use plotters::coord::Shift;
 use plotters::drawing::DrawingArea;
 use plotters::element::{Circle, PathElement, Polygon, Rectangle, Text, TriangleMarker};
 use plotters::prelude::{BLACK, Color, DrawingBackend, RGBColor, WHITE};
 use plotters::style::{IntoTextStyle, TextStyle};
+use std::collections::BTreeSet;
 
 /// The water, the ground, and their edges.
 const WATER: (RGBColor, RGBColor) = (RGBColor(232, 242, 250), RGBColor(86, 150, 200));
@@ -104,7 +105,7 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
     pub fn sign(&self, sign: Sign, at: (i32, i32)) -> Outcome<()> {
         if self.look.terminal {
             let colour = terminal::colour(mark_index(sign), true);
-            return self.area.draw(&Circle::new(at, 0, colour.filled())).map_err(refused);
+            return self.area.draw_pixel(at, &colour).map_err(refused);
         }
         let (x, y) = at;
         match sign {
@@ -172,13 +173,7 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
             Seen::Axonometric => self.planes(scene, view, frame)?,
         }
         for body in &scene.bodies {
-            let ring = hull(body.corners.iter().map(|at| pixel(*at)).collect());
-            if !self.look.terminal && ring.len() > 2 {
-                self.area.draw(&Polygon::new(ring.clone(), BODY.filled())).map_err(refused)?;
-            }
-            let closed: Vec<_> = ring.iter().chain(ring.first()).copied().collect();
-            sheet.mark(&closed);
-            self.path(closed, BLACK, 2)?;
+            self.body(body, &pixel, &mut sheet)?;
             labels.push(Label { text: body.name.clone(), at: pixel(body.origin), tone: 0 });
         }
         for path in STROKES.iter().flat_map(|(stroke, _)| scene.paths.iter().filter(move |p| p.stroke == *stroke)) {
@@ -200,6 +195,26 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
             }
         }
         self.names(&sheet, labels, names)
+    }
+
+    /// A body: each shape filled within its convex hull, then its edges, thin; edges that fall together are drawn once.
+    fn body(&self, body: &Outline, pixel: &dyn Fn([f64; 3]) -> (i32, i32), sheet: &mut Sheet) -> Outcome<()> {
+        let rings: Vec<_> = body.shapes.iter().map(|s| hull(s.iter().map(|at| pixel(*at)).collect())).collect();
+        for ring in rings.iter().filter(|ring| ring.len() > 2 && !self.look.terminal) {
+            self.area.draw(&Polygon::new(ring.clone(), BODY.filled())).map_err(refused)?;
+        }
+        let mut drawn = BTreeSet::new();
+        for [a, b] in body.edges.iter().map(|edge| edge.map(pixel)) {
+            if a != b && drawn.insert((a.min(b), a.max(b))) {
+                self.path(vec![a, b], RGBColor(110, 110, 110), 1)?;
+            }
+        }
+        for ring in rings {
+            let closed: Vec<_> = ring.iter().chain(ring.first()).copied().collect();
+            sheet.mark(&closed);
+            self.path(closed, BLACK, 2)?;
+        }
+        Ok(())
     }
 
     /// Writes the names; those of water and ground whether names are wanted or not.

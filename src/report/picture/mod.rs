@@ -24,7 +24,7 @@ use view::{Extent, Frame, Seen, round_length};
 /// Width of a page and its margin (pixels).
 const PAGE: (i32, i32) = (1000, 16);
 /// Height of the title, of the words above a view, of the axes and scale below it, of a row of the legend (pixels).
-const ROWS: [i32; 4] = [44, 24, 58, 26];
+const ROWS: [i32; 4] = [44, 24, 68, 26];
 /// Pixels left free within the frame of a view: at each side, above and below.
 const FREE: (i32, i32) = (70, 36);
 /// Least and largest height of a view (pixels): of a plan or isometric view, and of an elevation.
@@ -148,7 +148,7 @@ impl Picture {
             left_out += pen.view(&self.scene, view, frame, self.names)?;
             pen.frame(frame)?;
             let (right, low) = (left + width, top + height);
-            pen.axes(view, (left + 44, low + 38))?;
+            pen.axes(view, (left + 44, low + 50))?;
             let (length, words) = self.scale(frame, 0.25 * f64::from(width));
             pen.scale((right - 10, low + 20), length, &words)?;
         }
@@ -203,9 +203,15 @@ impl Picture {
         for view in &self.views {
             // three lines are for the title, the view and the scale
             let size = |n: usize, dots: i32| i32::try_from(n).unwrap_or(0) * dots;
-            let at = [0, 0, size(columns, 2), size(lines - 3, 4)];
-            let frame = Frame::fit(&self.extent(view)?, at, (at[2] / 20 + 6, 6));
-            let canvas = Rc::new(RefCell::new(terminal::Canvas::new(columns, lines - 3)));
+            let extent = self.extent(view)?;
+            let [w, h] = extent.size();
+            let (width, free) = (size(columns, 2), (size(columns, 2) / 20 + 6, 6));
+            // no higher than it needs
+            let needed = f64::from(width - 2 * free.0) * h / w + f64::from(2 * free.1);
+            let height = ((needed / 4.0).ceil() as usize + 2).min(lines - 3);
+            let at = [0, 0, width, size(height, 4)];
+            let frame = Frame::fit(&extent, at, free);
+            let canvas = Rc::new(RefCell::new(terminal::Canvas::new(columns, height)));
             Pen::new(&DrawingArea::from(&canvas), &look).view(&self.scene, view, &frame, self.names)?;
             for line in [page::centre(&self.title, columns), page::centre(&view.title(), columns)] {
                 text.push_str(line.trim_end());

@@ -1,0 +1,250 @@
+//! Pieces of a hull: the options all of them take, `PANEL`, and what is checked when a piece is complete.
+//!
+//! Source: reference/model.md, "Hull".
+
+use super::written::option_as_written;
+use super::{Call, Command, Effect, Job};
+use crate::hydro;
+use crate::language::args::{self, Args, Value};
+use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::name as rule;
+use crate::language::source::Span;
+use crate::language::spec::{CommandSpec, Form, Kind, Noun, OptionSpec, ValueSpec};
+use crate::language::token::Kind as Lex;
+use crate::language::units::Dim;
+use crate::model::{Model, Part, Piece, Position, Shape, Thing, find};
+use nalgebra::Vector3;
+
+/// PANEL.
+pub static PANEL: Command = Command { spec: &PANEL_SPEC, edits: false, run: panel };
+
+const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
+    ValueSpec::new(name, Kind::Number(dim), help)
+}
+const FACTORS: &[ValueSpec] = &[
+    number("X", Dim::None, "factor in the part's x").not_negative(),
+    number("Y", Dim::None, "factor in the part's y").not_negative(),
+    number("Z", Dim::None, "factor in the part's z").not_negative(),
+];
+const FACTOR: &[ValueSpec] = &[number("F", Dim::None, "factor").not_negative()];
+
+/// What every piece takes, however its surface is given.
+pub const OPTIONS: [OptionSpec; 12] = [
+    OptionSpec::new(
+        "-PERMEABILITY",
+        &[number("P", Dim::None, "1 exterior, -1 interior open to the sea, or a fraction").within(-1.0, 1.0)],
+        "share of the volume that displaces water",
+    )
+    .default("1"),
+    OptionSpec::new("-CS_WIND", FACTORS, "factors of the wind force").default("1 1 1"),
+    OptionSpec::new("-CS_CURRENT", FACTORS, "factors of the current force").default("1 1 1"),
+    OptionSpec::new("-OBSTACLE", &[], "stops what moves against it; kept"),
+    OptionSpec::new(
+        "-DIFTYPE",
+        &[ValueSpec::new(
+            "TYPE",
+            Kind::Choice(&["3DDIF", "NONE"]),
+            "with three-dimensional diffraction, or without any",
+        )],
+        "diffraction; kept",
+    ),
+    OptionSpec::new(
+        "-CS_VELOCITY",
+        &[ValueSpec::new("NAME", Kind::Name(Noun::Curve), "curve of factors by velocity")],
+        "factors of drag by velocity; kept",
+    ),
+    OptionSpec::new("-DD_MULT", FACTOR, "factor of drift damping; kept"),
+    OptionSpec::new(
+        "-AMASS",
+        &[
+            number("M", Dim::None, "factor of added mass").not_negative(),
+            ValueSpec::new("CURVE", Kind::Name(Noun::Curve), "curve of pressures").or("none"),
+        ],
+        "added mass; kept",
+    ),
+    OptionSpec::new("-TANAKA", FACTOR, "factor of Tanaka's roll damping; kept"),
+    OptionSpec::new("-ROLL_DAMPING", FACTOR, "factor of roll damping; kept"),
+    OptionSpec::new("-COLOR", &[ValueSpec::new("NAME", Kind::Text, "colour")], "colour in pictures; kept"),
+    OptionSpec::new("-TEXTURE", &[ValueSpec::new("NAME", Kind::Text, "texture")], "texture in pictures; kept"),
+];
+
+/// How pieces are read, for the help of the commands that make them.
+pub const READING: &str = "A piece belongs to the part described last and is given in its system. Its surface must be closed; \
+     the corners of its panels go round the same way seen from outside, all counterclockwise or all clockwise. When it is \
+     complete it is checked. Open edges and panels that look the wrong way are warned of with their places, and a body with such a \
+     piece has no buoyancy until it is corrected; panels that cut each other and pieces that overlap are warned of, and count \
+     twice where they do. With -PERMEABILITY 1 the volume displaces water, with \
+     -1 it is taken off again (a moonpool, a flooded tank), with 0 the surface is for wind and current alone.";
+
+static PANEL_SPEC: CommandSpec = CommandSpec {
+    menus: &["INMODEL", "MEDIT", "BLOCK", "MESH"],
+    form: Form::Text,
+    data: &[ValueSpec::new("*P", Kind::Name(Noun::Point), "a corner: a point, or X Y Z")],
+    repeat: 1,
+    detail: "PANEL *P1 *P2 *P3 [*P4 ..] or PANEL X1 Y1 Z1 X2 Y2 Z2 X3 Y3 Z3 ..: a panel of the piece described last by &DESCRIBE \
+             PIECE, BLOCK or MESH. Three or more corners, round the panel, in the system of the part; points of another part of \
+             the same body are taken where they stand. What counts is where a point stands when the record is read.",
+    example: "MEDIT\n&DESCRIBE BODY TET\n*O 0 0 0\n*X 3 0 0\n*Y 0 3 0\n*Z 0 0 3\n&DESCRIBE PIECE SKIN\nPANEL *O *Y *X\n\
+              PANEL *O *X *Z\nPANEL *O *Z *Y\nPANEL 3 0 0  0 3 0  0 0 3\nEND\n&STATUS PIECES",
+    ..CommandSpec::new("PANEL", "a panel of a piece, by points or coordinates")
+};
+
+static BY_POINTS: CommandSpec = CommandSpec { form: Form::Words, ..PANEL_SPEC };
+static BY_COORDINATES: CommandSpec = CommandSpec {
+    form: Form::Words,
+    data: &[
+        number("X", Dim::Length, "x of a corner"),
+        number("Y", Dim::Length, "y of a corner"),
+        number("Z", Dim::Length, "z of a corner"),
+    ],
+    repeat: 3,
+    ..PANEL_SPEC
+};
+
+fn panel(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let [command, rest @ ..] = call.words else { return Ok(Effect::Done) };
+    let by_points = rest.first().is_some_and(|w| w.kind == Lex::Point);
+    let spec = if by_points { &BY_POINTS } else { &BY_COORDINATES };
+    let args = args::read(spec, command.span, rest, job.units)?;
+    let name = job.model.current_piece.clone().ok_or_else(|| {
+        Diagnostic::error("a panel belongs to a piece, and none is described", command.span)
+            .help("&DESCRIBE PIECE NAME describes one")
+    })?;
+    let found = job.model.piece(&name).map(|(part, piece)| (part.clone(), piece.shape.clone()));
+    let Some((part, Shape::Panels(_))) = found else {
+        return Err(Diagnostic::error(format!("piece {name} is not made of panels"), command.span));
+    };
+    let corners: Vec<Position> = if by_points {
+        let points = args.data.iter().filter_map(|v| Some((v.word()?, v.span)));
+        points.map(|(word, span)| point_in_part(&job.model, word, &part, span)).collect::<Outcome<_>>()?
+    } else {
+        let numbers: Vec<f64> = args.data.iter().filter_map(Value::number).collect();
+        numbers.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect()
+    };
+    if corners.len() < 3 {
+        return Err(Diagnostic::error("a panel has three or more corners", command.span)
+            .label(format!("this one has {}", corners.len())));
+    }
+    if area(&corners) == 0.0 {
+        return Err(Diagnostic::error("the panel has no area", command.span).label("its corners lie on one line"));
+    }
+    if let Some(Piece { shape: Shape::Panels(panels), .. }) = job.model.piece_mut(&name) {
+        panels.push(corners);
+    }
+    Ok(Effect::Done)
+}
+
+/// Area of a polygon, of one that is not plane that of its projection along its mean normal (m2); zero where rounding is all
+/// there is.
+pub fn area(corners: &[Position]) -> f64 {
+    let Some(first) = corners.first().map(|at| Vector3::from(*at)) else { return 0.0 };
+    let arms: Vec<Vector3<f64>> = corners.iter().map(|at| Vector3::from(*at) - first).collect();
+    let normal: Vector3<f64> = arms.windows(2).map(|w| w[0].cross(&w[1])).sum();
+    let size = arms.iter().map(|a| a.norm_squared()).fold(0.0, f64::max);
+    if normal.norm() <= 1e-12 * size { 0.0 } else { 0.5 * normal.norm() }
+}
+
+/// Where a point stands in a part (m).
+///
+/// # Errors
+/// An unknown point, or one of another body.
+pub fn point_in_part(model: &Model, name: &str, part: &Part, span: Span) -> Outcome<Position> {
+    let point = find(&model.points, name, "point", span)?;
+    if Model::key(&point.part) == Model::key(&part.name) {
+        return Ok(point.at);
+    }
+    let own = model.parts.get(&Model::key(&point.part)).filter(|p| Model::key(&p.body) == Model::key(&part.body));
+    let own = own.ok_or_else(|| {
+        Diagnostic::error(format!("{} is not a point of body {}", point.name, part.body), span)
+            .label(format!("it belongs to {}", model.body_of(point).map_or("the ground", |b| &b.name)))
+            .other(point.span, "defined here")
+    })?;
+    let in_body = Vector3::from(own.place.apply(point.at));
+    Ok((part.place.rotation().inverse() * (in_body - Vector3::from(part.place.shift))).into())
+}
+
+/// The part described last.
+///
+/// # Errors
+/// None is described yet.
+pub fn current_part(model: &Model, span: Span) -> Outcome<&Part> {
+    let part = model.current_part.as_ref().and_then(|name| model.parts.get(&Model::key(name)));
+    part.ok_or_else(|| {
+        Diagnostic::error("a piece belongs to a body, and none is described yet", span)
+            .help("&DESCRIBE BODY describes one")
+    })
+}
+
+/// A new piece of the part described last, with the options of its record; it is not yet in the model.
+///
+/// # Errors
+/// A name that is taken, no part, an unknown curve.
+pub fn begun(job: &mut Job, args: &Args, name: &str, span: Span, shape: Shape) -> Outcome<Piece> {
+    rule::check(name, None, "piece", span)?;
+    let model = &job.model;
+    current_part(model, span)?;
+    if let Some((_, old)) = model.piece(name) {
+        return Err(Diagnostic::error(format!("piece {} exists already", old.name), span)
+            .other(old.span, "defined here")
+            .help(format!("DELETE {} first, or use another name", old.name)));
+    }
+    model.free_name(name, &[Thing::Body, Thing::Part], span)?;
+    let own = args.options.iter().filter(|g| OPTIONS.iter().any(|o| o.name == g.spec.name));
+    for value in own.clone().flat_map(|g| g.named(Noun::Curve)) {
+        if let Some(word) = value.word() {
+            find(&model.curves, word, "curve", value.span)?;
+        }
+    }
+    let acting = ["-PERMEABILITY", "-CS_WIND", "-CS_CURRENT"];
+    let kept: Vec<_> = own.filter(|g| !acting.contains(&g.spec.name)).cloned().collect();
+    if !kept.is_empty() {
+        let list: Vec<String> = kept.iter().map(|g| option_as_written(g, job.units)).collect();
+        job.remark(format!("kept, without effect yet: {}", list.join(" ")), span);
+    }
+    let factors =
+        |option: &str| args.option(option).map_or([1.0; 3], |g| [0, 1, 2].map(|i| g.number(i).unwrap_or(1.0)));
+    Ok(Piece {
+        name: name.to_string(),
+        permeability: args.option_number("-PERMEABILITY").unwrap_or(1.0),
+        shape,
+        cs_wind: factors("-CS_WIND"),
+        cs_current: factors("-CS_CURRENT"),
+        kept,
+        span,
+    })
+}
+
+/// Puts a piece into the part described last; `complete` when nothing more is to come, so that it is checked.
+pub fn add(job: &mut Job, piece: Piece, complete: bool) {
+    finished(job);
+    let (name, span) = (piece.name.clone(), piece.span);
+    let part = job.model.current_part.as_ref().map(|p| Model::key(p));
+    if let Some(part) = part.and_then(|key| job.model.parts.get_mut(&key)) {
+        part.pieces.push(piece);
+    }
+    job.note_name(&name, span);
+    job.model.current_piece = Some(name);
+    if complete {
+        finished(job);
+    }
+}
+
+/// A record begins something else: the piece whose panels were being given is complete. Its faults are warned of.
+pub fn finished(job: &mut Job) {
+    let found = completed(job, None);
+    job.notices.extend(found);
+}
+
+/// The piece whose panels were being given is complete: what is wrong with it, at the record that completes it, else at its name.
+pub fn completed(job: &mut Job, at: Option<Span>) -> Vec<Diagnostic> {
+    let Some(name) = job.model.current_piece.take() else { return Vec::new() };
+    let Some((part, piece)) = job.model.piece(&name) else { return Vec::new() };
+    let Some(body) = job.model.bodies.get(&Model::key(&part.body)) else { return Vec::new() };
+    let faults = hydro::piece_faults(&job.model, body, part, piece);
+    let told = faults.into_iter().map(|fault| {
+        let (text, span) = (fault.error.text(job.units), at.unwrap_or(piece.span));
+        let told = if fault.remark { Diagnostic::remark(text, span) } else { Diagnostic::warning(text, span) };
+        *if at.is_some() { told.other(piece.span, "the piece") } else { told }
+    });
+    told.collect()
+}

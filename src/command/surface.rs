@@ -1,0 +1,272 @@
+//! `&SURFACE`: pieces as boxes, meshes of files, and round members.
+//!
+//! Source: reference/model.md, "Hull", for the names; it does not give the forms, which are ours and stand in the help.
+
+use super::body_tables::pieces;
+use super::device::existing;
+use super::piece::{self, OPTIONS, READING};
+use super::{Call, Command, Effect, Job, Menu};
+use crate::hydro::hull::{MeshKind, read_mesh};
+use crate::language::args::Args;
+use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::select::Owner;
+use crate::language::source::{LARGEST_FILE, Span};
+use crate::language::spec::{CommandSpec, Kind, Noun, Opens, OptionSpec, ValueSpec};
+use crate::language::units::Dim;
+use crate::model::{Piece, Place, Position, Shape};
+use crate::report::page;
+
+/// &SURFACE.
+pub static SURFACE: Command = Command { spec: &SURFACE_SPEC, edits: false, run: surface };
+/// BLOCK.
+pub static BLOCK: Command = Command { spec: &BLOCK_SPEC, edits: false, run: block };
+/// MESH.
+pub static MESH: Command = Command { spec: &MESH_SPEC, edits: false, run: mesh };
+/// TUBE.
+pub static TUBE: Command = Command { spec: &TUBE_SPEC, edits: false, run: tube };
+/// MOVE_BLOCK.
+pub static MOVE_BLOCK: Command = Command { spec: &MOVE_SPEC, edits: false, run: move_block };
+/// LIST_BLOCK.
+pub static LIST_BLOCK: Command = Command { spec: &LIST_SPEC, edits: false, run: list_block };
+
+const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
+    ValueSpec::new(name, Kind::Number(dim), help)
+}
+const NEW: ValueSpec = ValueSpec::new("NAME", Kind::Name(Noun::New), "name of the piece");
+
+static SURFACE_SPEC: CommandSpec = CommandSpec {
+    opens: Opens::Menu("SURFACE"),
+    detail: READING,
+    example: "&DESCRIBE BODY TBRG\n&SURFACE\nBLOCK HULL 0 -50 0 400 50 20 -PERM 1\nBLOCK POOL 180 -10 0 220 10 20 -PERM -1\n\
+              LIST_BLOCK\nEND_&SURFACE\n&STATUS PIECES",
+    ..CommandSpec::new("&SURFACE", "opens the menu of surfaces, up to END")
+};
+
+static BLOCK_SPEC: CommandSpec = CommandSpec {
+    menus: &["SURFACE"],
+    opens: Opens::Short("BLOCK", 1),
+    data: &[
+        NEW,
+        number("X1", Dim::Length, "a corner of a box").or("PANEL records follow, up to END_BLOCK"),
+        number("Y1", Dim::Length, "a corner of a box").or("as X1"),
+        number("Z1", Dim::Length, "a corner of a box").or("as X1"),
+        number("X2", Dim::Length, "the corner opposite").or("as X1"),
+        number("Y2", Dim::Length, "the corner opposite").or("as X1"),
+        number("Z2", Dim::Length, "the corner opposite").or("as X1"),
+    ],
+    options: &OPTIONS,
+    detail: "BLOCK NAME X1 Y1 Z1 X2 Y2 Z2 is a box along the axes of the part, complete in one record. BLOCK NAME alone opens a menu of \
+             PANEL records, up to END_BLOCK or END. Options stand behind the corners.",
+    example: "&DESCRIBE BODY TBRG\n&SURFACE\nBLOCK HULL 0 -50 0 400 50 20\nBLOCK FIN -CS_WIND 0 0 0\nPANEL 0 0 -3  3 0 -3  0 3 -3\n\
+              PANEL 0 0 -3  0 0 -1  3 0 -3\nPANEL 0 0 -3  0 3 -3  0 0 -1\nPANEL 3 0 -3  0 0 -1  0 3 -3\nEND_BLOCK\nEND\n&STATUS PIECES",
+    ..CommandSpec::new("BLOCK", "a box, or a surface of panels")
+};
+
+static MESH_SPEC: CommandSpec = CommandSpec {
+    menus: &["SURFACE"],
+    opens: Opens::Short("MESH", 1),
+    data: &[
+        NEW,
+        ValueSpec::new("FILE", Kind::File, "mesh file; looked for where it says, then beside the script")
+            .or("PANEL records follow, up to END_MESH"),
+    ],
+    options: &[
+        OPTIONS[0],
+        OPTIONS[1],
+        OPTIONS[2],
+        OPTIONS[3],
+        OPTIONS[4],
+        OPTIONS[5],
+        OPTIONS[6],
+        OPTIONS[7],
+        OPTIONS[8],
+        OPTIONS[9],
+        OPTIONS[10],
+        OPTIONS[11],
+        OptionSpec::new(
+            "-FORMAT",
+            &[ValueSpec::new("FORMAT", Kind::Choice(&["STL", "GDF", "OBJ"]), "format of the file")],
+            "format of the file",
+        )
+        .owner(Owner::Ours)
+        .default("as the ending of its name says"),
+        OptionSpec::new(
+            "-SCALE",
+            &[number("S", Dim::None, "long length units of &DIMEN in a unit of the file").positive()],
+            "size of the file's unit",
+        )
+        .owner(Owner::Ours)
+        .default("1"),
+        OptionSpec::new(
+            "-MOVE",
+            &[
+                number("X", Dim::Length, "X").or("0"),
+                number("Y", Dim::Length, "Y").or("0"),
+                number("Z", Dim::Length, "Z").or("0"),
+                number("RX", Dim::Angle, "roll").or("0"),
+                number("RY", Dim::Angle, "pitch").or("0"),
+                number("RZ", Dim::Angle, "yaw").or("0"),
+            ],
+            "places the mesh in the part",
+        )
+        .owner(Owner::Ours),
+    ],
+    detail: "MESH NAME FILE reads an STL file (text or binary), a WAMIT GDF file, or a Wavefront OBJ file, complete in one record; \
+             its numbers are lengths in the unit of &DIMEN times -SCALE (3.280839895 reads a file in metres where &DIMEN says feet). MESH NAME alone opens \
+             a menu of PANEL records, up to END_MESH or END.",
+    example: "&FILE OPEN M tet.obj\n&FILE WRITE M v 0 0 0\n&FILE WRITE M v 30 0 0\n&FILE WRITE M v 0 30 0\n&FILE WRITE M v 0 0 30\n\
+              &FILE WRITE M f 1 3 2\n&FILE WRITE M f 1 2 4\n&FILE WRITE M f 1 4 3\n&FILE WRITE M f 2 3 4\n&FILE CLOSE M\n\
+              &DESCRIBE BODY TET\n&SURFACE\nMESH SKIN job.ans/tet.obj -SCALE 2\nMESH FIN\nPANEL 0 0 -3  3 0 -3  0 3 -3\nPANEL 0 0 -3  0 0 -1  3 0 -3\n\
+              PANEL 0 0 -3  0 3 -3  0 0 -1\nPANEL 3 0 -3  0 0 -1  0 3 -3\nEND_MESH\nEND\n&STATUS PIECES",
+    ..CommandSpec::new("MESH", "a surface of a file, or of panels")
+};
+
+static TUBE_SPEC: CommandSpec = CommandSpec {
+    owner: Owner::Ours,
+    menus: &["SURFACE"],
+    data: &[
+        NEW,
+        ValueSpec::new("*P1", Kind::Name(Noun::Point), "centre of one end"),
+        ValueSpec::new("*P2", Kind::Name(Noun::Point), "centre of the other end"),
+        number("OD", Dim::Section, "outer diameter").positive(),
+    ],
+    options: &OPTIONS,
+    detail: "A round member with flat ends between two points of the body; it displaces the water of its whole section. Members that run into each \
+             other at a joint are each counted up to their point.",
+    example: "MEDIT\n&DESCRIBE BODY SPAR\n*BOT 0 0 -300\n*TOP 0 0 50\nEND\n&SURFACE\nTUBE HULL *BOT *TOP 480\nEND\n&STATUS PIECES",
+    ..CommandSpec::new("TUBE", "a round member that displaces water")
+};
+
+static MOVE_SPEC: CommandSpec = CommandSpec {
+    menus: &["SURFACE"],
+    data: &[
+        ValueSpec::new("NAME", Kind::Text, "the piece"),
+        number("X", Dim::Length, "X").or("0"),
+        number("Y", Dim::Length, "Y").or("0"),
+        number("Z", Dim::Length, "Z").or("0"),
+        number("RX", Dim::Angle, "roll").or("0"),
+        number("RY", Dim::Angle, "pitch").or("0"),
+        number("RZ", Dim::Angle, "yaw").or("0"),
+    ],
+    detail: "From where it is: first turned about the axes of its part (yaw, pitch, roll as of a body), then shifted.",
+    example: "&DESCRIBE BODY TBRG\n&SURFACE\nBLOCK HULL 0 -50 0 400 50 20\nMOVE_BLOCK HULL -200\nLIST_BLOCK\nEND",
+    ..CommandSpec::new("MOVE_BLOCK", "moves a piece within its part")
+};
+
+static LIST_SPEC: CommandSpec = CommandSpec {
+    menus: &["SURFACE"],
+    detail: "What &STATUS PIECES reports.",
+    example: "&DESCRIBE BODY TBRG\n&SURFACE\nBLOCK HULL 0 -50 0 400 50 20\nLIST_BLOCK\nEND",
+    ..CommandSpec::new("LIST_BLOCK", "lists the pieces")
+};
+
+fn surface(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    piece::current_part(&job.model, call.args.span)?;
+    piece::finished(job);
+    job.menus.push(Menu::Surface);
+    Ok(Effect::Done)
+}
+
+/// A piece of a record without a surface: panels follow in a menu.
+fn panels_follow(job: &mut Job, args: &Args, menu: Menu) -> Outcome<Effect> {
+    let piece = piece::begun(job, args, args.word(0).unwrap_or_default(), args.place(0), Shape::Panels(Vec::new()))?;
+    piece::add(job, piece, false);
+    job.menus.push(menu);
+    Ok(Effect::Done)
+}
+
+/// A piece that its record gives whole.
+fn whole(job: &mut Job, args: &Args, shape: Shape) -> Outcome<Effect> {
+    let piece = piece::begun(job, args, args.word(0).unwrap_or_default(), args.place(0), shape)?;
+    piece::add(job, piece, true);
+    Ok(Effect::Done)
+}
+
+fn block(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let corners: Vec<f64> = (1..7).filter_map(|i| args.number(i)).collect();
+    let [x1, y1, z1, x2, y2, z2] = corners.as_slice() else {
+        if args.data.len() < 2 {
+            return panels_follow(job, args, Menu::Block);
+        }
+        return Err(Diagnostic::error("a box has two opposite corners", args.place(args.data.len() - 1))
+            .label(format!("{} of six coordinates are given", corners.len()))
+            .help("form: BLOCK NAME X1 Y1 Z1 X2 Y2 Z2"));
+    };
+    let pairs = [(x1, x2), (y1, y2), (z1, z2)];
+    if let Some(flat) = pairs.iter().position(|(a, b)| a == b) {
+        let axis = ["X", "Y", "Z"].get(flat).copied().unwrap_or_default();
+        return Err(Diagnostic::error(format!("the box has no volume: {axis}1 is {axis}2"), args.place(4 + flat)));
+    }
+    let shape = Shape::Block { low: pairs.map(|(a, b)| a.min(*b)), high: pairs.map(|(a, b)| a.max(*b)) };
+    whole(job, args, shape)
+}
+
+fn mesh(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let Some(name) = args.word(1) else { return panels_follow(job, args, Menu::Mesh) };
+    let span = args.place(1);
+    let panels = mesh_of(job, args, name, span)?;
+    let scale = Dim::Length.to_si(args.option_number("-SCALE").unwrap_or(1.0), job.units);
+    let scaled = panels.into_iter().map(|p| p.into_iter().map(|at| at.map(|x| scale * x)).collect()).collect();
+    let by = args
+        .option("-MOVE")
+        .map_or(Place::default(), |g| Place::new([0, 1, 2, 3, 4, 5].map(|i| g.number(i).unwrap_or(0.0))));
+    whole(job, args, Shape::Panels(scaled).moved(&by))
+}
+
+/// The panels of a mesh file, in its own unit.
+fn mesh_of(job: &Job, args: &Args, name: &str, span: Span) -> Outcome<Vec<Vec<Position>>> {
+    let path = existing(job, name, span)?;
+    let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_uppercase()).unwrap_or_default();
+    let kind = match args.option_word("-FORMAT").unwrap_or(&ending) {
+        "STL" => MeshKind::Stl,
+        "GDF" => MeshKind::Gdf,
+        "OBJ" => MeshKind::Obj,
+        _ => {
+            return Err(Diagnostic::error(format!("the format of {name} is not told by its name"), span)
+                .help("-FORMAT STL, GDF or OBJ tells it"));
+        }
+    };
+    let unusable = |why: String| Diagnostic::error(format!("{name} cannot be used: {why}"), span);
+    let size = std::fs::metadata(&path).map_err(|e| unusable(e.to_string()))?.len();
+    if size > LARGEST_FILE {
+        return Err(unusable(format!("it has more than {LARGEST_FILE} bytes")));
+    }
+    let bytes = std::fs::read(&path).map_err(|e| unusable(e.to_string()))?;
+    let panels = read_mesh(kind, &bytes).map_err(|e| unusable(e.to_string()))?.panels;
+    if panels.is_empty() { Err(unusable("it has no panels".into())) } else { Ok(panels) }
+}
+
+fn tube(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let part = piece::current_part(&job.model, args.span)?;
+    let end = |i: usize| piece::point_in_part(&job.model, args.word(i).unwrap_or_default(), part, args.place(i));
+    let ends = [end(1)?, end(2)?];
+    if ends[0] == ends[1] {
+        return Err(Diagnostic::error("a tube needs two points at different places", args.place(2)));
+    }
+    whole(job, args, Shape::Tube { ends, diameter: args.number(3).unwrap_or_default() })
+}
+
+fn move_block(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let name = args.word(0).unwrap_or_default();
+    let by = Place::new([1, 2, 3, 4, 5, 6].map(|i| args.number(i).unwrap_or(0.0)));
+    let known = job.model.names(crate::model::Thing::Piece);
+    let help = crate::language::diagnostic::did_you_mean(name, known);
+    let Some(Piece { shape, name, .. }) = job.model.piece_mut(name) else {
+        let mut error = Diagnostic::error(format!("unknown piece {name}"), args.place(0));
+        error.help.extend(help);
+        return Err(error);
+    };
+    *shape = shape.moved(&by);
+    job.model.current_piece = Some(name.clone());
+    piece::finished(job);
+    Ok(Effect::Done)
+}
+
+fn list_block(job: &mut Job, _: &Call) -> Outcome<Effect> {
+    let table = pieces(&job.model, &|_| true);
+    Ok(Effect::Say(page::grid(&table, job.units).join("\n")))
+}

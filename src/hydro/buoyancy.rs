@@ -1,0 +1,201 @@
+//! Buoyancy of a body's hull: the pieces of its parts, as solids in the system of the body.
+
+use super::hull::{Fault, Solid, Surface, Tube, Wet, intersect};
+use super::{BodyLoad, Category, Load};
+use crate::language::units::Dim;
+use crate::model::{Body, ClassError, Model, Part, Piece, Pose, Position, Shape, box_panels};
+use nalgebra::Vector3;
+
+/// Corners of panels nearer than this share of the size of a piece are one (files often keep seven digits).
+const WELD: f64 = 1e-6;
+
+#[derive(Debug)]
+enum Form {
+    Surface(Surface),
+    Tube(Tube),
+}
+
+/// The hull of a body in the water of the environment in force.
+#[derive(Debug)]
+pub struct Hull {
+    pieces: Vec<(f64, Form)>,
+    /// Height of the water's surface (m, global).
+    level: f64,
+    /// Weight of water (N/m3).
+    water_weight: f64,
+}
+
+impl Hull {
+    /// That of a body; `None` when no piece of it displaces water.
+    ///
+    /// # Errors
+    /// A piece without panels or with a surface that is not closed or looks the wrong way.
+    pub fn of(model: &Model, body: &Body) -> Result<Option<Self>, ClassError> {
+        let mut pieces = Vec::new();
+        for part in model.parts_of(body) {
+            for piece in part.pieces.iter().filter(|p| p.permeability != 0.0) {
+                let solid = Solidified::of(part, piece);
+                if let Some(fault) = solid.faults.iter().find(|f| f.fatal) {
+                    return Err(ClassError { span: Some(piece.span), ..fault.error.clone() }
+                        .help(format!("{} has no buoyancy before this is corrected", body.name)));
+                }
+                pieces.extend(solid.form.map(|form| (piece.permeability, form)));
+            }
+        }
+        let water = model.surroundings();
+        let made = Hull { pieces, level: water.tide, water_weight: water.water_density * water.gravity };
+        Ok((!made.pieces.is_empty()).then_some(made))
+    }
+
+    /// What of it is below the water's surface in a pose.
+    pub fn wet(&self, pose: &Pose) -> Wet {
+        let mut sum = Wet::default();
+        for (permeability, form) in &self.pieces {
+            let wet = match form {
+                Form::Surface(surface) => surface.wet(pose, self.level),
+                Form::Tube(tube) => tube.wet(pose, self.level),
+            };
+            sum.add(&wet, *permeability);
+        }
+        sum
+    }
+
+    /// Weight of the water (N/m3).
+    pub fn water_weight(&self) -> f64 {
+        self.water_weight
+    }
+}
+
+impl BodyLoad for Hull {
+    fn category(&self) -> Category {
+        Category::Buoyancy
+    }
+
+    fn load(&self, pose: &Pose) -> Result<Load, ClassError> {
+        let load = self.wet(pose).load(self.water_weight);
+        if load.wrench.iter().chain(load.stiffness.iter()).all(|x| x.is_finite()) {
+            Ok(load)
+        } else {
+            Err(ClassError::new("the buoyancy has no value where the body is"))
+        }
+    }
+}
+
+/// What a check of a piece found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PieceFault {
+    /// The sentence.
+    pub error: ClassError,
+    /// Whether the piece has no buoyancy with it.
+    pub fatal: bool,
+    /// Whether nothing is wrong: it is only worth knowing.
+    pub remark: bool,
+}
+
+/// A piece as a solid of its body, with what is wrong with it.
+struct Solidified {
+    form: Option<Form>,
+    faults: Vec<PieceFault>,
+}
+
+impl Solidified {
+    fn of(part: &Part, piece: &Piece) -> Self {
+        let name = &piece.name;
+        let failed = |why: String| {
+            let error = ClassError::new(format!("piece {name}: {why}"));
+            Solidified { form: None, faults: vec![PieceFault { error, fatal: true, remark: false }] }
+        };
+        let panels = match piece.shape.moved(&part.place) {
+            Shape::Tube { ends, diameter } => {
+                let tube = Tube { ends: ends.map(Vector3::from), diameter };
+                return Solidified { form: Some(Form::Tube(tube)), faults: Vec::new() };
+            }
+            Shape::Block { low, high } => box_panels(low, high),
+            Shape::Panels(panels) => panels,
+        };
+        if panels.is_empty() {
+            return failed("it has no panels".into());
+        }
+        let mut surface = match Surface::from_panels(&panels, WELD * size(&panels)) {
+            Ok(surface) => surface,
+            Err(error) => return failed(error.to_string()),
+        };
+        let mut faults = Vec::new();
+        if surface.volume() < 0.0 {
+            for face in &mut surface.faces {
+                face.reverse();
+            }
+            let error = ClassError::new(format!("piece {name}: all its panels look inward; they are turned"));
+            faults.push(PieceFault { error, fatal: false, remark: true });
+        }
+        faults.extend(told(name, &surface.faults()));
+        Solidified { form: Some(Form::Surface(surface)), faults }
+    }
+}
+
+/// The longest side of the box around panels (m).
+fn size(panels: &[Vec<Position>]) -> f64 {
+    let extent = Shape::Panels(panels.to_vec()).extent().unwrap_or_default();
+    let [low, high] = extent.map(Vector3::from);
+    (high - low).amax()
+}
+
+/// The first fault of each sort, and how many more there are.
+fn told(name: &str, faults: &[Fault]) -> Vec<PieceFault> {
+    let of_sort = |fatal: bool| {
+        let sort = faults.iter().filter(|f| !matches!(f, Fault::Cut { .. } | Fault::Degenerate { .. }) == fatal);
+        let more = sort.clone().count().saturating_sub(1);
+        sort.take(1)
+            .map(|fault| {
+                let mut error = sentence(name, fault);
+                if more > 0 {
+                    error.message.push_str(&format!("; and {more} more such faults"));
+                }
+                PieceFault { error, fatal, remark: false }
+            })
+            .next()
+    };
+    [true, false].into_iter().filter_map(of_sort).collect()
+}
+
+fn sentence(name: &str, fault: &Fault) -> ClassError {
+    const AT: &str = "({}, {}, {})";
+    let (what, places): (String, Vec<[f64; 3]>) = match fault {
+        Fault::Open { edge } => {
+            (format!("it is open: there is a panel on one side only of the edge from {AT} to {AT}"), edge.to_vec())
+        }
+        Fault::Crowded { edge, faces } => (format!("{faces} panels meet at the edge from {AT} to {AT}"), edge.to_vec()),
+        Fault::Turned { edge } => {
+            (format!("the panels at the edge from {AT} to {AT} look to different sides"), edge.to_vec())
+        }
+        Fault::InsideOut { at, .. } => (format!("the part at {AT} is inside out"), vec![*at]),
+        Fault::Cut { at, .. } => {
+            (format!("panels cut each other at {AT}; what they both enclose counts twice"), vec![*at])
+        }
+        Fault::Degenerate { at, .. } => (format!("a panel at {AT} has no area"), vec![*at]),
+    };
+    let values: Vec<(f64, Dim)> = places.into_iter().flatten().map(|x| (x, Dim::Length)).collect();
+    ClassError::of(format!("piece {name}: {what}"), &values)
+}
+
+/// What is wrong with a piece, by itself and beside the others of its body; places in the system of the body.
+pub fn piece_faults(model: &Model, body: &Body, part: &Part, piece: &Piece) -> Vec<PieceFault> {
+    let Solidified { form, mut faults } = Solidified::of(part, piece);
+    let Some(Form::Surface(surface)) = form else { return faults };
+    for other in model.parts_of(body).flat_map(|p| p.pieces.iter().map(move |piece| (p, piece))) {
+        // an interior lies within an exterior; two of one sort count twice where they overlap
+        if other.1.name == piece.name || other.1.permeability * piece.permeability <= 0.0 {
+            continue;
+        }
+        let Some(Form::Surface(second)) = Solidified::of(other.0, other.1).form else { continue };
+        if let Some(at) = intersect(&surface, &second) {
+            let text = format!(
+                "pieces {} and {} overlap at ({{}}, {{}}, {{}}); what they share counts twice",
+                other.1.name, piece.name
+            );
+            let error = ClassError::of(text, &at.map(|x| (x, Dim::Length)));
+            faults.push(PieceFault { error, fatal: false, remark: false });
+        }
+    }
+    faults
+}

@@ -1,0 +1,119 @@
+//! Buoyancy by a constant stiffness about an upright equilibrium.
+//!
+//! Source: reference/aqwa-cards.md, deck 7: F = K (Xe - X) + B at the centre of gravity. X are the place of that point and the
+//! roll, pitch and yaw of the body. Our reading: K stands in axes that turn with the yaw, since roll and pitch do; Xe is
+//! (0, 0, height) and upright with no yaw. The force is exact for these angles of any size, and so is its stiffness.
+
+use super::{BodyLoad, Category, Load};
+use crate::model::{Body, ClassError, LinearHydrostatics, Pose, Six};
+use nalgebra::{Matrix3, Matrix6, Rotation3, Vector3};
+
+/// Where roll and yaw are told apart no more: cosine of the pitch.
+const UPRIGHT: f64 = 1e-6;
+
+/// Buoyancy of a body that has a linear stiffness.
+pub fn of(body: &Body) -> Option<Box<dyn BodyLoad>> {
+    body.linear.clone().map(|linear| Box::new(linear) as Box<dyn BodyLoad>)
+}
+
+impl BodyLoad for LinearHydrostatics {
+    fn category(&self) -> Category {
+        Category::Buoyancy
+    }
+
+    fn load(&self, pose: &Pose) -> Result<Load, ClassError> {
+        let (roll, pitch, yaw) = Rotation3::from_matrix_unchecked(pose.axes).euler_angles();
+        if pitch.cos() < UPRIGHT {
+            return Err(ClassError::new("a linear hydrostatic stiffness has no value at a pitch of 90 degrees"));
+        }
+        let heading: Matrix3<f64> = *Rotation3::from_axis_angle(&Vector3::z_axis(), yaw).matrix();
+        let to_heading = heading.transpose();
+        let arm = pose.axes * Vector3::from(self.at);
+        let away = to_heading * (Vector3::new(0.0, 0.0, self.height) - pose.origin - arm);
+        let six = |a: Vector3<f64>, b: Vector3<f64>| Six::new(a.x, a.y, a.z, b.x, b.y, b.z);
+        let halves = |f: Six| (f.fixed_rows::<3>(0).into_owned(), f.fixed_rows::<3>(3).into_owned());
+        let held = self.stiffness * six(away, -Vector3::new(roll, pitch, yaw));
+        let (force, moment) = halves(held);
+        let (pull, turn) = (heading * force, heading * moment);
+        let total = pull + Vector3::new(0.0, 0.0, self.buoyancy);
+        let wrench = six(total, turn + arm.cross(&total));
+        let mut stiffness = Matrix6::zeros();
+        for n in 0..6 {
+            let mut motion = Six::zeros();
+            motion[n] = 1.0;
+            let (shift, rotation) = halves(motion);
+            let moved = rotation.cross(&arm);
+            let rates = to_heading * rotation;
+            // rates of roll, pitch and yaw of a body that turns at `rates` in heading axes
+            let turned = Vector3::new(rates.x / pitch.cos(), rates.y, rates.z + pitch.tan() * rates.x);
+            let of_away = -(to_heading * (shift + moved)) - turned.z * Vector3::z().cross(&away);
+            let (of_force, of_moment) = halves(self.stiffness * six(of_away, -turned));
+            let of_pull = heading * of_force + turned.z * Vector3::z().cross(&pull);
+            let of_turn = heading * of_moment + turned.z * Vector3::z().cross(&turn);
+            let change = six(of_pull, of_turn + moved.cross(&total) + arm.cross(&of_pull));
+            stiffness.set_column(n, &-change);
+        }
+        Ok(Load { wrench, stiffness })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::language::source::Span;
+    use crate::model::Place;
+
+    fn linear(off_diagonal: f64) -> LinearHydrostatics {
+        let mut stiffness = Matrix6::from_diagonal(&Six::new(1e3, 2e3, 4e6, 9e8, 8e10, 5e7));
+        for i in 0..6 {
+            for j in 0..6 {
+                if i != j {
+                    stiffness[(i, j)] = off_diagonal * ((i * 7 + j * 3) as f64).sin();
+                }
+            }
+        }
+        LinearHydrostatics { at: [60.0, 1.0, 5.0], height: 3.0, buoyancy: 1e8, stiffness, span: Span::default() }
+    }
+
+    #[test]
+    fn at_rest_there_is_the_buoyancy_at_the_point_and_nothing_else() {
+        let load = linear(1e6).load(&Pose::of(&Place::new([-60.0, -1.0, -2.0, 0.0, 0.0, 0.0]))).unwrap();
+        assert_eq!(load.wrench, Six::new(0.0, 0.0, 1e8, 1e8, -60.0 * 1e8, 0.0));
+    }
+
+    #[test]
+    fn heave_and_roll_are_held_back_by_their_stiffness_whatever_the_heading() {
+        for yaw in [0.0f64, 1.0, -2.5] {
+            let linear = LinearHydrostatics {
+                stiffness: Matrix6::from_diagonal(&Six::new(0.0, 0.0, 4e6, 9e8, 8e10, 0.0)),
+                at: [0.0; 3],
+                ..linear(0.0)
+            };
+            let load = linear.load(&Pose::of(&Place::new([7.0, 8.0, 3.5, 0.1, 0.0, yaw]))).unwrap();
+            // half a metre above its place: 1e8 - 4e6 / 2; rolled by 0.1 rad about its own x axis
+            assert!((load.wrench[2] - 9.8e7).abs() < 1e-4);
+            let moment = Vector3::new(load.wrench[3], load.wrench[4], load.wrench[5]);
+            let want = Vector3::new(yaw.cos(), yaw.sin(), 0.0) * -9e7;
+            assert!((moment - want).norm() < 1e-4, "{moment} {want}");
+        }
+    }
+
+    #[test]
+    fn the_stiffness_is_the_difference_of_the_force() {
+        let linear = linear(2e5);
+        for place in [[3.0, -2.0, -1.0, 0.2, -0.3, 1.1], [0.0, 0.0, 5.0, -0.8, 0.9, -2.0]] {
+            let pose = Pose::of(&Place::new(place));
+            let load = linear.load(&pose).unwrap();
+            for n in 0..6 {
+                let step = if n < 3 { 1e-4 } else { 1e-6 };
+                let mut motion = Six::zeros();
+                motion[n] = step;
+                let [up, down] = [motion, -motion].map(|m| linear.load(&pose.moved(&m)).unwrap().wrench);
+                let difference = (down - up) / (2.0 * step);
+                let column = load.stiffness.column(n).into_owned();
+                // wrenches of 1e10 N m leave 1e-16 * 1e10 / 1e-6 = 1 of rounding beside columns of 1e10
+                assert!((difference - column).amax() < 1e-7 * column.amax(), "{n}: {difference} {column}");
+            }
+        }
+    }
+}

@@ -1,0 +1,87 @@
+//! Static stability: a body heeled at constant displacement, balanced in heave and trim.
+//!
+//! Source: reference/solve.md, "Static process": three degrees of freedom (heave and two angles), connectors left out.
+
+use super::{Category, Floating};
+use crate::language::units::Dim;
+use crate::model::{ClassError, Place, Pose};
+use nalgebra::{Matrix2, Vector2, Vector3};
+
+/// Most Newton steps of one heel.
+const STEPS: usize = 200;
+/// Largest change of trim in a step (rad).
+const MOST_TURN: f64 = 0.1;
+/// What may be left of force and moment, as a share of the weight and of the weight times the size.
+const LEFT: f64 = 1e-10;
+
+/// A body balanced at a heel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Balanced {
+    /// Where it stands: x, y, roll and yaw as given, z and pitch found.
+    pub place: Place,
+    /// Righting arm (m): the moment about the fore-and-aft axis through the centre of gravity that turns the body back from a
+    /// positive roll, over the weight.
+    pub arm: f64,
+}
+
+/// Balances heave and trim under weight and buoyancy at the roll of a place, from that place.
+///
+/// # Errors
+/// A body without weight, or for which no balance was found.
+pub fn balanced(floating: &Floating, from: &Place) -> Result<Balanced, ClassError> {
+    let loads: Vec<_> =
+        floating.loads.iter().filter(|load| matches!(load.category(), Category::Weight | Category::Buoyancy)).collect();
+    let sum = |pose: &Pose| {
+        let mut total = super::Load::none();
+        for load in &loads {
+            let load = load.load(pose)?;
+            total.wrench += load.wrench;
+            total.stiffness += load.stiffness;
+        }
+        Ok::<_, ClassError>(total)
+    };
+    let weight = loads.iter().find(|load| load.category() == Category::Weight);
+    let weight = -weight.map_or(Ok(0.0), |load| load.load(&Pose::of(from)).map(|l| l.wrench[2]))?;
+    if weight <= 0.0 {
+        return Err(ClassError::new("it has no weight"));
+    }
+    let mut place = *from;
+    let [_, _, yaw] = place.turn;
+    // the axes of the heading: forward along x, and across, about which the body trims
+    let (along, across) = (Vector3::new(yaw.cos(), yaw.sin(), 0.0), Vector3::new(-yaw.sin(), yaw.cos(), 0.0));
+    for _ in 0..STEPS {
+        let pose = Pose::of(&place);
+        let total = sum(&pose)?;
+        let arm = pose.axes * floating.mass.centre;
+        let (force, turn) =
+            (total.wrench.fixed_rows::<3>(0).into_owned(), total.wrench.fixed_rows::<3>(3).into_owned());
+        let about = turn - arm.cross(&force);
+        // force and moment about the origin by heave and by a turn about the axis across
+        let stiffness = &total.stiffness;
+        let [by_heave, by_trim] = [stiffness.column(2).into_owned(), stiffness.fixed_columns::<3>(3) * across];
+        let size = (by_trim.fixed_rows::<3>(3).dot(&across).abs() / weight).max(arm.norm());
+        let trim = about.dot(&across);
+        if force.z.abs() <= LEFT * weight && trim.abs() <= LEFT * weight * size {
+            return Ok(Balanced { place, arm: -about.dot(&along) / weight });
+        }
+        let matrix = Matrix2::new(
+            by_heave[2],
+            by_trim[2],
+            by_heave.fixed_rows::<3>(3).dot(&across),
+            by_trim.fixed_rows::<3>(3).dot(&across),
+        );
+        let step =
+            matrix.lu().solve(&Vector2::new(force.z, turn.dot(&across))).filter(|s| s.iter().all(|x| x.is_finite()));
+        // without a waterplane nothing holds it: it rises or sinks by a tenth of what it is
+        let step = step.unwrap_or_else(|| Vector2::new(0.1 * size * force.z.signum(), 0.0));
+        let cut = (MOST_TURN / step[1].abs()).min(0.5 * size / step[0].abs()).min(1.0);
+        place.shift[2] += cut * step[0];
+        place.turn[1] += cut * step[1];
+    }
+    let values = [(place.turn[0], Dim::Angle), (place.shift[2], Dim::Length), (place.turn[1], Dim::Angle)];
+    Err(ClassError::of(
+        "no balance of heave and trim was found at a roll of {}; the last try was at z {}, trim {}",
+        &values,
+    )
+    .help("a body that displaces less than it weighs when it is under water does not float"))
+}

@@ -1,0 +1,138 @@
+//! What makes a body float: pieces of its parts, each a closed surface, or one linear stiffness.
+
+use super::geometry::{Place, Position};
+use crate::language::args::Given;
+use crate::language::source::Span;
+use nalgebra::{Matrix6, Vector3};
+
+/// The form of a piece, in the system of its part (m).
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// Panels, each a polygon of three or more corners.
+    Panels(Vec<Vec<Position>>),
+    /// A box along the axes of the part, between two opposite corners; low is less than high in every direction.
+    Block {
+        /// The corner with the least coordinates.
+        low: Position,
+        /// The corner with the greatest.
+        high: Position,
+    },
+    /// A round member with flat ends.
+    Tube {
+        /// Centres of its ends.
+        ends: [Position; 2],
+        /// Its outer diameter.
+        diameter: f64,
+    },
+}
+
+/// A surface that water presses on, or a space within one that water fills.
+///
+/// Source: reference/model.md, "Hull".
+#[derive(Clone, Debug, PartialEq)]
+pub struct Piece {
+    /// Its name as written.
+    pub name: String,
+    /// By how much of its volume the body's displacement grows: 1 of an exterior, -1 of an interior that is open to the sea, a
+    /// fraction between.
+    pub permeability: f64,
+    /// Its form.
+    pub shape: Shape,
+    /// Factors of the wind force in the directions of the part.
+    pub cs_wind: [f64; 3],
+    /// Factors of the current force in the directions of the part.
+    pub cs_current: [f64; 3],
+    /// Options that are kept for what comes later: diffraction, added mass, roll damping.
+    pub kept: Vec<Given>,
+    /// Where it was defined.
+    pub span: Span,
+}
+
+impl Shape {
+    /// The least and the greatest coordinates it reaches in the part (m); `None` of no panels.
+    pub fn extent(&self) -> Option<[Position; 2]> {
+        let (points, more): (Vec<&Position>, Vector3<f64>) = match self {
+            Shape::Panels(panels) => (panels.iter().flatten().collect(), Vector3::zeros()),
+            Shape::Block { low, high } => (vec![low, high], Vector3::zeros()),
+            Shape::Tube { ends: [a, b], diameter } => {
+                let axis = (Vector3::from(*b) - Vector3::from(*a)).normalize();
+                // how far a circle across the axis reaches in each direction
+                (vec![a, b], axis.map(|c| 0.5 * diameter * (1.0 - c * c).max(0.0).sqrt()))
+            }
+        };
+        let first = Vector3::from(**points.first()?);
+        let (low, high) = points.iter().fold((first, first), |(low, high), at| {
+            let at = Vector3::from(**at);
+            (low.inf(&at), high.sup(&at))
+        });
+        Some([(low - more).into(), (high + more).into()])
+    }
+
+    /// The same form moved within its part. A block that turns becomes panels.
+    pub fn moved(&self, by: &Place) -> Shape {
+        match self {
+            Shape::Panels(panels) => {
+                Shape::Panels(panels.iter().map(|p| p.iter().map(|at| by.apply(*at)).collect()).collect())
+            }
+            Shape::Block { low, high } if by.turn == [0.0; 3] => {
+                Shape::Block { low: by.apply(*low), high: by.apply(*high) }
+            }
+            Shape::Block { low, high } => Shape::Panels(box_panels(*low, *high)).moved(by),
+            Shape::Tube { ends, diameter } => Shape::Tube { ends: ends.map(|at| by.apply(at)), diameter: *diameter },
+        }
+    }
+}
+
+/// The six faces of a box, their corners counterclockwise from outside.
+pub fn box_panels(low: Position, high: Position) -> Vec<Vec<Position>> {
+    let ([x0, y0, z0], [x1, y1, z1]) = (low, high);
+    vec![
+        vec![[x0, y0, z0], [x0, y1, z0], [x1, y1, z0], [x1, y0, z0]],
+        vec![[x0, y0, z1], [x1, y0, z1], [x1, y1, z1], [x0, y1, z1]],
+        vec![[x0, y0, z0], [x1, y0, z0], [x1, y0, z1], [x0, y0, z1]],
+        vec![[x0, y1, z0], [x0, y1, z1], [x1, y1, z1], [x1, y1, z0]],
+        vec![[x0, y0, z0], [x0, y0, z1], [x0, y1, z1], [x0, y1, z0]],
+        vec![[x1, y0, z0], [x1, y1, z0], [x1, y1, z1], [x1, y0, z1]],
+    ]
+}
+
+/// Buoyancy by a constant stiffness about an upright equilibrium.
+///
+/// Source: reference/aqwa-cards.md, deck 7 (LSTF, BFEQ, ZCGE): F = K (Xe - X) + B at the centre of gravity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinearHydrostatics {
+    /// The point whose place and force are meant, in the body (m): as AQWA has it, the centre of gravity.
+    pub at: Position,
+    /// Height of that point in the global system when the body floats at rest, upright (m).
+    pub height: f64,
+    /// The buoyancy then, upward (N).
+    pub buoyancy: f64,
+    /// K, in axes that turn with the yaw of the body (N/m, N/rad, N m/m, N m/rad): x, y, z, roll, pitch, yaw.
+    pub stiffness: Matrix6<f64>,
+    /// Where it was given.
+    pub span: Span,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_shape_reaches_as_far_when_moved_there_and_back() {
+        let block = Shape::Block { low: [0.0, -50.0, 0.0], high: [400.0, 50.0, 20.0] };
+        let turned = block.moved(&Place::new([0.0, 0.0, 0.0, 0.0, 0.0, std::f64::consts::FRAC_PI_2]));
+        assert_eq!(turned.extent(), Some([[-50.0, 0.0, 0.0], [50.0, 400.0, 20.0]]));
+        assert_eq!(block.moved(&Place::new([5.0, 0.0, 0.0, 0.0, 0.0, 0.0])).extent().map(|e| e[0][0]), Some(5.0));
+        assert_eq!(Shape::Panels(Vec::new()).extent(), None);
+    }
+
+    #[test]
+    fn the_faces_of_a_box_look_outward() {
+        for panel in box_panels([0.0; 3], [2.0, 3.0, 4.0]) {
+            let at = |i: usize| Vector3::from(panel[i]);
+            let normal = (at(1) - at(0)).cross(&(at(2) - at(0)));
+            let centre = (at(0) + at(2)) * 0.5 - Vector3::new(1.0, 1.5, 2.0);
+            assert!(normal.dot(&centre) > 0.0, "{panel:?}");
+        }
+    }
+}
