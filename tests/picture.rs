@@ -50,7 +50,7 @@ fn a_drawn_line_passes_from_its_fairlead_through_its_touchdown_to_its_anchor_and
 fn points_drawn_between_the_rows_of_a_shape_lie_on_the_line() {
     // beside the seabed the hanging part is a catenary: z - z0 = a (cosh((x - x0) / a) - 1) with a = H / w but for its
     // elastic stretch, which a stiff line has little of. A cubic over the arc h between two rows is off by h^4 / 384 of
-    // the fourth derivative, at most 1 / a^3: with h = 70 m, a = 200 m some 8 mm
+    // the fourth derivative of z = sqrt(a^2 + s^2) by the arc s, at most 3 / a^3
     let (model, ..) = run(&MOORING.replace("-WTPL 0.5", "-WTPL 0.5 -EMOD 1E9"));
     let (scene, _) = scene(&model);
     let path = scene.paths.iter().find(|p| p.name == "B").unwrap();
@@ -59,13 +59,14 @@ fn points_drawn_between_the_rows_of_a_shape_lie_on_the_line() {
     let table = line.geometry("B", Condition::Placed).unwrap();
     let force = line.configuration(Condition::Placed).unwrap().horizontal;
     let a = force / 500.0;
+    let bound = 3.0 * (700.0f64 / 10.0).powi(4) / (384.0 * a.powi(3));
     let touchdown = table.facts.iter().find(|f| f.0 == "Touchdown at X").unwrap();
     let x0 = 100.0 + touchdown.1.number().unwrap();
     let hanging: Vec<_> = path.points.iter().filter(|p| p[0] < x0).collect();
     assert!(hanging.len() > 20, "{}", hanging.len());
     for [x, _, z] in hanging {
         let want = a * (((x0 - x) / a).cosh() - 1.0) - 120.0;
-        assert!((z - want).abs() < 0.02, "at {x}: {z}, the catenary {want}");
+        assert!((z - want).abs() < bound, "at {x}: {z}, the catenary {want}");
     }
 }
 
