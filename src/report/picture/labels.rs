@@ -86,7 +86,7 @@ impl Sheet {
         let count = labels.len();
         for label in labels.into_iter().take(MOST) {
             let free = |at: &[i32; 4]| self.holds(at) && !placed.iter().any(|p| overlap(&p.at, at));
-            let cost = |at: &[i32; 4], reach: f64| 5.0 * self.hidden(*at) + 0.12 * reach;
+            let cost = |at: &[i32; 4], reach: f64| self.hidden(*at) + 0.12 * reach;
             let spots = REACH.iter().flat_map(|reach| SIDES.iter().map(move |side| (*reach, *side)));
             let spots = spots.map(|(reach, side)| (reach, self.beside(&label, reach, side)));
             let best = spots.filter(|(_, at)| free(at)).map(|(reach, at)| (cost(&at, reach), at));
