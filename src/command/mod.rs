@@ -37,6 +37,7 @@ mod message;
 mod names;
 mod offsets;
 mod pgen;
+mod picture;
 mod piece;
 mod report_menu;
 mod select;
@@ -185,6 +186,7 @@ pub static COMMANDS: &[&Command] = &[
     &disposition::C_SHIFT,
     &disposition::CULL,
     &status::STATUS,
+    &picture::PICTURE,
     &units::DIMEN,
     &units::DEFAULT,
     &device::DEVICE,

@@ -3,6 +3,8 @@
 
 mod equilibrium;
 mod modes;
+mod outline;
+pub mod scene;
 mod settle;
 mod system;
 pub mod tables;

@@ -1,9 +1,9 @@
 //! Plots: one description, drawn through plotters onto three surfaces: SVG, PNG, and the terminal.
 
 mod axis;
-mod draw;
-mod raster;
-mod terminal;
+pub(super) mod draw;
+pub(super) mod raster;
+pub(super) mod terminal;
 
 use crate::language::units::UnitSystem;
 use crate::report::{format, page};
