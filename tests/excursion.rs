@@ -163,7 +163,7 @@ fn a_removed_line_is_as_if_it_were_not_there_and_the_intact_mooring_stands_besid
 fn held_it_stays_on_its_line_and_free_it_turns_aside_until_nothing_pushes_it_across() {
     // the weight hangs between three springs of unlike angles: moved along 20 degrees it is pushed aside, up and around
     let records = "MEDIT\n*G0 100 0 60\n*G1 -60 80 60\n*G2 -50 -90 60\n&DESCRIBE BODY SHIP\n*P 2 0 1\n*Q -1 1 1\n*R -1 -1 1\n\
-                   ~T SL_ELEM 50 TENSION -LEN 100 -B_TENSION 4E6\nCONNECTOR L0 ~T *P *G0\nCONNECTOR L1 ~T *Q *G1\n\
+                   ~T SL_ELEM 50 TENSION -LEN 116 -B_TENSION 1E9\nCONNECTOR L0 ~T *P *G0\nCONNECTOR L1 ~T *Q *G1\n\
                    CONNECTOR L2 ~T *R *G2\nEND";
     let mut made = model(records);
     let weight = Weight { at: [0.0, 0.0, -1.0], weight: 5e5, radii: [2.0; 3], span: Span::default() };
@@ -207,7 +207,7 @@ fn watched(made: &Model, force: f64, free: bool, count: usize) -> Vec<Watched> {
     let mut system = System::of(made, &[]).unwrap();
     let start: Vec<Pose> = system.state(made).poses;
     let directions: Vec<f64> = (0..=count).map(|n| TAU * n as f64 / count as f64).collect();
-    let (_, list) = watch(&mut system, &start, (0, force, free), &directions).unwrap();
+    let list = watch(&mut system, &start, (0, force, free), &directions).unwrap().places;
     for one in &list {
         let mut pull = Pull::default();
         Connectors::on(&system, 0).unwrap().pull(&system, &[one.pose], &mut pull).unwrap();
@@ -221,10 +221,11 @@ fn watched(made: &Model, force: f64, free: bool, count: usize) -> Vec<Watched> {
 fn the_watch_circle_of_a_symmetric_mooring_repeats_and_of_many_lines_is_a_circle() {
     // with n lines the stiffness of a small excursion e varies over the direction with (e/100)^(n-2): 32 lines, nothing
     let made = model(&springs(32));
-    let list = watched(&made, 2e6, false, 24);
+    let list = watched(&made, 3e5, false, 24);
     let radius = |w: &Watched| w.pose.origin.xy().norm();
     let mean = list.iter().map(radius).sum::<f64>() / list.len() as f64;
-    assert!(mean > 0.01);
+    // less than 0.01 m, where the lee springs would go slack
+    assert!(mean > 0.004 && mean < 0.009, "{mean}");
     for one in &list {
         assert!((radius(one) / mean - 1.0).abs() < 1e-6, "{} {mean}", radius(one));
         // it goes where the force pushes it: away from where it comes from

@@ -103,12 +103,11 @@ static WATCH_SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
     opens: Opens::Menu("DISPOSITION"),
     menus: &["CONN_DESIGN"],
-    data: &[BODY, ValueSpec::new("FORCE", Kind::Number(Dim::Force), "horizontal force at the body's origin").positive()],
-    options: &[
-        ANGLES.default("0 360 15"),
-        FREE,
-        REMOVE,
+    data: &[
+        BODY,
+        ValueSpec::new("FORCE", Kind::Number(Dim::Force), "horizontal force at the body's origin").positive(),
     ],
+    options: &[ANGLES.default("0 360 15"), FREE, REMOVE],
     detail: "Where the body comes to rest under the force, beside all that acts on it in the environment in force, for each \
              direction the force comes from (from +X toward +Y, as of wind and current in &ENV). The body moves in X, Y \
              and about Z, and all else stays; with -FREE all bodies come to rest in all freedoms. Excursions are from where the \
@@ -179,7 +178,9 @@ fn moved(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let given: Vec<f64> = args.data.iter().skip(1).filter_map(|v| v.number()).collect();
     let several = range(args)?;
     if let (Some(option), false) = (args.option("-ANGLES"), given.is_empty()) {
-        return Err(Diagnostic::error("directions are given twice", option.span).other(args.place(1), "first given here"));
+        return Err(
+            Diagnostic::error("directions are given twice", option.span).other(args.place(1), "first given here")
+        );
     }
     let one = several.is_none() && given.len() < 2;
     let unused = if one { "-AT" } else { "-ROWS" };
@@ -218,21 +219,15 @@ fn watched(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let directions = range(args)?.unwrap_or_else(|| around.collect());
     let mut systems = systems(job, args)?;
     let (free, start) = (args.has("-FREE"), poses(job));
-    let wrong = |(at, e): (Option<usize>, SolveError)| {
-        let mut made = told(e, &job.model, args.place(0), job.units);
-        if let Some(direction) = at.and_then(|i| directions.get(i)) {
-            let degrees = (direction.to_degrees() * 1e6).round() / 1e6;
-            made.help.push(format!("while the force comes from {degrees} degrees"));
-        }
-        made
-    };
-    let (names, list) = watch(&mut systems.system, &start, (index, force, free), &directions).map_err(wrong)?;
+    let wrong = |e: SolveError| told(e, &job.model, args.place(0), job.units);
+    let asked_for = (index, force, free);
+    let found = watch(&mut systems.system, &start, asked_for, &directions).map_err(wrong)?;
     let intact = match &mut systems.intact {
-        Some(system) => Some(watch(system, &start, (index, force, free), &directions).map_err(wrong)?.1),
+        Some(system) => Some(watch(system, &start, asked_for, &directions).map_err(wrong)?),
         None => None,
     };
     let path = Path { body: index, direction: 0.0, free, most: None };
     let asked = Asked { name: &body.name, place: &body.place, start: &start, path, units: job.units };
-    let made = circle((&asked, force), &systems, (&names, &list), intact.as_deref());
+    let made = circle((&asked, force), &systems, &found, intact.as_ref());
     Ok(dispose(job, made, args))
 }

@@ -45,11 +45,11 @@ impl Moved {
     }
 }
 
-/// The largest T/break of connectors, and the number of the first that has it.
+/// The largest T/break of connectors, and the number of the first that has it but for rounding.
 pub fn worst(lines: &[Summary]) -> Option<(f64, usize)> {
     let ratios = lines.iter().enumerate().filter_map(|(i, l)| Some((l.ratio?, i)));
     ratios.fold(None, |worst, one| match worst {
-        Some((ratio, _)) if ratio >= one.0 => worst,
+        Some((ratio, _)) if one.0 <= ratio * (1.0 + SAME) => worst,
         _ => Some(one),
     })
 }
@@ -65,6 +65,8 @@ pub enum End {
     Lost(SolveError),
 }
 
+/// Ratios that differ by less are those of lines that stand alike.
+const SAME: f64 = 1e-9;
 /// Largest share of the size of the mooring in one step of the search, and in one step of a body that is free.
 const STRIDE: f64 = 0.05;
 /// A body without a break is not moved farther than so many sizes of its mooring.
@@ -203,7 +205,11 @@ impl<'a> Walk<'a> {
             let root = (between * between - below * above).sqrt();
             // below is negative and above positive: the root lies between them
             let guess = middle.excursion - 0.5 * width * between / root;
-            if between >= 0.0 { high = middle } else { low = middle }
+            if between >= 0.0 {
+                high = middle
+            } else {
+                low = middle
+            }
             if guess > low.excursion && guess < high.excursion {
                 let there = self.at(guess)?;
                 if there.over() >= 0.0 { high = there } else { low = there }

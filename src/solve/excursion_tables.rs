@@ -1,8 +1,9 @@
 //! Excursions and watch circles as tables.
 
-use super::excursion::{End, Moved, Path, Walk, resolved, worst};
+use super::excursion;
+use super::excursion::{End, Moved, Path, Walk, worst};
 use super::system::{FREEDOMS, SolveError, System};
-use super::watch::Watched;
+use super::watch::{Circle, Watched};
 use crate::language::units::{Dim, UnitSystem};
 use crate::model::{Place, Pose};
 use crate::table::{Cell, Digits, Table};
@@ -38,6 +39,17 @@ fn push(table: &mut Table, row: Vec<Cell>) {
     debug_assert!(fits.is_ok(), "a row must fit its table");
 }
 
+/// What rounding leaves of a sum whose terms are as large as `scale` is nothing.
+fn sum(value: f64, scale: f64) -> Cell {
+    Cell::Number(if value.abs() <= 1e-11 * scale { 0.0 } else { value })
+}
+
+/// Restoring, transverse and vertical force.
+fn resolved(moved: &Moved, direction: f64) -> [Cell; 3] {
+    let scale = moved.lines.iter().filter_map(|l| l.tension).fold(0.0, |sum, t| sum + t.abs());
+    excursion::resolved(&moved.wrench, direction).map(|force| sum(force, scale))
+}
+
 /// The facts that hold for all rows.
 fn headed(title: String, asked: &Asked, systems: &Systems) -> Table {
     let others = if asked.path.free { "free" } else { "held" };
@@ -53,9 +65,12 @@ fn forces(table: Table) -> Table {
 }
 
 fn critical(table: Table) -> Table {
-    table
-        .column("Critical Line", "Max T/TB", Dim::None, Digits::Decimals(3))
-        .column("Critical Line", "Line", Dim::None, Digits::Usual)
+    table.column("Critical Line", "Max T/TB", Dim::None, Digits::Decimals(3)).column(
+        "Critical Line",
+        "Line",
+        Dim::None,
+        Digits::Usual,
+    )
 }
 
 /// Largest T/break and the name of the line that has it.
@@ -99,8 +114,7 @@ pub fn along(systems: &Systems, asked: &Asked, rows: usize) -> Result<Table, Sol
     let names = walk.names();
     let (list, end) = walk.rows(rows)?;
     let title = format!("Excursion of {} toward {} degrees", asked.name, degrees(path.direction));
-    let mut table =
-        headed(title, asked, systems).column("", "Excursion", Dim::Length, Digits::Usual);
+    let mut table = headed(title, asked, systems).column("", "Excursion", Dim::Length, Digits::Usual);
     for name in ["X", "Y", "Z"] {
         table = table.column("Location", name, Dim::Length, Digits::Usual);
     }
@@ -128,8 +142,8 @@ pub fn along(systems: &Systems, asked: &Asked, rows: usize) -> Result<Table, Sol
         if let Some(intact) = &mut intact {
             match intact.at(moved.excursion) {
                 Ok(there) => {
-                    let [force, ..] = resolved(&there.wrench, path.direction);
-                    row.push(force.into());
+                    let [force, ..] = resolved(&there, path.direction);
+                    row.push(force);
                     row.extend(critical_cells(there.worst(), &all));
                 }
                 Err(_) => row.extend([const { Cell::Missing }; 3]),
@@ -147,9 +161,11 @@ fn row(moved: &Moved, names: &[String], asked: &Asked) -> Vec<Cell> {
     let Moved { excursion, poses, wrench, lines } = moved;
     let place = poses.get(asked.path.body).map_or(*asked.place, |p| p.place(asked.place));
     let [x, y, z, _, _, heading] = place.values();
-    let mut row: Vec<Cell> = [*excursion, x, y, z, heading].map(Cell::Number).into();
-    row.extend(resolved(wrench, asked.path.direction).map(Cell::Number));
-    row.extend([wrench[3], wrench[4], wrench[5]].map(Cell::Number));
+    let mut row = vec![Cell::Number(*excursion), sum(x, *excursion), sum(y, *excursion)];
+    row.extend([z, heading].map(Cell::Number));
+    row.extend(resolved(moved, asked.path.direction));
+    let most = wrench.fixed_rows::<3>(3).amax();
+    row.extend([wrench[3], wrench[4], wrench[5]].map(|moment| sum(moment, most)));
     row.extend(critical_cells(moved.worst(), names));
     row.extend(lines.iter().map(|l| Cell::from(l.tension)));
     row.extend(lines.iter().map(|l| Cell::from(l.ratio)));
@@ -160,16 +176,14 @@ fn row(moved: &Moved, names: &[String], asked: &Asked) -> Vec<Cell> {
 ///
 /// # Errors
 /// As [`Walk::end`].
-pub fn around(
-    systems: &Systems,
-    asked: &Asked,
-    directions: &[f64],
-    at: &[(f64, String)],
-) -> Result<Table, SolveError> {
+pub fn around(systems: &Systems, asked: &Asked, directions: &[f64], at: &[(f64, String)]) -> Result<Table, SolveError> {
     let title = format!("Excursions of {}", asked.name);
-    let mut table = headed(title, asked, systems)
-        .column("", "Direction", Dim::Angle, Digits::Usual)
-        .column("At the End", "Excursion", Dim::Length, Digits::Usual);
+    let mut table = headed(title, asked, systems).column("", "Direction", Dim::Angle, Digits::Usual).column(
+        "At the End",
+        "Excursion",
+        Dim::Length,
+        Digits::Usual,
+    );
     table = critical(forces(table));
     for (_, name) in at {
         table = table.column("Restoring", &format!("Force {name}"), Dim::Force, Digits::Usual);
@@ -188,19 +202,20 @@ pub fn around(
         let names = walk.names();
         let (last, end) = walk.end()?;
         let broken = matches!(end, End::Breaks(_));
-        if !matches!(end, End::Most) && !(broken && last.excursion > 0.0) && lost.is_none() {
+        let plain = matches!(end, End::Most) || (broken && last.excursion > 0.0);
+        if !plain && lost.is_none() {
             lost = note(&end, &names, last.excursion, asked.units)
                 .map(|text| format!("{text} (toward {} degrees)", degrees(*direction)));
         }
         let mut row = vec![Cell::Number(*direction), last.excursion.into()];
-        row.extend(resolved(&last.wrench, *direction).map(Cell::Number));
+        row.extend(resolved(&last, *direction));
         row.extend(critical_cells(last.worst(), &names));
         for (excursion, _) in at {
             walk.back();
             match if *excursion <= last.excursion { walk.at(*excursion).ok() } else { None } {
                 Some(there) => {
-                    let [force, ..] = resolved(&there.wrench, *direction);
-                    row.extend([force.into(), there.worst().map(|(ratio, _)| ratio).into()]);
+                    let [force, ..] = resolved(&there, *direction);
+                    row.extend([force, there.worst().map(|(ratio, _)| ratio).into()]);
                 }
                 None => row.extend([const { Cell::Missing }; 2]),
             }
@@ -208,9 +223,9 @@ pub fn around(
         if let Some(system) = &systems.intact {
             let mut walk = Walk::new(system, asked.start, path)?;
             let (last, _) = walk.end()?;
-            let [force, ..] = resolved(&last.wrench, *direction);
+            let [force, ..] = resolved(&last, *direction);
             let [_, line] = critical_cells(last.worst(), &walk.names());
-            row.extend([last.excursion.into(), force.into(), line]);
+            row.extend([last.excursion.into(), force, line]);
         }
         push(&mut table, row);
     }
@@ -224,16 +239,15 @@ pub fn around(
 }
 
 /// The places of a watch circle, with those of the intact mooring beside them where lines are removed.
-pub fn circle(
-    (asked, force): (&Asked, f64),
-    systems: &Systems,
-    (names, list): (&[String], &[Watched]),
-    intact: Option<&[Watched]>,
-) -> Table {
+pub fn circle((asked, force): (&Asked, f64), systems: &Systems, found: &Circle, intact: Option<&Circle>) -> Table {
     let title = format!("Watch Circle of {}", asked.name);
-    let mut table = headed(title, asked, systems)
-        .fact("Force", force, Dim::Force)
-        .column("Force", "From", Dim::Angle, Digits::Usual);
+    let mut table = headed(title, asked, systems).fact("Force", force, Dim::Force).column(
+        "Force",
+        "From",
+        Dim::Angle,
+        Digits::Usual,
+    );
+    let Circle { names, places } = found;
     let [x, y, ..] = FREEDOMS;
     for name in [x, y] {
         table = table.column("Location", name, Dim::Length, Digits::Usual);
@@ -252,7 +266,7 @@ pub fn circle(
     let start = asked.start.get(asked.path.body).copied().unwrap_or_default();
     let gone = |pose: &Pose| (pose.origin.x - start.origin.x).hypot(pose.origin.y - start.origin.y);
     let mut broken: Vec<String> = Vec::new();
-    for (index, Watched { direction, pose, lines }) in list.iter().enumerate() {
+    for (index, Watched { direction, pose, lines }) in places.iter().enumerate() {
         let most = worst(lines);
         if let Some((_, line)) = most.filter(|(ratio, _)| *ratio > 1.0)
             && let Some(name) = names.get(line).filter(|n| !broken.contains(n))
@@ -261,12 +275,17 @@ pub fn circle(
         }
         let heading = pose.place(asked.place).turn[2];
         let tension = most.and_then(|(_, line)| lines.get(line)).and_then(|l| l.tension);
-        let mut row: Vec<Cell> = [*direction, pose.origin.x, pose.origin.y, gone(pose), heading].map(Cell::Number).into();
-        row.push(tension.into());
+        let at = |pose: &Pose| {
+            // as far as the solution goes
+            let rest = 1e2 * gone(pose);
+            [sum(pose.origin.x, rest), sum(pose.origin.y, rest), gone(pose).into()]
+        };
+        let mut row = vec![Cell::Number(*direction)];
+        row.extend(at(pose));
+        row.extend([sum(heading, 1.0), tension.into()]);
         row.extend(critical_cells(most, names));
         if let Some(other) = intact {
-            let pose = other.get(index).map(|w| w.pose);
-            row.extend([pose.map(|p| p.origin.x), pose.map(|p| p.origin.y), pose.as_ref().map(gone)].map(Cell::from));
+            row.extend(other.places.get(index).map_or([const { Cell::Missing }; 3], |w| at(&w.pose)));
         }
         push(&mut table, row);
     }

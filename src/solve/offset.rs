@@ -32,7 +32,8 @@ impl Connectors {
         let links: Vec<usize> = (0..system.links.len()).filter(|i| system.links.get(*i).is_some_and(holds)).collect();
         if links.is_empty() {
             let who = system.nodes.get(body).map(|n| n.name.clone());
-            let error = ClassError::new("no connector acts on it").help("CONNECTOR makes one; &STATUS G_CONNECTOR lists them");
+            let error =
+                ClassError::new("no connector acts on it").help("CONNECTOR makes one; &STATUS G_CONNECTOR lists them");
             return Err(SolveError { who, error });
         }
         let guesses = links.iter().map(|_| None).collect();

@@ -76,14 +76,11 @@ pub fn draw<B: DrawingBackend>(chart: &Chart, area: &DrawingArea<B, Shift>, look
 }
 
 /// Draws the axes and mesh of a chart, and returns the plane for its curves with its axes.
-fn meshed<'a, B: DrawingBackend>(
+fn meshed<'a, B: DrawingBackend + 'a>(
     chart: &Chart,
     area: &DrawingArea<B, Shift>,
     look: &Look,
-) -> Result<(Plane<'a, B>, Axis, Axis), PlotError>
-where
-    B: 'a,
-{
+) -> Result<(Plane<'a, B>, Axis, Axis), PlotError> {
     let points = || chart.series.iter().flat_map(Series::finite);
     let x = Axis::of(points().map(|p| p.0), look.ticks.0).ok_or(PlotError::Empty)?;
     let y = Axis::of(points().map(|p| p.1), look.ticks.1).ok_or(PlotError::Empty)?;

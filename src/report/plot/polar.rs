@@ -45,7 +45,7 @@ impl Chart {
             Some([one]) => format::head(one, units),
             _ => made.y_label.clone(),
         };
-        made.x_label = format!("{} from +X (right) toward +Y (up); distance: {distance}", angles.name);
+        made.x_label = format!("directions from +X (right) toward +Y (up); distance: {distance}");
         made.y_label = String::new();
         Ok(made)
     }
@@ -55,17 +55,17 @@ impl Chart {
 ///
 /// # Errors
 /// As [`super::draw::draw`].
-pub fn plane<'a, B: DrawingBackend>(
+pub fn plane<'a, B: DrawingBackend + 'a>(
     chart: &Chart,
     area: &DrawingArea<B, Shift>,
     look: &Look,
-) -> Result<(Plane<'a, B>, Axis, Axis), PlotError>
-where
-    B: 'a,
-{
-    let farthest = chart.series.iter().flat_map(Series::finite).map(|(x, y)| x.hypot(y)).fold(None, |far, r| {
-        Some(far.map_or(r, |f: f64| f.max(r)))
-    });
+) -> Result<(Plane<'a, B>, Axis, Axis), PlotError> {
+    let farthest = chart
+        .series
+        .iter()
+        .flat_map(Series::finite)
+        .map(|(x, y)| x.hypot(y))
+        .fold(None, |far, r| Some(far.map_or(r, |f: f64| f.max(r))));
     let farthest = farthest.ok_or(PlotError::Empty)?;
     let radii = Axis::of([0.0, farthest].into_iter(), 5).ok_or(PlotError::Empty)?;
     let rings: Vec<f64> = radii.ticks(5).into_iter().filter(|r| *r > 0.0).collect();
@@ -154,7 +154,7 @@ mod tests {
     fn every_surface_has_its_circles_names_of_directions_and_what_they_count_from() {
         let chart = Chart::polar(&table(|_| 3.0), UnitSystem::SI).unwrap();
         let svg = String::from_utf8(chart.svg().unwrap()).unwrap();
-        let told = "From from +X (right) toward +Y (up); distance: Excursion (m)";
+        let told = "directions from +X (right) toward +Y (up); distance: Excursion (m)";
         for text in ["Watch", told, "270", "330"] {
             assert!(svg.contains(text), "{text} is missing from the SVG");
         }
