@@ -288,3 +288,16 @@ fn forces_alone_are_those_of_the_evaluation_with_its_stiffness() {
         }
     }
 }
+
+#[test]
+fn a_body_whose_freedoms_are_all_left_out_is_moved_free_as_it_is_held() {
+    let records = springs(4).replace("\nEND", "\n&DESCRIBE BODY SHIP -IGNORE X Y Z RX RY RZ\nEND");
+    let made = model(&records);
+    let system = System::of(&made, &[]).unwrap();
+    let start = system.state(&made).poses;
+    let (held, _) = Walk::new(&system, &start, path(0.4)).unwrap().rows(5).unwrap();
+    let (free, _) = Walk::new(&system, &start, Path { free: true, ..path(0.4) }).unwrap().rows(5).unwrap();
+    for (a, b) in held.iter().zip(&free) {
+        assert!((a.wrench - b.wrench).norm() < 1e-6 * BREAK, "{:?} {:?}", a.wrench, b.wrench);
+    }
+}

@@ -260,6 +260,10 @@ fn direction(unknowns: &Unknowns, stiffness: &DMatrix<f64>, residual: &DVector<f
 
 /// Freedoms along which nothing holds a body.
 fn loose(system: &System, unknowns: &Unknowns, state: &State) -> Vec<(String, String)> {
+    if unknowns.rows.is_empty() {
+        // no matrix has eigenvalues then
+        return Vec::new();
+    }
     let stiffness = unknowns.stiffness(state);
     let root = unknowns.inertia.map(|d| 1.0 / d.sqrt());
     let scaled = DMatrix::from_fn(root.len(), root.len(), |i, j| {
