@@ -1,5 +1,5 @@
 //! 200 offsets of a body on eight lines, held there: forces on the body and tensions of the lines. In a form that a program
-//! can read: name, offsets a pass, least seconds a pass, tab between.
+//! can read: name, offsets a pass, least seconds a pass, tab between; then `row`, X (m), restoring force (N) of each.
 //!
 //! The mooring is that of MoorPy and MAP++ in shared/peers/results.md, (c): eight chains of 900 m in 300 m of water, 0 to 40 m off.
 
@@ -82,4 +82,10 @@ fn main() {
         }
         sum
     });
+    let (mut connectors, mut poses, mut pull) = (Connectors::on(&system, 0).unwrap(), start, Pull::default());
+    for n in 0..OFFSETS {
+        poses[0].origin.x = at(n);
+        connectors.pull(&system, &poses, &mut pull).unwrap();
+        println!("row\t{}\t{}", at(n), -pull.wrench[0]);
+    }
 }

@@ -301,3 +301,49 @@ fn a_body_whose_freedoms_are_all_left_out_is_moved_free_as_it_is_held() {
         assert!((a.wrench - b.wrench).norm() < 1e-6 * BREAK, "{:?} {:?}", a.wrench, b.wrench);
     }
 }
+
+#[test]
+fn a_body_on_eight_chains_is_held_with_the_forces_moorpy_gives() {
+    // MoorPy 1.3.0 over the mooring of benches/offsets.rs (benches/moorpy.py); at rest it leaves 0.94 N and 0.31 N m
+    let section = FRAC_PI_4 * 0.18 * 0.18;
+    let (modulus, weight) = (8.54e8 / section / 1e6, (199.0 - 1025.0 * section) * 9.80665);
+    let mut records = "MEDIT\n&DESCRIBE BODY SHIP\n".to_string();
+    let angle = |line: i32| 22.5 + 45.0 * f64::from(line);
+    for line in 0..8 {
+        let (sin, cos) = angle(line).to_radians().sin_cos();
+        records += &format!("*F{line} {} {} -10\n", 30.0 * cos, 30.0 * sin);
+    }
+    records += &format!("~CHAIN B_CAT 180 EXACT -LEN 900 -DEP 300 -BUOY 0 -WTPL {weight} -EMOD {modulus}\n");
+    for line in 0..8 {
+        records += &format!("CONNECTOR L{line} -ANC {} 800 ~CHAIN *F{line}\n", angle(line));
+    }
+    let made = model(&(records + "END"));
+    let system = System::of(&made, &[]).unwrap();
+    let start = system.state(&made).poses;
+    let mut walk = Walk::new(&system, &start, path(0.0)).unwrap();
+    for (excursion, restoring, vertical, pitch, tensions) in [
+        (
+            20.0,
+            1552812.877563,
+            -8091431.066101,
+            -5741465.419268,
+            [996461.5908, 1131778.4214, 1402879.4731, 1681692.0422],
+        ),
+        (
+            40.0,
+            3685391.125206,
+            -8585706.244316,
+            -9599360.960422,
+            [838083.9890, 1041307.1210, 1611060.6529, 2501301.2452],
+        ),
+    ] {
+        let there = walk.at(excursion).unwrap();
+        let [force, across, up] = resolved(&there.wrench, 0.0);
+        for (got, want) in [(force, restoring), (across, 0.0), (up, vertical), (there.wrench[4], pitch)] {
+            assert!((got - want).abs() < 5.0 + 1e-6 * want.abs(), "{got} {want}");
+        }
+        for (line, want) in there.lines.iter().zip(tensions) {
+            assert!((line.tension.unwrap() / want - 1.0).abs() < 2e-6, "{:?} {want}", line.tension);
+        }
+    }
+}
