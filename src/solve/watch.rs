@@ -5,6 +5,9 @@ use super::offset::Connectors;
 use super::system::{SolveError, State, System};
 use crate::model::{Pose, Six, Summary};
 
+/// Most steps of the solution from one direction to the next.
+const MOST: usize = 2000;
+
 /// A body under the force from one direction.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Watched {
@@ -40,7 +43,9 @@ pub fn watch(
     let connectors = Connectors::on(system, body)?;
     let moves = |b: usize, freedom: usize| free || (b == body && [0, 1, 5].contains(&freedom));
     let all = (0..system.nodes.len()).flat_map(|b| (0..6).map(move |freedom| (b, freedom)));
-    let options = Rest { ignored: all.filter(|(b, f)| !moves(*b, *f)).collect(), ..Rest::default() };
+    let ignored = all.filter(|(b, f)| !moves(*b, *f)).collect();
+    // from one direction to the next is far for a body that hangs on stiff lines
+    let options = Rest { ignored, most: MOST, ..Rest::default() };
     let mut state = State::at(start.to_vec());
     let mut list = Vec::with_capacity(directions.len());
     for direction in directions {
