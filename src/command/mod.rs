@@ -20,6 +20,7 @@ mod disposition;
 mod environment;
 mod environment_table;
 mod equilibrium;
+mod excursion;
 mod file;
 mod forces;
 pub mod functions;
@@ -174,6 +175,8 @@ pub static COMMANDS: &[&Command] = &[
     &conn_design::TABLE,
     &conn_design::GEOMETRY,
     &conn_design::PROPERTIES,
+    &excursion::MOVE,
+    &excursion::WATCH,
     &lines::LINES,
     &disposition::REPORT,
     &disposition::VLIST,

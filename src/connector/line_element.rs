@@ -2,7 +2,7 @@
 
 use super::catenary::{Bottom, EndForces, Interpolated, Line, LineError, Regime, Row, Segment, State};
 use super::mooring::Mooring;
-use crate::model::{ClassError, Element, End, Guess, Placement, Response, Situation, Summary};
+use crate::model::{ClassError, Element, End, Guess, Placement, Response, Situation, Six, Summary};
 use nalgebra::{Matrix6, Vector3};
 
 /// How the forces are found.
@@ -39,6 +39,15 @@ struct Plane {
     stiffness: [[f64; 2]; 2],
     /// d(anchor)/d(distance, rise of the first end) (N/m).
     coupling: [[f64; 2]; 2],
+}
+
+impl Plane {
+    /// The forces on both ends, with the direction from the first to the other.
+    fn wrenches(&self, [ux, uy]: [f64; 2]) -> [Six; 2] {
+        let ([h, v], [far_h, far_v]) = (self.fairlead, self.anchor);
+        let force = |x: f64, y: f64, z: f64| Six::new(x, y, z, 0.0, 0.0, 0.0);
+        [force(h * ux, h * uy, -v), force(-far_h * ux, -far_h * uy, far_v)]
+    }
 }
 
 impl LineElement {
@@ -118,6 +127,15 @@ impl LineElement {
                     coupling: [[found.stiffness, 0.0], [0.0, 0.0]],
                 })
             }
+        }
+    }
+
+    /// The forces there; none of a weightless line that is not tight.
+    fn tight(&self, x: f64, z: f64, guess: &mut Guess) -> Result<Option<Plane>, ClassError> {
+        match self.plane(x, z, guess) {
+            Ok(plane) => Ok(Some(plane)),
+            Err(LineError::Undetermined) if self.mooring.weightless() => Ok(None),
+            Err(error) => Err(self.mooring.error(&error)),
         }
     }
 
@@ -211,24 +229,21 @@ impl Element for LineElement {
     ) -> Result<(), ClassError> {
         out.clear(2);
         let (x, along, z) = self.between(at.ends);
-        let plane = match self.plane(x, z, guess) {
-            Ok(plane) => plane,
-            Err(LineError::Undetermined) if self.mooring.weightless() => return Ok(()),
-            Err(error) => return Err(self.mooring.error(&error)),
-        };
-        let [ux, uy] = along;
-        let ([h, v], [far_h, far_v]) = (plane.fairlead, plane.anchor);
+        let Some(plane) = self.tight(x, z, guess)? else { return Ok(()) };
+        let ([h, _], [far_h, _]) = (plane.fairlead, plane.anchor);
         let over = |force: f64, k: [[f64; 2]; 2]| if x > 0.0 { force / x } else { xx_of(k) };
         let first = block(along, plane.stiffness, over(h, plane.stiffness), 1.0);
         let other = block(along, plane.coupling, over(far_h, plane.coupling), -1.0);
-        if let [near, far] = out.wrench.as_mut_slice() {
-            (near[0], near[1], near[2]) = (h * ux, h * uy, -v);
-            (far[0], far[1], far[2]) = (-far_h * ux, -far_h * uy, far_v);
-        }
+        out.wrench.copy_from_slice(&plane.wrenches(along));
         if let [k11, k12, k21, k22] = out.stiffness.as_mut_slice() {
             (*k11, *k12, *k21, *k22) = (first, -first, other, -other);
         }
         Ok(())
+    }
+
+    fn wrenches(&self, at: &Situation, _committed: &[f64], guess: &mut Guess) -> Result<[Six; 2], ClassError> {
+        let (x, along, z) = self.between(at.ends);
+        Ok(self.tight(x, z, guess)?.map_or([Six::zeros(); 2], |plane| plane.wrenches(along)))
     }
 
     fn summary(&self, at: &Situation, _committed: &[f64]) -> Result<Summary, ClassError> {
