@@ -2,7 +2,7 @@
 
 use crate::hydro::{Category, Floating, Load, carried, transferred, turning};
 use crate::model::{
-    Body, ClassError, Connector, Element, End, Guess, Mass, Model, Pose, Response, Situation, Six, Surroundings,
+    Body, ClassError, Connector, Element, End, Guess, Mass, Model, Place, Pose, Response, Situation, Six, Surroundings,
 };
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Vector3};
 
@@ -276,10 +276,16 @@ impl System {
         }
         for (node, pose) in self.nodes.iter().zip(&state.poses) {
             if let Some(body) = model.bodies.get_mut(&node.key) {
-                body.place = pose.place(&body.place);
+                body.place = without_rounding(pose.place(&body.place));
             }
         }
     }
+}
+
+/// A place with what is less than any solution is exact to left out: a tenth of a nanometre, and that on a kilometre.
+fn without_rounding(place: Place) -> Place {
+    let kept = |least: f64| move |v: f64| if v.abs() < least { 0.0 } else { v };
+    Place { shift: place.shift.map(kept(1e-10)), turn: place.turn.map(kept(1e-13)) }
 }
 
 /// What the ends of a connector are fixed to.

@@ -80,11 +80,11 @@ pub fn by_category(system: &System, state: &State, fits: &dyn Fn(&str) -> bool) 
             let mut any = false;
             let sum = all.iter().filter(of).fold(Six::zeros(), |sum, c| {
                 any = true;
+                size = size.sup(&c.load.wrench.abs());
                 sum + c.load.wrench
             });
             if any {
                 total += sum;
-                size = size.sup(&sum.abs());
                 push(&mut table, wrench_row(&node.name, category.name(), &without_rounding(&sum, &size)));
             }
         }
@@ -93,13 +93,13 @@ pub fn by_category(system: &System, state: &State, fits: &dyn Fn(&str) -> bool) 
     Ok(table)
 }
 
-/// What is less than rounding leaves of the largest force or moment is nothing.
+/// What is less than a solution leaves of the largest force or moment is nothing.
 fn without_rounding(wrench: &Six, size: &Six) -> Six {
     let (force, moment) = (size.fixed_rows::<3>(0).amax(), size.fixed_rows::<3>(3).amax());
     let mut kept = *wrench;
     for (index, value) in kept.iter_mut().enumerate() {
         let largest = if index < 3 { force } else { moment };
-        if value.abs() <= 1e-12 * largest {
+        if value.abs() <= 1e-10 * largest {
             *value = 0.0;
         }
     }
