@@ -15,12 +15,15 @@ use windlass::model::{Model, Place, Pose, Six};
 const KNOT: f64 = 1852.0 / 3600.0;
 /// Pressure of 60 knots (Pa): 1/2 x 1.226 x 30.866667^2.
 const WIND: f64 = 0.5 * 1.226 * (60.0 * KNOT) * (60.0 * KNOT);
+/// Ends of tubes (ft): upright, level, oblique.
+const POINTS: &str = "*A 0 0 -300\n*B 0 0 60\n*C 0 0 0\n*D 100 0 0\n*E 10 20 -30\n*F -20 5 50";
 const HULL: &str = "BLOCK HULL 0 -50 0 400 50 20";
 
 /// A body with pieces, in feet, in an environment.
 fn body(pieces: &str, environment: &str) -> Model {
     let (mut session, screen, _folder) = common::session();
-    session.open("records", format!("&DESCRIBE BODY B\n&SURFACE\n{pieces}\nEND\n{environment}\n"));
+    session
+        .open("records", format!("MEDIT\n&DESCRIBE BODY B\n{POINTS}\nEND\n&SURFACE\n{pieces}\nEND\n{environment}\n"));
     session.run();
     assert_eq!(session.errors, 0, "{:?} {}", session.reports, screen.text());
     session.job.model.clone()
@@ -155,7 +158,7 @@ fn afloat_on_an_even_keel_the_vertical_area_is_that_of_the_deck() {
 
 #[test]
 fn a_tube_shows_its_diameter_to_every_side() {
-    let spar = "TUBE SPAR 0 0 -300 0 0 60 480 -PERM 1";
+    let spar = "TUBE SPAR *A *B 480 -PERM 1";
     for from in [0.0, 17.0, 90.0, 203.0] {
         // 40 ft x 60 ft and 40 ft x 300 ft; a prism of 64 sides is 0.04 % narrower at most, 0.08 % wider
         let model = body(spar, &format!("&ENV -WIND 60 {from} -W_PROFILE POWER 0 -CURRENT 2 {from}"));
@@ -164,7 +167,7 @@ fn a_tube_shows_its_diameter_to_every_side() {
         near(current.xy().norm(), 0.5 * 1025.0 * 4.0 * 12_000.0 * FOOT.powi(4), 1e-3);
     }
     // lying half in the water: its radius is above it
-    let model = body("TUBE PONTOON 0 0 0 100 0 0 120 -PERM 1", "&ENV -WIND 60 90 -W_PROFILE POWER 0");
+    let model = body("TUBE PONTOON *C *D 120 -PERM 1", "&ENV -WIND 60 90 -W_PROFILE POWER 0");
     near(sum(&model, Category::Wind, &Pose::default())[1], -WIND * 500.0 * FOOT * FOOT, 1e-3);
 }
 
@@ -250,7 +253,7 @@ fn the_tangent_is_that_of_differences_in_any_pose() {
     let curves = "&DATA CURVES C_PROFILE P 0 2.5 8 1.7 40 0.3\n&DATA CURVES C_PROFILE Q 0 0.4 100 0.2\n";
     for pieces in [
         "BLOCK HULL 0 -50 0 400 50 20 -CS_WIND 1 1.2 0.7 -CS_CURRENT 0.5 1.3 0.9",
-        "TUBE LEG 10 20 -30 -20 5 50 300 -PERM 1 -CS_WIND 1 1.2 0.7 -CS_CURRENT 0.5 1.3 0.9",
+        "TUBE LEG *E *F 300 -PERM 1 -CS_WIND 1 1.2 0.7 -CS_CURRENT 0.5 1.3 0.9",
     ] {
         for profile in ["POWER", "ISO", "ABS", "API -W_DESIGN API 15"] {
             let env = format!("{curves}&ENV -WIND 55 130 -W_PROFILE {profile} -CURRENT P 110 Q 250 -DEPTH 300 -TIDE 1");

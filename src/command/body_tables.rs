@@ -3,7 +3,7 @@
 use super::chosen::WARNING;
 use super::status::push;
 use crate::hydro::hull::Hydrostatics;
-use crate::hydro::{Floating, Hull};
+use crate::hydro::{Category, Floating, Hull};
 use crate::language::units::{Dim, UnitSystem};
 use crate::model::{Body, ClassError, Mass, Model, Pose, Shape, Six};
 use crate::table::{Cell, Digits, Table};
