@@ -4,14 +4,18 @@
 //! reference/model.md, last section.
 
 use super::catenary::{Floor, Law, Line, LineError};
-use super::mooring::{Mooring, convolution, end_springs, line_error, parts, with_series};
+use super::devices::Devices;
+use super::line_element::LineElement;
+use super::mooring::{Mooring, end_springs, line_error, parts, with_series};
 use super::section::{LineSection, properties};
 use super::{ClassKind, checks, options as o};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Kind, ValueSpec};
 use crate::language::units::Dim;
-use crate::model::{ClassError, ClassRecord, Connector, ConnectorClass, LineModel, Placement, Surroundings};
+use crate::model::{
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, LineModel, Placement, Surroundings,
+};
 use crate::table::Table;
 use std::sync::Arc;
 
@@ -79,9 +83,7 @@ struct Catenary {
     slope: f64,
     limit: Option<f64>,
     springs: [Option<Law>; 2],
-    /// The curve of a viscoelastic spring, with its place.
-    convolution: Option<(String, Span)>,
-    piston: bool,
+    devices: Devices,
 }
 
 fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
@@ -99,8 +101,7 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
         slope: number("-SLOPE")?.unwrap_or(0.0),
         limit: number("-TAB_LIM")?,
         springs: end_springs(records)?,
-        convolution: convolution(records)?,
-        piston: checks::once(records, "-PISTON")?.is_some(),
+        devices: Devices::read(records)?,
     }))
 }
 
@@ -113,14 +114,19 @@ impl Catenary {
         })
     }
 
-    fn made(&self, place: &Placement, surroundings: &Surroundings) -> Result<Mooring, ClassError> {
+    /// The line with these springs at its ends.
+    fn made(
+        &self,
+        place: &Placement,
+        surroundings: &Surroundings,
+        springs: [Option<Law>; 2],
+    ) -> Result<Mooring, ClassError> {
         let depth = match place.other {
             Some([_, _, anchor]) if place.to_ground => -anchor,
             _ => self.known_depth(surroundings)?,
         };
         let error = |e: LineError| line_error(&e, &self.places);
         let (segments, joints) = parts(&self.sections, place, |s| s.submerged(surroundings));
-        let springs = with_series(&self.springs, self.convolution.as_ref(), place)?;
         let floor = Floor { elevation: -depth, slope: self.slope, friction: self.friction };
         let line = Line::new(segments, joints, -depth, surroundings.tide)
             .and_then(|l| l.over(Some(floor)))
@@ -140,9 +146,6 @@ impl Catenary {
         {
             let share = depth / known;
             notes.push(format!("warning: the depth of the anchor is {share:.2} of the depth of &ENV"));
-        }
-        if self.piston {
-            notes.push("the piston of -PISTON stands at its nominal position".into());
         }
         Ok(Mooring {
             line,
@@ -200,7 +203,7 @@ impl ConnectorClass for Catenary {
     }
 
     fn series_curve(&self) -> Option<(&str, Span)> {
-        self.convolution.as_ref().map(|(name, span)| (name.as_str(), *span))
+        self.devices.convolution.as_ref().map(|(name, span)| (name.as_str(), *span))
     }
 
     fn is_line(&self) -> bool {
@@ -208,7 +211,19 @@ impl ConnectorClass for Catenary {
     }
 
     fn line(&self, place: &Placement, surroundings: &Surroundings) -> Result<Box<dyn LineModel>, ClassError> {
-        Ok(Box::new(self.made(place, surroundings)?))
+        let springs = with_series(&self.springs, self.devices.convolution.as_ref(), place)?;
+        let mut line = self.made(place, surroundings, springs)?;
+        line.notes.extend(self.devices.notes());
+        Ok(Box::new(line))
+    }
+
+    fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
+        let line = self.made(&connection.placement, connection.surroundings, self.springs.clone())?;
+        let line = LineElement::new(line)?;
+        if self.devices.is_none() {
+            return Ok(Box::new(line));
+        }
+        self.devices.element(connection, Box::new(line))
     }
 }
 

@@ -1,6 +1,8 @@
 //! A mooring line as an engine sees it: forces on its two ends at any place of these, followed from one place to the next.
 
 use super::catenary::{Bottom, EndForces, Interpolated, Line, LineError, Row, Segment, State};
+use super::extended_line::{Plane, behind};
+use super::extension::{Extended, Extension, Pull};
 use super::mooring::Mooring;
 use crate::model::{ClassError, Element, End, Guess, Placement, Response, Situation, Summary};
 use nalgebra::{Matrix6, Vector3};
@@ -27,18 +29,6 @@ pub struct LineElement {
 enum Last {
     Segment(EndForces),
     Whole(Box<State>),
-}
-
-/// Forces in the line's vertical plane.
-struct Plane {
-    /// On the first end: toward the other, and downward (N).
-    fairlead: [f64; 2],
-    /// On the other end: toward the first, and upward (N).
-    anchor: [f64; 2],
-    /// d(fairlead)/d(distance, rise of the first end) (N/m).
-    stiffness: [[f64; 2]; 2],
-    /// d(anchor)/d(distance, rise of the first end) (N/m).
-    coupling: [[f64; 2]; 2],
 }
 
 impl LineElement {
@@ -122,6 +112,22 @@ impl LineElement {
         }
     }
 
+    /// The forces with a link at the first end, and where the line itself begins (distance, elevation).
+    fn extended(&self, x: f64, z: f64, by: Extension, guess: &mut Guess) -> Result<(Plane, [f64; 2]), LineError> {
+        if by == Extension::NONE {
+            return self.plane(x, z, guess).map(|plane| (plane, [x, z]));
+        }
+        let start = match guess.as_ref().and_then(|g| g.downcast_ref::<Last>()) {
+            Some(Last::Segment(last)) => Some(last.fairlead),
+            Some(Last::Whole(last)) => Some([last.force, last.top_vertical]),
+            None => None,
+        };
+        let rise = z - self.mooring.line.anchor();
+        let apart = x.hypot(rise);
+        let straight = if apart > 0.0 { [x / apart, rise / apart] } else { [0.0, 1.0] };
+        behind(by, [x, z], straight, start, self.mooring.line.length(), |x, z| self.plane(x, z, guess))
+    }
+
     /// The line with its ends there.
     fn moved(&self, ends: &[End]) -> Mooring {
         let at = |i: usize| ends.get(i).map(|e| e.pose.origin.into());
@@ -184,20 +190,15 @@ fn xx_of(k: [[f64; 2]; 2]) -> f64 {
     if xx.is_finite() { xx } else { 0.0 }
 }
 
-impl Element for LineElement {
-    fn evaluate(
-        &self,
-        at: &Situation,
-        _committed: &[f64],
-        _trial: &mut [f64],
-        guess: &mut Guess,
-        out: &mut Response,
-    ) -> Result<(), ClassError> {
+impl Extended for LineElement {
+    fn pull(&self, ends: &[End], by: Extension, guess: &mut Guess, out: &mut Response) -> Result<Pull, ClassError> {
         out.clear(2);
-        let (x, along, z) = self.between(at.ends);
-        let plane = match self.plane(x, z, guess) {
-            Ok(plane) => plane,
-            Err(LineError::Undetermined) if self.mooring.weightless() => return Ok(()),
+        let (x, along, z) = self.between(ends);
+        let (plane, _) = match self.extended(x, z, by, guess) {
+            Ok(found) => found,
+            Err(LineError::Undetermined) if self.mooring.weightless() => {
+                return Ok(Pull { tension: 0.0, along: Vector3::zeros() });
+            }
             Err(error) => return Err(self.mooring.error(&error)),
         };
         let [ux, uy] = along;
@@ -205,20 +206,33 @@ impl Element for LineElement {
         let over = |force: f64, k: [[f64; 2]; 2]| if x > 0.0 { force / x } else { xx_of(k) };
         let first = block(along, plane.stiffness, over(h, plane.stiffness), 1.0);
         let other = block(along, plane.coupling, over(far_h, plane.coupling), -1.0);
+        let pull = Vector3::new(h * ux, h * uy, -v);
         if let [near, far] = out.wrench.as_mut_slice() {
-            (near[0], near[1], near[2]) = (h * ux, h * uy, -v);
+            (near[0], near[1], near[2]) = (pull.x, pull.y, pull.z);
             (far[0], far[1], far[2]) = (-far_h * ux, -far_h * uy, far_v);
         }
         if let [k11, k12, k21, k22] = out.stiffness.as_mut_slice() {
             (*k11, *k12, *k21, *k22) = (first, -first, other, -other);
         }
-        Ok(())
+        Ok(Pull { tension: pull.norm(), along: pull.try_normalize(0.0).unwrap_or_default() })
     }
 
-    fn summary(&self, at: &Situation, _committed: &[f64]) -> Result<Summary, ClassError> {
+    fn told(&self, ends: &[End], by: Extension) -> Result<Summary, ClassError> {
+        let mut ends = ends.to_vec();
+        if by != Extension::NONE {
+            let (x, [ux, uy], z) = self.between(&ends);
+            let found = self.extended(x, z, by, &mut None);
+            let [line_x, line_z] = match found {
+                Err(LineError::Undetermined) if self.mooring.weightless() => [x, z],
+                found => found.map_err(|e| self.mooring.error(&e))?.1,
+            };
+            if let Some(first) = ends.first_mut() {
+                first.pose.origin += Vector3::new((x - line_x) * ux, (x - line_x) * uy, line_z - z);
+            }
+        }
         let loads = match &self.solver {
-            Solver::Table { rows, forces } => self.moved(at.ends).by_table(rows, forces)?,
-            _ => self.moved(at.ends).exact_loads()?,
+            Solver::Table { rows, forces } => self.moved(&ends).by_table(rows, forces)?,
+            _ => self.moved(&ends).exact_loads()?,
         };
         Ok(Summary {
             tension: Some(loads.tension),
@@ -233,6 +247,27 @@ impl Element for LineElement {
 
     fn made_for_place(&self) -> bool {
         matches!(self.solver, Solver::Table { .. })
+    }
+}
+
+impl Element for LineElement {
+    fn evaluate(
+        &self,
+        at: &Situation,
+        _committed: &[f64],
+        _trial: &mut [f64],
+        guess: &mut Guess,
+        out: &mut Response,
+    ) -> Result<(), ClassError> {
+        self.pull(at.ends, Extension::NONE, guess, out).map(|_| ())
+    }
+
+    fn summary(&self, at: &Situation, _committed: &[f64]) -> Result<Summary, ClassError> {
+        self.told(at.ends, Extension::NONE)
+    }
+
+    fn made_for_place(&self) -> bool {
+        Extended::made_for_place(self)
     }
 }
 
