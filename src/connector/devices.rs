@@ -141,12 +141,9 @@ impl DeviceElement {
 
     fn remember(&self, at: &Situation, committed: &[f64], trial: &mut [f64], found: &Found) {
         let (_, memory) = self.parts(committed);
-        let mut rest = trial;
-        if let (Some((position, _)), Some((first, others))) =
-            (found.piston, std::mem::take(&mut rest).split_first_mut())
-        {
+        let (own, rest) = trial.split_at_mut(trial.len().min(usize::from(self.piston.is_some())));
+        if let (Some((position, _)), Some(first)) = (found.piston, own.first_mut()) {
             *first = position;
-            rest = others;
         }
         if let (Some(law), Some(line)) = (&self.viscous, found.affine) {
             law.advance(at.step.map(|s| s.dt), memory, (found.pull.tension - line.rest) / line.slope, rest);
