@@ -5,7 +5,8 @@
 
 Makes target/moorpy-venv with MoorPy from PyPI, and prints a table:
 - the 2,000 single lines of tests/data/catenary_2000.csv, cold: lines a second, and how many are wrong;
-- a thirty-row force-distance table of the four-segment line of seed 001, its buoy sunk.
+- a thirty-row force-distance table of the four-segment line of seed 001, its buoy sunk;
+- forces on a body on eight chains and their tensions at 200 offsets, the body held.
 The time of a pass is MoorPy's CPU time, and wall time for windlass; the least of the passes counts, since other work on
 the machine only ever adds.
 """
@@ -47,10 +48,10 @@ def least(passes, work):
     return min(times)
 
 
-def windlass():
-    """What benches/rates.rs prints: times as name -> (solutions, seconds), rows of the table as (X, H)."""
-    subprocess.run(["cargo", "bench", "--quiet", "--no-run", "--bench", "rates"], cwd=ROOT, check=True)
-    command = ["cargo", "bench", "--quiet", "--bench", "rates"]
+def windlass(bench):
+    """What benches/rates.rs or offsets.rs prints: times as name -> (solutions, seconds), rows as (X, H)."""
+    subprocess.run(["cargo", "bench", "--quiet", "--no-run", "--bench", bench], cwd=ROOT, check=True)
+    command = ["cargo", "bench", "--quiet", "--bench", bench]
     out = subprocess.run(command, cwd=ROOT, check=True, text=True, stdout=subprocess.PIPE).stdout
     times, rows = {}, []
     for name, a, b in (line.split("\t") for line in out.splitlines()):
@@ -135,6 +136,41 @@ def four_segments(passes, rows, tolerance):
     return seconds, max(abs(got - h) / h for got, (_, h) in list(zip(found, rows))[1:])
 
 
+def eight_lines(passes, rows):
+    """Seconds MoorPy takes for as many offsets as windlass has rows, and the largest difference in the restoring force, as a
+    share of that of the row, past 1 m. The mooring is that of benches/offsets.rs."""
+    import moorpy
+    import numpy
+
+    section = math.pi / 4 * 0.18**2
+    weight = (199.0 - 1025 * section) * 9.80665
+    system = moorpy.System(depth=300.0, rho=1025, g=9.80665)
+    chain = dict(name="chain", d_vol=0.18, m=199.0, w=weight, EA=8.54e8)
+    system.addBody(1, numpy.zeros(6))
+    body = system.bodyList[0]
+    for line in range(8):
+        angle = math.radians(22.5 + 45 * line)
+        fairlead = [30 * math.cos(angle), 30 * math.sin(angle), -10.0]
+        system.addPoint(1, [830 * math.cos(angle), 830 * math.sin(angle), -300.0])
+        system.addPoint(1, fairlead)
+        anchor = len(system.pointList) - 1
+        body.attachPoint(anchor + 1, fairlead)
+        system.addLine(900.0, chain, pointA=anchor, pointB=anchor + 1)
+    system.initialize()
+    found = []
+
+    def offsets():
+        found.clear()
+        for x, _ in rows:
+            body.setPosition(numpy.array([x, 0, 0, 0, 0, 0.0]))
+            for line in system.lineList:
+                line.staticSolve()
+            found.append(-body.getForces(lines_only=True)[0])
+
+    seconds = least(passes, offsets)
+    return seconds, max(abs(got - f) / f for got, (x, f) in zip(found, rows) if x > 1)
+
+
 def cpu():
     try:
         for line in open("/proc/cpuinfo"):
@@ -163,9 +199,11 @@ def main():
     from importlib.metadata import version
     if hasattr(os, "sched_setaffinity"):
         os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
-    times, rows = windlass()
+    times, rows = windlass("rates")
+    offset_times, offsets = windlass("offsets")
     seconds, number, errors = single_lines(options.passes)
     tables = [(tolerance, *four_segments(options.passes, rows, tolerance)) for tolerance in (0.05, 0.001)]
+    held, held_off = eight_lines(options.passes, offsets)
 
     rust = subprocess.run(["rustc", "--version"], cwd=ROOT, check=True, text=True, stdout=subprocess.PIPE).stdout.strip()
     commit = ["git", "describe", "--always", "--dirty"]
@@ -188,6 +226,12 @@ def main():
         name = f"MoorPy, System, tol={tolerance}"
         print(f"{name:<46}{1e3 * table:>12,.1f}{table / ours:>10,.0f}{off:>27.1e}")
     print(f"{'windlass':<46}{1e3 * ours:>12.4f}{1:>10}")
+    heading = f"{len(offsets)} offsets of eight lines, held"
+    print(f"\n{heading:<46}{'ms':>12}{'ratio':>10}{'largest difference in force':>31}")
+    ours = offset_times["forces and tensions"][1]
+    print(f"{'MoorPy, Line.staticSolve, Body.getForces':<46}{1e3 * held:>12,.1f}{held / ours:>10,.0f}{held_off:>31.1e}")
+    for name, (_, seconds) in offset_times.items():
+        print(f"{'windlass, ' + name:<46}{1e3 * seconds:>12.4f}{seconds / ours:>10,.1f}")
 
 
 if __name__ == "__main__":

@@ -47,7 +47,19 @@ impl<'a> Chosen<'a> {
     /// The first such name, at its place, with near ones.
     pub fn check(&self, what: &str, tables: &[Table], things: &[Thing]) -> Outcome<()> {
         let empty = tables.iter().all(|t| t.rows() == 0 && t.facts.is_empty());
-        let unused = self.given.iter().find(|(_, _, used)| empty || (self.asked.get() && !used.get()));
+        self.refuse(what, things, |used| empty || (self.asked.get() && !used))
+    }
+
+    /// Refuses a name that chose nothing.
+    ///
+    /// # Errors
+    /// The first such name, at its place, with near ones.
+    pub fn check_used(&self, what: &str, things: &[Thing]) -> Outcome<()> {
+        self.refuse(what, things, |used| !used)
+    }
+
+    fn refuse(&self, what: &str, things: &[Thing], wrong: impl Fn(bool) -> bool) -> Outcome<()> {
+        let unused = self.given.iter().find(|(_, _, used)| wrong(used.get()));
         unused.map_or(Ok(()), |(name, span, _)| {
             let mut error = Diagnostic::error(format!("nothing among {what} is called {name}"), *span);
             error.help.extend(did_you_mean(name, things.iter().flat_map(|t| self.model.names(*t))));

@@ -114,9 +114,11 @@ static PLOT_SPEC: CommandSpec = CommandSpec {
             "to a file",
         )
         .owner(Owner::Ours),
+        OptionSpec::new("-POLAR", &[], "a polar plot: the first column holds directions").owner(Owner::Ours),
     ],
     detail: "The first column is the independent one. A last word that ends in .svg or .png is a file name, inside the \
-             job's folder when relative (&HELP &FILE); without one the plot is drawn in the terminal.",
+             job's folder when relative (&HELP &FILE); without one the plot is drawn in the terminal. -POLAR counts \
+             directions from +X, to the right, toward +Y, up, and has the other columns as distances from the middle.",
     ..spec("PLOT", "plots columns against the first one")
 };
 static STATISTIC_SPEC: CommandSpec = CommandSpec {
@@ -285,11 +287,12 @@ fn plot(job: &mut Job, call: &Call) -> Outcome<Effect> {
             .help("VLIST lists the columns"));
     }
     let table = chosen(job, &args, 0)?;
-    let mut chart = Chart::of(&table, job.units);
+    let wrong = |e: crate::report::plot::PlotError| Diagnostic::error(e.to_string(), args.span);
+    let made = if args.has("-POLAR") { Chart::polar(&table, job.units) } else { Ok(Chart::of(&table, job.units)) };
+    let mut chart = made.map_err(wrong)?;
     if let Some(heading) = args.option_word("-HEADING") {
         chart.title = heading.to_string();
     }
-    let wrong = |e: crate::report::plot::PlotError| Diagnostic::error(e.to_string(), args.span);
     let name = match file {
         Some(value) => value.word().map(str::to_string),
         None if args.has("-HARD") => {

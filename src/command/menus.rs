@@ -35,7 +35,7 @@ static MEDIT_SPEC: CommandSpec = CommandSpec {
 static CONN_DESIGN_SPEC: CommandSpec = CommandSpec {
     opens: Opens::Menu("CONN_DESIGN"),
     menus: &["MAIN"],
-    detail: "TABLE tabulates a line.",
+    detail: "TABLE tabulates a line, GEOMETRY shapes it, MOVE moves a body until a line breaks, WATCH draws its watch circle.",
     example: "CONN_DESIGN\nEND",
     ..CommandSpec::new("CONN_DESIGN", "connector design, up to END")
 };

@@ -20,6 +20,7 @@ mod disposition;
 mod environment;
 mod environment_table;
 mod equilibrium;
+mod excursion;
 mod file;
 mod forces;
 pub mod functions;
@@ -37,6 +38,7 @@ mod message;
 mod names;
 mod offsets;
 mod pgen;
+mod picture;
 mod piece;
 mod report_menu;
 mod select;
@@ -173,6 +175,8 @@ pub static COMMANDS: &[&Command] = &[
     &conn_design::TABLE,
     &conn_design::GEOMETRY,
     &conn_design::PROPERTIES,
+    &excursion::MOVE,
+    &excursion::WATCH,
     &lines::LINES,
     &disposition::REPORT,
     &disposition::VLIST,
@@ -185,6 +189,7 @@ pub static COMMANDS: &[&Command] = &[
     &disposition::C_SHIFT,
     &disposition::CULL,
     &status::STATUS,
+    &picture::PICTURE,
     &units::DIMEN,
     &units::DEFAULT,
     &device::DEVICE,

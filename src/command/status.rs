@@ -90,7 +90,7 @@ static SPEC: CommandSpec = CommandSpec {
              taken to move with the body; with names of connectors that of each of them. -DISPOSE takes a table to the disposition menu: \
              REPORT, VIEW, STORE, PLOT.",
     example: "MEDIT\n*P 0 0 10\n~W B_CAT 4 EXACT -LEN 4000 -DEP 500\nCONNECTOR A -ANC 0 3900 ~W *P\nEND\n&STATUS F_CONNECTOR A\n\
-              &STATUS\n&STATUS DEFAULTS\n&STATUS DIMENSIONS\n&STATUS LINE_TYPES 3",
+              &STATUS\n&STATUS DEFAULTS\n&STATUS DIMENSIONS\n&STATUS LINE_TYPES 3\n&STATUS F_CONNECTOR -DISPOSE\nVIEW Name FX FZ\nEND",
     ..CommandSpec::new("&STATUS", "reports what the model holds")
 };
 

@@ -35,7 +35,7 @@ static SPEC: CommandSpec = CommandSpec {
         o::IG_STIFF,
         o::SEND,
         o::X_PY,
-        o::X_DAMPING,
+        o::X_DAMPING_LINE,
         o::SPGRAVITY,
         o::DENSITY,
         o::CONVOLUTION,
@@ -63,7 +63,11 @@ static SPEC: CommandSpec = CommandSpec {
              segments above it do not see the bottom. -TYPE NAME D takes a chain or rope of the library (&STATUS LINE_TYPES) \
              instead of OD. Per segment: OD, -TYPE, -LEN, material, diameters, -CLUMP, -B_TENSION, -C_SN. Per line, on any \
              record: FLAG, -DEPANCHOR, -FRICTION, -SLOPE, -TAB_LIM, -SEND, -X_PY, -X_DAMPING, -CONVOLUTION, -PISTON. \
-             Connects a body to ground.",
+             Connects a body to ground. -PISTON is a link of its position less LD between the first end and the line, in the direction of the tension; it has no weight. \
+             MAX stands as near to LD as TMAX allows; MINMAX stays where it is between TMIN and TMAX. While it can follow, the tension \
+             stays at the limit without stiffness along it; beyond VLONG, VSHORT or the stroke (0 to LT) it departs. At rest the piston \
+             has slid from LD as far as it must. A table or a shape of the line is at LD. The piston does not feel the dashpot of \
+             -X_DAMPING, which also pushes while the ends come nearer.",
     example: "MEDIT\n~WIRE B_CAT 4.625 -LEN 500 -BUOY 0 -WTPL 37.51/1000 -EMOD 29000*0.1 -CLUMP -100\n\
               ~WIRE B_CAT 4.625 -LEN 4000 -BUOY 0 -WTPL 37.51/1000 -EMOD 29000*0.1 -DEPANCHOR 3000\nEND\n&STATUS CLASS ~WIRE",
     ..CommandSpec::new("B_CAT", "catenary to ground")

@@ -5,6 +5,7 @@
 
 use super::catenary::LineError;
 use super::extension::Extension;
+use crate::model::Six;
 use nalgebra::{Matrix2, Vector2};
 
 /// Newton steps.
@@ -26,6 +27,15 @@ pub struct Plane {
     pub stiffness: [[f64; 2]; 2],
     /// d(anchor)/d(distance, rise of the first end) (N/m).
     pub coupling: [[f64; 2]; 2],
+}
+
+impl Plane {
+    /// The forces on both ends, with the direction from the first to the other.
+    pub fn wrenches(&self, [ux, uy]: [f64; 2]) -> [Six; 2] {
+        let ([h, v], [far_h, far_v]) = (self.fairlead, self.anchor);
+        let force = |x: f64, y: f64, z: f64| Six::new(x, y, z, 0.0, 0.0, 0.0);
+        [force(h * ux, h * uy, -v), force(-far_h * ux, -far_h * uy, far_v)]
+    }
 }
 
 fn matrix([[a, b], [c, d]]: [[f64; 2]; 2]) -> Matrix2<f64> {

@@ -31,7 +31,7 @@ pub const LINE_OPTIONS: &[OptionSpec] = &[
     o::IG_STIFF,
     o::SEND,
     o::X_PY,
-    o::X_DAMPING,
+    o::X_DAMPING_LINE,
     o::SPGRAVITY,
     o::DENSITY,
     o::CONVOLUTION,
@@ -57,7 +57,11 @@ static H_CAT_SPEC: CommandSpec = CommandSpec {
     data: &[o::LINE_OD, ValueSpec::new("FLAG", Kind::Choice(&["EXACT"]), "with its weight").or("weightless")],
     options: LINE_OPTIONS,
     detail: "A hanging catenary: it knows neither bottom nor surface, and takes no buoys. Without EXACT it is weightless: \
-             a spring along the chord that only pulls.",
+             a spring along the chord that only pulls. -PISTON is a link of its position less LD between the first end and the line, in the direction of the tension; it has no weight. \
+             MAX stands as near to LD as TMAX allows; MINMAX stays where it is between TMIN and TMAX. While it can follow, the tension \
+             stays at the limit without stiffness along it; beyond VLONG, VSHORT or the stroke (0 to LT) it departs. At rest the piston \
+             has slid from LD as far as it must. A table or a shape of the line is at LD. The piston does not feel the dashpot of \
+             -X_DAMPING, which also pushes while the ends come nearer.",
     example: "MEDIT\n~HANG H_CAT 3 EXACT -LEN 400\nEND\n&STATUS CLASS ~HANG",
     ..CommandSpec::new("H_CAT", "hanging catenary")
 };

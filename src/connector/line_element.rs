@@ -1,10 +1,10 @@
 //! A mooring line as an engine sees it: forces on its two ends at any place of these, followed from one place to the next.
 
-use super::catenary::{Bottom, EndForces, Interpolated, Line, LineError, Row, Segment, State};
+use super::catenary::{Bottom, EndForces, Interpolated, Line, LineError, Regime, Row, Segment, State};
 use super::extended_line::{Plane, behind};
 use super::extension::{Extended, Extension, Pull};
 use super::mooring::Mooring;
-use crate::model::{ClassError, Element, End, Guess, Placement, Response, Situation, Summary};
+use crate::model::{ClassError, Element, End, Guess, Placement, Response, Situation, Six, Summary};
 use nalgebra::{Matrix6, Vector3};
 
 /// How the forces are found.
@@ -92,8 +92,7 @@ impl LineElement {
                     fairlead: found.fairlead,
                     anchor: found.anchor,
                     stiffness: found.stiffness,
-                    // what hangs free pulls at both ends with the difference of its weight, which does not change
-                    coupling: found.stiffness,
+                    coupling: at_anchor(&found, bottom.map_or(0.0, |b| b.friction)),
                 })
             }
             Solver::Whole => whole(&self.mooring.line, x, z, guess),
@@ -128,6 +127,15 @@ impl LineElement {
         behind(by, [x, z], straight, start, self.mooring.line.length(), |x, z| self.plane(x, z, guess))
     }
 
+    /// The same; none of a weightless line that is not tight.
+    fn tight(&self, x: f64, z: f64, by: Extension, guess: &mut Guess) -> Result<Option<(Plane, [f64; 2])>, ClassError> {
+        match self.extended(x, z, by, guess) {
+            Ok(found) => Ok(Some(found)),
+            Err(LineError::Undetermined) if self.mooring.weightless() => Ok(None),
+            Err(error) => Err(self.mooring.error(&error)),
+        }
+    }
+
     /// The line with its ends there.
     fn moved(&self, ends: &[End]) -> Mooring {
         let at = |i: usize| ends.get(i).map(|e| e.pose.origin.into());
@@ -142,6 +150,23 @@ impl LineElement {
             bottom: self.mooring.bottom.map(|b| b + rise),
             ..self.mooring.clone()
         }
+    }
+}
+
+/// d(pull on the anchor)/d(place of the fairlead) of one segment.
+fn at_anchor(found: &EndForces, friction: f64) -> [[f64; 2]; 2] {
+    let [horizontal, vertical] = found.stiffness;
+    let none = [0.0; 2];
+    match found.regime {
+        // what hangs free pulls at both ends with the difference of its weight, which does not change
+        Regime::Suspended | Regime::VerticalTaut => found.stiffness,
+        Regime::Contact | Regime::OnBottomTaut => [horizontal, none],
+        // what is lifted is no longer held by friction, and weighs on the fairlead
+        Regime::ContactFriction => {
+            let [[xx, xz], [zx, zz]] = [horizontal, vertical];
+            [[xx + friction * zx, xz + friction * zz], none]
+        }
+        Regime::ContactFrictionAnchorZero | Regime::FullySlack | Regime::OnBottomSlack => [none; 2],
     }
 }
 
@@ -194,23 +219,16 @@ impl Extended for LineElement {
     fn pull(&self, ends: &[End], by: Extension, guess: &mut Guess, out: &mut Response) -> Result<Pull, ClassError> {
         out.clear(2);
         let (x, along, z) = self.between(ends);
-        let (plane, _) = match self.extended(x, z, by, guess) {
-            Ok(found) => found,
-            Err(LineError::Undetermined) if self.mooring.weightless() => {
-                return Ok(Pull { tension: 0.0, along: Vector3::zeros() });
-            }
-            Err(error) => return Err(self.mooring.error(&error)),
+        let Some((plane, _)) = self.tight(x, z, by, guess)? else {
+            return Ok(Pull { tension: 0.0, along: Vector3::zeros() });
         };
-        let [ux, uy] = along;
-        let ([h, v], [far_h, far_v]) = (plane.fairlead, plane.anchor);
+        let ([h, _], [far_h, _]) = (plane.fairlead, plane.anchor);
         let over = |force: f64, k: [[f64; 2]; 2]| if x > 0.0 { force / x } else { xx_of(k) };
         let first = block(along, plane.stiffness, over(h, plane.stiffness), 1.0);
         let other = block(along, plane.coupling, over(far_h, plane.coupling), -1.0);
-        let pull = Vector3::new(h * ux, h * uy, -v);
-        if let [near, far] = out.wrench.as_mut_slice() {
-            (near[0], near[1], near[2]) = (pull.x, pull.y, pull.z);
-            (far[0], far[1], far[2]) = (-far_h * ux, -far_h * uy, far_v);
-        }
+        let wrenches = plane.wrenches(along);
+        let pull = wrenches[0].fixed_rows::<3>(0).into_owned();
+        out.wrench.copy_from_slice(&wrenches);
         if let [k11, k12, k21, k22] = out.stiffness.as_mut_slice() {
             (*k11, *k12, *k21, *k22) = (first, -first, other, -other);
         }
@@ -221,11 +239,7 @@ impl Extended for LineElement {
         let mut ends = ends.to_vec();
         if by != Extension::NONE {
             let (x, [ux, uy], z) = self.between(&ends);
-            let found = self.extended(x, z, by, &mut None);
-            let [line_x, line_z] = match found {
-                Err(LineError::Undetermined) if self.mooring.weightless() => [x, z],
-                found => found.map_err(|e| self.mooring.error(&e))?.1,
-            };
+            let [line_x, line_z] = self.tight(x, z, by, &mut None)?.map_or([x, z], |(_, at)| at);
             if let Some(first) = ends.first_mut() {
                 first.pose.origin += Vector3::new((x - line_x) * ux, (x - line_x) * uy, line_z - z);
             }
@@ -260,6 +274,12 @@ impl Element for LineElement {
         out: &mut Response,
     ) -> Result<(), ClassError> {
         self.pull(at.ends, Extension::NONE, guess, out).map(|_| ())
+    }
+
+    fn wrenches(&self, at: &Situation, _committed: &[f64], guess: &mut Guess) -> Result<[Six; 2], ClassError> {
+        let (x, along, z) = self.between(at.ends);
+        let found = self.tight(x, z, Extension::NONE, guess)?;
+        Ok(found.map_or([Six::zeros(); 2], |(plane, _)| plane.wrenches(along)))
     }
 
     fn summary(&self, at: &Situation, _committed: &[f64]) -> Result<Summary, ClassError> {

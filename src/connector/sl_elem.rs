@@ -27,7 +27,11 @@ static SL_ELEM_SPEC: CommandSpec = CommandSpec {
         o::LINE_OD,
         ValueSpec::new("FLAG", Kind::Choice(&["TENSION"]), "tension only").or("tension and compression"),
     ],
-    detail: "Its force depends only on the distance between the ends and acts along the line between them.",
+    detail: "Its force depends only on the distance between the ends and acts along the line between them. -PISTON is a link of its position less LD between the first end and the line, in the direction of the tension; it has no weight. \
+             MAX stands as near to LD as TMAX allows; MINMAX stays where it is between TMIN and TMAX. While it can follow, the tension \
+             stays at the limit without stiffness along it; beyond VLONG, VSHORT or the stroke (0 to LT) it departs. At rest the piston \
+             has slid from LD as far as it must. A table or a shape of the line is at LD. The piston does not feel the dashpot of \
+             -X_DAMPING, which also pushes while the ends come nearer.",
     example: "MEDIT\n~TIE SL_ELEM 3 TENSION -LEN 50\nEND\n&STATUS CLASS ~TIE",
     options: LINE_OPTIONS,
     ..CommandSpec::new("SL_ELEM", "spring along the chord between its ends")

@@ -8,5 +8,6 @@ pub mod files;
 pub mod format;
 pub mod output;
 pub mod page;
+pub mod picture;
 pub mod plot;
 pub mod statistic;

@@ -18,12 +18,14 @@ pub struct Options {
     pub tolerance: [f64; 2],
     /// Freedoms that do not move in this solution: number of the body, number of the freedom.
     pub ignored: Vec<(usize, usize)>,
+    /// A body that does not move along a horizontal direction, from +X toward +Y (rad): across it, it does.
+    pub held: Option<(usize, f64)>,
 }
 
 impl Default for Options {
     /// Source: reference/solve.md, &EQUI.
     fn default() -> Self {
-        Options { most: 50, tolerance: [1e-3, 1e-3], ignored: Vec::new() }
+        Options { most: 50, tolerance: [1e-3, 1e-3], ignored: Vec::new(), held: None }
     }
 }
 
@@ -49,10 +51,13 @@ const LOOSE: f64 = 1e-8;
 /// Shortest share of a step that is tried.
 const SHORTEST: f64 = 1e-4;
 
+/// Rows of the system with their shares in one unknown, the larger first.
+type Direction = [(usize, f64); 2];
+
 /// The free unknowns and their measures.
 struct Unknowns {
-    /// Rows of the system that move.
-    rows: Vec<usize>,
+    /// The direction of each: a row of the system, or two with their shares.
+    rows: Vec<Direction>,
     /// Inertia of each (kg or kg m2).
     inertia: DVector<f64>,
     /// Force (N) or moment (N m) that is gravity's on it.
@@ -72,7 +77,13 @@ impl Unknowns {
                 if !free || options.ignored.contains(&(body, freedom)) {
                     continue;
                 }
-                rows.push(6 * body + freedom);
+                match options.held {
+                    Some((held, angle)) if held == body && freedom < 2 => match across(body, angle, &node.free) {
+                        Some(direction) if freedom == 1 => rows.push(direction),
+                        _ => continue,
+                    },
+                    _ => rows.push([(6 * body + freedom, 1.0), (6 * body + freedom, 0.0)]),
+                }
                 let turns = freedom >= 3;
                 inertia.push(if turns { mass * radius * radius } else { mass });
                 measure.push(if turns { mass * radius * system.gravity } else { mass * system.gravity });
@@ -82,12 +93,16 @@ impl Unknowns {
     }
 
     fn residual(&self, state: &State) -> DVector<f64> {
-        DVector::from_iterator(self.rows.len(), self.rows.iter().map(|r| state.residual[*r]))
+        let along = |d: &Direction| d.iter().map(|(r, share)| share * state.residual[*r]).sum();
+        DVector::from_iterator(self.rows.len(), self.rows.iter().map(along))
     }
 
     fn stiffness(&self, state: &State) -> DMatrix<f64> {
         DMatrix::from_fn(self.rows.len(), self.rows.len(), |i, j| match (self.rows.get(i), self.rows.get(j)) {
-            (Some(r), Some(c)) => state.stiffness[(*r, *c)],
+            (Some(rows), Some(columns)) => rows
+                .iter()
+                .flat_map(|(r, one)| columns.iter().map(move |(c, other)| one * other * state.stiffness[(*r, *c)]))
+                .sum(),
             _ => 0.0,
         })
     }
@@ -106,11 +121,11 @@ impl Unknowns {
     }
 
     fn freedom(&self, unknown: usize) -> usize {
-        self.rows.get(unknown).map_or(0, |r| r % 6)
+        self.rows.get(unknown).map_or(0, |[(r, _), _]| r % 6)
     }
 
     fn body(&self, unknown: usize) -> usize {
-        self.rows.get(unknown).map_or(0, |r| r / 6)
+        self.rows.get(unknown).map_or(0, |[(r, _), _]| r / 6)
     }
 
     /// The share of a step that stays within the longest.
@@ -124,13 +139,23 @@ impl Unknowns {
 
     fn moved(&self, poses: &[Pose], step: &DVector<f64>, share: f64) -> Vec<Pose> {
         let mut motions = vec![Six::zeros(); poses.len()];
-        for (i, s) in step.iter().enumerate() {
-            if let Some(motion) = motions.get_mut(self.body(i)) {
-                motion[self.freedom(i)] = share * s;
+        for (direction, s) in self.rows.iter().zip(step.iter()) {
+            for (row, part) in direction {
+                if let Some(motion) = motions.get_mut(row / 6) {
+                    motion[row % 6] += share * part * s;
+                }
             }
         }
         poses.iter().zip(&motions).map(|(p, m)| if *m == Six::zeros() { *p } else { p.moved(m) }).collect()
     }
+}
+
+/// The horizontal direction across an angle (rad), where the body is free in both.
+fn across(body: usize, angle: f64, free: &[bool; 6]) -> Option<Direction> {
+    let [x, y, ..] = *free;
+    let (x_share, y_share) = (-angle.sin(), angle.cos());
+    let (x_row, y_row) = ((6 * body, x_share), (6 * body + 1, y_share));
+    (x && y).then_some(if x_share.abs() > y_share.abs() { [x_row, y_row] } else { [y_row, x_row] })
 }
 
 /// Brings the bodies of a state to rest.
@@ -246,6 +271,10 @@ fn direction(unknowns: &Unknowns, stiffness: &DMatrix<f64>, residual: &DVector<f
 
 /// Freedoms along which nothing holds a body.
 fn loose(system: &System, unknowns: &Unknowns, state: &State) -> Vec<(String, String)> {
+    if unknowns.rows.is_empty() {
+        // no matrix has eigenvalues then
+        return Vec::new();
+    }
     let stiffness = unknowns.stiffness(state);
     let root = unknowns.inertia.map(|d| 1.0 / d.sqrt());
     let scaled = DMatrix::from_fn(root.len(), root.len(), |i, j| {

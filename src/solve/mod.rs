@@ -2,10 +2,16 @@
 //! restoring forces. They know nothing of commands, files or printing.
 
 mod equilibrium;
+pub mod excursion;
+pub mod excursion_tables;
 mod modes;
+pub mod offset;
+mod outline;
+pub mod scene;
 mod settle;
 mod system;
 pub mod tables;
+pub mod watch;
 
 pub use equilibrium::{Equilibrium, Options, equilibrium};
 pub use modes::{Mode, modes};

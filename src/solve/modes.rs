@@ -23,6 +23,9 @@ pub fn modes(system: &System, state: &State) -> Vec<Mode> {
     let free = |i: usize| system.nodes.get(i / 6).and_then(|n| n.free.get(i % 6)).copied().unwrap_or(false);
     let rows: Vec<usize> = (0..mass.nrows()).filter(|i| free(*i)).collect();
     let (heavy, light): (Vec<usize>, Vec<usize>) = rows.iter().partition(|i| mass[(**i, **i)] > 0.0);
+    if heavy.is_empty() {
+        return Vec::new();
+    }
     let part = |m: &DMatrix<f64>, r: &[usize], c: &[usize]| m.select_rows(r).select_columns(c);
     let symmetric = (&state.stiffness + state.stiffness.transpose()) * 0.5;
     let mut k = part(&symmetric, &heavy, &heavy);

@@ -2,7 +2,7 @@
 
 use crate::hydro::{Category, Floating, Load, carried, transferred, turning};
 use crate::model::{
-    Body, ClassError, Connector, Element, End, Guess, Mass, Model, Pose, Response, Situation, Surroundings,
+    Body, ClassError, Connector, Element, End, Guess, Mass, Model, Pose, Response, Situation, Six, Surroundings,
 };
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Vector3};
 
@@ -24,7 +24,7 @@ impl SolveError {
         SolveError { who: None, error }
     }
 
-    fn of(who: &str) -> impl Fn(ClassError) -> SolveError + '_ {
+    pub(super) fn of(who: &str) -> impl Fn(ClassError) -> SolveError + '_ {
         move |error| SolveError { who: Some(who.to_string()), error }
     }
 }
@@ -46,7 +46,7 @@ pub struct Node {
 
 /// What an end of a connector is fixed to.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Attachment {
+pub(super) enum Attachment {
     Ground(Pose),
     /// A body by its number, and the point in its system (m).
     Body(usize, Vector3<f64>),
@@ -54,12 +54,12 @@ enum Attachment {
 
 /// A connector of the system.
 #[derive(Debug)]
-struct Link {
-    name: String,
-    element: Box<dyn Element>,
-    ends: [Attachment; 2],
+pub(super) struct Link {
+    pub name: String,
+    pub element: Box<dyn Element>,
+    pub ends: [Attachment; 2],
     /// Where its values stand in the vector of states.
-    states: std::ops::Range<usize>,
+    pub states: std::ops::Range<usize>,
 }
 
 /// A force on a body that is told apart.
@@ -91,17 +91,27 @@ pub struct State {
     trial: Vec<f64>,
 }
 
+impl State {
+    /// Bodies in these poses, with nothing evaluated yet.
+    pub fn at(poses: Vec<Pose>) -> Self {
+        State { poses, ..State::default() }
+    }
+}
+
 /// Bodies and connectors as engines see them.
 #[derive(Debug)]
 pub struct System {
     /// Its bodies, in the order of the model.
     pub nodes: Vec<Node>,
-    links: Vec<Link>,
+    pub(super) links: Vec<Link>,
     /// States of all connectors, committed.
     pub states: Vec<f64>,
-    surroundings: Surroundings,
+    pub(super) surroundings: Surroundings,
     /// Acceleration of gravity (m/s2).
     pub gravity: f64,
+    /// Forces and moments that act on bodies besides all others, about their origins, global axes; they keep their
+    /// directions.
+    pub applied: Vec<(usize, Six)>,
 }
 
 impl System {
@@ -132,13 +142,14 @@ impl System {
             let ends = attachments(model, connector);
             links.push(Link { name: connector.name.clone(), element, ends, states: from..states.len() });
         }
-        Ok(System { nodes, links, states, surroundings: model.surroundings(), gravity: model.defaults.gravity })
+        let (surroundings, gravity) = (model.surroundings(), model.defaults.gravity);
+        Ok(System { nodes, links, states, surroundings, gravity, applied: Vec::new() })
     }
 
     /// A state with the bodies where they stand in the model.
     pub fn state(&self, model: &Model) -> State {
         let poses = self.nodes.iter().map(|n| model.bodies.get(&n.key).map(|b| Pose::of(&b.place)).unwrap_or_default());
-        State { poses: poses.collect(), ..State::default() }
+        State::at(poses.collect())
     }
 
     /// Evaluates everything at the poses of a state.
@@ -165,6 +176,10 @@ impl System {
                 let mut block = state.stiffness.fixed_view_mut::<6, 6>(6 * index, 6 * index);
                 block += load.stiffness;
             }
+        }
+        for (body, wrench) in self.applied.iter().filter(|(body, _)| *body < self.nodes.len()) {
+            let mut at = state.residual.fixed_rows_mut::<6>(6 * body);
+            at += wrench;
         }
         for (link, guess) in self.links.iter().zip(&mut state.guesses) {
             let ends = link.ends.map(|end| End::still(pose_of(&end, &state.poses)));
@@ -281,7 +296,7 @@ fn attachments(model: &Model, connector: &Connector) -> [Attachment; 2] {
     [on_body(0).unwrap_or(Attachment::Ground(first)), on_body(1).unwrap_or(Attachment::Ground(second))]
 }
 
-fn pose_of(end: &Attachment, poses: &[Pose]) -> Pose {
+pub(super) fn pose_of(end: &Attachment, poses: &[Pose]) -> Pose {
     match end {
         Attachment::Ground(pose) => *pose,
         Attachment::Body(index, at) => {
@@ -292,7 +307,7 @@ fn pose_of(end: &Attachment, poses: &[Pose]) -> Pose {
 }
 
 /// From the body's origin to the end (m, global).
-fn arm(end: &Attachment, poses: &[Pose]) -> Vector3<f64> {
+pub(super) fn arm(end: &Attachment, poses: &[Pose]) -> Vector3<f64> {
     match end {
         Attachment::Ground(_) => Vector3::zeros(),
         Attachment::Body(index, at) => poses.get(*index).map_or(Matrix3::identity(), |p| p.axes) * at,

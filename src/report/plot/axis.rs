@@ -35,6 +35,11 @@ impl Axis {
         Some(Axis { low: low - room, high: high + room, most: most.max(2) })
     }
 
+    /// An axis from one value to a larger one.
+    pub fn spanning(low: f64, high: f64, most: usize) -> Axis {
+        Axis { low, high, most }
+    }
+
     /// Where a value stands: 0 at the low end, 1 at the high one.
     pub fn share(&self, value: f64) -> f64 {
         (value - self.low) / (self.high - self.low)
@@ -48,7 +53,7 @@ impl Axis {
     }
 
     /// The ticks, from the low end up.
-    fn ticks(&self, most: usize) -> Vec<f64> {
+    pub fn ticks(&self, most: usize) -> Vec<f64> {
         let step = self.step(most);
         let (first, last) = ((self.low / step).ceil(), (self.high / step).floor());
         // counted in whole numbers; an axis never has more ticks than it may

@@ -29,8 +29,8 @@ const LEGEND: (i32, i32) = (20, 26);
 
 /// What differs between a page and a terminal: sizes in pixels of the surface, numbers of ticks.
 pub struct Look {
-    terminal: bool,
-    text: i32,
+    pub terminal: bool,
+    pub text: i32,
     margin: i32,
     areas: (i32, i32),
     ticks: (usize, usize),
@@ -48,7 +48,8 @@ impl Look {
     }
 }
 
-type Plane<'a, B> = ChartContext<'a, B, Cartesian2d<Axis, Axis>>;
+/// A surface with its axes.
+pub type Plane<'a, B> = ChartContext<'a, B, Cartesian2d<Axis, Axis>>;
 
 /// Draws a chart.
 ///
@@ -59,9 +60,30 @@ pub fn draw<B: DrawingBackend>(chart: &Chart, area: &DrawingArea<B, Shift>, look
     if let Some((x, y)) = points().find(|(x, y)| x.abs().max(y.abs()) > super::axis::LARGEST) {
         return Err(PlotError::Range(x, y));
     }
+    area.fill(&WHITE).map_err(refused)?;
+    let (mut plane, x, y) =
+        if chart.polar { super::polar::plane(chart, area, look)? } else { meshed(chart, area, look)? };
+    // marks that stand alone are drawn last, so that no line hides them
+    for marks in [false, true] {
+        for (index, series) in chart.series.iter().enumerate().filter(|(_, s)| s.is_marks() == marks) {
+            curve(&mut plane, index, series, (look, shows_points(chart, series)))?;
+        }
+    }
+    if chart.series.len() > 1 && !look.terminal {
+        legend(chart, &plane, (&x, &y))?;
+    }
+    Ok(())
+}
+
+/// Draws the axes and mesh of a chart, and returns the plane for its curves with its axes.
+fn meshed<'a, B: DrawingBackend + 'a>(
+    chart: &Chart,
+    area: &DrawingArea<B, Shift>,
+    look: &Look,
+) -> Result<(Plane<'a, B>, Axis, Axis), PlotError> {
+    let points = || chart.series.iter().flat_map(Series::finite);
     let x = Axis::of(points().map(|p| p.0), look.ticks.0).ok_or(PlotError::Empty)?;
     let y = Axis::of(points().map(|p| p.1), look.ticks.1).ok_or(PlotError::Empty)?;
-    area.fill(&WHITE).map_err(refused)?;
     let mut builder = ChartBuilder::on(area);
     builder.margin(look.margin).x_label_area_size(look.areas.0).y_label_area_size(look.areas.1);
     if !look.terminal {
@@ -83,16 +105,7 @@ pub fn draw<B: DrawingBackend>(chart: &Chart, area: &DrawingArea<B, Shift>, look
         mesh.light_line_style(RGBColor(240, 240, 240)).bold_line_style(RGBColor(215, 215, 215));
     }
     mesh.draw().map_err(refused)?;
-    // marks that stand alone are drawn last, so that no line hides them
-    for marks in [false, true] {
-        for (index, series) in chart.series.iter().enumerate().filter(|(_, s)| s.is_marks() == marks) {
-            curve(&mut plane, index, series, (look, shows_points(chart, series)))?;
-        }
-    }
-    if chart.series.len() > 1 && !look.terminal {
-        legend(chart, &plane, (&x, &y))?;
-    }
-    Ok(())
+    Ok((plane, x, y))
 }
 
 fn colour(index: usize) -> RGBColor {

@@ -1,9 +1,10 @@
 //! Plots: one description, drawn through plotters onto three surfaces: SVG, PNG, and the terminal.
 
 mod axis;
-mod draw;
-mod raster;
-mod terminal;
+pub(super) mod draw;
+mod polar;
+pub(super) mod raster;
+pub(super) mod terminal;
 
 use crate::language::units::UnitSystem;
 use crate::report::{format, page};
@@ -37,6 +38,8 @@ pub struct Chart {
     pub y_label: String,
     /// The lines.
     pub series: Vec<Series>,
+    /// Whether it is a polar plot: both axes have one scale, and circles and rays stand in place of a mesh.
+    pub polar: bool,
 }
 
 /// Why a plot could not be drawn.
@@ -45,6 +48,12 @@ pub enum PlotError {
     /// No finite point.
     #[error("there is nothing to plot: no finite points")]
     Empty,
+    /// A polar plot over what is no direction.
+    #[error("a polar plot goes over directions, and {0} is no angle")]
+    NoAngle(String),
+    /// A polar plot of a distance below zero.
+    #[error("a polar plot has no distances below zero, and {0} is {1}")]
+    Negative(String, f64),
     /// A point beyond what an axis can bear.
     #[error("the point {0:e}, {1:e} is too large to be plotted")]
     Range(f64, f64),
@@ -113,6 +122,7 @@ impl Chart {
             x_label: x.map_or(String::new(), |x| format::head(x, units)),
             y_label,
             series: series.collect(),
+            polar: false,
         }
     }
 
@@ -221,6 +231,7 @@ mod tests {
             x_label: String::new(),
             y_label: String::new(),
             series: vec![Series { name: String::new(), points }],
+            polar: false,
         };
         assert_eq!(series(vec![None]).svg(), Err(PlotError::Empty));
         assert_eq!(series(vec![Some((f64::NAN, 1.0)), Some((0.0, f64::INFINITY))]).png(), Err(PlotError::Empty));
@@ -251,7 +262,13 @@ mod tests {
             let point = |n: usize| rows.contains(&n).then_some((n as f64, 1.0));
             Series { name: "Joint".into(), points: (0..9).map(point).collect() }
         };
-        let chart = |series| Chart { title: String::new(), x_label: String::new(), y_label: String::new(), series };
+        let chart = |series| Chart {
+            title: String::new(),
+            x_label: String::new(),
+            y_label: String::new(),
+            series,
+            polar: false,
+        };
         // a gap, then a point by itself within a line, then marks that stand before the line among the columns
         let mut broken = line.clone();
         broken.points[4] = None;
@@ -314,9 +331,13 @@ mod tests {
             lines in 0usize..60,
         ) {
             let series = vec![Series { name: "a".into(), points: points.clone() }, Series { name: "b".into(), points }];
-            let chart = Chart { title: "\u{1b}t".into(), x_label: String::new(), y_label: String::new(), series };
-            let drawn = chart.terminal(columns, lines);
-            prop_assert_eq!(drawn.is_ok(), chart.svg().is_ok());
+            let title = "\u{1b}t".to_string();
+            for polar in [false, true] {
+                let (series, title) = (series.clone(), title.clone());
+                let chart = Chart { title, x_label: String::new(), y_label: String::new(), series, polar };
+                let drawn = chart.terminal(columns, lines);
+                prop_assert_eq!(drawn.is_ok(), chart.svg().is_ok());
+            }
         }
     }
 }

@@ -1,0 +1,174 @@
+//! Names beside what they name: each stands where it hides the least, and none over another.
+
+/// How far a name may stand from its place, nearest first, in heights of a letter.
+const REACH: [f64; 5] = [0.35, 0.9, 1.7, 2.8, 4.2];
+/// Where a name may stand beside its place: to the right, upward (1, 0 or -1 each).
+const SIDES: [(i32, i32); 8] = [(1, 0), (1, 1), (1, -1), (0, 1), (0, -1), (-1, 0), (-1, 1), (-1, -1)];
+/// Names that are tried; those behind are counted as left out.
+const MOST: usize = 2000;
+
+/// What is to be named.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Label {
+    /// The name.
+    pub text: String,
+    /// The pixel it names.
+    pub at: (i32, i32),
+    /// Which colour it has: an index of the drawing's own.
+    pub tone: usize,
+}
+
+/// A name that found its place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Placed {
+    /// The name.
+    pub label: Label,
+    /// Left, top, width, height (pixels).
+    pub at: [i32; 4],
+}
+
+/// The drawing as the names see it: where ink is.
+pub struct Sheet {
+    /// Left, top, width, height (pixels).
+    at: [i32; 4],
+    letter: (i32, i32),
+    /// Pixels of a cell of ink.
+    cell: (i32, i32),
+    columns: i32,
+    ink: Vec<bool>,
+}
+
+impl Sheet {
+    /// A rectangle without ink; letters are so many pixels wide and high.
+    pub fn new(at: [i32; 4], letter: (i32, i32)) -> Sheet {
+        let cell = ((letter.0 / 2).max(1), (letter.1 / 4).max(1));
+        let columns = at[2] / cell.0 + 1;
+        let cells = i64::from(columns) * i64::from(at[3] / cell.1 + 1);
+        Sheet { at, letter, cell, columns, ink: vec![false; usize::try_from(cells).unwrap_or(0)] }
+    }
+
+    fn index(&self, x: i32, y: i32) -> Option<usize> {
+        let (column, row) = ((x - self.at[0]).div_euclid(self.cell.0), (y - self.at[1]).div_euclid(self.cell.1));
+        let inside = (0..self.columns).contains(&column) && row >= 0;
+        usize::try_from(i64::from(row) * i64::from(self.columns) + i64::from(column)).ok().filter(|_| inside)
+    }
+
+    /// Notes a stroke.
+    pub fn mark(&mut self, points: &[(i32, i32)]) {
+        for (a, b) in points.iter().zip(points.iter().skip(1)) {
+            let (dx, dy) = (b.0 - a.0, b.1 - a.1);
+            let steps = (dx.abs() / self.cell.0).max(dy.abs() / self.cell.1) + 1;
+            for step in 0..=steps {
+                let part = |d: i32| (f64::from(d) * f64::from(step) / f64::from(steps)).round() as i32;
+                if let Some(slot) = self.index(a.0 + part(dx), a.1 + part(dy)).and_then(|i| self.ink.get_mut(i)) {
+                    *slot = true;
+                }
+            }
+        }
+    }
+
+    /// Ink under a rectangle, as a share of it.
+    fn hidden(&self, [left, top, width, height]: [i32; 4]) -> f64 {
+        let (mut covered, mut all) = (0u32, 0u32);
+        for y in (top..top + height).step_by(usize::try_from(self.cell.1).unwrap_or(1)) {
+            for x in (left..left + width).step_by(usize::try_from(self.cell.0).unwrap_or(1)) {
+                all += 1;
+                covered += u32::from(self.index(x, y).and_then(|i| self.ink.get(i)).copied().unwrap_or(true));
+            }
+        }
+        f64::from(covered) / f64::from(all.max(1))
+    }
+
+    /// Places names in the order given: each where it covers the least ink near its place, inside of the sheet and over
+    /// no other name. Those that find no place are left out; their number is the second value.
+    pub fn place(&self, labels: Vec<Label>) -> (Vec<Placed>, usize) {
+        let mut placed: Vec<Placed> = Vec::new();
+        let count = labels.len();
+        for label in labels.into_iter().take(MOST) {
+            let free = |at: &[i32; 4]| self.holds(at) && !placed.iter().any(|p| overlap(&p.at, at));
+            let cost = |at: &[i32; 4], reach: f64| self.hidden(*at) + 0.12 * reach;
+            let spots = REACH.iter().flat_map(|reach| SIDES.iter().map(move |side| (*reach, *side)));
+            let spots = spots.map(|(reach, side)| (reach, self.beside(&label, reach, side)));
+            let best = spots.filter(|(_, at)| free(at)).map(|(reach, at)| (cost(&at, reach), at));
+            // the first of equals, so that the picture is the same every time
+            let best = best.fold(None, |best: Option<(f64, [i32; 4])>, new| match best {
+                Some(old) if old.0 <= new.0 => Some(old),
+                _ => Some(new),
+            });
+            placed.extend(best.map(|(_, at)| Placed { label, at }));
+        }
+        let left_out = count - placed.len();
+        (placed, left_out)
+    }
+
+    /// The rectangle of a name on a side of its place, on whole letters where the sheet is made of them.
+    fn beside(&self, label: &Label, reach: f64, (h, v): (i32, i32)) -> [i32; 4] {
+        let width = self.letter.0.saturating_mul(i32::try_from(label.text.chars().count()).unwrap_or(0));
+        let height = self.letter.1;
+        let slant = if h != 0 && v != 0 { 0.7 } else { 1.0 };
+        let by = ((slant * reach * f64::from(height)).round() as i32).max(self.letter.0);
+        let left = match h {
+            1 => label.at.0 + by,
+            -1 => label.at.0 - by - width,
+            _ => label.at.0 - width / 2,
+        };
+        let top = match v {
+            1 => label.at.1 - by - height,
+            -1 => label.at.1 + by,
+            _ => label.at.1 - height / 2,
+        };
+        if height > 4 {
+            return [left, top, width, height];
+        }
+        let whole = |at: i32, size: i32| at.div_euclid(size) * size;
+        [whole(left, self.letter.0), whole(top + height / 2, height), width, height]
+    }
+
+    fn holds(&self, at: &[i32; 4]) -> bool {
+        let [left, top, width, height] = self.at;
+        at[0] >= left && at[1] >= top && at[0] + at[2] <= left + width && at[1] + at[3] <= top + height
+    }
+}
+
+fn overlap(a: &[i32; 4], b: &[i32; 4]) -> bool {
+    a[0] < b[0] + b[2] && b[0] < a[0] + a[2] && a[1] < b[1] + b[3] && b[1] < a[1] + a[3]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn label(text: &str, at: (i32, i32)) -> Label {
+        Label { text: text.into(), at, tone: 0 }
+    }
+
+    #[test]
+    fn names_at_one_place_stand_beside_each_other_and_those_without_room_are_counted() {
+        let sheet = Sheet::new([0, 0, 300, 200], (8, 16));
+        let (placed, left_out) = sheet.place((0..200).map(|n| label(&format!("N{n}"), (150, 100))).collect());
+        assert!(placed.len() > 12 && placed.len() + left_out == 200, "{}", placed.len());
+        for (i, a) in placed.iter().enumerate() {
+            assert!(sheet.holds(&a.at));
+            assert!(placed.iter().skip(i + 1).all(|b| !overlap(&a.at, &b.at)));
+        }
+    }
+
+    #[test]
+    fn a_name_stands_off_the_ink() {
+        let mut sheet = Sheet::new([0, 0, 300, 200], (8, 16));
+        assert_eq!(sheet.place(vec![label("NAME", (150, 100))]).0[0].at[0], 158);
+        // a stroke to the right of the place sends it elsewhere
+        sheet.mark(&[(150, 100), (290, 100)]);
+        let (placed, _) = sheet.place(vec![label("NAME", (150, 100))]);
+        assert_eq!(sheet.hidden(placed[0].at), 0.0, "{placed:?}");
+    }
+
+    #[test]
+    fn a_name_in_a_terminal_stands_on_whole_characters() {
+        let sheet = Sheet::new([0, 0, 80, 80], (2, 4));
+        for (placed, at) in [(41, 43), (17, 3)].map(|at| (sheet.place(vec![label("AB", at)]).0, at)) {
+            assert!(placed[0].at[0] % 2 == 0 && placed[0].at[1] % 4 == 0, "{at:?} {placed:?}");
+            assert_eq!(placed[0].at[1] / 4, at.1 / 4);
+        }
+    }
+}

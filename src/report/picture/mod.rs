@@ -1,0 +1,230 @@
+//! Pictures: a scene in one or more views, on a page (SVG, PNG) or in the terminal.
+
+mod draw;
+mod labels;
+mod view;
+
+pub use view::View;
+
+use crate::language::units::{Dim, UnitSystem};
+use crate::model::Position;
+use crate::report::format;
+use crate::report::page;
+use crate::report::plot::draw::refused;
+use crate::report::plot::{PlotError, raster, terminal};
+use crate::solve::scene::{Scene, Sign, Stroke};
+use draw::{Look, Pen, SIGNS, STROKES, mark_index};
+use plotters::coord::Shift;
+use plotters::drawing::{DrawingArea, IntoDrawingArea};
+use plotters::prelude::{BLACK, DrawingBackend, RGBColor, SVGBackend, WHITE};
+use std::cell::RefCell;
+use std::rc::Rc;
+use view::{Extent, Frame, Seen, round_length};
+
+/// Width of a page and its margin (pixels).
+const PAGE: (i32, i32) = (1000, 16);
+/// Height of the title, of the words above a view, of the axes and scale below it, of a row of the legend (pixels).
+const ROWS: [i32; 4] = [44, 24, 68, 26];
+/// Pixels left free within the frame of a view: at each side, above and below.
+const FREE: (i32, i32) = (70, 36);
+/// Least and largest height of a view (pixels): of a plan or isometric view, and of an elevation.
+const HEIGHTS: [(i32, i32); 2] = [(160, 620), (150, 420)];
+/// A coordinate beyond this (m) is not drawn.
+const LARGEST: f64 = 1e9;
+
+/// A picture of a system.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    /// Title.
+    pub title: String,
+    /// What is drawn.
+    pub scene: Scene,
+    /// From where, one drawing each.
+    pub views: Vec<View>,
+    /// Whether names are written.
+    pub names: bool,
+    /// Units of the scale bar.
+    pub units: UnitSystem,
+}
+
+/// The corners of a rectangle at an elevation about all that a scene holds, with a little room.
+fn around(scene: &Scene, z: f64) -> [Position; 4] {
+    let extent = Extent::of(scene.places().map(|[x, y, _]| [x, y]));
+    let extent = extent.unwrap_or(Extent { low: [0.0; 2], high: [0.0; 2] });
+    let [w, h] = extent.size().map(|s| 0.05 * s);
+    let ([x0, y0], [x1, y1]) = (extent.low, extent.high);
+    [[x0 - w, y0 - h, z], [x1 + w, y0 - h, z], [x1 + w, y1 + h, z], [x0 - w, y1 + h, z]]
+}
+
+impl Picture {
+    /// What a view reaches; water and ground belong to every view but the plan.
+    fn extent(&self, view: &View) -> Result<Extent, PlotError> {
+        if let Some(far) = self.scene.places().find(|p| p.iter().any(|c| !c.is_finite() || c.abs() > LARGEST)) {
+            let size = |i: usize| far.get(i).copied().unwrap_or(f64::NAN);
+            return Err(PlotError::Range(size(0), size(1)));
+        }
+        let mut places: Vec<Position> = self.scene.places().collect();
+        let first = *places.first().ok_or(PlotError::Empty)?;
+        let levels = [Some(self.scene.surface), self.scene.bottom].into_iter().flatten();
+        match view.kind {
+            Seen::Plan => {}
+            Seen::Elevation => places.extend(levels.map(|z| [first[0], first[1], z])),
+            Seen::Axonometric => places.extend(levels.flat_map(|z| around(&self.scene, z))),
+        }
+        Extent::of(places.into_iter().map(|at| view.project(at))).ok_or(PlotError::Empty)
+    }
+
+    /// The picture as a file, by the ending of its name, with the number of names that found no place.
+    ///
+    /// # Errors
+    /// [`PlotError`].
+    pub fn file(&self, name: &str) -> Result<(Vec<u8>, usize), PlotError> {
+        match name.rsplit_once('.').map(|(_, end)| end.to_ascii_lowercase()).as_deref() {
+            Some("svg") => self.svg(),
+            Some("png") => self.png(),
+            _ => Err(PlotError::Kind(name.to_string())),
+        }
+    }
+
+    fn svg(&self) -> Result<(Vec<u8>, usize), PlotError> {
+        let mut text = String::new();
+        let left_out = {
+            let panels = self.panels()?;
+            let size = (PAGE.0.unsigned_abs(), self.height(&panels).unsigned_abs());
+            let area = SVGBackend::with_string(&mut text, size).into_drawing_area();
+            let left_out = self.page(&area, &panels)?;
+            area.present().map_err(refused)?;
+            left_out
+        };
+        Ok((text.into_bytes(), left_out))
+    }
+
+    fn png(&self) -> Result<(Vec<u8>, usize), PlotError> {
+        let panels = self.panels()?;
+        let size = (PAGE.0.unsigned_abs(), self.height(&panels).unsigned_abs());
+        let canvas = Rc::new(RefCell::new(raster::Canvas::new(size.0, size.1)));
+        let left_out = self.page(&DrawingArea::from(&canvas), &panels)?;
+        let bytes = canvas.borrow().encode().map_err(|e| PlotError::Backend(e.to_string()))?;
+        Ok((bytes, left_out))
+    }
+
+    /// The frames of the views on a page, one below the other, each as high as it needs.
+    fn panels(&self) -> Result<Vec<(View, Frame)>, PlotError> {
+        let [title, head, foot, _] = ROWS;
+        let width = PAGE.0 - 2 * PAGE.1;
+        let mut top = title;
+        let mut panels = Vec::new();
+        for view in &self.views {
+            let extent = self.extent(view)?;
+            let [w, h] = extent.size();
+            let [plan, side] = HEIGHTS;
+            let (least, most) = if view.kind == Seen::Elevation { side } else { plan };
+            let natural = f64::from(width - 2 * FREE.0) * h / w + f64::from(2 * FREE.1);
+            let height = (natural.round() as i32).clamp(least, most);
+            panels.push((*view, Frame::fit(&extent, [PAGE.1, top + head, width, height], FREE)));
+            top += head + height + foot;
+        }
+        Ok(panels)
+    }
+
+    fn height(&self, panels: &[(View, Frame)]) -> i32 {
+        let [title, _, foot, legend] = ROWS;
+        panels.last().map_or(title, |(_, frame)| frame.at[1] + frame.at[3] + foot) + legend + PAGE.1 / 2
+    }
+
+    fn page<B: DrawingBackend>(
+        &self,
+        area: &DrawingArea<B, Shift>,
+        panels: &[(View, Frame)],
+    ) -> Result<usize, PlotError> {
+        let look = Look { terminal: false, letter: (8, 16) };
+        let pen = Pen::new(area, &look);
+        area.fill(&WHITE).map_err(refused)?;
+        pen.text(&self.title, (PAGE.1, 12), 22, BLACK)?;
+        let mut left_out = 0;
+        for (view, frame) in panels {
+            let [left, top, width, height] = frame.at;
+            pen.text(&view.title(), (left, top - 20), 15, BLACK)?;
+            left_out += pen.view(&self.scene, view, frame, self.names)?;
+            pen.frame(frame)?;
+            let (right, low) = (left + width, top + height);
+            pen.axes(view, (left + 44, low + 50))?;
+            let (length, words) = self.scale(frame, 0.25 * f64::from(width));
+            pen.scale((right - 10, low + 20), length, &words)?;
+        }
+        let mut x = PAGE.1;
+        let y = self.height(panels) - PAGE.1 / 2 - ROWS[3] / 2;
+        let grey = RGBColor(60, 60, 60);
+        let letters = |words: &str| 8 * i32::try_from(words.len()).unwrap_or(0);
+        for (stroke, words) in self.strokes() {
+            pen.stroke(stroke, vec![(x, y), (x + 30, y)])?;
+            pen.text(words, (x + 36, y - 8), 15, grey)?;
+            x += 36 + letters(words) + 22;
+        }
+        for (sign, words) in self.signs() {
+            pen.sign(sign, (x + 6, y))?;
+            pen.text(words, (x + 18, y - 8), 15, grey)?;
+            x += 18 + letters(words) + 22;
+        }
+        Ok(left_out)
+    }
+
+    /// A round length in user units that takes at most so many pixels: its pixels, and its words.
+    fn scale(&self, frame: &Frame, most: f64) -> (i32, String) {
+        let unit = Dim::Length.from_si(1.0, self.units);
+        let round = round_length(most / frame.scale * unit);
+        let pixels = (round / unit * frame.scale).round() as i32;
+        (
+            pixels,
+            format!(
+                "{} {}",
+                format::number_in_full(format::rounded_to_fifteen_figures(round)),
+                Dim::Length.label(self.units)
+            ),
+        )
+    }
+
+    fn strokes(&self) -> impl Iterator<Item = (Stroke, &'static str)> + '_ {
+        STROKES.into_iter().filter(|(stroke, _)| self.scene.paths.iter().any(|p| p.stroke == *stroke))
+    }
+
+    fn signs(&self) -> impl Iterator<Item = (Sign, &'static str)> + '_ {
+        SIGNS.into_iter().filter(|(sign, _)| self.scene.marks.iter().any(|m| m.sign == *sign))
+    }
+
+    /// The picture for a terminal of so many columns and lines, each view in as many; the legend stands below.
+    ///
+    /// # Errors
+    /// [`PlotError`].
+    pub fn terminal(&self, columns: usize, lines: usize) -> Result<String, PlotError> {
+        let (columns, lines) = (columns.clamp(20, 200), lines.clamp(10, 100));
+        let look = Look { terminal: true, letter: (2, 4) };
+        let mut text = String::new();
+        for view in &self.views {
+            // three lines are for the title, the view and the scale
+            let size = |n: usize, dots: i32| i32::try_from(n).unwrap_or(0) * dots;
+            let extent = self.extent(view)?;
+            let [w, h] = extent.size();
+            let (width, free) = (size(columns, 2), (size(columns, 2) / 20 + 6, 6));
+            // no higher than it needs
+            let needed = f64::from(width - 2 * free.0) * h / w + f64::from(2 * free.1);
+            let height = ((needed / 4.0).ceil() as usize + 2).min(lines - 3);
+            let at = [0, 0, width, size(height, 4)];
+            let frame = Frame::fit(&extent, at, free);
+            let canvas = Rc::new(RefCell::new(terminal::Canvas::new(columns, height)));
+            Pen::new(&DrawingArea::from(&canvas), &look).view(&self.scene, view, &frame, self.names)?;
+            for line in [page::centre(&self.title, columns), page::centre(&view.title(), columns)] {
+                text.push_str(line.trim_end());
+                text.push('\n');
+            }
+            text.push_str(&canvas.borrow().text());
+            let (dots, words) = self.scale(&frame, 0.5 * f64::from(at[2]));
+            let bar = "-".repeat(usize::try_from(dots / 2).unwrap_or(0).saturating_sub(2));
+            text.push_str(&format!("   |{bar}|  {words}   {}\n", view.axes_in_words()));
+        }
+        for (sign, words) in self.signs() {
+            text.push_str(&format!("   {}  {words}\n", terminal::mark(mark_index(sign))));
+        }
+        Ok(text)
+    }
+}

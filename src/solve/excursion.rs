@@ -1,0 +1,244 @@
+//! A body moved along a horizontal direction until a line breaks: what its connectors do to it on the way.
+
+use super::equilibrium::{Options as Rest, equilibrium};
+use super::offset::{Connectors, Pull};
+use super::system::{SolveError, State, System};
+use crate::language::units::Dim;
+use crate::model::{ClassError, Pose, Six, Summary};
+use nalgebra::Vector3;
+
+/// How a body is moved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Path {
+    /// The body's number.
+    pub body: usize,
+    /// The direction, from +X toward +Y (rad).
+    pub direction: f64,
+    /// Whether all else comes to rest at every excursion: the body across the direction, up and down and about its axes,
+    /// and the other bodies. Without it they stay.
+    pub free: bool,
+    /// The largest excursion (m); none: until a line breaks.
+    pub most: Option<f64>,
+}
+
+/// A body at an excursion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Moved {
+    /// The excursion along the direction (m).
+    pub excursion: f64,
+    /// Poses of all bodies.
+    pub poses: Vec<Pose>,
+    /// Forces and moments of the connectors on the body about its origin, global axes.
+    pub wrench: Six,
+    /// What is told of each of its connectors.
+    pub lines: Vec<Summary>,
+}
+
+impl Moved {
+    /// The largest T/break of its connectors, and the number of the one that has it.
+    pub fn worst(&self) -> Option<(f64, usize)> {
+        worst(&self.lines)
+    }
+
+    fn over(&self) -> f64 {
+        self.worst().map_or(-1.0, |(ratio, _)| ratio - 1.0)
+    }
+}
+
+/// The largest T/break of connectors, and the number of the first that has it but for rounding.
+pub fn worst(lines: &[Summary]) -> Option<(f64, usize)> {
+    let ratios = lines.iter().enumerate().filter_map(|(i, l)| Some((l.ratio?, i)));
+    ratios.fold(None, |worst, one| match worst {
+        Some((ratio, _)) if one.0 <= ratio * (1.0 + SAME) => worst,
+        _ => Some(one),
+    })
+}
+
+/// Where a path ends.
+#[derive(Clone, Debug, PartialEq)]
+pub enum End {
+    /// This connector breaks.
+    Breaks(usize),
+    /// The largest excursion asked for.
+    Most,
+    /// Farther on there is no answer, for this reason.
+    Lost(SolveError),
+}
+
+/// Ratios that differ by less are those of lines that stand alike.
+const SAME: f64 = 1e-9;
+/// Largest share of the size of the mooring in one step of the search, and in one step of a body that is free.
+const STRIDE: f64 = 0.05;
+/// A body without a break is not moved farther than so many sizes of its mooring.
+const FARTHEST: f64 = 10.0;
+
+/// A line breaks where its tension is its breaking tension to this share.
+const CLOSE: f64 = 1e-13;
+
+/// A body on its way.
+#[derive(Debug)]
+pub struct Walk<'a> {
+    system: &'a System,
+    path: Path,
+    from: Vec<Pose>,
+    along: Vector3<f64>,
+    connectors: Connectors,
+    size: f64,
+    /// What follows the bodies where they are free.
+    state: State,
+}
+
+impl<'a> Walk<'a> {
+    /// A body of a system, with all bodies where a state has them.
+    ///
+    /// # Errors
+    /// A body without connectors.
+    pub fn new(system: &'a System, start: &[Pose], path: Path) -> Result<Self, SolveError> {
+        let connectors = Connectors::on(system, path.body)?;
+        let from = start.to_vec();
+        let size = connectors.size(system, &from).max(1.0);
+        let along = Vector3::new(path.direction.cos(), path.direction.sin(), 0.0);
+        let state = State::at(from.clone());
+        Ok(Walk { system, path, from, along, connectors, size, state })
+    }
+
+    /// Names of the body's connectors.
+    pub fn names(&self) -> Vec<String> {
+        self.connectors.names(self.system).map(str::to_string).collect()
+    }
+
+    /// The body at an excursion (m); free bodies go there from where they are.
+    ///
+    /// # Errors
+    /// A connector without an answer there, bodies that do not come to rest.
+    pub fn at(&mut self, excursion: f64) -> Result<Moved, SolveError> {
+        let body = self.path.body;
+        let start = self.from.get(body).copied().unwrap_or_default();
+        if self.path.free {
+            let before: Vec<Pose> = self.state.poses.clone();
+            let gone = before.get(body).map_or(0.0, |p| (p.origin - start.origin).dot(&self.along));
+            let strides = ((excursion - gone).abs() / (STRIDE * self.size)).ceil().max(1.0);
+            for n in 1..=strides as usize {
+                let to = if n as f64 >= strides { excursion } else { gone + (excursion - gone) * n as f64 / strides };
+                if let Err(error) = self.rest(start, to) {
+                    self.state = State::at(before);
+                    return Err(error);
+                }
+            }
+        } else if let Some(pose) = self.state.poses.get_mut(body) {
+            pose.origin = start.origin + self.along * excursion;
+        }
+        let mut pull = Pull::default();
+        self.connectors.pull(self.system, &self.state.poses, &mut pull)?;
+        let lines = self.connectors.summaries(self.system, &self.state.poses)?;
+        Ok(Moved { excursion, poses: self.state.poses.clone(), wrench: pull.wrench, lines })
+    }
+
+    /// Puts the body at an excursion and lets all else come to rest.
+    fn rest(&mut self, start: Pose, excursion: f64) -> Result<(), SolveError> {
+        let held = Some((self.path.body, self.path.direction));
+        if let Some(pose) = self.state.poses.get_mut(self.path.body) {
+            let off = excursion - (pose.origin - start.origin).dot(&self.along);
+            pose.origin += self.along * off;
+        }
+        equilibrium(self.system, &mut self.state, &Rest { held, ..Rest::default() }).map(|_| ())
+    }
+
+    /// All bodies where they were.
+    pub fn back(&mut self) {
+        self.state = State::at(self.from.clone());
+    }
+
+    /// The end of the path: the first line to break, or the largest excursion.
+    ///
+    /// # Errors
+    /// No answer where the body is; nothing that breaks, and no largest excursion.
+    pub fn end(&mut self) -> Result<(Moved, End), SolveError> {
+        let mut here = self.at(0.0)?;
+        if let Some((_, line)) = here.worst().filter(|(ratio, _)| *ratio >= 1.0) {
+            return Ok((here, End::Breaks(line)));
+        }
+        if here.worst().is_none() && self.path.most.is_none() {
+            return Err(self.endless("none of its connectors has a breaking tension"));
+        }
+        let mut stride = 1e-3 * self.size;
+        let most = self.path.most.unwrap_or(f64::INFINITY);
+        while here.excursion < most {
+            if here.excursion > FARTHEST * self.size && most.is_infinite() {
+                return Err(self.endless("none of its lines breaks"));
+            }
+            let next = (here.excursion + stride).min(most);
+            match self.at(next) {
+                Ok(there) if there.over() >= 0.0 => return self.breaking(here, there),
+                Ok(there) => {
+                    here = there;
+                    stride = (1.6 * stride).min(STRIDE * self.size);
+                }
+                Err(error) if stride < 1e-9 * self.size => {
+                    return if here.excursion > 0.0 { Ok((here, End::Lost(error))) } else { Err(error) };
+                }
+                Err(_) => stride *= 0.25,
+            }
+        }
+        Ok((here, End::Most))
+    }
+
+    fn endless(&self, why: &str) -> SolveError {
+        let who = self.system.nodes.get(self.path.body).map(|n| n.name.clone());
+        let far = FARTHEST * self.size;
+        let error = ClassError::of(format!("{why} within {{}}"), &[(far, Dim::Length)]);
+        SolveError { who, error: error.help("-DISTANCE says how far it is moved") }
+    }
+
+    /// The excursion at which the first line breaks, between one that holds and one that does not: Ridders, IEEE
+    /// Transactions on Circuits and Systems 26 (1979), 979-980, which is exact for a tension that grows exponentially.
+    fn breaking(&mut self, holds: Moved, broken: Moved) -> Result<(Moved, End), SolveError> {
+        let (mut low, mut high) = (holds, broken);
+        for _ in 0..100 {
+            let width = high.excursion - low.excursion;
+            let close = high.over().min(-low.over()) <= CLOSE;
+            if close || width <= 4.0 * f64::EPSILON * high.excursion.max(1e-3 * self.size) {
+                break;
+            }
+            let middle = self.at(low.excursion + 0.5 * width)?;
+            let (below, between, above) = (low.over(), middle.over(), high.over());
+            let root = (between * between - below * above).sqrt();
+            // below is negative and above positive: the root lies between them
+            let guess = middle.excursion - 0.5 * width * between / root;
+            if between >= 0.0 {
+                high = middle
+            } else {
+                low = middle
+            }
+            if guess > low.excursion && guess < high.excursion {
+                let there = self.at(guess)?;
+                if there.over() >= 0.0 { high = there } else { low = there }
+            }
+        }
+        let nearest = if high.over() <= -low.over() { high } else { low };
+        let line = nearest.worst().map_or(0, |(_, line)| line);
+        Ok((nearest, End::Breaks(line)))
+    }
+
+    /// Equal steps from where the body is to the end of its path, `rows` in all.
+    ///
+    /// # Errors
+    /// As [`Walk::end`] and [`Walk::at`].
+    pub fn rows(&mut self, rows: usize) -> Result<(Vec<Moved>, End), SolveError> {
+        let (last, end) = self.end()?;
+        self.back();
+        let count = if last.excursion > 0.0 { rows.max(2) - 1 } else { 0 };
+        let step = |n: usize| last.excursion * n as f64 / count.max(1) as f64;
+        let mut list = (0..count).map(|n| self.at(step(n))).collect::<Result<Vec<_>, _>>()?;
+        list.push(last);
+        Ok((list, end))
+    }
+}
+
+/// Restoring force along a direction (from +X toward +Y, rad), positive when it pushes back; the force across it,
+/// toward its left; and upward (N).
+pub fn resolved(wrench: &Six, direction: f64) -> [f64; 3] {
+    let (sin, cos) = direction.sin_cos();
+    let (x, y) = (wrench[0], wrench[1]);
+    [-(x * cos + y * sin), y * cos - x * sin, wrench[2]]
+}

@@ -1,0 +1,100 @@
+//! What the connectors of one body do to it at a place: their sum and their tensions, without how they change. A solver
+//! that moves a body to many places pays for no stiffness.
+
+use super::system::{Attachment, Link, SolveError, System, arm, pose_of};
+use crate::hydro::carried;
+use crate::model::{ClassError, End, Guess, Pose, Situation, Six, Summary};
+
+/// The connectors on one body, followed from place to place.
+#[derive(Debug)]
+pub struct Connectors {
+    body: usize,
+    /// Their numbers in the system.
+    links: Vec<usize>,
+    guesses: Vec<Guess>,
+}
+
+/// What the connectors of a body do to it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Pull {
+    /// Sum of their forces and moments about the body's origin, global axes (N, N m).
+    pub wrench: Six,
+    /// Force of each on the body (N): of a line, the tension at that end.
+    pub tensions: Vec<f64>,
+}
+
+impl Connectors {
+    /// Those on a body that act, in the order of the model.
+    ///
+    /// # Errors
+    /// None acts on it.
+    pub fn on(system: &System, body: usize) -> Result<Self, SolveError> {
+        let holds = |link: &Link| link.ends.iter().any(|e| matches!(e, Attachment::Body(b, _) if *b == body));
+        let links: Vec<usize> = (0..system.links.len()).filter(|i| system.links.get(*i).is_some_and(holds)).collect();
+        if links.is_empty() {
+            let who = system.nodes.get(body).map(|n| n.name.clone());
+            let error =
+                ClassError::new("no connector acts on it").help("CONNECTOR makes one; &STATUS G_CONNECTOR lists them");
+            return Err(SolveError { who, error });
+        }
+        let guesses = links.iter().map(|_| None).collect();
+        Ok(Connectors { body, links, guesses })
+    }
+
+    fn links<'a>(&'a self, system: &'a System) -> impl Iterator<Item = &'a Link> {
+        self.links.iter().filter_map(|i| system.links.get(*i))
+    }
+
+    /// Their names, as written.
+    pub fn names<'a>(&'a self, system: &'a System) -> impl Iterator<Item = &'a str> {
+        self.links(system).map(|l| l.name.as_str())
+    }
+
+    /// The largest distance between the ends of one of them (m).
+    pub fn size(&self, system: &System, poses: &[Pose]) -> f64 {
+        let distance = |link: &Link| {
+            let [a, b] = link.ends.map(|end| pose_of(&end, poses).origin);
+            (a - b).norm()
+        };
+        self.links(system).map(distance).fold(0.0, f64::max)
+    }
+
+    /// Their forces with the bodies in these poses.
+    ///
+    /// # Errors
+    /// A connector that has no answer there.
+    pub fn pull(&mut self, system: &System, poses: &[Pose], out: &mut Pull) -> Result<(), SolveError> {
+        out.wrench = Six::zeros();
+        out.tensions.clear();
+        for (index, guess) in self.links.iter().zip(&mut self.guesses) {
+            let Some(link) = system.links.get(*index) else { continue };
+            let ends = link.ends.map(|end| End::still(pose_of(&end, poses)));
+            let committed = system.states.get(link.states.clone()).unwrap_or_default();
+            let at = Situation { ends: &ends, step: None, surroundings: &system.surroundings };
+            let both = link.element.wrenches(&at, committed, guess).map_err(SolveError::of(&link.name))?;
+            let mut tension = 0.0;
+            for (end, wrench) in link.ends.iter().zip(&both) {
+                if matches!(end, Attachment::Body(body, _) if *body == self.body) {
+                    out.wrench += carried(wrench, arm(end, poses));
+                    tension = wrench.fixed_rows::<3>(0).norm();
+                }
+            }
+            out.tensions.push(tension);
+        }
+        Ok(())
+    }
+
+    /// What a report tells of each with the bodies in these poses.
+    ///
+    /// # Errors
+    /// A connector that has no answer there.
+    pub fn summaries(&self, system: &System, poses: &[Pose]) -> Result<Vec<Summary>, SolveError> {
+        let one = |link: &Link| {
+            let ends = link.ends.map(|end| End::still(pose_of(&end, poses)));
+            let committed = system.states.get(link.states.clone()).unwrap_or_default();
+            let at = Situation { ends: &ends, step: None, surroundings: &system.surroundings };
+            link.element.summary(&at, committed).map_err(SolveError::of(&link.name))
+        };
+        self.links(system).map(one).collect()
+    }
+}

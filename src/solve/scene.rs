@@ -1,0 +1,289 @@
+//! What the system looks like: bodies, lines in their solved shape, anchors, the water surface and the sea bottom, as
+//! polylines and marks in global coordinates.
+
+pub use super::outline::Outline;
+use super::outline::outline;
+use crate::model::{Body, ClassError, Condition, Connector, Model, Placement, Position};
+use crate::table::{Cell, Table};
+use std::collections::BTreeSet;
+
+/// Largest turn of a drawn line between two points (rad); where it turns more it is given points between.
+const TURN: f64 = 0.05;
+/// Turn beyond which a line is taken to have a corner (rad).
+const CORNER: f64 = 1.0;
+/// Most points given between two rows of a line's shape.
+const MOST_BETWEEN: usize = 12;
+
+/// What a polyline stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Stroke {
+    /// A line that does not act.
+    Inactive,
+    /// A connector without a shape of its own, straight between its ends.
+    Straight,
+    /// A mooring line in its solved shape.
+    Line,
+    /// A mooring line for which no shape was found, straight between its ends.
+    Unsolved,
+    /// The sea bottom under one line, where it is not level with the others.
+    Bottom,
+}
+
+/// What a mark stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Sign {
+    /// Where a line meets the bottom.
+    Touchdown,
+    /// Where two segments of a line join.
+    Joint,
+    /// An end of a connector on a body.
+    Fairlead,
+    /// An end of a connector in the ground.
+    Anchor,
+    /// The origin of a body's axes.
+    Origin,
+}
+
+/// A polyline in the global system (m).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Path {
+    /// What it stands for.
+    pub stroke: Stroke,
+    /// The connector it belongs to.
+    pub name: String,
+    /// Its points, from the first end on (m).
+    pub points: Vec<Position>,
+    /// Whether its last point is in the ground.
+    pub grounded: bool,
+}
+
+/// A marked place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mark {
+    /// What it stands for.
+    pub sign: Sign,
+    /// Its name; empty for one that has none.
+    pub name: String,
+    /// Where it is (m, global).
+    pub at: Position,
+}
+
+/// All that is drawn of a system, in global coordinates (m).
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Scene {
+    /// Bodies.
+    pub bodies: Vec<Outline>,
+    /// Lines, other connectors, uneven bottoms.
+    pub paths: Vec<Path>,
+    /// Marked places.
+    pub marks: Vec<Mark>,
+    /// Elevation of the water surface (m).
+    pub surface: f64,
+    /// Elevation of the level sea bottom (m), where there is one.
+    pub bottom: Option<f64>,
+}
+
+/// What a scene is made of.
+pub struct Choice<'a> {
+    /// Whether a connector is drawn.
+    pub connector: &'a dyn Fn(&Connector) -> bool,
+    /// Whether a body is drawn; one on which a drawn connector ends always is.
+    pub body: &'a dyn Fn(&Body) -> bool,
+    /// Whether to give up.
+    pub stop: &'a dyn Fn() -> bool,
+}
+
+/// A connector that could not be drawn as it is, and why.
+pub type Unshaped = (String, ClassError);
+
+impl Scene {
+    /// The scene of a model with the connectors whose shape could not be found; `None` when told to stop.
+    pub fn of(model: &Model, choice: &Choice) -> Option<(Scene, Vec<Unshaped>)> {
+        let surroundings = model.surroundings();
+        let mut scene =
+            Scene { surface: surroundings.tide, bottom: surroundings.depth.map(|d| -d), ..Scene::default() };
+        let (mut unshaped, mut bottoms) = (Vec::new(), Vec::new());
+        let (mut held, mut marked) = (BTreeSet::new(), BTreeSet::new());
+        for connector in model.connectors.values().filter(|c| (choice.connector)(c)) {
+            if (choice.stop)() {
+                return None;
+            }
+            let drawn = shape(model, connector);
+            for mark in ends(model, connector, drawn.path.as_ref()).into_iter().chain(drawn.marks) {
+                // points are named once, however many connectors end there
+                if mark.name.is_empty() || marked.insert(mark.name.clone()) {
+                    scene.marks.push(mark);
+                }
+            }
+            held.extend(
+                connector
+                    .points
+                    .iter()
+                    .filter_map(|p| model.body_of(model.points.get(&Model::key(p))?).map(|b| b.name.clone())),
+            );
+            scene.paths.extend(drawn.path);
+            bottoms.extend(drawn.bottom.map(|points| (connector.name.clone(), points)));
+            unshaped.extend(drawn.error.map(|e| (connector.name.clone(), e)));
+        }
+        scene.lay(bottoms);
+        for body in model.bodies.values().filter(|b| held.contains(&b.name) || (choice.body)(b)) {
+            let outline = outline(model, body);
+            scene.marks.push(Mark { sign: Sign::Origin, name: String::new(), at: outline.origin });
+            scene.bodies.push(outline);
+        }
+        Some((scene, unshaped))
+    }
+
+    /// The bottom under the lines: one level where they all have it, else a line of its own for each that differs.
+    fn lay(&mut self, bottoms: Vec<(String, Vec<Position>)>) {
+        let level = self.bottom.or_else(|| bottoms.iter().flat_map(|(_, p)| p).map(|[_, _, z]| *z).next());
+        let Some(level) = level else { return };
+        let near = |z: f64| (z - level).abs() <= 1e-6 * (1.0 + level.abs());
+        let uneven: Vec<_> = bottoms.into_iter().filter(|(_, p)| !p.iter().all(|[_, _, z]| near(*z))).collect();
+        if self.bottom.is_some() || uneven.is_empty() {
+            self.bottom = Some(level);
+        }
+        let path = |(name, points)| Path { stroke: Stroke::Bottom, name, points, grounded: false };
+        self.paths.extend(uneven.into_iter().map(path));
+    }
+
+    /// Every place that a picture must show (m).
+    pub fn places(&self) -> impl Iterator<Item = Position> + '_ {
+        let bodies = self.bodies.iter().flat_map(|b| b.shapes.iter().flatten().copied());
+        let paths = self.paths.iter().flat_map(|p| p.points.iter().copied());
+        bodies.chain(paths).chain(self.marks.iter().map(|m| m.at))
+    }
+}
+
+/// What is drawn of one connector.
+#[derive(Default)]
+struct Drawn {
+    path: Option<Path>,
+    marks: Vec<Mark>,
+    bottom: Option<Vec<Position>>,
+    error: Option<ClassError>,
+}
+
+/// A connector as it hangs, or straight where it has no shape or none was found.
+fn shape(model: &Model, connector: &Connector) -> Drawn {
+    let placement = model.placement(connector);
+    let solved = solve(model, connector, &placement);
+    let stroke = |active: Stroke| if connector.active { active } else { Stroke::Inactive };
+    let grounded = !connector.points.get(1).is_some_and(|p| on_body(model, p));
+    let path = |stroke, points| Some(Path { stroke, name: connector.name.clone(), points, grounded });
+    match solved {
+        Ok(Some(table)) => {
+            let shape = Shape::of(&table, &placement);
+            Drawn {
+                path: path(stroke(Stroke::Line), shape.points),
+                marks: shape.marks,
+                bottom: shape.bottom,
+                error: None,
+            }
+        }
+        Ok(None) => {
+            let [from, to] = model.end_poses(connector).map(|p| Position::from(p.origin));
+            let points = if from == to { vec![from] } else { vec![from, to] };
+            Drawn { path: path(stroke(Stroke::Straight), points), ..Drawn::default() }
+        }
+        Err(error) => Drawn {
+            path: placement.other.and_then(|to| path(stroke(Stroke::Unsolved), vec![placement.fairlead, to])),
+            error: connector.active.then_some(error),
+            ..Drawn::default()
+        },
+    }
+}
+
+/// The shape of a mooring line; `None` of a connector that is straight.
+fn solve(model: &Model, connector: &Connector, placement: &Placement) -> Result<Option<Table>, ClassError> {
+    let class = model.classes.get(&Model::key(&connector.class)).filter(|c| c.object.is_line());
+    let Some(class) = class else { return Ok(None) };
+    let line = class.object.line(placement, &model.surroundings())?;
+    match line.geometry(&connector.name, Condition::Placed) {
+        Ok(table) => Ok(Some(table)),
+        // a spring that is pushed together is straight
+        Err(_) if line.configuration(Condition::Placed).is_ok_and(|c| c.tension < 0.0) => Ok(None),
+        Err(error) => Err(error),
+    }
+}
+
+fn on_body(model: &Model, point: &str) -> bool {
+    model.points.get(&Model::key(point)).is_some_and(|p| model.body_of(p).is_some())
+}
+
+/// The marks at the ends of a connector: its points, and the anchor behind a single one.
+fn ends(model: &Model, connector: &Connector, path: Option<&Path>) -> Vec<Mark> {
+    let sign = |body: bool| if body { Sign::Fairlead } else { Sign::Anchor };
+    let named = connector.points.iter().enumerate().filter_map(|(index, name)| {
+        // an end set off from its point is elsewhere than the name
+        let offset = connector.offsets.get(index).is_some_and(|o| *o != [0.0; 3]);
+        let name_shown = if offset { String::new() } else { name.clone() };
+        Some(Mark { sign: sign(on_body(model, name)), name: name_shown, at: model.end(connector, index)? })
+    });
+    let mut marks: Vec<Mark> = named.collect();
+    if let (1, Some(path)) = (connector.points.len(), path)
+        && let [_, .., at] = *path.points.as_slice()
+    {
+        marks.push(Mark { sign: Sign::Anchor, name: String::new(), at });
+    }
+    marks
+}
+
+/// The shape of a line in the global system.
+struct Shape {
+    points: Vec<Position>,
+    marks: Vec<Mark>,
+    bottom: Option<Vec<Position>>,
+}
+
+impl Shape {
+    /// From the table of a line's geometry.
+    fn of(table: &Table, placement: &Placement) -> Shape {
+        let column = |name: &str| -> Vec<Option<f64>> {
+            let found = table.columns.iter().find(|c| c.name == name);
+            found.map_or(Vec::new(), |c| c.cells.iter().map(Cell::number).collect())
+        };
+        let (_, along) = placement.span();
+        let [x0, y0, _] = placement.fairlead;
+        let place = |x: f64, z: f64| [x0 + along[0] * x, y0 + along[1] * x, z];
+        let xs = column("X");
+        let at = |heights: Vec<Option<f64>>| -> Vec<(f64, f64)> {
+            xs.iter().zip(heights).filter_map(|(x, z)| x.zip(z)).collect()
+        };
+        let curve = smooth(&at(column("Z")), &column("Angle"), &column("Arc Length"));
+        let mut marks = Vec::new();
+        for (sign, name) in [(Sign::Touchdown, "Touchdown"), (Sign::Joint, "Joint")] {
+            let mark = |(x, z)| Mark { sign, name: String::new(), at: place(x, z) };
+            marks.extend(at(column(name)).into_iter().map(mark));
+        }
+        let bottom = at(column("Bottom"));
+        let bottom = bottom.first().zip(bottom.last()).map(|(a, b)| vec![place(a.0, a.1), place(b.0, b.1)]);
+        Shape { points: curve.into_iter().map(|(x, z)| place(x, z)).collect(), marks, bottom }
+    }
+}
+
+/// The rows of a shape with points between where the line turns: cubics in the arc length with its known directions at
+/// both rows. Angles are above the horizontal, toward the fairlead (rad); arcs are lengths from the fairlead (m).
+fn smooth(rows: &[(f64, f64)], angles: &[Option<f64>], arcs: &[Option<f64>]) -> Vec<(f64, f64)> {
+    let mut out: Vec<(f64, f64)> = rows.first().copied().into_iter().collect();
+    for ((pair, turn), arc) in rows.windows(2).zip(angles.windows(2)).zip(arcs.windows(2)) {
+        let ([a, b], [Some(from), Some(to)], [Some(start), Some(end)]) = (pair, turn, arc) else {
+            out.extend(pair.last());
+            continue;
+        };
+        let arc = end - start;
+        let turned = (to - from).abs();
+        let pieces = if turned < CORNER { ((turned / TURN).ceil() as usize).clamp(1, MOST_BETWEEN) } else { 1 };
+        for step in 1..pieces {
+            let t = step as f64 / pieces as f64;
+            let (t2, t3) = (t * t, t * t * t);
+            let (h00, h10) = (2.0 * t3 - 3.0 * t2 + 1.0, t3 - 2.0 * t2 + t);
+            let (h01, h11) = (3.0 * t2 - 2.0 * t3, t3 - t2);
+            let x = h00 * a.0 + h01 * b.0 + arc * (h10 * from.cos() + h11 * to.cos());
+            let z = h00 * a.1 + h01 * b.1 - arc * (h10 * from.sin() + h11 * to.sin());
+            out.push((x, z));
+        }
+        out.push(*b);
+    }
+    out
+}
