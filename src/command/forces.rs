@@ -120,7 +120,7 @@ fn spring_rows(table: &mut Table, connector: &Connector, summary: &Summary) {
         let none = || [const { Cell::Missing }; 3];
         let unity = spring.allowable.map(|a| spring.force.abs() / a);
         let mut row: Vec<Cell> = vec![connector.name.as_str().into(), spring.dof.as_str().into()];
-        let turns = spring.dof.len() > 1;
+        let turns = spring.dof.starts_with('R');
         row.extend(if turns { none() } else { own.clone() });
         row.extend(if turns { own } else { none() });
         row.push(unity.into());
