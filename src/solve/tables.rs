@@ -3,7 +3,7 @@
 use super::modes::modes;
 use super::settle::Settled;
 use super::system::{Contribution, FREEDOMS, SolveError, State, System};
-use crate::hydro::Category;
+use crate::hydro::{Category, Load};
 use crate::language::units::Dim;
 use crate::model::{Model, Position, Six};
 use crate::table::{Cell, Digits, Table};
@@ -160,8 +160,14 @@ pub fn stiffnesses(
             table.fact("Z", z, Dim::Length)
         };
         if fits(&node.name) {
-            let sum = own().fold(Matrix6::zeros(), |sum, c| sum + c.load.about(arm).stiffness);
-            list.extend(stiffness(&format!("Stiffness of {}", node.name), &sum).map(point));
+            let wrench = own().fold(Six::zeros(), |sum, c| sum + c.load.wrench);
+            let all = Load { wrench, stiffness: system.followed_stiffness(state, body) };
+            let mut made = stiffness(&format!("Stiffness of {}", node.name), &all.about(arm).stiffness).map(point);
+            if !node.junction && system.nodes.iter().any(|n| n.junction) {
+                made.iter_mut()
+                    .for_each(|t| t.note("junctions follow the body to their own equilibrium; other bodies are held"));
+            }
+            list.extend(made);
         }
         for c in own() {
             let Some(name) = c.connector.as_deref().filter(|name| connectors.contains(name)) else { continue };
