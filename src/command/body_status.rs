@@ -38,7 +38,8 @@ pub fn stiffness(job: &Job, call: &Call, chosen: &Chosen) -> Outcome<Vec<Table>>
     let wrong = |e| told(e, &job.model, call.args.place(0), job.units);
     let about: Option<Position> = call.args.option("-ABOUT").map(|g| [0, 1, 2].map(|i| g.number(i).unwrap_or(0.0)));
     let system = System::of(&job.model, &[]).map_err(wrong)?;
-    let state = system.state(&job.model);
+    let mut state = system.state(&job.model);
+    system.evaluate(&mut state).map_err(wrong)?;
     let named = |name: &str| !chosen.all() && chosen.takes(name);
     let connectors: Vec<&str> =
         job.model.connectors.values().map(|c| c.name.as_str()).filter(|name| named(name)).collect();

@@ -137,7 +137,7 @@ pub fn periods(system: &System, state: &State) -> Table {
     table
 }
 
-/// The stiffness of the bodies that fit, with all that acts on them, and of each of the connectors named, about a point (m,
+/// The stiffness, in an evaluated state, of the bodies that fit, with all that acts on them, and of each of the connectors named, about a point (m,
 /// global), else about the bodies' origins. A connector between two bodies has one for each.
 ///
 /// # Errors
