@@ -73,7 +73,8 @@ fn a_landed_topside_stands_on_its_legs_as_a_rigid_plate_on_four_springs() {
     let side = 2.0 * pull * 50.0 / long;
     let up = 2.0 * pull * 1.5395 / long;
     // moments about the tips' height: of the weight W y, of the tuggers -side 8 + up 6, and as much of the legs
-    let (w, e_x, e_y) = (8000.0 - up, 8000.0 * 0.5 / (8000.0 - up), (-8000.0 * 0.25 + side * 8.0 - up * 6.0) / (8000.0 - up));
+    let (w, e_x, e_y) =
+        (8000.0 - up, 8000.0 * 0.5 / (8000.0 - up), (-8000.0 * 0.25 + side * 8.0 - up * 6.0) / (8000.0 - up));
     // R = W/4 (1 +- e_x / 10 +- e_y / 6) at (+-10, +-6): tilts of 2e-4 move the centers by millimetres, 3e-4 of a leg's load
     for (name, x, y) in [("L1", 1.0, 1.0), ("L2", -1.0, 1.0), ("L3", -1.0, -1.0), ("L4", 1.0, -1.0)] {
         let want = w / 4.0 * (1.0 + x * e_x / 10.0 + y * e_y / 6.0);
@@ -131,7 +132,14 @@ fn a_pin_on_the_axis_and_on_the_ground_of_its_cone_is_held_sideways() {
     let mut state = system.state(&model);
     system.evaluate(&mut state).unwrap();
     // about the origin, in the plane of the tips; yaw: 4 K_h r2, r2 = 136 m2; roll: 4 K_v 36 m2
-    for (freedom, want) in [(0, 4.0 * 8e6), (1, 4.0 * 8e6), (2, 4.0 * 5e7), (3, 4.0 * 5e7 * 36.0), (4, 4.0 * 5e7 * 100.0), (5, 4.0 * 8e6 * 136.0)] {
+    for (freedom, want) in [
+        (0, 4.0 * 8e6),
+        (1, 4.0 * 8e6),
+        (2, 4.0 * 5e7),
+        (3, 4.0 * 5e7 * 36.0),
+        (4, 4.0 * 5e7 * 100.0),
+        (5, 4.0 * 8e6 * 136.0),
+    ] {
         let got = state.stiffness[(freedom, freedom)];
         assert!((got / want - 1.0).abs() < 1e-9, "{freedom}: {got} is not {want}");
     }
