@@ -1,12 +1,20 @@
-//! Hydrostatics of one pose: a box of 12 triangles, a sphere of 2,048, and a tube, floating heeled.
+//! Hydrostatics of one pose: a box of 12 triangles, a sphere of 2,048, and a tube, floating heeled; wind and current on the
+//! box and on the prism of the tube.
 
 #![allow(missing_docs, clippy::unwrap_used)]
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use std::hint::black_box;
+use std::sync::Arc;
+use windlass::hydro::BodyLoad;
+use windlass::hydro::current::CurrentField;
+use windlass::hydro::exposed::Skin;
 use windlass::hydro::hull::{Solid, Surface, Tube};
-use windlass::model::{Place, Pose};
+use windlass::hydro::pieces::PieceLoad;
+use windlass::hydro::steady::{Medium, Steady};
+use windlass::hydro::wind::{Profile, WindField};
+use windlass::model::{Model, Place, Pose};
 
 /// A sphere of radius 10 m between `rows` parallels and twice as many meridians.
 fn sphere(rows: usize) -> Surface {
@@ -31,6 +39,21 @@ fn benches(c: &mut Criterion) {
     let mut group = c.benchmark_group("hydrostatics");
     group.bench_function("box", |b| b.iter(|| black_box(&block).wet(black_box(&pose), 0.0).load(1e4)));
     group.bench_function("tube", |b| b.iter(|| black_box(&tube).wet(black_box(&pose), 0.0).load(1e4)));
+    let wind = WindField::steady(30.0, 0.4, Profile::Power(1.0 / 7.0));
+    let steady = Steady {
+        around: Model::default().surroundings(),
+        wind: Some(wind),
+        current: CurrentField::uniform(1.0, 0.7),
+        waves: Vec::new(),
+    };
+    for (name, surface) in [("box", &block), ("tube", &tube.prism(64).unwrap())] {
+        let skin = Arc::new(Skin::of(surface, &Matrix3::identity()));
+        for (stream, medium) in [("wind", Medium::Air), ("current", Medium::Water)] {
+            let load = PieceLoad::new(Arc::clone(&skin), &steady, medium, Matrix3::identity(), [1.0; 3]);
+            group
+                .bench_function(format!("{stream} on the {name}"), |b| b.iter(|| load.load(black_box(&pose)).unwrap()));
+        }
+    }
     group.bench_function("2,024 triangles", |b| b.iter(|| black_box(&ball).wet(black_box(&pose), 0.0).load(1e4)));
     group.bench_function("faults of 2,024 triangles", |b| b.iter(|| black_box(&ball).faults()));
     group.finish();

@@ -131,6 +131,44 @@ fn cases() -> Vec<Case> {
         ),
         line("H_CAT", "~C H_CAT 100 EXACT -LEN 320 -WTPL 700", "", [200.0, 180.0, -40.0]),
         line("SL_ELEM", "~C SL_ELEM 100 -LEN 250", "", [200.0, 180.0, -40.0]),
+        // TMAX held, TMIN held by a line on the bottom; no piston; TMAX held; the end of the stroke, and too slow a piston
+        line(
+            "B_CAT",
+            "~C B_CAT 100 EXACT -LEN 1100 -BUOY 0 -WTPL 900 -DEP 200 -PISTON MAX 9000 1000 50 50 7E5 -X_DAMPING 2E4 1.5",
+            "-ANCHOR 31 1050",
+            [900.0, 550.0, -195.0],
+        ),
+        line(
+            "B_CAT",
+            "~C B_CAT 100 EXACT -LEN 500 -BUOY 0 -WTPL 900\n~C B_CAT 90 -LEN 600 -BUOY 0 -WTPL 800 -DEP 200 -FRICTION 0.4 \
+             -CONVOLUTION SOFT -PISTON MINMAX 9000 4000 50 50 9E5 5E5 -SEND 3E5",
+            "-ANCHOR 31 1050",
+            [900.0, 550.0, -195.0],
+        ),
+        line(
+            "H_CAT",
+            "~C H_CAT 100 EXACT -LEN 320 -WTPL 700 -CONVOLUTION SOFT -X_DAMPING 4E4 0.5 9E4",
+            "",
+            [200.0, 180.0, -40.0],
+        ),
+        line(
+            "H_CAT",
+            "~C H_CAT 100 EXACT -LEN 300 -WTPL 700 -PISTON MAX 20000 1000 50 50 3E5",
+            "",
+            [200.0, 180.0, -150.0],
+        ),
+        line(
+            "SL_ELEM",
+            "~C SL_ELEM 100 -LEN 250 -PISTON MAX 60000 1000 90 50 3E5 -X_DAMPING 2E4 1",
+            "",
+            [200.0, 180.0, -40.0],
+        ),
+        line(
+            "SL_ELEM",
+            "~C SL_ELEM 100 TENSION -LEN 250 -CONVOLUTION SOFT -PISTON MINMAX 3000 1000 0.1 0.1 3E5 1E3",
+            "",
+            [200.0, 180.0, -40.0],
+        ),
         line("CATENARY", "~C CATENARY 170 0.02 -LEN 360 -EA 7E8", "", [300.0, 180.0, -40.0]),
     ]
 }

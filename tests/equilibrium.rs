@@ -110,3 +110,33 @@ fn a_weight_that_nothing_holds_is_refused_with_its_name_and_direction() {
     assert_eq!(who.as_deref(), Some("LOAD"));
     assert!(error.message.contains("nothing holds it in Z") && error.message.contains("WEIGHT"), "{error}");
 }
+
+#[test]
+fn the_stiffness_of_a_body_whose_junctions_follow_is_the_difference_of_its_forces_when_they_have_followed() {
+    let records = std::fs::read_to_string("scripts/bridles.cif").unwrap();
+    let records: String = records.lines().take_while(|l| !l.starts_with("&STATUS")).map(|l| format!("{l}\n")).collect();
+    let mut model = model(&records, &[]);
+    let buoy = model.bodies.get_index_of("BUOY").unwrap();
+    let held = Options { ignored: (0..6).map(|f| (buoy, f)).collect(), ..Options::default() };
+    let rest = settle(&mut model, &Options::default()).unwrap();
+    let got = rest.system.followed_stiffness(&rest.state, buoy);
+    let start = rest.state.poses.clone();
+    for column in 0..6 {
+        let sides = [1.0, -1.0].map(|sign| {
+            let mut motion = windlass::model::Six::zeros();
+            motion[column] = sign * 1e-4;
+            let mut state = rest.system.state(&model);
+            state.poses = start.clone();
+            state.poses[buoy] = start[buoy].moved(&motion);
+            windlass::solve::equilibrium(&rest.system, &mut state, &held).unwrap();
+            state.residual.fixed_rows::<6>(6 * buoy).into_owned()
+        });
+        let slope = -(sides[0] - sides[1]) / 2e-4;
+        for row in 0..6 {
+            let scale = (got[(row, row)] * got[(column, column)]).abs().sqrt();
+            assert!((slope[row] - got[(row, column)]).abs() < 1e-4 * scale, "[{row}][{column}]: {got} {slope}");
+        }
+    }
+    // with its junctions held the buoy would be four hundred times as stiff
+    assert!(got[(0, 0)] < 0.01 * rest.state.stiffness[(6 * buoy, 6 * buoy)]);
+}

@@ -3,7 +3,7 @@
 use super::chosen::WARNING;
 use super::status::push;
 use crate::hydro::hull::Hydrostatics;
-use crate::hydro::{Floating, Hull};
+use crate::hydro::{Category, Floating, Hull};
 use crate::language::units::{Dim, UnitSystem};
 use crate::model::{Body, ClassError, Mass, Model, Pose, Shape, Six};
 use crate::table::{Cell, Digits, Table};
@@ -122,7 +122,7 @@ fn of_body(model: &Model, body: &Body) -> Result<Vec<Table>, ClassError> {
     let mass = floating.mass;
     let weight = mass.mass * model.defaults.gravity;
     let (mut stiffness, mut wrench) = (Matrix6::zeros(), Six::zeros());
-    for load in &floating.loads {
+    for load in floating.loads.iter().filter(|l| matches!(l.category(), Category::Weight | Category::Buoyancy)) {
         let load = load.load(&pose)?;
         wrench += load.wrench;
         stiffness += load.stiffness;

@@ -3,7 +3,7 @@
 use super::chosen::{WARNING, gathered};
 use super::status::push;
 use crate::language::units::{Dim, UnitSystem};
-use crate::model::{ClassError, Connector, End, Model, Response, Situation, Summary};
+use crate::model::{ClassError, Connector, End, Model, Response, Situation, Six, Summary};
 use crate::table::{Cell, Digits, Table};
 
 /// What one connector does between its ends.
@@ -70,7 +70,12 @@ fn found(model: &Model, connector: &Connector) -> Result<Found, ClassError> {
     let at = Situation { ends: &ends, step: None, surroundings: &surroundings };
     let (mut out, mut trial) = (Response::default(), committed.clone());
     element.evaluate(&at, &committed, &mut trial, &mut None, &mut out)?;
-    let force = |i: usize| out.wrench.get(i).map_or([0.0; 3], |w| [w[0], w[1], w[2]]);
+    // less than what a solution is exact to is no force
+    let shown = |w: &Six| {
+        let size = 1e-12 * w.fixed_rows::<3>(0).norm();
+        [w[0], w[1], w[2]].map(|v| if v.abs() < size { 0.0 } else { v })
+    };
+    let force = |i: usize| out.wrench.get(i).map_or([0.0; 3], shown);
     let [first, second] = ends.map(|e| e.pose.origin);
     let distance = (second - first).xy().norm();
     Ok(Found { forces: [force(0), force(1)], distance, summary: element.summary(&at, &committed)? })
@@ -115,7 +120,7 @@ fn spring_rows(table: &mut Table, connector: &Connector, summary: &Summary) {
         let none = || [const { Cell::Missing }; 3];
         let unity = spring.allowable.map(|a| spring.force.abs() / a);
         let mut row: Vec<Cell> = vec![connector.name.as_str().into(), spring.dof.as_str().into()];
-        let turns = spring.dof.len() > 1;
+        let turns = spring.dof.starts_with('R');
         row.extend(if turns { none() } else { own.clone() });
         row.extend(if turns { own } else { none() });
         row.push(unity.into());

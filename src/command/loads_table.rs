@@ -68,8 +68,10 @@ fn forces(job: &Job, chosen: &dyn Fn(&str) -> bool) -> Table {
     for name in ["MX", "MY", "MZ"] {
         table = table.column("Moment about the Origin", name, Dim::Moment, Digits::Usual);
     }
-    let loaded =
-        |b: &&Body| model.parts_of(b).any(|p| model.loads.iter().any(|l| Model::key(&l.part) == Model::key(&p.name)));
+    let loaded = |b: &&Body| {
+        let mut parts = model.parts_of(b);
+        parts.any(|p| !p.pieces.is_empty() || model.loads.iter().any(|l| Model::key(&l.part) == Model::key(&p.name)))
+    };
     for body in model.bodies.values().filter(|b| chosen(&b.name)).filter(loaded) {
         match sums(model, body) {
             Ok(list) => {

@@ -26,6 +26,8 @@ const FACTORS: &[ValueSpec] = &[
     number("Y", Dim::None, "factor in the part's y").not_negative(),
     number("Z", Dim::None, "factor in the part's z").not_negative(),
 ];
+/// What holds without -CS_WIND and -CS_CURRENT.
+const CS: &str = "1 1 1; 0 0 0 of a piece that displaces no water";
 const FACTOR: &[ValueSpec] = &[number("F", Dim::None, "factor").not_negative()];
 
 /// What every piece takes, however its surface is given.
@@ -36,8 +38,9 @@ pub const OPTIONS: [OptionSpec; 12] = [
         "share of the volume that displaces water",
     )
     .default("1"),
-    OptionSpec::new("-CS_WIND", FACTORS, "factors of the wind force").default("1 1 1"),
-    OptionSpec::new("-CS_CURRENT", FACTORS, "factors of the current force").default("1 1 1"),
+    OptionSpec::new("-CS_WIND", FACTORS, "shape coefficients of the wind force along the part's x y z").default(CS),
+    OptionSpec::new("-CS_CURRENT", FACTORS, "shape coefficients of the current force along the part's x y z")
+        .default(CS),
     OptionSpec::new("-OBSTACLE", &[], "stops what moves against it; kept"),
     OptionSpec::new(
         "-DIFTYPE",
@@ -74,7 +77,13 @@ pub const READING: &str = "A piece belongs to the part described last and is giv
      complete it is checked. Open edges and panels that look the wrong way are warned of with their places, and a body with such a \
      piece has no buoyancy until it is corrected; panels that cut each other and pieces that overlap are warned of, and count \
      twice where they do. With -PERMEABILITY 1 the volume displaces water, with \
-     -1 it is taken off again (a moonpool, a flooded tank), with 0 the surface is for wind and current alone.";
+     -1 it is taken off again (a moonpool, a flooded tank), with 0 the surface is for wind and current alone. Wind pushes on \
+     what of a piece is above the water, current on what is below it: along each axis of the part with 1/2 rho CS A |v| v, where v \
+     is the stream's component along that axis, |v| its whole speed, and A the area projected along it, half of what is seen \
+     from its two sides (a hollow counts as if nothing sheltered it). |v| v is integrated over the height, by the profiles of \
+     &ENV. CS is 1 1 1 where it is not given, so that wind in force is never without effect on a hull; -CS_WIND 0 0 0 turns it \
+     off. A piece of permeability 0 or less takes none unless CS is given, an interior (less than 0) never. Tubes are \
+     prisms of 64 sides for it. &STATUS PIECES lists CS, &STATUS LOADS the forces.";
 
 static PANEL_SPEC: CommandSpec = CommandSpec {
     menus: &["INMODEL", "MEDIT", "BLOCK", "MESH"],
@@ -201,11 +210,19 @@ pub fn begun(job: &mut Job, args: &Args, name: &str, span: Span, shape: Shape) -
         let list: Vec<String> = kept.iter().map(|g| option_as_written(g, job.units)).collect();
         job.remark(format!("kept, without effect yet: {}", list.join(" ")), span);
     }
-    let factors =
-        |option: &str| args.option(option).map_or([1.0; 3], |g| [0, 1, 2].map(|i| g.number(i).unwrap_or(1.0)));
+    let permeability = args.option_number("-PERMEABILITY").unwrap_or(1.0);
+    let usual = if permeability > 0.0 { [1.0; 3] } else { [0.0; 3] };
+    let mut factors = |option: &str| {
+        let given = args.option(option).map(|g| (g.span, [0, 1, 2].map(|i| g.number(i).unwrap_or(1.0))));
+        if let Some((at, _)) = given.filter(|(_, cs)| permeability < 0.0 && *cs != [0.0; 3]) {
+            job.remark(format!("an interior takes no wind and no current: {option} of {name} is 0 0 0"), at);
+            return usual;
+        }
+        given.map_or(usual, |(_, cs)| cs)
+    };
     Ok(Piece {
         name: name.to_string(),
-        permeability: args.option_number("-PERMEABILITY").unwrap_or(1.0),
+        permeability,
         shape,
         cs_wind: factors("-CS_WIND"),
         cs_current: factors("-CS_CURRENT"),

@@ -85,9 +85,9 @@ static SPEC: CommandSpec = CommandSpec {
              force it exerts on its first end in the global system, its tension and the largest share of a segment's break, \
              what its anchor bears (V. Pull upward, H. Pull toward the first end), and the unstretched length on the bottom. \
              A line without a solution has a row without numbers and a warning that says why. FORCE sums what acts on each body \
-             where it stands, about its origin. STIFFNESS is the change of these forces with the motion of one body, the others held: \
+             where it stands, about its origin. STIFFNESS is the change of these forces with the motion of one body, other bodies held: \
              -d(force)/d(translation of the point, rotation in radians) in global axes, about the body's origin or the point of -ABOUT, \
-             taken to move with the body; with names of connectors that of each of them. -DISPOSE takes a table to the disposition menu: \
+             taken to move with the body; junctions follow to their own equilibrium; with names of connectors that of each of them. -DISPOSE takes a table to the disposition menu: \
              REPORT, VIEW, STORE, PLOT.",
     example: "MEDIT\n*P 0 0 10\n~W B_CAT 4 EXACT -LEN 4000 -DEP 500\nCONNECTOR A -ANC 0 3900 ~W *P\nEND\n&STATUS F_CONNECTOR A\n\
               &STATUS\n&STATUS DEFAULTS\n&STATUS DIMENSIONS\n&STATUS LINE_TYPES 3\n&STATUS F_CONNECTOR -DISPOSE\nVIEW Name FX FZ\nEND",

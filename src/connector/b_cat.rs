@@ -4,14 +4,18 @@
 //! reference/model.md, last section.
 
 use super::catenary::{Floor, Law, Line, LineError};
-use super::mooring::{Mooring, convolution, end_springs, line_error, parts, with_series};
+use super::devices::Devices;
+use super::line_element::LineElement;
+use super::mooring::{Mooring, end_springs, line_error, parts, with_series};
 use super::section::{LineSection, properties};
 use super::{ClassKind, checks, options as o};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Kind, ValueSpec};
 use crate::language::units::Dim;
-use crate::model::{ClassError, ClassRecord, Connector, ConnectorClass, LineModel, Placement, Surroundings};
+use crate::model::{
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, LineModel, Placement, Surroundings,
+};
 use crate::table::Table;
 use std::sync::Arc;
 
@@ -31,7 +35,7 @@ static SPEC: CommandSpec = CommandSpec {
         o::IG_STIFF,
         o::SEND,
         o::X_PY,
-        o::X_DAMPING,
+        o::X_DAMPING_LINE,
         o::SPGRAVITY,
         o::DENSITY,
         o::CONVOLUTION,
@@ -59,7 +63,11 @@ static SPEC: CommandSpec = CommandSpec {
              segments above it do not see the bottom. -TYPE NAME D takes a chain or rope of the library (&STATUS LINE_TYPES) \
              instead of OD. Per segment: OD, -TYPE, -LEN, material, diameters, -CLUMP, -B_TENSION, -C_SN. Per line, on any \
              record: FLAG, -DEPANCHOR, -FRICTION, -SLOPE, -TAB_LIM, -SEND, -X_PY, -X_DAMPING, -CONVOLUTION, -PISTON. \
-             Connects a body to ground.",
+             Connects a body to ground. -PISTON is a link of its position less LD between the first end and the line, in the direction of the tension; it has no weight. \
+             MAX stands as near to LD as TMAX allows; MINMAX stays where it is between TMIN and TMAX. While it can follow, the tension \
+             stays at the limit without stiffness along it; beyond VLONG, VSHORT or the stroke (0 to LT) it departs. At rest the piston \
+             has slid from LD as far as it must. A table or a shape of the line is at LD. The piston does not feel the dashpot of \
+             -X_DAMPING, which also pushes while the ends come nearer.",
     example: "MEDIT\n~WIRE B_CAT 4.625 -LEN 500 -BUOY 0 -WTPL 37.51/1000 -EMOD 29000*0.1 -CLUMP -100\n\
               ~WIRE B_CAT 4.625 -LEN 4000 -BUOY 0 -WTPL 37.51/1000 -EMOD 29000*0.1 -DEPANCHOR 3000\nEND\n&STATUS CLASS ~WIRE",
     ..CommandSpec::new("B_CAT", "catenary to ground")
@@ -79,9 +87,7 @@ struct Catenary {
     slope: f64,
     limit: Option<f64>,
     springs: [Option<Law>; 2],
-    /// The curve of a viscoelastic spring, with its place.
-    convolution: Option<(String, Span)>,
-    piston: bool,
+    devices: Devices,
 }
 
 fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
@@ -99,8 +105,7 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
         slope: number("-SLOPE")?.unwrap_or(0.0),
         limit: number("-TAB_LIM")?,
         springs: end_springs(records)?,
-        convolution: convolution(records)?,
-        piston: checks::once(records, "-PISTON")?.is_some(),
+        devices: Devices::read(records)?,
     }))
 }
 
@@ -113,14 +118,19 @@ impl Catenary {
         })
     }
 
-    fn made(&self, place: &Placement, surroundings: &Surroundings) -> Result<Mooring, ClassError> {
+    /// The line with these springs at its ends.
+    fn made(
+        &self,
+        place: &Placement,
+        surroundings: &Surroundings,
+        springs: [Option<Law>; 2],
+    ) -> Result<Mooring, ClassError> {
         let depth = match place.other {
             Some([_, _, anchor]) if place.to_ground => -anchor,
             _ => self.known_depth(surroundings)?,
         };
         let error = |e: LineError| line_error(&e, &self.places);
         let (segments, joints) = parts(&self.sections, place, |s| s.submerged(surroundings));
-        let springs = with_series(&self.springs, self.convolution.as_ref(), place)?;
         let floor = Floor { elevation: -depth, slope: self.slope, friction: self.friction };
         let line = Line::new(segments, joints, -depth, surroundings.tide)
             .and_then(|l| l.over(Some(floor)))
@@ -140,9 +150,6 @@ impl Catenary {
         {
             let share = depth / known;
             notes.push(format!("warning: the depth of the anchor is {share:.2} of the depth of &ENV"));
-        }
-        if self.piston {
-            notes.push("the piston of -PISTON stands at its nominal position".into());
         }
         Ok(Mooring {
             line,
@@ -200,7 +207,7 @@ impl ConnectorClass for Catenary {
     }
 
     fn series_curve(&self) -> Option<(&str, Span)> {
-        self.convolution.as_ref().map(|(name, span)| (name.as_str(), *span))
+        self.devices.convolution.as_ref().map(|(name, span)| (name.as_str(), *span))
     }
 
     fn is_line(&self) -> bool {
@@ -208,7 +215,19 @@ impl ConnectorClass for Catenary {
     }
 
     fn line(&self, place: &Placement, surroundings: &Surroundings) -> Result<Box<dyn LineModel>, ClassError> {
-        Ok(Box::new(self.made(place, surroundings)?))
+        let springs = with_series(&self.springs, self.devices.convolution.as_ref(), place)?;
+        let mut line = self.made(place, surroundings, springs)?;
+        line.notes.extend(self.devices.notes());
+        Ok(Box::new(line))
+    }
+
+    fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
+        let line = self.made(&connection.placement, connection.surroundings, self.springs.clone())?;
+        let line = LineElement::new(line)?;
+        if self.devices.is_none() {
+            return Ok(Box::new(line));
+        }
+        self.devices.element(connection, Box::new(line))
     }
 }
 

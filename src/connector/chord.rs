@@ -1,6 +1,7 @@
 //! A spring along the chord between two ends: a weightless line, or one that also pushes.
 
 use super::catenary::{Law, Point, rising_root};
+use super::extension::{Extended, Extension, Pull};
 use super::mooring::{Mooring, no_other_end};
 use crate::model::{
     ClassError, Condition, Configuration, Element, End, Guess, LineChange, LineLoads, LineModel, Response, Situation,
@@ -68,7 +69,8 @@ impl Chord {
         ratios.enumerate().fold((0.0, 1), |best, (i, r)| if r > best.0 { (r, i + 1) } else { best })
     }
 
-    fn remarks(&self, force: f64, chord: f64, ratio: f64) -> Vec<String> {
+    /// What is told at a force (N), a distance between the ends, and what of it is left for the line (m).
+    fn remarks(&self, force: f64, chord: f64, left: f64, ratio: f64) -> Vec<String> {
         let mut notes = self.line.notes.clone();
         if ratio > 1.0 {
             notes.push("warning: the line is beyond its breaking tension".into());
@@ -77,7 +79,7 @@ impl Chord {
             notes
                 .push("warning: its ends coincide; the direction of its force is not defined, and taken upward".into());
         }
-        if force == 0.0 && chord < self.line.line.length() {
+        if force == 0.0 && left < self.line.line.length() {
             notes.push("the line is slack".into());
         }
         notes
@@ -93,27 +95,42 @@ pub struct ChordElement {
 }
 
 impl ChordElement {
-    /// The chord between these ends.
+    /// The element between two ends.
+    ///
+    /// # Errors
+    /// An end whose place is not known.
+    pub fn new(chord: Chord) -> Result<Self, ClassError> {
+        if chord.line.place.other.is_none() {
+            return Err(no_other_end());
+        }
+        let law = chord.law();
+        Ok(ChordElement { chord, law })
+    }
+
+    /// From the first end to the other.
     fn between(&self, ends: &[End]) -> Vector3<f64> {
         let at = |i: usize| ends.get(i).map_or(Vector3::zeros(), |e| e.pose.origin);
         at(1) - at(0)
     }
+
+    /// Force and slope of the spring with a link, over the distance between the ends (m).
+    fn behind(&self, by: Extension, chord: f64) -> (f64, f64) {
+        let elongation = chord - by.length - self.chord.line.line.length();
+        if by.compliance > 0.0 {
+            let law = Law::Series(vec![self.law.clone(), Law::Linear(1.0 / by.compliance)]);
+            return self.chord.force_of(&law, elongation);
+        }
+        self.chord.force_of(&self.law, elongation)
+    }
 }
 
-impl Element for ChordElement {
-    fn evaluate(
-        &self,
-        at: &Situation,
-        _committed: &[f64],
-        _trial: &mut [f64],
-        _guess: &mut Guess,
-        out: &mut Response,
-    ) -> Result<(), ClassError> {
+impl Extended for ChordElement {
+    fn pull(&self, ends: &[End], by: Extension, _: &mut Guess, out: &mut Response) -> Result<Pull, ClassError> {
         out.clear(2);
-        let along = self.between(at.ends);
+        let along = self.between(ends);
         let chord = along.norm();
         let unit = if chord > 0.0 { along / chord } else { -Vector3::z() };
-        let (force, slope) = self.chord.force_of(&self.law, chord - self.chord.line.line.length());
+        let (force, slope) = self.behind(by, chord);
         let across = if chord > 0.0 { force / chord } else { 0.0 };
         let pull = unit * force;
         let k = unit * unit.transpose() * (slope - across) + Matrix3::identity() * across;
@@ -125,12 +142,12 @@ impl Element for ChordElement {
             let sign = if index == 0 || index == 3 { 1.0 } else { -1.0 };
             block.fixed_view_mut::<3, 3>(0, 0).copy_from(&(k * sign));
         }
-        Ok(())
+        Ok(Pull { tension: force, along: unit })
     }
 
-    fn summary(&self, at: &Situation, _committed: &[f64]) -> Result<Summary, ClassError> {
-        let chord = self.between(at.ends).norm();
-        let (force, _) = self.chord.force_of(&self.law, chord - self.chord.line.line.length());
+    fn told(&self, ends: &[End], by: Extension) -> Result<Summary, ClassError> {
+        let chord = self.between(ends).norm();
+        let (force, _) = self.behind(by, chord);
         let (ratio, critical) = self.chord.ratio(force);
         Ok(Summary {
             tension: Some(force),
@@ -139,17 +156,31 @@ impl Element for ChordElement {
             grounded: Some(0.0),
             solution: "exact",
             springs: Vec::new(),
-            notes: self.chord.remarks(force, chord, ratio),
+            notes: self.chord.remarks(force, chord, chord - by.at(force), ratio),
         })
+    }
+}
+
+impl Element for ChordElement {
+    fn evaluate(
+        &self,
+        at: &Situation,
+        _committed: &[f64],
+        _trial: &mut [f64],
+        guess: &mut Guess,
+        out: &mut Response,
+    ) -> Result<(), ClassError> {
+        self.pull(at.ends, Extension::NONE, guess, out).map(|_| ())
+    }
+
+    fn summary(&self, at: &Situation, _committed: &[f64]) -> Result<Summary, ClassError> {
+        self.told(at.ends, Extension::NONE)
     }
 }
 
 impl LineModel for Chord {
     fn element(&self) -> Result<Box<dyn Element>, ClassError> {
-        if self.line.place.other.is_none() {
-            return Err(no_other_end());
-        }
-        Ok(Box::new(ChordElement { chord: self.clone(), law: self.law() }))
+        Ok(Box::new(ChordElement::new(self.clone())?))
     }
 
     fn tabulate(&self, connector: &str) -> Result<Table, ClassError> {
@@ -187,7 +218,7 @@ impl LineModel for Chord {
             critical,
             anchor: [horizontal, vertical],
             on_bottom: 0.0,
-            notes: self.remarks(force, chord, ratio),
+            notes: self.remarks(force, chord, chord, ratio),
         })
     }
 
@@ -216,7 +247,7 @@ impl LineModel for Chord {
             critical,
             grounded: 0.0,
             solution: "exact",
-            notes: self.remarks(force, chord, ratio),
+            notes: self.remarks(force, chord, chord, ratio),
         })
     }
 

@@ -3,15 +3,20 @@
 //! Source: seed 001; reference/model.md: weightless unless EXACT, then with its weight in air.
 
 use super::catenary::{Law, Line};
-use super::chord::Chord;
-use super::mooring::{Mooring, convolution, end_springs, line_error, no_other_end, parts, with_series};
+use super::chord::{Chord, ChordElement};
+use super::devices::Devices;
+use super::extension::Extended;
+use super::line_element::LineElement;
+use super::mooring::{Mooring, end_springs, line_error, no_other_end, parts, with_series};
 use super::section::{LineSection, properties};
 use super::{ClassKind, checks, options as o};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
-use crate::model::{ClassError, ClassRecord, Connector, ConnectorClass, LineModel, Placement, Surroundings};
+use crate::model::{
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, LineModel, Placement, Surroundings,
+};
 use crate::table::Table;
 use std::sync::Arc;
 
@@ -26,7 +31,7 @@ pub const LINE_OPTIONS: &[OptionSpec] = &[
     o::IG_STIFF,
     o::SEND,
     o::X_PY,
-    o::X_DAMPING,
+    o::X_DAMPING_LINE,
     o::SPGRAVITY,
     o::DENSITY,
     o::CONVOLUTION,
@@ -52,7 +57,11 @@ static H_CAT_SPEC: CommandSpec = CommandSpec {
     data: &[o::LINE_OD, ValueSpec::new("FLAG", Kind::Choice(&["EXACT"]), "with its weight").or("weightless")],
     options: LINE_OPTIONS,
     detail: "A hanging catenary: it knows neither bottom nor surface, and takes no buoys. Without EXACT it is weightless: \
-             a spring along the chord that only pulls.",
+             a spring along the chord that only pulls. -PISTON is a link of its position less LD between the first end and the line, in the direction of the tension; it has no weight. \
+             MAX stands as near to LD as TMAX allows; MINMAX stays where it is between TMIN and TMAX. While it can follow, the tension \
+             stays at the limit without stiffness along it; beyond VLONG, VSHORT or the stroke (0 to LT) it departs. At rest the piston \
+             has slid from LD as far as it must. A table or a shape of the line is at LD. The piston does not feel the dashpot of \
+             -X_DAMPING, which also pushes while the ends come nearer.",
     example: "MEDIT\n~HANG H_CAT 3 EXACT -LEN 400\nEND\n&STATUS CLASS ~HANG",
     ..CommandSpec::new("H_CAT", "hanging catenary")
 };
@@ -66,9 +75,8 @@ struct Hanging {
     places: Vec<Span>,
     exact: bool,
     springs: [Option<Law>; 2],
-    convolution: Option<(String, Span)>,
+    devices: Devices,
     limit: Option<f64>,
-    piston: bool,
 }
 
 /// Refuses spring buoys and options of the whole line given twice.
@@ -97,9 +105,8 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
         places: records.iter().map(|r| r.args.span).collect(),
         exact: records.iter().any(|r| r.args.word(1) == Some("EXACT")),
         springs: end_springs(records)?,
-        convolution: convolution(records)?,
+        devices: Devices::read(records)?,
         limit: checks::once(records, "-TAB_LIM")?.and_then(|g| g.number(0)),
-        piston: checks::once(records, "-PISTON")?.is_some(),
     }))
 }
 
@@ -126,7 +133,7 @@ impl ConnectorClass for Hanging {
     }
 
     fn series_curve(&self) -> Option<(&str, Span)> {
-        self.convolution.as_ref().map(|(name, span)| (name.as_str(), *span))
+        self.devices.convolution.as_ref().map(|(name, span)| (name.as_str(), *span))
     }
 
     fn is_line(&self) -> bool {
@@ -134,17 +141,47 @@ impl ConnectorClass for Hanging {
     }
 
     fn line(&self, place: &Placement, surroundings: &Surroundings) -> Result<Box<dyn LineModel>, ClassError> {
-        let springs = with_series(&self.springs, self.convolution.as_ref(), place)?;
-        let weight = |s: &LineSection| if self.exact { s.in_air() } else { 0.0 };
-        let mut line = hung(&self.sections, &springs, place, surroundings, &self.places, weight)?;
-        line.largest = self.limit.unwrap_or(line.largest);
-        if self.piston {
-            line.notes.push("the piston of -PISTON stands at its nominal position".into());
-        }
-        if !self.exact && self.sections.iter().all(|s| s.clump == 0.0) {
+        let springs = with_series(&self.springs, self.devices.convolution.as_ref(), place)?;
+        let mut line = self.made(place, surroundings, &springs)?;
+        line.notes.extend(self.devices.notes());
+        if self.straight() {
             return Ok(Box::new(Chord { line, springs, pushes: false }));
         }
         Ok(Box::new(line))
+    }
+
+    fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
+        if self.devices.is_none() {
+            return self.line(&connection.placement, connection.surroundings)?.element();
+        }
+        let springs = self.springs.clone();
+        let line = self.made(&connection.placement, connection.surroundings, &springs)?;
+        let line: Box<dyn Extended> = if self.straight() {
+            Box::new(ChordElement::new(Chord { line, springs, pushes: false })?)
+        } else {
+            Box::new(LineElement::new(line)?)
+        };
+        self.devices.element(connection, line)
+    }
+}
+
+impl Hanging {
+    /// Whether it is a spring along its chord.
+    fn straight(&self) -> bool {
+        !self.exact && self.sections.iter().all(|s| s.clump == 0.0)
+    }
+
+    /// The line with these springs at its ends.
+    fn made(
+        &self,
+        place: &Placement,
+        surroundings: &Surroundings,
+        springs: &[Option<Law>; 2],
+    ) -> Result<Mooring, ClassError> {
+        let weight = |s: &LineSection| if self.exact { s.in_air() } else { 0.0 };
+        let mut line = hung(&self.sections, springs, place, surroundings, &self.places, weight)?;
+        line.largest = self.limit.unwrap_or(line.largest);
+        Ok(line)
     }
 }
 

@@ -1,6 +1,8 @@
 //! A mooring line as an engine sees it: forces on its two ends at any place of these, followed from one place to the next.
 
 use super::catenary::{Bottom, EndForces, Interpolated, Line, LineError, Regime, Row, Segment, State};
+use super::extended_line::{Plane, behind};
+use super::extension::{Extended, Extension, Pull};
 use super::mooring::Mooring;
 use crate::model::{ClassError, Element, End, Guess, Placement, Response, Situation, Six, Summary};
 use nalgebra::{Matrix6, Vector3};
@@ -27,27 +29,6 @@ pub struct LineElement {
 enum Last {
     Segment(EndForces),
     Whole(Box<State>),
-}
-
-/// Forces in the line's vertical plane.
-struct Plane {
-    /// On the first end: toward the other, and downward (N).
-    fairlead: [f64; 2],
-    /// On the other end: toward the first, and upward (N).
-    anchor: [f64; 2],
-    /// d(fairlead)/d(distance, rise of the first end) (N/m).
-    stiffness: [[f64; 2]; 2],
-    /// d(anchor)/d(distance, rise of the first end) (N/m).
-    coupling: [[f64; 2]; 2],
-}
-
-impl Plane {
-    /// The forces on both ends, with the direction from the first to the other.
-    fn wrenches(&self, [ux, uy]: [f64; 2]) -> [Six; 2] {
-        let ([h, v], [far_h, far_v]) = (self.fairlead, self.anchor);
-        let force = |x: f64, y: f64, z: f64| Six::new(x, y, z, 0.0, 0.0, 0.0);
-        [force(h * ux, h * uy, -v), force(-far_h * ux, -far_h * uy, far_v)]
-    }
 }
 
 impl LineElement {
@@ -130,10 +111,26 @@ impl LineElement {
         }
     }
 
-    /// The forces there; none of a weightless line that is not tight.
-    fn tight(&self, x: f64, z: f64, guess: &mut Guess) -> Result<Option<Plane>, ClassError> {
-        match self.plane(x, z, guess) {
-            Ok(plane) => Ok(Some(plane)),
+    /// The forces with a link at the first end, and where the line itself begins (distance, elevation).
+    fn extended(&self, x: f64, z: f64, by: Extension, guess: &mut Guess) -> Result<(Plane, [f64; 2]), LineError> {
+        if by == Extension::NONE {
+            return self.plane(x, z, guess).map(|plane| (plane, [x, z]));
+        }
+        let start = match guess.as_ref().and_then(|g| g.downcast_ref::<Last>()) {
+            Some(Last::Segment(last)) => Some(last.fairlead),
+            Some(Last::Whole(last)) => Some([last.force, last.top_vertical]),
+            None => None,
+        };
+        let rise = z - self.mooring.line.anchor();
+        let apart = x.hypot(rise);
+        let straight = if apart > 0.0 { [x / apart, rise / apart] } else { [0.0, 1.0] };
+        behind(by, [x, z], straight, start, self.mooring.line.length(), |x, z| self.plane(x, z, guess))
+    }
+
+    /// The same; none of a weightless line that is not tight.
+    fn tight(&self, x: f64, z: f64, by: Extension, guess: &mut Guess) -> Result<Option<(Plane, [f64; 2])>, ClassError> {
+        match self.extended(x, z, by, guess) {
+            Ok(found) => Ok(Some(found)),
             Err(LineError::Undetermined) if self.mooring.weightless() => Ok(None),
             Err(error) => Err(self.mooring.error(&error)),
         }
@@ -218,38 +215,38 @@ fn xx_of(k: [[f64; 2]; 2]) -> f64 {
     if xx.is_finite() { xx } else { 0.0 }
 }
 
-impl Element for LineElement {
-    fn evaluate(
-        &self,
-        at: &Situation,
-        _committed: &[f64],
-        _trial: &mut [f64],
-        guess: &mut Guess,
-        out: &mut Response,
-    ) -> Result<(), ClassError> {
+impl Extended for LineElement {
+    fn pull(&self, ends: &[End], by: Extension, guess: &mut Guess, out: &mut Response) -> Result<Pull, ClassError> {
         out.clear(2);
-        let (x, along, z) = self.between(at.ends);
-        let Some(plane) = self.tight(x, z, guess)? else { return Ok(()) };
+        let (x, along, z) = self.between(ends);
+        let Some((plane, _)) = self.tight(x, z, by, guess)? else {
+            return Ok(Pull { tension: 0.0, along: Vector3::zeros() });
+        };
         let ([h, _], [far_h, _]) = (plane.fairlead, plane.anchor);
         let over = |force: f64, k: [[f64; 2]; 2]| if x > 0.0 { force / x } else { xx_of(k) };
         let first = block(along, plane.stiffness, over(h, plane.stiffness), 1.0);
         let other = block(along, plane.coupling, over(far_h, plane.coupling), -1.0);
-        out.wrench.copy_from_slice(&plane.wrenches(along));
+        let wrenches = plane.wrenches(along);
+        let pull = wrenches[0].fixed_rows::<3>(0).into_owned();
+        out.wrench.copy_from_slice(&wrenches);
         if let [k11, k12, k21, k22] = out.stiffness.as_mut_slice() {
             (*k11, *k12, *k21, *k22) = (first, -first, other, -other);
         }
-        Ok(())
+        Ok(Pull { tension: pull.norm(), along: pull.try_normalize(0.0).unwrap_or_default() })
     }
 
-    fn wrenches(&self, at: &Situation, _committed: &[f64], guess: &mut Guess) -> Result<[Six; 2], ClassError> {
-        let (x, along, z) = self.between(at.ends);
-        Ok(self.tight(x, z, guess)?.map_or([Six::zeros(); 2], |plane| plane.wrenches(along)))
-    }
-
-    fn summary(&self, at: &Situation, _committed: &[f64]) -> Result<Summary, ClassError> {
+    fn told(&self, ends: &[End], by: Extension) -> Result<Summary, ClassError> {
+        let mut ends = ends.to_vec();
+        if by != Extension::NONE {
+            let (x, [ux, uy], z) = self.between(&ends);
+            let [line_x, line_z] = self.tight(x, z, by, &mut None)?.map_or([x, z], |(_, at)| at);
+            if let Some(first) = ends.first_mut() {
+                first.pose.origin += Vector3::new((x - line_x) * ux, (x - line_x) * uy, line_z - z);
+            }
+        }
         let loads = match &self.solver {
-            Solver::Table { rows, forces } => self.moved(at.ends).by_table(rows, forces)?,
-            _ => self.moved(at.ends).exact_loads()?,
+            Solver::Table { rows, forces } => self.moved(&ends).by_table(rows, forces)?,
+            _ => self.moved(&ends).exact_loads()?,
         };
         Ok(Summary {
             tension: Some(loads.tension),
@@ -264,6 +261,33 @@ impl Element for LineElement {
 
     fn made_for_place(&self) -> bool {
         matches!(self.solver, Solver::Table { .. })
+    }
+}
+
+impl Element for LineElement {
+    fn evaluate(
+        &self,
+        at: &Situation,
+        _committed: &[f64],
+        _trial: &mut [f64],
+        guess: &mut Guess,
+        out: &mut Response,
+    ) -> Result<(), ClassError> {
+        self.pull(at.ends, Extension::NONE, guess, out).map(|_| ())
+    }
+
+    fn wrenches(&self, at: &Situation, _committed: &[f64], guess: &mut Guess) -> Result<[Six; 2], ClassError> {
+        let (x, along, z) = self.between(at.ends);
+        let found = self.tight(x, z, Extension::NONE, guess)?;
+        Ok(found.map_or([Six::zeros(); 2], |(plane, _)| plane.wrenches(along)))
+    }
+
+    fn summary(&self, at: &Situation, _committed: &[f64]) -> Result<Summary, ClassError> {
+        self.told(at.ends, Extension::NONE)
+    }
+
+    fn made_for_place(&self) -> bool {
+        Extended::made_for_place(self)
     }
 }
 

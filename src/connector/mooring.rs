@@ -161,14 +161,17 @@ pub fn with_series(
 ) -> Result<[Option<Law>; 2], ClassError> {
     let [first, last] = springs.clone();
     let Some((name, span)) = curve else { return Ok([first, last]) };
-    let stiffness = place.series.ok_or_else(|| {
-        ClassError::new(format!("no convolution curve is called {name}"))
-            .at(*span)
-            .help(format!("define it: &DATA CONVOLUTION TIME {name} T1 K1 T2 K2 .."))
-    })?;
+    let stiffness = place.series.ok_or_else(|| no_curve(name, *span))?;
     let spring = Law::Linear(stiffness);
     let first = first.map_or(spring.clone(), |law| Law::Series(vec![law, spring]));
     Ok([Some(first), last])
+}
+
+/// A curve that is not defined, or is no convolution.
+pub fn no_curve(name: &str, at: Span) -> ClassError {
+    ClassError::new(format!("no convolution curve is called {name}"))
+        .at(at)
+        .help(format!("define it: &DATA CONVOLUTION TIME {name} T1 K1 T2 K2 .."))
 }
 
 /// The curve that -CONVOLUTION names, with its place.

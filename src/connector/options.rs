@@ -88,6 +88,12 @@ const DASHPOT: &[ValueSpec] = &[
 ];
 /// `-X_DAMPING Co Ex Fo`.
 pub const X_DAMPING: OptionSpec = OptionSpec::new("-X_DAMPING", DASHPOT, "dashpot in x: F = Co v**Ex up to Fo");
+/// `-X_DAMPING Co Ex Fo` of lines.
+pub const X_DAMPING_LINE: OptionSpec = OptionSpec::new(
+    "-X_DAMPING",
+    DASHPOT,
+    "dashpot between the ends, in time steps: F = Co v**Ex up to Fo, v the rate of their distance, while the line has tension",
+);
 /// `-Y_DAMPING Co Ex Fo`.
 pub const Y_DAMPING: OptionSpec = OptionSpec::new("-Y_DAMPING", DASHPOT, "dashpot in y: F = Co v**Ex up to Fo");
 /// `-Z_DAMPING Co Ex Fo`.
@@ -104,7 +110,7 @@ pub const CONVOLUTION_DF: OptionSpec = OptionSpec::new(
 pub const CONVOLUTION: OptionSpec = OptionSpec::new(
     "-CONVOLUTION",
     &[ValueSpec::new("CVL_NAME", Kind::Name(Noun::Curve), "convolution curve")],
-    "viscoelastic spring in series",
+    "viscoelastic spring in series at the first end; statics has its last stiffness",
 );
 /// `-FRICTION MU` of zero-length classes.
 pub const FRICTION_MU: OptionSpec = OptionSpec::new(
@@ -180,7 +186,7 @@ pub const PISTON: OptionSpec = OptionSpec::new(
         number("TMAX", Dim::Force, "largest tension").positive(),
         number("TMIN", Dim::Force, "smallest tension").or("0; needed for MINMAX").not_negative(),
     ],
-    "hydraulic piston that controls the tension",
+    "hydraulic piston at the first end that controls the tension; VLONG, VSHORT are the fastest it goes",
 );
 /// `-B_TENSION`.
 pub const B_TENSION: OptionSpec = OptionSpec::new(

@@ -3,16 +3,19 @@
 //! Source: seed 001; reference/model.md.
 
 use super::catenary::Law;
-use super::chord::Chord;
+use super::chord::{Chord, ChordElement};
+use super::devices::Devices;
 use super::h_cat::{LINE_OPTIONS, check_records, hung};
-use super::mooring::{convolution, end_springs, with_series};
+use super::mooring::{end_springs, with_series};
 use super::section::{LineSection, properties};
 use super::{ClassKind, checks, options as o};
 use crate::language::diagnostic::Outcome;
 use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Kind, ValueSpec};
 use crate::language::units::Dim;
-use crate::model::{ClassError, ClassRecord, Connector, ConnectorClass, LineModel, Placement, Surroundings};
+use crate::model::{
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, LineModel, Placement, Surroundings,
+};
 use crate::table::Table;
 use std::sync::Arc;
 
@@ -24,7 +27,11 @@ static SL_ELEM_SPEC: CommandSpec = CommandSpec {
         o::LINE_OD,
         ValueSpec::new("FLAG", Kind::Choice(&["TENSION"]), "tension only").or("tension and compression"),
     ],
-    detail: "Its force depends only on the distance between the ends and acts along the line between them.",
+    detail: "Its force depends only on the distance between the ends and acts along the line between them. -PISTON is a link of its position less LD between the first end and the line, in the direction of the tension; it has no weight. \
+             MAX stands as near to LD as TMAX allows; MINMAX stays where it is between TMIN and TMAX. While it can follow, the tension \
+             stays at the limit without stiffness along it; beyond VLONG, VSHORT or the stroke (0 to LT) it departs. At rest the piston \
+             has slid from LD as far as it must. A table or a shape of the line is at LD. The piston does not feel the dashpot of \
+             -X_DAMPING, which also pushes while the ends come nearer.",
     example: "MEDIT\n~TIE SL_ELEM 3 TENSION -LEN 50\nEND\n&STATUS CLASS ~TIE",
     options: LINE_OPTIONS,
     ..CommandSpec::new("SL_ELEM", "spring along the chord between its ends")
@@ -36,7 +43,7 @@ struct Spring {
     places: Vec<Span>,
     tension: bool,
     springs: [Option<Law>; 2],
-    convolution: Option<(String, Span)>,
+    devices: Devices,
     limit: Option<f64>,
     notes: Vec<String>,
 }
@@ -48,14 +55,11 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
     if sections.iter().any(|s| s.clump != 0.0) {
         notes.push("warning: -CLUMP does not act on an SL_ELEM, which is straight".into());
     }
-    if checks::once(records, "-PISTON")?.is_some() {
-        notes.push("the piston of -PISTON stands at its nominal position".into());
-    }
     Ok(Arc::new(Spring {
         places: records.iter().map(|r| r.args.span).collect(),
         tension: records.iter().any(|r| r.args.word(1) == Some("TENSION")),
         springs: end_springs(records)?,
-        convolution: convolution(records)?,
+        devices: Devices::read(records)?,
         limit: checks::once(records, "-TAB_LIM")?.and_then(|g| g.number(0)),
         sections,
         notes,
@@ -85,7 +89,7 @@ impl ConnectorClass for Spring {
     }
 
     fn series_curve(&self) -> Option<(&str, Span)> {
-        self.convolution.as_ref().map(|(name, span)| (name.as_str(), *span))
+        self.devices.convolution.as_ref().map(|(name, span)| (name.as_str(), *span))
     }
 
     fn is_line(&self) -> bool {
@@ -93,11 +97,31 @@ impl ConnectorClass for Spring {
     }
 
     fn line(&self, place: &Placement, surroundings: &Surroundings) -> Result<Box<dyn LineModel>, ClassError> {
-        let springs = with_series(&self.springs, self.convolution.as_ref(), place)?;
+        let springs = with_series(&self.springs, self.devices.convolution.as_ref(), place)?;
+        let mut chord = self.made(place, surroundings, springs)?;
+        chord.line.notes.extend(self.devices.notes());
+        Ok(Box::new(chord))
+    }
+
+    fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
+        let chord = self.made(&connection.placement, connection.surroundings, self.springs.clone())?;
+        let line = Box::new(ChordElement::new(chord)?);
+        if self.devices.is_none() { Ok(line) } else { self.devices.element(connection, line) }
+    }
+}
+
+impl Spring {
+    /// The spring with these at its ends.
+    fn made(
+        &self,
+        place: &Placement,
+        surroundings: &Surroundings,
+        springs: [Option<Law>; 2],
+    ) -> Result<Chord, ClassError> {
         let straight: Vec<LineSection> = self.sections.iter().map(|s| LineSection { clump: 0.0, ..*s }).collect();
         let mut line = hung(&straight, &springs, place, surroundings, &self.places, |_| 0.0)?;
         line.largest = self.limit.unwrap_or(line.largest);
         line.notes.clone_from(&self.notes);
-        Ok(Box::new(Chord { line, springs, pushes: !self.tension }))
+        Ok(Chord { line, springs, pushes: !self.tension })
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! Source: seed 001.
 
+use super::mooring::no_curve;
 use super::spring_law::{Dashpot, Elastic, Group};
 use super::viscous::Viscoelastic;
 use super::zero_law::{Contact, Friction, Sense, ZeroLaw};
@@ -203,10 +204,7 @@ impl Springs {
         let Some((_, name, span)) = self.convolutions.iter().find(|(d, ..)| like(*d) == like(dof)) else {
             return Ok(None);
         };
-        let missing = || {
-            let text = format!("no convolution curve is called {name}");
-            ClassError::new(text).at(*span).help(format!("define it: &DATA CONVOLUTION TIME {name} T1 K1 T2 K2 .."))
-        };
+        let missing = || no_curve(name, *span);
         let curve = (connection.curve)(name).ok_or_else(missing)?;
         let fit = Viscoelastic::fit(curve).ok_or_else(missing)?;
         let factor = if dof > 2 { curve.metres * curve.metres } else { 1.0 };

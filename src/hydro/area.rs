@@ -1,4 +1,4 @@
-//! Wind or current on areas along the axes of a body: `#AREA`, and `-CS_WIND` and `-CS_CURRENT` of a piece.
+//! Wind or current on areas along the axes of a body: `#AREA`.
 //!
 //! Our reading: each value is an area times a shape coefficient along one axis of the body, and the force along it is
 //! `1/2 rho A |w| w` with w the component and |w| the whole speed in body axes, on the point given. In a stream along one axis

@@ -56,6 +56,16 @@ impl CurrentField {
         self.parts.is_empty()
     }
 
+    /// Depths below the surface (m) at which its curves have their points.
+    pub fn kinks(&self) -> Vec<f64> {
+        self.parts.iter().flat_map(|part| part.points.iter().map(|p| p.0)).collect()
+    }
+
+    /// Whether it is one that flows one way at every depth.
+    pub fn simple(&self) -> bool {
+        self.parts.len() <= 1 && self.parts.iter().flat_map(|part| &part.points).all(|p| p.1 >= 0.0)
+    }
+
     /// Velocity (m/s, global) at a depth below the surface (m), and its change with the depth (1/s). Above the surface it
     /// is that of the surface.
     pub fn at_depth(&self, depth: f64) -> (Vector3<f64>, Vector3<f64>) {

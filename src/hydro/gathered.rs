@@ -1,4 +1,4 @@
-//! The loads of wind, current and waves that records have put on the parts of a body.
+//! The loads of wind, current and waves on the parts of a body: those of records, and of wind and current on its pieces.
 
 use super::area::AreaLoad;
 use super::coefficients::CoefficientLoad;
@@ -8,8 +8,8 @@ use super::heading::ByHeading;
 use super::plate::PlateLoad;
 use super::steady::{Medium, Steady};
 use super::stream::Place;
-use super::{BodyLoad, Category, Load};
-use crate::model::{Body, ClassError, Fluid, LoadKind, Model, Part, PartLoad, Pose};
+use super::{BodyLoad, Category, Load, pieces};
+use crate::model::{Body, ClassError, Fluid, LoadKind, Model, Part, PartLoad, Piece, Pose};
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use std::sync::Arc;
 
@@ -83,7 +83,8 @@ pub fn of(model: &Model, body: &Body) -> Result<Gathered, ClassError> {
     for part in model.parts_of(body) {
         let mine: Vec<&PartLoad> =
             model.loads.iter().filter(|l| Model::key(&l.part) == Model::key(&part.name)).collect();
-        if mine.is_empty() {
+        let bare = |piece: &Piece| piece.cs_wind == [0.0; 3] && piece.cs_current == [0.0; 3];
+        if mine.is_empty() && part.pieces.iter().all(bare) {
             continue;
         }
         let steady = match &around {
@@ -99,6 +100,9 @@ pub fn of(model: &Model, body: &Body) -> Result<Gathered, ClassError> {
             one(&mut sum, &steady, &frame, load)?;
         }
         drift(&mut sum, &steady, &frame, &mine)?;
+        for piece in &part.pieces {
+            sum.loads.extend(pieces::of(&steady, part, piece)?.into_iter().map(|l| Box::new(l) as Box<dyn BodyLoad>));
+        }
         let rest = sum.loads.split_off(first);
         sum.loads.extend(rest.into_iter().map(|load| {
             let factor = model.multipliers.of(load.category().name(), &part.name);

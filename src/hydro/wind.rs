@@ -14,6 +14,9 @@ pub const REFERENCE: f64 = 10.0;
 /// Below this height (m) the wind is that of this height: the formulas do not hold among the waves.
 pub const LOWEST: f64 = 1.0;
 
+/// Height of the surface layer of API RP 2A (m).
+const SURFACE_LAYER: f64 = 20.0;
+
 /// How the mean wind grows with height.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Profile {
@@ -104,6 +107,18 @@ impl WindField {
         WindField { speed, toward: Vector3::new(-cos, -sin, 0.0), profile, gust }
     }
 
+    /// Heights above the water (m) at which its formula has a kink.
+    pub fn kinks(&self) -> Vec<f64> {
+        let mut heights = vec![LOWEST];
+        if self.profile == Profile::Abs {
+            heights.extend(ABS_BANDS.map(|band| band.0));
+        }
+        if matches!(self.gust, Gust::Api(_)) {
+            heights.push(SURFACE_LAYER);
+        }
+        heights
+    }
+
     /// Speed (m/s) at a height above the water (m), and its change with the height (1/s).
     pub fn speed(&self, height: f64) -> (f64, f64) {
         let z = height.max(LOWEST);
@@ -132,9 +147,9 @@ impl Gust {
         match self {
             Gust::None => (1.0, 0.0),
             Gust::Api(g) => {
-                // turbulence intensity of API RP 2A, 20 m being the height of the surface layer
-                let exponent: f64 = if z <= 20.0 { -0.125 } else { -0.275 };
-                let intensity = 0.15 * (z / 20.0).powf(exponent);
+                // turbulence intensity of API RP 2A
+                let exponent: f64 = if z <= SURFACE_LAYER { -0.125 } else { -0.275 };
+                let intensity = 0.15 * (z / SURFACE_LAYER).powf(exponent);
                 (1.0 + g * intensity, g * intensity * exponent / z)
             }
             Gust::Froya(level, log) => {

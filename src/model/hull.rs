@@ -38,9 +38,9 @@ pub struct Piece {
     pub permeability: f64,
     /// Its form.
     pub shape: Shape,
-    /// Factors of the wind force in the directions of the part.
+    /// Shape coefficients of the wind force along the axes of the part; zeros where it takes none.
     pub cs_wind: [f64; 3],
-    /// Factors of the current force in the directions of the part.
+    /// Shape coefficients of the current force along the axes of the part; zeros where it takes none.
     pub cs_current: [f64; 3],
     /// Options that are kept for what comes later: diffraction, added mass, roll damping.
     pub kept: Vec<Given>,

@@ -43,7 +43,7 @@ pub struct Equilibrium {
 }
 
 /// A step ends where this share of the largest acceleration asked for is reached: Newton's last steps cost little.
-const POLISH: f64 = 1e-12;
+const POLISH: f64 = 1e-9;
 /// Longest step (m), and largest rotation in it (rad).
 const LONGEST: [f64; 2] = [50.0, 0.3];
 /// Square of a natural frequency (rad2/s2) below which nothing holds a motion: a period of 17 hours.
@@ -70,7 +70,7 @@ impl Unknowns {
         for (body, node) in system.nodes.iter().enumerate() {
             let own = &node.floating.mass;
             let pull = state.pull.get(body).copied().unwrap_or(0.0) / system.gravity;
-            let mass = if node.junction { own.mass.max(pull).max(1e-3) } else { own.mass };
+            let mass = if node.junction || own.mass <= 0.0 { own.mass.max(pull).max(1e-3) } else { own.mass };
             let about = own.inertia.trace() / 3.0 - mass * own.centre.norm_squared() * 2.0 / 3.0;
             let radius = if about > 1e-12 * mass { (about / mass).sqrt() } else { 1.0 };
             for (freedom, free) in node.free.iter().enumerate() {
@@ -164,51 +164,140 @@ fn across(body: usize, angle: f64, free: &[bool; 6]) -> Option<Direction> {
 /// A place on the way that cannot be evaluated; no equilibrium within the steps: the body and freedom that is left, and
 /// what acts on it most; a direction that nothing holds, with a force in it.
 pub fn equilibrium(system: &System, state: &mut State, options: &Options) -> Result<Equilibrium, SolveError> {
-    for node in &system.nodes {
-        if !node.junction && node.floating.mass.mass <= 0.0 && node.free.contains(&true) {
-            let error = ClassError::new("it has no weight").help(format!(
-                "give it one: #WEIGHT *POINT W KX KY KZ; or leave it out: &DESCRIBE BODY {} -IGNORE X Y Z RX RY RZ",
-                node.name
-            ));
-            return Err(SolveError { who: Some(node.name.clone()), error });
-        }
-    }
+    weighed(system, options)?;
     system.evaluate(state)?;
-    let mut evaluations = 1;
-    let mut help = 0.0;
-    let mut best = f64::INFINITY;
+    let mut search = Search { system, options, evaluations: 1, help: 0.0, careful: 0, window: CAREFUL };
+    let mut stale = 0;
+    let mut best = Best { worst: f64::INFINITY, poses: state.poses.clone(), since: 0 };
     for steps in 0..=options.most {
         // a junction is measured by what pulls at it now
         let unknowns = Unknowns::of(system, state, options);
-        let residual = unknowns.residual(state);
-        let (worst, at) = unknowns.worst(&residual, options);
-        let settled = worst <= 1.0 && (worst <= POLISH || worst >= 0.5 * best);
-        if settled || unknowns.rows.is_empty() {
+        let (worst, at) = unknowns.worst(&unknowns.residual(state), options);
+        let polished = worst <= POLISH || unknowns.rows.is_empty();
+        // within the tolerance the search goes on as long as it gets better
+        let done = polished || (worst.min(best.worst) <= 1.0 && (stale >= STALE || steps == options.most));
+        if done {
+            if !polished && best.worst < worst {
+                state.poses.clone_from(&best.poses);
+                search.evaluate(state)?;
+            }
+            let unknowns = Unknowns::of(system, state, options);
+            let (left, _) = unknowns.worst(&unknowns.residual(state), options);
             let loose = loose(system, &unknowns, state);
             let [tolerance, _] = options.tolerance;
-            return Ok(Equilibrium { steps, evaluations, measure: worst * tolerance, loose });
+            return Ok(Equilibrium { steps, evaluations: search.evaluations, measure: left * tolerance, loose });
         }
         if steps == options.most {
             return Err(failure(system, state, &unknowns, at, options));
         }
-        best = best.min(worst);
-        let stiffness = unknowns.stiffness(state);
-        let (step, needed) = direction(&unknowns, &stiffness, &residual, help);
+        stale = if worst <= 0.5 * best.worst { 0 } else { stale + 1 };
+        if search.careful > 0 {
+            // a careful step may leave as much as before it: where it leads is the best there is
+            best = Best { worst, poses: state.poses.clone(), since: 0 };
+        } else if best.is_left_behind(worst, state) {
+            search.careful = search.window;
+            search.window = search.window.saturating_mul(2);
+            search.help = 0.0;
+            state.poses.clone_from(&best.poses);
+            search.evaluate(state)?;
+            best.since = 0;
+            continue;
+        }
+        search.step(&unknowns, state, worst)?;
+    }
+    let unknowns = Unknowns::of(system, state, options);
+    let residual = unknowns.residual(state);
+    Err(failure(system, state, &unknowns, unknowns.worst(&residual, options).1, options))
+}
+
+/// Sees that every body that is to come to rest has weight, unless it moves in the horizontal plane alone.
+fn weighed(system: &System, options: &Options) -> Result<(), SolveError> {
+    for (body, node) in system.nodes.iter().enumerate() {
+        let free =
+            |freedom: usize| node.free.get(freedom) == Some(&true) && !options.ignored.contains(&(body, freedom));
+        if !node.junction && node.floating.mass.mass <= 0.0 && (2..5).any(free) {
+            let name = &node.name;
+            let error = ClassError::new("it has no weight").help(format!(
+                "give it one: #WEIGHT *POINT W KX KY KZ; or leave it out: &DESCRIBE BODY {name} -IGNORE X Y Z RX RY RZ"
+            ));
+            return Err(SolveError { who: Some(name.clone()), error });
+        }
+    }
+    Ok(())
+}
+
+/// Steps without half as much left after which a search within the tolerance has come as near as rounding lets it.
+const STALE: usize = 3;
+/// Steps that may lead nowhere better before the search goes back to the best place it had: where something stiff turns, a
+/// step stretches it first, and the next mends that.
+const PATIENCE: usize = 5;
+/// Steps that are shortened until the forces along them have not turned around, after going back for the first time; twice as
+/// many each further time.
+const CAREFUL: usize = 8;
+
+/// The place with the least left so far.
+struct Best {
+    worst: f64,
+    poses: Vec<Pose>,
+    since: usize,
+}
+
+impl Best {
+    /// Whether steps have led nowhere better for too long; a better place is kept.
+    fn is_left_behind(&mut self, worst: f64, state: &State) -> bool {
+        if worst < self.worst {
+            (self.worst, self.since) = (worst, 0);
+            self.poses.clone_from(&state.poses);
+        } else {
+            self.since += 1;
+        }
+        self.since > PATIENCE
+    }
+}
+
+/// A search on its way.
+struct Search<'a> {
+    system: &'a System,
+    options: &'a Options,
+    evaluations: usize,
+    /// Share of the inertia added to the stiffness (1/s2).
+    help: f64,
+    /// Steps yet to be taken with care.
+    careful: usize,
+    /// Steps to be taken with care after going back.
+    window: usize,
+}
+
+impl Search<'_> {
+    fn evaluate(&mut self, state: &mut State) -> Result<(), SolveError> {
+        self.evaluations += 1;
+        self.system.evaluate(state)
+    }
+
+    /// Takes one step.
+    fn step(&mut self, unknowns: &Unknowns, state: &mut State, worst: f64) -> Result<(), SolveError> {
+        let residual = unknowns.residual(state);
+        let (step, needed) = direction(unknowns, &unknowns.stiffness(state), &residual, self.help);
         let work = residual.dot(&step);
         let from = state.poses.clone();
-        let mut share = unknowns.limit(&step);
-        let (mut error, mut taken) = (None, None);
-        while share >= SHORTEST * unknowns.limit(&step) {
+        let longest = unknowns.limit(&step);
+        // a long step where nothing holds back
+        let blind = needed > 0.0 && longest < 1.0;
+        let mut share = longest;
+        let mut error = None;
+        while share >= SHORTEST * longest {
             state.poses = unknowns.moved(&from, &step, share);
-            evaluations += 1;
-            match system.evaluate(state) {
+            match self.evaluate(state) {
                 Ok(()) => {
                     let new = unknowns.residual(state);
+                    let now = unknowns.worst(&new, self.options).0;
                     let after = new.dot(&step);
-                    let less = unknowns.worst(&new, options).0 < worst;
-                    if less || after >= -0.5 * work.abs() {
-                        taken = Some(unknowns.worst(&new, options).0);
-                        break;
+                    if (self.careful == 0 && !blind) || now < worst || after >= -0.5 * work.abs() {
+                        self.careful = self.careful.saturating_sub(1);
+                        // a stiffness that needed help is helped less as the residual shrinks
+                        let change = if now <= worst { (0.5 * now / worst).max(0.1) } else { (now / worst).min(4.0) };
+                        self.help = Some(needed * change).filter(|h| *h >= LOOSE).unwrap_or(0.0);
+                        return Ok(());
                     }
                     // where the force along the step is nothing, were it straight
                     share *= (work.abs() / (work.abs() - after)).clamp(0.1, 0.7);
@@ -219,30 +308,14 @@ pub fn equilibrium(system: &System, state: &mut State, options: &Options) -> Res
                 }
             }
         }
-        let Some(now) = taken else {
-            state.poses = from;
-            if let Some(error) = error {
-                return Err(error);
-            }
-            if worst <= 1.0 {
-                system.evaluate(state)?;
-                best = 0.0;
-                continue;
-            }
-            // no share of the step is good: a shorter step in pseudo-time
-            system.evaluate(state)?;
-            help = (10.0 * needed.max(help)).max(1e-3);
-            continue;
-        };
-        // a stiffness that needed help is helped less as the residual shrinks
-        help = if now < worst { needed * (now / worst).max(0.1) } else { needed * (now / worst).min(4.0) };
-        if help < LOOSE {
-            help = 0.0;
+        state.poses = from;
+        if let Some(error) = error {
+            return Err(error);
         }
+        // no share of the step is good: a shorter step in pseudo-time
+        self.help = (10.0 * needed.max(self.help)).max(1e-3);
+        self.evaluate(state)
     }
-    let unknowns = Unknowns::of(system, state, options);
-    let residual = unknowns.residual(state);
-    Err(failure(system, state, &unknowns, unknowns.worst(&residual, options).1, options))
 }
 
 /// The step, and the share of the inertia (1/s2) that had to be added to the stiffness to hold the bodies.
@@ -323,7 +396,7 @@ fn failure(system: &System, state: &State, unknowns: &Unknowns, at: usize, optio
         }
         _ => {
             ClassError::of(format!("no equilibrium in {} steps: {{}} is left in {word}: {told}", options.most), &values)
-                .help("&EQUI goes on from here when it is given again; -ITER_MAX allows more steps")
+                .help("-ITER_MAX allows more steps; &INSTATE begins nearer; nothing has been moved")
         }
     };
     SolveError { who: Some(name), error }

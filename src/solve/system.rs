@@ -2,7 +2,7 @@
 
 use crate::hydro::{Category, Floating, Load, carried, transferred, turning};
 use crate::model::{
-    Body, ClassError, Connector, Element, End, Guess, Mass, Model, Pose, Response, Situation, Six, Surroundings,
+    Body, ClassError, Connector, Element, End, Guess, Mass, Model, Place, Pose, Response, Situation, Six, Surroundings,
 };
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Vector3};
 
@@ -251,6 +251,24 @@ impl System {
         Ok(list)
     }
 
+    /// The stiffness of one body in an evaluated state: other bodies held, junctions following to where nothing is left on
+    /// them (N/m, N, N m/rad; about its origin, global axes).
+    pub fn followed_stiffness(&self, state: &State, body: usize) -> Matrix6<f64> {
+        let own: Vec<usize> = (6 * body..6 * body + 6).collect();
+        let junctions = self.nodes.iter().enumerate().filter(|(index, n)| n.junction && *index != body);
+        let follow: Vec<usize> = junctions
+            .flat_map(|(index, n)| n.free.iter().enumerate().filter(|(_, f)| **f).map(move |(i, _)| 6 * index + i))
+            .collect();
+        let part = |r: &[usize], c: &[usize]| state.stiffness.select_rows(r).select_columns(c);
+        let mut made = part(&own, &own);
+        if !follow.is_empty()
+            && let Some(moved) = part(&follow, &follow).lu().solve(&part(&follow, &own))
+        {
+            made -= part(&own, &follow) * moved;
+        }
+        made.fixed_view::<6, 6>(0, 0).into_owned()
+    }
+
     /// Whether a connector was made for the place of its ends, so that the system is to be made anew where it comes to rest.
     pub fn made_for_place(&self) -> bool {
         self.links.iter().any(|l| l.element.made_for_place())
@@ -276,10 +294,16 @@ impl System {
         }
         for (node, pose) in self.nodes.iter().zip(&state.poses) {
             if let Some(body) = model.bodies.get_mut(&node.key) {
-                body.place = pose.place(&body.place);
+                body.place = without_rounding(pose.place(&body.place));
             }
         }
     }
+}
+
+/// A place with what is less than any solution is exact to left out: a tenth of a nanometre, and that on a kilometre.
+fn without_rounding(place: Place) -> Place {
+    let kept = |least: f64| move |v: f64| if v.abs() < least { 0.0 } else { v };
+    Place { shift: place.shift.map(kept(1e-10)), turn: place.turn.map(kept(1e-13)) }
 }
 
 /// What the ends of a connector are fixed to.

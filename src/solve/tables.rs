@@ -3,7 +3,7 @@
 use super::modes::modes;
 use super::settle::Settled;
 use super::system::{Contribution, FREEDOMS, SolveError, State, System};
-use crate::hydro::Category;
+use crate::hydro::{Category, Load};
 use crate::language::units::Dim;
 use crate::model::{Model, Position, Six};
 use crate::table::{Cell, Digits, Table};
@@ -80,11 +80,11 @@ pub fn by_category(system: &System, state: &State, fits: &dyn Fn(&str) -> bool) 
             let mut any = false;
             let sum = all.iter().filter(of).fold(Six::zeros(), |sum, c| {
                 any = true;
+                size = size.sup(&c.load.wrench.abs());
                 sum + c.load.wrench
             });
             if any {
                 total += sum;
-                size = size.sup(&sum.abs());
                 push(&mut table, wrench_row(&node.name, category.name(), &without_rounding(&sum, &size)));
             }
         }
@@ -93,13 +93,13 @@ pub fn by_category(system: &System, state: &State, fits: &dyn Fn(&str) -> bool) 
     Ok(table)
 }
 
-/// What is less than rounding leaves of the largest force or moment is nothing.
+/// What is less than a solution leaves of the largest force or moment is nothing.
 fn without_rounding(wrench: &Six, size: &Six) -> Six {
     let (force, moment) = (size.fixed_rows::<3>(0).amax(), size.fixed_rows::<3>(3).amax());
     let mut kept = *wrench;
     for (index, value) in kept.iter_mut().enumerate() {
         let largest = if index < 3 { force } else { moment };
-        if value.abs() <= 1e-12 * largest {
+        if value.abs() <= 1e-10 * largest {
             *value = 0.0;
         }
     }
@@ -160,8 +160,14 @@ pub fn stiffnesses(
             table.fact("Z", z, Dim::Length)
         };
         if fits(&node.name) {
-            let sum = own().fold(Matrix6::zeros(), |sum, c| sum + c.load.about(arm).stiffness);
-            list.extend(stiffness(&format!("Stiffness of {}", node.name), &sum).map(point));
+            let wrench = own().fold(Six::zeros(), |sum, c| sum + c.load.wrench);
+            let all = Load { wrench, stiffness: system.followed_stiffness(state, body) };
+            let mut made = stiffness(&format!("Stiffness of {}", node.name), &all.about(arm).stiffness).map(point);
+            if !node.junction && system.nodes.iter().any(|n| n.junction) {
+                made.iter_mut()
+                    .for_each(|t| t.note("junctions follow the body to their own equilibrium; other bodies are held"));
+            }
+            list.extend(made);
         }
         for c in own() {
             let Some(name) = c.connector.as_deref().filter(|name| connectors.contains(name)) else { continue };

@@ -88,9 +88,28 @@ impl fmt::Display for Fault {
 }
 
 impl Surface {
-    /// What is wrong with it: degenerate faces, then edges, parts that are inside out, and faces that cut each other. The
-    /// volume of parts is only judged when all edges are right. Empty of a good closed surface.
+    /// What is wrong with it: [`Surface::leaks`], and faces that cut each other. Empty of a good closed surface.
     pub fn faults(&self) -> Vec<Fault> {
+        let (size, mut list) = (self.size(), self.leaks());
+        let boxes = Boxes::of(self);
+        let mut cuts: Vec<(usize, usize, Vector3<f64>)> = Vec::new();
+        boxes.pairs(&boxes, 0.0, |m, n| {
+            let (m, n) = (m.min(n), m.max(n));
+            if let (true, Some(a), Some(b)) = (m < n, self.corners(m), self.corners(n)) {
+                cuts.extend(cut(&a, &b, TOUCH * size).map(|at| (m, n, at)));
+            }
+            // a pair may come twice
+            cuts.len() >= 2 * MOST_CUTS
+        });
+        cuts.sort_by_key(|&(m, n, _)| (m, n));
+        cuts.dedup_by_key(|&mut (m, n, _)| (m, n));
+        list.extend(cuts.iter().take(MOST_CUTS).map(|&(m, n, at)| Fault::Cut { faces: [m, n], at: at.into() }));
+        list
+    }
+
+    /// What keeps it from bounding a volume: degenerate faces, then edges, and parts that are inside out. The volume of parts is
+    /// only judged when all edges are right. This asks no pairs of faces: it is quick.
+    pub fn leaks(&self) -> Vec<Fault> {
         let size = self.size();
         let mut list = Vec::new();
         for face in 0..self.faces.len() {
@@ -109,19 +128,6 @@ impl Surface {
         if list.len() == before {
             self.turned_parts(&mut list);
         }
-        let boxes = Boxes::of(self);
-        let mut cuts: Vec<(usize, usize, Vector3<f64>)> = Vec::new();
-        boxes.pairs(&boxes, 0.0, |m, n| {
-            let (m, n) = (m.min(n), m.max(n));
-            if let (true, Some(a), Some(b)) = (m < n, self.corners(m), self.corners(n)) {
-                cuts.extend(cut(&a, &b, TOUCH * size).map(|at| (m, n, at)));
-            }
-            // a pair may come twice
-            cuts.len() >= 2 * MOST_CUTS
-        });
-        cuts.sort_by_key(|&(m, n, _)| (m, n));
-        cuts.dedup_by_key(|&mut (m, n, _)| (m, n));
-        list.extend(cuts.iter().take(MOST_CUTS).map(|&(m, n, at)| Fault::Cut { faces: [m, n], at: at.into() }));
         list
     }
 

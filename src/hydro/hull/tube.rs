@@ -7,7 +7,7 @@
 //! 25.4.30); with 16 points, h <= pi/2 and the highest m = 5 that is 1e-16. So it has the digits of the closed form, which
 //! itself loses them where the axis is nearly level (it divides small differences by the slope).
 
-use super::{Solid, Wet};
+use super::{Solid, Surface, Wet};
 use crate::model::Pose;
 use nalgebra::{Matrix2, Vector2, Vector3};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -19,6 +19,32 @@ pub struct Tube {
     pub ends: [Vector3<f64>; 2],
     /// Its outer diameter (m).
     pub diameter: f64,
+}
+
+impl Tube {
+    /// The prism of a number of sides whose width, in the mean of all sides, is the diameter: its perimeter is that of the tube
+    /// (Cauchy). `None` of a tube without length or diameter.
+    pub fn prism(&self, sides: u32) -> Option<Surface> {
+        let [foot, head] = self.ends;
+        let axis = (head - foot).try_normalize(0.0).filter(|_| self.diameter > 0.0)?;
+        let mut across = Vector3::zeros();
+        across[axis.iamin()] = 1.0;
+        let x = axis.cross(&across).try_normalize(0.0)?;
+        let y = axis.cross(&x);
+        let step = 2.0 * PI / f64::from(sides);
+        let radius = 0.5 * self.diameter * (step / 2.0) / (step / 2.0).sin();
+        let rim = |end: Vector3<f64>| {
+            (0..sides).map(move |n| {
+                let (sin, cos) = (step * f64::from(n)).sin_cos();
+                end + (x * cos + y * sin) * radius
+            })
+        };
+        let vertices = rim(foot).chain(rim(head)).collect();
+        let side = (0..sides).map(|n| (n, (n + 1) % sides));
+        let mantle = side.flat_map(|(n, m)| [[n, m, m + sides], [n, m + sides, n + sides]]);
+        let ends = (1..sides.saturating_sub(1)).flat_map(|n| [[0, n + 1, n], [sides, sides + n, sides + n + 1]]);
+        Some(Surface { vertices, faces: mantle.chain(ends).collect() })
+    }
 }
 
 /// Points and weights of Gauss-Legendre quadrature of 16 points on [-1, 1], for the positive half (Newton's method on the Legendre

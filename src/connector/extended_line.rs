@@ -1,0 +1,133 @@
+//! The plane forces of a line behind a link at its first end ([`Extension`]).
+//!
+//! With p the first end, y the end of the line and F(y) = (H, V) the pull there, p = y + a(T) F / T. Newton on y, with the stiffness K of
+//! the line and C = a' t t' + (a / T)(1 - t t') of the link: dp = (1 + C K) dy, and the stiffness of both is K (1 + C K)^-1.
+
+use super::catenary::LineError;
+use super::extension::Extension;
+use crate::model::Six;
+use nalgebra::{Matrix2, Vector2};
+
+/// Newton steps.
+const STEPS: usize = 60;
+/// Halvings of a step that does not come nearer.
+const HALVINGS: usize = 40;
+/// Residual, as a force over the tension, at which the search ends, and that which is proof enough.
+const CLOSE: f64 = 1e-13;
+const PROOF: f64 = 1e-9;
+
+/// Forces in the line's vertical plane.
+#[derive(Clone, Debug)]
+pub struct Plane {
+    /// On the first end: toward the other, and downward (N).
+    pub fairlead: [f64; 2],
+    /// On the other end: toward the first, and upward (N).
+    pub anchor: [f64; 2],
+    /// d(fairlead)/d(distance, rise of the first end) (N/m).
+    pub stiffness: [[f64; 2]; 2],
+    /// d(anchor)/d(distance, rise of the first end) (N/m).
+    pub coupling: [[f64; 2]; 2],
+}
+
+impl Plane {
+    /// The forces on both ends, with the direction from the first to the other.
+    pub fn wrenches(&self, [ux, uy]: [f64; 2]) -> [Six; 2] {
+        let ([h, v], [far_h, far_v]) = (self.fairlead, self.anchor);
+        let force = |x: f64, y: f64, z: f64| Six::new(x, y, z, 0.0, 0.0, 0.0);
+        [force(h * ux, h * uy, -v), force(-far_h * ux, -far_h * uy, far_v)]
+    }
+}
+
+fn matrix([[a, b], [c, d]]: [[f64; 2]; 2]) -> Matrix2<f64> {
+    // a fairlead on the bottom is held there without a slope that has an end
+    let own = if a.is_finite() { a } else { 0.0 };
+    Matrix2::new(a, b, c, d).map(|v| if v.is_finite() { v } else { own })
+}
+
+fn rows(m: &Matrix2<f64>) -> [[f64; 2]; 2] {
+    [[m[(0, 0)], m[(0, 1)]], [m[(1, 0)], m[(1, 1)]]]
+}
+
+/// A place of the line's end with what is there.
+struct Tried {
+    at: Vector2<f64>,
+    plane: Plane,
+    /// C.
+    give: Matrix2<f64>,
+    /// p - y - a t.
+    rest: Vector2<f64>,
+}
+
+impl Tried {
+    fn tension(&self) -> f64 {
+        Vector2::from(self.plane.fairlead).norm()
+    }
+
+    /// What is left, as a force.
+    fn unbalance(&self) -> f64 {
+        (matrix(self.plane.stiffness) * self.rest).norm()
+    }
+}
+
+/// The forces with the first end at `from` (distance from the other end, elevation; m), and where the line itself begins. `straight` is
+/// the direction from the other end to the first, that of a line without tension; `start` a pull to begin with; `size` a length of the
+/// line's order; `line` its forces without the link.
+///
+/// # Errors
+/// No answer of the line, or none that could be proven.
+pub fn behind(
+    by: Extension,
+    from: [f64; 2],
+    straight: [f64; 2],
+    start: Option<[f64; 2]>,
+    size: f64,
+    mut line: impl FnMut(f64, f64) -> Result<Plane, LineError>,
+) -> Result<(Plane, [f64; 2]), LineError> {
+    let place = Vector2::from(from);
+    let straight = Vector2::from(straight);
+    let link = |pull: [f64; 2]| {
+        let pull = Vector2::from(pull);
+        let tension = pull.norm();
+        let (unit, across) = match pull.try_normalize(0.0) {
+            Some(unit) => (unit, by.at(tension) / tension),
+            None => (straight, 0.0),
+        };
+        let axis = unit * unit.transpose();
+        (unit * by.at(tension), axis * by.compliance + (Matrix2::identity() - axis) * across)
+    };
+    let mut at = |mut at: Vector2<f64>| -> Result<Tried, LineError> {
+        at.x = at.x.max(0.0);
+        let plane = line(at.x, at.y)?;
+        let (way, give) = link(plane.fairlead);
+        Ok(Tried { at, plane, give, rest: place - at - way })
+    };
+    let begun = start.map(|pull| at(place - link(pull).0));
+    let mut now = match begun {
+        Some(Ok(tried)) => tried,
+        _ => at(place)?,
+    };
+    let fine = 4.0 * f64::EPSILON * (size + place.norm());
+    for _ in 0..STEPS {
+        if now.rest.norm() <= fine || now.unbalance() <= CLOSE * now.tension() {
+            break;
+        }
+        let whole = Matrix2::identity() + now.give * matrix(now.plane.stiffness);
+        let step = whole.try_inverse().map_or(now.rest, |inverse| inverse * now.rest);
+        let nearer = (0..HALVINGS).find_map(|halvings| {
+            let tried = at(now.at + step * 0.5_f64.powi(halvings as i32)).ok()?;
+            (tried.rest.norm() < now.rest.norm()).then_some(tried)
+        });
+        let Some(next) = nearer else { break };
+        now = next;
+    }
+    let (tension, unbalance) = (now.tension(), now.unbalance());
+    if now.rest.norm() > fine && !(unbalance <= PROOF * tension && now.rest.norm() <= PROOF * (size + place.norm())) {
+        return Err(LineError::Unproven { residual: unbalance, tension });
+    }
+    let (k, give) = (matrix(now.plane.stiffness), now.give);
+    let whole = Matrix2::identity() + give * k;
+    let inverse = whole.try_inverse().ok_or(LineError::Unproven { residual: f64::NAN, tension })?;
+    let plane =
+        Plane { stiffness: rows(&(k * inverse)), coupling: rows(&(matrix(now.plane.coupling) * inverse)), ..now.plane };
+    Ok((plane, now.at.into()))
+}

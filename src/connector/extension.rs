@@ -1,0 +1,54 @@
+//! What lengthens a line at its first end: a link along the tension there, which may itself give way.
+
+use crate::model::{ClassError, End, Guess, Response, Summary};
+use nalgebra::Vector3;
+use std::fmt::Debug;
+
+/// A link of `length + compliance T` between the first end and the line, in the direction of the tension T. A negative length takes
+/// as much off the way between the ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extension {
+    /// Length without tension (m).
+    pub length: f64,
+    /// Further length per tension (m/N), zero or more.
+    pub compliance: f64,
+}
+
+impl Extension {
+    /// No link.
+    pub const NONE: Extension = Extension { length: 0.0, compliance: 0.0 };
+
+    /// Length at a tension (m).
+    pub fn at(&self, tension: f64) -> f64 {
+        self.length + self.compliance * tension
+    }
+}
+
+/// How a line pulls on its first end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pull {
+    /// Tension (N); negative of a spring that pushes.
+    pub tension: f64,
+    /// Its direction, into the line.
+    pub along: Vector3<f64>,
+}
+
+/// A line that can be lengthened at its first end.
+pub trait Extended: Debug + Send + Sync {
+    /// Writes the forces on both ends of the line with the link, and their exact derivatives.
+    ///
+    /// # Errors
+    /// A situation for which no answer could be proven.
+    fn pull(&self, ends: &[End], by: Extension, guess: &mut Guess, out: &mut Response) -> Result<Pull, ClassError>;
+
+    /// What a report tells of the line with the link.
+    ///
+    /// # Errors
+    /// As [`Extended::pull`].
+    fn told(&self, ends: &[End], by: Extension) -> Result<Summary, ClassError>;
+
+    /// See [`crate::model::Element::made_for_place`].
+    fn made_for_place(&self) -> bool {
+        false
+    }
+}

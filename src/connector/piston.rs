@@ -1,0 +1,232 @@
+//! A hydraulic piston that controls the tension of a line: where it stands at the end of a step.
+//!
+//! Source: seed 001, -PISTON. The piston is a rigid link of length s - LD between the first end and the line, along the tension: at its
+//! nominal position it adds nothing. Readings where the seed is silent: VLONG and VSHORT are the fastest it goes, so that a limit is held
+//! while it can follow and the tension departs from it while it cannot; of MAX the way back to LD is as fast as VSHORT allows without
+//! passing TMAX; in statics it has all the time it needs, and starts at LD.
+
+use crate::language::args::Given;
+use crate::language::units::Dim;
+use crate::model::ClassError;
+
+/// Most evaluations of a search.
+const MOST: usize = 200;
+/// How near a held tension comes to its limit, as a share of it.
+const CLOSE: f64 = 1e-11;
+/// How far off it may be where the line leaves no better.
+const PROOF: f64 = 1e-8;
+
+/// A piston; positions from 0, the shortest, to its stroke.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Piston {
+    /// MINMAX: holds TMIN too, and stays where it is between the limits. Else MAX: goes back to its nominal position.
+    pub both: bool,
+    /// Total stroke LT (m).
+    pub stroke: f64,
+    /// Nominal position LD (m).
+    pub nominal: f64,
+    /// Largest velocity of lengthening (m/s).
+    pub lengthening: f64,
+    /// Largest velocity of shortening (m/s).
+    pub shortening: f64,
+    /// TMAX (N).
+    pub most: f64,
+    /// TMIN (N).
+    pub least: f64,
+}
+
+/// What a piston does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Does {
+    /// The tension is within its limits; the piston stays, or is on its way back.
+    Nothing,
+    /// It holds TMAX.
+    HoldsMost,
+    /// It holds TMIN.
+    HoldsLeast,
+    /// It cannot follow: the tension is beyond TMAX.
+    LagsMost,
+    /// It cannot follow: the tension is below TMIN.
+    LagsLeast,
+    /// It is at the end of its stroke, the tension beyond TMAX.
+    StopsLong,
+    /// It is shortest, the tension below TMIN.
+    StopsShort,
+}
+
+impl Does {
+    /// Whether the tension is what a limit says, so that the line has no stiffness along it.
+    pub fn holds(self) -> bool {
+        matches!(self, Does::HoldsMost | Does::HoldsLeast)
+    }
+
+    /// What a user is told.
+    pub fn note(self) -> &'static str {
+        match self {
+            Does::Nothing => {
+                "the piston is at rest or on its way to its nominal position, the tension within its limits"
+            }
+            Does::HoldsMost => "the piston holds TMAX; the line has no stiffness along its tension",
+            Does::HoldsLeast => "the piston holds TMIN; the line has no stiffness along its tension",
+            Does::LagsMost => "warning: the piston cannot lengthen fast enough; the tension is beyond TMAX",
+            Does::LagsLeast => "warning: the piston cannot shorten fast enough; the tension is below TMIN",
+            Does::StopsLong => "warning: the piston is at the end of its stroke; the tension is beyond TMAX",
+            Does::StopsShort => "warning: the piston is at its shortest; the tension is below TMIN",
+        }
+    }
+}
+
+/// A place of the piston with the tension there (N) and its derivative by the position (N/m, not above zero).
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Met {
+    position: f64,
+    tension: f64,
+    slope: f64,
+}
+
+impl Piston {
+    /// From the values of its option, which [`super::checks::piston`] has checked.
+    pub fn read(given: &Given) -> Option<Piston> {
+        let number = |i: usize| given.number(i);
+        Some(Piston {
+            both: given.word(0) == Some("MINMAX"),
+            stroke: number(1)?,
+            nominal: number(2)?,
+            lengthening: number(3)?,
+            shortening: number(4)?,
+            most: number(5)?,
+            least: number(6).unwrap_or(0.0),
+        })
+    }
+
+    /// The position at the end of a step (s; `None`: in statics) that began at another, and what it does there. `at` gives tension and
+    /// slope at a position; the tension falls, or stays, as the piston lengthens.
+    ///
+    /// All of it is a function of where the step began and where the ends are now: there is no switch that could chatter.
+    ///
+    /// # Errors
+    /// A position at which the line has no answer; a limit that no position holds.
+    pub fn stand(
+        &self,
+        before: f64,
+        dt: Option<f64>,
+        mut at: impl FnMut(f64) -> Result<(f64, f64), ClassError>,
+    ) -> Result<(f64, Does), ClassError> {
+        let from = dt.map_or(self.nominal, |_| before).clamp(0.0, self.stroke);
+        let reach = |speed: f64| dt.map_or(f64::INFINITY, |dt| speed * dt);
+        let longest = (from + reach(self.lengthening)).min(self.stroke);
+        let shortest = (from - reach(self.shortening)).max(if self.both { 0.0 } else { self.nominal.min(from) });
+        let mut met = |position: f64| at(position).map(|(tension, slope)| Met { position, tension, slope });
+        // MAX stands as short as TMAX lets it
+        let start = met(if self.both { from } else { shortest })?;
+        if start.tension > self.most {
+            let (found, held) = seek(&mut met, start, longest, self.most)?;
+            let stopped = if longest >= self.stroke { Does::StopsLong } else { Does::LagsMost };
+            return Ok((found, if held { Does::HoldsMost } else { stopped }));
+        }
+        if self.both && start.tension < self.least {
+            let (found, held) = seek(&mut met, start, shortest, self.least)?;
+            let stopped = if shortest <= 0.0 { Does::StopsShort } else { Does::LagsLeast };
+            return Ok((found, if held { Does::HoldsLeast } else { stopped }));
+        }
+        Ok((start.position, Does::Nothing))
+    }
+}
+
+/// From a place whose tension is not the wanted one toward an end of the way: the position that has it, or the end.
+fn seek(
+    met: &mut impl FnMut(f64) -> Result<Met, ClassError>,
+    start: Met,
+    end: f64,
+    wanted: f64,
+) -> Result<(f64, bool), ClassError> {
+    let side = (start.tension - wanted).signum();
+    let close = CLOSE * (wanted + start.tension.abs());
+    // the wanted place lies between `near` and `far`, which is proven to be beyond it once it was met
+    let (mut near, mut far, mut proven) = (start.position, end, false);
+    let mut at = start;
+    for _ in 0..MOST {
+        let off = at.tension - wanted;
+        if off.abs() <= close {
+            return Ok((at.position, true));
+        }
+        if off * side > 0.0 {
+            if at.position == end {
+                return Ok((end, false));
+            }
+            near = at.position;
+        } else {
+            (far, proven) = (at.position, true);
+        }
+        let newton = at.position - off / at.slope;
+        let inside = newton.is_finite() && (newton - near) * (far - newton) > 0.0;
+        let next = match (inside, proven) {
+            (true, _) => newton,
+            (false, false) => end,
+            (false, true) => 0.5 * (near + far),
+        };
+        if proven && (next == near || next == far) {
+            break;
+        }
+        at = met(next)?;
+    }
+    if (at.tension - wanted).abs() <= PROOF * (wanted + start.tension.abs()) {
+        return Ok((at.position, true));
+    }
+    let text = "the piston finds no position that holds {}; the nearest tension is {}";
+    Err(ClassError::of(text, &[(wanted, Dim::Force), (at.tension, Dim::Force)]))
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    /// A spring of 1000 N/m that only pulls, stretched by `stretch` when the piston is at its nominal position.
+    fn spring(stretch: f64) -> impl FnMut(f64) -> Result<(f64, f64), ClassError> {
+        move |s| {
+            let taut = stretch - (s - 1.0);
+            Ok(if taut > 0.0 { (1000.0 * taut, -1000.0) } else { (0.0, 0.0) })
+        }
+    }
+
+    const PISTON: Piston =
+        Piston { both: true, stroke: 3.0, nominal: 1.0, lengthening: 0.5, shortening: 0.25, most: 800.0, least: 300.0 };
+
+    #[test]
+    fn a_step_goes_as_far_as_the_limit_asks_and_the_velocity_allows() {
+        let after = |both: bool, before: f64, stretch: f64| {
+            let (s, does) = Piston { both, ..PISTON }.stand(before, Some(1.0), spring(stretch)).unwrap();
+            ((s * 1e9).round() / 1e9, does)
+        };
+        // between the limits; held at TMAX; too fast; at the end of the stroke
+        assert_eq!(after(true, 1.0, 0.5), (1.0, Does::Nothing));
+        assert_eq!(after(true, 1.0, 1.0), (1.2, Does::HoldsMost));
+        assert_eq!(after(true, 1.0, 2.0), (1.5, Does::LagsMost));
+        assert_eq!(after(true, 2.8, 9.0), (3.0, Does::StopsLong));
+        // TMIN: held; too fast; slack as well; shortest
+        assert_eq!(after(true, 1.0, 0.2), (0.9, Does::HoldsLeast));
+        assert_eq!(after(true, 1.0, -0.2), (0.75, Does::LagsLeast));
+        assert_eq!(after(true, 0.1, -5.0), (0.0, Does::StopsShort));
+        // MINMAX stays where it is, MAX goes back: as fast as it may, no shorter than LD, no tenser than TMAX
+        assert_eq!(after(true, 2.0, 1.5), (2.0, Does::Nothing));
+        assert_eq!(after(false, 2.0, 1.5), (1.75, Does::Nothing));
+        assert_eq!(after(false, 1.1, 0.5), (1.0, Does::Nothing));
+        assert_eq!(after(false, 2.0, 1.7), (1.9, Does::HoldsMost));
+        assert_eq!(after(false, 1.0, -0.5), (1.0, Does::Nothing));
+    }
+
+    #[test]
+    fn in_statics_it_slides_from_its_nominal_position_as_far_as_it_must() {
+        let at_rest = |both: bool, stretch: f64| {
+            let (s, does) = Piston { both, ..PISTON }.stand(2.5, None, spring(stretch)).unwrap();
+            ((s * 1e9).round() / 1e9, does)
+        };
+        assert_eq!(at_rest(true, 0.5), (1.0, Does::Nothing));
+        assert_eq!(at_rest(true, 2.0), (2.2, Does::HoldsMost));
+        assert_eq!(at_rest(false, 9.0), (3.0, Does::StopsLong));
+        assert_eq!(at_rest(true, -0.4), (0.3, Does::HoldsLeast));
+        assert_eq!(at_rest(true, -2.0), (0.0, Does::StopsShort));
+        assert_eq!(at_rest(false, -2.0), (1.0, Does::Nothing));
+    }
+}
