@@ -109,11 +109,14 @@ fn in_cone(u: &Vector3<f64>, length: f64, tangent: f64) -> Option<Deflection> {
     let c = (below - length).max(0.0) + tangent * d;
     let n = side.try_normalize(0.0).unwrap_or_default();
     let mut slopes = Matrix3::zeros();
-    if d > 0.0 {
+    // a pin on the ground of the cone has no room: a spring holds it also where it stands on the axis
+    let touches = d > 0.0 || room == 0.0;
+    if touches {
         let lateral = Matrix3::from_diagonal(&Vector3::new(0.0, 1.0, 1.0));
         // d n with d' = n along the side and T along the depth while the cone narrows
         let by_x = if below < length { -tangent } else { 0.0 };
-        slopes = (lateral - n * n.transpose()) * (d / off) + n * n.transpose();
+        let across = if off > 0.0 { d / off } else { 1.0 };
+        slopes = (lateral - n * n.transpose()) * across + n * n.transpose();
         slopes.set_column(0, &(n * by_x));
         let by_side = n * -tangent;
         slopes[(0, 1)] = by_side.y;
@@ -126,7 +129,7 @@ fn in_cone(u: &Vector3<f64>, length: f64, tangent: f64) -> Option<Deflection> {
     let outside = below <= length && off > tangent * length;
     let note = outside.then_some("warning: the tip of the pin stands outside of the cone's mouth");
     let side = d * n;
-    Some(Deflection { at: Vector3::new(-c, side.y, side.z), slopes, touches: [c > 0.0, d > 0.0, d > 0.0], note })
+    Some(Deflection { at: Vector3::new(-c, side.y, side.z), slopes, touches: [c > 0.0, touches, touches], note })
 }
 
 /// What limits or makes a lateral force.
