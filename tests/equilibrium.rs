@@ -140,3 +140,40 @@ fn the_stiffness_of_a_body_whose_junctions_follow_is_the_difference_of_its_force
     // with its junctions held the buoy would be four hundred times as stiff
     assert!(got[(0, 0)] < 0.01 * rest.state.stiffness[(6 * buoy, 6 * buoy)]);
 }
+
+/// The connectors' vertical forces on their first ends, as F_CONNECTOR has them.
+fn lifts(records: &str) -> Vec<(String, f64)> {
+    let model = model(records, &[]);
+    let mut list = Vec::new();
+    for connector in model.connectors.values() {
+        let element = model.element(connector).unwrap();
+        let ends = model.end_poses(connector).map(windlass::model::End::still);
+        let surroundings = model.surroundings();
+        let at = windlass::model::Situation { ends: &ends, step: None, surroundings: &surroundings };
+        let mut out = windlass::model::Response::default();
+        let (committed, mut trial) = (vec![0.0; element.states()], vec![0.0; element.states()]);
+        element.evaluate(&at, &committed, &mut trial, &mut None, &mut out).unwrap();
+        list.push((connector.name.clone(), out.wrench[0][2]));
+    }
+    list
+}
+
+#[test]
+fn four_pads_share_a_weight_by_its_distance_from_each_and_a_tie_of_ig_stiff_is_left_out_of_the_stiffness() {
+    let records = std::fs::read_to_string("scripts/foundation.cif").unwrap();
+    let list = lifts(&records);
+    // W/4 (1 + x X/25 + y Y/25) with the weight at x, y; the deck turns by some thousandths, with its weight 2 m above
+    for (name, want) in [("P1", 292.5e3), ("P2", 202.5e3), ("P3", 157.5e3), ("P4", 247.5e3)] {
+        let got = list.iter().find(|(n, _)| n == name).unwrap().1;
+        assert!((got / want - 1.0).abs() < 5e-3, "{name}: {got}");
+    }
+    let (mut session, screen, _folder) = common::session();
+    session.open("records", records);
+    session.run();
+    let text = screen.text();
+    assert!(text.contains("Largest Unity") && text.contains("without T (-IG_STIFF)"), "{text}");
+    // four springs of 2000 kN/m alone
+    let first = text.split("S T I F F N E S S   O F   D E C K :   F O R C E S").nth(1).unwrap();
+    let fx = first.lines().find(|l| l.trim_start().starts_with("FX")).unwrap();
+    assert_eq!(fx.split_whitespace().nth(1), Some("8.00000E+03"));
+}

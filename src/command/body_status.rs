@@ -6,7 +6,7 @@ use super::{Call, Job};
 use crate::language::diagnostic::Outcome;
 use crate::language::spec::{Kind, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
-use crate::model::Position;
+use crate::model::{Model, Position};
 use crate::solve::{System, tables};
 use crate::table::Table;
 
@@ -44,5 +44,14 @@ pub fn stiffness(job: &Job, call: &Call, chosen: &Chosen) -> Outcome<Vec<Table>>
     let connectors: Vec<&str> =
         job.model.connectors.values().map(|c| c.name.as_str()).filter(|name| named(name)).collect();
     let bodies = |name: &str| chosen.takes(name);
+    let model = &job.model;
+    // between two bodies; one to ground or to a junction counts
+    let left_out = |name: &str| {
+        let Some(connector) = model.connectors.get(&Model::key(name)) else { return false };
+        let points = connector.points.iter().filter_map(|p| model.points.get(&Model::key(p)));
+        let bodies = points.filter_map(|p| model.body_of(p)).filter(|b| b.junction.is_none()).count();
+        bodies > 1 && model.classes.get(&Model::key(&connector.class)).is_some_and(|c| c.ignored_stiffness)
+    };
+    let connectors = tables::Connectors { told: &connectors, left_out: &left_out };
     tables::stiffnesses(&system, &state, about, &bodies, &connectors).map_err(wrong)
 }

@@ -70,7 +70,9 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         }
     }
     let object = (kind.build)(&records)?;
-    job.model.classes.insert(key, Class { name: name.text.to_string(), records, object, span });
+    let ignored_stiffness = records.iter().any(|r| r.args.has("-IG_STIFF"));
+    let class = Class { name: name.text.to_string(), records, ignored_stiffness, object, span };
+    job.model.classes.insert(key, class);
     job.note_name(&name.text, name.span);
     job.notices.extend(notices);
     if let Some(text) = remark {

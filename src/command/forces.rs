@@ -34,7 +34,7 @@ pub fn forces(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem) -> 
         .column("Anchor", "H. Pull", Dim::Force, Digits::Usual)
         .column("On Bottom", "Unstretched", Dim::Length, Digits::Usual);
     let mut notes: Vec<(String, Vec<String>)> = Vec::new();
-    let mut springs = spring_table();
+    let mut springs = spring_table("Springs of Connectors");
     for connector in model.connectors.values().filter(|c| fits(&c.name)) {
         let (solution, found) = match connector.active {
             false => ("inactive", None),
@@ -59,6 +59,33 @@ pub fn forces(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem) -> 
     table.notes = gathered(&notes);
     let springs = Some(springs).filter(|s| s.rows() > 0);
     std::iter::once(table).chain(springs).collect()
+}
+
+/// The FOUNDATION check of seed 001: every spring of every foundation against its allowable, and the largest of each.
+pub fn foundations(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem) -> Table {
+    let mut table = spring_table("Foundation Check");
+    let (mut notes, mut largest): (Vec<(String, Vec<String>)>, Option<(f64, &str)>) = (Vec::new(), None);
+    let foundation = |c: &&Connector| {
+        model.classes.get(&Model::key(&c.class)).is_some_and(|class| class.object.foundation()) && fits(&c.name)
+    };
+    for connector in model.connectors.values().filter(foundation).filter(|c| c.active) {
+        match found(model, connector) {
+            Ok(mut found) => {
+                spring_rows(&mut table, connector, &found.summary);
+                let ratio = found.summary.ratio.unwrap_or(0.0);
+                if largest.is_none_or(|(most, _)| ratio > most) {
+                    largest = Some((ratio, &connector.name));
+                }
+                notes.push((connector.name.clone(), std::mem::take(&mut found.summary.notes)));
+            }
+            Err(error) => notes.push((connector.name.clone(), vec![format!("{WARNING}{}", error.text(units))])),
+        }
+    }
+    table.notes = gathered(&notes);
+    if let Some((ratio, name)) = largest {
+        table = table.fact("Largest Unity", ratio, Dim::None).fact("Of", name, Dim::None);
+    }
+    table
 }
 
 fn found(model: &Model, connector: &Connector) -> Result<Found, ClassError> {
@@ -101,8 +128,8 @@ fn numbers(found: Option<&Found>) -> [Cell; 10] {
     ]
 }
 
-fn spring_table() -> Table {
-    Table::new("Springs of Connectors")
+fn spring_table(title: &str) -> Table {
+    Table::new(title)
         .column("", "Name", Dim::None, Digits::Usual)
         .column("", "DF", Dim::None, Digits::Usual)
         .column("Translation", "Deflection", Dim::Length, Digits::Decimals(4))

@@ -4,7 +4,7 @@ use super::chosen::{Chosen, raise};
 use super::curve_table::{chart, curves};
 use super::disposition::{BOTH, HARD, send};
 use super::environment_table::environments;
-use super::forces::forces;
+use super::forces::{forces, foundations};
 use super::loads_table::loads;
 use super::offsets::offsets;
 use super::written::{as_written, kind_data, option_as_written};
@@ -27,6 +27,7 @@ const KINDS: &[(&str, Owner, &str)] = &[
     ("CL_FLEX", Owner::Moses, "flexible connector classes with W/L, AE, break"),
     ("G_CONNECTOR", Owner::Moses, "connector geometry"),
     ("F_CONNECTOR", Owner::Moses, "forces of the connectors between their ends as they are"),
+    ("FOUNDATION", Owner::Ours, "the FOUNDATION check: forces of foundations over their allowables"),
     ("FORCE", Owner::Moses, "what acts on the bodies where they stand, by category"),
     ("STIFFNESS", Owner::Ours, "stiffness of bodies and connectors about a point"),
     ("CURVES", Owner::Moses, "curves"),
@@ -87,7 +88,7 @@ static SPEC: CommandSpec = CommandSpec {
              A line without a solution has a row without numbers and a warning that says why. FORCE sums what acts on each body \
              where it stands, about its origin. STIFFNESS is the change of these forces with the motion of one body, other bodies held: \
              -d(force)/d(translation of the point, rotation in radians) in global axes, about the body's origin or the point of -ABOUT, \
-             taken to move with the body; junctions follow to their own equilibrium; with names of connectors that of each of them. -DISPOSE takes a table to the disposition menu: \
+             taken to move with the body; junctions follow to their own equilibrium; with names of connectors that of each of them. Connectors of classes with -IG_STIFF between two bodies are left out of it. -DISPOSE takes a table to the disposition menu: \
              REPORT, VIEW, STORE, PLOT.",
     example: "MEDIT\n*P 0 0 10\n~W B_CAT 4 EXACT -LEN 4000 -DEP 500\nCONNECTOR A -ANC 0 3900 ~W *P\nEND\n&STATUS F_CONNECTOR A\n\
               &STATUS\n&STATUS DEFAULTS\n&STATUS DIMENSIONS\n&STATUS LINE_TYPES 3\n&STATUS F_CONNECTOR -DISPOSE\nVIEW Name FX FZ\nEND",
@@ -108,6 +109,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         "CL_FLEX" | "CLASSES" => classes(job, &|class| fits(&class.name)),
         "G_CONNECTOR" => std::iter::once(connectors(model, &fits)).chain(offsets(model, &fits)).collect(),
         "F_CONNECTOR" => forces(model, &fits, job.units),
+        "FOUNDATION" => vec![foundations(model, &fits, job.units)],
         "FORCE" => body_status::forces(job, call, &fits)?,
         "STIFFNESS" => body_status::stiffness(job, call, &chosen)?,
         "CURVES" => curves(model, &fits),
@@ -163,7 +165,7 @@ fn things(kind: &str) -> &'static [Thing] {
         "HYDROSTATICS" => &[Thing::Body],
         "PIECES" => &[Thing::Piece, Thing::Body, Thing::Part],
         "CL_FLEX" | "CLASSES" => &[Thing::Class],
-        "G_CONNECTOR" | "F_CONNECTOR" => &[Thing::Connector],
+        "G_CONNECTOR" | "F_CONNECTOR" | "FOUNDATION" => &[Thing::Connector],
         "CURVES" => &[Thing::Curve],
         "ENVIRONMENT" => &[Thing::Environment],
         "POINTS" => &[Thing::Point],

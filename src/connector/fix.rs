@@ -41,7 +41,7 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
     if list.is_empty() {
         list = o::DOFS.iter().map(|dof| held(dof)).collect();
     }
-    Ok(Arc::new(Restraining::new(records, "FIX", list)))
+    Ok(Arc::new(Restraining::new("FIX", list)))
 }
 
 fn held(dof: &str) -> Restraint {

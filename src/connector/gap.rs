@@ -32,5 +32,5 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
     let mu = records.last().and_then(|r| r.args.number(0)).unwrap_or(0.0);
     let push = Restraint { dof: "X".into(), stiffness: RIGID, allowable: None };
     let friction = if mu > 0.0 { Friction::Stick { mu, stiffness: RIGID } } else { Friction::None };
-    Ok(Arc::new(Restraining::new(records, "GAP", vec![push]).pushing(friction)))
+    Ok(Arc::new(Restraining::new("GAP", vec![push]).pushing(friction)))
 }

@@ -9,7 +9,7 @@ use super::zero_law::{Contact, Friction, Sense, ZeroLaw};
 use super::zero_length::{ZeroLength, defined_displacement, element_turns};
 use crate::language::diagnostic::Outcome;
 use crate::language::units::Dim;
-use crate::model::{ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Surroundings};
+use crate::model::{ClassError, Connection, Connector, ConnectorClass, Element, Surroundings};
 use crate::table::Table;
 use nalgebra::Matrix3;
 
@@ -20,14 +20,12 @@ pub struct Restraining {
     restraints: Vec<Restraint>,
     sense: Sense,
     friction: Friction,
-    ignored: bool,
 }
 
 impl Restraining {
     /// Of a class with these springs, that act both ways.
-    pub fn new(records: &[ClassRecord], kind: &'static str, restraints: Vec<Restraint>) -> Self {
-        let ignored = records.last().is_some_and(|r| r.args.has("-IG_STIFF"));
-        Restraining { kind, restraints, sense: Sense::Both, friction: Friction::None, ignored }
+    pub fn new(kind: &'static str, restraints: Vec<Restraint>) -> Self {
+        Restraining { kind, restraints, sense: Sense::Both, friction: Friction::None }
     }
 
     /// The same that only pushes along X, with friction.
@@ -77,7 +75,6 @@ impl ConnectorClass for Restraining {
             law,
             listed: list().map(|(dof, _)| (dof, None)).collect(),
             rigid: true,
-            ignored: self.ignored,
         }))
     }
 }

@@ -38,7 +38,6 @@ pub struct Springs {
     dashpots: [Option<Dashpot>; 3],
     convolutions: Vec<(usize, String, Span)>,
     friction: Option<f64>,
-    ignored: bool,
 }
 
 /// Restraints in data from position `from`, so many values each.
@@ -150,8 +149,7 @@ impl Springs {
             Some(Dashpot { coefficient: given.number(0)?, exponent: given.number(1)?, most })
         });
         let friction = args.option_number("-FRICTION");
-        let ignored = args.has("-IG_STIFF");
-        Ok(Springs { restraints: list, symmetric, curves, dashpots, convolutions, friction, ignored })
+        Ok(Springs { restraints: list, symmetric, curves, dashpots, convolutions, friction })
     }
 
     /// Every degree of freedom that has a spring, Z ones of a symmetric element among them.
@@ -224,18 +222,13 @@ impl Springs {
     ) -> Result<Box<dyn Element>, ClassError> {
         let (turn, other_turn) = element_turns(connection, 0, Matrix3::identity());
         let law = self.law(connection, sense, contact)?;
-        let (listed, ignored) = (self.listed(), self.ignored);
-        Ok(Box::new(ZeroLength { holder: 0, turn, other_turn, rest, law, listed, rigid: false, ignored }))
+        let listed = self.listed();
+        Ok(Box::new(ZeroLength { holder: 0, turn, other_turn, rest, law, listed, rigid: false }))
     }
 
     /// What reports list.
     pub fn listed(&self) -> Vec<(usize, Option<f64>)> {
         self.all().into_iter().map(|(dof, _, allowable)| (dof, allowable)).collect()
-    }
-
-    /// Whether `-IG_STIFF` is given.
-    pub fn ignored(&self) -> bool {
-        self.ignored
     }
 }
 

@@ -29,8 +29,6 @@ pub struct ZeroLength {
     pub listed: Vec<(usize, Option<f64>)>,
     /// Whether it is a restraint.
     pub rigid: bool,
-    /// Whether -IG_STIFF is given.
-    pub ignored: bool,
 }
 
 /// Element axes of a connector in the body of its holder, and at definition in that of the other end. `own` are the axes of the class
@@ -253,10 +251,6 @@ impl Element for ZeroLength {
 
     fn rigid(&self) -> bool {
         self.rigid
-    }
-
-    fn ignored_stiffness(&self) -> bool {
-        self.ignored
     }
 }
 

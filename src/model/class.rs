@@ -30,6 +30,9 @@ pub struct Class {
     pub name: String,
     /// Its records in order.
     pub records: Vec<ClassRecord>,
+    /// Whether its stiffness is left out of what is told of the bodies beside the one of a connector (`-IG_STIFF`, seed 001);
+    /// its force is not.
+    pub ignored_stiffness: bool,
     /// What the records make.
     pub object: Arc<dyn ConnectorClass>,
     /// Where it was first defined.

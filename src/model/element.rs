@@ -160,12 +160,6 @@ pub trait Element: Debug + Send + Sync {
     fn rigid(&self) -> bool {
         false
     }
-
-    /// Whether its stiffness is left out of the structural results of the bodies it joins (`-IG_STIFF`, seed 001). Its force
-    /// acts all the same.
-    fn ignored_stiffness(&self) -> bool {
-        false
-    }
 }
 
 /// What a class is told of the connector that an element is made of.

@@ -137,6 +137,14 @@ pub fn periods(system: &System, state: &State) -> Table {
     table
 }
 
+/// Connectors of a stiffness report.
+pub struct Connectors<'a> {
+    /// Those told one by one.
+    pub told: &'a [&'a str],
+    /// Whether the stiffness of one of this name is left out of that of a body.
+    pub left_out: &'a dyn Fn(&str) -> bool,
+}
+
 /// The stiffness, in an evaluated state, of the bodies that fit, with all that acts on them, and of each of the connectors named, about a point (m,
 /// global), else about the bodies' origins. A connector between two bodies has one for each.
 ///
@@ -147,7 +155,7 @@ pub fn stiffnesses(
     state: &State,
     about: Option<Position>,
     fits: &dyn Fn(&str) -> bool,
-    connectors: &[&str],
+    connectors: &Connectors,
 ) -> Result<Vec<Table>, SolveError> {
     let all = system.contributions(&state.poses)?;
     let mut list = Vec::new();
@@ -161,16 +169,26 @@ pub fn stiffnesses(
         };
         if fits(&node.name) {
             let wrench = own().fold(Six::zeros(), |sum, c| sum + c.load.wrench);
-            let all = Load { wrench, stiffness: system.followed_stiffness(state, body) };
+            let left_out = own().filter(|c| c.connector.as_deref().is_some_and(|name| (connectors.left_out)(name)));
+            let mut names: Vec<&str> = Vec::new();
+            let mut followed = system.followed_stiffness(state, body);
+            for c in left_out {
+                followed -= c.load.stiffness;
+                names.extend(c.connector.as_deref());
+            }
+            let all = Load { wrench, stiffness: followed };
             let mut made = stiffness(&format!("Stiffness of {}", node.name), &all.about(arm).stiffness).map(point);
             if !node.junction && system.nodes.iter().any(|n| n.junction) {
                 made.iter_mut()
                     .for_each(|t| t.note("junctions follow the body to their own equilibrium; other bodies are held"));
             }
+            if !names.is_empty() {
+                made.iter_mut().for_each(|t| t.note(format!("without {} (-IG_STIFF)", names.join(", "))));
+            }
             list.extend(made);
         }
         for c in own() {
-            let Some(name) = c.connector.as_deref().filter(|name| connectors.contains(name)) else { continue };
+            let Some(name) = c.connector.as_deref().filter(|name| connectors.told.contains(name)) else { continue };
             let title = format!("Stiffness of {name} on {}", node.name);
             list.extend(stiffness(&title, &c.load.about(arm).stiffness).map(point));
         }
