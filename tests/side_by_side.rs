@@ -43,11 +43,12 @@ fn by_hand(model: &Model) -> Vec<(&'static str, Vector3<f64>, Vector3<f64>)> {
     let side = at(model, "INNER", [0.0, 1.0, 0.0]) - at(model, "INNER", [0.0; 3]);
     for (name, x) in FENDERS {
         let (inner, outer) = (at(model, "INNER", [x, 10.0, 2.0]), at(model, "OUTER", [x, -10.0, 2.0]));
-        // pushed in by u = 4 m less what is between the sides; the spring in series with the curve: u = P / 100000 + Y(P), between
-        // (100 kN, 0.3 m) and (400 kN, 0.6 m) Y = 0.3 + (P - 100) / 1000, so that P = (u - 0.2) / 0.00101
+        // pushed in by u = 4 m less what is between the sides; the spring in series with the curve: u = P / 100000 + Y(P). To
+        // (100 kN, 0.3 m) Y = 0.003 P, so that P = u / 0.00301; to (400 kN, 0.6 m) Y = 0.3 + (P - 100) / 1000: P = (u - 0.2) / 0.00101
         let pushed = 4.0 - (outer - inner).dot(&side);
-        assert!(pushed > 0.301 && pushed < 0.604, "{name}: {pushed}");
-        list.push((name, side * (pushed - 0.2) / 0.00101, outer));
+        assert!(pushed > 0.0 && pushed < 0.604, "{name}: {pushed}");
+        let push = if pushed < 0.301 { pushed / 0.00301 } else { (pushed - 0.2) / 0.00101 };
+        list.push((name, side * push, outer));
     }
     for (name, from, to, length) in HAWSERS {
         let (inner, outer) = (at(model, "INNER", [from, 4.0, 4.0]), at(model, "OUTER", [to, -4.0, 4.0]));
