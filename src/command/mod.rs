@@ -6,6 +6,8 @@
 
 mod alter;
 mod apply;
+mod assembly;
+mod assembly_table;
 mod body_status;
 mod body_tables;
 mod chosen;
@@ -39,6 +41,7 @@ mod offsets;
 mod pgen;
 mod piece;
 mod report_menu;
+mod rigging;
 mod select;
 mod status;
 mod surface;
@@ -151,6 +154,7 @@ pub static COMMANDS: &[&Command] = &[
     &class::CLASS,
     &connector::CONNECTOR,
     &junction::JUNCTION,
+    &assembly::ASSEMBLY,
     &names::DELETE,
     &names::RENAME,
     &alter::ALTER,

@@ -1,5 +1,6 @@
 //! `&STATUS`: what the model and the program hold.
 
+use super::assembly_table::assemblies;
 use super::chosen::{Chosen, raise};
 use super::curve_table::{chart, curves};
 use super::disposition::{BOTH, HARD, send};
@@ -28,6 +29,7 @@ const KINDS: &[(&str, Owner, &str)] = &[
     ("G_CONNECTOR", Owner::Moses, "connector geometry"),
     ("F_CONNECTOR", Owner::Moses, "forces of the connectors between their ends as they are"),
     ("FORCE", Owner::Moses, "what acts on the bodies where they stand, by category"),
+    ("ASSEMBLIES", Owner::Ours, "tip-hook sets: where the hook is, what its lines bear"),
     ("STIFFNESS", Owner::Ours, "stiffness of bodies and connectors about a point"),
     ("CURVES", Owner::Moses, "curves"),
     ("ENVIRONMENT", Owner::Moses, "the environment in force, or one kept under a name"),
@@ -108,6 +110,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         "CL_FLEX" | "CLASSES" => classes(job, &|class| fits(&class.name)),
         "G_CONNECTOR" => std::iter::once(connectors(model, &fits)).chain(offsets(model, &fits)).collect(),
         "F_CONNECTOR" => forces(model, &fits, job.units),
+        "ASSEMBLIES" => assemblies(model, &fits, job.units),
         "FORCE" => body_status::forces(job, call, &fits)?,
         "STIFFNESS" => body_status::stiffness(job, call, &chosen)?,
         "CURVES" => curves(model, &fits),
@@ -162,6 +165,7 @@ fn things(kind: &str) -> &'static [Thing] {
         "BODIES" | "LOADS" | "WEIGHT" => &[Thing::Body, Thing::Part],
         "HYDROSTATICS" => &[Thing::Body],
         "PIECES" => &[Thing::Piece, Thing::Body, Thing::Part],
+        "ASSEMBLIES" => &[Thing::Assembly],
         "CL_FLEX" | "CLASSES" => &[Thing::Class],
         "G_CONNECTOR" | "F_CONNECTOR" => &[Thing::Connector],
         "CURVES" => &[Thing::Curve],

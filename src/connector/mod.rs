@@ -13,6 +13,7 @@ mod foundation;
 mod gap;
 mod gspr;
 mod h_cat;
+pub mod hook;
 mod line_element;
 pub mod line_types;
 mod lmu;

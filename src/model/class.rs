@@ -124,6 +124,11 @@ pub trait ConnectorClass: Debug + Send + Sync {
         None
     }
 
+    /// Whether `&CONNECTOR` may give its connectors another length though it is no mooring line.
+    fn adjustable(&self) -> bool {
+        false
+    }
+
     /// Depth of the anchor below z = 0 (m), where the class goes to ground and knows it.
     fn anchor_depth(&self, _: &Surroundings) -> Option<f64> {
         None
