@@ -94,7 +94,8 @@ pub fn build_assembly(job: &mut Job, args: &Args) -> Outcome<()> {
     if let Some(given) = args.option("-ORIENT") {
         rigging::orient(&mut job.model, &body, &slings, given.span)?;
     }
-    let first = job.model.assemblies.is_empty();
+    let sets = |a: &Assembly| matches!(a.kind, AssemblyKind::TipHook { .. });
+    let first = !job.model.assemblies.values().any(sets);
     let rigging = Rigging { body: &body, boom: &boom, slings: &slings, span: args.span, units: job.units };
     let hook = match (args.has("-INITIAL"), first) {
         (true, true) => rigging.move_body(&mut job.model, args.has("-VERTICAL"))?,
@@ -111,7 +112,7 @@ pub fn build_assembly(job: &mut Job, args: &Args) -> Outcome<()> {
     };
     if args.has("-DEACTIVATE") {
         let model = &mut job.model;
-        for member in model.assemblies.values().flat_map(Assembly::members) {
+        for member in model.assemblies.values().filter(|a| sets(a)).flat_map(Assembly::members) {
             if let Some(connector) = model.connectors.get_mut(&Model::key(member)) {
                 connector.active = false;
             }

@@ -40,6 +40,7 @@ mod names;
 mod offsets;
 mod pgen;
 mod piece;
+mod pipe;
 mod report_menu;
 mod rigging;
 mod select;
@@ -155,6 +156,7 @@ pub static COMMANDS: &[&Command] = &[
     &connector::CONNECTOR,
     &junction::JUNCTION,
     &assembly::ASSEMBLY,
+    &pipe::PIPE_COMMAND,
     &names::DELETE,
     &names::RENAME,
     &alter::ALTER,

@@ -7,7 +7,7 @@ use crate::language::name;
 use crate::language::select::{Owner, is_wild, matches};
 use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Kind, Noun, ValueSpec};
-use crate::model::{Model, Piece, Thing};
+use crate::model::{AssemblyKind, Model, Piece, Thing};
 use std::sync::Arc;
 
 /// DELETE.
@@ -147,6 +147,11 @@ fn rename(job: &mut Job, call: &Call) -> Outcome<Effect> {
         Thing::Class => {
             move_entry(&mut model.classes, &from, to, |c| c.name = new.to_string());
             model.connectors.values_mut().for_each(|c| follow(&mut c.class));
+            for assembly in model.assemblies.values_mut() {
+                if let AssemblyKind::Pipe { class, .. } = &mut assembly.kind {
+                    follow(class);
+                }
+            }
         }
         Thing::Point => {
             move_entry(&mut model.points, &from, to, |p| p.name = new.to_string());

@@ -21,6 +21,8 @@ mod loads;
 mod mooring;
 mod mooring_table;
 mod options;
+mod pipe;
+pub mod planar_beam;
 mod restraint;
 mod rod;
 mod roller;

@@ -1,6 +1,6 @@
 //! Assemblies: connectors of a single node whose other ends an assembly takes care of.
 
-use super::{Body, Model};
+use super::{Body, ClassError, Connection, Connector, Element, Model, Pose, Surroundings};
 use crate::language::source::Span;
 use indexmap::IndexMap;
 
@@ -14,7 +14,35 @@ pub enum AssemblyKind {
         /// The connectors from the body to the hook.
         slings: Vec<String>,
     },
+    /// A pipe on supports.
+    Pipe {
+        /// Its ROD class.
+        class: String,
+        /// Its supports, from the one nearest to the bottom to the tensioner.
+        supports: Vec<String>,
+        /// TLOWER and TUPPER (N); no TUPPER on davits.
+        tension: (f64, Option<f64>),
+    },
 }
+
+/// What a pipe is made of where its supports are.
+pub struct PipeLayout<'a> {
+    /// The law of each support, between its node and a point of the pipe.
+    pub supports: Vec<Box<dyn Element>>,
+    /// Their nodes.
+    pub nodes: Vec<Pose>,
+    /// How far below its node each holds the pipe (m): the length of a davit.
+    pub hang: Vec<f64>,
+    /// TLOWER: the least tension of the tensioner, or the nominal one at the first davit (N).
+    pub lower: f64,
+    /// TUPPER, the largest tension of the tensioner (N); `None` on davits.
+    pub upper: Option<f64>,
+    /// Water, depth, gravity.
+    pub surroundings: &'a Surroundings,
+}
+
+/// Name of the one pipe assembly (the MOSES manual, conn_pipe).
+pub const PIPE: &str = "&PIPE/ASSEMBLY";
 
 /// An assembly. The hook of a tip-hook set is a junction of its name, and the second point of its connectors.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,14 +58,20 @@ pub struct Assembly {
 impl Assembly {
     /// The connectors it takes care of.
     pub fn members(&self) -> impl Iterator<Item = &String> {
-        let AssemblyKind::TipHook { boom, slings } = &self.kind;
-        std::iter::once(boom).chain(slings)
+        let (boom, others) = match &self.kind {
+            AssemblyKind::TipHook { boom, slings } => (Some(boom), slings),
+            AssemblyKind::Pipe { supports, .. } => (None, supports),
+        };
+        boom.into_iter().chain(others)
     }
 
     /// The same, to be renamed.
     pub fn members_mut(&mut self) -> impl Iterator<Item = &mut String> {
-        let AssemblyKind::TipHook { boom, slings } = &mut self.kind;
-        std::iter::once(boom).chain(slings)
+        let (boom, others) = match &mut self.kind {
+            AssemblyKind::TipHook { boom, slings } => (Some(boom), slings),
+            AssemblyKind::Pipe { supports, .. } => (None, supports),
+        };
+        boom.into_iter().chain(others)
     }
 }
 
@@ -46,6 +80,44 @@ impl Model {
     pub fn assembly_of(&self, connector: &str) -> Option<&Assembly> {
         let key = Model::key(connector);
         self.assemblies.values().find(|a| a.members().any(|m| Model::key(m) == key))
+    }
+
+    /// Whether a connector holds a pipe, which acts in its place.
+    pub fn holds_pipe(&self, connector: &str) -> bool {
+        self.assembly_of(connector).is_some_and(|a| matches!(a.kind, AssemblyKind::Pipe { .. }))
+    }
+
+    /// The supports of a pipe assembly that act, and the pipe on them; `None` of another assembly, or where none acts.
+    ///
+    /// # Errors
+    /// A class or support that makes none here.
+    pub fn pipe(&self, assembly: &Assembly) -> Result<Option<(Vec<&Connector>, Box<dyn Element>)>, ClassError> {
+        let AssemblyKind::Pipe { class, supports, tension: (lower, upper) } = &assembly.kind else { return Ok(None) };
+        let held = supports.iter().filter_map(|name| self.connectors.get(&Model::key(name)));
+        let held: Vec<&Connector> = held.filter(|c| c.active).collect();
+        let found = self.classes.get(&Model::key(class)).map(|c| &c.object);
+        let Some(found) = found.filter(|_| !held.is_empty()) else { return Ok(None) };
+        let surroundings = self.surroundings();
+        let (mut laws, mut nodes, mut hang) = (Vec::new(), Vec::new(), Vec::new());
+        for connector in &held {
+            let node = self.end_pose(connector, 0).unwrap_or_default();
+            let placement = super::Placement { to_ground: false, ..self.placement(connector) };
+            let class = self.classes.get(&Model::key(&connector.class));
+            let class = class.ok_or_else(|| ClassError::new(format!("there is no class {}", connector.class)))?;
+            laws.push(class.object.element(&Connection {
+                connector,
+                ends: [node, node],
+                to_ground: false,
+                placement,
+                curve: &|name| self.curves.get(&Model::key(name)),
+                surroundings: &surroundings,
+            })?);
+            hang.push(if upper.is_none() { self.first_length(connector).unwrap_or(0.0) } else { 0.0 });
+            nodes.push(node);
+        }
+        let (lower, upper) = (*lower, *upper);
+        let layout = PipeLayout { supports: laws, nodes, hang, lower, upper, surroundings: &surroundings };
+        Ok(Some((held, found.pipe(layout)?)))
     }
 
     /// Whether a body is the hook of an assembly whose connectors are all inactive: nothing moves it then.
@@ -58,6 +130,9 @@ impl Model {
     pub fn take_apart(&mut self, name: &str) {
         let key = Model::key(name);
         let Some(assembly) = self.assemblies.shift_remove(&key) else { return };
+        if matches!(assembly.kind, AssemblyKind::Pipe { .. }) {
+            return;
+        }
         for member in assembly.members() {
             if let Some(connector) = self.connectors.get_mut(&Model::key(member)) {
                 connector.points.truncate(1);

@@ -1,5 +1,6 @@
 //! Classes: what a connector is made of, and what a connector class can be asked.
 
+use super::assembly::PipeLayout;
 use super::connector::Connector;
 use super::defaults::Defaults;
 use super::element::{Connection, Element};
@@ -153,6 +154,14 @@ pub trait ConnectorClass: Debug + Send + Sync {
             return self.line(&connection.placement, connection.surroundings)?.element();
         }
         Err(ClassError::new(format!("a connector of class type {} exerts no force", self.kind())))
+    }
+
+    /// The pipe that a pipe assembly makes of this class.
+    ///
+    /// # Errors
+    /// A class that is no ROD, or a layout that makes no pipe.
+    fn pipe(&self, _: PipeLayout) -> Result<Box<dyn Element>, ClassError> {
+        Err(ClassError::new(format!("a class of type {} makes no pipe: it asks for a ROD", self.kind())))
     }
 
     /// Whether [`ConnectorClass::line`] makes lines.

@@ -4,7 +4,7 @@
 //! classes, points and selectors are told apart by their markers. A body and its own part have one name, and a piece may have
 //! that of its body or part.
 
-use super::{Model, Piece};
+use super::{Assembly, AssemblyKind, Model, Piece};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::name::with_article;
 use crate::language::source::Span;
@@ -141,7 +141,12 @@ impl Model {
     pub fn users(&self, thing: Thing, name: &str) -> Vec<&str> {
         let key = Model::key(name);
         match thing {
-            Thing::Class => self.users_of_class(name),
+            Thing::Class => {
+                let made_of =
+                    |a: &&Assembly| matches!(&a.kind, AssemblyKind::Pipe { class, .. } if Model::key(class) == key);
+                let pipes = self.assemblies.values().filter(made_of).map(|a| a.name.as_str());
+                self.users_of_class(name).into_iter().chain(pipes).collect()
+            }
             Thing::Point => self.users_of_point(name),
             Thing::Body => {
                 let own = self.points.values().filter(|p| self.body_of(p).is_some_and(|b| Model::key(&b.name) == key));

@@ -121,7 +121,10 @@ impl System {
         let mut states = Vec::new();
         let mut links = Vec::new();
         for connector in model.connectors.values() {
-            if !connector.active || left_out.iter().any(|name| name.eq_ignore_ascii_case(&connector.name)) {
+            if !connector.active
+                || model.holds_pipe(&connector.name)
+                || left_out.iter().any(|name| name.eq_ignore_ascii_case(&connector.name))
+            {
                 continue;
             }
             let element = model.element(connector).map_err(SolveError::of(&connector.name))?;
@@ -132,6 +135,12 @@ impl System {
             }
             let ends = attachments(model, connector).to_vec();
             links.push(Link { name: connector.name.clone(), element, ends, states: from..states.len() });
+        }
+        for assembly in model.assemblies.values() {
+            let made = model.pipe(assembly).map_err(SolveError::of(&assembly.name))?;
+            let Some((held, element)) = made else { continue };
+            let ends = held.iter().map(|c| attachments(model, c)[0]).collect();
+            links.push(Link { name: assembly.name.clone(), element, ends, states: states.len()..states.len() });
         }
         Ok(System { nodes, links, states, surroundings: model.surroundings(), gravity: model.defaults.gravity })
     }
