@@ -3,7 +3,7 @@
 use super::chosen::WARNING;
 use super::status::push;
 use crate::language::units::{Dim, UnitSystem};
-use crate::model::{Assembly, AssemblyKind, ClassError, Connector, End, Model, Response, Situation, Summary};
+use crate::model::{Assembly, AssemblyKind, ClassError, Connector, End, LaidPipe, Model, Response, Situation, Summary};
 use crate::table::{Cell, Digits, Table};
 use nalgebra::Vector3;
 
@@ -70,11 +70,13 @@ fn pipe(model: &Model, assembly: &Assembly, units: UnitSystem) -> Table {
     table
 }
 
+/// Forces on nodes (N), and a summary.
+type OnSupports = (Vec<[f64; 3]>, Summary);
+
 /// The forces of a pipe on the nodes of its active supports (N), and what it tells of itself.
-#[allow(clippy::type_complexity)]
-fn on_supports(model: &Model, assembly: &Assembly) -> Result<Option<(Vec<[f64; 3]>, Summary)>, ClassError> {
-    let Some((held, element)) = model.pipe(assembly)? else { return Ok(None) };
-    let ends: Vec<End> = held.iter().map(|c| End::still(model.end_pose(c, 0).unwrap_or_default())).collect();
+fn on_supports(model: &Model, assembly: &Assembly) -> Result<Option<OnSupports>, ClassError> {
+    let Some(LaidPipe { supports, element }) = model.pipe(assembly)? else { return Ok(None) };
+    let ends: Vec<End> = supports.iter().map(|c| End::still(model.end_pose(c, 0).unwrap_or_default())).collect();
     let surroundings = model.surroundings();
     let at = Situation { ends: &ends, step: None, surroundings: &surroundings };
     let mut out = Response::default();

@@ -41,6 +41,14 @@ pub struct PipeLayout<'a> {
     pub surroundings: &'a Surroundings,
 }
 
+/// A pipe over the supports that act, in the order of its ends.
+pub struct LaidPipe<'a> {
+    /// The supports.
+    pub supports: Vec<&'a Connector>,
+    /// The pipe, with an end at the node of each.
+    pub element: Box<dyn Element>,
+}
+
 /// Name of the one pipe assembly (the MOSES manual, conn_pipe).
 pub const PIPE: &str = "&PIPE/ASSEMBLY";
 
@@ -91,7 +99,7 @@ impl Model {
     ///
     /// # Errors
     /// A class or support that makes none here.
-    pub fn pipe(&self, assembly: &Assembly) -> Result<Option<(Vec<&Connector>, Box<dyn Element>)>, ClassError> {
+    pub fn pipe(&self, assembly: &Assembly) -> Result<Option<LaidPipe<'_>>, ClassError> {
         let AssemblyKind::Pipe { class, supports, tension: (lower, upper) } = &assembly.kind else { return Ok(None) };
         let held = supports.iter().filter_map(|name| self.connectors.get(&Model::key(name)));
         let held: Vec<&Connector> = held.filter(|c| c.active).collect();
@@ -117,7 +125,7 @@ impl Model {
         }
         let (lower, upper) = (*lower, *upper);
         let layout = PipeLayout { supports: laws, nodes, hang, lower, upper, surroundings: &surroundings };
-        Ok(Some((held, found.pipe(layout)?)))
+        Ok(Some(LaidPipe { element: found.pipe(layout)?, supports: held }))
     }
 
     /// Whether a body is the hook of an assembly whose connectors are all inactive: nothing moves it then.

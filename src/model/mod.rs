@@ -19,7 +19,7 @@ mod names;
 mod pose;
 mod selector;
 
-pub use assembly::{Assemblies, Assembly, AssemblyKind, PIPE, PipeLayout};
+pub use assembly::{Assemblies, Assembly, AssemblyKind, LaidPipe, PIPE, PipeLayout};
 pub use body::{Body, GROUND, Junction, Mass, Part, Point, Weight};
 pub use class::{Class, ClassError, ClassRecord, ConnectorClass};
 pub use connector::{Anchor, Connector, Tug};

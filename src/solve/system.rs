@@ -2,7 +2,7 @@
 
 use crate::hydro::{Category, Floating, Load, carried, transferred, turning};
 use crate::model::{
-    Body, ClassError, Connector, Element, End, Guess, Mass, Model, Pose, Response, Situation, Surroundings,
+    Body, ClassError, Connector, Element, End, Guess, LaidPipe, Mass, Model, Pose, Response, Situation, Surroundings,
 };
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Vector3};
 
@@ -138,8 +138,8 @@ impl System {
         }
         for assembly in model.assemblies.values() {
             let made = model.pipe(assembly).map_err(SolveError::of(&assembly.name))?;
-            let Some((held, element)) = made else { continue };
-            let ends = held.iter().map(|c| attachments(model, c)[0]).collect();
+            let Some(LaidPipe { supports, element }) = made else { continue };
+            let ends = supports.iter().map(|c| attachments(model, c)[0]).collect();
             links.push(Link { name: assembly.name.clone(), element, ends, states: states.len()..states.len() });
         }
         Ok(System { nodes, links, states, surroundings: model.surroundings(), gravity: model.defaults.gravity })
