@@ -206,7 +206,9 @@ fn change(model: &Model, made: &mut Connector, given: &Given, said: &mut Said) -
     match (option, aim) {
         ("-LENGTH", _) => made.first_length = Some(value),
         ("-L_DELTA", _) => {
-            line(model, made)?;
+            if !adjustable(model, made) {
+                line(model, made)?;
+            }
             let length = old.0.unwrap_or(0.0) + value;
             if length <= 0.0 {
                 let text = format!("its first segment is {} long", said.measured(length - value, Dim::Length));
@@ -245,9 +247,17 @@ fn change(model: &Model, made: &mut Connector, given: &Given, said: &mut Said) -
         }
         _ => {}
     }
+    if adjustable(model, made) && matches!(option, "-LENGTH" | "-L_DELTA") {
+        return Ok(told(made, given, old, said));
+    }
     let found = line(model, made)?;
     let forces = forces(found.as_ref(), model, made, given, said)?;
     Ok(format!("{}{forces}", told(made, given, old, said)))
+}
+
+/// Whether it has a length though it is no mooring line.
+fn adjustable(model: &Model, connector: &Connector) -> bool {
+    model.classes.get(&Model::key(&connector.class)).is_some_and(|c| c.object.adjustable())
 }
 
 /// The line a connector makes.

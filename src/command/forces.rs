@@ -38,6 +38,7 @@ pub fn forces(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem) -> 
     for connector in model.connectors.values().filter(|c| fits(&c.name)) {
         let (solution, found) = match connector.active {
             false => ("inactive", None),
+            true if model.holds_pipe(&connector.name) => ("in pipe", None),
             true => match found(model, connector) {
                 Ok(mut found) => {
                     notes.push((connector.name.clone(), std::mem::take(&mut found.summary.notes)));

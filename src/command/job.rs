@@ -184,6 +184,8 @@ pub struct Job {
     pub last_severity: Option<Severity>,
     /// CONNECTOR records of an open INMODEL, waiting for names defined later.
     pub deferred: Vec<Args>,
+    /// ASSEMBLY records of an open INMODEL, waiting for their connectors.
+    pub deferred_assemblies: Vec<Args>,
     /// Files of `&FILE`.
     pub user_files: IndexMap<String, UserFile>,
     /// Variables that `&F_READ` sets.
@@ -214,6 +216,7 @@ impl Job {
             notices: Vec::new(),
             last_severity: None,
             deferred: Vec::new(),
+            deferred_assemblies: Vec::new(),
             user_files: IndexMap::new(),
             assignments: Vec::new(),
             clock: Instant::now(),

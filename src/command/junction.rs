@@ -2,11 +2,12 @@
 
 use super::{Call, Command, Effect, Job};
 use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::name as rule;
+use crate::language::name::{self as rule, with_article};
 use crate::language::select::Owner;
+use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
-use crate::model::{Body, Junction, Model, Part, Place, Point, Weight};
+use crate::model::{Body, Junction, Model, Part, Place, Point, Position, Weight};
 
 /// JUNCTION.
 pub static JUNCTION: Command = Command { spec: &SPEC, edits: false, run };
@@ -54,24 +55,40 @@ static SPEC: CommandSpec = CommandSpec {
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let name = args.word(0).unwrap_or_default();
-    let (key, span) = (Model::key(name), args.place(0));
-    let model = &mut job.model;
-    rule::check(name, None, "junction", span)?;
+    let at = [1, 2, 3].map(|i| args.number(i).unwrap_or(0.0));
+    let displacement = args.option_number("-DISPLACEMENT").unwrap_or(0.0);
+    let weight = args.option_number("-WEIGHT").unwrap_or(0.0);
+    free(&job.model, name, "junction", args.place(0))?;
+    insert(&mut job.model, name, at, [weight, displacement], args.place(0));
+    job.note_name(name, args.place(0));
+    Ok(Effect::Done)
+}
+
+/// Sees that a junction, or what makes one, may have a name.
+///
+/// # Errors
+/// A name that is none or is taken, also that of its point; too many junctions.
+pub(super) fn free(model: &Model, name: &str, what: &str, span: Span) -> Outcome<()> {
+    rule::check(name, None, what, span)?;
     model.free_name(name, &[], span)?;
     let point = format!("*{name}");
     if let Some(old) = model.points.get(&Model::key(&point)) {
         return Err(Diagnostic::error(format!("there is a point {point} already"), span)
             .other(old.span, "defined here")
-            .help("a junction makes the point of its name"));
+            .help(format!("{} makes the point of its name", with_article(what))));
     }
     if model.bodies.values().filter(|b| b.junction.is_some()).count() >= MOST {
-        return Err(Diagnostic::error(format!("a model has at most {MOST} junctions"), span));
+        return Err(Diagnostic::error(format!("a model has at most {MOST} junctions and hooks"), span));
     }
-    let at = [1, 2, 3].map(|i| args.number(i).unwrap_or(0.0));
+    Ok(())
+}
+
+/// Adds a junction at a place (m), with its weight and displacement (N) and its point.
+pub(super) fn insert(model: &mut Model, name: &str, at: Position, [weight, displacement]: [f64; 2], span: Span) {
+    let key = Model::key(name);
+    let point = format!("*{name}");
     let [x, y, z] = at;
-    let displacement = args.option_number("-DISPLACEMENT").unwrap_or(0.0);
     let volume = displacement / (model.defaults.water_density * model.defaults.gravity);
-    let weight = args.option_number("-WEIGHT").unwrap_or(0.0);
     let weights = if weight > 0.0 { vec![Weight { at: [0.0; 3], weight, radii: [0.0; 3], span }] } else { Vec::new() };
     let place = Place::new([x, y, z, 0.0, 0.0, 0.0]);
     let body = Body {
@@ -88,6 +105,4 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     model.parts.insert(key, part);
     let made = Point { name: point.clone(), part: name.to_string(), at: [0.0; 3], span };
     model.points.insert(Model::key(&point), made);
-    job.note_name(name, span);
-    Ok(Effect::Done)
 }

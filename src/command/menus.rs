@@ -1,5 +1,6 @@
 //! The commands that open menus, and the end of INMODEL.
 
+use super::assembly::build_assembly;
 use super::class::known_curves;
 use super::connector::build_connector;
 use super::{Call, Command, Effect, INMODEL_FILE, Job, Menu, pgen, piece};
@@ -109,5 +110,15 @@ fn finish_inmodel(job: &mut Job) -> Vec<Diagnostic> {
     let waiting = std::mem::take(&mut job.deferred);
     let records = job.model.classes.values().flat_map(|class| class.records.iter());
     let curves: Vec<_> = records.filter_map(|r| known_curves(job, &r.args).err()).collect();
-    curves.into_iter().chain(waiting.iter().filter_map(|args| build_connector(job, args).err())).map(|e| *e).collect()
+    let mut wrong: Vec<_> = curves.into_iter().collect();
+    wrong.extend(waiting.iter().filter_map(|args| build_connector(job, args).err()));
+    for args in std::mem::take(&mut job.deferred_assemblies) {
+        // one that fails half way leaves the model as it was
+        let before = job.model.clone();
+        if let Err(error) = build_assembly(job, &args) {
+            job.model = before;
+            wrong.push(error);
+        }
+    }
+    wrong.into_iter().map(|e| *e).collect()
 }

@@ -6,6 +6,8 @@
 
 mod alter;
 mod apply;
+mod assembly;
+mod assembly_table;
 mod body_status;
 mod body_tables;
 mod chosen;
@@ -40,7 +42,9 @@ mod offsets;
 mod pgen;
 mod picture;
 mod piece;
+mod pipe;
 mod report_menu;
+mod rigging;
 mod select;
 mod status;
 mod surface;
@@ -153,6 +157,8 @@ pub static COMMANDS: &[&Command] = &[
     &class::CLASS,
     &connector::CONNECTOR,
     &junction::JUNCTION,
+    &assembly::ASSEMBLY,
+    &pipe::PIPE_COMMAND,
     &names::DELETE,
     &names::RENAME,
     &alter::ALTER,

@@ -7,7 +7,7 @@ use crate::language::name;
 use crate::language::select::{Owner, is_wild, matches};
 use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Kind, Noun, ValueSpec};
-use crate::model::{Model, Piece, Thing};
+use crate::model::{AssemblyKind, Model, Piece, Thing};
 use std::sync::Arc;
 
 /// DELETE.
@@ -20,9 +20,9 @@ static DELETE_SPEC: CommandSpec = CommandSpec {
     menus: &["INMODEL", "MEDIT"],
     data: &[ValueSpec::new("NAME", Kind::Name(Noun::Selector), "what to delete; wild characters may be used")],
     repeat: 1,
-    detail: "Names are those of connectors, classes, points, parts, bodies, pieces, curves, environments and selectors; a name \
-             means one thing, since connectors, bodies, parts, pieces, curves and environments all have different names. A \
-             body goes with its parts, points, weights and pieces. What is still used is not deleted: a class or point by a connector, a curve by \
+    detail: "Names are those of connectors, classes, points, assemblies, parts, bodies, pieces, curves, environments and selectors; a name \
+             means one thing, since connectors, assemblies, bodies, parts, pieces, curves and environments all have different names. A \
+             body goes with its parts, points, weights and pieces. An assembly goes with its hook, and its connectors have a single node again. What is still used is not deleted: a class or point by a connector, a connector by an assembly, a curve by \
              a class or an environment (also by the one in force), a selector by another. With one name that is refused \
              nothing is deleted.",
     example: "MEDIT\n*P 0 0 0\nDELETE *P\nEND",
@@ -39,7 +39,7 @@ static RENAME_SPEC: CommandSpec = CommandSpec {
     detail: "What refers to the thing by its name follows: connectors, parts, points, selectors. A selector's pattern with \
              wild characters stays as it is. &HELP alone says what a name may be.",
     example: "MEDIT\n*P 0 0 0\nRENAME *P *Q\nEND",
-    ..CommandSpec::new("RENAME", "renames a connector, class, point or body")
+    ..CommandSpec::new("RENAME", "renames a connector, class, point, body or assembly")
 };
 
 fn delete(job: &mut Job, call: &Call) -> Outcome<Effect> {
@@ -92,6 +92,7 @@ fn remove(model: &mut Model, thing: Thing, name: &str) {
             let other = |piece: &Piece| !piece.name.eq_ignore_ascii_case(name);
             model.parts.values_mut().for_each(|part| part.pieces.retain(other));
         }
+        Thing::Assembly => model.take_apart(name),
         Thing::Body => {
             let parts = &model.parts;
             let own = |part: &str| parts.get(&Model::key(part)).is_some_and(|p| Model::key(&p.body) == key);
@@ -115,18 +116,23 @@ fn rename(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (span, place) = (call.args.place(0), call.args.place(1));
     let model = &mut job.model;
     let known = model.things();
-    let renamed = |t: &Thing| matches!(t, Thing::Connector | Thing::Class | Thing::Point | Thing::Body);
+    let renamed =
+        |t: &Thing| matches!(t, Thing::Connector | Thing::Class | Thing::Point | Thing::Body | Thing::Assembly);
     let found = known.iter().find(|(t, name)| renamed(t) && name.eq_ignore_ascii_case(old)).map(|(t, _)| *t);
     if name::marker(old) != name::marker(new) {
         return Err(Diagnostic::error("the new name must have the same marker as the old one", place));
     }
     let Some(thing) = found else {
-        let mut error = Diagnostic::error(format!("no connector, class, point or body is called {old}"), span);
+        let mut error =
+            Diagnostic::error(format!("no connector, class, point, body or assembly is called {old}"), span);
         error.help.extend(did_you_mean(old, known.iter().filter(|(t, _)| renamed(t)).map(|(_, name)| *name)));
         return Err(error);
     };
     name::check(new, name::marker(old), thing.word(), place)?;
     taken(model, new, place)?;
+    if thing == Thing::Assembly {
+        taken(model, &format!("*{new}"), place)?;
+    }
     let (from, to) = (Model::key(old), Model::key(new));
     let follow = |name: &mut String| {
         if Model::key(name) == from {
@@ -134,16 +140,27 @@ fn rename(job: &mut Job, call: &Call) -> Outcome<Effect> {
         }
     };
     match thing {
-        Thing::Connector => move_entry(&mut model.connectors, &from, to, |c| c.name = new.to_string()),
+        Thing::Connector => {
+            move_entry(&mut model.connectors, &from, to, |c| c.name = new.to_string());
+            model.assemblies.values_mut().flat_map(|a| a.members_mut()).for_each(follow);
+        }
         Thing::Class => {
             move_entry(&mut model.classes, &from, to, |c| c.name = new.to_string());
             model.connectors.values_mut().for_each(|c| follow(&mut c.class));
+            for assembly in model.assemblies.values_mut() {
+                if let AssemblyKind::Pipe { class, .. } = &mut assembly.kind {
+                    follow(class);
+                }
+            }
         }
         Thing::Point => {
             move_entry(&mut model.points, &from, to, |p| p.name = new.to_string());
             model.connectors.values_mut().flat_map(|c| c.points.iter_mut()).for_each(follow);
         }
-        _ => {
+        sort => {
+            if sort == Thing::Assembly {
+                hook_renamed(model, &from, &to, new);
+            }
             move_entry(&mut model.bodies, &from, to.clone(), |b| b.name = new.to_string());
             model.parts.values_mut().for_each(|p| follow(&mut p.body));
             move_entry(&mut model.parts, &from, to.clone(), |p| p.name = new.to_string());
@@ -157,13 +174,26 @@ fn rename(job: &mut Job, call: &Call) -> Outcome<Effect> {
     }
     model.selectors.values_mut().flat_map(|s| s.select.iter_mut().chain(&mut s.except)).for_each(follow);
     // CONNECTOR records of an open INMODEL name their class and points
-    for value in job.deferred.iter_mut().flat_map(|args| args.data.iter_mut().skip(1)) {
+    let waiting = job.deferred.iter_mut().chain(&mut job.deferred_assemblies);
+    for value in waiting.flat_map(|args| args.data.iter_mut().skip(1)) {
         if value.word().is_some_and(|word| Model::key(word) == from) {
             value.content = Content::Word(Arc::from(new));
         }
     }
     job.remark(format!("{} {old} is now {new}", thing.word()), span);
     Ok(Effect::Done)
+}
+
+/// Gives an assembly and the point of its hook a new name.
+fn hook_renamed(model: &mut Model, from: &str, to: &str, new: &str) {
+    let (old_point, point) = (format!("*{from}"), format!("*{new}"));
+    move_entry(&mut model.assemblies, from, to.to_string(), |a| a.name = new.to_string());
+    move_entry(&mut model.points, &old_point, Model::key(&point), |p| p.name = point.clone());
+    for name in model.connectors.values_mut().flat_map(|c| c.points.iter_mut()) {
+        if Model::key(name) == old_point {
+            *name = point.clone();
+        }
+    }
 }
 
 /// Sees that nothing has a name yet.

@@ -1,5 +1,6 @@
 //! `&STATUS`: what the model and the program hold.
 
+use super::assembly_table::assemblies;
 use super::chosen::{Chosen, raise};
 use super::curve_table::{chart, curves};
 use super::disposition::{BOTH, HARD, send};
@@ -29,6 +30,7 @@ const KINDS: &[(&str, Owner, &str)] = &[
     ("F_CONNECTOR", Owner::Moses, "forces of the connectors between their ends as they are"),
     ("FOUNDATION", Owner::Ours, "the FOUNDATION check: forces of foundations over their allowables"),
     ("FORCE", Owner::Moses, "what acts on the bodies where they stand, by category"),
+    ("ASSEMBLIES", Owner::Ours, "tip-hook sets: where the hook is, what its lines bear"),
     ("STIFFNESS", Owner::Ours, "stiffness of bodies and connectors about a point"),
     ("CURVES", Owner::Moses, "curves"),
     ("ENVIRONMENT", Owner::Moses, "the environment in force, or one kept under a name"),
@@ -110,6 +112,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         "G_CONNECTOR" => std::iter::once(connectors(model, &fits)).chain(offsets(model, &fits)).collect(),
         "F_CONNECTOR" => forces(model, &fits, job.units),
         "FOUNDATION" => vec![foundations(model, &fits, job.units)],
+        "ASSEMBLIES" => assemblies(model, &fits, job.units),
         "FORCE" => body_status::forces(job, call, &fits)?,
         "STIFFNESS" => body_status::stiffness(job, call, &chosen)?,
         "CURVES" => curves(model, &fits),
@@ -164,6 +167,7 @@ fn things(kind: &str) -> &'static [Thing] {
         "BODIES" | "LOADS" | "WEIGHT" => &[Thing::Body, Thing::Part],
         "HYDROSTATICS" => &[Thing::Body],
         "PIECES" => &[Thing::Piece, Thing::Body, Thing::Part],
+        "ASSEMBLIES" => &[Thing::Assembly],
         "CL_FLEX" | "CLASSES" => &[Thing::Class],
         "G_CONNECTOR" | "F_CONNECTOR" | "FOUNDATION" => &[Thing::Connector],
         "CURVES" => &[Thing::Curve],

@@ -276,10 +276,18 @@ impl Element for LineElement {
         self.pull(at.ends, Extension::NONE, guess, out).map(|_| ())
     }
 
-    fn wrenches(&self, at: &Situation, _committed: &[f64], guess: &mut Guess) -> Result<[Six; 2], ClassError> {
+    fn wrenches(
+        &self,
+        at: &Situation,
+        _committed: &[f64],
+        guess: &mut Guess,
+        out: &mut Vec<Six>,
+    ) -> Result<(), ClassError> {
         let (x, along, z) = self.between(at.ends);
         let found = self.tight(x, z, Extension::NONE, guess)?;
-        Ok(found.map_or([Six::zeros(); 2], |(plane, _)| plane.wrenches(along)))
+        out.clear();
+        out.extend(found.map_or([Six::zeros(); 2], |(plane, _)| plane.wrenches(along)));
+        Ok(())
     }
 
     fn summary(&self, at: &Situation, _committed: &[f64]) -> Result<Summary, ClassError> {

@@ -2,13 +2,14 @@
 //!
 //! Source: seed 001. Its engine comes with a later issue; its records are read, checked, kept and listed here.
 
+use super::pipe::Pipe;
 use super::section::{LineSection, properties};
 use super::{ClassKind, checks, options as o};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Kind, ValueSpec};
 use crate::language::units::Dim;
-use crate::model::{ClassRecord, Connector, ConnectorClass, Surroundings};
+use crate::model::{ClassError, ClassRecord, Connector, ConnectorClass, Element, PipeLayout, Surroundings};
 use crate::table::Table;
 use std::sync::Arc;
 
@@ -81,5 +82,11 @@ impl ConnectorClass for Rod {
 
     fn first_length(&self) -> Option<f64> {
         self.0.first().map(|s| s.length)
+    }
+
+    /// A pipe of the first segment's section, as long as it needs to be.
+    fn pipe(&self, layout: PipeLayout) -> Result<Box<dyn Element>, ClassError> {
+        let section = self.0.first().ok_or_else(|| ClassError::new("the class has no record"))?;
+        Ok(Box::new(Pipe::laid(section, layout)?))
     }
 }

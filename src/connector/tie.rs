@@ -120,6 +120,10 @@ impl ConnectorClass for TieClass {
         self.section.map(|s| s.length)
     }
 
+    fn adjustable(&self) -> bool {
+        true
+    }
+
     /// Between the node and the end that an assembly gives: it asks with `to_ground` false.
     fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
         let section = self.section.ok_or_else(|| ClassError::new("the class has no record"))?;

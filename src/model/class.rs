@@ -1,5 +1,6 @@
 //! Classes: what a connector is made of, and what a connector class can be asked.
 
+use super::assembly::PipeLayout;
 use super::connector::Connector;
 use super::defaults::Defaults;
 use super::element::{Connection, Element};
@@ -127,6 +128,11 @@ pub trait ConnectorClass: Debug + Send + Sync {
         None
     }
 
+    /// Whether `&CONNECTOR` may give its connectors another length though it is no mooring line.
+    fn adjustable(&self) -> bool {
+        false
+    }
+
     /// Depth of the anchor below z = 0 (m), where the class goes to ground and knows it.
     fn anchor_depth(&self, _: &Surroundings) -> Option<f64> {
         None
@@ -151,6 +157,14 @@ pub trait ConnectorClass: Debug + Send + Sync {
             return self.line(&connection.placement, connection.surroundings)?.element();
         }
         Err(ClassError::new(format!("a connector of class type {} exerts no force", self.kind())))
+    }
+
+    /// The pipe that a pipe assembly makes of this class.
+    ///
+    /// # Errors
+    /// A class that is no ROD, or a layout that makes no pipe.
+    fn pipe(&self, _: PipeLayout) -> Result<Box<dyn Element>, ClassError> {
+        Err(ClassError::new(format!("a class of type {} makes no pipe: it asks for a ROD", self.kind())))
     }
 
     /// Whether [`ConnectorClass::line`] makes lines.

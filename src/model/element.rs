@@ -133,15 +133,21 @@ pub trait Element: Debug + Send + Sync {
         out: &mut Response,
     ) -> Result<(), ClassError>;
 
-    /// The wrenches on its two ends at rest, as of [`Element::evaluate`], without how they change.
+    /// The wrenches on its ends at rest, as of [`Element::evaluate`], without how they change; `out` is overwritten.
     ///
     /// # Errors
     /// As [`Element::evaluate`].
-    fn wrenches(&self, at: &Situation, committed: &[f64], guess: &mut Guess) -> Result<[Six; 2], ClassError> {
-        let (mut out, mut trial) = (Response::default(), committed.to_vec());
-        self.evaluate(at, committed, &mut trial, guess, &mut out)?;
-        let one = |i: usize| out.wrench.get(i).copied().unwrap_or_else(Six::zeros);
-        Ok([one(0), one(1)])
+    fn wrenches(
+        &self,
+        at: &Situation,
+        committed: &[f64],
+        guess: &mut Guess,
+        out: &mut Vec<Six>,
+    ) -> Result<(), ClassError> {
+        let (mut all, mut trial) = (Response::default(), committed.to_vec());
+        self.evaluate(at, committed, &mut trial, guess, &mut all)?;
+        *out = all.wrench;
+        Ok(())
     }
 
     /// What a report tells of it.

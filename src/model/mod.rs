@@ -3,6 +3,7 @@
 //! It holds SI values and the places they were written, in the order they were defined, and knows no physics. It
 //! declares what a connector class can be asked ([`ConnectorClass`]); the floors above implement it.
 
+mod assembly;
 mod body;
 mod class;
 mod connector;
@@ -18,6 +19,7 @@ mod names;
 mod pose;
 mod selector;
 
+pub use assembly::{Assemblies, Assembly, AssemblyKind, LaidPipe, PIPE, PipeLayout};
 pub use body::{Body, GROUND, Junction, Mass, Part, Point, Weight};
 pub use class::{Class, ClassError, ClassRecord, ConnectorClass};
 pub use connector::{Anchor, Connector, Tug};
@@ -54,6 +56,8 @@ pub struct Model {
     pub classes: IndexMap<String, Class>,
     /// Connectors.
     pub connectors: IndexMap<String, Connector>,
+    /// Assemblies.
+    pub assemblies: Assemblies,
     /// Curves.
     pub curves: IndexMap<String, Curve>,
     /// Environments kept under a name.

@@ -4,7 +4,7 @@
 //! classes, points and selectors are told apart by their markers. A body and its own part have one name, and a piece may have
 //! that of its body or part.
 
-use super::{Model, Piece};
+use super::{Assembly, AssemblyKind, Model, Piece};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::name::with_article;
 use crate::language::source::Span;
@@ -21,6 +21,8 @@ pub enum Thing {
     Point,
     /// A body.
     Body,
+    /// An assembly.
+    Assembly,
     /// A part.
     Part,
     /// A piece of a hull.
@@ -35,10 +37,11 @@ pub enum Thing {
 
 impl Thing {
     /// All sorts.
-    pub const ALL: [Thing; 9] = [
+    pub const ALL: [Thing; 10] = [
         Thing::Connector,
         Thing::Class,
         Thing::Point,
+        Thing::Assembly,
         Thing::Body,
         Thing::Part,
         Thing::Piece,
@@ -53,6 +56,7 @@ impl Thing {
             Thing::Connector => "connector",
             Thing::Class => "class",
             Thing::Point => "point",
+            Thing::Assembly => "assembly",
             Thing::Body => "body",
             Thing::Part => "part",
             Thing::Piece => "piece",
@@ -64,8 +68,8 @@ impl Thing {
 }
 
 /// The sorts without a marker, which share one set of names.
-const UNMARKED: [Thing; 6] =
-    [Thing::Connector, Thing::Body, Thing::Part, Thing::Piece, Thing::Environment, Thing::Curve];
+const UNMARKED: [Thing; 7] =
+    [Thing::Connector, Thing::Assembly, Thing::Body, Thing::Part, Thing::Piece, Thing::Environment, Thing::Curve];
 
 impl Model {
     /// The names of one sort, as written, in the order of their definition.
@@ -74,6 +78,7 @@ impl Model {
             Thing::Connector => self.connectors.values().map(|c| c.name.as_str()).collect(),
             Thing::Class => self.classes.values().map(|c| c.name.as_str()).collect(),
             Thing::Point => self.points.values().map(|p| p.name.as_str()).collect(),
+            Thing::Assembly => self.assemblies.values().map(|a| a.name.as_str()).collect(),
             Thing::Body => self.bodies.values().map(|b| b.name.as_str()).collect(),
             Thing::Part => self.parts.values().map(|p| p.name.as_str()).collect(),
             Thing::Piece => self.parts.values().flat_map(|p| p.pieces.iter().map(|s| s.name.as_str())).collect(),
@@ -83,10 +88,13 @@ impl Model {
         }
     }
 
-    /// Everything that has a name, each with its sort; a body's own part goes with the body, and so does a piece of its name.
+    /// Everything that has a name, each with its sort; a body's own part goes with the body, and so does a piece of its name; the
+    /// hook of an assembly goes with it.
     pub fn things(&self) -> Vec<(Thing, &str)> {
         let list = Thing::ALL.into_iter().flat_map(|t| self.names(t).into_iter().map(move |name| (t, name)));
         let taken = |thing: Thing, name: &str| match thing {
+            Thing::Body => self.assemblies.contains_key(&Model::key(name)),
+            Thing::Point => name.strip_prefix('*').is_some_and(|own| self.assemblies.contains_key(&Model::key(own))),
             Thing::Part => self.bodies.contains_key(&Model::key(name)),
             Thing::Piece => self.parts.contains_key(&Model::key(name)),
             _ => false,
@@ -101,6 +109,7 @@ impl Model {
             Thing::Connector => self.connectors.get(&key).map(|c| c.span),
             Thing::Class => self.classes.get(&key).map(|c| c.span),
             Thing::Point => self.points.get(&key).map(|p| p.span),
+            Thing::Assembly => self.assemblies.get(&key).map(|a| a.span),
             Thing::Body => self.bodies.get(&key).map(|b| b.span),
             Thing::Part => self.parts.get(&key).map(|p| p.span),
             Thing::Piece => self.piece(name).map(|(_, piece)| piece.span),
@@ -132,7 +141,12 @@ impl Model {
     pub fn users(&self, thing: Thing, name: &str) -> Vec<&str> {
         let key = Model::key(name);
         match thing {
-            Thing::Class => self.users_of_class(name),
+            Thing::Class => {
+                let made_of =
+                    |a: &&Assembly| matches!(&a.kind, AssemblyKind::Pipe { class, .. } if Model::key(class) == key);
+                let pipes = self.assemblies.values().filter(made_of).map(|a| a.name.as_str());
+                self.users_of_class(name).into_iter().chain(pipes).collect()
+            }
             Thing::Point => self.users_of_point(name),
             Thing::Body => {
                 let own = self.points.values().filter(|p| self.body_of(p).is_some_and(|b| Model::key(&b.name) == key));
@@ -147,7 +161,8 @@ impl Model {
                 let users = self.selectors.values().filter(|s| names(&s.select) || names(&s.except));
                 users.map(|s| s.name.as_str()).collect()
             }
-            Thing::Connector | Thing::Environment | Thing::Piece => Vec::new(),
+            Thing::Connector => self.assembly_of(name).map(|a| a.name.as_str()).into_iter().collect(),
+            Thing::Environment | Thing::Piece | Thing::Assembly => Vec::new(),
         }
     }
 

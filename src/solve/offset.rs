@@ -53,8 +53,8 @@ impl Connectors {
     /// The largest distance between the ends of one of them (m).
     pub fn size(&self, system: &System, poses: &[Pose]) -> f64 {
         let distance = |link: &Link| {
-            let [a, b] = link.ends.map(|end| pose_of(&end, poses).origin);
-            (a - b).norm()
+            let places: Vec<_> = link.ends.iter().map(|end| pose_of(end, poses).origin).collect();
+            places.iter().zip(places.iter().skip(1)).fold(0.0, |most: f64, (a, b)| most.max((a - b).norm()))
         };
         self.links(system).map(distance).fold(0.0, f64::max)
     }
@@ -66,14 +66,16 @@ impl Connectors {
     pub fn pull(&mut self, system: &System, poses: &[Pose], out: &mut Pull) -> Result<(), SolveError> {
         out.wrench = Six::zeros();
         out.tensions.clear();
+        let (mut ends, mut wrenches) = (Vec::new(), Vec::new());
         for (index, guess) in self.links.iter().zip(&mut self.guesses) {
             let Some(link) = system.links.get(*index) else { continue };
-            let ends = link.ends.map(|end| End::still(pose_of(&end, poses)));
+            ends.clear();
+            ends.extend(link.ends.iter().map(|end| End::still(pose_of(end, poses))));
             let committed = system.states.get(link.states.clone()).unwrap_or_default();
             let at = Situation { ends: &ends, step: None, surroundings: &system.surroundings };
-            let both = link.element.wrenches(&at, committed, guess).map_err(SolveError::of(&link.name))?;
+            link.element.wrenches(&at, committed, guess, &mut wrenches).map_err(SolveError::of(&link.name))?;
             let mut tension = 0.0;
-            for (end, wrench) in link.ends.iter().zip(&both) {
+            for (end, wrench) in link.ends.iter().zip(&wrenches) {
                 if matches!(end, Attachment::Body(body, _) if *body == self.body) {
                     out.wrench += carried(wrench, arm(end, poses));
                     tension = wrench.fixed_rows::<3>(0).norm();
@@ -90,7 +92,7 @@ impl Connectors {
     /// A connector that has no answer there.
     pub fn summaries(&self, system: &System, poses: &[Pose]) -> Result<Vec<Summary>, SolveError> {
         let one = |link: &Link| {
-            let ends = link.ends.map(|end| End::still(pose_of(&end, poses)));
+            let ends: Vec<End> = link.ends.iter().map(|end| End::still(pose_of(end, poses))).collect();
             let committed = system.states.get(link.states.clone()).unwrap_or_default();
             let at = Situation { ends: &ends, step: None, surroundings: &system.surroundings };
             link.element.summary(&at, committed).map_err(SolveError::of(&link.name))

@@ -2,7 +2,8 @@
 
 use crate::hydro::{Category, Floating, Load, carried, transferred, turning};
 use crate::model::{
-    Body, ClassError, Connector, Element, End, Guess, Mass, Model, Place, Pose, Response, Situation, Six, Surroundings,
+    Body, ClassError, Connector, Element, End, Guess, LaidPipe, Mass, Model, Place, Pose, Response, Situation, Six,
+    Surroundings,
 };
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Vector3};
 
@@ -57,7 +58,7 @@ pub(super) enum Attachment {
 pub(super) struct Link {
     pub name: String,
     pub element: Box<dyn Element>,
-    pub ends: [Attachment; 2],
+    pub ends: Vec<Attachment>,
     /// Where its values stand in the vector of states.
     pub states: std::ops::Range<usize>,
 }
@@ -123,14 +124,18 @@ impl System {
     pub fn of(model: &Model, left_out: &[String]) -> Result<Self, SolveError> {
         let node = |(key, body): (&String, &Body)| {
             let floating = Floating::of(model, body).map_err(SolveError::of(&body.name))?;
-            let free = FREEDOMS.map(|f| !body.ignored.iter().any(|i| i == f));
+            let idle = model.idle_hook(body);
+            let free = FREEDOMS.map(|f| !idle && !body.ignored.iter().any(|i| i == f));
             Ok(Node { name: body.name.clone(), key: key.clone(), floating, junction: body.junction.is_some(), free })
         };
         let nodes = model.bodies.iter().map(node).collect::<Result<Vec<_>, SolveError>>()?;
         let mut states = Vec::new();
         let mut links = Vec::new();
         for connector in model.connectors.values() {
-            if !connector.active || left_out.iter().any(|name| name.eq_ignore_ascii_case(&connector.name)) {
+            if !connector.active
+                || model.holds_pipe(&connector.name)
+                || left_out.iter().any(|name| name.eq_ignore_ascii_case(&connector.name))
+            {
                 continue;
             }
             let element = model.element(connector).map_err(SolveError::of(&connector.name))?;
@@ -139,8 +144,14 @@ impl System {
             if let Some(own) = states.get_mut(from..) {
                 element.start(own);
             }
-            let ends = attachments(model, connector);
+            let ends = attachments(model, connector).to_vec();
             links.push(Link { name: connector.name.clone(), element, ends, states: from..states.len() });
+        }
+        for assembly in model.assemblies.values() {
+            let made = model.pipe(assembly).map_err(SolveError::of(&assembly.name))?;
+            let Some(LaidPipe { supports, element }) = made else { continue };
+            let ends = supports.iter().map(|c| attachments(model, c)[0]).collect();
+            links.push(Link { name: assembly.name.clone(), element, ends, states: states.len()..states.len() });
         }
         let (surroundings, gravity) = (model.surroundings(), model.defaults.gravity);
         Ok(System { nodes, links, states, surroundings, gravity, applied: Vec::new() })
@@ -181,32 +192,33 @@ impl System {
             let mut at = state.residual.fixed_rows_mut::<6>(6 * body);
             at += wrench;
         }
+        let (mut ends, mut arms) = (Vec::new(), Vec::new());
         for (link, guess) in self.links.iter().zip(&mut state.guesses) {
-            let ends = link.ends.map(|end| End::still(pose_of(&end, &state.poses)));
+            ends.clear();
+            ends.extend(link.ends.iter().map(|end| End::still(pose_of(end, &state.poses))));
             let committed = self.states.get(link.states.clone()).unwrap_or_default();
             let trial = state.trial.get_mut(link.states.clone()).unwrap_or_default();
             let at = Situation { ends: &ends, step: None, surroundings: &self.surroundings };
             link.element
                 .evaluate(&at, committed, trial, guess, &mut state.response)
                 .map_err(SolveError::of(&link.name))?;
-            let arms = link.ends.map(|end| arm(&end, &state.poses));
-            for (i, (end, wrench)) in link.ends.iter().zip(&state.response.wrench).enumerate() {
+            arms.clear();
+            arms.extend(link.ends.iter().map(|end| arm(end, &state.poses)));
+            let count = link.ends.len();
+            for (i, ((end, wrench), own)) in link.ends.iter().zip(&state.response.wrench).zip(&arms).enumerate() {
                 let Attachment::Body(body, _) = end else { continue };
-                let [a, ..] = arms;
-                let own = if i == 0 { a } else { arms[1] };
                 let mut at = state.residual.fixed_rows_mut::<6>(6 * body);
-                at += carried(wrench, own);
+                at += carried(wrench, *own);
                 let force = wrench.fixed_rows::<3>(0).norm();
                 if let Some(pull) = state.pull.get_mut(*body) {
                     *pull = pull.max(force);
                 }
-                for (j, other) in link.ends.iter().enumerate() {
+                for (j, (other, far)) in link.ends.iter().zip(&arms).enumerate() {
                     let Attachment::Body(column, _) = other else { continue };
-                    let Some(block) = state.response.stiffness.get(2 * i + j) else { continue };
-                    let far = if j == 0 { a } else { arms[1] };
-                    let mut moved = transferred(block, own, far);
+                    let Some(block) = state.response.stiffness.get(count * i + j) else { continue };
+                    let mut moved = transferred(block, *own, *far);
                     if i == j {
-                        moved += turning(wrench, own);
+                        moved += turning(wrench, *own);
                     }
                     let mut at = state.stiffness.fixed_view_mut::<6, 6>(6 * body, 6 * column);
                     at += moved;
@@ -230,7 +242,7 @@ impl System {
         }
         let (mut response, mut trial) = (Response::default(), vec![0.0; self.states.len()]);
         for link in &self.links {
-            let ends = link.ends.map(|end| End::still(pose_of(&end, poses)));
+            let ends: Vec<End> = link.ends.iter().map(|end| End::still(pose_of(end, poses))).collect();
             let committed = self.states.get(link.states.clone()).unwrap_or_default();
             let own = trial.get_mut(link.states.clone()).unwrap_or_default();
             let at = Situation { ends: &ends, step: None, surroundings: &self.surroundings };
@@ -240,7 +252,9 @@ impl System {
             for (i, end) in link.ends.iter().enumerate() {
                 let Attachment::Body(body, _) = end else { continue };
                 let own = arm(end, poses);
-                let (Some(wrench), Some(block)) = (response.wrench.get(i), response.stiffness.get(3 * i)) else {
+                let (Some(wrench), Some(block)) =
+                    (response.wrench.get(i), response.stiffness.get((link.ends.len() + 1) * i))
+                else {
                     continue;
                 };
                 let stiffness = transferred(block, own, own) + turning(wrench, own);

@@ -1,0 +1,133 @@
+//! `PIPE`: a pipe on rollers or davits.
+//!
+//! Source: reference/model.md, Assemblies, and the public page on pipe assemblies of the MOSES manual (conn_pipe).
+
+use super::{Call, Command, Effect, Job, Menu};
+use crate::language::args::Args;
+use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
+use crate::language::units::Dim;
+use crate::model::{Assembly, AssemblyKind, Model, PIPE, find};
+
+/// PIPE.
+pub static PIPE_COMMAND: Command = Command { spec: &SPEC, edits: true, run };
+
+/// Most supports.
+const MOST: usize = 100;
+/// How far a support may be from the global X axis (m).
+const BESIDE: f64 = 1e-3;
+
+static SPEC: CommandSpec = CommandSpec {
+    menus: &["INMODEL", "MEDIT"],
+    data: &[
+        ValueSpec::new("~CLASS", Kind::Name(Noun::Class), "ROD class of the pipe"),
+        ValueSpec::new(
+            "EL",
+            Kind::Name(Noun::Connector),
+            "its supports, from the stern to the tensioner: all ROLLER or all DAVIT",
+        ),
+    ],
+    repeat: 1,
+    options: &[OptionSpec::new(
+        "-PIPE_TENSION",
+        &[
+            ValueSpec::new("TLOWER", Kind::Number(Dim::Force), "least tension; on davits the nominal one").positive(),
+            ValueSpec::new("TUPPER", Kind::Number(Dim::Force), "largest tension of the tensioner")
+                .or("of rollers only")
+                .positive(),
+        ],
+        "limits of the tensioner, or the tension at the first davit",
+    )],
+    detail: "The supports are single-node connectors with their nodes above the global X axis (Y = 0) when PIPE is read, in order along it. The \
+             pipe leaves beyond the first, away from the last, and lies on the bottom of &ENV -DEPTH; a vessel that lays toward -X has its first \
+             roller farthest aft. There is one: &PIPE/ASSEMBLY. It starts as a catenary with the weight in water of OD, T and the options of the \
+             class, above the water in air, and is then solved in the vertical plane as an elastic beam of large displacement (EI of the tube of \
+             the first segment; -LEN and -REFINE of the class say nothing: the pipe is as long as it needs to be), the bottom as a stiff \
+             foundation without friction. The last roller is the tensioner: it holds the pipe along X of its body at the mean of TLOWER and \
+             TUPPER, as our reading, and pays out or hauls in beyond them. &EQUI lays the pipe anew where the vessel comes to rest. To \
+             either side the pipe goes with its supports: their sway, roll and yaw do nothing. A single roller, which makes a vertical riser, is not \
+             solved yet. &STATUS ASSEMBLIES tells what it exerts on its supports.",
+    example: "&DIMEN -DIMEN METERS K-NTS\n&ENV -DEPTH 50\nMEDIT\n*R1 40 0 2\n*R2 30 0 3.2\n*R3 20 0 4\n~ROLL ROLLER COMPRESSION Z 5000\n\
+              ~PIPE ROD 323.9 15.9 -LEN 12\nCONNECTOR R1 ~ROLL *R1\nCONNECTOR R2 ~ROLL *R2\nCONNECTOR R3 ~ROLL *R3\n\
+              PIPE ~PIPE R1 R2 R3 -PIPE_TENSION 180 220\nEND\n&STATUS ASSEMBLIES",
+    ..CommandSpec::new("PIPE", "a pipe laid over rollers or davits")
+};
+
+fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    if matches!(job.menu(), Menu::Inmodel) {
+        return Err(Diagnostic::error("PIPE is given in MEDIT, when its connectors are made", call.args.span));
+    }
+    build(&mut job.model, &call.args)?;
+    Ok(Effect::Done)
+}
+
+fn build(model: &mut Model, args: &Args) -> Outcome<()> {
+    if let Some(old) = model.assemblies.get(PIPE) {
+        return Err(Diagnostic::error("there is a pipe already", args.span)
+            .other(old.span, "defined here")
+            .help(format!("DELETE {PIPE} takes it away")));
+    }
+    let class = find(&model.classes, args.word(0).unwrap_or_default(), "class", args.place(0))?;
+    if class.object.kind() != "ROD" {
+        let text = format!("{} is of class type {}, and a pipe is a ROD", class.name, class.object.kind());
+        return Err(Diagnostic::error(text, args.place(0)));
+    }
+    if let Some(extra) = args.data.get(1 + MOST) {
+        return Err(Diagnostic::error(format!("a pipe has at most {MOST} supports"), extra.span));
+    }
+    let (mut supports, mut places): (Vec<String>, Vec<f64>) = (Vec::new(), Vec::new());
+    let mut first = "";
+    for index in 1..args.data.len() {
+        let span = args.place(index);
+        let connector = find(&model.connectors, args.word(index).unwrap_or_default(), "connector", span)?;
+        let kind = model.classes.get(&Model::key(&connector.class)).map_or("", |c| c.object.kind());
+        if !matches!(kind, "ROLLER" | "DAVIT") {
+            let text =
+                format!("{} is of class type {kind}, and a pipe lies on ROLLERs or hangs from DAVITs", connector.name);
+            return Err(Diagnostic::error(text, span));
+        }
+        if !first.is_empty() && kind != first {
+            let text = format!("{} is a {kind} and those before it are {first}s: they are not mixed", connector.name);
+            return Err(Diagnostic::error(text, span));
+        }
+        first = kind;
+        if supports.contains(&connector.name) {
+            return Err(Diagnostic::error(format!("{} is given twice", connector.name), span));
+        }
+        let [x, y, _] = model.end(connector, 0).unwrap_or_default();
+        if y.abs() > BESIDE {
+            let text = format!("{} is not on the global X axis", connector.name);
+            return Err(Diagnostic::error(text, span).help("a pipe is laid along X with Y = 0"));
+        }
+        let apart: Vec<f64> = places.iter().copied().chain([x]).collect();
+        let steps: Vec<f64> =
+            apart.windows(2).map(|w| w.iter().rev().copied().reduce(|b, a| b - a).unwrap_or(0.0)).collect();
+        if steps.iter().any(|s| *s == 0.0 || (s > &0.0) != (steps.first() > Some(&0.0))) {
+            let text = format!("{} is out of order along X: from the first support to the tensioner", connector.name);
+            return Err(Diagnostic::error(text, span));
+        }
+        supports.push(connector.name.clone());
+        places.push(x);
+    }
+    if supports.len() < 2 {
+        let text = "a pipe with a single support is a vertical riser, which is not solved yet";
+        return Err(Diagnostic::error(text, args.place(1)).help("give two or more rollers or davits"));
+    }
+    let Some(given) = args.option("-PIPE_TENSION") else {
+        return Err(Diagnostic::error("PIPE lacks -PIPE_TENSION", args.span).help("form: -PIPE_TENSION TLOWER TUPPER"));
+    };
+    let (lower, upper) = (given.number(0).unwrap_or(0.0), given.number(1));
+    let upper = match (first, upper) {
+        ("ROLLER", None) => {
+            return Err(Diagnostic::error("the tensioner of rollers needs TUPPER of -PIPE_TENSION", given.span));
+        }
+        ("ROLLER", Some(upper)) if upper < lower => {
+            return Err(Diagnostic::error("TUPPER of -PIPE_TENSION is less than TLOWER", given.span));
+        }
+        ("ROLLER", upper) => upper,
+        _ => None,
+    };
+    let kind = AssemblyKind::Pipe { class: class.name.clone(), supports, tension: (lower, upper) };
+    model.assemblies.insert(PIPE.to_string(), Assembly { name: PIPE.to_string(), kind, span: args.span });
+    Ok(())
+}

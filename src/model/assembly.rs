@@ -1,0 +1,156 @@
+//! Assemblies: connectors of a single node whose other ends an assembly takes care of.
+
+use super::{Body, ClassError, Connection, Connector, Element, Model, Pose, Surroundings};
+use crate::language::source::Span;
+use indexmap::IndexMap;
+
+/// What an assembly is made of.
+#[derive(Clone, Debug, PartialEq)]
+pub enum AssemblyKind {
+    /// Slings from a body to a hook, and a line from the hook to the tip of a boom.
+    TipHook {
+        /// The connector from the boom to the hook.
+        boom: String,
+        /// The connectors from the body to the hook.
+        slings: Vec<String>,
+    },
+    /// A pipe on supports.
+    Pipe {
+        /// Its ROD class.
+        class: String,
+        /// Its supports, from the one nearest to the bottom to the tensioner.
+        supports: Vec<String>,
+        /// TLOWER and TUPPER (N); no TUPPER on davits.
+        tension: (f64, Option<f64>),
+    },
+}
+
+/// What a pipe is made of where its supports are.
+pub struct PipeLayout<'a> {
+    /// The law of each support, between its node and a point of the pipe.
+    pub supports: Vec<Box<dyn Element>>,
+    /// Their nodes.
+    pub nodes: Vec<Pose>,
+    /// How far below its node each holds the pipe (m): the length of a davit.
+    pub hang: Vec<f64>,
+    /// TLOWER: the least tension of the tensioner, or the nominal one at the first davit (N).
+    pub lower: f64,
+    /// TUPPER, the largest tension of the tensioner (N); `None` on davits.
+    pub upper: Option<f64>,
+    /// Water, depth, gravity.
+    pub surroundings: &'a Surroundings,
+}
+
+/// A pipe over the supports that act, in the order of its ends.
+pub struct LaidPipe<'a> {
+    /// The supports.
+    pub supports: Vec<&'a Connector>,
+    /// The pipe, with an end at the node of each.
+    pub element: Box<dyn Element>,
+}
+
+/// Name of the one pipe assembly (the MOSES manual, conn_pipe).
+pub const PIPE: &str = "&PIPE/ASSEMBLY";
+
+/// An assembly. The hook of a tip-hook set is a junction of its name, and the second point of its connectors.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Assembly {
+    /// Its name as written.
+    pub name: String,
+    /// What it is made of.
+    pub kind: AssemblyKind,
+    /// Where it was defined.
+    pub span: Span,
+}
+
+impl Assembly {
+    /// The connectors it takes care of.
+    pub fn members(&self) -> impl Iterator<Item = &String> {
+        let (boom, others) = match &self.kind {
+            AssemblyKind::TipHook { boom, slings } => (Some(boom), slings),
+            AssemblyKind::Pipe { supports, .. } => (None, supports),
+        };
+        boom.into_iter().chain(others)
+    }
+
+    /// The same, to be renamed.
+    pub fn members_mut(&mut self) -> impl Iterator<Item = &mut String> {
+        let (boom, others) = match &mut self.kind {
+            AssemblyKind::TipHook { boom, slings } => (Some(boom), slings),
+            AssemblyKind::Pipe { supports, .. } => (None, supports),
+        };
+        boom.into_iter().chain(others)
+    }
+}
+
+impl Model {
+    /// The assembly a connector belongs to.
+    pub fn assembly_of(&self, connector: &str) -> Option<&Assembly> {
+        let key = Model::key(connector);
+        self.assemblies.values().find(|a| a.members().any(|m| Model::key(m) == key))
+    }
+
+    /// Whether a connector holds a pipe, which acts in its place.
+    pub fn holds_pipe(&self, connector: &str) -> bool {
+        self.assembly_of(connector).is_some_and(|a| matches!(a.kind, AssemblyKind::Pipe { .. }))
+    }
+
+    /// The supports of a pipe assembly that act, and the pipe on them; `None` of another assembly, or where none acts.
+    ///
+    /// # Errors
+    /// A class or support that makes none here.
+    pub fn pipe(&self, assembly: &Assembly) -> Result<Option<LaidPipe<'_>>, ClassError> {
+        let AssemblyKind::Pipe { class, supports, tension: (lower, upper) } = &assembly.kind else { return Ok(None) };
+        let held = supports.iter().filter_map(|name| self.connectors.get(&Model::key(name)));
+        let held: Vec<&Connector> = held.filter(|c| c.active).collect();
+        let found = self.classes.get(&Model::key(class)).map(|c| &c.object);
+        let Some(found) = found.filter(|_| !held.is_empty()) else { return Ok(None) };
+        let surroundings = self.surroundings();
+        let (mut laws, mut nodes, mut hang) = (Vec::new(), Vec::new(), Vec::new());
+        for connector in &held {
+            let node = self.end_pose(connector, 0).unwrap_or_default();
+            let placement = super::Placement { to_ground: false, ..self.placement(connector) };
+            let class = self.classes.get(&Model::key(&connector.class));
+            let class = class.ok_or_else(|| ClassError::new(format!("there is no class {}", connector.class)))?;
+            laws.push(class.object.element(&Connection {
+                connector,
+                ends: [node, node],
+                to_ground: false,
+                placement,
+                curve: &|name| self.curves.get(&Model::key(name)),
+                surroundings: &surroundings,
+            })?);
+            hang.push(if upper.is_none() { self.first_length(connector).unwrap_or(0.0) } else { 0.0 });
+            nodes.push(node);
+        }
+        let (lower, upper) = (*lower, *upper);
+        let layout = PipeLayout { supports: laws, nodes, hang, lower, upper, surroundings: &surroundings };
+        Ok(Some(LaidPipe { element: found.pipe(layout)?, supports: held }))
+    }
+
+    /// Whether a body is the hook of an assembly whose connectors are all inactive: nothing moves it then.
+    pub fn idle_hook(&self, body: &Body) -> bool {
+        let active = |name: &String| self.connectors.get(&Model::key(name)).is_some_and(|c| c.active);
+        self.assemblies.get(&Model::key(&body.name)).is_some_and(|a| !a.members().any(active))
+    }
+
+    /// Takes an assembly apart: its hook goes, its connectors have a single node again.
+    pub fn take_apart(&mut self, name: &str) {
+        let key = Model::key(name);
+        let Some(assembly) = self.assemblies.shift_remove(&key) else { return };
+        if matches!(assembly.kind, AssemblyKind::Pipe { .. }) {
+            return;
+        }
+        for member in assembly.members() {
+            if let Some(connector) = self.connectors.get_mut(&Model::key(member)) {
+                connector.points.truncate(1);
+            }
+        }
+        self.points.shift_remove(&format!("*{key}"));
+        self.parts.shift_remove(&key);
+        self.bodies.shift_remove(&key);
+    }
+}
+
+/// Assemblies by their keys.
+pub type Assemblies = IndexMap<String, Assembly>;

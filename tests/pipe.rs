@@ -1,0 +1,105 @@
+//! A pipe on five rollers: the balance of what it exerts on them, its stiffness, its shape against the field's theory.
+
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use windlass::language::diagnostic::Severity;
+use windlass::model::{Element, End, Model, PIPE, Pose, Response, Situation, Six};
+use windlass::session::Session;
+
+fn model(records: &str) -> Model {
+    let (mut session, screen, _folder): (Session, _, _) = common::session();
+    session.open("records", format!("&DIMEN -DIMEN METERS N\n{records}\n"));
+    session.run();
+    assert!(session.reports.iter().all(|r| r.severity != Severity::Error), "{}", screen.text());
+    session.job.model.clone()
+}
+
+/// A stinger 150 m in radius; the pipe weighs 300 N/m in water and in air.
+fn stinger(tension: f64) -> Model {
+    model(&format!(
+        "&ENV -DEPTH 50\nMEDIT\n*R1 35.65 0 1.70\n*R2 26.82 0 3.58\n*R3 17.97 0 4.92\n*R4 9 0 5.73\n*R5 0 0 6\n\
+         ~ROLL ROLLER COMPRESSION Z 2E7\n~PIPE ROD 323.9 15.9 -LEN 12 -WTPLEN 300 -BUOY 0\nCONNECTOR R1 ~ROLL *R1\nCONNECTOR R2 ~ROLL *R2\n\
+         CONNECTOR R3 ~ROLL *R3\nCONNECTOR R4 ~ROLL *R4\nCONNECTOR R5 ~ROLL *R5\n\
+         PIPE ~PIPE R1 R2 R3 R4 R5 -PIPE_TENSION {tension} {tension}\nEND"
+    ))
+}
+
+fn pipe(model: &Model) -> (Box<dyn Element>, Vec<End>) {
+    let laid = model.pipe(model.assemblies.get(PIPE).unwrap()).unwrap().unwrap();
+    let (supports, element) = (laid.supports, laid.element);
+    let ends = supports.iter().map(|c| End::still(model.end_pose(c, 0).unwrap())).collect();
+    (element, ends)
+}
+
+fn answer(model: &Model, element: &dyn Element, ends: &[End]) -> Response {
+    let surroundings = model.surroundings();
+    let at = Situation { ends, step: None, surroundings: &surroundings };
+    let mut out = Response::default();
+    element.evaluate(&at, &[], &mut [], &mut None, &mut out).unwrap();
+    out
+}
+
+#[test]
+fn the_rollers_bear_the_weight_and_the_tensioner_what_the_bottom_lacks() {
+    let (w, tension) = (300.0_f64, 4e5);
+    let model = stinger(tension);
+    let (element, ends) = pipe(&model);
+    let out = answer(&model, element.as_ref(), &ends);
+    let sum = out.wrench.iter().fold(Six::zeros(), |sum, w| sum + w);
+    // no roller pulls the pipe down, the tip of the stinger is pressed, and only the tensioner pulls along
+    for (i, wrench) in out.wrench.iter().enumerate() {
+        assert!(wrench[2] <= 0.0, "{i} {wrench}");
+        assert!((wrench[0] - if i == 4 { tension } else { 0.0 }).abs() < 1e-6, "{i} {wrench}");
+    }
+    assert!(out.wrench[0][2] < -1e3 && out.wrench[1][2] < -1e3, "{}", out.wrench[0]);
+    // rollers that push straight up bear no pull along: H at the bottom is the tension along X. The pipe between bottom and last roller
+    // is a catenary but for the boundary layers: its arc by H and the height, and over the stinger its own length, some 36.4
+    let (a, height): (f64, f64) = (tension / w, 51.7);
+    let arc = (height * height + 2.0 * height * a).sqrt();
+    let along: f64 =
+        [(8.83_f64, 1.88_f64), (8.85, 1.34), (8.97, 0.81), (9.0, 0.27)].iter().map(|(x, z)| x.hypot(*z)).sum();
+    // the touchdown moves by sqrt(EI/H), 9.6 m, toward the vessel (Pedersen 1975); so much less pipe hangs, and half of it at the top
+    let layer = w * (3.66e7_f64 / tension).sqrt();
+    assert!((-sum[2] - w * (arc + along)).abs() < 2.0 * layer, "{} {} {layer}", -sum[2], w * (arc + along));
+}
+
+#[test]
+fn its_stiffness_is_the_difference_of_the_forces_on_all_rollers() {
+    let model = stinger(5e5);
+    let (element, ends) = pipe(&model);
+    let out = answer(&model, element.as_ref(), &ends);
+    let size = out.stiffness.iter().map(|k| k.amax()).fold(0.0, f64::max);
+    for (end, freedom) in (0..ends.len()).flat_map(|e| (0..6).map(move |f| (e, f))) {
+        let step = 1e-5;
+        let moved = |sign: f64| {
+            let mut motion = Six::zeros();
+            motion[freedom] = sign * step;
+            let mut ends = ends.clone();
+            let pose: Pose = ends[end].pose.moved(&motion);
+            ends[end] = End::still(pose);
+            answer(&model, element.as_ref(), &ends).wrench
+        };
+        let (plus, minus) = (moved(1.0), moved(-1.0));
+        for row in 0..ends.len() {
+            let slope = -(plus[row] - minus[row]) / (2.0 * step);
+            let own = out.stiffness[ends.len() * row + end].column(freedom).into_owned();
+            // the pipe is solved to some 1e-9 m, against a step of 1e-5
+            assert!((slope - own).amax() < 1e-3 * size, "{row} {end} {freedom}: {slope} {own}");
+        }
+    }
+}
+
+#[test]
+fn a_davit_hangs_toward_the_pipe_that_pulls_it() {
+    let model = model(
+        "&ENV -DEPTH 50\nMEDIT\n*D1 40 0 12\n*D2 20 0 20\n*D3 0 0 24\n~DAV DAVIT 60 -LEN 10\n~PIPE ROD 323.9 15.9 -LEN 12\nCONNECTOR D1 ~DAV *D1\n\
+         CONNECTOR D2 ~DAV *D2\nCONNECTOR D3 ~DAV *D3\nPIPE ~PIPE D1 D2 D3 -PIPE_TENSION 1E5\nEND",
+    );
+    let (element, ends) = pipe(&model);
+    let out = answer(&model, element.as_ref(), &ends);
+    let sum = out.wrench.iter().fold(Six::zeros(), |sum, w| sum + w);
+    // the pull of the bottom along, toward +X, and weight downward
+    assert!(sum[0] > 0.0 && sum[2] < 0.0, "{sum}");
+}
