@@ -251,13 +251,17 @@ impl System {
             let category = if link.element.rigid() { Category::RigidConnectors } else { Category::FlexConnectors };
             for (i, end) in link.ends.iter().enumerate() {
                 let Attachment::Body(body, _) = end else { continue };
-                let own = arm(end, poses);
-                let (Some(wrench), Some(block)) =
-                    (response.wrench.get(i), response.stiffness.get((link.ends.len() + 1) * i))
-                else {
-                    continue;
-                };
-                let stiffness = transferred(block, own, own) + turning(wrench, own);
+                let (own, count) = (arm(end, poses), link.ends.len());
+                let Some(wrench) = response.wrench.get(i) else { continue };
+                let mut stiffness = turning(wrench, own);
+                // all ends on the body move with it
+                for (j, far) in link.ends.iter().enumerate() {
+                    if let (Attachment::Body(other, _), Some(block)) = (far, response.stiffness.get(count * i + j))
+                        && other == body
+                    {
+                        stiffness += transferred(block, own, arm(far, poses));
+                    }
+                }
                 let load = Load { wrench: carried(wrench, own), stiffness };
                 list.push(Contribution { body: *body, connector: Some(link.name.clone()), category, load });
             }
