@@ -175,5 +175,7 @@ fn four_pads_share_a_weight_by_its_distance_from_each_and_a_tie_of_ig_stiff_is_l
     // four springs of 2000 kN/m alone
     let first = text.split("S T I F F N E S S   O F   D E C K :   F O R C E S").nth(1).unwrap();
     let fx = first.lines().find(|l| l.trim_start().starts_with("FX")).unwrap();
-    assert_eq!(fx.split_whitespace().nth(1), Some("8.00000E+03"));
+    // their axes turn with the deck, by some thousandths
+    let xx: f64 = fx.split_whitespace().nth(1).unwrap().parse().unwrap();
+    assert!((xx / 8e3 - 1.0).abs() < 1e-5, "{xx}");
 }

@@ -65,7 +65,8 @@ pub fn forces(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem) -> 
 /// The FOUNDATION check of seed 001: every spring of every foundation against its allowable, and the largest of each.
 pub fn foundations(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem) -> Table {
     let mut table = spring_table("Foundation Check");
-    let (mut notes, mut largest): (Vec<(String, Vec<String>)>, Option<(f64, &str)>) = (Vec::new(), None);
+    let mut notes: Vec<(String, Vec<String>)> = Vec::new();
+    let mut largest: Option<(f64, &str)> = None;
     let foundation = |c: &&Connector| {
         model.classes.get(&Model::key(&c.class)).is_some_and(|class| class.object.foundation()) && fits(&c.name)
     };
