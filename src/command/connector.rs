@@ -131,6 +131,13 @@ pub fn build_connector(job: &mut Job, args: &Args) -> Outcome<()> {
     class.object.check()?;
     class.object.check_ends(&made, on_bodies)?;
     let span = args.place(0);
+    let held = |point: &Point| model.body_of(point).map_or("ground", |b| b.name.as_str()).to_string();
+    if let [first, second] = points.as_slice()
+        && held(first) == held(second)
+    {
+        let text = format!("connector {name} joins two points of {}: it moves nothing", held(first));
+        job.warn(text, span);
+    }
     job.model.connectors.insert(Model::key(name), made);
     job.note_name(name, span);
     Ok(())

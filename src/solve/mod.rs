@@ -8,9 +8,11 @@ mod modes;
 pub mod offset;
 mod outline;
 pub mod scene;
+mod search;
 mod settle;
 mod system;
 pub mod tables;
+mod unknowns;
 pub mod watch;
 
 pub use equilibrium::{Equilibrium, Options, equilibrium};

@@ -7,8 +7,10 @@ use std::f64::consts::TAU;
 /// A small motion of the whole system.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mode {
-    /// Eigenvalue of the symmetric part of the stiffness against the mass (rad2/s2); negative: not stable.
+    /// Eigenvalue of the stiffness against the mass (rad2/s2), its real part; negative: not stable.
     pub eigenvalue: f64,
+    /// Its imaginary part: other than zero where forces without an energy couple two motions; these feed each other.
+    pub beside: f64,
     /// Undamped natural period (s), where it is stable.
     pub period: Option<f64>,
     /// The freedom that moves most: body and freedom, as written.
@@ -27,27 +29,22 @@ pub fn modes(system: &System, state: &State) -> Vec<Mode> {
         return Vec::new();
     }
     let part = |m: &DMatrix<f64>, r: &[usize], c: &[usize]| m.select_rows(r).select_columns(c);
-    let symmetric = (&state.stiffness + state.stiffness.transpose()) * 0.5;
-    let mut k = part(&symmetric, &heavy, &heavy);
+    let mut k = part(&state.stiffness, &heavy, &heavy);
     let mut follow = DMatrix::zeros(light.len(), heavy.len());
-    if !light.is_empty() {
-        let across = part(&symmetric, &light, &heavy);
-        if let Some(solved) = part(&symmetric, &light, &light).lu().solve(&across) {
-            k -= across.transpose() * &solved;
-            follow = -solved;
-        }
+    if !light.is_empty()
+        && let Some(solved) = part(&state.stiffness, &light, &light).lu().solve(&part(&state.stiffness, &light, &heavy))
+    {
+        k -= part(&state.stiffness, &heavy, &light) * &solved;
+        follow = -solved;
     }
     // weights without radii of gyration make a mass without inertia about some axis
     let mut m = part(&mass, &heavy, &heavy);
     let tiny = m.diagonal().amax() * 1e-12;
     m.iter_mut().step_by(heavy.len() + 1).for_each(|d| *d += tiny);
     let Some(root) = Cholesky::new(m).and_then(|c| c.l().try_inverse()) else { return Vec::new() };
-    let eigen = (&root * k * root.transpose()).symmetric_eigen();
-    let mut order: Vec<usize> = (0..heavy.len()).collect();
-    order.sort_by(|a, b| eigen.eigenvalues[*a].total_cmp(&eigen.eigenvalues[*b]));
-    let mode = |index: usize| {
-        let eigenvalue = eigen.eigenvalues[index];
-        let heavy_part = root.transpose() * eigen.eigenvectors.column(index);
+    let pairs = pairs(&(&root * k * root.transpose()));
+    let mode = |(eigenvalue, beside, vector): (f64, f64, DVector<f64>)| {
+        let heavy_part = root.transpose() * vector;
         let light_part = &follow * &heavy_part;
         let mut shape = DVector::zeros(mass.nrows());
         for (row, value) in heavy.iter().zip(heavy_part.iter()).chain(light.iter().zip(light_part.iter())) {
@@ -63,10 +60,46 @@ pub fn modes(system: &System, state: &State) -> Vec<Mode> {
         let body = system.nodes.get(most / 6).map_or(String::new(), |n| n.name.clone());
         Mode {
             eigenvalue,
+            beside,
             period: (eigenvalue > 0.0).then(|| TAU / eigenvalue.sqrt()),
             most: (body, FREEDOMS.get(most % 6).copied().unwrap_or_default()),
             shape,
         }
     };
-    order.into_iter().map(mode).collect()
+    pairs.into_iter().map(mode).collect()
+}
+
+/// Share of its largest element by which a matrix may differ from its transpose and be taken for symmetric.
+const SYMMETRIC: f64 = 1e-7;
+
+/// Eigenvalues of a matrix, real and imaginary parts, with vectors, lowest first. Forces without an energy (a pin in a cone of
+/// unlike springs, friction, tables) make it unsymmetric.
+fn pairs(matrix: &DMatrix<f64>) -> Vec<(f64, f64, DVector<f64>)> {
+    let size = matrix.amax();
+    let mut list: Vec<(f64, f64, DVector<f64>)> = if (matrix - matrix.transpose()).amax() <= SYMMETRIC * size {
+        let eigen = ((matrix + matrix.transpose()) * 0.5).symmetric_eigen();
+        let vectors = eigen.eigenvectors.column_iter().map(|c| c.into_owned());
+        eigen.eigenvalues.iter().zip(vectors).map(|(value, vector)| (*value, 0.0, vector)).collect()
+    } else {
+        matrix.complex_eigenvalues().iter().map(|value| (value.re, value.im, vector(matrix, value.re))).collect()
+    };
+    list.sort_by(|a, b| a.0.total_cmp(&b.0));
+    list
+}
+
+/// The vector of an eigenvalue, by inverse iteration from beside it.
+fn vector(matrix: &DMatrix<f64>, value: f64) -> DVector<f64> {
+    let size = matrix.amax().max(f64::MIN_POSITIVE);
+    let mut shifted = matrix.clone();
+    shifted.iter_mut().step_by(matrix.nrows() + 1).for_each(|d| *d -= value + 1e-10 * size);
+    let solver = shifted.lu();
+    // no eigenvector is at right angles to all of these numbers
+    let mut vector = DVector::from_fn(matrix.nrows(), |i, _| 1.0 + 0.37 * i as f64);
+    for _ in 0..3 {
+        match solver.solve(&vector).filter(|v| v.iter().all(|x| x.is_finite())) {
+            Some(next) if next.norm() > 0.0 => vector = next.normalize(),
+            _ => break,
+        }
+    }
+    vector
 }

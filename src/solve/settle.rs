@@ -25,7 +25,17 @@ pub struct Settled {
 /// As [`equilibrium`]; the model is then where the last solution had it: callers keep a copy.
 pub fn settle(model: &mut Model, options: &Options) -> Result<Settled, SolveError> {
     let start: Vec<Place> = model.bodies.values().map(|b| b.place).collect();
-    let mut system = System::of(model, &[])?;
+    let made = |model: &Model| {
+        let mut system = System::of(model, &[])?;
+        // what does not move in this solution is not told as free either
+        for (body, freedom) in &options.ignored {
+            if let Some(free) = system.nodes.get_mut(*body).and_then(|n| n.free.get_mut(*freedom)) {
+                *free = false;
+            }
+        }
+        Ok(system)
+    };
+    let mut system = made(model)?;
     let mut state = system.state(model);
     let mut found = equilibrium(&system, &mut state, options)?;
     system.place(&state, model);
@@ -33,7 +43,7 @@ pub fn settle(model: &mut Model, options: &Options) -> Result<Settled, SolveErro
         if !system.made_for_place() {
             break;
         }
-        system = System::of(model, &[])?;
+        system = made(model)?;
         state = system.state(model);
         let again = equilibrium(&system, &mut state, options)?;
         system.place(&state, model);

@@ -128,6 +128,14 @@ pub fn periods(system: &System, state: &State) -> Table {
             let (body, freedom) = &mode.most;
             table.note(format!("warning: not stable: mode {} moves {body} in {freedom}", index + 1));
         }
+        // what half a hundredth of critical damping does not hold
+        if mode.beside.abs() > 1e-2 * mode.eigenvalue.abs().max(1e-6) {
+            let (body, freedom) = &mode.most;
+            table.note(format!(
+                "warning: mode {} of {body} in {freedom} is coupled by forces without an energy: without damping it grows",
+                index + 1
+            ));
+        }
         push(
             &mut table,
             vec![(index + 1).into(), mode.eigenvalue.into(), period.into(), mode.most.0.into(), mode.most.1.into()],

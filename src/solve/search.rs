@@ -1,0 +1,163 @@
+//! The search for rest: which step is taken, and how much of it.
+//!
+//! With care, a step is shortened until the forces along it have not turned around. Where something stiff turns, that makes
+//! steps very short: a whole step stretches it first, and the next one mends that; so a search that has become slow goes on
+//! boldly for some steps, and comes back when they have led nowhere better.
+
+use super::equilibrium::{LOOSE, Options};
+use super::system::{SolveError, State, System};
+use super::unknowns::Unknowns;
+use crate::model::Pose;
+use nalgebra::{Cholesky, DMatrix, DVector};
+
+/// Bold steps that may lead nowhere better.
+const PATIENCE: usize = 5;
+/// Short steps in a row after which a search is bold, for the first time; twice as many each further time.
+const SLOW: usize = 3;
+/// Share of a step that is short.
+const SHORT: f64 = 0.2;
+/// Most trials of a step.
+const TRIALS: usize = 14;
+
+/// A search on its way.
+pub(super) struct Search<'a> {
+    pub system: &'a System,
+    pub options: &'a Options,
+    pub evaluations: usize,
+    /// Share of the inertia added to the stiffness (1/s2).
+    help: f64,
+    /// Short steps in a row, and how many make the search bold.
+    slow: [usize; 2],
+    /// The place bold steps began at or the better one they found, what was left there, and the steps since.
+    bold: Option<(Vec<Pose>, f64, usize)>,
+}
+
+impl<'a> Search<'a> {
+    pub fn new(system: &'a System, options: &'a Options) -> Self {
+        Search { system, options, evaluations: 0, help: 0.0, slow: [0, SLOW], bold: None }
+    }
+
+    pub fn evaluate(&mut self, state: &mut State) -> Result<(), SolveError> {
+        self.evaluations += 1;
+        self.system.evaluate(state)
+    }
+
+    /// Goes on from a place where `worst` is left: a step, or back to a better place.
+    pub fn go(&mut self, unknowns: &Unknowns, state: &mut State, worst: f64) -> Result<(), SolveError> {
+        if let Some((poses, least, since)) = &mut self.bold {
+            if worst < *least {
+                (*least, *since) = (worst, 0);
+                poses.clone_from(&state.poses);
+            } else {
+                *since += 1;
+            }
+            if *since > PATIENCE {
+                state.poses.clone_from(poses);
+                self.bold = None;
+                self.slow = [0, self.slow[1].saturating_mul(2)];
+                self.help = 0.0;
+                return self.evaluate(state);
+            }
+        } else if self.slow[0] >= self.slow[1] {
+            self.bold = Some((state.poses.clone(), worst, 0));
+        }
+        self.step(unknowns, state, worst)
+    }
+
+    fn step(&mut self, unknowns: &Unknowns, state: &mut State, worst: f64) -> Result<(), SolveError> {
+        let residual = unknowns.residual(state);
+        let (step, needed) = direction(unknowns, &unknowns.stiffness(state), &residual, self.help);
+        let work = residual.dot(&step).abs();
+        let from = state.poses.clone();
+        let longest = unknowns.limit(&step);
+        // nothing holds back along a step that had to be limited: it is no measure of how far it is
+        let blind = needed > 0.0 && longest < 1.0;
+        let bold = self.bold.is_some() && !blind;
+        // share and force along the step of the farthest place before the forces turn around, and of the nearest behind
+        let (mut before, mut behind): ((f64, f64), Option<(f64, f64)>) = ((0.0, work), None);
+        let mut share = longest;
+        let mut error = None;
+        for _ in 0..TRIALS {
+            state.poses = unknowns.moved(&from, &step, share);
+            match self.evaluate(state) {
+                Ok(()) => {
+                    let new = unknowns.residual(state);
+                    let (now, after) = (unknowns.worst(&new, self.options).0, new.dot(&step));
+                    let fell = after.abs() <= 0.9 * work;
+                    if bold || now < worst || (after >= -0.5 * work && (fell || behind.is_none())) {
+                        self.taken(share / longest, needed, now / worst, blind);
+                        return Ok(());
+                    }
+                    if after >= -0.5 * work {
+                        before = (share, after);
+                    } else {
+                        behind = Some((share, after));
+                    }
+                }
+                Err(wrong) => {
+                    error = Some(wrong);
+                    behind = Some((share, -work));
+                }
+            }
+            let Some((far, force)) = behind else { break };
+            // where the force along the step is nothing, were it straight
+            let (near, at) = before;
+            let straight = at.abs() / (at.abs() + force.abs());
+            share = near + (far - near) * straight.clamp(0.05, 0.7);
+        }
+        if before.0 > 0.0 {
+            state.poses = unknowns.moved(&from, &step, before.0);
+            self.evaluate(state)?;
+            self.taken(before.0 / longest, needed, 1.0, blind);
+            return Ok(());
+        }
+        state.poses = from;
+        if let Some(error) = error {
+            return Err(error);
+        }
+        // no share of the step is good: a shorter step in pseudo-time
+        self.help = (10.0 * needed.max(self.help)).max(1e-3);
+        self.evaluate(state)
+    }
+
+    /// Remembers how much of a step was taken, and what it left over what there was.
+    fn taken(&mut self, share: f64, needed: f64, left: f64, blind: bool) {
+        self.slow[0] = if share < SHORT && !blind { self.slow[0] + 1 } else { 0 };
+        // a stiffness that needed help is helped less as the residual shrinks
+        let change = if left <= 1.0 { (0.5 * left).max(0.1) } else { left.min(4.0) };
+        self.help = Some(needed * change).filter(|h| *h >= LOOSE).unwrap_or(0.0);
+    }
+}
+
+/// The step, and the share of the inertia (1/s2) that had to be added to the stiffness to hold the bodies.
+fn direction(unknowns: &Unknowns, stiffness: &DMatrix<f64>, residual: &DVector<f64>, help: f64) -> (DVector<f64>, f64) {
+    let root = unknowns.inertia.map(|d| 1.0 / d.sqrt());
+    let scaled = DMatrix::from_fn(root.len(), root.len(), |i, j| stiffness[(i, j)] * root[i] * root[j]);
+    let symmetric = (&scaled + scaled.transpose()) * 0.5;
+    let size = symmetric.amax().max(1e-6);
+    let right = residual.component_mul(&root);
+    // forces without an energy: what their stiffness does is not told by its symmetric part
+    if help == 0.0 && (&scaled - scaled.transpose()).amax() > 1e-6 * size {
+        let solved = scaled.clone().lu().solve(&right).filter(|s| s.iter().all(|v| v.is_finite()));
+        if let Some(step) = solved.filter(|s| s.dot(&right) > 0.0).map(|s| s.component_mul(&root))
+            && unknowns.limit(&step) >= 1.0
+        {
+            return (step, 0.0);
+        }
+    }
+    let mut needed = help;
+    let mut next = (1e-9 * size).max(10.0 * LOOSE);
+    loop {
+        let mut held = symmetric.clone();
+        held.iter_mut().step_by(root.len() + 1).for_each(|d| *d += needed - LOOSE);
+        if Cholesky::new(held).is_some() || needed > 1e3 * size {
+            break;
+        }
+        needed = needed.max(next);
+        next = 10.0 * needed;
+    }
+    let mut held = scaled;
+    held.iter_mut().step_by(root.len() + 1).for_each(|d| *d += needed);
+    let solved = held.lu().solve(&right).filter(|s| s.iter().all(|v| v.is_finite()));
+    (solved.unwrap_or(right).component_mul(&root), needed)
+}

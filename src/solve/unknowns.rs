@@ -1,0 +1,155 @@
+//! The unknowns of an equilibrium: freedoms that move, what they weigh, and how a step in them moves the bodies.
+
+use super::equilibrium::Options;
+use super::system::{Node, State, System};
+use crate::model::{Place, Pose, Six};
+use nalgebra::{DMatrix, DVector};
+
+/// Longest step (m), and largest rotation in it (rad).
+const LONGEST: [f64; 2] = [50.0, 0.3];
+/// Share of what pulls at a junction that is taken for its weight where a residual is measured.
+const JUNCTION: f64 = 1e-3;
+
+/// Rows of the system with their shares in one unknown, the larger first.
+pub(super) type Direction = [(usize, f64); 2];
+
+/// The free unknowns and their measures.
+pub(super) struct Unknowns<'a> {
+    /// The direction of each: a row of the system, or two with their shares.
+    pub rows: Vec<Direction>,
+    /// Inertia of each (kg or kg m2).
+    pub inertia: DVector<f64>,
+    /// Force (N) or moment (N m) that is gravity's on it; of a junction a thousandth of what pulls at it.
+    measure: DVector<f64>,
+    turns: &'a [Turns],
+}
+
+impl<'a> Unknowns<'a> {
+    pub fn of(system: &System, state: &State, options: &Options, turns: &'a [Turns]) -> Self {
+        let (mut rows, mut inertia, mut measure) = (Vec::new(), Vec::new(), Vec::new());
+        for (body, node) in system.nodes.iter().enumerate() {
+            let own = &node.floating.mass;
+            let pull = state.pull.get(body).copied().unwrap_or(0.0) / system.gravity;
+            let mass = if node.junction || own.mass <= 0.0 { own.mass.max(pull).max(1e-3) } else { own.mass };
+            let about = own.inertia.trace() / 3.0 - mass * own.centre.norm_squared() * 2.0 / 3.0;
+            let radius = if about > 1e-12 * mass { (about / mass).sqrt() } else { 1.0 };
+            let weighs = if node.junction { own.mass.max(JUNCTION * pull).max(1e-3) } else { mass };
+            for (freedom, free) in node.free.iter().enumerate() {
+                if !free || options.ignored.contains(&(body, freedom)) {
+                    continue;
+                }
+                match options.held {
+                    Some((held, angle)) if held == body && freedom < 2 => match across(body, angle, &node.free) {
+                        Some(direction) if freedom == 1 => rows.push(direction),
+                        _ => continue,
+                    },
+                    _ => rows.push([(6 * body + freedom, 1.0), (6 * body + freedom, 0.0)]),
+                }
+                let turning = freedom >= 3;
+                inertia.push(if turning { mass * radius * radius } else { mass });
+                measure.push(if turning { weighs * radius * system.gravity } else { weighs * system.gravity });
+            }
+        }
+        Unknowns { rows, inertia: DVector::from_vec(inertia), measure: DVector::from_vec(measure), turns }
+    }
+
+    pub fn residual(&self, state: &State) -> DVector<f64> {
+        let along = |d: &Direction| d.iter().map(|(r, share)| share * state.residual[*r]).sum();
+        DVector::from_iterator(self.rows.len(), self.rows.iter().map(along))
+    }
+
+    pub fn stiffness(&self, state: &State) -> DMatrix<f64> {
+        DMatrix::from_fn(self.rows.len(), self.rows.len(), |i, j| match (self.rows.get(i), self.rows.get(j)) {
+            (Some(rows), Some(columns)) => rows
+                .iter()
+                .flat_map(|(r, one)| columns.iter().map(move |(c, other)| one * other * state.stiffness[(*r, *c)]))
+                .sum(),
+            _ => 0.0,
+        })
+    }
+
+    /// The largest acceleration left over what is tolerated, and the unknown that has it.
+    pub fn worst(&self, residual: &DVector<f64>, options: &Options) -> (f64, usize) {
+        let [shift, turn] = options.tolerance;
+        let share = |(i, (r, m)): (usize, (&f64, &f64))| {
+            let tolerance = if self.freedom(i) >= 3 { turn } else { shift };
+            (r.abs() / m / tolerance, i)
+        };
+        residual.iter().zip(self.measure.iter()).enumerate().map(share).fold((0.0, 0), |worst, one| {
+            // what is no number is the worst
+            if one.0 > worst.0 || one.0.is_nan() { one } else { worst }
+        })
+    }
+
+    pub fn freedom(&self, unknown: usize) -> usize {
+        self.rows.get(unknown).map_or(0, |[(r, _), _]| r % 6)
+    }
+
+    pub fn body(&self, unknown: usize) -> usize {
+        self.rows.get(unknown).map_or(0, |[(r, _), _]| r / 6)
+    }
+
+    /// The share of a step that stays within the longest.
+    pub fn limit(&self, step: &DVector<f64>) -> f64 {
+        let [far, turn] = LONGEST;
+        step.iter().enumerate().fold(1.0, |share: f64, (i, s)| {
+            let most = if self.freedom(i) >= 3 { turn } else { far };
+            share.min(most / s.abs().max(1e-300))
+        })
+    }
+
+    pub fn moved(&self, poses: &[Pose], step: &DVector<f64>, share: f64) -> Vec<Pose> {
+        let mut motions = vec![Six::zeros(); poses.len()];
+        for (direction, s) in self.rows.iter().zip(step.iter()) {
+            for (row, part) in direction {
+                if let Some(motion) = motions.get_mut(row / 6) {
+                    motion[row % 6] += share * part * s;
+                }
+            }
+        }
+        let turn = |body: usize, pose: Pose| match self.turns.get(body) {
+            Some(turns) if turns.iter().any(Option::is_some) => turned_back(pose, turns),
+            _ => pose,
+        };
+        let one = |(body, (p, m)): (usize, (&Pose, &Six))| if *m == Six::zeros() { *p } else { turn(body, p.moved(m)) };
+        poses.iter().zip(&motions).enumerate().map(one).collect()
+    }
+}
+
+/// The horizontal direction across an angle (rad), where the body is free in both.
+fn across(body: usize, angle: f64, free: &[bool; 6]) -> Option<Direction> {
+    let [x, y, ..] = *free;
+    let (x_share, y_share) = (-angle.sin(), angle.cos());
+    let (x_row, y_row) = ((6 * body, x_share), (6 * body + 1, y_share));
+    (x && y).then_some(if x_share.abs() > y_share.abs() { [x_row, y_row] } else { [y_row, x_row] })
+}
+
+/// Roll, pitch and yaw (rad) that a body keeps, where it has some rotations left out and others not: turning about some axes
+/// of space alone would change the others by the square of the turn.
+pub(super) type Turns = [Option<f64>; 3];
+
+/// The angles each body of a system keeps.
+pub(super) fn kept_turns(system: &System, state: &State, options: &Options) -> Vec<Turns> {
+    let kept = |(body, (node, pose)): (usize, (&Node, &Pose))| {
+        let free = [3, 4, 5].map(|f| node.free.get(f) == Some(&true) && !options.ignored.contains(&(body, f)));
+        let some = free.contains(&true) && free.contains(&false);
+        let [roll, pitch, yaw] = pose.place(&Place::default()).turn;
+        let mut turns = [Some(roll), Some(pitch), Some(yaw)];
+        for (turn, free) in turns.iter_mut().zip(free) {
+            if free || !some {
+                *turn = None;
+            }
+        }
+        turns
+    };
+    system.nodes.iter().zip(&state.poses).enumerate().map(kept).collect()
+}
+
+/// A pose with the angles it keeps.
+fn turned_back(pose: Pose, turns: &Turns) -> Pose {
+    let mut place = pose.place(&Place::default());
+    for (turn, kept) in place.turn.iter_mut().zip(turns) {
+        *turn = kept.unwrap_or(*turn);
+    }
+    Pose { axes: Pose::of(&place).axes, ..pose }
+}
