@@ -53,7 +53,7 @@ fn hung() -> Model {
 
 /// Numbers from -1 to 1, always the same.
 fn numbers() -> impl FnMut() -> f64 {
-    let mut seed = 20_261_121_u64;
+    let mut seed = 77_u64;
     move || {
         seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
@@ -68,7 +68,7 @@ fn steps(model: &Model, far: [f64; 3]) -> Vec<Result<usize, String>> {
     let home = at_rest.poses[0];
     let mut next = numbers();
     let mut list = Vec::new();
-    for start in 0..40 {
+    for start in 0..400 {
         let [x, y, z] = far.map(|f| f * next());
         let [roll, pitch, yaw] = [30.0, 30.0, 90.0].map(|a: f64| (a * next()).to_radians());
         let place = [home.origin.x + x, home.origin.y + y, home.origin.z + z, roll, pitch, yaw];
@@ -108,5 +108,5 @@ fn a_barge_on_eight_chains_comes_home_from_200_metres_30_degrees_of_heel_and_90_
 
 #[test]
 fn a_load_in_four_slings_comes_home_from_far_off() {
-    pinned(&steps(&hung(), [15.0, 15.0, 10.0]), 33);
+    pinned(&steps(&hung(), [15.0, 15.0, 10.0]), 36);
 }

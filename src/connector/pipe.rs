@@ -70,9 +70,11 @@ impl Pipe {
         let inner = section.thickness.map_or(0.0, |t| section.od - 2.0 * t);
         let ei = section.ea * (section.od * section.od + inner * inner) / 16.0;
         let in_water = section.weight - section.displacement - buoyancy(section, around);
-        let pulled = upper.map_or(lower, |upper| 0.5 * (lower + upper));
+        // TLOW is the tension at the first davit; on rollers the tensioner begins between its limits
+        let risen = section.weight * (last.origin.z - first.origin.z);
+        let pulled = upper.map_or(lower + risen, |upper| 0.5 * (lower + upper));
         // by weight from the tensioner down to the first support, and from there to the bottom
-        let horizontal = pulled - section.weight * (last.origin.z - first.origin.z) - in_water * height;
+        let horizontal = pulled - risen - in_water * height;
         if height <= 0.0 || in_water <= 0.0 || horizontal <= 0.0 {
             let text = "its tension of {} does not carry it to the bottom, {} below the first support, at {} in water";
             let values = [(pulled, Dim::Force), (height, Dim::Length), (in_water, Dim::ForcePerLength)];

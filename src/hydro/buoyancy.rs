@@ -18,6 +18,16 @@ enum Form {
     Tube(Tube),
 }
 
+impl Form {
+    /// Its surface, of a tube that of a prism; `None` of a tube without length.
+    fn surface(self) -> Option<Surface> {
+        match self {
+            Form::Surface(surface) => Some(surface),
+            Form::Tube(tube) => tube.prism(SIDES),
+        }
+    }
+}
+
 /// The hull of a body in the water of the environment in force.
 #[derive(Debug)]
 pub struct Hull {
@@ -94,9 +104,7 @@ pub(super) fn skin(part: &Part, piece: &Piece) -> Result<Option<Surface>, ClassE
         (Some(fault), _) => Err(ClassError { span: Some(piece.span), ..fault.error.clone() }.help(
             "it takes no wind and current before this is corrected; or give it -CS_WIND 0 0 0 -CS_CURRENT 0 0 0",
         )),
-        (None, Some(Form::Surface(surface))) => Ok(Some(surface)),
-        (None, Some(Form::Tube(tube))) => Ok(tube.prism(SIDES)),
-        (None, None) => Ok(None),
+        (None, form) => Ok(form.and_then(Form::surface)),
     }
 }
 
@@ -199,16 +207,42 @@ fn sentence(name: &str, fault: &Fault) -> ClassError {
     ClassError::of(format!("piece {name}: {what}"), &values)
 }
 
+/// The least and the greatest coordinates of a piece in its body (m).
+fn bounds(part: &Part, piece: &Piece) -> [Vector3<f64>; 2] {
+    let (corners, beside): (Vec<[f64; 3]>, f64) = match piece.shape.moved(&part.place) {
+        Shape::Panels(panels) => (panels.into_iter().flatten().collect(), 0.0),
+        Shape::Block { low, high } => (vec![low, high], 0.0),
+        Shape::Tube { ends, diameter } => (ends.to_vec(), 0.5 * diameter),
+    };
+    let beside = Vector3::repeat(beside);
+    let none = [Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::NEG_INFINITY)];
+    corners
+        .into_iter()
+        .map(Vector3::from)
+        .fold(none, |[low, high], c| [low.inf(&(c - beside)), high.sup(&(c + beside))])
+}
+
+/// Whether nothing of one lies in the other.
+fn apart(a: &[Vector3<f64>; 2], b: &[Vector3<f64>; 2]) -> bool {
+    let ([a_low, a_high], [b_low, b_high]) = (a, b);
+    (0..3).any(|i| a_low[i] >= b_high[i] || b_low[i] >= a_high[i])
+}
+
 /// What is wrong with a piece, by itself and beside the others of its body; places in the system of the body.
 pub fn piece_faults(model: &Model, body: &Body, part: &Part, piece: &Piece) -> Vec<PieceFault> {
     let Solidified { form, mut faults } = Solidified::of(part, piece, Surface::faults);
-    let Some(Form::Surface(surface)) = form else { return faults };
+    let Some(surface) = form.and_then(Form::surface) else { return faults };
+    let bounds = bounds(part, piece);
     for other in model.parts_of(body).flat_map(|p| p.pieces.iter().map(move |piece| (p, piece))) {
         // an interior lies within an exterior; two of one sort count twice where they overlap
         if other.1.name == piece.name || other.1.permeability * piece.permeability <= 0.0 {
             continue;
         }
-        let Some(Form::Surface(second)) = Solidified::of(other.0, other.1, Surface::leaks).form else { continue };
+        if apart(&bounds, &self::bounds(other.0, other.1)) {
+            continue;
+        }
+        let form = Solidified::of(other.0, other.1, Surface::leaks).form;
+        let Some(second) = form.and_then(Form::surface) else { continue };
         if let Some(at) = intersect(&surface, &second) {
             let text = format!(
                 "pieces {} and {} overlap at ({{}}, {{}}, {{}}); what they share counts twice",

@@ -20,13 +20,17 @@ struct Bottom {
     elevation: f64,
     /// Height from which on it pushes (m).
     reach: f64,
-    /// Force by the square of what is missing of the reach (N/m2).
-    hardness: f64,
+    /// What it carries where three fifths of the reach are missing (N), about; at nothing left, all there is.
+    carried: f64,
 }
 
 /// Height above the bottom from which on it carries a junction (m): small against any line, so that what lies there lies as
 /// good as on it, and above it, where a line to its anchor has an answer.
 const REACH: f64 = 0.01;
+
+/// Share of the reach from which on the force grows straight: a thousand times what is carried in the middle, and more on the
+/// bottom than any line pulls.
+const STRAIGHT: f64 = 0.9999;
 
 /// The loads of a junction besides its weight.
 pub fn of(junction: &Junction, mass: &Mass, around: &Surroundings) -> Vec<Box<dyn BodyLoad>> {
@@ -36,9 +40,9 @@ pub fn of(junction: &Junction, mass: &Mass, around: &Surroundings) -> Vec<Box<dy
         list.push(Box::new(Sphere { radius, water: around.water_weight(), level: around.tide }));
     }
     if let Some(depth) = around.depth {
-        // half of the reach carries the weight and a ton of line
+        // the weight and a ton of line
         let carried = mass.mass * around.gravity + 1e4;
-        list.push(Box::new(Bottom { elevation: -depth, reach: REACH, hardness: 4.0 * carried / (REACH * REACH) }));
+        list.push(Box::new(Bottom { elevation: -depth, reach: REACH, carried }));
     }
     list
 }
@@ -70,7 +74,12 @@ impl BodyLoad for Bottom {
     }
 
     fn load(&self, pose: &Pose) -> Result<Load, ClassError> {
-        let missing = (self.reach - (pose.origin.z - self.elevation)).max(0.0);
-        Ok(upward(self.hardness * missing * missing, 2.0 * self.hardness * missing))
+        let missing = (1.0 - (pose.origin.z - self.elevation) / self.reach).max(0.0);
+        // s2 / (1 - s), straight from near its end on: a search may begin below
+        let s = missing.min(STRAIGHT);
+        let force = s * s / (1.0 - s);
+        let slope = s * (2.0 - s) / ((1.0 - s) * (1.0 - s));
+        let force = force + slope * (missing - s);
+        Ok(upward(self.carried * force, self.carried * slope / self.reach))
     }
 }

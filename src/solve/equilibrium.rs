@@ -70,6 +70,9 @@ pub fn equilibrium(system: &System, state: &mut State, options: &Options) -> Res
         // a junction is measured by what pulls at it now
         let unknowns = Unknowns::of(system, state, options, &turns);
         let (worst, at) = unknowns.worst(&unknowns.residual(state), options);
+        if worst.is_nan() {
+            return Err(failure(system, state, &unknowns, at, options));
+        }
         stale = if worst <= 0.5 * best.0 { 0 } else { stale + 1 };
         if worst < best.0 {
             best = (worst, state.poses.clone());
@@ -83,8 +86,8 @@ pub fn equilibrium(system: &System, state: &mut State, options: &Options) -> Res
                 search.evaluate(state)?;
             }
             let loose = loose(system, &unknowns, state);
-            let [tolerance, _] = options.tolerance;
-            return Ok(Equilibrium { steps, evaluations: search.evaluations, measure: best.0 * tolerance, loose });
+            let measure = unknowns.largest(&unknowns.residual(state));
+            return Ok(Equilibrium { steps, evaluations: search.evaluations, measure, loose });
         }
         if steps == options.most {
             return Err(failure(system, state, &unknowns, at, options));

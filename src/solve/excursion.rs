@@ -67,6 +67,8 @@ pub enum End {
 
 /// Ratios that differ by less are those of lines that stand alike.
 const SAME: f64 = 1e-9;
+/// Most steps in which a free body is taken from one excursion to the next.
+const MOST_STRIDES: f64 = 200.0;
 /// Largest share of the size of the mooring in one step of the search, and in one step of a body that is free.
 const STRIDE: f64 = 0.05;
 /// A body without a break is not moved farther than so many sizes of its mooring.
@@ -117,7 +119,7 @@ impl<'a> Walk<'a> {
         if self.path.free {
             let before: Vec<Pose> = self.state.poses.clone();
             let gone = before.get(body).map_or(0.0, |p| (p.origin - start.origin).dot(&self.along));
-            let strides = ((excursion - gone).abs() / (STRIDE * self.size)).ceil().max(1.0);
+            let strides = ((excursion - gone).abs() / (STRIDE * self.size)).ceil().clamp(1.0, MOST_STRIDES);
             for n in 1..=strides as usize {
                 let to = if n as f64 >= strides { excursion } else { gone + (excursion - gone) * n as f64 / strides };
                 if let Err(error) = self.rest(start, to) {
@@ -172,7 +174,11 @@ impl<'a> Walk<'a> {
                 Ok(there) if there.over() >= 0.0 => return self.breaking(here, there),
                 Ok(there) => {
                     here = there;
-                    stride = (1.6 * stride).min(STRIDE * self.size);
+                    stride *= 1.6;
+                    // so far that a break is looked for in steps
+                    if here.excursion <= FARTHEST * self.size {
+                        stride = stride.min(STRIDE * self.size);
+                    }
                 }
                 Err(error) if stride < 1e-9 * self.size => {
                     return if here.excursion > 0.0 { Ok((here, End::Lost(error))) } else { Err(error) };

@@ -2,7 +2,7 @@
 
 use super::excursion;
 use super::excursion::{End, Moved, Path, Walk, worst};
-use super::system::{FREEDOMS, SolveError, System};
+use super::system::{FREEDOMS, SolveError, System, without_rounding};
 use super::watch::{Circle, Watched};
 use crate::language::units::{Dim, UnitSystem};
 use crate::model::{Place, Pose};
@@ -159,7 +159,7 @@ pub fn along(systems: &Systems, asked: &Asked, rows: usize) -> Result<Table, Sol
 
 fn row(moved: &Moved, names: &[String], asked: &Asked) -> Vec<Cell> {
     let Moved { excursion, poses, wrench, lines } = moved;
-    let place = poses.get(asked.path.body).map_or(*asked.place, |p| p.place(asked.place));
+    let place = poses.get(asked.path.body).map_or(*asked.place, |p| without_rounding(p.place(asked.place)));
     let [x, y, z, _, _, heading] = place.values();
     let mut row = vec![Cell::Number(*excursion), sum(x, *excursion), sum(y, *excursion)];
     row.extend([z, heading].map(Cell::Number));
@@ -273,7 +273,7 @@ pub fn circle((asked, force): (&Asked, f64), systems: &Systems, found: &Circle, 
         {
             broken.push(name.clone());
         }
-        let heading = pose.place(asked.place).turn[2];
+        let heading = without_rounding(pose.place(asked.place)).turn[2];
         let tension = most.and_then(|(_, line)| lines.get(line)).and_then(|l| l.tension);
         let at = |pose: &Pose| {
             // as far as the solution goes

@@ -32,7 +32,7 @@ pub fn modes(system: &System, state: &State) -> Vec<Mode> {
     let mut k = part(&state.stiffness, &heavy, &heavy);
     let mut follow = DMatrix::zeros(light.len(), heavy.len());
     if !light.is_empty()
-        && let Some(solved) = part(&state.stiffness, &light, &light).lu().solve(&part(&state.stiffness, &light, &heavy))
+        && let Some(solved) = held(part(&state.stiffness, &light, &light), &part(&state.stiffness, &light, &heavy))
     {
         k -= part(&state.stiffness, &heavy, &light) * &solved;
         follow = -solved;
@@ -67,6 +67,15 @@ pub fn modes(system: &System, state: &State) -> Vec<Mode> {
         }
     };
     pairs.into_iter().map(mode).collect()
+}
+
+/// What solves `k x = right` with as little motion as can be: what nothing holds does not move. `None` of numbers that are none.
+pub(super) fn held(k: DMatrix<f64>, right: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    if !k.iter().chain(right.iter()).all(|v| v.is_finite()) {
+        return None;
+    }
+    let size = k.amax();
+    k.svd(true, true).solve(right, 1e-12 * size).ok()
 }
 
 /// Share of its largest element by which a matrix may differ from its transpose and be taken for symmetric.

@@ -3,7 +3,7 @@
 
 use super::equilibrium::{Equilibrium, Options, equilibrium};
 use super::system::{SolveError, State, System};
-use crate::model::{Model, Place};
+use crate::model::{ClassError, Model, Place};
 
 /// Most times a system is made anew.
 const MOST: usize = 12;
@@ -39,6 +39,7 @@ pub fn settle(model: &mut Model, options: &Options) -> Result<Settled, SolveErro
     let mut state = system.state(model);
     let mut found = equilibrium(&system, &mut state, options)?;
     system.place(&state, model);
+    let mut settled = !system.made_for_place();
     for _ in 0..MOST {
         if !system.made_for_place() {
             break;
@@ -53,9 +54,14 @@ pub fn settle(model: &mut Model, options: &Options) -> Result<Settled, SolveErro
             evaluations: found.evaluations + again.evaluations,
             ..again
         };
-        if !moved {
+        settled = !moved;
+        if settled {
             break;
         }
+    }
+    if !settled {
+        let text = "the tables of its lines do not settle at the elevations their fairleads come to";
+        return Err(SolveError::new(ClassError::new(text).help("make the classes EXACT")));
     }
     for (body, place) in model.bodies.values_mut().zip(start) {
         body.previous = place;

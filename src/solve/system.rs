@@ -1,5 +1,6 @@
 //! The system of bodies and connectors: who hangs on whom, what acts on each body, how that changes with their places.
 
+use super::modes::held;
 use crate::hydro::{Category, Floating, Load, carried, transferred, turning};
 use crate::model::{
     Body, ClassError, Connector, Element, End, Guess, LaidPipe, Mass, Model, Place, Pose, Response, Situation, Six,
@@ -280,7 +281,7 @@ impl System {
         let part = |r: &[usize], c: &[usize]| state.stiffness.select_rows(r).select_columns(c);
         let mut made = part(&own, &own);
         if !follow.is_empty()
-            && let Some(moved) = part(&follow, &follow).lu().solve(&part(&follow, &own))
+            && let Some(moved) = held(part(&follow, &follow), &part(&follow, &own))
         {
             made -= part(&own, &follow) * moved;
         }
@@ -319,7 +320,7 @@ impl System {
 }
 
 /// A place with what is less than any solution is exact to left out: a tenth of a nanometre, and that on a kilometre.
-fn without_rounding(place: Place) -> Place {
+pub(super) fn without_rounding(place: Place) -> Place {
     let kept = |least: f64| move |v: f64| if v.abs() < least { 0.0 } else { v };
     Place { shift: place.shift.map(kept(1e-10)), turn: place.turn.map(kept(1e-13)) }
 }

@@ -138,7 +138,13 @@ pub fn periods(system: &System, state: &State) -> Table {
         }
         push(
             &mut table,
-            vec![(index + 1).into(), mode.eigenvalue.into(), period.into(), mode.most.0.into(), mode.most.1.into()],
+            vec![
+                (index + 1).into(),
+                if held { mode.eigenvalue } else { 0.0 }.into(),
+                period.into(),
+                mode.most.0.into(),
+                mode.most.1.into(),
+            ],
         );
     }
     table.note("eigenvalues in rad2/s2, of the stiffness against mass and added mass; undamped");

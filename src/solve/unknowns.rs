@@ -81,6 +81,11 @@ impl<'a> Unknowns<'a> {
         })
     }
 
+    /// The largest acceleration left, as a share of gravity.
+    pub fn largest(&self, residual: &DVector<f64>) -> f64 {
+        residual.iter().zip(self.measure.iter()).fold(0.0, |most: f64, (r, m)| most.max(r.abs() / m))
+    }
+
     pub fn freedom(&self, unknown: usize) -> usize {
         self.rows.get(unknown).map_or(0, |[(r, _), _]| r % 6)
     }
