@@ -43,8 +43,9 @@ static SPEC: CommandSpec = CommandSpec {
              roller farthest aft. There is one: &PIPE/ASSEMBLY. It starts as a catenary with the weight in water of OD, T and the options of the \
              class, above the water in air, and is then solved in the vertical plane as an elastic beam of large displacement (EI of the tube of \
              the first segment; -LEN and -REFINE of the class say nothing: the pipe is as long as it needs to be), the bottom as a stiff \
-             foundation without friction. The last roller is the tensioner: it holds the pipe along X of its body at the mean of TLOWER and \
-             TUPPER, as our reading, and pays out or hauls in beyond them. &EQUI lays the pipe anew where the vessel comes to rest. To \
+             foundation without friction. The last roller is the tensioner: laid at the mean of TLOWER and \
+             TUPPER, the pipe is held along X of its body while its tension stays between them, and is paid out or hauled in beyond them, as our \
+             reading: a pipe that bends hangs lighter than its catenary, so that its tension often stands at TLOWER. &EQUI lays the pipe anew where the vessel comes to rest. To \
              either side the pipe goes with its supports: their sway, roll and yaw do nothing. A single roller, which makes a vertical riser, is not \
              solved yet. &STATUS ASSEMBLIES tells what it exerts on its supports.",
     example: "&DIMEN -DIMEN METERS K-NTS\n&ENV -DEPTH 50\nMEDIT\n*R1 40 0 2\n*R2 30 0 3.2\n*R3 20 0 4\n~ROLL ROLLER COMPRESSION Z 5000\n\
