@@ -24,6 +24,9 @@ fn push(table: &mut Table, row: Vec<Cell>) {
     debug_assert!(fits.is_ok(), "a row must fit its table");
 }
 
+/// Acceleration left, as a share of gravity, that is more than rounding.
+const STALLED: f64 = 1e-6;
+
 /// Where the bodies are at rest, and what is left on them.
 pub fn rest(model: &Model, settled: &Settled) -> Table {
     let mut table = Table::new("Equilibrium")
@@ -52,6 +55,12 @@ pub fn rest(model: &Model, settled: &Settled) -> Table {
         row.extend(body.place.values().map(Cell::Number));
         row.extend([moving(0).into(), moving(3).into(), share]);
         push(&mut table, row);
+    }
+    if settled.found.measure > STALLED {
+        table.note(format!(
+            "warning: the search came no nearer: {:.1e} of gravity is left, within the tolerance; -TOLERANCE asks for less",
+            settled.found.measure
+        ));
     }
     for (body, freedom) in &settled.found.loose {
         table.note(format!("warning: nothing holds {body} in {freedom}: its place there is where it was"));
@@ -147,7 +156,7 @@ pub fn periods(system: &System, state: &State) -> Table {
             ],
         );
     }
-    table.note("eigenvalues in rad2/s2, of the stiffness against mass and added mass; undamped");
+    table.note("eigenvalues in rad2/s2, of the stiffness against mass and the added mass of #AMASS; undamped");
     table
 }
 
