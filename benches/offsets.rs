@@ -5,64 +5,24 @@
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::print_stdout)]
 
-use std::fmt::Write;
-use std::hint::black_box;
-use std::time::{Duration, Instant};
-use windlass::model::{Model, Pose};
-use windlass::report::files::JobFolder;
-use windlass::report::output::Output;
-use windlass::session::Session;
+#[path = "eight/mod.rs"]
+mod eight;
+
+use eight::report;
+use windlass::model::Pose;
 use windlass::solve::System;
 use windlass::solve::offset::{Connectors, Pull};
 
 const OFFSETS: usize = 200;
 const FARTHEST: f64 = 40.0;
-/// Passes are repeated for so long, and the quickest counts: other work on the machine only ever adds.
-const ENOUGH: Duration = Duration::from_secs(4);
-
-/// Eight chains around: anchors at 830 m, fairleads at 30 m and 10 m down, 199 kg/m of 0.18 m in sea water.
-fn model() -> Model {
-    let mut records = String::from("&DIMEN -DIMEN METERS N\nMEDIT\n&DESCRIBE BODY SHIP\n");
-    for line in 0..8 {
-        let (sin, cos) = (22.5 + 45.0 * f64::from(line)).to_radians().sin_cos();
-        writeln!(records, "*F{line} {} {} -10", 30.0 * cos, 30.0 * sin).unwrap();
-    }
-    // E of a full section of 180 mm with EA = 8.54e8 N, in MPa as records have it
-    let section = std::f64::consts::FRAC_PI_4 * 0.18 * 0.18;
-    let modulus = 8.54e8 / section / 1e6;
-    let weight = (199.0 - 1025.0 * section) * 9.80665;
-    writeln!(records, "~CHAIN B_CAT 180 EXACT -LEN 900 -DEP 300 -BUOY 0 -WTPL {weight} -EMOD {modulus}").unwrap();
-    for line in 0..8 {
-        let angle = 22.5 + 45.0 * f64::from(line);
-        writeln!(records, "CONNECTOR L{line} -ANC {angle} 800 ~CHAIN *F{line}").unwrap();
-    }
-    records.push_str("END\n");
-    let job = JobFolder::new("bench".into(), None, false);
-    let mut session = Session::new(Output::new(job, Box::new(std::io::sink()), Box::new(std::io::sink()), false));
-    session.open("bench", records);
-    session.keep_reports = true;
-    session.run();
-    assert_eq!(session.errors, 0, "{:?}", session.reports);
-    session.job.model.clone()
-}
-
-fn report(name: &str, mut pass: impl FnMut() -> f64) {
-    let begin = Instant::now();
-    let mut least = f64::INFINITY;
-    while begin.elapsed() < ENOUGH {
-        let start = Instant::now();
-        black_box(pass());
-        least = least.min(start.elapsed().as_secs_f64());
-    }
-    println!("{name}\t{OFFSETS}\t{least:.9}");
-}
 
 fn main() {
-    let model = model();
+    let line = |rest: &str| format!("~CHAIN B_CAT 180 EXACT -LEN 900 -DEP 300 {rest}\n");
+    let model = eight::model("", &line, "");
     let system = System::of(&model, &[]).unwrap();
     let start: Vec<Pose> = system.state(&model).poses;
     let at = |n: usize| FARTHEST * n as f64 / (OFFSETS - 1) as f64;
-    report("forces and tensions", || {
+    report("forces and tensions", OFFSETS, || {
         let mut connectors = Connectors::on(&system, 0).unwrap();
         let (mut poses, mut pull, mut sum) = (start.clone(), Pull::default(), 0.0);
         for n in 0..OFFSETS {
@@ -72,7 +32,7 @@ fn main() {
         }
         sum
     });
-    report("forces and stiffness", || {
+    report("forces and stiffness", OFFSETS, || {
         let mut state = system.state(&model);
         let mut sum = 0.0;
         for n in 0..OFFSETS {

@@ -4,11 +4,14 @@
 #![allow(clippy::unwrap_used)]
 
 mod common;
+#[path = "common/tangent.rs"]
+mod tangent;
 
-use nalgebra::{Matrix6, Vector3};
+use nalgebra::Vector3;
+use tangent::differences;
 use windlass::hydro::hull::{Fault, Surface, Tube};
 use windlass::hydro::steady::{Medium, Steady};
-use windlass::hydro::{BodyLoad, Category, Floating};
+use windlass::hydro::{Category, Floating};
 use windlass::language::units::FOOT;
 use windlass::model::{Model, Place, Pose, Six};
 
@@ -231,21 +234,6 @@ fn the_quick_check_finds_leaks_and_the_whole_one_cuts() {
     assert!(two.faults().iter().any(|f| matches!(f, Fault::Cut { .. })));
     two.faces.pop();
     assert!(two.leaks().iter().all(|f| matches!(f, Fault::Open { .. })) && two.leaks().len() == 3);
-}
-
-/// Central differences of the wrench, by translations of a hundredth of a millimetre and rotations of 1e-6 rad.
-fn differences(load: &dyn BodyLoad, pose: &Pose) -> Matrix6<f64> {
-    let mut made = Matrix6::zeros();
-    for column in 0..6 {
-        let step = if column < 3 { 1e-5 } else { 1e-6 };
-        let moved = |sign: f64| {
-            let mut motion = Six::zeros();
-            motion[column] = sign * step;
-            load.load(&pose.moved(&motion)).unwrap().wrench
-        };
-        made.set_column(column, &((moved(-1.0) - moved(1.0)) / (2.0 * step)));
-    }
-    made
 }
 
 #[test]

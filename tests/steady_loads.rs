@@ -3,8 +3,11 @@
 #![allow(clippy::unwrap_used)]
 
 mod common;
+#[path = "common/tangent.rs"]
+mod tangent;
 
 use nalgebra::Vector3;
+use tangent::differences;
 use windlass::hydro::area::AreaLoad;
 use windlass::hydro::steady::{Medium, Steady};
 use windlass::hydro::wind::{Profile, WindField};
@@ -272,22 +275,6 @@ fn multipliers_of_category_and_part_compound() {
     let records = "*P 0 0 10\n#AREA *P 100";
     let half = "&ENV -WIND 60 180\n&APPLY -PERCENT -FORCE WIND 50 -LOAD_GROUP B 50";
     near(sum(&body(records, half), Category::Wind, &Pose::default())[0], 0.25 * 58_403.6, 1e-6);
-}
-
-/// Central differences of the wrench, by translations of a hundredth of a millimetre and rotations of 1e-6 rad: the third
-/// derivative in the passage about the surface is large.
-fn differences(load: &dyn BodyLoad, pose: &Pose) -> nalgebra::Matrix6<f64> {
-    let mut made = nalgebra::Matrix6::zeros();
-    for column in 0..6 {
-        let step = if column < 3 { 1e-5 } else { 1e-6 };
-        let moved = |sign: f64| {
-            let mut motion = Six::zeros();
-            motion[column] = sign * step;
-            load.load(&pose.moved(&motion)).unwrap().wrench
-        };
-        made.set_column(column, &((moved(-1.0) - moved(1.0)) / (2.0 * step)));
-    }
-    made
 }
 
 #[test]

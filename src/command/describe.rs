@@ -4,7 +4,7 @@ use super::piece::{self, OPTIONS};
 use super::{Call, Command, Effect, Job};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::name as rule;
-use crate::language::spec::{CommandSpec, Form, Kind, Noun, OptionSpec, ValueSpec};
+use crate::language::spec::{CommandSpec, Form, Kind, Noun, OptionSpec, ValueSpec, joined};
 use crate::language::units::Dim;
 use crate::model::{Body, Coordinates, GROUND, Model, Part, Place, Point, Shape, Thing, find, unit_vector};
 
@@ -21,7 +21,8 @@ const MOST_BODIES: usize = 50;
 const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(dim), help)
 }
-const PLACE: [ValueSpec; 6] = [
+/// X Y Z and roll, pitch, yaw.
+pub(super) const PLACE: [ValueSpec; 6] = [
     number("X", Dim::Length, "X").or("0"),
     number("Y", Dim::Length, "Y").or("0"),
     number("Z", Dim::Length, "Z").or("0"),
@@ -32,32 +33,24 @@ const PLACE: [ValueSpec; 6] = [
 const BODY: ValueSpec = ValueSpec::new("BODY", Kind::Name(Noun::Body), "body");
 const LOCATION: &[ValueSpec] = &[BODY, PLACE[0], PLACE[1], PLACE[2], PLACE[3], PLACE[4], PLACE[5]];
 
+/// What a body or a part takes.
+const OWN: &[OptionSpec] = &[
+    OptionSpec::new("-MOVE", &PLACE, "places a part in its body"),
+    OptionSpec::new(
+        "-IGNORE",
+        &[ValueSpec::new("DOF", Kind::Choice(&["X", "Y", "Z", "RX", "RY", "RZ"]), "degree of freedom")],
+        "degrees of freedom of a body left out",
+    )
+    .repeating(1),
+];
+static DESCRIBE_OPTIONS: [OptionSpec; OWN.len() + OPTIONS.len()] = joined(OWN, &OPTIONS);
+
 static DESCRIBE_SPEC: CommandSpec = CommandSpec {
     data: &[
         ValueSpec::new("KIND", Kind::Choice(&["BODY", "PART", "PIECE"]), "what is described"),
         ValueSpec::new("NAME", Kind::Name(Noun::New), "its name"),
     ],
-    options: &[
-        OptionSpec::new("-MOVE", &PLACE, "places a part in its body"),
-        OptionSpec::new(
-            "-IGNORE",
-            &[ValueSpec::new("DOF", Kind::Choice(&["X", "Y", "Z", "RX", "RY", "RZ"]), "degree of freedom")],
-            "degrees of freedom of a body left out",
-        )
-        .repeating(1),
-        OPTIONS[0],
-        OPTIONS[1],
-        OPTIONS[2],
-        OPTIONS[3],
-        OPTIONS[4],
-        OPTIONS[5],
-        OPTIONS[6],
-        OPTIONS[7],
-        OPTIONS[8],
-        OPTIONS[9],
-        OPTIONS[10],
-        OPTIONS[11],
-    ],
+    options: &DESCRIBE_OPTIONS,
     detail: "Points that follow belong to the body or part described last. Describing a known body or part again goes on with it. PIECE \
              begins a surface: its PANEL records follow, or PGEN; it is complete at the next &DESCRIBE, PGEN or &SURFACE, and at END. \
              &HELP &SURFACE says how pieces are read, and what wind and current do to them: without -CS_WIND and -CS_CURRENT the shape \

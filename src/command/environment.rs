@@ -9,7 +9,7 @@ use crate::language::name as rule;
 use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
-use crate::model::{Current, Curve, CurveKind, Environment, Model, Sea, Thing, TimeWindow, Wind, find};
+use crate::model::{Current, Curve, CurveKind, Environment, Formula, Model, Sea, Thing, TimeWindow, Wind, find};
 
 /// &ENV.
 pub static ENV: Command = Command { spec: &ENV_SPEC, edits: false, run };
@@ -251,6 +251,9 @@ fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<()> {
         "-RAMP" => env.ramp = at(0),
         "-SPREAD" => env.spreading = at(0),
         "-WIND" => env.wind = at(0).zip(at(1)).map(|(speed, direction)| Wind { speed, direction }),
+        "-W_PROFILE" => env.wind_profile = Some(formula(given)),
+        "-W_DESIGN" => env.design_wind = Some(formula(given)),
+        "-SP_TYPE" => env.sea_period = Some(formula(given)),
         "-SEA" => env.sea = Some(sea(job, given)?),
         "-A_SEA" => env.added_sea = Some(sea(job, given)?),
         "-TIME" => {
@@ -273,6 +276,11 @@ fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<()> {
         _ => {}
     }
     Ok(())
+}
+
+/// A name with its number.
+fn formula(given: &Given) -> Formula {
+    Formula { kind: given.word(0).unwrap_or_default().to_string(), value: given.number(1), span: given.span }
 }
 
 /// The spectra known without a curve.

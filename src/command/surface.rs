@@ -3,6 +3,7 @@
 //! Source: reference/model.md, "Hull", for the names; it does not give the forms, which are ours and stand in the help.
 
 use super::body_tables::pieces;
+use super::describe::PLACE;
 use super::device::existing;
 use super::piece::{self, OPTIONS, READING};
 use super::{Call, Command, Effect, Job, Menu};
@@ -11,7 +12,7 @@ use crate::language::args::Args;
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
 use crate::language::source::{LARGEST_FILE, Span};
-use crate::language::spec::{CommandSpec, Kind, Noun, Opens, OptionSpec, ValueSpec};
+use crate::language::spec::{CommandSpec, Kind, Noun, Opens, OptionSpec, ValueSpec, joined};
 use crate::language::units::Dim;
 use crate::model::{Piece, Place, Position, Shape};
 use crate::report::page;
@@ -62,6 +63,26 @@ static BLOCK_SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("BLOCK", "a box, or a surface of panels")
 };
 
+/// What a mesh of a file takes besides.
+const OF_FILE: &[OptionSpec] = &[
+    OptionSpec::new(
+        "-FORMAT",
+        &[ValueSpec::new("FORMAT", Kind::Choice(&["STL", "GDF", "OBJ"]), "format of the file")],
+        "format of the file",
+    )
+    .owner(Owner::Ours)
+    .default("as the ending of its name says"),
+    OptionSpec::new(
+        "-SCALE",
+        &[number("S", Dim::None, "long length units of &DIMEN in a unit of the file").positive()],
+        "size of the file's unit",
+    )
+    .owner(Owner::Ours)
+    .default("1"),
+    OptionSpec::new("-MOVE", &PLACE, "places the mesh in the part").owner(Owner::Ours),
+];
+static MESH_OPTIONS: [OptionSpec; OPTIONS.len() + OF_FILE.len()] = joined(&OPTIONS, OF_FILE);
+
 static MESH_SPEC: CommandSpec = CommandSpec {
     menus: &["SURFACE"],
     opens: Opens::Short("MESH", 1),
@@ -70,47 +91,7 @@ static MESH_SPEC: CommandSpec = CommandSpec {
         ValueSpec::new("FILE", Kind::File, "mesh file; looked for where it says, then beside the script")
             .or("PANEL records follow, up to END_MESH"),
     ],
-    options: &[
-        OPTIONS[0],
-        OPTIONS[1],
-        OPTIONS[2],
-        OPTIONS[3],
-        OPTIONS[4],
-        OPTIONS[5],
-        OPTIONS[6],
-        OPTIONS[7],
-        OPTIONS[8],
-        OPTIONS[9],
-        OPTIONS[10],
-        OPTIONS[11],
-        OptionSpec::new(
-            "-FORMAT",
-            &[ValueSpec::new("FORMAT", Kind::Choice(&["STL", "GDF", "OBJ"]), "format of the file")],
-            "format of the file",
-        )
-        .owner(Owner::Ours)
-        .default("as the ending of its name says"),
-        OptionSpec::new(
-            "-SCALE",
-            &[number("S", Dim::None, "long length units of &DIMEN in a unit of the file").positive()],
-            "size of the file's unit",
-        )
-        .owner(Owner::Ours)
-        .default("1"),
-        OptionSpec::new(
-            "-MOVE",
-            &[
-                number("X", Dim::Length, "X").or("0"),
-                number("Y", Dim::Length, "Y").or("0"),
-                number("Z", Dim::Length, "Z").or("0"),
-                number("RX", Dim::Angle, "roll").or("0"),
-                number("RY", Dim::Angle, "pitch").or("0"),
-                number("RZ", Dim::Angle, "yaw").or("0"),
-            ],
-            "places the mesh in the part",
-        )
-        .owner(Owner::Ours),
-    ],
+    options: &MESH_OPTIONS,
     detail: "MESH NAME FILE reads an STL file (text or binary), a WAMIT GDF file, or a Wavefront OBJ file, complete in one record; \
              its numbers are lengths in the unit of &DIMEN times -SCALE (3.280839895 reads a file in metres where &DIMEN says feet). MESH NAME alone opens \
              a menu of PANEL records, up to END_MESH or END.",
@@ -141,12 +122,12 @@ static MOVE_SPEC: CommandSpec = CommandSpec {
     menus: &["SURFACE"],
     data: &[
         ValueSpec::new("NAME", Kind::Text, "the piece"),
-        number("X", Dim::Length, "X").or("0"),
-        number("Y", Dim::Length, "Y").or("0"),
-        number("Z", Dim::Length, "Z").or("0"),
-        number("RX", Dim::Angle, "roll").or("0"),
-        number("RY", Dim::Angle, "pitch").or("0"),
-        number("RZ", Dim::Angle, "yaw").or("0"),
+        PLACE[0],
+        PLACE[1],
+        PLACE[2],
+        PLACE[3],
+        PLACE[4],
+        PLACE[5],
     ],
     detail: "From where it is: first turned about the axes of its part (yaw, pitch, roll as of a body), then shifted.",
     example: "&DESCRIBE BODY TBRG\n&SURFACE\nBLOCK HULL 0 -50 0 400 50 20\nMOVE_BLOCK HULL -200\nLIST_BLOCK\nEND",

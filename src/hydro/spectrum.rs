@@ -30,8 +30,8 @@ impl Waves {
     /// # Errors
     /// A spectrum without a formula or a curve without energy; a type of period that does not go with it.
     pub fn of(model: &Model, env: &Environment, sea: &Sea) -> Result<Self, ClassError> {
-        let sp_type = env.options.iter().find(|g| g.spec.name == "-SP_TYPE");
-        let kind = sp_type.and_then(|g| g.word(0));
+        let sp_type = env.sea_period.as_ref();
+        let kind = sp_type.map(|g| g.kind.as_str());
         let name = sea.spectrum.to_ascii_uppercase();
         let refuse = |error: ClassError| sp_type.map_or(error.clone(), |g| error.at(g.span));
         match name.as_str() {

@@ -85,14 +85,13 @@ impl WindField {
     /// An exponent for a formula that has none, or an averaging time that the formula of the design wind does not reach.
     pub fn of(env: &Environment) -> Result<Option<Self>, ClassError> {
         let Some(wind) = env.wind else { return Ok(None) };
-        let given = |name: &str| env.options.iter().find(|g| g.spec.name == name);
-        let (profile, design) = (given("-W_PROFILE"), given("-W_DESIGN"));
-        let kind = profile.or(design).and_then(|g| g.word(0)).unwrap_or("POWER");
-        let exponent = profile.and_then(|g| g.number(1));
+        let (profile, design) = (env.wind_profile.as_ref(), env.design_wind.as_ref());
+        let kind = profile.or(design).map_or("POWER", |g| g.kind.as_str());
+        let exponent = profile.and_then(|g| g.value);
         let law = law(kind, exponent, wind.speed).map_err(|e| profile.map_or(e.clone(), |g| e.at(g.span)))?;
         let gust = match design {
             None => Gust::None,
-            Some(g) => gust(g.word(0).unwrap_or_default(), g.number(1), wind.speed).map_err(|e| e.at(g.span))?,
+            Some(g) => gust(&g.kind, g.value, wind.speed).map_err(|e| e.at(g.span))?,
         };
         Ok(Some(WindField::new(wind.speed, wind.direction, law, gust)))
     }

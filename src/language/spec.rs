@@ -187,6 +187,21 @@ pub enum Form {
     Text,
 }
 
+/// The options of one list and then those of another, for a spec that shares one of them; `N` is their number together.
+///
+/// # Panics
+/// While compiling, when `N` is another number.
+pub const fn joined<const N: usize>(first: &[OptionSpec], second: &[OptionSpec]) -> [OptionSpec; N] {
+    assert!(N == first.len() + second.len(), "N is the number of both lists");
+    let mut all = [OptionSpec::new("", &[], ""); N];
+    let mut i = 0;
+    while i < N {
+        all[i] = if i < first.len() { first[i] } else { second[i - first.len()] };
+        i += 1;
+    }
+    all
+}
+
 /// Whether a record of a command opens a menu, which an `END` of its own leaves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Opens {

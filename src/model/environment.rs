@@ -30,6 +30,17 @@ pub struct Wind {
     pub direction: f64,
 }
 
+/// A formula that an option of the environment names.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Formula {
+    /// Its name, in upper case.
+    pub kind: String,
+    /// Its number: an exponent, an averaging time (s).
+    pub value: Option<f64>,
+    /// Where it was given.
+    pub span: Span,
+}
+
 /// Current: one velocity, or profiles with their directions.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Current {
@@ -68,6 +79,12 @@ pub struct Environment {
     pub added_sea: Option<Sea>,
     /// Wind.
     pub wind: Option<Wind>,
+    /// Profile of the mean wind, with its exponent (`-W_PROFILE`).
+    pub wind_profile: Option<Formula>,
+    /// Design wind, with its averaging time (s) (`-W_DESIGN`).
+    pub design_wind: Option<Formula>,
+    /// What the period of a sea is (`-SP_TYPE`).
+    pub sea_period: Option<Formula>,
     /// Current.
     pub current: Option<Current>,
     /// Water density (kg/m3).

@@ -105,6 +105,8 @@ pub fn by_category(system: &System, state: &State, fits: &dyn Fn(&str) -> bool) 
 /// What is less than a solution leaves of the largest force or moment is nothing.
 fn without_rounding(wrench: &Six, size: &Six) -> Six {
     let (force, moment) = (size.fixed_rows::<3>(0).amax(), size.fixed_rows::<3>(3).amax());
+    // nor has a force that large an arm of less than that share of a metre
+    let moment = moment.max(force);
     let mut kept = *wrench;
     for (index, value) in kept.iter_mut().enumerate() {
         let largest = if index < 3 { force } else { moment };
