@@ -18,6 +18,7 @@ mod linear;
 pub mod pieces;
 pub mod plate;
 mod righting;
+pub mod sea;
 pub mod spectrum;
 pub mod steady;
 pub mod stream;
