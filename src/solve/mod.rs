@@ -1,6 +1,7 @@
 //! Engines over the model: the system of bodies and connectors, its equilibrium, its stiffness and natural periods, its
 //! restoring forces. They know nothing of commands, files or printing.
 
+mod change;
 mod equilibrium;
 pub mod excursion;
 pub mod excursion_tables;
@@ -12,6 +13,7 @@ mod search;
 mod settle;
 mod system;
 pub mod tables;
+pub mod time;
 mod unknowns;
 pub mod watch;
 
