@@ -4,6 +4,7 @@
 //! changes nothing; a command that edits in several steps says so with [`Command::edits`], and the session restores the
 //! model when it fails.
 
+mod action;
 mod alter;
 mod apply;
 mod assembly;
@@ -165,6 +166,7 @@ pub static COMMANDS: &[&Command] = &[
     &alter::ALTER,
     &equilibrium::EQUI,
     &tdom::TDOM,
+    &action::ACTION,
     &select::SELECT,
     &select::SELECTOR,
     &environment::ENV,
