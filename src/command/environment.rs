@@ -290,7 +290,14 @@ fn sea(job: &Job, given: &Given) -> Outcome<Sea> {
     let name = given.word(0).unwrap_or_default();
     spectrum(job, given, &SPECTRA)?;
     let at = |i: usize| given.number(i).unwrap_or(0.0);
-    Ok(Sea { spectrum: name.to_string(), direction: at(1), height: at(2), period: at(3), gamma: given.number(4) })
+    Ok(Sea {
+        spectrum: name.to_string(),
+        direction: at(1),
+        height: at(2),
+        period: at(3),
+        gamma: given.number(4),
+        places: [0, 1, 2, 3, 4].map(|i| place(given, i)),
+    })
 }
 
 /// Sees that the first word names a known spectrum or a curve that is one.
