@@ -150,3 +150,6 @@ impl Sea {
         self.at(time).kinematics(at)
     }
 }
+
+#[cfg(test)]
+mod tests;
