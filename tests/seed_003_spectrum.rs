@@ -46,7 +46,11 @@ fn fifty_lines_of_equal_energy_have_the_printed_frequencies_and_ordinates() {
         let k = wave_number(band.frequency, None, GRAVITY).unwrap();
         number = number.max((k / line[1] - 1.0).abs());
         let error = (band.ordinate(&spectrum) / line[4] - 1.0).abs();
-        if line[0] < 50.0 { ordinate = ordinate.max(error) } else { last = error }
+        if line[0] < 50.0 {
+            ordinate = ordinate.max(error)
+        } else {
+            last = error
+        }
         assert!(((2.0 * band.energy).sqrt() - 0.3147).abs() < 5e-5);
     }
     println!("{frequency:e} {number:e} {ordinate:e} {last:e}");

@@ -38,7 +38,12 @@ pub fn gamma_of(env: &Environment, sea: &Sea) -> Option<f64> {
 ///
 /// # Errors
 /// No energy; a spectrum without a formula or a curve without energy; a type of period that does not go with it.
-pub fn of(model: &Model, env: &Environment, sea: &Sea, limits: Option<[f64; 2]>) -> Result<Option<Spectrum>, ClassError> {
+pub fn of(
+    model: &Model,
+    env: &Environment,
+    sea: &Sea,
+    limits: Option<[f64; 2]>,
+) -> Result<Option<Spectrum>, ClassError> {
     if is_regular(sea) {
         return Ok(None);
     }
@@ -47,7 +52,9 @@ pub fn of(model: &Model, env: &Environment, sea: &Sea, limits: Option<[f64; 2]>)
     {
         if !(value > 0.0 && value.is_finite()) {
             let text = format!("a sea of {what} of {{}} has no energy");
-            return Err(ClassError::of(text, &[(value, dim)]).at(sea.place(place)).help("leave out the sea for calm water"));
+            return Err(ClassError::of(text, &[(value, dim)])
+                .at(sea.place(place))
+                .help("leave out the sea for calm water"));
         }
     }
     let at_name = |error: ClassError| error.clone().at(error.span.unwrap_or(sea.place(0)));

@@ -44,7 +44,16 @@ impl Lanes {
             let q = if kd > DEEP { 0.0 } else { (-2.0 * kd).exp() };
             let [x, y] = c.toward;
             let (k, w) = (c.number, c.frequency);
-            Lane { kx: k * x, ky: k * y, k, w, toward: c.toward, q, whole: -1.0 / (-2.0 * kd).exp_m1(), tanh: kd.tanh() }
+            Lane {
+                kx: k * x,
+                ky: k * y,
+                k,
+                w,
+                toward: c.toward,
+                q,
+                whole: -1.0 / (-2.0 * kd).exp_m1(),
+                tanh: kd.tanh(),
+            }
         };
         let variance: f64 = components.iter().map(|c| 0.5 * c.amplitude * c.amplitude).sum();
         Lanes { lanes: components.iter().map(lane).collect(), stretch: 2.0 * variance.sqrt() }

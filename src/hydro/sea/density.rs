@@ -197,7 +197,8 @@ impl Spectrum {
 
     /// The frequency (rad/s) of its highest peak, to a part in a million.
     pub fn peak(&self) -> f64 {
-        let ends = self.panels.iter().map(|p| p.low).chain(self.panels.last().map(|p| p.high)).filter(|w| w.is_finite());
+        let ends =
+            self.panels.iter().map(|p| p.low).chain(self.panels.last().map(|p| p.high)).filter(|w| w.is_finite());
         let knots: Vec<f64> = ends.collect();
         let top = knots.iter().enumerate().fold((0, 0.0), |best: (usize, f64), (i, w)| {
             let density = self.density(*w);
@@ -211,7 +212,11 @@ impl Spectrum {
         let (mut low, mut high) = (at(top.0.saturating_sub(1)).unwrap_or(peak), at(top.0 + 1).unwrap_or(peak));
         while high - low > 1e-7 * peak {
             let (a, b) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
-            if self.density(a) < self.density(b) { low = a } else { high = b }
+            if self.density(a) < self.density(b) {
+                low = a
+            } else {
+                high = b
+            }
             peak = 0.5 * (low + high);
         }
         peak
@@ -252,7 +257,11 @@ impl Spectrum {
         // Newton's method, kept between its bounds
         for _ in 0..200 {
             let over = self.below(at)[0] - wanted;
-            if over > 0.0 { high = at } else { low = at }
+            if over > 0.0 {
+                high = at
+            } else {
+                low = at
+            }
             let step = at - over / self.density(at);
             let next = if step > low && step < high { step } else { 0.5 * (low + high) };
             let moved = (next - at).abs();

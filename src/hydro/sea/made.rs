@@ -48,7 +48,8 @@ impl Sea {
         };
         let phasing = env.phasing.unwrap_or(USUAL_PHASING);
         let (mut components, mut trains, mut stokes) = (Vec::new(), Vec::new(), None);
-        let seas = || [&env.sea, &env.added_sea].into_iter().flatten().filter(|s| !spectrum::is_regular(s) || s.height > 0.0);
+        let seas =
+            || [&env.sea, &env.added_sea].into_iter().flatten().filter(|s| !spectrum::is_regular(s) || s.height > 0.0);
         for (index, sea) in (0u64..).zip(seas()) {
             let first = components.len();
             let spectrum = spectrum::of(model, env, sea, env.components.and_then(|c| c.limits))?;
@@ -66,11 +67,8 @@ impl Sea {
                 components.push(wave);
                 stokes = nonlinear;
             }
-            let directions = spreading::directions(
-                bands.len(),
-                sea.direction,
-                env.spreading.unwrap_or(spreading::LONG_CRESTED),
-            );
+            let directions =
+                spreading::directions(bands.len(), sea.direction, env.spreading.unwrap_or(spreading::LONG_CRESTED));
             let angles = phases::phases(phasing, index, bands.iter().map(|b| b.frequency));
             for ((band, toward), phase) in bands.iter().zip(directions).zip(angles) {
                 let number = dispersion::wave_number(band.frequency, water.depth, water.gravity)
@@ -80,7 +78,14 @@ impl Sea {
             }
             let gamma = spectrum::gamma_of(env, sea);
             let components = first..components.len();
-            trains.push(Train { name: sea.spectrum.clone(), direction: sea.direction, gamma, spectrum, bands, components });
+            trains.push(Train {
+                name: sea.spectrum.clone(),
+                direction: sea.direction,
+                gamma,
+                spectrum,
+                bands,
+                components,
+            });
         }
         if components.is_empty() {
             return Ok(None);
@@ -110,8 +115,9 @@ fn cut(spectrum: &Spectrum, env: &Environment) -> Result<Vec<Band>, ClassError> 
 /// A regular wave: its Airy component, and its Stokes wave if it is one.
 fn regular(env: &Environment, sea: &model::Sea, water: Water) -> Result<(Component, Option<Stokes>), ClassError> {
     if !(sea.period > 0.0 && sea.height.is_finite()) {
-        return Err(ClassError::of("there is no regular wave with a period of {}", &[(sea.period, Dim::Time)])
-            .at(sea.place(3)));
+        return Err(
+            ClassError::of("there is no regular wave with a period of {}", &[(sea.period, Dim::Time)]).at(sea.place(3))
+        );
     }
     let frequency = TAU / sea.period;
     let (cos, sin) = model::unit_vector(sea.direction);

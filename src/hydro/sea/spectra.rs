@@ -65,8 +65,10 @@ pub fn usual_gamma(height: f64, period: f64, kind: PeriodType) -> f64 {
 pub fn ochi_hubble(parts: [[f64; 3]; 2]) -> Result<Vec<Hump>, ClassError> {
     let hump = |[height, peak, shape]: [f64; 3]| {
         if shape <= 0.25 || !shape.is_finite() {
-            return Err(ClassError::new(format!("a spectrum of Ochi and Hubble of shape {shape} has no mean frequency"))
-                .help("its most probable shape is above 0.25 up to a significant height of 29 m"));
+            return Err(ClassError::new(format!(
+                "a spectrum of Ochi and Hubble of shape {shape} has no mean frequency"
+            ))
+            .help("its most probable shape is above 0.25 up to a significant height of 29 m"));
         }
         Ok(Hump::of_energy(height * height / 16.0, peak, 4.0 * shape + 1.0, 1.0))
     };
@@ -90,8 +92,7 @@ pub fn torsethaugen(height: f64, period: f64) -> Result<Vec<Hump>, ClassError> {
     let (shortest, longest) = (2.0 * height.sqrt(), 25.0);
     if period < shortest.min(fetch) || period > longest || fetch >= longest {
         let text = "the spectrum of Torsethaugen has no peak period of {} with a height of {}: it knows {} to {}";
-        let told =
-            [(period, Dim::Time), (height, Dim::Length), (shortest.min(fetch), Dim::Time), (longest, Dim::Time)];
+        let told = [(period, Dim::Time), (height, Dim::Length), (shortest.min(fetch), Dim::Time), (longest, Dim::Time)];
         return Err(ClassError::of(text, &told));
     }
     let steep = |height: f64, period: f64| 35.0 * (TAU / FITTED_GRAVITY * height / (period * period)).powf(6.0 / 7.0);

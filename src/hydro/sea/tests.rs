@@ -219,9 +219,8 @@ fn each_stretching_is_its_own_at_the_crest() {
     let wave = component(w, a, [1.0, 0.0], 0.0, depth);
     let (k, kd) = (wave.number, wave.number * 50.0);
     let water = Water { depth, level: 0.0, gravity: GRAVITY, density: 1025.0 };
-    let at = |stretching, z: f64| {
-        Sea::airy(vec![wave], water, 0.0, stretching).kinematics(Vector3::new(0.0, 0.0, z), 0.0)
-    };
+    let at =
+        |stretching, z: f64| Sea::airy(vec![wave], water, 0.0, stretching).kinematics(Vector3::new(0.0, 0.0, z), 0.0);
     let level = a * w / kd.tanh();
     let close = |found: f64, wanted: f64| assert!((found / wanted - 1.0).abs() < 1e-12, "{found} {wanted}");
     // closed forms of each method at the crest, z = a
@@ -242,7 +241,8 @@ fn each_stretching_is_its_own_at_the_crest() {
 #[test]
 fn the_ramp_begins_and_ends_smoothly() {
     let sea = crossing(None, Stretching::Linear);
-    assert_eq!((sea.factor(-1.0), sea.factor(0.0), sea.factor(15.0), sea.factor(30.0)), (0.0, 0.0, 0.5, 1.0));
+    assert_eq!((sea.factor(-1.0), sea.factor(0.0), sea.factor(30.0)), (0.0, 0.0, 1.0));
+    assert!((sea.factor(15.0) - 0.5).abs() < 1e-15);
     assert_eq!(sea.elevation(1.0, 2.0, 0.0), 0.0);
     assert_eq!(Sea { ramp: 0.0, ..sea }.factor(0.0), 1.0);
 }
