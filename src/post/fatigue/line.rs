@@ -6,7 +6,6 @@ use crate::model::{FatigueKind, FatigueSegment, ThicknessCorrection};
 use crate::post::rainflow::{Cycle, cycles};
 use crate::post::{SeriesError, statistics};
 
-
 /// What a record comes to in one segment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SegmentDamage {
@@ -56,10 +55,7 @@ pub struct Loaded<'a> {
 ///
 /// # Errors
 /// No segments; a tension that is not finite; a breaking tension or a diameter that is not greater than zero.
-pub fn line_damage(
-    segments: &[Loaded],
-    thickness: Option<&ThicknessCorrection>,
-) -> Result<LineDamage, SeriesError> {
+pub fn line_damage(segments: &[Loaded], thickness: Option<&ThicknessCorrection>) -> Result<LineDamage, SeriesError> {
     let mut made = Vec::new();
     for (index, loaded) in segments.iter().enumerate() {
         made.push(segment_damage(index + 1, loaded, thickness)?);
@@ -120,7 +116,6 @@ fn segment_damage(
         mean,
     })
 }
-
 
 #[cfg(test)]
 mod tests {

@@ -97,16 +97,13 @@ pub fn dirlik(m: &Moments, curve: &Curve, mean: f64) -> Result<f64, SeriesError>
         let rayleigh = |s: f64, width: f64| (s / two / width).powi(2) / 2.0;
         let waves = |width: f64| {
             let z = |s: f64| rayleigh(s, width);
-            Ok::<f64, SeriesError>(
-                (2f64.sqrt() * width).powf(slope) * between(1.0 + 0.5 * slope, z(low), high.map(z))?,
-            )
+            Ok::<f64, SeriesError>((2f64.sqrt() * width).powf(slope) * between(1.0 + 0.5 * slope, z(low), high.map(z))?)
         };
         let first = d1 * q.powf(slope) * between(1.0 + slope, exponential(low), high.map(exponential))?;
         Ok(two.powf(slope) * (first + d2 * waves(r.abs())? + d3 * waves(1.0)?))
     };
     Ok(peaks * summed(curve, mean, integral)?)
 }
-
 
 #[cfg(test)]
 mod tests {

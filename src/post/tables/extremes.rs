@@ -78,7 +78,11 @@ pub fn extremes(record: &Record, asked: Extremes) -> Result<Table, SeriesError> 
     Ok(table)
 }
 
-fn of_series(record: &Record, series: &Series, asked: Extremes) -> Result<[Result<Found, SeriesError>; 3], SeriesError> {
+fn of_series(
+    record: &Record,
+    series: &Series,
+    asked: Extremes,
+) -> Result<[Result<Found, SeriesError>; 3], SeriesError> {
     let values: Vec<f64> = if asked.lows { series.values.iter().map(|v| -v).collect() } else { series.values.clone() };
     let moments = statistics::moments(&values)?;
     let crossings = statistics::crossings(&record.times, &values, moments.mean)?;

@@ -41,9 +41,11 @@ pub fn harmonics(record: &Record, asked: Analysis) -> Result<Table, SeriesError>
         facts.push((format!("Residual rms of {}", series.name), found.residual, series.dim));
         cycles = found.cycles;
     }
-    let mut table = made(format!("Harmonics of {}", record.title), columns)
-        .fact("Period", period, Dim::Time)
-        .fact("Cycles Used", cycles, Dim::None);
+    let mut table = made(format!("Harmonics of {}", record.title), columns).fact("Period", period, Dim::Time).fact(
+        "Cycles Used",
+        cycles,
+        Dim::None,
+    );
     for (name, value, dim) in facts {
         table = table.fact(&name, value, dim);
     }

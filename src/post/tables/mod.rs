@@ -113,7 +113,8 @@ mod tests {
 
     #[test]
     fn a_record_is_a_time_and_series_without_gaps() {
-        let mut t = Table::new("t").column("", "Time", Dim::Time, Digits::Usual).column("A", "F", Dim::Force, Digits::Usual);
+        let mut t =
+            Table::new("t").column("", "Time", Dim::Time, Digits::Usual).column("A", "F", Dim::Force, Digits::Usual);
         for i in 0..3 {
             t.push(vec![Cell::Number(f64::from(i)), Cell::Integer(5)]).unwrap();
         }

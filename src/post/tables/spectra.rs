@@ -71,7 +71,9 @@ pub fn density(record: &Record, length: Option<usize>) -> Result<Table, SeriesEr
     }
     let mut table = made(format!("Spectrum of {}", record.title), columns);
     table = table.fact("Segments Averaged", first.segments, Dim::None);
-    table.note("Welch's method, Hann window, half overlap; the sum of densities times the step of frequency is the variance");
+    table.note(
+        "Welch's method, Hann window, half overlap; the sum of densities times the step of frequency is the variance",
+    );
     if resampled {
         table.note(RESAMPLED);
     }
@@ -145,7 +147,11 @@ mod tests {
         let mut r = record(0.5, Dim::Stress);
         r.times[7] += 0.2;
         let t = density(&r, Some(1024)).unwrap();
-        assert!(t.notes.iter().any(|n| n == RESAMPLED) && t.notes.iter().any(|n| n.contains("SI units")), "{:?}", t.notes);
+        assert!(
+            t.notes.iter().any(|n| n == RESAMPLED) && t.notes.iter().any(|n| n.contains("SI units")),
+            "{:?}",
+            t.notes
+        );
         let t = amplitudes(&record(0.5, Dim::Angle)).unwrap();
         assert_eq!((t.columns.len(), t.rows(), t.columns[1].cells[0].clone()), (4, 2049, Cell::Missing));
         assert!((t.columns[2].numbers()[64] - 2.0).abs() < 1e-12);
