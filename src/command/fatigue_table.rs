@@ -155,8 +155,8 @@ fn shipped(fits: &dyn Fn(&str) -> bool) -> Table {
     table.note("source gives, which only -THICK_SN applies. A source with ? is not confirmed: check it before a number is quoted.");
     for (index, key) in used.iter().enumerate() {
         let Some(source) = library().sources.get(*key) else { continue };
-        let sure = if source.unconfirmed { "NOT CONFIRMED" } else { "confirmed" };
-        let text = format!("{} ({sure}: {})", source.text, source.how);
+        let sure = if source.unconfirmed { "NOT CONFIRMED: " } else { "" };
+        let text = format!("{} ({sure}{})", source.text, source.how);
         for (line, words) in wrap(&text, 104).into_iter().enumerate() {
             let number = if line == 0 { format!("{}.", index + 1) } else { String::new() };
             table.note(format!("{number:<3} {words}"));
