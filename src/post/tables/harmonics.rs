@@ -3,7 +3,7 @@
 use super::{Record, SIX, column, made, numbers};
 use crate::language::units::Dim;
 use crate::post::SeriesError;
-use crate::post::harmonics::{analyse, find_period};
+use crate::post::harmonics::{Harmonic, analyse, find_period};
 use crate::table::{Cell, Digits, Table};
 
 /// What is asked of a harmonic analysis.
@@ -16,6 +16,9 @@ pub struct Analysis {
     /// Most cycles used, the last ones; `None`: all whole ones.
     pub cycles: Option<usize>,
 }
+
+/// Share of the largest amplitude, or of the mean, below which an amplitude is rounding.
+const ROUNDING: f64 = 1e-12;
 
 /// Amplitude and phase of the harmonics of each series, by order; order 0 is the mean.
 ///
@@ -36,7 +39,10 @@ pub fn harmonics(record: &Record, asked: Analysis) -> Result<Table, SeriesError>
         let found = analyse(&record.times, &series.values, period, asked.orders, asked.cycles)?;
         let amplitudes = std::iter::once(found.mean).chain(found.harmonics.iter().map(|h| h.amplitude));
         columns.push(column(&series.name, "Amplitude", series.dim, SIX, numbers(amplitudes)));
-        let phases = std::iter::once(Cell::Missing).chain(found.harmonics.iter().map(|h| Cell::Number(h.phase)));
+        // a harmonic that rounding left has no phase
+        let size = found.harmonics.iter().fold(found.mean.abs(), |m, h| m.max(h.amplitude));
+        let phase = |h: &Harmonic| if h.amplitude > ROUNDING * size { Cell::Number(h.phase) } else { Cell::Missing };
+        let phases = std::iter::once(Cell::Missing).chain(found.harmonics.iter().map(phase));
         columns.push(column(&series.name, "Phase", Dim::Angle, Digits::Usual, phases.collect()));
         facts.push((format!("Residual rms of {}", series.name), found.residual, series.dim));
         cycles = found.cycles;
