@@ -1,9 +1,11 @@
-//! Post-processing against other programs: numpy, scipy and the rainflow package of PyPI. `tests/data/post/make.py` made the
+//! Post-processing against other programs: numpy, scipy, and the rainflow and FLife packages of PyPI. `tests/data/post/make.py` made the
 //! signal and the numbers; it needs them, the tests do not.
 
 #![allow(clippy::unwrap_used)]
 
+use windlass::model::FatigueKind;
 use windlass::post::extremes::{Gumbel, Weibull, block_maxima};
+use windlass::post::fatigue::{Branch, Curve, spectral};
 use windlass::post::rainflow::cycles;
 use windlass::post::running::Running;
 use windlass::post::spectra::{Window, amplitudes, welch};
@@ -98,4 +100,23 @@ fn maxima_and_the_distributions_fitted_to_them_are_those_of_scipy() {
     let g = Gumbel::fit(&block_maxima(&x, 32).unwrap()).unwrap();
     same("gumbel_location", g.location, 1e-7);
     same("gumbel_scale", g.scale, 1e-5);
+}
+
+#[test]
+fn damage_of_a_spectrum_is_that_of_flife() {
+    let m = [0, 1, 2, 4].map(|i| expected(&format!("fatigue_m{i}")));
+    for (slope, log_a) in [(3.0, 11.687), (5.0, 15.606)] {
+        let curve = Curve {
+            name: "straight".into(),
+            kind: FatigueKind::Stress,
+            branches: vec![Branch { slope, log_a, from: 0.0 }],
+            limit: 0.0,
+            mean_slope: 0.0,
+            legs: 1.0,
+            unconfirmed: false,
+        };
+        // FLife integrates its moments by Simpson's rule, the moments here are trapezoids: 1e-6 of them
+        same(&format!("narrow_{slope:.0}"), spectral::narrow_band(&m, &curve, 0.0).unwrap(), 1e-5);
+        same(&format!("dirlik_{slope:.0}"), spectral::dirlik(&m, &curve, 0.0).unwrap(), 1e-5);
+    }
 }

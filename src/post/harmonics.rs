@@ -58,10 +58,11 @@ pub fn analyse(
     let (first, last) = (times.first().copied().unwrap_or(0.0), times.last().copied().unwrap_or(0.0));
     // the last sample of a whole number of cycles may be missing: it is the first again
     let step = (last - first) / times.len().saturating_sub(1).max(1) as f64;
-    let held = (((last - first + step) / period) + 1e-9).floor();
+    let length = (last - first + step) / period;
+    let held = (length + 1e-9).floor();
     let used = cycles.map_or(held, |most| held.min(most as f64));
     if used < 1.0 {
-        let text = format!("the series holds {:.3} cycles of the period, and whole cycles are needed", held);
+        let text = format!("the series holds {length:.3} cycles of the period, and whole cycles are needed");
         return Err(SeriesError::Refused(text));
     }
     // half a step is the room between the last sample that is left out and the first that is kept

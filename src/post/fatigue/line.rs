@@ -1,7 +1,7 @@
 //! Damage of a mooring line's segments from a record of their tension.
 
 use super::curve::Curve;
-use super::damage::of_cycles;
+use super::damage::{State, life, of_cycles, over};
 use crate::model::{FatigueKind, FatigueSegment, ThicknessCorrection};
 use crate::post::rainflow::{Cycle, cycles};
 use crate::post::{SeriesError, statistics};
@@ -117,6 +117,59 @@ fn segment_damage(
     })
 }
 
+/// A record of a line in one environment of a scatter.
+#[derive(Clone, Copy, Debug)]
+pub struct Exposure<'a> {
+    /// What the record comes to.
+    pub line: &'a LineDamage,
+    /// Length of the record (s).
+    pub record: f64,
+    /// How long the environment lasts (s): its `-DURATION`.
+    pub duration: f64,
+}
+
+/// What a scatter of environments comes to in a segment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SegmentLife {
+    /// Number of the segment, from 1 at the fairlead.
+    pub segment: usize,
+    /// Name of its curve.
+    pub curve: String,
+    /// Damage of all environments together.
+    pub damage: f64,
+    /// Life (years) when they repeat for ever, with the design factor; `None` without damage.
+    pub years: Option<f64>,
+}
+
+/// Damage and life of each segment of a line over a scatter of environments, with a design fatigue factor (at least 1). Each
+/// segment goes by its own curve; the governing one of seed 001 is told by [`LineDamage`].
+///
+/// # Errors
+/// No environment; records of unlike numbers of segments; a record or duration without length; a factor below 1.
+pub fn line_life(scatter: &[Exposure], factor: f64) -> Result<Vec<SegmentLife>, SeriesError> {
+    let Some(first) = scatter.first() else {
+        return Err(SeriesError::TooFew { what: "a scatter of environments", need: 1, got: 0 });
+    };
+    if scatter.iter().any(|e| e.line.segments.len() != first.line.segments.len()) {
+        return Err(SeriesError::Refused("the records are not of one line: their segments differ in number".into()));
+    }
+    let total: f64 = scatter.iter().map(|e| e.duration).sum();
+    let mut out = Vec::new();
+    for (index, segment) in first.line.segments.iter().enumerate() {
+        let states: Vec<State> = scatter
+            .iter()
+            .filter_map(|e| {
+                let damage = e.line.segments.get(index)?.damage;
+                Some(State { damage, record: e.record, duration: e.duration })
+            })
+            .collect();
+        let damage = over(&states)?;
+        let years = life(damage, total, factor)?;
+        out.push(SegmentLife { segment: segment.segment, curve: segment.curve.clone(), damage, years });
+    }
+    Ok(out)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -191,5 +244,25 @@ mod tests {
         let a = segment(0.0, 0.1);
         assert!(line_damage(&[Loaded { segment: &a, curve: &chain, tension: &tension }], None).is_err());
         assert!(line_damage(&[], None).is_err());
+    }
+
+    #[test]
+    fn the_life_of_a_segment_is_that_of_its_environments_by_their_duration() {
+        let (chain, tension) = (named("CHAIN"), record());
+        let a = segment(5e6, 0.1);
+        let storm = line_damage(&[Loaded { segment: &a, curve: &chain, tension: &tension }], None).unwrap();
+        let calm: Vec<f64> = tension.iter().map(|t| 1e6 + (t - 1e6) / 2.0).collect();
+        let calm = line_damage(&[Loaded { segment: &a, curve: &chain, tension: &calm }], None).unwrap();
+        let day = 86_400.0;
+        let scatter = [
+            Exposure { line: &storm, record: 1000.0, duration: 65.25 * day },
+            Exposure { line: &calm, record: 1000.0, duration: 300.0 * day },
+        ];
+        let found = line_life(&scatter, 3.0).unwrap();
+        // half the range is an eighth of the damage
+        let want = storm.segments[0].damage * (65.25 + 300.0 / 8.0) * 86.4;
+        assert!((found[0].damage / want - 1.0).abs() < 1e-12);
+        assert!((found[0].years.unwrap() * 3.0 * want - 1.0).abs() < 1e-12);
+        assert!(line_life(&[], 1.0).is_err() && line_life(&scatter, 0.0).is_err());
     }
 }

@@ -9,4 +9,4 @@ pub mod spectral;
 pub use curve::{Branch, Curve};
 pub use damage::{Damage, State, life, of_cycles, over};
 pub use library::{find, library};
-pub use line::{LineDamage, SegmentDamage, line_damage};
+pub use line::{Exposure, LineDamage, Loaded, SegmentDamage, SegmentLife, line_damage, line_life};

@@ -29,7 +29,10 @@ fn usual_length(samples: usize) -> usize {
     if eighth.is_power_of_two() { eighth } else { eighth.next_power_of_two() / 2 }
 }
 
-fn densities(record: &Record, length: Option<usize>) -> Result<(Vec<(&Series, Density)>, bool), SeriesError> {
+/// The series of a record with their densities, and whether any was interpolated to uniform times.
+type Densities<'a> = (Vec<(&'a Series, Density)>, bool);
+
+fn densities(record: &Record, length: Option<usize>) -> Result<Densities<'_>, SeriesError> {
     let mut resampled = false;
     let mut out = Vec::new();
     for series in &record.series {

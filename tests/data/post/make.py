@@ -1,4 +1,4 @@
-"""Numbers of other programs for tests/post.rs: numpy, scipy and rainflow (PyPI).
+"""Numbers of other programs for tests/post.rs: numpy, scipy, rainflow 3.2 and FLife 2.3 (PyPI).
 
     python make.py      writes series.csv (the signal) and expected.txt (one `name value` a line) beside itself
 
@@ -6,6 +6,7 @@ The signal is a sum of harmonics with fixed phases and a small square, so that i
 random numbers, so that any version of numpy makes the same. The maxima fitted are read from it here, independently.
 """
 import os
+import FLife
 import numpy as np
 import rainflow
 import scipy
@@ -57,6 +58,15 @@ put("gumbel_scale", scale)
 spec = np.fft.rfft(x) / n
 for i in [0, 200, 205, 210]:
     put(f"fft_{i}", abs(spec[i]) * (1 if i == 0 else 2))
+# fatigue damage a second of a two-peaked stress spectrum by FLife, whose curves N = C / S^k take amplitudes: 2^k of ranges
+g = np.linspace(0, 6, 60001)
+s = 1200 * np.exp(-(((g - 0.5) / 0.08) ** 2)) + 300 * np.exp(-(((g - 1.1) / 0.2) ** 2))
+data = FLife.SpectralData(input={"PSD": s * 2 * np.pi, "f": g / 2 / np.pi})
+for i in (0, 1, 2, 4):
+    put(f"fatigue_m{i}", np.trapezoid(g**i * s, g))
+for k, c in ((3.0, 10**11.687), (5.0, 10**15.606)):
+    put(f"narrow_{k:.0f}", 2**k / FLife.Narrowband(data).get_life(c, k))
+    put(f"dirlik_{k:.0f}", 2**k / FLife.Dirlik(data).get_life(c, k))
 put("scipy_version_major_minor", ".".join(scipy.__version__.split(".")[:2]))
 with open(os.path.join(here, "expected.txt"), "w") as file:
     file.write("\n".join(out) + "\n")
