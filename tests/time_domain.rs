@@ -36,6 +36,7 @@ fn settings(observed: f64, dt: f64) -> Settings {
         capsize: true,
         adaptive: None,
         keep: true,
+        transient: 0.0,
     }
 }
 
