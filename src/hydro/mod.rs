@@ -11,6 +11,7 @@ pub mod drag;
 pub mod drift;
 pub mod exposed;
 mod gathered;
+pub mod growth;
 pub mod heading;
 pub mod hull;
 mod junction;
