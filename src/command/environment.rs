@@ -6,10 +6,13 @@ use super::{Call, Command, Effect, Job};
 use crate::language::args::{Args, Given};
 use crate::language::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use crate::language::name as rule;
+use crate::language::select::Owner;
 use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
-use crate::model::{Current, Curve, CurveKind, Environment, Formula, Model, Sea, Thing, TimeWindow, Wind, find};
+use crate::model::{
+    Current, Curve, CurveKind, Environment, Formula, GustParts, Model, Sea, Thing, TimeWindow, Wind, find,
+};
 
 /// &ENV.
 pub static ENV: Command = Command { spec: &ENV_SPEC, edits: false, run };
@@ -118,6 +121,18 @@ const OPTIONS: &[OptionSpec] = &[
     OptionSpec::new("-W_HISTORY", &[curve("W_HISTORY curve")], "wind history"),
     OptionSpec::new("-W_PERIOD", PERIODS, "periods of the gusts").repeating(1),
     OptionSpec::new(
+        "-W_COMPONENTS",
+        &[
+            ValueSpec::new("N", Kind::Integer, "number of components").within(1.0, 10_000.0),
+            number("INTENSITY", Dim::None, "standard deviation over mean speed")
+                .or("that of the spectrum")
+                .within(0.0, 1.0),
+        ],
+        "components of the gusts",
+    )
+    .owner(Owner::Ours)
+    .default("100"),
+    OptionSpec::new(
         "-W_MD_CORRELATION",
         &[number("F", Dim::None, "factor").within(-1.0, 1.0)],
         "correlation of gusts and mean drift",
@@ -132,9 +147,14 @@ const OPTIONS: &[OptionSpec] = &[
     )
     .repeating(2)
     .default("none"),
+    OptionSpec::new("-C_HISTORY", &[curve("C_HISTORY curve")], "factor of the current over time").owner(Owner::Ours),
     OptionSpec::new("-TIDE", &[number("CHANGE", Dim::Length, "rise of the water level")], "tide").default("0"),
     OptionSpec::new("-DEPTH", &[number("D", Dim::Length, "depth").positive()], "water depth").default("&DEFAULT"),
-    OptionSpec::new("-M_GROWTH", &[curve("M_GROWTH curve")], "marine growth"),
+    OptionSpec::new(
+        "-M_GROWTH",
+        &[curve("M_GROWTH curve"), number("RHO", Dim::Density, "density of the growth").or("1325 kg/m3").positive()],
+        "marine growth",
+    ),
     OptionSpec::new(
         "-T_PRESSURE",
         &[text("NAME", "name of temperature and pressure data")],
@@ -269,10 +289,36 @@ fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<()> {
             });
         }
         "-CURRENT" => env.current = Some(current(job, given)?),
-        "-S_PERIOD" | "-MD_PERIOD" | "-W_PERIOD" | "-E_PERIOD" => periods(given)?,
-        "-W_SPECTRUM" => spectrum(job, given, &GUSTS)?,
-        "-W_HISTORY" => known_curve(job, given, 0, CurveKind::WindHistory)?,
-        "-M_GROWTH" => known_curve(job, given, 0, CurveKind::MarineGrowth)?,
+        "-W_PERIOD" => {
+            periods(given)?;
+            env.gust_periods = given.numbers();
+        }
+        "-S_PERIOD" | "-MD_PERIOD" | "-E_PERIOD" => periods(given)?,
+        "-W_SPECTRUM" => {
+            spectrum(job, given, &GUSTS)?;
+            let mut named = formula(given);
+            named.kind = named.kind.to_ascii_uppercase();
+            env.gusts = Some(named);
+        }
+        "-W_COMPONENTS" => {
+            let number = given.values.first().and_then(|v| v.integer()).and_then(|n| usize::try_from(n).ok());
+            env.gust_parts = number.map(|number| GustParts { number, intensity: given.number(1), span: given.span });
+        }
+        "-W_HISTORY" => {
+            known_curve(job, given, 0, CurveKind::WindHistory)?;
+            env.wind_history = Some(formula(given));
+        }
+        "-W_MD_CORRELATION" => {
+            env.drift_correlation = Some(Formula { kind: String::new(), value: at(0), span: given.span });
+        }
+        "-C_HISTORY" => {
+            known_curve(job, given, 0, CurveKind::CurrentHistory)?;
+            env.current_history = Some(formula(given));
+        }
+        "-M_GROWTH" => {
+            known_curve(job, given, 0, CurveKind::MarineGrowth)?;
+            env.growth = Some(formula(given));
+        }
         _ => {}
     }
     Ok(())

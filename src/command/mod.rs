@@ -173,6 +173,7 @@ pub static COMMANDS: &[&Command] = &[
     &curves::F_SPECTRUM,
     &curves::M_GROWTH,
     &curves::W_HISTORY,
+    &curves::C_HISTORY,
     &curves::LT_MULTIPLIER,
     &curves::CT_LENGTH,
     &curves::EFFICIENCY,

@@ -27,13 +27,12 @@ impl Growth {
     /// # Errors
     /// A curve that is not there, or takes away from the diameter.
     pub fn of(model: &Model, env: &Environment) -> Result<Option<Self>, ClassError> {
-        let Some(given) = env.options.iter().find(|g| g.spec.name == "-M_GROWTH") else { return Ok(None) };
-        let name = given.word(0).unwrap_or_default();
-        let found = model.curves.get(&Model::key(name)).filter(|c| c.kind == CurveKind::MarineGrowth);
+        let Some(named) = &env.growth else { return Ok(None) };
+        let found = model.curves.get(&Model::key(&named.kind)).filter(|c| c.kind == CurveKind::MarineGrowth);
         let Some(curve) = found else {
-            return Err(ClassError::new(format!("there is no M_GROWTH curve {name}")).at(given.span));
+            return Err(ClassError::new(format!("there is no M_GROWTH curve {}", named.kind)).at(named.span));
         };
-        let density = given.number(1).unwrap_or(DENSITY);
+        let density = named.value.unwrap_or(DENSITY);
         Growth::new(curve.points.clone(), density).map(Some).map_err(|e| e.at(curve.span))
     }
 

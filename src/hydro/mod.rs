@@ -18,12 +18,14 @@ mod junction;
 mod linear;
 pub mod pieces;
 pub mod plate;
+pub mod ramp;
 mod righting;
 pub mod sea;
 pub mod spectrum;
 pub mod steady;
 pub mod stream;
 pub mod strips;
+pub mod variation;
 mod weight;
 pub mod wind;
 
@@ -229,7 +231,7 @@ impl Floating {
     }
 
     /// At rest without a sea; `Some` is under way, with the sea there is.
-    fn within(model: &Model, body: &Body, _under_way: Option<Option<&Arc<Sea>>>) -> Result<Self, ClassError> {
+    fn within(model: &Model, body: &Body, under_way: Option<Option<&Arc<Sea>>>) -> Result<Self, ClassError> {
         let gravity = model.defaults.gravity;
         let mass = Mass::of(model.parts_of(body), gravity);
         let mut loads: Vec<Box<dyn BodyLoad>> = Vec::new();
@@ -247,7 +249,7 @@ impl Floating {
         }
         loads.extend(hull.map(|hull| Box::new(hull) as Box<dyn BodyLoad>));
         loads.extend(linear::of(body));
-        let gathered = gathered::of(model, body)?;
+        let gathered = gathered::of(model, body, under_way.is_some())?;
         loads.extend(gathered.loads);
         Ok(Floating { mass, loads, added_mass: gathered.added_mass, damping: gathered.damping })
     }
