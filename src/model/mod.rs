@@ -26,7 +26,10 @@ pub use connector::{Anchor, Connector, Tug};
 pub use curve::{Curve, CurveKind};
 pub use defaults::{Coordinates, Defaults, Material};
 pub use element::{Connection, Element, End, Guess, Response, Situation, SpringState, Summary, TimeStep};
-pub use environment::{Current, Environment, Formula, GustParts, Sea, Stretching, Surroundings, TimeWindow, Wind};
+pub use environment::{
+    Components, Current, Division, Environment, Formula, GustParts, Phasing, Sea, Stretching, Surroundings, TimeWindow,
+    Wind,
+};
 pub use geometry::{Place, Position, unit_vector};
 pub use hull::{LinearHydrostatics, Piece, Shape, box_panels};
 pub use line::{Condition, Configuration, LineChange, LineLoads, LineModel, Placement};

@@ -12,7 +12,7 @@ const DEEP: f64 = 20.0;
 /// The factor of delta stretching (Rodenbusch and Forristall 1986).
 const DELTA: f64 = 0.3;
 
-/// Components as arrays, with what does not change.
+/// Components, with what does not change.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Lanes {
     lanes: Vec<Lane>,
@@ -30,8 +30,9 @@ struct Lane {
     k: f64,
     w: f64,
     toward: [f64; 2],
-    /// exp(-2 k d), and tanh(k d).
+    /// exp(-2 k d), one over one less it, and tanh(k d).
     q: f64,
+    whole: f64,
     tanh: f64,
 }
 
@@ -43,7 +44,16 @@ impl Lanes {
             let q = if kd > DEEP { 0.0 } else { (-2.0 * kd).exp() };
             let [x, y] = c.toward;
             let (k, w) = (c.number, c.frequency);
-            Lane { kx: k * x, ky: k * y, k, w, toward: c.toward, q, tanh: kd.tanh() }
+            Lane {
+                kx: k * x,
+                ky: k * y,
+                k,
+                w,
+                toward: c.toward,
+                q,
+                whole: -1.0 / (-2.0 * kd).exp_m1(),
+                tanh: kd.tanh(),
+            }
         };
         let variance: f64 = components.iter().map(|c| 0.5 * c.amplitude * c.amplitude).sum();
         Lanes { lanes: components.iter().map(lane).collect(), stretch: 2.0 * variance.sqrt() }
@@ -54,6 +64,9 @@ impl Lanes {
 #[derive(Clone, Debug)]
 pub struct SeaAt<'a> {
     sea: &'a Sea,
+    time: f64,
+    /// The ramp.
+    factor: f64,
     /// The ramp's rate over its value (1/s).
     growth: f64,
     /// Amplitude, ramp in it, times cosine and sine of `phase - w t`.
@@ -63,7 +76,7 @@ pub struct SeaAt<'a> {
 impl<'a> SeaAt<'a> {
     /// A sea at a time (s).
     pub(super) fn of(sea: &'a Sea, time: f64) -> Self {
-        let mut made = SeaAt { sea, growth: 0.0, phasors: Vec::with_capacity(sea.components.len()) };
+        let mut made = SeaAt { sea, time, factor: 0.0, growth: 0.0, phasors: Vec::with_capacity(sea.components.len()) };
         made.move_to(time);
         made
     }
@@ -71,6 +84,7 @@ impl<'a> SeaAt<'a> {
     /// Goes to another time (s), without another allocation.
     pub fn move_to(&mut self, time: f64) {
         let (factor, rate) = self.sea.factor_and_rate(time);
+        (self.time, self.factor) = (time, factor);
         self.growth = if factor > 0.0 { rate / factor } else { 0.0 };
         self.phasors.clear();
         self.phasors.extend(self.sea.components.iter().map(|c| {
@@ -81,6 +95,9 @@ impl<'a> SeaAt<'a> {
 
     /// Height of the surface above the mean level (m).
     pub fn elevation(&self, x: f64, y: f64) -> f64 {
+        if let Some(wave) = &self.sea.stokes {
+            return self.factor * wave.elevation(x, y, self.time);
+        }
         let waves = self.sea.lanes.lanes.iter().zip(&self.phasors);
         waves
             .map(|(lane, [c, s])| {
@@ -95,6 +112,9 @@ impl<'a> SeaAt<'a> {
     pub fn kinematics(&self, at: Vector3<f64>) -> Kinematics {
         let sea = self.sea;
         let height = at.z - sea.level;
+        if let Some(wave) = &sea.stokes {
+            return self.below(self.grown(wave.kinematics(at, self.time)), height);
+        }
         match sea.stretching {
             Stretching::Exponential => self.sums(at, height, 0.0),
             Stretching::Linear => self.below(self.sums(at, height.min(0.0), height.max(0.0)), height),
@@ -123,6 +143,17 @@ impl<'a> SeaAt<'a> {
         }
     }
 
+    /// A wave of full height as the ramp has it.
+    fn grown(&self, full: Kinematics) -> Kinematics {
+        let velocity = full.velocity * self.factor;
+        Kinematics {
+            velocity,
+            acceleration: full.acceleration * self.factor + velocity * self.growth,
+            pressure: full.pressure * self.factor,
+            elevation: full.elevation * self.factor,
+        }
+    }
+
     fn below(&self, found: Kinematics, height: f64) -> Kinematics {
         if height > found.elevation { Kinematics::still(found.elevation) } else { found }
     }
@@ -141,7 +172,7 @@ impl<'a> SeaAt<'a> {
             let decay = (lane.k * height).exp();
             // cosh(k(z+d)) / sinh(kd) = exp(kz) (1 + exp(-2k(z+d))) / (1 - exp(-2kd)), and so the sine
             let mirror = if lane.q > 0.0 { lane.q / (decay * decay) } else { 0.0 };
-            let scale = decay / (1.0 - lane.q);
+            let scale = decay * lane.whole;
             let (cosh, sinh) = (scale * (1.0 + mirror), scale * (1.0 - mirror));
             pressure += cosh * lane.tanh * a_cos;
             let (cosh, sinh) = (cosh + rise * lane.k * sinh, sinh + rise * lane.k * cosh);
