@@ -55,6 +55,8 @@ mod tdom;
 mod units;
 mod vary;
 mod weight;
+mod wind_options;
+mod wind_table;
 mod written;
 
 pub use file::write_open_files;

@@ -12,6 +12,7 @@ pub mod drift;
 pub mod exposed;
 mod gathered;
 pub mod growth;
+pub mod gusts;
 pub mod heading;
 pub mod hull;
 mod junction;

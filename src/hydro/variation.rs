@@ -4,6 +4,7 @@
 //! keeps the values of its ends beyond them; that of wind takes the place of the speed of `-WIND`, with its direction and profile;
 //! that of current (ours) multiplies the current. All grow with the ramp of the environment from the means, on which statics stands.
 
+use super::gusts::Gusts;
 use super::ramp::ramp;
 use crate::model::{ClassError, CurveKind, Environment, Formula, Model};
 
@@ -59,6 +60,7 @@ impl History {
 pub struct Variation {
     /// Mean speed of the wind (m/s), and its history.
     wind: Option<(f64, History)>,
+    gusts: Option<Gusts>,
     current: Option<History>,
     /// Time over which it grows (s).
     ramp: f64,
@@ -95,10 +97,11 @@ impl Variation {
             .as_ref()
             .map(|named| History::of(model, named, CurveKind::CurrentHistory))
             .transpose()?;
-        if wind.is_none() && current.is_none() {
+        let gusts = Gusts::of(model, env)?;
+        if wind.is_none() && gusts.is_none() && current.is_none() {
             return Ok(None);
         }
-        Ok(Some(Variation { wind, current, ramp: env.ramp.unwrap_or(model.defaults.ramp) }))
+        Ok(Some(Variation { wind, gusts, current, ramp: env.ramp.unwrap_or(model.defaults.ramp) }))
     }
 
     /// What there is at a time (s).
@@ -106,6 +109,7 @@ impl Variation {
         let (grown, _) = ramp(self.ramp, time);
         let wind = self.wind.as_ref().map_or(0.0, |(mean, history)| grown * (history.at(time) - mean));
         let current = self.current.as_ref().map_or(1.0, |history| 1.0 + grown * (history.at(time) - 1.0));
-        Instant { wind, gust: 0.0, current }
+        let gust = self.gusts.as_ref().map_or(0.0, |gusts| grown * gusts.at(time));
+        Instant { wind, gust, current }
     }
 }
