@@ -5,6 +5,7 @@
 mod common;
 
 use nalgebra::Matrix6;
+use windlass::hydro::gusts::{Gusts, REACH, Shape};
 use windlass::hydro::{BodyLoad, Category, Floating, MovingLoad, Underway};
 use windlass::model::{Model, Place, Pose, Six};
 
@@ -238,4 +239,96 @@ fn what_has_no_meaning_in_time_is_refused() {
     }
     let independent = body(records, "&ENV -WIND 30 0 -W_MD_CORRELATION 0");
     assert!(Floating::under_way(&independent, &independent.bodies["B"], None).is_ok());
+}
+
+fn gusts(environment: &str) -> Gusts {
+    let model = model(environment);
+    Gusts::of(&model, &model.environment).unwrap().unwrap()
+}
+
+/// Mean and variance of the gusts over a time (s), by steps of half a second.
+fn statistics(gusts: &Gusts, time: f64) -> (f64, f64) {
+    let count = (2.0 * time) as usize;
+    let series: Vec<f64> = (0..count).map(|i| gusts.at(0.5 * i as f64)).collect();
+    let mean = series.iter().sum::<f64>() / count as f64;
+    (mean, series.iter().map(|u| (u - mean).powi(2)).sum::<f64>() / count as f64)
+}
+
+#[test]
+fn the_variance_of_a_series_of_gusts_is_the_integral_of_its_spectrum() {
+    for (name, shape) in [
+        ("API", Shape::Api),
+        ("NPD", Shape::Froya),
+        ("OCHI", Shape::Ochi),
+        ("HARRIS", Shape::Harris),
+        ("DAVENPORT", Shape::Davenport),
+        ("KAIMAL", Shape::Kaimal),
+    ] {
+        let gusts = gusts(&format!("&ENV -WIND 50 180 -W_SPECTRUM {name}"));
+        // the integral of the formula by Simpson's rule over the logarithm of the frequency
+        let (parts, speed) = (4000, 50.0 * KNOT);
+        let step = (REACH[1] / REACH[0]).ln() / f64::from(parts);
+        let part = |i: i32| {
+            let f = REACH[0] * (step * f64::from(i)).exp();
+            let weight = if i == 0 || i == parts { 1.0 } else { 2.0 + 2.0 * f64::from(i % 2) };
+            weight * f * shape.density(f, speed) * step / 3.0
+        };
+        let want: f64 = (0..=parts).map(part).sum();
+        // straight lines between the points of the table are off by 2e-5
+        near(gusts.deviation().powi(2), want, 5e-5);
+        // 100 components over 300 hours: those an hour long leave some 1/300, of 1/100 each
+        let (mean, variance) = statistics(&gusts, 1_080_000.0);
+        near(variance, want, 5e-3);
+        assert!(mean.abs() < 2e-3 * want.sqrt(), "{name} {mean}");
+        // what is slower than an hour or faster than a second is a tenth of the variance at most
+        let whole = gusts.whole.unwrap().powi(2);
+        assert!(want < whole && want > 0.85 * whole, "{name} {want} {whole}");
+    }
+}
+
+#[test]
+fn a_turbulence_intensity_scales_any_spectrum_and_a_curve_is_taken_as_it_is() {
+    near(gusts("&ENV -WIND 50 180 -W_SPECTRUM HARRIS -W_COMPONENTS 20 0.12").deviation(), 0.12 * 50.0 * KNOT, 1e-12);
+    // a triangle of 4 m2/s over 0.2 rad/s: 0.4 m2/s2
+    let curve = "&DATA CURVES F_SPECTRUM G 0.1 0 0.2 4 0.3 0\n&ENV -WIND 50 180 -W_SPECTRUM G";
+    near(gusts(curve).deviation().powi(2), 0.4, 1e-12);
+    near(gusts(&format!("{curve} -W_COMPONENTS 10 0.05")).deviation(), 0.05 * 50.0 * KNOT, 1e-12);
+}
+
+#[test]
+fn periods_given_are_those_of_the_components() {
+    let gusts = gusts("&ENV -WIND 50 180 -W_SPECTRUM NPD -W_PERIOD 600 60 6");
+    let periods: Vec<f64> = gusts.bands.iter().map(|b| std::f64::consts::TAU / b.frequency).collect();
+    assert_eq!(periods.len(), 3);
+    for (got, want) in periods.iter().zip([600.0, 60.0, 6.0]) {
+        near(*got, want, 1e-12);
+    }
+    // no energy is lost
+    near(gusts.deviation(), gusts.spectrum.moment(0).sqrt(), 1e-12);
+}
+
+#[test]
+fn the_same_seed_makes_the_same_gusts_and_another_one_others() {
+    let at = |seed: &str| gusts(&format!("&ENV -WIND 50 180 -W_SPECTRUM API {seed}")).at(123.4);
+    assert_eq!(at(""), at("-SEED 1"));
+    // reinforced waves leave the gusts as they are
+    assert_eq!(at(""), at("-T_REINFORCE 100"));
+    assert_ne!(at("-SEED 2"), at("-SEED 1"));
+}
+
+#[test]
+fn a_gust_adds_to_the_wind_of_a_load_after_the_ramp() {
+    let environment = "&ENV -WIND 30 180 -W_PROFILE POWER 0 -W_SPECTRUM API -RAMP 60";
+    let model = body("*P 0 0 40\n#AREA *P 100", environment);
+    let gusts = gusts(environment);
+    let speed = |time: f64| (sum(&model, Category::Wind, time, &Pose::default(), &Six::zeros())[0] / 61.3).sqrt();
+    near(speed(0.0), 30.0 * KNOT, 1e-12);
+    near(speed(30.0), 30.0 * KNOT + 0.5 * gusts.at(30.0), 1e-12);
+    near(speed(200.0), 30.0 * KNOT + gusts.at(200.0), 1e-12);
+}
+
+#[test]
+fn gusts_without_a_wind_are_refused() {
+    let model = body("*P 0 0 10\n#AREA *P 100", "&ENV -W_SPECTRUM API");
+    assert!(Floating::under_way(&model, &model.bodies["B"], None).is_err());
 }
