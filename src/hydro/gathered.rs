@@ -4,6 +4,7 @@ use super::area::AreaLoad;
 use super::coefficients::CoefficientLoad;
 use super::drag::{LinearDrag, at_origin, turned};
 use super::drift::{DriftLoad, DriftRow};
+use super::growth::Growth;
 use super::heading::ByHeading;
 use super::plate::PlateLoad;
 use super::steady::{Medium, Steady};
@@ -101,6 +102,7 @@ impl Frame<'_> {
 pub fn of(model: &Model, body: &Body, under_way: bool) -> Result<Gathered, ClassError> {
     let mut sum = Gathered { loads: Vec::new(), added_mass: Matrix6::zeros(), damping: Matrix6::zeros() };
     let drifts = |l: &PartLoad| matches!(l.kind, LoadKind::Drift { .. });
+    let (growth, pose) = (Growth::of(model, &model.environment)?, Pose::of(&body.place));
     let mut around: Option<Arc<Steady>> = None;
     for part in model.parts_of(body) {
         let mine: Vec<&PartLoad> =
@@ -125,9 +127,10 @@ pub fn of(model: &Model, body: &Body, under_way: bool) -> Result<Gathered, Class
             one(&mut sum, &steady, &frame, load, under_way)?;
         }
         drift(&mut sum, &steady, &frame, &mine)?;
+        let on = growth.as_ref().map(|growth| (growth, &pose));
         for piece in &part.pieces {
             sum.loads.extend(
-                pieces::of(&steady, part, piece, under_way)?.into_iter().map(|l| Box::new(l) as Box<dyn BodyLoad>),
+                pieces::of(&steady, part, piece, under_way, on)?.into_iter().map(|l| Box::new(l) as Box<dyn BodyLoad>),
             );
         }
         let rest = sum.loads.split_off(first);

@@ -61,6 +61,11 @@ impl Growth {
         }
     }
 
+    /// The elevations at which it changes otherwise than before (m).
+    pub fn elevations(&self) -> impl Iterator<Item = f64> {
+        self.points.iter().map(|p| p.0)
+    }
+
     /// Area of the growth in a section of a member of a bare outside diameter (m) at a global elevation (m2).
     pub fn section(&self, bare: f64, z: f64) -> f64 {
         let whole = bare + self.added(z);

@@ -11,6 +11,7 @@ pub mod drag;
 pub mod drift;
 pub mod exposed;
 mod gathered;
+pub mod grown;
 pub mod growth;
 pub mod gusts;
 pub mod heading;
@@ -208,7 +209,7 @@ pub struct Floating {
     pub mass: Mass,
     /// What acts on it.
     pub loads: Vec<Box<dyn BodyLoad>>,
-    /// Added mass about its origin, body axes (kg, kg m, kg m2), of `#AMASS`.
+    /// Added mass about its origin, body axes (kg, kg m, kg m2), of `#AMASS`, and the inertia of growth.
     pub added_mass: Matrix6<f64>,
     /// Linear damping about its origin, body axes (N s/m, N s, N m s), of `#DRAG` and `#DAMP`.
     pub damping: Matrix6<f64>,
@@ -252,7 +253,10 @@ impl Floating {
         loads.extend(linear::of(body));
         let gathered = gathered::of(model, body, under_way.is_some())?;
         loads.extend(gathered.loads);
-        Ok(Floating { mass, loads, added_mass: gathered.added_mass, damping: gathered.damping })
+        let grown = grown::of(model, body)?;
+        loads.extend(grown.loads);
+        let added_mass = gathered.added_mass + grown.mass;
+        Ok(Floating { mass, loads, added_mass, damping: gathered.damping })
     }
 
     /// The added mass in a pose, global axes.

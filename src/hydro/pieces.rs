@@ -15,12 +15,15 @@
 //! the centroids do. At rest in the mean stream nothing is added; in a uniform stream all of it is exact.
 
 use super::area::category;
-use super::buoyancy::skin;
+use super::buoyancy::{SIDES, skin};
 use super::exposed::{Exposed, Skin};
+use super::grown;
+use super::growth::Growth;
+use super::hull::Tube;
 use super::steady::{Medium, Steady};
 use super::strips::Strips;
 use super::{BodyLoad, Category, Load, MovingLoad, Underway, cross};
-use crate::model::{ClassError, Part, Piece, Pose};
+use crate::model::{ClassError, Part, Piece, Pose, Shape};
 use nalgebra::{Matrix3, Matrix6, RowVector6, SVector, Vector3, Vector6};
 use std::sync::Arc;
 
@@ -82,17 +85,31 @@ impl PieceLoad {
     }
 }
 
-/// The loads of the wind and the current in force on a piece; under way also in air and water that are still.
+/// The loads of the wind and the current in force on a piece; under way also in air and water that are still; on a tube with
+/// the growth it has where its body stands.
 ///
 /// # Errors
 /// A piece that is not a closed surface.
-pub fn of(steady: &Arc<Steady>, part: &Part, piece: &Piece, under_way: bool) -> Result<Vec<PieceLoad>, ClassError> {
+pub fn of(
+    steady: &Arc<Steady>,
+    part: &Part,
+    piece: &Piece,
+    under_way: bool,
+    growth: Option<(&Growth, &Pose)>,
+) -> Result<Vec<PieceLoad>, ClassError> {
     let media = [(Medium::Air, piece.cs_wind), (Medium::Water, piece.cs_current)];
     let acts = |(medium, cs): &(Medium, [f64; 3])| (under_way || !steady.still(*medium)) && *cs != [0.0; 3];
     if !media.iter().any(acts) {
         return Ok(Vec::new());
     }
-    let Some(surface) = skin(part, piece)? else { return Ok(Vec::new()) };
+    let surface = match (growth, piece.shape.moved(&part.place)) {
+        (Some((growth, pose)), Shape::Tube { ends, diameter }) => {
+            let tube = Tube { ends: ends.map(Vector3::from), diameter };
+            tube.widened(&grown::stations(growth, pose, tube.ends, diameter), SIDES)
+        }
+        _ => skin(part, piece)?,
+    };
+    let Some(surface) = surface else { return Ok(Vec::new()) };
     let axes = *part.place.rotation().matrix();
     let skin = Arc::new(Skin::of(&surface, &axes));
     let made = media.into_iter().filter(acts);
