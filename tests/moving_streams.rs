@@ -83,7 +83,7 @@ fn damping_and_stiffness_under_way_are_those_of_differences() {
                 let found = moving(load.as_ref(), 40.0, &pose, &velocity);
                 let (mut stiffness, mut damping) = (Matrix6::zeros(), Matrix6::zeros());
                 for column in 0..6 {
-                    // centimetres and 1e-6 rad as in common/tangent.rs; the force is of second degree in the velocity
+                    // steps as in common/tangent.rs; the force is of second degree in the velocity
                     let step = if column < 3 { 1e-5 } else { 1e-6 };
                     let wrench = |sign: f64, motion: bool| {
                         let mut by = Six::zeros();
@@ -276,13 +276,14 @@ fn the_variance_of_a_series_of_gusts_is_the_integral_of_its_spectrum() {
         let want: f64 = (0..=parts).map(part).sum();
         // straight lines between the points of the table are off by 2e-5
         near(gusts.deviation().powi(2), want, 5e-5);
-        // 100 components over 300 hours: those an hour long leave some 1/300, of 1/100 each
+        // 100 components over 300 hours: what the cut cycles of the slowest leave is below 1/300 of its share of 1/100, so that the tolerance
+        // is mostly for the beats of neighbours
         let (mean, variance) = statistics(&gusts, 1_080_000.0);
         near(variance, want, 5e-3);
         assert!(mean.abs() < 2e-3 * want.sqrt(), "{name} {mean}");
-        // what is slower than an hour or faster than a second is a tenth of the variance at most
+        // what is slower than an hour or faster than a second is left out: most of Kaimal's, (1 + 33 f z/U)^(-2/3) = 0.174 of it
         let whole = gusts.whole.unwrap().powi(2);
-        assert!(want < whole && want > 0.85 * whole, "{name} {want} {whole}");
+        assert!(want < whole && want > 0.82 * whole, "{name} {want} {whole}");
     }
 }
 

@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 
 /// Points of a spectrum plotted, and the share of the energy up to which they lie.
 const POINTS: usize = 241;
-const SHOWN: f64 = 0.9;
+const SHOWN: f64 = 0.8;
 
 /// The gusts of the environment in force, or of those kept under a name that is chosen.
 pub(super) fn spectra(job: &Job, chosen: Option<&dyn Fn(&str) -> bool>, at: Span) -> Outcome<Vec<Table>> {
@@ -97,7 +97,8 @@ fn density(env: &Environment, gusts: &Gusts) -> Table {
         .column("", "Frequency", Dim::Frequency, Digits::Usual)
         .column("", "Density", DENSITY, Digits::Usual);
     for i in 0..POINTS {
-        let frequency = low + (high - low) * i as f64 / (POINTS - 1) as f64;
+        // close where it is steep
+        let frequency = low * (high / low).powf(i as f64 / (POINTS - 1) as f64);
         push(&mut table, vec![frequency.into(), gusts.spectrum.density(frequency).into()]);
     }
     table
