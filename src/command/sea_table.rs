@@ -63,8 +63,10 @@ fn components(env: &Environment, sea: &Sea, train: &Train) -> Table {
     let variance: f64 = waves.iter().map(|c| 0.5 * c.amplitude * c.amplitude).sum();
     let mut table = Table::new(title("Sea Spectrum", env, Some(train)))
         .fact("Spectrum", train.name.as_str(), Dim::None)
-        .fact("Comes From", train.direction, Dim::Angle)
-        .fact("Gamma", train.gamma, Dim::None);
+        .fact("Comes From", train.direction, Dim::Angle);
+    if train.gamma.is_some() {
+        table = table.fact("Gamma", train.gamma, Dim::None);
+    }
     if let Some(spectrum) = &train.spectrum {
         let [m0, m1, m2] = [0, 1, 2].map(|n| spectrum.moment(n));
         table = table
