@@ -92,7 +92,8 @@ fn components(job: &Job, env: &Environment, gusts: &Gusts) -> Table {
 }
 
 fn density(env: &Environment, gusts: &Gusts) -> Table {
-    let [low, high] = [gusts.spectrum.range()[0], gusts.spectrum.quantile(SHOWN)];
+    let high = gusts.spectrum.quantile(SHOWN);
+    let low = gusts.spectrum.range()[0].max(1e-3 * high);
     let mut table = Table::new(title("Gust Spectrum", env))
         .column("", "Frequency", Dim::Frequency, Digits::Usual)
         .column("", "Density", DENSITY, Digits::Usual);
