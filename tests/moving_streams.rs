@@ -276,11 +276,10 @@ fn the_variance_of_a_series_of_gusts_is_the_integral_of_its_spectrum() {
         let want: f64 = (0..=parts).map(part).sum();
         // straight lines between the points of the table are off by 2e-5
         near(gusts.deviation().powi(2), want, 5e-5);
-        // 100 components over 300 hours: what the cut cycles of the slowest leave is below 1/300 of its share of 1/100, so that the tolerance
-        // is mostly for the beats of neighbours
-        let (mean, variance) = statistics(&gusts, 1_080_000.0);
-        near(variance, want, 5e-3);
-        assert!(mean.abs() < 2e-3 * want.sqrt(), "{name} {mean}");
+        // 100 components over 30 hours: cut cycles and beats of neighbours, some 1e-3 rad/s apart, leave a percent
+        let (mean, variance) = statistics(&gusts, 108_000.0);
+        near(variance, want, 2e-2);
+        assert!(mean.abs() < 1e-2 * want.sqrt(), "{name} {mean}");
         // what is slower than an hour or faster than a second is left out: most of Kaimal's, (1 + 33 f z/U)^(-2/3) = 0.174 of it
         let whole = gusts.whole.unwrap().powi(2);
         assert!(want < whole && want > 0.82 * whole, "{name} {want} {whole}");
