@@ -6,6 +6,7 @@ pub mod area;
 mod buoyancy;
 pub mod coefficients;
 pub mod current;
+pub mod database;
 pub mod drag;
 pub mod drift;
 pub mod exposed;
