@@ -8,7 +8,7 @@ use super::heading::ByHeading;
 use super::plate::PlateLoad;
 use super::steady::{Medium, Steady};
 use super::stream::Place;
-use super::{BodyLoad, Category, Load, pieces};
+use super::{BodyLoad, Category, Load, MovingLoad, Underway, pieces};
 use crate::model::{Body, ClassError, Fluid, LoadKind, Model, Part, PartLoad, Piece, Pose};
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use std::sync::Arc;
@@ -39,6 +39,28 @@ impl BodyLoad for Multiplied {
     fn load(&self, pose: &Pose) -> Result<Load, ClassError> {
         let load = self.load.load(pose)?;
         Ok(Load { wrench: load.wrench * self.factor, stiffness: load.stiffness * self.factor })
+    }
+
+    fn states(&self) -> usize {
+        self.load.states()
+    }
+
+    fn start(&self, state: &mut [f64]) {
+        self.load.start(state);
+    }
+
+    fn begin(&self, ahead: &Underway, state: &mut [f64]) -> Result<(), ClassError> {
+        self.load.begin(ahead, state)
+    }
+
+    fn moving(&self, at: &Underway, state: &[f64]) -> Result<MovingLoad, ClassError> {
+        let MovingLoad { load, damping } = self.load.moving(at, state)?;
+        let load = Load { wrench: load.wrench * self.factor, stiffness: load.stiffness * self.factor };
+        Ok(MovingLoad { load, damping: damping * self.factor })
+    }
+
+    fn commit(&self, at: &Underway, state: &mut [f64]) {
+        self.load.commit(at, state);
     }
 }
 

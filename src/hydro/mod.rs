@@ -3,6 +3,7 @@
 //! Each kind of load is one file with a type that implements [`BodyLoad`]; [`Floating`] gathers those of a body.
 
 pub mod area;
+mod body_load;
 mod buoyancy;
 pub mod coefficients;
 pub mod current;
@@ -25,12 +26,12 @@ pub mod strips;
 mod weight;
 pub mod wind;
 
+pub use body_load::{BodyLoad, MovingLoad, Underway};
 pub use buoyancy::{Hull, PieceFault, piece_faults};
 pub use righting::{Balanced, balanced};
 
 use crate::model::{Body, ClassError, Mass, Model, Pose, Six};
 use nalgebra::{Matrix3, Matrix6, Vector3};
-use std::fmt::Debug;
 
 /// Categories of force that reports tell apart.
 ///
@@ -45,7 +46,11 @@ pub enum Category {
     Wind,
     /// Viscous drag of current.
     ViscousDrag,
-    /// Mean wave drift.
+    /// Waves of first order: excitation, and pressure and inertia on members.
+    Wave,
+    /// Radiation and linear damping of the body's own motion.
+    RadiationDrag,
+    /// Wave drift: its mean, and in time what varies slowly.
     WaveDrift,
     /// What the sea bottom carries (ours).
     Bottom,
@@ -53,11 +58,19 @@ pub enum Category {
     FlexConnectors,
     /// Restraints.
     RigidConnectors,
+    /// Forces given by the user.
+    Applied,
+    /// Inertia of the body's own mass, as a force.
+    Inertia,
+    /// Inertia of the added mass, as a force.
+    AddedInertia,
+    /// What turning axes add to inertia, as a force.
+    Coriolis,
 }
 
 impl Category {
-    /// All, in the order of reports.
-    pub const ALL: [Category; 8] = [
+    /// Those that act on a body at rest, in the order of reports.
+    pub const AT_REST: [Category; 8] = [
         Category::Weight,
         Category::Buoyancy,
         Category::Wind,
@@ -68,6 +81,24 @@ impl Category {
         Category::RigidConnectors,
     ];
 
+    /// All, in the order of reports.
+    pub const ALL: [Category; 14] = [
+        Category::Weight,
+        Category::Buoyancy,
+        Category::Wind,
+        Category::ViscousDrag,
+        Category::Wave,
+        Category::RadiationDrag,
+        Category::WaveDrift,
+        Category::Bottom,
+        Category::Applied,
+        Category::FlexConnectors,
+        Category::RigidConnectors,
+        Category::Inertia,
+        Category::AddedInertia,
+        Category::Coriolis,
+    ];
+
     /// Its name in reports (MOSES).
     pub const fn name(self) -> &'static str {
         match self {
@@ -75,10 +106,16 @@ impl Category {
             Category::Buoyancy => "BUOYANCY",
             Category::Wind => "WIND",
             Category::ViscousDrag => "V_DRAG",
+            Category::Wave => "WAVE",
+            Category::RadiationDrag => "R_DRAG",
             Category::WaveDrift => "W_DRIFT",
             Category::Bottom => "BOTTOM",
             Category::FlexConnectors => "FLEX_CONNECTORS",
             Category::RigidConnectors => "RIGID_CONNECTORS",
+            Category::Applied => "APPLIED",
+            Category::Inertia => "INERTIA",
+            Category::AddedInertia => "A_INERTIA",
+            Category::Coriolis => "CORIOLIS",
         }
     }
 }
@@ -156,18 +193,6 @@ pub fn turning(wrench: &Six, arm: Vector3<f64>) -> Matrix6<f64> {
 /// The matrix that makes the cross product `a x b` of a vector b.
 pub fn cross(a: Vector3<f64>) -> Matrix3<f64> {
     a.cross_matrix()
-}
-
-/// One kind of load on one body.
-pub trait BodyLoad: Debug + Send + Sync {
-    /// The category reports count it in.
-    fn category(&self) -> Category;
-
-    /// The load on the body in a pose.
-    ///
-    /// # Errors
-    /// A pose for which it has no value.
-    fn load(&self, pose: &Pose) -> Result<Load, ClassError>;
 }
 
 /// A body with all that acts on it besides its connectors.
