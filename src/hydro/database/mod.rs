@@ -2,6 +2,14 @@
 //!
 //! The data and its conventions are [`Database`] of the model; [`at`] interpolates it.
 
-mod at;
+pub mod at;
+pub mod checks;
+mod matrices;
+pub mod nemoh;
+mod nemoh_case;
+mod rows;
+pub mod wamit;
+mod wamit_qtf;
 
 pub use crate::model::{Amplitudes, Database, DriftTable, Qtf};
+pub use rows::{DatabaseError, SourceFile};
