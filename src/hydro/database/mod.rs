@@ -3,6 +3,7 @@
 //! The data and its conventions are [`Database`] of the model; [`at`] interpolates it.
 
 pub mod at;
+pub mod capytaine;
 pub mod checks;
 mod matrices;
 pub mod nemoh;
