@@ -48,6 +48,7 @@ mod rigging;
 mod select;
 mod status;
 mod surface;
+mod tdom;
 mod units;
 mod vary;
 mod weight;
@@ -163,6 +164,7 @@ pub static COMMANDS: &[&Command] = &[
     &names::RENAME,
     &alter::ALTER,
     &equilibrium::EQUI,
+    &tdom::TDOM,
     &select::SELECT,
     &select::SELECTOR,
     &environment::ENV,

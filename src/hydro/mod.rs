@@ -19,6 +19,7 @@ mod linear;
 pub mod pieces;
 pub mod plate;
 mod righting;
+pub mod sea;
 pub mod spectrum;
 pub mod steady;
 pub mod stream;
@@ -32,6 +33,8 @@ pub use righting::{Balanced, balanced};
 
 use crate::model::{Body, ClassError, Mass, Model, Pose, Six};
 use nalgebra::{Matrix3, Matrix6, Vector3};
+use sea::Sea;
+use std::sync::Arc;
 
 /// Categories of force that reports tell apart.
 ///
@@ -214,6 +217,19 @@ impl Floating {
     /// # Errors
     /// Loads that contradict themselves, or need what is not defined.
     pub fn of(model: &Model, body: &Body) -> Result<Self, ClassError> {
+        Floating::within(model, body, None)
+    }
+
+    /// That of a body under way in the environment in force and its sea: what waves do to it is among its loads.
+    ///
+    /// # Errors
+    /// As [`Floating::of`].
+    pub fn under_way(model: &Model, body: &Body, sea: Option<&Arc<Sea>>) -> Result<Self, ClassError> {
+        Floating::within(model, body, Some(sea))
+    }
+
+    /// At rest without a sea; `Some` is under way, with the sea there is.
+    fn within(model: &Model, body: &Body, _under_way: Option<Option<&Arc<Sea>>>) -> Result<Self, ClassError> {
         let gravity = model.defaults.gravity;
         let mass = Mass::of(model.parts_of(body), gravity);
         let mut loads: Vec<Box<dyn BodyLoad>> = Vec::new();
@@ -238,9 +254,21 @@ impl Floating {
 
     /// The added mass in a pose, global axes.
     pub fn added(&self, pose: &Pose) -> Matrix6<f64> {
-        let mut turn = Matrix6::zeros();
-        turn.fixed_view_mut::<3, 3>(0, 0).copy_from(&pose.axes);
-        turn.fixed_view_mut::<3, 3>(3, 3).copy_from(&pose.axes);
-        turn * self.added_mass * turn.transpose()
+        in_pose(&self.added_mass, pose)
     }
+
+    /// The linear damping in a pose, global axes.
+    pub fn damped(&self, pose: &Pose) -> Matrix6<f64> {
+        in_pose(&self.damping, pose)
+    }
+}
+
+/// A matrix of the body's axes in global axes.
+fn in_pose(matrix: &Matrix6<f64>, pose: &Pose) -> Matrix6<f64> {
+    let mut turned = Matrix6::zeros();
+    for (row, column) in [(0, 0), (0, 3), (3, 0), (3, 3)] {
+        let block = pose.axes * matrix.fixed_view::<3, 3>(row, column) * pose.axes.transpose();
+        turned.fixed_view_mut::<3, 3>(row, column).copy_from(&block);
+    }
+    turned
 }

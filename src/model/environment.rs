@@ -21,6 +21,20 @@ pub struct Sea {
     pub gamma: Option<f64>,
 }
 
+/// What holds between the mean level and the surface, where linear waves say nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Stretching {
+    /// Straight on from the mean level.
+    #[default]
+    Linear,
+    /// The profile of the mean level, moved to the surface (Wheeler 1970).
+    Wheeler,
+    /// Between the two (Rodenbusch and Forristall 1986).
+    Delta,
+    /// The profile itself, also above the surface.
+    Exponential,
+}
+
 /// Steady wind.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wind {

@@ -1,0 +1,134 @@
+//! The sea as wave components, and its kinematics.
+//!
+//! Elevation above the mean level: `zeta = ramp(t) * sum a cos(k (toward . (x, y)) - w t + phase)`; `toward` is the direction
+//! of travel. Velocities and pressures follow by linear theory (Airy) from the components, or by Stokes' theory of a regular wave.
+
+mod airy;
+pub mod dispersion;
+
+use crate::model::{ClassError, Environment, Model, Stretching};
+use nalgebra::Vector3;
+use std::f64::consts::PI;
+
+pub use airy::SeaAt;
+
+/// One wave of the sea.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Component {
+    /// Frequency (rad/s).
+    pub frequency: f64,
+    /// Wave number (1/m).
+    pub number: f64,
+    /// Amplitude (m).
+    pub amplitude: f64,
+    /// Unit vector of travel, global x and y.
+    pub toward: [f64; 2],
+    /// Phase (rad).
+    pub phase: f64,
+}
+
+/// The water at a place and a time, without what it would be at rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Kinematics {
+    /// Velocity (m/s, global).
+    pub velocity: Vector3<f64>,
+    /// Its change with time at the place (m/s2, global).
+    pub acceleration: Vector3<f64>,
+    /// Dynamic pressure (Pa).
+    pub pressure: f64,
+    /// Height of the surface above the mean level (m) at this x and y.
+    pub elevation: f64,
+}
+
+impl Kinematics {
+    /// Nothing moves, under or above a surface of an elevation (m).
+    pub fn still(elevation: f64) -> Self {
+        Kinematics { velocity: Vector3::zeros(), acceleration: Vector3::zeros(), pressure: 0.0, elevation }
+    }
+}
+
+/// A sea. Its components do not change: another sea is made anew.
+#[derive(Clone, Debug)]
+pub struct Sea {
+    /// Its waves.
+    pub components: Vec<Component>,
+    /// Water depth with the tide (m); `None`: deep.
+    pub depth: Option<f64>,
+    /// Height of the mean surface (m, global z).
+    pub level: f64,
+    /// Gravity (m/s2).
+    pub gravity: f64,
+    /// Density of the water (kg/m3).
+    pub density: f64,
+    /// Time over which the waves grow from nothing (s); 0: they are there at once.
+    pub ramp: f64,
+    /// What holds above the mean level.
+    pub stretching: Stretching,
+    /// Seed of the phases, where they are random.
+    pub seed: Option<u64>,
+    /// Time at which all components are in phase at x = y = 0 (s), where that makes the phases.
+    pub reinforcement: Option<f64>,
+    lanes: airy::Lanes,
+}
+
+/// The water a sea is on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Water {
+    /// Depth with the tide (m); `None`: deep.
+    pub depth: Option<f64>,
+    /// Height of the mean surface (m, global z).
+    pub level: f64,
+    /// Gravity (m/s2).
+    pub gravity: f64,
+    /// Density (kg/m3).
+    pub density: f64,
+}
+
+impl Sea {
+    /// The sea of an environment; `None` without waves.
+    ///
+    /// # Errors
+    /// A sea that cannot be: no energy, a wave too steep, a spectrum without a formula.
+    pub fn of(_model: &Model, _env: &Environment) -> Result<Option<Self>, ClassError> {
+        Ok(None)
+    }
+
+    /// A sea of Airy waves. Phases are taken as they are.
+    pub fn airy(components: Vec<Component>, water: Water, ramp: f64, stretching: Stretching) -> Self {
+        let lanes = airy::Lanes::of(&components, water.depth);
+        let Water { depth, level, gravity, density } = water;
+        Sea { components, depth, level, gravity, density, ramp, stretching, seed: None, reinforcement: None, lanes }
+    }
+
+    /// The ramp at a time (s), from 0 to 1: `(1 - cos(pi t/T))/2`.
+    pub fn factor(&self, time: f64) -> f64 {
+        self.factor_and_rate(time).0
+    }
+
+    /// The ramp at a time (s), and its change with time (1/s).
+    fn factor_and_rate(&self, time: f64) -> (f64, f64) {
+        if self.ramp <= 0.0 || time >= self.ramp {
+            return (1.0, 0.0);
+        }
+        if time <= 0.0 {
+            return (0.0, 0.0);
+        }
+        let (sin, cos) = (PI * time / self.ramp).sin_cos();
+        (0.5 * (1.0 - cos), 0.5 * PI / self.ramp * sin)
+    }
+
+    /// The sea at one time (s), prepared for many places.
+    pub fn at(&self, time: f64) -> SeaAt<'_> {
+        SeaAt::of(self, time)
+    }
+
+    /// Height of the surface above the mean level (m).
+    pub fn elevation(&self, x: f64, y: f64, time: f64) -> f64 {
+        self.at(time).elevation(x, y)
+    }
+
+    /// The water at a global place (m) and a time (s): nothing above the surface.
+    pub fn kinematics(&self, at: Vector3<f64>, time: f64) -> Kinematics {
+        self.at(time).kinematics(at)
+    }
+}
