@@ -95,6 +95,8 @@ pub enum DriftMethod {
 pub struct AttachedDatabase {
     /// The database.
     pub data: Arc<Database>,
+    /// Where the origin of its source stands in the body (m).
+    pub at: [f64; 3],
     /// Memory of the radiation (s); `None` chooses it by the decay of the kernel.
     pub memory: Option<f64>,
     /// How waves make slow drift.

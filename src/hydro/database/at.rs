@@ -1,5 +1,6 @@
 //! Values between the frequencies and headings of a database.
 
+use crate::hydro::sea::dispersion::wave_number;
 use crate::model::{Amplitudes, ClassError, Database, DriftTable};
 use nalgebra::{Complex, Matrix6, Vector3};
 use std::f64::consts::TAU;
@@ -101,7 +102,8 @@ impl Database {
             return Err(ClassError::new(format!("the database ({}) has no excitation", self.source)));
         }
         let x = amplitudes_at(&self.excitation, (&self.headings, &self.frequencies), heading, frequency)?;
-        Ok(self.at_origin(x, heading, frequency))
+        let shift = self.phase_shift(heading, frequency)?;
+        Ok(moved_force(x, self.reference).map(|v| v * shift))
     }
 
     /// Motions of the body's origin over wave amplitude, where the source gives motions; else as [`Database::excitation_at`].
@@ -114,24 +116,18 @@ impl Database {
         };
         let [x, y, z, rx, ry, rz] = amplitudes_at(motions, (&self.headings, &self.frequencies), heading, frequency)?;
         // the origin stands at -reference from the reference point
-        let (arm, shift) = (-self.reference, self.phase_shift(heading, frequency));
+        let (arm, shift) = (-self.reference, self.phase_shift(heading, frequency)?);
         let moved = [x + ry * arm.z - rz * arm.y, y + rz * arm.x - rx * arm.z, z + rx * arm.y - ry * arm.x, rx, ry, rz];
         Ok(moved.map(|v| v * shift))
     }
 
-    /// A force over wave amplitude about the reference point as one about the body's origin.
-    fn at_origin(&self, x: Amplitudes, heading: f64, frequency: f64) -> Amplitudes {
-        let shift = self.phase_shift(heading, frequency);
-        moved_force(x, self.reference).map(|v| v * shift)
-    }
-
     /// What turns an amplitude over the wave at the reference point into one over the wave at the origin.
-    fn phase_shift(&self, heading: f64, frequency: f64) -> Complex<f64> {
+    fn phase_shift(&self, heading: f64, frequency: f64) -> Result<Complex<f64>, ClassError> {
         let along = self.reference.x * heading.cos() + self.reference.y * heading.sin();
         if along == 0.0 {
-            return Complex::new(1.0, 0.0);
+            return Ok(Complex::new(1.0, 0.0));
         }
-        Complex::from_polar(1.0, wave_number(frequency, self.gravity, self.depth) * along)
+        Ok(Complex::from_polar(1.0, wave_number(frequency, self.depth, self.gravity)? * along))
     }
 }
 
@@ -190,21 +186,4 @@ pub(super) fn moved_force([x, y, z, mx, my, mz]: Amplitudes, arm: Vector3<f64>) 
 /// A matrix about a point as one about the origin that `arm` leads from.
 pub(super) fn moved_matrix(about: &Matrix6<f64>, arm: Vector3<f64>) -> Matrix6<f64> {
     super::super::transferred(about, arm, arm)
-}
-
-/// Wave number (rad/m) of a frequency (rad/s): `w2 = g k tanh(k d)`, by Newton's method from the deep-water value.
-pub fn wave_number(frequency: f64, gravity: f64, depth: Option<f64>) -> f64 {
-    let deep = frequency * frequency / gravity;
-    let Some(depth) = depth.filter(|d| deep * d < 20.0) else { return deep };
-    // Eckart (1952): within 5 % of the root everywhere
-    let mut k = deep / (deep * depth).tanh().sqrt();
-    for _ in 0..20 {
-        let t = (k * depth).tanh();
-        let step = (k * t - deep) / (t + k * depth * (1.0 - t * t));
-        k -= step;
-        if step.abs() <= 1e-15 * k.abs() {
-            break;
-        }
-    }
-    k
 }

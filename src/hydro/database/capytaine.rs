@@ -139,9 +139,9 @@ impl Set<'_> {
     /// A matrix of two dimensions of directions, at places of the others.
     fn matrix(&self, of: &Variable, (rows, columns): (&Chosen, &Chosen), at: usize, along: &str) -> Matrix6<f64> {
         matrix(rows.iter().flat_map(|(r, i)| {
-            columns.iter().map(move |(c, j)| {
-                (6 * i + j, of.at(&[(along, at), ("influenced_dof", *r), ("radiating_dof", *c)]))
-            })
+            columns
+                .iter()
+                .map(move |(c, j)| (6 * i + j, of.at(&[(along, at), ("influenced_dof", *r), ("radiating_dof", *c)])))
         }))
     }
 }
@@ -250,8 +250,7 @@ fn excitation(
     if directions.is_empty() || directions.iter().any(|h| !h.is_finite()) {
         return Err(set.wrong("wave_direction holds what is no heading"));
     }
-    let mut headings: Vec<(usize, f64)> =
-        directions.iter().map(|h| heading(h.to_degrees())).enumerate().collect();
+    let mut headings: Vec<(usize, f64)> = directions.iter().map(|h| heading(h.to_degrees())).enumerate().collect();
     headings.sort_by(|a, b| a.1.total_cmp(&b.1));
     headings.dedup_by(|b, a| super::rows::same_heading(a.1, b.1));
     let table = headings.iter().map(|(h, _)| {

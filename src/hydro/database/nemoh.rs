@@ -7,11 +7,11 @@
 //! "Conventions"). Phases are in rad where none exceeds pi, else in degrees: the documentation says degrees, what the versions known write is rad.
 //! Phases refer to the point XEFF YEFF of `Nemoh.cal`, moments to the point of its rotations.
 
-use super::at::wave_number;
 use super::checks::checked;
 use super::matrices::{PairRow, by_frequency};
 use super::nemoh_case::{Case, Direction};
 use super::rows::{DatabaseError, ModeRow, SourceFile, by_wave, heading, number, same_frequency, separates};
+use crate::hydro::sea::dispersion::wave_number;
 use crate::model::Database;
 use nalgebra::{Complex, Matrix6};
 use std::f64::consts::{PI, TAU};
@@ -96,8 +96,9 @@ pub(super) fn refer_phases(data: &mut Database, dx: f64, dy: f64) {
     for (row, heading) in data.excitation.iter_mut().zip(&data.headings) {
         let along = dx * heading.cos() + dy * heading.sin();
         for (six, w) in row.iter_mut().zip(&data.frequencies) {
-            // the wave there is that at the reference point times exp(i k along)
-            let shift = Complex::from_polar(1.0, wave_number(*w, data.gravity, data.depth) * along);
+            // the wave there is that at the reference point times exp(i k along); a frequency without a wave is refused later
+            let number = wave_number(*w, data.depth, data.gravity).unwrap_or_default();
+            let shift = Complex::from_polar(1.0, number * along);
             six.iter_mut().for_each(|x| *x *= shift);
         }
     }
