@@ -4,6 +4,7 @@
 //! changes nothing; a command that edits in several steps says so with [`Command::edits`], and the session restores the
 //! model when it fails.
 
+mod action;
 mod alter;
 mod apply;
 mod assembly;
@@ -47,6 +48,8 @@ mod piece;
 mod pipe;
 mod report_menu;
 mod rigging;
+mod sea_options;
+mod sea_table;
 mod select;
 mod status;
 mod surface;
@@ -168,6 +171,7 @@ pub static COMMANDS: &[&Command] = &[
     &alter::ALTER,
     &equilibrium::EQUI,
     &tdom::TDOM,
+    &action::ACTION,
     &select::SELECT,
     &select::SELECTOR,
     &environment::ENV,
