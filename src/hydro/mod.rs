@@ -7,6 +7,7 @@ mod body_load;
 mod buoyancy;
 pub mod coefficients;
 pub mod current;
+pub mod database;
 pub mod drag;
 pub mod drift;
 pub mod exposed;
@@ -255,7 +256,11 @@ impl Floating {
         loads.extend(gathered.loads);
         let grown = grown::of(model, body)?;
         loads.extend(grown.loads);
-        let added_mass = gathered.added_mass + grown.mass;
+        let mut added_mass = gathered.added_mass + grown.mass;
+        if let Some(brought) = database::attached::of(model, body, under_way)? {
+            loads.extend(brought.loads);
+            added_mass += brought.added_mass;
+        }
         Ok(Floating { mass, loads, added_mass, damping: gathered.damping })
     }
 

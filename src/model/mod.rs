@@ -8,6 +8,7 @@ mod body;
 mod class;
 mod connector;
 mod curve;
+mod database;
 mod defaults;
 mod element;
 mod environment;
@@ -25,6 +26,7 @@ pub use body::{Body, GROUND, Junction, Mass, Part, Point, Weight};
 pub use class::{Class, ClassError, ClassRecord, ConnectorClass};
 pub use connector::{Anchor, Connector, Tug};
 pub use curve::{Curve, CurveKind};
+pub use database::{Amplitudes, AttachedDatabase, Database, DriftMethod, DriftTable, Qtf};
 pub use defaults::{Coordinates, Defaults, Material};
 pub use element::{Connection, Element, End, Guess, Response, Situation, SpringState, Summary, TimeStep};
 pub use environment::{
