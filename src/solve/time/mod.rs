@@ -4,7 +4,9 @@
 //! `M a = F(t, q, v) - gyroscopic(v)`; connectors and loads are evaluated at the end of each step.
 
 mod action;
+mod corrector;
 mod forces;
+mod happening;
 mod history;
 mod prescribed;
 mod resume;
