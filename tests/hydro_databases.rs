@@ -58,10 +58,7 @@ fn agrees(part: &Database, all: &Database, share: f64) {
         assert!(near(&part.added_mass[index], &all.added_mass_at(*w).unwrap()), "added mass at {w}");
         let (own, other) = (part.damping[index], all.damping_at(*w).unwrap());
         let off = (own - other).amax() - (other - other.transpose()).amax();
-        assert!(
-            off <= share * all.damping.iter().map(|b| b.amax()).fold(0.0, f64::max),
-            "damping at {w}"
-        );
+        assert!(off <= share * all.damping.iter().map(|b| b.amax()).fold(0.0, f64::max), "damping at {w}");
         for (n, heading) in part.headings.iter().enumerate() {
             let other = all.excitation_at(*heading, *w).unwrap();
             for (a, b) in part.excitation[n][index].iter().zip(other) {
@@ -99,7 +96,11 @@ fn limits_that_a_writer_exchanged_are_put_right() {
     assert!((straight.zero.unwrap()[(2, 2)] / all.zero.unwrap()[(2, 2)] - 1.0).abs() < 1e-6);
     assert!((straight.infinite.unwrap()[(2, 2)] / all.infinite.unwrap()[(2, 2)] - 1.0).abs() < 1e-6);
     assert_eq!(straight.remarks, Vec::<String>::new());
-    let odd = file("wamit.1").text.replace("-1.000000e+00", "none").replace("0.000000e+00\t    ", "-1.0 ").replace("none", "0.0");
+    let odd = file("wamit.1")
+        .text
+        .replace("-1.000000e+00", "none")
+        .replace("0.000000e+00\t    ", "-1.0 ")
+        .replace("none", "0.0");
     let data = wamit::read("odd", &[text("odd.1", &odd)], &scale(1.0)).unwrap();
     assert_eq!((data.zero, data.infinite), (straight.zero, straight.infinite));
     assert!(data.remarks.iter().any(|r| r.contains("exchanged")), "{:?}", data.remarks);
