@@ -35,6 +35,7 @@ mod line_types;
 mod lines;
 mod loads;
 mod loads_table;
+mod member;
 mod menus;
 mod message;
 mod names;

@@ -15,6 +15,7 @@ pub mod heading;
 pub mod hull;
 mod junction;
 mod linear;
+pub mod morison;
 pub mod pieces;
 pub mod plate;
 mod righting;
@@ -204,7 +205,7 @@ pub struct Floating {
     pub mass: Mass,
     /// What acts on it.
     pub loads: Vec<Box<dyn BodyLoad>>,
-    /// Added mass about its origin, body axes (kg, kg m, kg m2), of `#AMASS`.
+    /// Added mass about its origin, body axes (kg, kg m, kg m2), of `#AMASS` and of members.
     pub added_mass: Matrix6<f64>,
     /// Linear damping about its origin, body axes (N s/m, N s, N m s), of `#DRAG` and `#DAMP`.
     pub damping: Matrix6<f64>,
@@ -228,7 +229,7 @@ impl Floating {
     }
 
     /// At rest without a sea; `Some` is under way, with the sea there is.
-    fn within(model: &Model, body: &Body, _under_way: Option<Option<&Arc<Sea>>>) -> Result<Self, ClassError> {
+    fn within(model: &Model, body: &Body, under_way: Option<Option<&Arc<Sea>>>) -> Result<Self, ClassError> {
         let gravity = model.defaults.gravity;
         let mass = Mass::of(model.parts_of(body), gravity);
         let mut loads: Vec<Box<dyn BodyLoad>> = Vec::new();
@@ -248,7 +249,10 @@ impl Floating {
         loads.extend(linear::of(body));
         let gathered = gathered::of(model, body)?;
         loads.extend(gathered.loads);
-        Ok(Floating { mass, loads, added_mass: gathered.added_mass, damping: gathered.damping })
+        let (members, of_members) = morison::of(model, body, under_way)?;
+        loads.extend(members);
+        let added_mass = gathered.added_mass + of_members;
+        Ok(Floating { mass, loads, added_mass, damping: gathered.damping })
     }
 
     /// The added mass in a pose, global axes.

@@ -28,7 +28,7 @@ pub use defaults::{Coordinates, Defaults, Material};
 pub use element::{Connection, Element, End, Guess, Response, Situation, SpringState, Summary, TimeStep};
 pub use environment::{Current, Environment, Formula, Sea, Stretching, Surroundings, TimeWindow, Wind};
 pub use geometry::{Place, Position, unit_vector};
-pub use hull::{LinearHydrostatics, Piece, Shape, box_panels};
+pub use hull::{LinearHydrostatics, Member, Piece, Shape, WaveAction, box_panels};
 pub use line::{Condition, Configuration, LineChange, LineLoads, LineModel, Placement};
 pub use load::{Fluid, LoadKind, Multipliers, PartLoad};
 pub use names::Thing;
