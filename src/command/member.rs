@@ -23,7 +23,7 @@ const CAA: [ValueSpec; 1] = value("added mass along the axis of each end, on the
 /// What a TUBE takes besides what every piece takes.
 pub const OPTIONS: [OptionSpec; 4] = [
     factor("-CD", &CD, "drag coefficient", "1; 0 with -CS_CURRENT, and of what displaces no water"),
-    factor("-CDA", &CDA, "coefficient of skin friction", "0.016; 0 where CD is 0 unsaid"),
+    factor("-CDA", &CDA, "coefficient of skin friction", "0.016; 0 where CD is 0"),
     factor("-CA", &CA, "coefficient of added mass", "1; 0 of what displaces no water"),
     factor("-CAA", &CAA, "coefficient of added mass of the ends", "0"),
 ];
@@ -57,7 +57,7 @@ pub fn coefficients(args: &Args, permeability: f64) -> Outcome<Member> {
     let wet = permeability > 0.0;
     let (drag, added) = (if wet && areas.is_none() { 1.0 } else { 0.0 }, if wet { 1.0 } else { 0.0 });
     let cd = given("-CD").unwrap_or(drag);
-    let friction = if drag > 0.0 || args.has("-CD") { 0.016 } else { 0.0 };
+    let friction = if cd > 0.0 { 0.016 } else { 0.0 };
     Ok(Member {
         drag: cd,
         friction: given("-CDA").unwrap_or(friction),

@@ -16,7 +16,7 @@ const GAUSS: [(f64, f64); 4] = [
     (0.930_568_155_797_026_3, 0.173_927_422_568_726_93),
 ];
 
-/// Stations of a segment: four where it is wet all round, four where sections are cut by the surface.
+/// Stations of a part of the axis: four where it is wet all round, four where sections are cut by the surface.
 pub(super) const STATIONS: usize = 8;
 
 /// Least length over which sections of an upright member pass from wet to dry, as a share of the radius: so that there is a
@@ -108,6 +108,15 @@ impl Standing {
         Station { at, long, height }
     }
 
+    /// The parts of a range of the axis between given heights, which fall (m, global).
+    pub fn parts(&self, (from, to): (f64, f64), heights: &[f64]) -> impl Iterator<Item = (f64, f64)> {
+        let (standing, count) = (*self, heights.len());
+        let nth = move |n: usize| heights.get(if standing.axis.z > 0.0 { count.checked_sub(n + 1)? } else { n }).copied();
+        let place = move |z: f64| (z - standing.origin - standing.from.z) / standing.axis.z;
+        let cuts = (0..count).filter_map(move |n| nth(n).map(place)).filter(move |at| *at > from && *at < to);
+        cuts.chain(std::iter::once(to)).scan(from, |start, end| Some((std::mem::replace(start, end), end)))
+    }
+
     /// The stations of the wet part of a range of the axis.
     pub fn stations(&self, (from, to): (f64, f64), level: f64) -> impl Iterator<Item = Station> + use<> {
         let standing = *self;
@@ -143,6 +152,11 @@ impl Rod {
         self.section / (PI * self.diameter * self.diameter / 4.0)
     }
 
+    /// Most stations it has in any pose, in a current with a number of heights where it changes.
+    pub fn most_stations(&self, kinks: usize) -> usize {
+        STATIONS * (self.segments.len() + kinks)
+    }
+
     /// Where each segment begins and ends on the axis.
     pub fn ranges(&self) -> impl Iterator<Item = (f64, f64)> {
         let each = self.length / self.segments.len().max(1) as f64;
@@ -150,11 +164,11 @@ impl Rod {
     }
 
     /// The drag of the current on the body at rest under the mean level, with its exact tangent.
-    pub fn steady(&self, steady: &Steady, pose: &Pose) -> Load {
+    pub fn steady(&self, steady: &Steady, kinks: &[f64], pose: &Pose) -> Load {
         let mut sum = Load::none();
         let standing = self.standing(pose);
         let level = steady.around.tide;
-        for station in self.ranges().flat_map(|range| standing.stations(range, level)) {
+        for station in self.ranges().flat_map(|r| standing.parts(r, kinks)).flat_map(|r| standing.stations(r, level)) {
             let arm = standing.arm(station.at);
             let place = Place { at: self.from + self.axis * station.at, medium: Medium::Water, shared: false };
             let stream = steady.velocity(Medium::Water, pose.origin.z + arm.z);

@@ -18,7 +18,8 @@
 //! the end of the step. That is implicit and stays stable, as no difference is larger than the added mass itself. A member whose wet
 //! length changes so does no work of its own: the formula has `A(t) b` and not `d(A v)/dt`, whose rest is slamming.
 //!
-//! Water is asked for once a step, at four Gauss points of each segment (and four more where its sections are cut), at the place
+//! Water is asked for once a step, at four Gauss points of each segment (and four more where its sections are cut, or the profile
+//! of the current has a point), at the place
 //! expected at the step's end. Drag takes the velocity of every trial, hydrostatics its place, both with their exact change.
 
 mod added;
@@ -46,6 +47,8 @@ const REACH: f64 = 2.0;
 pub struct Members {
     rods: Vec<Rod>,
     steady: Arc<Steady>,
+    /// Heights at which the current begins to change otherwise (m, global), highest first.
+    kinks: Vec<f64>,
     under_way: Option<UnderWay>,
 }
 
@@ -65,7 +68,7 @@ pub fn of(
     }
     let steady = Arc::new(Steady::streams(model, &model.environment)?);
     let sea = under_way.flatten();
-    let reach = longest(&steady, sea);
+    let reach = longest(sea);
     let mut rods = Vec::new();
     for part in model.parts_of(body) {
         rods.extend(part.pieces.iter().filter_map(|piece| rod(model, &steady, (part, piece), reach)));
@@ -74,24 +77,33 @@ pub fn of(
     let added = added::at_rest(&rods, &pose, steady.around.tide);
     let acts = !rods.is_empty() && (under_way.is_some() || !steady.still(Medium::Water));
     let load = acts.then(|| {
-        let under_way = under_way.map(|sea| UnderWay::new(sea.cloned(), &rods, &steady, &added));
-        Box::new(Members { rods, steady, under_way }) as Box<dyn BodyLoad>
+        let kinks = kinks(&steady);
+        let under_way = under_way.map(|sea| UnderWay::new(sea.cloned(), (&rods, &kinks), &steady, &added));
+        Box::new(Members { rods, steady, kinks, under_way }) as Box<dyn BodyLoad>
     });
     Ok((load, added))
 }
 
-/// The longest segment (m) that the sea and the points of the current's curves allow.
-fn longest(steady: &Steady, sea: Option<&Arc<Sea>>) -> f64 {
+/// The longest segment (m) that the sea allows.
+fn longest(sea: Option<&Arc<Sea>>) -> f64 {
     let energy = |c: &super::sea::Component| c.amplitude * c.amplitude;
     let waves = sea.map_or(0.0, |sea| {
         let all: f64 = sea.components.iter().map(energy).sum();
         let numbers: f64 = sea.components.iter().map(|c| energy(c) * c.number).sum();
         if all > 0.0 { numbers / all } else { 0.0 }
     });
+    REACH / waves
+}
+
+/// Heights at which the current begins to change otherwise (m, global), highest first: there the integrals are divided.
+fn kinks(steady: &Steady) -> Vec<f64> {
     let mut depths = steady.current.kinks();
+    depths.retain(|d| *d >= 0.0 && d.is_finite());
+    depths.push(0.0);
     depths.sort_by(f64::total_cmp);
-    let apart = depths.windows(2).filter_map(|d| d.last().zip(d.first()).map(|(b, a)| b - a));
-    apart.filter(|d| *d > 0.0).fold(REACH / waves, f64::min)
+    depths.dedup();
+    // one that is the same at every depth has none
+    if depths.len() == 1 { Vec::new() } else { depths.iter().map(|d| steady.around.tide - d).collect() }
 }
 
 /// A tube as a member; `None` of what has no force of Morison's formula.
@@ -143,7 +155,7 @@ impl BodyLoad for Members {
     fn load(&self, pose: &Pose) -> Result<Load, ClassError> {
         let mut sum = Load::none();
         if !self.steady.still(Medium::Water) {
-            for load in self.rods.iter().map(|rod| rod.steady(&self.steady, pose)) {
+            for load in self.rods.iter().map(|rod| rod.steady(&self.steady, &self.kinks, pose)) {
                 sum.wrench += load.wrench;
                 sum.stiffness += load.stiffness;
             }

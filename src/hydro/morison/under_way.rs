@@ -1,6 +1,6 @@
 //! Members in waves, and moving.
 
-use super::member::{Rod, STATIONS, Standing, Station, drag};
+use super::member::{Rod, Standing, Station, drag};
 use super::added;
 use crate::hydro::hull::{Solid, Wet};
 use crate::hydro::sea::{Kinematics, Sea, SeaAt};
@@ -15,12 +15,10 @@ const WAVE: usize = 0;
 const ADDED: usize = 6;
 const BEFORE: usize = 42;
 const HEAD: usize = 48;
-/// Of each segment: height of the surface over the mean level, whether that may change what is wet of it, its axis, and its stations.
-const AXIS: usize = 2;
-const FIRST: usize = 5;
-/// Of each station: the drag factors times its length, its arm, and the velocity of the water.
-const EACH: usize = 8;
-const SEGMENT: usize = FIRST + STATIONS * EACH;
+/// Of each segment: height of the surface over the mean level, and whether that may change what is wet of it.
+const SEGMENT: usize = 2;
+/// Of each station: the drag factors times its length, the axis, its arm, and the velocity of the water.
+const EACH: usize = 11;
 /// How far a trial may be from where it was expected, for a segment to be taken as clear of the surface (m).
 const MARGIN: f64 = 1.0;
 
@@ -33,8 +31,11 @@ pub(super) struct UnderWay {
     /// Height of the mean surface (m, global), and weight of the water (N/m3).
     level: f64,
     weight: f64,
-    /// Segments of all members.
-    count: usize,
+    /// Heights at which the current begins to change otherwise (m, global), highest first.
+    kinks: Vec<f64>,
+    /// Segments of all members, and most stations of all.
+    segments: usize,
+    stations: usize,
     /// More than the waves rise or fall (m).
     reach: f64,
 }
@@ -90,28 +91,32 @@ impl Water<'_> {
 }
 
 impl UnderWay {
-    pub(super) fn new(sea: Option<Arc<Sea>>, rods: &[Rod], steady: &Steady, held: &Matrix6<f64>) -> Self {
+    pub(super) fn new(sea: Option<Arc<Sea>>, (rods, kinks): (&[Rod], &[f64]), steady: &Steady, held: &Matrix6<f64>) -> Self {
         let reach = sea.as_ref().map_or(0.0, |s| 2.0 * s.components.iter().map(|c| c.amplitude.abs()).sum::<f64>());
         let (level, weight) = (steady.around.tide, steady.around.water_weight());
-        UnderWay { sea, held: *held, level, weight, count: rods.iter().map(|r| r.segments.len()).sum(), reach }
+        let segments = rods.iter().map(|r| r.segments.len()).sum();
+        let stations = rods.iter().map(|r| r.most_stations(kinks.len())).sum();
+        UnderWay { sea, held: *held, level, weight, kinks: kinks.to_vec(), segments, stations, reach }
     }
 
     pub(super) fn states(&self) -> usize {
-        HEAD + SEGMENT * self.count
+        HEAD + SEGMENT * self.segments + EACH * self.stations
     }
 
     /// Finds the water at the stations, and the force of the waves.
     pub(super) fn begin(&self, rods: &[Rod], steady: &Steady, ahead: &Underway, state: &mut [f64]) {
         let sea = self.sea.as_ref().map(|sea| sea.at(ahead.time));
         let water = Water { sea, steady, origin: ahead.pose.origin, level: self.level };
-        let Some((head, mut rest)) = state.split_at_mut_checked(HEAD) else { return };
-        rest.fill(0.0);
+        let Some((head, rest)) = state.split_at_mut_checked(HEAD) else { return };
+        let Some((mut segments, mut stations)) = rest.split_at_mut_checked(SEGMENT * self.segments) else { return };
+        stations.fill(0.0);
         let (mut wave, mut mass) = (Six::zeros(), Matrix6::zeros());
         for rod in rods {
-            let Some((own, others)) = rest.split_at_mut_checked(SEGMENT * rod.segments.len()) else { return };
-            let standing = rod.standing(ahead.pose);
-            wave += self.member(&water, rod, &standing, own, &mut mass) * rod.factor;
-            rest = others;
+            let sizes = (SEGMENT * rod.segments.len(), EACH * rod.most_stations(self.kinks.len()));
+            let Some((own, others)) = segments.split_at_mut_checked(sizes.0) else { return };
+            let Some((slots, more)) = stations.split_at_mut_checked(sizes.1) else { return };
+            wave += self.member(&water, (rod, &rod.standing(ahead.pose)), (own, slots), &mut mass) * rod.factor;
+            (segments, stations) = (others, more);
         }
         mass -= in_pose(&self.held, ahead.pose);
         for (kept, value) in head.iter_mut().skip(WAVE).zip(wave.iter()) {
@@ -126,7 +131,14 @@ impl UnderWay {
     }
 
     /// One member: the force of the waves on it but for hydrostatics, and its added mass; its segments are kept.
-    fn member(&self, water: &Water, rod: &Rod, standing: &Standing, kept: &mut [f64], mass: &mut Matrix6<f64>) -> Six {
+    fn member(
+        &self,
+        water: &Water,
+        (rod, standing): (&Rod, &Standing),
+        (kept, slots): (&mut [f64], &mut [f64]),
+        mass: &mut Matrix6<f64>,
+    ) -> Six {
+        let mut slots = slots.chunks_exact_mut(EACH);
         let axis = &standing.axis;
         let mut sum = Six::zeros();
         // the heights of the surface at both ends, and where it cuts the axis
@@ -145,11 +157,9 @@ impl UnderWay {
                 heights[0] = over;
             }
             heights[1] = over;
-            self.segment(water, (rod, standing), (range, level), own, (&mut sum, mass));
-            if let [kept_level, kept_near, x, y, z, ..] = own {
-                (*kept_level, *kept_near) = (over, if near && over != 0.0 && rod.section != 0.0 { 1.0 } else { 0.0 });
-                (*x, *y, *z) = (axis.x, axis.y, axis.z);
-            }
+            self.segment(water, (rod, standing), (range, level), &mut slots, (&mut sum, mass));
+            let counts = near && over != 0.0 && rod.section != 0.0;
+            own.copy_from_slice(&[over, if counts { 1.0 } else { 0.0 }]);
         }
         // along the axis: what the ends bear, and the surface between them
         let mut shares = [0.0; 2];
@@ -173,17 +183,17 @@ impl UnderWay {
     }
 
     /// One segment under a surface: inertia across the axis, and its stations.
-    fn segment(
+    fn segment<'a>(
         &self,
         water: &Water,
         (rod, standing): (&Rod, &Standing),
         (range, level): ((f64, f64), f64),
-        own: &mut [f64],
+        slots: &mut impl Iterator<Item = &'a mut [f64]>,
         (sum, mass): (&mut Six, &mut Matrix6<f64>),
     ) {
         let axis = &standing.axis;
-        let slots = own.get_mut(FIRST..).unwrap_or_default().chunks_exact_mut(EACH);
-        for (station, slot) in standing.stations(range, level).zip(slots) {
+        let parts = standing.parts(range, &self.kinks);
+        for (station, slot) in parts.flat_map(|part| standing.stations(part, level)).zip(slots) {
             let arm = standing.arm(station.at);
             let found = water.at(standing, &station);
             let beside = found.acceleration - axis * axis.dot(&found.acceleration);
@@ -194,8 +204,11 @@ impl UnderWay {
             }
             let flow = found.velocity + water.current(water.origin.z + arm.z);
             let wet = station.share() * station.long;
-            let values = [rod.across * wet, rod.along * wet, arm.x, arm.y, arm.z, flow.x, flow.y, flow.z];
-            slot.copy_from_slice(&values);
+            let (slot_drag, places) = slot.split_at_mut(2);
+            slot_drag.copy_from_slice(&[rod.across * wet, rod.along * wet]);
+            for (kept, value) in places.iter_mut().zip(axis.iter().chain(&arm).chain(&flow)) {
+                *kept = *value;
+            }
         }
     }
 
@@ -203,20 +216,18 @@ impl UnderWay {
     pub(super) fn drag(&self, at: &Underway, state: &[f64]) -> (Six, Matrix6<f64>) {
         let mut sum = (Six::zeros(), Matrix6::zeros());
         let (own, turn) = (three(at.velocity.as_slice()), three(at.velocity.as_slice().get(3..).unwrap_or_default()));
-        for segment in state.get(HEAD..).unwrap_or_default().chunks_exact(SEGMENT) {
-            let axis = three(segment.get(AXIS..).unwrap_or_default());
-            for station in segment.get(FIRST..).unwrap_or_default().chunks_exact(EACH) {
-                let [across, along, x, y, z, u, v, w] = station else { continue };
-                if *across == 0.0 && *along == 0.0 {
-                    continue;
-                }
-                let arm = Vector3::new(*x, *y, *z);
-                let flow = Vector3::new(*u, *v, *w) - own - turn.cross(&arm);
-                let (force, by_flow) = drag((*across, *along), &axis, &flow);
-                sum.0 += at_arm(&arm, &force);
-                // the velocity of the place is own - arm x turn, so that this has the form of a mass there
-                added::add(&mut sum.1, &arm, &by_flow);
+        let stations = state.get(HEAD + SEGMENT * self.segments..).unwrap_or_default();
+        for station in stations.chunks_exact(EACH) {
+            let [across, along, a, b, c, x, y, z, u, v, w] = station else { continue };
+            if *across == 0.0 && *along == 0.0 {
+                continue;
             }
+            let (axis, arm) = (Vector3::new(*a, *b, *c), Vector3::new(*x, *y, *z));
+            let flow = Vector3::new(*u, *v, *w) - own - turn.cross(&arm);
+            let (force, by_flow) = drag((*across, *along), &axis, &flow);
+            sum.0 += at_arm(&arm, &force);
+            // the velocity of the place is own - arm x turn, so that this has the form of a mass there
+            added::add(&mut sum.1, &arm, &by_flow);
         }
         sum
     }
