@@ -11,6 +11,7 @@ use crate::report::files::Place;
 use crate::report::output::Output;
 use crate::report::page::PageHead;
 use crate::solve::Options;
+use crate::solve::time::{Action, Run};
 use indexmap::IndexMap;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -198,6 +199,10 @@ pub struct Job {
     pub long_name_said: bool,
     /// What `&EQUI` was last given.
     pub equilibrium: Options,
+    /// What happens during runs.
+    pub actions: Vec<Action>,
+    /// The last run.
+    pub run: Option<Run>,
     /// Set by Ctrl-C: a command that takes long gives up, and the run ends behind it.
     pub interrupt: Arc<AtomicBool>,
 }
@@ -223,6 +228,8 @@ impl Job {
             ask: None,
             long_name_said: false,
             equilibrium: Options::default(),
+            actions: Vec::new(),
+            run: None,
             interrupt: Arc::default(),
         }
     }

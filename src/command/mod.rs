@@ -4,6 +4,7 @@
 //! changes nothing; a command that edits in several steps says so with [`Command::edits`], and the session restores the
 //! model when it fails.
 
+mod action;
 mod alter;
 mod apply;
 mod assembly;
@@ -49,6 +50,7 @@ mod rigging;
 mod select;
 mod status;
 mod surface;
+mod tdom;
 mod units;
 mod vary;
 mod weight;
@@ -164,6 +166,8 @@ pub static COMMANDS: &[&Command] = &[
     &names::RENAME,
     &alter::ALTER,
     &equilibrium::EQUI,
+    &tdom::TDOM,
+    &action::ACTION,
     &select::SELECT,
     &select::SELECTOR,
     &environment::ENV,

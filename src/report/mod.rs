@@ -10,4 +10,5 @@ pub mod output;
 pub mod page;
 pub mod picture;
 pub mod plot;
+pub mod run_log;
 pub mod statistic;

@@ -1,17 +1,20 @@
 //! Engines over the model: the system of bodies and connectors, its equilibrium, its stiffness and natural periods, its
 //! restoring forces. They know nothing of commands, files or printing.
 
+mod change;
 mod equilibrium;
 pub mod excursion;
 pub mod excursion_tables;
 mod modes;
 pub mod offset;
 mod outline;
+pub mod run_tables;
 pub mod scene;
 mod search;
 mod settle;
 mod system;
 pub mod tables;
+pub mod time;
 mod unknowns;
 pub mod watch;
 

@@ -1,12 +1,15 @@
 //! The system of bodies and connectors: who hangs on whom, what acts on each body, how that changes with their places.
 
 use super::modes::held;
+use super::time::Prescribed;
+use crate::hydro::sea::Sea;
 use crate::hydro::{Category, Floating, Load, carried, transferred, turning};
 use crate::model::{
     Body, ClassError, Connector, Element, End, Guess, LaidPipe, Mass, Model, Place, Pose, Response, Situation, Six,
     Surroundings,
 };
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Vector3};
+use std::sync::Arc;
 
 /// Degrees of freedom of a body, in order.
 pub const FREEDOMS: [&str; 6] = ["X", "Y", "Z", "RX", "RY", "RZ"];
@@ -44,6 +47,27 @@ pub struct Node {
     pub junction: bool,
     /// Which of its freedoms move.
     pub free: [bool; 6],
+    /// Whether it has linear damping.
+    pub damped: bool,
+    /// Whether it has added mass.
+    pub added: bool,
+    /// Its motion in time, where that is given.
+    pub prescribed: Option<Box<dyn Prescribed>>,
+}
+
+impl Node {
+    fn of(model: &Model, key: &str, body: &Body, floating: Floating) -> Self {
+        let idle = model.idle_hook(body);
+        let free = FREEDOMS.map(|f| !idle && !body.ignored.iter().any(|i| i == f));
+        let (damped, added) = (floating.damping != Matrix6::zeros(), floating.added_mass != Matrix6::zeros());
+        let (name, key, junction) = (body.name.clone(), key.to_string(), body.junction.is_some());
+        Node { name, key, floating, junction, free, damped, added, prescribed: None }
+    }
+
+    /// Whether a freedom moves as forces make it.
+    pub fn moves(&self, freedom: usize) -> bool {
+        self.prescribed.is_none() && self.free.get(freedom).copied().unwrap_or(false)
+    }
 }
 
 /// What an end of a connector is fixed to.
@@ -125,13 +149,24 @@ impl System {
     pub fn of(model: &Model, left_out: &[String]) -> Result<Self, SolveError> {
         let node = |(key, body): (&String, &Body)| {
             let floating = Floating::of(model, body).map_err(SolveError::of(&body.name))?;
-            let idle = model.idle_hook(body);
-            let free = FREEDOMS.map(|f| !idle && !body.ignored.iter().any(|i| i == f));
-            Ok(Node { name: body.name.clone(), key: key.clone(), floating, junction: body.junction.is_some(), free })
+            Ok(Node::of(model, key, body, floating))
         };
         let nodes = model.bodies.iter().map(node).collect::<Result<Vec<_>, SolveError>>()?;
+        System::with(model, nodes, left_out)
+    }
+
+    /// The system of a model under way: bodies with what a sea does to them.
+    ///
+    /// # Errors
+    /// As [`System::of`].
+    pub fn under_way(model: &Model, sea: Option<&Arc<Sea>>) -> Result<Self, SolveError> {
+        let nodes = moving_nodes(model, sea)?;
+        System::with(model, nodes, &[])
+    }
+
+    fn with(model: &Model, nodes: Vec<Node>, left_out: &[String]) -> Result<Self, SolveError> {
         let mut states = Vec::new();
-        let mut links = Vec::new();
+        let mut links: Vec<Link> = Vec::new();
         for connector in model.connectors.values() {
             if !connector.active
                 || model.holds_pipe(&connector.name)
@@ -139,19 +174,12 @@ impl System {
             {
                 continue;
             }
-            let element = model.element(connector).map_err(SolveError::of(&connector.name))?;
-            let from = states.len();
-            states.resize(from + element.states(), 0.0);
-            if let Some(own) = states.get_mut(from..) {
-                element.start(own);
-            }
-            let ends = attachments(model, connector).to_vec();
-            links.push(Link { name: connector.name.clone(), element, ends, states: from..states.len() });
+            links.push(link(model, connector, &mut states)?);
         }
         for assembly in model.assemblies.values() {
             let made = model.pipe(assembly).map_err(SolveError::of(&assembly.name))?;
             let Some(LaidPipe { supports, element }) = made else { continue };
-            let ends = supports.iter().map(|c| attachments(model, c)[0]).collect();
+            let ends = supports.iter().map(|c| connected(model, c)[0]).collect();
             links.push(Link { name: assembly.name.clone(), element, ends, states: states.len()..states.len() });
         }
         let (surroundings, gravity) = (model.surroundings(), model.defaults.gravity);
@@ -325,8 +353,29 @@ pub(super) fn without_rounding(place: Place) -> Place {
     Place { shift: place.shift.map(kept(1e-10)), turn: place.turn.map(kept(1e-13)) }
 }
 
+/// The bodies of a model under way.
+pub(super) fn moving_nodes(model: &Model, sea: Option<&Arc<Sea>>) -> Result<Vec<Node>, SolveError> {
+    let node = |(key, body): (&String, &Body)| {
+        let floating = Floating::under_way(model, body, sea).map_err(SolveError::of(&body.name))?;
+        Ok(Node::of(model, key, body, floating))
+    };
+    model.bodies.iter().map(node).collect()
+}
+
+/// A connector of a model; its states go behind the others.
+pub(super) fn link(model: &Model, connector: &Connector, states: &mut Vec<f64>) -> Result<Link, SolveError> {
+    let element = model.element(connector).map_err(SolveError::of(&connector.name))?;
+    let from = states.len();
+    states.resize(from + element.states(), 0.0);
+    if let Some(own) = states.get_mut(from..) {
+        element.start(own);
+    }
+    let ends = connected(model, connector).to_vec();
+    Ok(Link { name: connector.name.clone(), element, ends, states: from..states.len() })
+}
+
 /// What the ends of a connector are fixed to.
-fn attachments(model: &Model, connector: &Connector) -> [Attachment; 2] {
+pub(super) fn connected(model: &Model, connector: &Connector) -> [Attachment; 2] {
     let poses = model.end_poses(connector);
     let on_body = |i: usize| {
         let point = connector.points.get(i).and_then(|name| model.points.get(&Model::key(name)))?;
@@ -357,7 +406,7 @@ pub(super) fn arm(end: &Attachment, poses: &[Pose]) -> Vector3<f64> {
     }
 }
 
-fn mass_block(mass: &Mass, pose: &Pose) -> Matrix6<f64> {
+pub(super) fn mass_block(mass: &Mass, pose: &Pose) -> Matrix6<f64> {
     let mut block = Matrix6::zeros();
     let arm = (pose.axes * mass.centre).cross_matrix() * mass.mass;
     block.fixed_view_mut::<3, 3>(0, 0).copy_from(&(Matrix3::identity() * mass.mass));

@@ -1,0 +1,307 @@
+//! TDOM: the time domain.
+//!
+//! Source: reference/solve.md, "TDOM".
+
+use super::equilibrium::told;
+use super::{Call, Command, Effect, Job};
+use crate::language::args::Args;
+use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::select::Owner;
+use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use crate::language::units::Dim;
+use crate::model::{Model, Place, Six};
+use crate::report::page;
+use crate::report::run_log::{self, RunLog};
+use crate::solve::time::{Convergence, Ending, Method, Run, Scheme, Settings, Snapshot, Watcher};
+use crate::solve::{SolveError, run_tables, settle};
+use crate::table::Table;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// TDOM.
+pub static TDOM: Command = Command { spec: &SPEC, edits: true, run };
+
+/// The file of a run, in the job's folder.
+const FILE: &str = "TDOM.run";
+
+const YES_NO: &[&str] = &["YES", "NO"];
+
+const fn yes_no(help: &'static str) -> ValueSpec {
+    ValueSpec::new("YES/NO", Kind::Choice(YES_NO), help)
+}
+
+static SPEC: CommandSpec = CommandSpec {
+    menus: &["MAIN"],
+    options: &[
+        OptionSpec::new("-NO_CAPSIZE", &[yes_no("YES goes on")], "goes on beyond a roll or pitch of 90 degrees")
+            .default("NO: the run ends there"),
+        OptionSpec::new("-EQUI", &[], "begins at the equilibrium with the mean forces, as &EQUI finds it"),
+        OptionSpec::new(
+            "-NEWMARK",
+            &[
+                yes_no("NO is the predictor and corrector"),
+                ValueSpec::new("BETA", Kind::Number(Dim::None), "beta")
+                    .or("that of generalised-alpha")
+                    .within(1e-3, 1.0),
+                ValueSpec::new("ALPHA", Kind::Number(Dim::None), "gamma of the books").or("0.5").within(0.0, 2.0),
+            ],
+            "the scheme",
+        )
+        .default("generalised-alpha with spectral radius 0.9"),
+        OptionSpec::new(
+            "-CONVERGE",
+            &[
+                ValueSpec::new("NUMB", Kind::Integer, "most iterations of a step").within(1.0, 1000.0),
+                ValueSpec::new("TOL", Kind::Number(Dim::None), "largest acceleration left, as a share of gravity")
+                    .or("1E-7")
+                    .within(1e-14, 0.1),
+            ],
+            "when a step is solved",
+        )
+        .default("20 1E-7"),
+        OptionSpec::new(
+            "-RESTART",
+            &[ValueSpec::new("T", Kind::Number(Dim::Time), "time").or("where the run ended").not_negative()],
+            "goes on with the run that was kept, from the last snapshot at or before a time",
+        ),
+        OptionSpec::new(
+            "-RESET",
+            &[ValueSpec::new("T", Kind::Number(Dim::Time), "time").not_negative()],
+            "begins with the bodies as they were in the run at a time, at rest or moving, and time zero",
+        ),
+        OptionSpec::new(
+            "-STORE",
+            &[ValueSpec::new("INCR", Kind::Integer, "steps").within(1.0, 1e9)],
+            "steps from one stored instant to the next",
+        )
+        .default("1"),
+        OptionSpec::new(
+            "-RHO",
+            &[ValueSpec::new("R", Kind::Number(Dim::None), "spectral radius at infinite frequency").within(0.0, 1.0)],
+            "generalised-alpha with another spectral radius: 1 damps nothing, 0 damps most",
+        )
+        .owner(Owner::Ours)
+        .default("0.9"),
+        OptionSpec::new(
+            "-ADAPTIVE",
+            &[ValueSpec::new("TOL", Kind::Number(Dim::Length), "largest error of place in a step").positive()],
+            "halves steps where they err more; rotations count times 10 m",
+        )
+        .owner(Owner::Ours)
+        .default("steps are as given"),
+        OptionSpec::new("-CHECK", &[], "runs again with half the step and prints the difference of every result")
+            .owner(Owner::Ours),
+        OptionSpec::new("-STATISTICS", &[], "keeps statistics of every result and no instants: flat memory, no file")
+            .owner(Owner::Ours),
+    ],
+    detail: "Runs bodies and connectors from where they stand, at rest, over TOBSERV with the step of &ENV -TIME, in the wind, current \
+             and waves of the environment, which -RAMP lets grow. Each step balances forces, inertia included, by Newton's iteration; a \
+             step that finds no balance is cut in halves, which is counted. -NEWMARK YES 0.25 0.5 is the trapezoidal rule; -NEWMARK NO \
+             needs small steps. The bodies of the model stay where they stand. Results go to PRCPOST, and as the run goes to the file \
+             TDOM.run in the job's folder, from which -RESTART goes on, also after the program was killed, with the digits of an \
+             unbroken run. Ctrl-C ends a run and keeps what it has. &ACTION says what happens during a run: lines that break, winches.",
+    example: "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n*G 0 0 0\n&DESCRIBE BODY CART -IGNORE Y Z RX RY RZ\n*C 0 0 0\n#WEIGHT *C 100 1 1 1\n\
+              ~S GSPR BOTH X 40 1000 -LEN 0\nCONNECTOR K ~S *C *G\nEND\n&INSTATE -LOCATE CART 0.5 0 0\n&ENV -TIME 10 0.1\nTDOM",
+    ..CommandSpec::new("TDOM", "runs the system in time")
+};
+
+/// How a record wants its run to go.
+fn settings(job: &Job, args: &Args) -> Outcome<Settings> {
+    let Some(window) = job.model.environment.time else {
+        return Err(Diagnostic::error("the environment has no -TIME: how long, and with which step", args.span)
+            .help("&ENV NAME -TIME TOBSERV DELTA_TIME"));
+    };
+    let said = |name: &str| args.option(name).and_then(|g| g.word(0)).is_some_and(|w| w == "YES");
+    let method = match args.option("-NEWMARK") {
+        Some(given) if given.word(0) == Some("NO") => Method::Corrector,
+        Some(given) => match given.number(1) {
+            Some(beta) => {
+                let scheme = Scheme::newmark(beta, given.number(2).unwrap_or(0.5));
+                if scheme.gamma < 0.5 {
+                    return Err(Diagnostic::error("an ALPHA below 0.5 makes every motion grow", given.span));
+                }
+                Method::Implicit(scheme)
+            }
+            None => Method::default(),
+        },
+        None => args.option_number("-RHO").map_or(Method::default(), |r| Method::Implicit(Scheme::generalised(r))),
+    };
+    let mut convergence = Convergence::default();
+    if let Some(given) = args.option("-CONVERGE") {
+        let most = given.values.first().and_then(|v| v.integer()).and_then(|n| usize::try_from(n).ok());
+        convergence.most = most.unwrap_or(convergence.most);
+        convergence.tolerance = given.number(1).unwrap_or(convergence.tolerance);
+    }
+    let store = args.option("-STORE").and_then(|g| g.values.first()).and_then(|v| v.integer());
+    Ok(Settings {
+        observed: window.observed,
+        dt: window.step,
+        method,
+        convergence,
+        store: store.and_then(|n| usize::try_from(n).ok()).unwrap_or(1),
+        capsize: said("-NO_CAPSIZE"),
+        adaptive: args.option_number("-ADAPTIVE"),
+        keep: !args.has("-STATISTICS"),
+    })
+}
+
+/// A run that begins, and the file it is kept in.
+fn begun(job: &mut Job, args: &Args, settings: Settings) -> Outcome<(Run, Option<RunLog>)> {
+    let wrong = |e, job: &Job| told(e, &job.model, args.span, job.units);
+    let mut model = job.model.clone();
+    let mut velocities = Vec::new();
+    if let Some(given) = args.option("-RESET") {
+        let time = given.number(0).unwrap_or(0.0);
+        velocities = reset(job, &mut model, time)
+            .ok_or_else(|| Diagnostic::error("there is no run of these bodies to begin from", given.span))?;
+    }
+    if args.has("-EQUI") {
+        let options = job.equilibrium.clone();
+        settle(&mut model, &options).map_err(|e| wrong(e, job))?;
+    }
+    let mut made = Run::new(&model, settings, job.actions.clone()).map_err(|e| wrong(e, job))?;
+    if !velocities.is_empty() {
+        made.begin_with(&velocities).map_err(|e| wrong(e, job))?;
+    }
+    if !made.settings.keep {
+        return Ok((made, None));
+    }
+    let folder = &mut job.output.folder;
+    let path = folder.folder.join(FILE);
+    let refused = |text: String| Diagnostic::error(text, args.span);
+    let Some(again) = args.option("-RESTART") else {
+        let file = folder.create(FILE).map_err(|e| refused(e.to_string()))?;
+        let log = RunLog::begin(file, path, made.fingerprint(), made.history.layout.width);
+        return Ok((made, Some(log.map_err(|e| refused(e.to_string()))?)));
+    };
+    let refused = |text: String| Diagnostic::error(text, again.span).help("TDOM without -RESTART begins a run");
+    let mut file = folder.reopen(FILE).map_err(|e| refused(e.to_string()))?;
+    let kept = run_log::read(&mut file, again.number(0).unwrap_or(f64::INFINITY));
+    let kept = kept.map_err(|e| refused(format!("{}: {e}", path.display())))?;
+    if kept.fingerprint != made.fingerprint() || kept.width != made.history.layout.width {
+        let text = format!("the run kept in {} is of another model, environment, step or scheme", path.display());
+        return Err(refused(text).help("all must be as they were, but for the time observed"));
+    }
+    made.take_up(&kept.snapshot).map_err(|e| wrong(e, job))?;
+    let log = RunLog::go_on(file, path, &kept).map_err(|e| refused(e.to_string()))?;
+    made.history.values = kept.rows;
+    job.remark(format!("goes on from {} s", kept.snapshot.time), again.span);
+    Ok((made, Some(log)))
+}
+
+/// Puts the bodies of a model where those of the last run were at the stored instant nearest to a time; their velocities.
+fn reset(job: &Job, model: &mut Model, time: f64) -> Option<Vec<(usize, Six)>> {
+    let history = &job.run.as_ref()?.history;
+    let far = |row: &[f64]| (row.first().copied().unwrap_or(f64::INFINITY) - time).abs();
+    let row = history.rows().min_by(|a, b| far(a).total_cmp(&far(b)))?;
+    let mut velocities = Vec::new();
+    for (body, (_, key)) in history.layout.bodies.iter().enumerate() {
+        let at = history.layout.body(body);
+        let numbers = row.get(at..at + 12)?;
+        let found = model.bodies.get_mut(key)?;
+        found.place = Place { shift: numbers.get(..3)?.try_into().ok()?, turn: numbers.get(3..6)?.try_into().ok()? };
+        velocities.push((model.bodies.get_index_of(key)?, Six::from_column_slice(numbers.get(6..)?)));
+    }
+    Some(velocities)
+}
+
+fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let (args, span) = (&call.args, call.args.span);
+    let settings = settings(job, args)?;
+    if job.model.bodies.is_empty() {
+        return Err(Diagnostic::error("there is no body to move", span).help("&DESCRIBE BODY describes one"));
+    }
+    let (mut made, log) = begun(job, args, settings)?;
+    let mut going = Going::new(job, &made, log);
+    let ended = made.go(&mut going);
+    drop(going);
+    let mut tables = vec![run_tables::told(&made)];
+    tables.extend(run_tables::extremes(&made.history));
+    let checked = match &ended {
+        Ok(_) if args.has("-CHECK") => Some(check(job, &made)),
+        _ => None,
+    };
+    if let Some(Ok(list)) = &checked {
+        tables.extend(list.iter().cloned());
+    }
+    let head = job.page_head();
+    let text = tables.iter().map(|t| page::render(t, job.units, &head)).collect::<Vec<_>>().join("\n");
+    job.run = Some(made);
+    job.say(&text);
+    let wrong = |e| told(e, &job.model, span, job.units);
+    let ended = ended.map_err(wrong)?;
+    checked.transpose().map_err(wrong)?;
+    match ended {
+        Ending::Done => {}
+        Ending::Interrupted => job.warn("the run was interrupted: what it has is kept, and -RESTART goes on", span),
+        Ending::Capsized(name) => {
+            job.warn(
+                format!("body {name} rolled or pitched beyond 90 degrees: the run ended there (-NO_CAPSIZE YES)"),
+                span,
+            );
+        }
+        Ending::Stopped(name) => job.remark(format!("action {name} ended the run"), span),
+    }
+    Ok(Effect::Done)
+}
+
+/// The same run again with half the step, and what differs.
+fn check(job: &Job, first: &Run) -> Result<Vec<Table>, SolveError> {
+    let mut again = first.begun_again(|s| Settings { dt: s.dt / 2.0, store: s.store.saturating_mul(2), ..s })?;
+    let mut going = Going::new(job, &again, None);
+    again.go(&mut going)?;
+    Ok(run_tables::compared(&first.history, &again.history))
+}
+
+/// Who is told how a run goes: its file, the terminal, Ctrl-C.
+struct Going {
+    log: Option<RunLog>,
+    interrupt: Arc<AtomicBool>,
+    bar: ProgressBar,
+    asked: u64,
+}
+
+/// Steps between two looks at the terminal.
+const LOOK: u64 = 256;
+
+impl Going {
+    fn new(job: &Job, run: &Run, log: Option<RunLog>) -> Self {
+        // hidden when nobody looks: it goes to the terminal behind stderr alone
+        let bar = ProgressBar::new(run.settings.observed.ceil() as u64);
+        if let Ok(style) = ProgressStyle::with_template("{bar:30} {msg}, {elapsed} gone, {eta} to go") {
+            bar.set_style(style);
+        }
+        Going { log, interrupt: Arc::clone(&job.interrupt), bar, asked: 0 }
+    }
+}
+
+impl Drop for Going {
+    fn drop(&mut self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+impl Watcher for Going {
+    fn row(&mut self, row: &[f64]) -> Result<(), String> {
+        self.log.as_mut().map_or(Ok(()), |log| log.row(row))
+    }
+
+    fn snapshot(&mut self, snapshot: &Snapshot) -> Result<(), String> {
+        self.log.as_mut().map_or(Ok(()), |log| log.snapshot(snapshot))
+    }
+
+    fn finish(&mut self) -> Result<(), String> {
+        self.log.as_mut().map_or(Ok(()), |log| log.finish())
+    }
+
+    fn goes_on(&mut self, time: f64) -> bool {
+        if self.asked.is_multiple_of(LOOK) {
+            let rate = time / self.bar.elapsed().as_secs_f64().max(1e-9);
+            self.bar.set_position(time as u64);
+            self.bar.set_message(format!("{time:.1} s, {rate:.0} times real time"));
+        }
+        self.asked += 1;
+        !self.interrupt.load(Ordering::Relaxed)
+    }
+}

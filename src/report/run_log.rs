@@ -1,0 +1,157 @@
+//! The file of a run: rows and snapshots as they come, so that a run that was killed goes on from its last snapshot.
+//!
+//! Eight bytes of mark, the fingerprint of the run, the width of its rows; then blocks: a byte that says what it is (`R` a row,
+//! `S` a snapshot), the number of bytes, the bytes, and their checksum (FNV-1a, 64 bits). Numbers are little-endian. What stands
+//! behind the last whole block was being written when the program ended, and does not count.
+
+use crate::solve::time::{Snapshot, Watcher};
+use std::fs::File;
+use std::io::{BufWriter, Read, Seek, SeekFrom, Write};
+use std::path::PathBuf;
+
+/// Begins every such file; its last byte is the version.
+const MARK: [u8; 8] = *b"WINDRUN\x01";
+/// Bytes of the head.
+const HEAD: usize = 24;
+
+/// A file of a run being written.
+#[derive(Debug)]
+pub struct RunLog {
+    file: BufWriter<File>,
+    path: PathBuf,
+}
+
+/// What a file of a run holds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Kept {
+    /// The fingerprint of the run.
+    pub fingerprint: u64,
+    /// Numbers of a row.
+    pub width: usize,
+    /// Rows up to the snapshot, one behind the other.
+    pub rows: Vec<f64>,
+    /// The last snapshot at or before the time asked for.
+    pub snapshot: Snapshot,
+    /// Bytes up to behind that snapshot.
+    end: u64,
+}
+
+/// Why a file of a run cannot be gone on with.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum RunLogError {
+    /// The system refused.
+    #[error("{0}")]
+    System(String),
+    /// Not such a file.
+    #[error("it is no file of a run of this program")]
+    Other,
+    /// A file without a whole snapshot up to the time.
+    #[error("it holds no snapshot at or before that time")]
+    NoSnapshot,
+}
+
+fn checksum(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |sum, b| (sum ^ u64::from(*b)).wrapping_mul(0x0100_0000_01b3))
+}
+
+impl RunLog {
+    /// Begins an empty file.
+    ///
+    /// # Errors
+    /// What the system refuses.
+    pub fn begin(file: File, path: PathBuf, fingerprint: u64, width: usize) -> Result<Self, RunLogError> {
+        let mut log = RunLog { file: BufWriter::new(file), path };
+        let mut head = MARK.to_vec();
+        head.extend_from_slice(&fingerprint.to_le_bytes());
+        head.extend_from_slice(&(width as u64).to_le_bytes());
+        log.file.write_all(&head).map_err(|e| RunLogError::System(log.said(&e)))?;
+        Ok(log)
+    }
+
+    /// Goes on in a file behind the snapshot that was read of it.
+    ///
+    /// # Errors
+    /// What the system refuses.
+    pub fn go_on(mut file: File, path: PathBuf, kept: &Kept) -> Result<Self, RunLogError> {
+        let done = file.set_len(kept.end).and_then(|()| file.seek(SeekFrom::End(0)));
+        let log = RunLog { file: BufWriter::new(file), path };
+        done.map_err(|e| RunLogError::System(log.said(&e)))?;
+        Ok(log)
+    }
+
+    fn said(&self, error: &std::io::Error) -> String {
+        format!("{}: {error}", self.path.display())
+    }
+
+    fn block(&mut self, kind: u8, bytes: &[u8]) -> std::io::Result<()> {
+        self.file.write_all(&[kind])?;
+        self.file.write_all(&(bytes.len() as u64).to_le_bytes())?;
+        self.file.write_all(bytes)?;
+        self.file.write_all(&checksum(bytes).to_le_bytes())
+    }
+}
+
+impl Watcher for RunLog {
+    fn row(&mut self, row: &[f64]) -> Result<(), String> {
+        let bytes: Vec<u8> = row.iter().flat_map(|v| v.to_le_bytes()).collect();
+        self.block(b'R', &bytes).map_err(|e| self.said(&e))
+    }
+
+    fn snapshot(&mut self, snapshot: &Snapshot) -> Result<(), String> {
+        let bytes = snapshot.bytes();
+        self.block(b'S', &bytes).and_then(|()| self.file.flush()).map_err(|e| self.said(&e))
+    }
+
+    fn finish(&mut self) -> Result<(), String> {
+        self.file.flush().map_err(|e| self.said(&e))
+    }
+}
+
+/// Reads a file of a run up to the last snapshot at or before a time (s).
+///
+/// # Errors
+/// A file that is none, or holds no such snapshot.
+pub fn read(file: &mut File, time: f64) -> Result<Kept, RunLogError> {
+    let mut bytes = Vec::new();
+    file.seek(SeekFrom::Start(0))
+        .and_then(|_| file.read_to_end(&mut bytes))
+        .map_err(|e| RunLogError::System(e.to_string()))?;
+    let word = |at: usize| {
+        let found = bytes.get(at..).and_then(|b| b.first_chunk::<8>());
+        found.map(|b| u64::from_le_bytes(*b)).ok_or(RunLogError::Other)
+    };
+    if bytes.get(..8) != Some(&MARK) {
+        return Err(RunLogError::Other);
+    }
+    let (fingerprint, width) = (word(8)?, usize::try_from(word(16)?).map_err(|_| RunLogError::Other)?);
+    let (mut at, mut found, mut rows) = (HEAD, None, Vec::new());
+    while let Some((kind, block, next)) = block(&bytes, at) {
+        match kind {
+            b'R' if block.len() == width.saturating_mul(8) => {
+                rows.extend(block.chunks_exact(8).filter_map(|b| b.first_chunk::<8>()).map(|b| f64::from_le_bytes(*b)));
+            }
+            b'S' => {
+                let snapshot = Snapshot::read(block).ok_or(RunLogError::Other)?;
+                if snapshot.time > time * (1.0 + 1e-12) {
+                    break;
+                }
+                found = Some((snapshot, rows.len(), next as u64));
+            }
+            _ => return Err(RunLogError::Other),
+        }
+        at = next;
+    }
+    let (snapshot, length, end) = found.ok_or(RunLogError::NoSnapshot)?;
+    rows.truncate(length);
+    Ok(Kept { fingerprint, width, rows, snapshot, end })
+}
+
+/// A whole block: what it is, its bytes, where the next one begins.
+fn block(bytes: &[u8], at: usize) -> Option<(u8, &[u8], usize)> {
+    let kind = *bytes.get(at)?;
+    let length = usize::try_from(u64::from_le_bytes(*bytes.get(at + 1..)?.first_chunk::<8>()?)).ok()?;
+    let end = (at + 9).checked_add(length)?;
+    let block = bytes.get(at + 9..end)?;
+    let sum = u64::from_le_bytes(*bytes.get(end..)?.first_chunk::<8>()?);
+    (sum == checksum(block)).then_some((kind, block, end + 8))
+}

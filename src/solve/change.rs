@@ -1,0 +1,93 @@
+//! Changes of a system under way: connectors that come and go or change their length, loads of another environment.
+
+use super::system::{Attachment, SolveError, System, connected, link, moving_nodes};
+use super::time::Memory;
+use crate::hydro::sea::Sea;
+use crate::model::{ClassError, Connector, Model};
+use std::sync::Arc;
+
+/// A connector of a model.
+fn connector<'a>(model: &'a Model, name: &str) -> Result<&'a Connector, SolveError> {
+    model.connectors.get(&Model::key(name)).ok_or_else(|| {
+        let error = ClassError::new("there is no such connector");
+        SolveError { who: Some(name.to_string()), error }
+    })
+}
+
+/// The body at each end.
+fn bodies(ends: &[Attachment]) -> Vec<Option<usize>> {
+    ends.iter().map(|e| if let Attachment::Body(body, _) = e { Some(*body) } else { None }).collect()
+}
+
+impl System {
+    /// Its connectors, as written, with the body at each end; none in the ground.
+    pub fn link_ends(&self) -> Vec<(String, Vec<Option<usize>>)> {
+        self.links.iter().map(|l| (l.name.clone(), bodies(&l.ends))).collect()
+    }
+
+    /// The bodies at the ends of a connector of a model, which need not act.
+    ///
+    /// # Errors
+    /// There is no such connector.
+    pub fn ends_of(model: &Model, name: &str) -> Result<(String, Vec<Option<usize>>), SolveError> {
+        let found = connector(model, name)?;
+        Ok((found.name.clone(), bodies(&connected(model, found))))
+    }
+
+    /// A connector acts no more.
+    pub fn leave_out(&mut self, name: &str) {
+        let Some(at) = self.links.iter().position(|l| l.name.eq_ignore_ascii_case(name)) else { return };
+        let gone = self.links.remove(at).states;
+        self.states.drain(gone.clone());
+        for link in self.links.iter_mut().filter(|l| l.states.start >= gone.end) {
+            link.states = link.states.start - gone.len()..link.states.end - gone.len();
+        }
+    }
+
+    /// A connector of the model acts from now on, made between its ends where they stand in the model.
+    ///
+    /// # Errors
+    /// A connector that makes no element.
+    pub fn take_in(&mut self, model: &Model, name: &str) -> Result<(), SolveError> {
+        if self.links.iter().any(|l| l.name.eq_ignore_ascii_case(name)) {
+            return Ok(());
+        }
+        let made = link(model, connector(model, name)?, &mut self.states)?;
+        self.links.push(made);
+        Ok(())
+    }
+
+    /// A connector of which the model has another length now. What it remembers stays.
+    ///
+    /// # Errors
+    /// A connector that makes no element.
+    pub fn make_anew(&mut self, model: &Model, name: &str) -> Result<(), SolveError> {
+        let Some(at) = self.links.iter_mut().find(|l| l.name.eq_ignore_ascii_case(name)) else { return Ok(()) };
+        at.element = model.element(connector(model, name)?).map_err(SolveError::of(name))?;
+        Ok(())
+    }
+
+    /// Loads of the environment now in force in the model; a load that is of the same kind and size as the one in its place
+    /// remembers what that did.
+    ///
+    /// # Errors
+    /// An environment that cannot be computed, or one with other water.
+    pub fn load_anew(&mut self, model: &Model, sea: Option<&Arc<Sea>>, memory: &Memory) -> Result<Memory, SolveError> {
+        if model.surroundings() != self.surroundings {
+            let error = ClassError::new("depth, tide and density cannot change during a run")
+                .help("wind, waves and current can: give both environments the same water");
+            return Err(SolveError::new(error));
+        }
+        let mut nodes = moving_nodes(model, sea)?;
+        for (new, old) in nodes.iter_mut().zip(&mut self.nodes) {
+            new.prescribed = old.prescribed.take();
+            new.free = old.free;
+        }
+        let before = std::mem::replace(&mut self.nodes, nodes);
+        let mut made = Memory::of(self);
+        for (body, old) in before.iter().enumerate() {
+            made.recall(body, self, (memory, old));
+        }
+        Ok(made)
+    }
+}

@@ -1,0 +1,72 @@
+//! What happens during a run: at a time, or when a condition is first met at the end of a step.
+
+use crate::model::{Body, ClassError, Model, Position};
+
+/// What a condition watches.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Watched {
+    /// The tension of a connector: the size of the force at its first end (N).
+    Tension(String),
+    /// A freedom of a body's origin (m; roll, pitch and yaw in rad).
+    Freedom(String, usize),
+    /// The height of a point of a body above the mean water level (m), by its name.
+    Height(String),
+}
+
+/// When something happens.
+#[derive(Clone, Debug, PartialEq)]
+pub enum When {
+    /// At the first step that ends at this time (s) or after it; the step is made to end there.
+    At(f64),
+    /// When what is watched is first above the value at the end of a step.
+    Above(Watched, f64),
+    /// When it is first below.
+    Below(Watched, f64),
+}
+
+/// What happens.
+#[derive(Clone, Debug, PartialEq)]
+pub enum What {
+    /// Connectors stop to act: they break, or are released.
+    Release(Vec<String>),
+    /// Connectors begin to act.
+    Activate(Vec<String>),
+    /// The length of a connector's first segment changes at a rate (m/s, positive pays out) until it has a length (m), where one is
+    /// given.
+    Winch(Vec<String>, f64, Option<f64>),
+    /// Another environment: its wind, waves and current.
+    Environment(String),
+    /// The run ends.
+    Stop,
+}
+
+/// Something that happens during a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Action {
+    /// Its name as written.
+    pub name: String,
+    /// When.
+    pub when: When,
+    /// What.
+    pub what: What,
+}
+
+impl Action {
+    /// The connectors it is about.
+    pub fn connectors(&self) -> &[String] {
+        match &self.what {
+            What::Release(names) | What::Activate(names) | What::Winch(names, ..) => names,
+            What::Environment(_) | What::Stop => &[],
+        }
+    }
+}
+
+/// Where a point stands in its body, and the body's number.
+pub(super) fn point_in_body(model: &Model, name: &str) -> Result<(usize, Position), ClassError> {
+    let missing = || ClassError::new(format!("there is no point {name} on a body"));
+    let point = model.points.get(&Model::key(name)).ok_or_else(missing)?;
+    let part = model.parts.get(&Model::key(&point.part)).ok_or_else(missing)?;
+    let body: &Body = model.body_of(point).ok_or_else(missing)?;
+    let index = model.bodies.get_index_of(&Model::key(&body.name)).ok_or_else(missing)?;
+    Ok((index, part.place.apply(point.at)))
+}

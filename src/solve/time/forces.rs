@@ -1,0 +1,264 @@
+//! What acts on bodies under way, and how it changes with their places and velocities.
+
+use crate::hydro::{BodyLoad, Category, MovingLoad, Underway, carried, transferred, turning};
+use crate::model::{End, Guess, Pose, Response, Situation, Six, TimeStep};
+use crate::solve::system::{Attachment, Node, SolveError, System, pose_of};
+use nalgebra::{DMatrix, DVector, Vector3};
+use std::ops::Range;
+
+/// Number of categories.
+pub const CATEGORIES: usize = Category::ALL.len();
+
+/// A body's motion at an instant.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Motion {
+    /// Where it is.
+    pub pose: Pose,
+    /// Velocity of its origin (m/s) and its rotation (rad/s), global axes.
+    pub velocity: Six,
+    /// Their derivatives (m/s2, rad/s2).
+    pub acceleration: Six,
+    /// The scheme's auxiliary acceleration (m/s2, rad/s2).
+    pub auxiliary: Six,
+}
+
+/// What bodies and connectors remember: the states of loads, one vector, each load with its range.
+#[derive(Clone, Debug, Default)]
+pub struct Memory {
+    /// Values of all loads.
+    pub loads: Vec<f64>,
+    /// Where those of each load of each body stand.
+    pub(super) ranges: Vec<Vec<Range<usize>>>,
+}
+
+impl Memory {
+    /// That of a system before anything has happened.
+    pub fn of(system: &System) -> Self {
+        let mut memory = Memory::default();
+        for node in &system.nodes {
+            let mut ranges = Vec::new();
+            for load in &node.floating.loads {
+                let from = memory.loads.len();
+                memory.loads.resize(from + load.states(), 0.0);
+                load.start(memory.loads.get_mut(from..).unwrap_or_default());
+                ranges.push(from..memory.loads.len());
+            }
+            memory.ranges.push(ranges);
+        }
+        memory
+    }
+
+    fn each<'a>(&'a self, system: &'a System, body: usize) -> impl Iterator<Item = (&'a dyn BodyLoad, Range<usize>)> {
+        let loads = system.nodes.get(body).map_or(&[][..], |n| &n.floating.loads);
+        let ranges = self.ranges.get(body).map_or(&[][..], |r| r);
+        loads.iter().zip(ranges).map(|(load, range)| (load.as_ref(), range.clone()))
+    }
+
+    /// Gives the loads of a body what those of an earlier system, in their order, remembered.
+    pub(in crate::solve) fn recall(&mut self, body: usize, system: &System, (memory, old): (&Memory, &Node)) {
+        let (Some(node), Some(ranges)) = (system.nodes.get(body), self.ranges.get(body)) else { return };
+        let Some(before) = memory.ranges.get(body) else { return };
+        let mut earlier: Vec<_> = old.floating.loads.iter().zip(before).collect();
+        for (load, range) in node.floating.loads.iter().zip(ranges).filter(|(_, r)| !r.is_empty()) {
+            let same = |(l, r): &(&Box<dyn BodyLoad>, &Range<usize>)| {
+                l.category() == load.category() && r.len() == range.len()
+            };
+            let Some(found) = earlier.iter().position(same) else { continue };
+            let (_, from) = earlier.remove(found);
+            if let (Some(to), Some(from)) = (self.loads.get_mut(range.clone()), memory.loads.get(from.clone())) {
+                to.copy_from_slice(from);
+            }
+        }
+    }
+
+    /// Prepares a step of every load.
+    pub(super) fn begin(
+        &mut self,
+        system: &System,
+        ahead: &[Motion],
+        (time, dt): (f64, f64),
+    ) -> Result<(), SolveError> {
+        for ((node, ranges), motion) in system.nodes.iter().zip(&self.ranges).zip(ahead) {
+            let at = Underway { time, dt, pose: &motion.pose, velocity: &motion.velocity };
+            for (load, range) in node.floating.loads.iter().zip(ranges) {
+                let state = self.loads.get_mut(range.clone()).unwrap_or_default();
+                load.begin(&at, state).map_err(SolveError::of(&node.name))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Tells every load that a step is accepted.
+    pub(super) fn commit(&mut self, system: &System, motions: &[Motion], (time, dt): (f64, f64)) {
+        for ((node, ranges), motion) in system.nodes.iter().zip(&self.ranges).zip(motions) {
+            let at = Underway { time, dt, pose: &motion.pose, velocity: &motion.velocity };
+            for (load, range) in node.floating.loads.iter().zip(ranges).filter(|(_, r)| !r.is_empty()) {
+                load.commit(&at, self.loads.get_mut(range.clone()).unwrap_or_default());
+            }
+        }
+    }
+}
+
+/// Forces at an instant, six a body about its origin, global axes.
+#[derive(Debug, Default)]
+pub struct Forces {
+    /// All that acts but inertia (N, N m).
+    pub sum: DVector<f64>,
+    /// -d(sum)/d(motion of the bodies).
+    pub stiffness: DMatrix<f64>,
+    /// -d(sum)/d(velocity of the bodies).
+    pub damping: DMatrix<f64>,
+    /// Largest force of a connector on each body (N).
+    pub pull: Vec<f64>,
+    /// By body and category, those of inertia left out.
+    pub categories: Vec<[Six; CATEGORIES]>,
+    /// Wrench on every end of every connector, in their order, about the end's point.
+    pub wrenches: Vec<Six>,
+    /// States of the connectors at the end of the step.
+    pub trial: Vec<f64>,
+    /// What solvers of the connectors remember.
+    pub(super) guesses: Vec<Guess>,
+    response: Response,
+    poses: Vec<Pose>,
+    ends: Vec<End>,
+    arms: Vec<Vector3<f64>>,
+}
+
+/// The index of a category in [`Forces::categories`].
+pub fn place_of(category: Category) -> usize {
+    Category::ALL.iter().position(|c| *c == category).unwrap_or(0)
+}
+
+impl Forces {
+    fn clear(&mut self, system: &System) {
+        let size = 6 * system.nodes.len();
+        if self.stiffness.nrows() != size {
+            self.sum = DVector::zeros(size);
+            self.stiffness = DMatrix::zeros(size, size);
+            self.damping = DMatrix::zeros(size, size);
+        }
+        self.sum.fill(0.0);
+        self.stiffness.fill(0.0);
+        self.damping.fill(0.0);
+        self.pull.clear();
+        self.pull.resize(system.nodes.len(), 0.0);
+        self.categories.clear();
+        self.categories.resize(system.nodes.len(), [Six::zeros(); CATEGORIES]);
+        self.wrenches.clear();
+        self.guesses.resize_with(system.links.len(), || None);
+        self.trial.clear();
+        self.trial.extend_from_slice(&system.states);
+    }
+
+    /// Evaluates everything with the bodies in these motions at the end of a step; `dt` zero: at the start of a run.
+    ///
+    /// # Errors
+    /// The connector or body that has no answer there.
+    pub fn evaluate(
+        &mut self,
+        system: &System,
+        memory: &Memory,
+        motions: &[Motion],
+        (time, dt): (f64, f64),
+    ) -> Result<(), SolveError> {
+        self.clear(system);
+        for (body, (node, motion)) in system.nodes.iter().zip(motions).enumerate() {
+            let at = Underway { time, dt, pose: &motion.pose, velocity: &motion.velocity };
+            for (load, range) in memory.each(system, body) {
+                let state = memory.loads.get(range).unwrap_or_default();
+                let MovingLoad { load: made, damping } = load.moving(&at, state).map_err(SolveError::of(&node.name))?;
+                self.add(body, place_of(load.category()), &made.wrench);
+                let mut block = self.stiffness.fixed_view_mut::<6, 6>(6 * body, 6 * body);
+                block += made.stiffness;
+                let mut block = self.damping.fixed_view_mut::<6, 6>(6 * body, 6 * body);
+                block += damping;
+            }
+            if node.damped {
+                let linear = node.floating.damped(&motion.pose);
+                self.add(body, place_of(Category::RadiationDrag), &(-(linear * motion.velocity)));
+                let mut block = self.damping.fixed_view_mut::<6, 6>(6 * body, 6 * body);
+                block += linear;
+            }
+        }
+        for (body, wrench) in system.applied.iter().filter(|(body, _)| *body < system.nodes.len()) {
+            self.add(*body, place_of(Category::Applied), wrench);
+        }
+        self.connect(system, motions, (time, dt))
+    }
+
+    fn add(&mut self, body: usize, category: usize, wrench: &Six) {
+        let mut at = self.sum.fixed_rows_mut::<6>(6 * body);
+        at += wrench;
+        if let Some(told) = self.categories.get_mut(body).and_then(|c| c.get_mut(category)) {
+            *told += wrench;
+        }
+    }
+
+    /// Adds what connectors exert.
+    fn connect(&mut self, system: &System, motions: &[Motion], (time, dt): (f64, f64)) -> Result<(), SolveError> {
+        self.poses.clear();
+        self.poses.extend(motions.iter().map(|m| m.pose));
+        let step = (dt > 0.0).then_some(TimeStep { time, dt });
+        let (flexible, rigid) = (place_of(Category::FlexConnectors), place_of(Category::RigidConnectors));
+        for (index, link) in system.links.iter().enumerate() {
+            self.ends.clear();
+            self.arms.clear();
+            for end in &link.ends {
+                let pose = pose_of(end, &self.poses);
+                let (mut velocity, mut arm) = (Six::zeros(), Vector3::zeros());
+                if let Attachment::Body(body, _) = end
+                    && let Some(motion) = motions.get(*body)
+                {
+                    arm = pose.origin - motion.pose.origin;
+                    let turn = Vector3::new(motion.velocity[3], motion.velocity[4], motion.velocity[5]);
+                    let by_turn = turn.cross(&arm);
+                    velocity = motion.velocity;
+                    velocity[0] += by_turn.x;
+                    velocity[1] += by_turn.y;
+                    velocity[2] += by_turn.z;
+                }
+                self.ends.push(End { pose, velocity });
+                self.arms.push(arm);
+            }
+            let committed = system.states.get(link.states.clone()).unwrap_or_default();
+            let trial = self.trial.get_mut(link.states.clone()).unwrap_or_default();
+            let Some(guess) = self.guesses.get_mut(index) else { continue };
+            let at = Situation { ends: &self.ends, step, surroundings: &system.surroundings };
+            link.element
+                .evaluate(&at, committed, trial, guess, &mut self.response)
+                .map_err(SolveError::of(&link.name))?;
+            self.wrenches.extend_from_slice(&self.response.wrench);
+            let category = if link.element.rigid() { rigid } else { flexible };
+            let count = link.ends.len();
+            for (i, (end, own)) in link.ends.iter().zip(&self.arms).enumerate() {
+                let Attachment::Body(body, _) = end else { continue };
+                let Some(wrench) = self.response.wrench.get(i) else { continue };
+                let about = carried(wrench, *own);
+                let mut at = self.sum.fixed_rows_mut::<6>(6 * body);
+                at += about;
+                if let Some(told) = self.categories.get_mut(*body).and_then(|c| c.get_mut(category)) {
+                    *told += about;
+                }
+                if let Some(pull) = self.pull.get_mut(*body) {
+                    *pull = pull.max(wrench.fixed_rows::<3>(0).norm());
+                }
+                for (j, (other, far)) in link.ends.iter().zip(&self.arms).enumerate() {
+                    let Attachment::Body(column, _) = other else { continue };
+                    if let Some(block) = self.response.stiffness.get(count * i + j) {
+                        let mut moved = transferred(block, *own, *far);
+                        if i == j {
+                            moved += turning(wrench, *own);
+                        }
+                        let mut at = self.stiffness.fixed_view_mut::<6, 6>(6 * body, 6 * column);
+                        at += moved;
+                    }
+                    if let Some(block) = self.response.damping.get(count * i + j) {
+                        let mut at = self.damping.fixed_view_mut::<6, 6>(6 * body, 6 * column);
+                        at += transferred(block, *own, *far);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+}

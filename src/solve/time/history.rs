@@ -1,0 +1,191 @@
+//! What a run keeps: a row of numbers for every stored instant, in the order of a layout that does not change during the run.
+//!
+//! A row holds the motions of the bodies and the wrenches of the connectors. What else is told of an instant (line on the bottom,
+//! pull on the anchor, share of the break) follows from these when it is asked for.
+
+use super::forces::{CATEGORIES, Forces, Motion, place_of};
+use crate::hydro::Category;
+use crate::model::{Place, Six};
+use crate::solve::system::{Attachment, System};
+
+/// Values of a body in a row: place (m), roll, pitch, yaw (rad), velocity (m/s, rad/s), acceleration (m/s2, rad/s2), global.
+pub const OF_BODY: usize = 18;
+
+/// A connector in the rows.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinkColumns {
+    /// Its name as written.
+    pub name: String,
+    /// The body at each end; none in the ground.
+    pub ends: Vec<Option<usize>>,
+    /// Where the wrenches on its ends on bodies begin, six each, in the order of the ends.
+    pub wrench: usize,
+    /// Where it says whether it acts, 1 or 0, and the length of its first segment (m; not a number without one).
+    pub active: usize,
+}
+
+/// Which number of a row is what.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Layout {
+    /// Bodies as written, each with its key in the model.
+    pub bodies: Vec<(String, String)>,
+    /// Connectors.
+    pub links: Vec<LinkColumns>,
+    /// Categories of force that are kept.
+    pub categories: Vec<Category>,
+    /// Numbers of a row.
+    pub width: usize,
+    forces: usize,
+}
+
+impl Layout {
+    /// That of a system; `links` are the connectors that act at some time, each with its ends' bodies.
+    pub fn new(system: &System, links: Vec<(String, Vec<Option<usize>>)>) -> Self {
+        let bodies: Vec<_> = system.nodes.iter().map(|n| (n.name.clone(), n.key.clone())).collect();
+        let mut at = 1 + OF_BODY * bodies.len();
+        let mut columns = Vec::new();
+        for (name, ends) in links {
+            let wrench = at + 2;
+            let on_bodies = ends.iter().flatten().count();
+            columns.push(LinkColumns { name, ends, wrench, active: at });
+            at = wrench + 6 * on_bodies;
+        }
+        let mut categories = vec![Category::Inertia, Category::Coriolis];
+        let loads = system.nodes.iter().flat_map(|n| &n.floating.loads).map(|l| l.category());
+        let connectors = [Category::FlexConnectors, Category::RigidConnectors].into_iter();
+        let damped = system.nodes.iter().filter(|n| n.damped).map(|_| Category::RadiationDrag);
+        let added = system.nodes.iter().filter(|n| n.added).map(|_| Category::AddedInertia);
+        let applied = system.applied.iter().map(|_| Category::Applied);
+        categories
+            .extend(loads.chain(connectors.take(2 * usize::from(!columns.is_empty()))).chain(damped).chain(added));
+        categories.extend(applied);
+        let categories: Vec<Category> = Category::ALL.into_iter().filter(|c| categories.contains(c)).collect();
+        let width = at + 6 * categories.len() * bodies.len();
+        Layout { bodies, links: columns, categories, width, forces: at }
+    }
+
+    /// Where the numbers of a body begin.
+    pub fn body(&self, body: usize) -> usize {
+        1 + OF_BODY * body
+    }
+
+    /// Where the force of a category on a body begins: six numbers about its origin, global axes.
+    pub fn category(&self, body: usize, category: Category) -> Option<usize> {
+        let at = self.categories.iter().position(|c| *c == category)?;
+        Some(self.forces + 6 * (body * self.categories.len() + at))
+    }
+
+    /// Where the wrench on an end of a connector begins; none of an end in the ground.
+    pub fn wrench(&self, link: usize, end: usize) -> Option<usize> {
+        let columns = self.links.get(link)?;
+        columns.ends.get(end).copied().flatten()?;
+        Some(columns.wrench + 6 * columns.ends.iter().take(end).flatten().count())
+    }
+}
+
+/// What a row is made of beside motions and forces.
+#[derive(Clone, Debug, Default)]
+pub struct Told {
+    /// Inertia, added inertia and turning of each body, as forces.
+    pub inertia: Vec<[Six; 3]>,
+    /// Length of the first segment of each connector of the layout (m).
+    pub lengths: Vec<Option<f64>>,
+}
+
+/// Rows of a run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct History {
+    /// Which number is what.
+    pub layout: Layout,
+    /// All rows, one behind the other.
+    pub values: Vec<f64>,
+}
+
+impl History {
+    /// Without rows.
+    pub fn new(layout: Layout) -> Self {
+        History { layout, values: Vec::new() }
+    }
+
+    /// The rows, each of the layout's width.
+    pub fn rows(&self) -> impl ExactSizeIterator<Item = &[f64]> + Clone {
+        self.values.chunks_exact(self.layout.width.max(1))
+    }
+
+    /// Number of rows.
+    pub fn len(&self) -> usize {
+        self.rows().len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.values.is_empty()
+    }
+
+    /// One number of every row.
+    pub fn series(&self, at: usize) -> Vec<f64> {
+        self.rows().map(|row| row.get(at).copied().unwrap_or(f64::NAN)).collect()
+    }
+
+    /// The instants (s).
+    pub fn times(&self) -> Vec<f64> {
+        self.series(0)
+    }
+}
+
+impl Layout {
+    /// Writes the row of an instant. `near` are the places of the row before: angles go on from them without a jump.
+    pub fn write(
+        &self,
+        (system, time): (&System, f64),
+        (motions, forces, told): (&[Motion], &Forces, &Told),
+        near: &mut [Place],
+        row: &mut Vec<f64>,
+    ) {
+        row.clear();
+        row.push(time);
+        for (motion, near) in motions.iter().zip(near) {
+            *near = motion.pose.place(near);
+            row.extend_from_slice(&near.shift);
+            row.extend_from_slice(&near.turn);
+            row.extend_from_slice(motion.velocity.as_slice());
+            row.extend_from_slice(motion.acceleration.as_slice());
+        }
+        row.resize(self.width, 0.0);
+        let mut first = 0;
+        for link in &system.links {
+            let found = self.links.iter().position(|l| l.name == link.name);
+            if let (Some(number), Some(columns)) = (found, found.and_then(|n| self.links.get(n))) {
+                let length = told.lengths.get(number).copied().flatten();
+                if let Some([active, long]) = row.get_mut(columns.active..columns.active + 2) {
+                    (*active, *long) = (1.0, length.unwrap_or(f64::NAN));
+                }
+                let mut at = columns.wrench;
+                for (end, wrench) in link.ends.iter().zip(forces.wrenches.iter().skip(first)) {
+                    if let (Attachment::Body(..), Some(place)) = (end, row.get_mut(at..at + 6)) {
+                        place.copy_from_slice(wrench.as_slice());
+                        at += 6;
+                    }
+                }
+            }
+            first += link.ends.len();
+        }
+        for body in 0..self.bodies.len() {
+            for category in &self.categories {
+                let of_inertia = |i: usize| told.inertia.get(body).and_then(|t| t.get(i)).copied();
+                let force = match category {
+                    Category::Inertia => of_inertia(0),
+                    Category::AddedInertia => of_inertia(1),
+                    Category::Coriolis => of_inertia(2),
+                    other => {
+                        forces.categories.get(body).and_then(|c: &[Six; CATEGORIES]| c.get(place_of(*other))).copied()
+                    }
+                };
+                let at = self.category(body, *category).unwrap_or(0);
+                if let (Some(force), Some(place)) = (force, row.get_mut(at..at + 6)) {
+                    place.copy_from_slice(force.as_slice());
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,23 @@
+//! The time domain: bodies on connectors in wind, current and waves, step by step.
+//!
+//! Source: reference/solve.md, "TDOM". The equations are Newton's and Euler's about the origin of each body, in global axes:
+//! `M a = F(t, q, v) - gyroscopic(v)`; connectors and loads are evaluated at the end of each step.
+
+mod action;
+mod forces;
+mod history;
+mod prescribed;
+mod resume;
+mod run;
+mod scheme;
+mod snapshot;
+mod step;
+
+pub use action::{Action, Watched, What, When};
+pub use forces::{Forces, Memory, Motion};
+pub use history::{History, Layout, LinkColumns, OF_BODY};
+pub use prescribed::Prescribed;
+pub use run::{Counts, Ending, Run, SNAPSHOT, Settings, Watcher};
+pub use scheme::{Method, Scheme};
+pub use snapshot::Snapshot;
+pub use step::Convergence;

@@ -1,0 +1,82 @@
+//! How accelerations become velocities and places over a step.
+//!
+//! Implicit schemes are those of Newmark and the generalised-alpha family in the form of Arnold and Bruels (Multibody System
+//! Dynamics 18, 2007, 185-203, equations 3-6), which holds the balance of forces at the end of each step exactly and advances the
+//! motion by an auxiliary acceleration:
+//! `(1 - am) b1 + am b0 = (1 - af) a1 + af a0`, `v1 = v0 + h ((1 - g) b0 + g b1)`, `q1 = q0 + h v0 + h2 ((1/2 - b) b0 + b b1)`.
+//! With am = af = 0 that is Newmark's (b = a). Rotations are advanced by the rotation vector of the step (Bruels, Cardona and
+//! Arnold, Mechanism and Machine Theory 48, 2012, 121-137), which keeps the order.
+
+use crate::model::Six;
+
+/// Weights of an implicit scheme.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scheme {
+    /// Share of the old auxiliary acceleration.
+    pub alpha_m: f64,
+    /// Share of the old acceleration.
+    pub alpha_f: f64,
+    /// Newmark's beta.
+    pub beta: f64,
+    /// Newmark's gamma, which MOSES calls ALPHA.
+    pub gamma: f64,
+}
+
+/// How a run steps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Method {
+    /// An implicit scheme, each step solved by Newton's iteration.
+    Implicit(Scheme),
+    /// Predictor and corrector (`-NEWMARK NO`): Euler's step ahead, corrected by the trapezoidal rule, over and over up to the
+    /// number and tolerance of `-CONVERGE`. Needs small steps.
+    Corrector,
+}
+
+/// Spectral radius at infinite frequency of the default scheme.
+const RHO: f64 = 0.9;
+
+impl Default for Method {
+    fn default() -> Self {
+        Method::Implicit(Scheme::generalised(RHO))
+    }
+}
+
+impl Scheme {
+    /// The generalised-alpha scheme of a spectral radius at infinite frequency, 0 to 1: second order, unconditionally stable for
+    /// linear systems, least damping of low frequencies (Chung and Hulbert, Journal of Applied Mechanics 60, 1993, 371-375, eq. 25).
+    pub fn generalised(rho: f64) -> Self {
+        let (alpha_m, alpha_f) = ((2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0));
+        let gamma = 0.5 - alpha_m + alpha_f;
+        Scheme { alpha_m, alpha_f, beta: 0.25 * (gamma + 0.5) * (gamma + 0.5), gamma }
+    }
+
+    /// Newmark's scheme; 0.25 and 0.5 make the trapezoidal rule.
+    pub fn newmark(beta: f64, gamma: f64) -> Self {
+        Scheme { alpha_m: 0.0, alpha_f: 0.0, beta, gamma }
+    }
+
+    /// Whether a linear system without damping stays bounded with any step (Newmark's condition, 2 b >= g >= 1/2).
+    pub fn unconditionally_stable(&self) -> bool {
+        2.0 * self.beta >= self.gamma - 1e-12 && self.gamma >= 0.5 - 1e-12
+    }
+
+    /// d(auxiliary acceleration)/d(acceleration) at the end of the step.
+    pub(super) fn gain(&self) -> f64 {
+        (1.0 - self.alpha_f) / (1.0 - self.alpha_m)
+    }
+
+    /// The auxiliary acceleration at the end of a step from the accelerations at its ends.
+    pub(super) fn auxiliary(&self, old: &Six, old_auxiliary: &Six, new: &Six) -> Six {
+        (new * (1.0 - self.alpha_f) + old * self.alpha_f - old_auxiliary * self.alpha_m) / (1.0 - self.alpha_m)
+    }
+
+    /// Velocity at the end of a step of `h` (s).
+    pub(super) fn velocity(&self, h: f64, velocity: &Six, old: &Six, new: &Six) -> Six {
+        velocity + (old * (1.0 - self.gamma) + new * self.gamma) * h
+    }
+
+    /// Motion over a step of `h` (s): translation and rotation vector.
+    pub(super) fn motion(&self, h: f64, velocity: &Six, old: &Six, new: &Six) -> Six {
+        (velocity + (old * (0.5 - self.beta) + new * self.beta) * h) * h
+    }
+}

@@ -1,0 +1,450 @@
+//! One step of time: Newton's iteration on the accelerations at its end.
+//!
+//! Unknowns are the accelerations of the freedoms that move. A freedom without inertia (a junction without weight) has none: its
+//! unknown is its motion over the step, and it stands where nothing is left on it, as in statics.
+
+use super::forces::{Forces, Memory, Motion};
+use super::scheme::{Method, Scheme};
+use crate::model::{ClassError, Mass, Pose, Six};
+use crate::solve::system::{FREEDOMS, Node, SolveError, System, mass_block};
+use nalgebra::{DMatrix, DVector, Matrix6, Vector3};
+
+/// When a step is solved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Convergence {
+    /// Most iterations before the step is cut.
+    pub most: usize,
+    /// Largest acceleration left, as a share of gravity (rotations times the radius of gyration); of a freedom without inertia the
+    /// largest force left, as a share of the largest force of a connector on it.
+    pub tolerance: f64,
+}
+
+impl Default for Convergence {
+    fn default() -> Self {
+        Convergence { most: 20, tolerance: 1e-7 }
+    }
+}
+
+/// Everything that moves, at an instant.
+#[derive(Debug, Default)]
+pub struct Instant {
+    /// Time (s).
+    pub time: f64,
+    /// Motions of the bodies.
+    pub motions: Vec<Motion>,
+    /// What loads remember.
+    pub memory: Memory,
+    /// Forces there.
+    pub forces: Forces,
+}
+
+/// How a step went.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Effort {
+    /// Iterations.
+    pub iterations: usize,
+    /// Evaluations of all forces.
+    pub evaluations: usize,
+}
+
+/// A row of the unknowns.
+#[derive(Clone, Copy, Debug)]
+struct Row {
+    at: usize,
+    /// Whether it has inertia.
+    heavy: bool,
+}
+
+/// Solves steps of a system.
+#[derive(Debug, Default)]
+pub struct Stepper {
+    trial: Vec<Motion>,
+    /// Motion of each body over the step: translation and rotation vector.
+    over: Vec<Six>,
+    rows: Vec<Row>,
+    matrix: DMatrix<f64>,
+    right: DVector<f64>,
+    masses: Vec<Matrix6<f64>>,
+}
+
+/// The inertia of a body about its origin in a pose, with added mass, global axes.
+pub fn inertia(node: &Node, pose: &Pose) -> Matrix6<f64> {
+    let own = mass_block(&node.floating.mass, pose);
+    if node.added { own + node.floating.added(pose) } else { own }
+}
+
+/// What turning adds to inertia: `m w x (w x r)` and `w x (I w)` about the origin, as what the forces have to balance.
+pub fn gyroscopic(mass: &Mass, motion: &Motion) -> Six {
+    let v = &motion.velocity;
+    let turn = Vector3::new(v[3], v[4], v[5]);
+    let axes = &motion.pose.axes;
+    let force = turn.cross(&turn.cross(&(axes * mass.centre))) * mass.mass;
+    let moment = turn.cross(&(axes * (mass.inertia * (axes.transpose() * turn))));
+    Six::new(force.x, force.y, force.z, moment.x, moment.y, moment.z)
+}
+
+impl Stepper {
+    /// Finds the rows that move.
+    fn choose(&mut self, system: &System) {
+        self.rows.clear();
+        for (body, node) in system.nodes.iter().enumerate() {
+            let Some(mass) = self.masses.get(body) else { continue };
+            let largest = mass.diagonal().amax();
+            for freedom in 0..6 {
+                if node.moves(freedom) {
+                    let heavy = mass[(freedom, freedom)] > 1e-12 * largest;
+                    self.rows.push(Row { at: 6 * body + freedom, heavy });
+                }
+            }
+        }
+    }
+
+    fn weigh(&mut self, system: &System, motions: &[Motion]) {
+        self.masses.clear();
+        self.masses.extend(system.nodes.iter().zip(motions).map(|(n, m)| inertia(n, &m.pose)));
+    }
+
+    /// The accelerations that balance the forces at an instant, whose forces are evaluated here.
+    ///
+    /// # Errors
+    /// A body or connector without an answer; a freedom without inertia in the mass matrix.
+    pub fn balance(&mut self, system: &System, now: &mut Instant, dt: f64) -> Result<(), SolveError> {
+        now.forces.evaluate(system, &now.memory, &now.motions, (now.time, dt))?;
+        self.weigh(system, &now.motions);
+        self.choose(system);
+        let rows: Vec<usize> = self.rows.iter().filter(|r| r.heavy).map(|r| r.at).collect();
+        let mut matrix = DMatrix::zeros(rows.len(), rows.len());
+        let mut right = DVector::zeros(rows.len());
+        for (i, at) in rows.iter().enumerate() {
+            let (Some(node), Some(motion)) = (system.nodes.get(at / 6), now.motions.get(at / 6)) else { continue };
+            right[i] = now.forces.sum[*at] - gyroscopic(&node.floating.mass, motion)[at % 6];
+            if node.prescribed.is_none() {
+                for (j, column) in rows.iter().enumerate().filter(|(_, c)| *c / 6 == at / 6) {
+                    matrix[(i, j)] = self.masses.get(at / 6).map_or(0.0, |m| m[(at % 6, column % 6)]);
+                }
+            }
+        }
+        let solved = if rows.is_empty() { Some(right.clone()) } else { matrix.lu().solve(&right) };
+        let solved = solved.filter(|s| s.iter().all(|v| v.is_finite())).ok_or_else(|| self.singular(system, &rows))?;
+        for motion in now.motions.iter_mut().zip(&system.nodes).filter(|(_, n)| n.prescribed.is_none()).map(|(m, _)| m)
+        {
+            motion.acceleration = Six::zeros();
+        }
+        for (i, at) in rows.iter().enumerate() {
+            if let Some(motion) = now.motions.get_mut(at / 6) {
+                motion.acceleration[at % 6] = solved[i];
+            }
+        }
+        now.motions.iter_mut().for_each(|m| m.auxiliary = m.acceleration);
+        Ok(())
+    }
+
+    /// The error of a mass matrix that cannot be solved: the freedom with the least inertia.
+    fn singular(&self, system: &System, rows: &[usize]) -> SolveError {
+        let inertia = |at: &usize| self.masses.get(at / 6).map_or(0.0, |m| m[(at % 6, at % 6)]);
+        let turning = rows.iter().filter(|at| *at % 6 >= 3);
+        let least = turning.min_by(|a, b| inertia(a).total_cmp(&inertia(b))).or(rows.first()).copied().unwrap_or(0);
+        let freedom = FREEDOMS.get(least % 6).copied().unwrap_or_default();
+        let name = system.nodes.get(least / 6).map(|n| n.name.clone()).unwrap_or_default();
+        let error = ClassError::new(format!("it has no inertia in {freedom}")).help(format!(
+            "give its #WEIGHT radii of gyration, or leave the freedom out: &DESCRIBE BODY {name} -IGNORE"
+        ));
+        SolveError { who: Some(name), error }
+    }
+
+    /// Takes a step of `dt` from `now` to its end. Nothing has changed when it fails.
+    ///
+    /// # Errors
+    /// A body or connector without an answer; no balance within the most iterations.
+    pub fn step(
+        &mut self,
+        system: &mut System,
+        now: &mut Instant,
+        dt: f64,
+        (method, wanted): (&Method, &Convergence),
+    ) -> Result<Effort, SolveError> {
+        match method {
+            Method::Implicit(scheme) => self.implicit(system, now, dt, (scheme, wanted)),
+            Method::Corrector => self.corrector(system, now, dt, wanted),
+        }
+    }
+
+    /// Trial motions for the present accelerations of the trial.
+    fn place(&mut self, system: &System, start: &[Motion], dt: f64, scheme: &Scheme) {
+        for (((trial, over), old), node) in self.trial.iter_mut().zip(&mut self.over).zip(start).zip(&system.nodes) {
+            if node.prescribed.is_some() {
+                continue;
+            }
+            trial.auxiliary = scheme.auxiliary(&old.acceleration, &old.auxiliary, &trial.acceleration);
+            trial.velocity = scheme.velocity(dt, &old.velocity, &old.auxiliary, &trial.auxiliary);
+            *over = scheme.motion(dt, &old.velocity, &old.auxiliary, &trial.auxiliary);
+        }
+    }
+
+    /// Puts the trial bodies where their motion over the step takes them.
+    fn pose(&mut self, system: &System, start: &[Motion]) {
+        for (((trial, over), old), node) in self.trial.iter_mut().zip(&self.over).zip(start).zip(&system.nodes) {
+            if node.prescribed.is_none() {
+                trial.pose = old.pose.moved(over);
+            }
+        }
+    }
+
+    fn prescribe(&mut self, system: &System, time: f64) -> Result<(), SolveError> {
+        for (trial, node) in self.trial.iter_mut().zip(&system.nodes) {
+            if let Some(prescribed) = &node.prescribed {
+                *trial = prescribed.at(time).map_err(SolveError::of(&node.name))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn implicit(
+        &mut self,
+        system: &mut System,
+        now: &mut Instant,
+        dt: f64,
+        (scheme, wanted): (&Scheme, &Convergence),
+    ) -> Result<Effort, SolveError> {
+        let (time, mut effort) = (now.time + dt, Effort::default());
+        self.trial.clear();
+        self.trial.extend_from_slice(&now.motions);
+        self.over.clear();
+        self.over.resize(now.motions.len(), Six::zeros());
+        self.weigh(system, &now.motions);
+        self.choose(system);
+        self.prescribe(system, time)?;
+        // ahead at constant acceleration; what has no inertia goes on with its velocity
+        self.place(system, &now.motions, dt, scheme);
+        for row in self.rows.iter().filter(|r| !r.heavy) {
+            let (Some(trial), Some(over)) = (self.trial.get_mut(row.at / 6), self.over.get_mut(row.at / 6)) else {
+                continue;
+            };
+            (trial.acceleration[row.at % 6], trial.auxiliary[row.at % 6]) = (0.0, 0.0);
+            over[row.at % 6] = trial.velocity[row.at % 6] * dt;
+        }
+        self.pose(system, &now.motions);
+        now.memory.begin(system, &self.trial, (time, dt))?;
+        let gain = scheme.gain();
+        let (by_place, by_velocity) = (dt * dt * scheme.beta * gain, dt * scheme.gamma * gain);
+        let mut last = f64::INFINITY;
+        loop {
+            now.forces.evaluate(system, &now.memory, &self.trial, (time, dt))?;
+            effort.evaluations += 1;
+            let left = self.residual(system, &now.forces);
+            if !left.is_finite() {
+                return Err(not_finite(system, &now.forces.sum, time));
+            }
+            if left <= wanted.tolerance * system.gravity || (left >= last && left <= wanted.tolerance) {
+                break;
+            }
+            if effort.iterations >= wanted.most {
+                return Err(self.unsolved(system, left, time, dt));
+            }
+            last = left;
+            effort.iterations += 1;
+            self.jacobian(&now.forces, dt, by_place, by_velocity);
+            let moved = self.solve().ok_or_else(|| self.unsolved(system, left, time, dt))?;
+            for (row, by) in self.rows.iter().zip(moved.iter()) {
+                let (Some(trial), Some(over)) = (self.trial.get_mut(row.at / 6), self.over.get_mut(row.at / 6)) else {
+                    continue;
+                };
+                let freedom = row.at % 6;
+                if row.heavy {
+                    trial.acceleration[freedom] += by;
+                    trial.auxiliary[freedom] += by * gain;
+                    trial.velocity[freedom] += by * by_velocity;
+                    over[freedom] += by * by_place;
+                } else {
+                    over[freedom] += by;
+                    trial.velocity[freedom] = over[freedom] / dt;
+                }
+            }
+            self.pose(system, &now.motions);
+            self.weigh_again(system);
+        }
+        self.accept(system, now, (time, dt));
+        Ok(effort)
+    }
+
+    /// Inertia follows the axes of bodies whose inertia is not the same about all of them.
+    fn weigh_again(&mut self, system: &System) {
+        for ((mass, node), trial) in self.masses.iter_mut().zip(&system.nodes).zip(&self.trial) {
+            *mass = inertia(node, &trial.pose);
+        }
+    }
+
+    /// Makes the trial the present.
+    fn accept(&mut self, system: &mut System, now: &mut Instant, (time, dt): (f64, f64)) {
+        now.time = time;
+        now.motions.clear();
+        now.motions.extend_from_slice(&self.trial);
+        now.memory.commit(system, &now.motions, (time, dt));
+        system.states.clear();
+        system.states.extend_from_slice(&now.forces.trial);
+    }
+
+    /// Fills the right side with what is left; gives its measure (m/s2).
+    fn residual(&mut self, system: &System, forces: &Forces) -> f64 {
+        if self.right.nrows() != self.rows.len() {
+            self.right = DVector::zeros(self.rows.len());
+        }
+        let mut most: f64 = 0.0;
+        let mut inertia = (usize::MAX, Six::zeros(), 1.0);
+        for (i, row) in self.rows.iter().enumerate() {
+            let (body, freedom) = (row.at / 6, row.at % 6);
+            let (Some(node), Some(trial), Some(mass)) =
+                (system.nodes.get(body), self.trial.get(body), self.masses.get(body))
+            else {
+                continue;
+            };
+            if inertia.0 != body {
+                let own = mass * trial.acceleration + gyroscopic(&node.floating.mass, trial);
+                inertia = (body, own, mass[(0, 0)].max(mass[(2, 2)]));
+            }
+            let left = if row.heavy { forces.sum[row.at] - inertia.1[freedom] } else { forces.sum[row.at] };
+            self.right[i] = left;
+            let measure = if row.heavy {
+                let own = mass[(freedom, freedom)];
+                // of a rotation, times the radius of gyration
+                if freedom < 3 { own } else { (own * inertia.2.max(f64::MIN_POSITIVE)).sqrt() }
+            } else {
+                let pull = forces.pull.get(body).copied().unwrap_or(0.0);
+                pull.max(1.0) / system.gravity
+            };
+            let share = left.abs() / measure;
+            // a comparison with a number that is none would pass it over
+            most = if share.is_nan() { f64::INFINITY } else { most.max(share) };
+        }
+        most
+    }
+
+    fn jacobian(&mut self, forces: &Forces, dt: f64, by_place: f64, by_velocity: f64) {
+        let size = self.rows.len();
+        if self.matrix.nrows() != size {
+            self.matrix = DMatrix::zeros(size, size);
+        }
+        for (j, column) in self.rows.iter().enumerate() {
+            let (place, velocity) = if column.heavy { (by_place, by_velocity) } else { (1.0, 1.0 / dt) };
+            for (i, row) in self.rows.iter().enumerate() {
+                let (at, to) = (row.at, column.at);
+                let mut value = forces.stiffness[(at, to)] * place + forces.damping[(at, to)] * velocity;
+                if row.heavy && column.heavy && at / 6 == to / 6 {
+                    value += self.masses.get(at / 6).map_or(0.0, |m| m[(at % 6, to % 6)]);
+                }
+                self.matrix[(i, j)] = value;
+            }
+        }
+    }
+
+    /// The correction; what nothing holds and nothing weighs does not move.
+    fn solve(&self) -> Option<DVector<f64>> {
+        let size = self.rows.len();
+        let found = if size == 6 {
+            let matrix: Matrix6<f64> = self.matrix.fixed_view::<6, 6>(0, 0).into_owned();
+            let right = Six::from_iterator(self.right.iter().copied());
+            matrix.lu().solve(&right).map(|s| DVector::from_row_slice(s.as_slice()))
+        } else {
+            self.matrix.clone().lu().solve(&self.right)
+        };
+        let whole = |s: &DVector<f64>| s.iter().all(|v| v.is_finite());
+        found.filter(whole).or_else(|| {
+            let scale = self.matrix.amax();
+            self.matrix.clone().svd(true, true).solve(&self.right, 1e-12 * scale).ok().filter(whole)
+        })
+    }
+
+    /// The error of a step without a balance.
+    fn unsolved(&self, system: &System, left: f64, time: f64, dt: f64) -> SolveError {
+        let worst = self.right.iamax();
+        let at = self.rows.get(worst).map_or(0, |r| r.at);
+        let name = system.nodes.get(at / 6).map(|n| n.name.clone());
+        let freedom = FREEDOMS.get(at % 6).copied().unwrap_or_default();
+        let text = format!(
+            "no balance at {time} s with a step of {dt} s: an acceleration of {:.2e} g is left, most in {freedom}",
+            left / system.gravity
+        );
+        SolveError { who: name, error: ClassError::new(text) }
+    }
+
+    /// A step by predictor and corrector: the trapezoidal rule by repetition.
+    fn corrector(
+        &mut self,
+        system: &mut System,
+        now: &mut Instant,
+        dt: f64,
+        wanted: &Convergence,
+    ) -> Result<Effort, SolveError> {
+        let (time, mut effort) = (now.time + dt, Effort::default());
+        self.weigh(system, &now.motions);
+        self.choose(system);
+        if let Some(row) = self.rows.iter().find(|r| !r.heavy) {
+            let name = system.nodes.get(row.at / 6).map(|n| n.name.clone());
+            let error = ClassError::new("-NEWMARK NO needs inertia in every freedom that moves")
+                .help("give it weight, or leave -NEWMARK out");
+            return Err(SolveError { who: name, error });
+        }
+        let start = now.motions.clone();
+        let mut ahead =
+            Instant { time, motions: start.clone(), memory: std::mem::take(&mut now.memory), ..Instant::default() };
+        std::mem::swap(&mut ahead.forces, &mut now.forces);
+        // Euler's step first, with the place to second order; then the mean of both ends
+        let euler = Scheme::newmark(0.0, 0.0);
+        let trapezoid = Scheme::newmark(0.25, 0.5);
+        let outcome = self.correct(system, &start, &mut ahead, dt, ([euler, trapezoid], wanted, &mut effort));
+        std::mem::swap(&mut ahead.forces, &mut now.forces);
+        now.memory = std::mem::take(&mut ahead.memory);
+        outcome?;
+        self.trial = ahead.motions;
+        self.accept(system, now, (time, dt));
+        Ok(effort)
+    }
+
+    fn correct(
+        &mut self,
+        system: &System,
+        start: &[Motion],
+        ahead: &mut Instant,
+        dt: f64,
+        ([euler, trapezoid], wanted, effort): ([Scheme; 2], &Convergence, &mut Effort),
+    ) -> Result<(), SolveError> {
+        let mut scheme = euler;
+        loop {
+            self.trial.clear();
+            self.trial.extend_from_slice(&ahead.motions);
+            self.over.clear();
+            self.over.resize(start.len(), Six::zeros());
+            self.prescribe(system, ahead.time)?;
+            self.place(system, start, dt, &scheme);
+            self.pose(system, start);
+            ahead.motions.clone_from(&self.trial);
+            if effort.evaluations == 0 {
+                ahead.memory.begin(system, &ahead.motions, (ahead.time, dt))?;
+            }
+            let before: Vec<Six> = ahead.motions.iter().map(|m| m.acceleration).collect();
+            self.balance(system, ahead, dt)?;
+            effort.evaluations += 1;
+            let change =
+                ahead.motions.iter().zip(&before).map(|(m, b)| (m.acceleration - b).amax()).fold(0.0, f64::max);
+            if !change.is_finite() {
+                return Err(not_finite(system, &ahead.forces.sum, ahead.time));
+            }
+            if effort.iterations > 0 && change <= wanted.tolerance * system.gravity {
+                return Ok(());
+            }
+            if effort.iterations >= wanted.most {
+                return Err(self.unsolved(system, change, ahead.time, dt));
+            }
+            effort.iterations += 1;
+            scheme = trapezoid;
+        }
+    }
+}
+
+/// The error of a force that is no number.
+fn not_finite(system: &System, sum: &DVector<f64>, time: f64) -> SolveError {
+    let at = sum.iter().position(|v| !v.is_finite()).unwrap_or(0);
+    let name = system.nodes.get(at / 6).map(|n| n.name.clone());
+    let error = ClassError::new(format!("the force in {} is no number at {time} s", FREEDOMS[at % 6]));
+    SolveError { who: name, error }
+}

@@ -1,0 +1,146 @@
+//! The time domain against closed forms: free and damped oscillation, conserved energy, order of accuracy, free rotation.
+
+#![allow(clippy::unwrap_used)]
+
+#[allow(dead_code)]
+mod common;
+
+use std::f64::consts::TAU;
+use windlass::model::{Model, Six};
+use windlass::solve::time::{Action, Convergence, Ending, History, Method, Run, Scheme, Settings, Watcher};
+
+/// Takes rows and says nothing.
+struct Quiet;
+
+impl Watcher for Quiet {
+    fn row(&mut self, _row: &[f64]) -> Result<(), String> {
+        Ok(())
+    }
+}
+
+fn model(records: &str) -> Model {
+    let (mut session, _, _folder) = common::session();
+    session.open("test", format!("&DIMEN -DIMEN METERS N\n{records}"));
+    session.run();
+    assert_eq!(session.errors, 0, "{:?}", session.reports);
+    session.job.model.clone()
+}
+
+fn settings(observed: f64, dt: f64) -> Settings {
+    Settings {
+        observed,
+        dt,
+        method: Method::default(),
+        convergence: Convergence::default(),
+        store: 1,
+        capsize: true,
+        adaptive: None,
+        keep: true,
+    }
+}
+
+fn trapezoidal() -> Method {
+    Method::Implicit(Scheme::newmark(0.25, 0.5))
+}
+
+fn run(model: &Model, settings: Settings, actions: Vec<Action>) -> Run {
+    let mut run = Run::new(model, settings, actions).unwrap();
+    assert_eq!(run.go(&mut Quiet), Ok(Ending::Done));
+    run
+}
+
+fn x(history: &History) -> Vec<f64> {
+    history.series(history.layout.body(0))
+}
+
+/// 1000 kg on a spring of 4000 N/m along X, 2 rad/s, drawn out 0.5 m; `more` are further records of the body.
+fn mass_on_a_spring(more: &str, start: f64) -> Model {
+    let weight = 1000.0 * 9.80665;
+    model(&format!(
+        "MEDIT\n*G 0 0 0\n&DESCRIBE BODY CART -IGNORE Y Z RX RY RZ\n*C 0 0 0\n#WEIGHT *C {weight} 1 1 1\n{more}\
+         ~SPRING GSPR BOTH X 4000 1E9 -LEN 0\nCONNECTOR S ~SPRING *C *G\nEND\n&INSTATE -LOCATE CART {start} 0 0\n"
+    ))
+}
+
+#[test]
+fn energy_of_a_linear_spring_drifts_less_than_1e_9_over_a_thousand_periods_of_20_steps() {
+    let model = mass_on_a_spring("", 0.5);
+    let period = TAU / 2.0;
+    let made = run(&model, Settings { method: trapezoidal(), ..settings(1000.0 * period, period / 20.0) }, vec![]);
+    let at = made.history.layout.body(0);
+    let energy = |row: &[f64]| 0.5 * 4000.0 * row[at] * row[at] + 0.5 * 1000.0 * row[at + 6] * row[at + 6];
+    let mut rows = made.history.rows();
+    let first = energy(rows.next().unwrap());
+    let worst = rows.map(|r| (energy(r) / first - 1.0).abs()).fold(0.0, f64::max);
+    assert!(worst <= 1e-9, "{worst:e}");
+    // linear: one iteration a step
+    assert_eq!(made.counts.iterations, made.counts.steps);
+}
+
+#[test]
+fn the_trapezoidal_rule_oscillates_with_its_own_known_period() {
+    // tan(W h/2) = w h/2 (Hughes, The Finite Element Method, 1987, section 9.1): x = cos(W t) at the steps
+    let model = mass_on_a_spring("", 0.5);
+    let h: f64 = 0.1;
+    let made = run(&model, Settings { method: trapezoidal(), ..settings(50.0, h) }, vec![]);
+    let frequency = 2.0 / h * (2.0 * h / 2.0).atan();
+    for (row, time) in x(&made.history).iter().zip(made.history.times()) {
+        assert!((row - 0.5 * (frequency * time).cos()).abs() < 1e-9, "{time} {row}");
+    }
+}
+
+#[test]
+fn halving_the_step_quarters_the_error_of_every_scheme() {
+    let model = mass_on_a_spring("", 0.5);
+    for method in [Method::default(), trapezoidal(), Method::Implicit(Scheme::generalised(0.5)), Method::Corrector] {
+        let error = |h: f64| {
+            let made = run(&model, Settings { method, ..settings(10.0, h) }, vec![]);
+            (x(&made.history).last().unwrap() - 0.5 * 20f64.cos()).abs()
+        };
+        let errors = [0.05, 0.025, 0.0125].map(error);
+        for pair in errors.windows(2) {
+            let order = (pair[0] / pair[1]).log2();
+            assert!((1.9..2.1).contains(&order), "{method:?} {errors:?}");
+        }
+    }
+}
+
+#[test]
+fn linear_damping_has_its_logarithmic_decrement_and_damped_period() {
+    // 5 % of critical: c = 2 * 0.05 * sqrt(k m)
+    let (ratio, w) = (0.05f64, 2.0);
+    let model = mass_on_a_spring(&format!("#DAMP *C {} 0 0 0 0 0\n", 2.0 * ratio * 2000.0), 0.5);
+    let made = run(&model, Settings { method: trapezoidal(), ..settings(20.0, 0.005) }, vec![]);
+    let damped = w * (1.0 - ratio * ratio).sqrt();
+    for (row, t) in x(&made.history).iter().zip(made.history.times()) {
+        let exact = 0.5 * (-ratio * w * t).exp() * ((damped * t).cos() + ratio * w / damped * (damped * t).sin());
+        // the error of the period: (w h)^2/12 of w t
+        assert!((row - exact).abs() < 0.5 * 40.0 * 1e-4 / 12.0 * 1.1, "{t} {row} {exact}");
+    }
+}
+
+#[test]
+fn a_free_top_keeps_energy_and_angular_momentum_to_the_order_of_the_step() {
+    // unlike moments of inertia, turning about none of its axes; Euler's equations leave both constant
+    let weight = 1000.0 * 9.80665;
+    let model = model(&format!(
+        "MEDIT\n&DESCRIBE BODY TOP -IGNORE X Y Z\n*C 0 0 0\n#WEIGHT *C {weight} 1 2 3\nEND\n&INSTATE -LOCATE TOP 0 0 0\n"
+    ));
+    let drift = |h: f64| {
+        let mut made = Run::new(&model, settings(20.0, h), vec![]).unwrap();
+        made.begin_with(&[(0, Six::new(0.0, 0.0, 0.0, 0.3, 0.6, 0.2))]).unwrap();
+        assert_eq!(made.go(&mut Quiet), Ok(Ending::Done));
+        let inertia = nalgebra::Matrix3::from_diagonal(&nalgebra::Vector3::new(1.0, 4.0, 9.0)) * 1000.0;
+        let motion = made.motions()[0];
+        let turn = motion.velocity.fixed_rows::<3>(3).into_owned();
+        let momentum = motion.pose.axes * inertia * motion.pose.axes.transpose() * turn;
+        let start = inertia * nalgebra::Vector3::new(0.3, 0.6, 0.2);
+        let energy = 0.5 * turn.dot(&momentum);
+        let first = 0.5 * start.dot(&nalgebra::Vector3::new(0.3, 0.6, 0.2));
+        ((momentum - start).norm() / start.norm()).max((energy / first - 1.0).abs())
+    };
+    let errors = [0.1, 0.05, 0.025].map(drift);
+    for pair in errors.windows(2) {
+        assert!((pair[0] / pair[1]).log2() > 1.8, "{errors:?}");
+    }
+}
