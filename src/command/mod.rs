@@ -45,6 +45,7 @@ mod pgen;
 mod picture;
 mod piece;
 mod pipe;
+mod prescribe;
 mod report_menu;
 mod rigging;
 mod select;
@@ -162,6 +163,7 @@ pub static COMMANDS: &[&Command] = &[
     &junction::JUNCTION,
     &assembly::ASSEMBLY,
     &pipe::PIPE_COMMAND,
+    &prescribe::PRESCRIBE,
     &names::DELETE,
     &names::RENAME,
     &alter::ALTER,

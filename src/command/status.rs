@@ -9,7 +9,7 @@ use super::forces::{forces, foundations};
 use super::loads_table::loads;
 use super::offsets::offsets;
 use super::written::{as_written, kind_data, option_as_written};
-use super::{Call, Command, Effect, Job, Menu, body_status, body_tables, line_types, member};
+use super::{Call, Command, Effect, Job, Menu, body_status, body_tables, line_types, member, prescribe};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::{Owner, choose};
 use crate::language::spec::{CommandSpec, Kind, Noun, Opens, OptionSpec, ValueSpec};
@@ -121,7 +121,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         "WEIGHT" => vec![body_tables::weights(model, &fits)],
         "PIECES" => std::iter::once(body_tables::pieces(model, &fits)).chain(member::members(model, &fits)).collect(),
         "HYDROSTATICS" => body_tables::hydrostatics(model, &fits, job.units),
-        "BODIES" => vec![bodies(model, &fits)],
+        "BODIES" => std::iter::once(bodies(model, &fits)).chain(prescribe::motions(model, &fits)).collect(),
         "POINTS" => vec![points(model, &fits)],
         "DIMENSIONS" => vec![dimensions(job)],
         "DEFAULTS" => vec![defaults(model)],

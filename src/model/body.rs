@@ -2,6 +2,7 @@
 
 use super::geometry::{Place, Position};
 use super::hull::{LinearHydrostatics, Piece};
+use super::prescribed::Prescription;
 use crate::language::source::Span;
 use nalgebra::{Matrix3, Vector3};
 
@@ -23,6 +24,8 @@ pub struct Body {
     pub junction: Option<Junction>,
     /// Buoyancy by a constant stiffness, instead of that of a hull.
     pub linear: Option<LinearHydrostatics>,
+    /// The motion it is given, where forces do not move it.
+    pub prescribed: Option<Prescription>,
     /// Where it was defined.
     pub span: Span,
 }

@@ -17,6 +17,7 @@ mod line;
 mod load;
 mod names;
 mod pose;
+mod prescribed;
 mod selector;
 
 pub use assembly::{Assemblies, Assembly, AssemblyKind, LaidPipe, PIPE, PipeLayout};
@@ -33,6 +34,7 @@ pub use line::{Condition, Configuration, LineChange, LineLoads, LineModel, Place
 pub use load::{Fluid, LoadKind, Multipliers, PartLoad};
 pub use names::Thing;
 pub use pose::{Pose, Six};
+pub use prescribed::{GivenMotion, PathRow, Prescription, ResponseRow, Responses, Sinusoid};
 pub use selector::Selector;
 
 use crate::language::diagnostic::{Diagnostic, Outcome, did_you_mean};
