@@ -9,7 +9,12 @@ use crate::language::units::Dim;
 use crate::model::{Member, Model, Shape, WaveAction};
 use crate::table::{Cell, Digits, Table};
 
-const fn factor(name: &'static str, value: &'static [ValueSpec], help: &'static str, usual: &'static str) -> OptionSpec {
+const fn factor(
+    name: &'static str,
+    value: &'static [ValueSpec],
+    help: &'static str,
+    usual: &'static str,
+) -> OptionSpec {
     OptionSpec::new(name, value, help).owner(Owner::Ours).default(usual)
 }
 const fn value(help: &'static str) -> [ValueSpec; 1] {
@@ -47,12 +52,17 @@ pub fn coefficients(args: &Args, permeability: f64) -> Outcome<Member> {
     let given = |name: &str| args.option(name).and_then(|g| g.number(0));
     let own = OPTIONS.iter().find_map(|o| args.option(o.name).filter(|g| g.number(0).is_some_and(|c| c != 0.0)));
     if let Some(own) = own.filter(|_| permeability < 0.0) {
-        return Err(Diagnostic::error(format!("{} is of what stands in the water, and an interior does not", own.spec.name), own.span));
+        return Err(Diagnostic::error(
+            format!("{} is of what stands in the water, and an interior does not", own.spec.name),
+            own.span,
+        ));
     }
     let areas = args.option("-CS_CURRENT");
     if let (Some(areas), Some(drag)) = (areas, args.option("-CD").or(args.option("-CDA"))) {
         let text = format!("-CS_CURRENT and {} are both the drag of the tube", drag.spec.name);
-        return Err(Diagnostic::error(text, drag.span).other(areas.span, "given here too").help("leave one of them out"));
+        return Err(Diagnostic::error(text, drag.span)
+            .other(areas.span, "given here too")
+            .help("leave one of them out"));
     }
     let wet = permeability > 0.0;
     let (drag, added) = (if wet && areas.is_none() { 1.0 } else { 0.0 }, if wet { 1.0 } else { 0.0 });
@@ -79,21 +89,26 @@ pub fn members(model: &Model, fits: &dyn Fn(&str) -> bool) -> Option<Table> {
     let mut any = false;
     for part in model.parts.values() {
         for piece in part.pieces.iter().filter(|p| fits(&p.name) || fits(&part.name) || fits(&part.body)) {
-            let (Some(member), Shape::Tube { ends: [a, b], diameter }) = (&piece.member, &piece.shape) else { continue };
+            let (Some(member), Shape::Tube { ends: [a, b], diameter }) = (&piece.member, &piece.shape) else {
+                continue;
+            };
             let length = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
             let inert = piece.waves != WaveAction::Database;
             let told = |c: f64| if inert { Cell::from(c) } else { Cell::from("database") };
-            push(&mut table, vec![
-                part.body.as_str().into(),
-                part.name.as_str().into(),
-                piece.name.as_str().into(),
-                (*diameter).into(),
-                length.into(),
-                member.drag.into(),
-                member.friction.into(),
-                told(member.added),
-                told(member.end_added),
-            ]);
+            push(
+                &mut table,
+                vec![
+                    part.body.as_str().into(),
+                    part.name.as_str().into(),
+                    piece.name.as_str().into(),
+                    (*diameter).into(),
+                    length.into(),
+                    member.drag.into(),
+                    member.friction.into(),
+                    told(member.added),
+                    told(member.end_added),
+                ],
+            );
             any = true;
         }
     }

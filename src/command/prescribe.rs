@@ -9,8 +9,9 @@ use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
 use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
-use crate::model::{GivenMotion, Model, Place, Prescription, Sinusoid, find};
+use crate::model::{ClassError, GivenMotion, Model, Place, Prescription, Sinusoid, find};
 use crate::solve::FREEDOMS;
+use crate::solve::time::prescribed;
 use crate::table::{Cell, Digits, Table};
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -18,7 +19,8 @@ use std::sync::Arc;
 /// PRESCRIBE.
 pub static PRESCRIBE: Command = Command { spec: &SPEC, edits: false, run };
 
-const FILE: [ValueSpec; 1] = [ValueSpec::new("FILE", Kind::File, "CSV file; looked for beside the script, or where it says")];
+const FILE: [ValueSpec; 1] =
+    [ValueSpec::new("FILE", Kind::File, "CSV file; looked for beside the script, or where it says")];
 
 static SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
@@ -28,7 +30,11 @@ static SPEC: CommandSpec = CommandSpec {
         OptionSpec::new(
             "-SINUSOID",
             &[
-                ValueSpec::new("DOF", Kind::Choice(&FREEDOMS), "freedom of its origin, roll, pitch and yaw as RX RY RZ"),
+                ValueSpec::new(
+                    "DOF",
+                    Kind::Choice(&FREEDOMS),
+                    "freedom of its origin, roll, pitch and yaw as RX RY RZ",
+                ),
                 ValueSpec::new("AMP", Kind::Number(Dim::None), "amplitude: a length, or an angle in degrees"),
                 ValueSpec::new("PERIOD", Kind::Number(Dim::Time), "period").positive(),
                 ValueSpec::new("PHASE", Kind::Number(Dim::Angle), "phase at the time zero").or("0"),
@@ -86,17 +92,17 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         "-FILE" => Some(GivenMotion::Path(Arc::new(input::path(job, file)?))),
         _ => Some(sinusoids(job, args)),
     };
-    let place = match &motion {
-        Some(GivenMotion::Path(rows)) => Some(at_start(rows)),
-        _ => None,
-    };
-    if let Some(body) = job.model.bodies.get_mut(&key) {
-        if let Some(place) = place {
-            body.previous = body.place;
-            body.place = place;
-        }
-        body.prescribed = motion.map(|motion| Prescription { motion, span: args.span });
+    let mut moved = body.clone();
+    moved.prescribed = motion.map(|motion| Prescription { motion, span: args.span });
+    if let Some(Prescription { motion: GivenMotion::Path(rows), .. }) = &moved.prescribed {
+        let wrong = |e: ClassError| e.diagnostic(args.span, job.units);
+        let given = prescribed(&moved, None).map_err(wrong)?;
+        let start = given.map(|g| g.at(0.0)).transpose().map_err(wrong)?.unwrap_or_default();
+        let near = rows.iter().min_by(|a, b| a.0.abs().total_cmp(&b.0.abs())).map(|r| Place::new(r.1));
+        moved.previous = moved.place;
+        moved.place = start.pose.place(&near.unwrap_or_default());
     }
+    job.model.bodies.insert(key, moved);
     Ok(Effect::Done)
 }
 
@@ -126,21 +132,6 @@ fn sinusoids(job: &Job, args: &Args) -> GivenMotion {
     GivenMotion::Sinusoids { list, ramp: args.option_number("-RAMP").unwrap_or(0.0) }
 }
 
-/// The place of a path at the time zero: straight between its rows, which is where the spline is to a first picture; of a row at
-/// zero, as is usual, exact.
-fn at_start(rows: &[crate::model::PathRow]) -> Place {
-    let after = rows.partition_point(|r| r.0 <= 0.0);
-    let (low, high) = (after.checked_sub(1).and_then(|n| rows.get(n)), rows.get(after));
-    Place::new(match (low, high) {
-        (Some(low), Some(high)) if low.0 < 0.0 => {
-            let share = -low.0 / (high.0 - low.0);
-            [0, 1, 2, 3, 4, 5].map(|i| low.1[i] + share * (high.1[i] - low.1[i]))
-        }
-        (Some(row), _) | (None, Some(row)) => row.1,
-        (None, None) => [0.0; 6],
-    })
-}
-
 /// Motions that bodies are given; `None` where none is.
 pub fn motions(model: &Model, fits: &dyn Fn(&str) -> bool) -> Option<Table> {
     let mut table = Table::new("Prescribed Motions");
@@ -167,18 +158,21 @@ pub fn motions(model: &Model, fits: &dyn Fn(&str) -> bool) -> Option<Table> {
                     let freedom = FREEDOMS.get(sine.freedom).copied().unwrap_or_default();
                     let (length, angle) = (amplitude(false), amplitude(true));
                     let ramp = Cell::from((*ramp > 0.0).then_some(*ramp));
-                    push(&mut table, vec![
-                        name(),
-                        "sinusoid".into(),
-                        freedom.into(),
-                        length,
-                        angle,
-                        sine.period.into(),
-                        sine.phase.into(),
-                        none(),
-                        none(),
-                        ramp,
-                    ]);
+                    push(
+                        &mut table,
+                        vec![
+                            name(),
+                            "sinusoid".into(),
+                            freedom.into(),
+                            length,
+                            angle,
+                            sine.period.into(),
+                            sine.phase.into(),
+                            none(),
+                            none(),
+                            ramp,
+                        ],
+                    );
                 }
             }
             GivenMotion::Responses(responses) => {

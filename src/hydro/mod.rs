@@ -18,6 +18,7 @@ mod linear;
 pub mod morison;
 pub mod pieces;
 pub mod plate;
+pub mod pressure;
 mod righting;
 pub mod sea;
 pub mod spectrum;
@@ -251,6 +252,8 @@ impl Floating {
         loads.extend(gathered.loads);
         let (members, of_members) = morison::of(model, body, under_way)?;
         loads.extend(members);
+        let pressed = pressure::of(model, body, under_way.flatten())?;
+        loads.extend(pressed.map(|load| Box::new(load) as Box<dyn BodyLoad>));
         let added_mass = gathered.added_mass + of_members;
         Ok(Floating { mass, loads, added_mass, damping: gathered.damping })
     }

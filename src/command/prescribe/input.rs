@@ -14,7 +14,8 @@ type Row<const N: usize> = (u64, [f64; N]);
 /// The numbers of a CSV file, N a row.
 fn rows<const N: usize>(job: &Job, (name, span): (&str, Span), what: &str) -> Outcome<Vec<Row<N>>> {
     let path = existing(job, name, span)?;
-    let refused = |why: String| Diagnostic::error(format!("{name} cannot be used: {why}"), span).help(format!("a row is {what}"));
+    let refused =
+        |why: String| Diagnostic::error(format!("{name} cannot be used: {why}"), span).help(format!("a row is {what}"));
     let size = std::fs::metadata(&path).map_err(|e| refused(e.to_string()))?.len();
     if size > LARGEST_FILE {
         return Err(refused(format!("it has more than {LARGEST_FILE} bytes")));
@@ -39,9 +40,10 @@ fn rows<const N: usize>(job: &Job, (name, span): (&str, Span), what: &str) -> Ou
         }
         let mut row = [0.0; N];
         for (column, (slot, text)) in row.iter_mut().zip(&record).enumerate() {
-            *slot = number(text).ok().filter(|v| v.is_finite()).ok_or_else(|| {
-                refused(format!("line {line}: value {} is `{text}`, which is no number", column + 1))
-            })?;
+            *slot = number(text)
+                .ok()
+                .filter(|v| v.is_finite())
+                .ok_or_else(|| refused(format!("line {line}: value {} is `{text}`, which is no number", column + 1)))?;
         }
         found.push((line, row));
     }
@@ -84,7 +86,8 @@ pub(super) fn path(job: &Job, file: (&str, Span)) -> Outcome<Vec<PathRow>> {
 /// A file that cannot be read, a period that is not positive or comes twice, headings of the other side of a symmetric table.
 pub(super) fn responses(job: &Job, file: (&str, Span), symmetric: bool) -> Outcome<Responses> {
     let (name, span) = file;
-    let what = "heading, period, and for surge, sway, heave, roll, pitch, yaw each amplitude and lag; angles are in degrees";
+    let what =
+        "heading, period, and for surge, sway, heave, roll, pitch, yaw each amplitude and lag; angles are in degrees";
     let read: Vec<Row<14>> = rows(job, file, what)?;
     let refused = |why: String| Diagnostic::error(format!("{name} cannot be used: {why}"), span);
     let mut headings: Vec<(f64, Vec<ResponseRow>)> = Vec::new();

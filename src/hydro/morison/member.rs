@@ -111,7 +111,8 @@ impl Standing {
     /// The parts of a range of the axis between given heights, which fall (m, global).
     pub fn parts(&self, (from, to): (f64, f64), heights: &[f64]) -> impl Iterator<Item = (f64, f64)> {
         let (standing, count) = (*self, heights.len());
-        let nth = move |n: usize| heights.get(if standing.axis.z > 0.0 { count.checked_sub(n + 1)? } else { n }).copied();
+        let nth =
+            move |n: usize| heights.get(if standing.axis.z > 0.0 { count.checked_sub(n + 1)? } else { n }).copied();
         let place = move |z: f64| (z - standing.origin - standing.from.z) / standing.axis.z;
         let cuts = (0..count).filter_map(move |n| nth(n).map(place)).filter(move |at| *at > from && *at < to);
         cuts.chain(std::iter::once(to)).scan(from, |start, end| Some((std::mem::replace(start, end), end)))
@@ -124,7 +125,9 @@ impl Standing {
         let parts = [between(a, b, f64::NEG_INFINITY, -1.0), between(a, b, -1.0, 1.0)];
         parts.into_iter().flatten().flat_map(move |(p, q)| {
             let long = (to - from) * (q - p);
-            GAUSS.into_iter().map(move |(x, w)| standing.station(from + (to - from) * (p + (q - p) * x), w * long, level))
+            GAUSS
+                .into_iter()
+                .map(move |(x, w)| standing.station(from + (to - from) * (p + (q - p) * x), w * long, level))
         })
     }
 }

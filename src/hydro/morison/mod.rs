@@ -68,7 +68,7 @@ pub fn of(
     }
     let steady = Arc::new(Steady::streams(model, &model.environment)?);
     let sea = under_way.flatten();
-    let reach = longest(sea);
+    let reach = REACH / sea.map_or(0.0, |sea| mean_number(sea));
     let mut rods = Vec::new();
     for part in model.parts_of(body) {
         rods.extend(part.pieces.iter().filter_map(|piece| rod(model, &steady, (part, piece), reach)));
@@ -84,15 +84,12 @@ pub fn of(
     Ok((load, added))
 }
 
-/// The longest segment (m) that the sea allows.
-fn longest(sea: Option<&Arc<Sea>>) -> f64 {
+/// The mean wave number of a sea, by energy (1/m).
+pub(super) fn mean_number(sea: &Sea) -> f64 {
     let energy = |c: &super::sea::Component| c.amplitude * c.amplitude;
-    let waves = sea.map_or(0.0, |sea| {
-        let all: f64 = sea.components.iter().map(energy).sum();
-        let numbers: f64 = sea.components.iter().map(|c| energy(c) * c.number).sum();
-        if all > 0.0 { numbers / all } else { 0.0 }
-    });
-    REACH / waves
+    let all: f64 = sea.components.iter().map(energy).sum();
+    let numbers: f64 = sea.components.iter().map(|c| energy(c) * c.number).sum();
+    if all > 0.0 { numbers / all } else { 0.0 }
 }
 
 /// Heights at which the current begins to change otherwise (m, global), highest first: there the integrals are divided.
@@ -108,7 +105,9 @@ fn kinks(steady: &Steady) -> Vec<f64> {
 
 /// A tube as a member; `None` of what has no force of Morison's formula.
 fn rod(model: &Model, steady: &Steady, (part, piece): (&Part, &Piece), reach: f64) -> Option<Rod> {
-    let (Some(own), Shape::Tube { ends, diameter }) = (piece.member, piece.shape.moved(&part.place)) else { return None };
+    let (Some(own), Shape::Tube { ends, diameter }) = (piece.member, piece.shape.moved(&part.place)) else {
+        return None;
+    };
     let [from, to] = ends.map(Vector3::from);
     let axis = (to - from).try_normalize(0.0)?;
     let length = (to - from).norm();

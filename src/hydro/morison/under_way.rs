@@ -1,7 +1,7 @@
 //! Members in waves, and moving.
 
-use super::member::{Rod, Standing, Station, drag};
 use super::added;
+use super::member::{Rod, Standing, Station, drag};
 use crate::hydro::hull::{Solid, Wet};
 use crate::hydro::sea::{Kinematics, Sea, SeaAt};
 use crate::hydro::steady::{Medium, Steady};
@@ -91,7 +91,12 @@ impl Water<'_> {
 }
 
 impl UnderWay {
-    pub(super) fn new(sea: Option<Arc<Sea>>, (rods, kinks): (&[Rod], &[f64]), steady: &Steady, held: &Matrix6<f64>) -> Self {
+    pub(super) fn new(
+        sea: Option<Arc<Sea>>,
+        (rods, kinks): (&[Rod], &[f64]),
+        steady: &Steady,
+        held: &Matrix6<f64>,
+    ) -> Self {
         let reach = sea.as_ref().map_or(0.0, |s| 2.0 * s.components.iter().map(|c| c.amplitude.abs()).sum::<f64>());
         let (level, weight) = (steady.around.tide, steady.around.water_weight());
         let segments = rods.iter().map(|r| r.segments.len()).sum();
@@ -149,7 +154,8 @@ impl UnderWay {
             let clear = high + standing.rise < self.level - self.reach;
             let over = if clear { 0.0 } else { water.surface(standing, range) };
             let level = self.level + over;
-            let near = high + standing.rise + MARGIN > self.level.min(level) && low - standing.rise - MARGIN < self.level.max(level);
+            let near = high + standing.rise + MARGIN > self.level.min(level)
+                && low - standing.rise - MARGIN < self.level.max(level);
             if low < level && level <= high {
                 cut = Some(over);
             }

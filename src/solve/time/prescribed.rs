@@ -35,9 +35,7 @@ pub fn prescribed(body: &Body, sea: Option<&Arc<Sea>>) -> Result<Option<Box<dyn 
         GivenMotion::Sinusoids { list, ramp } => {
             Box::new(Swinging { place: body.place, list: list.clone(), ramp: *ramp })
         }
-        GivenMotion::Responses(table) => {
-            Box::new(Riding::new(body.place, table, sea).map_err(|e| e.at(given.span))?)
-        }
+        GivenMotion::Responses(table) => Box::new(Riding::new(body.place, table, sea).map_err(|e| e.at(given.span))?),
         GivenMotion::Path(rows) => Box::new(Spline::of(rows).map_err(|e| e.at(given.span))?),
     };
     Ok(Some(made))
@@ -63,7 +61,12 @@ pub(super) fn moved([values, rates, seconds]: &Freedoms) -> Motion {
     let [ax, ay, az, by_roll, by_pitch, by_yaw] = *seconds;
     let change = e1 * by_roll + e2 * by_pitch + e3 * by_yaw + e3.cross(&e2) * (turn * pitch) + before.cross(&e1) * roll;
     let acceleration = Six::new(ax, ay, az, change.x, change.y, change.z);
-    Motion { pose, velocity: Six::new(x, y, z, rotation.x, rotation.y, rotation.z), acceleration, auxiliary: acceleration }
+    Motion {
+        pose,
+        velocity: Six::new(x, y, z, rotation.x, rotation.y, rotation.z),
+        acceleration,
+        auxiliary: acceleration,
+    }
 }
 
 /// Sines about a place.

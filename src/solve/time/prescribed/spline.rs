@@ -75,12 +75,9 @@ impl Prescribed for Spline {
                 .help("lengthen the file, or shorten -TIME of the environment"));
         }
         let after = self.rows.partition_point(|r| r.0 <= time).clamp(1, self.rows.len() - 1);
-        let (Some(a), Some(b), Some(m), Some(n)) = (
-            self.rows.get(after - 1),
-            self.rows.get(after),
-            self.bends.get(after - 1),
-            self.bends.get(after),
-        ) else {
+        let (Some(a), Some(b), Some(m), Some(n)) =
+            (self.rows.get(after - 1), self.rows.get(after), self.bends.get(after - 1), self.bends.get(after))
+        else {
             return Err(ClassError::new("a path without rows"));
         };
         let long = b.0 - a.0;
@@ -90,8 +87,7 @@ impl Prescribed for Spline {
             let (from, to, m, n) = (a.1[i], b.1[i], m[i], n[i]);
             let bend = long * long / 6.0;
             freedoms[0][i] = p * from + q * to + ((p * p * p - p) * m + (q * q * q - q) * n) * bend;
-            freedoms[1][i] =
-                (to - from) / long + ((3.0 * q * q - 1.0) * n - (3.0 * p * p - 1.0) * m) * long / 6.0;
+            freedoms[1][i] = (to - from) / long + ((3.0 * q * q - 1.0) * n - (3.0 * p * p - 1.0) * m) * long / 6.0;
             freedoms[2][i] = p * m + q * n;
         }
         Ok(moved(&freedoms))
