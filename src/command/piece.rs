@@ -84,7 +84,10 @@ pub const READING: &str = "A piece belongs to the part described last and is giv
      from its two sides (a hollow counts as if nothing sheltered it). |v| v is integrated over the height, by the profiles of \
      &ENV. CS is 1 1 1 where it is not given, so that wind in force is never without effect on a hull; -CS_WIND 0 0 0 turns it \
      off. A piece of permeability 0 or less takes none unless CS is given, an interior (less than 0) never. Tubes are \
-     prisms of 64 sides for it. &STATUS PIECES lists CS, &STATUS LOADS the forces.";
+     prisms of 64 sides for it. Under way in waves a TUBE is a member by Morison's formula (&HELP TUBE). Any other piece feels no waves of first order, \
+     and keeps the buoyancy of the mean level, unless a hydrodynamic database holds it (-DIFTYPE 3DDIF) or it has -DIFTYPE FK: then the \
+     pressure that the waves have without it is integrated up to their surface, without diffraction and radiation. TDOM warns of pieces \
+     that feel none. &STATUS PIECES lists CS, &STATUS LOADS the forces.";
 
 static PANEL_SPEC: CommandSpec = CommandSpec {
     menus: &["INMODEL", "MEDIT", "BLOCK", "MESH"],
