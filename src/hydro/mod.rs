@@ -251,7 +251,7 @@ impl Floating {
         let gathered = gathered::of(model, body)?;
         loads.extend(gathered.loads);
         let (members, of_members) = morison::of(model, body, under_way)?;
-        loads.extend(members);
+        loads.extend(members.map(|load| Box::new(load) as Box<dyn BodyLoad>));
         let pressed = pressure::of(model, body, under_way.flatten())?;
         loads.extend(pressed.map(|load| Box::new(load) as Box<dyn BodyLoad>));
         let added_mass = gathered.added_mass + of_members;

@@ -61,7 +61,7 @@ pub fn of(
     model: &Model,
     body: &Body,
     under_way: Option<Option<&Arc<Sea>>>,
-) -> Result<(Option<Box<dyn BodyLoad>>, Matrix6<f64>), ClassError> {
+) -> Result<(Option<Members>, Matrix6<f64>), ClassError> {
     let there = |piece: &Piece| piece.member.is_some();
     if !model.parts_of(body).any(|part| part.pieces.iter().any(there)) {
         return Ok((None, Matrix6::zeros()));
@@ -79,7 +79,7 @@ pub fn of(
     let load = acts.then(|| {
         let kinks = kinks(&steady);
         let under_way = under_way.map(|sea| UnderWay::new(sea.cloned(), (&rods, &kinks), &steady, &added));
-        Box::new(Members { rods, steady, kinks, under_way }) as Box<dyn BodyLoad>
+        Members { rods, steady, kinks, under_way }
     });
     Ok((load, added))
 }
