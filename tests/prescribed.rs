@@ -308,6 +308,7 @@ fn a_mass_on_a_spring_whose_other_end_swings_follows_its_closed_form() {
         capsize: true,
         adaptive: None,
         keep: true,
+        transient: 0.0,
     };
     let mut run = Run::new(&model, settings, vec![]).unwrap();
     assert_eq!(run.go(&mut Quiet), Ok(Ending::Done));
