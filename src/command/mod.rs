@@ -40,6 +40,7 @@ mod line_types;
 mod lines;
 mod loads;
 mod loads_table;
+mod member;
 mod menus;
 mod message;
 mod names;
@@ -48,6 +49,7 @@ mod pgen;
 mod picture;
 mod piece;
 mod pipe;
+mod prescribe;
 mod rep_select;
 mod report_menu;
 mod rigging;
@@ -174,6 +176,7 @@ pub static COMMANDS: &[&Command] = &[
     &junction::JUNCTION,
     &assembly::ASSEMBLY,
     &pipe::PIPE_COMMAND,
+    &prescribe::PRESCRIBE,
     &names::DELETE,
     &names::RENAME,
     &alter::ALTER,

@@ -10,8 +10,8 @@ use super::loads_table::loads;
 use super::offsets::offsets;
 use super::written::{as_written, kind_data, option_as_written};
 use super::{
-    Call, Command, Effect, Job, Menu, body_status, body_tables, database_table, fatigue_table, line_types, sea_table,
-    wind_table,
+    Call, Command, Effect, Job, Menu, body_status, body_tables, database_table, fatigue_table, line_types, member, prescribe,
+    sea_table, wind_table,
 };
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::{Owner, choose};
@@ -132,10 +132,10 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         "WIND_SPECTRUM" => wind_table::spectra(job, (!chosen.all()).then_some(&fits), args.place(0))?,
         "LOADS" => loads(job, &fits),
         "WEIGHT" => vec![body_tables::weights(model, &fits)],
-        "PIECES" => vec![body_tables::pieces(model, &fits)],
+        "PIECES" => std::iter::once(body_tables::pieces(model, &fits)).chain(member::members(model, &fits)).collect(),
         "HYDROSTATICS" => body_tables::hydrostatics(model, &fits, job.units),
         "DATABASE" => database_table::tables(model, &fits),
-        "BODIES" => vec![bodies(model, &fits)],
+        "BODIES" => std::iter::once(bodies(model, &fits)).chain(prescribe::motions(model, &fits)).collect(),
         "POINTS" => vec![points(model, &fits)],
         "DIMENSIONS" => vec![dimensions(job)],
         "DEFAULTS" => vec![defaults(model)],

@@ -168,6 +168,9 @@ impl Forces {
                 let state = memory.loads.get(range).unwrap_or_default();
                 let MovingLoad { load: made, damping } = load.moving(&at, state).map_err(SolveError::of(&node.name))?;
                 self.add(body, place_of(load.category()), &made.wrench);
+                if let Some((other, part)) = load.apart(&at, state) {
+                    self.count_as(body, (place_of(load.category()), place_of(other)), &part);
+                }
                 let mut block = self.stiffness.fixed_view_mut::<6, 6>(6 * body, 6 * body);
                 block += made.stiffness;
                 let mut block = self.damping.fixed_view_mut::<6, 6>(6 * body, 6 * body);
@@ -191,6 +194,16 @@ impl Forces {
         at += wrench;
         if let Some(told) = self.categories.get_mut(body).and_then(|c| c.get_mut(category)) {
             *told += wrench;
+        }
+    }
+
+    /// Counts a part of what was added in one category in another.
+    fn count_as(&mut self, body: usize, (from, to): (usize, usize), part: &Six) {
+        let Some(told) = self.categories.get_mut(body) else { return };
+        for (category, share) in [(from, -part), (to, *part)] {
+            if let Some(sum) = told.get_mut(category) {
+                *sum += share;
+            }
         }
     }
 
