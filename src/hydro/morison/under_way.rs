@@ -173,12 +173,12 @@ impl UnderWay {
         for (n, (at, sense)) in [(0.0, 1.0), (rod.length, -1.0)].into_iter().enumerate() {
             let station = standing.station(at, 0.0, self.level + heights[n]);
             shares[n] = station.area();
-            if shares[n] == 0.0 || water.sea.is_none() && rod.end_added == 0.0 {
+            if shares[n] == 0.0 || water.sea.is_none() && rod.end_added[n] == 0.0 {
                 continue;
             }
             let found = water.at(standing, &station);
             pressed += sense * shares[n] * found.pressure;
-            let end = axis * axis.transpose() * (rod.end_added * shares[n]);
+            let end = axis * axis.transpose() * (rod.end_added[n] * shares[n]);
             let arm = standing.arm(at);
             sum += at_arm(&arm, &(end * found.acceleration));
             added::add(mass, &arm, &end);

@@ -1,0 +1,123 @@
+//! Members with marine growth: against larger tubes and closed forms.
+
+#![allow(clippy::unwrap_used)]
+
+#[allow(dead_code)]
+mod common;
+
+use nalgebra::{Matrix6, Vector3};
+use std::f64::consts::{FRAC_PI_4, PI};
+use std::sync::Arc;
+use windlass::hydro::hull::{Solid, Tube};
+use windlass::hydro::sea::{Component, Sea, Water};
+use windlass::hydro::{BodyLoad, Category, Floating, Underway, grown};
+use windlass::model::{Model, Place, Pose, Six, Stretching};
+
+const RHO: f64 = 1025.0;
+const G: f64 = 9.80665;
+
+/// The model with a body B of which records are given, in an environment.
+fn body(records: &str, pieces: &str, more: &str) -> Model {
+    let (mut session, screen, _folder) = common::session();
+    session.open(
+        "records",
+        format!(
+            "&DIMEN -DIMEN METERS K-NTS\n&DEFAULT -WATER 1025\nMEDIT\n&DESCRIBE BODY B\n*A 0 0 -50\n*B 0 0 20\n*C 0 -30 -20\n*D 0 30 -20\n\
+             {records}\nEND\n&SURFACE\n{pieces}\nEND\n{more}\n"
+        ),
+    );
+    session.run();
+    assert_eq!(session.errors, 0, "{:?} {}", session.reports, screen.text());
+    session.job.model.clone()
+}
+
+fn sea(frequency: f64, number: f64, amplitude: f64) -> Arc<Sea> {
+    let component = Component { frequency, number, amplitude, toward: [0.8, 0.6], phase: 0.0 };
+    let water = Water { depth: None, level: 0.0, gravity: G, density: RHO };
+    Arc::new(Sea::airy(vec![component], water, 0.0, Stretching::Wheeler))
+}
+
+fn at(load: &dyn BodyLoad, time: f64, pose: &Pose, velocity: &Six) -> Six {
+    let mut state = vec![0.0; load.states()];
+    load.start(&mut state);
+    let ahead = Underway { time, dt: 0.0, pose, velocity };
+    load.begin(&ahead, &mut state).unwrap();
+    load.moving(&ahead, &state).unwrap().load.wrench
+}
+
+fn near(got: f64, want: f64, tolerance: f64) {
+    assert!((got - want).abs() <= tolerance * want.abs().max(1e-9), "{got} is not {want}");
+}
+
+fn members(model: &Model, sea: Option<&Arc<Sea>>) -> Box<dyn BodyLoad> {
+    let floating = Floating::under_way(model, &model.bodies["B"], sea).unwrap();
+    floating.loads.into_iter().find(|l| l.category() == Category::Wave).unwrap()
+}
+
+/// The drag of the current at rest.
+fn drag(model: &Model) -> Six {
+    let loads = Floating::of(model, &model.bodies["B"]).unwrap().loads;
+    let mine = loads.iter().filter(|l| l.category() == Category::ViscousDrag);
+    mine.map(|l| l.load(&Pose::default()).unwrap().wrench).sum()
+}
+
+/// Added mass without the growth's own.
+fn added(model: &Model) -> Matrix6<f64> {
+    let body = &model.bodies["B"];
+    Floating::of(model, body).unwrap().added_mass - grown::of(model, body).unwrap().mass
+}
+
+const PILE: &str = "-CD 0.8 -CDA 0.03 -CA 0.9 -CAA 0.6";
+
+#[test]
+fn a_grown_pile_has_the_drag_and_inertia_of_a_pile_of_the_larger_diameter() {
+    let growth = "&DATA CURVES M_GROWTH G -90 300 90 300\n&ENV -CURRENT 1.2 90 -M_GROWTH G";
+    let thin = body("", &format!("TUBE PILE *A *B 1500 {PILE}"), growth);
+    let thick = body("", &format!("TUBE PILE *A *B 1800 {PILE}"), "&ENV -CURRENT 1.2 90");
+    assert!((added(&thin) - added(&thick)).amax() <= 1e-9 * added(&thick).amax());
+    assert!((drag(&thin) - drag(&thick)).amax() <= 1e-12 * drag(&thick).amax());
+    let sea = sea(0.9, 0.81 / G, 3.0);
+    let (first, second) = (members(&thin, Some(&sea)), members(&thick, Some(&sea)));
+    let leaning = Pose::of(&Place::new([1.0, 2.0, -1.0, 0.1, -0.2, 0.3]));
+    let velocity = Six::new(0.5, -0.3, 0.2, 0.01, 0.02, 0.0);
+    for pose in [Pose::default(), leaning] {
+        for time in [0.0, 1.3, 4.0] {
+            let (got, want) = (at(&*first, time, &pose, &velocity), at(&*second, time, &pose, &velocity));
+            assert!((got - want).amax() <= 1e-12 * want.amax(), "{got} {want}");
+        }
+    }
+}
+
+#[test]
+fn growth_on_a_length_of_a_pile_widens_that_length() {
+    // 0.3 m more between 30 m and 10 m deep, and 0.6 m from there to the surface; ends are free at the foot alone
+    let growth = "&DATA CURVES M_GROWTH G -30 300 -10 300 -9.9999999 600 20 600\n&ENV -CURRENT 1.5 180 -M_GROWTH G";
+    let model = body("", &format!("TUBE PILE *A *B 1500 {PILE}"), growth);
+    near(drag(&model)[0], 0.5 * RHO * 0.8 * 2.25 * (50.0 * 1.5 + 20.0 * 0.3 + 10.0 * 0.6), 1e-7);
+    let areas = FRAC_PI_4 * (20.0 * 1.5 * 1.5 + 20.0 * 1.8 * 1.8 + 10.0 * 2.1 * 2.1);
+    near(added(&model)[(0, 0)], RHO * 0.9 * areas, 1e-7);
+    near(added(&model)[(2, 2)], RHO * PI / 12.0 * 1.5f64.powi(3) * 0.6, 1e-9);
+}
+
+#[test]
+fn growth_that_tapers_is_integrated_over_the_pile() {
+    let growth = "&DATA CURVES M_GROWTH G -50 0 0 500 20 700\n&ENV -CURRENT 1.5 180 -M_GROWTH G";
+    let model = body("", &format!("TUBE PILE *A *B 1000 {PILE}"), growth);
+    // D = 1.5 + 0.01 z: of D the lengths have the exact mean, but that what cuts the surface goes on above it (0.01 m of 50);
+    // of D2 one that is 0.02^2/12 = 3e-5 short
+    near(drag(&model)[0], 0.5 * RHO * 0.8 * 2.25 * 50.0 * 1.25, 1e-6);
+    near(added(&model)[(0, 0)], RHO * 0.9 * FRAC_PI_4 * (1.5f64.powi(3) - 1.0) / 0.03, 4e-5);
+}
+
+#[test]
+fn in_a_level_that_rises_everywhere_growth_floats_as_a_larger_tube_does() {
+    // a wave a thousand times round the earth: what members add to the buoyancy of tube and growth under the mean level
+    let long = sea(1e-6, 1e-10, 1.7);
+    let growth = "&DATA CURVES M_GROWTH G -90 600 90 600\n&ENV -M_GROWTH G";
+    let model = body("", "TUBE PILE *A *B 2000", growth);
+    let floating = Floating::under_way(&model, &model.bodies["B"], Some(&long)).unwrap();
+    let mine = floating.loads.iter().filter(|l| l.category() != Category::Weight);
+    let got: Six = mine.map(|l| at(l.as_ref(), 0.0, &Pose::default(), &Six::zeros())).sum();
+    let tube = Tube { ends: [Vector3::new(0.0, 0.0, -50.0), Vector3::new(0.0, 0.0, 20.0)], diameter: 2.6 };
+    near(got[2], tube.wet(&Pose::default(), 1.7).load(RHO * G).wrench[2], 1e-7);
+}
