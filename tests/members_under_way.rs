@@ -1,4 +1,4 @@
-//! Members with marine growth: against larger tubes and closed forms.
+//! Members with marine growth, in a current that varies: against larger tubes and closed forms.
 
 #![allow(clippy::unwrap_used)]
 
@@ -120,4 +120,27 @@ fn in_a_level_that_rises_everywhere_growth_floats_as_a_larger_tube_does() {
     let got: Six = mine.map(|l| at(l.as_ref(), 0.0, &Pose::default(), &Six::zeros())).sum();
     let tube = Tube { ends: [Vector3::new(0.0, 0.0, -50.0), Vector3::new(0.0, 0.0, 20.0)], diameter: 2.6 };
     near(got[2], tube.wet(&Pose::default(), 1.7).load(RHO * G).wrench[2], 1e-7);
+}
+
+#[test]
+fn a_member_meets_the_current_of_the_time() {
+    let model = body(
+        "",
+        "TUBE PILE *A *B 2000 -CD 0.65",
+        "&DATA CURVES C_HISTORY F 0 1 100 -0.5\n&ENV -CURRENT 1.5 180 -C_HISTORY F",
+    );
+    let want = 0.5 * RHO * 0.65 * 2.0 * 50.0 * 1.5 * 1.5;
+    // statics has the current itself
+    near(drag(&model)[0], want, 1e-12);
+    let load = members(&model, None);
+    for (time, factor) in [(0.0, 1.0f64), (40.0, 0.4), (100.0, -0.5), (500.0, -0.5)] {
+        near(at(&*load, time, &Pose::default(), &Six::zeros())[0], want * factor * factor.abs(), 1e-12);
+    }
+    // half of a ramp: half of what the history changes
+    let ramped = body(
+        "",
+        "TUBE PILE *A *B 2000 -CD 0.65",
+        "&DATA CURVES C_HISTORY F 0 2 9 2\n&ENV -CURRENT 1.5 180 -C_HISTORY F -RAMP 60",
+    );
+    near(at(&*members(&ramped, None), 30.0, &Pose::default(), &Six::zeros())[0], want * 1.5 * 1.5, 1e-12);
 }

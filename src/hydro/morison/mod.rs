@@ -24,7 +24,7 @@
 //!
 //! Growth widens D in drag, in inertia and in what waves press on, by the elevations at which the body stands when its loads are made: a
 //! member is taken as lengths of one diameter each. The growth's own mass and weight, and its buoyancy under the mean level, are
-//! [`grown`]'s.
+//! [`grown`]'s. A current with a history drags as it is at the time; how fast it changes is not counted as an acceleration.
 
 mod added;
 mod member;
@@ -76,7 +76,8 @@ pub fn of(
     if !model.parts_of(body).any(|part| part.pieces.iter().any(there)) {
         return Ok((None, Matrix6::zeros()));
     }
-    let steady = Arc::new(Steady::streams(model, &model.environment)?);
+    let mean = Steady::streams(model, &model.environment)?;
+    let steady = Arc::new(if under_way.is_some() { mean.under_way(model, &model.environment)? } else { mean });
     let sea = under_way.flatten();
     let reach = REACH / sea.map_or(0.0, |sea| mean_number(sea));
     let (growth, pose) = (Growth::of(model, &model.environment)?, Pose::of(&body.place));
