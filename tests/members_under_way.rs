@@ -1,4 +1,4 @@
-//! Members with marine growth, in a current that varies: against larger tubes and closed forms.
+//! Members with marine growth, in a current that varies, and in runs: against larger tubes and closed forms.
 
 #![allow(clippy::unwrap_used)]
 
@@ -12,6 +12,7 @@ use windlass::hydro::hull::{Solid, Tube};
 use windlass::hydro::sea::{Component, Sea, Water};
 use windlass::hydro::{BodyLoad, Category, Floating, Underway, grown};
 use windlass::model::{Model, Place, Pose, Six, Stretching};
+use windlass::solve::time::{Convergence, Ending, Method, Run, Scheme, Settings, Watcher};
 
 const RHO: f64 = 1025.0;
 const G: f64 = 9.80665;
@@ -143,4 +144,69 @@ fn a_member_meets_the_current_of_the_time() {
         "&DATA CURVES C_HISTORY F 0 2 9 2\n&ENV -CURRENT 1.5 180 -C_HISTORY F -RAMP 60",
     );
     near(at(&*members(&ramped, None), 30.0, &Pose::default(), &Six::zeros())[0], want * 1.5 * 1.5, 1e-12);
+}
+
+struct Quiet;
+
+impl Watcher for Quiet {
+    fn row(&mut self, _row: &[f64]) -> Result<(), String> {
+        Ok(())
+    }
+}
+
+/// Time, place and velocity of one freedom of the only body in a run by the trapezoidal rule.
+fn run(model: &Model, (observed, dt): (f64, f64), freedom: usize) -> Vec<[f64; 3]> {
+    let settings = Settings {
+        observed,
+        dt,
+        method: Method::Implicit(Scheme::newmark(0.25, 0.5)),
+        convergence: Convergence::default(),
+        store: 1,
+        capsize: true,
+        adaptive: None,
+        keep: true,
+        transient: 0.0,
+    };
+    let mut run = Run::new(model, settings, vec![]).unwrap();
+    assert_eq!(run.go(&mut Quiet), Ok(Ending::Done));
+    let first = run.history.layout.body(0) + freedom;
+    run.history.rows().map(|row| [row[0], row[first], row[first + 6]]).collect()
+}
+
+#[test]
+fn a_plate_that_a_current_takes_along_tends_to_its_speed() {
+    // m dv/dt = k (U - v)^2 from rest: v = U - U / (1 + U k t / m)
+    let records = "*E 0 -3 -9\n*F 0 3 -9\n*G 0 3 -11\n*H 0 -3 -11\n#PLATE *E *F *G *H -CD 1.2 -FLUID WATER\n\
+                   *W 0 0 -10\n#WEIGHT *W 980.665 1 1 1\n&DESCRIBE BODY B -IGNORE Y Z RX RY RZ";
+    let model = body(records, "", "&ENV -CURRENT 2 180");
+    let (current, mass, k) = (2.0, 1e5, 0.5 * RHO * 1.2 * 12.0);
+    let rows = run(&model, (400.0, 0.1), 0);
+    for [t, _, v] in &rows {
+        let want = current - current / (1.0 + current * k * t / mass);
+        // the trapezoidal rule: (k U dt / m)^2 = 2e-4, a twelfth of it a step where the force changes
+        assert!((v - want).abs() < 1e-4 * current, "{t} {v} {want}");
+    }
+    // 1 + 59 of it are left behind
+    assert!(rows.last().unwrap()[2] > 0.98 * current);
+}
+
+#[test]
+fn a_level_tube_sinks_to_its_terminal_velocity() {
+    // (m + a) dv/dt = F - c v^2: v = sqrt(F/c) tanh(t sqrt(F c) / (m + a)), F being the weight in water
+    let (long, diameter, ca) = (60.0, 1.0f64, 0.7);
+    let displaced = RHO * FRAC_PI_4 * diameter * diameter * long;
+    let mass = 1.5 * displaced;
+    let records = format!("*W 0 0 -20\n#WEIGHT *W {:.9} 1 1 1\n&DESCRIBE BODY B -IGNORE X Y RX RY RZ", mass * G / 1e3);
+    let tube = |more: &str| body(&records, &format!("TUBE T *C *D 1000 -CA {ca} {more}"), "");
+    let (force, c) = (0.5 * displaced * G, 0.5 * RHO * 1.1 * diameter * long);
+    let speed = (force / c).sqrt();
+    // the drag of the tube by its coefficient; or by the area that it shows, of a prism within 0.1 % of the tube's width
+    for (model, tolerance) in [(tube("-CD 1.1"), 1e-4), (tube("-CS_CURRENT 0 0 1.1"), 1e-3)] {
+        let rows = run(&model, (20.0, 0.02), 2);
+        for [t, _, v] in &rows {
+            let want = -speed * (t * (force * c).sqrt() / (mass + ca * displaced)).tanh();
+            assert!((v - want).abs() < tolerance * speed, "{t} {v} {want}");
+        }
+        assert!(rows.last().unwrap()[2] < -0.99 * speed);
+    }
 }
