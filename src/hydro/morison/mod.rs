@@ -30,8 +30,8 @@ mod added;
 mod member;
 mod under_way;
 
-use super::growth::Growth;
 use super::grown;
+use super::growth::Growth;
 use super::hull::Tube;
 use super::sea::Sea;
 use super::steady::{Medium, Steady};
