@@ -1,6 +1,7 @@
 //! Changes of a system under way: connectors that come and go or change their length, loads of another environment.
 
-use super::system::{Attachment, SolveError, System, connected, link, moving_nodes};
+use super::link::{Attachment, connected, link};
+use super::system::{SolveError, System, moving_nodes};
 use super::time::Memory;
 use crate::hydro::sea::Sea;
 use crate::model::{ClassError, Connector, GivenMotion, Model};
