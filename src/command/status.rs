@@ -10,8 +10,8 @@ use super::loads_table::loads;
 use super::offsets::offsets;
 use super::written::{as_written, kind_data, option_as_written};
 use super::{
-    Call, Command, Effect, Job, Menu, body_status, body_tables, database_table, fatigue_table, line_types, member, prescribe,
-    sea_table, wind_table,
+    Call, Command, Effect, Job, Menu, body_status, body_tables, database_table, fatigue_table, line_types, member,
+    prescribe, sea_table, wind_table,
 };
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::{Owner, choose};

@@ -58,11 +58,10 @@ impl Memory {
     pub(in crate::solve) fn recall(&mut self, body: usize, system: &System, (memory, old): (&Memory, &Node)) {
         let (Some(node), Some(ranges)) = (system.nodes.get(body), self.ranges.get(body)) else { return };
         let Some(before) = memory.ranges.get(body) else { return };
-        let mut earlier: Vec<_> = old.floating.loads.iter().zip(before).collect();
+        let mut earlier: Vec<_> = old.floating.loads.iter().map(|l| l.category()).zip(before).collect();
         for (load, range) in node.floating.loads.iter().zip(ranges).filter(|(_, r)| !r.is_empty()) {
-            let same = |(l, r): &(&Box<dyn BodyLoad>, &Range<usize>)| {
-                l.category() == load.category() && r.len() == range.len()
-            };
+            let same =
+                |(category, r): &(Category, &Range<usize>)| *category == load.category() && r.len() == range.len();
             let Some(found) = earlier.iter().position(same) else { continue };
             let (_, from) = earlier.remove(found);
             if let (Some(to), Some(from)) = (self.loads.get_mut(range.clone()), memory.loads.get(from.clone())) {
