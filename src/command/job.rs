@@ -29,6 +29,8 @@ pub enum Menu {
     Medit,
     /// Connector design.
     ConnDesign,
+    /// Post-processing of the last run.
+    Post,
     /// A result being disposed of.
     Disposition(Box<Disposition>),
     /// A report being written: to the screen, to the report file.
@@ -66,6 +68,7 @@ impl Menu {
             Menu::Inmodel => "INMODEL",
             Menu::Medit => "MEDIT",
             Menu::ConnDesign => "CONN_DESIGN",
+            Menu::Post => "PRCPOST",
             Menu::Disposition(_) => "DISPOSITION",
             Menu::Report { .. } => "REPORT",
             Menu::Environments => "ENVIRONMENT",
@@ -86,6 +89,7 @@ impl Menu {
             "INMODEL" => "END_INMODEL",
             "MEDIT" => "END_MEDIT",
             "CONN_DESIGN" => "END_CONN_DESIGN",
+            "PRCPOST" => "END_PRCPOST",
             "DISPOSITION" => "END_DISPOSE",
             "REPORT" => "END_REPORT",
             "ENVIRONMENT" | "CURVES" => "END_&DATA",

@@ -43,6 +43,7 @@ mod pgen;
 mod picture;
 mod piece;
 mod pipe;
+mod prcpost;
 mod report_menu;
 mod rigging;
 mod select;
@@ -129,6 +130,7 @@ pub static COMMANDS: &[&Command] = &[
     &menus::INMODEL,
     &menus::MEDIT,
     &menus::CONN_DESIGN,
+    &menus::PRCPOST,
     &describe::DESCRIBE,
     &describe::POINT,
     &describe::INSTATE,
@@ -186,6 +188,13 @@ pub static COMMANDS: &[&Command] = &[
     &excursion::MOVE,
     &excursion::WATCH,
     &lines::LINES,
+    &prcpost::TRAJECTORY,
+    &prcpost::POINTS,
+    &prcpost::CONFORCE,
+    &prcpost::CF_MAGNITUDE,
+    &prcpost::TOT_CFORCE,
+    &prcpost::C_LENGTH,
+    &prcpost::BODY_FORCE,
     &disposition::REPORT,
     &disposition::VLIST,
     &disposition::VIEW,

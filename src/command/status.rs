@@ -8,6 +8,7 @@ use super::environment_table::environments;
 use super::forces::{forces, foundations};
 use super::loads_table::loads;
 use super::offsets::offsets;
+use super::prcpost::last_run;
 use super::written::{as_written, kind_data, option_as_written};
 use super::{Call, Command, Effect, Job, Menu, body_status, body_tables, line_types};
 use crate::language::diagnostic::{Diagnostic, Outcome};
@@ -18,6 +19,7 @@ use crate::model::{Class, Coordinates, Model, Thing};
 use crate::report::disposition::Disposition;
 use crate::report::page;
 use crate::report::plot::Chart;
+use crate::solve::run_tables;
 use crate::table::{Cell, Digits, Table};
 
 /// &STATUS.
@@ -34,6 +36,7 @@ const KINDS: &[(&str, Owner, &str)] = &[
     ("STIFFNESS", Owner::Ours, "stiffness of bodies and connectors about a point"),
     ("CURVES", Owner::Moses, "curves"),
     ("ENVIRONMENT", Owner::Moses, "the environment in force, or one kept under a name"),
+    ("RUN", Owner::Ours, "how the last run went"),
     ("CLASSES", Owner::Ours, "the same as CL_FLEX"),
     ("LOADS", Owner::Ours, "loads of wind, current and waves on parts, and the forces they come to"),
     ("WEIGHT", Owner::Ours, "weights, centers and radii of gyration of bodies and parts"),
@@ -125,6 +128,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         "POINTS" => vec![points(model, &fits)],
         "DIMENSIONS" => vec![dimensions(job)],
         "DEFAULTS" => vec![defaults(model)],
+        "RUN" => vec![run_tables::told(last_run(job, args.span)?)],
         "SELECTORS" => vec![selectors(model, &fits)],
         "LINE_TYPES" => line_types::tables(job, &args.data)?,
         _ => vec![summary(model)],

@@ -1,4 +1,5 @@
-//! Choosing columns of a table as the disposition menu does: a number, `a:b`, or a name with wild characters.
+//! Choosing columns of a table as the disposition menu does: a number, `a:b`, or the name of a column or of a group of columns, with
+//! wild characters.
 //!
 //! Source: reference/solve.md, "Disposition menu". The surplus columns it drops are those beyond what a command takes; a number
 //! of no column is an error.
@@ -20,6 +21,21 @@ pub struct NoSuchColumn {
 /// Name with its group, as `VLIST` prints it: `Tension: Ten Top`.
 pub fn long_name(column: &Column) -> String {
     if column.group.is_empty() { column.name.clone() } else { format!("{}: {}", column.group, column.name) }
+}
+
+fn is_called(column: &Column, selector: &str) -> bool {
+    matches(selector, &column.name) || matches(selector, &long_name(column))
+}
+
+/// Whether a selector names the group of a column; in a table of several things the name of the thing stands before that of the group.
+fn in_group(column: &Column, selector: &str) -> bool {
+    let of_several = || matches(&format!("@ {selector}"), &column.group);
+    !selector.is_empty() && !column.group.is_empty() && (matches(selector, &column.group) || of_several())
+}
+
+/// Whether a selector names a group of columns, and no column.
+pub fn names_a_group(table: &Table, selector: &str) -> bool {
+    !table.columns.iter().any(|c| is_called(c, selector)) && table.columns.iter().any(|c| in_group(c, selector))
 }
 
 /// The columns (from 0) a selector chooses, in the table's order.
@@ -51,9 +67,13 @@ pub fn choose(table: &Table, selector: &str) -> Result<Vec<usize>, NoSuchColumn>
     let fits = |test: &dyn Fn(&Column) -> bool| -> Vec<usize> {
         table.columns.iter().enumerate().filter(|(_, c)| test(c)).map(|(i, _)| i).collect()
     };
-    let exact = fits(&|c| matches(selector, &c.name) || matches(selector, &long_name(c)));
+    let exact = fits(&|c| is_called(c, selector));
     if !exact.is_empty() {
         return Ok(exact);
+    }
+    let group = fits(&|c| in_group(c, selector));
+    if !group.is_empty() {
+        return Ok(group);
     }
     let begins = |c: &Column| c.name.get(..selector.len()).is_some_and(|head| head.eq_ignore_ascii_case(selector));
     let prefix = if selector.is_empty() { Vec::new() } else { fits(&begins) };
@@ -89,6 +109,19 @@ mod tests {
         assert_eq!(choose(&table, "ten@"), Ok(vec![3]));
         assert_eq!(choose(&table, "fo"), Ok(vec![1]));
         assert!(choose(&table, "Tne Top").unwrap_err().to_string().contains("Ten Top"));
+    }
+
+    #[test]
+    fn the_name_of_a_group_is_all_its_columns_and_a_column_of_that_name_goes_before() {
+        let groups = [("", "Time"), ("A Location", "X"), ("A Location", "Y"), ("B Location", "X"), ("A Velocity", "VX")];
+        let table = groups.iter().fold(Table::new("t"), |t, (g, n)| t.column(g, n, Dim::None, Digits::Usual));
+        assert_eq!(choose(&table, "LOCATION"), Ok(vec![1, 2, 3]));
+        assert_eq!(choose(&table, "a@"), Ok(vec![1, 2, 4]));
+        assert_eq!(choose(&table, "B Location"), Ok(vec![3]));
+        assert_eq!(choose(&table, "X"), Ok(vec![1, 3]));
+        let named = Table::new("t").column("Force", "FX", Dim::None, Digits::Usual);
+        let named = named.column("Horizontal", "Force", Dim::None, Digits::Usual);
+        assert_eq!(choose(&named, "Force"), Ok(vec![1]));
     }
 
     #[test]
