@@ -30,6 +30,7 @@ const MENUS: [&str; 15] = [
     "BLOCK",
     "MESH",
     "PGEN",
+    "BUILDG",
     "HSTATICS",
 ];
 

@@ -10,6 +10,7 @@ mod assembly;
 mod assembly_table;
 mod body_status;
 mod body_tables;
+mod buildg;
 mod chosen;
 mod class;
 mod conn_design;
@@ -23,6 +24,7 @@ mod environment;
 mod environment_table;
 mod equilibrium;
 mod excursion;
+mod fatigue_table;
 mod file;
 mod forces;
 pub mod functions;
@@ -44,9 +46,12 @@ mod picture;
 mod piece;
 mod pipe;
 mod prcpost;
+mod rep_select;
 mod report_menu;
 mod rigging;
 mod select;
+mod series;
+mod statistic;
 mod status;
 mod surface;
 mod tdom;
@@ -55,6 +60,7 @@ mod vary;
 mod weight;
 mod written;
 
+pub use buildg::take as take_row;
 pub use file::write_open_files;
 pub use job::{Job, Menu, Settings};
 pub use menus::{finish, opened_by};
@@ -200,11 +206,20 @@ pub static COMMANDS: &[&Command] = &[
     &disposition::VIEW,
     &disposition::STORE,
     &disposition::PLOT,
-    &disposition::STATISTIC,
+    &statistic::STATISTIC,
     &disposition::SET_VARIABLE,
     &disposition::C_SCALE,
     &disposition::C_SHIFT,
     &disposition::CULL,
+    &series::SPECTRUM,
+    &series::FFT,
+    &series::EXTREMES,
+    &series::EXCEEDANCE,
+    &series::HISTOGRAM,
+    &series::RAINFLOW,
+    &series::HARMONIC,
+    &buildg::BUILDG,
+    &rep_select::REP_SELECT,
     &status::STATUS,
     &picture::PICTURE,
     &units::DIMEN,

@@ -10,7 +10,7 @@ use super::loads_table::loads;
 use super::offsets::offsets;
 use super::prcpost::last_run;
 use super::written::{as_written, kind_data, option_as_written};
-use super::{Call, Command, Effect, Job, Menu, body_status, body_tables, line_types};
+use super::{Call, Command, Effect, Job, Menu, body_status, body_tables, fatigue_table, line_types};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::{Owner, choose};
 use crate::language::spec::{CommandSpec, Kind, Noun, Opens, OptionSpec, ValueSpec};
@@ -47,6 +47,7 @@ const KINDS: &[(&str, Owner, &str)] = &[
     ("DIMENSIONS", Owner::Ours, "units"),
     ("DEFAULTS", Owner::Ours, "defaults"),
     ("SELECTORS", Owner::Ours, "selectors"),
+    ("SN", Owner::Ours, "fatigue curves, and those the segments of line classes go by"),
     ("LINE_TYPES", Owner::Ours, "chains and ropes of the library, for -TYPE"),
 ];
 
@@ -130,6 +131,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         "DEFAULTS" => vec![defaults(model)],
         "RUN" => vec![run_tables::told(last_run(job, args.span)?)],
         "SELECTORS" => vec![selectors(model, &fits)],
+        "SN" => fatigue_table::tables(job, &fits, chosen.all()),
         "LINE_TYPES" => line_types::tables(job, &args.data)?,
         _ => vec![summary(model)],
     };
@@ -172,7 +174,7 @@ fn things(kind: &str) -> &'static [Thing] {
         "HYDROSTATICS" => &[Thing::Body],
         "PIECES" => &[Thing::Piece, Thing::Body, Thing::Part],
         "ASSEMBLIES" => &[Thing::Assembly],
-        "CL_FLEX" | "CLASSES" => &[Thing::Class],
+        "CL_FLEX" | "CLASSES" | "SN" => &[Thing::Class],
         "G_CONNECTOR" | "F_CONNECTOR" | "FOUNDATION" => &[Thing::Connector],
         "CURVES" => &[Thing::Curve],
         "ENVIRONMENT" => &[Thing::Environment],

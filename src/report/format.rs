@@ -123,6 +123,7 @@ fn usual(dim: Dim, units: UnitSystem) -> u8 {
         | Dim::AngularVelocity
         | Dim::AngularAcceleration
         | Dim::SpectralDensity
+        | Dim::AngleDensity
         | Dim::Damping(_)
         | Dim::Derived { .. }
         | Dim::SquareMetres => 4,

@@ -11,4 +11,5 @@ pub mod page;
 pub mod picture;
 pub mod plot;
 pub mod run_log;
+pub mod readback;
 pub mod statistic;
