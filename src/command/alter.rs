@@ -134,7 +134,7 @@ fn groups(args: &Args) -> Outcome<Vec<(&Given, &[Value])>> {
 ///
 /// # Errors
 /// A name that is none, a pattern or selector that chooses no connector.
-fn selected(model: &Model, names: &[Value]) -> Outcome<Vec<String>> {
+pub(super) fn selected(model: &Model, names: &[Value]) -> Outcome<Vec<String>> {
     let mut keys: Vec<String> = Vec::new();
     for value in names {
         let name = value.word().unwrap_or_default();

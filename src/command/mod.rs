@@ -4,6 +4,7 @@
 //! changes nothing; a command that edits in several steps says so with [`Command::edits`], and the session restores the
 //! model when it fails.
 
+mod action;
 mod alter;
 mod apply;
 mod assembly;
@@ -49,6 +50,8 @@ mod prcpost;
 mod rep_select;
 mod report_menu;
 mod rigging;
+mod sea_options;
+mod sea_table;
 mod select;
 mod series;
 mod statistic;
@@ -173,6 +176,7 @@ pub static COMMANDS: &[&Command] = &[
     &alter::ALTER,
     &equilibrium::EQUI,
     &tdom::TDOM,
+    &action::ACTION,
     &select::SELECT,
     &select::SELECTOR,
     &environment::ENV,

@@ -9,10 +9,13 @@ use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
 use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
+use crate::model::{Model, Place, Six};
 use crate::report::page;
-use crate::report::run_log::RunLog;
+use crate::report::run_log::{self, RunLog};
 use crate::solve::time::{Convergence, Ending, Method, Run, Scheme, Settings, Snapshot, Watcher};
-use crate::solve::{run_tables, settle};
+use crate::solve::{SolveError, run_tables, settle};
+use crate::table::Table;
+use indicatif::{ProgressBar, ProgressStyle};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -143,61 +146,139 @@ fn settings(job: &Job, args: &Args) -> Outcome<Settings> {
     })
 }
 
-fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    let args = &call.args;
-    let settings = settings(job, args)?;
-    if job.model.bodies.is_empty() {
-        return Err(Diagnostic::error("there is no body to move", args.span).help("&DESCRIBE BODY describes one"));
+/// A run that begins, and the file it is kept in.
+fn begun(job: &mut Job, args: &Args, settings: Settings) -> Outcome<(Run, Option<RunLog>)> {
+    let wrong = |e, job: &Job| told(e, &job.model, args.span, job.units);
+    let mut model = job.model.clone();
+    let mut velocities = Vec::new();
+    if let Some(given) = args.option("-RESET") {
+        let time = given.number(0).unwrap_or(0.0);
+        velocities = reset(job, &mut model, time)
+            .ok_or_else(|| Diagnostic::error("there is no run of these bodies to begin from", given.span))?;
     }
     if args.has("-EQUI") {
         let options = job.equilibrium.clone();
-        settle(&mut job.model, &options).map_err(|e| told(e, &job.model, args.span, job.units))?;
+        settle(&mut model, &options).map_err(|e| wrong(e, job))?;
     }
-    let mut made =
-        Run::new(&job.model, settings, job.actions.clone()).map_err(|e| told(e, &job.model, args.span, job.units))?;
-    let mut going = Going::new(job, &made, args)?;
+    let mut made = Run::new(&model, settings, job.actions.clone()).map_err(|e| wrong(e, job))?;
+    if !velocities.is_empty() {
+        made.begin_with(&velocities).map_err(|e| wrong(e, job))?;
+    }
+    if !made.settings.keep {
+        return Ok((made, None));
+    }
+    let folder = &mut job.output.folder;
+    let path = folder.folder.join(FILE);
+    let refused = |text: String| Diagnostic::error(text, args.span);
+    let Some(again) = args.option("-RESTART") else {
+        let file = folder.create(FILE).map_err(|e| refused(e.to_string()))?;
+        let log = RunLog::begin(file, path, made.fingerprint(), made.history.layout.width);
+        return Ok((made, Some(log.map_err(|e| refused(e.to_string()))?)));
+    };
+    let refused = |text: String| Diagnostic::error(text, again.span).help("TDOM without -RESTART begins a run");
+    let mut file = folder.reopen(FILE).map_err(|e| refused(e.to_string()))?;
+    let kept = run_log::read(&mut file, again.number(0).unwrap_or(f64::INFINITY));
+    let kept = kept.map_err(|e| refused(format!("{}: {e}", path.display())))?;
+    if kept.fingerprint != made.fingerprint() || kept.width != made.history.layout.width {
+        let text = format!("the run kept in {} is of another model, environment, step or scheme", path.display());
+        return Err(refused(text).help("all must be as they were, but for the time observed"));
+    }
+    made.take_up(&kept.snapshot).map_err(|e| wrong(e, job))?;
+    let log = RunLog::go_on(file, path, &kept).map_err(|e| refused(e.to_string()))?;
+    made.history.values = kept.rows;
+    job.remark(format!("goes on from {} s", kept.snapshot.time), again.span);
+    Ok((made, Some(log)))
+}
+
+/// Puts the bodies of a model where those of the last run were at the stored instant nearest to a time; their velocities.
+fn reset(job: &Job, model: &mut Model, time: f64) -> Option<Vec<(usize, Six)>> {
+    let history = &job.run.as_ref()?.history;
+    let far = |row: &[f64]| (row.first().copied().unwrap_or(f64::INFINITY) - time).abs();
+    let row = history.rows().min_by(|a, b| far(a).total_cmp(&far(b)))?;
+    let mut velocities = Vec::new();
+    for (body, (_, key)) in history.layout.bodies.iter().enumerate() {
+        let at = history.layout.body(body);
+        let numbers = row.get(at..at + 12)?;
+        let found = model.bodies.get_mut(key)?;
+        found.place = Place { shift: numbers.get(..3)?.try_into().ok()?, turn: numbers.get(3..6)?.try_into().ok()? };
+        velocities.push((model.bodies.get_index_of(key)?, Six::from_column_slice(numbers.get(6..)?)));
+    }
+    Some(velocities)
+}
+
+fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let (args, span) = (&call.args, call.args.span);
+    let settings = settings(job, args)?;
+    if job.model.bodies.is_empty() {
+        return Err(Diagnostic::error("there is no body to move", span).help("&DESCRIBE BODY describes one"));
+    }
+    let (mut made, log) = begun(job, args, settings)?;
+    let mut going = Going::new(job, &made, log);
     let ended = made.go(&mut going);
     drop(going);
     let mut tables = vec![run_tables::told(&made)];
     tables.extend(run_tables::extremes(&made.history));
+    let checked = match &ended {
+        Ok(_) if args.has("-CHECK") => Some(check(job, &made)),
+        _ => None,
+    };
+    if let Some(Ok(list)) = &checked {
+        tables.extend(list.iter().cloned());
+    }
     let head = job.page_head();
     let text = tables.iter().map(|t| page::render(t, job.units, &head)).collect::<Vec<_>>().join("\n");
     job.run = Some(made);
     job.say(&text);
-    let ended = ended.map_err(|e| told(e, &job.model, args.span, job.units))?;
-    let span = args.span;
+    let wrong = |e| told(e, &job.model, span, job.units);
+    let ended = ended.map_err(wrong)?;
+    checked.transpose().map_err(wrong)?;
     match ended {
         Ending::Done => {}
         Ending::Interrupted => job.warn("the run was interrupted: what it has is kept, and -RESTART goes on", span),
-        Ending::Capsized(name) => job.warn(
-            format!("body {name} rolled or pitched beyond 90 degrees: the run ended there (-NO_CAPSIZE YES)"),
-            span,
-        ),
+        Ending::Capsized(name) => {
+            job.warn(
+                format!("body {name} rolled or pitched beyond 90 degrees: the run ended there (-NO_CAPSIZE YES)"),
+                span,
+            );
+        }
         Ending::Stopped(name) => job.remark(format!("action {name} ended the run"), span),
     }
     Ok(Effect::Done)
+}
+
+/// The same run again with half the step, and what differs.
+fn check(job: &Job, first: &Run) -> Result<Vec<Table>, SolveError> {
+    let mut again = first.begun_again(|s| Settings { dt: s.dt / 2.0, store: s.store.saturating_mul(2), ..s })?;
+    let mut going = Going::new(job, &again, None);
+    again.go(&mut going)?;
+    Ok(run_tables::compared(&first.history, &again.history))
 }
 
 /// Who is told how a run goes: its file, the terminal, Ctrl-C.
 struct Going {
     log: Option<RunLog>,
     interrupt: Arc<AtomicBool>,
+    bar: ProgressBar,
+    asked: u64,
 }
 
+/// Steps between two looks at the terminal.
+const LOOK: u64 = 256;
+
 impl Going {
-    fn new(job: &mut Job, run: &Run, args: &Args) -> Outcome<Self> {
-        let interrupt = Arc::clone(&job.interrupt);
-        let refused = |text: String| Diagnostic::error(text, args.span);
-        let log = if run.settings.keep {
-            let folder = &mut job.output.folder;
-            let path = folder.folder.join(FILE);
-            let file = folder.create(FILE).map_err(|e| refused(e.to_string()))?;
-            let width = run.history.layout.width;
-            Some(RunLog::begin(file, path, run.fingerprint(), width).map_err(|e| refused(e.to_string()))?)
-        } else {
-            None
-        };
-        Ok(Going { log, interrupt })
+    fn new(job: &Job, run: &Run, log: Option<RunLog>) -> Self {
+        // hidden when nobody looks: it goes to the terminal behind stderr alone
+        let bar = ProgressBar::new(run.settings.observed.ceil() as u64);
+        if let Ok(style) = ProgressStyle::with_template("{bar:30} {msg}, {elapsed} gone, {eta} to go") {
+            bar.set_style(style);
+        }
+        Going { log, interrupt: Arc::clone(&job.interrupt), bar, asked: 0 }
+    }
+}
+
+impl Drop for Going {
+    fn drop(&mut self) {
+        self.bar.finish_and_clear();
     }
 }
 
@@ -210,7 +291,17 @@ impl Watcher for Going {
         self.log.as_mut().map_or(Ok(()), |log| log.snapshot(snapshot))
     }
 
-    fn goes_on(&mut self, _time: f64) -> bool {
+    fn finish(&mut self) -> Result<(), String> {
+        self.log.as_mut().map_or(Ok(()), |log| log.finish())
+    }
+
+    fn goes_on(&mut self, time: f64) -> bool {
+        if self.asked.is_multiple_of(LOOK) {
+            let rate = time / self.bar.elapsed().as_secs_f64().max(1e-9);
+            self.bar.set_position(time as u64);
+            self.bar.set_message(format!("{time:.1} s, {rate:.0} times real time"));
+        }
+        self.asked += 1;
         !self.interrupt.load(Ordering::Relaxed)
     }
 }

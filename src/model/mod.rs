@@ -27,7 +27,9 @@ pub use connector::{Anchor, Connector, Tug};
 pub use curve::{Curve, CurveKind};
 pub use defaults::{Coordinates, Defaults, Material};
 pub use element::{Connection, Element, End, Guess, Response, Situation, SpringState, Summary, TimeStep};
-pub use environment::{Current, Environment, Formula, Sea, Stretching, Surroundings, TimeWindow, Wind};
+pub use environment::{
+    Components, Current, Division, Environment, Formula, Phasing, Sea, Stretching, Surroundings, TimeWindow, Wind,
+};
 pub use fatigue::{FatigueCurve, FatigueKind, FatigueSegment, FatigueSelection, ThicknessCorrection};
 pub use geometry::{Place, Position, unit_vector};
 pub use hull::{LinearHydrostatics, Piece, Shape, box_panels};

@@ -248,6 +248,19 @@ impl JobFolder {
         Ok(file)
     }
 
+    /// Opens a file of the job's folder that grew in an earlier run, or earlier in this one, to be read and gone on with.
+    ///
+    /// # Errors
+    /// What the system refuses; there is none.
+    pub fn reopen(&mut self, name: &str) -> Result<std::fs::File, FileError> {
+        let path = self.folder.join(name);
+        let opened = std::fs::OpenOptions::new().read(true).write(true).open(&path);
+        let file = opened.map_err(|source| FileError::System { path: path.clone(), source })?;
+        let path = real(&path);
+        self.growing.extend(path.filter(|p| !self.growing.contains(p)));
+        Ok(file)
+    }
+
     /// Sees that a path is no file that grows as the job runs, nor a folder above one.
     fn not_in_use(&self, path: &Path) -> Result<(), FileError> {
         match self.growing.iter().find(|file| lies_in(file, path)) {

@@ -101,6 +101,10 @@ impl Watcher for RunLog {
         let bytes = snapshot.bytes();
         self.block(b'S', &bytes).and_then(|()| self.file.flush()).map_err(|e| self.said(&e))
     }
+
+    fn finish(&mut self) -> Result<(), String> {
+        self.file.flush().map_err(|e| self.said(&e))
+    }
 }
 
 /// Reads a file of a run up to the last snapshot at or before a time (s).

@@ -96,7 +96,7 @@ pub fn told(run: &Run) -> Table {
 pub fn extremes(history: &History) -> Vec<Table> {
     let all = results(history);
     let mut tables = Vec::new();
-    for (title, dim) in [("Places", Dim::Length), ("Angles", Dim::Angle), ("Tensions", Dim::Force)] {
+    for (title, dim) in KINDS {
         let mut table = Table::new(title)
             .column("", "Result", Dim::None, Digits::Usual)
             .column("", "Mean", dim, Digits::Usual)
@@ -106,17 +106,9 @@ pub fn extremes(history: &History) -> Vec<Table> {
             .column("Maximum", "Most", dim, Digits::Usual)
             .column("Maximum", "At ", Dim::Time, Digits::Usual);
         for series in all.iter().filter(|s| s.dim == dim) {
-            let values = || history.rows().map(|row| (row.first().copied().unwrap_or(0.0), series.value(row)));
-            let count = history.len().max(1) as f64;
-            let mean = values().map(|(_, v)| v).sum::<f64>() / count;
-            let variance = values().map(|(_, v)| (v - mean) * (v - mean)).sum::<f64>() / count;
-            let least = values().fold((0.0, f64::INFINITY), |best, at| if at.1 < best.1 { at } else { best });
-            let most = values().fold((0.0, f64::NEG_INFINITY), |best, at| if at.1 > best.1 { at } else { best });
-            let cells = [mean, variance.sqrt(), least.1, least.0, most.1, most.0].map(Cell::from);
-            let row = std::iter::once(Cell::from(series.name.as_str())).chain(cells).collect();
-            if table.push(row).is_err() {
-                table.note(format!("{} is left out", series.name));
-            }
+            let m = Moments::of(history, series);
+            let cells = [m.mean, m.deviation, m.least.1, m.least.0, m.most.1, m.most.0];
+            push(&mut table, &series.name, cells.map(Cell::from));
         }
         if table.rows() > 0 {
             tables.push(table);
@@ -126,4 +118,73 @@ pub fn extremes(history: &History) -> Vec<Table> {
         last.note("of the whole run, its beginning included: PRCPOST takes parts of it");
     }
     tables
+}
+
+/// What differs between a run and the same with half the step: a table for each dimension.
+pub fn compared(first: &History, second: &History) -> Vec<Table> {
+    let all = results(first);
+    let mut tables = Vec::new();
+    for (title, dim) in KINDS {
+        let mut table = Table::new(format!("{title} with Half the Step"))
+            .column("", "Result", Dim::None, Digits::Usual)
+            .column("Largest Difference", "Size", dim, Digits::Scientific(3))
+            .column("Largest Difference", "At", Dim::Time, Digits::Usual)
+            .column("Maximum", "Full Step", dim, Digits::Usual)
+            .column("Maximum", "Half Step", dim, Digits::Usual)
+            .column("Std. Dev.", "Full Step ", dim, Digits::Usual)
+            .column("Std. Dev.", "Half Step ", dim, Digits::Usual);
+        for series in all.iter().filter(|s| s.dim == dim) {
+            let pairs = first.rows().zip(second.rows());
+            let differences = pairs.map(|(a, b)| (a.first().copied(), (series.value(a) - series.value(b)).abs()));
+            let worst = differences.fold((None, -1.0), |worst, at| if at.1 > worst.1 { at } else { worst });
+            let (one, other) = (Moments::of(first, series), Moments::of(second, series));
+            let cells = [
+                Some(worst.1),
+                worst.0,
+                Some(one.most.1),
+                Some(other.most.1),
+                Some(one.deviation),
+                Some(other.deviation),
+            ];
+            push(&mut table, &series.name, cells.map(Cell::from));
+        }
+        if table.rows() > 0 {
+            tables.push(table);
+        }
+    }
+    if let Some(last) = tables.last_mut() {
+        last.note("at the instants both runs have; a difference that does not fall with the step again is one of an action or an impact");
+    }
+    tables
+}
+
+/// The dimensions of results, with what they are called.
+const KINDS: [(&str, Dim); 3] = [("Places", Dim::Length), ("Angles", Dim::Angle), ("Tensions", Dim::Force)];
+
+/// Mean, deviation and extremes (time, value) of a result.
+struct Moments {
+    mean: f64,
+    deviation: f64,
+    least: (f64, f64),
+    most: (f64, f64),
+}
+
+impl Moments {
+    fn of(history: &History, series: &Series) -> Self {
+        let values = || history.rows().map(|row| (row.first().copied().unwrap_or(0.0), series.value(row)));
+        let count = history.len().max(1) as f64;
+        let mean = values().map(|(_, v)| v).sum::<f64>() / count;
+        let variance = values().map(|(_, v)| (v - mean) * (v - mean)).sum::<f64>() / count;
+        let least = values().fold((0.0, f64::INFINITY), |best, at| if at.1 < best.1 { at } else { best });
+        let most = values().fold((0.0, f64::NEG_INFINITY), |best, at| if at.1 > best.1 { at } else { best });
+        Moments { mean, deviation: variance.sqrt(), least, most }
+    }
+}
+
+/// Adds the row of a result.
+fn push(table: &mut Table, name: &str, cells: impl IntoIterator<Item = Cell>) {
+    let row = std::iter::once(Cell::from(name)).chain(cells).collect();
+    if table.push(row).is_err() {
+        table.note(format!("{name} is left out"));
+    }
 }

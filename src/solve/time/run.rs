@@ -79,6 +79,14 @@ pub trait Watcher {
         Ok(())
     }
 
+    /// No more comes.
+    ///
+    /// # Errors
+    /// What came could not be kept, in one sentence.
+    fn finish(&mut self) -> Result<(), String> {
+        Ok(())
+    }
+
     /// Asked before every step; false ends the run, which keeps what it has.
     fn goes_on(&mut self, _time: f64) -> bool {
         true
@@ -110,6 +118,8 @@ pub struct Run {
     pub(super) near: Vec<Place>,
     row: Vec<f64>,
     environments: Vec<(f64, String)>,
+    origin: Model,
+    start: Vec<(usize, Six)>,
 }
 
 impl Run {
@@ -118,7 +128,7 @@ impl Run {
     /// # Errors
     /// The body or connector that makes no part of it; an action on what is not there.
     pub fn new(model: &Model, settings: Settings, actions: Vec<Action>) -> Result<Self, SolveError> {
-        let model = model.clone();
+        let (origin, model) = (model.clone(), model.clone());
         let sea = Sea::of(&model, &model.environment).map_err(SolveError::new)?.map(Arc::new);
         let system = System::under_way(&model, sea.as_ref())?;
         let mut links: Vec<(String, Vec<Option<usize>>)> = system.link_ends();
@@ -149,6 +159,8 @@ impl Run {
             near,
             row: Vec::new(),
             environments: Vec::new(),
+            origin,
+            start: Vec::new(),
         };
         run.check_actions()?;
         run.prescribe()?;
@@ -156,11 +168,24 @@ impl Run {
         Ok(run)
     }
 
+    /// The same run from its start, with other settings.
+    ///
+    /// # Errors
+    /// As [`Run::new`].
+    pub fn begun_again(&self, change: impl FnOnce(Settings) -> Settings) -> Result<Run, SolveError> {
+        let mut again = Run::new(&self.origin, change(self.settings.clone()), self.actions.clone())?;
+        if !self.start.is_empty() {
+            again.begin_with(&self.start)?;
+        }
+        Ok(again)
+    }
+
     /// Gives bodies velocities to begin with (m/s, rad/s, global axes).
     ///
     /// # Errors
     /// As [`Run::new`].
     pub fn begin_with(&mut self, velocities: &[(usize, Six)]) -> Result<(), SolveError> {
+        self.start = velocities.to_vec();
         for (body, velocity) in velocities {
             if let Some(motion) = self.now.motions.get_mut(*body) {
                 motion.velocity = *velocity;
@@ -207,14 +232,19 @@ impl Run {
     /// # Errors
     /// A body or connector without an answer, or a watcher that could not keep a row; rows so far are kept.
     pub fn go(&mut self, watcher: &mut dyn Watcher) -> Result<Ending, SolveError> {
+        let ended = self.steps(watcher);
+        let kept = watcher.finish().map_err(|text| SolveError::new(ClassError::new(text)));
+        ended.and_then(|ending| kept.map(|()| ending))
+    }
+
+    fn steps(&mut self, watcher: &mut dyn Watcher) -> Result<Ending, SolveError> {
         let steps = (self.settings.observed / self.settings.dt - 1e-9).ceil().max(0.0) as usize;
-        if self.taken == 0 && self.history.is_empty() {
+        if self.taken == 0 {
             self.keep(watcher)?;
             self.save(watcher)?;
         }
         while self.taken < steps {
             if !watcher.goes_on(self.now.time) {
-                self.save(watcher)?;
                 return Ok(Ending::Interrupted);
             }
             let end = (self.settings.dt * (self.taken + 1) as f64).min(self.settings.observed);
@@ -223,18 +253,19 @@ impl Run {
             // the step's own time, so that no rounding adds up
             self.now.time = end;
             let stop = self.happens()?;
-            if self.taken.is_multiple_of(self.settings.store.max(1)) || self.taken == steps || stop.is_some() {
+            let capsized = self.capsized();
+            let last = self.taken == steps || stop.is_some() || capsized.is_some();
+            if last || self.taken.is_multiple_of(self.settings.store.max(1)) {
                 self.keep(watcher)?;
             }
             if let Some(name) = stop {
-                self.save(watcher)?;
                 return Ok(Ending::Stopped(name));
             }
-            if self.taken.is_multiple_of(SNAPSHOT) || self.taken == steps {
-                self.save(watcher)?;
-            }
-            if let Some(name) = self.capsized() {
+            if let Some(name) = capsized {
                 return Ok(Ending::Capsized(name));
+            }
+            if self.taken.is_multiple_of(SNAPSHOT) {
+                self.save(watcher)?;
             }
         }
         Ok(Ending::Done)

@@ -64,6 +64,7 @@ pub struct Stepper {
     rows: Vec<Row>,
     matrix: DMatrix<f64>,
     right: DVector<f64>,
+    moved: Vec<f64>,
     masses: Vec<Matrix6<f64>>,
 }
 
@@ -244,8 +245,10 @@ impl Stepper {
             last = left;
             effort.iterations += 1;
             self.jacobian(&now.forces, dt, by_place, by_velocity);
-            let moved = self.solve().ok_or_else(|| self.unsolved(system, left, time, dt))?;
-            for (row, by) in self.rows.iter().zip(moved.iter()) {
+            if !self.solve() {
+                return Err(self.unsolved(system, left, time, dt));
+            }
+            for (row, by) in self.rows.iter().zip(&self.moved) {
                 let (Some(trial), Some(over)) = (self.trial.get_mut(row.at / 6), self.over.get_mut(row.at / 6)) else {
                     continue;
                 };
@@ -324,6 +327,12 @@ impl Stepper {
         if self.matrix.nrows() != size {
             self.matrix = DMatrix::zeros(size, size);
         }
+        if let ([mass], 6, true) = (self.masses.as_slice(), size, self.rows.iter().all(|r| r.heavy)) {
+            let block = |m: &DMatrix<f64>| m.fixed_view::<6, 6>(0, 0).into_owned();
+            let whole = block(&forces.stiffness) * by_place + block(&forces.damping) * by_velocity + mass;
+            self.matrix.copy_from(&whole);
+            return;
+        }
         for (j, column) in self.rows.iter().enumerate() {
             let (place, velocity) = if column.heavy { (by_place, by_velocity) } else { (1.0, 1.0 / dt) };
             for (i, row) in self.rows.iter().enumerate() {
@@ -337,21 +346,27 @@ impl Stepper {
         }
     }
 
-    /// The correction; what nothing holds and nothing weighs does not move.
-    fn solve(&self) -> Option<DVector<f64>> {
-        let size = self.rows.len();
-        let found = if size == 6 {
+    /// Finds the correction; what nothing holds and nothing weighs does not move. False where there is none.
+    fn solve(&mut self) -> bool {
+        self.moved.clear();
+        if self.rows.len() == 6 {
             let matrix: Matrix6<f64> = self.matrix.fixed_view::<6, 6>(0, 0).into_owned();
             let right = Six::from_iterator(self.right.iter().copied());
-            matrix.lu().solve(&right).map(|s| DVector::from_row_slice(s.as_slice()))
-        } else {
-            self.matrix.clone().lu().solve(&self.right)
-        };
-        let whole = |s: &DVector<f64>| s.iter().all(|v| v.is_finite());
-        found.filter(whole).or_else(|| {
-            let scale = self.matrix.amax();
-            self.matrix.clone().svd(true, true).solve(&self.right, 1e-12 * scale).ok().filter(whole)
-        })
+            if let Some(found) = matrix.lu().solve(&right) {
+                self.moved.extend(found.iter());
+            }
+        } else if let Some(found) = self.matrix.clone().lu().solve(&self.right) {
+            self.moved.extend(found.iter());
+        }
+        if self.moved.len() == self.rows.len() && self.moved.iter().all(|v| v.is_finite()) {
+            return true;
+        }
+        self.moved.clear();
+        let scale = self.matrix.amax();
+        if let Ok(found) = self.matrix.clone().svd(true, true).solve(&self.right, 1e-12 * scale) {
+            self.moved.extend(found.iter());
+        }
+        self.moved.len() == self.rows.len() && self.moved.iter().all(|v| v.is_finite())
     }
 
     /// The error of a step without a balance.

@@ -1,0 +1,165 @@
+//! &ACTION: what happens during a run.
+
+use super::alter::selected;
+use super::{Call, Command, Effect, Job};
+use crate::language::args::{Args, Given};
+use crate::language::diagnostic::{Diagnostic, Outcome, did_you_mean};
+use crate::language::name as rule;
+use crate::language::select::Owner;
+use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
+use crate::language::units::{Dim, UnitSystem};
+use crate::model::{Model, find};
+use crate::solve::FREEDOMS;
+use crate::solve::time::{Action, Watched, What, When};
+
+/// &ACTION.
+pub static ACTION: Command = Command { spec: &SPEC, edits: false, run };
+
+const LINE: ValueSpec = ValueSpec::new("LINE", Kind::Name(Noun::Connector), "connector");
+const FORCE: ValueSpec =
+    ValueSpec::new("F", Kind::Number(Dim::Force), "size of the force at its first end").not_negative();
+const BODY: ValueSpec = ValueSpec::new("BODY", Kind::Name(Noun::Body), "body");
+const DOF: ValueSpec =
+    ValueSpec::new("DOF", Kind::Choice(&FREEDOMS), "freedom of its origin, roll, pitch and yaw as RX RY RZ");
+const LIMIT: ValueSpec = ValueSpec::new("V", Kind::Number(Dim::None), "a length, or an angle in degrees");
+const POINT: ValueSpec = ValueSpec::new("*PT", Kind::Name(Noun::Point), "point of a body");
+const HEIGHT: ValueSpec = ValueSpec::new("Z", Kind::Number(Dim::Length), "height above the mean water level");
+const LINES: &[ValueSpec] = &[ValueSpec::new(":SEL", Kind::Name(Noun::Selector), "connector, pattern or selector")];
+
+/// Options that say when.
+const WHEN: [&str; 7] = ["-AT", "-TENSION", "-SLACK", "-ABOVE", "-BELOW", "-HIGH", "-LOW"];
+/// Options that say what.
+const WHAT: [&str; 5] = ["-RELEASE", "-ACTIVATE", "-WINCH", "-ENVIRONMENT", "-STOP"];
+
+static SPEC: CommandSpec = CommandSpec {
+    owner: Owner::Ours,
+    data: &[ValueSpec::new("NAME", Kind::Name(Noun::New), "name of the action").or("none: with -CLEAR")],
+    options: &[
+        OptionSpec::new("-AT", &[ValueSpec::new("T", Kind::Number(Dim::Time), "time").not_negative()], "at a time"),
+        OptionSpec::new("-TENSION", &[LINE, FORCE], "when the tension of a line is first above F"),
+        OptionSpec::new("-SLACK", &[LINE, FORCE], "when the tension of a line is first below F"),
+        OptionSpec::new("-ABOVE", &[BODY, DOF, LIMIT], "when a freedom of a body is first above V"),
+        OptionSpec::new("-BELOW", &[BODY, DOF, LIMIT], "when a freedom of a body is first below V"),
+        OptionSpec::new("-HIGH", &[POINT, HEIGHT], "when a point is first higher than Z"),
+        OptionSpec::new("-LOW", &[POINT, HEIGHT], "when a point is first lower than Z"),
+        OptionSpec::new("-RELEASE", LINES, "connectors act no more: they break or are let go").repeating(1),
+        OptionSpec::new("-ACTIVATE", LINES, "connectors that are inactive act").repeating(1),
+        OptionSpec::new(
+            "-WINCH",
+            &[
+                ValueSpec::new(":SEL", Kind::Name(Noun::Selector), "connector, pattern or selector"),
+                ValueSpec::new("RATE", Kind::Number(Dim::Velocity), "length a second, positive pays out, 0 stops it"),
+                ValueSpec::new("LENGTH", Kind::Number(Dim::Length), "length at which it stops")
+                    .or("goes on")
+                    .positive(),
+            ],
+            "the first segment of connectors gets longer or shorter",
+        ),
+        OptionSpec::new(
+            "-ENVIRONMENT",
+            &[ValueSpec::new("NAME", Kind::Name(Noun::Environment), "environment")],
+            "its wind, waves and current from then on; the water must be the same",
+        ),
+        OptionSpec::new("-STOP", &[], "the run ends"),
+        OptionSpec::new("-DELETE", &[], "forgets the action"),
+        OptionSpec::new("-CLEAR", &[], "forgets all actions"),
+    ],
+    detail: "Says what happens in runs of TDOM, from then on in every one; an action happens once a run. One option says when, one says \
+             what. A time is met exactly: a step is cut there. A condition is looked at behind every step, so that it is late by at most \
+             one step (TDOM -CHECK shows what that matters). Connectors that come to act are made between their ends as these stand at \
+             the start of the run. A winched line that is tabulated is tabulated anew in every step: EXACT is quicker.",
+    example: "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n*G 0 0 0\n&DESCRIBE BODY CART -IGNORE Y Z RX RY RZ\n*C 0 0 0\n#WEIGHT *C 100 1 1 1\n\
+              ~S GSPR BOTH X 40 1000 -LEN 0\nCONNECTOR K ~S *C *G\nEND\n&INSTATE -LOCATE CART 0.5 0 0\n&ENV -TIME 10 0.1\n\
+              &ACTION BREAK -TENSION K 15 -RELEASE K\n&ACTION FAR -ABOVE CART X 3 -STOP\nTDOM\n&ACTION FAR -DELETE\n&ACTION -CLEAR",
+    ..CommandSpec::new("&ACTION", "says what happens during a run, and when")
+};
+
+fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    if args.has("-CLEAR") {
+        job.actions.clear();
+        return Ok(Effect::Done);
+    }
+    let name = args.word(0).unwrap_or_default();
+    if name.is_empty() {
+        return Err(
+            Diagnostic::error("an action needs a name", args.span).help("form: &ACTION NAME -AT 100 -RELEASE A")
+        );
+    }
+    if args.has("-DELETE") {
+        let before = job.actions.len();
+        job.actions.retain(|a| !a.name.eq_ignore_ascii_case(name));
+        if job.actions.len() == before {
+            let mut error = Diagnostic::error(format!("there is no action {name}"), args.place(0));
+            error.help.extend(did_you_mean(name, job.actions.iter().map(|a| a.name.as_str())));
+            return Err(error);
+        }
+        return Ok(Effect::Done);
+    }
+    rule::check(name, None, "action", args.place(0))?;
+    let when = when(&job.model, only(args, &WHEN, "when it happens")?, job.units)?;
+    let what = what(&job.model, only(args, &WHAT, "what happens")?)?;
+    job.actions.retain(|a| !a.name.eq_ignore_ascii_case(name));
+    job.actions.push(Action { name: name.to_string(), when, what });
+    Ok(Effect::Done)
+}
+
+/// The one option of a list that is given.
+fn only<'a>(args: &'a Args, names: &[&str], of: &str) -> Outcome<&'a Given> {
+    let mut given = args.options.iter().filter(|g| names.contains(&g.spec.name));
+    match (given.next(), given.next()) {
+        (Some(one), None) => Ok(one),
+        (Some(one), Some(other)) => {
+            let text = format!("{} and {} both say {of}", one.spec.name, other.spec.name);
+            Err(Diagnostic::error(text, other.span).other(one.span, "first given here").help("give two actions"))
+        }
+        _ => Err(Diagnostic::error(format!("the action does not say {of}"), args.span).help(names.join(", "))),
+    }
+}
+
+fn when(model: &Model, given: &Given, units: UnitSystem) -> Outcome<When> {
+    let place = given.values.first().map_or(given.span, |v| v.span);
+    let name = given.word(0).unwrap_or_default();
+    let number = |i: usize| given.number(i).unwrap_or(0.0);
+    let line = || find(&model.connectors, name, "connector", place).map(|c| Watched::Tension(c.name.clone()));
+    let freedom = || -> Outcome<(Watched, f64)> {
+        let body = find(&model.bodies, name, "body", place)?;
+        let freedom = FREEDOMS.iter().position(|f| Some(*f) == given.word(1)).unwrap_or(0);
+        let dim = if freedom < 3 { Dim::Length } else { Dim::Angle };
+        Ok((Watched::Freedom(body.name.clone(), freedom), dim.to_si(number(2), units)))
+    };
+    let point = || {
+        let found = find(&model.points, name, "point", place)?;
+        match model.body_of(found) {
+            Some(_) => Ok(Watched::Height(found.name.clone())),
+            None => Err(Diagnostic::error(format!("point {name} belongs to no body"), place)),
+        }
+    };
+    Ok(match given.spec.name {
+        "-AT" => When::At(number(0)),
+        "-TENSION" => When::Above(line()?, number(1)),
+        "-SLACK" => When::Below(line()?, number(1)),
+        "-ABOVE" => freedom().map(|(watched, value)| When::Above(watched, value))?,
+        "-BELOW" => freedom().map(|(watched, value)| When::Below(watched, value))?,
+        "-HIGH" => When::Above(point()?, number(1)),
+        _ => When::Below(point()?, number(1)),
+    })
+}
+
+fn what(model: &Model, given: &Given) -> Outcome<What> {
+    let names = |count: usize| -> Outcome<Vec<String>> {
+        let keys = selected(model, given.values.get(..count).unwrap_or(&given.values))?;
+        Ok(keys.iter().filter_map(|k| model.connectors.get(k)).map(|c| c.name.clone()).collect())
+    };
+    Ok(match given.spec.name {
+        "-RELEASE" => What::Release(names(usize::MAX)?),
+        "-ACTIVATE" => What::Activate(names(usize::MAX)?),
+        "-WINCH" => What::Winch(names(1)?, given.number(1).unwrap_or(0.0), given.number(2)),
+        "-ENVIRONMENT" => {
+            let (name, place) =
+                (given.word(0).unwrap_or_default(), given.values.first().map_or(given.span, |v| v.span));
+            What::Environment(find(&model.environments, name, "environment", place)?.name.clone())
+        }
+        _ => What::Stop,
+    })
+}
