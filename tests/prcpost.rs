@@ -9,8 +9,10 @@ mod common;
 use nalgebra::Vector3;
 use std::sync::Arc;
 use windlass::hydro::sea::{Component, Sea, Water};
-use windlass::model::{Model, Six, Stretching};
-use windlass::solve::results::{self, Interest, Magnitude, Told, Window};
+use windlass::model::{FatigueSelection, Model, Six, Stretching};
+use windlass::post::fatigue::{find, of_cycles};
+use windlass::post::rainflow::cycles;
+use windlass::solve::results::{self, Exposed, Interest, Magnitude, Told, Window};
 use windlass::solve::time::{Action, Convergence, Ending, Method, Run, Settings, Watcher, What, When};
 use windlass::table::{Cell, Table};
 
@@ -291,4 +293,44 @@ fn what_lies_between_two_stored_instants_is_on_the_line_between_them() {
     let want = 0.6 * stored[2] + 0.4 * stored[3];
     assert!((column(&between, "Force Magnitude", "A")[0] - want).abs() < 1e-9 * want);
     assert!((column(&between, "", "Time")[0] - 1.2).abs() < 1e-12);
+}
+
+#[test]
+fn segments_are_damaged_by_the_tension_at_their_upper_ends_and_a_scatter_adds_up_by_days() {
+    let records = "~T B_CAT 100 EXACT -LEN 150 -BUOY 0 -WTPL 1000 -EMOD 1E11 -B_TEN 2E6 -C_SN CHAIN\n\
+                   ~T B_CAT 100 EXACT -LEN 860 -DEP 200 -BUOY 0 -WTPL 1000 -EMOD 1E11 -B_TEN 1E6\nCONNECTOR T -ANC 60 925 ~T *B\n";
+    let made = run(&moored(records), (60.0, 0.5), &[], vec![]);
+    let events = results::events(&made.history, None).unwrap();
+    let selection = FatigueSelection { chosen: vec!["CHAIN".into()], ..FatigueSelection::default() };
+    let link = made.history.layout.links.iter().position(|l| l.name == "T").unwrap();
+    let damages = results::line_damages(&made, &[link], &selection, &events).unwrap();
+    let segments = &damages[0].1.segments;
+    let places = results::trajectory(&made, &[0], &Told::default(), &events).unwrap();
+    let (at, yaw) = (vectors(&places, "Location", ["X", "Y", "Z"]), column(&places, "Location", "Yaw"));
+    let (anchor, own) = ends(&made.model, "T", "*B");
+    let (mut top, mut joint) = (Vec::new(), Vec::new());
+    for (at, yaw) in at.iter().zip(&yaw) {
+        let to = anchor - (at + turned(*yaw, own));
+        let (h, suspended) = closed(to.x.hypot(to.y), 1010.0);
+        top.push((h + W * HEIGHT) / 2e6);
+        joint.push(h.hypot(W * (suspended - 150.0)) / 1e6);
+    }
+    let chain = find("CHAIN", &selection).unwrap();
+    for (segment, ratios) in segments.iter().zip([&top, &joint]) {
+        let mean = ratios.iter().sum::<f64>() / ratios.len() as f64;
+        let want = of_cycles(&cycles(ratios).unwrap(), &chain, mean).unwrap();
+        let most = ratios.iter().copied().fold(0.0, f64::max);
+        assert!((segment.most_used - most).abs() < 1e-6, "{segment:?} {most}");
+        // by the third power of ranges of a hundredth, each with an error of 1e-6 of the tension
+        assert!(want.sum > 0.0 && (segment.damage / want.sum - 1.0).abs() < 2e-3, "{segment:?} {want:?}");
+    }
+    let day = 86_400.0;
+    let exposed =
+        |days: f64| Exposed { environment: "E".into(), record: 60.0, duration: days * day, lines: damages.clone() };
+    let table = results::scatter(&[exposed(10.0), exposed(5.0)], 2.0).unwrap();
+    let (cdr, years) = (column(&table, "All Environments", "CDR"), column(&table, "All Environments", "Life, Years"));
+    for (segment, (cdr, years)) in segments.iter().zip(cdr.iter().zip(years)) {
+        assert!((cdr / (segment.damage * 15.0 * day / 60.0) - 1.0).abs() < 1e-12);
+        assert!((years / (15.0 / 365.25 / cdr / 2.0) - 1.0).abs() < 1e-12);
+    }
 }

@@ -12,6 +12,7 @@ use crate::report::files::Place;
 use crate::report::output::Output;
 use crate::report::page::PageHead;
 use crate::solve::Options;
+use crate::solve::results::Exposed;
 use crate::solve::time::{Action, Run};
 use indexmap::IndexMap;
 use std::path::PathBuf;
@@ -212,6 +213,8 @@ pub struct Job {
     pub actions: Vec<Action>,
     /// The last run.
     pub run: Option<Run>,
+    /// The runs that FATIGUE adds up.
+    pub scatter: Vec<Exposed>,
     /// Set by Ctrl-C: a command that takes long gives up, and the run ends behind it.
     pub interrupt: Arc<AtomicBool>,
 }
@@ -239,6 +242,7 @@ impl Job {
             equilibrium: Options::default(),
             actions: Vec::new(),
             run: None,
+            scatter: Vec::new(),
             interrupt: Arc::default(),
         }
     }

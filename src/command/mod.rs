@@ -25,6 +25,7 @@ mod environment;
 mod environment_table;
 mod equilibrium;
 mod excursion;
+mod fatigue;
 mod fatigue_table;
 mod file;
 mod forces;
@@ -54,6 +55,7 @@ mod sea_options;
 mod sea_table;
 mod select;
 mod series;
+mod settings_table;
 mod statistic;
 mod status;
 mod surface;
@@ -205,6 +207,7 @@ pub static COMMANDS: &[&Command] = &[
     &prcpost::TOT_CFORCE,
     &prcpost::C_LENGTH,
     &prcpost::BODY_FORCE,
+    &fatigue::FATIGUE,
     &disposition::REPORT,
     &disposition::VLIST,
     &disposition::VIEW,

@@ -57,7 +57,7 @@ const MAG_DEFINE: OptionSpec = OptionSpec::new(
 const NAME: ValueSpec = ValueSpec::new("BODY", Kind::Name(Noun::Selector), "body, pattern or selector");
 const BODY: OptionSpec = OptionSpec::new("-BODY", &[NAME], "bodies, as the data name them").repeating(1);
 const BODIES: &[ValueSpec] = &[NAME.or("all bodies but junctions")];
-const CONNECTORS: &[ValueSpec] =
+pub(super) const CONNECTORS: &[ValueSpec] =
     &[ValueSpec::new(":C", Kind::Name(Noun::Selector), "connector, pattern or selector").or("all connectors")];
 const LOCAL: OptionSpec = OptionSpec::new(
     "-LOCAL",
@@ -151,7 +151,7 @@ pub(super) fn last_run(job: &Job, span: Span) -> Outcome<&Run> {
 }
 
 /// The run a record is about, and its events.
-fn asked<'a>(job: &'a Job, args: &Args) -> Outcome<(&'a Run, Vec<Event>)> {
+pub(super) fn asked<'a>(job: &'a Job, args: &Args) -> Outcome<(&'a Run, Vec<Event>)> {
     let run = last_run(job, args.span)?;
     let given = args.option("-EVENTS");
     let window = given.and_then(|g| Some((g.number(0)?, g.number(1), g.number(2))));
@@ -200,7 +200,7 @@ fn bodies(job: &Job, run: &Run, args: &Args) -> Outcome<Vec<usize>> {
 }
 
 /// The connectors of a run that a record chooses.
-fn connectors(job: &Job, run: &Run, call: &Call) -> Outcome<Vec<usize>> {
+pub(super) fn connectors(job: &Job, run: &Run, call: &Call) -> Outcome<Vec<usize>> {
     let chosen = Chosen::of(call, 0, &job.model);
     let list = places(&chosen, run.history.layout.links.iter().map(|l| l.name.as_str()));
     chosen.check_used("the connectors of the run", &[Thing::Connector, Thing::Assembly])?;

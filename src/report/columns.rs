@@ -113,7 +113,8 @@ mod tests {
 
     #[test]
     fn the_name_of_a_group_is_all_its_columns_and_a_column_of_that_name_goes_before() {
-        let groups = [("", "Time"), ("A Location", "X"), ("A Location", "Y"), ("B Location", "X"), ("A Velocity", "VX")];
+        let groups =
+            [("", "Time"), ("A Location", "X"), ("A Location", "Y"), ("B Location", "X"), ("A Velocity", "VX")];
         let table = groups.iter().fold(Table::new("t"), |t, (g, n)| t.column(g, n, Dim::None, Digits::Usual));
         assert_eq!(choose(&table, "LOCATION"), Ok(vec![1, 2, 3]));
         assert_eq!(choose(&table, "a@"), Ok(vec![1, 2, 4]));

@@ -12,7 +12,7 @@ use crate::table::{Digits, Table};
 use nalgebra::Vector3;
 
 /// The force on the first end of a connector that is on a body, global axes (N); none while the connector does not act.
-fn force(layout: &Layout, link: usize, row: &[f64]) -> Option<Vector3<f64>> {
+pub(super) fn force(layout: &Layout, link: usize, row: &[f64]) -> Option<Vector3<f64>> {
     let columns = layout.links.get(link)?;
     let acts = row.get(columns.active).is_some_and(|a| *a > 0.0);
     let at = (0..columns.ends.len()).find_map(|end| layout.wrench(link, end)).filter(|_| acts)?;
@@ -20,14 +20,12 @@ fn force(layout: &Layout, link: usize, row: &[f64]) -> Option<Vector3<f64>> {
 }
 
 /// Where the bodies are in a row.
-fn poses(layout: &Layout, row: &[f64], list: &mut Vec<Pose>) {
+pub(super) fn poses(layout: &Layout, row: &[f64], list: &mut Vec<Pose>) {
     list.clear();
     for body in 0..layout.bodies.len() {
         let at = layout.body(body);
         let pose = match row.get(at..at + 6) {
-            Some([x, y, z, roll, pitch, yaw]) => {
-                Pose::of(&Place { shift: [*x, *y, *z], turn: [*roll, *pitch, *yaw] })
-            }
+            Some([x, y, z, roll, pitch, yaw]) => Pose::of(&Place { shift: [*x, *y, *z], turn: [*roll, *pitch, *yaw] }),
             _ => Pose::default(),
         };
         list.push(pose);
@@ -56,8 +54,12 @@ pub fn connector_forces(
             table = table.fact("Connector", name, Dim::None);
         }
         let group = headed(several, name, "Force");
-        table = columns(table, &group, &["FX", "FY", "FZ", "Mag."], Dim::Force)
-            .column(&group, "Mag./Break", Dim::None, Digits::Decimals(3));
+        table = columns(table, &group, &["FX", "FY", "FZ", "Mag."], Dim::Force).column(
+            &group,
+            "Mag./Break",
+            Dim::None,
+            Digits::Decimals(3),
+        );
         table = columns(table, &headed(several, name, "On Bottom"), &["Length"], Dim::Length);
         table = columns(table, &headed(several, name, "Anchor"), &["V. Pull", "H. Pull"], Dim::Force);
         let made = Settling::of(&run.model, name)?;
@@ -72,7 +74,9 @@ pub fn connector_forces(
             remembering.join(", ")
         ));
     }
-    table.note("Mag./Break is the largest tension of a segment over its own break; the length on the bottom is unstretched");
+    table.note(
+        "Mag./Break is the largest tension of a segment over its own break; the length on the bottom is unstretched",
+    );
     let mut places = Vec::new();
     filled((&run.history, events), table, &mut |row, made| {
         poses(layout, row, &mut places);
@@ -119,8 +123,7 @@ pub fn magnitudes(run: &Run, links: &[usize], magnitude: Magnitude, events: &[Ev
 pub fn total_forces(run: &Run, bodies: &[usize], magnitude: Magnitude, events: &[Event]) -> Result<Table, SolveError> {
     let layout = &run.history.layout;
     let several = bodies.len() > 1;
-    let mut table =
-        timed("Total Force of Connectors").fact("Moments About", "the origins of the bodies", Dim::None);
+    let mut table = timed("Total Force of Connectors").fact("Moments About", "the origins of the bodies", Dim::None);
     for (name, _) in bodies.iter().filter_map(|b| layout.bodies.get(*b)) {
         if !several {
             table = table.fact("Body", name.as_str(), Dim::None);

@@ -25,6 +25,15 @@ pub struct Event {
     pub(super) share: f64,
 }
 
+impl Event {
+    /// Its time (s), where it is a stored row of this history or behind one.
+    pub fn time(&self, history: &History) -> Option<f64> {
+        let at = |row: usize| history.values.get(row * history.layout.width.max(1)).copied();
+        let here = at(self.row)?;
+        Some(if self.share > 0.0 { here + self.share * (at(self.row + 1)? - here) } else { here })
+    }
+}
+
 /// The instants a window asks for; without one all that are stored.
 ///
 /// # Errors

@@ -5,6 +5,7 @@
 
 mod connectors;
 mod events;
+mod fatigue;
 mod forces;
 mod motions;
 mod points;
@@ -12,6 +13,7 @@ mod settled;
 
 pub use connectors::{connector_forces, lengths, magnitudes, total_forces};
 pub use events::{Event, Window, events};
+pub use fatigue::{Exposed, line_damages, scatter};
 pub use forces::body_forces;
 pub use motions::{Told, trajectory};
 pub use points::{Interest, points};

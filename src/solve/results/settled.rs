@@ -79,9 +79,7 @@ impl<'a> Settling<'a> {
         let [_, far] = self.ends;
         let (mut vertical, mut horizontal) = (f64::NAN, f64::NAN);
         if told.tension.is_some() && matches!(far, Attachment::Ground(_)) {
-            self.element
-                .wrenches(&at, &[], &mut self.guess, &mut self.wrenches)
-                .map_err(SolveError::of(name))?;
+            self.element.wrenches(&at, &[], &mut self.guess, &mut self.wrenches).map_err(SolveError::of(name))?;
             if let Some(pull) = self.wrenches.get(1) {
                 (vertical, horizontal) = (pull[2], pull[0].hypot(pull[1]));
             }
