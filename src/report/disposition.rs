@@ -4,7 +4,7 @@
 //! Source: reference/solve.md, "Disposition menu". C_SCALE and C_SHIFT last until the menu ends and act on VIEW,
 //! STORE, PLOT, STATISTIC and SET_VARIABLE, not on the formatted REPORT. -RECORD counts rows, from 1.
 
-use super::columns::{NoSuchColumn, choose, names_a_group};
+use super::columns::{Choose, NoSuchColumn, choose, reported};
 use super::format;
 use crate::language::units::{Dim, UnitSystem};
 use crate::table::{Cell, Column, Digits, Table};
@@ -88,6 +88,18 @@ impl Disposition {
     /// # Errors
     /// A name that fits no column, or selectors that choose nothing.
     pub fn columns(&self, selectors: &[&str]) -> Result<Vec<usize>, DispositionError> {
+        self.columns_by(selectors, choose)
+    }
+
+    /// The columns of a report: a selector may also name a group of columns.
+    ///
+    /// # Errors
+    /// As [`Disposition::columns`].
+    pub fn reported(&self, selectors: &[&str]) -> Result<Vec<usize>, DispositionError> {
+        self.columns_by(selectors, reported)
+    }
+
+    fn columns_by(&self, selectors: &[&str], choose: Choose) -> Result<Vec<usize>, DispositionError> {
         if selectors.is_empty() {
             return Ok((0..self.table.columns.len()).collect());
         }
@@ -102,20 +114,6 @@ impl Disposition {
             new
         });
         if chosen.is_empty() { Err(DispositionError::Nothing) } else { Ok(chosen) }
-    }
-
-    /// The columns of a report: as of [`Disposition::columns`], with the first column of the table in front where a group of columns
-    /// is named.
-    ///
-    /// # Errors
-    /// As [`Disposition::columns`].
-    pub fn reported(&self, selectors: &[&str]) -> Result<Vec<usize>, DispositionError> {
-        let mut chosen = self.columns(selectors)?;
-        let group = selectors.iter().any(|s| names_a_group(&self.table, s));
-        if group && !chosen.contains(&0) && self.table.columns.first().is_some_and(|c| c.group.is_empty()) {
-            chosen.insert(0, 0);
-        }
-        Ok(chosen)
     }
 
     /// The columns of numbers that selectors choose.
