@@ -45,6 +45,7 @@ fn pass(name: &str, model: &Model, observed: f64) {
         capsize: true,
         adaptive: None,
         keep: false,
+        transient: 0.0,
     };
     let mut least = f64::INFINITY;
     let begin = Instant::now();

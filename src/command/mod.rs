@@ -63,6 +63,8 @@ mod tdom;
 mod units;
 mod vary;
 mod weight;
+mod wind_options;
+mod wind_table;
 mod written;
 
 pub use buildg::take as take_row;
@@ -189,6 +191,7 @@ pub static COMMANDS: &[&Command] = &[
     &curves::F_SPECTRUM,
     &curves::M_GROWTH,
     &curves::W_HISTORY,
+    &curves::C_HISTORY,
     &curves::LT_MULTIPLIER,
     &curves::CT_LENGTH,
     &curves::EFFICIENCY,

@@ -12,6 +12,7 @@ use super::prcpost::last_run;
 use super::written::{as_written, kind_data, option_as_written};
 use super::{
     Call, Command, Effect, Job, Menu, body_status, body_tables, fatigue_table, line_types, sea_table, settings_table,
+    wind_table,
 };
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::{Owner, choose};
@@ -38,6 +39,7 @@ const KINDS: &[(&str, Owner, &str)] = &[
     ("STIFFNESS", Owner::Ours, "stiffness of bodies and connectors about a point"),
     ("CURVES", Owner::Moses, "curves"),
     ("ENVIRONMENT", Owner::Moses, "the environment in force, or one kept under a name"),
+    ("WIND_SPECTRUM", Owner::Ours, "the components of the gusts of an environment, and with -PLOT their spectrum"),
     (
         "SEA_SPECTRUM",
         Owner::Moses,
@@ -81,7 +83,7 @@ static SPEC: CommandSpec = CommandSpec {
     repeat: 1,
     opens: Opens::WithOption("DISPOSITION", "-DISPOSE"),
     options: &[
-        OptionSpec::new("-PLOT", &[], "plots curves, or the spectra of SEA_SPECTRUM"),
+        OptionSpec::new("-PLOT", &[], "plots curves, or the spectra of SEA_SPECTRUM and WIND_SPECTRUM"),
         body_status::ABOUT,
         OptionSpec::new(
             "-DISPOSE",
@@ -129,6 +131,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         "CURVES" => curves(model, &fits),
         "ENVIRONMENT" => environments(job, (!chosen.all()).then_some(&fits)),
         "SEA_SPECTRUM" => sea_table::spectra(job, (!chosen.all()).then_some(&fits), args.place(0))?,
+        "WIND_SPECTRUM" => wind_table::spectra(job, (!chosen.all()).then_some(&fits), args.place(0))?,
         "LOADS" => loads(job, &fits),
         "WEIGHT" => vec![body_tables::weights(model, &fits)],
         "PIECES" => vec![body_tables::pieces(model, &fits)],
@@ -161,6 +164,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         _ if !args.has("-PLOT") => Vec::new(),
         "CURVES" => tables.iter().filter(|t| chart(t)).cloned().collect(),
         "SEA_SPECTRUM" => sea_table::densities(job, (!chosen.all()).then_some(&fits), args.place(0))?,
+        "WIND_SPECTRUM" => wind_table::densities(job, (!chosen.all()).then_some(&fits), args.place(0))?,
         _ => Vec::new(),
     };
     let (columns, lines) = job.plot_size();
@@ -186,7 +190,7 @@ fn things(kind: &str) -> &'static [Thing] {
         "CL_FLEX" | "CLASSES" | "SN" => &[Thing::Class],
         "G_CONNECTOR" | "F_CONNECTOR" | "FOUNDATION" => &[Thing::Connector],
         "CURVES" => &[Thing::Curve],
-        "ENVIRONMENT" | "SEA_SPECTRUM" => &[Thing::Environment],
+        "ENVIRONMENT" | "SEA_SPECTRUM" | "WIND_SPECTRUM" => &[Thing::Environment],
         "POINTS" => &[Thing::Point],
         "SELECTORS" => &[Thing::Selector],
         _ => &[],

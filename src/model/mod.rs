@@ -28,7 +28,8 @@ pub use curve::{Curve, CurveKind};
 pub use defaults::{Coordinates, Defaults, Material};
 pub use element::{Connection, Element, End, Guess, Response, Situation, SpringState, Summary, TimeStep};
 pub use environment::{
-    Components, Current, Division, Environment, Formula, Phasing, Sea, Stretching, Surroundings, TimeWindow, Wind,
+    Components, Current, Division, Environment, Formula, GustParts, Phasing, Sea, Stretching, Surroundings, TimeWindow,
+    Wind,
 };
 pub use fatigue::{FatigueCurve, FatigueKind, FatigueSegment, FatigueSelection, ThicknessCorrection};
 pub use geometry::{Place, Position, unit_vector};

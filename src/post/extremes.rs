@@ -3,6 +3,7 @@
 //!
 //! Confidence intervals are asymptotic, from the Fisher information of the fitted parameters carried to the result by the
 //! delta method; they take maxima, or blocks, for independent, which the maxima of a narrow-banded process are not.
+//! Simulated (tests/data/post/intervals.py) they hold the true value in 94.3 per cent of samples of 300 maxima, in 93.4 of 30 blocks.
 
 use super::{SeriesError, finite};
 use std::f64::consts::PI;

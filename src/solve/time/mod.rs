@@ -11,6 +11,7 @@ mod resume;
 mod run;
 mod scheme;
 mod snapshot;
+mod statistics;
 mod step;
 
 pub use action::{Action, Watched, What, When};
@@ -20,4 +21,5 @@ pub use prescribed::Prescribed;
 pub use run::{Counts, Ending, Run, SNAPSHOT, Settings, Watcher};
 pub use scheme::{Method, Scheme};
 pub use snapshot::Snapshot;
+pub use statistics::{Series, Statistics, results};
 pub use step::Convergence;

@@ -5,9 +5,11 @@ use super::forces::{Memory, Motion};
 use super::history::{History, Layout, Told};
 use super::scheme::Method;
 use super::snapshot::Snapshot;
+use super::statistics::Statistics;
 use super::step::{Convergence, Effort, Instant, Stepper, gyroscopic, inertia};
 use crate::hydro::sea::Sea;
 use crate::model::{ClassError, Model, Place, Position, Six};
+use crate::post::SeriesError;
 use crate::solve::system::{SolveError, System, mass_block};
 use std::sync::Arc;
 
@@ -35,6 +37,8 @@ pub struct Settings {
     pub adaptive: Option<f64>,
     /// Keeps rows. Without, only who is told of them has them.
     pub keep: bool,
+    /// Time that statistics leave out at the beginning (s).
+    pub transient: f64,
 }
 
 /// Why a run ended.
@@ -106,6 +110,8 @@ pub struct Run {
     pub fired: Vec<Option<f64>>,
     /// Rows.
     pub history: History,
+    /// Statistics of the stored instants behind the transient.
+    pub statistics: Statistics,
     /// What it did.
     pub counts: Counts,
     /// The sea now.
@@ -143,12 +149,14 @@ impl Run {
         let memory = Memory::of(&system);
         let fired = vec![None; actions.len()];
         let near = model.bodies.values().map(|b| b.place).collect();
+        let from = settings.transient;
         let mut run = Run {
             now: Instant { motions, memory, ..Instant::default() },
             model,
             settings,
             actions,
             fired,
+            statistics: Statistics::new(&layout, from),
             history: History::new(layout),
             counts: Counts::default(),
             sea,
@@ -500,6 +508,8 @@ impl Run {
         told.lengths = self.history.layout.links.iter().map(|l| length(&l.name)).collect();
         let (layout, now) = (&self.history.layout, &self.now);
         layout.write((&self.system, now.time), (&now.motions, &now.forces, &told), &mut self.near, &mut self.row);
+        let wrong = |e: SeriesError| SolveError::new(ClassError::new(e.to_string()));
+        self.statistics.take(&self.row).map_err(wrong)?;
         if self.settings.keep {
             self.history.values.extend_from_slice(&self.row);
         }
