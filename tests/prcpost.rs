@@ -43,6 +43,7 @@ fn run(model: &Model, (observed, dt): (f64, f64), start: &[(usize, Six)], action
         capsize: true,
         adaptive: None,
         keep: true,
+        transient: 0.0,
     };
     let mut run = Run::new(model, settings, actions).unwrap();
     run.begin_with(start).unwrap();
