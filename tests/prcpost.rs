@@ -342,7 +342,7 @@ fn segments_are_damaged_by_the_tension_at_their_upper_ends_and_a_scatter_adds_up
 
 #[test]
 fn zz_speed() {
-    let more = "CONNECTOR E -ANC 60 925 ~L *B\nCONNECTOR F -ANC 0 925 ~L *A\nCONNECTOR H -ANC 180 925 ~L *B\n\
+    let more = "CONNECTOR E1 -ANC 60 925 ~L *B\nCONNECTOR F -ANC 0 925 ~L *A\nCONNECTOR H -ANC 180 925 ~L *B\n\
                 CONNECTOR I -ANC 200 925 ~L *B\nCONNECTOR J -ANC 270 925 ~L *D\n";
     let records = moored_text("").replace("END\n", &format!("{more}END\n"));
     for text in [records.clone(), records.replace("EXACT ", "")] {

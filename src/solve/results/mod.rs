@@ -61,6 +61,9 @@ fn headed(several: bool, name: &str, group: &str) -> String {
     if several { format!("{name} {group}") } else { group.to_string() }
 }
 
+/// Appends the numbers that a stored row comes to.
+type Make<'m> = dyn FnMut(&[f64], &mut Vec<f64>) -> Result<(), SolveError> + 'm;
+
 /// Fills a table of [`timed`]: `make` appends the numbers behind the time that a stored row comes to. Those of an instant between
 /// two rows lie on the straight line between theirs, as in MOSES; where only one of the two has a number, it is that of the row before.
 /// What is no number is left out.
@@ -70,7 +73,7 @@ fn headed(several: bool, name: &str, group: &str) -> String {
 fn filled(
     (history, events): (&History, &[Event]),
     mut table: Table,
-    make: &mut dyn FnMut(&[f64], &mut Vec<f64>) -> Result<(), SolveError>,
+    make: &mut Make,
 ) -> Result<Table, SolveError> {
     let width = history.layout.width.max(1);
     let mut fill = |at: usize, made: &mut (usize, Vec<f64>)| {
