@@ -154,17 +154,13 @@ const HEIGHT: f64 = 202.0;
 
 /// A barge on three lines of 1010 m that hardly stretch (a strain of 6e-10), let go beside its rest.
 fn moored(more: &str) -> Model {
-    model(&moored_text(more))
-}
-
-fn moored_text(more: &str) -> String {
-    format!(
+    model(&format!(
         "&ENV E -DEPTH 200\nMEDIT\n&DESCRIBE BODY BARGE -IGNORE Z RX RY\n*C 1 0 0\n#WEIGHT *C 2E7 10 10 14\n\
          *A 20 -3 2\n*B -20 8 2\n*D 0 -8 2\n{more}\
          ~L B_CAT 100 EXACT -LEN 1010 -DEP 200 -BUOY 0 -WTPL 1000 -EMOD 1E11 -B_TEN 1E6\n\
          CONNECTOR A -ANC 30 920 ~L *A\nCONNECTOR B -ANC 150 925 ~L *B\nCONNECTOR D -ANC -90 920 ~L *D\nEND\n\
          &INSTATE -LOCATE BARGE 6 -3 0 0 0 5\n"
-    )
+    ))
 }
 
 /// Horizontal force and suspended length of a line that does not stretch, its ends `x` apart: bisection on the closed catenary
@@ -337,20 +333,5 @@ fn segments_are_damaged_by_the_tension_at_their_upper_ends_and_a_scatter_adds_up
     for (segment, (cdr, years)) in segments.iter().zip(cdr.iter().zip(years)) {
         assert!((cdr / (segment.damage * 15.0 * day / 60.0) - 1.0).abs() < 1e-12);
         assert!((years / (15.0 / 365.25 / cdr / 2.0) - 1.0).abs() < 1e-12);
-    }
-}
-
-#[test]
-fn zz_speed() {
-    let more = "CONNECTOR E1 -ANC 60 925 ~L *B\nCONNECTOR F -ANC 0 925 ~L *A\nCONNECTOR H -ANC 180 925 ~L *B\n\
-                CONNECTOR I -ANC 200 925 ~L *B\nCONNECTOR J -ANC 270 925 ~L *D\n";
-    let records = moored_text("").replace("END\n", &format!("{more}END\n"));
-    for text in [records.clone(), records.replace("EXACT ", "")] {
-        let made = run(&model(&text), (1000.0, 0.1), &[], vec![]);
-        let events = results::events(&made.history, None).unwrap();
-        let all: Vec<usize> = (0..8).collect();
-        let start = std::time::Instant::now();
-        let table = results::connector_forces(&made, &all, Magnitude::default(), &events).unwrap();
-        println!("{} rows of 8 lines in {:?}", table.rows(), start.elapsed());
     }
 }

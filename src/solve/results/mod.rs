@@ -70,11 +70,7 @@ type Make<'m> = dyn FnMut(&[f64], &mut Vec<f64>) -> Result<(), SolveError> + 'm;
 ///
 /// # Errors
 /// What `make` says.
-fn filled(
-    (history, events): (&History, &[Event]),
-    mut table: Table,
-    make: &mut Make,
-) -> Result<Table, SolveError> {
+fn filled((history, events): (&History, &[Event]), mut table: Table, make: &mut Make) -> Result<Table, SolveError> {
     let width = history.layout.width.max(1);
     let mut fill = |at: usize, made: &mut (usize, Vec<f64>)| {
         let row = history.values.get(at * width..(at + 1) * width).unwrap_or_default();
