@@ -8,6 +8,7 @@ pub mod excursion_tables;
 mod modes;
 pub mod offset;
 mod outline;
+pub mod results;
 pub mod run_tables;
 pub mod scene;
 mod search;
