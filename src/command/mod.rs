@@ -6,6 +6,7 @@
 
 mod action;
 mod alter;
+mod animate;
 mod apply;
 mod assembly;
 mod assembly_table;
@@ -44,10 +45,12 @@ mod pgen;
 mod picture;
 mod piece;
 mod pipe;
+mod plot;
 mod report_menu;
 mod rigging;
 mod select;
 mod status;
+mod store;
 mod surface;
 mod tdom;
 mod units;
@@ -191,8 +194,8 @@ pub static COMMANDS: &[&Command] = &[
     &disposition::REPORT,
     &disposition::VLIST,
     &disposition::VIEW,
-    &disposition::STORE,
-    &disposition::PLOT,
+    &store::STORE,
+    &plot::PLOT,
     &disposition::STATISTIC,
     &disposition::SET_VARIABLE,
     &disposition::C_SCALE,
@@ -200,6 +203,7 @@ pub static COMMANDS: &[&Command] = &[
     &disposition::CULL,
     &status::STATUS,
     &picture::PICTURE,
+    &animate::ANIMATE,
     &units::DIMEN,
     &units::DEFAULT,
     &device::DEVICE,

@@ -149,7 +149,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             text.push('\n');
             text.push_str(
                 &Chart::of(table, job.units)
-                    .terminal(columns, lines)
+                    .and_then(|chart| chart.terminal(columns, lines))
                     .map_err(|e| Diagnostic::error(e.to_string(), args.span))?,
             );
         }

@@ -70,12 +70,12 @@ pub(super) fn rows(history: &History, times: &[f64]) -> Vec<Vec<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::solve::time::Layout;
 
     fn history() -> History {
-        let layout = Layout { width: 2, ..Layout::default() };
         let values = (0..=10).flat_map(|n| [0.5 * f64::from(n), f64::from(n * n)]).collect();
-        History { layout, values }
+        let mut made = History { values, ..History::default() };
+        made.layout.width = 2;
+        made
     }
 
     #[test]

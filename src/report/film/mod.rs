@@ -1,0 +1,8 @@
+//! A film as files: one page that shows it in any browser, or a series that ParaView reads.
+
+mod page;
+mod vtk;
+
+pub use page::page;
+pub(in crate::report) use page::filled;
+pub use vtk::{Step, series, steps};
