@@ -114,7 +114,7 @@
     const heights = new Float32Array(n * n), slopes = new Float32Array(2 * n * n), turn = new Float32Array(2 * count);
     // from far off small slopes would not show
     const made = { flat: painter.buffer(places), high: painter.buffer(heights, false), slope: painter.buffer(slopes, false),
-      corners: index, count: corners.length, boost: Math.min(Math.max(reach / 400, 1.5), 5), time: NaN };
+      corners: index, count: corners.length, boost: Math.min(Math.max(reach / 200, 2), 6), time: NaN };
     made.move = (time) => {
       if (made.time === time) return;
       made.time = time;
@@ -198,7 +198,7 @@
     where = place(now.time);
     painter.begin(camera);
     if (bottom) {
-      painter.mesh(bottom.mesh, STILL, [0.86, 0.79, 0.66, 1]);
+      painter.mesh(bottom.mesh, STILL, [0.86, 0.79, 0.66, 1], true);
       painter.strokes(bottom.grid, bottom.count, 1, 0.55);
     }
     const list = [];

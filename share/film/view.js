@@ -117,8 +117,8 @@ void main() {
   float sun = pow(max(dot(reflect(-normalize(vec3(-.5, -.6, .6)), n), v), 0.), 24.);
   float grazing = pow(1. - max(dot(n, v), 0.), 3.);
   float shade = dot(n, normalize(vec3(-.6, -.7, .5)));
-  vec3 colour = mix(vec3(.10, .36, .55), vec3(.62, .79, .90), clamp(.45 * grazing + .5 * shade, 0., 1.));
-  ink = vec4(colour + .25 * sun, .46 + .2 * grazing);
+  vec3 colour = mix(vec3(.02, .22, .40), vec3(.42, .66, .80), clamp(.3 * grazing + 1.1 * shade - .25, 0., 1.));
+  ink = vec4(colour + .2 * sun, .3 + .16 * grazing);
 }`];
 
 class Painter {
@@ -177,7 +177,7 @@ class Painter {
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
   }
-  mesh(mesh, pose, colour) {
+  mesh(mesh, pose, colour, behind = false) {
     const gl = this.gl, p = this.solid;
     gl.useProgram(p.made);
     this.attribute(p, "place", mesh.places, 3);
@@ -186,7 +186,13 @@ class Painter {
     gl.uniformMatrix4fv(p.at("pose"), false, pose);
     gl.uniform4fv(p.at("colour"), colour);
     gl.uniform3fv(p.at("eye"), this.eye);
+    // what lies on a surface is drawn before it
+    if (behind) {
+      gl.enable(gl.POLYGON_OFFSET_FILL);
+      gl.polygonOffset(2, 60);
+    }
     gl.drawArrays(gl.TRIANGLES, 0, mesh.count);
+    gl.disable(gl.POLYGON_OFFSET_FILL);
   }
   // Strokes: eleven numbers a corner, six corners a segment. `whole` may bring a pose along.
   strokes(buffer, corners, width, alpha = 1, pose = null, lift = 2e-5) {

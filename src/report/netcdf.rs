@@ -15,6 +15,8 @@ use std::rc::Rc;
 const ROW: &str = "row";
 /// Stands for a whole number that is missing: `NC_FILL_INT`.
 const NO_WHOLE: i32 = -2_147_483_647;
+/// Stands for a number that is missing: `NC_FILL_DOUBLE`. (The library finds no variable again that has an attribute which is no number.)
+const NO_NUMBER: f64 = 9.969_209_968_386_869e36;
 /// Files beyond this have the form with offsets of 64 bits (bytes).
 const CLASSIC: usize = 1 << 30;
 /// Longest name of a variable (bytes).
@@ -66,7 +68,7 @@ pub fn bytes(table: &Table, units: UnitSystem) -> Result<Vec<u8>, StoreError> {
         match &data {
             Data::Doubles(_) => {
                 set.add_var_f64(&name, &[ROW]).map_err(refused)?;
-                set.add_var_attr_f64(&name, "_FillValue", vec![f64::NAN]).map_err(refused)?;
+                set.add_var_attr_f64(&name, "_FillValue", vec![NO_NUMBER]).map_err(refused)?;
             }
             Data::Wholes(_) => {
                 set.add_var_i32(&name, &[ROW]).map_err(refused)?;
@@ -116,7 +118,7 @@ fn refused(error: impl std::fmt::Debug) -> StoreError {
 
 fn data(values: Values) -> Data {
     match values {
-        Values::Numbers(list) => Data::Doubles(list.into_iter().map(|v| v.unwrap_or(f64::NAN)).collect()),
+        Values::Numbers(list) => Data::Doubles(list.into_iter().map(|v| v.unwrap_or(NO_NUMBER)).collect()),
         Values::Wholes(list) => {
             let narrow = |v: &Option<i64>| match v {
                 Some(v) => i32::try_from(*v).ok().filter(|v| *v != NO_WHOLE),
@@ -124,7 +126,7 @@ fn data(values: Values) -> Data {
             };
             match list.iter().map(narrow).collect() {
                 Some(narrowed) => Data::Wholes(narrowed),
-                None => Data::Doubles(list.into_iter().map(|v| v.map_or(f64::NAN, |v| v as f64)).collect()),
+                None => Data::Doubles(list.into_iter().map(|v| v.map_or(NO_NUMBER, |v| v as f64)).collect()),
             }
         }
         Values::Texts(list) => {
@@ -179,9 +181,10 @@ mod tests {
             .column("", "2 wide", Dim::None, Digits::Usual);
         let tops = [1.0 / 3.0, -1e300, 5e-324];
         for (n, top) in (0..).zip(tops) {
+            let time = if n == 2 { Cell::Missing } else { Cell::Number(0.1 * n as f64) };
             let seg = if n == 1 { Cell::Missing } else { Cell::Integer(n) };
             let name = ["A", "BOW", ""][n as usize];
-            t.push(vec![Cell::Number(0.1 * n as f64), Cell::Number(top), seg, name.into(), Cell::Integer(n << 40)]).unwrap();
+            t.push(vec![time, Cell::Number(top), seg, name.into(), Cell::Integer(n << 40)]).unwrap();
         }
         let file = bytes(&t, UnitSystem::SI).unwrap();
         let mut reader = FileReader::open_seek_read("", Box::new(Cursor::new(file))).unwrap();
@@ -196,6 +199,7 @@ mod tests {
             assert_eq!(attr("Tension_Ten_Top", "long_name").unwrap(), "Tension: Ten Top");
             assert_eq!((attr("Crit_Seg", "units").unwrap().as_str(), attr("Name", "units")), ("1", None));
         }
+        assert_eq!(reader.read_var_f64("Time").unwrap(), [0.0, 0.1, NO_NUMBER]);
         assert_eq!(reader.read_var_f64("Tension_Ten_Top").unwrap(), tops);
         assert_eq!(reader.read_var_i32("Crit_Seg").unwrap(), [0, NO_WHOLE, 2]);
         assert_eq!(reader.read_var_u8("Name").unwrap(), b"A\0\0BOW\0\0\0");

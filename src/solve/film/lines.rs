@@ -1,6 +1,7 @@
 //! Connectors of a film: their shape at every instant.
 
 use crate::model::{ClassError, Condition, Connector, Model, Placement, Position};
+use crate::solve::scene::{CORNER, cubic};
 use crate::solve::time::{Layout, LinkColumns};
 use crate::table::{Cell, Table};
 
@@ -141,42 +142,36 @@ fn hanging(model: &Model, connector: &Connector, count: usize) -> Result<Option<
     }
 }
 
-/// A number of points evenly along the rows of a line's geometry.
+/// A number of points evenly along the length of a line, between the rows of its geometry.
 fn resampled(table: &Table, placement: &Placement, count: usize) -> Option<Shape> {
     let column = |name: &str| -> Vec<Option<f64>> {
         table.get(name).map_or(Vec::new(), |c| c.cells.iter().map(Cell::number).collect())
     };
-    let numbers = [column("X"), column("Z"), column("Tension"), column("T/Break")];
-    let [xs, zs, tensions, shares] = &numbers;
-    // a row: x, z, tension, share
-    let rows: Vec<[f64; 4]> = xs
-        .iter()
-        .zip(zs)
-        .enumerate()
-        .filter_map(|(n, (x, z))| {
-            let of = |list: &[Option<f64>]| list.get(n).copied().flatten().unwrap_or(f64::NAN);
-            Some([(*x)?, (*z)?, of(tensions), of(shares)])
-        })
-        .collect();
-    let mut arcs = Vec::with_capacity(rows.len());
-    let mut arc = 0.0;
-    for (n, row) in rows.iter().enumerate() {
-        if let Some(before) = n.checked_sub(1).and_then(|b| rows.get(b)) {
-            arc += (row[0] - before[0]).hypot(row[1] - before[1]);
-        }
-        arcs.push(arc);
-    }
+    let numbers = ["X", "Z", "Arc Length", "Angle", "Tension", "T/Break"].map(column);
+    let count_of_rows = numbers.first().map_or(0, Vec::len);
+    let row = |n: usize| -> Option<[f64; 6]> {
+        let found: [Option<f64>; 6] = std::array::from_fn(|i| numbers.get(i).and_then(|c| c.get(n)).copied().flatten());
+        let [x, z, arc, angle, tension, share] = found;
+        let or = |v: Option<f64>| v.unwrap_or(f64::NAN);
+        Some([x?, z?, arc?, or(angle), or(tension), or(share)])
+    };
+    let rows: Vec<[f64; 6]> = (0..count_of_rows).filter_map(row).collect();
+    let arc_of = |row: &[f64; 6]| row[2];
+    let (first, last) = (arc_of(rows.first()?), arc_of(rows.last()?));
     let (_, [ux, uy]) = placement.span();
     let [x0, y0, _] = placement.fairlead;
     let mut shape = Shape { points: Vec::new(), tensions: Vec::new(), shares: Vec::new(), bottom: None };
     for n in 0..count {
-        let wanted = if n + 1 == count { arc } else { arc * n as f64 / (count - 1).max(1) as f64 };
-        let behind = arcs.partition_point(|a| *a < wanted).min(rows.len().checked_sub(1)?);
-        let before = behind.saturating_sub(1);
-        let (a, b) = (rows.get(before)?, rows.get(behind)?);
-        let room = arcs.get(behind)? - arcs.get(before)?;
-        let share = if room > 0.0 { (wanted - arcs.get(before)?) / room } else { 1.0 };
-        let [x, z, tension, ratio] = std::array::from_fn(|i| a[i] + share * (b[i] - a[i]));
+        let share = n as f64 / (count - 1).max(1) as f64;
+        let wanted = if n + 1 == count { last } else { first + (last - first) * share };
+        let behind = rows.partition_point(|row| arc_of(row) < wanted).min(rows.len() - 1);
+        let (a, b) = (rows.get(behind.saturating_sub(1))?, rows.get(behind)?);
+        let room = arc_of(b) - arc_of(a);
+        let t = if room > 0.0 { (wanted - arc_of(a)) / room } else { 1.0 };
+        let [x, z, _, _, tension, ratio] = std::array::from_fn(|i| a[i] + t * (b[i] - a[i]));
+        // as the picture draws it: a cubic with the directions at both rows, but for a corner
+        let turns = (b[3] - a[3]).abs() < CORNER;
+        let (x, z) = if turns { cubic(((a[0], a[1]), (b[0], b[1])), (a[3], b[3]), room, t) } else { (x, z) };
         shape.points.push([x0 + ux * x, y0 + uy * x, z]);
         shape.tensions.push(tension);
         shape.shares.push(ratio);
