@@ -9,11 +9,12 @@ use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Kind, Noun, Opens, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
 use crate::report::disposition::{Disposition, DispositionError, RowChoice};
-use crate::report::{page, statistic};
+use crate::report::page;
 use crate::table::Table;
 
-const MENU: &[&str] = &["DISPOSITION"];
-/// A column.
+/// Where these commands are offered.
+pub(super) const MENU: &[&str] = &["DISPOSITION"];
+/// A column of the table.
 pub(super) const COLUMN: ValueSpec =
     ValueSpec::new("COLUMN", Kind::Name(Noun::Selector), "number, a:b, or name with wild characters");
 /// -RECORD.
@@ -49,10 +50,11 @@ pub(super) const HEADING: OptionSpec = OptionSpec::new(
 pub(super) const MAG_USE: OptionSpec = OptionSpec::new("-MAG_USE", &[], "uses absolute values");
 
 const EXAMPLE: &str = "MEDIT\n*P 0 0 0\n~W B_CAT 4 -LEN 4000 -DEP 500\nCONNECTOR A ~W *P\nEND\nCONN_DESIGN\nTABLE A\nREPORT X Force\n\
-                       VLIST\nVIEW X 2:4 -RECORD 1 3\nSTORE example.csv\nSTORE example.parquet\nSTORE example.nc\nPLOT X Force\nPLOT X Force figure.svg\nPLOT X Force page.html\nSTATISTIC X Force\n\
+                       VLIST\nVIEW X 2:4 -RECORD 1 3\nSTORE example.csv\nSTORE example.parquet\nSTORE example.nc\n\
+                       PLOT X Force\nPLOT X Force figure.svg\nPLOT X Force page.html\nSTATISTIC X Force -PEAKS\n\
                        SET_VARIABLE TOP 4 -RECORD 30 30\nC_SCALE 0.5 Force\nC_SHIFT 10 X\nCULL Force 0 50 200 300\nEND\nEND\nEND";
 
-/// The spec of a command of the menu.
+/// The spec of a command of this menu.
 pub(super) const fn spec(name: &'static str, help: &'static str) -> CommandSpec {
     CommandSpec { menus: MENU, example: EXAMPLE, ..CommandSpec::new(name, help) }
 }
@@ -63,8 +65,6 @@ pub static REPORT: Command = Command { spec: &REPORT_SPEC, edits: false, run: re
 pub static VLIST: Command = Command { spec: &VLIST_SPEC, edits: false, run: vlist };
 /// VIEW.
 pub static VIEW: Command = Command { spec: &VIEW_SPEC, edits: false, run: view };
-/// STATISTIC.
-pub static STATISTIC: Command = Command { spec: &STATISTIC_SPEC, edits: false, run: statistics };
 /// SET_VARIABLE.
 pub static SET_VARIABLE: Command = Command { spec: &SET_VARIABLE_SPEC, edits: false, run: set_variable };
 /// C_SCALE.
@@ -77,7 +77,7 @@ pub static CULL: Command = Command { spec: &CULL_SPEC, edits: false, run: cull }
 /// The file of STORE.
 pub(super) const STORED: ValueSpec =
     ValueSpec::new("FILE", Kind::File, "file name ending in .csv, .parquet or .nc; .csv is added when it has no ending");
-/// A column, or all of them.
+/// A column that may be left out.
 pub(super) const ANY_COLUMN: ValueSpec = COLUMN.or("all columns");
 static REPORT_SPEC: CommandSpec = CommandSpec {
     data: &[ANY_COLUMN],
@@ -93,13 +93,6 @@ static VIEW_SPEC: CommandSpec = CommandSpec {
     options: &[RECORD, VALUES, HARD, BOTH, HEADING, MAG_USE],
     detail: "With row numbers and three digits more than the report; C_SCALE and C_SHIFT act.",
     ..spec("VIEW", "shows columns")
-};
-static STATISTIC_SPEC: CommandSpec = CommandSpec {
-    data: &[COLUMN, ANY_COLUMN],
-    repeat: 1,
-    options: &[RECORD, VALUES, HARD, BOTH, MAG_USE],
-    detail: "The first column is the independent one; the extremes are given with their place in it.",
-    ..spec("STATISTIC", "mean, deviation and extremes of columns")
 };
 static SET_VARIABLE_SPEC: CommandSpec = CommandSpec {
     data: &[ValueSpec::new("VAR", Kind::Text, "global variable"), COLUMN],
@@ -134,7 +127,7 @@ static CULL_SPEC: CommandSpec = CommandSpec {
     ..spec("CULL", "leaves out the rows inside of ranges")
 };
 
-/// The result that is being disposed of.
+/// The menu a command works in.
 pub(super) fn here(job: &Job, span: Span) -> Outcome<&Disposition> {
     match job.menu() {
         Menu::Disposition(d) => Ok(d),
@@ -238,18 +231,6 @@ pub(super) fn write_file(job: &mut Job, name: &str, bytes: &[u8], span: Span) ->
     let text = format!("wrote {}", path.display());
     job.say(&text);
     Ok(())
-}
-
-fn statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    let args = &call.args;
-    here(job, args.span)?.numeric(&selectors(args, 0)).map_err(|e| refused(args, &e))?;
-    let table = chosen(job, args, 0)?;
-    let count = table.columns.len();
-    let (independent, described) = if count > 1 { (Some(0), (1..count).collect()) } else { (None, vec![0]) };
-    let made = statistic::in_units(&table, independent, &described, job.units);
-    let text = format!("{}\n\n{}", made.title, page::grid(&made, job.units).join("\n"));
-    send(job, args, &text)?;
-    Ok(Effect::Done)
 }
 
 fn set_variable(job: &mut Job, call: &Call) -> Outcome<Effect> {

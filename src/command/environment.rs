@@ -2,27 +2,28 @@
 //!
 //! Source: reference/model.md, "Environment".
 
-use super::{Call, Command, Effect, Job};
+use super::{Call, Command, Effect, Job, sea_options, wind_options};
 use crate::language::args::{Args, Given};
 use crate::language::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use crate::language::name as rule;
+use crate::language::select::Owner;
 use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
-use crate::model::{Current, Curve, CurveKind, Environment, Formula, Model, Sea, Thing, TimeWindow, Wind, find};
+use crate::model::{Current, Curve, CurveKind, Environment, Formula, Model, Sea, Thing, TimeWindow, find};
 
 /// &ENV.
 pub static ENV: Command = Command { spec: &ENV_SPEC, edits: false, run };
 /// ENV within `&DATA ENVIRONMENT`.
 pub static NAMED_ENV: Command = Command { spec: &NAMED_SPEC, edits: false, run: define };
 
-const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
+pub(super) const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(dim), help)
 }
-const fn text(name: &'static str, help: &'static str) -> ValueSpec {
+pub(super) const fn text(name: &'static str, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Text, help)
 }
-const fn curve(help: &'static str) -> ValueSpec {
+pub(super) const fn curve(help: &'static str) -> ValueSpec {
     ValueSpec::new("NAME", Kind::Name(Noun::Curve), help)
 }
 
@@ -31,18 +32,12 @@ const SEA: &[ValueSpec] = &[
     number("DIR", Dim::Angle, "direction it comes from"),
     number("HS", Dim::Length, "significant height, or height of a regular wave").not_negative(),
     number("PERIOD", Dim::Time, "period").positive(),
-    number("GAMMA", Dim::None, "peakedness").or("that of the spectrum").within(0.5, 20.0),
+    number("GAMMA", Dim::None, "peakedness").or("that of the spectrum").within(1.0, 20.0),
 ];
 const fn choice(name: &'static str, words: &'static [&'static str], help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Choice(words), help)
 }
-/// Codes and laws of the mean wind; reference/model.md names no types, so these are the field's usual ones.
-const PROFILES: &[&str] = &["POWER", "LOGARITHMIC", "API", "NPD", "ISO", "ABS", "DNV"];
-/// Codes of a design wind.
-const DESIGN_WINDS: &[&str] = &["API", "NPD", "ISO", "ABS", "DNV"];
-/// Gust spectra known without a curve.
-const GUSTS: [&str; 7] = ["API", "NPD", "ISO", "OCHI", "HARRIS", "DAVENPORT", "KAIMAL"];
-const PERIODS: &[ValueSpec] = &[number("T", Dim::Time, "period").positive()];
+pub(super) const PERIODS: &[ValueSpec] = &[number("T", Dim::Time, "period").positive()];
 
 const OPTIONS: &[OptionSpec] = &[
     OptionSpec::new("-DURATION", &[number("D", Dim::Days, "days").not_negative()], "days, for fatigue"),
@@ -70,6 +65,10 @@ const OPTIONS: &[OptionSpec] = &[
     ),
     OptionSpec::new("-SPREAD", &[number("EXP", Dim::None, "exponent").positive()], "spreading cos(H - th)**EXP")
         .default("200: long-crested"),
+    sea_options::COMPONENTS,
+    sea_options::SEED,
+    sea_options::STRETCHING,
+    sea_options::STOKES,
     OptionSpec::new("-S_PERIOD", PERIODS, "periods of the sea's components").repeating(1),
     OptionSpec::new("-MD_PERIOD", PERIODS, "periods of the mean drift").repeating(1),
     OptionSpec::new(
@@ -88,40 +87,14 @@ const OPTIONS: &[OptionSpec] = &[
         &[number("TB", Dim::Time, "time")],
         "time at which all wave components are in phase",
     ),
-    OptionSpec::new(
-        "-WIND",
-        &[
-            number("SPEED", Dim::WindSpeed, "speed").not_negative(),
-            number("DIR", Dim::Angle, "direction it comes from"),
-        ],
-        "wind, in knots",
-    )
-    .default("none"),
-    OptionSpec::new(
-        "-W_PROFILE",
-        &[choice("TYPE", PROFILES, "type"), number("EXP", Dim::None, "exponent").or("that of the type").not_negative()],
-        "wind profile",
-    ),
-    OptionSpec::new(
-        "-W_DESIGN",
-        &[
-            choice("TYPE", DESIGN_WINDS, "type"),
-            number("DURATION", Dim::Time, "averaging time").or("that of the type").positive(),
-        ],
-        "design wind",
-    ),
-    OptionSpec::new(
-        "-W_SPECTRUM",
-        &[text("TYPE", "API, NPD, ISO, OCHI, HARRIS, DAVENPORT, KAIMAL, or a spectrum curve")],
-        "gust spectrum",
-    ),
-    OptionSpec::new("-W_HISTORY", &[curve("W_HISTORY curve")], "wind history"),
-    OptionSpec::new("-W_PERIOD", PERIODS, "periods of the gusts").repeating(1),
-    OptionSpec::new(
-        "-W_MD_CORRELATION",
-        &[number("F", Dim::None, "factor").within(-1.0, 1.0)],
-        "correlation of gusts and mean drift",
-    ),
+    wind_options::WIND,
+    wind_options::PROFILE,
+    wind_options::DESIGN,
+    wind_options::SPECTRUM,
+    wind_options::HISTORY,
+    wind_options::PERIOD,
+    wind_options::COMPONENTS,
+    wind_options::CORRELATION,
     OptionSpec::new(
         "-CURRENT",
         &[
@@ -132,9 +105,14 @@ const OPTIONS: &[OptionSpec] = &[
     )
     .repeating(2)
     .default("none"),
+    OptionSpec::new("-C_HISTORY", &[curve("C_HISTORY curve")], "factor of the current over time").owner(Owner::Ours),
     OptionSpec::new("-TIDE", &[number("CHANGE", Dim::Length, "rise of the water level")], "tide").default("0"),
     OptionSpec::new("-DEPTH", &[number("D", Dim::Length, "depth").positive()], "water depth").default("&DEFAULT"),
-    OptionSpec::new("-M_GROWTH", &[curve("M_GROWTH curve")], "marine growth"),
+    OptionSpec::new(
+        "-M_GROWTH",
+        &[curve("M_GROWTH curve"), number("RHO", Dim::Density, "density of the growth").or("1325 kg/m3").positive()],
+        "marine growth",
+    ),
     OptionSpec::new(
         "-T_PRESSURE",
         &[text("NAME", "name of temperature and pressure data")],
@@ -155,15 +133,36 @@ static ENV_SPEC: CommandSpec = CommandSpec {
              environment starts from the defaults; a new name too, and is kept; an old name edits what is kept. It stays in \
              force until the next &ENV. The sources list no types for -PROBABILITY, -SP_TYPE, -W_PROFILE, -W_DESIGN and \
              -W_SPECTRUM: those taken are the field's usual ones. Depth and tide together must leave water. \
+             -W_SPECTRUM adds gusts in the time domain, the same at all places and heights, on the speed 10 m up: API RP 2A 20th edition; NPD \
+             and ISO (Froya); Ochi and Shin; Harris; Davenport; Kaimal; the drag coefficient of the last four is Wu's, 0.0008 + 0.000065 U. \
+             The speed of -WIND is then an hourly mean: periods from an hour to a second are taken, in -W_COMPONENTS of equal energy or about \
+             those of -W_PERIOD, with phases of -SEED. A curve is a density over rad/s in ft2/s or m2/s, as it is; INTENSITY scales any \
+             spectrum. -W_HISTORY takes the place of the speed of -WIND in the time domain, with its direction and profile; -C_HISTORY \
+             multiplies the current; both are straight between their points, and with the gusts grow over -RAMP from the means, \
+             on which statics stands. -M_GROWTH adds to the diameter of tubes, with its weight, buoyancy and inertia, by the elevations at which they stand when loads are made; not to other pieces, nor to lines and rods. -W_MD_CORRELATION other than 0 is refused in the time domain. \
              -WIND is the mean 10 m above the water over the time of the formula (1 h for API, NPD, ISO; 10 min for DNV; 1 min for \
              ABS); below 1 m it is that of 1 m. -W_PROFILE: POWER, exponent 1/7 unless given (also without the option); \
              LOGARITHMIC, with Charnock's roughness; API RP 2A 20th edition, exponent 0.125; NPD (Froya) and ISO 19901-1; DNV-RP-C205; \
              ABS MODU rules, joined between the middles of their bands. -W_DESIGN turns the mean into that of DURATION by the gust \
              factor of its code, and gives the profile where -W_PROFILE does not. Currents of several curves add up as vectors; a curve \
              counts depth from the actual surface, tide included, is straight between its points and constant beyond them; below \
-             the bottom there is none. PERIOD is the mean period of ISSC, the peak period of JONSWAP, REGULAR's own, and that to which \
-             the peak of a curve is moved; -SP_TYPE says otherwise for ISSC and JONSWAP, whose GAMMA is 3.3 unless given. No source \
-             gives a formula of 2JONSWAP: what needs it says so.",
+             the bottom there is none. PERIOD is the mean period of ISSC, the peak period of JONSWAP and TORSETHAUGEN (simplified, 2004), \
+             that of REGULAR and STOKES, and that to which the highest peak of a curve or of OCHI (Ochi and Hubble's most probable \
+             spectrum of HS) is moved; -SP_TYPE says otherwise for ISSC and JONSWAP. GAMMA of JONSWAP unless given is that of \
+             DNV-RP-C205 3.5.5.5: 5 up to Tp/sqrt(HS) = 3.6 (s, m), exp(5.75 - 1.15 Tp/sqrt(HS)) up to 5, 1 beyond. No source \
+             gives a formula of 2JONSWAP: what needs it says so. A spectrum becomes wave components: bands of equal energy, the \
+             frequency of each at the centroid of its energy, or of equal width (EQUAL_FREQUENCY, also at the centroid, so that the \
+             sea does not repeat itself), or about the periods of -S_PERIOD; energy outside LOW to HIGH is left out. With -SPREAD \
+             below 200 each component has one direction, from the cumulative spreading function at points of low discrepancy. \
+             Phases are random from -SEED, 1 unless given: the same in every run, without the crest that one reinforcement time \
+             makes; another seed is another realisation. -T_REINFORCE puts all components in phase at X = Y = 0 at TB, as MOSES \
+             does: the crest there is the sum of the amplitudes, which &STATUS SEA_SPECTRUM tells; let TB be outside the run unless \
+             it is wanted. A regular wave has its crest at X = Y = 0 at TB, or at 0 s. Of -SEED and -T_REINFORCE the later one \
+             holds. -STRETCHING is what linear waves do above the mean level: LINEAR goes straight on from it, WHEELER takes the \
+             actual surface for the mean level, DELTA is between the two (Rodenbusch and Forristall 1986: 0.3, over half the \
+             significant height), EXPONENTIAL uses the profile itself also above the water, as AQWATM does; with the others \
+             nothing moves above the actual surface. STOKES is Fenton's theory of order -STOKES, without a mean current; neither it \
+             nor REGULAR may be higher than 0.142 L tanh(k d).",
     example: "&ENV STORM -SEA ISSC 180 22 10.3 -WIND 60 180 -DEPTH 3000\n&STATUS ENVIRONMENT",
     ..CommandSpec::new("&ENV", "sets the environment")
 };
@@ -203,6 +202,7 @@ fn build(job: &Job, args: &Args) -> Outcome<Environment> {
         span: args.span,
         ..Environment::default()
     });
+    sea_options::one_phasing(args)?;
     for given in &args.options {
         apply(job, &mut env, given)?;
         env.options.retain(|g| g.spec.name != given.spec.name);
@@ -227,7 +227,7 @@ fn leaves_water(job: &Job, args: &Args, env: &Environment) -> Outcome<()> {
 }
 
 /// Periods, each once.
-fn periods(given: &Given) -> Outcome<()> {
+pub(super) fn periods(given: &Given) -> Outcome<()> {
     for (index, value) in given.values.iter().enumerate() {
         if let Some(first) = given.values.iter().take(index).find(|v| v.content == value.content) {
             return Err(Diagnostic::error(format!("{} has the same period twice", given.spec.name), value.span)
@@ -250,9 +250,6 @@ fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<()> {
         "-TIDE" => env.tide = at(0),
         "-RAMP" => env.ramp = at(0),
         "-SPREAD" => env.spreading = at(0),
-        "-WIND" => env.wind = at(0).zip(at(1)).map(|(speed, direction)| Wind { speed, direction }),
-        "-W_PROFILE" => env.wind_profile = Some(formula(given)),
-        "-W_DESIGN" => env.design_wind = Some(formula(given)),
         "-SP_TYPE" => env.sea_period = Some(formula(given)),
         "-SEA" => env.sea = Some(sea(job, given)?),
         "-A_SEA" => env.added_sea = Some(sea(job, given)?),
@@ -269,32 +266,45 @@ fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<()> {
             });
         }
         "-CURRENT" => env.current = Some(current(job, given)?),
-        "-S_PERIOD" | "-MD_PERIOD" | "-W_PERIOD" | "-E_PERIOD" => periods(given)?,
-        "-W_SPECTRUM" => spectrum(job, given, &GUSTS)?,
-        "-W_HISTORY" => known_curve(job, given, 0, CurveKind::WindHistory)?,
-        "-M_GROWTH" => known_curve(job, given, 0, CurveKind::MarineGrowth)?,
+        "-S_PERIOD" | "-MD_PERIOD" | "-E_PERIOD" => periods(given)?,
+        "-C_HISTORY" => {
+            known_curve(job, given, 0, CurveKind::CurrentHistory)?;
+            env.current_history = Some(formula(given));
+        }
+        "-M_GROWTH" => {
+            known_curve(job, given, 0, CurveKind::MarineGrowth)?;
+            env.growth = Some(formula(given));
+        }
         _ => {}
     }
-    Ok(())
+    wind_options::apply(job, env, given)?;
+    sea_options::apply(env, given)
 }
 
 /// A name with its number.
-fn formula(given: &Given) -> Formula {
+pub(super) fn formula(given: &Given) -> Formula {
     Formula { kind: given.word(0).unwrap_or_default().to_string(), value: given.number(1), span: given.span }
 }
 
 /// The spectra known without a curve.
-const SPECTRA: [&str; 4] = ["ISSC", "JONSWAP", "2JONSWAP", "REGULAR"];
+const SPECTRA: [&str; 8] = ["ISSC", "JONSWAP", "2JONSWAP", "OCHI", "OCHI_HUBBLE", "TORSETHAUGEN", "REGULAR", "STOKES"];
 
 fn sea(job: &Job, given: &Given) -> Outcome<Sea> {
     let name = given.word(0).unwrap_or_default();
     spectrum(job, given, &SPECTRA)?;
     let at = |i: usize| given.number(i).unwrap_or(0.0);
-    Ok(Sea { spectrum: name.to_string(), direction: at(1), height: at(2), period: at(3), gamma: given.number(4) })
+    Ok(Sea {
+        spectrum: name.to_string(),
+        direction: at(1),
+        height: at(2),
+        period: at(3),
+        gamma: given.number(4),
+        places: [0, 1, 2, 3, 4].map(|i| place(given, i)),
+    })
 }
 
 /// Sees that the first word names a known spectrum or a curve that is one.
-fn spectrum(job: &Job, given: &Given, known: &[&str]) -> Outcome<()> {
+pub(super) fn spectrum(job: &Job, given: &Given, known: &[&str]) -> Outcome<()> {
     let (name, span) = (given.word(0).unwrap_or_default(), place(given, 0));
     if known.iter().any(|s| s.eq_ignore_ascii_case(name)) {
         return Ok(());
@@ -316,7 +326,7 @@ fn spectrum(job: &Job, given: &Given, known: &[&str]) -> Outcome<()> {
     }
 }
 
-fn known_curve(job: &Job, given: &Given, index: usize, kind: CurveKind) -> Outcome<()> {
+pub(super) fn known_curve(job: &Job, given: &Given, index: usize, kind: CurveKind) -> Outcome<()> {
     let name = given.values.get(index).and_then(|v| v.word()).unwrap_or_default();
     let curve = find(&job.model.curves, name, "curve", place(given, index))?;
     if curve.kind != kind {

@@ -1,5 +1,6 @@
 //! The job that commands act on: model, units, menus, titles, settings, output.
 
+use super::buildg::Building;
 use super::pgen::Planes;
 use crate::language::args::Args;
 use crate::language::diagnostic::{Diagnostic, Severity};
@@ -52,6 +53,8 @@ pub enum Menu {
     Mesh,
     /// Hydrostatics of the body of this name.
     Hydrostatics(String),
+    /// A table being given by the records of `&BUILDG`.
+    Building(Box<Building>),
     /// Sections of a hull being given by `PGEN`.
     Planes(Box<Planes>),
     /// The menu of this name whose opener was refused: its commands are passed over up to its `END`.
@@ -74,6 +77,7 @@ impl Menu {
             Menu::Surface => "SURFACE",
             Menu::Block => "BLOCK",
             Menu::Mesh => "MESH",
+            Menu::Building(_) => "BUILDG",
             Menu::Planes(_) => "PGEN",
             Menu::Hydrostatics(_) => "HSTATICS",
             Menu::Refused(name) => name,
@@ -93,6 +97,7 @@ impl Menu {
             "SURFACE" => "END_&SURFACE",
             "BLOCK" => "END_BLOCK",
             "MESH" => "END_MESH",
+            "BUILDG" => "END_&BUILDG",
             "PGEN" => "END_PGEN",
             "HSTATICS" => "END_HSTATICS",
             _ => "END",

@@ -12,12 +12,15 @@ mod assembly;
 mod assembly_table;
 mod body_status;
 mod body_tables;
+mod buildg;
 mod chosen;
 mod class;
 mod conn_design;
 mod connector;
 mod curve_table;
 mod curves;
+mod database;
+mod database_table;
 mod describe;
 mod device;
 mod disposition;
@@ -25,6 +28,7 @@ mod environment;
 mod environment_table;
 mod equilibrium;
 mod excursion;
+mod fatigue_table;
 mod file;
 mod forces;
 pub mod functions;
@@ -46,9 +50,14 @@ mod picture;
 mod piece;
 mod pipe;
 mod plot;
+mod rep_select;
 mod report_menu;
 mod rigging;
+mod sea_options;
+mod sea_table;
 mod select;
+mod series;
+mod statistic;
 mod status;
 mod store;
 mod surface;
@@ -56,8 +65,11 @@ mod tdom;
 mod units;
 mod vary;
 mod weight;
+mod wind_options;
+mod wind_table;
 mod written;
 
+pub use buildg::take as take_row;
 pub use file::write_open_files;
 pub use job::{Job, Menu, Settings};
 pub use menus::{finish, opened_by};
@@ -147,6 +159,7 @@ pub static COMMANDS: &[&Command] = &[
     &weight::ITEM,
     &weight::WEIGHT,
     &hydrostatic::HYDROSTATIC,
+    &database::DATABASE,
     &piece::PANEL,
     &pgen::PGEN,
     &pgen::PLANE,
@@ -180,6 +193,7 @@ pub static COMMANDS: &[&Command] = &[
     &curves::F_SPECTRUM,
     &curves::M_GROWTH,
     &curves::W_HISTORY,
+    &curves::C_HISTORY,
     &curves::LT_MULTIPLIER,
     &curves::CT_LENGTH,
     &curves::EFFICIENCY,
@@ -196,11 +210,20 @@ pub static COMMANDS: &[&Command] = &[
     &disposition::VIEW,
     &store::STORE,
     &plot::PLOT,
-    &disposition::STATISTIC,
+    &statistic::STATISTIC,
     &disposition::SET_VARIABLE,
     &disposition::C_SCALE,
     &disposition::C_SHIFT,
     &disposition::CULL,
+    &series::SPECTRUM,
+    &series::FFT,
+    &series::EXTREMES,
+    &series::EXCEEDANCE,
+    &series::HISTOGRAM,
+    &series::RAINFLOW,
+    &series::HARMONIC,
+    &buildg::BUILDG,
+    &rep_select::REP_SELECT,
     &status::STATUS,
     &picture::PICTURE,
     &animate::ANIMATE,

@@ -7,22 +7,28 @@ mod body_load;
 mod buoyancy;
 pub mod coefficients;
 pub mod current;
+pub mod database;
 pub mod drag;
 pub mod drift;
 pub mod exposed;
 mod gathered;
+pub mod grown;
+pub mod growth;
+pub mod gusts;
 pub mod heading;
 pub mod hull;
 mod junction;
 mod linear;
 pub mod pieces;
 pub mod plate;
+pub mod ramp;
 mod righting;
 pub mod sea;
 pub mod spectrum;
 pub mod steady;
 pub mod stream;
 pub mod strips;
+pub mod variation;
 mod weight;
 pub mod wind;
 
@@ -204,7 +210,7 @@ pub struct Floating {
     pub mass: Mass,
     /// What acts on it.
     pub loads: Vec<Box<dyn BodyLoad>>,
-    /// Added mass about its origin, body axes (kg, kg m, kg m2), of `#AMASS`.
+    /// Added mass about its origin, body axes (kg, kg m, kg m2), of `#AMASS`, and the inertia of growth.
     pub added_mass: Matrix6<f64>,
     /// Linear damping about its origin, body axes (N s/m, N s, N m s), of `#DRAG` and `#DAMP`.
     pub damping: Matrix6<f64>,
@@ -228,7 +234,7 @@ impl Floating {
     }
 
     /// At rest without a sea; `Some` is under way, with the sea there is.
-    fn within(model: &Model, body: &Body, _under_way: Option<Option<&Arc<Sea>>>) -> Result<Self, ClassError> {
+    fn within(model: &Model, body: &Body, under_way: Option<Option<&Arc<Sea>>>) -> Result<Self, ClassError> {
         let gravity = model.defaults.gravity;
         let mass = Mass::of(model.parts_of(body), gravity);
         let mut loads: Vec<Box<dyn BodyLoad>> = Vec::new();
@@ -246,9 +252,16 @@ impl Floating {
         }
         loads.extend(hull.map(|hull| Box::new(hull) as Box<dyn BodyLoad>));
         loads.extend(linear::of(body));
-        let gathered = gathered::of(model, body)?;
+        let gathered = gathered::of(model, body, under_way.is_some())?;
         loads.extend(gathered.loads);
-        Ok(Floating { mass, loads, added_mass: gathered.added_mass, damping: gathered.damping })
+        let grown = grown::of(model, body)?;
+        loads.extend(grown.loads);
+        let mut added_mass = gathered.added_mass + grown.mass;
+        if let Some(brought) = database::attached::of(model, body, under_way)? {
+            loads.extend(brought.loads);
+            added_mass += brought.added_mass;
+        }
+        Ok(Floating { mass, loads, added_mass, damping: gathered.damping })
     }
 
     /// The added mass in a pose, global axes.

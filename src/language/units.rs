@@ -168,6 +168,8 @@ pub enum Dim {
     Volume,
     /// Spectral density of elevation, ft2 s or m2 s (m2 s).
     SpectralDensity,
+    /// Spectral density of an angle, deg2 s (rad2 s).
+    AngleDensity,
     /// Nonlinear dashpot coefficient, `bforce (s/blength)**Ex` (N (s/m)**Ex); the exponent is carried.
     Damping(f64),
     /// `bforce`, `blength` and seconds to whole powers (N, m and s to the same): coefficients and matrices.
@@ -229,6 +231,7 @@ impl Dim {
                 }
             }
             Dim::Angle => std::f64::consts::PI / 180.0,
+            Dim::AngleDensity => (std::f64::consts::PI / 180.0).powi(2),
             Dim::Days => 86_400.0,
             Dim::Velocity | Dim::Acceleration => m,
             Dim::WindSpeed => KNOT,
@@ -300,6 +303,7 @@ impl Dim {
             Dim::Area => format!("{length}2"),
             Dim::Volume => format!("{length}3"),
             Dim::SpectralDensity => format!("{length}2-s"),
+            Dim::AngleDensity => "deg2-s".into(),
             Dim::Damping(exponent) => format!("{force}-(s/{length})**{exponent}"),
             Dim::Derived { force: f, length: l, seconds: s } => derived([(force, f), (length, l), ("s", s)]),
             Dim::Mass => "kg".into(),

@@ -19,6 +19,47 @@ pub struct Sea {
     pub period: f64,
     /// Peakedness, where given.
     pub gamma: Option<f64>,
+    /// Where its name, direction, height, period and peakedness were written.
+    pub places: [Span; 5],
+}
+
+impl Sea {
+    /// Where one of its values was written, by its position in `-SEA`.
+    pub fn place(&self, index: usize) -> Span {
+        self.places.get(index).copied().unwrap_or_default()
+    }
+}
+
+/// How the components of a sea are cut from its spectrum.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Division {
+    /// All with the same energy.
+    #[default]
+    EqualEnergy,
+    /// Bands of the same width.
+    EqualFrequency,
+}
+
+/// `-COMPONENTS N TYPE LOW HIGH`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Components {
+    /// How many for each sea.
+    pub number: usize,
+    /// How they are cut.
+    pub division: Division,
+    /// Lowest and highest frequency (rad/s), where given; the energy beyond is left out.
+    pub limits: Option<[f64; 2]>,
+    /// Where it was given.
+    pub span: Span,
+}
+
+/// What makes the phases of the components.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Phasing {
+    /// All in phase at x = y = 0 at this time (s): `-T_REINFORCE`.
+    Reinforced(f64),
+    /// Random, from this seed: `-SEED`.
+    Seeded(u64),
 }
 
 /// What holds between the mean level and the surface, where linear waves say nothing.
@@ -44,13 +85,24 @@ pub struct Wind {
     pub direction: f64,
 }
 
-/// A formula that an option of the environment names.
+/// A formula or a curve that an option of the environment names.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Formula {
-    /// Its name, in upper case.
+    /// Its name; that of a formula in upper case.
     pub kind: String,
-    /// Its number: an exponent, an averaging time (s).
+    /// Its number: an exponent, an averaging time (s), a density (kg/m3), a factor.
     pub value: Option<f64>,
+    /// Where it was given.
+    pub span: Span,
+}
+
+/// How gusts are cut from their spectrum: `-W_COMPONENTS N INTENSITY`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GustParts {
+    /// How many components.
+    pub number: usize,
+    /// Standard deviation over the mean speed, where it is not that of the spectrum.
+    pub intensity: Option<f64>,
     /// Where it was given.
     pub span: Span,
 }
@@ -97,10 +149,24 @@ pub struct Environment {
     pub wind_profile: Option<Formula>,
     /// Design wind, with its averaging time (s) (`-W_DESIGN`).
     pub design_wind: Option<Formula>,
+    /// Gust spectrum (`-W_SPECTRUM`): a code, or a curve.
+    pub gusts: Option<Formula>,
+    /// Periods of the gusts (s) (`-W_PERIOD`); none: as `gust_parts` says.
+    pub gust_periods: Vec<f64>,
+    /// How gusts are cut from their spectrum (`-W_COMPONENTS`).
+    pub gust_parts: Option<GustParts>,
+    /// Curve of the wind over time (`-W_HISTORY`).
+    pub wind_history: Option<Formula>,
+    /// Correlation of gusts and mean drift (`-W_MD_CORRELATION`).
+    pub drift_correlation: Option<Formula>,
     /// What the period of a sea is (`-SP_TYPE`).
     pub sea_period: Option<Formula>,
     /// Current.
     pub current: Option<Current>,
+    /// Curve of the factor of the current over time (`-C_HISTORY`).
+    pub current_history: Option<Formula>,
+    /// Curve of marine growth (`-M_GROWTH`), with the density of the growth (kg/m3).
+    pub growth: Option<Formula>,
     /// Water density (kg/m3).
     pub water_density: Option<f64>,
     /// Depth (m).
@@ -113,6 +179,16 @@ pub struct Environment {
     pub ramp: Option<f64>,
     /// Directional spreading exponent; 200 (long-crested) when not given.
     pub spreading: Option<f64>,
+    /// Number and kind of the wave components (`-COMPONENTS`).
+    pub components: Option<Components>,
+    /// Periods of the wave components (s) (`-S_PERIOD`); none: as `components` says.
+    pub sea_periods: Vec<f64>,
+    /// What makes the phases.
+    pub phasing: Option<Phasing>,
+    /// What holds above the mean level (`-STRETCHING`).
+    pub stretching: Option<Stretching>,
+    /// Order of a STOKES wave (`-STOKES`); 5 when not given.
+    pub stokes: Option<u8>,
     /// Every option as last given (SI values with their places), the ones above included, by full name.
     pub options: Vec<Given>,
     /// Where it was defined.

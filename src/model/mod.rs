@@ -8,9 +8,11 @@ mod body;
 mod class;
 mod connector;
 mod curve;
+mod database;
 mod defaults;
 mod element;
 mod environment;
+mod fatigue;
 mod geometry;
 mod hull;
 mod line;
@@ -24,9 +26,14 @@ pub use body::{Body, GROUND, Junction, Mass, Part, Point, Weight};
 pub use class::{Class, ClassError, ClassRecord, ConnectorClass};
 pub use connector::{Anchor, Connector, Tug};
 pub use curve::{Curve, CurveKind};
+pub use database::{Amplitudes, AttachedDatabase, Database, DriftMethod, DriftTable, Qtf};
 pub use defaults::{Coordinates, Defaults, Material};
 pub use element::{Connection, Element, End, Guess, Response, Situation, SpringState, Summary, TimeStep};
-pub use environment::{Current, Environment, Formula, Sea, Stretching, Surroundings, TimeWindow, Wind};
+pub use environment::{
+    Components, Current, Division, Environment, Formula, GustParts, Phasing, Sea, Stretching, Surroundings, TimeWindow,
+    Wind,
+};
+pub use fatigue::{FatigueCurve, FatigueKind, FatigueSegment, FatigueSelection, ThicknessCorrection};
 pub use geometry::{Place, Position, unit_vector};
 pub use hull::{LinearHydrostatics, Piece, Shape, box_panels};
 pub use line::{Condition, Configuration, LineChange, LineLoads, LineModel, Placement};
@@ -60,6 +67,8 @@ pub struct Model {
     pub assemblies: Assemblies,
     /// Curves.
     pub curves: IndexMap<String, Curve>,
+    /// Fatigue curves and what `&REP_SELECT` chose of them.
+    pub fatigue: FatigueSelection,
     /// Environments kept under a name.
     pub environments: IndexMap<String, Environment>,
     /// Selectors.

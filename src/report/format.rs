@@ -121,6 +121,7 @@ fn usual(dim: Dim, units: UnitSystem) -> u8 {
         | Dim::Days
         | Dim::Frequency
         | Dim::SpectralDensity
+        | Dim::AngleDensity
         | Dim::Damping(_)
         | Dim::Derived { .. }
         | Dim::SquareMetres => 4,

@@ -14,6 +14,7 @@ pub mod page;
 pub mod parquet;
 pub mod picture;
 pub mod plot;
+pub mod readback;
 pub mod run_log;
 pub mod statistic;
 mod stored;
