@@ -343,7 +343,7 @@
     const wide = (along) => half.reduce((s, h, i) => s + h * Math.abs(along[i]), 0);
     const aspect = canvas.clientWidth / Math.max(canvas.clientHeight, 1);
     camera.target = [0, 0, 0];
-    camera.far = 1.08 * Math.max(wide(up), wide(right) / aspect, 1) / Math.tan(FIELD / 2) + wide(out) * 0.8;
+    camera.far = 1.14 * Math.max(wide(up), wide(right) / aspect, 1) / Math.tan(FIELD / 2) + wide(out) * 0.8;
   }
   function view(name) {
     if (VIEWS[name]) camera.look(...VIEWS[name]);

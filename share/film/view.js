@@ -123,7 +123,7 @@ void main() {
 
 class Painter {
   constructor(canvas) {
-    const gl = canvas.getContext("webgl2", { antialias: true, preserveDrawingBuffer: true });
+    const gl = canvas.getContext("webgl2", { alpha: false, antialias: true, preserveDrawingBuffer: true });
     if (!gl) throw new Error("This browser offers no WebGL2, which the film is drawn with.");
     this.gl = gl;
     this.canvas = canvas;

@@ -9,8 +9,8 @@ use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
 use crate::model::Thing;
-use crate::report::film;
 use crate::report::files::JobFolder;
+use crate::report::film;
 use crate::solve::film::{Film, Take, Window};
 use std::path::PathBuf;
 
@@ -96,7 +96,8 @@ fn form(args: &Args) -> Outcome<(String, Form)> {
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let (name, form) = form(args)?;
-    let run = job.run.as_ref().ok_or_else(|| Diagnostic::error("there is no run yet", args.span).help("TDOM makes one"))?;
+    let run =
+        job.run.as_ref().ok_or_else(|| Diagnostic::error("there is no run yet", args.span).help("TDOM makes one"))?;
     let events = args.option("-EVENTS");
     let event = |n: usize| events.and_then(|g| g.number(n));
     let points = args.option("-POINTS").and_then(|g| g.values.first()).and_then(|v| v.integer());

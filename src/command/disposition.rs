@@ -75,8 +75,11 @@ pub static C_SHIFT: Command = Command { spec: &C_SHIFT_SPEC, edits: false, run: 
 pub static CULL: Command = Command { spec: &CULL_SPEC, edits: false, run: cull };
 
 /// The file of STORE.
-pub(super) const STORED: ValueSpec =
-    ValueSpec::new("FILE", Kind::File, "file name ending in .csv, .parquet or .nc; .csv is added when it has no ending");
+pub(super) const STORED: ValueSpec = ValueSpec::new(
+    "FILE",
+    Kind::File,
+    "file name ending in .csv, .parquet or .nc; .csv is added when it has no ending",
+);
 /// A column that may be left out.
 pub(super) const ANY_COLUMN: ValueSpec = COLUMN.or("all columns");
 static REPORT_SPEC: CommandSpec = CommandSpec {

@@ -59,7 +59,8 @@ fn file(job: &mut Job, args: &mut Args) -> Option<String> {
         return args.data.pop().and_then(|v| v.word().map(str::to_string));
     }
     let ending = if args.has("-HTML") { "html" } else { "svg" };
-    (args.has("-HARD") || args.has("-HTML")).then(|| format!("{}{}.{ending}", job.settings.figure_name, job.settings.figure_number))
+    (args.has("-HARD") || args.has("-HTML"))
+        .then(|| format!("{}{}.{ending}", job.settings.figure_name, job.settings.figure_number))
 }
 
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
@@ -84,11 +85,8 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let right: Vec<usize> = numbers.iter().enumerate().filter(|(_, n)| right.contains(n)).map(|(at, _)| at).collect();
     let table = chosen(job, &args, 0)?;
     let wrong = |e: PlotError| Diagnostic::error(e.to_string(), on_right.as_ref().map_or(args.span, |g| g.span));
-    let made = if args.has("-POLAR") {
-        Chart::polar(&table, job.units)
-    } else {
-        Chart::with_right(&table, &right, job.units)
-    };
+    let made =
+        if args.has("-POLAR") { Chart::polar(&table, job.units) } else { Chart::with_right(&table, &right, job.units) };
     let mut chart = made.map_err(wrong)?;
     if let Some(heading) = args.option_word("-HEADING") {
         chart.title = heading.to_string();

@@ -3,6 +3,6 @@
 mod page;
 mod vtk;
 
-pub use page::page;
 pub(in crate::report) use page::filled;
+pub use page::page;
 pub use vtk::{Step, series, steps};

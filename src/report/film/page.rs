@@ -54,9 +54,7 @@ fn data(film: &Film, title: &str, units: UnitSystem) -> String {
         film.strands.iter().flat_map(of).copied().filter(|v| v.is_finite()).fold(0.0, f64::max)
     };
     let (tension, share) = (largest(|s| &s.tensions), largest(|s| &s.shares));
-    let unit = |dim: Dim| {
-        object([("name", string(&dim.label(units))), ("per", number(dim.from_si(1.0, units)))])
-    };
+    let unit = |dim: Dim| object([("name", string(&dim.label(units))), ("per", number(dim.from_si(1.0, units)))]);
     let [low, high] = film.extent;
     let triple = |at: [f64; 3]| list(at.map(number));
     object([
@@ -72,10 +70,7 @@ fn data(film: &Film, title: &str, units: UnitSystem) -> String {
         ("share", number(share)),
         ("bodies", list(film.actors.iter().map(actor))),
         ("lines", list(film.strands.iter().map(|s| strand(s, film.extent, (tension, share))))),
-        (
-            "anchors",
-            list(film.anchors.iter().map(|(name, at)| object([("name", string(name)), ("at", triple(*at))]))),
-        ),
+        ("anchors", list(film.anchors.iter().map(|(name, at)| object([("name", string(name)), ("at", triple(*at))])))),
         ("sea", film.waves.as_ref().map_or("null".into(), sea)),
         ("notes", list(film.notes.iter().map(|n| string(n)))),
     ])

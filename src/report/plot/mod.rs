@@ -311,7 +311,8 @@ mod tests {
 
     #[test]
     fn a_column_of_single_points_is_marks_that_no_line_hides_and_no_line_joins() {
-        let line = Series { name: "Z".into(), points: (0..9).map(|n| Some((f64::from(n), 1.0))).collect(), right: false };
+        let line =
+            Series { name: "Z".into(), points: (0..9).map(|n| Some((f64::from(n), 1.0))).collect(), right: false };
         let at = |rows: &[usize]| {
             let point = |n: usize| rows.contains(&n).then_some((n as f64, 1.0));
             Series { name: "Joint".into(), points: (0..9).map(point).collect(), right: false }
@@ -376,9 +377,8 @@ mod tests {
         let mut t = dims.iter().fold(Table::new("t"), |t, (name, dim)| t.column("", name, *dim, Digits::Usual));
         t.push((0..5).map(|n| f64::from(n).into()).collect()).unwrap();
         t.push((0..5).map(|n| f64::from(n * n).into()).collect()).unwrap();
-        let taken = |list: &[usize]| {
-            Table { columns: list.iter().map(|n| t.columns[*n].clone()).collect(), ..Table::new("t") }
-        };
+        let taken =
+            |list: &[usize]| Table { columns: list.iter().map(|n| t.columns[*n].clone()).collect(), ..Table::new("t") };
         let refused = Err(PlotError::Units("L (m), T (s)".into()));
         assert_eq!(Chart::of(&t, UnitSystem::SI), refused);
         assert_eq!(Chart::with_right(&taken(&[0, 1, 2]), &[2], UnitSystem::SI).unwrap().right_label.unwrap(), "G (N)");

@@ -117,7 +117,11 @@ impl Strand {
             points: (0..self.count).map(along).collect(),
             tensions: vec![tension; self.count],
             // where a line is straight its share of the break is not known: as before
-            shares: if self.line { vec![self.shares.last().copied().unwrap_or(f64::NAN); self.count] } else { Vec::new() },
+            shares: if self.line {
+                vec![self.shares.last().copied().unwrap_or(f64::NAN); self.count]
+            } else {
+                Vec::new()
+            },
             bottom: None,
         }
     }

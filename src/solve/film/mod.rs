@@ -85,8 +85,9 @@ impl Film {
     /// A run without instants, or none in the window; more than a film bears; told to stop.
     pub fn of(run: &Run, take: &Take) -> Result<Film, ClassError> {
         let layout = &run.history.layout;
-        let links: Vec<usize> =
-            (0..layout.links.len()).filter(|n| layout.links.get(*n).is_some_and(|l| (take.connector)(&l.name))).collect();
+        let links: Vec<usize> = (0..layout.links.len())
+            .filter(|n| layout.links.get(*n).is_some_and(|l| (take.connector)(&l.name)))
+            .collect();
         let held: Vec<usize> =
             links.iter().filter_map(|n| layout.links.get(*n)).flat_map(|l| l.ends.iter().flatten().copied()).collect();
         let bodies: Vec<usize> = layout

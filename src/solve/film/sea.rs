@@ -83,8 +83,7 @@ fn waves(sea: &Sea) -> Vec<Wave> {
         .collect();
     let harmonic = |n: usize| {
         let part = |f: fn(f64) -> f64| {
-            let sum: f64 =
-                samples.iter().enumerate().map(|(i, v)| v * f(TAU * (n * i) as f64 / SAMPLES as f64)).sum();
+            let sum: f64 = samples.iter().enumerate().map(|(i, v)| v * f(TAU * (n * i) as f64 / SAMPLES as f64)).sum();
             2.0 * sum / SAMPLES as f64
         };
         let (cos, sin) = (part(f64::cos), part(f64::sin));
