@@ -153,7 +153,7 @@ fn a_film_beyond_its_bounds_is_thinned_evenly_and_says_so() {
     let take = Take { connector: &|_| false, body: &all, window: Window::default(), points: 40, stop: &|| false };
     let film = Film::of(run, &take).unwrap();
     assert!(film.times.len() <= MOST_FRAMES && film.times.len() == 1667, "{}", film.times.len());
-    assert!(film.notes[0].contains("every 3rd of 5001"), "{:?}", film.notes);
+    assert!(film.notes[0].contains("one in 3 of 5001"), "{:?}", film.notes);
     let stopped = Film::of(run, &Take { stop: &|| true, ..take });
     assert_eq!(stopped.unwrap_err().message, "interrupted");
 }

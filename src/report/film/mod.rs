@@ -3,6 +3,5 @@
 mod page;
 mod vtk;
 
-pub(in crate::report) use page::filled;
 pub use page::page;
 pub use vtk::{Step, series, steps};

@@ -1,17 +1,16 @@
 //! The page: data, and a viewer of our own that draws them (share/film), with nothing to be fetched from anywhere.
 
 use crate::language::units::{Dim, UnitSystem};
-use crate::report::embedded::{doubles, list, number, object, quoted, shorts, singles, string, wholes};
+use crate::report::embedded::{self, doubles, list, number, object, quoted, shorts, singles, string, wholes};
 use crate::solve::film::{Actor, Film, State, Strand, Waves};
-use minijinja::{Environment, Value};
 use nalgebra::{Rotation3, UnitQuaternion};
-use std::collections::BTreeMap;
 
 /// The page without its data, and what is put into it.
-const PARTS: [(&str, &str); 4] = [
+const PARTS: [(&str, &str); 5] = [
     ("page.html", include_str!("../../../share/film/page.html")),
     ("style.css", include_str!("../../../share/film/style.css")),
     ("view.js", include_str!("../../../share/film/view.js")),
+    ("water.js", include_str!("../../../share/film/water.js")),
     ("film.js", include_str!("../../../share/film/film.js")),
 ];
 /// The largest number a place in the box of the film is written as.
@@ -22,25 +21,7 @@ const STEPS: f64 = 65_535.0;
 /// # Errors
 /// What the template library reports.
 pub fn page(film: &Film, title: &str, units: UnitSystem) -> Result<String, minijinja::Error> {
-    filled(&PARTS, title, data(film, title, units))
-}
-
-/// A page made of its parts, the first of which takes in the others by their names.
-pub(in crate::report) fn filled(
-    parts: &[(&'static str, &'static str)],
-    title: &str,
-    data: String,
-) -> Result<String, minijinja::Error> {
-    let (mut env, mut values) = (Environment::new(), BTreeMap::new());
-    for (name, text) in parts {
-        // what stands in scripts and styles is ours, and the data have no letter that ends them
-        values.insert(name.replace('.', "_"), Value::from_safe_string((*text).to_string()));
-    }
-    values.insert("title".into(), Value::from(title));
-    values.insert("data".into(), Value::from_safe_string(data));
-    let (name, text) = parts.first().copied().unwrap_or_default();
-    env.add_template(name, text)?;
-    env.get_template(name)?.render(values)
+    embedded::page(&PARTS, title, data(film, title, units))
 }
 
 /// A share of the steps between two bounds; the lowest where it is no number.

@@ -2,8 +2,7 @@
 
 use super::draw::COLOURS;
 use super::{Chart, PlotError, Series};
-use crate::report::embedded::{doubles, list, object, string};
-use crate::report::film::filled;
+use crate::report::embedded::{self, doubles, list, object, string};
 
 /// Most points of a page.
 pub const MOST: usize = 1_000_000;
@@ -55,7 +54,7 @@ impl Chart {
             ("right", self.right_label.as_ref().map_or("null".into(), |l| string(l))),
             ("curves", list(self.series.iter().enumerate().map(curve))),
         ]);
-        let page = filled(&PARTS, &self.title, data).map_err(|e| PlotError::Backend(format!("{e:#}")))?;
+        let page = embedded::page(&PARTS, &self.title, data).map_err(|e| PlotError::Backend(format!("{e:#}")))?;
         Ok(page.into_bytes())
     }
 }

@@ -145,7 +145,7 @@ impl Film {
         let step = times.len().div_ceil(most).max(1);
         if step > 1 {
             self.notes.push(format!(
-                "only every {step}th of {} instants is shown: a film bears {most} of them here (-EVENTS takes a part)",
+                "only one in {step} of {} instants is shown: a film bears {most} of them here (-EVENTS takes a part)",
                 times.len()
             ));
         }
