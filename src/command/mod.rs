@@ -28,6 +28,7 @@ mod environment;
 mod environment_table;
 mod equilibrium;
 mod excursion;
+mod fatigue;
 mod fatigue_table;
 mod file;
 mod forces;
@@ -41,6 +42,7 @@ mod line_types;
 mod lines;
 mod loads;
 mod loads_table;
+mod member;
 mod menus;
 mod message;
 mod names;
@@ -50,6 +52,8 @@ mod picture;
 mod piece;
 mod pipe;
 mod plot;
+mod prcpost;
+mod prescribe;
 mod rep_select;
 mod report_menu;
 mod rigging;
@@ -57,6 +61,7 @@ mod sea_options;
 mod sea_table;
 mod select;
 mod series;
+mod settings_table;
 mod statistic;
 mod status;
 mod store;
@@ -145,6 +150,7 @@ pub static COMMANDS: &[&Command] = &[
     &menus::INMODEL,
     &menus::MEDIT,
     &menus::CONN_DESIGN,
+    &menus::PRCPOST,
     &describe::DESCRIBE,
     &describe::POINT,
     &describe::INSTATE,
@@ -177,6 +183,7 @@ pub static COMMANDS: &[&Command] = &[
     &junction::JUNCTION,
     &assembly::ASSEMBLY,
     &pipe::PIPE_COMMAND,
+    &prescribe::PRESCRIBE,
     &names::DELETE,
     &names::RENAME,
     &alter::ALTER,
@@ -205,6 +212,14 @@ pub static COMMANDS: &[&Command] = &[
     &excursion::MOVE,
     &excursion::WATCH,
     &lines::LINES,
+    &prcpost::TRAJECTORY,
+    &prcpost::POINTS,
+    &prcpost::CONFORCE,
+    &prcpost::CF_MAGNITUDE,
+    &prcpost::TOT_CFORCE,
+    &prcpost::C_LENGTH,
+    &prcpost::BODY_FORCE,
+    &fatigue::FATIGUE,
     &disposition::REPORT,
     &disposition::VLIST,
     &disposition::VIEW,

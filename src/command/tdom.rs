@@ -4,9 +4,11 @@
 
 use super::equilibrium::told;
 use super::{Call, Command, Effect, Job};
+use crate::hydro::morison::unmoved;
 use crate::language::args::Args;
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
+use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
 use crate::model::{Model, Place, Six};
@@ -206,6 +208,20 @@ fn reset(job: &Job, model: &mut Model, time: f64) -> Option<Vec<(usize, Six)>> {
     Some(velocities)
 }
 
+/// Warns of pieces that displace water and that the waves of a run move by no pressure.
+fn warn_of_still_pieces(job: &mut Job, made: &Run, span: Span) {
+    if made.sea.is_none() {
+        return;
+    }
+    let pieces = made.model.bodies.values().flat_map(|b| unmoved(&made.model, b)).map(|p| p.name.as_str());
+    let list: Vec<&str> = pieces.collect();
+    if !list.is_empty() {
+        let text =
+            format!("waves of first order exert nothing on {}: neither members nor of a database", list.join(" "));
+        job.warn(format!("{text}; -DIFTYPE FK gives them the pressure of the waves"), span);
+    }
+}
+
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (args, span) = (&call.args, call.args.span);
     let settings = settings(job, args)?;
@@ -213,6 +229,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         return Err(Diagnostic::error("there is no body to move", span).help("&DESCRIBE BODY describes one"));
     }
     let (mut made, log) = begun(job, args, settings)?;
+    warn_of_still_pieces(job, &made, span);
     let mut going = Going::new(job, &made, log);
     let ended = made.go(&mut going);
     drop(going);

@@ -10,7 +10,7 @@ use super::plate::PlateLoad;
 use super::steady::{Medium, Steady};
 use super::stream::Place;
 use super::{BodyLoad, Category, Load, MovingLoad, Underway, pieces};
-use crate::model::{Body, ClassError, Fluid, LoadKind, Model, Part, PartLoad, Piece, Pose};
+use crate::model::{Body, ClassError, Fluid, LoadKind, Model, Part, PartLoad, Piece, Pose, Six};
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use std::sync::Arc;
 
@@ -58,6 +58,10 @@ impl BodyLoad for Multiplied {
         let MovingLoad { load, damping } = self.load.moving(at, state)?;
         let load = Load { wrench: load.wrench * self.factor, stiffness: load.stiffness * self.factor };
         Ok(MovingLoad { load, damping: damping * self.factor })
+    }
+
+    fn apart(&self, at: &Underway, state: &[f64]) -> Option<(Category, Six)> {
+        self.load.apart(at, state).map(|(category, wrench)| (category, wrench * self.factor))
     }
 
     fn commit(&self, at: &Underway, state: &mut [f64]) {

@@ -19,8 +19,10 @@ pub mod heading;
 pub mod hull;
 mod junction;
 mod linear;
+pub mod morison;
 pub mod pieces;
 pub mod plate;
+pub mod pressure;
 pub mod ramp;
 mod righting;
 pub mod sea;
@@ -210,7 +212,8 @@ pub struct Floating {
     pub mass: Mass,
     /// What acts on it.
     pub loads: Vec<Box<dyn BodyLoad>>,
-    /// Added mass about its origin, body axes (kg, kg m, kg m2), of `#AMASS`, and the inertia of growth.
+    /// Added mass about its origin, body axes (kg, kg m, kg m2): of `#AMASS`, of members, of a database at infinite frequency, and the
+    /// inertia of growth.
     pub added_mass: Matrix6<f64>,
     /// Linear damping about its origin, body axes (N s/m, N s, N m s), of `#DRAG` and `#DAMP`.
     pub damping: Matrix6<f64>,
@@ -256,7 +259,11 @@ impl Floating {
         loads.extend(gathered.loads);
         let grown = grown::of(model, body)?;
         loads.extend(grown.loads);
-        let mut added_mass = gathered.added_mass + grown.mass;
+        let (members, of_members) = morison::of(model, body, under_way)?;
+        loads.extend(members.map(|load| Box::new(load) as Box<dyn BodyLoad>));
+        let pressed = pressure::of(model, body, under_way.flatten())?;
+        loads.extend(pressed.map(|load| Box::new(load) as Box<dyn BodyLoad>));
+        let mut added_mass = gathered.added_mass + grown.mass + of_members;
         if let Some(brought) = database::attached::of(model, body, under_way)? {
             loads.extend(brought.loads);
             added_mass += brought.added_mass;

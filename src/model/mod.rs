@@ -19,6 +19,7 @@ mod line;
 mod load;
 mod names;
 mod pose;
+mod prescribed;
 mod selector;
 
 pub use assembly::{Assemblies, Assembly, AssemblyKind, LaidPipe, PIPE, PipeLayout};
@@ -35,11 +36,12 @@ pub use environment::{
 };
 pub use fatigue::{FatigueCurve, FatigueKind, FatigueSegment, FatigueSelection, ThicknessCorrection};
 pub use geometry::{Place, Position, unit_vector};
-pub use hull::{LinearHydrostatics, Piece, Shape, box_panels};
+pub use hull::{LinearHydrostatics, Member, Piece, Shape, WaveAction, box_panels};
 pub use line::{Condition, Configuration, LineChange, LineLoads, LineModel, Placement};
 pub use load::{Fluid, LoadKind, Multipliers, PartLoad};
 pub use names::Thing;
 pub use pose::{Pose, Six};
+pub use prescribed::{GivenMotion, PathRow, Prescription, ResponseRow, Responses, Sinusoid};
 pub use selector::Selector;
 
 use crate::language::diagnostic::{Diagnostic, Outcome, did_you_mean};

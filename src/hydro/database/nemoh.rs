@@ -106,6 +106,9 @@ pub(super) fn refer_phases(data: &mut Database, dx: f64, dy: f64) {
     }
 }
 
+/// What makes a frequency (rad/s) of the first column of a file.
+type ToFrequency = fn(f64) -> f64;
+
 /// A zone of a Tecplot file.
 struct Zone {
     title: String,
@@ -113,9 +116,9 @@ struct Zone {
 }
 
 /// The zones, and what makes a frequency (rad/s) of the first column.
-fn zones(file: &SourceFile) -> Result<(Vec<Zone>, fn(f64) -> f64), DatabaseError> {
+fn zones(file: &SourceFile) -> Result<(Vec<Zone>, ToFrequency), DatabaseError> {
     let head = file.text.lines().next().unwrap_or_default().to_ascii_lowercase();
-    let frequency: fn(f64) -> f64 = if head.contains("(hz)") {
+    let frequency: ToFrequency = if head.contains("(hz)") {
         |f| TAU * f
     } else if head.contains("(s)") {
         |t| TAU / t
@@ -146,7 +149,7 @@ fn columns(
     file: &SourceFile,
     (line, row): &(usize, Vec<f64>),
     force: usize,
-    frequency: fn(f64) -> f64,
+    frequency: ToFrequency,
 ) -> Result<(f64, f64, f64), DatabaseError> {
     let (Some(first), Some(a), Some(b)) = (row.first(), row.get(1 + 2 * force), row.get(2 + 2 * force)) else {
         return Err(file.wrong_at(*line, format!("{} numbers are too few for force {}", row.len(), force + 1)));

@@ -72,6 +72,9 @@ pub(super) fn groups(sea: &Sea) -> Vec<Group> {
     groups.into_iter().map(|g| g.1).collect()
 }
 
+/// The lanes of a heading, and their share.
+type Share<'a, const WIDTH: usize> = (&'a [Vec<f64>; WIDTH], f64);
+
 /// Values of each wave of each group at each heading of a table, `WIDTH` lanes of them.
 #[derive(Clone, Debug)]
 pub(super) struct ByHeading<const WIDTH: usize> {
@@ -109,7 +112,7 @@ impl<const WIDTH: usize> ByHeading<WIDTH> {
     ///
     /// # Errors
     /// A heading in a gap of the table.
-    pub fn around(&self, heading: f64) -> Result<[(&[Vec<f64>; WIDTH], f64); 2], ClassError> {
+    pub fn around(&self, heading: f64) -> Result<[Share<'_, WIDTH>; 2], ClassError> {
         let (a, b, share) = around(&self.headings, heading)?;
         match (self.tables.get(a), self.tables.get(b)) {
             (Some(first), Some(second)) => Ok([(first, 1.0 - share), (second, share)]),

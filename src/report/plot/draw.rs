@@ -63,7 +63,7 @@ pub fn draw<B: DrawingBackend>(chart: &Chart, area: &DrawingArea<B, Shift>, look
     area.fill(&WHITE).map_err(refused)?;
     let (mut paper, x, y) = if chart.polar {
         let (plane, x, y) = super::polar::plane(chart, area, look)?;
-        (Paper::One(plane), x, y)
+        (Paper::One(Box::new(plane)), x, y)
     } else {
         meshed(chart, area, look)?
     };
@@ -81,11 +81,14 @@ pub fn draw<B: DrawingBackend>(chart: &Chart, area: &DrawingArea<B, Shift>, look
     Ok(())
 }
 
+/// A surface with the axes on the left and those on the right.
+type TwoPlanes<'a, B> = DualCoordChartContext<'a, B, Cartesian2d<Axis, Axis>, Cartesian2d<Axis, Axis>>;
+
 /// What a chart is drawn on.
 enum Paper<'a, B: DrawingBackend> {
-    One(Plane<'a, B>),
+    One(Box<Plane<'a, B>>),
     /// With an axis on the right.
-    Two(Box<DualCoordChartContext<'a, B, Cartesian2d<Axis, Axis>, Cartesian2d<Axis, Axis>>>),
+    Two(Box<TwoPlanes<'a, B>>),
 }
 
 impl<'a, B: DrawingBackend> Paper<'a, B> {
@@ -140,7 +143,7 @@ fn meshed<'a, B: DrawingBackend + 'a>(
     let plane = builder.build_cartesian_2d(x.clone(), y.clone()).map_err(refused)?;
     let mut paper = match &right {
         Some(axis) => Paper::Two(Box::new(plane.set_secondary_coord(x.clone(), axis.clone()))),
-        None => Paper::One(plane),
+        None => Paper::One(Box::new(plane)),
     };
     let (x_label, y_label) = (|v: &f64| x.label(*v), |v: &f64| y.label(*v));
     let mut mesh = paper.plane().configure_mesh();

@@ -19,7 +19,7 @@ mod step;
 pub use action::{Action, Watched, What, When};
 pub use forces::{Forces, Memory, Motion};
 pub use history::{History, Layout, LinkColumns, OF_BODY};
-pub use prescribed::Prescribed;
+pub use prescribed::{Prescribed, prescribed};
 pub use run::{Counts, Ending, Run, SNAPSHOT, Settings, Watcher};
 pub use scheme::{Method, Scheme};
 pub use snapshot::Snapshot;
