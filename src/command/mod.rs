@@ -6,6 +6,7 @@
 
 mod action;
 mod alter;
+mod animate;
 mod apply;
 mod assembly;
 mod assembly_table;
@@ -50,6 +51,7 @@ mod pgen;
 mod picture;
 mod piece;
 mod pipe;
+mod plot;
 mod prcpost;
 mod prescribe;
 mod rep_select;
@@ -62,6 +64,7 @@ mod series;
 mod settings_table;
 mod statistic;
 mod status;
+mod store;
 mod surface;
 mod tdom;
 mod units;
@@ -220,8 +223,8 @@ pub static COMMANDS: &[&Command] = &[
     &disposition::REPORT,
     &disposition::VLIST,
     &disposition::VIEW,
-    &disposition::STORE,
-    &disposition::PLOT,
+    &store::STORE,
+    &plot::PLOT,
     &statistic::STATISTIC,
     &disposition::SET_VARIABLE,
     &disposition::C_SCALE,
@@ -238,6 +241,7 @@ pub static COMMANDS: &[&Command] = &[
     &rep_select::REP_SELECT,
     &status::STATUS,
     &picture::PICTURE,
+    &animate::ANIMATE,
     &units::DIMEN,
     &units::DEFAULT,
     &device::DEVICE,

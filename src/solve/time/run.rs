@@ -381,6 +381,11 @@ impl Run {
         &self.now.motions
     }
 
+    /// The seas of the run, each with the time since when it has been there (s).
+    pub fn seas(&self) -> &[(f64, Option<Arc<Sea>>)] {
+        &self.seas
+    }
+
     /// The sea at a time (s) of the run: actions may have changed it.
     pub fn sea_at(&self, time: f64) -> Option<&Sea> {
         let found = self.seas.iter().rev().find(|(since, _)| *since <= time).or(self.seas.first());
