@@ -38,6 +38,7 @@ impl Run {
         if self.winches.is_empty() {
             return Ok(());
         }
+        self.wound = true;
         let dt = time - self.now.time;
         for (name, rate, to) in &mut self.winches {
             let Some(connector) = self.model.connectors.get(&Model::key(name)) else { continue };
