@@ -140,7 +140,16 @@ fn describe(job: &mut Job, call: &Call) -> Outcome<Effect> {
             }
             let place = Place::default();
             let (junction, linear) = (None, None);
-            let body = Body { name: name.clone(), place, previous: place, ignored: Vec::new(), junction, linear, span };
+            let body = Body {
+                name: name.clone(),
+                place,
+                previous: place,
+                ignored: Vec::new(),
+                junction,
+                linear,
+                database: None,
+                span,
+            };
             model.bodies.insert(key.clone(), body);
             model.parts.insert(key.clone(), Part::new(&name, &name, place, span));
         }

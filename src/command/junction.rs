@@ -98,6 +98,7 @@ pub(super) fn insert(model: &mut Model, name: &str, at: Position, [weight, displ
         ignored: ["RX", "RY", "RZ"].map(str::to_string).into(),
         junction: Some(Junction { displacement, volume }),
         linear: None,
+        database: None,
         span,
     };
     let part = Part { weights, ..Part::new(name, name, Place::default(), span) };

@@ -64,6 +64,11 @@ impl BodyLoad for Multiplied {
     }
 }
 
+/// A load times its multiplier.
+pub fn multiplied(load: Box<dyn BodyLoad>, factor: f64) -> Box<dyn BodyLoad> {
+    Box::new(Multiplied { load, factor })
+}
+
 /// Where a part stands in its body.
 struct Frame<'a> {
     part: &'a Part,

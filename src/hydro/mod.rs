@@ -7,6 +7,7 @@ mod body_load;
 mod buoyancy;
 pub mod coefficients;
 pub mod current;
+pub mod database;
 pub mod drag;
 pub mod drift;
 pub mod exposed;
@@ -228,7 +229,7 @@ impl Floating {
     }
 
     /// At rest without a sea; `Some` is under way, with the sea there is.
-    fn within(model: &Model, body: &Body, _under_way: Option<Option<&Arc<Sea>>>) -> Result<Self, ClassError> {
+    fn within(model: &Model, body: &Body, under_way: Option<Option<&Arc<Sea>>>) -> Result<Self, ClassError> {
         let gravity = model.defaults.gravity;
         let mass = Mass::of(model.parts_of(body), gravity);
         let mut loads: Vec<Box<dyn BodyLoad>> = Vec::new();
@@ -248,7 +249,12 @@ impl Floating {
         loads.extend(linear::of(body));
         let gathered = gathered::of(model, body)?;
         loads.extend(gathered.loads);
-        Ok(Floating { mass, loads, added_mass: gathered.added_mass, damping: gathered.damping })
+        let mut added_mass = gathered.added_mass;
+        if let Some(brought) = database::attached::of(model, body, under_way)? {
+            loads.extend(brought.loads);
+            added_mass += brought.added_mass;
+        }
+        Ok(Floating { mass, loads, added_mass, damping: gathered.damping })
     }
 
     /// The added mass in a pose, global axes.

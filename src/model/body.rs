@@ -1,5 +1,6 @@
 //! Bodies, their parts, and points.
 
+use super::database::AttachedDatabase;
 use super::geometry::{Place, Position};
 use super::hull::{LinearHydrostatics, Piece};
 use crate::language::source::Span;
@@ -23,6 +24,8 @@ pub struct Body {
     pub junction: Option<Junction>,
     /// Buoyancy by a constant stiffness, instead of that of a hull.
     pub linear: Option<LinearHydrostatics>,
+    /// What potential flow says of it: radiation and excitation by waves.
+    pub database: Option<AttachedDatabase>,
     /// Where it was defined.
     pub span: Span,
 }

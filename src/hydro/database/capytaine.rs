@@ -1,0 +1,274 @@
+//! Data sets of Capytaine in NetCDF, classic or version 4 (HDF5): what `capytaine.io.xarray.export_dataset` writes.
+//!
+//! Source: documentation of Capytaine 3, "Conventions" and "Export outputs": amplitudes go with exp(-i w t) and the wave is `exp(i k (x cos b + y sin b))`, as here;
+//! phases refer to the origin, rotations and moments to `rotation_center`; SI and radians. Complex numbers stand on a
+//! dimension `complex` of two. `omega` holds zero and infinity as well. A variable that a data set lacks is left out here.
+
+use super::checks::{MOST, checked};
+use super::matrices::matrix;
+use super::nemoh::refer_phases;
+use super::rows::{DatabaseError, heading};
+use crate::model::{Amplitudes, Database};
+use nalgebra::{Complex, Matrix6, Vector3};
+use netcdf_reader::{NcFile, NcOpenOptions};
+
+/// Names of the directions in Capytaine.
+const DOFS: [&str; 6] = ["SURGE", "SWAY", "HEAVE", "ROLL", "PITCH", "YAW"];
+
+/// Which directions of a data set are those of a body: place in the data set, 0 to 5.
+type Chosen = Vec<(usize, usize)>;
+
+/// A variable: its dimensions and its values, the last dimension the fastest.
+struct Variable {
+    names: Vec<String>,
+    sizes: Vec<usize>,
+    values: Vec<f64>,
+}
+
+impl Variable {
+    /// A value by named places; zero for dimensions that are not named.
+    fn at(&self, places: &[(&str, usize)]) -> f64 {
+        let of = |name: &str| places.iter().find(|p| p.0 == name).map_or(0, |p| p.1);
+        let index = self.names.iter().zip(&self.sizes).fold(0, |sum, (name, size)| sum * size + of(name));
+        self.values.get(index).copied().unwrap_or(f64::NAN)
+    }
+
+    /// The size of a dimension; one where it has not that dimension.
+    fn size(&self, name: &str) -> usize {
+        self.names.iter().zip(&self.sizes).find(|(n, _)| *n == name).map_or(1, |(_, size)| *size)
+    }
+}
+
+/// An open data set.
+struct Set<'a> {
+    source: &'a str,
+    file: NcFile,
+}
+
+impl Set<'_> {
+    fn wrong(&self, why: impl Into<String>) -> DatabaseError {
+        DatabaseError::File { file: self.source.to_string(), why: why.into() }
+    }
+
+    fn has(&self, name: &str) -> bool {
+        self.file.variables().is_ok_and(|list| list.iter().any(|v| v.name() == name))
+    }
+
+    /// A variable of numbers.
+    fn numbers(&self, name: &str) -> Result<Variable, DatabaseError> {
+        let told = |e: netcdf_reader::Error| self.wrong(format!("{name}: {e}"));
+        let variable = self.file.variable(name).map_err(told)?;
+        let names = variable.dimensions().iter().map(|d| d.name.clone()).collect();
+        let sizes: Vec<usize> = variable.shape().iter().map(|n| usize::try_from(*n).unwrap_or(usize::MAX)).collect();
+        self.small(name, &sizes)?;
+        let array = self.file.read_variable_as_f64(name).map_err(told)?;
+        let values: Vec<f64> = array.iter().copied().collect();
+        if sizes.iter().product::<usize>() != values.len() {
+            return Err(self.wrong(format!("{name} has {} values on dimensions of other sizes", values.len())));
+        }
+        Ok(Variable { names, sizes, values })
+    }
+
+    /// A variable of one number.
+    fn single(&self, name: &str) -> Result<f64, DatabaseError> {
+        let variable = self.numbers(name)?;
+        match variable.values.as_slice() {
+            [value] => Ok(*value),
+            list => {
+                let text = format!("{name} has {} values: select one before it is exported", list.len());
+                Err(self.wrong(text))
+            }
+        }
+    }
+
+    /// A variable of words.
+    fn words(&self, name: &str) -> Result<Vec<String>, DatabaseError> {
+        let told = |e: netcdf_reader::Error| self.wrong(format!("{name}: {e}"));
+        let variable = self.file.variable(name).map_err(told)?;
+        let sizes: Vec<usize> = variable.shape().iter().map(|n| usize::try_from(*n).unwrap_or(usize::MAX)).collect();
+        self.small(name, &sizes)?;
+        let words = self.file.read_variable_as_strings(name).map_err(told)?;
+        Ok(words.iter().map(|w| w.trim_end_matches('\0').trim().to_string()).collect())
+    }
+
+    fn small(&self, name: &str, sizes: &[usize]) -> Result<(), DatabaseError> {
+        let cells = sizes.iter().try_fold(1usize, |product, n| product.checked_mul(*n));
+        let fits = cells.is_some_and(|n| n <= MOST);
+        if fits { Ok(()) } else { Err(self.wrong(format!("{name} has more than {MOST} values"))) }
+    }
+
+    /// The directions of the body on a dimension of the data set.
+    fn directions(&self, dimension: &str, body: Option<usize>) -> Result<Chosen, DatabaseError> {
+        let words = self.words(dimension)?;
+        let split = |w: &String| match w.rsplit_once("__") {
+            Some((body, dof)) => (body.to_string(), dof.to_ascii_uppercase()),
+            None => (String::new(), w.to_ascii_uppercase()),
+        };
+        let named: Vec<(String, String)> = words.iter().map(split).collect();
+        let mut bodies: Vec<&String> = Vec::new();
+        for (name, _) in &named {
+            if !bodies.contains(&name) {
+                bodies.push(name);
+            }
+        }
+        let chosen = match (body, bodies.as_slice()) {
+            (None, [one]) => *one,
+            (None, list) => {
+                let names = list.iter().map(|n| n.as_str()).collect::<Vec<_>>().join(", ");
+                let text = format!("it has {} bodies ({names}): -INDEX tells which one to take", list.len());
+                return Err(self.wrong(text));
+            }
+            (Some(n), list) => match n.checked_sub(1).and_then(|i| list.get(i)) {
+                Some(one) => *one,
+                None => return Err(self.wrong(format!("there is no body {n}: it has {}", list.len()))),
+            },
+        };
+        let mut found: Chosen = Vec::new();
+        for (index, (_, dof)) in named.iter().enumerate().filter(|(_, (b, _))| b == chosen) {
+            let Some(mode) = DOFS.iter().position(|d| d == dof) else {
+                return Err(self.wrong(format!("{dof} is none of the six directions of a rigid body")));
+            };
+            if found.iter().any(|f| f.1 == mode) {
+                return Err(self.wrong(format!("{dof} stands twice on {dimension}")));
+            }
+            found.push((index, mode));
+        }
+        Ok(found)
+    }
+
+    /// A matrix of two dimensions of directions, at places of the others.
+    fn matrix(&self, of: &Variable, (rows, columns): (&Chosen, &Chosen), at: usize, along: &str) -> Matrix6<f64> {
+        matrix(rows.iter().flat_map(|(r, i)| {
+            columns
+                .iter()
+                .map(move |(c, j)| (6 * i + j, of.at(&[(along, at), ("influenced_dof", *r), ("radiating_dof", *c)])))
+        }))
+    }
+}
+
+/// Reads a data set; of several bodies one is chosen by its number, from 1.
+///
+/// # Errors
+/// A file that is no NetCDF or no data set of Capytaine; frequencies, depths or bodies that are not told apart.
+pub fn read(source: &str, bytes: &[u8], body: Option<usize>) -> Result<Database, DatabaseError> {
+    let options = NcOpenOptions { max_read_bytes: 8 * MOST, max_chunk_bytes: 8 * MOST, ..NcOpenOptions::default() };
+    let file = NcFile::from_bytes_with_options(bytes, options).map_err(|e| DatabaseError::File {
+        file: source.to_string(),
+        why: format!("it is no NetCDF file that can be read: {e}"),
+    })?;
+    let set = Set { source, file };
+    if !set.has("omega") || !(set.has("added_mass") || set.has("excitation_force")) {
+        return Err(set.wrong("it has no omega, added_mass or excitation_force: it is no data set of Capytaine"));
+    }
+    let omega = set.numbers("omega")?;
+    let [along] = omega.names.as_slice() else {
+        return Err(set.wrong("omega stands on several dimensions"));
+    };
+    let depth = set.single("water_depth")?;
+    let mut data = Database {
+        source: source.to_string(),
+        density: set.single("rho")?,
+        gravity: set.single("g")?,
+        depth: (depth.is_finite() && depth > 0.0).then_some(depth),
+        ..Database::default()
+    };
+    // places of the frequencies, growing
+    let mut order: Vec<(usize, f64)> = omega.values.iter().copied().enumerate().collect();
+    order.sort_by(|a, b| a.1.total_cmp(&b.1));
+    if order.windows(2).any(|w| matches!(w, [a, b] if a.1 == b.1)) {
+        return Err(set.wrong("a frequency stands twice on omega"));
+    }
+    if order.iter().any(|(_, w)| w.is_nan() || *w < 0.0) {
+        return Err(set.wrong("omega holds what is no frequency"));
+    }
+    let rigid = set.directions("influenced_dof", body)?;
+    let mut between: Vec<(usize, f64)> = order.iter().copied().filter(|(_, w)| *w > 0.0 && w.is_finite()).collect();
+    if set.has("added_mass") && set.has("radiation_damping") {
+        let (added, damping) = (set.numbers("added_mass")?, set.numbers("radiation_damping")?);
+        let moving = set.directions("radiating_dof", body)?;
+        single_places(&set, "added_mass", &added, &[along, "influenced_dof", "radiating_dof"])?;
+        let of = |v: &Variable, at: usize| set.matrix(v, (&rigid, &moving), at, along);
+        for (place, w) in &order {
+            match *w {
+                0.0 => data.zero = Some(of(&added, *place)),
+                f64::INFINITY => data.infinite = Some(of(&added, *place)),
+                _ => {
+                    data.added_mass.push(of(&added, *place));
+                    data.damping.push(of(&damping, *place));
+                }
+            }
+        }
+        if set.has("hydrostatic_stiffness") {
+            data.hydrostatics = Some(of(&set.numbers("hydrostatic_stiffness")?, 0));
+        }
+    }
+    if set.has("excitation_force") {
+        excitation(&set, &mut data, &rigid, (along, &mut between))?;
+    } else if set.has("diffraction_force") {
+        data.remarks.push("it has no excitation_force: diffraction and Froude-Krylov forces are not added up".into());
+    }
+    data.frequencies = between.into_iter().map(|(_, w)| w).collect();
+    if set.has("disp_mass") {
+        data.mass = set.single("disp_mass").ok().filter(|m| m.is_finite());
+    }
+    if set.has("rotation_center") {
+        let centre = set.numbers("rotation_center")?.values;
+        let [x, y, z] = centre.as_slice() else {
+            return Err(set.wrong("rotation_center is no single point"));
+        };
+        data.reference = Vector3::new(*x, *y, *z);
+        refer_phases(&mut data, -*x, -*y);
+    }
+    // limits that Capytaine could not compute are left out by it as NaN
+    let whole = |m: &Matrix6<f64>| m.iter().all(|v| v.is_finite());
+    (data.zero, data.infinite) = (data.zero.filter(whole), data.infinite.filter(whole));
+    checked(data)
+}
+
+/// Sees that dimensions that are not used have one place only.
+fn single_places(set: &Set, name: &str, of: &Variable, used: &[&str]) -> Result<(), DatabaseError> {
+    let other = of.names.iter().zip(&of.sizes).find(|(n, size)| **size != 1 && !used.contains(&n.as_str()));
+    match other {
+        None => Ok(()),
+        Some((n, size)) => Err(set.wrong(format!("{name} has {size} places on {n}: select one before it is exported"))),
+    }
+}
+
+/// The excitation by heading, then frequency.
+fn excitation(
+    set: &Set,
+    data: &mut Database,
+    rigid: &Chosen,
+    (along, between): (&str, &mut Vec<(usize, f64)>),
+) -> Result<(), DatabaseError> {
+    let force = set.numbers("excitation_force")?;
+    single_places(set, "excitation_force", &force, &[along, "influenced_dof", "wave_direction", "complex"])?;
+    if force.size("complex") != 2 {
+        return Err(set.wrong("excitation_force has no dimension complex of two: export it by export_dataset"));
+    }
+    let directions = set.numbers("wave_direction")?.values;
+    if directions.is_empty() || directions.iter().any(|h| !h.is_finite()) {
+        return Err(set.wrong("wave_direction holds what is no heading"));
+    }
+    let mut headings: Vec<(usize, f64)> = directions.iter().map(|h| heading(h.to_degrees())).enumerate().collect();
+    headings.sort_by(|a, b| a.1.total_cmp(&b.1));
+    headings.dedup_by(|b, a| super::rows::same_heading(a.1, b.1));
+    let table = headings.iter().map(|(h, _)| {
+        let at = |w: usize| {
+            let mut six = Amplitudes::default();
+            for (place, mode) in rigid {
+                let part = |part: usize| {
+                    force.at(&[(along, w), ("influenced_dof", *place), ("wave_direction", *h), ("complex", part)])
+                };
+                if let Some(x) = six.get_mut(*mode) {
+                    *x = Complex::new(part(0), part(1));
+                }
+            }
+            six
+        };
+        between.iter().map(|(w, _)| at(*w)).collect()
+    });
+    data.excitation = table.collect();
+    data.headings = headings.into_iter().map(|(_, h)| h).collect();
+    Ok(())
+}

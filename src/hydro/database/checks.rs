@@ -1,0 +1,129 @@
+//! What every database must fulfil, whatever its source.
+
+use super::rows::DatabaseError;
+use crate::model::{Amplitudes, Database};
+use nalgebra::Matrix6;
+use std::f64::consts::TAU;
+
+/// Asymmetry of added mass or damping, over the geometric mean of the diagonal, that is said.
+const ASYMMETRY: f64 = 0.05;
+/// The most numbers a database may hold (1e7: 80 MB).
+pub(super) const MOST: usize = 10_000_000;
+
+/// Names of the six directions.
+pub const MODES: [&str; 6] = ["X", "Y", "Z", "RX", "RY", "RZ"];
+
+/// Sees that a database is whole and finite, and notes what looks wrong.
+///
+/// # Errors
+/// Numbers that are not finite; tables of unlike size; neither radiation, excitation nor motions.
+pub(super) fn checked(mut data: Database) -> Result<Database, DatabaseError> {
+    let wrong = |why: String| Err(DatabaseError::Whole(format!("{}: {why}", data.source)));
+    let count = data.frequencies.len();
+    if count == 0 || (data.added_mass.is_empty() && data.excitation.is_empty() && data.motions.is_none()) {
+        return wrong("it holds neither added mass, excitation nor motions".into());
+    }
+    let growing = |list: &[f64]| list.windows(2).all(|w| matches!(w, [a, b] if a < b));
+    if !data.frequencies.iter().all(|w| w.is_finite() && *w > 0.0) || !growing(&data.frequencies) {
+        return wrong("its frequencies are not finite and greater than zero".into());
+    }
+    if !data.headings.iter().all(|h| (0.0..TAU).contains(h)) || !growing(&data.headings) {
+        return wrong("its headings do not go once round".into());
+    }
+    let fits = |list: &[Matrix6<f64>]| list.is_empty() || list.len() == count;
+    let shaped = |table: &[Vec<Amplitudes>]| {
+        table.is_empty() || (table.len() == data.headings.len() && table.iter().all(|row| row.len() == count))
+    };
+    let whole = fits(&data.added_mass)
+        && fits(&data.damping)
+        && data.added_mass.len() == data.damping.len()
+        && shaped(&data.excitation)
+        && data.motions.as_ref().is_none_or(|m| shaped(m));
+    if !whole {
+        return wrong("its tables are of unlike size".into());
+    }
+    let single = data.infinite.iter().chain(&data.zero).chain(&data.hydrostatics);
+    let matrices = data.added_mass.iter().chain(&data.damping).chain(single);
+    let mut amplitudes = data.excitation.iter().chain(data.motions.iter().flatten()).flatten().flatten();
+    let finite = matrices.into_iter().all(|m| m.iter().all(|v| v.is_finite()))
+        && amplitudes.all(|x| x.re.is_finite() && x.im.is_finite())
+        && data.reference.iter().all(|v| v.is_finite())
+        && data.drift.iter().all(|d| d.values.iter().flatten().flatten().all(|v| v.is_finite()));
+    if !finite {
+        return wrong("it holds values that are no finite numbers".into());
+    }
+    if !(data.density > 0.0 && data.density.is_finite() && data.gravity > 0.0 && data.gravity.is_finite()) {
+        return wrong("its density and gravity are not greater than zero".into());
+    }
+    let remarks: Vec<String> = [
+        unsymmetric("added mass", &data.added_mass, &data.frequencies),
+        unsymmetric("damping", &data.damping, &data.frequencies),
+        negative_damping(&data),
+        gaps(&data.headings),
+    ]
+    .into_iter()
+    .flatten()
+    .collect();
+    data.remarks.extend(remarks);
+    Ok(data)
+}
+
+/// The worst asymmetry of matrices, where it is to be said.
+fn unsymmetric(what: &str, list: &[Matrix6<f64>], frequencies: &[f64]) -> Option<String> {
+    let mut worst = (ASYMMETRY, 0, 0, 0.0);
+    // the largest of each direction over all frequencies: damping of long waves is all noise
+    let size: Vec<f64> = (0..6).map(|i| list.iter().map(|m| m[(i, i)].abs()).fold(0.0, f64::max)).collect();
+    let scale = |i: usize, j: usize| (size.get(i).unwrap_or(&0.0) * size.get(j).unwrap_or(&0.0)).sqrt();
+    for (matrix, frequency) in list.iter().zip(frequencies) {
+        for i in 0..6 {
+            for j in 0..i {
+                let off = (matrix[(i, j)] - matrix[(j, i)]).abs();
+                if off > worst.0 * scale(i, j) && scale(i, j) > 0.0 {
+                    worst = (off / scale(i, j), i, j, *frequency);
+                }
+            }
+        }
+    }
+    let (off, i, j, frequency) = worst;
+    let name = |i: usize| MODES.get(i).copied().unwrap_or_default();
+    (off > ASYMMETRY).then(|| {
+        format!(
+            "{what} is not symmetric: {}-{} differs by {:.1} % at {frequency:.4} rad/s",
+            name(i),
+            name(j),
+            100.0 * off
+        )
+    })
+}
+
+/// The first negative damping on a diagonal that is more than noise.
+fn negative_damping(data: &Database) -> Option<String> {
+    (0..6).find_map(|i| {
+        let largest = data.damping.iter().map(|m| m[(i, i)].abs()).fold(0.0, f64::max);
+        let least = data.damping.iter().zip(&data.frequencies).min_by(|a, b| a.0[(i, i)].total_cmp(&b.0[(i, i)]))?;
+        let value = least.0[(i, i)];
+        (value < -0.01 * largest).then(|| {
+            let name = MODES.get(i).copied().unwrap_or_default();
+            format!(
+                "damping of {name} is negative at {:.4} rad/s: {:.1} % of its largest",
+                least.1,
+                100.0 * value / largest
+            )
+        })
+    })
+}
+
+/// The widest gap between headings, where it is wider than what is interpolated over.
+fn gaps(headings: &[f64]) -> Option<String> {
+    let first = *headings.first()?;
+    let next = headings.iter().skip(1).copied().chain([first + TAU]);
+    let (from, to) = headings.iter().copied().zip(next).max_by(|a, b| (a.1 - a.0).total_cmp(&(b.1 - b.0)))?;
+    (to - from > super::at::WIDEST_GAP).then(|| {
+        format!(
+            "its headings leave a gap of {:.0} degrees: waves toward {:.0} to {:.0} in the body are refused",
+            (to - from).to_degrees(),
+            from.to_degrees(),
+            to.to_degrees() % 360.0
+        )
+    })
+}

@@ -1,0 +1,132 @@
+//! First-order wave forces in time: the excitation of a database summed over the waves of a sea.
+//!
+//! `F(t) = Re sum X(b - yaw, w) a exp(i (k . x - w t + phase))` in axes that turn with the yaw of the body, at the place and
+//! time of the reference point; between headings X is straight in real and imaginary part, so that the force has no
+//! jump when the body turns. Roll and pitch do not change it (first order).
+
+use super::waves::{BLOCK, ByHeading, Group, block, dot, groups};
+use crate::hydro::body_load::{BodyLoad, MovingLoad, Underway};
+use crate::hydro::sea::Sea;
+use crate::hydro::{Category, Load, carried};
+use crate::model::{ClassError, Database, Pose, Six};
+use nalgebra::Vector3;
+use std::sync::Arc;
+
+/// The excitation of one body in one sea.
+#[derive(Clone, Debug)]
+pub struct Excitation {
+    sea: Arc<Sea>,
+    /// The point it is about, in the body (m).
+    reference: Vector3<f64>,
+    /// Waves of a direction, with amplitude times excitation: six real parts, then six imaginary ones.
+    groups: Vec<(Group, ByHeading<12>)>,
+    /// The share of the sea's energy that is at frequencies beyond those of the database.
+    pub outside: f64,
+}
+
+impl Excitation {
+    /// That of a database in a sea.
+    ///
+    /// # Errors
+    /// A database without excitation, or too many waves.
+    pub fn of(data: &Database, sea: &Arc<Sea>) -> Result<Self, ClassError> {
+        // about the reference point and with the phase there: the place of that point is used instead
+        let about = Database { reference: Vector3::zeros(), ..data.clone() };
+        let mut list = Vec::new();
+        for group in groups(sea) {
+            let table = ByHeading::of(&group, &data.headings, |h, w, a| {
+                let heading = data.headings.get(h).copied().unwrap_or_default();
+                let x = about.excitation_at(heading, w)?;
+                Ok(std::array::from_fn(|n| if n < 6 { x[n].re * a } else { x[n - 6].im * a }))
+            })?;
+            list.push((group, table));
+        }
+        let (first, last) = (data.frequencies.first(), data.frequencies.last());
+        let (mut all, mut beyond) = (0.0, 0.0);
+        for wave in &sea.components {
+            let energy = wave.amplitude * wave.amplitude;
+            all += energy;
+            if first.is_some_and(|w| wave.frequency < *w) || last.is_some_and(|w| wave.frequency > *w) {
+                beyond += energy;
+            }
+        }
+        let outside = if all > 0.0 { beyond / all } else { 0.0 };
+        Ok(Excitation { sea: Arc::clone(sea), reference: data.reference, groups: list, outside })
+    }
+
+    /// Force and moment about the reference point at a time (s) and a place of it (m, global), in axes turned by the yaw (rad).
+    ///
+    /// # Errors
+    /// A heading in a gap of the database.
+    pub fn force(&self, time: f64, (x, y): (f64, f64), yaw: f64) -> Result<Six, ClassError> {
+        let mut sum = Six::zeros();
+        let mut phasors = [[0.0; BLOCK]; 2];
+        for (group, table) in &self.groups {
+            let tables = table.around(group.toward - yaw)?;
+            for index in 0..group.blocks() {
+                group.phasors(index, (time, x, y), &mut phasors);
+                let [cos, sin] = &phasors;
+                for (lanes, share) in tables.iter().filter(|t| t.1 != 0.0) {
+                    for mode in 0..6 {
+                        let (real, imaginary) = (block(&lanes[mode], index), block(&lanes[mode + 6], index));
+                        sum[mode] += share * (dot(real, cos) - dot(imaginary, sin));
+                    }
+                }
+            }
+        }
+        Ok(sum * self.sea.factor(time))
+    }
+
+    /// The force on a body in a pose at a time (s): about its origin, global axes.
+    ///
+    /// # Errors
+    /// A heading in a gap of the database.
+    pub fn on(&self, pose: &Pose, time: f64) -> Result<Six, ClassError> {
+        let (arm, yaw) = (pose.axes * self.reference, yaw(pose));
+        let at = pose.origin + arm;
+        Ok(carried(&turned(&self.force(time, (at.x, at.y), yaw)?, yaw), arm))
+    }
+}
+
+/// The yaw of a pose (rad): where its x axis points on the plan.
+pub(super) fn yaw(pose: &Pose) -> f64 {
+    pose.axes[(1, 0)].atan2(pose.axes[(0, 0)])
+}
+
+/// Six values in axes turned about z by an angle (rad), in global axes.
+pub(super) fn turned(six: &Six, angle: f64) -> Six {
+    let (sin, cos) = angle.sin_cos();
+    let [x, y, z, rx, ry, rz] = (*six).into();
+    Six::new(cos * x - sin * y, sin * x + cos * y, z, cos * rx - sin * ry, sin * rx + cos * ry, rz)
+}
+
+impl BodyLoad for Excitation {
+    fn category(&self) -> Category {
+        Category::Wave
+    }
+
+    /// The mean of first-order forces is nothing.
+    fn load(&self, _: &Pose) -> Result<Load, ClassError> {
+        Ok(Load::none())
+    }
+
+    fn states(&self) -> usize {
+        6
+    }
+
+    /// The force where the body is expected is that of the step.
+    fn begin(&self, ahead: &Underway, state: &mut [f64]) -> Result<(), ClassError> {
+        let force = self.on(ahead.pose, ahead.time)?;
+        state.iter_mut().zip(force.iter()).for_each(|(s, f)| *s = *f);
+        Ok(())
+    }
+
+    fn moving(&self, _: &Underway, state: &[f64]) -> Result<MovingLoad, ClassError> {
+        Ok(MovingLoad::of(kept(state)))
+    }
+}
+
+/// A force that a step has kept.
+pub(super) fn kept(state: &[f64]) -> Load {
+    Load { wrench: Six::from_fn(|i, _| state.get(i).copied().unwrap_or(0.0)), ..Load::none() }
+}

@@ -1,0 +1,24 @@
+//! Hydrodynamic databases: what programs of potential flow computed, and the forces it makes in time.
+//!
+//! The data and its conventions are [`Database`] of the model. Sources are read by [`wamit`], [`nemoh`], [`capytaine`] and [`rao`]; [`at`]
+//! interpolates; [`radiation`], [`excitation`] and [`slow_drift`] make the loads on a body, which [`attached`] puts together.
+
+pub mod at;
+pub mod attached;
+pub mod capytaine;
+pub mod checks;
+pub mod excitation;
+mod matrices;
+pub mod memory;
+pub mod nemoh;
+mod nemoh_case;
+pub mod radiation;
+pub mod rao;
+mod rows;
+pub mod slow_drift;
+pub mod wamit;
+mod wamit_qtf;
+mod waves;
+
+pub use crate::model::{Amplitudes, Database, DriftTable, Qtf};
+pub use rows::{DatabaseError, SourceFile};

@@ -1,0 +1,123 @@
+//! `Nemoh.cal`: what NEMOH was asked to compute.
+//!
+//! Source: documentation of NEMOH 3, "Main input file Nemoh.cal"; version 2 has the same lines.
+
+use super::rows::{DatabaseError, SourceFile, number, separates};
+use nalgebra::Vector3;
+
+/// One direction of a motion or a force of a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Direction {
+    /// 0 to 5.
+    pub mode: usize,
+    /// The point a rotation or moment is about.
+    pub about: Option<Vector3<f64>>,
+}
+
+/// What is read of a `Nemoh.cal`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Case {
+    /// Density (kg/m3).
+    pub density: f64,
+    /// Gravity (m/s2).
+    pub gravity: f64,
+    /// Depth (m); `None` for deep water.
+    pub depth: Option<f64>,
+    /// Where phases of waves refer to (m).
+    pub waves_at: [f64; 2],
+    /// Motions and forces of each body.
+    pub bodies: Vec<(Vec<Direction>, Vec<Direction>)>,
+}
+
+/// The lines of the file, read one by one.
+struct Lines<'a> {
+    file: &'a SourceFile,
+    rest: std::iter::Enumerate<std::str::Lines<'a>>,
+    at: usize,
+}
+
+impl<'a> Lines<'a> {
+    fn next(&mut self) -> Result<&'a str, DatabaseError> {
+        let (index, line) = self.rest.next().ok_or_else(|| self.file.wrong("it ends too early"))?;
+        self.at = index + 1;
+        Ok(line)
+    }
+
+    /// The numbers a line begins with, at least so many.
+    fn numbers(&mut self, least: usize) -> Result<Vec<f64>, DatabaseError> {
+        let line = self.next()?;
+        let words = line.split(separates).filter(|w| !w.is_empty());
+        let list: Vec<f64> = words.map_while(number).take(16).collect();
+        if list.len() < least {
+            return Err(self.file.wrong_at(self.at, format!("it begins with {} numbers, not {least}", list.len())));
+        }
+        Ok(list)
+    }
+
+    /// A count from 0 to a most.
+    fn count(&mut self, most: usize, what: &str) -> Result<usize, DatabaseError> {
+        let value = self.numbers(1)?.first().copied().unwrap_or(-1.0);
+        if value >= 0.0 && value <= most as f64 && value.fract() == 0.0 {
+            Ok(value as usize)
+        } else {
+            Err(self.file.wrong_at(self.at, format!("{value} is no number of {what}, 0 to {most}")))
+        }
+    }
+
+    /// A line of a motion or a force: `1 dx dy dz ..` or `2 dx dy dz x y z`.
+    fn direction(&mut self) -> Result<Direction, DatabaseError> {
+        let line = self.numbers(7)?;
+        let at = |i: usize| line.get(i).copied().unwrap_or_default();
+        let axis = [1, 2, 3].into_iter().position(|k| at(k) == 1.0);
+        let others = [1, 2, 3].into_iter().filter(|k| at(*k) != 0.0).count();
+        match (at(0), axis) {
+            (1.0, Some(axis)) if others == 1 => Ok(Direction { mode: axis, about: None }),
+            (2.0, Some(axis)) if others == 1 => {
+                Ok(Direction { mode: 3 + axis, about: Some(Vector3::new(at(4), at(5), at(6))) })
+            }
+            _ => Err(self.file.wrong_at(self.at, "only motions along and about the axes x, y and z are read")),
+        }
+    }
+}
+
+/// Reads a `Nemoh.cal`.
+///
+/// # Errors
+/// A file that does not have the form; motions that are not along or about the axes.
+pub(super) fn read(file: &SourceFile) -> Result<Case, DatabaseError> {
+    let mut lines = Lines { file, rest: file.text.lines().enumerate(), at: 0 };
+    let mut case = Case::default();
+    let first = |list: Vec<f64>| list.first().copied().unwrap_or_default();
+    lines.next()?;
+    case.density = first(lines.numbers(1)?);
+    case.gravity = first(lines.numbers(1)?);
+    case.depth = Some(first(lines.numbers(1)?)).filter(|d| *d > 0.0);
+    let waves_at = lines.numbers(2)?;
+    case.waves_at = [0, 1].map(|i: usize| waves_at.get(i).copied().unwrap_or_default());
+    lines.next()?;
+    let bodies = lines.count(1000, "bodies")?;
+    for _ in 0..bodies {
+        for _ in 0..3 {
+            lines.next()?;
+        }
+        let motions = lines.count(1000, "degrees of freedom")?;
+        let motions = (0..motions).map(|_| lines.direction()).collect::<Result<Vec<_>, _>>()?;
+        let forces = lines.count(1000, "forces")?;
+        let forces = (0..forces).map(|_| lines.direction()).collect::<Result<Vec<_>, _>>()?;
+        for _ in 0..lines.count(1000, "further lines")? {
+            lines.next()?;
+        }
+        case.bodies.push((motions, forces));
+    }
+    Ok(case)
+}
+
+impl Case {
+    /// The point that rotations and moments of a body are about: the same for all, else `None`; the origin where none turns.
+    pub(super) fn about(&self, body: usize) -> Option<Vector3<f64>> {
+        let (motions, forces) = self.bodies.get(body)?;
+        let mut points = motions.iter().chain(forces).filter_map(|d| d.about);
+        let Some(first) = points.next() else { return Some(Vector3::zeros()) };
+        points.all(|p| p == first).then_some(first)
+    }
+}

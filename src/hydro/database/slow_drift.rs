@@ -1,0 +1,273 @@
+//! Slow drift: second-order forces at the differences of frequencies.
+//!
+//! Newman (1974), Second-order, slowly-varying forces on vessels in irregular waves, with the arithmetic mean of two mean drifts
+//! (Faltinsen, Sea Loads on Ships and Offshore Structures, 1990, section 5): `F = sum_mn a_m a_n (D_m + D_n)/2 cos(q_m - q_n)`, with
+//! `q = k . x - w t + phase`. That double sum is the product of two single ones, `Re(sum a D exp(i q) conj(sum a exp(i q)))`: it holds for drift of either
+//! sign, has no sum of frequencies, and its mean is `sum a2 D`. Waves of several directions each take D of their own.
+//!
+//! Full QTF: `F = Re sum_mn Q(w_m, w_n) c_m conj(c_n)`, `c = a exp(i q)`. Q is straight in both frequencies between those of the table, which makes it
+//! `Re sum_pq Q_pq C_p conj(C_q)` over the frequencies of the table, with each wave shared between its two neighbours there. Pairs of waves of
+//! different directions take the QTF of the mean direction of the sea.
+
+use super::at::{around, between};
+use super::excitation::{kept, turned, yaw};
+use super::waves::{BLOCK, ByHeading, Group, block, dot, groups};
+use crate::hydro::body_load::{BodyLoad, MovingLoad, Underway};
+use crate::hydro::sea::Sea;
+use crate::hydro::{Category, Load, carried, turning};
+use crate::model::{ClassError, DriftTable, Pose, Qtf, Six};
+use nalgebra::{Complex, Vector3};
+use std::sync::Arc;
+
+/// How the forces of a sea are found.
+#[derive(Clone, Debug)]
+enum Way {
+    /// The mean over the sea by heading of the table, for the groups.
+    Mean,
+    /// Newman's approximation: amplitude times drift, amplitude.
+    Newman(Vec<ByHeading<6>>),
+    /// The QTF, the neighbours of each wave of each group in its frequencies, and the mean direction of the sea (rad).
+    Full(Arc<Qtf>, Vec<Vec<(usize, usize, f64)>>, f64),
+}
+
+/// The slow drift of one body in one sea.
+#[derive(Clone, Debug)]
+pub struct SlowDrift {
+    /// The point it is about, in the body (m).
+    reference: Vector3<f64>,
+    sea: Option<Arc<Sea>>,
+    groups: Vec<Group>,
+    /// Mean force by heading of the table: direction of travel of the waves (rad), headings, values.
+    means: Vec<(f64, Vec<Six>)>,
+    headings: Vec<f64>,
+    way: Way,
+}
+
+impl SlowDrift {
+    /// The mean only, of seas given as directions of travel (rad) and energies: frequency (rad/s), half the square of the amplitude (m2).
+    ///
+    /// # Errors
+    /// A table that has no headings.
+    pub fn mean_of(
+        table: &DriftTable,
+        reference: Vector3<f64>,
+        seas: &[(f64, &[(f64, f64)])],
+    ) -> Result<Self, ClassError> {
+        let mut means = Vec::new();
+        for (toward, energies) in seas {
+            let mut list = Vec::new();
+            for heading in &table.headings {
+                let mut sum = Six::zeros();
+                for (w, energy) in *energies {
+                    sum += Six::from(table.at(*heading, *w)?) * (2.0 * energy);
+                }
+                list.push(sum);
+            }
+            means.push((*toward, list));
+        }
+        let headings = table.headings.clone();
+        Ok(SlowDrift { reference, sea: None, groups: Vec::new(), means, headings, way: Way::Mean })
+    }
+
+    /// The mean of a sea under way; it grows with the square of the ramp.
+    ///
+    /// # Errors
+    /// As [`SlowDrift::mean_of`].
+    pub fn mean(table: &DriftTable, reference: Vector3<f64>, sea: &Arc<Sea>) -> Result<Self, ClassError> {
+        let groups = groups(sea);
+        let energies: Vec<(f64, Vec<(f64, f64)>)> = groups
+            .iter()
+            .map(|g| (g.toward, g.frequency.iter().zip(&g.amplitude).map(|(w, a)| (*w, 0.5 * a * a)).collect()))
+            .collect();
+        let seas: Vec<(f64, &[(f64, f64)])> = energies.iter().map(|(b, e)| (*b, e.as_slice())).collect();
+        let made = SlowDrift::mean_of(table, reference, &seas)?;
+        Ok(SlowDrift { sea: Some(Arc::clone(sea)), groups, ..made })
+    }
+
+    /// Newman's approximation.
+    ///
+    /// # Errors
+    /// As [`SlowDrift::mean_of`]; too many waves.
+    pub fn newman(table: &DriftTable, reference: Vector3<f64>, sea: &Arc<Sea>) -> Result<Self, ClassError> {
+        let made = SlowDrift::mean(table, reference, sea)?;
+        let lanes = made.groups.iter().map(|group| {
+            ByHeading::of(group, &table.headings, |h, w, a| {
+                let heading = table.headings.get(h).copied().unwrap_or_default();
+                Ok(table.at(heading, w)?.map(|d| d * a))
+            })
+        });
+        let lanes = lanes.collect::<Result<Vec<_>, _>>()?;
+        Ok(SlowDrift { way: Way::Newman(lanes), ..made })
+    }
+
+    /// The full QTF.
+    ///
+    /// # Errors
+    /// As [`SlowDrift::mean_of`].
+    pub fn full(qtf: &Arc<Qtf>, reference: Vector3<f64>, sea: &Arc<Sea>) -> Result<Self, ClassError> {
+        let diagonal = qtf.diagonal();
+        let made = SlowDrift::mean(&diagonal, reference, sea)?;
+        let near = |g: &Group| g.frequency.iter().map(|w| between(&qtf.frequencies, *w)).collect();
+        let near: Vec<Vec<(usize, usize, f64)>> = made.groups.iter().map(near).collect();
+        let (mut x, mut y) = (0.0, 0.0);
+        for wave in &sea.components {
+            let energy = wave.amplitude * wave.amplitude;
+            (x, y) = (x + energy * wave.toward[0], y + energy * wave.toward[1]);
+        }
+        Ok(SlowDrift { way: Way::Full(Arc::clone(qtf), near, f64::atan2(y, x)), ..made })
+    }
+
+    /// The mean about the reference point in axes turned by the yaw (rad), and its change with the yaw.
+    fn mean_at(&self, yaw: f64) -> Result<(Six, Six), ClassError> {
+        let (mut sum, mut change) = (Six::zeros(), Six::zeros());
+        for (toward, list) in &self.means {
+            let (a, b, share) = around(&self.headings, toward - yaw)?;
+            let at = |i: usize| list.get(i).copied().unwrap_or_default();
+            sum += at(a) + (at(b) - at(a)) * share;
+            let turn = |i: usize| self.headings.get(i).copied().unwrap_or_default();
+            let gap = (turn(b) - turn(a)).rem_euclid(std::f64::consts::TAU);
+            if gap > 0.0 {
+                change -= (at(b) - at(a)) / gap;
+            }
+        }
+        Ok((sum, change))
+    }
+
+    /// Force and moment about the reference point at a time (s) and a place of it (m, global), in axes turned by the yaw (rad).
+    ///
+    /// # Errors
+    /// A heading in a gap of the table.
+    pub fn force(&self, time: f64, (x, y): (f64, f64), yaw: f64) -> Result<Six, ClassError> {
+        let ramp = self.sea.as_ref().map_or(1.0, |sea| sea.factor(time)).powi(2);
+        let at = (time, x, y);
+        let force = match &self.way {
+            Way::Mean => self.mean_at(yaw)?.0,
+            Way::Newman(lanes) => self.by_newman(lanes, at, yaw)?,
+            Way::Full(qtf, near, toward) => self.by_pairs(qtf, near, at, toward - yaw)?,
+        };
+        Ok(force * ramp)
+    }
+
+    fn by_newman(&self, lanes: &[ByHeading<6>], at: (f64, f64, f64), yaw: f64) -> Result<Six, ClassError> {
+        let (mut real, mut imaginary) = (Six::zeros(), Six::zeros());
+        let mut whole = [0.0; 2];
+        let mut phasors = [[0.0; BLOCK]; 2];
+        for (group, table) in self.groups.iter().zip(lanes) {
+            let tables = table.around(group.toward - yaw)?;
+            for index in 0..group.blocks() {
+                group.phasors(index, at, &mut phasors);
+                let [cos, sin] = &phasors;
+                let amplitude = block(&group.amplitude, index);
+                whole[0] += dot(amplitude, cos);
+                whole[1] += dot(amplitude, sin);
+                for (lanes, share) in tables.iter().filter(|t| t.1 != 0.0) {
+                    for mode in 0..6 {
+                        let drift = block(&lanes[mode], index);
+                        real[mode] += share * dot(drift, cos);
+                        imaginary[mode] += share * dot(drift, sin);
+                    }
+                }
+            }
+        }
+        Ok(real * whole[0] + imaginary * whole[1])
+    }
+
+    fn by_pairs(
+        &self,
+        qtf: &Qtf,
+        near: &[Vec<(usize, usize, f64)>],
+        at: (f64, f64, f64),
+        heading: f64,
+    ) -> Result<Six, ClassError> {
+        let (a, b, share) = around(&qtf.headings, heading)?;
+        let mut gathered = vec![Complex::new(0.0, 0.0); qtf.frequencies.len()];
+        let mut phasors = [[0.0; BLOCK]; 2];
+        for (group, near) in self.groups.iter().zip(near) {
+            for index in 0..group.blocks() {
+                let count = group.phasors(index, at, &mut phasors);
+                let [cos, sin] = &phasors;
+                let waves = block(&group.amplitude, index).iter().zip(near.iter().skip(index * BLOCK));
+                for (n, (amplitude, (low, high, part))) in waves.enumerate().take(count) {
+                    let wave = Complex::new(cos[n], sin[n]) * *amplitude;
+                    if let Some(c) = gathered.get_mut(*low) {
+                        *c += wave * (1.0 - part);
+                    }
+                    if let Some(c) = gathered.get_mut(*high) {
+                        *c += wave * *part;
+                    }
+                }
+            }
+        }
+        let mut sum = Six::zeros();
+        for (index, weight) in [(a, 1.0 - share), (b, share)].into_iter().filter(|t| t.1 != 0.0) {
+            let Some(table) = qtf.values.get(index) else { continue };
+            for (p, (row, first)) in table.iter().zip(&gathered).enumerate() {
+                for (q, (six, second)) in row.iter().zip(&gathered).enumerate().take(p + 1) {
+                    // the pair and its mirror are conjugate
+                    let pair = first * second.conj() * (if p == q { weight } else { 2.0 * weight });
+                    for (mode, value) in six.iter().enumerate() {
+                        sum[mode] += value.re * pair.re - value.im * pair.im;
+                    }
+                }
+            }
+        }
+        Ok(sum)
+    }
+
+    /// The force on a body in a pose at a time (s): about its origin, global axes.
+    ///
+    /// # Errors
+    /// A heading in a gap of the table.
+    pub fn on(&self, pose: &Pose, time: f64) -> Result<Six, ClassError> {
+        let (arm, yaw) = (pose.axes * self.reference, yaw(pose));
+        let at = pose.origin + arm;
+        Ok(carried(&turned(&self.force(time, (at.x, at.y), yaw)?, yaw), arm))
+    }
+}
+
+impl Qtf {
+    /// The mean drift: each frequency with itself.
+    pub fn diagonal(&self) -> DriftTable {
+        let real = |table: &Vec<Vec<[Complex<f64>; 6]>>| {
+            table.iter().enumerate().map(|(i, row)| row.get(i).map_or([0.0; 6], |six| six.map(|v| v.re))).collect()
+        };
+        DriftTable {
+            frequencies: self.frequencies.clone(),
+            headings: self.headings.clone(),
+            values: self.values.iter().map(real).collect(),
+        }
+    }
+}
+
+impl BodyLoad for SlowDrift {
+    fn category(&self) -> Category {
+        Category::WaveDrift
+    }
+
+    fn load(&self, pose: &Pose) -> Result<Load, ClassError> {
+        let (arm, yaw) = (pose.axes * self.reference, yaw(pose));
+        let (mean, change) = self.mean_at(yaw)?;
+        let force = turned(&mean, yaw);
+        let [x, y, _, rx, ry, _] = force.into();
+        let turn = turned(&change, yaw) + Six::new(-y, x, 0.0, -ry, rx, 0.0);
+        let mut stiffness = turning(&force, arm);
+        let column = stiffness.column(5) - carried(&turn, arm);
+        stiffness.set_column(5, &column);
+        Ok(Load { wrench: carried(&force, arm), stiffness })
+    }
+
+    fn states(&self) -> usize {
+        6
+    }
+
+    /// The force where the body is expected is that of the step.
+    fn begin(&self, ahead: &Underway, state: &mut [f64]) -> Result<(), ClassError> {
+        let force = self.on(ahead.pose, ahead.time)?;
+        state.iter_mut().zip(force.iter()).for_each(|(s, f)| *s = *f);
+        Ok(())
+    }
+
+    fn moving(&self, _: &Underway, state: &[f64]) -> Result<MovingLoad, ClassError> {
+        Ok(MovingLoad::of(kept(state)))
+    }
+}
