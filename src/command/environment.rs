@@ -2,7 +2,7 @@
 //!
 //! Source: reference/model.md, "Environment".
 
-use super::{Call, Command, Effect, Job};
+use super::{Call, Command, Effect, Job, sea_options};
 use crate::language::args::{Args, Given};
 use crate::language::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use crate::language::name as rule;
@@ -31,7 +31,7 @@ const SEA: &[ValueSpec] = &[
     number("DIR", Dim::Angle, "direction it comes from"),
     number("HS", Dim::Length, "significant height, or height of a regular wave").not_negative(),
     number("PERIOD", Dim::Time, "period").positive(),
-    number("GAMMA", Dim::None, "peakedness").or("that of the spectrum").within(0.5, 20.0),
+    number("GAMMA", Dim::None, "peakedness").or("that of the spectrum").within(1.0, 20.0),
 ];
 const fn choice(name: &'static str, words: &'static [&'static str], help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Choice(words), help)
@@ -70,6 +70,10 @@ const OPTIONS: &[OptionSpec] = &[
     ),
     OptionSpec::new("-SPREAD", &[number("EXP", Dim::None, "exponent").positive()], "spreading cos(H - th)**EXP")
         .default("200: long-crested"),
+    sea_options::COMPONENTS,
+    sea_options::SEED,
+    sea_options::STRETCHING,
+    sea_options::STOKES,
     OptionSpec::new("-S_PERIOD", PERIODS, "periods of the sea's components").repeating(1),
     OptionSpec::new("-MD_PERIOD", PERIODS, "periods of the mean drift").repeating(1),
     OptionSpec::new(
@@ -161,9 +165,23 @@ static ENV_SPEC: CommandSpec = CommandSpec {
              ABS MODU rules, joined between the middles of their bands. -W_DESIGN turns the mean into that of DURATION by the gust \
              factor of its code, and gives the profile where -W_PROFILE does not. Currents of several curves add up as vectors; a curve \
              counts depth from the actual surface, tide included, is straight between its points and constant beyond them; below \
-             the bottom there is none. PERIOD is the mean period of ISSC, the peak period of JONSWAP, REGULAR's own, and that to which \
-             the peak of a curve is moved; -SP_TYPE says otherwise for ISSC and JONSWAP, whose GAMMA is 3.3 unless given. No source \
-             gives a formula of 2JONSWAP: what needs it says so.",
+             the bottom there is none. PERIOD is the mean period of ISSC, the peak period of JONSWAP and TORSETHAUGEN (simplified, 2004), \
+             that of REGULAR and STOKES, and that to which the highest peak of a curve or of OCHI (Ochi and Hubble's most probable \
+             spectrum of HS) is moved; -SP_TYPE says otherwise for ISSC and JONSWAP. GAMMA of JONSWAP unless given is that of \
+             DNV-RP-C205 3.5.5.5: 5 up to Tp/sqrt(HS) = 3.6 (s, m), exp(5.75 - 1.15 Tp/sqrt(HS)) up to 5, 1 beyond. No source \
+             gives a formula of 2JONSWAP: what needs it says so. A spectrum becomes wave components: bands of equal energy, the \
+             frequency of each at the centroid of its energy, or of equal width (EQUAL_FREQUENCY, also at the centroid, so that the \
+             sea does not repeat itself), or about the periods of -S_PERIOD; energy outside LOW to HIGH is left out. With -SPREAD \
+             below 200 each component has one direction, from the cumulative spreading function at points of low discrepancy. \
+             Phases are random from -SEED, 1 unless given: the same in every run, without the crest that one reinforcement time \
+             makes; another seed is another realisation. -T_REINFORCE puts all components in phase at X = Y = 0 at TB, as MOSES \
+             does: the crest there is the sum of the amplitudes, which &STATUS SEA_SPECTRUM tells; let TB be outside the run unless \
+             it is wanted. A regular wave has its crest at X = Y = 0 at TB, or at 0 s. Of -SEED and -T_REINFORCE the later one \
+             holds. -STRETCHING is what linear waves do above the mean level: LINEAR goes straight on from it, WHEELER takes the \
+             actual surface for the mean level, DELTA is between the two (Rodenbusch and Forristall 1986: 0.3, over half the \
+             significant height), EXPONENTIAL uses the profile itself also above the water, as AQWATM does; with the others \
+             nothing moves above the actual surface. STOKES is Fenton's theory of order -STOKES, without a mean current; neither it \
+             nor REGULAR may be higher than 0.142 L tanh(k d).",
     example: "&ENV STORM -SEA ISSC 180 22 10.3 -WIND 60 180 -DEPTH 3000\n&STATUS ENVIRONMENT",
     ..CommandSpec::new("&ENV", "sets the environment")
 };
@@ -203,6 +221,7 @@ fn build(job: &Job, args: &Args) -> Outcome<Environment> {
         span: args.span,
         ..Environment::default()
     });
+    sea_options::one_phasing(args)?;
     for given in &args.options {
         apply(job, &mut env, given)?;
         env.options.retain(|g| g.spec.name != given.spec.name);
@@ -275,7 +294,7 @@ fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<()> {
         "-M_GROWTH" => known_curve(job, given, 0, CurveKind::MarineGrowth)?,
         _ => {}
     }
-    Ok(())
+    sea_options::apply(env, given)
 }
 
 /// A name with its number.
@@ -284,13 +303,20 @@ fn formula(given: &Given) -> Formula {
 }
 
 /// The spectra known without a curve.
-const SPECTRA: [&str; 4] = ["ISSC", "JONSWAP", "2JONSWAP", "REGULAR"];
+const SPECTRA: [&str; 8] = ["ISSC", "JONSWAP", "2JONSWAP", "OCHI", "OCHI_HUBBLE", "TORSETHAUGEN", "REGULAR", "STOKES"];
 
 fn sea(job: &Job, given: &Given) -> Outcome<Sea> {
     let name = given.word(0).unwrap_or_default();
     spectrum(job, given, &SPECTRA)?;
     let at = |i: usize| given.number(i).unwrap_or(0.0);
-    Ok(Sea { spectrum: name.to_string(), direction: at(1), height: at(2), period: at(3), gamma: given.number(4) })
+    Ok(Sea {
+        spectrum: name.to_string(),
+        direction: at(1),
+        height: at(2),
+        period: at(3),
+        gamma: given.number(4),
+        places: [0, 1, 2, 3, 4].map(|i| place(given, i)),
+    })
 }
 
 /// Sees that the first word names a known spectrum or a curve that is one.

@@ -2,7 +2,9 @@
 
 use super::Job;
 use super::chosen::WARNING;
+use super::sea_table::phasing;
 use super::written::option_as_written;
+use crate::hydro::spectrum::gamma_of;
 use crate::hydro::steady::Steady;
 use crate::language::units::Dim;
 use crate::model::{Current, Environment, Sea};
@@ -39,14 +41,14 @@ fn depths(mut table: Table, steady: &Steady) -> Table {
     table
 }
 
-fn facts_of_sea(table: Table, name: &str, sea: &Sea) -> Table {
+fn facts_of_sea(table: Table, name: &str, env: &Environment, sea: &Sea) -> Table {
     table
         .fact(name, sea.spectrum.as_str(), Dim::None)
         .fact("   comes from", sea.direction, Dim::Angle)
         .fact("   travels toward", opposite(sea.direction), Dim::Angle)
         .fact("   height", sea.height, Dim::Length)
         .fact("   period", sea.period, Dim::Time)
-        .fact("   gamma", sea.gamma, Dim::None)
+        .fact("   gamma", gamma_of(env, sea).or(sea.gamma), Dim::None)
 }
 
 fn environment(job: &Job, env: &Environment) -> Table {
@@ -60,11 +62,22 @@ fn environment(job: &Job, env: &Environment) -> Table {
         .fact("Ramp", env.ramp.unwrap_or(model.defaults.ramp), Dim::Time);
     for (name, sea) in [("Sea", &env.sea), ("Added Sea", &env.added_sea)] {
         if let Some(sea) = sea {
-            table = facts_of_sea(table, name, sea);
+            table = facts_of_sea(table, name, env, sea);
         }
     }
-    if env.sea.is_some() {
+    if env.sea.is_some() || env.added_sea.is_some() {
         table = table.fact("Spreading Exponent", env.spreading.unwrap_or(200.0), Dim::None);
+        match crate::hydro::sea::Sea::of(model, env) {
+            Ok(Some(sea)) => {
+                table = table.fact("Wave Components", sea.components.len(), Dim::None).fact(
+                    "Phases of Waves",
+                    phasing(&sea),
+                    Dim::None,
+                );
+            }
+            Ok(None) => {}
+            Err(error) => table.note(format!("{WARNING}{}", error.text(job.units))),
+        }
     }
     let steady = Steady::streams(model, env);
     let field = steady.as_ref().ok();

@@ -46,6 +46,8 @@ mod piece;
 mod pipe;
 mod report_menu;
 mod rigging;
+mod sea_options;
+mod sea_table;
 mod select;
 mod status;
 mod surface;

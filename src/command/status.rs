@@ -9,7 +9,7 @@ use super::forces::{forces, foundations};
 use super::loads_table::loads;
 use super::offsets::offsets;
 use super::written::{as_written, kind_data, option_as_written};
-use super::{Call, Command, Effect, Job, Menu, body_status, body_tables, line_types};
+use super::{Call, Command, Effect, Job, Menu, body_status, body_tables, line_types, sea_table};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::{Owner, choose};
 use crate::language::spec::{CommandSpec, Kind, Noun, Opens, OptionSpec, ValueSpec};
@@ -34,6 +34,11 @@ const KINDS: &[(&str, Owner, &str)] = &[
     ("STIFFNESS", Owner::Ours, "stiffness of bodies and connectors about a point"),
     ("CURVES", Owner::Moses, "curves"),
     ("ENVIRONMENT", Owner::Moses, "the environment in force, or one kept under a name"),
+    (
+        "SEA_SPECTRUM",
+        Owner::Moses,
+        "the wave components of the seas of the environment in force, or of one kept under a name",
+    ),
     ("CLASSES", Owner::Ours, "the same as CL_FLEX"),
     ("LOADS", Owner::Ours, "loads of wind, current and waves on parts, and the forces they come to"),
     ("WEIGHT", Owner::Ours, "weights, centers and radii of gyration of bodies and parts"),
@@ -70,7 +75,7 @@ static SPEC: CommandSpec = CommandSpec {
     repeat: 1,
     opens: Opens::WithOption("DISPOSITION", "-DISPOSE"),
     options: &[
-        OptionSpec::new("-PLOT", &[], "plots curves"),
+        OptionSpec::new("-PLOT", &[], "plots curves, or the spectra of SEA_SPECTRUM"),
         body_status::ABOUT,
         OptionSpec::new(
             "-DISPOSE",
@@ -117,6 +122,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         "STIFFNESS" => body_status::stiffness(job, call, &chosen)?,
         "CURVES" => curves(model, &fits),
         "ENVIRONMENT" => environments(job, (!chosen.all()).then_some(&fits)),
+        "SEA_SPECTRUM" => sea_table::spectra(job, (!chosen.all()).then_some(&fits), args.place(0))?,
         "LOADS" => loads(job, &fits),
         "WEIGHT" => vec![body_tables::weights(model, &fits)],
         "PIECES" => vec![body_tables::pieces(model, &fits)],
@@ -143,16 +149,17 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     }
     let head = job.page_head();
     let mut text = tables.iter().map(|t| page::render(t, job.units, &head)).collect::<Vec<_>>().join("\n");
-    if args.has("-PLOT") && kind == "CURVES" {
-        let (columns, lines) = job.plot_size();
-        for table in tables.iter().filter(|t| chart(t)) {
-            text.push('\n');
-            text.push_str(
-                &Chart::of(table, job.units)
-                    .terminal(columns, lines)
-                    .map_err(|e| Diagnostic::error(e.to_string(), args.span))?,
-            );
-        }
+    let charts: Vec<Table> = match kind {
+        _ if !args.has("-PLOT") => Vec::new(),
+        "CURVES" => tables.iter().filter(|t| chart(t)).cloned().collect(),
+        "SEA_SPECTRUM" => sea_table::densities(job, (!chosen.all()).then_some(&fits), args.place(0))?,
+        _ => Vec::new(),
+    };
+    let (columns, lines) = job.plot_size();
+    for table in &charts {
+        let drawn = Chart::of(table, job.units).terminal(columns, lines);
+        text.push('\n');
+        text.push_str(&drawn.map_err(|e| Diagnostic::error(e.to_string(), args.span))?);
     }
     send(job, args, &text)?;
     tables.iter().for_each(|t| raise(job, t, args.place(1)));
@@ -171,7 +178,7 @@ fn things(kind: &str) -> &'static [Thing] {
         "CL_FLEX" | "CLASSES" => &[Thing::Class],
         "G_CONNECTOR" | "F_CONNECTOR" | "FOUNDATION" => &[Thing::Connector],
         "CURVES" => &[Thing::Curve],
-        "ENVIRONMENT" => &[Thing::Environment],
+        "ENVIRONMENT" | "SEA_SPECTRUM" => &[Thing::Environment],
         "POINTS" => &[Thing::Point],
         "SELECTORS" => &[Thing::Selector],
         _ => &[],

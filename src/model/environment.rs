@@ -19,6 +19,47 @@ pub struct Sea {
     pub period: f64,
     /// Peakedness, where given.
     pub gamma: Option<f64>,
+    /// Where its name, direction, height, period and peakedness were written.
+    pub places: [Span; 5],
+}
+
+impl Sea {
+    /// Where one of its values was written, by its position in `-SEA`.
+    pub fn place(&self, index: usize) -> Span {
+        self.places.get(index).copied().unwrap_or_default()
+    }
+}
+
+/// How the components of a sea are cut from its spectrum.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Division {
+    /// All with the same energy.
+    #[default]
+    EqualEnergy,
+    /// Bands of the same width.
+    EqualFrequency,
+}
+
+/// `-COMPONENTS N TYPE LOW HIGH`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Components {
+    /// How many for each sea.
+    pub number: usize,
+    /// How they are cut.
+    pub division: Division,
+    /// Lowest and highest frequency (rad/s), where given; the energy beyond is left out.
+    pub limits: Option<[f64; 2]>,
+    /// Where it was given.
+    pub span: Span,
+}
+
+/// What makes the phases of the components.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Phasing {
+    /// All in phase at x = y = 0 at this time (s): `-T_REINFORCE`.
+    Reinforced(f64),
+    /// Random, from this seed: `-SEED`.
+    Seeded(u64),
 }
 
 /// What holds between the mean level and the surface, where linear waves say nothing.
@@ -113,6 +154,16 @@ pub struct Environment {
     pub ramp: Option<f64>,
     /// Directional spreading exponent; 200 (long-crested) when not given.
     pub spreading: Option<f64>,
+    /// Number and kind of the wave components (`-COMPONENTS`).
+    pub components: Option<Components>,
+    /// Periods of the wave components (s) (`-S_PERIOD`); none: as `components` says.
+    pub sea_periods: Vec<f64>,
+    /// What makes the phases.
+    pub phasing: Option<Phasing>,
+    /// What holds above the mean level (`-STRETCHING`).
+    pub stretching: Option<Stretching>,
+    /// Order of a STOKES wave (`-STOKES`); 5 when not given.
+    pub stokes: Option<u8>,
     /// Every option as last given (SI values with their places), the ones above included, by full name.
     pub options: Vec<Given>,
     /// Where it was defined.

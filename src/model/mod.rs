@@ -28,7 +28,9 @@ pub use curve::{Curve, CurveKind};
 pub use database::{Amplitudes, AttachedDatabase, Database, DriftMethod, DriftTable, Qtf};
 pub use defaults::{Coordinates, Defaults, Material};
 pub use element::{Connection, Element, End, Guess, Response, Situation, SpringState, Summary, TimeStep};
-pub use environment::{Current, Environment, Formula, Sea, Stretching, Surroundings, TimeWindow, Wind};
+pub use environment::{
+    Components, Current, Division, Environment, Formula, Phasing, Sea, Stretching, Surroundings, TimeWindow, Wind,
+};
 pub use geometry::{Place, Position, unit_vector};
 pub use hull::{LinearHydrostatics, Piece, Shape, box_panels};
 pub use line::{Condition, Configuration, LineChange, LineLoads, LineModel, Placement};

@@ -3,6 +3,7 @@
 //! Of a component (Faltinsen, Sea Loads on Ships and Offshore Structures, 1990, table 2.1), with q = k (toward . (x, y)) - w t + phase:
 //! u = a w C cos q, w = a w S sin q, p = rho g a cosh(k(z+d))/cosh(kd) cos q; C and S are cosh and sinh of k(z+d) over sinh(kd).
 
+use super::eight::{Eight, exp, sin_cos};
 use super::{Component, Kinematics, Sea};
 use crate::model::Stretching;
 use nalgebra::Vector3;
@@ -12,41 +13,60 @@ const DEEP: f64 = 20.0;
 /// The factor of delta stretching (Rodenbusch and Forristall 1986).
 const DELTA: f64 = 0.3;
 
-/// Components as arrays, with what does not change.
+/// Components in blocks of eight, with what does not change.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Lanes {
-    lanes: Vec<Lane>,
+    blocks: Vec<Block>,
     /// Depth of delta stretching: two standard deviations of the surface (m).
     stretch: f64,
 }
 
-/// What does not change of one component.
+/// Eight components; those that fill up the last block have no amplitude.
 #[derive(Clone, Copy, Debug)]
-struct Lane {
-    /// Wave number along x and y (1/m).
-    kx: f64,
-    ky: f64,
-    /// Wave number (1/m), frequency (rad/s).
-    k: f64,
-    w: f64,
-    toward: [f64; 2],
-    /// exp(-2 k d), and tanh(k d).
-    q: f64,
-    tanh: f64,
+struct Block {
+    /// Wave number along x and y, and itself (1/m).
+    kx: Eight,
+    ky: Eight,
+    k: Eight,
+    /// Frequency (rad/s), amplitude (m), phase (rad).
+    w: Eight,
+    amplitude: Eight,
+    phase: Eight,
+    /// Travel along x and y.
+    x: Eight,
+    y: Eight,
+    /// exp(-2 k d), one over one less it, and tanh(k d).
+    q: Eight,
+    whole: Eight,
+    tanh: Eight,
 }
 
 impl Lanes {
     /// Those of components in a depth (m).
     pub(super) fn of(components: &[Component], depth: Option<f64>) -> Self {
-        let lane = |c: &Component| {
-            let kd = depth.map_or(f64::INFINITY, |d| c.number * d);
-            let q = if kd > DEEP { 0.0 } else { (-2.0 * kd).exp() };
-            let [x, y] = c.toward;
-            let (k, w) = (c.number, c.frequency);
-            Lane { kx: k * x, ky: k * y, k, w, toward: c.toward, q, tanh: kd.tanh() }
+        let block = |list: &[Component]| {
+            let each = |value: &dyn Fn(&Component) -> f64| {
+                let mut lanes = [0.0; 8];
+                lanes.iter_mut().zip(list).for_each(|(lane, c)| *lane = value(c));
+                lanes
+            };
+            let kd = |c: &Component| depth.map_or(f64::INFINITY, |d| c.number * d);
+            Block {
+                kx: each(&|c| c.number * c.toward[0]),
+                ky: each(&|c| c.number * c.toward[1]),
+                k: each(&|c| c.number),
+                w: each(&|c| c.frequency),
+                amplitude: each(&|c| c.amplitude),
+                phase: each(&|c| c.phase),
+                x: each(&|c| c.toward[0]),
+                y: each(&|c| c.toward[1]),
+                q: each(&|c| if kd(c) > DEEP { 0.0 } else { (-2.0 * kd(c)).exp() }),
+                whole: each(&|c| -1.0 / (-2.0 * kd(c)).exp_m1()),
+                tanh: each(&|c| kd(c).tanh()),
+            }
         };
         let variance: f64 = components.iter().map(|c| 0.5 * c.amplitude * c.amplitude).sum();
-        Lanes { lanes: components.iter().map(lane).collect(), stretch: 2.0 * variance.sqrt() }
+        Lanes { blocks: components.chunks(8).map(block).collect(), stretch: 2.0 * variance.sqrt() }
     }
 }
 
@@ -54,16 +74,20 @@ impl Lanes {
 #[derive(Clone, Debug)]
 pub struct SeaAt<'a> {
     sea: &'a Sea,
+    time: f64,
+    /// The ramp.
+    factor: f64,
     /// The ramp's rate over its value (1/s).
     growth: f64,
     /// Amplitude, ramp in it, times cosine and sine of `phase - w t`.
-    phasors: Vec<[f64; 2]>,
+    phasors: Vec<[Eight; 2]>,
 }
 
 impl<'a> SeaAt<'a> {
     /// A sea at a time (s).
     pub(super) fn of(sea: &'a Sea, time: f64) -> Self {
-        let mut made = SeaAt { sea, growth: 0.0, phasors: Vec::with_capacity(sea.components.len()) };
+        let mut made =
+            SeaAt { sea, time, factor: 0.0, growth: 0.0, phasors: Vec::with_capacity(sea.lanes.blocks.len()) };
         made.move_to(time);
         made
     }
@@ -71,23 +95,26 @@ impl<'a> SeaAt<'a> {
     /// Goes to another time (s), without another allocation.
     pub fn move_to(&mut self, time: f64) {
         let (factor, rate) = self.sea.factor_and_rate(time);
+        (self.time, self.factor) = (time, factor);
         self.growth = if factor > 0.0 { rate / factor } else { 0.0 };
         self.phasors.clear();
-        self.phasors.extend(self.sea.components.iter().map(|c| {
-            let (sin, cos) = (c.phase - c.frequency * time).sin_cos();
-            [factor * c.amplitude * cos, factor * c.amplitude * sin]
+        self.phasors.extend(self.sea.lanes.blocks.iter().map(|block| {
+            let (sin, cos) = sin_cos(&eight(|i| block.phase[i] - block.w[i] * time));
+            [eight(|i| factor * block.amplitude[i] * cos[i]), eight(|i| factor * block.amplitude[i] * sin[i])]
         }));
     }
 
     /// Height of the surface above the mean level (m).
     pub fn elevation(&self, x: f64, y: f64) -> f64 {
-        let waves = self.sea.lanes.lanes.iter().zip(&self.phasors);
-        waves
-            .map(|(lane, [c, s])| {
-                let (sin, cos) = (lane.kx * x + lane.ky * y).sin_cos();
-                c * cos - s * sin
-            })
-            .sum()
+        if let Some(wave) = &self.sea.stokes {
+            return self.factor * wave.elevation(x, y, self.time);
+        }
+        let mut sums = [0.0; 8];
+        for (block, [c, s]) in self.sea.lanes.blocks.iter().zip(&self.phasors) {
+            let (sin, cos) = sin_cos(&eight(|i| block.kx[i] * x + block.ky[i] * y));
+            sums = eight(|i| sums[i] + c[i] * cos[i] - s[i] * sin[i]);
+        }
+        sums.iter().sum()
     }
 
     /// The water at a global place (m); nothing above the surface, but with [`Stretching::Exponential`]. Below the bottom it
@@ -95,6 +122,9 @@ impl<'a> SeaAt<'a> {
     pub fn kinematics(&self, at: Vector3<f64>) -> Kinematics {
         let sea = self.sea;
         let height = at.z - sea.level;
+        if let Some(wave) = &sea.stokes {
+            return self.below(self.grown(wave.kinematics(at, self.time)), height);
+        }
         match sea.stretching {
             Stretching::Exponential => self.sums(at, height, 0.0),
             Stretching::Linear => self.below(self.sums(at, height.min(0.0), height.max(0.0)), height),
@@ -123,6 +153,17 @@ impl<'a> SeaAt<'a> {
         }
     }
 
+    /// A wave of full height as the ramp has it.
+    fn grown(&self, full: Kinematics) -> Kinematics {
+        let velocity = full.velocity * self.factor;
+        Kinematics {
+            velocity,
+            acceleration: full.acceleration * self.factor + velocity * self.growth,
+            pressure: full.pressure * self.factor,
+            elevation: full.elevation * self.factor,
+        }
+    }
+
     fn below(&self, found: Kinematics, height: f64) -> Kinematics {
         if height > found.elevation { Kinematics::still(found.elevation) } else { found }
     }
@@ -131,26 +172,40 @@ impl<'a> SeaAt<'a> {
     fn sums(&self, at: Vector3<f64>, height: f64, rise: f64) -> Kinematics {
         let sea = self.sea;
         let height = sea.depth.map_or(height, |d| height.max(-d));
-        let mut velocity = Vector3::zeros();
-        let mut acceleration = Vector3::zeros();
-        let (mut elevation, mut pressure) = (0.0, 0.0);
-        for (lane, [c, s]) in sea.lanes.lanes.iter().zip(&self.phasors) {
-            let (sin, cos) = (lane.kx * at.x + lane.ky * at.y).sin_cos();
-            let (a_cos, a_sin) = (c * cos - s * sin, s * cos + c * sin);
-            elevation += a_cos;
-            let decay = (lane.k * height).exp();
-            // cosh(k(z+d)) / sinh(kd) = exp(kz) (1 + exp(-2k(z+d))) / (1 - exp(-2kd)), and so the sine
-            let mirror = if lane.q > 0.0 { lane.q / (decay * decay) } else { 0.0 };
-            let scale = decay / (1.0 - lane.q);
-            let (cosh, sinh) = (scale * (1.0 + mirror), scale * (1.0 - mirror));
-            pressure += cosh * lane.tanh * a_cos;
-            let (cosh, sinh) = (cosh + rise * lane.k * sinh, sinh + rise * lane.k * cosh);
-            let (along, along_rate) = (lane.w * cosh * a_cos, lane.w * lane.w * cosh * a_sin);
-            let [x, y] = lane.toward;
-            velocity += Vector3::new(along * x, along * y, lane.w * sinh * a_sin);
-            acceleration += Vector3::new(along_rate * x, along_rate * y, -lane.w * lane.w * sinh * a_cos);
+        // elevation, pressure over rho g, velocity, acceleration
+        let mut sums = [[0.0; 8]; 8];
+        for (block, [c, s]) in sea.lanes.blocks.iter().zip(&self.phasors) {
+            let (sin, cos) = sin_cos(&eight(|i| block.kx[i] * at.x + block.ky[i] * at.y));
+            let decay = exp(&eight(|i| block.k[i] * height));
+            for i in 0..8 {
+                let (a_cos, a_sin) = (c[i] * cos[i] - s[i] * sin[i], s[i] * cos[i] + c[i] * sin[i]);
+                // cosh(k(z+d)) / sinh(kd) = exp(kz) (1 + exp(-2k(z+d))) / (1 - exp(-2kd)), and so the sine; in deep water
+                // exp(-2kd) is 0, and the square of the smallest decay is kept above that
+                let mirror = block.q[i] / (decay[i] * decay[i]).max(f64::MIN_POSITIVE);
+                let scale = decay[i] * block.whole[i];
+                let (cosh, sinh) = (scale * (1.0 + mirror), scale * (1.0 - mirror));
+                let along = rise * block.k[i];
+                let (w, u) = (block.w[i] * (sinh + along * cosh), block.w[i] * (cosh + along * sinh));
+                let rate = block.w[i] * a_sin;
+                sums[0][i] += a_cos;
+                sums[1][i] += cosh * block.tanh[i] * a_cos;
+                sums[2][i] += u * a_cos * block.x[i];
+                sums[3][i] += u * a_cos * block.y[i];
+                sums[4][i] += w * a_sin;
+                sums[5][i] += u * rate * block.x[i];
+                sums[6][i] += u * rate * block.y[i];
+                sums[7][i] -= w * block.w[i] * a_cos;
+            }
         }
-        acceleration += velocity * self.growth;
+        let [elevation, pressure, u, v, w, u_rate, v_rate, w_rate] = sums.map(|lanes| lanes.iter().sum::<f64>());
+        let velocity = Vector3::new(u, v, w);
+        let acceleration = Vector3::new(u_rate, v_rate, w_rate) + velocity * self.growth;
         Kinematics { velocity, acceleration, pressure: pressure * sea.density * sea.gravity, elevation }
     }
+}
+
+/// Eight numbers by their index.
+#[inline]
+fn eight(value: impl FnMut(usize) -> f64) -> Eight {
+    std::array::from_fn(value)
 }

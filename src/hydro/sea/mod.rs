@@ -4,13 +4,22 @@
 //! of travel. Velocities and pressures follow by linear theory (Airy) from the components, or by Stokes' theory of a regular wave.
 
 mod airy;
+pub mod components;
+pub mod density;
 pub mod dispersion;
+mod eight;
+mod made;
+pub mod phases;
+pub mod spectra;
+pub mod spreading;
+pub mod stokes;
 
-use crate::model::{ClassError, Environment, Model, Stretching};
+use crate::model::Stretching;
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 
 pub use airy::SeaAt;
+pub use made::Train;
 
 /// One wave of the sea.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,6 +56,19 @@ impl Kinematics {
     }
 }
 
+/// The water a sea is on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Water {
+    /// Depth with the tide (m); `None`: deep.
+    pub depth: Option<f64>,
+    /// Height of the mean surface (m, global z).
+    pub level: f64,
+    /// Gravity (m/s2).
+    pub gravity: f64,
+    /// Density (kg/m3).
+    pub density: f64,
+}
+
 /// A sea. Its components do not change: another sea is made anew.
 #[derive(Clone, Debug)]
 pub struct Sea {
@@ -62,42 +84,39 @@ pub struct Sea {
     pub density: f64,
     /// Time over which the waves grow from nothing (s); 0: they are there at once.
     pub ramp: f64,
-    /// What holds above the mean level.
+    /// What holds above the mean level; a Stokes wave goes up to its surface by itself.
     pub stretching: Stretching,
     /// Seed of the phases, where they are random.
     pub seed: Option<u64>,
     /// Time at which all components are in phase at x = y = 0 (s), where that makes the phases.
     pub reinforcement: Option<f64>,
+    /// The seas it is made of, in the order of the components.
+    pub trains: Vec<Train>,
+    /// The Stokes wave it is. Its only component is then the Airy wave of the same height, frequency and wave number, for what
+    /// is linear in the waves; elevation and kinematics are Stokes'.
+    pub stokes: Option<stokes::Stokes>,
     lanes: airy::Lanes,
 }
 
-/// The water a sea is on.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Water {
-    /// Depth with the tide (m); `None`: deep.
-    pub depth: Option<f64>,
-    /// Height of the mean surface (m, global z).
-    pub level: f64,
-    /// Gravity (m/s2).
-    pub gravity: f64,
-    /// Density (kg/m3).
-    pub density: f64,
-}
-
 impl Sea {
-    /// The sea of an environment; `None` without waves.
-    ///
-    /// # Errors
-    /// A sea that cannot be: no energy, a wave too steep, a spectrum without a formula.
-    pub fn of(_model: &Model, _env: &Environment) -> Result<Option<Self>, ClassError> {
-        Ok(None)
-    }
-
-    /// A sea of Airy waves. Phases are taken as they are.
+    /// A sea of Airy waves, their phases taken as they are; see [`Sea::of`] for that of an environment.
     pub fn airy(components: Vec<Component>, water: Water, ramp: f64, stretching: Stretching) -> Self {
         let lanes = airy::Lanes::of(&components, water.depth);
         let Water { depth, level, gravity, density } = water;
-        Sea { components, depth, level, gravity, density, ramp, stretching, seed: None, reinforcement: None, lanes }
+        Sea {
+            components,
+            depth,
+            level,
+            gravity,
+            density,
+            ramp,
+            stretching,
+            seed: None,
+            reinforcement: None,
+            trains: Vec::new(),
+            stokes: None,
+            lanes,
+        }
     }
 
     /// The ramp at a time (s), from 0 to 1: `(1 - cos(pi t/T))/2`.
@@ -132,3 +151,6 @@ impl Sea {
         self.at(time).kinematics(at)
     }
 }
+
+#[cfg(test)]
+mod tests;

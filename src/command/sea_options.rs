@@ -1,0 +1,111 @@
+//! The options of `&ENV` that make wave components of its seas.
+
+use crate::language::args::{Args, Given};
+use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::select::Owner;
+use crate::language::spec::{Kind, OptionSpec, ValueSpec};
+use crate::language::units::Dim;
+use crate::model::{Components, Division, Environment, Phasing, Stretching};
+
+const BY_WIDTH: &str = "EQUAL_FREQUENCY";
+const DIVISIONS: &[&str] = &["EQUAL_ENERGY", BY_WIDTH];
+const STRETCHINGS: &[&str] = &["LINEAR", "WHEELER", "DELTA", "EXPONENTIAL"];
+/// The two options of which the later one holds.
+const PHASINGS: [&str; 2] = ["-T_REINFORCE", "-SEED"];
+
+/// -COMPONENTS.
+pub(super) const COMPONENTS: OptionSpec = OptionSpec::new(
+    "-COMPONENTS",
+    &[
+        ValueSpec::new("N", Kind::Integer, "how many for each sea").within(1.0, 5000.0),
+        ValueSpec::new("TYPE", Kind::Choice(DIVISIONS), "how the spectrum is cut").or("EQUAL_ENERGY"),
+        ValueSpec::new("LOW", Kind::Number(Dim::Frequency), "lowest frequency").or("none").positive(),
+        ValueSpec::new("HIGH", Kind::Number(Dim::Frequency), "highest frequency, given with LOW").or("none").positive(),
+    ],
+    "wave components",
+)
+.default("200 EQUAL_ENERGY")
+.owner(Owner::Ours);
+
+/// -SEED.
+pub(super) const SEED: OptionSpec = OptionSpec::new(
+    "-SEED",
+    &[ValueSpec::new("N", Kind::Integer, "whole number").within(0.0, 9e15)],
+    "random phases of the wave components, from this seed",
+)
+.default("1, without -T_REINFORCE")
+.owner(Owner::Ours);
+
+/// -STRETCHING.
+pub(super) const STRETCHING: OptionSpec = OptionSpec::new(
+    "-STRETCHING",
+    &[ValueSpec::new("TYPE", Kind::Choice(STRETCHINGS), "method")],
+    "kinematics of waves above the mean level",
+)
+.default("LINEAR")
+.owner(Owner::Ours);
+
+/// -STOKES.
+pub(super) const STOKES: OptionSpec = OptionSpec::new(
+    "-STOKES",
+    &[ValueSpec::new("N", Kind::Integer, "order").within(2.0, 5.0)],
+    "order of a STOKES wave",
+)
+.default("5")
+.owner(Owner::Ours);
+
+/// Takes one of these options, or one of MOSES's on the components.
+pub(super) fn apply(env: &mut Environment, given: &Given) -> Outcome<()> {
+    let whole = |i: usize| given.values.get(i).and_then(|v| v.integer()).and_then(|n| u64::try_from(n).ok());
+    match given.spec.name {
+        "-COMPONENTS" => env.components = Some(components(given)?),
+        "-S_PERIOD" => env.sea_periods = given.numbers(),
+        "-SEED" => env.phasing = whole(0).map(Phasing::Seeded),
+        "-T_REINFORCE" => env.phasing = given.number(0).map(Phasing::Reinforced),
+        "-STOKES" => env.stokes = whole(0).and_then(|n| u8::try_from(n).ok()),
+        "-STRETCHING" => {
+            env.stretching = Some(match given.word(0) {
+                Some("WHEELER") => Stretching::Wheeler,
+                Some("DELTA") => Stretching::Delta,
+                Some("EXPONENTIAL") => Stretching::Exponential,
+                _ => Stretching::Linear,
+            });
+        }
+        _ => return Ok(()),
+    }
+    if PHASINGS.contains(&given.spec.name) {
+        env.options.retain(|g| !PHASINGS.contains(&g.spec.name));
+    }
+    Ok(())
+}
+
+/// Refuses both ways to make phases in one record.
+pub(super) fn one_phasing(args: &Args) -> Outcome<()> {
+    match PHASINGS.map(|name| args.option(name)) {
+        [Some(one), Some(other)] => {
+            let text = "phases come from -T_REINFORCE or from -SEED, not from both";
+            Err(Diagnostic::error(text, other.span).other(one.span, "the other one"))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn components(given: &Given) -> Outcome<Components> {
+    let number = given.values.first().and_then(|v| v.integer()).and_then(|n| usize::try_from(n).ok()).unwrap_or(1);
+    let by_width = given.word(1).is_some_and(|w| w == BY_WIDTH);
+    let place = |i: usize| given.values.get(i).map_or(given.span, |v| v.span);
+    let limits = match (given.number(2), given.number(3)) {
+        (Some(low), Some(high)) if high > low => Some([low, high]),
+        (Some(_), Some(_)) => {
+            return Err(Diagnostic::error("the highest frequency is not above the lowest", place(3))
+                .other(place(2), "the lowest"));
+        }
+        (None, None) => None,
+        _ => {
+            return Err(Diagnostic::error("a lowest frequency needs a highest one", place(2))
+                .help("form: -COMPONENTS N TYPE LOW HIGH"));
+        }
+    };
+    let division = if by_width { Division::EqualFrequency } else { Division::EqualEnergy };
+    Ok(Components { number, division, limits, span: given.span })
+}

@@ -1,0 +1,162 @@
+//! `&STATUS SEA_SPECTRUM`: the wave components of the seas of an environment, and their spectra to plot.
+
+use super::Job;
+use super::status::push;
+use crate::hydro::sea::{Sea, Train};
+use crate::language::diagnostic::Outcome;
+use crate::language::source::Span;
+use crate::language::units::Dim;
+use crate::model::{Division, Environment, Stretching};
+use crate::table::{Digits, Table};
+use std::f64::consts::{PI, TAU};
+
+/// Points of a spectrum plotted, and the shares of the energy between which they lie.
+const POINTS: usize = 241;
+const SHOWN: [f64; 2] = [1e-6, 0.997];
+
+/// One table for each sea of the environment in force, or of those kept under a name that is chosen.
+pub(super) fn spectra(job: &Job, chosen: Option<&dyn Fn(&str) -> bool>, at: Span) -> Outcome<Vec<Table>> {
+    let mut tables = Vec::new();
+    for env in environments(job, chosen) {
+        match sea(job, env, at)? {
+            Some(sea) => tables.extend(sea.trains.iter().map(|train| components(env, &sea, train))),
+            None => {
+                let mut table = Table::new(title("Sea Spectrum", env, None)).fact("Components", 0, Dim::None);
+                table.note("there are no waves: -SEA of &ENV gives them");
+                tables.push(table);
+            }
+        }
+    }
+    Ok(tables)
+}
+
+/// The spectra as density over frequency, a table for each plot.
+pub(super) fn densities(job: &Job, chosen: Option<&dyn Fn(&str) -> bool>, at: Span) -> Outcome<Vec<Table>> {
+    let mut tables = Vec::new();
+    for env in environments(job, chosen) {
+        let trains = sea(job, env, at)?.map_or(Vec::new(), |s| s.trains);
+        tables.extend(trains.iter().filter_map(|t| density(env, t)));
+    }
+    Ok(tables)
+}
+
+fn environments<'a>(job: &'a Job, chosen: Option<&'a dyn Fn(&str) -> bool>) -> Vec<&'a Environment> {
+    match chosen {
+        None => vec![&job.model.environment],
+        Some(fits) => job.model.environments.values().filter(|e| fits(&e.name)).collect(),
+    }
+}
+
+fn sea(job: &Job, env: &Environment, at: Span) -> Outcome<Option<Sea>> {
+    Sea::of(&job.model, env).map_err(|e| e.diagnostic(at, job.units))
+}
+
+fn title(what: &str, env: &Environment, train: Option<&Train>) -> String {
+    let added = if train.is_some_and(|t| t.components.start > 0) { ", Added Sea" } else { "" };
+    let name = if env.name.is_empty() { String::new() } else { format!(" of {}", env.name) };
+    format!("{what}{name}{added}")
+}
+
+fn components(env: &Environment, sea: &Sea, train: &Train) -> Table {
+    let waves = sea.components.get(train.components.clone()).unwrap_or_default();
+    let variance: f64 = waves.iter().map(|c| 0.5 * c.amplitude * c.amplitude).sum();
+    let mut table = Table::new(title("Sea Spectrum", env, Some(train)))
+        .fact("Spectrum", train.name.as_str(), Dim::None)
+        .fact("Comes From", train.direction, Dim::Angle);
+    if train.gamma.is_some() {
+        table = table.fact("Gamma", train.gamma, Dim::None);
+    }
+    if let Some(spectrum) = &train.spectrum {
+        let [m0, m1, m2] = [0, 1, 2].map(|n| spectrum.moment(n));
+        table = table
+            .fact("Significant Height", 4.0 * m0.sqrt(), Dim::Length)
+            .fact("Variance m0", m0, Dim::Area)
+            .fact("Peak Period", TAU / spectrum.peak(), Dim::Time)
+            .fact("Mean Period T1", TAU * m0 / m1, Dim::Time)
+            .fact("Zero-Crossing Period Tz", TAU * (m0 / m2).sqrt(), Dim::Time)
+            .fact("Significant Height of Components", 4.0 * variance.sqrt(), Dim::Length)
+            .fact("Spreading Exponent", env.spreading.unwrap_or(200.0), Dim::None);
+    }
+    if let Some(wave) = &sea.stokes {
+        let [crest, trough] = [0.0, PI].map(|angle| wave.elevation_at(angle));
+        table = table
+            .fact("Stokes Order", usize::from(wave.order), Dim::None)
+            .fact("Height", wave.height, Dim::Length)
+            .fact("Crest", crest, Dim::Length)
+            .fact("Trough", trough, Dim::Length)
+            .fact("Length", TAU / wave.number, Dim::Length);
+    }
+    let division = match env.components.map_or(Division::EqualEnergy, |c| c.division) {
+        _ if train.spectrum.is_none() => "regular wave",
+        _ if !env.sea_periods.is_empty() => "about the periods of -S_PERIOD",
+        Division::EqualEnergy => "of equal energy",
+        Division::EqualFrequency => "of equal width",
+    };
+    let highest: f64 = waves.iter().map(|c| c.amplitude).sum();
+    table = table
+        .fact("Components", format!("{} {division}", waves.len()), Dim::None)
+        .fact("Sum of Amplitudes", highest, Dim::Length)
+        .fact("Phases", phasing(sea), Dim::None)
+        .fact("Ramp", sea.ramp, Dim::Time)
+        .fact("Above the Mean Level", above(sea), Dim::None)
+        .column("", "No.", Dim::None, Digits::Usual)
+        .column("", "Period", Dim::Time, Digits::Decimals(3))
+        .column("", "Frequency", Dim::Frequency, Digits::Decimals(4))
+        .column("", "Amplitude", Dim::Length, Digits::Decimals(3))
+        .column("", "From", Dim::Angle, Digits::Usual)
+        .column("", "Phase", Dim::Angle, Digits::Usual)
+        .column("", "Density", Dim::SpectralDensity, Digits::Decimals(4));
+    for (index, wave) in waves.iter().enumerate() {
+        let band = train.bands.get(index).zip(train.spectrum.as_ref());
+        let [x, y] = wave.toward;
+        let row = vec![
+            (index + 1).into(),
+            (TAU / wave.frequency).into(),
+            wave.frequency.into(),
+            wave.amplitude.into(),
+            turn((-y).atan2(-x)).into(),
+            turn(wave.phase).into(),
+            band.map(|(band, spectrum)| band.ordinate(spectrum)).into(),
+        ];
+        push(&mut table, row);
+    }
+    table
+}
+
+/// An angle from 0 to a turn; one that a rounding error keeps just below a turn is 0.
+fn turn(angle: f64) -> f64 {
+    let turned = angle.rem_euclid(TAU);
+    if TAU - turned < 1e-9 { 0.0 } else { turned }
+}
+
+/// What makes the phases of a sea, in words.
+pub(super) fn phasing(sea: &Sea) -> String {
+    match (sea.seed, sea.reinforcement) {
+        (Some(seed), _) => format!("random, seed {seed}"),
+        (None, Some(time)) => format!("all in phase at X = Y = 0 at {time} s"),
+        (None, None) => "crest at X = Y = 0 at 0 s".into(),
+    }
+}
+
+fn above(sea: &Sea) -> &'static str {
+    match sea.stretching {
+        _ if sea.stokes.is_some() => "by Stokes' theory",
+        Stretching::Linear => "LINEAR",
+        Stretching::Wheeler => "WHEELER",
+        Stretching::Delta => "DELTA",
+        Stretching::Exponential => "EXPONENTIAL",
+    }
+}
+
+fn density(env: &Environment, train: &Train) -> Option<Table> {
+    let spectrum = train.spectrum.as_ref()?;
+    let [low, high] = SHOWN.map(|share| spectrum.quantile(share));
+    let mut table = Table::new(title("Wave Spectrum", env, Some(train)))
+        .column("", "Frequency", Dim::Frequency, Digits::Usual)
+        .column("", "Density", Dim::SpectralDensity, Digits::Usual);
+    for i in 0..POINTS {
+        let frequency = low + (high - low) * i as f64 / (POINTS - 1) as f64;
+        push(&mut table, vec![frequency.into(), spectrum.density(frequency).into()]);
+    }
+    Some(table)
+}

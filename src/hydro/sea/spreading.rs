@@ -1,0 +1,43 @@
+//! Directional spreading: the energy goes with cos(H - th)^EXP, within a quarter turn of the main direction H.
+//!
+//! Source: reference/model.md, "Environment". Each component has one direction, so that the energy of each frequency is where it
+//! was. Directions come from the cumulative spreading function at the points of a golden-section sequence, u_i = 1/2 + i 0.618..
+//! modulo one: of low discrepancy in any run of neighbouring frequencies, the same for every seed.
+
+use statrs::function::beta::beta_reg;
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// From this exponent on a sea is long-crested.
+pub const LONG_CRESTED: f64 = 200.0;
+/// The golden section less one.
+const GOLDEN: f64 = 0.618_033_988_749_894_8;
+
+/// The share of the energy below an angle (rad) from the main direction.
+pub fn share(angle: f64, exponent: f64) -> f64 {
+    // with s = sin^2, the integral of cos^e is an incomplete beta function of 1/2 and (e + 1)/2
+    let sin = angle.clamp(-FRAC_PI_2, FRAC_PI_2).sin();
+    0.5 + 0.5 * sin.signum() * beta_reg(0.5, 0.5 * (exponent + 1.0), (sin * sin).min(1.0))
+}
+
+/// The angle (rad) below which a share of the energy is.
+pub fn angle(of: f64, exponent: f64) -> f64 {
+    let (mut low, mut high) = (-FRAC_PI_2, FRAC_PI_2);
+    while high - low > 1e-12 {
+        let middle = 0.5 * (low + high);
+        if share(middle, exponent) < of { low = middle } else { high = middle }
+    }
+    0.5 * (low + high)
+}
+
+/// Unit vectors of travel of some components of a sea that comes from a direction (rad).
+pub fn directions(number: usize, from: f64, exponent: f64) -> Vec<[f64; 2]> {
+    let toward = |turn: f64| {
+        let (cos, sin) = crate::model::unit_vector((from + turn).rem_euclid(2.0 * PI));
+        [-cos, -sin]
+    };
+    let one = |i: usize| match exponent {
+        e if e >= LONG_CRESTED => 0.0,
+        e => angle((0.5 + i as f64 * GOLDEN).fract(), e),
+    };
+    (0..number).map(|i| toward(one(i))).collect()
+}
