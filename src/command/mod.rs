@@ -17,6 +17,8 @@ mod conn_design;
 mod connector;
 mod curve_table;
 mod curves;
+mod database;
+mod database_table;
 mod describe;
 mod device;
 mod disposition;
@@ -146,6 +148,7 @@ pub static COMMANDS: &[&Command] = &[
     &weight::ITEM,
     &weight::WEIGHT,
     &hydrostatic::HYDROSTATIC,
+    &database::DATABASE,
     &piece::PANEL,
     &pgen::PGEN,
     &pgen::PLANE,

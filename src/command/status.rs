@@ -9,7 +9,7 @@ use super::forces::{forces, foundations};
 use super::loads_table::loads;
 use super::offsets::offsets;
 use super::written::{as_written, kind_data, option_as_written};
-use super::{Call, Command, Effect, Job, Menu, body_status, body_tables, line_types, sea_table};
+use super::{Call, Command, Effect, Job, Menu, body_status, body_tables, database_table, line_types, sea_table};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::{Owner, choose};
 use crate::language::spec::{CommandSpec, Kind, Noun, Opens, OptionSpec, ValueSpec};
@@ -44,6 +44,7 @@ const KINDS: &[(&str, Owner, &str)] = &[
     ("WEIGHT", Owner::Ours, "weights, centers and radii of gyration of bodies and parts"),
     ("PIECES", Owner::Ours, "pieces of hulls"),
     ("HYDROSTATICS", Owner::Ours, "what bodies displace where they are, and their hydrostatic stiffness"),
+    ("DATABASE", Owner::Ours, "hydrodynamic databases of bodies: radiation, excitation, drift, memory"),
     ("BODIES", Owner::Ours, "bodies and their parts"),
     ("POINTS", Owner::Ours, "points, in their parts and in the global system"),
     ("DIMENSIONS", Owner::Ours, "units"),
@@ -127,6 +128,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         "WEIGHT" => vec![body_tables::weights(model, &fits)],
         "PIECES" => vec![body_tables::pieces(model, &fits)],
         "HYDROSTATICS" => body_tables::hydrostatics(model, &fits, job.units),
+        "DATABASE" => database_table::tables(model, &fits),
         "BODIES" => vec![bodies(model, &fits)],
         "POINTS" => vec![points(model, &fits)],
         "DIMENSIONS" => vec![dimensions(job)],
@@ -169,7 +171,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
 /// The things whose names a kind of &STATUS takes.
 fn things(kind: &str) -> &'static [Thing] {
     match kind {
-        "CONFIGURATION" | "FORCE" => &[Thing::Body],
+        "CONFIGURATION" | "FORCE" | "DATABASE" => &[Thing::Body],
         "STIFFNESS" => &[Thing::Body, Thing::Connector],
         "BODIES" | "LOADS" | "WEIGHT" => &[Thing::Body, Thing::Part],
         "HYDROSTATICS" => &[Thing::Body],

@@ -10,6 +10,9 @@ const ASYMMETRY: f64 = 0.05;
 /// The most numbers a database may hold (1e7: 80 MB).
 pub(super) const MOST: usize = 10_000_000;
 
+/// How the remark of a gap between headings begins.
+pub(super) const GAP: &str = "its headings leave a gap";
+
 /// Names of the six directions.
 pub const MODES: [&str; 6] = ["X", "Y", "Z", "RX", "RY", "RZ"];
 
@@ -114,13 +117,13 @@ fn negative_damping(data: &Database) -> Option<String> {
 }
 
 /// The widest gap between headings, where it is wider than what is interpolated over.
-fn gaps(headings: &[f64]) -> Option<String> {
+pub(super) fn gaps(headings: &[f64]) -> Option<String> {
     let first = *headings.first()?;
     let next = headings.iter().skip(1).copied().chain([first + TAU]);
     let (from, to) = headings.iter().copied().zip(next).max_by(|a, b| (a.1 - a.0).total_cmp(&(b.1 - b.0)))?;
     (to - from > super::at::WIDEST_GAP).then(|| {
         format!(
-            "its headings leave a gap of {:.0} degrees: waves toward {:.0} to {:.0} in the body are refused",
+            "{GAP} of {:.0} degrees: waves toward {:.0} to {:.0} in the body are refused",
             (to - from).to_degrees(),
             from.to_degrees(),
             to.to_degrees() % 360.0

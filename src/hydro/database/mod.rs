@@ -16,6 +16,7 @@ pub mod radiation;
 pub mod rao;
 mod rows;
 pub mod slow_drift;
+mod symmetry;
 pub mod wamit;
 mod wamit_qtf;
 mod waves;

@@ -1,0 +1,66 @@
+//! The other side of a body that is symmetric about its x-z plane.
+
+use super::rows::{axis, place, same_heading};
+use crate::model::Database;
+use std::f64::consts::TAU;
+
+/// Which of the six change sign on the other side.
+const MIRROR: [f64; 6] = [1.0, -1.0, 1.0, -1.0, 1.0, -1.0];
+
+impl Database {
+    /// The same with the headings of the other side of a body that is symmetric about its x-z plane; those that are there stay.
+    /// A reference point off that plane has no mirror: the database is left as it is.
+    pub fn mirrored(mut self) -> Self {
+        if self.reference.y.abs() > 1e-9 {
+            self.remarks.push("its point is off the plane of symmetry: no headings are mirrored".into());
+            return self;
+        }
+        let own = self.headings.clone();
+        fill(&own, &mut self.excitation, |six| std::array::from_fn(|i| six[i] * MIRROR[i]));
+        if let Some(motions) = &mut self.motions {
+            fill(&own, motions, |six| std::array::from_fn(|i| six[i] * MIRROR[i]));
+        }
+        self.headings = both_sides(&own);
+        if let Some(drift) = &mut self.drift {
+            fill(&drift.headings, &mut drift.values, |six| std::array::from_fn(|i| six[i] * MIRROR[i]));
+            drift.headings = both_sides(&drift.headings);
+        }
+        if let Some(qtf) = &mut self.qtf {
+            let mirror = |row: &Vec<super::Amplitudes>| {
+                row.iter().map(|six| std::array::from_fn(|i| six[i] * MIRROR[i])).collect::<Vec<_>>()
+            };
+            fill(&qtf.headings, &mut qtf.values, mirror);
+            qtf.headings = both_sides(&qtf.headings);
+        }
+        self.remarks.retain(|r| !r.starts_with(super::checks::GAP));
+        self.remarks.extend(super::checks::gaps(&self.headings));
+        self
+    }
+}
+
+/// Where a heading of one side is on the other.
+fn other(heading: f64) -> f64 {
+    let turn = (TAU - heading).rem_euclid(TAU);
+    if turn > TAU - 1e-9 { 0.0 } else { turn }
+}
+
+/// Headings with those of the other side.
+fn both_sides(headings: &[f64]) -> Vec<f64> {
+    axis(headings.iter().copied().chain(headings.iter().map(|h| other(*h))), same_heading)
+}
+
+/// Puts tables by heading on both sides.
+fn fill<T: Clone>(headings: &[f64], tables: &mut Vec<Vec<T>>, mirror: impl Fn(&T) -> T) {
+    if tables.is_empty() {
+        return;
+    }
+    let both = both_sides(headings);
+    let made = both.iter().map(|heading| {
+        let near = |h: f64| headings.get(place(headings, h)).is_some_and(|own| same_heading(*own, h));
+        if near(*heading) {
+            return tables.get(place(headings, *heading)).cloned().unwrap_or_default();
+        }
+        tables.get(place(headings, other(*heading))).map_or(Vec::new(), |t| t.iter().map(&mirror).collect())
+    });
+    *tables = made.collect();
+}
