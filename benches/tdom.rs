@@ -58,7 +58,11 @@ fn pass(name: &str, model: &Model, observed: f64) {
     }
     let counts = counts.unwrap();
     println!("{name}\t{}\t{least:.9}", counts.steps);
-    println!("real time\t{:.0}\t{:.2} evaluations a step", observed / least, counts.evaluations as f64 / counts.steps as f64);
+    println!(
+        "real time\t{:.0}\t{:.2} evaluations a step",
+        observed / least,
+        counts.evaluations as f64 / counts.steps as f64
+    );
 }
 
 fn main() {

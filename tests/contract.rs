@@ -15,7 +15,7 @@ use windlass::report::files::JobFolder;
 use windlass::report::output::Output;
 use windlass::session::Session;
 
-const MENUS: [&str; 14] = [
+const MENUS: [&str; 15] = [
     "MAIN",
     "INMODEL",
     "MEDIT",
@@ -30,6 +30,7 @@ const MENUS: [&str; 14] = [
     "MESH",
     "PGEN",
     "HSTATICS",
+    "FREQ_RESPONSE",
 ];
 
 fn specs() -> Vec<&'static CommandSpec> {

@@ -1,5 +1,6 @@
 //! The job that commands act on: model, units, menus, titles, settings, output.
 
+use super::frequency::Found;
 use super::pgen::Planes;
 use crate::language::args::Args;
 use crate::language::diagnostic::{Diagnostic, Severity};
@@ -52,6 +53,8 @@ pub enum Menu {
     Mesh,
     /// Hydrostatics of the body of this name.
     Hydrostatics(String),
+    /// The frequency domain, with what it has found.
+    Frequency(Box<Found>),
     /// Sections of a hull being given by `PGEN`.
     Planes(Box<Planes>),
     /// The menu of this name whose opener was refused: its commands are passed over up to its `END`.
@@ -76,6 +79,7 @@ impl Menu {
             Menu::Mesh => "MESH",
             Menu::Planes(_) => "PGEN",
             Menu::Hydrostatics(_) => "HSTATICS",
+            Menu::Frequency(_) => "FREQ_RESPONSE",
             Menu::Refused(name) => name,
         }
     }
@@ -95,6 +99,7 @@ impl Menu {
             "MESH" => "END_MESH",
             "PGEN" => "END_PGEN",
             "HSTATICS" => "END_HSTATICS",
+            "FREQ_RESPONSE" => "END_FREQ_RESPONSE",
             _ => "END",
         }
     }

@@ -28,6 +28,8 @@ mod equilibrium;
 mod excursion;
 mod file;
 mod forces;
+mod frequency;
+mod frequency_posts;
 pub mod functions;
 pub mod help;
 mod hstatics;
@@ -170,6 +172,13 @@ pub static COMMANDS: &[&Command] = &[
     &names::RENAME,
     &alter::ALTER,
     &equilibrium::EQUI,
+    &frequency::FREQ_RESPONSE,
+    &frequency::RAO,
+    &frequency::SRESPONSE,
+    &frequency_posts::MOTION,
+    &frequency_posts::FR_POINT,
+    &frequency_posts::CONFORCE,
+    &frequency_posts::STATISTICS,
     &tdom::TDOM,
     &action::ACTION,
     &select::SELECT,

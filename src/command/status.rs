@@ -32,6 +32,7 @@ const KINDS: &[(&str, Owner, &str)] = &[
     ("FORCE", Owner::Moses, "what acts on the bodies where they stand, by category"),
     ("ASSEMBLIES", Owner::Ours, "tip-hook sets: where the hook is, what its lines bear"),
     ("STIFFNESS", Owner::Ours, "stiffness of bodies and connectors about a point"),
+    ("MODES", Owner::Ours, "natural periods, damping and shapes of small motions about where the bodies stand"),
     ("CURVES", Owner::Moses, "curves"),
     ("ENVIRONMENT", Owner::Moses, "the environment in force, or one kept under a name"),
     (
@@ -121,6 +122,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         "ASSEMBLIES" => assemblies(model, &fits, job.units),
         "FORCE" => body_status::forces(job, call, &fits)?,
         "STIFFNESS" => body_status::stiffness(job, call, &chosen)?,
+        "MODES" => body_status::modes(job, call)?,
         "CURVES" => curves(model, &fits),
         "ENVIRONMENT" => environments(job, (!chosen.all()).then_some(&fits)),
         "SEA_SPECTRUM" => sea_table::spectra(job, (!chosen.all()).then_some(&fits), args.place(0))?,

@@ -154,6 +154,10 @@ pub enum Dim {
     Days,
     /// Velocity, ft/s or m/s (m/s).
     Velocity,
+    /// Rotation, deg/s (rad/s).
+    AngularVelocity,
+    /// Change of a rotation, deg/s2 (rad/s2).
+    AngularAcceleration,
     /// Wind speed, knots (m/s).
     WindSpeed,
     /// Acceleration, ft/s2 or m/s2 (m/s2).
@@ -168,6 +172,8 @@ pub enum Dim {
     Volume,
     /// Spectral density of elevation, ft2 s or m2 s (m2 s).
     SpectralDensity,
+    /// Spectral density of an angle, deg2 s (rad2 s).
+    AngleDensity,
     /// Nonlinear dashpot coefficient, `bforce (s/blength)**Ex` (N (s/m)**Ex); the exponent is carried.
     Damping(f64),
     /// `bforce`, `blength` and seconds to whole powers (N, m and s to the same): coefficients and matrices.
@@ -228,7 +234,8 @@ impl Dim {
                     1.0
                 }
             }
-            Dim::Angle => std::f64::consts::PI / 180.0,
+            Dim::Angle | Dim::AngularVelocity | Dim::AngularAcceleration => std::f64::consts::PI / 180.0,
+            Dim::AngleDensity => (std::f64::consts::PI / 180.0).powi(2),
             Dim::Days => 86_400.0,
             Dim::Velocity | Dim::Acceleration => m,
             Dim::WindSpeed => KNOT,
@@ -290,6 +297,8 @@ impl Dim {
             Dim::Stress => if feet { "ksi" } else { "MPa" }.into(),
             Dim::Density => if feet { "lb/ft3" } else { "kg/m3" }.into(),
             Dim::Angle => "deg".into(),
+            Dim::AngularVelocity => "deg/s".into(),
+            Dim::AngularAcceleration => "deg/s2".into(),
             Dim::Time => "s".into(),
             Dim::Days => "days".into(),
             Dim::Velocity => format!("{length}/s"),
@@ -300,6 +309,7 @@ impl Dim {
             Dim::Area => format!("{length}2"),
             Dim::Volume => format!("{length}3"),
             Dim::SpectralDensity => format!("{length}2-s"),
+            Dim::AngleDensity => "deg2-s".into(),
             Dim::Damping(exponent) => format!("{force}-(s/{length})**{exponent}"),
             Dim::Derived { force: f, length: l, seconds: s } => derived([(force, f), (length, l), ("s", s)]),
             Dim::Mass => "kg".into(),

@@ -120,7 +120,10 @@ fn usual(dim: Dim, units: UnitSystem) -> u8 {
         Dim::None
         | Dim::Days
         | Dim::Frequency
+        | Dim::AngularVelocity
+        | Dim::AngularAcceleration
         | Dim::SpectralDensity
+        | Dim::AngleDensity
         | Dim::Damping(_)
         | Dim::Derived { .. }
         | Dim::SquareMetres => 4,

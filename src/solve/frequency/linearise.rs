@@ -1,0 +1,134 @@
+//! Linearisation of what is not linear in velocity, in a sea: the damping that a Gaussian velocity meets on the mean.
+//!
+//! Of a force f of a Gaussian velocity v, the linear damping that leaves the least square of the difference is `E[-df/dv]`
+//! (Kazakov 1965; Roberts and Spanos, Random Vibration and Statistical Linearization, 1990, section 5.3). For `c |v| v` that is
+//! `c sqrt(8/pi) sigma` (Borgman 1967, Spectral analysis of ocean wave forces on piling). The mean is taken over points
+//! of equal probability, so that any connector and any load is linearised, alone or together.
+
+use super::linear::Linear;
+use super::response::{Asked, Response, in_sea};
+use super::trains::Trains;
+use crate::model::{ClassError, Six};
+use crate::solve::system::SolveError;
+use crate::solve::time::{Forces, Memory, Motion};
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use statrs::distribution::{ContinuousCDF, Normal};
+
+/// Velocities over which the mean is taken.
+const POINTS: usize = 1024;
+/// Most rounds.
+const MOST: usize = 100;
+/// Change of the deviation of a velocity, as its share, that is none.
+const SAME: f64 = 1e-6;
+/// Share of the largest variance below which a direction of velocity is left out.
+const NOTHING: f64 = 1e-10;
+
+/// Linearises until damping and response agree; the response is then that of the result. Gives the rounds it took.
+///
+/// # Errors
+/// It does not settle; a load that has no answer.
+pub(super) fn settle(
+    linear: &mut Linear,
+    trains: &Trains,
+    asked: &Asked,
+    response: &mut Response,
+) -> Result<usize, SolveError> {
+    let mut before: Option<DVector<f64>> = None;
+    for round in 0..MOST {
+        let spread = covariance(linear, response);
+        let deviations = spread.diagonal().map(|v| v.max(0.0).sqrt());
+        if let Some(before) = &before {
+            let largest = deviations.amax();
+            let same = |(a, b): (&f64, &f64)| (a - b).abs() <= SAME * b.max(1e-6 * largest);
+            if deviations.iter().zip(before.iter()).all(same) {
+                return Ok(round);
+            }
+        }
+        let Some(mean) = mean_damping(linear, &spread)? else { return Ok(0) };
+        linear.linearised = mean;
+        *response = Response { rounds: round + 1, ..in_sea(linear, trains, asked)? };
+        before = Some(deviations);
+    }
+    let text = format!("the linearisation of its damping does not settle in {MOST} rounds");
+    Err(SolveError::new(ClassError::new(text).help("TDOM has no need of it")))
+}
+
+/// Covariance of the velocities of all bodies, six a body.
+fn covariance(linear: &Linear, response: &Response) -> DMatrix<f64> {
+    let size = 6 * linear.system.nodes.len();
+    let mut sum = DMatrix::zeros(size, size);
+    for point in response.waves.iter().chain(&response.slow) {
+        let square = point.frequency * point.frequency;
+        for part in &point.parts {
+            for i in 0..size {
+                for j in 0..size {
+                    sum[(i, j)] += square * (part[i] * part[j].conj()).re;
+                }
+            }
+        }
+    }
+    sum
+}
+
+/// What velocities of a covariance meet on the mean beyond the damping at rest; `None` where it is linear.
+fn mean_damping(linear: &Linear, spread: &DMatrix<f64>) -> Result<Option<DMatrix<f64>>, SolveError> {
+    let eigen = SymmetricEigen::new(spread.clone());
+    let largest = eigen.eigenvalues.max();
+    let mut axes: Vec<(f64, DVector<f64>)> = eigen
+        .eigenvalues
+        .iter()
+        .zip(eigen.eigenvectors.column_iter())
+        .filter(|(value, _)| **value > NOTHING * largest && **value > 0.0)
+        .map(|(value, vector)| (value.sqrt(), vector.into_owned()))
+        .collect();
+    axes.sort_by(|a, b| b.0.total_cmp(&a.0));
+    if axes.is_empty() {
+        return Ok(None);
+    }
+    let system = &linear.system;
+    let memory = Memory::of(system);
+    let mut forces = Forces::default();
+    let mut sum = DMatrix::zeros(spread.nrows(), spread.nrows());
+    let steps = steps(axes.len());
+    let normal = Normal::standard();
+    for n in 0..POINTS {
+        let mut velocity = DVector::zeros(spread.nrows());
+        for ((deviation, axis), step) in axes.iter().zip(&steps) {
+            // the first direction in even steps, the others in those of a sequence of low discrepancy
+            let share = (0.5 + (n as f64 + 0.5) * step).fract();
+            let share = if axes.len() == 1 { (n as f64 + 0.5) / POINTS as f64 } else { share };
+            velocity += axis * (deviation * normal.inverse_cdf(share.clamp(1e-9, 1.0 - 1e-9)));
+        }
+        let motions: Vec<Motion> = linear
+            .state
+            .poses
+            .iter()
+            .enumerate()
+            .map(|(body, pose)| {
+                let velocity = Six::from_fn(|i, _| velocity[6 * body + i]);
+                Motion { pose: *pose, velocity, ..Motion::default() }
+            })
+            .collect();
+        forces.evaluate(system, &memory, &motions, (0.0, 1.0))?;
+        let more = &forces.damping - &linear.damping;
+        // one velocity of a linear damping tells of all
+        if n == 0 && more.amax() <= 1e-9 * linear.damping.amax() {
+            return Ok(None);
+        }
+        sum += more;
+    }
+    match sum.iter().all(|v| v.is_finite()) {
+        true => Ok(Some(sum / POINTS as f64)),
+        false => Err(SolveError::new(ClassError::new("a damping has no mean over the velocities in this sea"))),
+    }
+}
+
+/// Steps of a sequence of low discrepancy in so many dimensions: powers of the inverse of the root of `x^(d+1) = x + 1`
+/// (Roberts 2018, the generalised golden section).
+fn steps(dimensions: usize) -> Vec<f64> {
+    let mut root: f64 = 1.5;
+    for _ in 0..100 {
+        root = (1.0 + root).powf(1.0 / (dimensions as f64 + 1.0));
+    }
+    (1..=dimensions).map(|i| root.powi(-i32::try_from(i).unwrap_or(1)).fract()).collect()
+}
