@@ -136,11 +136,11 @@ fn a_motion_without_damping_at_its_natural_period_is_refused() {
 
 #[test]
 fn statistics_are_those_of_rayleigh() {
-    // sigma 2, Tz 10 s: in 10800 s 1080 maxima, the most probable largest 2 sqrt(2 ln 1080) = 7.47540
+    // sigma 2, Tz 10 s: in 10800 s 1080 maxima, the most probable largest 2 sqrt(2 ln 1080) = 7.47514
     let made = Statistics::from_moments(1.0, [4.0, 0.0], 4.0 * (TAU / 10.0).powi(2));
     assert!((made.period.unwrap() - 10.0).abs() < 1e-12 && made.significant() == 4.0);
     assert!((made.most_probable(10_800.0).unwrap() - 2.0 * (2.0 * 1080f64.ln()).sqrt()).abs() < 1e-12);
-    assert!((made.most_probable(10_800.0).unwrap() - 7.475_40).abs() < 1e-4);
+    assert!((made.most_probable(10_800.0).unwrap() - 7.475_14).abs() < 1e-5);
     assert_eq!(made.most_probable(5.0), None);
 }
 
@@ -166,10 +166,10 @@ fn a_body_that_rides_on_the_waves_has_the_height_and_period_of_the_sea() {
     let (linear, made) = seen(&model, &Asked::default());
     let z = Quantity::freedom(&linear, 0, 2);
     let told = Statistics::of(&made, &z, Derivative::Place);
-    // the energy is exact; the highest 0.05 % of it stands at one frequency, which takes 1 % of the second moment
+    // the energy is exact; what is above 15 times the frequency of the peak is counted there, which takes 0.3 % of the second moment
     assert!((told.significant() / 2.0 - 1.0).abs() < 1e-6, "{told:?}");
     let tz = 10.0 * (0.8 / PI).powf(0.25);
-    assert!((told.period.unwrap() / tz - 1.0).abs() < 6e-3, "{told:?} {tz}");
+    assert!((told.period.unwrap() / tz - 1.0).abs() < 2e-3, "{told:?} {tz}");
 }
 
 #[test]
@@ -206,18 +206,16 @@ fn slow_drift_of_a_rectangular_spectrum_is_that_of_pinkster_by_hand() {
     let x = Quantity::freedom(&linear, 0, 0);
     // S = 1 m2 over 0.3 rad/s; S_F = 8 S2 D2 (high - low - mu)
     let s = 1.0 / (high - low);
-    let mut variance = 0.0;
     assert!(made.slow.len() > 50);
     for point in made.slow.iter().filter(|p| p.frequency < 0.28) {
         let mu = point.frequency;
-        let force = 8.0 * s * s * 2e4f64.powi(2) * (high - low - mu);
-        let want = force * oscillator(Complex::new(1.0, 0.0), 3e5, 5e4 + RADIATED, mu).norm_sqr();
+        let operator = oscillator(Complex::new(1.0, 0.0), 3e5, 5e4 + RADIATED, mu).norm_sqr();
+        let most = 8.0 * s * s * 2e4f64.powi(2) * (high - low) * operator;
+        let want = most * (1.0 - mu / (high - low));
         let density = point.variance(&x, Derivative::Place) / point.width.unwrap();
-        variance += density * point.width.unwrap();
-        // the ends of the box lie within cells of 1/120 of it
-        assert!((density - want).abs() < 0.02 * want.max(8.0 * s * s * 4e8 * 0.05 / 9e10), "{mu} {density} {want}");
+        // either end of the box lies somewhere in a cell of 1/120 of it
+        assert!((density - want).abs() < 0.006 * most, "{mu} {density} {want}");
     }
-    assert!(variance > 0.0);
     // no drift, no slow motion
     attach(&mut model, DriftMethod::Mean);
     let (_, none) = seen(&model, &Asked { spectral: true, ..Asked::default() });

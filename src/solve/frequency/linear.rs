@@ -18,6 +18,8 @@ pub type Motions = DVector<Complex<f64>>;
 const RESTLESS: f64 = 2e-3;
 /// Growth of a motion over that of its mass or its stiffness alone that is taken for one without bound.
 const BOUNDLESS: f64 = 1e9;
+/// Share of the largest motion (m, rad) that is what rounding leaves.
+const ROUNDING: f64 = 1e-13;
 /// The time over which dashpots in series with springs are taken (s).
 const STEP: f64 = 1.0;
 
@@ -254,7 +256,10 @@ impl Linear {
             let own = follow.tr_mul(force);
             let own = DVector::from_fn(size, |i, _| own[i] * at(i));
             let moved = &inverse * own;
-            &follow * DVector::from_fn(size, |i, _| moved[i] * at(i))
+            let mut all = &follow * DVector::from_fn(size, |i, _| moved[i] * at(i));
+            let least = ROUNDING * all.iter().fold(0.0, |most: f64, v| most.max(v.norm()));
+            all.iter_mut().filter(|v| v.norm() < least).for_each(|v| *v = Complex::new(0.0, 0.0));
+            all
         };
         Ok(forces.iter().map(one).collect())
     }

@@ -11,7 +11,7 @@ use super::trains::Trains;
 use crate::model::{ClassError, Six};
 use crate::solve::system::SolveError;
 use crate::solve::time::{Forces, Memory, Motion};
-use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, Normal};
 
 /// Velocities over which the mean is taken.
@@ -20,8 +20,8 @@ const POINTS: usize = 1024;
 const MOST: usize = 100;
 /// Change of the deviation of a velocity, as its share, that is none.
 const SAME: f64 = 1e-6;
-/// Share of the largest variance below which a direction of velocity is left out.
-const NOTHING: f64 = 1e-10;
+/// Share of the largest variance below which a velocity of its own is none.
+const NOTHING: f64 = 1e-8;
 
 /// Linearises until damping and response agree; the response is then that of the result. Gives the rounds it took.
 ///
@@ -34,6 +34,7 @@ pub(super) fn settle(
     response: &mut Response,
 ) -> Result<usize, SolveError> {
     let mut before: Option<DVector<f64>> = None;
+    let mut order = Vec::new();
     for round in 0..MOST {
         let spread = covariance(linear, response);
         let deviations = spread.diagonal().map(|v| v.max(0.0).sqrt());
@@ -44,7 +45,11 @@ pub(super) fn settle(
                 return Ok(round);
             }
         }
-        let Some(mean) = mean_damping(linear, &spread)? else { return Ok(0) };
+        // the same in every round, so that the mean changes smoothly with the velocities
+        if round == 0 {
+            order = pivots(&spread);
+        }
+        let Some(mean) = mean_damping(linear, &spread, &order)? else { return Ok(0) };
         linear.linearised = mean;
         *response = Response { rounds: round + 1, ..in_sea(linear, trains, asked)? };
         before = Some(deviations);
@@ -70,21 +75,47 @@ fn covariance(linear: &Linear, response: &Response) -> DMatrix<f64> {
     sum
 }
 
+/// A metre a second beside which a rotation of a radian a second counts ten: the arm of a point on a body (m).
+const ARM: f64 = 10.0;
+
+/// The velocities that tell all others of a covariance, each with what it has of its own: the pivots of its Cholesky factor.
+fn pivots(spread: &DMatrix<f64>) -> Vec<usize> {
+    let weigh = |i: usize| if i % 6 < 3 { 1.0 } else { ARM * ARM };
+    let mut rest = spread.clone();
+    let mut order = Vec::new();
+    let largest = (0..rest.nrows()).fold(0.0, |most: f64, i| most.max(rest[(i, i)] * weigh(i)));
+    while order.len() < rest.nrows() {
+        let own = (0..rest.nrows()).map(|i| (rest[(i, i)] * weigh(i), i));
+        let (value, pivot) = own.fold((0.0, 0), |best, one| if one.0 > best.0 { one } else { best });
+        if value <= NOTHING * largest {
+            break;
+        }
+        let column = rest.column(pivot) / rest[(pivot, pivot)].sqrt();
+        rest -= &column * column.transpose();
+        order.push(pivot);
+    }
+    order
+}
+
+/// Velocities that make a covariance, each times a number of the normal distribution, by the pivots in order.
+fn factor(spread: &DMatrix<f64>, order: &[usize]) -> Vec<DVector<f64>> {
+    let mut rest = spread.clone();
+    let mut columns = Vec::new();
+    for pivot in order {
+        let own = rest[(*pivot, *pivot)];
+        let column = if own > 0.0 { rest.column(*pivot) / own.sqrt() } else { DVector::zeros(rest.nrows()) };
+        rest -= &column * column.transpose();
+        columns.push(column);
+    }
+    columns
+}
+
 /// What velocities of a covariance meet on the mean beyond the damping at rest; `None` where it is linear.
-fn mean_damping(linear: &Linear, spread: &DMatrix<f64>) -> Result<Option<DMatrix<f64>>, SolveError> {
-    let eigen = SymmetricEigen::new(spread.clone());
-    let largest = eigen.eigenvalues.max();
-    let mut axes: Vec<(f64, DVector<f64>)> = eigen
-        .eigenvalues
-        .iter()
-        .zip(eigen.eigenvectors.column_iter())
-        .filter(|(value, _)| **value > NOTHING * largest && **value > 0.0)
-        .map(|(value, vector)| (value.sqrt(), vector.into_owned()))
-        .collect();
-    axes.sort_by(|a, b| b.0.total_cmp(&a.0));
-    if axes.is_empty() {
+fn mean_damping(linear: &Linear, spread: &DMatrix<f64>, order: &[usize]) -> Result<Option<DMatrix<f64>>, SolveError> {
+    if order.is_empty() {
         return Ok(None);
     }
+    let axes = factor(spread, order);
     let system = &linear.system;
     let memory = Memory::of(system);
     let mut forces = Forces::default();
@@ -93,11 +124,11 @@ fn mean_damping(linear: &Linear, spread: &DMatrix<f64>) -> Result<Option<DMatrix
     let normal = Normal::standard();
     for n in 0..POINTS {
         let mut velocity = DVector::zeros(spread.nrows());
-        for ((deviation, axis), step) in axes.iter().zip(&steps) {
-            // the first direction in even steps, the others in those of a sequence of low discrepancy
+        for (axis, step) in axes.iter().zip(&steps) {
+            // one velocity in even steps, several in those of a sequence of low discrepancy
             let share = (0.5 + (n as f64 + 0.5) * step).fract();
             let share = if axes.len() == 1 { (n as f64 + 0.5) / POINTS as f64 } else { share };
-            velocity += axis * (deviation * normal.inverse_cdf(share.clamp(1e-9, 1.0 - 1e-9)));
+            velocity += axis * normal.inverse_cdf(share.clamp(1e-9, 1.0 - 1e-9));
         }
         let motions: Vec<Motion> = linear
             .state

@@ -6,15 +6,13 @@
 use super::linear::{Linear, Motions};
 use super::natural::natural;
 use super::quantity::{Derivative, Quantity};
-use super::trains::{Trains, bounds, grid};
+use super::trains::{Trains, bounds, resolved};
 use super::{linearise, slow};
 use crate::language::units::Dim;
 use crate::model::ClassError;
 use crate::solve::system::SolveError;
 use std::f64::consts::TAU;
 
-/// Even points over a sea.
-const EVEN: usize = 200;
 /// Most numbers kept.
 const MOST: usize = 20_000_000;
 
@@ -86,7 +84,8 @@ pub fn in_sea(linear: &Linear, trains: &Trains, asked: &Asked) -> Result<Respons
 fn waves(linear: &Linear, trains: &Trains, asked: &Asked, resonant: &[(f64, f64)]) -> Result<Vec<Point>, SolveError> {
     let mut points = Vec::new();
     if let Some(range) = trains.range() {
-        let own = if asked.frequencies.is_empty() { grid(range, EVEN, resonant) } else { asked.frequencies.clone() };
+        let usual = || resolved(trains.points(range), resonant);
+        let own = if asked.frequencies.is_empty() { usual() } else { asked.frequencies.clone() };
         let directions: usize = trains.irregular.iter().map(|d| d.toward.len()).sum();
         bounded(own.len(), directions, linear)?;
         let edges = bounds(&own, [0.0, f64::INFINITY]);

@@ -7,7 +7,7 @@
 
 use super::linear::{Linear, Motions};
 use super::response::{Point, bounded};
-use super::trains::{Trains, bounds, grid};
+use super::trains::{Trains, bounds, even, resolved};
 use crate::hydro::carried;
 use crate::model::Six;
 use crate::solve::system::SolveError;
@@ -27,16 +27,16 @@ pub(super) fn drift(linear: &Linear, trains: &Trains, resonant: &[(f64, f64)]) -
         .filter(|i| linear.floats.get(*i).is_some_and(|f| f.as_ref().is_some_and(|f| f.drift.is_some())))
         .collect();
     let Some(range) = trains.range().filter(|_| !drifting.is_empty()) else { return Ok(Vec::new()) };
-    let (differences, even) = EVEN;
+    let (differences, waves) = EVEN;
     // the first point is nothing: at rest
-    let mut own = grid([0.0, range[0]], differences, resonant);
+    let mut own = resolved(even([0.0, range[0]], differences), resonant);
     own.retain(|w| *w > 0.0);
     bounded(own.len(), 6 * drifting.len(), linear)?;
     let edges = bounds(&own, [0.0, range[0]]);
     let mut points = Vec::new();
     for (frequency, edge) in own.iter().zip(edges.windows(2)) {
         let [low, high] = edge else { continue };
-        let spectrum = forces(linear, trains, &drifting, (*frequency, range, even))?;
+        let spectrum = forces(linear, trains, &drifting, (*frequency, range, waves))?;
         let width = high - low;
         let mut list = Vec::new();
         let eigen = SymmetricEigen::new(spectrum);
@@ -60,15 +60,15 @@ pub(super) fn drift(linear: &Linear, trains: &Trains, resonant: &[(f64, f64)]) -
 }
 
 /// The cross spectra of the forces on the bodies that drift, at a difference of frequencies (N2 s, N2 m s, N2 m2 s).
-pub(super) fn forces(
+fn forces(
     linear: &Linear,
     trains: &Trains,
     drifting: &[usize],
-    (difference, [low, high], even): (f64, [f64; 2], usize),
+    (difference, [low, high], count): (f64, [f64; 2], usize),
 ) -> Result<DMatrix<Complex<f64>>, SolveError> {
     let size = 6 * drifting.len();
     let mut sum = DMatrix::zeros(size, size);
-    let points = grid([low, high], even, &[]);
+    let points = even([low, high], count);
     let edges = bounds(&points, [low, high]);
     for (w, edge) in points.iter().zip(edges.windows(2)) {
         let [from, to] = edge else { continue };

@@ -9,6 +9,12 @@ const DIRECTIONS: usize = 11;
 /// Shares of the energy between which frequencies are taken; the end ones stand for the rest.
 const SHARES: [f64; 2] = [0.0005, 0.9995];
 
+/// Points evenly over a sea, and at equal shares of its energy.
+const EVEN: usize = 120;
+const EQUAL: usize = 80;
+/// Points beyond, and the factor from each to the next: accelerations come from there too.
+const BEYOND: (i32, f64) = (5, 1.2);
+
 /// A spectrum with the directions its waves travel in.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Directional {
@@ -62,6 +68,15 @@ impl Trains {
         Ok(Some(made))
     }
 
+    /// Points that tell the seas: evenly over them, at equal shares of their energy, and a few beyond.
+    pub(super) fn points(&self, [low, high]: [f64; 2]) -> Vec<f64> {
+        let shares = (1..EQUAL).map(|i| i as f64 / EQUAL as f64);
+        let by_energy = self.irregular.iter().flat_map(|d| shares.clone().map(|s| d.spectrum.quantile(s)));
+        let last = self.irregular.iter().fold(0.0, |last: f64, d| last.max(d.spectrum.range()[1]));
+        let beyond = (1..=BEYOND.0).map(|i| high * BEYOND.1.powi(i)).filter(|w| *w < last);
+        even([low, high], EVEN).into_iter().chain(by_energy).chain(beyond).collect()
+    }
+
     /// The lowest and highest frequency (rad/s) with energy of irregular seas worth a point; `None` without one.
     pub(super) fn range(&self) -> Option<[f64; 2]> {
         let of = |d: &Directional| SHARES.map(|s| d.spectrum.quantile(s));
@@ -70,20 +85,25 @@ impl Trains {
     }
 }
 
-/// Points over a range: some evenly, and some dense about natural frequencies, given each with its damping ratio. Growing.
-pub(super) fn grid([low, high]: [f64; 2], even: usize, natural: &[(f64, f64)]) -> Vec<f64> {
+/// Points with others dense about natural frequencies, given each with its damping ratio, that lie between them. Growing.
+pub(super) fn resolved(mut points: Vec<f64>, natural: &[(f64, f64)]) -> Vec<f64> {
     /// Points about a natural frequency, how many half widths they reach from it, and the smallest half width taken.
     const ABOUT: (i32, f64, f64) = (24, 60.0, 1e-4);
     let (count, reach, least) = ABOUT;
-    let mut all: Vec<f64> = (0..=even).map(|i| low + (high - low) * i as f64 / even as f64).collect();
+    let ends = points.iter().fold([f64::INFINITY, 0.0], |[low, high], w| [w.min(low), w.max(high)]);
     for (w, ratio) in natural {
         let step = f64::asinh(reach) / f64::from(count);
         let about = (-count..=count).map(|i| w * (1.0 + ratio.max(least) * (f64::from(i) * step).sinh()));
-        all.extend(about.filter(|w| *w > low && *w < high));
+        points.extend(about.filter(|w| *w > ends[0] && *w < ends[1]));
     }
-    all.sort_by(f64::total_cmp);
-    all.dedup_by(|a, b| *a - *b <= 1e-12 * *b);
-    all
+    points.sort_by(f64::total_cmp);
+    points.dedup_by(|a, b| *a - *b <= 1e-12 * *b);
+    points
+}
+
+/// Points evenly over a range, its ends among them.
+pub(super) fn even([low, high]: [f64; 2], count: usize) -> Vec<f64> {
+    (0..=count).map(|i| low + (high - low) * i as f64 / count as f64).collect()
 }
 
 /// The bounds midway between points, within two ends: one more than the points.
