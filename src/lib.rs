@@ -10,6 +10,7 @@ pub mod connector;
 pub mod hydro;
 pub mod language;
 pub mod model;
+pub mod post;
 pub mod repl;
 pub mod report;
 pub mod session;

@@ -29,6 +29,7 @@ const MENUS: [&str; 15] = [
     "BLOCK",
     "MESH",
     "PGEN",
+    "BUILDG",
     "HSTATICS",
     "FREQ_RESPONSE",
 ];

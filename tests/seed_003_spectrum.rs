@@ -53,7 +53,6 @@ fn fifty_lines_of_equal_energy_have_the_printed_frequencies_and_ordinates() {
         }
         assert!(((2.0 * band.energy).sqrt() - 0.3147).abs() < 5e-5);
     }
-    println!("{frequency:e} {number:e} {ordinate:e} {last:e}");
     // printed to 1e-4; towed-tether.md found the same: one unit in the last digit at most
     assert!(frequency < 6.5e-5, "{frequency}");
     assert!(number < 1.3e-4, "{number}");

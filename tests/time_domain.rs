@@ -36,6 +36,7 @@ fn settings(observed: f64, dt: f64) -> Settings {
         capsize: true,
         adaptive: None,
         keep: true,
+        transient: 0.0,
     }
 }
 
@@ -143,4 +144,58 @@ fn a_free_top_keeps_energy_and_angular_momentum_to_the_order_of_the_step() {
     for pair in errors.windows(2) {
         assert!((pair[0] / pair[1]).log2() > 1.8, "{errors:?}");
     }
+}
+
+#[test]
+fn coulomb_friction_takes_the_same_from_every_swing_and_stops_the_cart() {
+    // 1000 kg on the ground, friction 0.05, on 4000 N/m: each half swing is 2 mu m g / k shorter than the one before; it stops
+    // where the spring no longer overcomes the friction
+    let weight = 1000.0 * 9.80665;
+    let model = model(&format!(
+        "MEDIT\n*G 0 0 0\n&DESCRIBE BODY CART -IGNORE Y RX RY RZ\n*C 0 0 0\n#WEIGHT *C {weight} 1 1 1\n\
+         ~REST GAP 0.05\nCONNECTOR R -EULER 0 90 0 ~REST *C\n~SPRING GSPR BOTH X 4000 1E9 -LEN 0\n\
+         CONNECTOR S ~SPRING *C *G\nEND\n&INSTATE -LOCATE CART 2 0 0\n"
+    ));
+    let made = run(&model, settings(20.0, 0.002), vec![]);
+    let places = x(&made.history);
+    let turns: Vec<f64> = places
+        .windows(3)
+        .filter(|w| (w[1] - w[0]) * (w[2] - w[1]) < 0.0 && (w[1] - w[0]).abs() > 1e-9)
+        .map(|w| w[1].abs())
+        .collect();
+    let loss = 2.0 * 0.05 * weight / 4000.0;
+    for (n, turn) in turns.iter().take(7).enumerate() {
+        let exact = 2.0 - loss * (n + 1) as f64;
+        // the weight comes upon the contact at the start and swings there: 1e-8 m; the turn lies between two steps
+        assert!((turn - exact).abs() < 1e-3, "{n} {turn} {exact}");
+    }
+    let last = places.last().unwrap();
+    assert!(last.abs() <= loss / 2.0 && (last - places[places.len() - 500]).abs() < 1e-6, "{last}");
+}
+
+#[test]
+fn a_pendulum_swings_with_the_period_of_its_large_angle() {
+    // 1000 kg on a pin 10 m below it, let go at 60 degrees: T = 4 K(sin 30) sqrt(L/g) = 1.0731820 * 2 pi sqrt(L/g)
+    // (Abramowitz and Stegun 17.3.1: K at modulus 0.5 is 1.6857503548)
+    let weight = 1000.0 * 9.80665;
+    let (sin, cos) = 60f64.to_radians().sin_cos();
+    let (x0, z0) = (10.0 * sin, -10.0 * cos);
+    let model = model(&format!(
+        "MEDIT\n*G 0 0 0\n&DESCRIBE BODY BOB\n*C 0 0 0\n*PIN 0 0 10\n#WEIGHT *C {weight} 0.1 0.1 0.1\nEND\n\
+         &INSTATE -LOCATE BOB {x0} 0 {z0} 0 -60 0\nMEDIT\n~P SPR X 1E9 Y 1E9 Z 1E9\nCONNECTOR H ~P *PIN *G\nEND\n"
+    ));
+    let period = 4.0 * 1.685_750_354_8 * (10.0f64 / 9.80665).sqrt();
+    let made = run(&model, settings(3.0 * period, 0.005), vec![]);
+    let history = &made.history;
+    let places = x(history);
+    let times = history.times();
+    // the body's moment of inertia about the pin is m (L^2 + 0.01): its period longer by 0.5e-4
+    let crossings: Vec<f64> = (1..places.len())
+        .filter(|i| places[i - 1] < 0.0 && places[*i] >= 0.0)
+        .map(|i| times[i - 1] - places[i - 1] * (times[i] - times[i - 1]) / (places[i] - places[i - 1]))
+        .collect();
+    let found = crossings[1] - crossings[0];
+    let exact = period * (1.0f64 + 1e-4).sqrt();
+    // of the step: (w h)^2 / 12 of the period, w = 2 pi / 6.8 s, a little more at large angles
+    assert!((found / exact - 1.0).abs() < 1e-5, "{found} {exact}");
 }

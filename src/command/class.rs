@@ -38,7 +38,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         known_curves(job, &read)?;
     }
     let mut notices = type_notices(&read, job.units);
-    notices.extend(unknown_fatigue(&read));
+    notices.extend(unknown_fatigue(&read, job));
     let record = ClassRecord { args: read, defaults: job.model.defaults };
     let key = Model::key(&name.text);
     let mut records = vec![record];
@@ -98,10 +98,11 @@ pub fn known_curves(job: &Job, args: &Args) -> Outcome<()> {
     Ok(())
 }
 
-/// What is said of a fatigue curve that nothing defines.
-fn unknown_fatigue(args: &Args) -> Option<Diagnostic> {
+/// What is said of a fatigue curve that nothing defines yet.
+fn unknown_fatigue(args: &Args, job: &Job) -> Option<Diagnostic> {
     let value = args.option("-C_SN").and_then(|given| given.values.first())?;
-    let name = value.word().filter(|w| !["CHAIN", "WIRE"].iter().any(|known| known.eq_ignore_ascii_case(w)))?;
-    let text = format!("{name} is kept as the name of an S-N curve that is not defined here; CHAIN and WIRE are known");
-    Some(*Diagnostic::remark(text, value.span))
+    let name = value.word().filter(|w| crate::post::fatigue::find(w, &job.model.fatigue).is_none())?;
+    let text = format!("{name} is kept as the name of an S-N curve that is not defined here");
+    let made = Diagnostic::remark(text, value.span);
+    Some(*made.help("&STATUS SN lists the curves; &REP_SELECT -SN CURVE TYPE S N S N .. defines one"))
 }

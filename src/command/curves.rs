@@ -21,7 +21,7 @@ static SPEC: CommandSpec = CommandSpec {
     opens: Opens::AtMost("CURVES", 1),
     data: &[ValueSpec::new("KIND", Kind::Choice(&["CURVES", "CONVOLUTION", "ENVIRONMENT"]), "what is defined")],
     detail: "&DATA CURVES TYPE NAME a1 b1 a2 b2 .. with TYPE C_PROFILE (depth, velocity), P_SPECTRUM (period, density), \
-             F_SPECTRUM (frequency, density), M_GROWTH (elevation, added OD), W_HISTORY (time, knots), LT_MULTIPLIER, \
+             F_SPECTRUM (frequency, density), M_GROWTH (elevation, added OD), W_HISTORY (time, knots), C_HISTORY (ours: time, factor of the current), LT_MULTIPLIER, \
              CT_LENGTH, EFFICIENCY, CS_VELOCITY or AM_PRESSURE; the first value grows. &DATA CURVES alone opens a menu of \
              such records, TYPE NAME a1 b1 .., up to END. &DATA CONVOLUTION TIME NAME t1 K1 .. or FREQUENCY NAME f1 K1 .. is the \
              stiffness of a viscoelastic spring, which -CONVOLUTION of a class puts in series: its force is the integral of \
@@ -115,6 +115,16 @@ pub static W_HISTORY: Command = Command {
     },
     edits: false,
     run: |job, call| define(job, call, CurveKind::WindHistory),
+};
+/// C_HISTORY within `&DATA CURVES`.
+pub static C_HISTORY: Command = Command {
+    spec: &CommandSpec {
+        data: &pairs(CurveKind::CurrentHistory),
+        owner: Owner::Ours,
+        ..curve("C_HISTORY", "current: time and factor", "&DATA CURVES\nC_HISTORY TURN 0 1 3600 0.2\nEND")
+    },
+    edits: false,
+    run: |job, call| define(job, call, CurveKind::CurrentHistory),
 };
 /// LT_MULTIPLIER within `&DATA CURVES`.
 pub static LT_MULTIPLIER: Command = Command {

@@ -7,7 +7,11 @@ use crate::hydro::database::radiation::Radiation;
 use crate::language::units::Dim;
 use crate::model::{AttachedDatabase, Body, DriftMethod, Model};
 use crate::table::{Cell, Digits, Table};
+use nalgebra::{Complex, Matrix6};
 use std::f64::consts::TAU;
+
+/// What is below this share of the largest of its kind is rounding.
+const NOTHING: f64 = 1e-9;
 
 /// One table of what the databases are, then those of each body: radiation, excitation or motions, drift.
 pub(super) fn tables(model: &Model, fits: &dyn Fn(&str) -> bool) -> Vec<Table> {
@@ -86,14 +90,21 @@ fn radiated(body: &Body, attached: &AttachedDatabase, radiation: &Radiation) -> 
     for w in &data.frequencies {
         let (Some(added), Some(damping)) = (data.added_mass_at(*w), data.damping_at(*w)) else { continue };
         let mut row: Vec<Cell> = vec![(*w).into(), (TAU / w).into()];
-        row.extend((0..6).map(|i| Cell::Number(added[(i, i)])).chain((0..6).map(|i| Cell::Number(damping[(i, i)]))));
+        row.extend(diagonal(&added).chain(diagonal(&damping)));
         push(&mut table, row);
     }
     let mut row: Vec<Cell> = vec!["infinite".into(), 0.0.into()];
-    row.extend((0..6).map(|i| Cell::Number(radiation.infinite[(i, i)])).chain((0..6).map(|_| Cell::Missing)));
+    row.extend(diagonal(&radiation.infinite).chain((0..6).map(|_| Cell::Missing)));
     push(&mut table, row);
     table.note("diagonals, about the body's origin; kg, kg m2, N s/m, N m s");
     table
+}
+
+/// The diagonal of a matrix, without what rounding leaves.
+fn diagonal(matrix: &Matrix6<f64>) -> impl Iterator<Item = Cell> {
+    let largest = matrix.diagonal().amax();
+    let values = matrix.diagonal().map(|v| if v.abs() > NOTHING * largest { v } else { 0.0 });
+    (0..6).map(move |i| Cell::Number(values[i]))
 }
 
 /// Amplitudes and phases by heading and frequency, as they were read.
@@ -117,10 +128,11 @@ fn amplitudes(
     for (heading, of_heading) in headings.iter().zip(values) {
         for (w, six) in frequencies.iter().zip(of_heading) {
             let mut row: Vec<Cell> = vec![(*heading).into(), (*w).into(), (TAU / w).into()];
-            row.extend(six.iter().map(|x| Cell::Number(x.norm())));
             let largest = six.iter().map(|x| x.norm()).fold(0.0, f64::max);
-            // of what is nothing the phase is noise
-            row.extend(six.iter().map(|x| Cell::from((x.norm() > 1e-9 * largest).then(|| x.arg()))));
+            // what is nothing but rounding has no phase
+            let sound = |x: &Complex<f64>| x.norm() > NOTHING * largest;
+            row.extend(six.iter().map(|x| Cell::Number(if sound(x) { x.norm() } else { 0.0 })));
+            row.extend(six.iter().map(|x| Cell::from(sound(x).then(|| x.arg()))));
             push(&mut table, row);
         }
     }

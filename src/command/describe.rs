@@ -148,6 +148,7 @@ fn describe(job: &mut Job, call: &Call) -> Outcome<Effect> {
                 junction,
                 linear,
                 database: None,
+                prescribed: None,
                 span,
             };
             model.bodies.insert(key.clone(), body);

@@ -11,13 +11,16 @@ use crate::language::spec::{CommandSpec, Kind, Noun, Opens, OptionSpec, ValueSpe
 use crate::language::units::Dim;
 use crate::report::disposition::{Disposition, DispositionError, RowChoice};
 use crate::report::plot::Chart;
-use crate::report::{csv, page, statistic};
+use crate::report::{csv, page};
 use crate::table::Table;
 
-const MENU: &[&str] = &["DISPOSITION"];
-const COLUMN: ValueSpec =
+/// Where these commands are offered.
+pub(super) const MENU: &[&str] = &["DISPOSITION"];
+/// A column of the table.
+pub(super) const COLUMN: ValueSpec =
     ValueSpec::new("COLUMN", Kind::Name(Noun::Selector), "number, a:b, or name with wild characters");
-const RECORD: OptionSpec = OptionSpec::new(
+/// -RECORD.
+pub(super) const RECORD: OptionSpec = OptionSpec::new(
     "-RECORD",
     &[
         ValueSpec::new("I", Kind::Integer, "first row, from 1").within(1.0, 1e15),
@@ -25,7 +28,8 @@ const RECORD: OptionSpec = OptionSpec::new(
     ],
     "rows I to J (row numbers, not times)",
 );
-const VALUES: OptionSpec = OptionSpec::new(
+/// -VALUES.
+pub(super) const VALUES: OptionSpec = OptionSpec::new(
     "-VALUES",
     &[
         COLUMN,
@@ -43,13 +47,15 @@ const HEADING: OptionSpec = OptionSpec::new(
     &[ValueSpec::new("TEXT", Kind::Text, "heading, in quotes when it holds blanks")],
     "heading above the output",
 );
-const MAG_USE: OptionSpec = OptionSpec::new("-MAG_USE", &[], "uses absolute values");
+/// -MAG_USE.
+pub(super) const MAG_USE: OptionSpec = OptionSpec::new("-MAG_USE", &[], "uses absolute values");
 
 const EXAMPLE: &str = "MEDIT\n*P 0 0 0\n~W B_CAT 4 -LEN 4000 -DEP 500\nCONNECTOR A ~W *P\nEND\nCONN_DESIGN\nTABLE A\nREPORT X Force\n\
-                       VLIST\nVIEW X 2:4 -RECORD 1 3\nSTORE example.csv\nPLOT X Force\nPLOT X Force figure.svg\nSTATISTIC X Force\n\
+                       VLIST\nVIEW X 2:4 -RECORD 1 3\nSTORE example.csv\nPLOT X Force\nPLOT X Force figure.svg\nSTATISTIC X Force -PEAKS\n\
                        SET_VARIABLE TOP 4 -RECORD 30 30\nC_SCALE 0.5 Force\nC_SHIFT 10 X\nCULL Force 0 50 200 300\nEND\nEND\nEND";
 
-const fn spec(name: &'static str, help: &'static str) -> CommandSpec {
+/// The spec of a command of this menu.
+pub(super) const fn spec(name: &'static str, help: &'static str) -> CommandSpec {
     CommandSpec { menus: MENU, example: EXAMPLE, ..CommandSpec::new(name, help) }
 }
 
@@ -63,8 +69,6 @@ pub static VIEW: Command = Command { spec: &VIEW_SPEC, edits: false, run: view }
 pub static STORE: Command = Command { spec: &STORE_SPEC, edits: false, run: store };
 /// PLOT.
 pub static PLOT: Command = Command { spec: &PLOT_SPEC, edits: false, run: plot };
-/// STATISTIC.
-pub static STATISTIC: Command = Command { spec: &STATISTIC_SPEC, edits: false, run: statistics };
 /// SET_VARIABLE.
 pub static SET_VARIABLE: Command = Command { spec: &SET_VARIABLE_SPEC, edits: false, run: set_variable };
 /// C_SCALE.
@@ -74,7 +78,8 @@ pub static C_SHIFT: Command = Command { spec: &C_SHIFT_SPEC, edits: false, run: 
 /// CULL.
 pub static CULL: Command = Command { spec: &CULL_SPEC, edits: false, run: cull };
 
-const ANY_COLUMN: ValueSpec = COLUMN.or("all columns");
+/// A column that may be left out.
+pub(super) const ANY_COLUMN: ValueSpec = COLUMN.or("all columns");
 static REPORT_SPEC: CommandSpec = CommandSpec {
     data: &[ANY_COLUMN],
     repeat: 1,
@@ -121,13 +126,6 @@ static PLOT_SPEC: CommandSpec = CommandSpec {
              directions from +X, to the right, toward +Y, up, and has the other columns as distances from the middle.",
     ..spec("PLOT", "plots columns against the first one")
 };
-static STATISTIC_SPEC: CommandSpec = CommandSpec {
-    data: &[COLUMN, ANY_COLUMN],
-    repeat: 1,
-    options: &[RECORD, VALUES, HARD, BOTH, MAG_USE],
-    detail: "The first column is the independent one; the extremes are given with their place in it.",
-    ..spec("STATISTIC", "mean, deviation and extremes of columns")
-};
 static SET_VARIABLE_SPEC: CommandSpec = CommandSpec {
     data: &[ValueSpec::new("VAR", Kind::Text, "global variable"), COLUMN],
     options: &[RECORD, VALUES],
@@ -161,7 +159,8 @@ static CULL_SPEC: CommandSpec = CommandSpec {
     ..spec("CULL", "leaves out the rows inside of ranges")
 };
 
-fn here(job: &Job, span: Span) -> Outcome<&Disposition> {
+/// The menu a command works in.
+pub(super) fn here(job: &Job, span: Span) -> Outcome<&Disposition> {
     match job.menu() {
         Menu::Disposition(d) => Ok(d),
         _ => Err(Diagnostic::error("no result is being disposed of", span)),
@@ -169,7 +168,7 @@ fn here(job: &Job, span: Span) -> Outcome<&Disposition> {
 }
 
 /// An error of the library at the word it is about, else at the command.
-fn refused(args: &Args, error: &DispositionError) -> Box<Diagnostic> {
+pub(super) fn refused(args: &Args, error: &DispositionError) -> Box<Diagnostic> {
     let named = match error {
         // the last of that name: a file or variable before the columns may have it too
         DispositionError::Column(c) => {
@@ -184,7 +183,8 @@ fn refused(args: &Args, error: &DispositionError) -> Box<Diagnostic> {
     Diagnostic::error(error.to_string(), named.unwrap_or(args.span)).help("VLIST lists the columns")
 }
 
-fn selectors(args: &Args, from: usize) -> Vec<&str> {
+/// The words of a record from a position on.
+pub(super) fn selectors(args: &Args, from: usize) -> Vec<&str> {
     args.data.get(from..).unwrap_or_default().iter().filter_map(|v| v.word()).collect()
 }
 
@@ -199,7 +199,7 @@ fn rows(args: &Args) -> RowChoice {
 }
 
 /// The columns a record chooses, as a table with scales, shifts and -MAG_USE applied.
-fn chosen(job: &Job, args: &Args, from: usize) -> Outcome<Table> {
+pub(super) fn chosen(job: &Job, args: &Args, from: usize) -> Outcome<Table> {
     let d = here(job, args.span)?;
     let result = d.columns(&selectors(args, from)).and_then(|c| d.extract(&c, &rows(args), true, job.units));
     let mut table = result.map_err(|e| refused(args, &e))?;
@@ -313,18 +313,6 @@ fn plot(job: &mut Job, call: &Call) -> Outcome<Effect> {
             job.say(&text);
         }
     }
-    Ok(Effect::Done)
-}
-
-fn statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    let args = &call.args;
-    here(job, args.span)?.numeric(&selectors(args, 0)).map_err(|e| refused(args, &e))?;
-    let table = chosen(job, args, 0)?;
-    let count = table.columns.len();
-    let (independent, described) = if count > 1 { (Some(0), (1..count).collect()) } else { (None, vec![0]) };
-    let made = statistic::in_units(&table, independent, &described, job.units);
-    let text = format!("{}\n\n{}", made.title, page::grid(&made, job.units).join("\n"));
-    send(job, args, &text)?;
     Ok(Effect::Done)
 }
 

@@ -2,27 +2,28 @@
 //!
 //! Source: reference/model.md, "Environment".
 
-use super::{Call, Command, Effect, Job, sea_options};
+use super::{Call, Command, Effect, Job, sea_options, wind_options};
 use crate::language::args::{Args, Given};
 use crate::language::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use crate::language::name as rule;
+use crate::language::select::Owner;
 use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
-use crate::model::{Current, Curve, CurveKind, Environment, Formula, Model, Sea, Thing, TimeWindow, Wind, find};
+use crate::model::{Current, Curve, CurveKind, Environment, Formula, Model, Sea, Thing, TimeWindow, find};
 
 /// &ENV.
 pub static ENV: Command = Command { spec: &ENV_SPEC, edits: false, run };
 /// ENV within `&DATA ENVIRONMENT`.
 pub static NAMED_ENV: Command = Command { spec: &NAMED_SPEC, edits: false, run: define };
 
-const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
+pub(super) const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(dim), help)
 }
-const fn text(name: &'static str, help: &'static str) -> ValueSpec {
+pub(super) const fn text(name: &'static str, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Text, help)
 }
-const fn curve(help: &'static str) -> ValueSpec {
+pub(super) const fn curve(help: &'static str) -> ValueSpec {
     ValueSpec::new("NAME", Kind::Name(Noun::Curve), help)
 }
 
@@ -36,13 +37,7 @@ const SEA: &[ValueSpec] = &[
 const fn choice(name: &'static str, words: &'static [&'static str], help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Choice(words), help)
 }
-/// Codes and laws of the mean wind; reference/model.md names no types, so these are the field's usual ones.
-const PROFILES: &[&str] = &["POWER", "LOGARITHMIC", "API", "NPD", "ISO", "ABS", "DNV"];
-/// Codes of a design wind.
-const DESIGN_WINDS: &[&str] = &["API", "NPD", "ISO", "ABS", "DNV"];
-/// Gust spectra known without a curve.
-const GUSTS: [&str; 7] = ["API", "NPD", "ISO", "OCHI", "HARRIS", "DAVENPORT", "KAIMAL"];
-const PERIODS: &[ValueSpec] = &[number("T", Dim::Time, "period").positive()];
+pub(super) const PERIODS: &[ValueSpec] = &[number("T", Dim::Time, "period").positive()];
 
 /// -SEA.
 pub(super) const SEA_OPTION: OptionSpec = OptionSpec::new("-SEA", SEA, "sea").default("none");
@@ -102,40 +97,14 @@ const OPTIONS: &[OptionSpec] = &[
         &[number("TB", Dim::Time, "time")],
         "time at which all wave components are in phase",
     ),
-    OptionSpec::new(
-        "-WIND",
-        &[
-            number("SPEED", Dim::WindSpeed, "speed").not_negative(),
-            number("DIR", Dim::Angle, "direction it comes from"),
-        ],
-        "wind, in knots",
-    )
-    .default("none"),
-    OptionSpec::new(
-        "-W_PROFILE",
-        &[choice("TYPE", PROFILES, "type"), number("EXP", Dim::None, "exponent").or("that of the type").not_negative()],
-        "wind profile",
-    ),
-    OptionSpec::new(
-        "-W_DESIGN",
-        &[
-            choice("TYPE", DESIGN_WINDS, "type"),
-            number("DURATION", Dim::Time, "averaging time").or("that of the type").positive(),
-        ],
-        "design wind",
-    ),
-    OptionSpec::new(
-        "-W_SPECTRUM",
-        &[text("TYPE", "API, NPD, ISO, OCHI, HARRIS, DAVENPORT, KAIMAL, or a spectrum curve")],
-        "gust spectrum",
-    ),
-    OptionSpec::new("-W_HISTORY", &[curve("W_HISTORY curve")], "wind history"),
-    OptionSpec::new("-W_PERIOD", PERIODS, "periods of the gusts").repeating(1),
-    OptionSpec::new(
-        "-W_MD_CORRELATION",
-        &[number("F", Dim::None, "factor").within(-1.0, 1.0)],
-        "correlation of gusts and mean drift",
-    ),
+    wind_options::WIND,
+    wind_options::PROFILE,
+    wind_options::DESIGN,
+    wind_options::SPECTRUM,
+    wind_options::HISTORY,
+    wind_options::PERIOD,
+    wind_options::COMPONENTS,
+    wind_options::CORRELATION,
     OptionSpec::new(
         "-CURRENT",
         &[
@@ -146,9 +115,14 @@ const OPTIONS: &[OptionSpec] = &[
     )
     .repeating(2)
     .default("none"),
+    OptionSpec::new("-C_HISTORY", &[curve("C_HISTORY curve")], "factor of the current over time").owner(Owner::Ours),
     OptionSpec::new("-TIDE", &[number("CHANGE", Dim::Length, "rise of the water level")], "tide").default("0"),
     OptionSpec::new("-DEPTH", &[number("D", Dim::Length, "depth").positive()], "water depth").default("&DEFAULT"),
-    OptionSpec::new("-M_GROWTH", &[curve("M_GROWTH curve")], "marine growth"),
+    OptionSpec::new(
+        "-M_GROWTH",
+        &[curve("M_GROWTH curve"), number("RHO", Dim::Density, "density of the growth").or("1325 kg/m3").positive()],
+        "marine growth",
+    ),
     OptionSpec::new(
         "-T_PRESSURE",
         &[text("NAME", "name of temperature and pressure data")],
@@ -169,6 +143,13 @@ static ENV_SPEC: CommandSpec = CommandSpec {
              environment starts from the defaults; a new name too, and is kept; an old name edits what is kept. It stays in \
              force until the next &ENV. The sources list no types for -PROBABILITY, -SP_TYPE, -W_PROFILE, -W_DESIGN and \
              -W_SPECTRUM: those taken are the field's usual ones. Depth and tide together must leave water. \
+             -W_SPECTRUM adds gusts in the time domain, the same at all places and heights, on the speed 10 m up: API RP 2A 20th edition; NPD \
+             and ISO (Froya); Ochi and Shin; Harris; Davenport; Kaimal; the drag coefficient of the last four is Wu's, 0.0008 + 0.000065 U. \
+             The speed of -WIND is then an hourly mean: periods from an hour to a second are taken, in -W_COMPONENTS of equal energy or about \
+             those of -W_PERIOD, with phases of -SEED. A curve is a density over rad/s in ft2/s or m2/s, as it is; INTENSITY scales any \
+             spectrum. -W_HISTORY takes the place of the speed of -WIND in the time domain, with its direction and profile; -C_HISTORY \
+             multiplies the current; both are straight between their points, and with the gusts grow over -RAMP from the means, \
+             on which statics stands. -M_GROWTH adds to the diameter of tubes, with its weight, buoyancy and inertia, by the elevations at which they stand when loads are made; not to other pieces, nor to lines and rods. -W_MD_CORRELATION other than 0 is refused in the time domain. \
              -WIND is the mean 10 m above the water over the time of the formula (1 h for API, NPD, ISO; 10 min for DNV; 1 min for \
              ABS); below 1 m it is that of 1 m. -W_PROFILE: POWER, exponent 1/7 unless given (also without the option); \
              LOGARITHMIC, with Charnock's roughness; API RP 2A 20th edition, exponent 0.125; NPD (Froya) and ISO 19901-1; DNV-RP-C205; \
@@ -256,7 +237,7 @@ fn leaves_water(job: &Job, args: &Args, env: &Environment) -> Outcome<()> {
 }
 
 /// Periods, each once.
-fn periods(given: &Given) -> Outcome<()> {
+pub(super) fn periods(given: &Given) -> Outcome<()> {
     for (index, value) in given.values.iter().enumerate() {
         if let Some(first) = given.values.iter().take(index).find(|v| v.content == value.content) {
             return Err(Diagnostic::error(format!("{} has the same period twice", given.spec.name), value.span)
@@ -283,9 +264,6 @@ pub(super) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<
         "-TIDE" => env.tide = at(0),
         "-RAMP" => env.ramp = at(0),
         "-SPREAD" => env.spreading = at(0),
-        "-WIND" => env.wind = at(0).zip(at(1)).map(|(speed, direction)| Wind { speed, direction }),
-        "-W_PROFILE" => env.wind_profile = Some(formula(given)),
-        "-W_DESIGN" => env.design_wind = Some(formula(given)),
         "-SP_TYPE" => env.sea_period = Some(formula(given)),
         "-SEA" => env.sea = Some(sea(job, given)?),
         "-A_SEA" => env.added_sea = Some(sea(job, given)?),
@@ -302,17 +280,23 @@ pub(super) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<
             });
         }
         "-CURRENT" => env.current = Some(current(job, given)?),
-        "-S_PERIOD" | "-MD_PERIOD" | "-W_PERIOD" | "-E_PERIOD" => periods(given)?,
-        "-W_SPECTRUM" => spectrum(job, given, &GUSTS)?,
-        "-W_HISTORY" => known_curve(job, given, 0, CurveKind::WindHistory)?,
-        "-M_GROWTH" => known_curve(job, given, 0, CurveKind::MarineGrowth)?,
+        "-S_PERIOD" | "-MD_PERIOD" | "-E_PERIOD" => periods(given)?,
+        "-C_HISTORY" => {
+            known_curve(job, given, 0, CurveKind::CurrentHistory)?;
+            env.current_history = Some(formula(given));
+        }
+        "-M_GROWTH" => {
+            known_curve(job, given, 0, CurveKind::MarineGrowth)?;
+            env.growth = Some(formula(given));
+        }
         _ => {}
     }
+    wind_options::apply(job, env, given)?;
     sea_options::apply(env, given)
 }
 
 /// A name with its number.
-fn formula(given: &Given) -> Formula {
+pub(super) fn formula(given: &Given) -> Formula {
     Formula { kind: given.word(0).unwrap_or_default().to_string(), value: given.number(1), span: given.span }
 }
 
@@ -334,7 +318,7 @@ fn sea(job: &Job, given: &Given) -> Outcome<Sea> {
 }
 
 /// Sees that the first word names a known spectrum or a curve that is one.
-fn spectrum(job: &Job, given: &Given, known: &[&str]) -> Outcome<()> {
+pub(super) fn spectrum(job: &Job, given: &Given, known: &[&str]) -> Outcome<()> {
     let (name, span) = (given.word(0).unwrap_or_default(), place(given, 0));
     if known.iter().any(|s| s.eq_ignore_ascii_case(name)) {
         return Ok(());
@@ -356,7 +340,7 @@ fn spectrum(job: &Job, given: &Given, known: &[&str]) -> Outcome<()> {
     }
 }
 
-fn known_curve(job: &Job, given: &Given, index: usize, kind: CurveKind) -> Outcome<()> {
+pub(super) fn known_curve(job: &Job, given: &Given, index: usize, kind: CurveKind) -> Outcome<()> {
     let name = given.values.get(index).and_then(|v| v.word()).unwrap_or_default();
     let curve = find(&job.model.curves, name, "curve", place(given, index))?;
     if curve.kind != kind {

@@ -3,7 +3,9 @@
 use super::Job;
 use super::chosen::WARNING;
 use super::sea_table::phasing;
+use super::wind_table;
 use super::written::option_as_written;
+use crate::hydro::gusts::Gusts;
 use crate::hydro::spectrum::gamma_of;
 use crate::hydro::steady::Steady;
 use crate::language::units::Dim;
@@ -95,6 +97,11 @@ fn environment(job: &Job, env: &Environment) -> Table {
                 Dim::WindSpeed,
             );
         }
+    }
+    match Gusts::of(model, env) {
+        Ok(Some(gusts)) => table = wind_table::facts(table, &gusts),
+        Ok(None) => {}
+        Err(error) => table.note(format!("{WARNING}{}", error.text(job.units))),
     }
     table = match &env.current {
         None => table,

@@ -1,5 +1,6 @@
 //! The job that commands act on: model, units, menus, titles, settings, output.
 
+use super::buildg::Building;
 use super::frequency::Found;
 use super::pgen::Planes;
 use crate::language::args::Args;
@@ -55,6 +56,8 @@ pub enum Menu {
     Hydrostatics(String),
     /// The frequency domain, with what it has found.
     Frequency(Box<Found>),
+    /// A table being given by the records of `&BUILDG`.
+    Building(Box<Building>),
     /// Sections of a hull being given by `PGEN`.
     Planes(Box<Planes>),
     /// The menu of this name whose opener was refused: its commands are passed over up to its `END`.
@@ -77,6 +80,7 @@ impl Menu {
             Menu::Surface => "SURFACE",
             Menu::Block => "BLOCK",
             Menu::Mesh => "MESH",
+            Menu::Building(_) => "BUILDG",
             Menu::Planes(_) => "PGEN",
             Menu::Hydrostatics(_) => "HSTATICS",
             Menu::Frequency(_) => "FREQ_RESPONSE",
@@ -97,6 +101,7 @@ impl Menu {
             "SURFACE" => "END_&SURFACE",
             "BLOCK" => "END_BLOCK",
             "MESH" => "END_MESH",
+            "BUILDG" => "END_&BUILDG",
             "PGEN" => "END_PGEN",
             "HSTATICS" => "END_HSTATICS",
             "FREQ_RESPONSE" => "END_FREQ_RESPONSE",

@@ -99,6 +99,7 @@ pub(super) fn insert(model: &mut Model, name: &str, at: Position, [weight, displ
         junction: Some(Junction { displacement, volume }),
         linear: None,
         database: None,
+        prescribed: None,
         span,
     };
     let part = Part { weights, ..Part::new(name, name, Place::default(), span) };

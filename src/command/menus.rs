@@ -3,7 +3,7 @@
 use super::assembly::build_assembly;
 use super::class::known_curves;
 use super::connector::build_connector;
-use super::{Call, Command, Effect, INMODEL_FILE, Job, Menu, pgen, piece};
+use super::{Call, Command, Effect, INMODEL_FILE, Job, Menu, buildg, pgen, piece};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::record::Word;
 use crate::language::source::Span;
@@ -47,6 +47,7 @@ pub fn opened_by(job: &Job, spec: &CommandSpec, words: &[Word]) -> Option<&'stat
         Opens::Nothing => None,
         Opens::Menu(name) => Some(name),
         Opens::AtMost(name, count) => (words.len() <= count + 1).then_some(name),
+        Opens::AtMostElse(name, count, other) => Some(if words.len() <= count + 1 { name } else { other }),
         Opens::WithOption(name, option) => {
             let given = |w: &Word| w.text.len() >= 3 && option.starts_with(&w.text.to_ascii_uppercase());
             words.iter().any(given).then_some(name)
@@ -99,6 +100,7 @@ pub fn finish(job: &mut Job, left: Menu, at: Option<Span>) -> Vec<Diagnostic> {
             told
         }
         Menu::Medit | Menu::Block | Menu::Mesh => piece::completed(job, at),
+        Menu::Building(building) => buildg::built(job, &building, at).err().into_iter().map(|e| *e).collect(),
         Menu::Planes(planes) => pgen::build(job, *planes, at).err().into_iter().map(|e| *e).collect(),
         _ => Vec::new(),
     }

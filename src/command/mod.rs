@@ -11,6 +11,7 @@ mod assembly;
 mod assembly_table;
 mod body_status;
 mod body_tables;
+mod buildg;
 mod chosen;
 mod class;
 mod conn_design;
@@ -26,6 +27,7 @@ mod environment;
 mod environment_table;
 mod equilibrium;
 mod excursion;
+mod fatigue_table;
 mod file;
 mod forces;
 mod frequency;
@@ -40,6 +42,7 @@ mod line_types;
 mod lines;
 mod loads;
 mod loads_table;
+mod member;
 mod menus;
 mod message;
 mod names;
@@ -48,19 +51,26 @@ mod pgen;
 mod picture;
 mod piece;
 mod pipe;
+mod prescribe;
+mod rep_select;
 mod report_menu;
 mod rigging;
 mod sea_options;
 mod sea_table;
 mod select;
+mod series;
+mod statistic;
 mod status;
 mod surface;
 mod tdom;
 mod units;
 mod vary;
 mod weight;
+mod wind_options;
+mod wind_table;
 mod written;
 
+pub use buildg::take as take_row;
 pub use file::write_open_files;
 pub use job::{Job, Menu, Settings};
 pub use menus::{finish, opened_by};
@@ -168,6 +178,7 @@ pub static COMMANDS: &[&Command] = &[
     &junction::JUNCTION,
     &assembly::ASSEMBLY,
     &pipe::PIPE_COMMAND,
+    &prescribe::PRESCRIBE,
     &names::DELETE,
     &names::RENAME,
     &alter::ALTER,
@@ -191,6 +202,7 @@ pub static COMMANDS: &[&Command] = &[
     &curves::F_SPECTRUM,
     &curves::M_GROWTH,
     &curves::W_HISTORY,
+    &curves::C_HISTORY,
     &curves::LT_MULTIPLIER,
     &curves::CT_LENGTH,
     &curves::EFFICIENCY,
@@ -207,11 +219,20 @@ pub static COMMANDS: &[&Command] = &[
     &disposition::VIEW,
     &disposition::STORE,
     &disposition::PLOT,
-    &disposition::STATISTIC,
+    &statistic::STATISTIC,
     &disposition::SET_VARIABLE,
     &disposition::C_SCALE,
     &disposition::C_SHIFT,
     &disposition::CULL,
+    &series::SPECTRUM,
+    &series::FFT,
+    &series::EXTREMES,
+    &series::EXCEEDANCE,
+    &series::HISTOGRAM,
+    &series::RAINFLOW,
+    &series::HARMONIC,
+    &buildg::BUILDG,
+    &rep_select::REP_SELECT,
     &status::STATUS,
     &picture::PICTURE,
     &units::DIMEN,

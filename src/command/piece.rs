@@ -3,7 +3,7 @@
 //! Source: reference/model.md, "Hull".
 
 use super::written::option_as_written;
-use super::{Call, Command, Effect, Job};
+use super::{Call, Command, Effect, Job, member};
 use crate::hydro;
 use crate::language::args::{self, Args, Value};
 use crate::language::diagnostic::{Diagnostic, Outcome};
@@ -12,7 +12,7 @@ use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Form, Kind, Noun, OptionSpec, ValueSpec};
 use crate::language::token::Kind as Lex;
 use crate::language::units::Dim;
-use crate::model::{Model, Part, Piece, Position, Shape, Thing, find};
+use crate::model::{Model, Part, Piece, Position, Shape, Thing, WaveAction, find};
 use nalgebra::Vector3;
 
 /// PANEL.
@@ -46,11 +46,12 @@ pub const OPTIONS: [OptionSpec; 12] = [
         "-DIFTYPE",
         &[ValueSpec::new(
             "TYPE",
-            Kind::Choice(&["3DDIF", "NONE"]),
-            "with three-dimensional diffraction, or without any",
+            Kind::Choice(&["3DDIF", "NONE", "FK"]),
+            "3DDIF: in the hull of a hydrodynamic database; NONE: as its form says; FK (ours): the pressure of waves it does not change",
         )],
-        "diffraction; kept",
-    ),
+        "what waves do to it",
+    )
+    .default("NONE: a TUBE is a member, any other piece feels no waves"),
     OptionSpec::new(
         "-CS_VELOCITY",
         &[ValueSpec::new("NAME", Kind::Name(Noun::Curve), "curve of factors by velocity")],
@@ -83,7 +84,10 @@ pub const READING: &str = "A piece belongs to the part described last and is giv
      from its two sides (a hollow counts as if nothing sheltered it). |v| v is integrated over the height, by the profiles of \
      &ENV. CS is 1 1 1 where it is not given, so that wind in force is never without effect on a hull; -CS_WIND 0 0 0 turns it \
      off. A piece of permeability 0 or less takes none unless CS is given, an interior (less than 0) never. Tubes are \
-     prisms of 64 sides for it. &STATUS PIECES lists CS, &STATUS LOADS the forces.";
+     prisms of 64 sides for it. Under way in waves a TUBE is a member by Morison's formula (&HELP TUBE). Any other piece feels no waves of first order, \
+     and keeps the buoyancy of the mean level, unless a hydrodynamic database holds it (-DIFTYPE 3DDIF) or it has -DIFTYPE FK: then the \
+     pressure that the waves have without it is integrated up to their surface, without diffraction and radiation. TDOM warns of pieces \
+     that feel none. &STATUS PIECES lists CS, &STATUS LOADS the forces.";
 
 static PANEL_SPEC: CommandSpec = CommandSpec {
     menus: &["INMODEL", "MEDIT", "BLOCK", "MESH"],
@@ -204,14 +208,22 @@ pub fn begun(job: &mut Job, args: &Args, name: &str, span: Span, shape: Shape) -
             find(&model.curves, word, "curve", value.span)?;
         }
     }
-    let acting = ["-PERMEABILITY", "-CS_WIND", "-CS_CURRENT"];
+    let acting = ["-PERMEABILITY", "-CS_WIND", "-CS_CURRENT", "-DIFTYPE"];
     let kept: Vec<_> = own.filter(|g| !acting.contains(&g.spec.name)).cloned().collect();
     if !kept.is_empty() {
         let list: Vec<String> = kept.iter().map(|g| option_as_written(g, job.units)).collect();
         job.remark(format!("kept, without effect yet: {}", list.join(" ")), span);
     }
     let permeability = args.option_number("-PERMEABILITY").unwrap_or(1.0);
+    let member = matches!(shape, Shape::Tube { .. }).then(|| member::coefficients(args, permeability)).transpose()?;
+    let waves = match args.option_word("-DIFTYPE") {
+        Some("3DDIF") => WaveAction::Database,
+        Some("FK") if member.is_none() => WaveAction::Pressure,
+        _ => WaveAction::ByForm,
+    };
     let usual = if permeability > 0.0 { [1.0; 3] } else { [0.0; 3] };
+    // a member's drag is its own, unless -CS_CURRENT says other
+    let by_area = member.is_none() || args.has("-CS_CURRENT");
     let mut factors = |option: &str| {
         let given = args.option(option).map(|g| (g.span, [0, 1, 2].map(|i| g.number(i).unwrap_or(1.0))));
         if let Some((at, _)) = given.filter(|(_, cs)| permeability < 0.0 && *cs != [0.0; 3]) {
@@ -225,7 +237,9 @@ pub fn begun(job: &mut Job, args: &Args, name: &str, span: Span, shape: Shape) -
         permeability,
         shape,
         cs_wind: factors("-CS_WIND"),
-        cs_current: factors("-CS_CURRENT"),
+        cs_current: if by_area { factors("-CS_CURRENT") } else { [0.0; 3] },
+        member,
+        waves,
         kept,
         span,
     })

@@ -17,7 +17,7 @@ const SHOWN: [f64; 2] = [1e-6, 0.997];
 /// One table for each sea of the environment in force, or of those kept under a name that is chosen.
 pub(super) fn spectra(job: &Job, chosen: Option<&dyn Fn(&str) -> bool>, at: Span) -> Outcome<Vec<Table>> {
     let mut tables = Vec::new();
-    for env in environments(job, chosen) {
+    for env in chosen_environments(job, chosen) {
         match sea(job, env, at)? {
             Some(sea) => tables.extend(sea.trains.iter().map(|train| components(env, &sea, train))),
             None => {
@@ -33,14 +33,15 @@ pub(super) fn spectra(job: &Job, chosen: Option<&dyn Fn(&str) -> bool>, at: Span
 /// The spectra as density over frequency, a table for each plot.
 pub(super) fn densities(job: &Job, chosen: Option<&dyn Fn(&str) -> bool>, at: Span) -> Outcome<Vec<Table>> {
     let mut tables = Vec::new();
-    for env in environments(job, chosen) {
+    for env in chosen_environments(job, chosen) {
         let trains = sea(job, env, at)?.map_or(Vec::new(), |s| s.trains);
         tables.extend(trains.iter().filter_map(|t| density(env, t)));
     }
     Ok(tables)
 }
 
-fn environments<'a>(job: &'a Job, chosen: Option<&'a dyn Fn(&str) -> bool>) -> Vec<&'a Environment> {
+/// The environment in force, or those kept under a name that is chosen.
+pub(super) fn chosen_environments<'a>(job: &'a Job, chosen: Option<&'a dyn Fn(&str) -> bool>) -> Vec<&'a Environment> {
     match chosen {
         None => vec![&job.model.environment],
         Some(fits) => job.model.environments.values().filter(|e| fits(&e.name)).collect(),
@@ -124,7 +125,7 @@ fn components(env: &Environment, sea: &Sea, train: &Train) -> Table {
 }
 
 /// An angle from 0 to a turn; one that a rounding error keeps just below a turn is 0.
-fn turn(angle: f64) -> f64 {
+pub(super) fn turn(angle: f64) -> f64 {
     let turned = angle.rem_euclid(TAU);
     if TAU - turned < 1e-9 { 0.0 } else { turned }
 }

@@ -9,7 +9,10 @@ use super::forces::{forces, foundations};
 use super::loads_table::loads;
 use super::offsets::offsets;
 use super::written::{as_written, kind_data, option_as_written};
-use super::{Call, Command, Effect, Job, Menu, body_status, body_tables, database_table, line_types, sea_table};
+use super::{
+    Call, Command, Effect, Job, Menu, body_status, body_tables, database_table, fatigue_table, line_types, member,
+    prescribe, sea_table, wind_table,
+};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::{Owner, choose};
 use crate::language::spec::{CommandSpec, Kind, Noun, Opens, OptionSpec, ValueSpec};
@@ -35,6 +38,7 @@ const KINDS: &[(&str, Owner, &str)] = &[
     ("MODES", Owner::Ours, "natural periods, damping and shapes of small motions about where the bodies stand"),
     ("CURVES", Owner::Moses, "curves"),
     ("ENVIRONMENT", Owner::Moses, "the environment in force, or one kept under a name"),
+    ("WIND_SPECTRUM", Owner::Ours, "the components of the gusts of an environment, and with -PLOT their spectrum"),
     (
         "SEA_SPECTRUM",
         Owner::Moses,
@@ -51,6 +55,7 @@ const KINDS: &[(&str, Owner, &str)] = &[
     ("DIMENSIONS", Owner::Ours, "units"),
     ("DEFAULTS", Owner::Ours, "defaults"),
     ("SELECTORS", Owner::Ours, "selectors"),
+    ("SN", Owner::Ours, "fatigue curves, and those the segments of line classes go by"),
     ("LINE_TYPES", Owner::Ours, "chains and ropes of the library, for -TYPE"),
 ];
 
@@ -77,7 +82,7 @@ static SPEC: CommandSpec = CommandSpec {
     repeat: 1,
     opens: Opens::WithOption("DISPOSITION", "-DISPOSE"),
     options: &[
-        OptionSpec::new("-PLOT", &[], "plots curves, or the spectra of SEA_SPECTRUM"),
+        OptionSpec::new("-PLOT", &[], "plots curves, or the spectra of SEA_SPECTRUM and WIND_SPECTRUM"),
         body_status::ABOUT,
         OptionSpec::new(
             "-DISPOSE",
@@ -126,16 +131,18 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         "CURVES" => curves(model, &fits),
         "ENVIRONMENT" => environments(job, (!chosen.all()).then_some(&fits)),
         "SEA_SPECTRUM" => sea_table::spectra(job, (!chosen.all()).then_some(&fits), args.place(0))?,
+        "WIND_SPECTRUM" => wind_table::spectra(job, (!chosen.all()).then_some(&fits), args.place(0))?,
         "LOADS" => loads(job, &fits),
         "WEIGHT" => vec![body_tables::weights(model, &fits)],
-        "PIECES" => vec![body_tables::pieces(model, &fits)],
+        "PIECES" => std::iter::once(body_tables::pieces(model, &fits)).chain(member::members(model, &fits)).collect(),
         "HYDROSTATICS" => body_tables::hydrostatics(model, &fits, job.units),
         "DATABASE" => database_table::tables(model, &fits),
-        "BODIES" => vec![bodies(model, &fits)],
+        "BODIES" => std::iter::once(bodies(model, &fits)).chain(prescribe::motions(model, &fits)).collect(),
         "POINTS" => vec![points(model, &fits)],
         "DIMENSIONS" => vec![dimensions(job)],
         "DEFAULTS" => vec![defaults(model)],
         "SELECTORS" => vec![selectors(model, &fits)],
+        "SN" => fatigue_table::tables(job, &fits, chosen.all()),
         "LINE_TYPES" => line_types::tables(job, &args.data)?,
         _ => vec![summary(model)],
     };
@@ -157,6 +164,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         _ if !args.has("-PLOT") => Vec::new(),
         "CURVES" => tables.iter().filter(|t| chart(t)).cloned().collect(),
         "SEA_SPECTRUM" => sea_table::densities(job, (!chosen.all()).then_some(&fits), args.place(0))?,
+        "WIND_SPECTRUM" => wind_table::densities(job, (!chosen.all()).then_some(&fits), args.place(0))?,
         _ => Vec::new(),
     };
     let (columns, lines) = job.plot_size();
@@ -179,10 +187,10 @@ fn things(kind: &str) -> &'static [Thing] {
         "HYDROSTATICS" => &[Thing::Body],
         "PIECES" => &[Thing::Piece, Thing::Body, Thing::Part],
         "ASSEMBLIES" => &[Thing::Assembly],
-        "CL_FLEX" | "CLASSES" => &[Thing::Class],
+        "CL_FLEX" | "CLASSES" | "SN" => &[Thing::Class],
         "G_CONNECTOR" | "F_CONNECTOR" | "FOUNDATION" => &[Thing::Connector],
         "CURVES" => &[Thing::Curve],
-        "ENVIRONMENT" | "SEA_SPECTRUM" => &[Thing::Environment],
+        "ENVIRONMENT" | "SEA_SPECTRUM" | "WIND_SPECTRUM" => &[Thing::Environment],
         "POINTS" => &[Thing::Point],
         "SELECTORS" => &[Thing::Selector],
         _ => &[],

@@ -5,6 +5,7 @@
 use super::body_tables::pieces;
 use super::describe::PLACE;
 use super::device::existing;
+use super::member;
 use super::piece::{self, OPTIONS, READING};
 use super::{Call, Command, Effect, Job, Menu};
 use crate::hydro::hull::{MeshKind, read_mesh};
@@ -102,6 +103,8 @@ static MESH_SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("MESH", "a surface of a file, or of panels")
 };
 
+static TUBE_OPTIONS: [OptionSpec; OPTIONS.len() + member::OPTIONS.len()] = joined(&OPTIONS, &member::OPTIONS);
+
 static TUBE_SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
     menus: &["SURFACE"],
@@ -111,10 +114,9 @@ static TUBE_SPEC: CommandSpec = CommandSpec {
         ValueSpec::new("*P2", Kind::Name(Noun::Point), "centre of the other end"),
         number("OD", Dim::Section, "outer diameter").positive(),
     ],
-    options: &OPTIONS,
-    detail: "A round member with flat ends between two points of the body; it displaces the water of its whole section. Members that run into each \
-             other at a joint are each counted up to their point.",
-    example: "MEDIT\n&DESCRIBE BODY SPAR\n*BOT 0 0 -300\n*TOP 0 0 50\nEND\n&SURFACE\nTUBE HULL *BOT *TOP 480\nEND\n&STATUS PIECES",
+    options: &TUBE_OPTIONS,
+    detail: member::READING,
+    example: "MEDIT\n&DESCRIBE BODY SPAR\n*BOT 0 0 -300\n*TOP 0 0 50\nEND\n&SURFACE\nTUBE HULL *BOT *TOP 480 -CD 0.7 -CAA 0.64\nEND\n&STATUS PIECES",
     ..CommandSpec::new("TUBE", "a round member that displaces water")
 };
 

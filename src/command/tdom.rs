@@ -4,9 +4,11 @@
 
 use super::equilibrium::told;
 use super::{Call, Command, Effect, Job};
+use crate::hydro::morison::unmoved;
 use crate::language::args::Args;
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
+use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
 use crate::model::{Model, Place, Six};
@@ -96,7 +98,7 @@ static SPEC: CommandSpec = CommandSpec {
             .owner(Owner::Ours),
     ],
     detail: "Runs bodies and connectors from where they stand, at rest, over TOBSERV with the step of &ENV -TIME, in the wind, current \
-             and waves of the environment, which -RAMP lets grow. Each step balances forces, inertia included, by Newton's iteration; a \
+             and waves of the environment, which -RAMP lets grow; the statistics it prints leave out TTRA_SET. Each step balances forces, inertia included, by Newton's iteration; a \
              step that finds no balance is cut in halves, which is counted. -NEWMARK YES 0.25 0.5 is the trapezoidal rule; -NEWMARK NO \
              needs small steps. The bodies of the model stay where they stand. Results go to PRCPOST, and as the run goes to the file \
              TDOM.run in the job's folder, from which -RESTART goes on, also after the program was killed, with the digits of an \
@@ -143,6 +145,7 @@ fn settings(job: &Job, args: &Args) -> Outcome<Settings> {
         capsize: said("-NO_CAPSIZE"),
         adaptive: args.option_number("-ADAPTIVE"),
         keep: !args.has("-STATISTICS"),
+        transient: window.transient.unwrap_or(0.0),
     })
 }
 
@@ -183,9 +186,8 @@ fn begun(job: &mut Job, args: &Args, settings: Settings) -> Outcome<(Run, Option
         let text = format!("the run kept in {} is of another model, environment, step or scheme", path.display());
         return Err(refused(text).help("all must be as they were, but for the time observed"));
     }
-    made.take_up(&kept.snapshot).map_err(|e| wrong(e, job))?;
     let log = RunLog::go_on(file, path, &kept).map_err(|e| refused(e.to_string()))?;
-    made.history.values = kept.rows;
+    made.take_up(&kept.snapshot, kept.rows).map_err(|e| wrong(e, job))?;
     job.remark(format!("goes on from {} s", kept.snapshot.time), again.span);
     Ok((made, Some(log)))
 }
@@ -206,6 +208,20 @@ fn reset(job: &Job, model: &mut Model, time: f64) -> Option<Vec<(usize, Six)>> {
     Some(velocities)
 }
 
+/// Warns of pieces that displace water and that the waves of a run move by no pressure.
+fn warn_of_still_pieces(job: &mut Job, made: &Run, span: Span) {
+    if made.sea.is_none() {
+        return;
+    }
+    let pieces = made.model.bodies.values().flat_map(|b| unmoved(&made.model, b)).map(|p| p.name.as_str());
+    let list: Vec<&str> = pieces.collect();
+    if !list.is_empty() {
+        let text =
+            format!("waves of first order exert nothing on {}: neither members nor of a database", list.join(" "));
+        job.warn(format!("{text}; -DIFTYPE FK gives them the pressure of the waves"), span);
+    }
+}
+
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (args, span) = (&call.args, call.args.span);
     let settings = settings(job, args)?;
@@ -213,11 +229,12 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         return Err(Diagnostic::error("there is no body to move", span).help("&DESCRIBE BODY describes one"));
     }
     let (mut made, log) = begun(job, args, settings)?;
+    warn_of_still_pieces(job, &made, span);
     let mut going = Going::new(job, &made, log);
     let ended = made.go(&mut going);
     drop(going);
     let mut tables = vec![run_tables::told(&made)];
-    tables.extend(run_tables::extremes(&made.history));
+    tables.extend(run_tables::extremes(&made));
     let checked = match &ended {
         Ok(_) if args.has("-CHECK") => Some(check(job, &made)),
         _ => None,

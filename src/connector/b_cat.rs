@@ -14,7 +14,8 @@ use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Kind, ValueSpec};
 use crate::language::units::Dim;
 use crate::model::{
-    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, LineModel, Placement, Surroundings,
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, FatigueSegment, LineModel, Placement,
+    Surroundings,
 };
 use crate::table::Table;
 use std::sync::Arc;
@@ -183,6 +184,10 @@ impl ConnectorClass for Catenary {
 
     fn check_ends(&self, connector: &Connector, bodies: usize) -> Outcome<()> {
         checks::ends("B_CAT", connector, bodies, 2, 1)
+    }
+
+    fn fatigue_segments(&self) -> Vec<FatigueSegment> {
+        self.sections.iter().map(LineSection::fatigue).collect()
     }
 
     fn properties(&self, name: &str, surroundings: &Surroundings) -> Table {

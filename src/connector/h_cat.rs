@@ -15,7 +15,8 @@ use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
 use crate::model::{
-    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, LineModel, Placement, Surroundings,
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, FatigueSegment, LineModel, Placement,
+    Surroundings,
 };
 use crate::table::Table;
 use std::sync::Arc;
@@ -117,6 +118,10 @@ impl ConnectorClass for Hanging {
 
     fn check_ends(&self, connector: &Connector, bodies: usize) -> Outcome<()> {
         checks::ends("H_CAT", connector, bodies, 2, 2)
+    }
+
+    fn fatigue_segments(&self) -> Vec<FatigueSegment> {
+        self.sections.iter().map(LineSection::fatigue).collect()
     }
 
     fn properties(&self, name: &str, surroundings: &Surroundings) -> Table {

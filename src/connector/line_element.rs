@@ -100,7 +100,7 @@ impl LineElement {
                 if rows.first().is_some_and(|first| x < first.state.x) {
                     return whole(&self.mooring.line, x, z, guess);
                 }
-                let found = forces.at(x, rows);
+                let found = forces.pull(x);
                 Ok(Plane {
                     fairlead: [found.force, found.vertical],
                     anchor: found.anchor,

@@ -9,7 +9,9 @@ use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Kind, ValueSpec};
 use crate::language::units::Dim;
-use crate::model::{ClassError, ClassRecord, Connector, ConnectorClass, Element, PipeLayout, Surroundings};
+use crate::model::{
+    ClassError, ClassRecord, Connector, ConnectorClass, Element, FatigueSegment, PipeLayout, Surroundings,
+};
 use crate::table::Table;
 use std::sync::Arc;
 
@@ -74,6 +76,10 @@ impl ConnectorClass for Rod {
 
     fn check_ends(&self, connector: &Connector, bodies: usize) -> Outcome<()> {
         checks::ends("ROD", connector, bodies, 2, 2)
+    }
+
+    fn fatigue_segments(&self) -> Vec<FatigueSegment> {
+        self.0.iter().map(LineSection::fatigue).collect()
     }
 
     fn properties(&self, name: &str, surroundings: &Surroundings) -> Table {

@@ -11,7 +11,7 @@ use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::{Owner, choose};
 use crate::language::source::Span;
 use crate::language::units::{Dim, UnitSystem};
-use crate::model::{ClassRecord, Surroundings};
+use crate::model::{ClassRecord, FatigueSegment, Surroundings};
 use crate::table::{Cell, Digits, Table};
 use std::f64::consts::FRAC_PI_4;
 
@@ -191,6 +191,17 @@ impl LineSection {
             refine: args.option("-REFINE").and_then(|g| g.values.first()).and_then(|v| v.integer()).unwrap_or(1),
             of_type,
         })
+    }
+
+    /// What fatigue goes by in this segment; its curve is told by the class.
+    pub fn fatigue(&self) -> FatigueSegment {
+        FatigueSegment {
+            curve: None,
+            breaking: self.breaking,
+            od: self.od,
+            thickness: self.thickness,
+            length: self.length,
+        }
     }
 
     /// Weight per unstretched length in water (N/m).

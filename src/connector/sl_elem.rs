@@ -14,7 +14,8 @@ use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Kind, ValueSpec};
 use crate::language::units::Dim;
 use crate::model::{
-    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, LineModel, Placement, Surroundings,
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, FatigueSegment, LineModel, Placement,
+    Surroundings,
 };
 use crate::table::Table;
 use std::sync::Arc;
@@ -73,6 +74,10 @@ impl ConnectorClass for Spring {
 
     fn check_ends(&self, connector: &Connector, bodies: usize) -> Outcome<()> {
         checks::ends("SL_ELEM", connector, bodies, 2, 2)
+    }
+
+    fn fatigue_segments(&self) -> Vec<FatigueSegment> {
+        self.sections.iter().map(LineSection::fatigue).collect()
     }
 
     fn properties(&self, name: &str, surroundings: &Surroundings) -> Table {

@@ -6,7 +6,7 @@
 
 use super::steady::{Medium, Steady};
 use super::stream::{Place, Push};
-use super::{BodyLoad, Category, Load};
+use super::{BodyLoad, Category, Load, MovingLoad, Underway};
 use crate::model::{ClassError, Pose, Six};
 use nalgebra::{Matrix6x3, Vector3};
 use std::sync::Arc;
@@ -72,5 +72,9 @@ impl BodyLoad for AreaLoad {
 
     fn load(&self, pose: &Pose) -> Result<Load, ClassError> {
         Ok(self.place.load(&self.steady, pose, |stream| self.push(stream)))
+    }
+
+    fn moving(&self, at: &Underway, _state: &[f64]) -> Result<MovingLoad, ClassError> {
+        Ok(self.place.moving(&self.steady, at, |stream| self.push(stream)))
     }
 }

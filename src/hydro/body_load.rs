@@ -74,6 +74,11 @@ pub trait BodyLoad: Debug + Send + Sync {
         self.load(at.pose).map(MovingLoad::of)
     }
 
+    /// What of the load counts in another category than its own, where there is such.
+    fn apart(&self, _at: &Underway, _state: &[f64]) -> Option<(Category, Six)> {
+        None
+    }
+
     /// The step is accepted with its end there.
     fn commit(&self, _at: &Underway, _state: &mut [f64]) {}
 }

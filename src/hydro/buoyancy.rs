@@ -10,7 +10,7 @@ use nalgebra::Vector3;
 const WELD: f64 = 1e-6;
 
 /// Sides of the prism that a tube is to wind and current: with 64 its width is within 0.1 % of the diameter from every side.
-const SIDES: u32 = 64;
+pub(super) const SIDES: u32 = 64;
 
 #[derive(Debug)]
 enum Form {

@@ -7,7 +7,7 @@ use super::area::category;
 use super::heading::ByHeading;
 use super::steady::Steady;
 use super::stream::{Place, Push};
-use super::{BodyLoad, Category, Load};
+use super::{BodyLoad, Category, Load, MovingLoad, Underway};
 use crate::model::{ClassError, Pose};
 use nalgebra::{Matrix6x3, Vector3};
 use std::sync::Arc;
@@ -47,5 +47,9 @@ impl BodyLoad for CoefficientLoad {
 
     fn load(&self, pose: &Pose) -> Result<Load, ClassError> {
         Ok(self.place.load(&self.steady, pose, |stream| self.push(stream)))
+    }
+
+    fn moving(&self, at: &Underway, _state: &[f64]) -> Result<MovingLoad, ClassError> {
+        Ok(self.place.moving(&self.steady, at, |stream| self.push(stream)))
     }
 }

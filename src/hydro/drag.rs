@@ -3,7 +3,7 @@
 use super::area::category;
 use super::steady::{Medium, Steady};
 use super::stream::{Place, Push};
-use super::{BodyLoad, Category, Load, cross};
+use super::{BodyLoad, Category, Load, MovingLoad, Underway, cross};
 use crate::model::{ClassError, Pose};
 use nalgebra::{Matrix3, Matrix6, Matrix6x3, Vector3};
 use std::sync::Arc;
@@ -23,6 +23,10 @@ impl LinearDrag {
         let place = Place { at, medium: Medium::Water, shared: false };
         LinearDrag { steady, place, by_velocity: matrix.fixed_columns::<3>(0).into_owned() }
     }
+
+    fn push(&self, stream: Vector3<f64>) -> Push {
+        Push { wrench: self.by_velocity * stream, by_velocity: self.by_velocity }
+    }
 }
 
 impl BodyLoad for LinearDrag {
@@ -31,8 +35,14 @@ impl BodyLoad for LinearDrag {
     }
 
     fn load(&self, pose: &Pose) -> Result<Load, ClassError> {
-        let push = |stream| Push { wrench: self.by_velocity * stream, by_velocity: self.by_velocity };
-        Ok(self.place.load(&self.steady, pose, push))
+        Ok(self.place.load(&self.steady, pose, |stream| self.push(stream)))
+    }
+
+    /// In the current of the time; the body's own motion is in the damping of the body.
+    fn moving(&self, at: &Underway, _state: &[f64]) -> Result<MovingLoad, ClassError> {
+        let stream = self.steady.at(at.time).velocity(Medium::Water, at.pose.point(self.place.at).z);
+        let load = self.place.load_in(&self.steady, at.pose, stream, |stream| self.push(stream));
+        Ok(MovingLoad::of(load))
     }
 }
 

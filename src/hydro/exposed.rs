@@ -9,7 +9,7 @@
 use super::hull::Surface;
 use super::strips::{Strip, Strips};
 use crate::model::Pose;
-use nalgebra::{Matrix2x3, Matrix3x2, SMatrix, Vector2, Vector3};
+use nalgebra::{SMatrix, SVector, Vector3};
 
 /// A triangle of the skin: its corners, its unit normal in the body (outward), and how much of it is seen along each axis of the
 /// part.
@@ -28,16 +28,16 @@ pub struct Skin {
 }
 
 /// Sums of `w` times (1; x, y, z), and of its change with the lift, as the text above says.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Pressed {
+#[derive(Clone, Copy, Debug)]
+pub struct Pressed<const D: usize = 2> {
     /// Integral of w (m4/s2).
-    pub force: Vector2<f64>,
+    pub force: SVector<f64, D>,
     /// Integral of r w (m5/s2).
-    pub arm: Matrix3x2<f64>,
+    pub arm: SMatrix<f64, 3, D>,
     /// Changes of `force` with a lift of 1, x, y: columns.
-    pub force_by: Matrix2x3<f64>,
+    pub force_by: SMatrix<f64, D, 3>,
     /// Changes of `arm` with a lift of 1, x, y.
-    pub arm_by: [Matrix3x2<f64>; 3],
+    pub arm_by: [SMatrix<f64, 3, D>; 3],
 }
 
 /// The waterplane of the piece: integrals of (1, x, y) over it, and in columns their changes with heave and the rotations.
@@ -50,19 +50,18 @@ pub struct Waterplane {
 }
 
 /// What a stream finds of a skin.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Exposed {
+#[derive(Clone, Copy, Debug)]
+pub struct Exposed<const D: usize = 2> {
     /// Along each axis of the part, by half of what of the skin is seen along it.
-    pub along: [Pressed; 3],
+    pub along: [Pressed<D>; 3],
     /// The waterplane.
     pub plane: Waterplane,
 }
 
-/// Two rows (w) of the nine products of the change, and two of the four of the value.
-#[derive(Default)]
-struct Sums {
-    value: SMatrix<f64, 2, 4>,
-    change: SMatrix<f64, 2, 9>,
+/// A row for each component of w of the nine products of the change, and one of the four of the value.
+struct Sums<const D: usize> {
+    value: SMatrix<f64, D, 4>,
+    change: SMatrix<f64, D, 9>,
 }
 
 fn products(r: &Vector3<f64>) -> SMatrix<f64, 1, 9> {
@@ -70,10 +69,14 @@ fn products(r: &Vector3<f64>) -> SMatrix<f64, 1, 9> {
     SMatrix::from_row_slice(&[1.0, x, y, z, x * x, x * y, y * y, x * z, y * z])
 }
 
-impl Sums {
+impl<const D: usize> Sums<D> {
+    fn none() -> Self {
+        Sums { value: SMatrix::zeros(), change: SMatrix::zeros() }
+    }
+
     /// A triangle within one strip. The integrands are of third degree, for which the rule of four points is exact (Strang and Fix
     /// 1973, table 4.1).
-    fn triangle(&mut self, strip: &Strip, strips: &Strips, height: f64, [a, b, c]: [Vector3<f64>; 3]) {
+    fn triangle(&mut self, strip: &Strip<D>, strips: &Strips<D>, height: f64, [a, b, c]: [Vector3<f64>; 3]) {
         let area = 0.5 * (b - a).cross(&(c - a)).norm();
         let s = a + b + c;
         let middle = s / 3.0;
@@ -93,15 +96,20 @@ impl Sums {
     }
 
     /// A piece of the waterline: at its two Gauss points the products are of second degree.
-    fn waterline(&mut self, w: Vector2<f64>, points: [Vector3<f64>; 2], weight: f64) {
+    fn waterline(&mut self, w: SVector<f64, D>, points: [Vector3<f64>; 2], weight: f64) {
         for r in points {
             self.change += w * weight * products(&r);
         }
     }
 }
 
-impl Pressed {
-    fn add(&mut self, sums: &Sums, share: f64) {
+impl<const D: usize> Pressed<D> {
+    fn none() -> Self {
+        let zero = SMatrix::zeros();
+        Pressed { force: SVector::zeros(), arm: zero, force_by: SMatrix::zeros(), arm_by: [zero; 3] }
+    }
+
+    fn add(&mut self, sums: &Sums<D>, share: f64) {
         let (v, d) = (&sums.value, &sums.change);
         self.force += v.column(0) * share;
         self.arm += v.fixed_columns::<3>(1).transpose() * share;
@@ -151,14 +159,14 @@ impl Skin {
     }
 
     /// What a stream finds of it in a pose.
-    pub fn exposed(&self, pose: &Pose, strips: &Strips) -> Exposed {
+    pub fn exposed<const D: usize>(&self, pose: &Pose, strips: &Strips<D>) -> Exposed<D> {
         let height = pose.origin.z - strips.level;
         let place = |p: &Vector3<f64>| {
             let r = pose.axes * p;
             (r, strips.sense * (r.z + height))
         };
         let placed: Vec<(Vector3<f64>, f64)> = self.vertices.iter().map(place).collect();
-        let mut found = Exposed::default();
+        let mut found = Exposed { along: [Pressed::none(); 3], plane: Waterplane::default() };
         for facet in &self.facets {
             let [Some(a), Some(b), Some(c)] = facet.corners.map(|n| placed.get(n as usize).copied()) else { continue };
             let mut by_height = [a, b, c];
@@ -168,7 +176,7 @@ impl Skin {
             if high.1 < 0.0 || (high.1 == 0.0 && (strips.sense < 0.0 || low.1 < 0.0)) {
                 continue;
             }
-            let mut sums = Sums::default();
+            let mut sums = Sums::none();
             if low.1 < 0.0 {
                 let [from, to] = cut(by_height, 0.0);
                 let normal = pose.axes * facet.normal;
@@ -196,7 +204,7 @@ fn cut([low, middle, high]: [(Vector3<f64>, f64); 3], at: f64) -> [Vector3<f64>;
 }
 
 /// The exposed part of a triangle, strip by strip, and within a strip from corner to corner.
-fn whole(sums: &mut Sums, strips: &Strips, height: f64, corners: [(Vector3<f64>, f64); 3]) {
+fn whole<const D: usize>(sums: &mut Sums<D>, strips: &Strips<D>, height: f64, corners: [(Vector3<f64>, f64); 3]) {
     let [low, middle, high] = corners;
     let mut from = low.1.max(0.0);
     for (strip, end) in strips.between(from, high.1) {

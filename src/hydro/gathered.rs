@@ -4,12 +4,13 @@ use super::area::AreaLoad;
 use super::coefficients::CoefficientLoad;
 use super::drag::{LinearDrag, at_origin, turned};
 use super::drift::{DriftLoad, DriftRow};
+use super::growth::Growth;
 use super::heading::ByHeading;
 use super::plate::PlateLoad;
 use super::steady::{Medium, Steady};
 use super::stream::Place;
 use super::{BodyLoad, Category, Load, MovingLoad, Underway, pieces};
-use crate::model::{Body, ClassError, Fluid, LoadKind, Model, Part, PartLoad, Piece, Pose};
+use crate::model::{Body, ClassError, Fluid, LoadKind, Model, Part, PartLoad, Piece, Pose, Six};
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use std::sync::Arc;
 
@@ -59,6 +60,10 @@ impl BodyLoad for Multiplied {
         Ok(MovingLoad { load, damping: damping * self.factor })
     }
 
+    fn apart(&self, at: &Underway, state: &[f64]) -> Option<(Category, Six)> {
+        self.load.apart(at, state).map(|(category, wrench)| (category, wrench * self.factor))
+    }
+
     fn commit(&self, at: &Underway, state: &mut [f64]) {
         self.load.commit(at, state);
     }
@@ -99,13 +104,14 @@ impl Frame<'_> {
     }
 }
 
-/// Gathers what is on a body.
+/// Gathers what is on a body. Under way it also holds what acts by the body's motion alone, and what varies in time.
 ///
 /// # Errors
 /// Loads that make no sense, or an environment that cannot be computed.
-pub fn of(model: &Model, body: &Body) -> Result<Gathered, ClassError> {
+pub fn of(model: &Model, body: &Body, under_way: bool) -> Result<Gathered, ClassError> {
     let mut sum = Gathered { loads: Vec::new(), added_mass: Matrix6::zeros(), damping: Matrix6::zeros() };
     let drifts = |l: &PartLoad| matches!(l.kind, LoadKind::Drift { .. });
+    let (growth, pose) = (Growth::of(model, &model.environment)?, Pose::of(&body.place));
     let mut around: Option<Arc<Steady>> = None;
     for part in model.parts_of(body) {
         let mine: Vec<&PartLoad> =
@@ -116,19 +122,25 @@ pub fn of(model: &Model, body: &Body) -> Result<Gathered, ClassError> {
         }
         let steady = match &around {
             Some(known) => Arc::clone(known),
-            // a spectrum that cannot be computed matters only where waves push
-            None if model.loads.iter().any(drifts) => Arc::new(Steady::of(model)?),
-            None => Arc::new(Steady::streams(model, &model.environment)?),
+            None => {
+                // a spectrum that cannot be computed matters only where waves push
+                let pushed = model.loads.iter().any(drifts);
+                let mean = if pushed { Steady::of(model)? } else { Steady::streams(model, &model.environment)? };
+                Arc::new(if under_way { mean.under_way(model, &model.environment)? } else { mean })
+            }
         };
         around = Some(Arc::clone(&steady));
         let frame = Frame { part, axes: *part.place.rotation().matrix() };
         let first = sum.loads.len();
         for load in &mine {
-            one(&mut sum, &steady, &frame, load)?;
+            one(&mut sum, &steady, &frame, load, under_way)?;
         }
         drift(&mut sum, &steady, &frame, &mine)?;
+        let on = growth.as_ref().map(|growth| (growth, &pose));
         for piece in &part.pieces {
-            sum.loads.extend(pieces::of(&steady, part, piece)?.into_iter().map(|l| Box::new(l) as Box<dyn BodyLoad>));
+            sum.loads.extend(
+                pieces::of(&steady, part, piece, under_way, on)?.into_iter().map(|l| Box::new(l) as Box<dyn BodyLoad>),
+            );
         }
         let rest = sum.loads.split_off(first);
         sum.loads.extend(rest.into_iter().map(|load| {
@@ -140,7 +152,13 @@ pub fn of(model: &Model, body: &Body) -> Result<Gathered, ClassError> {
 }
 
 /// Adds one record but those of drift, of which several make one table.
-fn one(sum: &mut Gathered, steady: &Arc<Steady>, frame: &Frame, load: &PartLoad) -> Result<(), ClassError> {
+fn one(
+    sum: &mut Gathered,
+    steady: &Arc<Steady>,
+    frame: &Frame,
+    load: &PartLoad,
+    under_way: bool,
+) -> Result<(), ClassError> {
     let at = frame.point(load);
     match &load.kind {
         LoadKind::Drag(matrix) => {
@@ -159,7 +177,7 @@ fn one(sum: &mut Gathered, steady: &Arc<Steady>, frame: &Frame, load: &PartLoad)
                 Fluid::Air => &[Medium::Air],
                 Fluid::Water => &[Medium::Water],
             };
-            for medium in media.iter().copied().filter(|m| !steady.still(*m)) {
+            for medium in media.iter().copied().filter(|m| under_way || !steady.still(*m)) {
                 let place = Place { at, medium, shared: load.fluid == Fluid::ByHeight };
                 sum.loads.push(in_stream(Arc::clone(steady), frame, place, load)?);
             }

@@ -12,18 +12,25 @@ pub mod drag;
 pub mod drift;
 pub mod exposed;
 mod gathered;
+pub mod grown;
+pub mod growth;
+pub mod gusts;
 pub mod heading;
 pub mod hull;
 mod junction;
 mod linear;
+pub mod morison;
 pub mod pieces;
 pub mod plate;
+pub mod pressure;
+pub mod ramp;
 mod righting;
 pub mod sea;
 pub mod spectrum;
 pub mod steady;
 pub mod stream;
 pub mod strips;
+pub mod variation;
 mod weight;
 pub mod wind;
 
@@ -205,7 +212,8 @@ pub struct Floating {
     pub mass: Mass,
     /// What acts on it.
     pub loads: Vec<Box<dyn BodyLoad>>,
-    /// Added mass about its origin, body axes (kg, kg m, kg m2), of `#AMASS`.
+    /// Added mass about its origin, body axes (kg, kg m, kg m2): of `#AMASS`, of members, of a database at infinite frequency, and the
+    /// inertia of growth.
     pub added_mass: Matrix6<f64>,
     /// Linear damping about its origin, body axes (N s/m, N s, N m s), of `#DRAG` and `#DAMP`.
     pub damping: Matrix6<f64>,
@@ -247,9 +255,15 @@ impl Floating {
         }
         loads.extend(hull.map(|hull| Box::new(hull) as Box<dyn BodyLoad>));
         loads.extend(linear::of(body));
-        let gathered = gathered::of(model, body)?;
+        let gathered = gathered::of(model, body, under_way.is_some())?;
         loads.extend(gathered.loads);
-        let mut added_mass = gathered.added_mass;
+        let grown = grown::of(model, body)?;
+        loads.extend(grown.loads);
+        let (members, of_members) = morison::of(model, body, under_way)?;
+        loads.extend(members.map(|load| Box::new(load) as Box<dyn BodyLoad>));
+        let pressed = pressure::of(model, body, under_way.flatten())?;
+        loads.extend(pressed.map(|load| Box::new(load) as Box<dyn BodyLoad>));
+        let mut added_mass = gathered.added_mass + grown.mass + of_members;
         if let Some(brought) = database::attached::of(model, body, under_way)? {
             loads.extend(brought.loads);
             added_mass += brought.added_mass;

@@ -9,22 +9,32 @@
 //! one part of it shelters from another counts too. The cut through the water closes the exposed part: half the waterplane times
 //! the square of its cosine with e counts as skin. That makes A exact on an even keel; heeled, it is between the areas seen from
 //! the two sides, and has a tangent, as the larger of the two has not.
+//!
+//! Under way the pressure changes by `|s| s.e - |m| m.e`, m being the mean stream and s the stream of the time as seen from the
+//! body, both at the centroid of A of each axis, which moves with the body: so one that turns about its middle meets no more than
+//! the centroids do. At rest in the mean stream nothing is added; in a uniform stream all of it is exact.
 
 use super::area::category;
-use super::buoyancy::skin;
+use super::buoyancy::{SIDES, skin};
 use super::exposed::{Exposed, Skin};
+use super::grown;
+use super::growth::Growth;
+use super::hull::Tube;
 use super::steady::{Medium, Steady};
 use super::strips::Strips;
-use super::{BodyLoad, Category, Load};
-use crate::model::{ClassError, Part, Piece, Pose};
-use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
+use super::{BodyLoad, Category, Load, MovingLoad, Underway, cross};
+use crate::model::{ClassError, Part, Piece, Pose, Shape};
+use nalgebra::{Matrix3, Matrix6, RowVector6, SVector, Vector3, Vector6};
 use std::sync::Arc;
 
 /// A piece in wind or current.
 #[derive(Debug)]
 pub struct PieceLoad {
     skin: Arc<Skin>,
+    steady: Arc<Steady>,
     strips: Strips,
+    /// A pressure of one, with which what is exposed is its area.
+    even: Strips<1>,
     medium: Medium,
     /// Axes of the part in the body: columns.
     axes: Matrix3<f64>,
@@ -35,22 +45,71 @@ pub struct PieceLoad {
 impl PieceLoad {
     /// A skin in the wind or the current in force, with shape coefficients along the axes of its part: the columns of a matrix, in
     /// the body.
-    pub fn new(skin: Arc<Skin>, steady: &Steady, medium: Medium, axes: Matrix3<f64>, cs: [f64; 3]) -> Self {
-        PieceLoad { skin, strips: Strips::of(steady, medium), medium, axes, cs }
+    pub fn new(skin: Arc<Skin>, steady: &Arc<Steady>, medium: Medium, axes: Matrix3<f64>, cs: [f64; 3]) -> Self {
+        let (strips, even) = (Strips::of(steady, medium), Strips::even(steady, medium));
+        PieceLoad { skin, steady: Arc::clone(steady), strips, even, medium, axes, cs }
+    }
+
+    /// The axes of the part that have a coefficient, in a pose, global, each with half of density times it.
+    fn axes(&self, pose: &Pose) -> impl Iterator<Item = (usize, Vector3<f64>, f64)> {
+        let (axes, half) = (pose.axes * self.axes, 0.5 * self.strips.density);
+        let all = self.cs.into_iter().enumerate().filter(|(_, cs)| *cs != 0.0);
+        all.map(move |(n, cs)| (n, axes.column(n).into_owned(), half * cs))
+    }
+
+    /// What the motion of the body and what varies in time add to the load in the mean stream.
+    fn added(&self, at: &Underway) -> MovingLoad {
+        let found = self.skin.exposed(at.pose, &self.even);
+        let height = at.pose.origin.z - self.even.level;
+        let mut sum = MovingLoad::of(Load::none());
+        let (own, spin) = (at.velocity.fixed_rows::<3>(0).into_owned(), at.velocity.fixed_rows::<3>(3).into_owned());
+        let (now, mean) = (self.steady.at(at.time), self.steady.mean());
+        for (n, e, half) in self.axes(at.pose) {
+            let area = along(&found, n, &e, &self.even, height, |_| SVector::from([1.0]), |_| SVector::zeros());
+            // none of a piece that the medium does not touch
+            let Some(area) = area.filter(|a| a.force > 1e-9) else { continue };
+            let centre = area.arm / area.force;
+            let z = at.pose.origin.z + centre.z;
+            let (stream, slope) = now.velocity(self.medium, z);
+            let seen = Seen { stream: stream - own - spin.cross(&centre), slope, spin };
+            let (stream, slope) = mean.velocity(self.medium, z);
+            let rest = Seen { stream, slope, spin: Vector3::zeros() };
+            for (seen, factor) in [(&seen, half), (&rest, -half)] {
+                let (wrench, stiffness) = seen.pushes(&area, &e);
+                sum.load.wrench += wrench * factor;
+                sum.load.stiffness += stiffness * factor;
+            }
+            sum.damping += seen.damps(&area, &e) * half;
+        }
+        sum
     }
 }
 
-/// The loads of the wind and the current in force on a piece.
+/// The loads of the wind and the current in force on a piece; under way also in air and water that are still; on a tube with
+/// the growth it has where its body stands.
 ///
 /// # Errors
 /// A piece that is not a closed surface.
-pub fn of(steady: &Steady, part: &Part, piece: &Piece) -> Result<Vec<PieceLoad>, ClassError> {
+pub fn of(
+    steady: &Arc<Steady>,
+    part: &Part,
+    piece: &Piece,
+    under_way: bool,
+    growth: Option<(&Growth, &Pose)>,
+) -> Result<Vec<PieceLoad>, ClassError> {
     let media = [(Medium::Air, piece.cs_wind), (Medium::Water, piece.cs_current)];
-    let acts = |(medium, cs): &(Medium, [f64; 3])| !steady.still(*medium) && *cs != [0.0; 3];
+    let acts = |(medium, cs): &(Medium, [f64; 3])| (under_way || !steady.still(*medium)) && *cs != [0.0; 3];
     if !media.iter().any(acts) {
         return Ok(Vec::new());
     }
-    let Some(surface) = skin(part, piece)? else { return Ok(Vec::new()) };
+    let surface = match (growth, piece.shape.moved(&part.place)) {
+        (Some((growth, pose)), Shape::Tube { ends, diameter }) => {
+            let tube = Tube { ends: ends.map(Vector3::from), diameter };
+            tube.widened(&grown::stations(growth, pose, tube.ends, diameter), SIDES)
+        }
+        _ => skin(part, piece)?,
+    };
+    let Some(surface) = surface else { return Ok(Vec::new()) };
     let axes = *part.place.rotation().matrix();
     let skin = Arc::new(Skin::of(&surface, &axes));
     let made = media.into_iter().filter(acts);
@@ -64,27 +123,34 @@ struct Along {
     change: [(f64, Vector3<f64>); 4],
 }
 
-/// What the skin and the waterplane give along an axis `e` of the part.
-fn along(found: &Exposed, axis: usize, e: &Vector3<f64>, strips: &Strips, height: f64) -> Option<Along> {
+/// What the skin and the waterplane give along an axis `e` of the part. `of` is the combination of the components of w that acts
+/// along an axis, and `by` the same of a change of the axis.
+fn along<const D: usize>(
+    found: &Exposed<D>,
+    axis: usize,
+    e: &Vector3<f64>,
+    strips: &Strips<D>,
+    height: f64,
+    of: impl Fn(&Vector3<f64>) -> SVector<f64, D>,
+    by: impl Fn(&Vector3<f64>) -> SVector<f64, D>,
+) -> Option<Along> {
     let skin = found.along.get(axis)?;
-    let flat = e.xy();
+    let flat = of(e);
     // the cut: at the height of the surface, which falls as the body rises
     let (w, plane) = (strips.at_surface(), &found.plane);
     let (share, pressure) = (0.5 * e.z * e.z, w.dot(&flat));
     let lid = |s: Vector3<f64>| Vector3::new(s.y, s.z, -height * s.x);
     let at_cut = lid(plane.sums);
     let change = std::array::from_fn(|n| {
-        let mut turn = Vector3::zeros();
-        if let Some(at) = n.checked_sub(1).and_then(|n| turn.get_mut(n)) {
-            *at = 1.0;
-        }
+        let turn = rotation(n);
         // the lift is a sum of 1, x, y
         let lift = Vector3::new(if n == 0 { 1.0 } else { 0.0 }, -turn.y, turn.x);
         let turned = turn.cross(e);
-        let mut force = (skin.force_by * lift).dot(&flat) + skin.force.dot(&turned.xy());
+        let turned_flat = by(&turned);
+        let mut force = (skin.force_by * lift).dot(&flat) + skin.force.dot(&turned_flat);
         let lifted = skin.arm_by[0] * lift.x + skin.arm_by[1] * lift.y + skin.arm_by[2] * lift.z;
-        let mut arm = lifted * flat + turn.cross(&(skin.arm * flat)) + skin.arm * turned.xy();
-        let (share_by, pressure_by) = (e.z * turned.z, w.dot(&turned.xy()));
+        let mut arm = lifted * flat + turn.cross(&(skin.arm * flat)) + skin.arm * turned_flat;
+        let (share_by, pressure_by) = (e.z * turned.z, w.dot(&turned_flat));
         let sums_by = plane.change.column(n).into_owned();
         let factor_by = share_by * pressure + share * pressure_by;
         force += factor_by * plane.sums.x + share * pressure * sums_by.x;
@@ -97,36 +163,105 @@ fn along(found: &Exposed, axis: usize, e: &Vector3<f64>, strips: &Strips, height
     Some(Along { force, arm: skin.arm * flat + at_cut * (share * pressure), change })
 }
 
+/// The rotation of the n-th of the motions that change what is exposed: heave, roll, pitch, yaw.
+fn rotation(n: usize) -> Vector3<f64> {
+    let mut turn = Vector3::zeros();
+    if let Some(at) = n.checked_sub(1).and_then(|n| turn.get_mut(n)) {
+        *at = 1.0;
+    }
+    turn
+}
+
+/// A stream as it is seen at the centroid of an area.
+struct Seen {
+    /// Velocity (m/s, global), and its change with the height (1/s).
+    stream: Vector3<f64>,
+    slope: Vector3<f64>,
+    /// Rotation of the body (rad/s).
+    spin: Vector3<f64>,
+}
+
+fn six(force: Vector3<f64>, moment: Vector3<f64>) -> Vector6<f64> {
+    Vector6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z)
+}
+
+impl Seen {
+    /// `|s| s.e`, its change with s, and |s|.
+    fn pressure(&self, e: &Vector3<f64>) -> (f64, Vector3<f64>, f64) {
+        let (speed, along) = (self.stream.norm(), self.stream.dot(e));
+        let change = if speed > 0.0 { self.stream * (along / speed) + e * speed } else { Vector3::zeros() };
+        (speed * along, change, speed)
+    }
+
+    /// Force and moment on an area seen along an axis, over half the density, and -d(them)/d(motion).
+    fn pushes(&self, area: &Along, e: &Vector3<f64>) -> (Vector6<f64>, Matrix6<f64>) {
+        let (q, by_stream, speed) = self.pressure(e);
+        let centre = area.arm / area.force;
+        let mut stiffness = Matrix6::zeros();
+        for (n, (area_by, arm_by)) in area.change.iter().enumerate() {
+            let turned = rotation(n).cross(e);
+            let centre_by = (arm_by - centre * *area_by) / area.force;
+            let rise = centre_by.z + if n == 0 { 1.0 } else { 0.0 };
+            let stream_by = self.slope * rise - self.spin.cross(&centre_by);
+            let q_by = by_stream.dot(&stream_by) + speed * self.stream.dot(&turned);
+            let force = e * (q_by * area.force + q * area_by) + turned * (q * area.force);
+            let moment = (area.arm * q_by + arm_by * q).cross(e) + area.arm.cross(&turned) * q;
+            stiffness.set_column(n + 2, &-six(force, moment));
+        }
+        (six(e * area.force, area.arm.cross(e)) * q, stiffness)
+    }
+
+    /// -d(force and moment)/d(velocity of the origin, rotation), over half the density.
+    fn damps(&self, area: &Along, e: &Vector3<f64>) -> Matrix6<f64> {
+        let (_, by_stream, _) = self.pressure(e);
+        // d(stream) = -d(velocity) + centre x d(spin)
+        let turning = -cross(area.arm / area.force).transpose() * by_stream;
+        let by_velocity = RowVector6::new(by_stream.x, by_stream.y, by_stream.z, turning.x, turning.y, turning.z);
+        six(e * area.force, area.arm.cross(e)) * by_velocity
+    }
+}
+
 impl BodyLoad for PieceLoad {
     fn category(&self) -> Category {
         category(self.medium)
     }
 
     fn load(&self, pose: &Pose) -> Result<Load, ClassError> {
+        let mut sum = Load::none();
+        if self.steady.still(self.medium) {
+            return Ok(sum);
+        }
         let found = self.skin.exposed(pose, &self.strips);
-        let (axes, height) = (pose.axes * self.axes, pose.origin.z - self.strips.level);
-        let (mut wrench, mut stiffness) = (Vector6::zeros(), Matrix6::zeros());
-        for (n, cs) in self.cs.into_iter().enumerate().filter(|(_, cs)| *cs != 0.0) {
-            let e = axes.column(n).into_owned();
-            let Some(Along { force, arm, change }) = along(&found, n, &e, &self.strips, height) else { continue };
-            let half = 0.5 * self.strips.density * cs;
-            let six = |f: Vector3<f64>, m: Vector3<f64>| Vector6::new(f.x, f.y, f.z, m.x, m.y, m.z) * half;
-            wrench += six(e * force, arm.cross(&e));
+        let height = pose.origin.z - self.strips.level;
+        let level = |v: &Vector3<f64>| v.xy();
+        for (n, e, half) in self.axes(pose) {
+            let Some(Along { force, arm, change }) = along(&found, n, &e, &self.strips, height, level, level) else {
+                continue;
+            };
+            sum.wrench += six(e * force, arm.cross(&e)) * half;
             for (column, (force_by, arm_by)) in change.into_iter().enumerate() {
-                let mut turn = Vector3::zeros();
-                if let Some(at) = column.checked_sub(1).and_then(|n| turn.get_mut(n)) {
-                    *at = 1.0;
-                }
-                let turned = turn.cross(&e);
+                let turned = rotation(column).cross(&e);
                 let by = six(e * force_by + turned * force, arm_by.cross(&e) + arm.cross(&turned));
-                let mut at = stiffness.column_mut(column + 2);
-                at -= by;
+                let mut at = sum.stiffness.column_mut(column + 2);
+                at -= by * half;
             }
         }
-        if wrench.iter().chain(stiffness.iter()).all(|x| x.is_finite()) {
-            Ok(Load { wrench, stiffness })
-        } else {
-            Err(ClassError::new("the force of wind or current on a piece has no value where the body is"))
-        }
+        finite(sum)
+    }
+
+    fn moving(&self, at: &Underway, _state: &[f64]) -> Result<MovingLoad, ClassError> {
+        let mean = self.load(at.pose)?;
+        let MovingLoad { load, damping } = self.added(at);
+        let load = Load { wrench: mean.wrench + load.wrench, stiffness: mean.stiffness + load.stiffness };
+        Ok(MovingLoad { load: finite(load)?, damping })
+    }
+}
+
+/// A load, where it has a value.
+fn finite(load: Load) -> Result<Load, ClassError> {
+    if load.wrench.iter().chain(load.stiffness.iter()).all(|x| x.is_finite()) {
+        Ok(load)
+    } else {
+        Err(ClassError::new("the force of wind or current on a piece has no value where the body is"))
     }
 }

@@ -2,6 +2,7 @@
 
 use super::current::CurrentField;
 use super::spectrum::Waves;
+use super::variation::{Instant, Variation};
 use super::wind::WindField;
 use crate::model::{ClassError, Environment, Model, Surroundings};
 use nalgebra::Vector3;
@@ -20,7 +21,7 @@ pub enum Medium {
     Water,
 }
 
-/// What surrounds bodies at rest.
+/// What surrounds bodies at rest, and how wind and current vary about it for bodies under way.
 #[derive(Clone, Debug)]
 pub struct Steady {
     /// Densities, depth, tide, gravity.
@@ -31,6 +32,37 @@ pub struct Steady {
     pub current: CurrentField,
     /// The seas, each with the horizontal direction it travels toward.
     pub waves: Vec<(Vector3<f64>, Arc<Waves>)>,
+    /// What varies in time, for bodies under way.
+    pub variation: Option<Arc<Variation>>,
+}
+
+/// Wind and current at one time.
+#[derive(Clone, Copy, Debug)]
+pub struct Streams<'a> {
+    steady: &'a Steady,
+    instant: Instant,
+}
+
+impl Streams<'_> {
+    /// Velocity (m/s, global) of air or water at a global height (m), and its change with the height (1/s).
+    ///
+    /// The wind of a history has the profile of the mean; a gust is the same at all heights and places.
+    pub fn velocity(&self, medium: Medium, z: f64) -> (Vector3<f64>, Vector3<f64>) {
+        let (tide, now) = (self.steady.around.tide, &self.instant);
+        match (medium, &self.steady.wind) {
+            (Medium::Air, Some(wind)) => {
+                let mut wind = *wind;
+                wind.speed += now.wind;
+                let (speed, change) = wind.speed(z - tide);
+                (wind.toward * (speed + now.gust), wind.toward * change)
+            }
+            (Medium::Air, None) => (Vector3::zeros(), Vector3::zeros()),
+            (Medium::Water, _) => {
+                let (velocity, change) = self.steady.current.at_depth(tide - z);
+                (velocity * now.current, -change * now.current)
+            }
+        }
+    }
 }
 
 impl Steady {
@@ -54,7 +86,13 @@ impl Steady {
             let (cos, sin) = crate::model::unit_vector(sea.direction);
             waves.push((Vector3::new(-cos, -sin, 0.0), Arc::new(Waves::of(model, env, sea)?)));
         }
-        Ok(Steady { around, wind: WindField::of(env)?, current: CurrentField::of(model, env, bottom)?, waves })
+        Ok(Steady {
+            around,
+            wind: WindField::of(env)?,
+            current: CurrentField::of(model, env, bottom)?,
+            waves,
+            variation: None,
+        })
     }
 
     /// The same without its seas: what wind and current need.
@@ -65,19 +103,29 @@ impl Steady {
         Steady::within(model, &Environment { sea: None, added_sea: None, ..env.clone() })
     }
 
-    /// Velocity (m/s, global) of air or water at a global height (m), and its change with the height (1/s).
+    /// With what varies in time: gusts, and histories of wind and current.
+    ///
+    /// # Errors
+    /// As [`Variation::of`].
+    pub fn under_way(self, model: &Model, env: &Environment) -> Result<Self, ClassError> {
+        let variation = Variation::of(model, env)?.map(Arc::new);
+        Ok(Steady { variation, ..self })
+    }
+
+    /// Mean velocity (m/s, global) of air or water at a global height (m), and its change with the height (1/s).
     pub fn velocity(&self, medium: Medium, z: f64) -> (Vector3<f64>, Vector3<f64>) {
-        match (medium, &self.wind) {
-            (Medium::Air, Some(wind)) => {
-                let (speed, change) = wind.speed(z - self.around.tide);
-                (wind.toward * speed, wind.toward * change)
-            }
-            (Medium::Air, None) => (Vector3::zeros(), Vector3::zeros()),
-            (Medium::Water, _) => {
-                let (velocity, change) = self.current.at_depth(self.around.tide - z);
-                (velocity, -change)
-            }
-        }
+        self.mean().velocity(medium, z)
+    }
+
+    /// Wind and current without what varies in time.
+    pub fn mean(&self) -> Streams<'_> {
+        Streams { steady: self, instant: Instant::default() }
+    }
+
+    /// Wind and current at a time (s).
+    pub fn at(&self, time: f64) -> Streams<'_> {
+        let instant = self.variation.as_ref().map_or_else(Instant::default, |v| v.at(time));
+        Streams { steady: self, instant }
     }
 
     /// Density of air or water (kg/m3).

@@ -1,9 +1,9 @@
 //! A load that a stream of air or water exerts on a point of a body, and its exact tangent.
 
 use super::steady::{Medium, Steady};
-use super::{Load, cross};
+use super::{Load, MovingLoad, Underway, cross};
 use crate::model::{Pose, Six};
-use nalgebra::{Matrix3, Matrix6x3, Vector3};
+use nalgebra::{Matrix3, Matrix6, Matrix6x3, Vector3};
 
 /// Force and moment about the point, in body axes, in a stream of a velocity in body axes; and how they change with it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,11 +33,7 @@ pub struct Place {
 }
 
 impl Place {
-    /// The load on the body that `push` makes in the stream at the point.
-    ///
-    /// With F, M in global axes, r the arm from the origin and u(z) the stream: the body turns under the stream, so that a
-    /// rotation d turns F and M and changes the velocity in body axes by that of `u x d`; the point rises with the
-    /// translation and with `d x r`.
+    /// The load on the body at rest that `push` makes in the mean stream at the point.
     pub fn load(&self, steady: &Steady, pose: &Pose, push: impl Fn(Vector3<f64>) -> Push) -> Load {
         let stream = steady.velocity(self.medium, pose.point(self.at).z);
         self.load_in(steady, pose, stream, push)
@@ -48,9 +44,43 @@ impl Place {
         &self,
         steady: &Steady,
         pose: &Pose,
-        (stream, slope): (Vector3<f64>, Vector3<f64>),
+        stream: (Vector3<f64>, Vector3<f64>),
         push: impl Fn(Vector3<f64>) -> Push,
     ) -> Load {
+        self.exert(steady, pose, stream, Matrix3::zeros(), push).0
+    }
+
+    /// The load on a body under way: `push` in the stream of the time as seen from the point, which moves with the body.
+    pub fn moving(&self, steady: &Steady, at: &Underway, push: impl Fn(Vector3<f64>) -> Push) -> MovingLoad {
+        let arm = at.pose.axes * self.at;
+        let (own, spin) = (at.velocity.fixed_rows::<3>(0), at.velocity.fixed_rows::<3>(3).into_owned());
+        let (stream, slope) = steady.at(at.time).velocity(self.medium, at.pose.origin.z + arm.z);
+        let relative = stream - own - spin.cross(&arm);
+        // the arm turns by d x r, and with it its velocity by spin x (d x r)
+        let carried = cross(spin) * cross(arm);
+        let (load, [force, moment]) = self.exert(steady, at.pose, (relative, slope), carried, push);
+        // d(relative) = -d(velocity) + r x d(spin)
+        let mut damping = Matrix6::zeros();
+        for (rows, change) in [(0, force), (3, moment + cross(arm) * force)] {
+            damping.fixed_view_mut::<3, 3>(rows, 0).copy_from(&change);
+            damping.fixed_view_mut::<3, 3>(rows, 3).copy_from(&(-change * cross(arm)));
+        }
+        MovingLoad { load, damping }
+    }
+
+    /// The load in a stream, and d(force), d(moment about the point) over d(velocity of the stream), global axes.
+    ///
+    /// With F, M in global axes, r the arm from the origin and u(z) the stream: the body turns under the stream, so that a
+    /// rotation d turns F and M and changes the velocity in body axes by that of `u x d`; the point rises with the
+    /// translation and with `d x r`; `carried` is what a rotation changes of the velocity at which the point itself moves.
+    fn exert(
+        &self,
+        steady: &Steady,
+        pose: &Pose,
+        (stream, slope): (Vector3<f64>, Vector3<f64>),
+        carried: Matrix3<f64>,
+        push: impl Fn(Vector3<f64>) -> Push,
+    ) -> (Load, [Matrix3<f64>; 2]) {
         let (axes, arm) = (pose.axes, pose.axes * self.at);
         let z = pose.origin.z + arm.z;
         let (share, share_slope) = if self.shared { steady.share(self.medium, z) } else { (1.0, 0.0) };
@@ -62,7 +92,8 @@ impl Place {
         let (force, moment) =
             (global(wrench.fixed_rows::<3>(0).into_owned()), global(wrench.fixed_rows::<3>(3).into_owned()));
         // change with the rotation of the axes, then with the height
-        let turn = |v: Vector3<f64>, j: Matrix3<f64>| axes * j * axes.transpose() * cross(stream) - cross(v);
+        let turn =
+            |v: Vector3<f64>, j: Matrix3<f64>| axes * j * axes.transpose() * (cross(stream) + carried) - cross(v);
         let rise = |v: Vector3<f64>, j: Matrix3<f64>| (axes * j * (axes.transpose() * slope)) * share + v * share_slope;
         let [jf, jm] = halves(&by_velocity);
         let (force_turn, moment_turn) = (turn(force, jf) * share, turn(moment, jm) * share);
@@ -81,6 +112,7 @@ impl Place {
         stiffness.fixed_view_mut::<3, 3>(0, 3).copy_from(&-force_turn);
         stiffness.fixed_view_mut::<3, 3>(3, 3).copy_from(&-moment_turn);
         let wrench = Six::new(force.x, force.y, force.z, about_origin.x, about_origin.y, about_origin.z);
-        Load { wrench, stiffness }
+        let by_stream = [jf, jm].map(|j| axes * j * axes.transpose() * share);
+        (Load { wrench, stiffness }, by_stream)
     }
 }

@@ -7,30 +7,30 @@
 
 use super::steady::{Medium, Steady};
 use super::wind::LOWEST;
-use nalgebra::{Vector2, Vector3};
+use nalgebra::{SVector, Vector3};
 
 /// Highest strip of wind (m); above it the wind is that of its upper end.
 const HIGHEST: f64 = 1024.0;
 /// Into how many a strip is divided in which several currents are added: the length of a sum is no parabola.
 const PARTS: usize = 4;
 
-/// `w = a + b u + c u u`, u from the start of the strip.
+/// `w = a + b u + c u u`, u from the start of the strip; of D components.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Strip {
+pub struct Strip<const D: usize = 2> {
     /// Where it begins: height over the surface in air, depth below it in water (m).
     pub from: f64,
     /// The coefficients, horizontal (m2/s2, m/s2, 1/s2).
-    pub terms: [Vector2<f64>; 3],
+    pub terms: [SVector<f64, D>; 3],
 }
 
-impl Strip {
+impl<const D: usize> Strip<D> {
     /// Whether w is the same all over it.
     pub fn even(&self) -> bool {
-        self.terms[1] == Vector2::zeros() && self.terms[2] == Vector2::zeros()
+        self.terms[1] == SVector::<f64, D>::zeros() && self.terms[2] == SVector::<f64, D>::zeros()
     }
 
     /// w at a distance from the surface, and its change with that distance.
-    pub fn at(&self, distance: f64) -> (Vector2<f64>, Vector2<f64>) {
+    pub fn at(&self, distance: f64) -> (SVector<f64, D>, SVector<f64, D>) {
         let (u, [a, b, c]) = (distance - self.from, self.terms);
         (a + (b + c * u) * u, b + c * (2.0 * u))
     }
@@ -38,9 +38,9 @@ impl Strip {
 
 /// A stream of air or water from the surface up or down.
 #[derive(Clone, Debug)]
-pub struct Strips {
+pub struct Strips<const D: usize = 2> {
     /// From the surface on; the last has no end. Never empty.
-    strips: Vec<Strip>,
+    strips: Vec<Strip<D>>,
     /// 1 in air and -1 in water: the sense of the distance along z.
     pub sense: f64,
     /// Height of the surface (m, global).
@@ -79,13 +79,13 @@ impl Strips {
             };
             v.xy() * v.norm()
         };
-        let ends: Vec<Vector2<f64>> = levels.iter().map(|u| w(*u)).collect();
+        let ends: Vec<SVector<f64, 2>> = levels.iter().map(|u| w(*u)).collect();
         let mut strips: Vec<Strip> = Vec::new();
         for (at, value) in levels.windows(2).zip(ends.windows(2)) {
             let ([low, high], [first, last]) = (at, value) else { continue };
             let (long, middle) = (high - low, w(0.5 * (low + high)));
             let strip = if first == last && middle == *first {
-                Strip { from: *low, terms: [*first, Vector2::zeros(), Vector2::zeros()] }
+                Strip { from: *low, terms: [*first, SVector::zeros(), SVector::zeros()] }
             } else {
                 let b = (middle * 4.0 - first * 3.0 - last) / long;
                 Strip { from: *low, terms: [*first, b, (first + last - middle * 2.0) * (2.0 / (long * long))] }
@@ -93,12 +93,23 @@ impl Strips {
             join(&mut strips, strip);
         }
         let end = ends.last().copied().unwrap_or_default();
-        join(&mut strips, Strip { from: last, terms: [end, Vector2::zeros(), Vector2::zeros()] });
+        join(&mut strips, Strip { from: last, terms: [end, SVector::zeros(), SVector::zeros()] });
         Strips { strips, sense, level, density: steady.density(medium) }
     }
+}
 
+impl Strips<1> {
+    /// A pressure of one all over air or water.
+    pub fn even(steady: &Steady, medium: Medium) -> Self {
+        let sense = if medium == Medium::Air { 1.0 } else { -1.0 };
+        let strip = Strip { from: 0.0, terms: [SVector::from([1.0]), SVector::zeros(), SVector::zeros()] };
+        Strips { strips: vec![strip], sense, level: steady.around.tide, density: steady.density(medium) }
+    }
+}
+
+impl<const D: usize> Strips<D> {
     /// The strips from a distance to another, each with where it ends.
-    pub fn between(&self, low: f64, high: f64) -> impl Iterator<Item = (&Strip, f64)> {
+    pub fn between(&self, low: f64, high: f64) -> impl Iterator<Item = (&Strip<D>, f64)> {
         let first = self.strips.partition_point(|s| s.from <= low).saturating_sub(1);
         let rest = self.strips.get(first..).unwrap_or_default();
         let ends = rest.iter().skip(1).map(|s| s.from).chain(std::iter::once(f64::INFINITY));
@@ -106,8 +117,8 @@ impl Strips {
     }
 
     /// w at the surface.
-    pub fn at_surface(&self) -> Vector2<f64> {
-        self.strips.first().map_or_else(Vector2::zeros, |s| s.terms[0])
+    pub fn at_surface(&self) -> SVector<f64, D> {
+        self.strips.first().map_or_else(SVector::zeros, |s| s.terms[0])
     }
 }
 

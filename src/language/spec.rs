@@ -211,6 +211,8 @@ pub enum Opens {
     Menu(&'static str),
     /// The menu of this name when at most this many words follow the command; with more it is complete in itself.
     AtMost(&'static str, usize),
+    /// The menu of the first name when at most this many words follow the command; with more that of the second.
+    AtMostElse(&'static str, usize, &'static str),
     /// The menu of this name when it has this option, in full or not.
     WithOption(&'static str, &'static str),
     /// The menu of this name when at most this many words stand between the command and its first option; with more it is

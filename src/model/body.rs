@@ -3,6 +3,7 @@
 use super::database::AttachedDatabase;
 use super::geometry::{Place, Position};
 use super::hull::{LinearHydrostatics, Piece};
+use super::prescribed::Prescription;
 use crate::language::source::Span;
 use nalgebra::{Matrix3, Vector3};
 
@@ -26,6 +27,8 @@ pub struct Body {
     pub linear: Option<LinearHydrostatics>,
     /// What potential flow says of it: radiation and excitation by waves.
     pub database: Option<AttachedDatabase>,
+    /// The motion it is given, where forces do not move it.
+    pub prescribed: Option<Prescription>,
     /// Where it was defined.
     pub span: Span,
 }

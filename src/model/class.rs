@@ -5,6 +5,7 @@ use super::connector::Connector;
 use super::defaults::Defaults;
 use super::element::{Connection, Element};
 use super::environment::Surroundings;
+use super::fatigue::FatigueSegment;
 use super::line::{LineModel, Placement};
 use crate::language::args::Args;
 use crate::language::diagnostic::{Diagnostic, Outcome};
@@ -38,6 +39,18 @@ pub struct Class {
     pub object: Arc<dyn ConnectorClass>,
     /// Where it was first defined.
     pub span: Span,
+}
+
+impl Class {
+    /// What fatigue goes by in each segment, from the fairlead: one a record, with the curve of its `-C_SN`; none of a class
+    /// without sections.
+    pub fn fatigue_segments(&self) -> Vec<FatigueSegment> {
+        let mut segments = self.object.fatigue_segments();
+        for (segment, record) in segments.iter_mut().zip(&self.records) {
+            segment.curve = record.args.option_word("-C_SN").map(str::to_string);
+        }
+        segments
+    }
 }
 
 /// Why a class could not answer.
@@ -122,6 +135,11 @@ pub trait ConnectorClass: Debug + Send + Sync {
 
     /// The properties of the class as `&STATUS CLASS` prints them; one row a segment or degree of freedom.
     fn properties(&self, name: &str, surroundings: &Surroundings) -> Table;
+
+    /// What fatigue goes by in each segment, from the fairlead, without curves; none of a class without sections.
+    fn fatigue_segments(&self) -> Vec<FatigueSegment> {
+        Vec::new()
+    }
 
     /// Length of the first segment (m) for geometry reports; `None` for classes without length.
     fn first_length(&self) -> Option<f64> {

@@ -16,6 +16,8 @@ pub enum CurveKind {
     MarineGrowth,
     /// Wind: time (s), speed (m/s).
     WindHistory,
+    /// Current (ours): time (s), factor.
+    CurrentHistory,
     /// Load multiplier: time (s), factor.
     LoadMultiplier,
     /// Connector length change: time (s), length (m).
@@ -40,6 +42,7 @@ impl CurveKind {
         ("F_SPECTRUM", CurveKind::FrequencySpectrum),
         ("M_GROWTH", CurveKind::MarineGrowth),
         ("W_HISTORY", CurveKind::WindHistory),
+        ("C_HISTORY", CurveKind::CurrentHistory),
         ("LT_MULTIPLIER", CurveKind::LoadMultiplier),
         ("CT_LENGTH", CurveKind::ConnectorLength),
         ("EFFICIENCY", CurveKind::Efficiency),
@@ -62,7 +65,7 @@ impl CurveKind {
             CurveKind::FrequencySpectrum => [("Frequency", Dim::Frequency), ("Density", Dim::SpectralDensity)],
             CurveKind::MarineGrowth => [("Elevation", Dim::Length), ("Added OD", Dim::Section)],
             CurveKind::WindHistory => [("Time", Dim::Time), ("Speed", Dim::WindSpeed)],
-            CurveKind::LoadMultiplier => [("Time", Dim::Time), ("Factor", Dim::None)],
+            CurveKind::CurrentHistory | CurveKind::LoadMultiplier => [("Time", Dim::Time), ("Factor", Dim::None)],
             CurveKind::ConnectorLength => [("Time", Dim::Time), ("Length", Dim::Length)],
             CurveKind::Efficiency | CurveKind::DragVelocity => [("Velocity", Dim::Velocity), ("Factor", Dim::None)],
             CurveKind::AddedMassPressure => [("Elevation", Dim::Length), ("Factor", Dim::None)],

@@ -85,13 +85,24 @@ pub struct Wind {
     pub direction: f64,
 }
 
-/// A formula that an option of the environment names.
+/// A formula or a curve that an option of the environment names.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Formula {
-    /// Its name, in upper case.
+    /// Its name; that of a formula in upper case.
     pub kind: String,
-    /// Its number: an exponent, an averaging time (s).
+    /// Its number: an exponent, an averaging time (s), a density (kg/m3), a factor.
     pub value: Option<f64>,
+    /// Where it was given.
+    pub span: Span,
+}
+
+/// How gusts are cut from their spectrum: `-W_COMPONENTS N INTENSITY`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GustParts {
+    /// How many components.
+    pub number: usize,
+    /// Standard deviation over the mean speed, where it is not that of the spectrum.
+    pub intensity: Option<f64>,
     /// Where it was given.
     pub span: Span,
 }
@@ -138,10 +149,24 @@ pub struct Environment {
     pub wind_profile: Option<Formula>,
     /// Design wind, with its averaging time (s) (`-W_DESIGN`).
     pub design_wind: Option<Formula>,
+    /// Gust spectrum (`-W_SPECTRUM`): a code, or a curve.
+    pub gusts: Option<Formula>,
+    /// Periods of the gusts (s) (`-W_PERIOD`); none: as `gust_parts` says.
+    pub gust_periods: Vec<f64>,
+    /// How gusts are cut from their spectrum (`-W_COMPONENTS`).
+    pub gust_parts: Option<GustParts>,
+    /// Curve of the wind over time (`-W_HISTORY`).
+    pub wind_history: Option<Formula>,
+    /// Correlation of gusts and mean drift (`-W_MD_CORRELATION`).
+    pub drift_correlation: Option<Formula>,
     /// What the period of a sea is (`-SP_TYPE`).
     pub sea_period: Option<Formula>,
     /// Current.
     pub current: Option<Current>,
+    /// Curve of the factor of the current over time (`-C_HISTORY`).
+    pub current_history: Option<Formula>,
+    /// Curve of marine growth (`-M_GROWTH`), with the density of the growth (kg/m3).
+    pub growth: Option<Formula>,
     /// Water density (kg/m3).
     pub water_density: Option<f64>,
     /// Depth (m).

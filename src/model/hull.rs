@@ -42,10 +42,39 @@ pub struct Piece {
     pub cs_wind: [f64; 3],
     /// Shape coefficients of the current force along the axes of the part; zeros where it takes none.
     pub cs_current: [f64; 3],
-    /// Options that are kept for what comes later: diffraction, added mass, roll damping.
+    /// What water does to it by Morison's formula, of a tube.
+    pub member: Option<Member>,
+    /// What waves do to it.
+    pub waves: WaveAction,
+    /// Options that are kept for what comes later: added mass, roll damping.
     pub kept: Vec<Given>,
     /// Where it was defined.
     pub span: Span,
+}
+
+/// Coefficients of a round member in Morison's formula, on its outer diameter D; all without a dimension.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Member {
+    /// Drag across the axis, Cd: 1/2 rho Cd D |u| u a length.
+    pub drag: f64,
+    /// Friction along the axis, on the skin: 1/2 rho Cdt pi D |u| u a length.
+    pub friction: f64,
+    /// Added mass across the axis, Ca = Cm - 1: rho Ca pi D^2/4 a length.
+    pub added: f64,
+    /// Added mass along the axis of each end: rho Caa pi D^3/12, of the half sphere on the end.
+    pub end_added: f64,
+}
+
+/// What waves do to a piece.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum WaveAction {
+    /// What its form says: a tube is a member of Morison's formula, another piece feels nothing.
+    #[default]
+    ByForm,
+    /// It is part of the hull of a hydrodynamic database, which holds all forces of waves on it but drag.
+    Database,
+    /// Pressure of the waves as they are without it, up to their surface (Froude and Krylov).
+    Pressure,
 }
 
 impl Shape {

@@ -12,12 +12,14 @@ mod database;
 mod defaults;
 mod element;
 mod environment;
+mod fatigue;
 mod geometry;
 mod hull;
 mod line;
 mod load;
 mod names;
 mod pose;
+mod prescribed;
 mod selector;
 
 pub use assembly::{Assemblies, Assembly, AssemblyKind, LaidPipe, PIPE, PipeLayout};
@@ -29,14 +31,17 @@ pub use database::{Amplitudes, AttachedDatabase, Database, DriftMethod, DriftTab
 pub use defaults::{Coordinates, Defaults, Material};
 pub use element::{Connection, Element, End, Guess, Response, Situation, SpringState, Summary, TimeStep};
 pub use environment::{
-    Components, Current, Division, Environment, Formula, Phasing, Sea, Stretching, Surroundings, TimeWindow, Wind,
+    Components, Current, Division, Environment, Formula, GustParts, Phasing, Sea, Stretching, Surroundings, TimeWindow,
+    Wind,
 };
+pub use fatigue::{FatigueCurve, FatigueKind, FatigueSegment, FatigueSelection, ThicknessCorrection};
 pub use geometry::{Place, Position, unit_vector};
-pub use hull::{LinearHydrostatics, Piece, Shape, box_panels};
+pub use hull::{LinearHydrostatics, Member, Piece, Shape, WaveAction, box_panels};
 pub use line::{Condition, Configuration, LineChange, LineLoads, LineModel, Placement};
 pub use load::{Fluid, LoadKind, Multipliers, PartLoad};
 pub use names::Thing;
 pub use pose::{Pose, Six};
+pub use prescribed::{GivenMotion, PathRow, Prescription, ResponseRow, Responses, Sinusoid};
 pub use selector::Selector;
 
 use crate::language::diagnostic::{Diagnostic, Outcome, did_you_mean};
@@ -64,6 +69,8 @@ pub struct Model {
     pub assemblies: Assemblies,
     /// Curves.
     pub curves: IndexMap<String, Curve>,
+    /// Fatigue curves and what `&REP_SELECT` chose of them.
+    pub fatigue: FatigueSelection,
     /// Environments kept under a name.
     pub environments: IndexMap<String, Environment>,
     /// Selectors.

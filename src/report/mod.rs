@@ -10,5 +10,6 @@ pub mod output;
 pub mod page;
 pub mod picture;
 pub mod plot;
+pub mod readback;
 pub mod run_log;
 pub mod statistic;

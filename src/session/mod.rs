@@ -254,6 +254,9 @@ impl Session {
         if self.pass_over(first, words) {
             return Ok(Effect::Done);
         }
+        if matches!(self.job.menu(), Menu::Building(_)) && first.kind != Kind::Internal {
+            return command::take_row(&mut self.job, record);
+        }
         match first.kind {
             Kind::Class => return self.invoke(in_menu("~CLASS", self.job.menu(), first)?, record, words),
             Kind::Point => return self.invoke(in_menu("*POINT", self.job.menu(), first)?, record, words),

@@ -1,52 +1,8 @@
-//! What a run says of itself, and its results as series.
+//! What a run says of itself, and how it compares with another.
 
-use super::system::FREEDOMS;
-use super::time::{Counts, History, Method, OF_BODY, Run};
+use super::time::{Counts, History, Method, Run, Series, results};
 use crate::language::units::Dim;
 use crate::table::{Cell, Digits, Table};
-
-/// A result against time.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Series {
-    /// What it is of, and which: `TBRG X`, `A Tension`.
-    pub name: String,
-    /// Its dimension.
-    pub dim: Dim,
-    /// Its numbers in a row: one, or the components of a force whose size it is.
-    pub columns: std::ops::Range<usize>,
-}
-
-impl Series {
-    /// Its value in a row.
-    pub fn value(&self, row: &[f64]) -> f64 {
-        match row.get(self.columns.clone()) {
-            Some([one]) => *one,
-            Some(several) => several.iter().map(|v| v * v).sum::<f64>().sqrt(),
-            None => f64::NAN,
-        }
-    }
-}
-
-/// The results a run is judged by: places and angles of the bodies, tensions of the connectors.
-pub fn results(history: &History) -> Vec<Series> {
-    let layout = &history.layout;
-    let mut list = Vec::new();
-    for (body, (name, _)) in layout.bodies.iter().enumerate() {
-        let at = layout.body(body);
-        debug_assert!(OF_BODY >= 6, "a row begins with the place");
-        for (i, freedom) in FREEDOMS.iter().enumerate() {
-            let dim = if i < 3 { Dim::Length } else { Dim::Angle };
-            list.push(Series { name: format!("{name} {freedom}"), dim, columns: at + i..at + i + 1 });
-        }
-    }
-    for (link, columns) in layout.links.iter().enumerate() {
-        let first = (0..columns.ends.len()).find_map(|end| layout.wrench(link, end));
-        if let Some(at) = first {
-            list.push(Series { name: format!("{} Tension", columns.name), dim: Dim::Force, columns: at..at + 3 });
-        }
-    }
-    list
-}
 
 /// How a run stepped.
 fn scheme(method: &Method) -> String {
@@ -92,9 +48,8 @@ pub fn told(run: &Run) -> Table {
     table
 }
 
-/// Mean, deviation and extremes of the results of a history, a table for each dimension.
-pub fn extremes(history: &History) -> Vec<Table> {
-    let all = results(history);
+/// Mean, deviation and extremes of the results of a run behind its transient, a table for each dimension.
+pub fn extremes(run: &Run) -> Vec<Table> {
     let mut tables = Vec::new();
     for (title, dim) in KINDS {
         let mut table = Table::new(title)
@@ -105,24 +60,29 @@ pub fn extremes(history: &History) -> Vec<Table> {
             .column("Minimum", "At", Dim::Time, Digits::Usual)
             .column("Maximum", "Most", dim, Digits::Usual)
             .column("Maximum", "At ", Dim::Time, Digits::Usual);
-        for series in all.iter().filter(|s| s.dim == dim) {
-            let m = Moments::of(history, series);
-            let cells = [m.mean, m.deviation, m.least.1, m.least.0, m.most.1, m.most.0];
-            push(&mut table, &series.name, cells.map(Cell::from));
+        for (series, running) in run.statistics.all().filter(|(s, _)| s.dim == dim) {
+            if let Some(m) = running.summary() {
+                let (least, most) = (m.minimum, m.maximum);
+                let cells = [m.mean, m.deviation, least.value, least.time, most.value, most.time];
+                push(&mut table, &series.name, cells.map(Cell::from));
+            }
         }
         if table.rows() > 0 {
             tables.push(table);
         }
     }
     if let Some(last) = tables.last_mut() {
-        last.note("of the whole run, its beginning included: PRCPOST takes parts of it");
+        last.note(match run.settings.transient {
+            t if t > 0.0 => "of the stored instants behind TTRA_SET: PRCPOST takes other parts",
+            _ => "of all stored instants, the beginning included: PRCPOST takes parts",
+        });
     }
     tables
 }
 
 /// What differs between a run and the same with half the step: a table for each dimension.
 pub fn compared(first: &History, second: &History) -> Vec<Table> {
-    let all = results(first);
+    let all = results(&first.layout);
     let mut tables = Vec::new();
     for (title, dim) in KINDS {
         let mut table = Table::new(format!("{title} with Half the Step"))
@@ -138,14 +98,8 @@ pub fn compared(first: &History, second: &History) -> Vec<Table> {
             let differences = pairs.map(|(a, b)| (a.first().copied(), (series.value(a) - series.value(b)).abs()));
             let worst = differences.fold((None, -1.0), |worst, at| if at.1 > worst.1 { at } else { worst });
             let (one, other) = (Moments::of(first, series), Moments::of(second, series));
-            let cells = [
-                Some(worst.1),
-                worst.0,
-                Some(one.most.1),
-                Some(other.most.1),
-                Some(one.deviation),
-                Some(other.deviation),
-            ];
+            let cells =
+                [Some(worst.1), worst.0, Some(one.most), Some(other.most), Some(one.deviation), Some(other.deviation)];
             push(&mut table, &series.name, cells.map(Cell::from));
         }
         if table.rows() > 0 {
@@ -161,23 +115,19 @@ pub fn compared(first: &History, second: &History) -> Vec<Table> {
 /// The dimensions of results, with what they are called.
 const KINDS: [(&str, Dim); 3] = [("Places", Dim::Length), ("Angles", Dim::Angle), ("Tensions", Dim::Force)];
 
-/// Mean, deviation and extremes (time, value) of a result.
+/// Deviation and largest value of a result.
 struct Moments {
-    mean: f64,
     deviation: f64,
-    least: (f64, f64),
-    most: (f64, f64),
+    most: f64,
 }
 
 impl Moments {
     fn of(history: &History, series: &Series) -> Self {
-        let values = || history.rows().map(|row| (row.first().copied().unwrap_or(0.0), series.value(row)));
+        let values = || history.rows().map(|row| series.value(row));
         let count = history.len().max(1) as f64;
-        let mean = values().map(|(_, v)| v).sum::<f64>() / count;
-        let variance = values().map(|(_, v)| (v - mean) * (v - mean)).sum::<f64>() / count;
-        let least = values().fold((0.0, f64::INFINITY), |best, at| if at.1 < best.1 { at } else { best });
-        let most = values().fold((0.0, f64::NEG_INFINITY), |best, at| if at.1 > best.1 { at } else { best });
-        Moments { mean, deviation: variance.sqrt(), least, most }
+        let mean = values().sum::<f64>() / count;
+        let variance = values().map(|v| (v - mean) * (v - mean)).sum::<f64>() / count;
+        Moments { deviation: variance.sqrt(), most: values().fold(f64::NEG_INFINITY, f64::max) }
     }
 }
 

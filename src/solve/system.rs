@@ -1,7 +1,7 @@
 //! The system of bodies and connectors: who hangs on whom, what acts on each body, how that changes with their places.
 
 use super::modes::held;
-use super::time::Prescribed;
+use super::time::{Prescribed, prescribed};
 use crate::hydro::sea::Sea;
 use crate::hydro::{Category, Floating, Load, carried, transferred, turning};
 use crate::model::{
@@ -57,7 +57,8 @@ pub struct Node {
 
 impl Node {
     fn of(model: &Model, key: &str, body: &Body, floating: Floating) -> Self {
-        let idle = model.idle_hook(body);
+        // what moves as it is given stands still for forces
+        let idle = model.idle_hook(body) || body.prescribed.is_some();
         let free = FREEDOMS.map(|f| !idle && !body.ignored.iter().any(|i| i == f));
         let (damped, added) = (floating.damping != Matrix6::zeros(), floating.added_mass != Matrix6::zeros());
         let (name, key, junction) = (body.name.clone(), key.to_string(), body.junction.is_some());
@@ -357,7 +358,9 @@ pub(super) fn without_rounding(place: Place) -> Place {
 pub(super) fn moving_nodes(model: &Model, sea: Option<&Arc<Sea>>) -> Result<Vec<Node>, SolveError> {
     let node = |(key, body): (&String, &Body)| {
         let floating = Floating::under_way(model, body, sea).map_err(SolveError::of(&body.name))?;
-        Ok(Node::of(model, key, body, floating))
+        let mut made = Node::of(model, key, body, floating);
+        made.prescribed = prescribed(body, sea).map_err(SolveError::of(&body.name))?;
+        Ok(made)
     };
     model.bodies.iter().map(node).collect()
 }

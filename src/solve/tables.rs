@@ -158,7 +158,9 @@ pub fn periods(system: &System, state: &State) -> Table {
             ],
         );
     }
-    table.note("eigenvalues in rad2/s2, of the stiffness against mass and the added mass of #AMASS; undamped");
+    table.note(
+        "eigenvalues in rad2/s2, of the stiffness against mass and the added mass of #AMASS and members; undamped",
+    );
     table
 }
 

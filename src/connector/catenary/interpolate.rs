@@ -63,6 +63,20 @@ pub struct Interpolated {
     rest: [Curve; 5],
 }
 
+/// What the ends of the line are pulled with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pulled {
+    /// Horizontal force (N) and its derivative by the distance (N/m).
+    pub force: f64,
+    pub stiffness: f64,
+    /// Vertical force at the fairlead (N, downward).
+    pub vertical: f64,
+    /// Its derivative by the distance (N/m).
+    pub vertical_slope: f64,
+    /// Horizontal and vertical pull on the anchor (N).
+    pub anchor: [f64; 2],
+}
+
 /// What the table gives at a distance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FromTable {
@@ -103,33 +117,57 @@ impl Interpolated {
         Interpolated { x, force, rest }
     }
 
-    /// At a distance (m) not nearer than the first row; beyond the last one on straight lines.
-    pub fn at(&self, x: f64, rows: &[Row]) -> FromTable {
+    /// The interval that holds a distance (m): its number, its length (m), how far along it the distance is, from 0 to 1, and how
+    /// far beyond the table (m).
+    fn interval(&self, x: f64) -> (usize, f64, f64, f64) {
         let (first, last) = (self.x.first().copied().unwrap_or(0.0), self.x.last().copied().unwrap_or(0.0));
         let inside = x.clamp(first, last);
         let i = self.x.partition_point(|v| *v <= inside).clamp(1, self.x.len().saturating_sub(1).max(1)) - 1;
         let from = self.x.get(i).copied().unwrap_or(0.0);
         let h = self.x.get(i + 1).copied().unwrap_or(from) - from;
-        let t = if h > 0.0 { (inside - from) / h } else { 0.0 };
+        (i, h, if h > 0.0 { (inside - from) / h } else { 0.0 }, x - inside)
+    }
+
+    /// What the ends of the line are pulled with at a distance (m), as of [`Interpolated::at`].
+    pub fn pull(&self, x: f64) -> Pulled {
+        let (i, h, t, beyond) = self.interval(x);
         let one = |curve: &Curve| {
             let (value, slope) = curve.at(i, h, t);
-            (value + slope * (x - inside), slope)
+            (value + slope * beyond, slope)
         };
         let (force, stiffness) = one(&self.force);
-        let [(vertical, vertical_slope), (taken, _), (anchor_v, _), (grounded, _), (ratio, _)] =
-            self.rest.each_ref().map(one);
+        let [vertical, taken, anchor, ..] = &self.rest;
+        let ((vertical, vertical_slope), (taken, _), (anchor, _)) = (one(vertical), one(taken), one(anchor));
         let force = force.max(0.0);
-        let critical_row = if t < 0.5 { i } else { i + 1 };
-        FromTable {
+        Pulled {
             force,
             stiffness: if force > 0.0 { stiffness } else { 0.0 },
             vertical,
             vertical_slope,
-            anchor: [(force - taken).max(0.0), anchor_v.max(0.0)],
-            grounded: grounded.max(0.0),
-            ratio: ratio.max(0.0),
+            anchor: [(force - taken).max(0.0), anchor.max(0.0)],
+        }
+    }
+
+    /// At a distance (m) not nearer than the first row; beyond the last one on straight lines.
+    pub fn at(&self, x: f64, rows: &[Row]) -> FromTable {
+        let (i, h, t, beyond) = self.interval(x);
+        let Pulled { force, stiffness, vertical, vertical_slope, anchor } = self.pull(x);
+        let one = |curve: &Curve| {
+            let (value, slope) = curve.at(i, h, t);
+            value + slope * beyond
+        };
+        let [_, _, _, grounded, ratio] = &self.rest;
+        let critical_row = if t < 0.5 { i } else { i + 1 };
+        FromTable {
+            force,
+            stiffness,
+            vertical,
+            vertical_slope,
+            anchor,
+            grounded: one(grounded).max(0.0),
+            ratio: one(ratio).max(0.0),
             critical: rows.get(critical_row).map_or(1, |r| r.critical),
-            beyond: x > last,
+            beyond: beyond > 0.0,
         }
     }
 }

@@ -4,7 +4,7 @@
 //! time of the reference point; between headings X is straight in real and imaginary part, so that the force has no
 //! jump when the body turns. Roll and pitch do not change it (first order).
 
-use super::waves::{BLOCK, ByHeading, Group, block, dot, groups};
+use super::waves::{BLOCK, ByHeading, Group, block, groups, real_part};
 use crate::hydro::body_load::{BodyLoad, MovingLoad, Underway};
 use crate::hydro::sea::Sea;
 use crate::hydro::{Category, Load, carried};
@@ -65,11 +65,10 @@ impl Excitation {
             let tables = table.around(group.toward - yaw)?;
             for index in 0..group.blocks() {
                 group.phasors(index, (time, x, y), &mut phasors);
-                let [cos, sin] = &phasors;
                 for (lanes, share) in tables.iter().filter(|t| t.1 != 0.0) {
                     for mode in 0..6 {
                         let (real, imaginary) = (block(&lanes[mode], index), block(&lanes[mode + 6], index));
-                        sum[mode] += share * (dot(real, cos) - dot(imaginary, sin));
+                        sum[mode] += share * real_part(real, imaginary, &phasors);
                     }
                 }
             }

@@ -57,8 +57,10 @@ pub fn read(source: &str, files: &[SourceFile], body: Option<usize>) -> Result<D
         (data.frequencies, data.added_mass, data.damping) = (table.frequencies, table.added_mass, table.damping);
     }
     if let Some(file) = find("ExcitationForce.tec") {
-        let (rows, unit) = excitation(file, &case, chosen)?;
-        data.remarks.push(format!("{}: phases are taken to be in {unit}", file.name));
+        let (rows, degrees) = excitation(file, &case, chosen)?;
+        if degrees {
+            data.remarks.push(format!("{}: phases exceed pi and are taken to be in degrees", file.name));
+        }
         let table = by_wave(file, &rows)?;
         if data.frequencies.is_empty() {
             data.frequencies = table.frequencies;
@@ -104,6 +106,9 @@ pub(super) fn refer_phases(data: &mut Database, dx: f64, dy: f64) {
     }
 }
 
+/// What makes a frequency (rad/s) of the first column of a file.
+type ToFrequency = fn(f64) -> f64;
+
 /// A zone of a Tecplot file.
 struct Zone {
     title: String,
@@ -111,9 +116,9 @@ struct Zone {
 }
 
 /// The zones, and what makes a frequency (rad/s) of the first column.
-fn zones(file: &SourceFile) -> Result<(Vec<Zone>, fn(f64) -> f64), DatabaseError> {
+fn zones(file: &SourceFile) -> Result<(Vec<Zone>, ToFrequency), DatabaseError> {
     let head = file.text.lines().next().unwrap_or_default().to_ascii_lowercase();
-    let frequency: fn(f64) -> f64 = if head.contains("(hz)") {
+    let frequency: ToFrequency = if head.contains("(hz)") {
         |f| TAU * f
     } else if head.contains("(s)") {
         |t| TAU / t
@@ -144,7 +149,7 @@ fn columns(
     file: &SourceFile,
     (line, row): &(usize, Vec<f64>),
     force: usize,
-    frequency: fn(f64) -> f64,
+    frequency: ToFrequency,
 ) -> Result<(f64, f64, f64), DatabaseError> {
     let (Some(first), Some(a), Some(b)) = (row.first(), row.get(1 + 2 * force), row.get(2 + 2 * force)) else {
         return Err(file.wrong_at(*line, format!("{} numbers are too few for force {}", row.len(), force + 1)));
@@ -190,8 +195,8 @@ fn radiation(file: &SourceFile, case: &Case, body: usize) -> Result<Vec<PairRow>
     Ok(rows)
 }
 
-/// Rows of excitation, and the unit of phases.
-fn excitation(file: &SourceFile, case: &Case, body: usize) -> Result<(Vec<ModeRow>, &'static str), DatabaseError> {
+/// Rows of excitation, and whether phases are in degrees.
+fn excitation(file: &SourceFile, case: &Case, body: usize) -> Result<(Vec<ModeRow>, bool), DatabaseError> {
     let (zones, frequency) = zones(file)?;
     let mut rows = Vec::new();
     let mut largest: f64 = 0.0;
@@ -208,14 +213,15 @@ fn excitation(file: &SourceFile, case: &Case, body: usize) -> Result<(Vec<ModeRo
             }
         }
     }
-    let (unit, factor) = if largest <= PI + 1e-4 { ("rad", 1.0) } else { ("degrees", PI / 180.0) };
+    let degrees = largest > PI + 1e-4;
+    let factor = if degrees { PI / 180.0 } else { 1.0 };
     let rows = rows.into_iter().map(|(heading, frequency, mode, modulus, phase)| ModeRow {
         heading,
         frequency,
         mode,
         value: Complex::from_polar(modulus, phase * factor),
     });
-    Ok((rows.collect(), unit))
+    Ok((rows.collect(), degrees))
 }
 
 /// A 6 x 6 matrix of six rows.

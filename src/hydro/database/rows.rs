@@ -101,7 +101,7 @@ impl Row {
     /// A whole number from 1; `None` for anything else.
     pub fn ordinal(&self, index: usize) -> Option<usize> {
         let value = self.at(index);
-        (value >= 1.0 && value <= 6000.0 && value.fract() == 0.0).then_some(value as usize)
+        ((1.0..=6000.0).contains(&value) && value.fract() == 0.0).then_some(value as usize)
     }
 }
 

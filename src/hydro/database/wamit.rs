@@ -130,18 +130,15 @@ fn radiation(data: &mut Database, file: &SourceFile, scale: &WamitScale) -> Resu
     Ok(())
 }
 
-/// Puts right the limits of a file whose writer exchanged the marks of zero and infinite frequency (Capytaine 3.0 does).
+/// Puts right the limits of a file whose writer exchanged the marks of zero and infinite frequency (a version of Capytaine did).
 fn exchanged_limits(data: &mut Database) {
     let (Some(infinite), Some(zero), Some(low), Some(high)) =
         (data.infinite, data.zero, data.added_mass.first(), data.added_mass.last())
     else {
         return;
     };
-    let trace = |m: &Matrix6<f64>| m.diagonal().map(f64::abs);
-    let off = |a: &Matrix6<f64>, b: &Matrix6<f64>| {
-        let (a, b) = (trace(a), trace(b));
-        (a - b).component_div(&(a + b).map(|v| v.max(f64::MIN_POSITIVE))).amax()
-    };
+    // translations only: rotations of a body may be nothing but rounding
+    let off = |a: &Matrix6<f64>, b: &Matrix6<f64>| (0..3).map(|i| (a[(i, i)] - b[(i, i)]).powi(2)).sum::<f64>().sqrt();
     if off(&zero, high) + off(&infinite, low) < 0.5 * (off(&zero, low) + off(&infinite, high)) {
         (data.infinite, data.zero) = (Some(zero), Some(infinite));
         let text =

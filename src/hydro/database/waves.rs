@@ -72,6 +72,9 @@ pub(super) fn groups(sea: &Sea) -> Vec<Group> {
     groups.into_iter().map(|g| g.1).collect()
 }
 
+/// The lanes of a heading, and their share.
+type Share<'a, const WIDTH: usize> = (&'a [Vec<f64>; WIDTH], f64);
+
 /// Values of each wave of each group at each heading of a table, `WIDTH` lanes of them.
 #[derive(Clone, Debug)]
 pub(super) struct ByHeading<const WIDTH: usize> {
@@ -109,7 +112,7 @@ impl<const WIDTH: usize> ByHeading<WIDTH> {
     ///
     /// # Errors
     /// A heading in a gap of the table.
-    pub fn around(&self, heading: f64) -> Result<[(&[Vec<f64>; WIDTH], f64); 2], ClassError> {
+    pub fn around(&self, heading: f64) -> Result<[Share<'_, WIDTH>; 2], ClassError> {
         let (a, b, share) = around(&self.headings, heading)?;
         match (self.tables.get(a), self.tables.get(b)) {
             (Some(first), Some(second)) => Ok([(first, 1.0 - share), (second, share)]),
@@ -137,13 +140,29 @@ pub(super) fn dot(lane: &[f64], phasor: &[f64]) -> f64 {
     sums[0] + sums[1] + (sums[2] + sums[3]) + rest
 }
 
+/// The sum of `real cos - imaginary sin`, in eight sums side by side; the order is fixed.
+pub(super) fn real_part(real: &[f64], imaginary: &[f64], [cos, sin]: &[[f64; BLOCK]; 2]) -> f64 {
+    let count = real.len().min(imaginary.len()).min(BLOCK);
+    let (real, imaginary) = (real[..count].chunks_exact(8), imaginary[..count].chunks_exact(8));
+    let done = count - real.remainder().len();
+    let last = real.remainder().iter().zip(imaginary.remainder()).zip(cos[done..].iter().zip(&sin[done..]));
+    let rest: f64 = last.map(|((a, b), (c, s))| a * c - b * s).sum();
+    let mut sums = [0.0; 8];
+    for ((a, b), (c, s)) in real.zip(imaginary).zip(cos.chunks_exact(8).zip(sin.chunks_exact(8))) {
+        for n in 0..8 {
+            sums[n] += a[n] * c[n] - b[n] * s[n];
+        }
+    }
+    sums.iter().sum::<f64>() + rest
+}
+
 /// Sine and cosine of an angle of some 1e6 rad at most, without branches so that a loop of it runs in vectors: to 1 ulp and the
 /// rounding of the angle. The angle less whole quarters in two parts (Cody and Waite), then the polynomials of fdlibm (k_sin.c, k_cos.c).
 fn sine_and_cosine(angle: f64) -> (f64, f64) {
     // adding it leaves a whole number in the last digits
     const WHOLE: f64 = 6_755_399_441_055_744.0;
     const QUARTER: [f64; 3] = [
-        f64::from_bits(0x3FF9_21FB_5400_0000),
+        f64::from_bits(0x3FF9_21FB_5440_0000),
         f64::from_bits(0x3DD0_B461_1A60_0000),
         f64::from_bits(0x3BA3_198A_2E03_7073),
     ];

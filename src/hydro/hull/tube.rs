@@ -25,6 +25,12 @@ impl Tube {
     /// The prism of a number of sides whose width, in the mean of all sides, is the diameter: its perimeter is that of the tube
     /// (Cauchy). `None` of a tube without length or diameter.
     pub fn prism(&self, sides: u32) -> Option<Surface> {
+        self.widened(&[(0.0, self.diameter), (1.0, self.diameter)], sides)
+    }
+
+    /// The same with a diameter (m) that is straight along the axis between stations, from 0 at the first end to 1 at the second;
+    /// two at one place make a step.
+    pub fn widened(&self, stations: &[(f64, f64)], sides: u32) -> Option<Surface> {
         let [foot, head] = self.ends;
         let axis = (head - foot).try_normalize(0.0).filter(|_| self.diameter > 0.0)?;
         let mut across = Vector3::zeros();
@@ -32,17 +38,19 @@ impl Tube {
         let x = axis.cross(&across).try_normalize(0.0)?;
         let y = axis.cross(&x);
         let step = 2.0 * PI / f64::from(sides);
-        let radius = 0.5 * self.diameter * (step / 2.0) / (step / 2.0).sin();
-        let rim = |end: Vector3<f64>| {
+        let rim = |(at, diameter): &(f64, f64)| {
+            let (end, radius) = (foot + (head - foot) * *at, 0.5 * diameter * (step / 2.0) / (step / 2.0).sin());
             (0..sides).map(move |n| {
                 let (sin, cos) = (step * f64::from(n)).sin_cos();
                 end + (x * cos + y * sin) * radius
             })
         };
-        let vertices = rim(foot).chain(rim(head)).collect();
-        let side = (0..sides).map(|n| (n, (n + 1) % sides));
+        let last = u32::try_from(stations.len()).ok()?.checked_sub(1)?;
+        let vertices = stations.iter().flat_map(rim).collect();
+        let side = (0..last).flat_map(|k| (0..sides).map(move |n| (k * sides + n, k * sides + (n + 1) % sides)));
         let mantle = side.flat_map(|(n, m)| [[n, m, m + sides], [n, m + sides, n + sides]]);
-        let ends = (1..sides.saturating_sub(1)).flat_map(|n| [[0, n + 1, n], [sides, sides + n, sides + n + 1]]);
+        let top = last * sides;
+        let ends = (1..sides.saturating_sub(1)).flat_map(|n| [[0, n + 1, n], [top, top + n, top + n + 1]]);
         Some(Surface { vertices, faces: mantle.chain(ends).collect() })
     }
 }

@@ -16,7 +16,6 @@ pub mod stokes;
 
 use crate::model::Stretching;
 use nalgebra::Vector3;
-use std::f64::consts::PI;
 
 pub use airy::SeaAt;
 pub use made::Train;
@@ -126,14 +125,7 @@ impl Sea {
 
     /// The ramp at a time (s), and its change with time (1/s).
     fn factor_and_rate(&self, time: f64) -> (f64, f64) {
-        if self.ramp <= 0.0 || time >= self.ramp {
-            return (1.0, 0.0);
-        }
-        if time <= 0.0 {
-            return (0.0, 0.0);
-        }
-        let (sin, cos) = (PI * time / self.ramp).sin_cos();
-        (0.5 * (1.0 - cos), 0.5 * PI / self.ramp * sin)
+        super::ramp::ramp(self.ramp, time)
     }
 
     /// The sea at one time (s), prepared for many places.

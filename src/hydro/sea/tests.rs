@@ -7,7 +7,7 @@ use super::density::Spectrum;
 use super::spectra::{PeriodType, jonswap, most_probable, ochi_hubble, torsethaugen, usual_gamma};
 use super::*;
 use crate::model::{Division, Phasing};
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 const GRAVITY: f64 = 9.80665;
 

@@ -58,11 +58,10 @@ impl Memory {
     pub(in crate::solve) fn recall(&mut self, body: usize, system: &System, (memory, old): (&Memory, &Node)) {
         let (Some(node), Some(ranges)) = (system.nodes.get(body), self.ranges.get(body)) else { return };
         let Some(before) = memory.ranges.get(body) else { return };
-        let mut earlier: Vec<_> = old.floating.loads.iter().zip(before).collect();
+        let mut earlier: Vec<_> = old.floating.loads.iter().map(|l| l.category()).zip(before).collect();
         for (load, range) in node.floating.loads.iter().zip(ranges).filter(|(_, r)| !r.is_empty()) {
-            let same = |(l, r): &(&Box<dyn BodyLoad>, &Range<usize>)| {
-                l.category() == load.category() && r.len() == range.len()
-            };
+            let same =
+                |(category, r): &(Category, &Range<usize>)| *category == load.category() && r.len() == range.len();
             let Some(found) = earlier.iter().position(same) else { continue };
             let (_, from) = earlier.remove(found);
             if let (Some(to), Some(from)) = (self.loads.get_mut(range.clone()), memory.loads.get(from.clone())) {
@@ -168,6 +167,9 @@ impl Forces {
                 let state = memory.loads.get(range).unwrap_or_default();
                 let MovingLoad { load: made, damping } = load.moving(&at, state).map_err(SolveError::of(&node.name))?;
                 self.add(body, place_of(load.category()), &made.wrench);
+                if let Some((other, part)) = load.apart(&at, state) {
+                    self.count_as(body, (place_of(load.category()), place_of(other)), &part);
+                }
                 let mut block = self.stiffness.fixed_view_mut::<6, 6>(6 * body, 6 * body);
                 block += made.stiffness;
                 let mut block = self.damping.fixed_view_mut::<6, 6>(6 * body, 6 * body);
@@ -191,6 +193,16 @@ impl Forces {
         at += wrench;
         if let Some(told) = self.categories.get_mut(body).and_then(|c| c.get_mut(category)) {
             *told += wrench;
+        }
+    }
+
+    /// Counts a part of what was added in one category in another.
+    fn count_as(&mut self, body: usize, (from, to): (usize, usize), part: &Six) {
+        let Some(told) = self.categories.get_mut(body) else { return };
+        for (category, share) in [(from, -part), (to, *part)] {
+            if let Some(sum) = told.get_mut(category) {
+                *sum += share;
+            }
         }
     }
 

@@ -153,8 +153,13 @@ impl Layout {
         }
         row.resize(self.width, 0.0);
         let mut first = 0;
-        for link in &system.links {
-            let found = self.links.iter().position(|l| l.name == link.name);
+        for (index, link) in system.links.iter().enumerate() {
+            // in the same place unless a connector has gone
+            let same = |l: &LinkColumns| l.name == link.name;
+            let found = match self.links.get(index) {
+                Some(columns) if same(columns) => Some(index),
+                _ => self.links.iter().position(same),
+            };
             if let (Some(number), Some(columns)) = (found, found.and_then(|n| self.links.get(n))) {
                 let length = told.lengths.get(number).copied().flatten();
                 if let Some([active, long]) = row.get_mut(columns.active..columns.active + 2) {

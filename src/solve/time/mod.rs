@@ -4,20 +4,24 @@
 //! `M a = F(t, q, v) - gyroscopic(v)`; connectors and loads are evaluated at the end of each step.
 
 mod action;
+mod corrector;
 mod forces;
+mod happening;
 mod history;
 mod prescribed;
 mod resume;
 mod run;
 mod scheme;
 mod snapshot;
+mod statistics;
 mod step;
 
 pub use action::{Action, Watched, What, When};
 pub use forces::{Forces, Memory, Motion};
 pub use history::{History, Layout, LinkColumns, OF_BODY};
-pub use prescribed::Prescribed;
+pub use prescribed::{Prescribed, prescribed};
 pub use run::{Counts, Ending, Run, SNAPSHOT, Settings, Watcher};
 pub use scheme::{Method, Scheme};
 pub use snapshot::Snapshot;
+pub use statistics::{Series, Statistics, results};
 pub use step::Convergence;

@@ -1,8 +1,20 @@
-//! Bodies whose motion is given.
+//! Bodies whose motion is given: by sines, by their responses to the waves of the sea, or by a file of places.
+//!
+//! A motion is x, y, z and roll, pitch, yaw with their first and second derivatives in time, each exact; the rotation and its
+//! derivatives in global axes follow from those of the angles ([`moved`]).
+
+mod response;
+mod spline;
 
 use super::forces::Motion;
-use crate::model::ClassError;
+use crate::hydro::sea::Sea;
+use crate::model::{Body, ClassError, GivenMotion, Place, Pose, Sinusoid, Six};
+use nalgebra::Vector3;
+use response::Riding;
+use spline::Spline;
+use std::f64::consts::TAU;
 use std::fmt::Debug;
+use std::sync::Arc;
 
 /// A motion that is given for all times.
 pub trait Prescribed: Debug + Send + Sync {
@@ -11,4 +23,90 @@ pub trait Prescribed: Debug + Send + Sync {
     /// # Errors
     /// A time for which there is none.
     fn at(&self, time: f64) -> Result<Motion, ClassError>;
+}
+
+/// The motion a body of a model is given in a sea, from where it stands; `None` of one that forces move.
+///
+/// # Errors
+/// Waves beyond a table of responses.
+pub fn prescribed(body: &Body, sea: Option<&Arc<Sea>>) -> Result<Option<Box<dyn Prescribed>>, ClassError> {
+    let Some(given) = &body.prescribed else { return Ok(None) };
+    let made: Box<dyn Prescribed> = match &given.motion {
+        GivenMotion::Sinusoids { list, ramp } => {
+            Box::new(Swinging { place: body.place, list: list.clone(), ramp: *ramp })
+        }
+        GivenMotion::Responses(table) => Box::new(Riding::new(body.place, table, sea).map_err(|e| e.at(given.span))?),
+        GivenMotion::Path(rows) => Box::new(Spline::of(rows).map_err(|e| e.at(given.span))?),
+    };
+    Ok(Some(made))
+}
+
+/// x, y, z (m) and roll, pitch, yaw (rad), with their first and second derivatives in time.
+pub(super) type Freedoms = [[f64; 6]; 3];
+
+/// The motion of six freedoms.
+///
+/// The axes are those of yaw about z, pitch about y and roll about x, each about the axes already turned. With e1 the body's x axis, e2 the
+/// y axis after the yaw alone and e3 the vertical, the rotation is `roll' e1 + pitch' e2 + yaw' e3`; e2 turns with the yaw and e1 with
+/// yaw and pitch, which gives its derivative.
+pub(super) fn moved([values, rates, seconds]: &Freedoms) -> Motion {
+    let place = Place::new(*values);
+    let pose = Pose::of(&place);
+    let [_, _, yaw] = place.turn;
+    let (e1, e3) = (pose.axes.column(0).into_owned(), Vector3::z());
+    let e2 = Vector3::new(-yaw.sin(), yaw.cos(), 0.0);
+    let [x, y, z, roll, pitch, turn] = *rates;
+    let before = e2 * pitch + e3 * turn;
+    let rotation = e1 * roll + before;
+    let [ax, ay, az, by_roll, by_pitch, by_yaw] = *seconds;
+    let change = e1 * by_roll + e2 * by_pitch + e3 * by_yaw + e3.cross(&e2) * (turn * pitch) + before.cross(&e1) * roll;
+    let acceleration = Six::new(ax, ay, az, change.x, change.y, change.z);
+    Motion {
+        pose,
+        velocity: Six::new(x, y, z, rotation.x, rotation.y, rotation.z),
+        acceleration,
+        auxiliary: acceleration,
+    }
+}
+
+/// Sines about a place.
+#[derive(Debug)]
+struct Swinging {
+    place: Place,
+    list: Vec<Sinusoid>,
+    ramp: f64,
+}
+
+/// A ramp from 0 to 1 with its first and second derivatives, all of them without a jump: `10 s^3 - 15 s^4 + 6 s^5`.
+fn ramp(time: f64, over: f64) -> [f64; 3] {
+    if over <= 0.0 || time >= over {
+        return [1.0, 0.0, 0.0];
+    }
+    let s = (time / over).max(0.0);
+    let value = s * s * s * (10.0 + s * (6.0 * s - 15.0));
+    let rate = 30.0 * s * s * (1.0 - s) * (1.0 - s) / over;
+    [value, rate, 60.0 * s * (1.0 - s) * (1.0 - 2.0 * s) / (over * over)]
+}
+
+/// A product with its first and second derivatives.
+pub(super) fn product(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] * b[0], a[1] * b[0] + a[0] * b[1], a[2] * b[0] + 2.0 * a[1] * b[1] + a[0] * b[2]]
+}
+
+impl Prescribed for Swinging {
+    fn at(&self, time: f64) -> Result<Motion, ClassError> {
+        let grown = ramp(time, self.ramp);
+        let mut freedoms = [self.place.values(), [0.0; 6], [0.0; 6]];
+        for sine in &self.list {
+            let frequency = TAU / sine.period;
+            let (sin, cos) = (frequency * time + sine.phase).sin_cos();
+            let own = [sin, frequency * cos, -frequency * frequency * sin].map(|v| v * sine.amplitude);
+            for (sums, value) in freedoms.iter_mut().zip(product(grown, own)) {
+                if let Some(sum) = sums.get_mut(sine.freedom) {
+                    *sum += value;
+                }
+            }
+        }
+        Ok(moved(&freedoms))
+    }
 }

@@ -4,6 +4,7 @@ use super::action::Action;
 use super::run::{Run, Settings};
 use super::snapshot::Snapshot;
 use crate::model::{ClassError, Model};
+use crate::post::SeriesError;
 use crate::solve::system::SolveError;
 
 /// FNV-1a, 64 bits (Fowler, Noll, Vo; RFC 9923): the same on every machine.
@@ -58,18 +59,18 @@ impl Run {
         model: &Model,
         settings: Settings,
         actions: Vec<Action>,
-        snapshot: &Snapshot,
+        (snapshot, rows): (&Snapshot, Vec<f64>),
     ) -> Result<Run, SolveError> {
         let mut run = Run::new(model, settings, actions)?;
-        run.take_up(snapshot)?;
+        run.take_up(snapshot, rows)?;
         Ok(run)
     }
 
-    /// Goes on from a snapshot.
+    /// Goes on from a snapshot, with the rows up to it.
     ///
     /// # Errors
     /// A snapshot of another system.
-    pub fn take_up(&mut self, snapshot: &Snapshot) -> Result<(), SolveError> {
+    pub fn take_up(&mut self, snapshot: &Snapshot, rows: Vec<f64>) -> Result<(), SolveError> {
         let other = || SolveError::new(ClassError::new("what was kept is of another system"));
         let mut happened: Vec<(f64, usize)> =
             snapshot.fired.iter().enumerate().filter_map(|(i, f)| f.map(|t| (t, i))).collect();
@@ -105,6 +106,11 @@ impl Run {
         self.taken = snapshot.taken;
         self.counts = snapshot.counts;
         self.forget();
+        self.history.values = rows;
+        let wrong = |e: SeriesError| SolveError::new(ClassError::new(e.to_string()));
+        for row in self.history.rows() {
+            self.statistics.take(row).map_err(wrong)?;
+        }
         Ok(())
     }
 }

@@ -49,21 +49,23 @@ pub struct Effort {
 
 /// A row of the unknowns.
 #[derive(Clone, Copy, Debug)]
-struct Row {
-    at: usize,
+pub(super) struct Row {
+    /// Body and freedom: six a body.
+    pub(super) at: usize,
     /// Whether it has inertia.
-    heavy: bool,
+    pub(super) heavy: bool,
 }
 
 /// Solves steps of a system.
 #[derive(Debug, Default)]
 pub struct Stepper {
-    trial: Vec<Motion>,
+    pub(super) trial: Vec<Motion>,
     /// Motion of each body over the step: translation and rotation vector.
-    over: Vec<Six>,
-    rows: Vec<Row>,
+    pub(super) over: Vec<Six>,
+    pub(super) rows: Vec<Row>,
     matrix: DMatrix<f64>,
     right: DVector<f64>,
+    moved: Vec<f64>,
     masses: Vec<Matrix6<f64>>,
 }
 
@@ -85,7 +87,7 @@ pub fn gyroscopic(mass: &Mass, motion: &Motion) -> Six {
 
 impl Stepper {
     /// Finds the rows that move.
-    fn choose(&mut self, system: &System) {
+    pub(super) fn choose(&mut self, system: &System) {
         self.rows.clear();
         for (body, node) in system.nodes.iter().enumerate() {
             let Some(mass) = self.masses.get(body) else { continue };
@@ -99,7 +101,7 @@ impl Stepper {
         }
     }
 
-    fn weigh(&mut self, system: &System, motions: &[Motion]) {
+    pub(super) fn weigh(&mut self, system: &System, motions: &[Motion]) {
         self.masses.clear();
         self.masses.extend(system.nodes.iter().zip(motions).map(|(n, m)| inertia(n, &m.pose)));
     }
@@ -170,7 +172,7 @@ impl Stepper {
     }
 
     /// Trial motions for the present accelerations of the trial.
-    fn place(&mut self, system: &System, start: &[Motion], dt: f64, scheme: &Scheme) {
+    pub(super) fn place(&mut self, system: &System, start: &[Motion], dt: f64, scheme: &Scheme) {
         for (((trial, over), old), node) in self.trial.iter_mut().zip(&mut self.over).zip(start).zip(&system.nodes) {
             if node.prescribed.is_some() {
                 continue;
@@ -182,7 +184,7 @@ impl Stepper {
     }
 
     /// Puts the trial bodies where their motion over the step takes them.
-    fn pose(&mut self, system: &System, start: &[Motion]) {
+    pub(super) fn pose(&mut self, system: &System, start: &[Motion]) {
         for (((trial, over), old), node) in self.trial.iter_mut().zip(&self.over).zip(start).zip(&system.nodes) {
             if node.prescribed.is_none() {
                 trial.pose = old.pose.moved(over);
@@ -190,7 +192,7 @@ impl Stepper {
         }
     }
 
-    fn prescribe(&mut self, system: &System, time: f64) -> Result<(), SolveError> {
+    pub(super) fn prescribe(&mut self, system: &System, time: f64) -> Result<(), SolveError> {
         for (trial, node) in self.trial.iter_mut().zip(&system.nodes) {
             if let Some(prescribed) = &node.prescribed {
                 *trial = prescribed.at(time).map_err(SolveError::of(&node.name))?;
@@ -244,8 +246,10 @@ impl Stepper {
             last = left;
             effort.iterations += 1;
             self.jacobian(&now.forces, dt, by_place, by_velocity);
-            let moved = self.solve().ok_or_else(|| self.unsolved(system, left, time, dt))?;
-            for (row, by) in self.rows.iter().zip(moved.iter()) {
+            if !self.solve() {
+                return Err(self.unsolved(system, left, time, dt));
+            }
+            for (row, by) in self.rows.iter().zip(&self.moved) {
                 let (Some(trial), Some(over)) = (self.trial.get_mut(row.at / 6), self.over.get_mut(row.at / 6)) else {
                     continue;
                 };
@@ -275,7 +279,7 @@ impl Stepper {
     }
 
     /// Makes the trial the present.
-    fn accept(&mut self, system: &mut System, now: &mut Instant, (time, dt): (f64, f64)) {
+    pub(super) fn accept(&mut self, system: &mut System, now: &mut Instant, (time, dt): (f64, f64)) {
         now.time = time;
         now.motions.clear();
         now.motions.extend_from_slice(&self.trial);
@@ -324,6 +328,12 @@ impl Stepper {
         if self.matrix.nrows() != size {
             self.matrix = DMatrix::zeros(size, size);
         }
+        if let ([mass], 6, true) = (self.masses.as_slice(), size, self.rows.iter().all(|r| r.heavy)) {
+            let block = |m: &DMatrix<f64>| m.fixed_view::<6, 6>(0, 0).into_owned();
+            let whole = block(&forces.stiffness) * by_place + block(&forces.damping) * by_velocity + mass;
+            self.matrix.copy_from(&whole);
+            return;
+        }
         for (j, column) in self.rows.iter().enumerate() {
             let (place, velocity) = if column.heavy { (by_place, by_velocity) } else { (1.0, 1.0 / dt) };
             for (i, row) in self.rows.iter().enumerate() {
@@ -337,25 +347,31 @@ impl Stepper {
         }
     }
 
-    /// The correction; what nothing holds and nothing weighs does not move.
-    fn solve(&self) -> Option<DVector<f64>> {
-        let size = self.rows.len();
-        let found = if size == 6 {
+    /// Finds the correction; what nothing holds and nothing weighs does not move. False where there is none.
+    fn solve(&mut self) -> bool {
+        self.moved.clear();
+        if self.rows.len() == 6 {
             let matrix: Matrix6<f64> = self.matrix.fixed_view::<6, 6>(0, 0).into_owned();
             let right = Six::from_iterator(self.right.iter().copied());
-            matrix.lu().solve(&right).map(|s| DVector::from_row_slice(s.as_slice()))
-        } else {
-            self.matrix.clone().lu().solve(&self.right)
-        };
-        let whole = |s: &DVector<f64>| s.iter().all(|v| v.is_finite());
-        found.filter(whole).or_else(|| {
-            let scale = self.matrix.amax();
-            self.matrix.clone().svd(true, true).solve(&self.right, 1e-12 * scale).ok().filter(whole)
-        })
+            if let Some(found) = matrix.lu().solve(&right) {
+                self.moved.extend(found.iter());
+            }
+        } else if let Some(found) = self.matrix.clone().lu().solve(&self.right) {
+            self.moved.extend(found.iter());
+        }
+        if self.moved.len() == self.rows.len() && self.moved.iter().all(|v| v.is_finite()) {
+            return true;
+        }
+        self.moved.clear();
+        let scale = self.matrix.amax();
+        if let Ok(found) = self.matrix.clone().svd(true, true).solve(&self.right, 1e-12 * scale) {
+            self.moved.extend(found.iter());
+        }
+        self.moved.len() == self.rows.len() && self.moved.iter().all(|v| v.is_finite())
     }
 
     /// The error of a step without a balance.
-    fn unsolved(&self, system: &System, left: f64, time: f64, dt: f64) -> SolveError {
+    pub(super) fn unsolved(&self, system: &System, left: f64, time: f64, dt: f64) -> SolveError {
         let worst = self.right.iamax();
         let at = self.rows.get(worst).map_or(0, |r| r.at);
         let name = system.nodes.get(at / 6).map(|n| n.name.clone());
@@ -366,83 +382,10 @@ impl Stepper {
         );
         SolveError { who: name, error: ClassError::new(text) }
     }
-
-    /// A step by predictor and corrector: the trapezoidal rule by repetition.
-    fn corrector(
-        &mut self,
-        system: &mut System,
-        now: &mut Instant,
-        dt: f64,
-        wanted: &Convergence,
-    ) -> Result<Effort, SolveError> {
-        let (time, mut effort) = (now.time + dt, Effort::default());
-        self.weigh(system, &now.motions);
-        self.choose(system);
-        if let Some(row) = self.rows.iter().find(|r| !r.heavy) {
-            let name = system.nodes.get(row.at / 6).map(|n| n.name.clone());
-            let error = ClassError::new("-NEWMARK NO needs inertia in every freedom that moves")
-                .help("give it weight, or leave -NEWMARK out");
-            return Err(SolveError { who: name, error });
-        }
-        let start = now.motions.clone();
-        let mut ahead =
-            Instant { time, motions: start.clone(), memory: std::mem::take(&mut now.memory), ..Instant::default() };
-        std::mem::swap(&mut ahead.forces, &mut now.forces);
-        // Euler's step first, with the place to second order; then the mean of both ends
-        let euler = Scheme::newmark(0.0, 0.0);
-        let trapezoid = Scheme::newmark(0.25, 0.5);
-        let outcome = self.correct(system, &start, &mut ahead, dt, ([euler, trapezoid], wanted, &mut effort));
-        std::mem::swap(&mut ahead.forces, &mut now.forces);
-        now.memory = std::mem::take(&mut ahead.memory);
-        outcome?;
-        self.trial = ahead.motions;
-        self.accept(system, now, (time, dt));
-        Ok(effort)
-    }
-
-    fn correct(
-        &mut self,
-        system: &System,
-        start: &[Motion],
-        ahead: &mut Instant,
-        dt: f64,
-        ([euler, trapezoid], wanted, effort): ([Scheme; 2], &Convergence, &mut Effort),
-    ) -> Result<(), SolveError> {
-        let mut scheme = euler;
-        loop {
-            self.trial.clear();
-            self.trial.extend_from_slice(&ahead.motions);
-            self.over.clear();
-            self.over.resize(start.len(), Six::zeros());
-            self.prescribe(system, ahead.time)?;
-            self.place(system, start, dt, &scheme);
-            self.pose(system, start);
-            ahead.motions.clone_from(&self.trial);
-            if effort.evaluations == 0 {
-                ahead.memory.begin(system, &ahead.motions, (ahead.time, dt))?;
-            }
-            let before: Vec<Six> = ahead.motions.iter().map(|m| m.acceleration).collect();
-            self.balance(system, ahead, dt)?;
-            effort.evaluations += 1;
-            let change =
-                ahead.motions.iter().zip(&before).map(|(m, b)| (m.acceleration - b).amax()).fold(0.0, f64::max);
-            if !change.is_finite() {
-                return Err(not_finite(system, &ahead.forces.sum, ahead.time));
-            }
-            if effort.iterations > 0 && change <= wanted.tolerance * system.gravity {
-                return Ok(());
-            }
-            if effort.iterations >= wanted.most {
-                return Err(self.unsolved(system, change, ahead.time, dt));
-            }
-            effort.iterations += 1;
-            scheme = trapezoid;
-        }
-    }
 }
 
 /// The error of a force that is no number.
-fn not_finite(system: &System, sum: &DVector<f64>, time: f64) -> SolveError {
+pub(super) fn not_finite(system: &System, sum: &DVector<f64>, time: f64) -> SolveError {
     let at = sum.iter().position(|v| !v.is_finite()).unwrap_or(0);
     let name = system.nodes.get(at / 6).map(|n| n.name.clone());
     let error = ClassError::new(format!("the force in {} is no number at {time} s", FREEDOMS[at % 6]));

@@ -1,0 +1,117 @@
+//! The options that make a TUBE a member in waves and current, and the table of members.
+
+use super::status::push;
+use crate::language::args::Args;
+use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::select::Owner;
+use crate::language::spec::{Kind, OptionSpec, ValueSpec};
+use crate::language::units::Dim;
+use crate::model::{Member, Model, Shape, WaveAction};
+use crate::table::{Cell, Digits, Table};
+
+const fn factor(
+    name: &'static str,
+    value: &'static [ValueSpec],
+    help: &'static str,
+    usual: &'static str,
+) -> OptionSpec {
+    OptionSpec::new(name, value, help).owner(Owner::Ours).default(usual)
+}
+const fn value(help: &'static str) -> [ValueSpec; 1] {
+    [ValueSpec::new("C", Kind::Number(Dim::None), help).not_negative()]
+}
+const CD: [ValueSpec; 1] = value("drag across the axis, on the diameter");
+const CDA: [ValueSpec; 1] = value("friction along the axis, on the skin");
+const CA: [ValueSpec; 1] = value("added mass across the axis, on the displaced mass; Cm is 1 + CA");
+const CAA: [ValueSpec; 1] = value("added mass along the axis of each end, on the half sphere over it");
+
+/// What a TUBE takes besides what every piece takes.
+pub const OPTIONS: [OptionSpec; 4] = [
+    factor("-CD", &CD, "drag coefficient", "1; 0 with -CS_CURRENT, and of what displaces no water"),
+    factor("-CDA", &CDA, "coefficient of skin friction", "0.016; 0 where CD is 0"),
+    factor("-CA", &CA, "coefficient of added mass", "1; 0 of what displaces no water"),
+    factor("-CAA", &CAA, "coefficient of added mass of the ends", "0"),
+];
+
+/// What the help of TUBE says.
+pub const READING: &str = "A round member with flat ends between two points of the body; it displaces the water of its whole section. \
+     Members that run into each other at a joint are each counted up to their point. In current, in waves and where it moves it is a member by Morison's formula. A length of it feels \
+     1/2 rho CD OD |u| u across its axis and 1/2 rho CDA pi OD |u| u along it, u being the velocity of waves and current less its own; \
+     (1 + CA) rho pi/4 OD^2 times the acceleration of the water across its axis; the pressure of the waves on its ends; and hydrostatic \
+     pressure up to the surface where it is at the time. CA is also added to the inertia of the body, as is CAA rho pi/12 OD^3 along the axis \
+     at each end in the water: 0.64 is half a disc (DNV-RP-C205), for an end that is free. 0.016 for CDA is what AQWA has. In \
+     equilibrium the drag of the current is left, under the mean level. -CS_CURRENT instead gives the drag of the areas along the axes of \
+     the part, as of other pieces; with CD it contradicts. -DIFTYPE 3DDIF says that a hydrodynamic database has the tube in its hull: of the \
+     formula drag alone is left. Slamming and the drag of flat ends are not counted.";
+
+/// The coefficients of a TUBE.
+///
+/// # Errors
+/// Two sorts of drag; coefficients of an interior.
+pub fn coefficients(args: &Args, permeability: f64) -> Outcome<Member> {
+    let given = |name: &str| args.option(name).and_then(|g| g.number(0));
+    let own = OPTIONS.iter().find_map(|o| args.option(o.name).filter(|g| g.number(0).is_some_and(|c| c != 0.0)));
+    if let Some(own) = own.filter(|_| permeability < 0.0) {
+        return Err(Diagnostic::error(
+            format!("{} is of what stands in the water, and an interior does not", own.spec.name),
+            own.span,
+        ));
+    }
+    let areas = args.option("-CS_CURRENT");
+    if let (Some(areas), Some(drag)) = (areas, args.option("-CD").or(args.option("-CDA"))) {
+        let text = format!("-CS_CURRENT and {} are both the drag of the tube", drag.spec.name);
+        return Err(Diagnostic::error(text, drag.span)
+            .other(areas.span, "given here too")
+            .help("leave one of them out"));
+    }
+    let wet = permeability > 0.0;
+    let (drag, added) = (if wet && areas.is_none() { 1.0 } else { 0.0 }, if wet { 1.0 } else { 0.0 });
+    let cd = given("-CD").unwrap_or(drag);
+    let friction = if cd > 0.0 { 0.016 } else { 0.0 };
+    Ok(Member {
+        drag: cd,
+        friction: given("-CDA").unwrap_or(friction),
+        added: given("-CA").unwrap_or(added),
+        end_added: given("-CAA").unwrap_or(0.0),
+    })
+}
+
+/// Members with their coefficients; `None` without any.
+pub fn members(model: &Model, fits: &dyn Fn(&str) -> bool) -> Option<Table> {
+    let mut table = Table::new("Members");
+    for name in ["Body", "Part", "Piece"] {
+        table = table.column("", name, Dim::None, Digits::Usual);
+    }
+    table = table.column("", "OD", Dim::Section, Digits::Usual).column("", "Length", Dim::Length, Digits::Usual);
+    for (group, name) in [("Across", "CD"), ("Along", "CDA"), ("Across", "CA"), ("Ends", "CAA")] {
+        table = table.column(group, name, Dim::None, Digits::Usual);
+    }
+    let mut any = false;
+    for part in model.parts.values() {
+        for piece in part.pieces.iter().filter(|p| fits(&p.name) || fits(&part.name) || fits(&part.body)) {
+            let (Some(member), Shape::Tube { ends: [a, b], diameter }) = (&piece.member, &piece.shape) else {
+                continue;
+            };
+            let length = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
+            let inert = piece.waves != WaveAction::Database;
+            let told = |c: f64| if inert { Cell::from(c) } else { Cell::from("database") };
+            push(
+                &mut table,
+                vec![
+                    part.body.as_str().into(),
+                    part.name.as_str().into(),
+                    piece.name.as_str().into(),
+                    (*diameter).into(),
+                    length.into(),
+                    member.drag.into(),
+                    member.friction.into(),
+                    told(member.added),
+                    told(member.end_added),
+                ],
+            );
+            any = true;
+        }
+    }
+    table.note("By Morison's formula: CD and CA on the diameter, CDA on the skin, CAA on the half sphere over an end");
+    any.then_some(table)
+}

@@ -1,0 +1,196 @@
+//! PRESCRIBE: bodies whose motion is given.
+
+mod input;
+
+use super::status::push;
+use super::{Call, Command, Effect, Job};
+use crate::language::args::{Args, Given};
+use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::select::Owner;
+use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
+use crate::language::units::Dim;
+use crate::model::{ClassError, GivenMotion, Model, Place, Prescription, Sinusoid, find};
+use crate::solve::FREEDOMS;
+use crate::solve::time::prescribed;
+use crate::table::{Cell, Digits, Table};
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+/// PRESCRIBE.
+pub static PRESCRIBE: Command = Command { spec: &SPEC, edits: false, run };
+
+const FILE: [ValueSpec; 1] =
+    [ValueSpec::new("FILE", Kind::File, "CSV file; looked for beside the script, or where it says")];
+
+static SPEC: CommandSpec = CommandSpec {
+    owner: Owner::Ours,
+    menus: &["INMODEL", "MEDIT"],
+    data: &[ValueSpec::new("BODY", Kind::Name(Noun::Body), "the body")],
+    options: &[
+        OptionSpec::new(
+            "-SINUSOID",
+            &[
+                ValueSpec::new(
+                    "DOF",
+                    Kind::Choice(&FREEDOMS),
+                    "freedom of its origin, roll, pitch and yaw as RX RY RZ",
+                ),
+                ValueSpec::new("AMP", Kind::Number(Dim::None), "amplitude: a length, or an angle in degrees"),
+                ValueSpec::new("PERIOD", Kind::Number(Dim::Time), "period").positive(),
+                ValueSpec::new("PHASE", Kind::Number(Dim::Angle), "phase at the time zero").or("0"),
+            ],
+            "AMP sin(2 pi t / PERIOD + PHASE) in a freedom; several add up",
+        )
+        .many(),
+        OptionSpec::new(
+            "-RAMP",
+            &[ValueSpec::new("T", Kind::Number(Dim::Time), "time").not_negative()],
+            "time over which sinusoids grow from nothing",
+        )
+        .default("0: they are there at once"),
+        OptionSpec::new("-RAO", &FILE, "responses to the waves of the sea"),
+        OptionSpec::new("-SYMMETRIC", &[], "the responses of -RAO are of one side: those of the other are mirrored"),
+        OptionSpec::new("-FILE", &FILE, "places at times"),
+        OptionSpec::new("-FREE", &[], "forces move it again"),
+    ],
+    detail: "The body moves in TDOM as it is told, whatever pulls at it; its connectors and everything on them feel that. In equilibria it \
+             stands where it is. -SINUSOID and -RAO move it about the place where it stands when the run begins, in global axes; angles add to \
+             roll, pitch and yaw. A row of the -RAO file is a heading from which waves come (degrees, from the body's x axis toward \
+             its y axis; 0 comes from ahead of x), a period (s), and for surge, sway, heave, roll, pitch, yaw each an amplitude (length a length, or \
+             degrees a length unit of wave amplitude) and the lag in degrees behind the crest at the body's origin: 14 numbers. It is \
+             interpolated over frequency and heading; waves longer than the longest have its response, shorter ones than the \
+             shortest none. A row of -FILE is a time (s), x, y, z and roll, pitch, yaw (degrees) of the body's origin: a \
+             natural cubic spline goes through them, so that velocity and acceleration have no jumps; roll and yaw go the short way \
+             from row to row. The record puts the body to its place at the time zero; a run beyond the last row is an error. A first row of \
+             words, and rows that begin with #, are passed over.",
+    example: "&DIMEN -DIMEN METERS K-NTS\n&FILE OPEN M path.csv\n&FILE WRITE M time,x,y,z,roll,pitch,yaw\n&FILE WRITE M 0,0,0,0,0,0,0\n\
+              &FILE WRITE M 10,1,0,0,0,0,5\n&FILE WRITE M 20,0,0,0,0,0,0\n&FILE CLOSE M\nMEDIT\n&DESCRIBE BODY CRANE\n*HOOK 0 0 40\nEND\nMEDIT\n\
+              PRESCRIBE CRANE -SINUSOID Z 1.5 9 -SINUSOID RY 2 9 90 -RAMP 20\nPRESCRIBE CRANE -FILE job.ans/path.csv\nPRESCRIBE CRANE -FREE\nEND",
+    ..CommandSpec::new("PRESCRIBE", "gives a body its motion")
+};
+
+/// Options that say how a body moves.
+const KINDS: [&str; 4] = ["-SINUSOID", "-RAO", "-FILE", "-FREE"];
+
+fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let body = find(&job.model.bodies, args.word(0).unwrap_or_default(), "body", args.place(0))?;
+    if body.junction.is_some() {
+        return Err(Diagnostic::error(format!("{} is a junction, not a body", body.name), args.place(0)));
+    }
+    let key = Model::key(&body.name);
+    let kind = kind(args)?;
+    for (name, of) in [("-RAMP", "-SINUSOID"), ("-SYMMETRIC", "-RAO")] {
+        if let Some(given) = args.option(name).filter(|_| kind.spec.name != of) {
+            return Err(Diagnostic::error(format!("{name} belongs to {of}"), given.span));
+        }
+    }
+    let file = (kind.word(0).unwrap_or_default(), kind.values.first().map_or(kind.span, |v| v.span));
+    let motion = match kind.spec.name {
+        "-FREE" => None,
+        "-RAO" => Some(GivenMotion::Responses(Arc::new(input::responses(job, file, args.has("-SYMMETRIC"))?))),
+        "-FILE" => Some(GivenMotion::Path(Arc::new(input::path(job, file)?))),
+        _ => Some(sinusoids(job, args)),
+    };
+    let mut moved = body.clone();
+    moved.prescribed = motion.map(|motion| Prescription { motion, span: args.span });
+    if let Some(Prescription { motion: GivenMotion::Path(rows), .. }) = &moved.prescribed {
+        let wrong = |e: ClassError| e.diagnostic(args.span, job.units);
+        let given = prescribed(&moved, None).map_err(wrong)?;
+        let start = given.map(|g| g.at(0.0)).transpose().map_err(wrong)?.unwrap_or_default();
+        let near = rows.iter().min_by(|a, b| a.0.abs().total_cmp(&b.0.abs())).map(|r| Place::new(r.1));
+        moved.previous = moved.place;
+        moved.place = start.pose.place(&near.unwrap_or_default());
+    }
+    job.model.bodies.insert(key, moved);
+    Ok(Effect::Done)
+}
+
+/// The one option that says how the body moves; of several sinusoids the first.
+fn kind(args: &Args) -> Outcome<&Given> {
+    let mut given = args.options.iter().filter(|g| KINDS.contains(&g.spec.name));
+    let Some(first) = given.next() else {
+        return Err(Diagnostic::error("the record does not say how the body moves", args.span).help(KINDS.join(", ")));
+    };
+    match given.find(|g| g.spec.name != first.spec.name) {
+        Some(other) => {
+            let text = format!("{} and {} are two motions of one body", first.spec.name, other.spec.name);
+            Err(Diagnostic::error(text, other.span).other(first.span, "first given here"))
+        }
+        None => Ok(first),
+    }
+}
+
+fn sinusoids(job: &Job, args: &Args) -> GivenMotion {
+    let one = |given: &Given| {
+        let freedom = FREEDOMS.iter().position(|f| Some(*f) == given.word(0)).unwrap_or(0);
+        let dim = if freedom < 3 { Dim::Length } else { Dim::Angle };
+        let number = |i: usize| given.number(i).unwrap_or(0.0);
+        Sinusoid { freedom, amplitude: dim.to_si(number(1), job.units), period: number(2), phase: number(3) }
+    };
+    let list = args.options.iter().filter(|g| g.spec.name == "-SINUSOID").map(one).collect();
+    GivenMotion::Sinusoids { list, ramp: args.option_number("-RAMP").unwrap_or(0.0) }
+}
+
+/// Motions that bodies are given; `None` where none is.
+pub fn motions(model: &Model, fits: &dyn Fn(&str) -> bool) -> Option<Table> {
+    let mut table = Table::new("Prescribed Motions");
+    for name in ["Body", "By", "Freedom"] {
+        table = table.column("", name, Dim::None, Digits::Usual);
+    }
+    table = table.column("Amplitude", "Length", Dim::Length, Digits::Usual);
+    table = table.column("Amplitude", "Angle", Dim::Angle, Digits::Usual);
+    table = table.column("", "Period", Dim::Time, Digits::Usual).column("", "Phase", Dim::Angle, Digits::Usual);
+    table = table.column("", "Rows", Dim::None, Digits::Usual);
+    for name in ["From", "To"] {
+        table = table.column("", name, Dim::Time, Digits::Usual);
+    }
+    let mut any = false;
+    let none = || Cell::from(None::<f64>);
+    for body in model.bodies.values().filter(|b| fits(&b.name)) {
+        let Some(given) = &body.prescribed else { continue };
+        any = true;
+        let name = || Cell::from(body.name.as_str());
+        match &given.motion {
+            GivenMotion::Sinusoids { list, ramp } => {
+                for sine in list {
+                    let amplitude = |angle: bool| Cell::from((angle == (sine.freedom > 2)).then_some(sine.amplitude));
+                    let freedom = FREEDOMS.get(sine.freedom).copied().unwrap_or_default();
+                    let (length, angle) = (amplitude(false), amplitude(true));
+                    let ramp = Cell::from((*ramp > 0.0).then_some(*ramp));
+                    push(
+                        &mut table,
+                        vec![
+                            name(),
+                            "sinusoid".into(),
+                            freedom.into(),
+                            length,
+                            angle,
+                            sine.period.into(),
+                            sine.phase.into(),
+                            none(),
+                            none(),
+                            ramp,
+                        ],
+                    );
+                }
+            }
+            GivenMotion::Responses(responses) => {
+                let rows: usize = responses.headings.iter().map(|(_, r)| r.len()).sum();
+                let periods = responses.headings.iter().flat_map(|(_, r)| r.iter().map(|r| TAU / r.frequency));
+                let (least, most) = periods.fold((f64::INFINITY, 0.0f64), |(a, b), p| (a.min(p), b.max(p)));
+                let mut cells = vec![name(), "responses".into(), "all".into(), none(), none(), none(), none()];
+                cells.extend([rows.into(), least.into(), most.into()]);
+                push(&mut table, cells);
+            }
+            GivenMotion::Path(rows) => {
+                let at = |row: Option<&crate::model::PathRow>| Cell::from(row.map(|r| r.0));
+                let mut cells = vec![name(), "file".into(), "all".into(), none(), none(), none(), none()];
+                cells.extend([rows.len().into(), at(rows.first()), at(rows.last())]);
+                push(&mut table, cells);
+            }
+        }
+    }
+    table.note("From and To: times of a file, periods of responses; of sinusoids To is the time over which they grow");
+    any.then_some(table)
+}

@@ -1,0 +1,65 @@
+//! `STATISTIC` of the disposition menu: what columns amount to.
+//!
+//! Source: reference/solve.md, "Disposition menu". The independent column, the cycles and the options of ours are described in
+//! its help.
+
+use super::disposition::{ANY_COLUMN, BOTH, COLUMN, HARD, MAG_USE, RECORD, VALUES};
+use super::disposition::{chosen, here, refused, selectors, send, spec};
+use super::{Call, Command, Effect, Job};
+use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::select::Owner;
+use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use crate::language::units::Dim;
+use crate::post::SeriesError;
+use crate::report::{page, statistic};
+use crate::table::Table;
+
+/// STATISTIC.
+pub static STATISTIC: Command = Command { spec: &SPEC, edits: false, run: statistics };
+
+static SPEC: CommandSpec = CommandSpec {
+    data: &[COLUMN, ANY_COLUMN],
+    repeat: 1,
+    options: &[
+        RECORD,
+        VALUES,
+        HARD,
+        BOTH,
+        MAG_USE,
+        OptionSpec::new(
+            "-DURATION",
+            &[ValueSpec::new("HOURS", Kind::Number(Dim::None), "hours").positive()],
+            "largest and smallest value in this time, by Rayleigh",
+        )
+        .owner(Owner::Ours),
+        OptionSpec::new("-PEAKS", &[], "lists the maxima and minima between crossings of the mean").owner(Owner::Ours),
+    ],
+    detail: "The first column is the independent one; the extremes are given with their place in it. Kurtosis is the excess \
+             over 3. Where the independent column grows, cycles are counted from an up-crossing of the mean to the next: \
+             Period is their mean length, 1/3 Range the mean of the highest third of their crest-to-trough ranges \
+             (of a wave record its significant height), 1/10 Range that of the highest tenth. 2 Std. Dev. is the significant \
+             single amplitude of a Gaussian process. -DURATION needs a column of time; EXTREMES fits distributions.",
+    ..spec("STATISTIC", "mean, deviation, extremes and cycles of columns")
+};
+fn statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    here(job, args.span)?.numeric(&selectors(args, 0)).map_err(|e| refused(args, &e))?;
+    let table = chosen(job, args, 0)?;
+    let count = table.columns.len();
+    let (independent, described) = if count > 1 { (Some(0), (1..count).collect()) } else { (None, vec![0]) };
+    let mut parts = vec![statistic::in_units(&table, independent, &described, job.units)];
+    let wrong = |e: SeriesError| Diagnostic::error(e.to_string(), args.span);
+    parts.push(statistic::cycles(&table, job.units).map_err(wrong)?);
+    if let Some(given) = args.option("-DURATION") {
+        let duration = 3600.0 * given.number(0).unwrap_or_default();
+        let refused = |e: SeriesError| Diagnostic::error(e.to_string(), given.span);
+        parts.push(statistic::expected_extremes(&table, duration, job.units).map_err(refused)?);
+    }
+    if args.has("-PEAKS") {
+        parts.push(statistic::peaks(&table).map_err(wrong)?);
+    }
+    let text = |t: &Table| format!("{}\n\n{}", t.title, page::grid(t, job.units).join("\n"));
+    let text = parts.iter().map(text).collect::<Vec<_>>().join("\n\n");
+    send(job, args, &text)?;
+    Ok(Effect::Done)
+}

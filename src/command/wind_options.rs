@@ -1,0 +1,113 @@
+//! The options of `&ENV` on wind.
+
+use super::Job;
+use super::environment::{PERIODS, curve, formula, known_curve, number, periods, spectrum, text};
+use crate::language::args::Given;
+use crate::language::diagnostic::Outcome;
+use crate::language::select::Owner;
+use crate::language::spec::{Kind, OptionSpec, ValueSpec};
+use crate::language::units::Dim;
+use crate::model::{CurveKind, Environment, Formula, GustParts, Wind};
+
+/// Codes and laws of the mean wind; reference/model.md names no types, so these are the field's usual ones.
+const PROFILES: &[&str] = &["POWER", "LOGARITHMIC", "API", "NPD", "ISO", "ABS", "DNV"];
+/// Codes of a design wind.
+const DESIGN_WINDS: &[&str] = &["API", "NPD", "ISO", "ABS", "DNV"];
+/// Gust spectra known without a curve.
+const GUSTS: [&str; 7] = ["API", "NPD", "ISO", "OCHI", "HARRIS", "DAVENPORT", "KAIMAL"];
+
+const fn choice(name: &'static str, words: &'static [&'static str], help: &'static str) -> ValueSpec {
+    ValueSpec::new(name, Kind::Choice(words), help)
+}
+
+/// -WIND.
+pub(super) const WIND: OptionSpec = OptionSpec::new(
+    "-WIND",
+    &[number("SPEED", Dim::WindSpeed, "speed").not_negative(), number("DIR", Dim::Angle, "direction it comes from")],
+    "wind, in knots",
+)
+.default("none");
+
+/// -W_PROFILE.
+pub(super) const PROFILE: OptionSpec = OptionSpec::new(
+    "-W_PROFILE",
+    &[choice("TYPE", PROFILES, "type"), number("EXP", Dim::None, "exponent").or("that of the type").not_negative()],
+    "wind profile",
+);
+
+/// -W_DESIGN.
+pub(super) const DESIGN: OptionSpec = OptionSpec::new(
+    "-W_DESIGN",
+    &[
+        choice("TYPE", DESIGN_WINDS, "type"),
+        number("DURATION", Dim::Time, "averaging time").or("that of the type").positive(),
+    ],
+    "design wind",
+);
+
+/// -W_SPECTRUM.
+pub(super) const SPECTRUM: OptionSpec = OptionSpec::new(
+    "-W_SPECTRUM",
+    &[text("TYPE", "API, NPD, ISO, OCHI, HARRIS, DAVENPORT, KAIMAL, or a spectrum curve")],
+    "gust spectrum",
+);
+
+/// -W_HISTORY.
+pub(super) const HISTORY: OptionSpec = OptionSpec::new("-W_HISTORY", &[curve("W_HISTORY curve")], "wind history");
+
+/// -W_PERIOD.
+pub(super) const PERIOD: OptionSpec = OptionSpec::new("-W_PERIOD", PERIODS, "periods of the gusts").repeating(1);
+
+/// -W_COMPONENTS.
+pub(super) const COMPONENTS: OptionSpec = OptionSpec::new(
+    "-W_COMPONENTS",
+    &[
+        ValueSpec::new("N", Kind::Integer, "number of components").within(1.0, 10_000.0),
+        number("INTENSITY", Dim::None, "standard deviation over mean speed")
+            .or("that of the spectrum")
+            .within(0.001, 1.0),
+    ],
+    "components of the gusts",
+)
+.owner(Owner::Ours)
+.default("100");
+
+/// -W_MD_CORRELATION.
+pub(super) const CORRELATION: OptionSpec = OptionSpec::new(
+    "-W_MD_CORRELATION",
+    &[number("F", Dim::None, "factor").within(-1.0, 1.0)],
+    "correlation of gusts and mean drift",
+);
+
+/// Takes one of these options.
+pub(super) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<()> {
+    match given.spec.name {
+        "-WIND" => {
+            env.wind = given.number(0).zip(given.number(1)).map(|(speed, direction)| Wind { speed, direction });
+        }
+        "-W_PROFILE" => env.wind_profile = Some(formula(given)),
+        "-W_DESIGN" => env.design_wind = Some(formula(given)),
+        "-W_SPECTRUM" => {
+            spectrum(job, given, &GUSTS)?;
+            let named = formula(given);
+            env.gusts = Some(Formula { kind: named.kind.to_ascii_uppercase(), ..named });
+        }
+        "-W_PERIOD" => {
+            periods(given)?;
+            env.gust_periods = given.numbers();
+        }
+        "-W_COMPONENTS" => {
+            let number = given.values.first().and_then(|v| v.integer()).and_then(|n| usize::try_from(n).ok());
+            env.gust_parts = number.map(|number| GustParts { number, intensity: given.number(1), span: given.span });
+        }
+        "-W_HISTORY" => {
+            known_curve(job, given, 0, CurveKind::WindHistory)?;
+            env.wind_history = Some(formula(given));
+        }
+        "-W_MD_CORRELATION" => {
+            env.drift_correlation = Some(Formula { kind: String::new(), value: given.number(0), span: given.span });
+        }
+        _ => {}
+    }
+    Ok(())
+}

@@ -1,0 +1,106 @@
+//! `&STATUS WIND_SPECTRUM`: the components of the gusts of an environment, and their spectrum to plot.
+
+use super::Job;
+use super::sea_table::{chosen_environments, turn};
+use super::status::push;
+use crate::hydro::gusts::{DENSITY, Gusts};
+use crate::language::diagnostic::Outcome;
+use crate::language::source::Span;
+use crate::language::units::Dim;
+use crate::model::Environment;
+use crate::table::{Digits, Table};
+use std::f64::consts::TAU;
+
+/// Points of a spectrum plotted, and the share of the energy up to which they lie.
+const POINTS: usize = 241;
+const SHOWN: f64 = 0.8;
+
+/// The gusts of the environment in force, or of those kept under a name that is chosen.
+pub(super) fn spectra(job: &Job, chosen: Option<&dyn Fn(&str) -> bool>, at: Span) -> Outcome<Vec<Table>> {
+    let mut tables = Vec::new();
+    for env in chosen_environments(job, chosen) {
+        match gusts(job, env, at)? {
+            Some(gusts) => tables.push(components(job, env, &gusts)),
+            None => {
+                let mut table = Table::new(title("Gusts", env)).fact("Components", 0, Dim::None);
+                table.note("there are no gusts: -WIND and -W_SPECTRUM of &ENV give them");
+                tables.push(table);
+            }
+        }
+    }
+    Ok(tables)
+}
+
+/// The spectra as density over frequency, a table for each plot.
+pub(super) fn densities(job: &Job, chosen: Option<&dyn Fn(&str) -> bool>, at: Span) -> Outcome<Vec<Table>> {
+    let mut tables = Vec::new();
+    for env in chosen_environments(job, chosen) {
+        tables.extend(gusts(job, env, at)?.map(|gusts| density(env, &gusts)));
+    }
+    Ok(tables)
+}
+
+/// What `&STATUS ENVIRONMENT` tells of gusts.
+pub(super) fn facts(table: Table, gusts: &Gusts) -> Table {
+    let deviation = gusts.deviation();
+    table
+        .fact("Gust Spectrum", gusts.name.as_str(), Dim::None)
+        .fact("   standard deviation", deviation, Dim::WindSpeed)
+        .fact("   turbulence intensity", deviation / gusts.mean, Dim::None)
+        .fact("   components", gusts.bands.len(), Dim::None)
+        .fact("   seed", gusts.seed.to_string(), Dim::None)
+}
+
+fn gusts(job: &Job, env: &Environment, at: Span) -> Outcome<Option<Gusts>> {
+    Gusts::of(&job.model, env).map_err(|e| e.diagnostic(at, job.units))
+}
+
+fn title(what: &str, env: &Environment) -> String {
+    if env.name.is_empty() { what.to_string() } else { format!("{what} of {}", env.name) }
+}
+
+fn components(job: &Job, env: &Environment, gusts: &Gusts) -> Table {
+    let division = if env.gust_periods.is_empty() { "of equal energy" } else { "about the periods of -W_PERIOD" };
+    let deviation = gusts.deviation();
+    let mut table = Table::new(title("Gusts", env))
+        .fact("Spectrum", gusts.name.as_str(), Dim::None)
+        .fact("Mean Speed at 10 m", gusts.mean, Dim::WindSpeed)
+        .fact("Standard Deviation of Components", deviation, Dim::WindSpeed)
+        .fact("Standard Deviation of All Frequencies", gusts.whole, Dim::WindSpeed)
+        .fact("Turbulence Intensity", deviation / gusts.mean, Dim::None)
+        .fact("Components", format!("{} {division}", gusts.bands.len()), Dim::None)
+        .fact("Phases", format!("random, seed {}", gusts.seed), Dim::None)
+        .fact("Ramp", env.ramp.unwrap_or(job.model.defaults.ramp), Dim::Time)
+        .column("", "No.", Dim::None, Digits::Usual)
+        .column("", "Period", Dim::Time, Digits::Decimals(3))
+        .column("", "Frequency", Dim::Frequency, Digits::Decimals(5))
+        .column("", "Amplitude", Dim::WindSpeed, Digits::Decimals(3))
+        .column("", "Phase", Dim::Angle, Digits::Usual)
+        .column("", "Density", DENSITY, Digits::Decimals(3));
+    for (index, (band, phase)) in gusts.bands.iter().zip(&gusts.phases).enumerate() {
+        let row = vec![
+            (index + 1).into(),
+            (TAU / band.frequency).into(),
+            band.frequency.into(),
+            (2.0 * band.energy).sqrt().into(),
+            turn(*phase).into(),
+            band.ordinate(&gusts.spectrum).into(),
+        ];
+        push(&mut table, row);
+    }
+    table
+}
+
+fn density(env: &Environment, gusts: &Gusts) -> Table {
+    let high = gusts.spectrum.quantile(SHOWN);
+    let low = gusts.spectrum.range()[0].max(1e-3 * high);
+    let mut table = Table::new(title("Gust Spectrum", env))
+        .column("", "Frequency", Dim::Frequency, Digits::Usual)
+        .column("", "Density", DENSITY, Digits::Usual);
+    for i in 0..POINTS {
+        // close where it is steep
+        let frequency = low * (high / low).powf(i as f64 / (POINTS - 1) as f64);
+        push(&mut table, vec![frequency.into(), gusts.spectrum.density(frequency).into()]);
+    }
+    table
+}

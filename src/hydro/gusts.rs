@@ -1,0 +1,285 @@
+//! Gusts: the spectrum of the wind's speed about its mean, cut in components with a phase each.
+//!
+//! The spectra are those at 10 m, the height of the wind of `&ENV`; a gust is the same at all heights and places at one time: no
+//! coherence in space is regarded, which is safe for large bodies. (The standard deviation of a boundary layer hardly changes with
+//! height: that of API not at all up to 20 m.) The mean is over an hour, so that slower components belong to it: those taken
+//! reach from a period of an hour to one of a second. All formulas are from memory of the sources named, one-sided, f in Hz.
+
+use super::sea::components::{Band, bands, bands_about};
+use super::sea::density::Spectrum;
+use super::sea::phases::phases;
+use crate::language::units::Dim;
+use crate::model::{ClassError, Curve, CurveKind, Division, Environment, Formula, Model, Phasing};
+use std::f64::consts::TAU;
+use std::sync::Mutex;
+
+/// Lowest and highest frequency of gusts of a formula (Hz).
+pub const REACH: [f64; 2] = [1.0 / 3600.0, 1.0];
+/// Number of components where none is given.
+pub const PARTS: usize = 100;
+/// Seed of the phases where none is given.
+pub const SEED: u64 = 1;
+/// The numbers of a seed go to the sea, the added sea and then the gusts.
+const STREAM: u64 = 2;
+/// Points that stand for a formula, in equal steps of the logarithm: straight lines between them are off by 2e-5.
+const POINTS: usize = 800;
+/// Height of the formulas (m).
+const HEIGHT: f64 = super::wind::REFERENCE;
+
+/// A formula of gusts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// API RP 2A-WSD, 20th edition, 2.3.2: `s^2/fp (1 + 1.5 f/fp)^(-5/3)`, s = 0.15 (z/20)^-0.125 U, fp = 0.025 U/z. (The 21st
+    /// edition has that of NPD.)
+    Api,
+    /// NPD (Froya; Andersen and Lovseth 1992; ISO 19901-1, A.7.4): `320 (U/10)^2 (z/10)^0.45 (1 + x^n)^(-5/(3n))`, n = 0.468,
+    /// x = 172 f (z/10)^(2/3) (U/10)^-0.75.
+    Froya,
+    /// Ochi and Shin (OTC 5736, 1988): `f S/u*^2` is 583 x up to x = f z/U = 0.003, `420 x^0.7 (1 + x^0.35)^-11.5` up to 0.1, then
+    /// `838 x (1 + x^0.35)^-11.5`.
+    Ochi,
+    /// Harris (1971): `f S/(k U^2) = 4 x (2 + x^2)^(-5/6)`, x = 1800 f/U.
+    Harris,
+    /// Davenport (1961): `f S/(k U^2) = 4 x^2 (1 + x^2)^(-4/3)`, x = 1200 f/U.
+    Davenport,
+    /// Kaimal and others (1972): `f S/u*^2 = 105 x (1 + 33 x)^(-5/3)`, x = f z/U.
+    Kaimal,
+}
+
+impl Shape {
+    /// That of a name of `-W_SPECTRUM`.
+    pub fn named(name: &str) -> Option<Self> {
+        Some(match name {
+            "API" => Shape::Api,
+            "NPD" | "ISO" => Shape::Froya,
+            "OCHI" => Shape::Ochi,
+            "HARRIS" => Shape::Harris,
+            "DAVENPORT" => Shape::Davenport,
+            "KAIMAL" => Shape::Kaimal,
+            _ => return None,
+        })
+    }
+
+    /// Density (m2/s2 per Hz) at a frequency (Hz) about a mean speed at 10 m (m/s).
+    pub fn density(self, f: f64, speed: f64) -> f64 {
+        let (friction, reduced) = (drag_coefficient(speed) * speed * speed, f * HEIGHT / speed);
+        match self {
+            Shape::Api => {
+                let (s, peak) = (api_deviation(speed), 0.025 * speed / HEIGHT);
+                s * s / peak * (1.0 + 1.5 * f / peak).powf(-5.0 / 3.0)
+            }
+            Shape::Froya => {
+                const N: f64 = 0.468;
+                let x = 172.0 * f * (speed / 10.0).powf(-0.75);
+                3.2 * speed * speed * (1.0 + x.powf(N)).powf(-5.0 / (3.0 * N))
+            }
+            Shape::Ochi => {
+                let fall = (1.0 + reduced.powf(0.35)).powf(-11.5);
+                let per = friction * HEIGHT / speed;
+                match reduced {
+                    x if x <= 0.003 => 583.0 * per,
+                    x if x <= 0.1 => 420.0 * x.powf(-0.3) * fall * per,
+                    _ => 838.0 * fall * per,
+                }
+            }
+            Shape::Harris => {
+                let length = 1800.0 / speed;
+                4.0 * friction * length * (2.0 + (f * length).powi(2)).powf(-5.0 / 6.0)
+            }
+            Shape::Davenport => {
+                let length = 1200.0 / speed;
+                4.0 * friction * length * length * f * (1.0 + (f * length).powi(2)).powf(-4.0 / 3.0)
+            }
+            Shape::Kaimal => 105.0 * friction * HEIGHT / speed * (1.0 + 33.0 * reduced).powf(-5.0 / 3.0),
+        }
+    }
+
+    /// Standard deviation (m/s) of all frequencies: the root of the integral of the density.
+    pub fn deviation(self, speed: f64) -> f64 {
+        let friction = drag_coefficient(speed) * speed * speed;
+        let variance = match self {
+            Shape::Api => return api_deviation(speed),
+            // B(1/n, 2/(3n))/n, with B Euler's beta function, is 0.567222
+            Shape::Froya => 3.2 * speed * speed * (speed / 10.0).powf(0.75) / 172.0 * 0.567_222_117_5,
+            // by Simpson's rule
+            Shape::Ochi => 10.116_441 * friction,
+            // 4 2^(-1/3) sqrt(pi)/2 Gamma(1/3)/Gamma(5/6)
+            Shape::Harris => 6.677_476_047 * friction,
+            Shape::Davenport => 6.0 * friction,
+            Shape::Kaimal => 105.0 / 22.0 * friction,
+        };
+        variance.sqrt()
+    }
+}
+
+/// Drag coefficient of the sea's surface at 10 m under a mean speed (m/s), `(u*/U)^2`: Wu (1982), the k of Harris and Davenport.
+pub fn drag_coefficient(speed: f64) -> f64 {
+    1e-3 * (0.8 + 0.065 * speed)
+}
+
+fn api_deviation(speed: f64) -> f64 {
+    0.15 * (HEIGHT / 20.0).powf(-0.125) * speed
+}
+
+/// The gusts of an environment.
+#[derive(Debug)]
+pub struct Gusts {
+    /// Name of the formula or the curve.
+    pub name: String,
+    /// Mean speed at 10 m (m/s).
+    pub mean: f64,
+    /// What the components stand for: density (m2/s, over rad/s).
+    pub spectrum: Spectrum,
+    /// Its parts, one component each, by growing frequency.
+    pub bands: Vec<Band>,
+    /// Phase of each component (rad): `u = sum of a cos(w t - phase)`.
+    pub phases: Vec<f64>,
+    /// Seed of the phases.
+    pub seed: u64,
+    /// Standard deviation of all frequencies of a formula that is taken as it is (m/s).
+    pub whole: Option<f64>,
+    /// The last time asked for and the gust then: the loads of a step all ask for the same.
+    last: Mutex<Option<(f64, f64)>>,
+}
+
+impl Gusts {
+    /// Those of an environment; `None` without a spectrum, or in a calm.
+    ///
+    /// # Errors
+    /// A spectrum without a wind, without a curve or without energy.
+    pub fn of(model: &Model, env: &Environment) -> Result<Option<Self>, ClassError> {
+        let Some(named) = &env.gusts else { return Ok(None) };
+        let Some(wind) = env.wind else {
+            let text = "gusts have no mean wind and no direction";
+            return Err(ClassError::new(text).at(named.span).help("give -WIND SPEED DIR"));
+        };
+        if wind.speed == 0.0 {
+            return Ok(None);
+        }
+        let shape = Shape::named(&named.kind);
+        let points = match shape {
+            Some(shape) => table(shape, wind.speed),
+            None => of_curve(model, named)?,
+        };
+        let mut spectrum = Spectrum::of_curve(points, None).with_energy().map_err(|e| e.at(named.span))?;
+        let parts = env.gust_parts;
+        let intensity = parts.and_then(|p| p.intensity);
+        if let Some(intensity) = intensity {
+            let deviation = intensity * wind.speed;
+            spectrum = spectrum.scaled(1.0, deviation * deviation, None).map_err(|e| e.at(named.span))?;
+        }
+        let number = parts.map_or(PARTS, |p| p.number);
+        let bands = if env.gust_periods.is_empty() {
+            bands(&spectrum, number, Division::EqualEnergy, true)
+        } else {
+            bands_about(&spectrum, &env.gust_periods)
+        };
+        let bands = bands.map_err(|e| e.at(named.span))?;
+        // waves that are reinforced make a crest; gusts that are would make a wind of many times its deviation
+        let seed = match env.phasing {
+            Some(Phasing::Seeded(seed)) => seed,
+            _ => SEED,
+        };
+        let phases = phases(Phasing::Seeded(seed), STREAM, bands.iter().map(|b| b.frequency));
+        let whole = shape.filter(|_| intensity.is_none()).map(|s| s.deviation(wind.speed));
+        let name = named.kind.clone();
+        Ok(Some(Gusts { name, mean: wind.speed, spectrum, bands, phases, seed, whole, last: Mutex::new(None) }))
+    }
+
+    /// Standard deviation of the components (m/s).
+    pub fn deviation(&self) -> f64 {
+        self.bands.iter().map(|b| b.energy).sum::<f64>().sqrt()
+    }
+
+    /// The gust at a time (s), along the mean wind (m/s).
+    pub fn at(&self, time: f64) -> f64 {
+        let mut last = self.last.lock().ok();
+        if let Some((_, gust)) = last.as_deref().copied().flatten().filter(|(known, _)| *known == time) {
+            return gust;
+        }
+        let parts = self.bands.iter().zip(&self.phases);
+        let gust = parts.map(|(b, phase)| (2.0 * b.energy).sqrt() * (b.frequency * time - phase).cos()).sum();
+        if let Some(last) = last.as_deref_mut() {
+            *last = Some((time, gust));
+        }
+        gust
+    }
+}
+
+/// A formula as frequency (rad/s) and density (m2/s).
+fn table(shape: Shape, speed: f64) -> Vec<(f64, f64)> {
+    let [low, high] = REACH;
+    let point = |i: usize| {
+        let f = low * (high / low).powf(i as f64 / (POINTS - 1) as f64);
+        (TAU * f, shape.density(f, speed) / TAU)
+    };
+    (0..POINTS).map(point).collect()
+}
+
+/// A curve of the user: density over frequency, in the square of the unit of length, as it is.
+fn of_curve(model: &Model, named: &Formula) -> Result<Vec<(f64, f64)>, ClassError> {
+    let points = |curve: &Curve| match curve.kind {
+        CurveKind::FrequencySpectrum => Some(curve.points.clone()),
+        CurveKind::PeriodSpectrum => {
+            Some(curve.points.iter().rev().filter(|p| p.0 > 0.0).map(|(t, s)| (TAU / t, *s)).collect())
+        }
+        _ => None,
+    };
+    let found = model.curves.get(&Model::key(&named.kind)).and_then(points);
+    found.ok_or_else(|| ClassError::new(format!("there is no gust spectrum {}", named.kind)).at(named.span))
+}
+
+/// The unit of the density of gusts, over rad/s.
+pub const DENSITY: Dim = Dim::Derived { force: 0, length: 2, seconds: -1 };
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ALL: [Shape; 6] = [Shape::Api, Shape::Froya, Shape::Ochi, Shape::Harris, Shape::Davenport, Shape::Kaimal];
+
+    /// The integral over frequencies from low to high (Hz), by Simpson's rule over the logarithm.
+    fn integral(shape: Shape, speed: f64, low: f64, high: f64) -> f64 {
+        let parts = 40_000;
+        let step = (high / low).ln() / f64::from(parts);
+        let sum: f64 = (0..=parts)
+            .map(|i| {
+                let f = low * (step * f64::from(i)).exp();
+                let weight = if i == 0 || i == parts { 1.0 } else { 2.0 + 2.0 * f64::from(i % 2) };
+                weight * f * shape.density(f, speed)
+            })
+            .sum();
+        sum * step / 3.0
+    }
+
+    #[test]
+    fn the_integral_of_a_spectrum_is_its_variance() {
+        for shape in ALL {
+            for speed in [8.0, 25.0, 45.0] {
+                // what is left out: below 1e-9 Hz nothing, above 1e9 Hz a share of 1e-6, as all fall with the power -5/3
+                let whole = integral(shape, speed, 1e-9, 1e9);
+                let want = shape.deviation(speed).powi(2);
+                assert!((whole / want - 1.0).abs() < 2e-5, "{shape:?} {speed} {whole} {want}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_spectra_have_the_values_of_their_sources() {
+        let near = |got: f64, want: f64| assert!((got / want - 1.0).abs() < 1e-6, "{got} {want}");
+        // Froya at f = 0 and U = 20 m/s: 320 x 4
+        near(Shape::Froya.density(1e-30, 20.0), 1280.0);
+        // at x = 1 it is 2^(-5/1.404) of that
+        near(Shape::Froya.density(2f64.powf(0.75) / 172.0, 20.0), 1280.0 * 2f64.powf(-5.0 / 1.404));
+        // the branches of Ochi and Shin meet at x = 0.003 and x = 0.1 to the figures published: 420 x 0.1^-0.3 = 838.0
+        for x in [0.003, 0.1] {
+            let [a, b] = [x * 0.999_999, x * 1.000_001].map(|x| Shape::Ochi.density(x * 2.0, 20.0));
+            assert!((a / b - 1.0).abs() < 1e-3, "{a} {b}");
+        }
+        // Davenport's reduced spectrum f S has its peak at x = sqrt(3), at 12 / 4^(4/3) = 1.8899 k U^2
+        let f = 3f64.sqrt() * 20.0 / 1200.0;
+        near(f * Shape::Davenport.density(f, 20.0), 12.0 * 4f64.powf(-4.0 / 3.0) * drag_coefficient(20.0) * 400.0);
+        // Wu (1982) at 20 m/s: 2.1e-3
+        near(drag_coefficient(20.0), 2.1e-3);
+    }
+}

@@ -1,0 +1,46 @@
+//! Added mass of members.
+
+use super::member::{Rod, Standing};
+use crate::hydro::{cross, in_pose};
+use crate::model::Pose;
+use nalgebra::{Matrix3, Matrix6, Vector3};
+
+/// Adds a mass at an arm from the origin that has inertia as a matrix says (kg).
+pub(super) fn add(sum: &mut Matrix6<f64>, arm: &Vector3<f64>, mass: &Matrix3<f64>) {
+    let arm = cross(*arm);
+    let beside = mass * arm;
+    for (at, block) in [((0, 0), *mass), ((0, 3), -beside), ((3, 0), arm * mass), ((3, 3), -(arm * beside))] {
+        let mut place = sum.fixed_view_mut::<3, 3>(at.0, at.1);
+        place += block;
+    }
+}
+
+/// Inertia across an axis alone.
+pub(super) fn across(axis: &Vector3<f64>, mass: f64) -> Matrix3<f64> {
+    (Matrix3::identity() - axis * axis.transpose()) * mass
+}
+
+/// Adds that of a member in a pose under a surface of a height (m, global).
+fn under(sum: &mut Matrix6<f64>, rod: &Rod, standing: &Standing, level: f64) {
+    let axis = &standing.axis;
+    if rod.added != 0.0 {
+        for station in rod.ranges().flat_map(|range| standing.stations(range, level)) {
+            add(sum, &standing.arm(station.at), &across(axis, rod.added * station.area() * station.long));
+        }
+    }
+    if rod.end_added != 0.0 {
+        for at in [0.0, rod.length] {
+            let share = standing.station(at, 0.0, level).area();
+            add(sum, &standing.arm(at), &(axis * axis.transpose() * (rod.end_added * share)));
+        }
+    }
+}
+
+/// That of members under a level surface, body axes.
+pub(super) fn at_rest(rods: &[Rod], pose: &Pose, level: f64) -> Matrix6<f64> {
+    let mut sum = Matrix6::zeros();
+    for rod in rods {
+        under(&mut sum, rod, &rod.standing(pose), level);
+    }
+    in_pose(&sum, &Pose { axes: pose.axes.transpose(), ..*pose })
+}

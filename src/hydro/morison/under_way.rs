@@ -1,0 +1,274 @@
+//! Members in waves, and moving.
+
+use super::added;
+use super::member::{Rod, Standing, Station, drag};
+use crate::hydro::hull::{Solid, Wet};
+use crate::hydro::sea::{Kinematics, Sea, SeaAt};
+use crate::hydro::steady::{Medium, Steady};
+use crate::hydro::{Load, MovingLoad, Underway, in_pose};
+use crate::model::Six;
+use nalgebra::{Matrix6, Vector3};
+use std::sync::Arc;
+
+/// What is kept first: force of waves, difference of added mass, velocity at the end of the last step.
+const WAVE: usize = 0;
+const ADDED: usize = 6;
+const BEFORE: usize = 42;
+const HEAD: usize = 48;
+/// Of each segment: height of the surface over the mean level, and whether that may change what is wet of it.
+const SEGMENT: usize = 2;
+/// Of each station: the drag factors times its length, the axis, its arm, and the velocity of the water.
+const EACH: usize = 11;
+/// How far a trial may be from where it was expected, for a segment to be taken as clear of the surface (m).
+const MARGIN: f64 = 1.0;
+
+/// What members meet under way.
+#[derive(Debug)]
+pub(super) struct UnderWay {
+    sea: Option<Arc<Sea>>,
+    /// Added mass that the body's inertia holds, body axes.
+    held: Matrix6<f64>,
+    /// Height of the mean surface (m, global), and weight of the water (N/m3).
+    level: f64,
+    weight: f64,
+    /// Heights at which the current begins to change otherwise (m, global), highest first.
+    kinks: Vec<f64>,
+    /// Segments of all members, and most stations of all.
+    segments: usize,
+    stations: usize,
+    /// More than the waves rise or fall (m).
+    reach: f64,
+}
+
+/// A wrench of a force at an arm.
+fn at_arm(arm: &Vector3<f64>, force: &Vector3<f64>) -> Six {
+    let moment = arm.cross(force);
+    Six::new(force.x, force.y, force.z, moment.x, moment.y, moment.z)
+}
+
+fn three(values: &[f64]) -> Vector3<f64> {
+    Vector3::from_iterator(values.iter().copied().chain([0.0; 3]).take(3))
+}
+
+/// The water at a time.
+struct Water<'a> {
+    sea: Option<SeaAt<'a>>,
+    steady: &'a Steady,
+    origin: Vector3<f64>,
+    level: f64,
+}
+
+impl Water<'_> {
+    /// At a station, in the middle of what is wet of it.
+    fn at(&self, standing: &Standing, station: &Station) -> Kinematics {
+        let mut place = self.origin + standing.arm(station.at);
+        place.z -= station.lower() * standing.rise;
+        self.sea.as_ref().map_or(Kinematics::still(0.0), |sea| sea.kinematics(place))
+    }
+
+    fn current(&self, z: f64) -> Vector3<f64> {
+        if self.steady.current.is_none() { Vector3::zeros() } else { self.steady.velocity(Medium::Water, z).0 }
+    }
+
+    /// Height of the surface over the mean level where it cuts the axis in a range, or else at the range's middle (m).
+    fn surface(&self, standing: &Standing, (from, to): (f64, f64)) -> f64 {
+        let Some(sea) = &self.sea else { return 0.0 };
+        let mut at = 0.5 * (from + to);
+        let mut found = 0.0;
+        // twice again from where it was found to cut: the axis leans, and the surface slopes less
+        for n in 0..3 {
+            let place = self.origin + standing.arm(at);
+            found = sea.elevation(place.x, place.y);
+            let next = (self.level + found - self.origin.z - standing.from.z) / standing.axis.z;
+            let cut = (from..=to).contains(&next);
+            if n == 2 || !cut || standing.axis.x.hypot(standing.axis.y) * (next - at).abs() < 1e-3 {
+                break;
+            }
+            at = next;
+        }
+        found
+    }
+}
+
+impl UnderWay {
+    pub(super) fn new(
+        sea: Option<Arc<Sea>>,
+        (rods, kinks): (&[Rod], &[f64]),
+        steady: &Steady,
+        held: &Matrix6<f64>,
+    ) -> Self {
+        let reach = sea.as_ref().map_or(0.0, |s| 2.0 * s.components.iter().map(|c| c.amplitude.abs()).sum::<f64>());
+        let (level, weight) = (steady.around.tide, steady.around.water_weight());
+        let segments = rods.iter().map(|r| r.segments.len()).sum();
+        let stations = rods.iter().map(|r| r.most_stations(kinks.len())).sum();
+        UnderWay { sea, held: *held, level, weight, kinks: kinks.to_vec(), segments, stations, reach }
+    }
+
+    pub(super) fn states(&self) -> usize {
+        HEAD + SEGMENT * self.segments + EACH * self.stations
+    }
+
+    /// Finds the water at the stations, and the force of the waves.
+    pub(super) fn begin(&self, rods: &[Rod], steady: &Steady, ahead: &Underway, state: &mut [f64]) {
+        let sea = self.sea.as_ref().map(|sea| sea.at(ahead.time));
+        let water = Water { sea, steady, origin: ahead.pose.origin, level: self.level };
+        let Some((head, rest)) = state.split_at_mut_checked(HEAD) else { return };
+        let Some((mut segments, mut stations)) = rest.split_at_mut_checked(SEGMENT * self.segments) else { return };
+        stations.fill(0.0);
+        let (mut wave, mut mass) = (Six::zeros(), Matrix6::zeros());
+        for rod in rods {
+            let sizes = (SEGMENT * rod.segments.len(), EACH * rod.most_stations(self.kinks.len()));
+            let Some((own, others)) = segments.split_at_mut_checked(sizes.0) else { return };
+            let Some((slots, more)) = stations.split_at_mut_checked(sizes.1) else { return };
+            wave += self.member(&water, (rod, &rod.standing(ahead.pose)), (own, slots), &mut mass) * rod.factor;
+            (segments, stations) = (others, more);
+        }
+        mass -= in_pose(&self.held, ahead.pose);
+        for (kept, value) in head.iter_mut().skip(WAVE).zip(wave.iter()) {
+            *kept = *value;
+        }
+        for (kept, value) in head.iter_mut().skip(ADDED).zip(mass.iter()) {
+            *kept = *value;
+        }
+        if ahead.dt == 0.0 {
+            self.commit(ahead, state);
+        }
+    }
+
+    /// One member: the force of the waves on it but for hydrostatics, and its added mass; its segments are kept.
+    fn member(
+        &self,
+        water: &Water,
+        (rod, standing): (&Rod, &Standing),
+        (kept, slots): (&mut [f64], &mut [f64]),
+        mass: &mut Matrix6<f64>,
+    ) -> Six {
+        let mut slots = slots.chunks_exact_mut(EACH);
+        let axis = &standing.axis;
+        let mut sum = Six::zeros();
+        // the heights of the surface at both ends, and where it cuts the axis
+        let mut heights = [0.0; 2];
+        let mut cut = None;
+        for (n, (range, own)) in rod.ranges().zip(kept.chunks_exact_mut(SEGMENT)).enumerate() {
+            let (low, high) = standing.heights(range);
+            let clear = high + standing.rise < self.level - self.reach;
+            let over = if clear { 0.0 } else { water.surface(standing, range) };
+            let level = self.level + over;
+            let near = high + standing.rise + MARGIN > self.level.min(level)
+                && low - standing.rise - MARGIN < self.level.max(level);
+            if low < level && level <= high {
+                cut = Some(over);
+            }
+            if n == 0 {
+                heights[0] = over;
+            }
+            heights[1] = over;
+            self.segment(water, (rod, standing), (range, level), &mut slots, (&mut sum, mass));
+            let counts = near && over != 0.0 && rod.section != 0.0;
+            own.copy_from_slice(&[over, if counts { 1.0 } else { 0.0 }]);
+        }
+        // along the axis: what the ends bear, and the surface between them
+        let mut shares = [0.0; 2];
+        let mut pressed = 0.0;
+        for (n, (at, sense)) in [(0.0, 1.0), (rod.length, -1.0)].into_iter().enumerate() {
+            let station = standing.station(at, 0.0, self.level + heights[n]);
+            shares[n] = station.area();
+            if shares[n] == 0.0 || water.sea.is_none() && rod.end_added == 0.0 {
+                continue;
+            }
+            let found = water.at(standing, &station);
+            pressed += sense * shares[n] * found.pressure;
+            let end = axis * axis.transpose() * (rod.end_added * shares[n]);
+            let arm = standing.arm(at);
+            sum += at_arm(&arm, &(end * found.acceleration));
+            added::add(mass, &arm, &end);
+        }
+        let surface = cut.unwrap_or(0.5 * (heights[0] + heights[1]));
+        pressed += (shares[1] - shares[0]) * self.weight * surface;
+        sum + at_arm(&standing.from, &(axis * (rod.section * pressed)))
+    }
+
+    /// One segment under a surface: inertia across the axis, and its stations.
+    fn segment<'a>(
+        &self,
+        water: &Water,
+        (rod, standing): (&Rod, &Standing),
+        (range, level): ((f64, f64), f64),
+        slots: &mut impl Iterator<Item = &'a mut [f64]>,
+        (sum, mass): (&mut Six, &mut Matrix6<f64>),
+    ) {
+        let axis = &standing.axis;
+        let parts = standing.parts(range, &self.kinks);
+        for (station, slot) in parts.flat_map(|part| standing.stations(part, level)).zip(slots) {
+            let arm = standing.arm(station.at);
+            let found = water.at(standing, &station);
+            let beside = found.acceleration - axis * axis.dot(&found.acceleration);
+            let share = station.area() * station.long;
+            *sum += at_arm(&arm, &(beside * ((water.steady.around.water_density * rod.section + rod.added) * share)));
+            if rod.added != 0.0 {
+                added::add(mass, &arm, &added::across(axis, rod.added * share));
+            }
+            let flow = found.velocity + water.current(water.origin.z + arm.z);
+            let wet = station.share() * station.long;
+            let (slot_drag, places) = slot.split_at_mut(2);
+            slot_drag.copy_from_slice(&[rod.across * wet, rod.along * wet]);
+            for (kept, value) in places.iter_mut().zip(axis.iter().chain(&arm).chain(&flow)) {
+                *kept = *value;
+            }
+        }
+    }
+
+    /// Drag at a velocity of the body, and its change with that.
+    pub(super) fn drag(&self, at: &Underway, state: &[f64]) -> (Six, Matrix6<f64>) {
+        let mut sum = (Six::zeros(), Matrix6::zeros());
+        let (own, turn) = (three(at.velocity.as_slice()), three(at.velocity.as_slice().get(3..).unwrap_or_default()));
+        let stations = state.get(HEAD + SEGMENT * self.segments..).unwrap_or_default();
+        for station in stations.chunks_exact(EACH) {
+            let [across, along, a, b, c, x, y, z, u, v, w] = station else { continue };
+            if *across == 0.0 && *along == 0.0 {
+                continue;
+            }
+            let (axis, arm) = (Vector3::new(*a, *b, *c), Vector3::new(*x, *y, *z));
+            let flow = Vector3::new(*u, *v, *w) - own - turn.cross(&arm);
+            let (force, by_flow) = drag((*across, *along), &axis, &flow);
+            sum.0 += at_arm(&arm, &force);
+            // the velocity of the place is own - arm x turn, so that this has the form of a mass there
+            added::add(&mut sum.1, &arm, &by_flow);
+        }
+        sum
+    }
+
+    pub(super) fn moving(&self, rods: &[Rod], at: &Underway, state: &[f64]) -> MovingLoad {
+        let (drag, mut damping) = self.drag(at, state);
+        let mut load = Load { wrench: drag + six(state, WAVE), stiffness: Matrix6::zeros() };
+        let segments = rods.iter().flat_map(|rod| rod.segments.iter().map(move |tube| (rod, tube)));
+        for ((rod, tube), kept) in segments.zip(state.get(HEAD..).unwrap_or_default().chunks_exact(SEGMENT)) {
+            let [over, near, ..] = kept else { continue };
+            if *near == 0.0 {
+                continue;
+            }
+            let mut wet = Wet::default();
+            wet.add(&tube.wet(at.pose, self.level + over), 1.0);
+            wet.add(&tube.wet(at.pose, self.level), -1.0);
+            let more = wet.load(self.weight * rod.displaces() * rod.factor);
+            load.wrench += more.wrench;
+            load.stiffness += more.stiffness;
+        }
+        if at.dt > 0.0 {
+            let difference = Matrix6::from_iterator(state.iter().skip(ADDED).copied().chain([0.0; 36]).take(36));
+            load.wrench -= difference * ((at.velocity - six(state, BEFORE)) / at.dt);
+            damping += difference / at.dt;
+        }
+        MovingLoad { load, damping }
+    }
+
+    pub(super) fn commit(&self, at: &Underway, state: &mut [f64]) {
+        for (kept, value) in state.iter_mut().skip(BEFORE).zip(at.velocity.iter()) {
+            *kept = *value;
+        }
+    }
+}
+
+fn six(state: &[f64], from: usize) -> Six {
+    Six::from_iterator(state.iter().skip(from).copied().chain([0.0; 6]).take(6))
+}

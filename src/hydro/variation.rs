@@ -1,0 +1,115 @@
+//! How wind and current vary about their means, for bodies under way.
+//!
+//! Source: reference/model.md, "Environment" and "Curves". Where it is silent: a history is straight between its points and
+//! keeps the values of its ends beyond them; that of wind takes the place of the speed of `-WIND`, with its direction and profile;
+//! that of current (ours) multiplies the current. All grow with the ramp of the environment from the means, on which statics stands.
+
+use super::gusts::Gusts;
+use super::ramp::ramp;
+use crate::model::{ClassError, CurveKind, Environment, Formula, Model};
+
+/// What wind and current have beside their means at one time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Instant {
+    /// Speed that a history adds to the mean wind 10 m above the water (m/s).
+    pub wind: f64,
+    /// Gust along the mean wind, the same everywhere (m/s).
+    pub gust: f64,
+    /// Factor of the current.
+    pub current: f64,
+}
+
+impl Default for Instant {
+    fn default() -> Self {
+        Instant { wind: 0.0, gust: 0.0, current: 1.0 }
+    }
+}
+
+/// A value over time, straight between its points.
+#[derive(Clone, Debug, PartialEq)]
+pub struct History {
+    /// Time (s), value; times grow.
+    points: Vec<(f64, f64)>,
+}
+
+impl History {
+    /// That of a curve of a kind that an environment names.
+    ///
+    /// # Errors
+    /// A curve that is not there.
+    fn of(model: &Model, named: &Formula, kind: CurveKind) -> Result<Self, ClassError> {
+        match model.curves.get(&Model::key(&named.kind)) {
+            Some(curve) if curve.kind == kind => Ok(History { points: curve.points.clone() }),
+            _ => Err(ClassError::new(format!("there is no {} curve {}", kind.name(), named.kind)).at(named.span)),
+        }
+    }
+
+    /// Its value at a time (s).
+    pub fn at(&self, time: f64) -> f64 {
+        let next = self.points.partition_point(|p| p.0 <= time);
+        match (next.checked_sub(1).and_then(|i| self.points.get(i)), self.points.get(next)) {
+            (Some((low, at_low)), Some((high, at_high))) => at_low + (at_high - at_low) * (time - low) / (high - low),
+            (Some(end), None) | (None, Some(end)) => end.1,
+            (None, None) => 0.0,
+        }
+    }
+}
+
+/// What varies in time in an environment.
+#[derive(Debug)]
+pub struct Variation {
+    /// Mean speed of the wind (m/s), and its history.
+    wind: Option<(f64, History)>,
+    gusts: Option<Gusts>,
+    current: Option<History>,
+    /// Time over which it grows (s).
+    ramp: f64,
+}
+
+impl Variation {
+    /// That of an environment; `None` when nothing varies.
+    ///
+    /// # Errors
+    /// A curve that is not there, wind that varies without a direction, a correlation that has no meaning.
+    pub fn of(model: &Model, env: &Environment) -> Result<Option<Self>, ClassError> {
+        if let Some(given) = env.drift_correlation.as_ref().filter(|g| g.value != Some(0.0)) {
+            let text = "no source says how -W_MD_CORRELATION makes gusts and mean drift depend on each other in time";
+            return Err(ClassError::new(text)
+                .at(given.span)
+                .help("leave it out: gusts and drift are then independent"));
+        }
+        let wind = match &env.wind_history {
+            None => None,
+            Some(named) => {
+                let history = History::of(model, named, CurveKind::WindHistory)?;
+                let Some(mean) = env.wind else {
+                    let text = format!("the wind history {} has no direction", named.kind);
+                    return Err(ClassError::new(text).at(named.span).help(
+                        "give -WIND SPEED DIR: its direction, and the \
+                                                                          speed of statics",
+                    ));
+                };
+                Some((mean.speed, history))
+            }
+        };
+        let current = env
+            .current_history
+            .as_ref()
+            .map(|named| History::of(model, named, CurveKind::CurrentHistory))
+            .transpose()?;
+        let gusts = Gusts::of(model, env)?;
+        if wind.is_none() && gusts.is_none() && current.is_none() {
+            return Ok(None);
+        }
+        Ok(Some(Variation { wind, gusts, current, ramp: env.ramp.unwrap_or(model.defaults.ramp) }))
+    }
+
+    /// What there is at a time (s).
+    pub fn at(&self, time: f64) -> Instant {
+        let (grown, _) = ramp(self.ramp, time);
+        let wind = self.wind.as_ref().map_or(0.0, |(mean, history)| grown * (history.at(time) - mean));
+        let current = self.current.as_ref().map_or(1.0, |history| 1.0 + grown * (history.at(time) - 1.0));
+        let gust = self.gusts.as_ref().map_or(0.0, |gusts| grown * gusts.at(time));
+        Instant { wind, gust, current }
+    }
+}

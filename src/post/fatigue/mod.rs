@@ -1,0 +1,12 @@
+//! Fatigue: curves of stress or tension, damage of counted cycles and of spectra, and what a mooring line comes to.
+
+pub mod curve;
+pub mod damage;
+pub mod library;
+pub mod line;
+pub mod spectral;
+
+pub use curve::{Branch, Curve};
+pub use damage::{Damage, State, life, of_cycles, over};
+pub use library::{find, library};
+pub use line::{Exposure, LineDamage, Loaded, SegmentDamage, SegmentLife, line_damage, line_life};

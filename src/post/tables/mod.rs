@@ -1,0 +1,129 @@
+//! Post-processing of tables: the first column is time, the others are series. Each function returns a table of its own,
+//! SI, with the columns of one series under a group head of its name.
+
+mod distribution;
+mod extremes;
+mod harmonics;
+mod spectra;
+
+pub use distribution::{exceedance, histogram, rainflow};
+pub use extremes::{Extremes, extremes};
+pub use harmonics::{Analysis, harmonics};
+pub use spectra::{amplitudes, density, moments};
+
+use super::SeriesError;
+use crate::language::units::Dim;
+use crate::table::{Cell, Column, Digits, Table};
+
+/// A series of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Series {
+    /// Name of its column, with the group head.
+    pub name: String,
+    /// What it measures.
+    pub dim: Dim,
+    /// Its values, SI.
+    pub values: Vec<f64>,
+}
+
+/// Times and the series over them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Record {
+    /// Title of the table they come from.
+    pub title: String,
+    /// Times (s).
+    pub times: Vec<f64>,
+    /// The series.
+    pub series: Vec<Series>,
+}
+
+/// Name of a column with its group, as `Tension: Ten Top`.
+fn long_name(column: &Column) -> String {
+    if column.group.is_empty() { column.name.clone() } else { format!("{}: {}", column.group, column.name) }
+}
+
+fn values(column: &Column) -> Result<Vec<f64>, SeriesError> {
+    let number = |(row, cell): (usize, &Cell)| {
+        let missing = || SeriesError::Refused(format!("column {} has no value in row {}", column.name, row + 1));
+        cell.number().ok_or_else(missing)
+    };
+    column.cells.iter().enumerate().map(number).collect()
+}
+
+impl Record {
+    /// The record of a table whose first column is time, or a plain number that stands for seconds.
+    ///
+    /// # Errors
+    /// A table of one column, a first column that measures something else, a cell without a number, times that do not grow.
+    pub fn of(table: &Table) -> Result<Record, SeriesError> {
+        let Some((time, rest)) = table.columns.split_first().filter(|(_, rest)| !rest.is_empty()) else {
+            return Err(SeriesError::Refused("the time and at least one more column are needed".into()));
+        };
+        if !matches!(time.dim, Dim::Time | Dim::None) {
+            let text = format!("column {}, the first, is no time", long_name(time));
+            return Err(SeriesError::Refused(text));
+        }
+        let times = values(time)?;
+        super::timed(&times, &times)?;
+        let series = rest.iter().map(|c| {
+            let values = values(c)?;
+            super::finite(&values)?;
+            Ok(Series { name: long_name(c), dim: c.dim, values })
+        });
+        Ok(Record { title: table.title.clone(), series: series.collect::<Result<_, SeriesError>>()?, times })
+    }
+
+    /// Seconds from the first time to one step behind the last.
+    pub fn length(&self) -> f64 {
+        match (self.times.first(), self.times.last()) {
+            (Some(first), Some(last)) if self.times.len() > 1 => {
+                (last - first) * (self.times.len() as f64 / (self.times.len() - 1) as f64)
+            }
+            _ => 0.0,
+        }
+    }
+}
+
+/// A table with a column for every head: group, name, dimension, digits, cells. Columns of unlike length are filled up with
+/// empty cells.
+fn made(title: String, columns: Vec<Column>) -> Table {
+    let rows = columns.iter().map(|c| c.cells.len()).max().unwrap_or(0);
+    let mut table = Table::new(title);
+    for mut column in columns {
+        column.cells.resize(rows, Cell::Missing);
+        table.columns.push(column);
+    }
+    table
+}
+
+fn column(group: &str, name: &str, dim: Dim, digits: Digits, cells: Vec<Cell>) -> Column {
+    Column { name: name.into(), group: group.into(), dim, digits, cells }
+}
+
+/// Six figures: what a reader needs of a result whose size is not known beforehand.
+const SIX: Digits = Digits::Scientific(6);
+
+fn numbers(values: impl IntoIterator<Item = f64>) -> Vec<Cell> {
+    values.into_iter().map(Cell::Number).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_record_is_a_time_and_series_without_gaps() {
+        let mut t =
+            Table::new("t").column("", "Time", Dim::Time, Digits::Usual).column("A", "F", Dim::Force, Digits::Usual);
+        for i in 0..3 {
+            t.push(vec![Cell::Number(f64::from(i)), Cell::Integer(5)]).unwrap();
+        }
+        let r = Record::of(&t).unwrap();
+        assert_eq!((r.series[0].name.as_str(), r.length()), ("A: F", 3.0));
+        t.columns[1].cells[1] = Cell::Missing;
+        assert!(Record::of(&t).unwrap_err().to_string().contains("row 2"));
+        t.columns[0].dim = Dim::Length;
+        assert!(Record::of(&t).unwrap_err().to_string().contains("no time"));
+        assert!(Record::of(&Table::new("t")).is_err());
+    }
+}

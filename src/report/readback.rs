@@ -1,0 +1,247 @@
+//! Tables read back from text: what STORE wrote, or any series in columns.
+//!
+//! Source: reference/solve.md, "Disposition menu": `&BUILDG -BRIEF` reads labels, one per line, a blank, and rows of numbers;
+//! `&BUILDG -CSV` a line of heads and rows. A head that ends in a unit in parentheses, as STORE writes it, gives its column
+//! that dimension, whatever units the user has now.
+
+use crate::language::units::{Dim, ForceUnit, LengthUnit, UnitSystem};
+use crate::table::{Cell, Digits, Table};
+
+/// Why a text is no table.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ReadError {
+    /// A row with another number of cells than there are heads.
+    #[error("line {line} holds {got} values for {want} columns")]
+    Cells {
+        /// Line, from 1.
+        line: usize,
+        /// Values in it.
+        got: usize,
+        /// Columns.
+        want: usize,
+    },
+    /// A number that is not finite.
+    #[error("line {line}: {text} is not a finite number")]
+    NotFinite {
+        /// Line, from 1.
+        line: usize,
+        /// The word.
+        text: String,
+    },
+    /// What the CSV reader says.
+    #[error("{0}")]
+    Csv(String),
+    /// No rows.
+    #[error("there are no rows of values")]
+    NoRows,
+    /// More columns than a table has.
+    #[error("{0} columns are more than the 10000 a table may have")]
+    Wide(usize),
+}
+
+/// Most columns of a table: a text with more is no series in columns.
+const WIDEST: usize = 10_000;
+
+/// The dimensions whose units a head may name.
+const DIMS: [Dim; 20] = [
+    Dim::Length,
+    Dim::Section,
+    Dim::Time,
+    Dim::Days,
+    Dim::Angle,
+    Dim::Force,
+    Dim::Moment,
+    Dim::ForcePerLength,
+    Dim::MomentPerRadian,
+    Dim::Stress,
+    Dim::Velocity,
+    Dim::WindSpeed,
+    Dim::Acceleration,
+    Dim::Frequency,
+    Dim::Area,
+    Dim::Volume,
+    Dim::Density,
+    Dim::SpectralDensity,
+    Dim::AngleDensity,
+    Dim::MassPerLength,
+];
+
+/// A column as its head tells: name, dimension, and the units its numbers are in.
+fn head(text: &str) -> (String, Dim, UnitSystem) {
+    let plain = (text.to_string(), Dim::None, UnitSystem::SI);
+    let Some((name, unit)) = text.strip_suffix(')').and_then(|t| t.rsplit_once(" (")) else { return plain };
+    let forces = [
+        ForceUnit::Kips,
+        ForceUnit::LongTons,
+        ForceUnit::ShortTons,
+        ForceUnit::Kilonewtons,
+        ForceUnit::MetricTons,
+        ForceUnit::Newtons,
+    ];
+    let systems = [LengthUnit::Feet, LengthUnit::Meters]
+        .into_iter()
+        .flat_map(|length| forces.into_iter().map(move |force| UnitSystem { length, force }));
+    let found = systems.flat_map(|s| DIMS.into_iter().map(move |d| (d, s))).find(|(d, s)| d.label(*s) == unit);
+    found.map_or(plain, |(dim, units)| (name.trim().to_string(), dim, units))
+}
+
+/// Whether a word is a number, finite or not.
+fn number(word: &str) -> Option<f64> {
+    word.parse().ok()
+}
+
+struct Made {
+    table: Table,
+    units: Vec<UnitSystem>,
+}
+
+impl Made {
+    fn of(title: &str, heads: &[&str]) -> Result<Made, ReadError> {
+        if heads.len() > WIDEST {
+            return Err(ReadError::Wide(heads.len()));
+        }
+        let mut made = Made { table: Table::new(title), units: Vec::new() };
+        for (index, text) in heads.iter().enumerate() {
+            let (name, dim, units) = head(text.trim());
+            let name = if name.is_empty() { format!("Column {}", index + 1) } else { name };
+            made.table = made.table.column("", &name, dim, if dim == Dim::None { SIX } else { Digits::Usual });
+            made.units.push(units);
+        }
+        Ok(made)
+    }
+
+    fn push(&mut self, line: usize, words: &[&str]) -> Result<(), ReadError> {
+        let want = self.table.columns.len();
+        if words.len() != want {
+            return Err(ReadError::Cells { line, got: words.len(), want });
+        }
+        for ((column, word), units) in self.table.columns.iter_mut().zip(words).zip(&self.units) {
+            let word = word.trim();
+            let cell = match number(word) {
+                Some(value) => {
+                    let si = column.dim.to_si(value, *units);
+                    if !si.is_finite() {
+                        return Err(ReadError::NotFinite { line, text: word.into() });
+                    }
+                    Cell::Number(si)
+                }
+                None if word.is_empty() => Cell::Missing,
+                None => Cell::Text(word.into()),
+            };
+            column.cells.push(cell);
+        }
+        Ok(())
+    }
+
+    fn done(self) -> Result<Table, ReadError> {
+        if self.table.rows() == 0 { Err(ReadError::NoRows) } else { Ok(self.table) }
+    }
+}
+
+/// Digits of a column that is a plain number of unknown size.
+const SIX: Digits = Digits::Scientific(6);
+
+/// A table from comma-separated values: a line of heads, unless all its words are numbers, and rows.
+///
+/// # Errors
+/// A row of another length than the first, a number that is not finite, no rows.
+pub fn csv(title: &str, text: &str) -> Result<Table, ReadError> {
+    let mut reader = csv::ReaderBuilder::new().has_headers(false).flexible(true).from_reader(text.as_bytes());
+    let mut made: Option<Made> = None;
+    for record in reader.records() {
+        let record = record.map_err(|e| ReadError::Csv(e.to_string()))?;
+        let line = record.position().map_or(0, |p| usize::try_from(p.line()).unwrap_or(usize::MAX));
+        let words: Vec<&str> = record.iter().collect();
+        let values = words.iter().all(|w| number(w.trim()).is_some());
+        let table = match &mut made {
+            Some(table) => table,
+            None if values => made.insert(Made::of(title, &vec![""; words.len()])?),
+            None => {
+                made = Some(Made::of(title, &words)?);
+                continue;
+            }
+        };
+        table.push(line, &words)?;
+    }
+    made.ok_or(ReadError::NoRows)?.done()
+}
+
+/// A table from labels, one a line, and rows of numbers parted by blanks or commas, behind a blank line or not: the rows begin
+/// with the first line of nothing but numbers.
+///
+/// # Errors
+/// A row of another length than there are labels, a number that is not finite, no rows.
+pub fn brief(title: &str, text: &str) -> Result<Table, ReadError> {
+    let mut labels: Vec<&str> = Vec::new();
+    let mut made: Option<Made> = None;
+    for (index, line) in text.lines().enumerate() {
+        let words: Vec<&str> = line.split([' ', '\t', ',']).filter(|w| !w.is_empty()).collect();
+        if words.is_empty() {
+            continue;
+        }
+        let table = match &mut made {
+            Some(table) => table,
+            None if words.iter().all(|w| number(w).is_some()) => {
+                let heads = if labels.is_empty() { vec![""; words.len()] } else { std::mem::take(&mut labels) };
+                made.insert(Made::of(title, &heads)?)
+            }
+            None => {
+                labels.push(line);
+                continue;
+            }
+        };
+        table.push(index + 1, &words)?;
+    }
+    made.ok_or(ReadError::NoRows)?.done()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::csv as written;
+
+    #[test]
+    fn what_store_wrote_reads_back_in_any_units() {
+        let mut t = Table::new("t")
+            .column("", "Time", Dim::Time, Digits::Usual)
+            .column("", "Ten Top", Dim::Force, Digits::Usual)
+            .column("", "Roll", Dim::Angle, Digits::Usual)
+            .column("", "State", Dim::None, Digits::Usual);
+        t.push(vec![0.5.into(), 1e6.into(), 0.25.into(), "a,b".into()]).unwrap();
+        t.push(vec![1.0.into(), Cell::Missing, (-0.5).into(), "c".into()]).unwrap();
+        for units in [UnitSystem::default(), UnitSystem::SI] {
+            let text = String::from_utf8(written::bytes(&t, units).unwrap()).unwrap();
+            let read = csv("t", &text).unwrap();
+            assert_eq!(
+                read.columns.iter().map(|c| c.dim).collect::<Vec<_>>(),
+                t.columns.iter().map(|c| c.dim).collect::<Vec<_>>()
+            );
+            // kips and degrees and back: two roundings
+            let (a, b) = (read.columns[1].numbers()[0], read.columns[2].numbers()[1]);
+            assert!((a - 1e6).abs() < 1e-9 && (b + 0.5).abs() < 1e-15);
+            assert_eq!(
+                (&read.columns[1].cells[1], &read.columns[3].cells[0]),
+                (&Cell::Missing, &Cell::Text("a,b".into()))
+            );
+        }
+    }
+
+    #[test]
+    fn labels_one_a_line_stand_above_rows_with_or_without_a_blank() {
+        for blank in ["", "\n"] {
+            let t = brief("t", &format!("Time (s)\nPower of 2\n{blank}0 1\n1, 2\n2\t4\n")).unwrap();
+            assert_eq!((t.columns[1].name.as_str(), t.columns[1].numbers()), ("Power of 2", vec![1.0, 2.0, 4.0]));
+            assert_eq!((t.columns[0].name.as_str(), t.columns[0].dim), ("Time", Dim::Time));
+        }
+        assert_eq!(brief("t", "1 2\n3 4").unwrap().columns[1].name, "Column 2");
+    }
+
+    #[test]
+    fn what_is_no_table_is_told_with_its_line() {
+        assert_eq!(csv("t", "a,b\n1,2\n3\n"), Err(ReadError::Cells { line: 3, got: 1, want: 2 }));
+        assert_eq!(csv("t", "a\n1\ninf\n"), Err(ReadError::NotFinite { line: 3, text: "inf".into() }));
+        assert_eq!(csv("t", "a,b\n"), Err(ReadError::NoRows));
+        assert_eq!(brief("t", "only a label\n"), Err(ReadError::NoRows));
+        assert_eq!(brief("t", "a\n1 2"), Err(ReadError::Cells { line: 2, got: 2, want: 1 }));
+    }
+}

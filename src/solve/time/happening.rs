@@ -1,0 +1,164 @@
+//! What happens on the way of a run: conditions are looked at behind every step, connectors come and go, lengths change.
+
+use super::action::{Watched, What, When, point_in_body};
+use super::run::Run;
+use crate::hydro::sea::Sea;
+use crate::model::{ClassError, Model, Position};
+use crate::solve::system::SolveError;
+use std::sync::Arc;
+
+impl Run {
+    pub(super) fn check_actions(&self) -> Result<(), SolveError> {
+        for action in &self.actions {
+            let wrong = |error: ClassError| SolveError { who: Some(action.name.clone()), error };
+            if let When::Above(Watched::Height(point), _) | When::Below(Watched::Height(point), _) = &action.when {
+                point_in_body(&self.model, point).map_err(wrong)?;
+            }
+            if let What::Winch(names, ..) = &action.what {
+                for name in names {
+                    let connector = self.model.connectors.get(&Model::key(name));
+                    if connector.is_none_or(|c| self.model.first_length(c).is_none()) {
+                        return Err(wrong(ClassError::new(format!("connector {name} has no length to change"))));
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The next time an action waits for, up to `end`.
+    pub(super) fn next_action(&self, end: f64) -> Option<f64> {
+        let waits = self.actions.iter().zip(&self.fired).filter(|(_, f)| f.is_none());
+        let times = waits.filter_map(|(a, _)| if let When::At(t) = a.when { Some(t) } else { None });
+        times.filter(|t| *t > self.now.time && *t < end).min_by(f64::total_cmp)
+    }
+
+    /// Changes the lengths of what is winched, to those at a time.
+    pub(super) fn wind(&mut self, time: f64) -> Result<(), SolveError> {
+        if self.winches.is_empty() {
+            return Ok(());
+        }
+        let dt = time - self.now.time;
+        for (name, rate, to) in &mut self.winches {
+            let Some(connector) = self.model.connectors.get(&Model::key(name)) else { continue };
+            let old = self.model.first_length(connector).unwrap_or(0.0);
+            let mut length = old + *rate * dt;
+            if let Some(target) = *to
+                && (target - length) * *rate <= 0.0
+            {
+                (length, *rate) = (target, 0.0);
+            }
+            if length <= 0.0 {
+                let error =
+                    ClassError::new("its first segment has been taken in whole").help("end the winch at a length");
+                return Err(SolveError { who: Some(name.clone()), error });
+            }
+            if let Some(connector) = self.model.connectors.get_mut(&Model::key(name)) {
+                connector.first_length = Some(length);
+            }
+            self.system.make_anew(&self.model, name)?;
+        }
+        self.winches.retain(|(_, rate, _)| *rate != 0.0);
+        Ok(())
+    }
+
+    /// The value of what is watched.
+    fn watched(&self, watched: &Watched) -> Option<f64> {
+        match watched {
+            Watched::Tension(name) => {
+                let mut first = 0;
+                for link in &self.system.links {
+                    if link.name.eq_ignore_ascii_case(name) {
+                        return self.now.forces.wrenches.get(first).map(|w| w.fixed_rows::<3>(0).norm());
+                    }
+                    first += link.ends.len();
+                }
+                None
+            }
+            Watched::Freedom(body, freedom) => {
+                let index = self.model.bodies.get_index_of(&Model::key(body))?;
+                let place = self.now.motions.get(index)?.pose.place(self.near.get(index)?);
+                place.shift.iter().chain(&place.turn).nth(*freedom).copied()
+            }
+            Watched::Height(point) => {
+                let (body, at): (usize, Position) = point_in_body(&self.model, point).ok()?;
+                let place = self.now.motions.get(body)?.pose.point(at.into());
+                Some(place.z - self.system.surroundings.tide)
+            }
+        }
+    }
+
+    /// Does what has come due; gives the name of an action that ends the run.
+    pub(super) fn happens(&mut self) -> Result<Option<String>, SolveError> {
+        let mut changed = false;
+        let mut stop = None;
+        for index in 0..self.actions.len() {
+            if self.fired.get(index).is_none_or(Option::is_some) {
+                continue;
+            }
+            let Some(action) = self.actions.get(index).cloned() else { continue };
+            let due = match &action.when {
+                When::At(time) => self.now.time >= time - 1e-9 * self.settings.dt,
+                When::Above(watched, value) => self.watched(watched).is_some_and(|v| v > *value),
+                When::Below(watched, value) => self.watched(watched).is_some_and(|v| v < *value),
+            };
+            if !due {
+                continue;
+            }
+            if let Some(fired) = self.fired.get_mut(index) {
+                *fired = Some(self.now.time);
+            }
+            changed |= !matches!(action.what, What::Stop | What::Winch(..));
+            match &action.what {
+                What::Stop => stop = Some(action.name.clone()),
+                What::Winch(names, rate, to) => {
+                    for name in names {
+                        self.winches.retain(|(n, ..)| !n.eq_ignore_ascii_case(name));
+                        if *rate != 0.0 {
+                            self.winches.push((name.clone(), *rate, *to));
+                        }
+                    }
+                }
+                what => self.change(what)?,
+            }
+        }
+        if changed {
+            // the forces have changed at once: the acceleration of the step before is not that of the next
+            self.forget();
+            self.prepare()?;
+        }
+        Ok(stop)
+    }
+
+    pub(super) fn change(&mut self, what: &What) -> Result<(), SolveError> {
+        match what {
+            What::Release(names) => {
+                for name in names {
+                    if let Some(connector) = self.model.connectors.get_mut(&Model::key(name)) {
+                        connector.active = false;
+                    }
+                    self.system.leave_out(name);
+                }
+            }
+            What::Activate(names) => {
+                for name in names {
+                    if let Some(connector) = self.model.connectors.get_mut(&Model::key(name)) {
+                        connector.active = true;
+                    }
+                    self.system.take_in(&self.model, name)?;
+                }
+            }
+            What::Environment(name) => {
+                let found = self.model.environments.get(&Model::key(name)).cloned();
+                let missing = || SolveError::new(ClassError::new(format!("there is no environment {name}")));
+                self.model.environment = found.ok_or_else(missing)?;
+                self.sea = Sea::of(&self.model, &self.model.environment).map_err(SolveError::new)?.map(Arc::new);
+                self.environments.push((self.now.time, name.clone()));
+                let memory = self.system.load_anew(&self.model, self.sea.as_ref(), &self.now.memory)?;
+                self.now.memory = memory;
+            }
+            What::Winch(..) | What::Stop => {}
+        }
+        Ok(())
+    }
+}

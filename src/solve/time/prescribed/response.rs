@@ -1,0 +1,162 @@
+//! A body that answers each wave of the sea as a table says.
+
+use super::super::forces::Motion;
+use super::{Freedoms, Prescribed, moved};
+use crate::hydro::sea::Sea;
+use crate::language::units::Dim;
+use crate::model::{ClassError, Place, ResponseRow, Responses, unit_vector};
+use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
+
+/// A body that rides on the waves about its place.
+#[derive(Debug)]
+pub(super) struct Riding {
+    place: Place,
+    sea: Option<Arc<Sea>>,
+    /// Of each wave its frequency (rad/s), and of each freedom the factors of cos(w t) and sin(w t) (m, rad).
+    waves: Vec<(f64, [(f64, f64); 6])>,
+}
+
+/// A complex response: real and imaginary part, of `amplitude exp(i lag)`.
+type Pair = (f64, f64);
+
+fn mixed(a: [Pair; 6], b: [Pair; 6], share: f64) -> [Pair; 6] {
+    std::array::from_fn(|i| (a[i].0 + (b[i].0 - a[i].0) * share, a[i].1 + (b[i].1 - a[i].1) * share))
+}
+
+fn pairs(row: &ResponseRow) -> [Pair; 6] {
+    row.values.map(|(amplitude, lag)| (amplitude * lag.cos(), amplitude * lag.sin()))
+}
+
+/// Responses at a frequency, straight between the rows in their real and imaginary parts. Waves longer than the longest have its
+/// response; shorter ones than the shortest none.
+fn by_frequency(rows: &[ResponseRow], frequency: f64) -> [Pair; 6] {
+    let after = rows.partition_point(|r| r.frequency < frequency);
+    match (after.checked_sub(1).and_then(|n| rows.get(n)), rows.get(after)) {
+        (Some(low), Some(high)) => {
+            let share = (frequency - low.frequency) / (high.frequency - low.frequency);
+            mixed(pairs(low), pairs(high), share)
+        }
+        (None, Some(first)) => pairs(first),
+        (_, None) => [(0.0, 0.0); 6],
+    }
+}
+
+/// An angle from 0 to a turn.
+fn whole(angle: f64) -> f64 {
+    angle.rem_euclid(TAU)
+}
+
+impl Responses {
+    /// Responses to a wave that comes from a heading (rad, from the body's x axis toward its y axis).
+    ///
+    /// # Errors
+    /// A heading that lies between none of the table.
+    fn at(&self, heading: f64, frequency: f64) -> Result<[Pair; 6], ClassError> {
+        let from = whole(heading);
+        if self.symmetric && from > PI {
+            // mirrored in the plane of x and z: sway, roll and yaw change their sign
+            let mut found = self.between(TAU - from, frequency)?;
+            for n in [1, 3, 5] {
+                found[n] = (-found[n].0, -found[n].1);
+            }
+            return Ok(found);
+        }
+        self.between(from, frequency)
+    }
+
+    fn between(&self, from: f64, frequency: f64) -> Result<[Pair; 6], ClassError> {
+        const NEAR: f64 = 1e-9;
+        if let Some((_, rows)) = self.headings.iter().find(|(h, _)| (h - from).abs() <= NEAR) {
+            return Ok(by_frequency(rows, frequency));
+        }
+        let after = self.headings.partition_point(|(h, _)| *h < from);
+        let low = after.checked_sub(1).and_then(|n| self.headings.get(n));
+        let (low, high, turn) = match (low, self.headings.get(after)) {
+            (Some(low), Some(high)) => (Some(low), Some(high), high.0 - low.0),
+            // round by the north: from the last heading to the first one
+            _ => {
+                let ends = (self.headings.last(), self.headings.first());
+                let turn = ends.0.zip(ends.1).map_or(TAU, |(a, b)| b.0 + TAU - a.0);
+                (ends.0, ends.1, turn)
+            }
+        };
+        match (low, high) {
+            // a gap wider than a right angle is no table
+            (Some(low), Some(high)) if self.headings.len() > 1 && turn <= 0.5 * PI + NEAR => {
+                let share = whole(from - low.0) / turn;
+                Ok(mixed(by_frequency(&low.1, frequency), by_frequency(&high.1, frequency), share))
+            }
+            _ => Err(ClassError::of("waves come from {} of the body, and its table of responses has no headings within 90 degrees on both sides", &[(from, Dim::Angle)])
+                .help("give more headings, or -SYMMETRIC where the table is of one side")),
+        }
+    }
+}
+
+impl Riding {
+    /// That of a body at a place.
+    pub(super) fn new(place: Place, table: &Responses, sea: Option<&Arc<Sea>>) -> Result<Self, ClassError> {
+        let [x, y, _] = place.shift;
+        let yaw = place.turn[2];
+        let (cos, sin) = unit_vector(yaw);
+        let components = sea.map_or(&[][..], |s| s.components.as_slice());
+        let mut waves = Vec::with_capacity(components.len());
+        for wave in components {
+            let [tx, ty] = wave.toward;
+            // waves come from where they do not go
+            let heading = (-ty).atan2(-tx) - yaw;
+            let found = table.at(heading, wave.frequency)?;
+            // of Re(R exp(i (q0 - w t))), q0 the phase of the crest at the body's origin
+            let (s, c) = (wave.number * (tx * x + ty * y) + wave.phase).sin_cos();
+            let own = found.map(|(re, im)| {
+                let (re, im) = (re * c - im * s, re * s + im * c);
+                (wave.amplitude * re, wave.amplitude * im)
+            });
+            // surge and sway along global axes
+            let [surge, sway, rest @ ..] = own;
+            let turn = |a: f64, b: f64| (a * cos - b * sin, a * sin + b * cos);
+            let ((xr, yr), (xi, yi)) = (turn(surge.0, sway.0), turn(surge.1, sway.1));
+            let [heave, roll, pitch, yawing] = rest;
+            waves.push((wave.frequency, [(xr, xi), (yr, yi), heave, roll, pitch, yawing]));
+        }
+        Ok(Riding { place, sea: sea.cloned(), waves })
+    }
+
+    /// The ramp of the sea with its derivatives: `(1 - cos(pi t/T))/2`.
+    fn grown(&self, time: f64) -> [f64; 3] {
+        let over = self.sea.as_ref().map_or(0.0, |s| s.ramp);
+        if over <= 0.0 || time >= over {
+            return [1.0, 0.0, 0.0];
+        }
+        if time <= 0.0 {
+            return [0.0; 3];
+        }
+        let rate = PI / over;
+        let (sin, cos) = (rate * time).sin_cos();
+        [0.5 * (1.0 - cos), 0.5 * rate * sin, 0.5 * rate * rate * cos]
+    }
+}
+
+impl Prescribed for Riding {
+    fn at(&self, time: f64) -> Result<Motion, ClassError> {
+        let mut sums: Freedoms = [[0.0; 6]; 3];
+        for (w, pairs) in &self.waves {
+            let (sin, cos) = (w * time).sin_cos();
+            for (i, (re, im)) in pairs.iter().enumerate() {
+                let (value, beside) = (re * cos + im * sin, im * cos - re * sin);
+                sums[0][i] += value;
+                sums[1][i] += w * beside;
+                sums[2][i] -= w * w * value;
+            }
+        }
+        let (grown, mean) = (self.grown(time), self.place.values());
+        let mut freedoms: Freedoms = [[0.0; 6]; 3];
+        for i in 0..6 {
+            let [value, rate, second] = super::product(grown, [sums[0][i], sums[1][i], sums[2][i]]);
+            freedoms[0][i] = mean[i] + value;
+            freedoms[1][i] = rate;
+            freedoms[2][i] = second;
+        }
+        Ok(moved(&freedoms))
+    }
+}

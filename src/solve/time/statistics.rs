@@ -1,0 +1,81 @@
+//! The results a run is judged by, and their statistics as it goes, in flat memory.
+
+use super::history::Layout;
+use crate::language::units::Dim;
+use crate::post::SeriesError;
+use crate::post::running::Running;
+use crate::solve::system::FREEDOMS;
+
+/// A result against time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Series {
+    /// What it is of, and which: `TBRG X`, `A Tension`.
+    pub name: String,
+    /// Its dimension.
+    pub dim: Dim,
+    /// Its numbers in a row: one, or the components of a force whose size it is.
+    pub columns: std::ops::Range<usize>,
+}
+
+impl Series {
+    /// Its value in a row.
+    pub fn value(&self, row: &[f64]) -> f64 {
+        match row.get(self.columns.clone()) {
+            Some([one]) => *one,
+            Some(several) => several.iter().map(|v| v * v).sum::<f64>().sqrt(),
+            None => f64::NAN,
+        }
+    }
+}
+
+/// The results a run is judged by: places and angles of the bodies, tensions of the connectors.
+pub fn results(layout: &Layout) -> Vec<Series> {
+    let mut list = Vec::new();
+    for (body, (name, _)) in layout.bodies.iter().enumerate() {
+        let at = layout.body(body);
+        for (i, freedom) in FREEDOMS.iter().enumerate() {
+            let dim = if i < 3 { Dim::Length } else { Dim::Angle };
+            list.push(Series { name: format!("{name} {freedom}"), dim, columns: at + i..at + i + 1 });
+        }
+    }
+    for (link, columns) in layout.links.iter().enumerate() {
+        let first = (0..columns.ends.len()).find_map(|end| layout.wrench(link, end));
+        if let Some(at) = first {
+            list.push(Series { name: format!("{} Tension", columns.name), dim: Dim::Force, columns: at..at + 3 });
+        }
+    }
+    list
+}
+
+/// Statistics of all results of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Statistics {
+    list: Vec<(Series, Running)>,
+    from: f64,
+}
+
+impl Statistics {
+    /// Of the results of a layout, from a time on (s).
+    pub fn new(layout: &Layout, from: f64) -> Self {
+        Statistics { list: results(layout).into_iter().map(|s| (s, Running::about(0.0))).collect(), from }
+    }
+
+    /// Takes the results of a row.
+    ///
+    /// # Errors
+    /// A result that is no number.
+    pub fn take(&mut self, row: &[f64]) -> Result<(), SeriesError> {
+        let time = row.first().copied().unwrap_or(f64::NAN);
+        if time >= self.from {
+            for (series, running) in &mut self.list {
+                running.push(time, series.value(row))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Every result with what was seen of it.
+    pub fn all(&self) -> impl Iterator<Item = (&Series, &Running)> {
+        self.list.iter().map(|(series, running)| (series, running))
+    }
+}
