@@ -15,11 +15,12 @@ use windlass::report::files::JobFolder;
 use windlass::report::output::Output;
 use windlass::session::Session;
 
-const MENUS: [&str; 15] = [
+const MENUS: [&str; 16] = [
     "MAIN",
     "INMODEL",
     "MEDIT",
     "CONN_DESIGN",
+    "PRCPOST",
     "DISPOSITION",
     "REPORT",
     "ENVIRONMENT",

@@ -84,7 +84,8 @@ static REPORT_SPEC: CommandSpec = CommandSpec {
     data: &[ANY_COLUMN],
     repeat: 1,
     options: &[RECORD, VALUES, HARD, BOTH, HEADING],
-    detail: "The formatted report; C_SCALE and C_SHIFT do not act on it.",
+    detail: "The formatted report; C_SCALE and C_SHIFT do not act on it. The name of a group of columns, as of LOCATION, VELOCITY and \
+             ACCELERATION of a TRAJECTORY, is all of it, behind the first column.",
     ..spec("REPORT", "prints the formatted report")
 };
 static VLIST_SPEC: CommandSpec = spec("VLIST", "lists the columns with their units and ranges");
@@ -231,7 +232,7 @@ fn report(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let d = here(job, args.span)?;
     let table = d
-        .columns(&selectors(args, 0))
+        .reported(&selectors(args, 0))
         .and_then(|c| d.extract(&c, &rows(args), false, job.units))
         .map_err(|e| refused(args, &e))?;
     let text = page::render(&table, job.units, &job.page_head());

@@ -13,6 +13,7 @@ use crate::report::files::Place;
 use crate::report::output::Output;
 use crate::report::page::PageHead;
 use crate::solve::Options;
+use crate::solve::results::Exposed;
 use crate::solve::time::{Action, Run};
 use indexmap::IndexMap;
 use std::path::PathBuf;
@@ -31,6 +32,8 @@ pub enum Menu {
     Medit,
     /// Connector design.
     ConnDesign,
+    /// Post-processing of the last run.
+    Post,
     /// A result being disposed of.
     Disposition(Box<Disposition>),
     /// A report being written: to the screen, to the report file.
@@ -72,6 +75,7 @@ impl Menu {
             Menu::Inmodel => "INMODEL",
             Menu::Medit => "MEDIT",
             Menu::ConnDesign => "CONN_DESIGN",
+            Menu::Post => "PRCPOST",
             Menu::Disposition(_) => "DISPOSITION",
             Menu::Report { .. } => "REPORT",
             Menu::Environments => "ENVIRONMENT",
@@ -94,6 +98,7 @@ impl Menu {
             "INMODEL" => "END_INMODEL",
             "MEDIT" => "END_MEDIT",
             "CONN_DESIGN" => "END_CONN_DESIGN",
+            "PRCPOST" => "END_PRCPOST",
             "DISPOSITION" => "END_DISPOSE",
             "REPORT" => "END_REPORT",
             "ENVIRONMENT" | "CURVES" => "END_&DATA",
@@ -213,6 +218,8 @@ pub struct Job {
     pub actions: Vec<Action>,
     /// The last run.
     pub run: Option<Run>,
+    /// The runs that FATIGUE adds up.
+    pub scatter: Vec<Exposed>,
     /// Set by Ctrl-C: a command that takes long gives up, and the run ends behind it.
     pub interrupt: Arc<AtomicBool>,
 }
@@ -240,6 +247,7 @@ impl Job {
             equilibrium: Options::default(),
             actions: Vec::new(),
             run: None,
+            scatter: Vec::new(),
             interrupt: Arc::default(),
         }
     }

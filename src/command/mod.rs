@@ -27,6 +27,7 @@ mod environment;
 mod environment_table;
 mod equilibrium;
 mod excursion;
+mod fatigue;
 mod fatigue_table;
 mod file;
 mod forces;
@@ -51,6 +52,7 @@ mod pgen;
 mod picture;
 mod piece;
 mod pipe;
+mod prcpost;
 mod prescribe;
 mod rep_select;
 mod report_menu;
@@ -59,6 +61,7 @@ mod sea_options;
 mod sea_table;
 mod select;
 mod series;
+mod settings_table;
 mod statistic;
 mod status;
 mod surface;
@@ -146,6 +149,7 @@ pub static COMMANDS: &[&Command] = &[
     &menus::INMODEL,
     &menus::MEDIT,
     &menus::CONN_DESIGN,
+    &menus::PRCPOST,
     &describe::DESCRIBE,
     &describe::POINT,
     &describe::INSTATE,
@@ -214,6 +218,14 @@ pub static COMMANDS: &[&Command] = &[
     &excursion::MOVE,
     &excursion::WATCH,
     &lines::LINES,
+    &prcpost::TRAJECTORY,
+    &prcpost::POINTS,
+    &prcpost::CONFORCE,
+    &prcpost::CF_MAGNITUDE,
+    &prcpost::TOT_CFORCE,
+    &prcpost::C_LENGTH,
+    &prcpost::BODY_FORCE,
+    &fatigue::FATIGUE,
     &disposition::REPORT,
     &disposition::VLIST,
     &disposition::VIEW,

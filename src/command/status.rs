@@ -8,19 +8,21 @@ use super::environment_table::environments;
 use super::forces::{forces, foundations};
 use super::loads_table::loads;
 use super::offsets::offsets;
+use super::prcpost::last_run;
 use super::written::{as_written, kind_data, option_as_written};
 use super::{
     Call, Command, Effect, Job, Menu, body_status, body_tables, database_table, fatigue_table, line_types, member,
-    prescribe, sea_table, wind_table,
+    prescribe, sea_table, settings_table, wind_table,
 };
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::{Owner, choose};
 use crate::language::spec::{CommandSpec, Kind, Noun, Opens, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
-use crate::model::{Class, Coordinates, Model, Thing};
+use crate::model::{Class, Model, Thing};
 use crate::report::disposition::Disposition;
 use crate::report::page;
 use crate::report::plot::Chart;
+use crate::solve::run_tables;
 use crate::table::{Cell, Digits, Table};
 
 /// &STATUS.
@@ -44,6 +46,7 @@ const KINDS: &[(&str, Owner, &str)] = &[
         Owner::Moses,
         "the wave components of the seas of the environment in force, or of one kept under a name",
     ),
+    ("RUN", Owner::Ours, "how the last run went"),
     ("CLASSES", Owner::Ours, "the same as CL_FLEX"),
     ("LOADS", Owner::Ours, "loads of wind, current and waves on parts, and the forces they come to"),
     ("WEIGHT", Owner::Ours, "weights, centers and radii of gyration of bodies and parts"),
@@ -139,8 +142,9 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         "DATABASE" => database_table::tables(model, &fits),
         "BODIES" => std::iter::once(bodies(model, &fits)).chain(prescribe::motions(model, &fits)).collect(),
         "POINTS" => vec![points(model, &fits)],
-        "DIMENSIONS" => vec![dimensions(job)],
-        "DEFAULTS" => vec![defaults(model)],
+        "DIMENSIONS" => vec![settings_table::dimensions(job)],
+        "DEFAULTS" => vec![settings_table::defaults(model)],
+        "RUN" => vec![run_tables::told(last_run(job, args.span)?)],
         "SELECTORS" => vec![selectors(model, &fits)],
         "SN" => fatigue_table::tables(job, &fits, chosen.all()),
         "LINE_TYPES" => line_types::tables(job, &args.data)?,
@@ -329,56 +333,6 @@ fn connectors(model: &Model, fits: &dyn Fn(&str) -> bool) -> Table {
         push(&mut table, row);
     }
     table
-}
-
-fn dimensions(job: &Job) -> Table {
-    let (length, force) = job.units.words();
-    let mut table = Table::new("Dimensions")
-        .fact("Length", length, Dim::None)
-        .fact("Force", force, Dim::None)
-        .fact("Units Saved", job.saved_units.len(), Dim::None)
-        .column("", "Quantity", Dim::None, Digits::Usual)
-        .column("", "Unit", Dim::None, Digits::Usual)
-        .column("", "In SI", Dim::None, Digits::Scientific(10));
-    for (name, dim) in [
-        ("length", Dim::Length),
-        ("section size", Dim::Section),
-        ("force", Dim::Force),
-        ("force per length", Dim::ForcePerLength),
-        ("moment", Dim::Moment),
-        ("stress", Dim::Stress),
-        ("density", Dim::Density),
-        ("angle", Dim::Angle),
-        ("velocity", Dim::Velocity),
-        ("wind speed", Dim::WindSpeed),
-    ] {
-        push(&mut table, vec![name.into(), dim.label(job.units).into(), dim.factor(job.units).into()]);
-    }
-    table
-}
-
-fn defaults(model: &Model) -> Table {
-    let d = &model.defaults;
-    let mode = match d.coordinates {
-        Coordinates::Rectangular => "-RECT",
-        Coordinates::Cylindrical => "-CYLINDER",
-        Coordinates::Spherical => "-SPHERICAL",
-    };
-    Table::new("Defaults")
-        .fact("Density of Material", d.material.density, Dim::Density)
-        .fact("Young's Modulus", d.material.emodulus, Dim::Stress)
-        .fact("Poisson's Ratio", d.material.poisson, Dim::None)
-        .fact("Thermal Expansion", d.material.expansion, Dim::ThermalExpansion)
-        .fact("Yield Stress", d.material.yield_stress, Dim::Stress)
-        .fact("Ultimate Stress", d.material.ultimate(), Dim::Stress)
-        .fact("Density of Sea Water", d.water_density, Dim::Density)
-        .fact("Density of Air", d.air_density, Dim::Density)
-        .fact("Gravity", d.gravity, Dim::Acceleration)
-        .fact("Water Depth", d.depth, Dim::Length)
-        .fact("Ramp", d.ramp, Dim::Time)
-        .fact("Coordinates of Points", mode, Dim::None)
-        .fact("Directions of Sea, Wind, Current", "where they come from, from +X toward +Y", Dim::None)
-        .fact("Directions of -ANCHOR", "from fairlead to anchor, from +X toward +Y", Dim::None)
 }
 
 fn selectors(model: &Model, fits: &dyn Fn(&str) -> bool) -> Table {

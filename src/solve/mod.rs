@@ -9,6 +9,7 @@ pub mod frequency;
 mod modes;
 pub mod offset;
 mod outline;
+pub mod results;
 pub mod run_tables;
 pub mod scene;
 mod search;
