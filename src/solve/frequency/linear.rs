@@ -4,7 +4,7 @@ use crate::hydro::database::radiation::Radiation;
 use crate::hydro::sea::dispersion::wave_number;
 use crate::hydro::{Category, in_pose};
 use crate::language::units::Dim;
-use crate::model::{Amplitudes, AttachedDatabase, ClassError, DriftMethod, DriftTable, Model, Pose, Qtf};
+use crate::model::{Amplitudes, AttachedDatabase, ClassError, DriftMethod, DriftTable, Model, Pose, Qtf, Six};
 use crate::solve::modes::held;
 use crate::solve::system::{FREEDOMS, SolveError, State, System, mass_block};
 use crate::solve::time::{Forces, Memory, Motion};
@@ -42,6 +42,8 @@ pub(super) struct Floats {
 pub struct Linear {
     /// The system there.
     pub system: System,
+    /// The same without waves and databases, in which velocities are resisted.
+    moving: System,
     /// Its forces and stiffness there.
     pub state: State,
     /// Mass without that of radiated waves, six a body.
@@ -84,7 +86,7 @@ impl Linear {
         system.evaluate(&mut state)?;
         let (mut floats, mut mass) = (Vec::new(), system.mass_matrix(&state.poses));
         for (index, (node, pose)) in system.nodes.iter().zip(&state.poses).enumerate() {
-            if node.prescribed.is_some() {
+            if model.bodies.get(&node.key).is_some_and(|b| b.prescribed.is_some()) {
                 let text = "its motion is given in time: the frequency domain has none for it";
                 return Err(SolveError::of(&node.name)(ClassError::new(text)));
             }
@@ -98,13 +100,15 @@ impl Linear {
             }
             floats.push(made);
         }
-        let damping = damping(&system, &state)?;
+        let moving = calm(model)?;
+        let still = vec![Six::zeros(); state.poses.len()];
+        let damping = damping(&moving, &state.poses, &still, &mut Forces::default())?;
         let (heavy, follow) = followed(&system, &state)?;
         let around = &system.surroundings;
         let depth = around.depth.map(|d| d + around.tide);
         let linearised = DMatrix::zeros(mass.nrows(), mass.nrows());
         let notes = Vec::new();
-        let mut made = Linear { system, state, mass, damping, linearised, follow, heavy, floats, depth, notes };
+        let mut made = Linear { system, moving, state, mass, damping, linearised, follow, heavy, floats, depth, notes };
         made.look();
         Ok(made)
     }
@@ -137,6 +141,14 @@ impl Linear {
                 self.notes.push(format!("warning: {} has a damping that is negative in some motion", node.name));
             }
         }
+    }
+
+    /// What resists velocities of the bodies, beside radiated waves, six a body: its change with them there.
+    ///
+    /// # Errors
+    /// A connector or load that has no answer.
+    pub(super) fn damping_under(&self, velocities: &[Six], forces: &mut Forces) -> Result<DMatrix<f64>, SolveError> {
+        damping(&self.moving, &self.state.poses, velocities, forces)
     }
 
     /// The connectors that act.
@@ -285,14 +297,29 @@ fn turned([x, y, z, rx, ry, rz]: Amplitudes, angle: f64) -> Amplitudes {
     [x * cos - y * sin, x * sin + y * cos, z, rx * cos - ry * sin, rx * sin + ry * cos, rz]
 }
 
-/// What resists velocities at rest, six a body.
-fn damping(system: &System, state: &State) -> Result<DMatrix<f64>, SolveError> {
-    let motions: Vec<Motion> = state.poses.iter().map(|p| Motion { pose: *p, ..Motion::default() }).collect();
-    let mut forces = Forces::default();
-    forces.evaluate(system, &Memory::of(system), &motions, (0.0, STEP))?;
+/// The bodies under way in calm water, without what databases bring and without gusts.
+fn calm(model: &Model) -> Result<System, SolveError> {
+    let mut calm = model.clone();
+    calm.bodies.values_mut().for_each(|b| b.database = None);
+    calm.environment.gusts = None;
+    System::under_way(&calm, None)
+}
+
+/// What resists velocities, six a body.
+fn damping(
+    system: &System,
+    poses: &[Pose],
+    velocities: &[Six],
+    forces: &mut Forces,
+) -> Result<DMatrix<f64>, SolveError> {
+    let motion = |(pose, velocity): (&Pose, &Six)| Motion { pose: *pose, velocity: *velocity, ..Motion::default() };
+    let motions: Vec<Motion> = poses.iter().zip(velocities).map(motion).collect();
+    let mut memory = Memory::of(system);
+    memory.begin(system, &motions, (0.0, STEP))?;
+    forces.evaluate(system, &memory, &motions, (0.0, STEP))?;
     match forces.damping.iter().all(|v| v.is_finite()) {
-        true => Ok(forces.damping),
-        false => Err(SolveError::new(ClassError::new("a damping has no value at rest"))),
+        true => Ok(forces.damping.clone()),
+        false => Err(SolveError::new(ClassError::new("the damping has no value at some velocity of the bodies"))),
     }
 }
 

@@ -10,7 +10,7 @@ use super::response::{Asked, Response, in_sea};
 use super::trains::Trains;
 use crate::model::{ClassError, Six};
 use crate::solve::system::SolveError;
-use crate::solve::time::{Forces, Memory, Motion};
+use crate::solve::time::Forces;
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, Normal};
 
@@ -116,12 +116,10 @@ fn mean_damping(linear: &Linear, spread: &DMatrix<f64>, order: &[usize]) -> Resu
         return Ok(None);
     }
     let axes = factor(spread, order);
-    let system = &linear.system;
-    let memory = Memory::of(system);
-    let mut forces = Forces::default();
     let mut sum = DMatrix::zeros(spread.nrows(), spread.nrows());
     let steps = steps(axes.len());
     let normal = Normal::standard();
+    let mut forces = Forces::default();
     for n in 0..POINTS {
         let mut velocity = DVector::zeros(spread.nrows());
         for (axis, step) in axes.iter().zip(&steps) {
@@ -130,18 +128,9 @@ fn mean_damping(linear: &Linear, spread: &DMatrix<f64>, order: &[usize]) -> Resu
             let share = if axes.len() == 1 { (n as f64 + 0.5) / POINTS as f64 } else { share };
             velocity += axis * normal.inverse_cdf(share.clamp(1e-9, 1.0 - 1e-9));
         }
-        let motions: Vec<Motion> = linear
-            .state
-            .poses
-            .iter()
-            .enumerate()
-            .map(|(body, pose)| {
-                let velocity = Six::from_fn(|i, _| velocity[6 * body + i]);
-                Motion { pose: *pose, velocity, ..Motion::default() }
-            })
-            .collect();
-        forces.evaluate(system, &memory, &motions, (0.0, 1.0))?;
-        let more = &forces.damping - &linear.damping;
+        let six = |body: usize| Six::from_fn(|i, _| velocity[6 * body + i]);
+        let velocities: Vec<Six> = (0..linear.system.nodes.len()).map(six).collect();
+        let more = linear.damping_under(&velocities, &mut forces)? - &linear.damping;
         // one velocity of a linear damping tells of all
         if n == 0 && more.amax() <= 1e-9 * linear.damping.amax() {
             return Ok(None);
