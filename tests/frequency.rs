@@ -236,6 +236,10 @@ fn a_quadratic_dashpot_is_linearised_as_borgman_has_it() {
     let want = RADIATED + 4e5 * (8.0 / PI).sqrt() * velocity;
     // 1024 velocities stand for the normal distribution
     assert!((damping[(2, 2)] / want - 1.0).abs() < 2e-3, "{} {want}", damping[(2, 2)]);
+    // a dashpot so strong that nothing else holds the body settles too
+    let mut strong = self::model(&dashpot.replace("400 2", "4E5 2"), "&ENV -SEA ISSC 180 4 9");
+    attach(&mut strong, DriftMethod::None);
+    assert!(seen(&strong, &Asked { spectral: true, ..Asked::default() }).1.rounds > 1);
     // without it waves are answered as by a body without the dashpot
     let trains = Trains::of(&model, &model.environment).unwrap().unwrap();
     linear = Linear::of(&model).unwrap();

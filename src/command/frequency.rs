@@ -207,7 +207,7 @@ fn sresponse(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let made = respond(&mut linear, &trains, &asked).map_err(|e| told(e, &model, args.span, job.units))?;
     let mut table = Table::new("Motions in a Sea")
         .fact("Frequencies of Waves", made.waves.len(), Dim::None)
-        .fact("of Slow Drift", made.slow.len(), Dim::None)
+        .fact("Frequencies of Slow Drift", made.slow.len(), Dim::None)
         .fact("Rounds of Linearisation", made.rounds, Dim::None);
     table.notes.extend(linear.notes.iter().cloned());
     say(job, &table, args.span);

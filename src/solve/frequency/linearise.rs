@@ -6,8 +6,7 @@
 //! of equal probability, so that any connector and any load is linearised, alone or together.
 
 use super::linear::Linear;
-use super::response::{Asked, Response, in_sea};
-use super::trains::Trains;
+use super::response::Response;
 use crate::model::{ClassError, Six};
 use crate::solve::system::SolveError;
 use crate::solve::time::Forces;
@@ -19,7 +18,7 @@ const POINTS: usize = 1024;
 /// Most rounds.
 const MOST: usize = 100;
 /// Change of the deviation of a velocity, as its share, that is none.
-const SAME: f64 = 1e-6;
+const SAME: f64 = 1e-5;
 /// Share of the largest variance below which a velocity of its own is none.
 const NOTHING: f64 = 1e-8;
 
@@ -29,9 +28,8 @@ const NOTHING: f64 = 1e-8;
 /// It does not settle; a load that has no answer.
 pub(super) fn settle(
     linear: &mut Linear,
-    trains: &Trains,
-    asked: &Asked,
     response: &mut Response,
+    again: impl Fn(&Linear) -> Result<Response, SolveError>,
 ) -> Result<usize, SolveError> {
     let mut before: Option<DVector<f64>> = None;
     let mut order = Vec::new();
@@ -50,8 +48,9 @@ pub(super) fn settle(
             order = pivots(&spread);
         }
         let Some(mean) = mean_damping(linear, &spread, &order)? else { return Ok(0) };
-        linear.linearised = mean;
-        *response = Response { rounds: round + 1, ..in_sea(linear, trains, asked)? };
+        // half way: a motion that only this damping holds goes as its inverse, and would swing about the answer
+        linear.linearised = if round == 0 { mean } else { (&linear.linearised + mean) * 0.5 };
+        *response = again(linear)?;
         before = Some(deviations);
     }
     let text = format!("the linearisation of its damping does not settle in {MOST} rounds");

@@ -4,7 +4,7 @@
 //! the waves. The variance of a quantity g is `sum |g v|2` over them; its density the same over the width of the band.
 
 use super::linear::{Linear, Motions};
-use super::natural::natural;
+use super::natural::{Natural, natural};
 use super::quantity::{Derivative, Quantity};
 use super::trains::{Trains, bounds, resolved};
 use super::{linearise, slow};
@@ -61,9 +61,11 @@ pub struct Asked {
 /// # Errors
 /// A heading in a gap of a database, a motion without bound, a linearisation that does not settle.
 pub fn respond(linear: &mut Linear, trains: &Trains, asked: &Asked) -> Result<Response, SolveError> {
-    let mut made = in_sea(linear, trains, asked)?;
+    // the same points in every round
+    let resonant = resonances(linear);
+    let mut made = within(linear, trains, asked, &resonant)?;
     if asked.spectral {
-        made.rounds = linearise::settle(linear, trains, asked, &mut made)?;
+        made.rounds = linearise::settle(linear, &mut made, |l| within(l, trains, asked, &resonant))?;
     }
     Ok(made)
 }
@@ -73,11 +75,18 @@ pub fn respond(linear: &mut Linear, trains: &Trains, asked: &Asked) -> Result<Re
 /// # Errors
 /// As [`respond`].
 pub fn in_sea(linear: &Linear, trains: &Trains, asked: &Asked) -> Result<Response, SolveError> {
-    let modes = natural(linear);
-    let resonant: Vec<(f64, f64)> =
-        modes.iter().filter_map(|m| Some((TAU / m.mode.period?, m.damping?))).filter(|(w, _)| w.is_finite()).collect();
-    let waves = waves(linear, trains, asked, &resonant)?;
-    let slow = if asked.spectral { slow::drift(linear, trains, &resonant)? } else { Vec::new() };
+    within(linear, trains, asked, &resonances(linear))
+}
+
+/// Natural frequencies (rad/s) with their damping ratios.
+fn resonances(linear: &Linear) -> Vec<(f64, f64)> {
+    let of = |m: &Natural| Some((TAU / m.mode.period?, m.damping?));
+    natural(linear).iter().filter_map(of).filter(|(w, _)| w.is_finite()).collect()
+}
+
+fn within(linear: &Linear, trains: &Trains, asked: &Asked, resonant: &[(f64, f64)]) -> Result<Response, SolveError> {
+    let waves = waves(linear, trains, asked, resonant)?;
+    let slow = if asked.spectral { slow::drift(linear, trains, resonant)? } else { Vec::new() };
     Ok(Response { waves, slow, rounds: 0 })
 }
 
