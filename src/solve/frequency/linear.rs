@@ -44,8 +44,10 @@ pub struct Linear {
     pub system: System,
     /// The same without waves and databases, in which velocities are resisted.
     moving: System,
-    /// Its forces and stiffness there.
-    pub state: State,
+    /// Places of the bodies.
+    pub poses: Vec<Pose>,
+    /// Stiffness of all that acts there, six a body.
+    pub stiffness: DMatrix<f64>,
     /// Mass without that of radiated waves, six a body.
     mass: DMatrix<f64>,
     /// Damping without that of radiated waves: given ones, connectors at rest.
@@ -108,17 +110,19 @@ impl Linear {
         let depth = around.depth.map(|d| d + around.tide);
         let linearised = DMatrix::zeros(mass.nrows(), mass.nrows());
         let notes = Vec::new();
-        let mut made = Linear { system, moving, state, mass, damping, linearised, follow, heavy, floats, depth, notes };
-        made.look();
+        let (poses, stiffness) = (state.poses.clone(), state.stiffness.clone());
+        let mut made =
+            Linear { system, moving, poses, stiffness, mass, damping, linearised, follow, heavy, floats, depth, notes };
+        made.look(&state.residual);
         Ok(made)
     }
 
     /// Remarks on the place and the bodies.
-    fn look(&mut self) {
+    fn look(&mut self, left: &DVector<f64>) {
         let (mut restless, mut still) = (Vec::new(), Vec::new());
         for (index, node) in self.system.nodes.iter().enumerate() {
             let mass = node.floating.mass.mass;
-            let force = (0..3).filter(|f| node.moves(*f)).map(|f| self.state.residual[6 * index + f]);
+            let force = (0..3).filter(|f| node.moves(*f)).map(|f| left[6 * index + f]);
             let force = force.fold(0.0, f64::hypot);
             if mass > 0.0 && force > RESTLESS * mass * self.system.gravity {
                 restless.push(node.name.clone());
@@ -148,7 +152,7 @@ impl Linear {
     /// # Errors
     /// A connector or load that has no answer.
     pub(super) fn damping_under(&self, velocities: &[Six], forces: &mut Forces) -> Result<DMatrix<f64>, SolveError> {
-        damping(&self.moving, &self.state.poses, velocities, forces)
+        damping(&self.moving, &self.poses, velocities, forces)
     }
 
     /// The connectors that act.
@@ -185,7 +189,7 @@ impl Linear {
     /// Mass with added mass, and damping with that of radiated waves, at a frequency (rad/s), six a body.
     pub fn inertia_and_damping(&self, frequency: f64) -> (DMatrix<f64>, DMatrix<f64>) {
         let (mut mass, mut damping) = (self.mass.clone(), &self.damping + &self.linearised);
-        for (index, (floats, pose)) in self.floats.iter().zip(&self.state.poses).enumerate() {
+        for (index, (floats, pose)) in self.floats.iter().zip(&self.poses).enumerate() {
             let Some(Floats { attached, infinite, factors: [_, radiated, _], .. }) = floats else { continue };
             let data = &attached.data;
             let more = data.added_mass_at(frequency).map_or(*infinite, |a| infinite + (a - infinite) * *radiated);
@@ -207,9 +211,7 @@ impl Linear {
         let mut all = Motions::zeros(self.mass.nrows());
         let k = self.wave_number(frequency)?;
         let (sin, cos) = toward.sin_cos();
-        for (index, ((floats, pose), node)) in
-            self.floats.iter().zip(&self.state.poses).zip(&self.system.nodes).enumerate()
-        {
+        for (index, ((floats, pose), node)) in self.floats.iter().zip(&self.poses).zip(&self.system.nodes).enumerate() {
             let Some(floats) = floats.as_ref().filter(|f| !f.attached.data.excitation.is_empty()) else { continue };
             let x = floats.attached.data.excitation_at(toward - floats.yaw, frequency);
             let x = turned(x.map_err(SolveError::of(&node.name))?, floats.yaw);
@@ -232,10 +234,10 @@ impl Linear {
     /// A motion without bound: no damping at its natural period.
     pub fn motions(&self, frequency: f64, forces: &[Motions]) -> Result<Vec<Motions>, SolveError> {
         let (mass, damping) = self.inertia_and_damping(frequency);
-        let real = &self.state.stiffness - mass * (frequency * frequency);
+        let real = &self.stiffness - mass * (frequency * frequency);
         let to = self.follow.transpose();
         let (real, damping) = (&to * real * &self.follow, &to * damping * &self.follow);
-        let (inertia, stiffness) = (&to * &self.mass * &self.follow, &to * &self.state.stiffness * &self.follow);
+        let (inertia, stiffness) = (&to * &self.mass * &self.follow, &to * &self.stiffness * &self.follow);
         let size = real.nrows();
         let scale: Vec<f64> = (0..size)
             .map(|i| (inertia[(i, i)].abs() * frequency * frequency + stiffness[(i, i)].abs()).sqrt().recip())

@@ -25,8 +25,8 @@ pub struct Natural {
 
 /// The modes of a system about its place, lowest eigenvalue first as found with added mass at infinite frequency.
 pub fn natural(linear: &Linear) -> Vec<Natural> {
-    let stiffness = &linear.state.stiffness;
-    let start = modes_with(&linear.system, &linear.system.mass_matrix(&linear.state.poses), stiffness);
+    let stiffness = &linear.stiffness;
+    let start = modes_with(&linear.system, &linear.system.mass_matrix(&linear.poses), stiffness);
     let floats = linear.floats.iter().any(Option::is_some);
     start.into_iter().map(|mode| own(linear, mode, floats)).collect()
 }
@@ -40,7 +40,7 @@ fn own(linear: &Linear, mut mode: Mode, floats: bool) -> Natural {
         }
         let w = frequency(&mode);
         let (mass, _) = linear.inertia_and_damping(w);
-        let list = modes_with(&linear.system, &mass, &linear.state.stiffness);
+        let list = modes_with(&linear.system, &mass, &linear.stiffness);
         // the one most alike in shape, with translations and rotations weighed by their inertia
         let weigh = |i: usize| mass[(i, i)].max(0.0);
         let product = |a: &DVector<f64>, b: &DVector<f64>| -> f64 {

@@ -40,6 +40,10 @@ pub struct Quantity {
     rate: DVector<f64>,
 }
 
+/// The force of a connector on its first end on a body: its components in global axes, and its size, which for a line is its
+/// tension; `None` where there is no force at rest.
+pub type Pull = ([Quantity; 3], Option<Quantity>);
+
 impl Quantity {
     /// A freedom of the origin of a body.
     pub fn freedom(linear: &Linear, body: usize, freedom: usize) -> Self {
@@ -50,7 +54,7 @@ impl Quantity {
 
     /// The three coordinates of a point of a body, given in the body (m).
     pub fn point(linear: &Linear, body: usize, at: Vector3<f64>) -> [Self; 3] {
-        let pose = linear.state.poses.get(body).copied().unwrap_or_default();
+        let pose = linear.poses.get(body).copied().unwrap_or_default();
         let (arm, start) = (pose.axes * at, pose.point(at));
         [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| {
             let mut made = Quantity { mean: start.dot(&axis), ..Quantity::freedom(linear, body, 0) };
@@ -67,13 +71,12 @@ impl Quantity {
         Quantity { mean: self.mean - other.mean, place: self.place - &other.place, rate: self.rate - &other.rate }
     }
 
-    /// The force of a connector on its first end on a body, in global axes, and its size: the tension of a line. The size is `None`
-    /// where there is no force. `None` of a name that does not act.
+    /// The force of a connector; `None` of a name that does not act on a body.
     ///
     /// # Errors
     /// The connector that has no answer.
-    pub fn tension(linear: &Linear, name: &str) -> Result<Option<([Self; 3], Option<Self>)>, SolveError> {
-        let (system, poses) = (&linear.system, &linear.state.poses);
+    pub fn tension(linear: &Linear, name: &str) -> Result<Option<Pull>, SolveError> {
+        let (system, poses) = (&linear.system, &linear.poses);
         let Some(link) = system.links.iter().find(|l| l.name.eq_ignore_ascii_case(name)) else { return Ok(None) };
         let Some(first) = link.ends.iter().position(|e| matches!(e, Attachment::Body(..))) else { return Ok(None) };
         let ends: Vec<End> = link.ends.iter().map(|e| End::still(pose_of(e, poses))).collect();

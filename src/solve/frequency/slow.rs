@@ -42,7 +42,7 @@ pub(super) fn drift(linear: &Linear, trains: &Trains, resonant: &[(f64, f64)]) -
         let eigen = SymmetricEigen::new(spectrum);
         let largest = eigen.eigenvalues.max();
         for (value, vector) in eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter()) {
-            if !(*value > NOTHING * largest) {
+            if value.is_nan() || *value <= NOTHING * largest {
                 continue;
             }
             let mut force = Motions::zeros(6 * linear.system.nodes.len());
@@ -86,7 +86,7 @@ fn forces(
                 }
                 let mut force = Motions::zeros(size);
                 for (place, body) in drifting.iter().enumerate() {
-                    let at = linear.state.poses.get(*body).copied().unwrap_or_default().origin;
+                    let at = linear.poses.get(*body).copied().unwrap_or_default().origin;
                     let along = |angle: f64| at.x * angle.cos() + at.y * angle.sin();
                     let phase = Complex::from_polar(1.0, k_beside * along(*b) - k * along(*a));
                     let (Some(one), Some(two)) = (one.get(place), two.get(place)) else { continue };
@@ -128,7 +128,7 @@ fn drifts(
         let [x, y, z, rx, ry, rz] = table.at(toward - floats.yaw, frequency).map_err(SolveError::of(name))?;
         let (sin, cos) = floats.yaw.sin_cos();
         let force = Six::new(x * cos - y * sin, x * sin + y * cos, z, rx * cos - ry * sin, rx * sin + ry * cos, rz);
-        let axes = linear.state.poses.get(*body).map_or_else(nalgebra::Matrix3::identity, |p| p.axes);
+        let axes = linear.poses.get(*body).map_or_else(nalgebra::Matrix3::identity, |p| p.axes);
         let [.., factor] = floats.factors;
         Ok(carried(&force, axes * floats.attached.data.reference) * factor)
     };
