@@ -6,6 +6,7 @@
 
 mod action;
 mod alter;
+mod animate;
 mod apply;
 mod assembly;
 mod assembly_table;
@@ -52,6 +53,7 @@ mod pgen;
 mod picture;
 mod piece;
 mod pipe;
+mod plot;
 mod prcpost;
 mod prescribe;
 mod rep_select;
@@ -64,6 +66,7 @@ mod series;
 mod settings_table;
 mod statistic;
 mod status;
+mod store;
 mod surface;
 mod tdom;
 mod units;
@@ -229,8 +232,8 @@ pub static COMMANDS: &[&Command] = &[
     &disposition::REPORT,
     &disposition::VLIST,
     &disposition::VIEW,
-    &disposition::STORE,
-    &disposition::PLOT,
+    &store::STORE,
+    &plot::PLOT,
     &statistic::STATISTIC,
     &disposition::SET_VARIABLE,
     &disposition::C_SCALE,
@@ -247,6 +250,7 @@ pub static COMMANDS: &[&Command] = &[
     &rep_select::REP_SELECT,
     &status::STATUS,
     &picture::PICTURE,
+    &animate::ANIMATE,
     &units::DIMEN,
     &units::DEFAULT,
     &device::DEVICE,

@@ -5,6 +5,7 @@ mod change;
 mod equilibrium;
 pub mod excursion;
 pub mod excursion_tables;
+pub mod film;
 pub mod frequency;
 mod modes;
 pub mod offset;

@@ -4,12 +4,10 @@ use super::super::system::SolveError;
 use super::super::time::Run;
 use super::motions::moving;
 use super::{Event, Magnitude, columns, filled, headed, timed};
-use crate::hydro::sea::Sea;
 use crate::language::units::Dim;
-use crate::model::{Model, Position};
+use crate::model::Position;
 use crate::table::Table;
 use nalgebra::Vector3;
-use std::sync::Arc;
 
 /// A point that is told of.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,43 +22,19 @@ pub struct Interest {
     pub marked: Position,
 }
 
-/// The seas of a run, each with the time since when it has been in force (s); `None` for one that is not known.
-struct Seas(Vec<(f64, Option<Option<Arc<Sea>>>)>);
-
-impl Seas {
-    fn of(run: &Run) -> Result<Self, SolveError> {
-        if run.environments().is_empty() {
-            return Ok(Seas(vec![(f64::NEG_INFINITY, Some(run.sea.clone()))]));
-        }
-        // the run keeps the sea it ended in, and the names of those before
-        let mut list = vec![(f64::NEG_INFINITY, None)];
-        for (since, name) in run.environments() {
-            let env = run.model.environments.get(&Model::key(name));
-            let sea = env.map(|env| Sea::of(&run.model, env)).transpose().map_err(SolveError::new)?;
-            list.push((*since, sea.map(|s| s.map(Arc::new))));
-        }
-        Ok(Seas(list))
-    }
-
-    fn at(&self, time: f64) -> Option<Option<&Sea>> {
-        let found = self.0.iter().rev().find(|(since, _)| *since <= time)?;
-        found.1.as_ref().map(|sea| sea.as_deref())
-    }
-}
-
 /// Location, velocity and acceleration of points, their motion from where they were marked, the elevation of the waves above the
 /// mean level there (`W. Elv`), and the height of the point above the waves. `local`: velocities, accelerations and motions along
 /// the axes of the body.
 ///
 /// # Errors
-/// An environment of the run whose sea cannot be made again.
+/// Rows that make no table.
 pub fn points(
     run: &Run,
     chosen: &[Interest],
     (local, magnitude): (bool, Magnitude),
     events: &[Event],
 ) -> Result<Table, SolveError> {
-    let (layout, seas) = (&run.history.layout, Seas::of(run)?);
+    let layout = &run.history.layout;
     let still = run.model.surroundings().tide;
     let several = chosen.len() > 1;
     let mut table = timed("Points of Interest");
@@ -76,13 +50,9 @@ pub fn points(
         table = columns(table, &head("Waves"), &["W. Elv", "Clearance"], Dim::Length);
     }
     table = table.fact("Axes", if local { "of the body" } else { "global" }, Dim::None);
-    if seas.0.iter().any(|(_, sea)| sea.is_none()) {
-        table.note("the waves before the first change of the environment are not kept: W. Elv is left out there");
-    }
     filled((&run.history, events), table, &mut |row, made| {
         let time = row.first().copied().unwrap_or(0.0);
-        let sea = seas.at(time);
-        let waves = sea.map(|sea| sea.map(|sea| (sea.level, sea.at(time))));
+        let waves = run.sea_at(time).map(|sea| (sea.level, sea.at(time)));
         for point in chosen {
             let own = Vector3::from(point.at);
             let now = point.body.map(|body| moving(row, layout.body(body), own));
@@ -96,9 +66,8 @@ pub fn points(
             magnitude.push(&along(now.as_ref().map_or(Vector3::zeros(), |n| n.acceleration[0])), made);
             magnitude.push(&along(at - Vector3::from(point.marked)), made);
             let (level, elevation) = match &waves {
-                Some(Some((level, sea))) => (*level, sea.elevation(at.x, at.y)),
-                Some(None) => (still, 0.0),
-                None => (f64::NAN, f64::NAN),
+                Some((level, sea)) => (*level, sea.elevation(at.x, at.y)),
+                None => (still, 0.0),
             };
             made.extend([elevation, at.z - level - elevation]);
         }

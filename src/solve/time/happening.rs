@@ -153,7 +153,7 @@ impl Run {
                 let missing = || SolveError::new(ClassError::new(format!("there is no environment {name}")));
                 self.model.environment = found.ok_or_else(missing)?;
                 self.sea = Sea::of(&self.model, &self.model.environment).map_err(SolveError::new)?.map(Arc::new);
-                self.environments.push((self.now.time, name.clone()));
+                self.seas.push((self.now.time, self.sea.clone()));
                 let memory = self.system.load_anew(&self.model, self.sea.as_ref(), &self.now.memory)?;
                 self.now.memory = memory;
             }

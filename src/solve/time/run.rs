@@ -123,7 +123,7 @@ pub struct Run {
     stepper: Stepper,
     pub(super) near: Vec<Place>,
     row: Vec<f64>,
-    pub(super) environments: Vec<(f64, String)>,
+    pub(super) seas: Vec<(f64, Option<Arc<Sea>>)>,
     origin: Model,
     start: Vec<(usize, Six)>,
 }
@@ -159,6 +159,7 @@ impl Run {
             statistics: Statistics::new(&layout, from),
             history: History::new(layout),
             counts: Counts::default(),
+            seas: vec![(0.0, sea.clone())],
             sea,
             system,
             taken: 0,
@@ -166,7 +167,6 @@ impl Run {
             stepper: Stepper::default(),
             near,
             row: Vec::new(),
-            environments: Vec::new(),
             origin,
             start: Vec::new(),
         };
@@ -381,9 +381,15 @@ impl Run {
         &self.now.motions
     }
 
-    /// The environments that actions put in force: since when (s), and their names.
-    pub fn environments(&self) -> &[(f64, String)] {
-        &self.environments
+    /// The seas of the run, each with the time since when it has been there (s).
+    pub fn seas(&self) -> &[(f64, Option<Arc<Sea>>)] {
+        &self.seas
+    }
+
+    /// The sea at a time (s) of the run: actions may have changed it.
+    pub fn sea_at(&self, time: f64) -> Option<&Sea> {
+        let found = self.seas.iter().rev().find(|(since, _)| *since <= time).or(self.seas.first());
+        found.and_then(|(_, sea)| sea.as_deref())
     }
 
     /// Everything needed to go on from here.
