@@ -15,7 +15,7 @@ use windlass::report::files::JobFolder;
 use windlass::report::output::Output;
 use windlass::session::Session;
 
-const MENUS: [&str; 16] = [
+const MENUS: [&str; 17] = [
     "MAIN",
     "INMODEL",
     "MEDIT",
@@ -32,6 +32,7 @@ const MENUS: [&str; 16] = [
     "PGEN",
     "BUILDG",
     "HSTATICS",
+    "FREQ_RESPONSE",
 ];
 
 fn specs() -> Vec<&'static CommandSpec> {

@@ -1,6 +1,7 @@
 //! The job that commands act on: model, units, menus, titles, settings, output.
 
 use super::buildg::Building;
+use super::frequency::Found;
 use super::pgen::Planes;
 use crate::language::args::Args;
 use crate::language::diagnostic::{Diagnostic, Severity};
@@ -56,6 +57,8 @@ pub enum Menu {
     Mesh,
     /// Hydrostatics of the body of this name.
     Hydrostatics(String),
+    /// The frequency domain, with what it has found.
+    Frequency(Box<Found>),
     /// A table being given by the records of `&BUILDG`.
     Building(Box<Building>),
     /// Sections of a hull being given by `PGEN`.
@@ -84,6 +87,7 @@ impl Menu {
             Menu::Building(_) => "BUILDG",
             Menu::Planes(_) => "PGEN",
             Menu::Hydrostatics(_) => "HSTATICS",
+            Menu::Frequency(_) => "FREQ_RESPONSE",
             Menu::Refused(name) => name,
         }
     }
@@ -105,6 +109,7 @@ impl Menu {
             "BUILDG" => "END_&BUILDG",
             "PGEN" => "END_PGEN",
             "HSTATICS" => "END_HSTATICS",
+            "FREQ_RESPONSE" => "END_FREQ_RESPONSE",
             _ => "END",
         }
     }

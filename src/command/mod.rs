@@ -32,6 +32,8 @@ mod fatigue;
 mod fatigue_table;
 mod file;
 mod forces;
+mod frequency;
+mod frequency_posts;
 pub mod functions;
 pub mod help;
 mod hstatics;
@@ -188,6 +190,13 @@ pub static COMMANDS: &[&Command] = &[
     &names::RENAME,
     &alter::ALTER,
     &equilibrium::EQUI,
+    &frequency::FREQ_RESPONSE,
+    &frequency::RAO,
+    &frequency::SRESPONSE,
+    &frequency_posts::MOTION,
+    &frequency_posts::FR_POINT,
+    &frequency_posts::CONFORCE,
+    &frequency_posts::STATISTICS,
     &tdom::TDOM,
     &action::ACTION,
     &select::SELECT,

@@ -6,6 +6,7 @@ mod equilibrium;
 pub mod excursion;
 pub mod excursion_tables;
 pub mod film;
+pub mod frequency;
 mod modes;
 pub mod offset;
 mod outline;

@@ -71,7 +71,7 @@ impl Memory {
     }
 
     /// Prepares a step of every load.
-    pub(super) fn begin(
+    pub(in crate::solve) fn begin(
         &mut self,
         system: &System,
         ahead: &[Motion],
