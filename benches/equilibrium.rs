@@ -8,8 +8,10 @@
 
 #[path = "eight/mod.rs"]
 mod eight;
+#[path = "eight/report.rs"]
+mod report;
 
-use eight::report;
+use report::report;
 use windlass::solve::{Options, System, equilibrium};
 
 /// A box whose hull is cut at the surface.

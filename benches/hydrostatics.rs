@@ -45,7 +45,9 @@ fn benches(c: &mut Criterion) {
         wind: Some(wind),
         current: CurrentField::uniform(1.0, 0.7),
         waves: Vec::new(),
+        variation: None,
     };
+    let steady = Arc::new(steady);
     for (name, surface) in [("box", &block), ("tube", &tube.prism(64).unwrap())] {
         let skin = Arc::new(Skin::of(surface, &Matrix3::identity()));
         for (stream, medium) in [("wind", Medium::Air), ("current", Medium::Water)] {

@@ -7,8 +7,10 @@
 
 #[path = "eight/mod.rs"]
 mod eight;
+#[path = "eight/report.rs"]
+mod report;
 
-use eight::report;
+use report::report;
 use windlass::model::Pose;
 use windlass::solve::System;
 use windlass::solve::offset::{Connectors, Pull};

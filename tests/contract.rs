@@ -15,11 +15,12 @@ use windlass::report::files::JobFolder;
 use windlass::report::output::Output;
 use windlass::session::Session;
 
-const MENUS: [&str; 15] = [
+const MENUS: [&str; 17] = [
     "MAIN",
     "INMODEL",
     "MEDIT",
     "CONN_DESIGN",
+    "PRCPOST",
     "DISPOSITION",
     "REPORT",
     "ENVIRONMENT",
@@ -31,6 +32,7 @@ const MENUS: [&str; 15] = [
     "PGEN",
     "BUILDG",
     "HSTATICS",
+    "FREQ_RESPONSE",
 ];
 
 fn specs() -> Vec<&'static CommandSpec> {

@@ -39,6 +39,9 @@ fn check(script: &Path, name: &str) -> Result<(), Failed> {
         let title = file.file_name().unwrap().to_string_lossy().into_owned();
         let shown = match file.extension().and_then(|e| e.to_str()) {
             Some("png" | "svg") => "(a picture)\n".to_string(),
+            Some("html") => "(a page)\n".to_string(),
+            Some("parquet" | "nc") => "(not text)\n".to_string(),
+            // the rows of a run as numbers, this one's or an earlier one's: what they come to is in the log
             _ if title.contains(".run") => "(a run)\n".to_string(),
             Some("csv") => without_residuals(&fs::read_to_string(&file)?),
             _ => {

@@ -241,7 +241,7 @@ fn a_sphere_is_pushed_the_same_whatever_its_yaw() {
     }
     let own = excitation.force(time, (x, y), 0.0).unwrap();
     assert!((own - wanted).amax() < 1e-9 * wanted.amax(), "{own} {wanted}");
-    for yaw in [0.1f64, 0.785398163, -2.0, 3.1] {
+    for yaw in [0.1f64, std::f64::consts::FRAC_PI_4, -2.0, 3.1] {
         let turned = excitation.force(time, (x, y), yaw).unwrap();
         let (sin, cos) = yaw.sin_cos();
         let (fx, fy) = (cos * turned[0] - sin * turned[1], sin * turned[0] + cos * turned[1]);

@@ -3,15 +3,10 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use std::fmt::Write;
-use std::hint::black_box;
-use std::time::{Duration, Instant};
 use windlass::model::Model;
 use windlass::report::files::JobFolder;
 use windlass::report::output::Output;
 use windlass::session::Session;
-
-/// Passes are repeated for so long, and the quickest counts: other work on the machine only ever adds.
-const ENOUGH: Duration = Duration::from_secs(4);
 
 /// A body SHIP on eight chains around: anchors at 830 m in 300 m of water, fairleads at 30 m and 10 m down, 199 kg/m of 0.18 m in sea
 /// water. `hull` are records of the body, `line` makes the records of ~CHAIN of its options, `then` stand behind all.
@@ -39,16 +34,4 @@ pub fn model(hull: &str, line: &dyn Fn(&str) -> String, then: &str) -> Model {
     session.run();
     assert_eq!(session.errors, 0, "{:?}", session.reports);
     session.job.model.clone()
-}
-
-/// Prints the name, what a pass solves, and the least seconds a pass took, tab between.
-pub fn report(name: &str, solutions: usize, mut pass: impl FnMut() -> f64) {
-    let begin = Instant::now();
-    let mut least = f64::INFINITY;
-    while begin.elapsed() < ENOUGH {
-        let start = Instant::now();
-        black_box(pass());
-        least = least.min(start.elapsed().as_secs_f64());
-    }
-    println!("{name}\t{solutions}\t{least:.9}");
 }

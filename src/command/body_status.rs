@@ -1,4 +1,4 @@
-//! `&STATUS FORCE` and `&STATUS STIFFNESS`: what acts on the bodies where they stand, and how it changes.
+//! `&STATUS FORCE`, `STIFFNESS` and `MODES`: what acts on the bodies where they stand, how it changes, how they swing.
 
 use super::chosen::Chosen;
 use super::equilibrium::told;
@@ -7,6 +7,7 @@ use crate::language::diagnostic::Outcome;
 use crate::language::spec::{Kind, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
 use crate::model::{Model, Position};
+use crate::solve::frequency::{self, Linear};
 use crate::solve::{System, tables};
 use crate::table::Table;
 
@@ -28,6 +29,15 @@ pub fn forces(job: &Job, call: &Call, fits: &dyn Fn(&str) -> bool) -> Outcome<Ve
     let system = System::of(&job.model, &[]).map_err(wrong)?;
     let state = system.state(&job.model);
     Ok(vec![tables::by_category(&system, &state, fits).map_err(wrong)?])
+}
+
+/// Natural periods, damping and shapes of the modes of small motions.
+///
+/// # Errors
+/// A connector or body that cannot be evaluated.
+pub fn modes(job: &Job, call: &Call) -> Outcome<Vec<Table>> {
+    let linear = Linear::of(&job.model).map_err(|e| told(e, &job.model, call.args.place(0), job.units))?;
+    Ok(frequency::tables::modes(&linear).into())
 }
 
 /// The stiffness of the bodies that are named, of all where no connector is named either, and that of each connector named.

@@ -1,6 +1,7 @@
 //! The names a record gives to choose among what the model holds.
 
 use super::{Call, Job};
+use crate::language::args::Value;
 use crate::language::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use crate::language::select::matches;
 use crate::language::source::Span;
@@ -18,7 +19,11 @@ pub struct Chosen<'a> {
 impl<'a> Chosen<'a> {
     /// The words of a record from a position on.
     pub fn of(call: &'a Call, from: usize, model: &'a Model) -> Self {
-        let values = call.args.data.get(from..).unwrap_or_default().iter();
+        Chosen::among(call.args.data.get(from..).unwrap_or_default().iter(), model)
+    }
+
+    /// The words among some values.
+    pub fn among(values: impl Iterator<Item = &'a Value>, model: &'a Model) -> Self {
         let given = values.filter_map(|v| Some((v.word()?, v.span, Cell::new(false)))).collect();
         Chosen { model, given, asked: Cell::new(false) }
     }

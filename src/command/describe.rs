@@ -1,12 +1,13 @@
 //! `&DESCRIBE`, points, and `&INSTATE`.
 
+use super::chosen::Chosen;
 use super::piece::{self, OPTIONS};
 use super::{Call, Command, Effect, Job};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::name as rule;
 use crate::language::spec::{CommandSpec, Form, Kind, Noun, OptionSpec, ValueSpec, joined};
 use crate::language::units::Dim;
-use crate::model::{Body, Coordinates, GROUND, Model, Part, Place, Point, Shape, Thing, find, unit_vector};
+use crate::model::{Body, Coordinates, GROUND, Model, Part, Place, Point, Position, Shape, Thing, find, unit_vector};
 
 /// &DESCRIBE.
 pub static DESCRIBE: Command = Command { spec: &DESCRIBE_SPEC, edits: false, run: describe };
@@ -47,15 +48,18 @@ static DESCRIBE_OPTIONS: [OptionSpec; OWN.len() + OPTIONS.len()] = joined(OWN, &
 
 static DESCRIBE_SPEC: CommandSpec = CommandSpec {
     data: &[
-        ValueSpec::new("KIND", Kind::Choice(&["BODY", "PART", "PIECE"]), "what is described"),
-        ValueSpec::new("NAME", Kind::Name(Noun::New), "its name"),
+        ValueSpec::new("KIND", Kind::Choice(&["BODY", "PART", "PIECE", "INTEREST"]), "what is described"),
+        ValueSpec::new("NAME", Kind::Name(Noun::Selector), "its name; of INTEREST a point, a pattern or a selector"),
+        ValueSpec::new("POINT", Kind::Name(Noun::Selector), "further points of INTEREST").or("none"),
     ],
+    repeat: 1,
     options: &DESCRIBE_OPTIONS,
     detail: "Points that follow belong to the body or part described last. Describing a known body or part again goes on with it. PIECE \
              begins a surface: its PANEL records follow, or PGEN; it is complete at the next &DESCRIBE, PGEN or &SURFACE, and at END. \
              &HELP &SURFACE says how pieces are read, and what wind and current do to them: without -CS_WIND and -CS_CURRENT the shape \
-             coefficients of a piece that displaces water are 1 1 1.",
-    example: "&DESCRIBE BODY TBRG\n&DESCRIBE PART DECK -MOVE 0 0 20\n&STATUS BODIES\nMEDIT\n&DESCRIBE PIECE WEDGE -PERM 1\n\
+             coefficients of a piece that displaces water are 1 1 1. INTEREST marks points, on bodies or in the ground, for POINTS of \
+             PRCPOST, which tells their motion from where they stand now; marks add up.",
+    example: "&DESCRIBE BODY TBRG\n&DESCRIBE PART DECK -MOVE 0 0 20\n&STATUS BODIES\nMEDIT\n*BOW 90 0 5\n&DESCRIBE INTEREST *BOW\n&DESCRIBE PIECE WEDGE -PERM 1\n\
               PANEL 0 0 0  0 9 0  9 0 0\nPANEL 0 0 0  9 0 0  0 0 9\nPANEL 0 0 0  0 0 9  0 9 0\nPANEL 9 0 0  0 9 0  0 0 9\nEND\n\
               &STATUS PIECES",
     ..CommandSpec::new("&DESCRIBE", "describes a body, a part or a piece")
@@ -105,6 +109,12 @@ fn describe(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let name = args.word(1).unwrap_or_default().to_string();
     let (key, span) = (Model::key(&name), args.place(1));
     let kind = args.word(0).unwrap_or_default();
+    if kind == "INTEREST" {
+        return interest(job, call);
+    }
+    if let Some(surplus) = args.data.get(2) {
+        return Err(Diagnostic::error("&DESCRIBE takes one name", surplus.span).help("only INTEREST takes several"));
+    }
     let of = |option: &str| match option {
         "-MOVE" => "PART",
         "-IGNORE" => "BODY",
@@ -178,6 +188,27 @@ fn describe(job: &mut Job, call: &Call) -> Outcome<Effect> {
     Ok(Effect::Done)
 }
 
+/// Marks points of interest where they stand.
+fn interest(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    if let Some(given) = args.options.first() {
+        return Err(Diagnostic::error(format!("{} does not belong to INTEREST", given.spec.name), given.span));
+    }
+    let marked: Vec<(String, Position)> = {
+        let (model, chosen) = (&job.model, Chosen::of(call, 1, &job.model));
+        let points = model.points.iter().filter(|(_, p)| chosen.takes(&p.name));
+        let marked = points.map(|(key, point)| (key.clone(), model.global(point))).collect();
+        chosen.check_used("the points", &[Thing::Point])?;
+        marked
+    };
+    for (key, at) in marked {
+        if let Some(point) = job.model.points.get_mut(&key) {
+            point.interest = Some(at);
+        }
+    }
+    Ok(Effect::Done)
+}
+
 fn place_of(values: &[crate::language::args::Value]) -> Place {
     let numbers = values.iter().filter(|v| v.word().is_none()).map(|v| v.number().unwrap_or(0.0));
     let mut six = [0.0; 6];
@@ -208,7 +239,8 @@ fn point(job: &mut Job, call: &Call) -> Outcome<Effect> {
     };
     let part = job.model.current_part.clone().unwrap_or_else(|| GROUND.to_string());
     let key = Model::key(&name.text);
-    let made = Point { name: name.text.to_string(), part, at, span: name.span };
+    let interest = job.model.points.get(&key).and_then(|p| p.interest);
+    let made = Point { name: name.text.to_string(), part, at, interest, span: name.span };
     if let Some(old) = job.model.points.insert(key, made) {
         let users = job.model.users_of_point(&name.text).len();
         job.remark(

@@ -5,13 +5,11 @@
 use super::{Call, Command, Effect, Job, Menu};
 use crate::language::args::{Args, Given};
 use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::select::Owner;
 use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Kind, Noun, Opens, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
 use crate::report::disposition::{Disposition, DispositionError, RowChoice};
-use crate::report::plot::Chart;
-use crate::report::{csv, page};
+use crate::report::page;
 use crate::table::Table;
 
 /// Where these commands are offered.
@@ -42,7 +40,8 @@ pub(super) const VALUES: OptionSpec = OptionSpec::new(
 pub(super) const HARD: OptionSpec = OptionSpec::new("-HARD", &[], "to the report file OUT00001.TXT");
 /// -BOTH.
 pub(super) const BOTH: OptionSpec = OptionSpec::new("-BOTH", &[], "to the screen and the report file");
-const HEADING: OptionSpec = OptionSpec::new(
+/// -HEADING.
+pub(super) const HEADING: OptionSpec = OptionSpec::new(
     "-HEADING",
     &[ValueSpec::new("TEXT", Kind::Text, "heading, in quotes when it holds blanks")],
     "heading above the output",
@@ -51,7 +50,8 @@ const HEADING: OptionSpec = OptionSpec::new(
 pub(super) const MAG_USE: OptionSpec = OptionSpec::new("-MAG_USE", &[], "uses absolute values");
 
 const EXAMPLE: &str = "MEDIT\n*P 0 0 0\n~W B_CAT 4 -LEN 4000 -DEP 500\nCONNECTOR A ~W *P\nEND\nCONN_DESIGN\nTABLE A\nREPORT X Force\n\
-                       VLIST\nVIEW X 2:4 -RECORD 1 3\nSTORE example.csv\nPLOT X Force\nPLOT X Force figure.svg\nSTATISTIC X Force -PEAKS\n\
+                       VLIST\nVIEW X 2:4 -RECORD 1 3\nSTORE example.csv\nSTORE example.parquet\nSTORE example.nc\n\
+                       PLOT X Force\nPLOT X Force figure.svg\nPLOT X Force page.html\nSTATISTIC X Force -PEAKS\n\
                        SET_VARIABLE TOP 4 -RECORD 30 30\nC_SCALE 0.5 Force\nC_SHIFT 10 X\nCULL Force 0 50 200 300\nEND\nEND\nEND";
 
 /// The spec of a command of this menu.
@@ -65,10 +65,6 @@ pub static REPORT: Command = Command { spec: &REPORT_SPEC, edits: false, run: re
 pub static VLIST: Command = Command { spec: &VLIST_SPEC, edits: false, run: vlist };
 /// VIEW.
 pub static VIEW: Command = Command { spec: &VIEW_SPEC, edits: false, run: view };
-/// STORE.
-pub static STORE: Command = Command { spec: &STORE_SPEC, edits: false, run: store };
-/// PLOT.
-pub static PLOT: Command = Command { spec: &PLOT_SPEC, edits: false, run: plot };
 /// SET_VARIABLE.
 pub static SET_VARIABLE: Command = Command { spec: &SET_VARIABLE_SPEC, edits: false, run: set_variable };
 /// C_SCALE.
@@ -78,13 +74,20 @@ pub static C_SHIFT: Command = Command { spec: &C_SHIFT_SPEC, edits: false, run: 
 /// CULL.
 pub static CULL: Command = Command { spec: &CULL_SPEC, edits: false, run: cull };
 
+/// The file of STORE.
+pub(super) const STORED: ValueSpec = ValueSpec::new(
+    "FILE",
+    Kind::File,
+    "file name ending in .csv, .parquet or .nc; .csv is added when it has no ending",
+);
 /// A column that may be left out.
 pub(super) const ANY_COLUMN: ValueSpec = COLUMN.or("all columns");
 static REPORT_SPEC: CommandSpec = CommandSpec {
     data: &[ANY_COLUMN],
     repeat: 1,
     options: &[RECORD, VALUES, HARD, BOTH, HEADING],
-    detail: "The formatted report; C_SCALE and C_SHIFT do not act on it.",
+    detail: "The formatted report; C_SCALE and C_SHIFT do not act on it. The name of a group of columns, as of LOCATION, VELOCITY and \
+             ACCELERATION of a TRAJECTORY, is all of it, behind the first column.",
     ..spec("REPORT", "prints the formatted report")
 };
 static VLIST_SPEC: CommandSpec = spec("VLIST", "lists the columns with their units and ranges");
@@ -94,37 +97,6 @@ static VIEW_SPEC: CommandSpec = CommandSpec {
     options: &[RECORD, VALUES, HARD, BOTH, HEADING, MAG_USE],
     detail: "With row numbers and three digits more than the report; C_SCALE and C_SHIFT act.",
     ..spec("VIEW", "shows columns")
-};
-static STORE_SPEC: CommandSpec = CommandSpec {
-    data: &[ValueSpec::new("FILE", Kind::File, "file name; .csv is added when it has no ending"), ANY_COLUMN],
-    repeat: 1,
-    options: &[RECORD, VALUES, MAG_USE],
-    detail: "CSV: a header of the column names with units, then numbers with full precision. A relative name is inside the \
-             job's folder: &HELP &FILE.",
-    ..spec("STORE", "writes columns to a CSV file")
-};
-static PLOT_SPEC: CommandSpec = CommandSpec {
-    data: &[COLUMN, COLUMN, ANY_COLUMN],
-    repeat: 1,
-    options: &[
-        RECORD,
-        VALUES,
-        HEADING,
-        MAG_USE,
-        OptionSpec::new("-NO", &[], "accepted: nothing is asked before plotting"),
-        OptionSpec::new("-HARD", &[], "to the next figure file, FIGUREn.svg"),
-        OptionSpec::new(
-            "-FILE",
-            &[ValueSpec::new("FILE", Kind::File, "file name ending in .svg or .png")],
-            "to a file",
-        )
-        .owner(Owner::Ours),
-        OptionSpec::new("-POLAR", &[], "a polar plot: the first column holds directions").owner(Owner::Ours),
-    ],
-    detail: "The first column is the independent one. A last word that ends in .svg or .png is a file name, inside the \
-             job's folder when relative (&HELP &FILE); without one the plot is drawn in the terminal. -POLAR counts \
-             directions from +X, to the right, toward +Y, up, and has the other columns as distances from the middle.",
-    ..spec("PLOT", "plots columns against the first one")
 };
 static SET_VARIABLE_SPEC: CommandSpec = CommandSpec {
     data: &[ValueSpec::new("VAR", Kind::Text, "global variable"), COLUMN],
@@ -231,7 +203,7 @@ fn report(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let d = here(job, args.span)?;
     let table = d
-        .columns(&selectors(args, 0))
+        .reported(&selectors(args, 0))
         .and_then(|c| d.extract(&c, &rows(args), false, job.units))
         .map_err(|e| refused(args, &e))?;
     let text = page::render(&table, job.units, &job.page_head());
@@ -257,63 +229,12 @@ fn view(job: &mut Job, call: &Call) -> Outcome<Effect> {
     Ok(Effect::Done)
 }
 
-fn store(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    let args = &call.args;
-    let table = chosen(job, args, 1)?;
-    let name = super::file::with_csv_ending(args.word(0).unwrap_or_default());
-    let bytes = csv::bytes(&table, job.units).map_err(|e| Diagnostic::error(e.to_string(), args.place(0)))?;
-    write_file(job, &name, &bytes, args.place(0))?;
-    Ok(Effect::Done)
-}
-
-fn write_file(job: &mut Job, name: &str, bytes: &[u8], span: Span) -> Outcome<()> {
+/// Writes a file, and says where it went.
+pub(super) fn write_file(job: &mut Job, name: &str, bytes: &[u8], span: Span) -> Outcome<()> {
     let path = job.output.folder.write(name, bytes).map_err(|e| super::file::refused(&e, span))?;
     let text = format!("wrote {}", path.display());
     job.say(&text);
     Ok(())
-}
-
-fn plot(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    let mut args = call.args.clone();
-    let is_file = |w: &str| [".svg", ".png"].iter().any(|e| w.to_ascii_lowercase().ends_with(e));
-    let mut file = args.option("-FILE").and_then(|g| g.values.first().cloned());
-    if file.is_none() && args.data.last().and_then(|v| v.word()).is_some_and(is_file) {
-        file = args.data.pop();
-    }
-    let here = here(job, args.span)?;
-    let numbers = here.numeric(&selectors(&args, 0)).map_err(|e| refused(&args, &e))?;
-    if numbers.len() < 2 {
-        return Err(Diagnostic::error("a plot needs the independent column and at least one more", args.span)
-            .help("VLIST lists the columns"));
-    }
-    let table = chosen(job, &args, 0)?;
-    let wrong = |e: crate::report::plot::PlotError| Diagnostic::error(e.to_string(), args.span);
-    let made = if args.has("-POLAR") { Chart::polar(&table, job.units) } else { Ok(Chart::of(&table, job.units)) };
-    let mut chart = made.map_err(wrong)?;
-    if let Some(heading) = args.option_word("-HEADING") {
-        chart.title = heading.to_string();
-    }
-    let name = match file {
-        Some(value) => value.word().map(str::to_string),
-        None if args.has("-HARD") => {
-            let name = format!("{}{}.svg", job.settings.figure_name, job.settings.figure_number);
-            job.settings.figure_number += 1;
-            Some(name)
-        }
-        None => None,
-    };
-    match name {
-        Some(name) => {
-            let bytes = chart.file(&name).map_err(wrong)?;
-            write_file(job, &name, &bytes, args.span)?;
-        }
-        None => {
-            let (columns, lines) = job.plot_size();
-            let text = chart.terminal(columns, lines).map_err(wrong)?;
-            job.say(&text);
-        }
-    }
-    Ok(Effect::Done)
 }
 
 fn set_variable(job: &mut Job, call: &Call) -> Outcome<Effect> {

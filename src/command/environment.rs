@@ -39,6 +39,21 @@ const fn choice(name: &'static str, words: &'static [&'static str], help: &'stat
 }
 pub(super) const PERIODS: &[ValueSpec] = &[number("T", Dim::Time, "period").positive()];
 
+/// -SEA.
+pub(super) const SEA_OPTION: OptionSpec = OptionSpec::new("-SEA", SEA, "sea").default("none");
+/// -A_SEA.
+pub(super) const A_SEA_OPTION: OptionSpec = OptionSpec::new("-A_SEA", SEA, "sea added to -SEA").default("none");
+/// -SP_TYPE.
+pub(super) const SP_TYPE_OPTION: OptionSpec = OptionSpec::new(
+    "-SP_TYPE",
+    &[choice("TYPE", &["PEAK", "MEAN", "ZERO_CROSSING"], "peak, mean or zero-crossing period")],
+    "type of the spectrum's period",
+);
+/// -SPREAD.
+pub(super) const SPREAD_OPTION: OptionSpec =
+    OptionSpec::new("-SPREAD", &[number("EXP", Dim::None, "exponent").positive()], "spreading cos(H - th)**EXP")
+        .default("200: long-crested");
+
 const OPTIONS: &[OptionSpec] = &[
     OptionSpec::new("-DURATION", &[number("D", Dim::Days, "days").not_negative()], "days, for fatigue"),
     OptionSpec::new("-WATER", &[number("RHO", Dim::Density, "density").positive()], "density of the water")
@@ -56,15 +71,10 @@ const OPTIONS: &[OptionSpec] = &[
         ],
         "statistic of the results",
     ),
-    OptionSpec::new("-SEA", SEA, "sea").default("none"),
-    OptionSpec::new("-A_SEA", SEA, "sea added to -SEA").default("none"),
-    OptionSpec::new(
-        "-SP_TYPE",
-        &[choice("TYPE", &["PEAK", "MEAN", "ZERO_CROSSING"], "peak, mean or zero-crossing period")],
-        "type of the spectrum's period",
-    ),
-    OptionSpec::new("-SPREAD", &[number("EXP", Dim::None, "exponent").positive()], "spreading cos(H - th)**EXP")
-        .default("200: long-crested"),
+    SEA_OPTION,
+    A_SEA_OPTION,
+    SP_TYPE_OPTION,
+    SPREAD_OPTION,
     sea_options::COMPONENTS,
     sea_options::SEED,
     sea_options::STRETCHING,
@@ -241,7 +251,11 @@ fn place(given: &Given, index: usize) -> Span {
     given.values.get(index).map_or(given.span, |v| v.span)
 }
 
-fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<()> {
+/// Puts what an option says into an environment.
+///
+/// # Errors
+/// An option that contradicts itself, or names what is not there.
+pub(super) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<()> {
     let at = |i: usize| given.number(i);
     match given.spec.name {
         "-WATER" => env.water_density = at(0),

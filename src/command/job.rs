@@ -1,6 +1,7 @@
 //! The job that commands act on: model, units, menus, titles, settings, output.
 
 use super::buildg::Building;
+use super::frequency::Found;
 use super::pgen::Planes;
 use crate::language::args::Args;
 use crate::language::diagnostic::{Diagnostic, Severity};
@@ -12,6 +13,7 @@ use crate::report::files::Place;
 use crate::report::output::Output;
 use crate::report::page::PageHead;
 use crate::solve::Options;
+use crate::solve::results::Exposed;
 use crate::solve::time::{Action, Run};
 use indexmap::IndexMap;
 use std::path::PathBuf;
@@ -30,6 +32,8 @@ pub enum Menu {
     Medit,
     /// Connector design.
     ConnDesign,
+    /// Post-processing of the last run.
+    Post,
     /// A result being disposed of.
     Disposition(Box<Disposition>),
     /// A report being written: to the screen, to the report file.
@@ -53,6 +57,8 @@ pub enum Menu {
     Mesh,
     /// Hydrostatics of the body of this name.
     Hydrostatics(String),
+    /// The frequency domain, with what it has found.
+    Frequency(Box<Found>),
     /// A table being given by the records of `&BUILDG`.
     Building(Box<Building>),
     /// Sections of a hull being given by `PGEN`.
@@ -69,6 +75,7 @@ impl Menu {
             Menu::Inmodel => "INMODEL",
             Menu::Medit => "MEDIT",
             Menu::ConnDesign => "CONN_DESIGN",
+            Menu::Post => "PRCPOST",
             Menu::Disposition(_) => "DISPOSITION",
             Menu::Report { .. } => "REPORT",
             Menu::Environments => "ENVIRONMENT",
@@ -80,6 +87,7 @@ impl Menu {
             Menu::Building(_) => "BUILDG",
             Menu::Planes(_) => "PGEN",
             Menu::Hydrostatics(_) => "HSTATICS",
+            Menu::Frequency(_) => "FREQ_RESPONSE",
             Menu::Refused(name) => name,
         }
     }
@@ -90,6 +98,7 @@ impl Menu {
             "INMODEL" => "END_INMODEL",
             "MEDIT" => "END_MEDIT",
             "CONN_DESIGN" => "END_CONN_DESIGN",
+            "PRCPOST" => "END_PRCPOST",
             "DISPOSITION" => "END_DISPOSE",
             "REPORT" => "END_REPORT",
             "ENVIRONMENT" | "CURVES" => "END_&DATA",
@@ -100,6 +109,7 @@ impl Menu {
             "BUILDG" => "END_&BUILDG",
             "PGEN" => "END_PGEN",
             "HSTATICS" => "END_HSTATICS",
+            "FREQ_RESPONSE" => "END_FREQ_RESPONSE",
             _ => "END",
         }
     }
@@ -208,6 +218,8 @@ pub struct Job {
     pub actions: Vec<Action>,
     /// The last run.
     pub run: Option<Run>,
+    /// The runs that FATIGUE adds up.
+    pub scatter: Vec<Exposed>,
     /// Set by Ctrl-C: a command that takes long gives up, and the run ends behind it.
     pub interrupt: Arc<AtomicBool>,
 }
@@ -235,6 +247,7 @@ impl Job {
             equilibrium: Options::default(),
             actions: Vec::new(),
             run: None,
+            scatter: Vec::new(),
             interrupt: Arc::default(),
         }
     }

@@ -105,6 +105,6 @@ pub(super) fn insert(model: &mut Model, name: &str, at: Position, [weight, displ
     let part = Part { weights, ..Part::new(name, name, Place::default(), span) };
     model.bodies.insert(key.clone(), body);
     model.parts.insert(key, part);
-    let made = Point { name: point.clone(), part: name.to_string(), at: [0.0; 3], span };
+    let made = Point { name: point.clone(), part: name.to_string(), at: [0.0; 3], interest: None, span };
     model.points.insert(Model::key(&point), made);
 }

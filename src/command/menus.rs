@@ -15,6 +15,8 @@ use std::path::PathBuf;
 pub static INMODEL: Command = Command { spec: &INMODEL_SPEC, edits: false, run: inmodel };
 /// MEDIT.
 pub static MEDIT: Command = Command { spec: &MEDIT_SPEC, edits: false, run: medit };
+/// PRCPOST.
+pub static PRCPOST: Command = Command { spec: &PRCPOST_SPEC, edits: false, run: prcpost };
 /// CONN_DESIGN.
 pub static CONN_DESIGN: Command = Command { spec: &CONN_DESIGN_SPEC, edits: false, run: conn_design };
 
@@ -39,6 +41,16 @@ static CONN_DESIGN_SPEC: CommandSpec = CommandSpec {
     detail: "TABLE tabulates a line, GEOMETRY shapes it, MOVE moves a body until a line breaks, WATCH draws its watch circle.",
     example: "CONN_DESIGN\nEND",
     ..CommandSpec::new("CONN_DESIGN", "connector design, up to END")
+};
+
+static PRCPOST_SPEC: CommandSpec = CommandSpec {
+    opens: Opens::Menu("PRCPOST"),
+    menus: &["MAIN"],
+    detail: "Of the last run of TDOM: TRAJECTORY of bodies, POINTS of interest, CONFORCE, CF_MAGNITUDE, TOT_CFORCE and C_LENGTH of \
+             connectors, BODY_FORCE by category, FATIGUE of lines. Each opens the disposition menu. A run whose model has been changed since is told \
+             as it was; points are taken where they stand in their bodies now.",
+    example: "PRCPOST\nEND",
+    ..CommandSpec::new("PRCPOST", "post-processing of a run, up to END")
 };
 
 /// The menu that a record of this command opens, so that an `END` of its own belongs to it.
@@ -82,6 +94,11 @@ fn inmodel(job: &mut Job, call: &Call) -> Outcome<Effect> {
 
 fn medit(job: &mut Job, _: &Call) -> Outcome<Effect> {
     job.menus.push(Menu::Medit);
+    Ok(Effect::Done)
+}
+
+fn prcpost(job: &mut Job, _: &Call) -> Outcome<Effect> {
+    job.menus.push(Menu::Post);
     Ok(Effect::Done)
 }
 

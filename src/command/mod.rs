@@ -6,6 +6,7 @@
 
 mod action;
 mod alter;
+mod animate;
 mod apply;
 mod assembly;
 mod assembly_table;
@@ -27,9 +28,12 @@ mod environment;
 mod environment_table;
 mod equilibrium;
 mod excursion;
+mod fatigue;
 mod fatigue_table;
 mod file;
 mod forces;
+mod frequency;
+mod frequency_posts;
 pub mod functions;
 pub mod help;
 mod hstatics;
@@ -43,13 +47,14 @@ mod loads_table;
 mod member;
 mod menus;
 mod message;
-mod model_tables;
 mod names;
 mod offsets;
 mod pgen;
 mod picture;
 mod piece;
 mod pipe;
+mod plot;
+mod prcpost;
 mod prescribe;
 mod rep_select;
 mod report_menu;
@@ -58,8 +63,10 @@ mod sea_options;
 mod sea_table;
 mod select;
 mod series;
+mod settings_table;
 mod statistic;
 mod status;
+mod store;
 mod surface;
 mod tdom;
 mod units;
@@ -145,6 +152,7 @@ pub static COMMANDS: &[&Command] = &[
     &menus::INMODEL,
     &menus::MEDIT,
     &menus::CONN_DESIGN,
+    &menus::PRCPOST,
     &describe::DESCRIBE,
     &describe::POINT,
     &describe::INSTATE,
@@ -182,6 +190,13 @@ pub static COMMANDS: &[&Command] = &[
     &names::RENAME,
     &alter::ALTER,
     &equilibrium::EQUI,
+    &frequency::FREQ_RESPONSE,
+    &frequency::RAO,
+    &frequency::SRESPONSE,
+    &frequency_posts::MOTION,
+    &frequency_posts::FR_POINT,
+    &frequency_posts::CONFORCE,
+    &frequency_posts::STATISTICS,
     &tdom::TDOM,
     &action::ACTION,
     &select::SELECT,
@@ -206,11 +221,19 @@ pub static COMMANDS: &[&Command] = &[
     &excursion::MOVE,
     &excursion::WATCH,
     &lines::LINES,
+    &prcpost::TRAJECTORY,
+    &prcpost::POINTS,
+    &prcpost::CONFORCE,
+    &prcpost::CF_MAGNITUDE,
+    &prcpost::TOT_CFORCE,
+    &prcpost::C_LENGTH,
+    &prcpost::BODY_FORCE,
+    &fatigue::FATIGUE,
     &disposition::REPORT,
     &disposition::VLIST,
     &disposition::VIEW,
-    &disposition::STORE,
-    &disposition::PLOT,
+    &store::STORE,
+    &plot::PLOT,
     &statistic::STATISTIC,
     &disposition::SET_VARIABLE,
     &disposition::C_SCALE,
@@ -227,6 +250,7 @@ pub static COMMANDS: &[&Command] = &[
     &rep_select::REP_SELECT,
     &status::STATUS,
     &picture::PICTURE,
+    &animate::ANIMATE,
     &units::DIMEN,
     &units::DEFAULT,
     &device::DEVICE,

@@ -5,7 +5,7 @@ use super::extended_line::{Plane, behind};
 use super::extension::{Extended, Extension, Pull};
 use super::mooring::Mooring;
 use crate::model::{ClassError, Element, End, Guess, Placement, Response, Situation, Six, Summary};
-use nalgebra::{Matrix6, Vector3};
+use nalgebra::{Matrix3, Matrix6, Vector3};
 
 /// How the forces are found.
 #[derive(Clone, Debug)]
@@ -191,21 +191,20 @@ fn whole(line: &Line, x: f64, z: f64, guess: &mut Guess) -> Result<Plane, LineEr
 
 /// -d(force)/d(place of the first end) for a force `sign` (pull toward the other end, downward): `k` is d(pull)/d(x, z),
 /// `across` the horizontal pull over the distance.
-fn block(along: [f64; 2], k: [[f64; 2]; 2], across: f64, sign: f64) -> Matrix6<f64> {
-    let [ux, uy] = along;
+fn by_place([ux, uy]: [f64; 2], k: [[f64; 2]; 2], across: f64, sign: f64) -> Matrix3<f64> {
     // a fairlead on the bottom is held there without a slope that has an end
     let [[xx, xz], [zx, zz]] = k.map(|row| row.map(|v| if v.is_finite() { v } else { xx_of(k) }));
-    let plane = |a: f64, b: f64, same: f64| sign * (xx * a * b + across * (same - a * b));
+    let plane = |a: f64, b: f64, same: f64| xx * a * b + across * (same - a * b);
+    let side = plane(ux, uy, 0.0);
+    let first = Vector3::new(plane(ux, ux, 1.0), side, -zx * ux);
+    let second = Vector3::new(side, plane(uy, uy, 1.0), -zx * uy);
+    Matrix3::from_columns(&[first, second, Vector3::new(-xz * ux, -xz * uy, zz)]) * sign
+}
+
+/// The same as the block of two ends that exert no moments.
+fn block(along: [f64; 2], k: [[f64; 2]; 2], across: f64, sign: f64) -> Matrix6<f64> {
     let mut block = Matrix6::zeros();
-    block[(0, 0)] = plane(ux, ux, 1.0);
-    block[(0, 1)] = plane(ux, uy, 0.0);
-    block[(1, 0)] = block[(0, 1)];
-    block[(1, 1)] = plane(uy, uy, 1.0);
-    block[(0, 2)] = -sign * xz * ux;
-    block[(1, 2)] = -sign * xz * uy;
-    block[(2, 0)] = -sign * zx * ux;
-    block[(2, 1)] = -sign * zx * uy;
-    block[(2, 2)] = sign * zz;
+    block.fixed_view_mut::<3, 3>(0, 0).copy_from(&by_place(along, k, across, sign));
     block
 }
 
@@ -274,6 +273,18 @@ impl Element for LineElement {
         out: &mut Response,
     ) -> Result<(), ClassError> {
         self.pull(at.ends, Extension::NONE, guess, out).map(|_| ())
+    }
+
+    fn anchored(&self, at: &Situation, guess: &mut Guess) -> Option<Result<([Six; 2], Matrix3<f64>), ClassError>> {
+        self.mooring.place.to_ground.then(|| {
+            let (x, along, z) = self.between(at.ends);
+            let Some((plane, _)) = self.tight(x, z, Extension::NONE, guess)? else {
+                return Ok(([Six::zeros(); 2], Matrix3::zeros()));
+            };
+            let [force, _] = plane.fairlead;
+            let across = if x > 0.0 { force / x } else { xx_of(plane.stiffness) };
+            Ok((plane.wrenches(along), by_place(along, plane.stiffness, across, 1.0)))
+        })
     }
 
     fn wrenches(

@@ -31,6 +31,12 @@ pub struct MovingLoad {
     pub damping: Matrix6<f64>,
 }
 
+impl Default for MovingLoad {
+    fn default() -> Self {
+        MovingLoad::of(Load::none())
+    }
+}
+
 impl MovingLoad {
     /// A load that no velocity changes.
     pub fn of(load: Load) -> Self {
@@ -77,6 +83,18 @@ pub trait BodyLoad: Debug + Send + Sync {
     /// What of the load counts in another category than its own, where there is such.
     fn apart(&self, _at: &Underway, _state: &[f64]) -> Option<(Category, Six)> {
         None
+    }
+
+    /// Adds what [`BodyLoad::moving`] gives; a load of which little is other than zero does it with less work.
+    ///
+    /// # Errors
+    /// As [`BodyLoad::moving`].
+    fn add(&self, at: &Underway, state: &[f64], out: &mut MovingLoad) -> Result<(), ClassError> {
+        let made = self.moving(at, state)?;
+        out.load.wrench += made.load.wrench;
+        out.load.stiffness += made.load.stiffness;
+        out.damping += made.damping;
+        Ok(())
     }
 
     /// The step is accepted with its end there.

@@ -37,21 +37,28 @@ impl BodyLoad for LinearHydrostatics {
         let (pull, turn) = (heading * force, heading * moment);
         let total = pull + Vector3::new(0.0, 0.0, self.buoyancy);
         let wrench = six(total, turn + arm.cross(&total));
+        // rates of roll, pitch and yaw of a body that turns at `rates` in heading axes
+        let (cos, tan) = (pitch.cos(), pitch.tan());
+        let turned = Matrix3::new(1.0 / cos, 0.0, 0.0, 0.0, 1.0, 0.0, tan, 0.0, 1.0) * to_heading;
+        let yawing = turned.row(2).into_owned();
+        // d(away, -angles)/d(translation, rotation): an arm that turns moves its end by -[arm] rotation
+        let crossed = arm.cross_matrix();
+        let mut by = Matrix6::zeros();
+        by.fixed_view_mut::<3, 3>(0, 0).copy_from(&-to_heading);
+        by.fixed_view_mut::<3, 3>(0, 3).copy_from(&(to_heading * crossed - Vector3::z().cross(&away) * yawing));
+        by.fixed_view_mut::<3, 3>(3, 3).copy_from(&-turned);
+        let of_held = self.stiffness * by;
         let mut stiffness = Matrix6::zeros();
-        for n in 0..6 {
-            let mut motion = Six::zeros();
-            motion[n] = 1.0;
-            let (shift, rotation) = halves(motion);
-            let moved = rotation.cross(&arm);
-            let rates = to_heading * rotation;
-            // rates of roll, pitch and yaw of a body that turns at `rates` in heading axes
-            let turned = Vector3::new(rates.x / pitch.cos(), rates.y, rates.z + pitch.tan() * rates.x);
-            let of_away = -(to_heading * (shift + moved)) - turned.z * Vector3::z().cross(&away);
-            let (of_force, of_moment) = halves(self.stiffness * six(of_away, -turned));
-            let of_pull = heading * of_force + turned.z * Vector3::z().cross(&pull);
-            let of_turn = heading * of_moment + turned.z * Vector3::z().cross(&turn);
-            let change = six(of_pull, of_turn + moved.cross(&total) + arm.cross(&of_pull));
-            stiffness.set_column(n, &-change);
+        for column in [0, 3] {
+            let mut of_pull = heading * of_held.fixed_view::<3, 3>(0, column);
+            let mut of_moment = heading * of_held.fixed_view::<3, 3>(3, column);
+            if column == 3 {
+                of_pull += Vector3::z().cross(&pull) * yawing;
+                of_moment += Vector3::z().cross(&turn) * yawing + total.cross_matrix() * crossed;
+            }
+            of_moment += crossed * of_pull;
+            stiffness.fixed_view_mut::<3, 3>(0, column).copy_from(&-of_pull);
+            stiffness.fixed_view_mut::<3, 3>(3, column).copy_from(&-of_moment);
         }
         Ok(Load { wrench, stiffness })
     }

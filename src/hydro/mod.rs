@@ -283,7 +283,7 @@ impl Floating {
 }
 
 /// A matrix of the body's axes in global axes.
-fn in_pose(matrix: &Matrix6<f64>, pose: &Pose) -> Matrix6<f64> {
+pub fn in_pose(matrix: &Matrix6<f64>, pose: &Pose) -> Matrix6<f64> {
     let mut turned = Matrix6::zeros();
     for (row, column) in [(0, 0), (0, 3), (3, 0), (3, 3)] {
         let block = pose.axes * matrix.fixed_view::<3, 3>(row, column) * pose.axes.transpose();

@@ -1,7 +1,7 @@
 //! The weight of a body.
 
-use super::{BodyLoad, Category, Load};
-use crate::model::{ClassError, Mass, Pose};
+use super::{BodyLoad, Category, Load, MovingLoad, Underway};
+use crate::model::{ClassError, Mass, Pose, Six};
 use nalgebra::Vector3;
 
 #[derive(Debug)]
@@ -25,5 +25,14 @@ impl BodyLoad for Weight {
 
     fn load(&self, pose: &Pose) -> Result<Load, ClassError> {
         Ok(Load::constant(Vector3::new(0.0, 0.0, -self.weight), pose.axes * self.centre))
+    }
+
+    fn add(&self, at: &Underway, _state: &[f64], out: &mut MovingLoad) -> Result<(), ClassError> {
+        let (force, arm) = (Vector3::new(0.0, 0.0, -self.weight), at.pose.axes * self.centre);
+        let moment = arm.cross(&force);
+        out.load.wrench += Six::new(0.0, 0.0, force.z, moment.x, moment.y, moment.z);
+        let mut turning = out.load.stiffness.fixed_view_mut::<3, 3>(3, 3);
+        turning -= force.cross_matrix() * arm.cross_matrix();
+        Ok(())
     }
 }

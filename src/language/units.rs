@@ -154,6 +154,10 @@ pub enum Dim {
     Days,
     /// Velocity, ft/s or m/s (m/s).
     Velocity,
+    /// Rotation, deg/s (rad/s).
+    AngularVelocity,
+    /// Change of a rotation, deg/s2 (rad/s2).
+    AngularAcceleration,
     /// Wind speed, knots (m/s).
     WindSpeed,
     /// Acceleration, ft/s2 or m/s2 (m/s2).
@@ -230,7 +234,7 @@ impl Dim {
                     1.0
                 }
             }
-            Dim::Angle => std::f64::consts::PI / 180.0,
+            Dim::Angle | Dim::AngularVelocity | Dim::AngularAcceleration => std::f64::consts::PI / 180.0,
             Dim::AngleDensity => (std::f64::consts::PI / 180.0).powi(2),
             Dim::Days => 86_400.0,
             Dim::Velocity | Dim::Acceleration => m,
@@ -293,6 +297,8 @@ impl Dim {
             Dim::Stress => if feet { "ksi" } else { "MPa" }.into(),
             Dim::Density => if feet { "lb/ft3" } else { "kg/m3" }.into(),
             Dim::Angle => "deg".into(),
+            Dim::AngularVelocity => "deg/s".into(),
+            Dim::AngularAcceleration => "deg/s2".into(),
             Dim::Time => "s".into(),
             Dim::Days => "days".into(),
             Dim::Velocity => format!("{length}/s"),

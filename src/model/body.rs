@@ -149,6 +149,8 @@ pub struct Point {
     pub part: String,
     /// Coordinates in the part (m).
     pub at: Position,
+    /// Where it stood when it was marked as a point of interest (m, global); none of a point that is not marked.
+    pub interest: Option<Position>,
     /// Where it was defined.
     pub span: Span,
 }

@@ -10,7 +10,7 @@ use super::curve::Curve;
 use super::environment::Surroundings;
 use super::line::Placement;
 use super::pose::{Pose, Six};
-use nalgebra::Matrix6;
+use nalgebra::{Matrix3, Matrix6};
 use std::any::Any;
 use std::fmt::Debug;
 
@@ -132,6 +132,13 @@ pub trait Element: Debug + Send + Sync {
         guess: &mut Guess,
         out: &mut Response,
     ) -> Result<(), ClassError>;
+
+    /// Of an element from a body to the ground that remembers nothing and pulls with a force that the place of its first end alone
+    /// changes: the wrenches on both ends, and -d(force)/d(place of the first end), global axes (N/m), as of [`Element::evaluate`]
+    /// with less work. `None` of all others.
+    fn anchored(&self, _at: &Situation, _guess: &mut Guess) -> Option<Result<([Six; 2], Matrix3<f64>), ClassError>> {
+        None
+    }
 
     /// The wrenches on its ends at rest, as of [`Element::evaluate`], without how they change; `out` is overwritten.
     ///

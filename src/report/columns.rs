@@ -1,4 +1,5 @@
-//! Choosing columns of a table as the disposition menu does: a number, `a:b`, or a name with wild characters.
+//! Choosing columns of a table as the disposition menu does: a number, `a:b`, or a name with wild characters; in a report also the
+//! name of a group of columns.
 //!
 //! Source: reference/solve.md, "Disposition menu". The surplus columns it drops are those beyond what a command takes; a number
 //! of no column is an error.
@@ -17,9 +18,22 @@ pub struct NoSuchColumn {
     pub help: Option<String>,
 }
 
+/// How a selector chooses columns.
+pub type Choose = fn(&Table, &str) -> Result<Vec<usize>, NoSuchColumn>;
+
 /// Name with its group, as `VLIST` prints it: `Tension: Ten Top`.
 pub fn long_name(column: &Column) -> String {
     if column.group.is_empty() { column.name.clone() } else { format!("{}: {}", column.group, column.name) }
+}
+
+fn is_called(column: &Column, selector: &str) -> bool {
+    matches(selector, &column.name) || matches(selector, &long_name(column))
+}
+
+/// Whether a selector names the group of a column; in a table of several things the name of the thing stands before that of the group.
+fn in_group(column: &Column, selector: &str) -> bool {
+    let of_several = || matches(&format!("@ {selector}"), &column.group);
+    !selector.is_empty() && !column.group.is_empty() && (matches(selector, &column.group) || of_several())
 }
 
 /// The columns (from 0) a selector chooses, in the table's order.
@@ -51,7 +65,7 @@ pub fn choose(table: &Table, selector: &str) -> Result<Vec<usize>, NoSuchColumn>
     let fits = |test: &dyn Fn(&Column) -> bool| -> Vec<usize> {
         table.columns.iter().enumerate().filter(|(_, c)| test(c)).map(|(i, _)| i).collect()
     };
-    let exact = fits(&|c| matches(selector, &c.name) || matches(selector, &long_name(c)));
+    let exact = fits(&|c| is_called(c, selector));
     if !exact.is_empty() {
         return Ok(exact);
     }
@@ -68,6 +82,23 @@ pub fn choose(table: &Table, selector: &str) -> Result<Vec<usize>, NoSuchColumn>
         Some(format!("it could be {}", several.join(" or ")))
     };
     Err(NoSuchColumn { name: selector.to_string(), help })
+}
+
+/// The columns of a report that a selector chooses: as [`choose`], but the name of a group that is no column's chooses all of the
+/// group, behind the first column of the table where that stands outside of groups.
+///
+/// # Errors
+/// As [`choose`].
+pub fn reported(table: &Table, selector: &str) -> Result<Vec<usize>, NoSuchColumn> {
+    let of_group = |(index, column): (usize, &Column)| in_group(column, selector).then_some(index);
+    let mut group: Vec<usize> = table.columns.iter().enumerate().filter_map(of_group).collect();
+    if group.is_empty() || table.columns.iter().any(|c| is_called(c, selector)) {
+        return choose(table, selector);
+    }
+    if table.columns.first().is_some_and(|c| c.group.is_empty()) {
+        group.insert(0, 0);
+    }
+    Ok(group)
 }
 
 #[cfg(test)]
@@ -89,6 +120,22 @@ mod tests {
         assert_eq!(choose(&table, "ten@"), Ok(vec![3]));
         assert_eq!(choose(&table, "fo"), Ok(vec![1]));
         assert!(choose(&table, "Tne Top").unwrap_err().to_string().contains("Ten Top"));
+    }
+
+    #[test]
+    fn in_a_report_the_name_of_a_group_is_all_its_columns_and_a_column_of_that_name_goes_before() {
+        let groups =
+            [("", "Time"), ("A Location", "X"), ("A Location", "Y"), ("B Location", "X"), ("A Velocity", "VX")];
+        let table = groups.iter().fold(Table::new("t"), |t, (g, n)| t.column(g, n, Dim::None, Digits::Usual));
+        assert_eq!(reported(&table, "LOCATION"), Ok(vec![0, 1, 2, 3]));
+        // a pattern that fits columns by their long names chooses these alone
+        assert_eq!(reported(&table, "a@"), Ok(vec![1, 2, 4]));
+        assert_eq!(reported(&table, "B Location"), Ok(vec![0, 3]));
+        assert_eq!(reported(&table, "X"), Ok(vec![1, 3]));
+        assert!(choose(&table, "LOCATION").is_err() && reported(&table, "PLACE").is_err());
+        let named = Table::new("t").column("Force", "FX", Dim::None, Digits::Usual);
+        let named = named.column("Horizontal", "Force", Dim::None, Digits::Usual);
+        assert_eq!(reported(&named, "Force"), Ok(vec![1]));
     }
 
     #[test]

@@ -25,7 +25,7 @@ pub fn bytes(table: &Table, units: UnitSystem) -> Result<Vec<u8>, csv::Error> {
 
 /// The heads, no two alike: a name that several columns have goes with its group, and if that does not tell them
 /// apart, with its number.
-fn heads(table: &Table, units: UnitSystem) -> Vec<String> {
+pub(super) fn heads(table: &Table, units: UnitSystem) -> Vec<String> {
     let twice = |of: &dyn Fn(&Column) -> String, column: &Column| {
         table.columns.iter().filter(|c| of(c) == of(column)).count() > 1
     };

@@ -4,7 +4,7 @@
 //! Source: reference/solve.md, "Disposition menu". C_SCALE and C_SHIFT last until the menu ends and act on VIEW,
 //! STORE, PLOT, STATISTIC and SET_VARIABLE, not on the formatted REPORT. -RECORD counts rows, from 1.
 
-use super::columns::{NoSuchColumn, choose};
+use super::columns::{Choose, NoSuchColumn, choose, reported};
 use super::format;
 use crate::language::units::{Dim, UnitSystem};
 use crate::table::{Cell, Column, Digits, Table};
@@ -88,6 +88,18 @@ impl Disposition {
     /// # Errors
     /// A name that fits no column, or selectors that choose nothing.
     pub fn columns(&self, selectors: &[&str]) -> Result<Vec<usize>, DispositionError> {
+        self.columns_by(selectors, choose)
+    }
+
+    /// The columns of a report: a selector may also name a group of columns.
+    ///
+    /// # Errors
+    /// As [`Disposition::columns`].
+    pub fn reported(&self, selectors: &[&str]) -> Result<Vec<usize>, DispositionError> {
+        self.columns_by(selectors, reported)
+    }
+
+    fn columns_by(&self, selectors: &[&str], choose: Choose) -> Result<Vec<usize>, DispositionError> {
         if selectors.is_empty() {
             return Ok((0..self.table.columns.len()).collect());
         }

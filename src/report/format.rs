@@ -120,6 +120,8 @@ fn usual(dim: Dim, units: UnitSystem) -> u8 {
         Dim::None
         | Dim::Days
         | Dim::Frequency
+        | Dim::AngularVelocity
+        | Dim::AngularAcceleration
         | Dim::SpectralDensity
         | Dim::AngleDensity
         | Dim::Damping(_)

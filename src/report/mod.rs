@@ -4,12 +4,17 @@
 pub mod columns;
 pub mod csv;
 pub mod disposition;
+mod embedded;
 pub mod files;
+pub mod film;
 pub mod format;
+pub mod netcdf;
 pub mod output;
 pub mod page;
+pub mod parquet;
 pub mod picture;
 pub mod plot;
 pub mod readback;
 pub mod run_log;
 pub mod statistic;
+mod stored;

@@ -21,7 +21,11 @@ pub struct Mode {
 
 /// The modes of the freedoms that move, lowest eigenvalue first. Freedoms of bodies without mass follow the others.
 pub fn modes(system: &System, state: &State) -> Vec<Mode> {
-    let mass = system.mass_matrix(&state.poses);
+    modes_with(system, &system.mass_matrix(&state.poses), &state.stiffness)
+}
+
+/// The same of a mass matrix and a stiffness, six a body.
+pub(super) fn modes_with(system: &System, mass: &DMatrix<f64>, stiffness: &DMatrix<f64>) -> Vec<Mode> {
     let free = |i: usize| system.nodes.get(i / 6).and_then(|n| n.free.get(i % 6)).copied().unwrap_or(false);
     let rows: Vec<usize> = (0..mass.nrows()).filter(|i| free(*i)).collect();
     let (heavy, light): (Vec<usize>, Vec<usize>) = rows.iter().partition(|i| mass[(**i, **i)] > 0.0);
@@ -29,16 +33,16 @@ pub fn modes(system: &System, state: &State) -> Vec<Mode> {
         return Vec::new();
     }
     let part = |m: &DMatrix<f64>, r: &[usize], c: &[usize]| m.select_rows(r).select_columns(c);
-    let mut k = part(&state.stiffness, &heavy, &heavy);
+    let mut k = part(stiffness, &heavy, &heavy);
     let mut follow = DMatrix::zeros(light.len(), heavy.len());
     if !light.is_empty()
-        && let Some(solved) = held(part(&state.stiffness, &light, &light), &part(&state.stiffness, &light, &heavy))
+        && let Some(solved) = held(part(stiffness, &light, &light), &part(stiffness, &light, &heavy))
     {
-        k -= part(&state.stiffness, &heavy, &light) * &solved;
+        k -= part(stiffness, &heavy, &light) * &solved;
         follow = -solved;
     }
     // weights without radii of gyration make a mass without inertia about some axis
-    let mut m = part(&mass, &heavy, &heavy);
+    let mut m = part(mass, &heavy, &heavy);
     let tiny = m.diagonal().amax() * 1e-12;
     m.iter_mut().step_by(heavy.len() + 1).for_each(|d| *d += tiny);
     let Some(root) = Cholesky::new(m).and_then(|c| c.l().try_inverse()) else { return Vec::new() };

@@ -43,7 +43,7 @@ pub fn outline(model: &Model, body: &Body) -> Outline {
 }
 
 /// The corners and the sharp edges of a shape.
-fn drawn(shape: &Shape) -> (Vec<Position>, Vec<[Position; 2]>) {
+pub(super) fn drawn(shape: &Shape) -> (Vec<Position>, Vec<[Position; 2]>) {
     match shape {
         Shape::Panels(panels) => (panels.iter().flatten().copied().collect(), sharp_edges(panels)),
         Shape::Block { low, high } => {

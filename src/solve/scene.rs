@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 /// Largest turn of a drawn line between two points (rad); where it turns more it is given points between.
 const TURN: f64 = 0.05;
 /// Turn beyond which a line is taken to have a corner (rad).
-const CORNER: f64 = 1.0;
+pub(super) const CORNER: f64 = 1.0;
 /// Most points given between two rows of a line's shape.
 const MOST_BETWEEN: usize = 12;
 
@@ -275,15 +275,20 @@ fn smooth(rows: &[(f64, f64)], angles: &[Option<f64>], arcs: &[Option<f64>]) -> 
         let turned = (to - from).abs();
         let pieces = if turned < CORNER { ((turned / TURN).ceil() as usize).clamp(1, MOST_BETWEEN) } else { 1 };
         for step in 1..pieces {
-            let t = step as f64 / pieces as f64;
-            let (t2, t3) = (t * t, t * t * t);
-            let (h00, h10) = (2.0 * t3 - 3.0 * t2 + 1.0, t3 - 2.0 * t2 + t);
-            let (h01, h11) = (3.0 * t2 - 2.0 * t3, t3 - t2);
-            let x = h00 * a.0 + h01 * b.0 + arc * (h10 * from.cos() + h11 * to.cos());
-            let z = h00 * a.1 + h01 * b.1 - arc * (h10 * from.sin() + h11 * to.sin());
+            let (x, z) = cubic((*a, *b), (*from, *to), arc, step as f64 / pieces as f64);
             out.push((x, z));
         }
         out.push(*b);
     }
     out
+}
+
+/// A place between two rows of a shape, a share `t` of the arc behind the first: by a cubic with their directions.
+pub(super) fn cubic((a, b): ((f64, f64), (f64, f64)), (from, to): (f64, f64), arc: f64, t: f64) -> (f64, f64) {
+    let (t2, t3) = (t * t, t * t * t);
+    let (h00, h10) = (2.0 * t3 - 3.0 * t2 + 1.0, t3 - 2.0 * t2 + t);
+    let (h01, h11) = (3.0 * t2 - 2.0 * t3, t3 - t2);
+    let x = h00 * a.0 + h01 * b.0 + arc * (h10 * from.cos() + h11 * to.cos());
+    let z = h00 * a.1 + h01 * b.1 - arc * (h10 * from.sin() + h11 * to.sin());
+    (x, z)
 }

@@ -123,6 +123,11 @@ impl BodyLoad for Excitation {
     fn moving(&self, _: &Underway, state: &[f64]) -> Result<MovingLoad, ClassError> {
         Ok(MovingLoad::of(kept(state)))
     }
+
+    fn add(&self, _: &Underway, state: &[f64], out: &mut MovingLoad) -> Result<(), ClassError> {
+        out.load.wrench += kept(state).wrench;
+        Ok(())
+    }
 }
 
 /// A force that a step has kept.

@@ -270,4 +270,9 @@ impl BodyLoad for SlowDrift {
     fn moving(&self, _: &Underway, state: &[f64]) -> Result<MovingLoad, ClassError> {
         Ok(MovingLoad::of(kept(state)))
     }
+
+    fn add(&self, _: &Underway, state: &[f64], out: &mut MovingLoad) -> Result<(), ClassError> {
+        out.load.wrench += kept(state).wrench;
+        Ok(())
+    }
 }

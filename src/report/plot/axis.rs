@@ -45,6 +45,11 @@ impl Axis {
         (value - self.low) / (self.high - self.low)
     }
 
+    /// The value that stands at a share of the way from the low end to the high one.
+    pub fn value(&self, share: f64) -> f64 {
+        self.low + share * (self.high - self.low)
+    }
+
     /// Distance of the ticks when there are at most `most`: 1, 2 or 5 times a power of ten.
     fn step(&self, most: usize) -> f64 {
         let rough = (self.high - self.low) / most as f64;

@@ -2,7 +2,7 @@
 
 use super::axis::Axis;
 use super::{Chart, PlotError, Series, terminal};
-use plotters::chart::ChartBuilder;
+use plotters::chart::{ChartBuilder, DualCoordChartContext};
 use plotters::coord::Shift;
 use plotters::coord::cartesian::Cartesian2d;
 use plotters::drawing::{DrawingArea, DrawingAreaErrorKind};
@@ -11,7 +11,7 @@ use plotters::prelude::{BLACK, ChartContext, Color, DrawingBackend, RGBColor, WH
 use plotters::series::LineSeries;
 
 /// Colours that stay apart for colour-blind eyes (Okabe and Ito 2008), in fixed order.
-const COLOURS: [RGBColor; 7] = [
+pub const COLOURS: [RGBColor; 7] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),
@@ -61,37 +61,92 @@ pub fn draw<B: DrawingBackend>(chart: &Chart, area: &DrawingArea<B, Shift>, look
         return Err(PlotError::Range(x, y));
     }
     area.fill(&WHITE).map_err(refused)?;
-    let (mut plane, x, y) =
-        if chart.polar { super::polar::plane(chart, area, look)? } else { meshed(chart, area, look)? };
+    let (mut paper, x, y) = if chart.polar {
+        let (plane, x, y) = super::polar::plane(chart, area, look)?;
+        (Paper::One(Box::new(plane)), x, y)
+    } else {
+        meshed(chart, area, look)?
+    };
+    let taken = chart.on_the_left(&y, right_axis(chart, look).as_ref());
+    let (chart, plane) = (&taken, paper.plane());
     // marks that stand alone are drawn last, so that no line hides them
     for marks in [false, true] {
         for (index, series) in chart.series.iter().enumerate().filter(|(_, s)| s.is_marks() == marks) {
-            curve(&mut plane, index, series, (look, shows_points(chart, series)))?;
+            curve(plane, index, series, (look, shows_points(chart, series)))?;
         }
     }
     if chart.series.len() > 1 && !look.terminal {
-        legend(chart, &plane, (&x, &y))?;
+        legend(chart, plane, (&x, &y))?;
     }
     Ok(())
 }
 
-/// Draws the axes and mesh of a chart, and returns the plane for its curves with its axes.
+/// A surface with the axes on the left and those on the right.
+type TwoPlanes<'a, B> = DualCoordChartContext<'a, B, Cartesian2d<Axis, Axis>, Cartesian2d<Axis, Axis>>;
+
+/// What a chart is drawn on.
+enum Paper<'a, B: DrawingBackend> {
+    One(Box<Plane<'a, B>>),
+    /// With an axis on the right.
+    Two(Box<TwoPlanes<'a, B>>),
+}
+
+impl<'a, B: DrawingBackend> Paper<'a, B> {
+    /// The plane of the axes below and on the left.
+    fn plane(&mut self) -> &mut Plane<'a, B> {
+        match self {
+            Paper::One(plane) => plane,
+            Paper::Two(both) => both,
+        }
+    }
+}
+
+/// The axis on the right, of the curves that go by it.
+fn right_axis(chart: &Chart, look: &Look) -> Option<Axis> {
+    chart.right_label.as_ref()?;
+    Axis::of(chart.series.iter().filter(|s| s.right).flat_map(Series::finite).map(|p| p.1), look.ticks.1)
+}
+
+impl Chart {
+    /// The same with all points in terms of the axis on the left, at the same place of the picture.
+    fn on_the_left(&self, left: &Axis, right: Option<&Axis>) -> Chart {
+        let mut made = self.clone();
+        if let Some(right) = right {
+            for point in made.series.iter_mut().filter(|s| s.right).flat_map(|s| &mut s.points).flatten() {
+                point.1 = left.value(right.share(point.1));
+            }
+        }
+        made
+    }
+}
+
+/// Draws the axes and mesh of a chart, and returns the paper for its curves with its axes.
 fn meshed<'a, B: DrawingBackend + 'a>(
     chart: &Chart,
     area: &DrawingArea<B, Shift>,
     look: &Look,
-) -> Result<(Plane<'a, B>, Axis, Axis), PlotError> {
+) -> Result<(Paper<'a, B>, Axis, Axis), PlotError> {
     let points = || chart.series.iter().flat_map(Series::finite);
     let x = Axis::of(points().map(|p| p.0), look.ticks.0).ok_or(PlotError::Empty)?;
-    let y = Axis::of(points().map(|p| p.1), look.ticks.1).ok_or(PlotError::Empty)?;
+    let right = right_axis(chart, look);
+    let left = chart.series.iter().filter(|s| right.is_none() || !s.right).flat_map(Series::finite);
+    // with points on the right alone the left axis has their numbers
+    let y = Axis::of(left.map(|p| p.1), look.ticks.1).or_else(|| right.clone()).ok_or(PlotError::Empty)?;
     let mut builder = ChartBuilder::on(area);
     builder.margin(look.margin).x_label_area_size(look.areas.0).y_label_area_size(look.areas.1);
     if !look.terminal {
         builder.caption(&chart.title, ("sans-serif", 22));
     }
-    let mut plane = builder.build_cartesian_2d(x.clone(), y.clone()).map_err(refused)?;
+    if right.is_some() {
+        builder.right_y_label_area_size(look.areas.1);
+    }
+    let plane = builder.build_cartesian_2d(x.clone(), y.clone()).map_err(refused)?;
+    let mut paper = match &right {
+        Some(axis) => Paper::Two(Box::new(plane.set_secondary_coord(x.clone(), axis.clone()))),
+        None => Paper::One(Box::new(plane)),
+    };
     let (x_label, y_label) = (|v: &f64| x.label(*v), |v: &f64| y.label(*v));
-    let mut mesh = plane.configure_mesh();
+    let mut mesh = paper.plane().configure_mesh();
     mesh.x_labels(look.ticks.0)
         .y_labels(look.ticks.1)
         .x_label_formatter(&x_label)
@@ -105,7 +160,20 @@ fn meshed<'a, B: DrawingBackend + 'a>(
         mesh.light_line_style(RGBColor(240, 240, 240)).bold_line_style(RGBColor(215, 215, 215));
     }
     mesh.draw().map_err(refused)?;
-    Ok((plane, x, y))
+    if let (Paper::Two(both), Some(axis)) = (&mut paper, &right) {
+        let label = |v: &f64| axis.label(*v);
+        let mut ticks = both.configure_secondary_axes();
+        ticks
+            .y_labels(look.ticks.1)
+            .y_label_formatter(&label)
+            .set_all_tick_mark_size(look.mark)
+            .label_style(("sans-serif", look.text));
+        if !look.terminal {
+            ticks.y_desc(chart.right_label.clone().unwrap_or_default()).axis_desc_style(("sans-serif", look.text));
+        }
+        ticks.draw().map_err(refused)?;
+    }
+    Ok((paper, x, y))
 }
 
 fn colour(index: usize) -> RGBColor {
@@ -146,7 +214,7 @@ fn legend<B: DrawingBackend>(chart: &Chart, plane: &Plane<'_, B>, axes: (&Axis, 
     let area = plane.plotting_area().strip_coord_spec();
     let (width, height) = area.dim_in_pixel();
     let (width, height) = (i32::try_from(width).unwrap_or(0), i32::try_from(height).unwrap_or(0));
-    let letters = chart.series.iter().map(|s| s.name.chars().count()).max().unwrap_or(0);
+    let letters = chart.series.iter().map(|s| s.shown().chars().count()).max().unwrap_or(0);
     let box_width = 8 * i32::try_from(letters).unwrap_or(0) + LEGEND.1 + 30;
     let box_height = LEGEND.0 * i32::try_from(chart.series.len()).unwrap_or(0) + 10;
     let (right, low) = (width - box_width - 10, height - box_height - 10);
@@ -177,7 +245,7 @@ fn legend<B: DrawingBackend>(chart: &Chart, plane: &Plane<'_, B>, axes: (&Axis, 
             area.draw(&Circle::new((left + 10 + LEGEND.1 / 2, y), radius, colour(index).filled())).map_err(refused)?;
         }
         let at = (left + 20 + LEGEND.1, y - 8);
-        area.draw(&Text::new(series.name.as_str(), at, ("sans-serif", 15))).map_err(refused)?;
+        area.draw(&Text::new(series.shown(), at, ("sans-serif", 15))).map_err(refused)?;
     }
     Ok(())
 }

@@ -2,13 +2,14 @@
 
 mod axis;
 pub(super) mod draw;
+mod html;
 mod polar;
 pub(super) mod raster;
 pub(super) mod terminal;
 
-use crate::language::units::UnitSystem;
+use crate::language::units::{Dim, UnitSystem};
 use crate::report::{format, page};
-use crate::table::{Cell, Table};
+use crate::table::{Cell, Column, Table};
 use draw::{Look, draw, refused};
 use plotters::drawing::{DrawingArea, IntoDrawingArea};
 use plotters::prelude::SVGBackend;
@@ -19,16 +20,18 @@ use std::rc::Rc;
 const SIZE: (u32, u32) = (900, 600);
 
 /// A line of a chart; points without a finite value break it, and where no two neighbours have one there are marks alone.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Series {
     /// Name in the legend.
     pub name: String,
     /// Points in user units.
     pub points: Vec<Option<(f64, f64)>>,
+    /// Whether it goes by the axis on the right.
+    pub right: bool,
 }
 
 /// What is to be drawn.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Chart {
     /// Title.
     pub title: String,
@@ -36,6 +39,8 @@ pub struct Chart {
     pub x_label: String,
     /// Label of the vertical axis, with its unit.
     pub y_label: String,
+    /// Label of the axis on the right, with its unit, where there is one.
+    pub right_label: Option<String>,
     /// The lines.
     pub series: Vec<Series>,
     /// Whether it is a polar plot: both axes have one scale, and circles and rays stand in place of a mesh.
@@ -60,15 +65,32 @@ pub enum PlotError {
     /// The plotting library or the PNG encoder refused.
     #[error("the plot could not be drawn: {0}")]
     Backend(String),
-    /// A file name that ends neither in .svg nor in .png.
-    #[error("a plot file ends in .svg or .png, not `{0}`")]
+    /// A file name that ends in none of .svg, .png and .html.
+    #[error("a plot file ends in .svg, .png or .html, not `{0}`")]
     Kind(String),
+    /// More units than there are axes for.
+    #[error("{0} cannot share an axis: one plot has two units at most, on the left and on the right")]
+    Units(String),
+    /// All columns on the right.
+    #[error("no column is left for the axis on the left")]
+    NoLeft,
+    /// A polar plot as a page.
+    #[error("a polar plot goes to .svg, .png or the terminal")]
+    PolarPage,
+    /// More points than a page bears.
+    #[error("a page bears {most} points, and these are {0}: -RECORD or -VALUES takes a part of the rows", most = html::MOST)]
+    TooMany(usize),
 }
 
 impl Series {
     /// The points that can be drawn.
     fn finite(&self) -> impl Iterator<Item = (f64, f64)> {
         self.points.iter().filter_map(|p| finite(*p))
+    }
+
+    /// Its name in the legend.
+    fn shown(&self) -> String {
+        if self.right { format!("{} (right)", self.name) } else { self.name.clone() }
     }
 
     /// Whether no two neighbouring points are there: marks, and no line between them.
@@ -83,21 +105,53 @@ impl Series {
     }
 }
 
+/// The label of an axis: the head of its only column, else the unit they share.
+fn label(columns: &[&Column], units: UnitSystem) -> Result<String, PlotError> {
+    if let [one] = columns {
+        return Ok(format::head(one, units));
+    }
+    let unit = |c: &Column| c.dim.label(units);
+    match columns.iter().find(|c| Some(unit(c)) != columns.first().map(|f| unit(f))) {
+        None => Ok(columns.first().map_or(String::new(), |c| unit(c))),
+        Some(_) => {
+            let names: Vec<String> = columns.iter().map(|c| format::head(c, units)).collect();
+            Err(PlotError::Units(names.join(", ")))
+        }
+    }
+}
+
 fn finite(point: Option<(f64, f64)>) -> Option<(f64, f64)> {
     point.filter(|(x, y)| x.is_finite() && y.is_finite())
 }
 
 impl Chart {
-    /// A chart of columns of a table against its first one.
-    pub fn of(table: &Table, units: UnitSystem) -> Chart {
+    /// A chart of columns of a table against its first one. Columns of a second unit go by the axis on the right.
+    ///
+    /// # Errors
+    /// More than two units.
+    pub fn of(table: &Table, units: UnitSystem) -> Result<Chart, PlotError> {
+        Chart::with_right(table, &[], units)
+    }
+
+    /// The same with the columns of these numbers (from 0) on the right; none given, those of another unit than the first.
+    ///
+    /// # Errors
+    /// Columns of different units on one side; none on the left.
+    pub fn with_right(table: &Table, right: &[usize], units: UnitSystem) -> Result<Chart, PlotError> {
         let (x, ys) = match table.columns.split_first() {
             Some((x, ys)) => (Some(x), ys),
             None => (None, [].as_slice()),
         };
-        let value = |cell: Option<&Cell>, dim: crate::language::units::Dim| {
+        let first = ys.first().map(|y| y.dim.label(units));
+        let is_right = |index: usize, y: &Column| match right {
+            [] => Some(y.dim.label(units)) != first,
+            some => some.contains(&(index + 1)),
+        };
+        let sides: Vec<bool> = ys.iter().enumerate().map(|(index, y)| is_right(index, y)).collect();
+        let value = |cell: Option<&Cell>, dim: Dim| {
             cell.and_then(Cell::number).map(|v| dim.from_si(v, units)).filter(|v| v.is_finite())
         };
-        let series = ys.iter().map(|y| Series {
+        let series = ys.iter().zip(&sides).map(|(y, right)| Series {
             name: super::columns::long_name(y),
             points: (0..table.rows())
                 .map(|row| {
@@ -105,25 +159,23 @@ impl Chart {
                     Some((x, value(y.cells.get(row), y.dim)?))
                 })
                 .collect(),
+            right: *right,
         });
-        let mut labels: Vec<String> = Vec::new();
-        for y in ys {
-            let unit = y.dim.label(units);
-            if !unit.is_empty() && !labels.contains(&unit) {
-                labels.push(unit);
-            }
-        }
-        let y_label = match ys {
-            [one] => format::head(one, units),
-            _ => labels.join(", "),
+        let side = |right: bool| -> Vec<&Column> {
+            ys.iter().zip(&sides).filter(|(_, side)| **side == right).map(|(y, _)| y).collect()
         };
-        Chart {
+        let (left, on_right) = (side(false), side(true));
+        if left.is_empty() && !on_right.is_empty() {
+            return Err(PlotError::NoLeft);
+        }
+        Ok(Chart {
             title: table.title.clone(),
             x_label: x.map_or(String::new(), |x| format::head(x, units)),
-            y_label,
+            y_label: label(&left, units)?,
+            right_label: if on_right.is_empty() { None } else { Some(label(&on_right, units)?) },
             series: series.collect(),
             polar: false,
-        }
+        })
     }
 
     /// The chart as a file, by the ending of its name.
@@ -134,6 +186,7 @@ impl Chart {
         match name.rsplit_once('.').map(|(_, end)| end.to_ascii_lowercase()).as_deref() {
             Some("svg") => self.svg(),
             Some("png") => self.png(),
+            Some("html") => self.html(),
             _ => Err(PlotError::Kind(name.to_string())),
         }
     }
@@ -172,7 +225,15 @@ impl Chart {
         let canvas = Rc::new(RefCell::new(terminal::Canvas::new(columns, lines - 3)));
         draw(self, &DrawingArea::from(&canvas), &Look::terminal(columns, lines - 3))?;
         let mut text = String::new();
-        for line in [page::centre(&self.title, columns), self.y_label.clone()] {
+        let heads = match &self.right_label {
+            Some(right) => {
+                // each above its axis
+                let room = columns.saturating_sub(self.y_label.chars().count() + 1);
+                format!("{} {right:>room$}", self.y_label)
+            }
+            None => self.y_label.clone(),
+        };
+        for line in [page::centre(&self.title, columns), heads] {
             text.push_str(line.trim_end());
             text.push('\n');
         }
@@ -181,7 +242,7 @@ impl Chart {
         text.push('\n');
         if self.series.len() > 1 {
             for (index, series) in self.series.iter().enumerate() {
-                text.push_str(&format!("   {}  {}\n", terminal::mark(index), series.name));
+                text.push_str(&format!("   {}  {}\n", terminal::mark(index), series.shown()));
             }
         }
         Ok(text)
@@ -191,7 +252,6 @@ impl Chart {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::language::units::Dim;
     use crate::table::Digits;
     use proptest::prelude::*;
 
@@ -207,7 +267,7 @@ mod tests {
             let y = if n == 10 { Cell::Missing } else { Cell::Number(x * x) };
             t.push(vec![Cell::Number(x), y]).unwrap();
         }
-        Chart::of(&t, UnitSystem::SI)
+        Chart::of(&t, UnitSystem::SI).unwrap()
     }
 
     #[test]
@@ -226,13 +286,7 @@ mod tests {
 
     #[test]
     fn nothing_finite_is_an_error_and_one_point_is_not() {
-        let series = |points| Chart {
-            title: String::new(),
-            x_label: String::new(),
-            y_label: String::new(),
-            series: vec![Series { name: String::new(), points }],
-            polar: false,
-        };
+        let series = |points| Chart { series: vec![Series { points, ..Series::default() }], ..Chart::default() };
         assert_eq!(series(vec![None]).svg(), Err(PlotError::Empty));
         assert_eq!(series(vec![Some((f64::NAN, 1.0)), Some((0.0, f64::INFINITY))]).png(), Err(PlotError::Empty));
         assert_eq!(series(vec![Some((0.0, 1e300))]).svg(), Err(PlotError::Range(0.0, 1e300)));
@@ -257,18 +311,13 @@ mod tests {
 
     #[test]
     fn a_column_of_single_points_is_marks_that_no_line_hides_and_no_line_joins() {
-        let line = Series { name: "Z".into(), points: (0..9).map(|n| Some((f64::from(n), 1.0))).collect() };
+        let line =
+            Series { name: "Z".into(), points: (0..9).map(|n| Some((f64::from(n), 1.0))).collect(), right: false };
         let at = |rows: &[usize]| {
             let point = |n: usize| rows.contains(&n).then_some((n as f64, 1.0));
-            Series { name: "Joint".into(), points: (0..9).map(point).collect() }
+            Series { name: "Joint".into(), points: (0..9).map(point).collect(), right: false }
         };
-        let chart = |series| Chart {
-            title: String::new(),
-            x_label: String::new(),
-            y_label: String::new(),
-            series,
-            polar: false,
-        };
+        let chart = |series| Chart { series, ..Chart::default() };
         // a gap, then a point by itself within a line, then marks that stand before the line among the columns
         let mut broken = line.clone();
         broken.points[4] = None;
@@ -301,15 +350,15 @@ mod tests {
     }
 
     #[test]
-    fn units_that_differ_are_all_named_and_the_legend_tells_the_lines() {
+    fn a_second_unit_has_an_axis_on_the_right_and_the_legend_tells_the_lines() {
         let mut t = Table::new("t");
         for (name, dim) in [("X", Dim::Length), ("Force", Dim::Force), ("On Bottom", Dim::Length)] {
             t = t.column("", name, dim, Digits::Usual);
         }
         t.push(vec![1.0.into(), 2.0.into(), 3.0.into()]).unwrap();
         t.push(vec![2.0.into(), 3.0.into(), 2.0.into()]).unwrap();
-        let chart = Chart::of(&t, UnitSystem::SI);
-        assert_eq!(chart.y_label, "N, m");
+        let chart = Chart::of(&t, UnitSystem::SI).unwrap();
+        assert_eq!((chart.y_label.as_str(), chart.right_label.as_deref()), ("Force (N)", Some("On Bottom (m)")));
         let svg = String::from_utf8(chart.svg().unwrap()).unwrap();
         let screen = chart.terminal(60, 16).unwrap();
         assert!(["Force", "On Bottom"].iter().all(|n| svg.contains(n) && screen.contains(n)), "{screen}");
@@ -322,6 +371,41 @@ mod tests {
         assert!(screen.lines().all(|l| l.chars().count() <= 60 && l == l.trim_end()), "{screen}");
     }
 
+    #[test]
+    fn a_third_unit_and_an_axis_of_two_are_refused_and_curves_of_one_unit_may_be_parted() {
+        let dims = [("X", Dim::Length), ("F", Dim::Force), ("G", Dim::Force), ("L", Dim::Length), ("T", Dim::Time)];
+        let mut t = dims.iter().fold(Table::new("t"), |t, (name, dim)| t.column("", name, *dim, Digits::Usual));
+        t.push((0..5).map(|n| f64::from(n).into()).collect()).unwrap();
+        t.push((0..5).map(|n| f64::from(n * n).into()).collect()).unwrap();
+        let taken =
+            |list: &[usize]| Table { columns: list.iter().map(|n| t.columns[*n].clone()).collect(), ..Table::new("t") };
+        let refused = Err(PlotError::Units("L (m), T (s)".into()));
+        assert_eq!(Chart::of(&t, UnitSystem::SI), refused);
+        assert_eq!(Chart::with_right(&taken(&[0, 1, 2]), &[2], UnitSystem::SI).unwrap().right_label.unwrap(), "G (N)");
+        let mixed = Chart::with_right(&taken(&[0, 1, 2, 3]), &[2], UnitSystem::SI);
+        assert_eq!(mixed, Err(PlotError::Units("F (N), L (m)".into())));
+        assert_eq!(Chart::with_right(&taken(&[0, 1]), &[1], UnitSystem::SI), Err(PlotError::NoLeft));
+    }
+
+    #[test]
+    fn a_curve_on_the_right_fills_the_picture_as_one_on_the_left_does() {
+        // both rise over their whole axis: drawn by axes of their own they are one line
+        let rise = |size: f64, right: bool| Series {
+            name: String::new(),
+            points: (0..3).map(|n| Some((f64::from(n), size * f64::from(n)))).collect(),
+            right,
+        };
+        let series = vec![rise(1.0, false), rise(1e6, true)];
+        let chart = Chart { series, right_label: Some("N".into()), ..Chart::default() };
+        let svg = String::from_utf8(chart.svg().unwrap()).unwrap();
+        let lines = |colour: &str| -> Vec<String> {
+            let wide = format!("stroke=\"{colour}\" stroke-width=\"2\"");
+            svg.lines().filter(|l| l.contains(&wide) && l.contains("polyline")).map(|l| l.replace(colour, "")).collect()
+        };
+        assert_eq!(lines("#0072B2").first(), lines("#D55E00").first());
+        assert!(!lines("#0072B2").is_empty() && svg.contains("1000000"), "{svg}");
+    }
+
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(60))]
         #[test]
@@ -330,11 +414,15 @@ mod tests {
             columns in 0usize..250,
             lines in 0usize..60,
         ) {
-            let series = vec![Series { name: "a".into(), points: points.clone() }, Series { name: "b".into(), points }];
+            let series = vec![
+                Series { name: "a".into(), points: points.clone(), right: false },
+                Series { name: "b".into(), points, right: columns % 2 == 1 },
+            ];
             let title = "\u{1b}t".to_string();
             for polar in [false, true] {
                 let (series, title) = (series.clone(), title.clone());
-                let chart = Chart { title, x_label: String::new(), y_label: String::new(), series, polar };
+                let right_label = (columns % 2 == 1 && !polar).then(String::new);
+                let chart = Chart { title, series, polar, right_label, ..Chart::default() };
                 let drawn = chart.terminal(columns, lines);
                 prop_assert_eq!(drawn.is_ok(), chart.svg().is_ok());
             }

@@ -31,7 +31,11 @@ impl Chart {
         let angles = angles.ok_or_else(|| {
             PlotError::NoAngle(table.columns.first().map_or(String::new(), super::super::columns::long_name))
         })?;
-        let mut made = Chart { polar: true, ..Chart::of(table, units) };
+        let mut made = Chart { polar: true, ..Chart::of(table, units)? };
+        if made.right_label.is_some() {
+            let names: Vec<String> = table.columns.iter().skip(1).map(|c| format::head(c, units)).collect();
+            return Err(PlotError::Units(names.join(", ")));
+        }
         for series in &mut made.series {
             for (point, angle) in series.points.iter_mut().zip(&angles.cells) {
                 let Some((_, distance)) = *point else { continue };

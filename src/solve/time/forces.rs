@@ -2,9 +2,9 @@
 
 use crate::hydro::{BodyLoad, Category, MovingLoad, Underway, carried, transferred, turning};
 use crate::model::{End, Guess, Pose, Response, Situation, Six, TimeStep};
-use crate::solve::link::{Attachment, pose_of};
+use crate::solve::link::{Attachment, Link, pose_of};
 use crate::solve::system::{Node, SolveError, System};
-use nalgebra::{DMatrix, DVector, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use std::ops::Range;
 
 /// Number of categories.
@@ -59,11 +59,10 @@ impl Memory {
     pub(in crate::solve) fn recall(&mut self, body: usize, system: &System, (memory, old): (&Memory, &Node)) {
         let (Some(node), Some(ranges)) = (system.nodes.get(body), self.ranges.get(body)) else { return };
         let Some(before) = memory.ranges.get(body) else { return };
-        let mut earlier: Vec<_> = old.floating.loads.iter().zip(before).collect();
+        let mut earlier: Vec<_> = old.floating.loads.iter().map(|l| l.category()).zip(before).collect();
         for (load, range) in node.floating.loads.iter().zip(ranges).filter(|(_, r)| !r.is_empty()) {
-            let same = |(l, r): &(&Box<dyn BodyLoad>, &Range<usize>)| {
-                l.category() == load.category() && r.len() == range.len()
-            };
+            let same =
+                |(category, r): &(Category, &Range<usize>)| *category == load.category() && r.len() == range.len();
             let Some(found) = earlier.iter().position(same) else { continue };
             let (_, from) = earlier.remove(found);
             if let (Some(to), Some(from)) = (self.loads.get_mut(range.clone()), memory.loads.get(from.clone())) {
@@ -73,7 +72,7 @@ impl Memory {
     }
 
     /// Prepares a step of every load.
-    pub(super) fn begin(
+    pub(in crate::solve) fn begin(
         &mut self,
         system: &System,
         ahead: &[Motion],
@@ -119,6 +118,7 @@ pub struct Forces {
     pub trial: Vec<f64>,
     /// What solvers of the connectors remember.
     pub(super) guesses: Vec<Guess>,
+    made: MovingLoad,
     response: Response,
     poses: Vec<Pose>,
     ends: Vec<End>,
@@ -165,18 +165,22 @@ impl Forces {
         self.clear(system);
         for (body, (node, motion)) in system.nodes.iter().zip(motions).enumerate() {
             let at = Underway { time, dt, pose: &motion.pose, velocity: &motion.velocity };
+            self.made.load.stiffness.fill(0.0);
+            self.made.damping.fill(0.0);
             for (load, range) in memory.each(system, body) {
                 let state = memory.loads.get(range).unwrap_or_default();
-                let MovingLoad { load: made, damping } = load.moving(&at, state).map_err(SolveError::of(&node.name))?;
-                self.add(body, place_of(load.category()), &made.wrench);
+                self.made.load.wrench.fill(0.0);
+                load.add(&at, state, &mut self.made).map_err(SolveError::of(&node.name))?;
+                let wrench = self.made.load.wrench;
+                self.add(body, place_of(load.category()), &wrench);
                 if let Some((other, part)) = load.apart(&at, state) {
                     self.count_as(body, (place_of(load.category()), place_of(other)), &part);
                 }
-                let mut block = self.stiffness.fixed_view_mut::<6, 6>(6 * body, 6 * body);
-                block += made.stiffness;
-                let mut block = self.damping.fixed_view_mut::<6, 6>(6 * body, 6 * body);
-                block += damping;
             }
+            let mut block = self.stiffness.fixed_view_mut::<6, 6>(6 * body, 6 * body);
+            block += self.made.load.stiffness;
+            let mut block = self.damping.fixed_view_mut::<6, 6>(6 * body, 6 * body);
+            block += self.made.damping;
             if node.damped {
                 let linear = node.floating.damped(&motion.pose);
                 self.add(body, place_of(Category::RadiationDrag), &(-(linear * motion.velocity)));
@@ -238,6 +242,13 @@ impl Forces {
             let trial = self.trial.get_mut(link.states.clone()).unwrap_or_default();
             let Some(guess) = self.guesses.get_mut(index) else { continue };
             let at = Situation { ends: &self.ends, step, surroundings: &system.surroundings };
+            let anchored = matches!(link.ends.as_slice(), [Attachment::Body(..), Attachment::Ground(_)]);
+            if let (true, Some(found)) = (anchored, link.element.anchored(&at, guess)) {
+                let (wrenches, stiffness) = found.map_err(SolveError::of(&link.name))?;
+                self.wrenches.extend_from_slice(&wrenches);
+                self.hold(link, &wrenches, &stiffness, flexible);
+                continue;
+            }
             link.element
                 .evaluate(&at, committed, trial, guess, &mut self.response)
                 .map_err(SolveError::of(&link.name))?;
@@ -274,5 +285,30 @@ impl Forces {
             }
         }
         Ok(())
+    }
+
+    /// Adds a force at the first end of a connector that the place of that end alone changes.
+    fn hold(&mut self, link: &Link, wrenches: &[Six; 2], stiffness: &Matrix3<f64>, category: usize) {
+        let (Some(Attachment::Body(body, _)), Some(arm)) = (link.ends.first(), self.arms.first()) else { return };
+        let [first, _] = wrenches;
+        let force = Vector3::new(first[0], first[1], first[2]);
+        let crossed = arm.cross_matrix();
+        let moment = arm.cross(&force);
+        self.add(*body, category, &Six::new(force.x, force.y, force.z, moment.x, moment.y, moment.z));
+        if let Some(pull) = self.pull.get_mut(*body) {
+            *pull = pull.max(force.norm());
+        }
+        // the point moves by -[arm] times the rotation; an arm that turns keeps its force
+        let by_turn = -(stiffness * crossed);
+        let mut block = self.stiffness.fixed_view_mut::<6, 6>(6 * body, 6 * body);
+        for (row, column, part) in [
+            (0, 0, *stiffness),
+            (0, 3, by_turn),
+            (3, 0, crossed * stiffness),
+            (3, 3, crossed * by_turn - force.cross_matrix() * crossed),
+        ] {
+            let mut at = block.fixed_view_mut::<3, 3>(row, column);
+            at += part;
+        }
     }
 }

@@ -48,6 +48,7 @@ impl Run {
         if self.winches.is_empty() {
             return Ok(());
         }
+        self.wound = true;
         let dt = time - self.now.time;
         for (name, rate, to) in &mut self.winches {
             let Some(connector) = self.model.connectors.get(&Model::key(name)) else { continue };
@@ -163,7 +164,7 @@ impl Run {
                 let missing = || SolveError::new(ClassError::new(format!("there is no environment {name}")));
                 self.model.environment = found.ok_or_else(missing)?;
                 self.sea = Sea::of(&self.model, &self.model.environment).map_err(SolveError::new)?.map(Arc::new);
-                self.environments.push((self.now.time, name.clone()));
+                self.seas.push((self.now.time, self.sea.clone()));
                 let memory = self.system.load_anew(&self.model, self.sea.as_ref(), &self.now.memory)?;
                 self.now.memory = memory;
                 // a body that rides on the waves is where the new ones have it, as they are there at once

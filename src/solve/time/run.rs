@@ -6,7 +6,7 @@ use super::history::{History, Layout, Told};
 use super::scheme::Method;
 use super::snapshot::Snapshot;
 use super::statistics::Statistics;
-use super::step::{Convergence, Effort, Instant, Stepper, gyroscopic, inertia};
+use super::step::{Convergence, Effort, Instant, Stepper, gyroscopic};
 use crate::hydro::sea::Sea;
 use crate::model::{ClassError, Model, Place, Six};
 use crate::post::SeriesError;
@@ -123,7 +123,10 @@ pub struct Run {
     stepper: Stepper,
     pub(super) near: Vec<Place>,
     row: Vec<f64>,
-    pub(super) environments: Vec<(f64, String)>,
+    told: Told,
+    /// Whether a length has changed since the last row.
+    pub(super) wound: bool,
+    pub(super) seas: Vec<(f64, Option<Arc<Sea>>)>,
     origin: Model,
     start: Vec<(usize, Six)>,
 }
@@ -159,6 +162,7 @@ impl Run {
             statistics: Statistics::new(&layout, from),
             history: History::new(layout),
             counts: Counts::default(),
+            seas: vec![(0.0, sea.clone())],
             sea,
             system,
             taken: 0,
@@ -166,7 +170,8 @@ impl Run {
             stepper: Stepper::default(),
             near,
             row: Vec::new(),
-            environments: Vec::new(),
+            told: Told::default(),
+            wound: true,
             origin,
             start: Vec::new(),
         };
@@ -333,18 +338,25 @@ impl Run {
     }
 
     fn keep(&mut self, watcher: &mut dyn Watcher) -> Result<(), SolveError> {
-        let mut told = Told::default();
+        let mut told = std::mem::take(&mut self.told);
+        told.inertia.clear();
         for (node, motion) in self.system.nodes.iter().zip(&self.now.motions) {
-            let own = mass_block(&node.floating.mass, &motion.pose);
-            let whole = inertia(node, &motion.pose);
             let a = &motion.acceleration;
-            told.inertia.push([-(own * a), -((whole - own) * a), -gyroscopic(&node.floating.mass, motion)]);
+            let own = -(mass_block(&node.floating.mass, &motion.pose) * a);
+            let added = if node.added { -(node.floating.added(&motion.pose) * a) } else { Six::zeros() };
+            told.inertia.push([own, added, -gyroscopic(&node.floating.mass, motion)]);
         }
-        let length =
-            |name: &String| self.model.connectors.get(&Model::key(name)).and_then(|c| self.model.first_length(c));
-        told.lengths = self.history.layout.links.iter().map(|l| length(&l.name)).collect();
+        // lengths change by winches alone
+        if !self.winches.is_empty() || told.lengths.is_empty() || self.wound {
+            let length =
+                |name: &String| self.model.connectors.get(&Model::key(name)).and_then(|c| self.model.first_length(c));
+            told.lengths.clear();
+            told.lengths.extend(self.history.layout.links.iter().map(|l| length(&l.name)));
+            self.wound = false;
+        }
         let (layout, now) = (&self.history.layout, &self.now);
         layout.write((&self.system, now.time), (&now.motions, &now.forces, &told), &mut self.near, &mut self.row);
+        self.told = told;
         let wrong = |e: SeriesError| SolveError::new(ClassError::new(e.to_string()));
         self.statistics.take(&self.row).map_err(wrong)?;
         if self.settings.keep {
@@ -372,9 +384,15 @@ impl Run {
         &self.now.motions
     }
 
-    /// The environments that actions put in force: since when (s), and their names.
-    pub fn environments(&self) -> &[(f64, String)] {
-        &self.environments
+    /// The seas of the run, each with the time since when it has been there (s).
+    pub fn seas(&self) -> &[(f64, Option<Arc<Sea>>)] {
+        &self.seas
+    }
+
+    /// The sea at a time (s) of the run: actions may have changed it.
+    pub fn sea_at(&self, time: f64) -> Option<&Sea> {
+        let found = self.seas.iter().rev().find(|(since, _)| *since <= time).or(self.seas.first());
+        found.and_then(|(_, sea)| sea.as_deref())
     }
 
     /// Everything needed to go on from here.

@@ -1,0 +1,90 @@
+//! FATIGUE of the PRCPOST menu: damage of lines over a run and a scatter of environments.
+//!
+//! Source: reference/solve.md, "Fatigue of lines".
+
+use super::equilibrium::told;
+use super::prcpost::{CONNECTORS, asked, connectors};
+use super::{Call, Command, Effect, Job, Menu};
+use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::select::Owner;
+use crate::language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
+use crate::language::units::Dim;
+use crate::report::disposition::Disposition;
+use crate::solve::results::{self, Exposed};
+
+/// FATIGUE.
+pub static FATIGUE: Command = Command { spec: &SPEC, edits: false, run };
+
+static SPEC: CommandSpec = CommandSpec {
+    owner: Owner::Ours,
+    opens: Opens::Menu("DISPOSITION"),
+    menus: &["PRCPOST"],
+    data: CONNECTORS,
+    repeat: 1,
+    options: &[
+        OptionSpec::new(
+            "-EVENTS",
+            &[
+                ValueSpec::new("BEG", Kind::Number(Dim::Time), "time of the first event"),
+                ValueSpec::new("END", Kind::Number(Dim::Time), "time of the last").or("the end of the run"),
+            ],
+            "the part of the run that is counted; its stored instants",
+        )
+        .default("all of it"),
+        OptionSpec::new(
+            "-DURATION",
+            &[ValueSpec::new("D", Kind::Number(Dim::Days), "days").positive()],
+            "how long the environment of the run lasts",
+        )
+        .default("the -DURATION of its &ENV"),
+        OptionSpec::new("-ADD", &[], "adds the run to those FATIGUE was given before, instead of beginning anew"),
+        OptionSpec::new(
+            "-DFF",
+            &[ValueSpec::new("F", Kind::Number(Dim::None), "factor").within(1.0, 1000.0)],
+            "design fatigue factor: life is divided by it",
+        )
+        .default("1"),
+    ],
+    detail: "Rainflow cycles of the tension at the upper end of each segment, each by the curve of -C_SN of its class or by the last of \
+             &REP_SELECT -SN, stress with -THICK_SN; Palmgren and Miner's sum. CDR is that of all environments, each for its duration, and \
+             Life when they come again for ever. A scatter is run one environment after the other: TDOM and FATIGUE, then TDOM and FATIGUE \
+             -ADD for each further one. Tension below the fairlead is found at the turning points of that at the fairlead. Leave the \
+             start of the run out by -EVENTS. Governs marks the segment that seed 001 goes by: that with the largest tension over its \
+             break where its curve is one of tension, else that with the largest stress.",
+    example: "MEDIT\n&DESCRIBE BODY BUOY -IGNORE Z RX RY RZ\n*P 0 0 0\n#WEIGHT *P 2000 10 10 10\n~W B_CAT 4 -LEN 1000 -C_SN CHAIN\n\
+              ~W B_CAT 4 -LEN 3000 -DEP 500\nCONNECTOR A -ANC 0 3900 ~W *P\nCONNECTOR B -ANC 180 3900 ~W *P\nEND\n&REP_SELECT -SN WIRE\n\
+              &INSTATE -LOCATE BUOY 5\n&ENV -TIME 60 1 -DURATION 10\nTDOM\nPRCPOST\nFATIGUE\nREPORT\nEND\nEND\n\
+              &INSTATE -LOCATE BUOY 9\nTDOM\nPRCPOST\nFATIGUE -ADD -DURATION 2 -DFF 3\nREPORT\nEND\nEND",
+    ..CommandSpec::new("FATIGUE", "damage and life of lines")
+};
+
+fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let (run, events) = asked(job, args)?;
+    let span = args.option("-EVENTS").map_or(args.span, |g| g.span);
+    let time = |event: Option<&results::Event>| event.and_then(|e| e.time(&run.history)).unwrap_or(0.0);
+    let record = time(events.last()) - time(events.first());
+    if record <= 0.0 {
+        return Err(Diagnostic::error("fatigue needs more than one instant", span));
+    }
+    let env = &run.model.environment;
+    let of_env = env.options.iter().find(|g| g.spec.name == "-DURATION").and_then(|g| g.number(0));
+    let duration = args.option_number("-DURATION").or(of_env).filter(|d| *d > 0.0).ok_or_else(|| {
+        Diagnostic::error("how long the environment lasts is not said", args.span).help("-DURATION, here or of &ENV")
+    })?;
+    let lines = results::line_damages(run, &connectors(job, run, call)?, &job.model.fatigue, &events)
+        .map_err(|e| told(e, &job.model, args.span, job.units))?;
+    if lines.is_empty() {
+        return Err(Diagnostic::error("none of the connectors is of a class with sections", args.span)
+            .help("lines, rods and elastic elements have them"));
+    }
+    let own = Exposed { environment: env.name.clone(), record, duration, lines };
+    let mut runs = if args.has("-ADD") { job.scatter.clone() } else { Vec::new() };
+    runs.push(own);
+    let factor = args.option_number("-DFF").unwrap_or(1.0);
+    let table = results::scatter(&runs, factor)
+        .map_err(|e| Diagnostic::error(e.to_string(), args.span).help("without -ADD a scatter begins anew"))?;
+    job.scatter = runs;
+    job.menus.push(Menu::Disposition(Box::new(Disposition::new(table))));
+    Ok(Effect::Done)
+}

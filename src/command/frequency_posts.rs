@@ -1,0 +1,302 @@
+//! What the FREQ_RESPONSE menu shows of motions: of bodies, points and connectors, and their statistics.
+//!
+//! Source: reference/solve.md, "Frequency domain"; the forms of MOTION, CONFORCE and STATISTICS are ours.
+
+use super::chosen::{Chosen, raise};
+use super::environment::{self, A_SEA_OPTION, SEA_OPTION, SP_TYPE_OPTION, SPREAD_OPTION};
+use super::equilibrium::told;
+use super::frequency::{Found, found, heaving, seas};
+use super::{Call, Command, Effect, Job, Menu};
+use crate::language::args::Args;
+use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::select::Owner;
+use crate::language::source::Span;
+use crate::language::spec::{CommandSpec, Kind, Noun, Opens, OptionSpec, ValueSpec};
+use crate::language::units::Dim;
+use crate::model::{Environment, Model, Thing, find};
+use crate::report::disposition::Disposition;
+use crate::solve::frequency::tables::{Told, body_statistics, operators, spectra, statistics};
+use crate::solve::frequency::{Asked, Derivative, Linear, Quantity, Response, in_sea};
+use crate::table::Table;
+use nalgebra::Vector3;
+use std::sync::Arc;
+
+/// MOTION.
+pub static MOTION: Command = Command { spec: &MOTION_SPEC, edits: false, run: motion };
+/// FR_POINT.
+pub static FR_POINT: Command = Command { spec: &POINT_SPEC, edits: false, run: point };
+/// CONFORCE.
+pub static CONFORCE: Command = Command { spec: &FORCE_SPEC, edits: false, run: force };
+/// STATISTICS.
+pub static STATISTICS: Command = Command { spec: &STATISTICS_SPEC, edits: false, run: told_statistics };
+
+/// The duration of the most probable maximum (s): three hours.
+const DURATION: f64 = 10_800.0;
+const KINDS: &[&str] = &["MOTION", "POINT", "TENSION"];
+
+const VELOCITY: OptionSpec = OptionSpec::new("-VELOCITY", &[], "velocities instead of motions");
+const ACCELERATION: OptionSpec = OptionSpec::new("-ACCELERATION", &[], "accelerations instead of motions");
+const POINT: ValueSpec = ValueSpec::new("*PT", Kind::Name(Noun::Point), "point of a body");
+
+static MOTION_SPEC: CommandSpec = CommandSpec {
+    owner: Owner::Ours,
+    menus: &["FREQ_RESPONSE"],
+    opens: Opens::Menu("DISPOSITION"),
+    data: &[ValueSpec::new("BODY", Kind::Name(Noun::Body), "the body").or("the first one")],
+    detail: "Motions of the origin of a body along and about the global axes. After RAO: amplitudes in waves of an amplitude of one \
+             length unit, and their lag behind the crest at the global origin. After SRESPONSE: spectral densities.",
+    example: concat!(heaving!(), "SRESPONSE\nMOTION BALL\nVIEW Frequency Wave Z\nEND\nEND"),
+    ..CommandSpec::new("MOTION", "motions of a body")
+};
+static POINT_SPEC: CommandSpec = CommandSpec {
+    menus: &["FREQ_RESPONSE"],
+    opens: Opens::Menu("DISPOSITION"),
+    data: &[POINT, POINT.or("none: the motion of the first")],
+    options: &[VELOCITY, ACCELERATION],
+    detail: "Motions of a point of a body, or of one point less those of another; as MOTION.",
+    example: concat!(heaving!(), "RAO\nFR_POINT *CG -ACCELERATION\nREPORT\nEND\nEND"),
+    ..CommandSpec::new("FR_POINT", "motions of points")
+};
+static FORCE_SPEC: CommandSpec = CommandSpec {
+    owner: Owner::Ours,
+    menus: &["FREQ_RESPONSE"],
+    opens: Opens::Menu("DISPOSITION"),
+    data: &[ValueSpec::new(":CONN", Kind::Name(Noun::Selector), "connector, pattern or selector").or("all")],
+    repeat: 1,
+    detail: "How the sizes of the forces of connectors on their first ends vary, by their stiffness and damping there: for a line its tension. \
+             Of a single connector also its components in global axes. Lines follow without dynamics of their own. As MOTION.",
+    example: concat!(heaving!(), "RAO\nCONFORCE LINE\nREPORT\nEND\nEND"),
+    ..CommandSpec::new("CONFORCE", "forces of connectors")
+};
+static STATISTICS_SPEC: CommandSpec = CommandSpec {
+    owner: Owner::Ours,
+    menus: &["FREQ_RESPONSE"],
+    opens: Opens::Menu("DISPOSITION"),
+    data: &[
+        ValueSpec::new("WHAT", Kind::Choice(KINDS), "of what"),
+        ValueSpec::new("NAME", Kind::Name(Noun::Selector), "a body; one or two points; connectors")
+            .or("the first body; all connectors"),
+    ],
+    repeat: 1,
+    options: &[
+        VELOCITY,
+        ACCELERATION,
+        OptionSpec::new(
+            "-DURATION",
+            &[ValueSpec::new("T", Kind::Number(Dim::Time), "time").positive()],
+            "time of the most probable maximum",
+        )
+        .default("10800: three hours")
+        .owner(Owner::Ours),
+        SEA_OPTION,
+        A_SEA_OPTION,
+        SPREAD_OPTION,
+        SP_TYPE_OPTION,
+    ],
+    detail: "Standard deviations at the frequencies of the waves, of slow drift and of both; twice that is the significant amplitude; the most \
+             probable maximum is Rayleigh's, by the number of zero up-crossings in the duration. After RAO the sea is that of the \
+             environment in force, or the one given here; after SRESPONSE it is that of SRESPONSE. Accelerations are global and \
+             without gravity.",
+    example: concat!(
+        heaving!(),
+        "RAO\nSTATISTICS MOTION BALL -SEA JONSWAP 0 3 9 3.3\nREPORT\nEND\nSTATISTICS TENSION\nREPORT\nEND\nEND"
+    ),
+    ..CommandSpec::new("STATISTICS", "statistics of motions and forces in a sea")
+};
+
+fn derivative(args: &Args) -> Outcome<Derivative> {
+    match (args.option("-VELOCITY"), args.option("-ACCELERATION")) {
+        (Some(first), Some(second)) => {
+            Err(Diagnostic::error("-VELOCITY and -ACCELERATION cannot hold at once", second.span)
+                .other(first.span, "first given here"))
+        }
+        (Some(_), None) => Ok(Derivative::Velocity),
+        (None, Some(_)) => Ok(Derivative::Acceleration),
+        (None, None) => Ok(Derivative::Place),
+    }
+}
+
+fn what(derivative: Derivative) -> &'static str {
+    match derivative {
+        Derivative::Place => "Motion",
+        Derivative::Velocity => "Velocity",
+        Derivative::Acceleration => "Acceleration",
+    }
+}
+
+/// Opens the disposition menu over a table.
+fn dispose(job: &mut Job, made: Table, span: Span) -> Effect {
+    raise(job, &made, span);
+    job.menus.push(Menu::Disposition(Box::new(Disposition::new(made))));
+    Effect::Done
+}
+
+/// The table of what is found: amplitudes and phases, or spectra.
+fn shown(job: &Job, title: String, list: &[Told], derivative: Derivative, span: Span) -> Outcome<Table> {
+    Ok(match found(job, span)? {
+        Found::Operators(linear, made) => {
+            let unit = Dim::Length.to_si(1.0, job.units);
+            operators(title, (linear, made), list, (derivative, unit))
+        }
+        Found::Spectral(linear, made) => spectra(title, (linear, made), list, derivative),
+        Found::Nothing => Table::new(title),
+    })
+}
+
+/// The number of a body of the motions by its name.
+fn body(job: &Job, linear: &Linear, name: Option<&str>, span: Span) -> Outcome<(usize, String)> {
+    let gone = || Diagnostic::error("that body has no part in the motions found", span).help("RAO or SRESPONSE again");
+    let Some(name) = name else {
+        let first = linear.system.nodes.iter().position(|n| !n.junction).unwrap_or(0);
+        return Ok((first, linear.system.nodes.get(first).ok_or_else(gone)?.name.clone()));
+    };
+    let found = find(&job.model.bodies, name, "body", span)?;
+    let index = linear.system.nodes.iter().position(|n| n.name == found.name).ok_or_else(gone)?;
+    Ok((index, found.name.clone()))
+}
+
+/// The coordinates of a point of a body.
+fn coordinates(job: &Job, linear: &Linear, name: &str, span: Span) -> Outcome<[Quantity; 3]> {
+    let point = find(&job.model.points, name, "point", span)?;
+    let Some(owner) = job.model.body_of(point) else {
+        return Err(Diagnostic::error(format!("point {name} belongs to no body"), span));
+    };
+    let (index, _) = body(job, linear, Some(&owner.name), span)?;
+    let part = job.model.parts.get(&Model::key(&point.part));
+    let at = part.map_or(point.at, |p| p.place.apply(point.at));
+    Ok(Quantity::point(linear, index, Vector3::from(at)))
+}
+
+/// A point, or one less another, with a name for both.
+fn points(job: &Job, linear: &Linear, args: &Args, from: usize) -> Outcome<(String, Vec<Told>)> {
+    let Some(first) = args.word(from) else {
+        return Err(Diagnostic::error("a point is missing", args.span).help("form: STATISTICS POINT *PT [*PT]"));
+    };
+    let mut axes = coordinates(job, linear, first, args.place(from))?;
+    let mut title = first.to_string();
+    if let Some(second) = args.word(from + 1) {
+        let other = coordinates(job, linear, second, args.place(from + 1))?;
+        let [x, y, z] = axes;
+        let [a, b, c] = &other;
+        axes = [x.minus(a), y.minus(b), z.minus(c)];
+        title = format!("{first} less {second}");
+    }
+    if args.word(from + 2).is_some() {
+        return Err(Diagnostic::error("there are more than two points", args.place(from + 2)));
+    }
+    let list = ["X", "Y", "Z"].into_iter().zip(axes).map(|(name, q)| Told::new(name, Dim::Length, q));
+    Ok((title, list.collect()))
+}
+
+fn motion(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let linear = found(job, args.span)?.linear().cloned();
+    let Some(linear) = linear else { return Ok(Effect::Done) };
+    let (index, name) = body(job, &linear, args.word(0), args.place(0))?;
+    let list = Told::freedoms(&linear, index);
+    let made = shown(job, format!("Motion of {name}"), &list, Derivative::Place, args.span)?;
+    Ok(dispose(job, made, args.span))
+}
+
+fn point(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let linear = found(job, args.span)?.linear().cloned();
+    let Some(linear) = linear else { return Ok(Effect::Done) };
+    let derivative = derivative(args)?;
+    let (name, list) = points(job, &linear, args, 0)?;
+    let made = shown(job, format!("{} of {name}", what(derivative)), &list, derivative, args.span)?;
+    Ok(dispose(job, made, args.span))
+}
+
+/// Tensions of the connectors that a record's words from a position on choose; with `components` those of a single one.
+fn tensions(job: &Job, linear: &Linear, call: &Call, from: usize, components: bool) -> Outcome<Vec<Told>> {
+    let chosen = Chosen::of(call, from, &job.model);
+    let names: Vec<String> = linear.connectors().filter(|name| chosen.takes(name)).map(str::to_string).collect();
+    chosen.check_used("the connectors that act", &[Thing::Connector])?;
+    let span = call.args.span;
+    let mut list = Vec::new();
+    for name in &names {
+        let made = Quantity::tension(linear, name).map_err(|e| told(e, &job.model, span, job.units))?;
+        let Some((axes, size)) = made else { continue };
+        list.extend(size.map(|q| Told::new(name.as_str(), Dim::Force, q)));
+        if components && names.len() == 1 {
+            let named = ["FX", "FY", "FZ"].into_iter().zip(axes);
+            list.extend(named.map(|(axis, q)| Told::new(axis, Dim::Force, q)));
+        }
+    }
+    if list.is_empty() {
+        return Err(Diagnostic::error("no connector bears a force whose size could vary", span));
+    }
+    Ok(list)
+}
+
+fn force(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let span = call.args.span;
+    let linear = found(job, span)?.linear().cloned();
+    let Some(linear) = linear else { return Ok(Effect::Done) };
+    let list = tensions(job, &linear, call, 0, true)?;
+    let made = shown(job, "Forces of Connectors".into(), &list, Derivative::Place, span)?;
+    Ok(dispose(job, made, span))
+}
+
+/// The sea a record of STATISTICS gives, in the environment in force.
+fn sea(job: &Job, args: &Args) -> Outcome<Environment> {
+    let mut env = job.model.environment.clone();
+    if let Some(given) = args.option("-SEA") {
+        env.added_sea = None;
+        environment::apply(job, &mut env, given)?;
+    }
+    for given in ["-A_SEA", "-SPREAD", "-SP_TYPE"].iter().filter_map(|name| args.option(name)) {
+        environment::apply(job, &mut env, given)?;
+    }
+    Ok(env)
+}
+
+/// The response that statistics are made of.
+fn response(job: &Job, args: &Args) -> Outcome<(Arc<Linear>, Response)> {
+    let given = ["-SEA", "-A_SEA", "-SPREAD", "-SP_TYPE"].iter().find_map(|name| args.option(name));
+    match (found(job, args.span)?, given) {
+        (Found::Spectral(..), Some(given)) => Err(Diagnostic::error(
+            format!("{} cannot follow SRESPONSE, whose sea is in its damping and drift", given.spec.name),
+            given.span,
+        )
+        .help("SRESPONSE ENV takes another environment; a new sea may follow RAO")),
+        (Found::Spectral(linear, made), None) => Ok((Arc::clone(linear), made.clone())),
+        (Found::Operators(linear, _), _) => {
+            let trains = seas(job, &sea(job, args)?, args.span)?;
+            let made = in_sea(linear, &trains, &Asked::default());
+            Ok((Arc::clone(linear), made.map_err(|e| told(e, &job.model, args.span, job.units))?))
+        }
+        (Found::Nothing, _) => Err(Diagnostic::error("there are no motions yet", args.span)),
+    }
+}
+
+fn told_statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let derivative = derivative(args)?;
+    let duration = args.option_number("-DURATION").unwrap_or(DURATION);
+    let (linear, made) = response(job, args)?;
+    let (both, how) = ((linear.as_ref(), &made), (derivative, duration));
+    let of = what(derivative);
+    let table = match args.word(0) {
+        Some("POINT") => {
+            let (name, list) = points(job, &linear, args, 1)?;
+            statistics(format!("Statistics: {of} of {name}"), both, &list, how)
+        }
+        Some("TENSION") => {
+            if let Some(given) = args.option("-VELOCITY").or(args.option("-ACCELERATION")) {
+                return Err(Diagnostic::error(format!("a tension has no {}", given.spec.name), given.span));
+            }
+            let list = tensions(job, &linear, call, 1, false)?;
+            statistics("Statistics: Forces of Connectors".into(), both, &list, how)
+        }
+        _ => {
+            if args.word(2).is_some() {
+                return Err(Diagnostic::error("MOTION takes one body", args.place(2)));
+            }
+            let (index, name) = body(job, &linear, args.word(1), args.place(1))?;
+            body_statistics(format!("Statistics: {of} of {name}"), both, index, how)
+        }
+    };
+    Ok(dispose(job, table, args.span))
+}

@@ -1,0 +1,59 @@
+//! `&STATUS DIMENSIONS` and `DEFAULTS`.
+
+use super::Job;
+use super::status::push;
+use crate::language::units::Dim;
+use crate::model::{Coordinates, Model};
+use crate::table::{Digits, Table};
+
+/// Units.
+pub(super) fn dimensions(job: &Job) -> Table {
+    let (length, force) = job.units.words();
+    let mut table = Table::new("Dimensions")
+        .fact("Length", length, Dim::None)
+        .fact("Force", force, Dim::None)
+        .fact("Units Saved", job.saved_units.len(), Dim::None)
+        .column("", "Quantity", Dim::None, Digits::Usual)
+        .column("", "Unit", Dim::None, Digits::Usual)
+        .column("", "In SI", Dim::None, Digits::Scientific(10));
+    for (name, dim) in [
+        ("length", Dim::Length),
+        ("section size", Dim::Section),
+        ("force", Dim::Force),
+        ("force per length", Dim::ForcePerLength),
+        ("moment", Dim::Moment),
+        ("stress", Dim::Stress),
+        ("density", Dim::Density),
+        ("angle", Dim::Angle),
+        ("velocity", Dim::Velocity),
+        ("wind speed", Dim::WindSpeed),
+    ] {
+        push(&mut table, vec![name.into(), dim.label(job.units).into(), dim.factor(job.units).into()]);
+    }
+    table
+}
+
+/// Defaults.
+pub(super) fn defaults(model: &Model) -> Table {
+    let d = &model.defaults;
+    let mode = match d.coordinates {
+        Coordinates::Rectangular => "-RECT",
+        Coordinates::Cylindrical => "-CYLINDER",
+        Coordinates::Spherical => "-SPHERICAL",
+    };
+    Table::new("Defaults")
+        .fact("Density of Material", d.material.density, Dim::Density)
+        .fact("Young's Modulus", d.material.emodulus, Dim::Stress)
+        .fact("Poisson's Ratio", d.material.poisson, Dim::None)
+        .fact("Thermal Expansion", d.material.expansion, Dim::ThermalExpansion)
+        .fact("Yield Stress", d.material.yield_stress, Dim::Stress)
+        .fact("Ultimate Stress", d.material.ultimate(), Dim::Stress)
+        .fact("Density of Sea Water", d.water_density, Dim::Density)
+        .fact("Density of Air", d.air_density, Dim::Density)
+        .fact("Gravity", d.gravity, Dim::Acceleration)
+        .fact("Water Depth", d.depth, Dim::Length)
+        .fact("Ramp", d.ramp, Dim::Time)
+        .fact("Coordinates of Points", mode, Dim::None)
+        .fact("Directions of Sea, Wind, Current", "where they come from, from +X toward +Y", Dim::None)
+        .fact("Directions of -ANCHOR", "from fairlead to anchor, from +X toward +Y", Dim::None)
+}

@@ -1,0 +1,214 @@
+//! Tables as NetCDF-3: a variable for each column over the dimension `row`, with its unit and its name in full.
+//!
+//! Source: The NetCDF Classic Format (Unidata); attributes as the CF Conventions 1.11, sections 2.5 and 3.1. Text is an array of
+//! characters. Whole numbers are 32 bits wide, and doubles where that does not hold them.
+
+use super::stored::{SOURCE, StoreError, Values, stored};
+use crate::language::units::UnitSystem;
+use crate::table::Table;
+use netcdf3::{DataSet, FileWriter, Version};
+use std::cell::RefCell;
+use std::io::{Cursor, Seek, SeekFrom, Write};
+use std::rc::Rc;
+
+/// The dimension of rows.
+const ROW: &str = "row";
+/// Stands for a whole number that is missing: `NC_FILL_INT`.
+const NO_WHOLE: i32 = -2_147_483_647;
+/// Stands for a number that is missing: `NC_FILL_DOUBLE`. (The library finds no variable again that has an attribute which is no number.)
+const NO_NUMBER: f64 = 9.969_209_968_386_869e36;
+/// Files beyond this have the form with offsets of 64 bits (bytes).
+const CLASSIC: usize = 1 << 30;
+/// Longest name of a variable (bytes).
+const LONGEST: usize = 120;
+
+/// A file in memory that is still at hand when its writer is gone.
+#[derive(Clone, Debug, Default)]
+struct Shared(Rc<RefCell<Cursor<Vec<u8>>>>);
+
+impl Write for Shared {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.0.borrow_mut().write(bytes)
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}
+
+impl Seek for Shared {
+    fn seek(&mut self, to: SeekFrom) -> std::io::Result<u64> {
+        self.0.borrow_mut().seek(to)
+    }
+}
+
+/// What a variable holds.
+enum Data {
+    Doubles(Vec<f64>),
+    Wholes(Vec<i32>),
+    /// Characters, rows of a width.
+    Letters(Vec<u8>, usize),
+}
+
+/// The bytes of the file.
+///
+/// # Errors
+/// [`StoreError`].
+pub fn bytes(table: &Table, units: UnitSystem) -> Result<Vec<u8>, StoreError> {
+    let columns = stored(table, units)?;
+    let names = names(columns.iter().map(|c| c.long_name.as_str()));
+    let mut set = DataSet::new();
+    set.add_fixed_dim(ROW, table.rows()).map_err(refused)?;
+    set.add_global_attr_string("title", &table.title).map_err(refused)?;
+    set.add_global_attr_string("source", SOURCE).map_err(refused)?;
+    set.add_global_attr_string("Conventions", "CF-1.11").map_err(refused)?;
+    let mut all = Vec::new();
+    for (column, name) in columns.into_iter().zip(names) {
+        let data = data(column.values);
+        match &data {
+            Data::Doubles(_) => {
+                set.add_var_f64(&name, &[ROW]).map_err(refused)?;
+                set.add_var_attr_f64(&name, "_FillValue", vec![NO_NUMBER]).map_err(refused)?;
+            }
+            Data::Wholes(_) => {
+                set.add_var_i32(&name, &[ROW]).map_err(refused)?;
+                set.add_var_attr_i32(&name, "_FillValue", vec![NO_WHOLE]).map_err(refused)?;
+            }
+            Data::Letters(_, width) => {
+                let long = format!("{name}_length");
+                set.add_fixed_dim(&long, *width).map_err(refused)?;
+                set.add_var_u8(&name, &[ROW, &long]).map_err(refused)?;
+            }
+        }
+        if !matches!(data, Data::Letters(..)) {
+            // plain numbers have the unit 1
+            let unit = if column.unit.is_empty() { "1" } else { &column.unit };
+            set.add_var_attr_string(&name, "units", unit).map_err(refused)?;
+        }
+        set.add_var_attr_string(&name, "long_name", &column.long_name).map_err(refused)?;
+        all.push((name, data));
+    }
+    let size: usize = all
+        .iter()
+        .map(|(_, d)| match d {
+            Data::Doubles(list) => 8 * list.len(),
+            Data::Wholes(list) => 4 * list.len(),
+            Data::Letters(list, _) => list.len(),
+        })
+        .sum();
+    let version = if size > CLASSIC { Version::Offset64Bit } else { Version::Classic };
+    let shared = Shared::default();
+    let mut writer = FileWriter::open_seek_write("", Box::new(shared.clone())).map_err(refused)?;
+    writer.set_def(&set, version, 0).map_err(refused)?;
+    for (name, data) in &all {
+        match data {
+            Data::Doubles(list) => writer.write_var_f64(name, list),
+            Data::Wholes(list) => writer.write_var_i32(name, list),
+            Data::Letters(list, _) => writer.write_var_u8(name, list),
+        }
+        .map_err(refused)?;
+    }
+    writer.close().map_err(refused)?;
+    Ok(shared.0.take().into_inner())
+}
+
+fn refused(error: impl std::fmt::Debug) -> StoreError {
+    StoreError::Library(format!("{error:?}"))
+}
+
+fn data(values: Values) -> Data {
+    match values {
+        Values::Numbers(list) => Data::Doubles(list.into_iter().map(|v| v.unwrap_or(NO_NUMBER)).collect()),
+        Values::Wholes(list) => {
+            let narrow = |v: &Option<i64>| match v {
+                Some(v) => i32::try_from(*v).ok().filter(|v| *v != NO_WHOLE),
+                None => Some(NO_WHOLE),
+            };
+            match list.iter().map(narrow).collect() {
+                Some(narrowed) => Data::Wholes(narrowed),
+                None => Data::Doubles(list.into_iter().map(|v| v.map_or(NO_NUMBER, |v| v as f64)).collect()),
+            }
+        }
+        Values::Texts(list) => {
+            let width = list.iter().flatten().map(String::len).max().unwrap_or(0).max(1);
+            let mut letters = Vec::with_capacity(width * list.len());
+            for (row, text) in list.iter().enumerate() {
+                letters.extend(text.iter().flat_map(|t| t.bytes()));
+                letters.resize((row + 1) * width, 0);
+            }
+            Data::Letters(letters, width)
+        }
+    }
+}
+
+/// Names of letters, digits and underscores, no two alike.
+fn names<'a>(wanted: impl Iterator<Item = &'a str>) -> Vec<String> {
+    let mut made: Vec<String> = Vec::new();
+    for (number, name) in wanted.enumerate() {
+        let mut plain = String::new();
+        for letter in name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }) {
+            if letter != '_' || !(plain.is_empty() || plain.ends_with('_')) {
+                plain.push(letter);
+            }
+        }
+        let mut plain = plain.trim_matches('_').to_string();
+        plain.truncate(LONGEST);
+        if !plain.starts_with(|c: char| c.is_ascii_alphabetic()) {
+            plain.insert_str(0, "column_");
+        }
+        while made.iter().any(|n| n.eq_ignore_ascii_case(&plain)) {
+            plain = format!("{plain}_{}", number + 1);
+        }
+        made.push(plain);
+    }
+    made
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::language::units::Dim;
+    use crate::table::{Cell, Digits};
+    use netcdf3::FileReader;
+
+    #[test]
+    fn a_file_reads_back_with_its_values_to_the_last_bit_its_units_names_and_text() {
+        let mut t = Table::new("A run")
+            .column("", "Time", Dim::Time, Digits::Usual)
+            .column("Tension", "Ten Top", Dim::Force, Digits::Usual)
+            .column("", "Crit. Seg", Dim::None, Digits::Usual)
+            .column("", "Name", Dim::None, Digits::Usual)
+            .column("", "2 wide", Dim::None, Digits::Usual);
+        let tops = [1.0 / 3.0, -1e300, 5e-324];
+        for (n, top) in (0..).zip(tops) {
+            let time = if n == 2 { Cell::Missing } else { Cell::Number(0.1 * n as f64) };
+            let seg = if n == 1 { Cell::Missing } else { Cell::Integer(n) };
+            let name = ["A", "BOW", ""][n as usize];
+            t.push(vec![time, Cell::Number(top), seg, name.into(), Cell::Integer(n << 40)]).unwrap();
+        }
+        let file = bytes(&t, UnitSystem::SI).unwrap();
+        let mut reader = FileReader::open_seek_read("", Box::new(Cursor::new(file))).unwrap();
+        {
+            let set = reader.data_set();
+            assert_eq!(set.get_global_attr_as_string("title").unwrap(), "A run");
+            assert_eq!(set.get_global_attr_as_string("source").unwrap(), SOURCE);
+            assert_eq!(set.dim_size("row"), Some(3));
+            assert_eq!(set.get_var_names(), ["Time", "Tension_Ten_Top", "Crit_Seg", "Name", "column_2_wide"]);
+            let attr = |var: &str, name: &str| set.get_var_attr_as_string(var, name);
+            assert_eq!(attr("Tension_Ten_Top", "units").unwrap(), "N");
+            assert_eq!(attr("Tension_Ten_Top", "long_name").unwrap(), "Tension: Ten Top");
+            assert_eq!((attr("Crit_Seg", "units").unwrap().as_str(), attr("Name", "units")), ("1", None));
+        }
+        assert_eq!(reader.read_var_f64("Time").unwrap(), [0.0, 0.1, NO_NUMBER]);
+        assert_eq!(reader.read_var_f64("Tension_Ten_Top").unwrap(), tops);
+        assert_eq!(reader.read_var_i32("Crit_Seg").unwrap(), [0, NO_WHOLE, 2]);
+        assert_eq!(reader.read_var_u8("Name").unwrap(), b"A\0\0BOW\0\0\0");
+        assert_eq!(reader.read_var_f64("column_2_wide").unwrap(), [0.0, (1u64 << 40) as f64, (1u64 << 41) as f64]);
+    }
+
+    #[test]
+    fn names_become_plain_and_stay_apart() {
+        let made = names(["Ten Top", "ten-top", "", "\u{e9}", "3:X", "X"].into_iter());
+        assert_eq!(made, ["Ten_Top", "ten_top_2", "column_", "column__4", "column_3_X", "X"]);
+    }
+}

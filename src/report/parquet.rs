@@ -1,0 +1,150 @@
+//! Tables as Apache Parquet: a column of doubles, whole numbers or text for each of theirs, not compressed.
+//!
+//! Columns have the heads of a CSV file; title, source, units and notes stand in the metadata of the file.
+
+use super::embedded::string;
+use super::stored::{SOURCE, StoreError, Values, stored};
+use crate::language::units::UnitSystem;
+use crate::table::Table;
+use ::parquet::basic::{LogicalType, Repetition, Type as Physical};
+use ::parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
+use ::parquet::errors::ParquetError;
+use ::parquet::file::metadata::KeyValue;
+use ::parquet::file::properties::WriterProperties;
+use ::parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
+use ::parquet::schema::types::Type;
+use std::sync::Arc;
+
+/// The bytes of the file.
+///
+/// # Errors
+/// [`StoreError`].
+pub fn bytes(table: &Table, units: UnitSystem) -> Result<Vec<u8>, StoreError> {
+    written(table, units).map_err(|e| match e {
+        Failed::Store(e) => e,
+        Failed::Parquet(e) => StoreError::Library(e.to_string()),
+    })
+}
+
+enum Failed {
+    Store(StoreError),
+    Parquet(ParquetError),
+}
+
+impl From<ParquetError> for Failed {
+    fn from(error: ParquetError) -> Self {
+        Failed::Parquet(error)
+    }
+}
+
+fn written(table: &Table, units: UnitSystem) -> Result<Vec<u8>, Failed> {
+    let columns = stored(table, units).map_err(Failed::Store)?;
+    let mut fields = Vec::new();
+    for column in &columns {
+        let physical = match column.values {
+            Values::Numbers(_) => Physical::DOUBLE,
+            Values::Wholes(_) => Physical::INT64,
+            Values::Texts(_) => Physical::BYTE_ARRAY,
+        };
+        let logical = matches!(column.values, Values::Texts(_)).then_some(LogicalType::String);
+        let field = Type::primitive_type_builder(&column.head, physical)
+            .with_repetition(Repetition::OPTIONAL)
+            .with_logical_type(logical)
+            .build()?;
+        fields.push(Arc::new(field));
+    }
+    let schema = Arc::new(Type::group_type_builder("windlass").with_fields(fields).build()?);
+    let units: Vec<String> = columns.iter().map(|c| format!("{}:{}", string(&c.head), string(&c.unit))).collect();
+    let facts = [
+        ("title", table.title.clone()),
+        ("source", SOURCE.to_string()),
+        ("units", format!("{{{}}}", units.join(","))),
+        ("notes", table.notes.join("\n")),
+    ];
+    let facts = facts.into_iter().map(|(key, value)| KeyValue::new(key.to_string(), value)).collect();
+    let properties = Arc::new(WriterProperties::builder().set_key_value_metadata(Some(facts)).build());
+    let mut out = Vec::new();
+    let mut writer = SerializedFileWriter::new(&mut out, schema, properties)?;
+    let mut group = writer.next_row_group()?;
+    for column in columns {
+        match column.values {
+            Values::Numbers(list) => put::<DoubleType>(&mut group, list)?,
+            Values::Wholes(list) => put::<Int64Type>(&mut group, list)?,
+            Values::Texts(list) => {
+                let list = list.into_iter().map(|t| t.map(|t| ByteArray::from(t.into_bytes()))).collect();
+                put::<ByteArrayType>(&mut group, list)?;
+            }
+        }
+    }
+    group.close()?;
+    writer.close()?;
+    Ok(out)
+}
+
+/// Writes the next column: the values that are there, and for each row whether there is one.
+fn put<T: DataType>(
+    group: &mut SerializedRowGroupWriter<'_, &mut Vec<u8>>,
+    list: Vec<Option<T::T>>,
+) -> Result<(), ParquetError> {
+    let there: Vec<i16> = list.iter().map(|v| i16::from(v.is_some())).collect();
+    let values: Vec<T::T> = list.into_iter().flatten().collect();
+    if let Some(mut column) = group.next_column()? {
+        column.typed::<T>().write_batch(&values, Some(&there), None)?;
+        column.close()?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::language::units::Dim;
+    use crate::table::{Cell, Digits};
+    use ::parquet::file::reader::{FileReader, SerializedFileReader};
+    use ::parquet::record::Field;
+    use std::io::Write;
+
+    #[test]
+    fn a_file_reads_back_with_its_values_to_the_last_bit_its_units_and_what_is_missing() {
+        let mut t = Table::new("A, of B")
+            .column("", "X", Dim::Length, Digits::Usual)
+            .column("Tension", "Top", Dim::Force, Digits::Usual)
+            .column("", "Segment", Dim::None, Digits::Usual)
+            .column("", "State", Dim::None, Digits::Usual);
+        let tops = [1.0 / 3.0, f64::MIN_POSITIVE, -1e300, f64::NAN];
+        for (n, top) in (1..).zip(tops) {
+            let state = if n == 3 { Cell::Missing } else { "d\u{e9}pos\u{e9}".into() };
+            let x = if n == 2 { Cell::Missing } else { Cell::Number(f64::from(n)) };
+            t.push(vec![x, Cell::Number(top), Cell::Integer(i64::MAX - i64::from(n)), state]).unwrap();
+        }
+        let file = bytes(&t, UnitSystem::SI).unwrap();
+        let mut kept = tempfile::tempfile().unwrap();
+        kept.write_all(&file).unwrap();
+        let reader = SerializedFileReader::new(kept).unwrap();
+        let facts = reader.metadata().file_metadata().key_value_metadata().unwrap().clone();
+        let fact = |key: &str| facts.iter().find(|f| f.key == key).unwrap().value.clone().unwrap();
+        assert_eq!((fact("title").as_str(), fact("source").as_str()), ("A, of B", SOURCE));
+        let units: serde_json::Value = serde_json::from_str(&fact("units")).unwrap();
+        assert_eq!(units["Top (N)"], "N");
+        let rows: Vec<Vec<(String, Field)>> = reader
+            .get_row_iter(None)
+            .unwrap()
+            .map(|r| r.unwrap().get_column_iter().map(|(n, f)| (n.clone(), f.clone())).collect())
+            .collect();
+        assert_eq!(rows.len(), 4);
+        let names: Vec<&str> = rows[0].iter().map(|(n, _)| n.as_str()).collect();
+        assert_eq!(names, ["X (m)", "Top (N)", "Segment", "State"]);
+        for (n, (row, top)) in rows.iter().zip(tops).enumerate() {
+            assert!(matches!(row[1].1, Field::Double(v) if v.to_bits() == top.to_bits()), "{row:?}");
+            assert_eq!(row[2].1, Field::Long(i64::MAX - n as i64 - 1));
+        }
+        assert_eq!((&rows[1][0].1, &rows[2][3].1), (&Field::Null, &Field::Null));
+        assert_eq!(rows[0][3].1, Field::Str("d\u{e9}pos\u{e9}".into()));
+    }
+
+    #[test]
+    fn a_table_without_rows_is_refused() {
+        let t = Table::new("t").column("", "X", Dim::None, Digits::Usual);
+        assert_eq!(bytes(&t, UnitSystem::SI), Err(StoreError::Empty));
+    }
+}

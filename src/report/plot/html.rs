@@ -1,0 +1,60 @@
+//! A chart as one page of HTML with nothing to be fetched from elsewhere (share/plot): it tells values, zooms, hides curves.
+
+use super::draw::COLOURS;
+use super::{Chart, PlotError, Series};
+use crate::report::embedded::{self, doubles, list, object, string};
+
+/// Most points of a page.
+pub const MOST: usize = 1_000_000;
+
+const PARTS: [(&str, &str); 3] = [
+    ("page.html", include_str!("../../../share/plot/page.html")),
+    ("style.css", include_str!("../../../share/plot/style.css")),
+    ("plot.js", include_str!("../../../share/plot/plot.js")),
+];
+
+impl Chart {
+    /// The chart as a page.
+    ///
+    /// # Errors
+    /// [`PlotError`].
+    pub fn html(&self) -> Result<Vec<u8>, PlotError> {
+        if self.polar {
+            return Err(PlotError::PolarPage);
+        }
+        let points = || self.series.iter().flat_map(Series::finite);
+        if points().next().is_none() {
+            return Err(PlotError::Empty);
+        }
+        if let Some((x, y)) = points().find(|(x, y)| x.abs().max(y.abs()) > super::axis::LARGEST) {
+            return Err(PlotError::Range(x, y));
+        }
+        let count = self.series.iter().map(|s| s.points.len()).sum();
+        if count > MOST {
+            return Err(PlotError::TooMany(count));
+        }
+        let curve = |(index, series): (usize, &Series)| {
+            let of = |pick: fn((f64, f64)) -> f64| {
+                doubles(series.points.iter().map(|p| super::finite(*p).map_or(f64::NAN, pick)))
+            };
+            let colour = COLOURS.get(index % COLOURS.len()).map_or((0, 0, 0), |c| (c.0, c.1, c.2));
+            object([
+                ("name", string(&series.shown())),
+                ("right", series.right.to_string()),
+                ("marks", series.is_marks().to_string()),
+                ("colour", string(&format!("rgb({}, {}, {})", colour.0, colour.1, colour.2))),
+                ("x", of(|p| p.0)),
+                ("y", of(|p| p.1)),
+            ])
+        };
+        let data = object([
+            ("title", string(&self.title)),
+            ("x", string(&self.x_label)),
+            ("left", string(&self.y_label)),
+            ("right", self.right_label.as_ref().map_or("null".into(), |l| string(l))),
+            ("curves", list(self.series.iter().enumerate().map(curve))),
+        ]);
+        let page = embedded::page(&PARTS, &self.title, data).map_err(|e| PlotError::Backend(format!("{e:#}")))?;
+        Ok(page.into_bytes())
+    }
+}

@@ -1,0 +1,78 @@
+//! A table's columns as a binary file keeps them: one type of value a column, user units.
+
+use super::format;
+use crate::language::units::UnitSystem;
+use crate::table::{Cell, Column, Table};
+
+/// What wrote a file.
+pub const SOURCE: &str = concat!("windlass ", env!("CARGO_PKG_VERSION"));
+
+/// Why a table could not be stored.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum StoreError {
+    /// There is no row.
+    #[error("there is no row to store")]
+    Empty,
+    /// The library refused.
+    #[error("the file could not be made: {0}")]
+    Library(String),
+}
+
+/// Values of a column; none where a cell has none.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Values {
+    /// Numbers in user units.
+    Numbers(Vec<Option<f64>>),
+    /// Whole numbers.
+    Wholes(Vec<Option<i64>>),
+    /// Text.
+    Texts(Vec<Option<String>>),
+}
+
+/// A column with a name no other has.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stored {
+    /// Its name with its unit, as in a CSV file.
+    pub head: String,
+    /// Its name with its group.
+    pub long_name: String,
+    /// Its unit; empty of plain numbers and text.
+    pub unit: String,
+    /// Its values.
+    pub values: Values,
+}
+
+/// The columns of a table.
+///
+/// # Errors
+/// [`StoreError::Empty`].
+pub fn stored(table: &Table, units: UnitSystem) -> Result<Vec<Stored>, StoreError> {
+    if table.rows() == 0 {
+        return Err(StoreError::Empty);
+    }
+    let make = |(column, head): (&Column, String)| Stored {
+        head,
+        long_name: super::columns::long_name(column),
+        unit: column.dim.label(units),
+        values: values(column, units),
+    };
+    Ok(table.columns.iter().zip(super::csv::heads(table, units)).map(make).collect())
+}
+
+/// The narrowest type that holds every cell.
+fn values(column: &Column, units: UnitSystem) -> Values {
+    let cells = || column.cells.iter();
+    if cells().any(|c| matches!(c, Cell::Text(_))) {
+        let text = |c: &Cell| (*c != Cell::Missing).then(|| format::full(c, column.dim, units));
+        return Values::Texts(cells().map(text).collect());
+    }
+    if cells().all(|c| matches!(c, Cell::Integer(_) | Cell::Missing)) && cells().any(|c| *c != Cell::Missing) {
+        let whole = |c: &Cell| if let Cell::Integer(n) = c { Some(*n) } else { None };
+        return Values::Wholes(cells().map(whole).collect());
+    }
+    let number = |c: &Cell| match c {
+        Cell::Number(value) => Some(column.dim.from_si(*value, units)),
+        other => other.number(),
+    };
+    Values::Numbers(cells().map(number).collect())
+}

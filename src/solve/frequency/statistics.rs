@@ -1,0 +1,56 @@
+//! Statistics of a Gaussian response.
+//!
+//! Maxima of a narrow-banded Gaussian process have Rayleigh's distribution (Longuet-Higgins 1952): of N of them the most probable
+//! largest is `sigma sqrt(2 ln N)` (DNV-RP-C205, 3.5.11), with `N = duration / Tz`, `Tz = 2 pi sqrt(m0/m2)`.
+
+use super::quantity::{Derivative, Quantity};
+use super::response::{Point, Response};
+use std::f64::consts::TAU;
+
+/// Statistics of a quantity about its mean.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Statistics {
+    /// Its mean; zero of a derivative.
+    pub mean: f64,
+    /// Standard deviation at the frequencies of the waves.
+    pub waves: f64,
+    /// Standard deviation of slow drift.
+    pub slow: f64,
+    /// Standard deviation of both.
+    pub deviation: f64,
+    /// Mean period between zero up-crossings (s); `None` without motion.
+    pub period: Option<f64>,
+}
+
+impl Statistics {
+    /// Those of a quantity, or a derivative of it, in a response.
+    pub fn of(response: &Response, quantity: &Quantity, derivative: Derivative) -> Self {
+        let moments = |points: &[Point]| {
+            points.iter().fold([0.0; 2], |[m0, m2], p| {
+                let own = p.variance(quantity, derivative);
+                [m0 + own, m2 + own * p.frequency * p.frequency]
+            })
+        };
+        let ([waves, waves_2], [slow, slow_2]) = (moments(&response.waves), moments(&response.slow));
+        let mean = if derivative == Derivative::Place { quantity.mean } else { 0.0 };
+        Statistics::from_moments(mean, [waves, slow], waves_2 + slow_2)
+    }
+
+    /// Those of variances of waves and slow drift, and the second moment of both together.
+    pub fn from_moments(mean: f64, [waves, slow]: [f64; 2], second: f64) -> Self {
+        let all = waves + slow;
+        let period = (all > 0.0 && second > 0.0).then(|| TAU * (all / second).sqrt());
+        Statistics { mean, waves: waves.sqrt(), slow: slow.sqrt(), deviation: all.sqrt(), period }
+    }
+
+    /// The mean of the highest third of the amplitudes: twice the deviation.
+    pub fn significant(&self) -> f64 {
+        2.0 * self.deviation
+    }
+
+    /// The most probable largest amplitude in a time (s), about the mean; `None` where that is no more than one period.
+    pub fn most_probable(&self, duration: f64) -> Option<f64> {
+        let count = duration / self.period?;
+        (count > 1.0).then(|| self.deviation * (2.0 * count.ln()).sqrt())
+    }
+}
