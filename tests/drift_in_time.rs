@@ -36,13 +36,13 @@ fn under_way(model: &Model) -> Vec<Box<dyn BodyLoad>> {
 fn at(loads: &[Box<dyn BodyLoad>], time: f64, pose: &Pose) -> Six {
     let velocity = Six::zeros();
     let now = Underway { time, dt: 0.1, pose, velocity: &velocity };
-    let one = |load: &Box<dyn BodyLoad>| {
+    let one = |load: &dyn BodyLoad| {
         let mut state = vec![0.0; load.states()];
         load.start(&mut state);
         load.begin(&now, &mut state).unwrap();
         load.moving(&now, &state).unwrap().load.wrench
     };
-    loads.iter().map(one).sum()
+    loads.iter().map(|load| one(load.as_ref())).sum()
 }
 
 fn at_rest(model: &Model, pose: &Pose) -> Six {
