@@ -335,7 +335,7 @@ fn gusts_without_a_wind_are_refused() {
 
 /// A tube of 1 m from 40 m below the water to 10 m above it, with 0.5 m of added diameter from 30 m deep to the surface.
 const GROWN: &str = "MEDIT\n&DESCRIBE BODY B\n*A 0 0 -40\n*B 0 0 10\nEND\n\
-    &SURFACE\nTUBE LEG *A *B 1000 -CS_CURRENT 1 1 0\nEND\n&DATA CURVES M_GROWTH G -30 500 0 500";
+    &SURFACE\nTUBE LEG *A *B 1000 -CS_CURRENT 1 1 0 -CA 0\nEND\n&DATA CURVES M_GROWTH G -30 500 0 500";
 
 #[test]
 fn growth_widens_what_current_meets() {

@@ -12,7 +12,7 @@ use std::sync::Arc;
 use windlass::hydro::sea::{Component, Sea, Water};
 use windlass::model::{Model, Pose, Six, Stretching};
 use windlass::solve::time::{
-    Convergence, Ending, Method, Motion, Prescribed, Run, Scheme, Settings, Watcher, prescribed,
+    Action, Convergence, Ending, Method, Motion, Prescribed, Run, Scheme, Settings, Watcher, What, When, prescribed,
 };
 
 /// A model with a body B and a file in the job's folder; the text of what was said.
@@ -320,5 +320,37 @@ fn a_mass_on_a_spring_whose_other_end_swings_follows_its_closed_form() {
         let want = a * w0 * w0 / (w0 * w0 - w * w) * ((w * t).sin() - w / w0 * (w0 * t).sin());
         // the trapezoidal rule: phase of (w h)^2/12 a radian, 40 radians, and beats of 2 m
         assert!((row[at] - want).abs() < 2e-3, "{t}: {} {want}", row[at]);
+    }
+}
+
+#[test]
+fn a_body_that_rides_on_the_waves_rides_on_those_of_the_sea_it_comes_into() {
+    let file = table(&[0.0, 90.0, 180.0, 270.0], |_, _| {
+        [(0.0, 0.0), (0.0, 0.0), (1.0, 0.0), (0.0, 0.0), (0.0, 0.0), (0.0, 0.0)]
+    });
+    let records = "&INSTATE -LOCATE B 31 -17 0 0 0 40\nMEDIT\nPRESCRIBE B -RAO FILE.CSV\nEND\n\
+                   &ENV LATER -SEA REGULAR 60 2.6 7.5\n&ENV NOW -SEA REGULAR 200 4 11";
+    let (model, errors, text) = session(&file, records);
+    assert_eq!(errors, 0, "{text}");
+    let settings = Settings {
+        observed: 40.0,
+        dt: 0.1,
+        method: Method::Implicit(Scheme::newmark(0.25, 0.5)),
+        convergence: Convergence::default(),
+        store: 1,
+        capsize: true,
+        adaptive: None,
+        keep: true,
+        transient: 0.0,
+    };
+    let change = Action { name: "CHANGE".into(), when: When::At(20.0), what: What::Environment("LATER".into()) };
+    let mut run = Run::new(&model, settings, vec![change]).unwrap();
+    let seas = ["NOW", "LATER"].map(|name| Sea::of(&model, &model.environments[name]).unwrap().unwrap());
+    assert_eq!(run.go(&mut Quiet), Ok(Ending::Done));
+    let at = run.history.layout.body(0);
+    for row in run.history.rows() {
+        let sea = if row[0] < 20.0 - 1e-9 { &seas[0] } else { &seas[1] };
+        let want = sea.elevation(31.0, -17.0, row[0]);
+        assert!((row[at + 2] - want).abs() < 1e-9, "{} {} {want}", row[0], row[at + 2]);
     }
 }

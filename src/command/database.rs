@@ -113,7 +113,7 @@ static SPEC: CommandSpec = CommandSpec {
     ],
     detail: "One of -WAMIT, -NEMOH, -CAPYTAINE and -RAO is given; a second DATABASE of a body replaces the first. The matrices make added \
              mass at infinite frequency and a memory of radiated waves, the excitation wave forces by the heading of the body, \
-             drift coefficients mean and slow drift; a table of motions makes no force. #DRIFT of the same body would count twice. Headings of a source are the direction waves travel toward, from its x axis; gaps of more than 90 degrees \
+             drift coefficients mean and slow drift; a table of motions makes no force. #DRIFT of the same body would count twice, and is refused but with -DRIFT NONE. Headings of a source are the direction waves travel toward, from its x axis; gaps of more than 90 degrees \
              between them are refused when waves come from there. Density and gravity of WAMIT and RAO are those in force. \
              &STATUS DATABASE reports what was read.",
     example: "&FILE OPEN R ship.rao\n&FILE WRITE R WD WP XA XP ZA ZP RYA RYP\n&FILE WRITE R 0 8 .3 90 .5 20 1.1 -80\n\

@@ -178,7 +178,9 @@ static DRIFT_SPEC: CommandSpec = CommandSpec {
              over the square of the wave amplitude, as MOSES reports mean drift forces. Records of one point make one table, of at \
              least two headings. The mean in a sea is twice the sum of its energies S dw times the coefficient, in a regular wave \
              the coefficient times the square of the amplitude. Coefficients are straight over frequency and constant beyond the \
-             first and last period, cubic and smooth over heading; spreading is not regarded.",
+             first and last period, cubic and smooth over heading; spreading is not regarded in equilibrium. In the time domain \
+             the waves make slow drift of it by Newman's approximation, each wave with the coefficient of its own direction; its mean \
+             is the mean drift, and all there is in a regular wave. With a DATABASE that has drift of its own it is an error.",
     example: "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n&DESCRIBE BODY TBRG\n*MID 60 0 0\n#DRIFT *MID 0 6 -40 0 0 0 0 0 14 -5 0 0 0 0 0 -SYMM\n\
               #DRIFT *MID 180 6 40 0 0 0 0 0 14 5 0 0 0 0 0 -SYMM\nEND\n&ENV -SEA ISSC 170 4 9\n&STATUS LOADS",
     ..CommandSpec::new("#DRIFT", "mean wave drift by period and heading")

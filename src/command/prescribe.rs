@@ -59,7 +59,7 @@ static SPEC: CommandSpec = CommandSpec {
              its y axis; 0 comes from ahead of x), a period (s), and for surge, sway, heave, roll, pitch, yaw each an amplitude (length a length, or \
              degrees a length unit of wave amplitude) and the lag in degrees behind the crest at the body's origin: 14 numbers. It is \
              interpolated over frequency and heading; waves longer than the longest have its response, shorter ones than the \
-             shortest none. A row of -FILE is a time (s), x, y, z and roll, pitch, yaw (degrees) of the body's origin: a \
+             shortest none. When an action brings another environment, the body rides on its waves at once, as they are there at once. A row of -FILE is a time (s), x, y, z and roll, pitch, yaw (degrees) of the body's origin: a \
              natural cubic spline goes through them, so that velocity and acceleration have no jumps; roll and yaw go the short way \
              from row to row. The record puts the body to its place at the time zero; a run beyond the last row is an error. A first row of \
              words, and rows that begin with #, are passed over.",

@@ -3,15 +3,19 @@
 //! The mean in a sea is `2 * sum of S dw D(w)`, in a regular wave `D a^2` (Faltinsen, Sea Loads on Ships and Offshore
 //! Structures, 1990, section 5). D is straight over frequency between the periods given and constant beyond the first and the
 //! last; spreading of the sea is not regarded. The layout is that of MOSES's report of mean drift forces (reference/solve.md).
+//!
+//! Under way the same coefficients make the slow drift of the waves that the sea then has, each in its own direction, by Newman's approximation
+//! ([`super::database::slow_drift`]): in a regular wave that is the mean, in a sea its mean is `sum a2 D`.
 
 use super::heading::ByHeading;
+use super::sea::Sea;
 use super::spectrum::Waves;
 use super::steady::{Medium, Steady};
 use super::stream::{Place, Push};
 use super::{BodyLoad, Category, Load};
-use crate::model::{ClassError, Pose, Six};
+use crate::model::{ClassError, DriftTable, Pose, Six};
 use nalgebra::{Matrix6x3, Vector3};
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 /// Coefficients of one heading: the direction the waves come from in the body (rad); period (s), six coefficients (N/m2, N/m).
@@ -50,18 +54,68 @@ impl DriftLoad {
     }
 }
 
+/// Coefficients by frequencies that grow (rad/s), of periods that grow (s).
+fn by_frequency(rows: &[(f64, [f64; 6])]) -> Vec<(f64, Six)> {
+    rows.iter().rev().map(|(t, c)| (TAU / t, Six::from(*c))).collect()
+}
+
+/// The coefficients at a frequency (rad/s): straight between those given, the ends hold beyond them.
+fn at(list: &[(f64, Six)], w: f64) -> Six {
+    let next = list.partition_point(|r| r.0 <= w);
+    match (next.checked_sub(1).and_then(|i| list.get(i)), list.get(next)) {
+        (Some((low, a)), Some((high, b))) => a + (b - a) * ((w - low) / (high - low)),
+        (Some(end), None) | (None, Some(end)) => end.1,
+        (None, None) => Six::zeros(),
+    }
+}
+
 /// The mean over waves of coefficients over the square of the amplitude, by periods that grow.
 pub fn mean(waves: &Waves, rows: &[(f64, [f64; 6])]) -> Six {
-    let by_frequency: Vec<(f64, Six)> = rows.iter().rev().map(|(t, c)| (TAU / t, Six::from(*c))).collect();
-    let at = |w: f64| {
-        let next = by_frequency.partition_point(|r| r.0 <= w);
-        match (next.checked_sub(1).and_then(|i| by_frequency.get(i)), by_frequency.get(next)) {
-            (Some((low, a)), Some((high, b))) => a + (b - a) * ((w - low) / (high - low)),
-            (Some(end), None) | (None, Some(end)) => end.1,
-            (None, None) => Six::zeros(),
+    let list = by_frequency(rows);
+    waves.energies.iter().map(|(w, energy)| at(&list, *w) * (2.0 * energy)).sum()
+}
+
+/// The headings all round to which a table under way is drawn, beside those given: 5 degrees apart, between which what is straight
+/// differs from the cubic of [`ByHeading`] by some 0.1 %.
+const ROUND: u32 = 72;
+/// Headings nearer than this are one (rad).
+const NEAR: f64 = 1e-6;
+/// The most coefficients a table may have.
+const MOST: usize = 1_000_000;
+
+/// The table of a part that stands turned about z by an angle (rad) in its body, at the frequencies of the waves of a sea.
+///
+/// # Errors
+/// A table whose headings make none; see [`ByHeading::new`]. A sea of more waves than are tabulated.
+pub fn table(
+    sea: &Sea,
+    rows: &[DriftRow],
+    symmetric: bool,
+    (angle, axes): (f64, impl Fn(Six) -> Six),
+) -> Result<DriftTable, ClassError> {
+    let mut frequencies: Vec<f64> = sea.components.iter().map(|c| c.frequency).collect();
+    frequencies.sort_by(f64::total_cmp);
+    frequencies.dedup();
+    let mut lists: Vec<(f64, Vec<(f64, Six)>)> = rows.iter().map(|(h, rows)| (*h, by_frequency(rows))).collect();
+    lists.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let round = (0..ROUND).map(|n| TAU * f64::from(n) / f64::from(ROUND));
+    let given = lists.iter().flat_map(|(h, _)| [*h, if symmetric { -h } else { *h }]);
+    // waves go where they do not come from
+    let mut headings: Vec<f64> = round.chain(given).map(|from| (from + angle + PI).rem_euclid(TAU)).collect();
+    headings.sort_by(f64::total_cmp);
+    headings.dedup_by(|a, b| (*a - *b).abs() < NEAR);
+    if frequencies.len().saturating_mul(headings.len()) > MOST {
+        return Err(ClassError::new("the sea has more waves, and the table more headings, than are tabulated"));
+    }
+    let mut values = vec![Vec::with_capacity(frequencies.len()); headings.len()];
+    for w in &frequencies {
+        let here: Vec<(f64, [f64; 6])> = lists.iter().map(|(h, list)| (*h, at(list, *w).into())).collect();
+        let made = ByHeading::new(&here, symmetric)?.turned(angle, &axes);
+        for (toward, list) in headings.iter().zip(&mut values) {
+            list.push(made.at(toward - PI).0.into());
         }
-    };
-    waves.energies.iter().map(|(w, energy)| at(*w) * (2.0 * energy)).sum()
+    }
+    Ok(DriftTable { frequencies, headings, values })
 }
 
 impl BodyLoad for DriftLoad {

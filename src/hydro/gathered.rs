@@ -2,11 +2,13 @@
 
 use super::area::AreaLoad;
 use super::coefficients::CoefficientLoad;
+use super::database::slow_drift::SlowDrift;
 use super::drag::{LinearDrag, at_origin, turned};
-use super::drift::{DriftLoad, DriftRow};
+use super::drift::{self, DriftLoad, DriftRow};
 use super::growth::Growth;
 use super::heading::ByHeading;
 use super::plate::PlateLoad;
+use super::sea::Sea;
 use super::steady::{Medium, Steady};
 use super::stream::Place;
 use super::{BodyLoad, Category, Load, MovingLoad, Underway, pieces};
@@ -104,11 +106,12 @@ impl Frame<'_> {
     }
 }
 
-/// Gathers what is on a body. Under way it also holds what acts by the body's motion alone, and what varies in time.
+/// Gathers what is on a body. Under way, with the sea there is, it also holds what acts by the body's motion alone, and what varies in time.
 ///
 /// # Errors
 /// Loads that make no sense, or an environment that cannot be computed.
-pub fn of(model: &Model, body: &Body, under_way: bool) -> Result<Gathered, ClassError> {
+pub fn of(model: &Model, body: &Body, sea: Option<Option<&Arc<Sea>>>) -> Result<Gathered, ClassError> {
+    let under_way = sea.is_some();
     let mut sum = Gathered { loads: Vec::new(), added_mass: Matrix6::zeros(), damping: Matrix6::zeros() };
     let drifts = |l: &PartLoad| matches!(l.kind, LoadKind::Drift { .. });
     let (growth, pose) = (Growth::of(model, &model.environment)?, Pose::of(&body.place));
@@ -123,8 +126,8 @@ pub fn of(model: &Model, body: &Body, under_way: bool) -> Result<Gathered, Class
         let steady = match &around {
             Some(known) => Arc::clone(known),
             None => {
-                // a spectrum that cannot be computed matters only where waves push
-                let pushed = model.loads.iter().any(drifts);
+                // a spectrum that cannot be computed matters only where waves push; under way the sea itself does
+                let pushed = !under_way && model.loads.iter().any(drifts);
                 let mean = if pushed { Steady::of(model)? } else { Steady::streams(model, &model.environment)? };
                 Arc::new(if under_way { mean.under_way(model, &model.environment)? } else { mean })
             }
@@ -135,7 +138,7 @@ pub fn of(model: &Model, body: &Body, under_way: bool) -> Result<Gathered, Class
         for load in &mine {
             one(&mut sum, &steady, &frame, load, under_way)?;
         }
-        drift(&mut sum, &steady, &frame, &mine)?;
+        drift(&mut sum, (&steady, sea), &frame, &mine)?;
         let on = growth.as_ref().map(|growth| (growth, &pose));
         for piece in &part.pieces {
             sum.loads.extend(
@@ -214,8 +217,14 @@ fn by_heading(frame: &Frame, rows: &[(f64, [f64; 6])], symmetric: bool) -> Resul
     Ok(if yaw == 0.0 { table } else { table.turned(yaw, |six| frame.turned(six.into()).into()) })
 }
 
-/// Adds the mean drift of every sea, one table for each point that has records of it.
-fn drift(sum: &mut Gathered, steady: &Arc<Steady>, frame: &Frame, mine: &[&PartLoad]) -> Result<(), ClassError> {
+/// Adds the drift, one table for each point that has records of it: at rest the mean of every sea, under way the slow drift of the sea
+/// there is.
+fn drift(
+    sum: &mut Gathered,
+    (steady, sea): (&Arc<Steady>, Option<Option<&Arc<Sea>>>),
+    frame: &Frame,
+    mine: &[&PartLoad],
+) -> Result<(), ClassError> {
     let mut tables: Vec<(&PartLoad, Vec<DriftRow>, bool)> = Vec::new();
     for load in mine {
         let LoadKind::Drift { heading, rows, symmetric } = &load.kind else { continue };
@@ -229,11 +238,19 @@ fn drift(sum: &mut Gathered, steady: &Arc<Steady>, frame: &Frame, mine: &[&PartL
     }
     for (load, table, symmetric) in tables {
         frame.upright(load)?;
+        let [_, _, yaw] = frame.part.place.turn;
+        let turn = |six: Six| frame.turned(six.into()).into();
+        let here = |error: ClassError| error.at(load.span);
+        if let Some(sea) = sea {
+            if let Some(sea) = sea {
+                let made = drift::table(sea, &table, symmetric, (yaw, turn)).map_err(here)?;
+                sum.loads.push(Box::new(SlowDrift::newman(&made, frame.point(load), sea).map_err(here)?));
+            }
+            continue;
+        }
         for (toward, waves) in &steady.waves {
             let made = DriftLoad::new(Arc::clone(steady), frame.point(load), (*toward, waves), &table, symmetric);
-            let made = made.map_err(|e| e.at(load.span))?;
-            let [_, _, yaw] = frame.part.place.turn;
-            let turn = |six: crate::model::Six| frame.turned(six.into()).into();
+            let made = made.map_err(here)?;
             sum.loads.push(Box::new(if yaw == 0.0 { made } else { made.turned(yaw, turn) }));
         }
     }

@@ -255,7 +255,7 @@ impl Floating {
         }
         loads.extend(hull.map(|hull| Box::new(hull) as Box<dyn BodyLoad>));
         loads.extend(linear::of(body));
-        let gathered = gathered::of(model, body, under_way.is_some())?;
+        let gathered = gathered::of(model, body, under_way)?;
         loads.extend(gathered.loads);
         let grown = grown::of(model, body)?;
         loads.extend(grown.loads);

@@ -1,9 +1,10 @@
 //! Changes of a system under way: connectors that come and go or change their length, loads of another environment.
 
-use super::system::{Attachment, SolveError, System, connected, link, moving_nodes};
+use super::link::{Attachment, connected, link};
+use super::system::{SolveError, System, moving_nodes};
 use super::time::Memory;
 use crate::hydro::sea::Sea;
-use crate::model::{ClassError, Connector, Model};
+use crate::model::{ClassError, Connector, GivenMotion, Model};
 use std::sync::Arc;
 
 /// A connector of a model.
@@ -80,7 +81,11 @@ impl System {
         }
         let mut nodes = moving_nodes(model, sea)?;
         for (new, old) in nodes.iter_mut().zip(&mut self.nodes) {
-            new.prescribed = old.prescribed.take();
+            let given = model.bodies.get(&new.key).and_then(|body| body.prescribed.as_ref());
+            // what answers the waves answers those of the new sea
+            if !given.is_some_and(|g| matches!(g.motion, GivenMotion::Responses(_))) {
+                new.prescribed = old.prescribed.take();
+            }
             new.free = old.free;
         }
         let before = std::mem::replace(&mut self.nodes, nodes);

@@ -7,6 +7,7 @@ pub mod excursion;
 pub mod excursion_tables;
 pub mod film;
 pub mod frequency;
+mod link;
 mod modes;
 pub mod offset;
 mod outline;

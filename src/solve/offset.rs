@@ -1,7 +1,8 @@
 //! What the connectors of one body do to it at a place: their sum and their tensions, without how they change. A solver
 //! that moves a body to many places pays for no stiffness.
 
-use super::system::{Attachment, Link, SolveError, System, arm, pose_of};
+use super::link::{Attachment, Link, arm, pose_of};
+use super::system::{SolveError, System};
 use crate::hydro::carried;
 use crate::model::{ClassError, End, Guess, Pose, Situation, Six, Summary};
 

@@ -9,7 +9,8 @@ use crate::hydro::sea::Sea;
 use crate::hydro::steady::Steady;
 use crate::hydro::{Category, Load, transferred};
 use crate::model::{
-    AttachedDatabase, Body, ClassError, Database, DriftMethod, LinearHydrostatics, Mass, Model, Pose, Six,
+    AttachedDatabase, Body, ClassError, Database, DriftMethod, LinearHydrostatics, LoadKind, Mass, Model, PartLoad,
+    Pose, Six,
 };
 use nalgebra::Matrix6;
 use std::f64::consts::PI;
@@ -94,6 +95,7 @@ impl BodyLoad for RadiationLoad {
 pub fn of(model: &Model, body: &Body, under_way: Option<Option<&Arc<Sea>>>) -> Result<Option<Brought>, ClassError> {
     let Some(attached) = &body.database else { return Ok(None) };
     let data = attached.data.as_ref();
+    drift_once(model, body, attached)?;
     let mut loads: Vec<Box<dyn BodyLoad>> = Vec::new();
     let mut added_mass = Matrix6::zeros();
     if let Some(radiation) = Radiation::of(data)? {
@@ -124,6 +126,24 @@ pub fn of(model: &Model, body: &Body, under_way: Option<Option<&Arc<Sea>>>) -> R
         if factor == 1.0 { load } else { crate::hydro::gathered::multiplied(load, factor) }
     });
     Ok(Some(Brought { loads: loads.collect(), added_mass }))
+}
+
+/// Sees that no records give the drift that the database brings.
+fn drift_once(model: &Model, body: &Body, attached: &AttachedDatabase) -> Result<(), ClassError> {
+    let data = attached.data.as_ref();
+    if attached.drift == DriftMethod::None || data.drift.is_none() && data.qtf.is_none() {
+        return Ok(());
+    }
+    let on_body = |l: &PartLoad| model.parts_of(body).any(|p| Model::key(&p.name) == Model::key(&l.part));
+    match model.loads.iter().find(|l| matches!(l.kind, LoadKind::Drift { .. }) && on_body(l)) {
+        None => Ok(()),
+        Some(load) => {
+            let text = format!("{} has #DRIFT besides the drift of its database ({})", body.name, data.source);
+            Err(ClassError::new(text)
+                .at(load.span)
+                .help("the drift would count twice: leave out #DRIFT, or give DATABASE -DRIFT NONE"))
+        }
+    }
 }
 
 /// The mean drift by heading and frequency: as it is given, or of the pairs of equal waves.

@@ -28,11 +28,9 @@ fn under(sum: &mut Matrix6<f64>, rod: &Rod, standing: &Standing, level: f64) {
             add(sum, &standing.arm(station.at), &across(axis, rod.added * station.area() * station.long));
         }
     }
-    if rod.end_added != 0.0 {
-        for at in [0.0, rod.length] {
-            let share = standing.station(at, 0.0, level).area();
-            add(sum, &standing.arm(at), &(axis * axis.transpose() * (rod.end_added * share)));
-        }
+    for (at, mass) in [0.0, rod.length].into_iter().zip(rod.end_added).filter(|(_, mass)| *mass != 0.0) {
+        let share = standing.station(at, 0.0, level).area();
+        add(sum, &standing.arm(at), &(axis * axis.transpose() * (mass * share)));
     }
 }
 

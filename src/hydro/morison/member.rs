@@ -23,7 +23,7 @@ pub(super) const STATIONS: usize = 8;
 /// passage at every lean. What is integrated straight over it is the same for a passage of any length.
 const LEAST: f64 = 1e-3;
 
-/// A member in its body.
+/// A member in its body, or a length of one that growth makes thicker or thinner than the next.
 #[derive(Clone, Debug)]
 pub(super) struct Rod {
     /// Where its axis begins, body coordinates (m).
@@ -40,8 +40,8 @@ pub(super) struct Rod {
     pub section: f64,
     /// Added mass across a length (kg/m).
     pub added: f64,
-    /// Added mass along the axis at each end (kg).
-    pub end_added: f64,
+    /// Added mass along the axis at each end, where it begins first (kg); none where another length goes on.
+    pub end_added: [f64; 2],
     /// Factor of the force of waves.
     pub factor: f64,
     /// Its segments, as tubes.

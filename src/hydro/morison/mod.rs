@@ -21,11 +21,17 @@
 //! Water is asked for once a step, at four Gauss points of each segment (and four more where its sections are cut, or the profile
 //! of the current has a point), at the place
 //! expected at the step's end. Drag takes the velocity of every trial, hydrostatics its place, both with their exact change.
+//!
+//! Growth widens D in drag, in inertia and in what waves press on, by the elevations at which the body stands when its loads are made: a
+//! member is taken as lengths of one diameter each. The growth's own mass and weight, and its buoyancy under the mean level, are
+//! [`grown`]'s. A current with a history drags as it is at the time; how fast it changes is not counted as an acceleration.
 
 mod added;
 mod member;
 mod under_way;
 
+use super::grown;
+use super::growth::Growth;
 use super::hull::Tube;
 use super::sea::Sea;
 use super::steady::{Medium, Steady};
@@ -41,6 +47,10 @@ use under_way::UnderWay;
 const MOST: usize = 64;
 /// Length of a segment times the mean wave number of the sea. Over it exp(kz) is integrated by four points within 3e-7 of itself.
 const REACH: f64 = 2.0;
+/// Where growth tapers: how much of the bare diameter one length differs from the next, and the most lengths. The mean of squares over
+/// a length is then within 0.02^2/12 of the square of the mean.
+const TAPER: f64 = 0.02;
+const MOST_LENGTHS: f64 = 64.0;
 
 /// The members of a body, and what acts on them.
 #[derive(Debug)]
@@ -66,14 +76,19 @@ pub fn of(
     if !model.parts_of(body).any(|part| part.pieces.iter().any(there)) {
         return Ok((None, Matrix6::zeros()));
     }
-    let steady = Arc::new(Steady::streams(model, &model.environment)?);
+    let mean = Steady::streams(model, &model.environment)?;
+    let steady = Arc::new(if under_way.is_some() { mean.under_way(model, &model.environment)? } else { mean });
     let sea = under_way.flatten();
     let reach = REACH / sea.map_or(0.0, |sea| mean_number(sea));
-    let mut rods = Vec::new();
+    let (growth, pose) = (Growth::of(model, &model.environment)?, Pose::of(&body.place));
+    let mut made = Vec::new();
     for part in model.parts_of(body) {
-        rods.extend(part.pieces.iter().filter_map(|piece| rod(model, &steady, (part, piece), reach)));
+        for piece in &part.pieces {
+            let on = growth.as_ref().filter(|_| piece.permeability >= 0.0).map(|growth| (growth, &pose));
+            made.extend(rods(model, &steady, (part, piece), reach, on));
+        }
     }
-    let pose = Pose::of(&body.place);
+    let rods = made;
     let added = added::at_rest(&rods, &pose, steady.around.tide);
     let acts = !rods.is_empty() && (under_way.is_some() || !steady.still(Medium::Water));
     let load = acts.then(|| {
@@ -103,35 +118,88 @@ fn kinks(steady: &Steady) -> Vec<f64> {
     if depths.len() == 1 { Vec::new() } else { depths.iter().map(|d| steady.around.tide - d).collect() }
 }
 
-/// A tube as a member; `None` of what has no force of Morison's formula.
-fn rod(model: &Model, steady: &Steady, (part, piece): (&Part, &Piece), reach: f64) -> Option<Rod> {
-    let (Some(own), Shape::Tube { ends, diameter }) = (piece.member, piece.shape.moved(&part.place)) else {
-        return None;
+/// A tube as members, one for each length of one diameter; none of what has no force of Morison's formula.
+fn rods(
+    model: &Model,
+    steady: &Steady,
+    (part, piece): (&Part, &Piece),
+    reach: f64,
+    growth: Option<(&Growth, &Pose)>,
+) -> Vec<Rod> {
+    let (Some(own), Shape::Tube { ends, diameter: bare }) = (piece.member, piece.shape.moved(&part.place)) else {
+        return Vec::new();
     };
-    let [from, to] = ends.map(Vector3::from);
-    let axis = (to - from).try_normalize(0.0)?;
-    let length = (to - from).norm();
+    let ends = ends.map(Vector3::from);
+    let [foot, head] = ends;
+    let Some(axis) = (head - foot).try_normalize(0.0) else { return Vec::new() };
     let density = steady.around.water_density;
-    let section = PI * diameter * diameter / 4.0;
     let of = |category: Category| model.multipliers.of(category.name(), &part.name);
-    let drags = 0.5 * density * diameter * of(Category::ViscousDrag);
     // what a database holds is not counted again
     let own_waves = if piece.waves == WaveAction::Database { 0.0 } else { 1.0 };
-    let count = (length / reach).ceil().clamp(1.0, MOST as f64) as usize;
-    let corner = |n: usize| from + axis * (length * n as f64 / count as f64);
-    Some(Rod {
-        from,
-        axis,
-        length,
-        diameter,
-        across: drags * own.drag,
-        along: drags * PI * own.friction,
-        section: section * piece.permeability * own_waves,
-        added: density * section * own.added * own_waves,
-        end_added: density * PI * diameter.powi(3) / 12.0 * own.end_added * own_waves,
-        factor: of(Category::Wave),
-        segments: (0..count).map(|n| Tube { ends: [corner(n), corner(n + 1)], diameter }).collect(),
-    })
+    let lengths = growth.map_or_else(
+        || vec![Length { ends: [0.0, 1.0], diameter: bare }],
+        |(growth, pose)| lengths(&grown::stations(growth, pose, ends, bare), bare),
+    );
+    let last = lengths.len().saturating_sub(1);
+    let made = lengths.iter().enumerate().map(|(n, Length { ends: [start, end], diameter })| {
+        let [from, to] = [*start, *end].map(|at| foot + (head - foot) * at);
+        let length = (to - from).norm();
+        let (section, core) = (circle(*diameter), circle(bare));
+        let drags = 0.5 * density * diameter * of(Category::ViscousDrag);
+        let count = (length / reach).ceil().clamp(1.0, MOST as f64) as usize;
+        let corner = |n: usize| from + axis * (length * n as f64 / count as f64);
+        let end_added = density * PI * diameter.powi(3) / 12.0 * own.end_added * own_waves;
+        Rod {
+            from,
+            axis,
+            length,
+            diameter: *diameter,
+            across: drags * own.drag,
+            along: drags * PI * own.friction,
+            section: (core * piece.permeability + (section - core)) * own_waves,
+            added: density * section * own.added * own_waves,
+            end_added: [n == 0, n == last].map(|free| if free { end_added } else { 0.0 }),
+            factor: of(Category::Wave),
+            segments: (0..count).map(|n| Tube { ends: [corner(n), corner(n + 1)], diameter: *diameter }).collect(),
+        }
+    });
+    made.collect()
+}
+
+/// A length of a tube with one diameter.
+struct Length {
+    /// Where it begins and ends, from 0 at the foot of the tube to 1 at its head.
+    ends: [f64; 2],
+    /// Its outer diameter, growth with it (m).
+    diameter: f64,
+}
+
+/// The area of a circle of a diameter (m).
+fn circle(diameter: f64) -> f64 {
+    PI * diameter * diameter / 4.0
+}
+
+/// The lengths of a tube of a bare diameter (m) with growth on it, by stations between which its diameter is straight.
+fn lengths(stations: &[(f64, f64)], bare: f64) -> Vec<Length> {
+    let mut made: Vec<Length> = Vec::new();
+    for pair in stations.windows(2) {
+        let [(from, first), (to, second)] = pair else { continue };
+        if to <= from {
+            continue;
+        }
+        let count = ((second - first).abs() / (TAPER * bare)).ceil().clamp(1.0, MOST_LENGTHS) as usize;
+        for n in 0..count {
+            let [start, end, middle] =
+                [n as f64, n as f64 + 1.0, n as f64 + 0.5].map(|at| (at / count as f64).clamp(0.0, 1.0));
+            let diameter = first + (second - first) * middle;
+            let ends = [start, end].map(|at| from + (to - from) * at);
+            match made.last_mut().filter(|l| l.diameter == diameter) {
+                Some(before) => before.ends[1] = ends[1],
+                None => made.push(Length { ends, diameter }),
+            }
+        }
+    }
+    made
 }
 
 impl Members {

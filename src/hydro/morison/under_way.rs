@@ -4,7 +4,7 @@ use super::added;
 use super::member::{Rod, Standing, Station, drag};
 use crate::hydro::hull::{Solid, Wet};
 use crate::hydro::sea::{Kinematics, Sea, SeaAt};
-use crate::hydro::steady::{Medium, Steady};
+use crate::hydro::steady::{Medium, Steady, Streams};
 use crate::hydro::{Load, MovingLoad, Underway, in_pose};
 use crate::model::Six;
 use nalgebra::{Matrix6, Vector3};
@@ -54,6 +54,7 @@ fn three(values: &[f64]) -> Vector3<f64> {
 struct Water<'a> {
     sea: Option<SeaAt<'a>>,
     steady: &'a Steady,
+    streams: Streams<'a>,
     origin: Vector3<f64>,
     level: f64,
 }
@@ -67,7 +68,7 @@ impl Water<'_> {
     }
 
     fn current(&self, z: f64) -> Vector3<f64> {
-        if self.steady.current.is_none() { Vector3::zeros() } else { self.steady.velocity(Medium::Water, z).0 }
+        if self.steady.current.is_none() { Vector3::zeros() } else { self.streams.velocity(Medium::Water, z).0 }
     }
 
     /// Height of the surface over the mean level where it cuts the axis in a range, or else at the range's middle (m).
@@ -111,7 +112,8 @@ impl UnderWay {
     /// Finds the water at the stations, and the force of the waves.
     pub(super) fn begin(&self, rods: &[Rod], steady: &Steady, ahead: &Underway, state: &mut [f64]) {
         let sea = self.sea.as_ref().map(|sea| sea.at(ahead.time));
-        let water = Water { sea, steady, origin: ahead.pose.origin, level: self.level };
+        let streams = steady.at(ahead.time);
+        let water = Water { sea, steady, streams, origin: ahead.pose.origin, level: self.level };
         let Some((head, rest)) = state.split_at_mut_checked(HEAD) else { return };
         let Some((mut segments, mut stations)) = rest.split_at_mut_checked(SEGMENT * self.segments) else { return };
         stations.fill(0.0);
@@ -173,12 +175,12 @@ impl UnderWay {
         for (n, (at, sense)) in [(0.0, 1.0), (rod.length, -1.0)].into_iter().enumerate() {
             let station = standing.station(at, 0.0, self.level + heights[n]);
             shares[n] = station.area();
-            if shares[n] == 0.0 || water.sea.is_none() && rod.end_added == 0.0 {
+            if shares[n] == 0.0 || water.sea.is_none() && rod.end_added[n] == 0.0 {
                 continue;
             }
             let found = water.at(standing, &station);
             pressed += sense * shares[n] * found.pressure;
-            let end = axis * axis.transpose() * (rod.end_added * shares[n]);
+            let end = axis * axis.transpose() * (rod.end_added[n] * shares[n]);
             let arm = standing.arm(at);
             sum += at_arm(&arm, &(end * found.acceleration));
             added::add(mass, &arm, &end);

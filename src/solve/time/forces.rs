@@ -2,7 +2,8 @@
 
 use crate::hydro::{BodyLoad, Category, MovingLoad, Underway, carried, transferred, turning};
 use crate::model::{End, Guess, Pose, Response, Situation, Six, TimeStep};
-use crate::solve::system::{Attachment, Link, Node, SolveError, System, pose_of};
+use crate::solve::link::{Attachment, Link, pose_of};
+use crate::solve::system::{Node, SolveError, System};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use std::ops::Range;
 

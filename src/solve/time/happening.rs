@@ -8,6 +8,16 @@ use crate::solve::system::SolveError;
 use std::sync::Arc;
 
 impl Run {
+    /// Puts bodies whose motion is given where they are now.
+    pub(super) fn prescribe(&mut self) -> Result<(), SolveError> {
+        for (motion, node) in self.now.motions.iter_mut().zip(&self.system.nodes) {
+            if let Some(prescribed) = &node.prescribed {
+                *motion = prescribed.at(self.now.time).map_err(SolveError::of(&node.name))?;
+            }
+        }
+        Ok(())
+    }
+
     pub(super) fn check_actions(&self) -> Result<(), SolveError> {
         for action in &self.actions {
             let wrong = |error: ClassError| SolveError { who: Some(action.name.clone()), error };
@@ -157,6 +167,8 @@ impl Run {
                 self.seas.push((self.now.time, self.sea.clone()));
                 let memory = self.system.load_anew(&self.model, self.sea.as_ref(), &self.now.memory)?;
                 self.now.memory = memory;
+                // a body that rides on the waves is where the new ones have it, as they are there at once
+                self.prescribe()?;
             }
             What::Winch(..) | What::Stop => {}
         }

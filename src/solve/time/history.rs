@@ -6,7 +6,8 @@
 use super::forces::{CATEGORIES, Forces, Motion, place_of};
 use crate::hydro::Category;
 use crate::model::{Place, Six};
-use crate::solve::system::{Attachment, System};
+use crate::solve::link::Attachment;
+use crate::solve::system::System;
 
 /// Values of a body in a row: place (m), roll, pitch, yaw (rad), velocity (m/s, rad/s), acceleration (m/s2, rad/s2), global.
 pub const OF_BODY: usize = 18;

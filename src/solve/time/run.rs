@@ -207,15 +207,6 @@ impl Run {
         self.prepare()
     }
 
-    fn prescribe(&mut self) -> Result<(), SolveError> {
-        for (motion, node) in self.now.motions.iter_mut().zip(&self.system.nodes) {
-            if let Some(prescribed) = &node.prescribed {
-                *motion = prescribed.at(self.now.time).map_err(SolveError::of(&node.name))?;
-            }
-        }
-        Ok(())
-    }
-
     /// Accelerations that balance the forces as they are now.
     pub(super) fn prepare(&mut self) -> Result<(), SolveError> {
         self.now.memory.begin(&self.system, &self.now.motions, (self.now.time, 0.0))?;

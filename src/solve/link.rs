@@ -1,0 +1,67 @@
+//! Connectors of a system: their elements, and what their ends are fixed to.
+
+use super::system::SolveError;
+use crate::model::{Connector, Element, Model, Pose};
+use nalgebra::{Matrix3, Vector3};
+
+/// What an end of a connector is fixed to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Attachment {
+    Ground(Pose),
+    /// A body by its number, and the point in its system (m).
+    Body(usize, Vector3<f64>),
+}
+
+/// A connector of the system.
+#[derive(Debug)]
+pub(super) struct Link {
+    pub name: String,
+    pub element: Box<dyn Element>,
+    pub ends: Vec<Attachment>,
+    /// Where its values stand in the vector of states.
+    pub states: std::ops::Range<usize>,
+}
+
+/// A connector of a model; its states go behind the others.
+pub(super) fn link(model: &Model, connector: &Connector, states: &mut Vec<f64>) -> Result<Link, SolveError> {
+    let element = model.element(connector).map_err(SolveError::of(&connector.name))?;
+    let from = states.len();
+    states.resize(from + element.states(), 0.0);
+    if let Some(own) = states.get_mut(from..) {
+        element.start(own);
+    }
+    let ends = connected(model, connector).to_vec();
+    Ok(Link { name: connector.name.clone(), element, ends, states: from..states.len() })
+}
+
+/// What the ends of a connector are fixed to.
+pub(super) fn connected(model: &Model, connector: &Connector) -> [Attachment; 2] {
+    let poses = model.end_poses(connector);
+    let on_body = |i: usize| {
+        let point = connector.points.get(i).and_then(|name| model.points.get(&Model::key(name)))?;
+        let body = model.body_of(point)?;
+        let index = model.bodies.get_index_of(&Model::key(&body.name))?;
+        let at = poses.get(i)?.origin;
+        Some(Attachment::Body(index, Pose::of(&body.place).local(at)))
+    };
+    let [first, second] = poses;
+    [on_body(0).unwrap_or(Attachment::Ground(first)), on_body(1).unwrap_or(Attachment::Ground(second))]
+}
+
+pub(super) fn pose_of(end: &Attachment, poses: &[Pose]) -> Pose {
+    match end {
+        Attachment::Ground(pose) => *pose,
+        Attachment::Body(index, at) => {
+            let body = poses.get(*index).copied().unwrap_or_default();
+            Pose { origin: body.point(*at), axes: body.axes }
+        }
+    }
+}
+
+/// From the body's origin to the end (m, global).
+pub(super) fn arm(end: &Attachment, poses: &[Pose]) -> Vector3<f64> {
+    match end {
+        Attachment::Ground(_) => Vector3::zeros(),
+        Attachment::Body(index, at) => poses.get(*index).map_or(Matrix3::identity(), |p| p.axes) * at,
+    }
+}
