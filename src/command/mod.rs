@@ -47,6 +47,7 @@ mod loads_table;
 mod member;
 mod menus;
 mod message;
+mod model_tables;
 mod names;
 mod offsets;
 mod pgen;

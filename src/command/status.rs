@@ -12,18 +12,17 @@ use super::prcpost::last_run;
 use super::written::{as_written, kind_data, option_as_written};
 use super::{
     Call, Command, Effect, Job, Menu, body_status, body_tables, database_table, fatigue_table, line_types, member,
-    prescribe, sea_table, settings_table, wind_table,
+    model_tables, prescribe, sea_table, settings_table, wind_table,
 };
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::{Owner, choose};
 use crate::language::spec::{CommandSpec, Kind, Noun, Opens, OptionSpec, ValueSpec};
-use crate::language::units::Dim;
-use crate::model::{Class, Model, Thing};
+use crate::model::{Class, Thing};
 use crate::report::disposition::Disposition;
 use crate::report::page;
 use crate::report::plot::Chart;
 use crate::solve::run_tables;
-use crate::table::{Cell, Digits, Table};
+use crate::table::{Cell, Table};
 
 /// &STATUS.
 pub static STATUS: Command = Command { spec: &SPEC, edits: false, run };
@@ -122,9 +121,9 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let chosen = Chosen::of(call, 1, model);
     let fits = |name: &str| chosen.takes(name);
     let tables = match kind {
-        "CONFIGURATION" => vec![configuration(model, &fits)],
+        "CONFIGURATION" => vec![model_tables::configuration(model, &fits)],
         "CL_FLEX" | "CLASSES" => classes(job, &|class| fits(&class.name)),
-        "G_CONNECTOR" => std::iter::once(connectors(model, &fits)).chain(offsets(model, &fits)).collect(),
+        "G_CONNECTOR" => std::iter::once(model_tables::connectors(model, &fits)).chain(offsets(model, &fits)).collect(),
         "F_CONNECTOR" => forces(model, &fits, job.units),
         "FOUNDATION" => vec![foundations(model, &fits, job.units)],
         "ASSEMBLIES" => assemblies(model, &fits, job.units),
@@ -140,15 +139,17 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         "PIECES" => std::iter::once(body_tables::pieces(model, &fits)).chain(member::members(model, &fits)).collect(),
         "HYDROSTATICS" => body_tables::hydrostatics(model, &fits, job.units),
         "DATABASE" => database_table::tables(model, &fits),
-        "BODIES" => std::iter::once(bodies(model, &fits)).chain(prescribe::motions(model, &fits)).collect(),
-        "POINTS" => vec![points(model, &fits)],
+        "BODIES" => {
+            std::iter::once(model_tables::bodies(model, &fits)).chain(prescribe::motions(model, &fits)).collect()
+        }
+        "POINTS" => vec![model_tables::points(model, &fits)],
         "DIMENSIONS" => vec![settings_table::dimensions(job)],
         "DEFAULTS" => vec![settings_table::defaults(model)],
         "RUN" => vec![run_tables::told(last_run(job, args.span)?)],
-        "SELECTORS" => vec![selectors(model, &fits)],
+        "SELECTORS" => vec![model_tables::selectors(model, &fits)],
         "SN" => fatigue_table::tables(job, &fits, chosen.all()),
         "LINE_TYPES" => line_types::tables(job, &args.data)?,
-        _ => vec![summary(model)],
+        _ => vec![model_tables::summary(model)],
     };
     chosen.check(kind, &tables, things(kind))?;
     if let Some(given) = args.option("-DISPOSE") {
@@ -207,66 +208,6 @@ pub(super) fn push(table: &mut Table, row: Vec<Cell>) {
     debug_assert!(fits.is_ok(), "a status row must fit its table");
 }
 
-fn place_columns(mut table: Table) -> Table {
-    for name in ["X", "Y", "Z"] {
-        table = table.column("Location", name, Dim::Length, Digits::Usual);
-    }
-    for name in ["Roll", "Pitch", "Yaw"] {
-        table = table.column("Rotation", name, Dim::Angle, Digits::Usual);
-    }
-    table
-}
-
-fn configuration(model: &Model, fits: &dyn Fn(&str) -> bool) -> Table {
-    let mut table = place_columns(Table::new("Configuration").column("", "Body", Dim::None, Digits::Usual));
-    for body in model.bodies.values().filter(|b| fits(&b.name)) {
-        let mut row = vec![Cell::from(body.name.as_str())];
-        row.extend(body.place.values().map(Cell::Number));
-        push(&mut table, row);
-    }
-    table
-}
-
-fn bodies(model: &Model, fits: &dyn Fn(&str) -> bool) -> Table {
-    let table = Table::new("Bodies and Parts").column("", "Body", Dim::None, Digits::Usual).column(
-        "",
-        "Part",
-        Dim::None,
-        Digits::Usual,
-    );
-    let mut table = place_columns(table).column("", "Points", Dim::None, Digits::Usual).column(
-        "",
-        "Ignored",
-        Dim::None,
-        Digits::Usual,
-    );
-    for part in model.parts.values().filter(|p| fits(&p.body) || fits(&p.name)) {
-        let count = model.points.values().filter(|p| Model::key(&p.part) == Model::key(&part.name)).count();
-        let ignored = model.bodies.get(&Model::key(&part.body)).map_or(String::new(), |b| b.ignored.join(" "));
-        let mut row = vec![Cell::from(part.body.as_str()), Cell::from(part.name.as_str())];
-        row.extend(part.place.values().map(Cell::Number));
-        row.extend([count.into(), ignored.into()]);
-        push(&mut table, row);
-    }
-    table
-}
-
-fn points(model: &Model, fits: &dyn Fn(&str) -> bool) -> Table {
-    let mut table =
-        Table::new("Points").column("", "Name", Dim::None, Digits::Usual).column("", "Part", Dim::None, Digits::Usual);
-    for group in ["Part System", "Global System"] {
-        for name in ["X", "Y", "Z"] {
-            table = table.column(group, name, Dim::Length, Digits::Usual);
-        }
-    }
-    for point in model.points.values().filter(|p| fits(&p.name)) {
-        let mut row = vec![Cell::from(point.name.as_str()), Cell::from(point.part.as_str())];
-        row.extend(point.at.into_iter().chain(model.global(point)).map(Cell::Number));
-        push(&mut table, row);
-    }
-    table
-}
-
 /// The property tables of the classes that fit, with their records as they were given.
 pub(super) fn classes(job: &Job, fits: &dyn Fn(&Class) -> bool) -> Vec<Table> {
     let model = &job.model;
@@ -286,81 +227,4 @@ pub(super) fn classes(job: &Job, fits: &dyn Fn(&Class) -> bool) -> Vec<Table> {
             table
         })
         .collect()
-}
-
-fn connectors(model: &Model, fits: &dyn Fn(&str) -> bool) -> Table {
-    let mut table = Table::new("Connector Geometry")
-        .column("", "Name", Dim::None, Digits::Usual)
-        .column("", "Class", Dim::None, Digits::Usual)
-        .column("", "Status", Dim::None, Digits::Usual)
-        .column("", "First Seg.", Dim::Length, Digits::Usual)
-        .column("Connection", "Body", Dim::None, Digits::Usual);
-    for name in ["X", "Y", "Z"] {
-        table = table.column("Connection", name, Dim::Length, Digits::Usual);
-    }
-    for connector in model.connectors.values().filter(|c| fits(&c.name)) {
-        let status = if connector.active { "Active" } else { "Inactive" };
-        let ends: Vec<(String, Option<[f64; 3]>)> = connector
-            .points
-            .iter()
-            .enumerate()
-            .map(|(index, name)| {
-                let point = model.points.get(&Model::key(name));
-                let body = point.and_then(|p| model.body_of(p)).map_or("GROUND".to_string(), |b| b.name.clone());
-                (body, model.end(connector, index))
-            })
-            .collect();
-        let first = ends.first().cloned().unwrap_or(("GROUND".into(), None));
-        let mut row: Vec<Cell> = vec![
-            connector.name.as_str().into(),
-            connector.class.as_str().into(),
-            status.into(),
-            model.first_length(connector).into(),
-            first.0.into(),
-        ];
-        let coordinates = |at: Option<[f64; 3]>| [0, 1, 2].map(|i| Cell::from(at.and_then(|a| a.get(i).copied())));
-        row.extend(coordinates(first.1));
-        push(&mut table, row);
-        let (body, at) = ends.get(1).cloned().unwrap_or(("GROUND".into(), None));
-        let mut row = vec![Cell::Missing, Cell::Missing, Cell::Missing, Cell::Missing, body.into()];
-        match (at, connector.anchor) {
-            (None, Some(anchor)) => {
-                row.extend(anchor.at.map(Cell::Number));
-                row.push(model.placement(connector).other.map(|[_, _, z]| z).into());
-            }
-            (at, _) => row.extend(coordinates(at)),
-        }
-        push(&mut table, row);
-    }
-    table
-}
-
-fn selectors(model: &Model, fits: &dyn Fn(&str) -> bool) -> Table {
-    let mut table = Table::new("Selectors")
-        .column("", "Name", Dim::None, Digits::Usual)
-        .column("", "Select", Dim::None, Digits::Usual)
-        .column("", "Except", Dim::None, Digits::Usual);
-    for s in model.selectors.values().filter(|s| fits(&s.name)) {
-        push(&mut table, vec![s.name.as_str().into(), s.select.join(" ").into(), s.except.join(" ").into()]);
-    }
-    table
-}
-
-fn summary(model: &Model) -> Table {
-    let mut table =
-        Table::new("Model").column("", "What", Dim::None, Digits::Usual).column("", "Number", Dim::None, Digits::Usual);
-    for (name, count) in [
-        ("bodies", model.bodies.len()),
-        ("parts", model.parts.len()),
-        ("points", model.points.len()),
-        ("classes", model.classes.len()),
-        ("connectors", model.connectors.len()),
-        ("curves", model.curves.len()),
-        ("environments", model.environments.len()),
-        ("selectors", model.selectors.len()),
-    ] {
-        push(&mut table, vec![name.into(), count.into()]);
-    }
-    table.note(format!("&STATUS tells of: {}", KINDS.iter().map(|k| k.0).collect::<Vec<_>>().join(" ")));
-    table
 }

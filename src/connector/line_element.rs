@@ -4,7 +4,7 @@ use super::catenary::{Bottom, EndForces, Interpolated, Line, LineError, Regime, 
 use super::extended_line::{Plane, behind};
 use super::extension::{Extended, Extension, Pull};
 use super::mooring::Mooring;
-use crate::model::{ClassError, Element, End, Guess, Placement, Response, Situation, Six, Summary};
+use crate::model::{Anchored, ClassError, Element, End, Guess, Placement, Response, Situation, Six, Summary};
 use nalgebra::{Matrix3, Matrix6, Vector3};
 
 /// How the forces are found.
@@ -275,15 +275,16 @@ impl Element for LineElement {
         self.pull(at.ends, Extension::NONE, guess, out).map(|_| ())
     }
 
-    fn anchored(&self, at: &Situation, guess: &mut Guess) -> Option<Result<([Six; 2], Matrix3<f64>), ClassError>> {
+    fn anchored(&self, at: &Situation, guess: &mut Guess) -> Option<Result<Anchored, ClassError>> {
         self.mooring.place.to_ground.then(|| {
             let (x, along, z) = self.between(at.ends);
             let Some((plane, _)) = self.tight(x, z, Extension::NONE, guess)? else {
-                return Ok(([Six::zeros(); 2], Matrix3::zeros()));
+                return Ok(Anchored { wrenches: [Six::zeros(); 2], stiffness: Matrix3::zeros() });
             };
             let [force, _] = plane.fairlead;
             let across = if x > 0.0 { force / x } else { xx_of(plane.stiffness) };
-            Ok((plane.wrenches(along), by_place(along, plane.stiffness, across, 1.0)))
+            let stiffness = by_place(along, plane.stiffness, across, 1.0);
+            Ok(Anchored { wrenches: plane.wrenches(along), stiffness })
         })
     }
 

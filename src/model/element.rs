@@ -110,6 +110,15 @@ pub struct Summary {
     pub notes: Vec<String>,
 }
 
+/// What an element between a body and the ground exerts, where the place of its first end alone matters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Anchored {
+    /// Wrench on each end, forces alone (N), global axes.
+    pub wrenches: [Six; 2],
+    /// -d(force on the first end)/d(place of the first end), global axes (N/m).
+    pub stiffness: Matrix3<f64>,
+}
+
 /// A connector as an engine sees it. Its parameters do not change.
 pub trait Element: Debug + Send + Sync {
     /// Number of values of its state.
@@ -134,9 +143,8 @@ pub trait Element: Debug + Send + Sync {
     ) -> Result<(), ClassError>;
 
     /// Of an element from a body to the ground that remembers nothing and pulls with a force that the place of its first end alone
-    /// changes: the wrenches on both ends, and -d(force)/d(place of the first end), global axes (N/m), as of [`Element::evaluate`]
-    /// with less work. `None` of all others.
-    fn anchored(&self, _at: &Situation, _guess: &mut Guess) -> Option<Result<([Six; 2], Matrix3<f64>), ClassError>> {
+    /// changes: what [`Element::evaluate`] tells, with less work. `None` of all others.
+    fn anchored(&self, _at: &Situation, _guess: &mut Guess) -> Option<Result<Anchored, ClassError>> {
         None
     }
 

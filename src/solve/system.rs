@@ -1,7 +1,6 @@
 //! The system of bodies and connectors: who hangs on whom, what acts on each body, how that changes with their places.
 
-pub(super) use super::link::{Attachment, arm, connected, pose_of};
-use super::link::{Link, link};
+use super::link::{Attachment, Link, arm, connected, link, pose_of};
 use super::modes::held;
 use super::time::{Prescribed, prescribed};
 use crate::hydro::sea::Sea;

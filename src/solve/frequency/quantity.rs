@@ -3,7 +3,8 @@
 use super::linear::{Linear, Motions};
 use crate::hydro::transferred;
 use crate::model::{End, Response, Situation, Six, TimeStep};
-use crate::solve::system::{Attachment, SolveError, arm, pose_of};
+use crate::solve::link::{Attachment, arm, pose_of};
+use crate::solve::system::SolveError;
 use nalgebra::{Complex, DVector, Vector3};
 
 /// Which derivative with time is meant.

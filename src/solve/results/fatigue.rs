@@ -4,7 +4,8 @@
 //! end of each segment. At the fairlead that is the run's own; below, the line is shaped between its ends at the turning points of the
 //! tension at the fairlead, between which a line at rest in every instant has no others of note.
 
-use super::super::system::{SolveError, connected, pose_of};
+use super::super::link::{connected, pose_of};
+use super::super::system::SolveError;
 use super::super::time::Run;
 use super::connectors::{force, poses};
 use super::{Event, columns};

@@ -1,6 +1,7 @@
 //! A connector between its ends where a run had them: what a row does not keep follows from its element there.
 
-use super::super::system::{Attachment, SolveError, connected, pose_of};
+use super::super::link::{Attachment, connected, pose_of};
+use super::super::system::SolveError;
 use crate::model::{Connector, Element, End, Guess, Model, Pose, Situation, Six, Surroundings};
 
 /// What a row does not keep of a connector.

@@ -1,7 +1,7 @@
 //! What acts on bodies under way, and how it changes with their places and velocities.
 
 use crate::hydro::{BodyLoad, Category, MovingLoad, Underway, carried, transferred, turning};
-use crate::model::{End, Guess, Pose, Response, Situation, Six, TimeStep};
+use crate::model::{Anchored, End, Guess, Pose, Response, Situation, Six, TimeStep};
 use crate::solve::link::{Attachment, Link, pose_of};
 use crate::solve::system::{Node, SolveError, System};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
@@ -244,7 +244,7 @@ impl Forces {
             let at = Situation { ends: &self.ends, step, surroundings: &system.surroundings };
             let anchored = matches!(link.ends.as_slice(), [Attachment::Body(..), Attachment::Ground(_)]);
             if let (true, Some(found)) = (anchored, link.element.anchored(&at, guess)) {
-                let (wrenches, stiffness) = found.map_err(SolveError::of(&link.name))?;
+                let Anchored { wrenches, stiffness } = found.map_err(SolveError::of(&link.name))?;
                 self.wrenches.extend_from_slice(&wrenches);
                 self.hold(link, &wrenches, &stiffness, flexible);
                 continue;
