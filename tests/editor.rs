@@ -270,7 +270,7 @@ fn completion_offers_words_of_every_sort_and_no_lone_dash() {
     for (keys, line) in [
         ("~W B_CAT 4 -LEN \t5", "~W B_CAT 4 -LEN 5"),
         ("&STATUS CO\t!", "&STATUS CONFIGURATION !"),
-        ("&HELP STATI\t!", "&HELP STATISTIC !"),
+        ("&HELP TRAJ\t!", "&HELP TRAJECTORY !"),
         ("&HELP DIM\t!", "&HELP &DIMEN !"),
         ("&HELP &NUM\t!", "&HELP &NUMBER !"),
         ("&ENV -SEA JON\t1", "&ENV -SEA JONSWAP 1"),

@@ -191,7 +191,7 @@ fn what_cannot_be_shown_is_refused_and_leaves_no_file() {
         ("&ANIMATE a.html", "there is no run yet"),
         (&format!("{MOORED}&ANIMATE a.avi"), "ends in .html or .vtk"),
         (&format!("{MOORED}&ANIMATE a.html -EVENTS 7 9"), "chooses none of the instants"),
-        (&format!("{MOORED}&ANIMATE a.html -EVENTS 0 6 1E-9"), "more than 1000000"),
+        (&format!("{MOORED}&ANIMATE a.html -EVENTS 0 6 1E-9"), "more than two million"),
         (&format!("{MOORED}&ANIMATE a.html NOBODY"), "is called NOBODY"),
         (&MOORED.replace("TDOM\n", "TDOM -STATISTICS\n&ANIMATE a.vtk"), "the run kept no instants"),
     ] {

@@ -118,7 +118,7 @@ fn points_of_interest_move_with_their_body_under_the_wave_of_the_run() {
     let mut made = run(&model(TOP), (4.0, 0.1), &[(0, Six::new(0.0, 0.0, 0.0, 0.0, 0.0, SPIN))], vec![]);
     let wave = Component { frequency: 0.6, number: 0.04, amplitude: 1.5, toward: [0.6, 0.8], phase: 0.3 };
     let water = Water { depth: Some(50.0), level: 0.25, gravity: 9.80665, density: 1025.0 };
-    made.sea = Some(Arc::new(Sea::airy(vec![wave], water, 0.0, Stretching::default())));
+    made.seas = vec![(0.0, Some(Arc::new(Sea::airy(vec![wave], water, 0.0, Stretching::default()))))];
     let point = made.model.points["*P"].clone();
     // (10, 20, 5) + (3, -4, 1)
     assert_eq!(point.interest, Some([13.0, 16.0, 6.0]));

@@ -20,6 +20,8 @@ const LENGTH: f64 = 263.768395;
 fn platform() -> Model {
     let script = std::fs::read_to_string("scripts/tlp.cif").unwrap();
     let (mut session, screen, _folder) = common::session();
+    // the closed forms below are of the platform's own mass: its tubes without added mass
+    let script = script.replace(" 31100\n", " 31100 -CA 0\n").replace(" 13000\n", " 13000 -CA 0\n");
     session.open("script", script[..script.find("&EQUI").unwrap()].to_string());
     session.run();
     assert_eq!(session.errors, 0, "{}", screen.text());

@@ -48,6 +48,13 @@ pub(super) struct Rod {
     pub segments: Vec<Tube>,
 }
 
+impl Rod {
+    /// Whether a stream drags it.
+    pub fn drags(&self) -> bool {
+        self.across != 0.0 || self.along != 0.0
+    }
+}
+
 /// A member in a pose.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Standing {

@@ -90,7 +90,8 @@ pub fn of(
     }
     let rods = made;
     let added = added::at_rest(&rods, &pose, steady.around.tide);
-    let acts = !rods.is_empty() && (under_way.is_some() || !steady.still(Medium::Water));
+    let dragged = rods.iter().any(Rod::drags) && !steady.still(Medium::Water);
+    let acts = !rods.is_empty() && (under_way.is_some() || dragged);
     let load = acts.then(|| {
         let kinks = kinks(&steady);
         let under_way = under_way.map(|sea| UnderWay::new(sea.cloned(), (&rods, &kinks), &steady, &added));

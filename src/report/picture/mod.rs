@@ -82,7 +82,7 @@ impl Picture {
         match name.rsplit_once('.').map(|(_, end)| end.to_ascii_lowercase()).as_deref() {
             Some("svg") => self.svg(),
             Some("png") => self.png(),
-            _ => Err(PlotError::Kind(name.to_string())),
+            _ => Err(PlotError::PictureKind(name.to_string())),
         }
     }
 

@@ -68,6 +68,9 @@ pub enum PlotError {
     /// A file name that ends in none of .svg, .png and .html.
     #[error("a plot file ends in .svg, .png or .html, not `{0}`")]
     Kind(String),
+    /// A file name of a picture that ends in neither .svg nor .png.
+    #[error("a picture file ends in .svg or .png, not `{0}`")]
+    PictureKind(String),
     /// More units than there are axes for.
     #[error("{0} cannot share an axis: one plot has two units at most, on the left and on the right")]
     Units(String),

@@ -126,7 +126,8 @@ pub struct Run {
     told: Told,
     /// Whether a length has changed since the last row.
     pub(super) wound: bool,
-    pub(super) seas: Vec<(f64, Option<Arc<Sea>>)>,
+    /// The seas of the run, each with the time since when it has been there (s).
+    pub seas: Vec<(f64, Option<Arc<Sea>>)>,
     origin: Model,
     start: Vec<(usize, Six)>,
 }
@@ -382,11 +383,6 @@ impl Run {
     /// Motions now.
     pub fn motions(&self) -> &[Motion] {
         &self.now.motions
-    }
-
-    /// The seas of the run, each with the time since when it has been there (s).
-    pub fn seas(&self) -> &[(f64, Option<Arc<Sea>>)] {
-        &self.seas
     }
 
     /// The sea at a time (s) of the run: actions may have changed it.
