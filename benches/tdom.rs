@@ -33,7 +33,7 @@ fn model(flag: &str, memory: bool, sea: bool) -> Model {
     let added = if memory { "" } else { "*O 0 0 0\n#AMASS *O 2.5E7 2.5E7 3E7 0 0 0\n" };
     let hull = format!(
         "*CG 0 0 -12\n#WEIGHT *CG {weight} 19 19 19\n#DAMP *CG 1E6 1E6 2E7 3E9 3E9 3E8\n{added}\
-         DATABASE SHIP -WAMIT {file} -ULEN 30 -SYMMETRIC -MEMORY 60 -HYDROSTATICS YES\n"
+         DATABASE SHIP -WAMIT {file} -ULEN 3 -SYMMETRIC -MEMORY 60 -HYDROSTATICS YES\n"
     );
     let line = |rest: &str| format!("~CHAIN B_CAT 180 {flag} -LEN 900 -DEP 300 {rest}\n");
     let waves = if sea { "-SEA JONSWAP 180 5 11 -RAMP 50" } else { "" };

@@ -10,7 +10,7 @@ use std::io::{BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::PathBuf;
 
 /// Begins every such file; its last byte is the version.
-const MARK: [u8; 8] = *b"WINDRUN\x01";
+const MARK: [u8; 8] = *b"WINDRUN\x02";
 /// Bytes of the head.
 const HEAD: usize = 24;
 

@@ -21,6 +21,8 @@ pub struct Motion {
     pub acceleration: Six,
     /// The scheme's auxiliary acceleration (m/s2, rad/s2).
     pub auxiliary: Six,
+    /// How the acceleration changed over the last step, over its length (m/s3, rad/s3): the next step begins its search with it.
+    pub jerk: Six,
 }
 
 /// What bodies and connectors remember: the states of loads, one vector, each load with its range.

@@ -8,6 +8,7 @@ mod corrector;
 mod forces;
 mod happening;
 mod history;
+mod inertia;
 mod prescribed;
 mod resume;
 mod run;

@@ -66,6 +66,7 @@ pub(super) fn moved([values, rates, seconds]: &Freedoms) -> Motion {
         velocity: Six::new(x, y, z, rotation.x, rotation.y, rotation.z),
         acceleration,
         auxiliary: acceleration,
+        jerk: Six::zeros(),
     }
 }
 

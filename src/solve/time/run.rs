@@ -3,10 +3,11 @@
 use super::action::Action;
 use super::forces::{Memory, Motion};
 use super::history::{History, Layout, Told};
+use super::inertia::gyroscopic;
 use super::scheme::Method;
 use super::snapshot::Snapshot;
 use super::statistics::Statistics;
-use super::step::{Convergence, Effort, Instant, Stepper, gyroscopic};
+use super::step::{Convergence, Effort, Instant, Stepper};
 use crate::hydro::sea::Sea;
 use crate::model::{ClassError, Model, Place, Six};
 use crate::post::SeriesError;

@@ -112,7 +112,8 @@ impl Snapshot {
         out.count(self.motions.len());
         for motion in &self.motions {
             out.numbers(motion.pose.origin.iter().chain(motion.pose.axes.iter()));
-            out.numbers(motion.velocity.iter().chain(motion.acceleration.iter()).chain(motion.auxiliary.iter()));
+            let Motion { velocity, acceleration, auxiliary, jerk, .. } = motion;
+            [velocity, acceleration, auxiliary, jerk].into_iter().for_each(|six| out.numbers(six.iter()));
         }
         out.list(&self.loads);
         out.list(&self.states);
@@ -139,12 +140,13 @@ impl Snapshot {
     pub fn read(bytes: &[u8]) -> Option<Snapshot> {
         let mut from = Read(bytes);
         let (time, taken) = (from.number()?, from.plain()?);
-        let count = from.count(240)?;
+        let count = from.count(288)?;
         let motion = |from: &mut Read| {
             let (origin, axes) = (from.array::<3>()?, from.array::<9>()?);
             let six = |from: &mut Read| from.array::<6>().map(Six::from);
             let pose = Pose { origin: origin.into(), axes: Matrix3::from_column_slice(&axes) };
-            Some(Motion { pose, velocity: six(from)?, acceleration: six(from)?, auxiliary: six(from)? })
+            let [velocity, acceleration] = [six(from)?, six(from)?];
+            Some(Motion { pose, velocity, acceleration, auxiliary: six(from)?, jerk: six(from)? })
         };
         let motions = (0..count).map(|_| motion(&mut from)).collect::<Option<_>>()?;
         let (loads, states) = (from.list()?, from.list()?);

@@ -4,10 +4,11 @@
 //! unknown is its motion over the step, and it stands where nothing is left on it, as in statics.
 
 use super::forces::{Forces, Memory, Motion};
+use super::inertia::{gyroscopic, inertia, turned_inertia};
 use super::scheme::{Method, Scheme};
-use crate::model::{ClassError, Mass, Pose, Six};
-use crate::solve::system::{FREEDOMS, Node, SolveError, System, mass_block};
-use nalgebra::{DMatrix, DVector, Matrix6, Vector3};
+use crate::model::{ClassError, Six};
+use crate::solve::system::{FREEDOMS, Node, SolveError, System};
+use nalgebra::{DMatrix, DVector, Matrix6};
 
 /// When a step is solved.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,22 +68,8 @@ pub struct Stepper {
     right: DVector<f64>,
     moved: Vec<f64>,
     masses: Vec<Matrix6<f64>>,
-}
-
-/// The inertia of a body about its origin in a pose, with added mass, global axes.
-pub fn inertia(node: &Node, pose: &Pose) -> Matrix6<f64> {
-    let own = mass_block(&node.floating.mass, pose);
-    if node.added { own + node.floating.added(pose) } else { own }
-}
-
-/// What turning adds to inertia: `m w x (w x r)` and `w x (I w)` about the origin, as what the forces have to balance.
-pub fn gyroscopic(mass: &Mass, motion: &Motion) -> Six {
-    let v = &motion.velocity;
-    let turn = Vector3::new(v[3], v[4], v[5]);
-    let axes = &motion.pose.axes;
-    let force = turn.cross(&turn.cross(&(axes * mass.centre))) * mass.mass;
-    let moment = turn.cross(&(axes * (mass.inertia * (axes.transpose() * turn))));
-    Six::new(force.x, force.y, force.z, moment.x, moment.y, moment.z)
+    /// How inertia changes with place and velocity.
+    turned: Vec<[Matrix6<f64>; 2]>,
 }
 
 impl Stepper {
@@ -137,7 +124,9 @@ impl Stepper {
                 motion.acceleration[at % 6] = solved[i];
             }
         }
-        now.motions.iter_mut().for_each(|m| m.auxiliary = m.acceleration);
+        for motion in &mut now.motions {
+            (motion.auxiliary, motion.jerk) = (motion.acceleration, Six::zeros());
+        }
         Ok(())
     }
 
@@ -216,7 +205,10 @@ impl Stepper {
         self.weigh(system, &now.motions);
         self.choose(system);
         self.prescribe(system, time)?;
-        // ahead at constant acceleration; what has no inertia goes on with its velocity
+        // ahead as the acceleration changed last; what has no inertia goes on with its velocity
+        for (trial, _) in self.trial.iter_mut().zip(&system.nodes).filter(|(_, n)| n.prescribed.is_none()) {
+            trial.acceleration += trial.jerk * dt;
+        }
         self.place(system, &now.motions, dt, scheme);
         for row in self.rows.iter().filter(|r| !r.heavy) {
             let (Some(trial), Some(over)) = (self.trial.get_mut(row.at / 6), self.over.get_mut(row.at / 6)) else {
@@ -226,6 +218,7 @@ impl Stepper {
             over[row.at % 6] = trial.velocity[row.at % 6] * dt;
         }
         self.pose(system, &now.motions);
+        self.weigh_again(system);
         now.memory.begin(system, &self.trial, (time, dt))?;
         let gain = scheme.gain();
         let (by_place, by_velocity) = (dt * dt * scheme.beta * gain, dt * scheme.gamma * gain);
@@ -245,6 +238,7 @@ impl Stepper {
             }
             last = left;
             effort.iterations += 1;
+            self.turn(system);
             self.jacobian(&now.forces, dt, by_place, by_velocity);
             if !self.solve() {
                 return Err(self.unsolved(system, left, time, dt));
@@ -281,6 +275,9 @@ impl Stepper {
     /// Makes the trial the present.
     pub(super) fn accept(&mut self, system: &mut System, now: &mut Instant, (time, dt): (f64, f64)) {
         now.time = time;
+        for (trial, old) in self.trial.iter_mut().zip(&now.motions) {
+            trial.jerk = (trial.acceleration - old.acceleration) / dt;
+        }
         now.motions.clear();
         now.motions.extend_from_slice(&self.trial);
         now.memory.commit(system, &now.motions, (time, dt));
@@ -323,6 +320,13 @@ impl Stepper {
         most
     }
 
+    /// What turning changes in the inertia of each body.
+    fn turn(&mut self, system: &System) {
+        self.turned.clear();
+        let made = |(node, trial): (&Node, &Motion)| turned_inertia(node, trial);
+        self.turned.extend(system.nodes.iter().zip(&self.trial).map(made));
+    }
+
     fn jacobian(&mut self, forces: &Forces, dt: f64, by_place: f64, by_velocity: f64) {
         let size = self.rows.len();
         if self.matrix.nrows() != size {
@@ -330,7 +334,10 @@ impl Stepper {
         }
         if let ([mass], 6, true) = (self.masses.as_slice(), size, self.rows.iter().all(|r| r.heavy)) {
             let block = |m: &DMatrix<f64>| m.fixed_view::<6, 6>(0, 0).into_owned();
-            let whole = block(&forces.stiffness) * by_place + block(&forces.damping) * by_velocity + mass;
+            let [place, velocity] = self.turned.first().copied().unwrap_or_default();
+            let whole = (block(&forces.stiffness) + place) * by_place
+                + (block(&forces.damping) + velocity) * by_velocity
+                + mass;
             self.matrix.copy_from(&whole);
             return;
         }
@@ -340,7 +347,9 @@ impl Stepper {
                 let (at, to) = (row.at, column.at);
                 let mut value = forces.stiffness[(at, to)] * place + forces.damping[(at, to)] * velocity;
                 if row.heavy && column.heavy && at / 6 == to / 6 {
-                    value += self.masses.get(at / 6).map_or(0.0, |m| m[(at % 6, to % 6)]);
+                    let place = (at % 6, to % 6);
+                    value += self.masses.get(at / 6).map_or(0.0, |m| m[place]);
+                    value += self.turned.get(at / 6).map_or(0.0, |[k, c]| k[place] * by_place + c[place] * by_velocity);
                 }
                 self.matrix[(i, j)] = value;
             }
