@@ -53,7 +53,7 @@ enum Data {
 /// The bytes of the file.
 ///
 /// # Errors
-/// [`StoreError`].
+/// Columns that the format cannot hold, and what the writer refuses.
 pub fn bytes(table: &Table, units: UnitSystem) -> Result<Vec<u8>, StoreError> {
     let columns = stored(table, units)?;
     let names = names(columns.iter().map(|c| c.long_name.as_str()));

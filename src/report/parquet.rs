@@ -18,7 +18,7 @@ use std::sync::Arc;
 /// The bytes of the file.
 ///
 /// # Errors
-/// [`StoreError`].
+/// Columns that the format cannot hold, and what the writer refuses.
 pub fn bytes(table: &Table, units: UnitSystem) -> Result<Vec<u8>, StoreError> {
     written(table, units).map_err(|e| match e {
         Failed::Store(e) => e,
