@@ -114,6 +114,13 @@ fn settings(job: &Job, args: &Args) -> Outcome<Settings> {
         return Err(Diagnostic::error("the environment has no -TIME: how long, and with which step", args.span)
             .help("&ENV NAME -TIME TOBSERV DELTA_TIME"));
     };
+    let ramp = job.model.environment.ramp.unwrap_or(job.model.defaults.ramp);
+    if ramp > 0.0 && window.step > ramp {
+        let shown = |time: f64| Dim::Time.from_si(time, job.units);
+        let text = format!("a step of {} s is longer than the ramp of {} s", shown(window.step), shown(ramp));
+        return Err(Diagnostic::error(text, args.span)
+            .help("the loads would come at once: a longer -RAMP, a shorter step, or -RAMP 0 to have them at once"));
+    }
     let said = |name: &str| args.option(name).and_then(|g| g.word(0)).is_some_and(|w| w == "YES");
     let method = match args.option("-NEWMARK") {
         Some(given) if given.word(0) == Some("NO") => Method::Corrector,
