@@ -14,6 +14,7 @@ pub mod sampling;
 pub mod spectra;
 pub mod statistics;
 pub mod tables;
+pub mod tether;
 
 /// Why a series could not be worked on.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

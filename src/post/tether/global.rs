@@ -1,0 +1,87 @@
+//! Global statistics of a tether record (seed 003, 7.5 to 7.8).
+
+use crate::post::rainflow::reversals;
+use crate::post::{SeriesError, finite};
+
+/// The ten numbers of one column of the statistics of type 1.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Global {
+    /// Mean.
+    pub mean: f64,
+    /// Twice the root mean square about the mean, "significant" in the manual's words.
+    pub significant: f64,
+    /// Mean of the highest third of all turning points, above the mean.
+    pub highest_third: f64,
+    /// Mean of the lowest third of all turning points, above the mean (a negative number).
+    pub lowest_third: f64,
+    /// The three largest maxima, largest first; 0 where there are fewer.
+    pub maxima: [f64; 3],
+    /// The three smallest minima, smallest first; 0 where there are fewer.
+    pub minima: [f64; 3],
+}
+
+/// Mean and root mean square about it; zeros of no values.
+pub fn spread(values: &[f64]) -> (f64, f64) {
+    let count = values.len().max(1) as f64;
+    let mean = values.iter().sum::<f64>() / count;
+    let square = values.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / count;
+    (mean, square.sqrt())
+}
+
+/// The statistics of one series.
+///
+/// # Errors
+/// No values, or one that is not finite.
+pub fn global(values: &[f64]) -> Result<Global, SeriesError> {
+    finite(values)?;
+    if values.is_empty() {
+        return Err(SeriesError::TooFew { what: "statistics of records", need: 1, got: 0 });
+    }
+    let (mean, rms) = spread(values);
+    let points = reversals(values);
+    let inner = points.get(1..points.len().saturating_sub(1)).unwrap_or_default();
+    let mut sorted = inner.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let third = sorted.len() / 3;
+    let mean_of =
+        |part: &[f64]| if part.is_empty() { 0.0 } else { part.iter().sum::<f64>() / part.len() as f64 - mean };
+    let highest_third = mean_of(sorted.get(sorted.len() - third..).unwrap_or_default());
+    let lowest_third = mean_of(sorted.get(..third).unwrap_or_default());
+    let (mut maxima, mut minima) = (Vec::new(), Vec::new());
+    for window in points.windows(3) {
+        if let [before, here, _] = window {
+            if here > before { maxima.push(*here) } else { minima.push(*here) }
+        }
+    }
+    maxima.sort_by(|a, b| b.total_cmp(a));
+    minima.sort_by(f64::total_cmp);
+    let three = |found: &[f64]| std::array::from_fn(|i| found.get(i).copied().unwrap_or(0.0));
+    Ok(Global {
+        mean,
+        significant: 2.0 * rms,
+        highest_third,
+        lowest_third,
+        maxima: three(&maxima),
+        minima: three(&minima),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sine_has_root_two_amplitudes_as_significant_and_its_amplitude_as_highest_third() {
+        let values: Vec<f64> =
+            (0..4000).map(|i| 3.0 + 2.0 * (f64::from(i) * std::f64::consts::TAU / 40.0).sin()).collect();
+        let found = global(&values).unwrap_or_default();
+        assert!((found.mean - 3.0).abs() < 1e-12 && (found.significant - 2.0 * 2.0_f64.sqrt()).abs() < 1e-12);
+        assert!((found.highest_third - 2.0).abs() < 1e-12 && (found.lowest_third + 2.0).abs() < 1e-12);
+        assert!(found.maxima.iter().all(|m| (m - 5.0).abs() < 1e-12));
+    }
+
+    #[test]
+    fn a_record_at_rest_has_no_peaks() {
+        assert_eq!(global(&[1.0; 5]).unwrap_or_default(), Global { mean: 1.0, ..Global::default() });
+    }
+}

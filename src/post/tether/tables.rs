@@ -1,0 +1,190 @@
+//! The statistics, histogram and fatigue tables of a tether (seed 003, figures 7.5 to 7.10, 7.12 and 7.13), with the
+//! columns and the order of that manual.
+
+use super::fatigue::{BINS, EndFatigue};
+use super::global::{Global, global};
+use crate::language::units::Dim;
+use crate::post::SeriesError;
+use crate::table::{Cell, Column, Digits, Table};
+
+/// Stress in the users' force over the square of their length, as a consistent set of units has it.
+pub const STRESS: Dim = Dim::Derived { force: 1, length: -2, seconds: 0 };
+
+/// One series of a place along a tether.
+#[derive(Clone, Copy, Debug)]
+pub struct Channel<'a> {
+    /// Head shared with its neighbours, e.g. `Position`.
+    pub group: &'a str,
+    /// Its own head, e.g. `RY`.
+    pub name: &'a str,
+    /// What it measures.
+    pub dim: Dim,
+    /// Its digits in reports.
+    pub digits: Digits,
+    /// Its values, SI.
+    pub values: &'a [f64],
+}
+
+/// A node, or an end of an element, with its series.
+#[derive(Clone, Debug)]
+pub struct Place<'a> {
+    /// Number of the node or the element.
+    pub number: usize,
+    /// Distance from the trailing end or the anchor (m).
+    pub distance: f64,
+    /// Its series: as many, of the same names, at every place.
+    pub channels: Vec<Channel<'a>>,
+}
+
+fn of_place(place: &Place) -> Result<Vec<Global>, SeriesError> {
+    place.channels.iter().map(|channel| global(channel.values)).collect()
+}
+
+fn head(channel: &Channel) -> Column {
+    let (group, name) = (channel.group.to_string(), channel.name.to_string());
+    Column { name, group, dim: channel.dim, digits: channel.digits, cells: Vec::new() }
+}
+
+fn plain(name: &str, dim: Dim, digits: Digits, cells: Vec<Cell>) -> Column {
+    Column { name: name.into(), group: String::new(), dim, digits, cells }
+}
+
+/// A quantity of the statistics of type 1: its words and where it stands.
+type Row = (&'static str, fn(&Global) -> f64);
+
+const ROWS: [Row; 10] = [
+    ("Mean", |g| g.mean),
+    ("2 x RMS", |g| g.significant),
+    ("Mean highest 1/3 peaks +", |g| g.highest_third),
+    ("Mean highest 1/3 peaks -", |g| g.lowest_third),
+    ("Maximum peaks", |g| g.maxima[0]),
+    ("", |g| g.maxima[1]),
+    ("", |g| g.maxima[2]),
+    ("Minimum peaks", |g| g.minima[0]),
+    ("", |g| g.minima[1]),
+    ("", |g| g.minima[2]),
+];
+
+/// Statistics of type 1: one page a place, all parameters of each series (figures 7.5, 7.6, 7.12). The means of the highest
+/// third are from the mean, the peaks are not.
+///
+/// # Errors
+/// As [`global`].
+pub fn type_one(title: &str, place: &Place) -> Result<Table, SeriesError> {
+    let found = of_place(place)?;
+    let mut table = Table::new(title).fact("Distance", place.distance, Dim::Length);
+    let labels = ROWS.iter().map(|(label, _)| Cell::Text((*label).into())).collect();
+    table.columns.push(plain("Parameter", Dim::None, Digits::Usual, labels));
+    for (channel, of) in place.channels.iter().zip(&found) {
+        let cells = ROWS.iter().map(|(_, value)| Cell::Number(value(of))).collect();
+        table.columns.push(Column { cells, ..head(channel) });
+    }
+    Ok(table)
+}
+
+/// The pages of the statistics of type 2, in their order.
+pub const PAGES: [Row; 4] = [
+    ("Mean value", |g| g.mean),
+    ("2 x RMS", |g| g.significant),
+    ("Maximum peaks", |g| g.maxima[0]),
+    ("Minimum peaks", |g| g.minima[0]),
+];
+
+/// Statistics of type 2: one page a parameter, a row for each place along the tether (figures 7.7, 7.8, 7.13), and their
+/// mean, largest or smallest below; `what` is the head of the first column, `Node` or `Elem`.
+///
+/// # Errors
+/// As [`global`].
+pub fn type_two(title: &str, what: &str, places: &[Place]) -> Result<Vec<Table>, SeriesError> {
+    let found = places.iter().map(of_place).collect::<Result<Vec<_>, _>>()?;
+    let page = |(index, (name, value)): (usize, &Row)| {
+        let last = match index {
+            2 => "Largest",
+            3 => "Smallest",
+            _ => "Mean",
+        };
+        let mut numbers: Vec<Cell> = places.iter().map(|p| Cell::Integer(p.number as i64)).collect();
+        numbers.push(Cell::Text(last.into()));
+        let mut distances: Vec<Cell> = places.iter().map(|p| Cell::Number(p.distance)).collect();
+        distances.push(Cell::Missing);
+        let mut table = Table::new(format!("{title}: {name}"));
+        table.columns.push(plain(what, Dim::None, Digits::Usual, numbers));
+        table.columns.push(plain("Distance", Dim::Length, Digits::Decimals(2), distances));
+        for (at, channel) in places.first().map_or(&[][..], |p| &p.channels).iter().enumerate() {
+            let values: Vec<f64> = found.iter().map(|of| of.get(at).map_or(f64::NAN, value)).collect();
+            let summary = match index {
+                2 => values.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+                3 => values.iter().copied().fold(f64::INFINITY, f64::min),
+                _ => values.iter().sum::<f64>() / values.len() as f64,
+            };
+            let cells = values.into_iter().chain([summary]).map(Cell::Number).collect();
+            table.columns.push(Column { cells, ..head(channel) });
+        }
+        table
+    };
+    Ok(PAGES.iter().enumerate().map(page).collect())
+}
+
+/// An end of an element in the tables of fatigue: the element's number, the distance, what was found.
+pub type AtEnd = (usize, f64, EndFatigue);
+
+/// Half cycles by stress range at the place of most damage of every end (figure 7.9).
+pub fn histogram(title: &str, ends: &[AtEnd]) -> Table {
+    let mut table = Table::new(title);
+    let width = ends.first().map_or(0.0, |(_, _, found)| found.ranges.width);
+    let bins = (1..=BINS).map(|bin| Cell::Integer(bin as i64)).collect();
+    table.columns.push(plain("Bin", Dim::None, Digits::Usual, bins));
+    for (name, shift) in [("From", 0), ("To", 1)] {
+        let cells = (0..BINS).map(|bin| Cell::Number((bin + shift) as f64 * width)).collect();
+        let column = plain(name, STRESS, Digits::Scientific(5), cells);
+        table.columns.push(Column { group: "Stress Range".into(), ..column });
+    }
+    for (element, distance, found) in ends {
+        let cells = found.ranges.counts.iter().map(|n| Cell::Integer(*n as i64)).collect();
+        let column = plain(&format!("{distance:.2} m"), Dim::None, Digits::Usual, cells);
+        table.columns.push(Column { group: format!("Element {element}"), ..column });
+    }
+    table.note("half cycles of the rainflow at the place round the circumference that has the most damage");
+    table
+}
+
+const MOMENT: Dim = Dim::Moment;
+const THREE: Digits = Digits::Scientific(3);
+
+/// Fatigue life and expected peak stress of every end, and the worst along the tether below (figure 7.10).
+pub fn fatigue(title: &str, ends: &[AtEnd]) -> Table {
+    let degrees = Digits::Decimals(0);
+    type Field = (&'static str, &'static str, Dim, Digits, fn(&EndFatigue) -> f64, fn(f64, f64) -> f64);
+    let smaller: fn(f64, f64) -> f64 = f64::min;
+    let larger: fn(f64, f64) -> f64 = f64::max;
+    let fields: [Field; 14] = [
+        ("Significant Moment", "Y", MOMENT, THREE, |f| f.significant_moments[0], larger),
+        ("Significant Moment", "Z", MOMENT, THREE, |f| f.significant_moments[1], larger),
+        ("Significant Moment", "Max Dam", MOMENT, THREE, |f| f.significant_moments[2], larger),
+        ("Fatigue", "Eff Range", STRESS, THREE, |f| f.effective_range, larger),
+        ("Fatigue", "Pn", Dim::Angle, degrees, |f| f.angle, larger),
+        ("Fatigue", "Cyc/Hour", Dim::None, degrees, |f| f.cycles * 3600.0, larger),
+        ("Fatigue", "Damage/Hour", Dim::None, THREE, |f| f.damage_rate * 3600.0, larger),
+        ("Fatigue", "Life", Dim::Days, Digits::Decimals(1), |f| f.life_days * 86_400.0, smaller),
+        ("Max Bending Stress", "Max Pk", STRESS, THREE, |f| f.largest, larger),
+        ("Max Bending Stress", "Mean", STRESS, THREE, |f| f.mean, larger),
+        ("Max Bending Stress", "Signfcnt", STRESS, THREE, |f| f.significant, larger),
+        ("Max Bending Stress", "Pn", Dim::Angle, degrees, |f| f.peak_angle, larger),
+        ("Max Bending Stress", "Cyc/Hour", Dim::None, degrees, |f| f.peak_cycles * 3600.0, larger),
+        ("Max Bending Stress", "Peak", STRESS, THREE, |f| f.expected_peak, larger),
+    ];
+    let mut table = Table::new(title);
+    let mut elements: Vec<Cell> = ends.iter().map(|(element, _, _)| Cell::Integer(*element as i64)).collect();
+    elements.push(Cell::Text("Worst".into()));
+    let mut distances: Vec<Cell> = ends.iter().map(|(_, distance, _)| Cell::Number(*distance)).collect();
+    distances.push(Cell::Missing);
+    table.columns.push(plain("Elem", Dim::None, Digits::Usual, elements));
+    table.columns.push(plain("Distance", Dim::Length, Digits::Decimals(2), distances));
+    for (group, name, dim, digits, value, worst) in fields {
+        let values: Vec<f64> = ends.iter().map(|(_, _, found)| value(found)).collect();
+        let last = values.iter().copied().reduce(worst).map_or(Cell::Missing, Cell::Number);
+        let cells = values.into_iter().map(Cell::Number).chain([last]).collect();
+        table.columns.push(Column { group: group.into(), ..plain(name, dim, digits, cells) });
+    }
+    table
+}
