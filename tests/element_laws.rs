@@ -170,6 +170,8 @@ fn cases() -> Vec<Case> {
             [200.0, 180.0, -40.0],
         ),
         line("CATENARY", "~C CATENARY 170 0.02 -LEN 360 -EA 7E8", "", [300.0, 180.0, -40.0]),
+        line("TETHER", "~C TETHER 1.1 0.035 -LEN 250", "-FLUID 1E5 900 -GROUP 3", [20.0, 10.0, -249.4]),
+        line("TETHER", "~C TETHER 0.9 0.045 -LEN 250\n~C TETHER 1.1 0.035 -LEN 20", "", [20.0, 10.0, -240.0]),
     ]
 }
 

@@ -1,5 +1,6 @@
 //! `CONNECTOR`.
 
+use super::tether_ends as tether;
 use super::{Call, Command, Effect, Job, Menu};
 use crate::language::args::Args;
 use crate::language::diagnostic::{Diagnostic, Outcome};
@@ -54,8 +55,21 @@ static CONNECTOR_SPEC: CommandSpec = CommandSpec {
             "angles of the element axes",
         )
         .default("body axes of the first node"),
+        tether::INSTALLED,
+        tether::TOWED,
+        tether::V_SPRINGS,
+        tether::A_SPRINGS,
+        tether::V_MOORING,
+        tether::A_MOORING,
+        tether::CAPS,
+        tether::FLUID,
+        tether::IMPACT,
+        tether::LOW_STOP,
+        tether::CONSTRAINT,
+        tether::GROUP,
     ],
-    detail: "With one point the other end is ground. In INMODEL the names may be defined later. No body, part, curve or \
+    detail: "With one point the other end is ground. A tether (class type TETHER) goes from the vessel to its anchor or, towed, to \
+             its trailing end. In INMODEL the names may be defined later. No body, part, curve or \
              environment has the name of a connector: DELETE NAME means one thing.",
     example: "MEDIT\n&DESCRIBE BODY TBRG\n*MLA 400 50 20\n~WIRE b_cat 4.19 -DEP 500 -LEN 4000 -BUOY 0 -WTPL .0125\n\
               CONNECTOR A -ANC -45 20 ~WIRE *MLA\nEND\n&STATUS G_CONNECTOR",
@@ -112,6 +126,7 @@ pub fn build_connector(job: &mut Job, args: &Args) -> Outcome<()> {
         tug: args
             .option("-TUG")
             .map(|g| Tug { direction: g.number(0).unwrap_or(0.0), distance: g.number(1).unwrap_or(0.0) }),
+        tether: tether::read(args)?,
         offsets: [vector("-GO1"), vector("-GO2")],
         defined: Default::default(),
         euler: args.has("-EULER").then(|| vector("-EULER")),
@@ -130,6 +145,10 @@ pub fn build_connector(job: &mut Job, args: &Args) -> Outcome<()> {
     });
     class.object.check()?;
     class.object.check_ends(&made, on_bodies)?;
+    if made.tether.is_some() && class.object.tether_sections().is_empty() {
+        let text = format!("{} is of class type {}, which is no tether", made.class, class.object.kind());
+        return Err(Diagnostic::error(text, args.place(1)).help("the options of tethers go with class type TETHER"));
+    }
     let span = args.place(0);
     let held = |point: &Point| model.body_of(point).map_or("ground", |b| b.name.as_str()).to_string();
     if let [first, second] = points.as_slice()

@@ -70,6 +70,7 @@ mod status;
 mod store;
 mod surface;
 mod tdom;
+mod tether_ends;
 mod units;
 mod vary;
 mod weight;

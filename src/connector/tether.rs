@@ -9,8 +9,12 @@ use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
 use crate::language::spec::{CommandSpec, Kind, ValueSpec};
 use crate::language::units::Dim;
-use crate::model::{ClassRecord, Connector, ConnectorClass, Surroundings};
+use crate::model::{
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Guess, Response, Situation, Summary,
+    Surroundings, TetherSection, TetherUse,
+};
 use crate::table::{Cell, Digits, Table};
+use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::FRAC_PI_4;
 use std::sync::Arc;
 
@@ -53,18 +57,6 @@ static TETHER_SPEC: CommandSpec = CommandSpec {
 };
 
 #[derive(Debug)]
-struct TetherSection {
-    od: f64,
-    thickness: f64,
-    length: f64,
-    elements: i64,
-    density: f64,
-    emodulus: f64,
-    ca: f64,
-    cd: f64,
-}
-
-#[derive(Debug)]
 struct TetherClass(Vec<TetherSection>);
 
 fn build_tether(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
@@ -76,15 +68,16 @@ fn build_tether(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
             return Err(Diagnostic::error("the wall thickness T is larger than half of OD", args.place(1)));
         }
         let material = &record.defaults.material;
+        let elements = args.option("-REFINE").and_then(|g| g.values.first()).and_then(|v| v.integer());
         sections.push(TetherSection {
-            od,
-            thickness,
+            outer_diameter: od,
+            wall_thickness: thickness,
             length: checks::length(args, "TETHER")?,
-            elements: args.option("-REFINE").and_then(|g| g.values.first()).and_then(|v| v.integer()).unwrap_or(1),
+            elements: elements.and_then(|n| usize::try_from(n).ok()).unwrap_or(1),
             density: args.option_number("-DENSITY").unwrap_or(material.density),
-            emodulus: args.option_number("-EMODULUS").unwrap_or(material.emodulus),
-            ca: args.option_number("-CA").unwrap_or(1.0),
-            cd: args.option_number("-CD").unwrap_or(0.75),
+            youngs_modulus: args.option_number("-EMODULUS").unwrap_or(material.emodulus),
+            added_mass: args.option_number("-CA").unwrap_or(1.0),
+            drag: args.option_number("-CD").unwrap_or(0.75),
         });
     }
     Ok(Arc::new(TetherClass(sections)))
@@ -114,21 +107,18 @@ impl ConnectorClass for TetherClass {
             .column("Coefficients", "Ca", Dim::None, Digits::Decimals(3))
             .column("Coefficients", "Cd", Dim::None, Digits::Decimals(3));
         for (index, s) in self.0.iter().enumerate() {
-            let inner = s.od - 2.0 * s.thickness;
-            let area = FRAC_PI_4 * (s.od * s.od - inner * inner);
-            let inertia = FRAC_PI_4 / 16.0 * (s.od.powi(4) - inner.powi(4));
             let row: Vec<Cell> = vec![
                 (index + 1).into(),
-                s.od.into(),
-                s.thickness.into(),
+                s.outer_diameter.into(),
+                s.wall_thickness.into(),
                 s.length.into(),
-                Cell::Integer(s.elements),
-                (s.density * area).into(),
-                (surroundings.water_density * FRAC_PI_4 * s.od * s.od).into(),
-                (s.emodulus * area).into(),
-                (s.emodulus * inertia).into(),
-                s.ca.into(),
-                s.cd.into(),
+                s.elements.into(),
+                (s.density * area(s)).into(),
+                (surroundings.water_density * outer(s)).into(),
+                (s.youngs_modulus * area(s)).into(),
+                (s.youngs_modulus * second_moment(s)).into(),
+                s.added_mass.into(),
+                s.drag.into(),
             ];
             // the row has one cell a column, made just above
             let _ = table.push(row);
@@ -138,5 +128,161 @@ impl ConnectorClass for TetherClass {
 
     fn first_length(&self) -> Option<f64> {
         self.0.first().map(|s| s.length)
+    }
+
+    fn tether_sections(&self) -> &[TetherSection] {
+        &self.0
+    }
+
+    fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
+        Ok(Box::new(Bar::of(&self.0, connection)))
+    }
+}
+
+/// Area within the outer diameter (m2).
+fn outer(s: &TetherSection) -> f64 {
+    FRAC_PI_4 * s.outer_diameter * s.outer_diameter
+}
+
+fn inner(s: &TetherSection) -> f64 {
+    FRAC_PI_4 * (s.outer_diameter - 2.0 * s.wall_thickness).powi(2)
+}
+
+fn area(s: &TetherSection) -> f64 {
+    outer(s) - inner(s)
+}
+
+fn second_moment(s: &TetherSection) -> f64 {
+    FRAC_PI_4 / 16.0 * (s.outer_diameter.powi(4) - (s.outer_diameter - 2.0 * s.wall_thickness).powi(4))
+}
+
+/// An installed tether as a bar between its ends, without bending and without dynamics of its own: what &EQUI has, and TDOM without
+/// -TETHERS. A towed tether exerts nothing on its vessel.
+///
+/// The effective tension halfway is `EA/L0 (L - L0) + rho g (h_top + h_bottom)/2 A_e - (p + rho_i g (h_top + h_bottom)/2) A_i`, in which
+/// the depths h are below the mean level (validation/installed-tether.md, 2 and 4; internal fluid by the same balance). Each end
+/// bears half of the weight in water. A slack tether keeps the tension with which it hangs from one end.
+#[derive(Clone, Debug, PartialEq)]
+struct Bar {
+    towed: bool,
+    count: f64,
+    length: f64,
+    /// EA of the whole over its length (N/m).
+    stiffness: f64,
+    /// External and internal area, averaged over the length (m2).
+    areas: [f64; 2],
+    /// Pressure at sea level (Pa) and density (kg/m3) inside.
+    fluid: [f64; 2],
+    /// Mass of the walls (kg).
+    mass: f64,
+}
+
+/// The tension of a bar where it is.
+struct Pull {
+    /// Unit vector from the first end to the second.
+    toward: Vector3<f64>,
+    distance: f64,
+    /// Weight in water (N).
+    weight: f64,
+    /// Effective tension halfway (N).
+    tension: f64,
+    /// d(tension)/d(place of the ends) (N/m).
+    slopes: [Vector3<f64>; 2],
+    slack: bool,
+}
+
+impl Bar {
+    fn of(sections: &[TetherSection], connection: &Connection) -> Self {
+        let ends = connection.connector.tether.clone().unwrap_or_default();
+        let length: f64 = sections.iter().map(|s| s.length).sum();
+        let mean =
+            |value: fn(&TetherSection) -> f64| sections.iter().map(|s| value(s) * s.length).sum::<f64>() / length;
+        let flexibility: f64 = sections.iter().map(|s| s.length / (s.youngs_modulus * area(s))).sum();
+        Bar {
+            towed: ends.used == TetherUse::Towed,
+            count: ends.count(),
+            length,
+            stiffness: flexibility.recip(),
+            areas: [mean(outer), mean(inner)],
+            fluid: ends.fluid,
+            mass: sections.iter().map(|s| s.density * area(s) * s.length).sum(),
+        }
+    }
+
+    fn pull(&self, at: &Situation) -> Result<Pull, ClassError> {
+        let [first, second] = at.ends else { return Err(ClassError::new("a tether has two ends")) };
+        let chord = second.pose.origin - first.pose.origin;
+        let distance = chord.norm();
+        if distance <= 0.0 {
+            return Err(ClassError::new("the two ends of the tether are at one place"));
+        }
+        let toward = chord / distance;
+        let water = at.surroundings;
+        let depths = [first, second].map(|end| (water.tide - end.pose.origin.z).max(0.0));
+        let middle = 0.5 * (depths[0] + depths[1]);
+        let [external, internal] = self.areas;
+        let [pressure, density] = self.fluid;
+        let outside = water.water_weight() * external;
+        let inside = density * water.gravity * internal;
+        let weight = self.mass * water.gravity + (inside - outside) * self.length;
+        let taut = self.stiffness * (distance - self.length) + (outside - inside) * middle - pressure * internal;
+        let hanging = 0.5 * (toward.z * weight).abs();
+        let up = Vector3::z();
+        let slack = taut < hanging;
+        let slopes = if slack {
+            let turn = (up - toward * toward.z) * (0.5 * (toward.z * weight).signum() * weight / distance);
+            [-turn, turn]
+        } else {
+            let of_depth = |depth: f64| up * (0.5 * (inside - outside) * f64::from(depth > 0.0));
+            let along = toward * self.stiffness;
+            [of_depth(depths[0]) - along, of_depth(depths[1]) + along]
+        };
+        Ok(Pull { toward, distance, weight, tension: taut.max(hanging), slopes, slack })
+    }
+}
+
+impl Element for Bar {
+    fn evaluate(
+        &self,
+        at: &Situation,
+        _: &[f64],
+        _: &mut [f64],
+        _: &mut Guess,
+        out: &mut Response,
+    ) -> Result<(), ClassError> {
+        out.clear(2);
+        if self.towed {
+            return Ok(());
+        }
+        let found = self.pull(at)?;
+        let n = found.toward;
+        let across = (Matrix3::identity() - n * n.transpose()) * (found.tension / found.distance);
+        let [first, second] = found.slopes.map(|slope| n * slope.transpose());
+        let blocks = [across - first, -across - second, first - across, across + second];
+        for (out, block) in out.stiffness.iter_mut().zip(blocks) {
+            out.fixed_view_mut::<3, 3>(0, 0).copy_from(&(block * self.count));
+        }
+        for (wrench, sign) in out.wrench.iter_mut().zip([1.0, -1.0]) {
+            let force = n * (sign * found.tension) - Vector3::z() * (0.5 * found.weight);
+            wrench.fixed_rows_mut::<3>(0).copy_from(&(force * self.count));
+        }
+        Ok(())
+    }
+
+    fn summary(&self, at: &Situation, _: &[f64]) -> Result<Summary, ClassError> {
+        if self.towed {
+            let notes = vec!["a towed tether exerts nothing at rest: TDOM -TETHERS runs it".into()];
+            return Ok(Summary { solution: "exact", notes, ..Summary::default() });
+        }
+        let found = self.pull(at)?;
+        let mut notes = Vec::new();
+        if self.count > 1.0 {
+            notes.push(format!("the tension is of one of {} tethers", self.count));
+        }
+        if found.slack {
+            notes.push("warning: it is slack".into());
+        }
+        let at_fairlead = found.tension - 0.5 * found.toward.z * found.weight;
+        Ok(Summary { tension: Some(at_fairlead), solution: "exact", notes, ..Summary::default() })
     }
 }

@@ -7,6 +7,7 @@ use super::element::{Connection, Element};
 use super::environment::Surroundings;
 use super::fatigue::FatigueSegment;
 use super::line::{LineModel, Placement};
+use super::tether::TetherSection;
 use crate::language::args::Args;
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::functions::eight_figures;
@@ -139,6 +140,11 @@ pub trait ConnectorClass: Debug + Send + Sync {
     /// What fatigue goes by in each segment, from the fairlead, without curves; none of a class without sections.
     fn fatigue_segments(&self) -> Vec<FatigueSegment> {
         Vec::new()
+    }
+
+    /// The sections of a tether from the fairlead; none of other classes.
+    fn tether_sections(&self) -> &[TetherSection] {
+        &[]
     }
 
     /// Length of the first segment (m) for geometry reports; `None` for classes without length.

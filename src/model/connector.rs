@@ -2,6 +2,7 @@
 
 use super::geometry::Position;
 use super::pose::Pose;
+use super::tether::TetherEnds;
 use crate::language::source::Span;
 
 /// Where the far end of a line to ground lies.
@@ -39,6 +40,8 @@ pub struct Connector {
     pub anchor: Option<Anchor>,
     /// The tug of a TUG_BOAT.
     pub tug: Option<Tug>,
+    /// How its ends are held, of a tether.
+    pub tether: Option<TetherEnds>,
     /// Offsets of the two ends from their points, in the system of the end's body (m).
     pub offsets: [Position; 2],
     /// Where its two ends stood when it was defined; behind a single point the ground end stands where the point was, with

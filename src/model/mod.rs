@@ -21,6 +21,7 @@ mod names;
 mod pose;
 mod prescribed;
 mod selector;
+mod tether;
 
 pub use assembly::{Assemblies, Assembly, AssemblyKind, LaidPipe, PIPE, PipeLayout};
 pub use body::{Body, GROUND, Junction, Mass, Part, Point, Weight};
@@ -43,6 +44,7 @@ pub use names::Thing;
 pub use pose::{Pose, Six};
 pub use prescribed::{GivenMotion, PathRow, Prescription, ResponseRow, Responses, Sinusoid};
 pub use selector::Selector;
+pub use tether::{TetherConstraint, TetherEnds, TetherSection, TetherUse};
 
 use crate::language::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use crate::language::source::Span;

@@ -1,0 +1,169 @@
+//! The options of `CONNECTOR` that say how a tether is held.
+//!
+//! Source: seed 003, Appendix A (cards TSPA, TSPV, TCAP, TIFL, TIMP, TLOW, TEGR, TLAC, TROC, TLAV, TROV).
+
+use crate::language::args::{Args, Given};
+use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::select::Owner;
+use crate::language::spec::{Kind, OptionSpec, ValueSpec};
+use crate::language::units::Dim;
+use crate::model::{TetherConstraint, TetherEnds, TetherUse};
+
+const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
+    ValueSpec::new(name, Kind::Number(dim), help)
+}
+
+const fn option(name: &'static str, values: &'static [ValueSpec], help: &'static str) -> OptionSpec {
+    OptionSpec::new(name, values, help).owner(Owner::Ours)
+}
+
+const SPRINGS: &[ValueSpec] = &[
+    number("IN", Dim::ForcePerLength, "along the tether; 0 or less is rigid"),
+    number("RX", Dim::MomentPerRadian, "against turning about X of the tether; less than 0 is none"),
+    number("RY", Dim::MomentPerRadian, "against turning about Y of the tether; less than 0 is none"),
+];
+const MOORING: &[ValueSpec] = &[
+    number("KX", Dim::ForcePerLength, "along the tether; without effect: it does not move along").not_negative(),
+    number("KY", Dim::ForcePerLength, "sideways").not_negative(),
+    number("KZ", Dim::ForcePerLength, "vertical").not_negative(),
+];
+const STRESS_OF_SPEED: Dim = Dim::Derived { force: 1, length: -3, seconds: 1 };
+const PRESSURE: Dim = Dim::Derived { force: 1, length: -2, seconds: 0 };
+const KINDS: &[&str] = &["LATERAL_FIXED", "ROTATIONAL_FIXED", "LATERAL_VESSEL", "ROTATIONAL_VESSEL"];
+
+/// A tether between a structure and its anchor (the default of class TETHER).
+pub const INSTALLED: OptionSpec = option("-INSTALLED", &[], "a tether from a structure to its anchor");
+/// A towed tether.
+pub const TOWED: OptionSpec =
+    option("-TOWED", &[], "a tether afloat along the surface; the second point is its trailing end");
+/// Card TSPV of an installed tether.
+pub const V_SPRINGS: OptionSpec = option("-V_SPRINGS", SPRINGS, "springs at the vessel").default("rigid");
+/// Card TSPA of an installed tether.
+pub const A_SPRINGS: OptionSpec = option("-A_SPRINGS", SPRINGS, "springs at the anchor").default("rigid");
+/// Card TSPV of a towed tether.
+pub const V_MOORING: OptionSpec =
+    option("-V_MOORING", MOORING, "soft mooring of a towed tether's vessel end").default("rigid");
+/// Card TSPA of a towed tether.
+pub const A_MOORING: OptionSpec =
+    option("-A_MOORING", MOORING, "soft mooring of a towed tether's trailing end").default("rigid");
+/// Card TCAP.
+pub const CAPS: OptionSpec = option(
+    "-CAPS",
+    &[
+        number("AREA_A", Dim::Area, "at the anchor").not_negative(),
+        number("AREA_V", Dim::Area, "at the vessel").not_negative(),
+    ],
+    "areas of the ends that no water presses on",
+)
+.default("0 0");
+/// Card TIFL.
+pub const FLUID: OptionSpec = option(
+    "-FLUID",
+    &[number("P", PRESSURE, "pressure at sea level"), number("RHO", Dim::Density, "density").not_negative()],
+    "fluid inside",
+)
+.default("0 0: empty");
+/// Card TIMP.
+pub const IMPACT: OptionSpec = option(
+    "-IMPACT",
+    &[
+        number("FACTOR", STRESS_OF_SPEED, "axial stress at unit closing velocity").not_negative(),
+        number("HALF_LIFE", Dim::Time, "time after which half of it is left").positive(),
+    ],
+    "stress when a slack tether is taken up",
+)
+.default("none");
+/// Card TLOW.
+pub const LOW_STOP: OptionSpec = option(
+    "-LOW_STOP",
+    &[number("D", Dim::Length, "distance below the anchor").not_negative()],
+    "lower stop of a tether that hangs free; a warning says when it is passed",
+)
+.default("none");
+/// Cards TLAC, TROC, TLAV, TROV.
+pub const CONSTRAINT: OptionSpec = OptionSpec {
+    many: true,
+    ..option(
+        "-CONSTRAINT",
+        &[
+            ValueSpec::new("KIND", Kind::Choice(KINDS), "what is held, and by what"),
+            number("GAP", Dim::Length, "free radius of LATERAL_VESSEL").or("0").not_negative(),
+        ],
+        "holds an end of a tether beside its springs, five at most",
+    )
+};
+/// Card TEGR.
+pub const GROUP: OptionSpec = option(
+    "-GROUP",
+    &[ValueSpec::new("N", Kind::Integer, "how many").within(1.0, 1e6)],
+    "identical tethers side by side: forces on the structure count so many times",
+)
+.default("1");
+
+/// Most constraints of a tether (seed 003, A.14).
+const MOST_CONSTRAINTS: usize = 5;
+
+const OF_INSTALLED: [&str; 8] =
+    ["-INSTALLED", "-V_SPRINGS", "-A_SPRINGS", "-CAPS", "-FLUID", "-IMPACT", "-LOW_STOP", "-CONSTRAINT"];
+const OF_TOWED: [&str; 3] = ["-TOWED", "-V_MOORING", "-A_MOORING"];
+
+fn first_of<'a>(args: &'a Args, names: &[&str]) -> Option<&'a Given> {
+    names.iter().find_map(|name| args.option(name))
+}
+
+/// How a record holds its tether; `None` when it says nothing of one.
+///
+/// # Errors
+/// Options of a towed and of an installed tether together, too many constraints, a gap of what has none.
+pub fn read(args: &Args) -> Outcome<Option<TetherEnds>> {
+    let (installed, towed) = (first_of(args, &OF_INSTALLED), first_of(args, &OF_TOWED));
+    if let (Some(one), Some(other)) = (installed, towed) {
+        let text = format!("{} is of a towed tether, {} of an installed one", other.spec.name, one.spec.name);
+        return Err(Diagnostic::error(text, other.span).other(one.span, "given here"));
+    }
+    if installed.is_none() && towed.is_none() && !args.has("-GROUP") {
+        return Ok(None);
+    }
+    let three = |name: &str| {
+        let numbers = args.option(name)?.numbers();
+        Some([0, 1, 2].map(|i| numbers.get(i).copied().unwrap_or(0.0)))
+    };
+    let two = |name: &str| args.option(name).map(|g| [0, 1].map(|i| g.number(i).unwrap_or(0.0)));
+    let swapped = |[first, second]: [f64; 2]| [second, first];
+    let (used, springs) = if towed.is_some() {
+        (TetherUse::Towed, [three("-V_MOORING"), three("-A_MOORING")])
+    } else {
+        (TetherUse::Installed, [three("-V_SPRINGS"), three("-A_SPRINGS")])
+    };
+    let group = args.option("-GROUP").and_then(|g| g.values.first()).and_then(|v| v.integer());
+    Ok(Some(TetherEnds {
+        used,
+        springs,
+        caps: two("-CAPS").map(swapped).unwrap_or_default(),
+        fluid: two("-FLUID").unwrap_or_default(),
+        impact: two("-IMPACT"),
+        low_stop: args.option_number("-LOW_STOP"),
+        constraints: constraints(args)?,
+        group: group.and_then(|n| usize::try_from(n).ok()).unwrap_or(1),
+    }))
+}
+
+fn constraints(args: &Args) -> Outcome<Vec<TetherConstraint>> {
+    let mut found = Vec::new();
+    for given in args.all("-CONSTRAINT") {
+        let gap = given.number(1);
+        if gap.is_some_and(|g| g > 0.0) && given.word(0) != Some("LATERAL_VESSEL") {
+            return Err(Diagnostic::error("only LATERAL_VESSEL has a gap", given.span));
+        }
+        found.push(match given.word(0) {
+            Some("LATERAL_FIXED") => TetherConstraint::LateralFixed,
+            Some("ROTATIONAL_FIXED") => TetherConstraint::RotationalFixed,
+            Some("LATERAL_VESSEL") => TetherConstraint::LateralVessel { gap: gap.unwrap_or(0.0) },
+            _ => TetherConstraint::RotationalVessel,
+        });
+        if found.len() > MOST_CONSTRAINTS {
+            return Err(Diagnostic::error(format!("a tether has {MOST_CONSTRAINTS} constraints at most"), given.span));
+        }
+    }
+    Ok(found)
+}

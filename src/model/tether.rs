@@ -1,0 +1,98 @@
+//! What a connector of class TETHER is: sections of tube, and how their two ends are held.
+//!
+//! Source: seed 002, 5.8.3.3 (sections); seed 003, Appendix A (what deck 14 says of a tether).
+
+/// A section of a tether: elements of one tube, from the fairlead.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TetherSection {
+    /// Outer diameter (m).
+    pub outer_diameter: f64,
+    /// Wall thickness (m).
+    pub wall_thickness: f64,
+    /// Unstretched length (m).
+    pub length: f64,
+    /// Number of elements it is cut into.
+    pub elements: usize,
+    /// Density of the material (kg/m3).
+    pub density: f64,
+    /// Young's modulus (Pa).
+    pub youngs_modulus: f64,
+    /// Transverse added mass coefficient.
+    pub added_mass: f64,
+    /// Transverse drag coefficient.
+    pub drag: f64,
+}
+
+/// Which of the two tethers of seed 003 it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum TetherUse {
+    /// Between a structure and its anchor, under tension.
+    #[default]
+    Installed,
+    /// Afloat along the surface behind a vessel.
+    Towed,
+}
+
+/// What holds a node of an installed tether beside its springs (cards TLAC, TROC, TLAV, TROV).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum TetherConstraint {
+    /// The anchor end does not move sideways.
+    LateralFixed,
+    /// The anchor end does not turn.
+    RotationalFixed,
+    /// The structure holds the upper end sideways once it is this far (m) from the centre of its gap.
+    LateralVessel {
+        /// Radius of the free circle (m).
+        gap: f64,
+    },
+    /// The upper end turns with the structure.
+    RotationalVessel,
+}
+
+/// How the ends of a tether are held and what is in it. The first of two values is that of the fairlead, at the vessel; the
+/// second that of the anchor or the trailing end.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct TetherEnds {
+    /// Installed or towed.
+    pub used: TetherUse,
+    /// Stiffness of the springs at each end where given: installed, along the tether (N/m) and two rotational (N m/rad); towed, along
+    /// X, Y and Z of the tether (N/m).
+    pub springs: [Option<[f64; 3]>; 2],
+    /// Areas of the end caps that no water presses on (m2).
+    pub caps: [f64; 2],
+    /// Pressure at sea level (Pa) and density (kg/m3) of the fluid inside.
+    pub fluid: [f64; 2],
+    /// Axial stress of an impact at unit velocity (Pa s/m), and the time after which half of it is left (s).
+    pub impact: Option<[f64; 2]>,
+    /// Distance of the lower stop below the anchor (m); 0: it never hangs free.
+    pub low_stop: Option<f64>,
+    /// Constraints.
+    pub constraints: Vec<TetherConstraint>,
+    /// Identical tethers side by side: what they do to the structure counts so many times; 0 as 1.
+    pub group: usize,
+}
+
+impl TetherEnds {
+    /// Stiffness of a spring that is not given (seed 003, A.2 and 8.1.14), in N/m or N m/rad where the card's unit is a thousand.
+    pub const STIFF: f64 = 1.0e18;
+
+    /// How many tethers it stands for.
+    pub fn count(&self) -> f64 {
+        self.group.max(1) as f64
+    }
+
+    /// Springs in force at the fairlead and at the far end. Installed: [`TetherEnds::STIFF`] all where none are given and along the tether
+    /// where not above zero; rotational ones below zero are none. Towed: STIFF where zero or not given.
+    pub fn springs_in_force(&self) -> [[f64; 3]; 2] {
+        self.springs.map(|given| {
+            let Some([first, second, third]) = given else { return [Self::STIFF; 3] };
+            match self.used {
+                TetherUse::Towed => [first, second, third].map(|k| if k == 0.0 { Self::STIFF } else { k }),
+                TetherUse::Installed => {
+                    let inline = if first > 0.0 { first } else { Self::STIFF };
+                    [inline, second.max(0.0), third.max(0.0)]
+                }
+            }
+        })
+    }
+}
