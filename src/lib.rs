@@ -4,6 +4,7 @@
 //! `cli, repl | session | command, aqwa | report | solve | rod, tether | connector | hydro | post | model | table |
 //! language`. Everything below `session` can be used as a library by somebody who never types a command.
 
+pub mod aqwa;
 pub mod cli;
 pub mod command;
 pub mod connector;

@@ -1,0 +1,237 @@
+//! A card image: one line of a deck, its columns, and the values that stand in them.
+//!
+//! Columns are counted from 1, one a character. 1 is blank; 2-4 hold `END` on the last card of a deck; 5-6 an identifier
+//! of the user's own; 7-10 the keyword; the rest are fields at fixed columns that may touch (`-52.630-329.73543`), so a
+//! card is cut by columns and never at blanks. A blank field is zero.
+//!
+//! Source: seed 003, Appendices A and B; reference/aqwa-cards.md, section 1.
+
+use crate::language::source::{Source, SourceId, Span};
+
+/// Last column of a card; what stands further right is not read.
+pub const WIDTH: usize = 80;
+/// Largest whole number taken (nine digits; the widest field of a deck has ten columns).
+const LARGEST: i64 = 999_999_999;
+
+/// A value of a card as it was given, with its place.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Field<T> {
+    /// The value; zero for a blank field.
+    pub value: T,
+    /// Whether anything stands in the field.
+    pub given: bool,
+    /// Its columns.
+    pub span: Span,
+}
+
+impl<T: Copy + PartialEq + Default> Field<T> {
+    /// The value, or a default where the field is blank or zero (a deck cannot tell the two apart).
+    pub fn or(&self, default: T) -> T {
+        if self.value == T::default() { default } else { self.value }
+    }
+}
+
+/// One line of a deck that is neither blank nor a comment.
+#[derive(Clone, Debug)]
+pub struct Line<'a> {
+    /// The line without its end.
+    pub text: &'a str,
+    source: SourceId,
+    /// Byte offset of the line in its source.
+    start: usize,
+    /// Byte offset in the line of each column up to one past the last that is read.
+    columns: Vec<usize>,
+}
+
+/// The lines of a source that say something: no blank line, no comment (first character `*`, `!` or `/`).
+pub fn lines(source: &Source, id: SourceId) -> Vec<Line<'_>> {
+    let mut start = 0;
+    let mut list = Vec::new();
+    for whole in source.text.split('\n') {
+        let text = whole.trim_end();
+        if !text.is_empty() && !text.trim_start().starts_with(['*', '!', '/']) {
+            let columns = text.char_indices().map(|(at, _)| at).take(WIDTH + 1).collect();
+            list.push(Line { text, source: id, start, columns });
+        }
+        start += whole.len() + 1;
+    }
+    list
+}
+
+impl<'a> Line<'a> {
+    fn offset(&self, column: usize) -> usize {
+        self.columns.get(column.saturating_sub(1)).copied().unwrap_or(self.text.len())
+    }
+
+    /// What stands in the columns `first` to `last`; shorter or empty where the line ends before.
+    pub fn columns(&self, first: usize, last: usize) -> &'a str {
+        self.text.get(self.offset(first)..self.offset(last + 1)).unwrap_or_default()
+    }
+
+    /// Whether the columns `first` to `last` are blank.
+    pub fn blank(&self, first: usize, last: usize) -> bool {
+        self.columns(first, last).trim().is_empty()
+    }
+
+    /// The place of the columns `first` to `last`; past the end of the line, the place where they would begin.
+    pub fn span(&self, first: usize, last: usize) -> Span {
+        self.place(self.offset(first), self.offset(last + 1))
+    }
+
+    /// The place of bytes of the line.
+    pub fn place(&self, from: usize, to: usize) -> Span {
+        Span::new(self.source, self.start + from, self.start + to)
+    }
+
+    /// The place of a piece of the line (a slice of its text).
+    pub fn place_of(&self, piece: &str) -> Span {
+        let from = (piece.as_ptr() as usize).saturating_sub(self.text.as_ptr() as usize).min(self.text.len());
+        self.place(from, (from + piece.len()).min(self.text.len()))
+    }
+
+    /// The place of the line without the blanks before it.
+    pub fn whole(&self) -> Span {
+        self.place_of(self.text.trim_start())
+    }
+
+    /// Whether the line goes on past the last column that is read.
+    pub fn overlong(&self) -> bool {
+        self.columns.len() > WIDTH && !self.text.get(self.offset(WIDTH + 1)..).unwrap_or_default().trim().is_empty()
+    }
+
+    /// Whether the line has tabs, which belong to no column.
+    pub fn tabs(&self) -> bool {
+        self.text.contains('\t')
+    }
+
+    /// The words of a piece of the line: apart by blanks, tabs or commas.
+    pub fn words(piece: &'a str) -> impl Iterator<Item = &'a str> {
+        piece.split(|c: char| c.is_whitespace() || c == ',').filter(|word| !word.is_empty())
+    }
+}
+
+/// What stands before the fields of a card.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Face<'a> {
+    /// `END` stands in columns 2-4: the last card of its deck.
+    pub last: bool,
+    /// The user's identifier, columns 5-6, trimmed.
+    pub id: &'a str,
+    /// The keyword in capitals; empty on the cards of decks that have none.
+    pub keyword: String,
+    /// Place of the keyword.
+    pub place: Span,
+    /// Whether all of this stands in its columns; else it was found by blanks.
+    pub fixed: bool,
+    /// What follows.
+    pub rest: &'a str,
+}
+
+/// Whether a piece of a line is the word `END` in any case.
+fn is_end(piece: &str) -> bool {
+    piece.eq_ignore_ascii_case("END")
+}
+
+/// Whether a keyword may begin with this.
+fn begins_keyword(piece: &str) -> bool {
+    piece.starts_with(|c: char| c.is_ascii_alphabetic())
+}
+
+impl<'a> Face<'a> {
+    /// The face of a card of deck `deck`; `keyworded` tells whether its cards have a keyword (all but decks 1 and 3).
+    pub fn of(line: &Line<'a>, deck: u8, keyworded: bool) -> Face<'a> {
+        Face::fixed(line, keyworded).unwrap_or_else(|| Face::free(line, deck, keyworded))
+    }
+
+    fn fixed(line: &Line<'a>, keyworded: bool) -> Option<Face<'a>> {
+        let end = line.columns(2, 4);
+        let last = is_end(end);
+        if line.tabs() || !line.blank(1, 1) || !(last || end.trim().is_empty()) {
+            return None;
+        }
+        let id = line.columns(5, 6).trim();
+        let word = line.columns(7, 10);
+        let (keyword, from) = match (keyworded, begins_keyword(word)) {
+            (true, true) if !word.trim_end().contains(char::is_whitespace) => (word.trim_end(), 11),
+            (true, false) if line.blank(7, WIDTH) => ("", 11),
+            (false, true) => (word.trim_end(), 11),
+            (false, false) if id.bytes().all(|b| b.is_ascii_alphanumeric()) => ("", 7),
+            _ => return None,
+        };
+        let rest = line.text.get(line.offset(from)..).unwrap_or_default();
+        Some(Face { last, id, keyword: keyword.to_ascii_uppercase(), place: line.span(7, 10), fixed: true, rest })
+    }
+
+    fn free(line: &Line<'a>, deck: u8, keyworded: bool) -> Face<'a> {
+        let mut rest = line.text.trim_start();
+        let head = rest.get(..3).unwrap_or_default();
+        let after = rest.get(3..).unwrap_or_default();
+        let last = is_end(head) && !begins_keyword(after);
+        if last {
+            rest = after.trim_start();
+        }
+        let id = rest.get(..2).filter(|id| id.bytes().all(|b| b.is_ascii_digit())).unwrap_or_default();
+        let after = rest.get(id.len()..).unwrap_or_default();
+        // where a card has no keyword, two digits may be its first value: only the number of the deck is an identifier
+        let own = id == format!("{deck:02}");
+        let id = if own || (keyworded && !after.starts_with(|c: char| c.is_ascii_digit() || c == '.')) { id } else { "" };
+        rest = rest.get(id.len()..).unwrap_or_default().trim_start();
+        let length = rest.find(|c: char| c.is_whitespace() || c == ',' || c == '(').unwrap_or(rest.len());
+        let word = rest.get(..length).filter(|word| begins_keyword(word)).unwrap_or_default();
+        let place = line.place_of(rest.get(..length).unwrap_or_default());
+        rest = rest.get(word.len()..).unwrap_or_default();
+        Face { last, id, keyword: word.to_ascii_uppercase(), place, fixed: false, rest }
+    }
+}
+
+/// A whole number as a deck writes it.
+pub fn integer(text: &str) -> Option<i64> {
+    let digits = text.strip_prefix(['+', '-']).unwrap_or(text);
+    if digits.is_empty() || !digits.bytes().all(|b| b.is_ascii_digit()) {
+        return None;
+    }
+    text.parse().ok().filter(|value: &i64| value.abs() <= LARGEST)
+}
+
+/// A real number as a deck writes it: with or without a point, exponent with E or D.
+pub fn real(text: &str) -> Option<f64> {
+    let allowed = |b: u8| b.is_ascii_digit() || matches!(b, b'+' | b'-' | b'.' | b'E' | b'e' | b'D' | b'd');
+    if !text.bytes().all(allowed) {
+        return None;
+    }
+    let value: f64 = text.replace(['d', 'D'], "E").parse().ok()?;
+    value.is_finite().then_some(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::language::source::Sources;
+
+    #[test]
+    fn columns_are_characters_and_their_places_are_bytes() {
+        let mut sources = Sources::default();
+        let id = sources.add("a", "* comment\r\n\r\n    01\u{e9}\u{e9} 7\n", 1);
+        let lines = lines(sources.get(id).unwrap(), id);
+        assert_eq!(lines.len(), 1);
+        assert_eq!(lines[0].columns(7, 8), "\u{e9}\u{e9}");
+        assert_eq!(lines[0].columns(10, 10), "7");
+        assert_eq!(sources.position(lines[0].span(10, 10)), Some((3, 10)));
+        assert_eq!(lines[0].columns(60, 70), "");
+    }
+
+    #[test]
+    fn numbers_are_those_of_fortran_and_finite() {
+        assert_eq!(real("1.0E10"), Some(1.0e10));
+        assert_eq!(real("-2.5d-3"), Some(-2.5e-3));
+        assert_eq!(real("5."), Some(5.0));
+        assert_eq!(real(".5"), Some(0.5));
+        for bad in ["nan", "inf", "1E999", "1.0-3", "1 0", "", "E5", "0x1"] {
+            assert_eq!(real(bad), None, "{bad}");
+        }
+        assert_eq!(integer("+12"), Some(12));
+        for bad in ["1.0", "1 2", "", "-", "99999999999"] {
+            assert_eq!(integer(bad), None, "{bad}");
+        }
+    }
+}

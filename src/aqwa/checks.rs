@@ -1,0 +1,293 @@
+//! What can only be checked when all decks are read: whether what a card refers to is there, and what chapter 8 of
+//! seed 003 demands of a towed tether.
+
+use super::Deck;
+use super::card::Field;
+use super::elements::Shape;
+use super::job::Program;
+use super::lines::LineKind;
+use super::remarks::Remarks;
+use super::tethers::Tether;
+use super::waves::Waves;
+use crate::language::diagnostic::Diagnostic;
+use crate::language::source::Span;
+
+/// Checks a deck as a whole; decks that belong to stages before the first one are not asked for.
+pub fn check(deck: &Deck, remarks: &mut Remarks) {
+    let whole = deck.job.has_deck(1);
+    if whole {
+        elements(deck, remarks);
+        waterlines(deck, remarks);
+        for tether in &deck.mooring.tethers {
+            tether_refers(deck, tether, remarks);
+        }
+        line_ends(deck, remarks);
+        numbers_of_structures(deck, remarks);
+    }
+    towed(deck, whole, remarks);
+    run(deck, remarks);
+}
+
+fn missing(what: String, span: Span, remarks: &mut Remarks) {
+    remarks.add(Diagnostic::error(what, span).label("refers to what is not there"));
+}
+
+fn elements(deck: &Deck, remarks: &mut Remarks) {
+    for structure in &deck.structures {
+        for element in &structure.elements {
+            let keyword = element.shape.keyword();
+            for node in &element.nodes {
+                if !deck.nodes.contains_key(node) {
+                    missing(format!("deck 2, {keyword}: node {node} is not in deck 1"), element.span, remarks);
+                }
+            }
+            if element.material != 0 && !deck.materials.contains_key(&element.material) {
+                let message = format!("deck 2, {keyword}: material group {} is not in deck 3", element.material);
+                missing(message, element.span, remarks);
+            }
+            if element.geometry != 0 && deck.geometry(element.shape, element.geometry).is_none() {
+                let message = format!("deck 2, {keyword}: deck 4 has no {keyword} group {}", element.geometry);
+                missing(message, element.span, remarks);
+            }
+            match element.shape {
+                Shape::Quad | Shape::Triangle | Shape::FieldPoint => remarks.once("panels", || {
+                    Diagnostic::error(format!("deck 2, {keyword}: the diffraction analysis of panels is not done here"), element.span)
+                        .help("take the coefficients of the hull from a hydrodynamic database of the model")
+                }),
+                Shape::Stub | Shape::Disc => remarks.once("stubs", || {
+                    Diagnostic::error(format!("deck 2, {keyword}: no source tells the geometry of this element"), element.span)
+                        .help("give a TUBE instead")
+                }),
+                Shape::Tube | Shape::PointMass | Shape::PointBuoyancy => {}
+            }
+            let ends = (element.nodes.first(), element.nodes.get(1));
+            if let (Shape::Tube, (Some(first), Some(second))) = (element.shape, ends)
+                && deck.nodes.get(first).zip(deck.nodes.get(second)).is_some_and(|(a, b)| a.position == b.position)
+            {
+                let message = format!("deck 2, TUBE: nodes {first} and {second} are at one place");
+                remarks.add(Diagnostic::error(message, element.span).label("a tube has a length"));
+            }
+        }
+    }
+}
+
+/// ZLWL of deck 2 and ZCGE of deck 7 tell the same draught.
+fn waterlines(deck: &Deck, remarks: &mut Remarks) {
+    for (structure, hydrostatics) in deck.structures.iter().zip(&deck.hydrostatics) {
+        let (Some((line, at)), Some(height)) = (structure.waterline, hydrostatics.height) else { continue };
+        let centre = deck.mass_properties(structure).centre[2];
+        // the four decimals a card usually has
+        if (centre - line - height.value).abs() > 1e-3 * (1.0 + centre.abs()) {
+            let message = format!(
+                "deck 7, ZCGE: the centre of gravity is at {}, but ZLWL puts it at {}",
+                height.value,
+                centre - line
+            );
+            remarks.add(Diagnostic::error(message, height.span).other(at, "the water line of deck 2"));
+        }
+    }
+}
+
+fn node(deck: &Deck, card: &str, node: Field<i64>, remarks: &mut Remarks) {
+    if !deck.nodes.contains_key(&node.value) {
+        missing(format!("{card}: node {} is not in deck 1", node.value), node.span, remarks);
+    }
+}
+
+fn structure(deck: &Deck, card: &str, number: Field<i64>, remarks: &mut Remarks) {
+    if number.value > 0 && deck.structure(number.value).is_none() {
+        missing(format!("{card}: structure {} is not in deck 2", number.value), number.span, remarks);
+    }
+}
+
+fn tether_refers(deck: &Deck, tether: &Tether, remarks: &mut Remarks) {
+    node(deck, "deck 14, TETH, columns 16-20", tether.node, remarks);
+    node(deck, "deck 14, TETH, columns 26-30", tether.anchor, remarks);
+    structure(deck, "deck 14, TETH, columns 11-15", tether.structure, remarks);
+    if tether.copy_of.is_some() {
+        return;
+    }
+    for element in &tether.description.elements {
+        node(deck, "deck 14, TELM, columns 11-15", element.node1, remarks);
+        node(deck, "deck 14, TELM, columns 16-20", element.node2, remarks);
+        let (material, geometry) = (element.material, element.geometry);
+        if !deck.materials.contains_key(&material.value) {
+            let message = format!("deck 14, TELM, columns 21-25: material group {} is not in deck 3", material.value);
+            missing(message, material.span, remarks);
+        }
+        match deck.geometry(Shape::Tube, geometry.value) {
+            None => {
+                let message = format!("deck 14, TELM, columns 26-30: deck 4 has no TUBE group {}", geometry.value);
+                missing(message, geometry.span, remarks);
+            }
+            Some(tube) if tube.parameters[1].value <= 0.0 => {
+                let message = "deck 14, TELM: a tether element has a wall, and this group has none";
+                remarks.add(Diagnostic::error(message, geometry.span).other(tube.span, "wall thickness, columns 31-40"));
+            }
+            Some(_) => {}
+        }
+        let place = |field: Field<i64>| deck.nodes.get(&field.value).map(|node| node.position);
+        if place(element.node1).zip(place(element.node2)).is_some_and(|(a, b)| a == b) {
+            remarks.add(Diagnostic::error("deck 14, TELM: both nodes are at one place", element.span).label("an element has a length"));
+        }
+        if let Some(stiff) = deck.materials.get(&material.value).filter(|m| m.properties[1].value <= 0.0) {
+            remarks.add(
+                Diagnostic::error("deck 14, TELM: this material has no Young's modulus", material.span)
+                    .other(stiff.span, "Young's modulus belongs in columns 31-40"),
+            );
+        }
+    }
+}
+
+fn line_ends(deck: &Deck, remarks: &mut Remarks) {
+    for line in &deck.mooring.lines {
+        if matches!(line.kind, LineKind::Property { dynamic: true, .. }) {
+            remarks.once("NLID", || {
+                Diagnostic::remark("deck 14, NLID: cable dynamics is chosen by the class of the line here", line.span)
+                    .help("the line is taken as NLIN")
+            });
+        }
+        let ends = line.ends;
+        for (number, point) in [(ends.structure1, ends.node1), (ends.structure2, ends.node2)] {
+            structure(deck, "deck 14, structure of a line", number, remarks);
+            node(deck, "deck 14, node of a line", point, remarks);
+        }
+    }
+}
+
+fn numbers_of_structures(deck: &Deck, remarks: &mut Remarks) {
+    for start in &deck.starts {
+        let number = Field { value: start.structure, given: true, span: start.span };
+        structure(deck, "deck 15", number, remarks);
+    }
+    for held in &deck.held {
+        structure(deck, "deck 12, DACF", held.structure, remarks);
+    }
+    for multipliers in &deck.multipliers {
+        structure(deck, "deck 17", multipliers.structure, remarks);
+    }
+    for printed in &deck.printing.nodes {
+        structure(deck, "deck 18, NODE, columns 11-15", printed.structure, remarks);
+        node(deck, "deck 18, NODE, columns 16-20", printed.node, remarks);
+    }
+    for number in &deck.printing.tensions {
+        structure(deck, "deck 18, PTEN, columns 11-15", *number, remarks);
+    }
+    for switch in &deck.printing.switches {
+        structure(deck, "deck 18, columns 11-15", switch.structure, remarks);
+    }
+}
+
+/// What 6.1, 6.2, 8.1 and A.12 demand of a towed tether.
+fn towed(deck: &Deck, whole: bool, remarks: &mut Remarks) {
+    let Some(tether) = deck.mooring.tethers.iter().find(|tether| tether.towed()) else { return };
+    if deck.mooring.tethers.len() > 1 {
+        remarks.add(
+            Diagnostic::error("deck 14: a towed tether is the only tether of a deck", tether.span)
+                .help("its TETH card is the last and only one (A.12)"),
+        );
+    }
+    if tether.structure.value != 1 {
+        remarks.add(
+            Diagnostic::error("deck 14, TETH, columns 11-15: a towed tether is fixed to structure 1", tether.structure.span)
+                .label("1 belongs here"),
+        );
+    }
+    if !whole {
+        return;
+    }
+    if !deck.job.option("LSTF") {
+        remarks.add(
+            Diagnostic::warning("deck 0: a towed tether asks for the option LSTF", deck.job.span)
+                .help("the nominal vessel is held by the linear stiffness of deck 7 (8.1.0)"),
+        );
+    }
+    let place = |number: i64| deck.nodes.get(&number).map(|node| node.position);
+    let elements = &tether.description.elements;
+    let along: Vec<[f64; 3]> = elements
+        .iter()
+        .take(1)
+        .map(|element| element.node1)
+        .chain(elements.iter().map(|element| element.node2))
+        .filter_map(|field| place(field.value))
+        .collect();
+    let straight = along.windows(2).all(|pair| pair[1][0] > pair[0][0] && pair[1][1..] == pair[0][1..]);
+    if !straight {
+        remarks.add(
+            Diagnostic::error("deck 14: the nodes of a towed tether lie along +X, from the trailing end on", tether.span)
+                .help("X increases from element to element; Y and Z stay (chapter 4 and 6.1)"),
+        );
+    }
+    let (Some(trailing), Some(first), Some(last)) = (place(tether.anchor.value), along.first(), along.last()) else {
+        return;
+    };
+    let length = last[0] - first[0];
+    if (trailing[0] + length).abs() > 1e-6 * length.abs() {
+        remarks.add(
+            Diagnostic::warning(
+                format!("deck 14, TETH: the trailing end is at X = {}, the tether is {length} long", trailing[0]),
+                tether.anchor.span,
+            )
+            .help("X of the trailing end is minus the length of the tether (6.1)"),
+        );
+    }
+    nominal_vessel(deck, trailing[2], remarks);
+}
+
+/// BFEQ is the weight of the nominal vessel, ZCGE the Z of the trailing end (6.2).
+fn nominal_vessel(deck: &Deck, depth: f64, remarks: &mut Remarks) {
+    let (Some(structure), Some(known)) = (deck.structures.first(), deck.hydrostatics.first()) else { return };
+    let weight = deck.mass_properties(structure).mass * deck.global.gravity;
+    if let Some(buoyancy) = known.buoyancy
+        && (buoyancy.value - weight).abs() > 1e-3 * weight
+    {
+        remarks.add(
+            Diagnostic::warning(format!("deck 7, BFEQ: the weight of the vessel is {weight}"), buoyancy.span)
+                .help("the buoyancy force is the mass times gravity (8.1.7)"),
+        );
+    }
+    if let Some(height) = known.height
+        && (height.value - depth).abs() > 1e-6
+    {
+        remarks.add(
+            Diagnostic::warning(format!("deck 7, ZCGE: the trailing end of the tether is at Z = {depth}"), height.span)
+                .help("the two are the same (8.1.7)"),
+        );
+    }
+}
+
+/// Time steps, statistics, phases and the wave of the program.
+fn run(deck: &Deck, remarks: &mut Remarks) {
+    if !deck.job.has_deck(9) {
+        return;
+    }
+    let timed = matches!(deck.job.program, Program::Drift | Program::Naut);
+    if timed && deck.steps.is_none() && !remarks.failed() {
+        remarks.add(
+            Diagnostic::error("deck 16: a run in time has no TIME card", deck.job.span)
+                .help("TIME: number of steps in columns 16-20, time step in 21-30, start in 31-40"),
+        );
+    }
+    if let (Some(steps), Some(last)) = (deck.steps, deck.printing.last)
+        && last.value > steps.count.value
+    {
+        let message = format!("deck 18, TSTF: step {} comes after the last one, {}", last.value, steps.count.value);
+        remarks.add(Diagnostic::warning(message, last.span).help("the statistics end with the last step"));
+    }
+    match &deck.waves {
+        Waves::Regular(_) if deck.job.program == Program::Drift => remarks.add(
+            Diagnostic::warning("deck 13: a regular wave is for NAUT, this JOB is for DRIF", deck.job.span)
+                .help("SPEC is the deck of a spectrum"),
+        ),
+        Waves::Spectra(spectra) => {
+            for spectrum in spectra {
+                let given = spectrum.phases.len();
+                if given > 0 && i64::try_from(given) != Ok(spectrum.lines) {
+                    let message = format!("deck 13, PHAS: {given} phases for {} spectral lines", spectrum.lines);
+                    remarks.add(Diagnostic::error(message, spectrum.span).label("the spectrum they are for"));
+                }
+            }
+        }
+        _ => {}
+    }
+}

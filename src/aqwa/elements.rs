@@ -1,0 +1,213 @@
+//! Deck 2: the elements of the structures.
+//!
+//! A structure is one rigid body made of all elements of its deck ELMn. A card holds the kind of element and, from
+//! column 21 on, groups in brackets: the number of elements to make, then for each node `(node, step)`, then the
+//! material group and the geometry group where the kind has them, each with a step of its own if wanted.
+//!
+//! Source: reference/aqwa-cards.md, section 5; seed 003, 8.1.2 and 8.2.2.
+
+use super::card::{integer, real};
+use super::layout::{Layout, Record};
+use super::remarks::Remarks;
+use crate::language::diagnostic::Diagnostic;
+use crate::language::source::Span;
+
+/// Most elements of a deck.
+pub const MOST_ELEMENTS: usize = 60_000;
+
+/// Kinds of element.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// Morison tube between two nodes.
+    Tube,
+    /// Point mass.
+    PointMass,
+    /// Slender element of three nodes with given properties.
+    Stub,
+    /// Disc with drag and added mass normal to it.
+    Disc,
+    /// Point buoyancy.
+    PointBuoyancy,
+    /// Panel of four nodes.
+    Quad,
+    /// Panel of three nodes.
+    Triangle,
+    /// Point of the field.
+    FieldPoint,
+}
+
+/// Keyword, kind, number of nodes, whether a material and whether a geometry follow.
+const KINDS: &[(&str, Shape, usize, bool, bool)] = &[
+    ("TUBE", Shape::Tube, 2, true, true),
+    ("PMAS", Shape::PointMass, 1, true, true),
+    ("STUB", Shape::Stub, 3, true, true),
+    ("DISC", Shape::Disc, 2, false, true),
+    ("PBOY", Shape::PointBuoyancy, 1, true, false),
+    ("QPPL", Shape::Quad, 4, false, false),
+    ("TPPL", Shape::Triangle, 3, false, false),
+    ("FPNT", Shape::FieldPoint, 1, false, false),
+];
+
+const UNSEEN: &str = "this card is for the diffraction analysis of a hull, which is not done here; \
+                      a structure is made of TUBE, PMAS, STUB, DISC and PBOY elements or comes from a hydrodynamic database";
+
+/// Cards of deck 2.
+pub const LAYOUTS: &[Layout] = &[
+    Layout::text("TUBE"),
+    Layout::text("PMAS"),
+    Layout::text("STUB"),
+    Layout::text("DISC"),
+    Layout::text("PBOY"),
+    Layout::text("QPPL"),
+    Layout::text("TPPL"),
+    Layout::text("FPNT"),
+    Layout::text("ZLWL"),
+    Layout::refused("FIXD", UNSEEN),
+    Layout::refused("SYMX", UNSEEN),
+    Layout::refused("SYMY", UNSEEN),
+    Layout::refused("RMXS", UNSEEN),
+    Layout::refused("RMYS", UNSEEN),
+    Layout::refused("HYDI", UNSEEN),
+    Layout::refused("ILID", UNSEEN),
+    Layout::refused("VLID", UNSEEN),
+    Layout::passed("SEAG", "the grid of the sea is for pictures of AQWA and has no effect"),
+    Layout::refused("MSTR", UNSEEN),
+    Layout::refused("ASYM", UNSEEN),
+];
+
+/// An element of a structure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Element {
+    /// What it is.
+    pub shape: Shape,
+    /// Its nodes.
+    pub nodes: Vec<i64>,
+    /// Material group; 0 where the kind has none.
+    pub material: i64,
+    /// Geometry group; 0 where the kind has none.
+    pub geometry: i64,
+    /// The card that made it.
+    pub span: Span,
+}
+
+/// A structure: the elements of one deck ELMn.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Structure {
+    /// Its number, 1 for ELM1.
+    pub number: i64,
+    /// Its elements in the order of input.
+    pub elements: Vec<Element>,
+    /// Height of the water line in the axes of deck 1 (ZLWL), where given.
+    pub waterline: Option<(f64, Span)>,
+    /// Header of its deck.
+    pub span: Span,
+}
+
+impl Shape {
+    /// The keyword of the kind.
+    pub fn keyword(self) -> &'static str {
+        KINDS.iter().find(|(_, shape, ..)| *shape == self).map_or("", |(name, ..)| name)
+    }
+}
+
+/// The structure of the cards of one deck ELMn; `present` elements were made before.
+pub fn read(number: i64, span: Span, records: &[Record], present: usize, remarks: &mut Remarks) -> Structure {
+    let mut structure = Structure { number, span, ..Structure::default() };
+    for record in records {
+        if record.keyword == "ZLWL" {
+            let height = groups(record).and_then(|(_, list)| match list.as_slice() {
+                [one] => match one.as_slice() {
+                    [value] => Ok(*value),
+                    _ => Err(misread(record, "(height)")),
+                },
+                _ => Err(misread(record, "(height)")),
+            });
+            structure.waterline = remarks.keep(height).map(|height| (height, record.span));
+            continue;
+        }
+        let Some((name, shape, count, material, geometry)) = KINDS.iter().find(|(name, ..)| *name == record.keyword) else {
+            continue;
+        };
+        let made = present + structure.elements.len();
+        match elements(record, *shape, *count, *material, *geometry, made) {
+            Ok(list) => structure.elements.extend(list),
+            Err(mut error) => {
+                let groups = ["(node,step)"].repeat(*count).join(" ");
+                let material = if *material { " (material)" } else { "" };
+                let geometry = if *geometry { " (geometry)" } else { "" };
+                error.help.push(format!("form: {name} (count) {groups}{material}{geometry}"));
+                remarks.add(error);
+            }
+        }
+    }
+    structure
+}
+
+fn elements(
+    record: &Record,
+    shape: Shape,
+    nodes: usize,
+    material: bool,
+    geometry: bool,
+    made: usize,
+) -> Result<Vec<Element>, Box<Diagnostic>> {
+    let (_, list) = groups(record)?;
+    let wanted = 1 + nodes + usize::from(material) + usize::from(geometry);
+    if list.len() != wanted {
+        let message = format!("deck 2, {}: {wanted} bracketed groups are wanted, {} are there", record.keyword, list.len());
+        return Err(Diagnostic::error(message, record.text_place).label("from column 21 on"));
+    }
+    let whole = |group: &Vec<f64>| -> Option<(i64, i64)> {
+        let int = |value: &f64| (value.fract() == 0.0).then_some(*value as i64);
+        match group.as_slice() {
+            [first] => Some((int(first)?, 0)),
+            [first, step] => Some((int(first)?, int(step)?)),
+            _ => None,
+        }
+    };
+    let mut pairs = Vec::with_capacity(list.len());
+    for group in &list {
+        pairs.push(whole(group).ok_or_else(|| misread(record, "groups of one or two whole numbers"))?);
+    }
+    let count = pairs.first().map_or(0, |(count, _)| *count);
+    let room = MOST_ELEMENTS.saturating_sub(made);
+    if count < 1 || count > i64::try_from(room).unwrap_or(0) {
+        let message = format!("deck 2, {}: {count} elements cannot be made", record.keyword);
+        let label = format!("a deck has 1 to {MOST_ELEMENTS} elements; {made} stand before this card");
+        return Err(Diagnostic::error(message, record.text_place).label(label));
+    }
+    let at = |index: usize, k: i64| pairs.get(index).map_or(0, |(first, step)| first + k * step);
+    let element = |k: i64| Element {
+        shape,
+        nodes: (1..=nodes).map(|index| at(index, k)).collect(),
+        material: if material { at(1 + nodes, k) } else { 0 },
+        geometry: if geometry { at(1 + nodes + usize::from(material), k) } else { 0 },
+        span: record.span,
+    };
+    Ok((0..count).map(element).collect())
+}
+
+fn misread(record: &Record, wanted: &str) -> Box<Diagnostic> {
+    Diagnostic::error(format!("deck 2, {}: `{}` is not understood", record.keyword, record.text), record.text_place)
+        .label(format!("{wanted} belong from column 21 on"))
+}
+
+/// What stands before the brackets (the group of elements), and the numbers of each bracket.
+fn groups(record: &Record) -> Result<(i64, Vec<Vec<f64>>), Box<Diagnostic>> {
+    let wrong = || misread(record, "numbers in brackets");
+    let text = record.text.as_str();
+    let open = text.find('(').ok_or_else(wrong)?;
+    let head = text.get(..open).unwrap_or_default().trim();
+    let head = head.strip_prefix("DIFF").or_else(|| head.strip_prefix("diff")).unwrap_or(head).trim();
+    let group = if head.is_empty() { 0 } else { integer(head).ok_or_else(wrong)? };
+    let mut rest = text.get(open..).unwrap_or_default();
+    let mut list = Vec::new();
+    while let Some(after) = rest.strip_prefix('(') {
+        let close = after.find(')').ok_or_else(wrong)?;
+        let inside = after.get(..close).unwrap_or_default();
+        let numbers: Option<Vec<f64>> = inside.split(',').map(|word| real(word.trim())).collect();
+        list.push(numbers.ok_or_else(wrong)?);
+        rest = after.get(close + 1..).unwrap_or_default().trim_start();
+    }
+    if rest.is_empty() { Ok((group, list)) } else { Err(wrong()) }
+}

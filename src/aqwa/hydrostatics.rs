@@ -1,0 +1,171 @@
+//! Decks 6 to 10: frequencies and directions, stiffness and coefficients of the structures at their equilibrium.
+//!
+//! Source: seed 003, 6.2 and 8.1.7; reference/aqwa-cards.md, section 9.
+
+use super::card::Field;
+use super::layout::{Layout, Record, Slot, int, num};
+use super::remarks::Remarks;
+use super::surroundings::Flow;
+use crate::language::diagnostic::Diagnostic;
+use crate::language::source::Span;
+
+const DATABASE: &str = "coefficients over frequency are not read from a deck; \
+                        take them from a hydrodynamic database of the model instead";
+const UNSEEN: &str = "the columns of this card are published nowhere";
+
+const SIX: [Slot; 6] = [num("X", 21), num("Y", 31), num("Z", 41), num("RX", 51), num("RY", 61), num("RZ", 71)];
+const ROW: &[Slot] = &[int("row", 16), SIX[0], SIX[1], SIX[2], SIX[3], SIX[4], SIX[5]];
+const VALUES: &[Slot] = &[
+    int("first index", 11),
+    int("last index", 16),
+    num("value 1", 21),
+    num("value 2", 31),
+    num("value 3", 41),
+    num("value 4", 51),
+    num("value 5", 61),
+    num("value 6", 71),
+];
+
+/// Cards of deck 6.
+pub const FREQUENCIES: &[Layout] = &[
+    Layout::assumed("FREQ", VALUES),
+    Layout::assumed("PERD", VALUES),
+    Layout::assumed("HRTZ", VALUES),
+    Layout::assumed("DIRN", VALUES),
+    Layout::refused("CSTR", UNSEEN),
+    Layout::refused("FILE", DATABASE),
+    Layout::refused("MVEF", UNSEEN),
+    Layout::refused("FWDS", UNSEEN),
+];
+
+/// Cards of deck 7.
+pub const STIFFNESS: &[Layout] = &[
+    Layout::new("LSTF", ROW),
+    Layout::new("ASTF", ROW),
+    Layout::refused("SSTF", "a stiffness between structures is not read"),
+    Layout::new("BFEQ", &[num("buoyancy force at equilibrium", 21)]),
+    Layout::new("ZCGE", &[num("Z of the centre of gravity at equilibrium", 21)]),
+    Layout::new("SPOS", &SIX),
+    Layout::new("FIAM", ROW),
+    Layout::new("FIDP", ROW),
+    Layout::refused("WAMS", DATABASE),
+    Layout::refused("WDMP", DATABASE),
+    Layout::refused("FREQ", DATABASE),
+    Layout::refused("PERD", DATABASE),
+    Layout::refused("HRTZ", DATABASE),
+    Layout::refused("DIRN", DATABASE),
+    Layout::refused("FILE", DATABASE),
+];
+
+/// Cards of deck 8.
+pub const DRIFT: &[Layout] = &[
+    Layout::refused("DRFT", DATABASE),
+    Layout::refused("FREQ", DATABASE),
+    Layout::refused("DIRN", DATABASE),
+    Layout::refused("FILE", DATABASE),
+];
+
+/// Cards of deck 9.
+pub const DAMPING: &[Layout] =
+    &[Layout::assumed("FIDA", ROW), Layout::assumed("FIDD", ROW), Layout::refused("FILE", DATABASE)];
+
+/// Cards of deck 10.
+pub const HULL: &[Layout] = &[
+    Layout::assumed("CURR", &[num("speed", 11), num("direction", 21)]),
+    Layout::refused("RUFC", "forces from a routine of the user are not read"),
+    Layout::refused("IUFC", "forces from a routine of the user are not read"),
+    Layout::refused("CUFX", UNSEEN),
+    Layout::refused("THRS", UNSEEN),
+    Layout::refused("DIRN", UNSEEN),
+];
+
+/// Six rows of six numbers, in the units of the deck, rotations in radians.
+pub type SixBySix = [[f64; 6]; 6];
+
+/// What decks 6 to 10 say of one structure.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Hydrostatics {
+    /// Wave frequencies of deck 6 (rad/s).
+    pub frequencies: Vec<f64>,
+    /// Wave directions of deck 6 (degrees, towards).
+    pub directions: Vec<f64>,
+    /// Linear hydrostatic stiffness (LSTF); rows that are not given are zero.
+    pub stiffness: Option<SixBySix>,
+    /// Stiffness added to the hydrostatic one (ASTF).
+    pub added_stiffness: Option<SixBySix>,
+    /// Buoyancy force at the free-floating equilibrium (BFEQ).
+    pub buoyancy: Option<Field<f64>>,
+    /// Z of the centre of gravity at that equilibrium (ZCGE).
+    pub height: Option<Field<f64>>,
+    /// Position of the stiffness matrix (SPOS): X, Y, Z, RX, RY, RZ, angles in degrees.
+    pub position: Option<[f64; 6]>,
+    /// Added mass that does not depend on frequency (FIAM; FIDA at drift frequency).
+    pub added_mass: Option<SixBySix>,
+    /// Damping that does not depend on frequency (FIDP; FIDD at drift frequency).
+    pub damping: Option<SixBySix>,
+    /// Current of deck 10, as decks of 2006 have it for NAUT.
+    pub current: Option<Flow>,
+    /// First LSTF card, else the header.
+    pub span: Span,
+}
+
+/// Takes the cards of one of the decks 6 to 10 into what is known of a structure.
+pub fn read(into: &mut Hydrostatics, deck: u8, records: &[Record], remarks: &mut Remarks) {
+    for record in records {
+        match (deck, record.keyword.as_str()) {
+            (6, "DIRN") => into.directions.extend(given(record)),
+            (6, keyword) => into.frequencies.extend(given(record).filter_map(|value| frequency(keyword, value))),
+            (_, "LSTF") => {
+                if into.stiffness.is_none() {
+                    into.span = record.span;
+                }
+                row(&mut into.stiffness, record, remarks);
+            }
+            (_, "ASTF") => row(&mut into.added_stiffness, record, remarks),
+            (_, "FIAM" | "FIDA") => row(&mut into.added_mass, record, remarks),
+            (_, "FIDP" | "FIDD") => row(&mut into.damping, record, remarks),
+            (_, "BFEQ") => into.buoyancy = Some(record.real(21)),
+            (_, "ZCGE") => into.height = Some(record.real(21)),
+            (_, "SPOS") => into.position = Some(record.reals(21).map(|field| field.value)),
+            _ => into.current = Some(Flow { speed: record.real(11), direction: record.real(21), span: record.span }),
+        }
+    }
+    if deck == 7 && into.stiffness.is_some() {
+        for (keyword, missing) in [("BFEQ", into.buoyancy.is_none()), ("ZCGE", into.height.is_none())] {
+            if missing {
+                remarks.add(
+                    Diagnostic::error(format!("deck 7: LSTF without {keyword}"), into.span)
+                        .label("this stiffness is about an equilibrium")
+                        .help("BFEQ is the buoyancy force at equilibrium, ZCGE the Z of the centre of gravity there"),
+                );
+            }
+        }
+    }
+}
+
+fn given(record: &Record) -> impl Iterator<Item = f64> + '_ {
+    record.reals::<6>(21).into_iter().filter(|field| field.given).map(|field| field.value)
+}
+
+/// A wave frequency in rad/s; none for one that is not above zero.
+fn frequency(keyword: &str, value: f64) -> Option<f64> {
+    let turn = 2.0 * std::f64::consts::PI;
+    let frequency = match keyword {
+        "PERD" => turn / value,
+        "HRTZ" => turn * value,
+        _ => value,
+    };
+    (frequency.is_finite() && frequency > 0.0).then_some(frequency)
+}
+
+fn row(matrix: &mut Option<SixBySix>, record: &Record, remarks: &mut Remarks) {
+    let number = record.int(16);
+    let matrix = matrix.get_or_insert([[0.0; 6]; 6]);
+    match usize::try_from(number.value - 1).ok().and_then(|index| matrix.get_mut(index)) {
+        Some(row) => *row = record.reals(21).map(|field| field.value),
+        None => remarks.add(
+            Diagnostic::error(format!("{}, columns 16-20: a matrix has rows 1 to 6", record.keyword), number.span)
+                .label("row belongs here"),
+        ),
+    }
+}

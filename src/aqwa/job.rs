@@ -1,0 +1,245 @@
+//! Deck 0: the JOB, TITLE, OPTIONS and RESTART lines.
+//!
+//! Source: seed 003, chapters 5, 6, 8.1.0 and 8.2.0; reference/aqwa-cards.md, section 3.
+
+use super::card::{Line, integer};
+use super::reader::Reader;
+use super::remarks::Remarks;
+use crate::language::diagnostic::{Diagnostic, did_you_mean};
+use crate::language::source::Span;
+
+/// The program a deck is written for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Program {
+    /// Diffraction and radiation.
+    Line,
+    /// Equilibrium.
+    Librium,
+    /// Frequency domain.
+    Fer,
+    /// Time domain in irregular waves, with drift.
+    #[default]
+    Drift,
+    /// Time domain in regular waves.
+    Naut,
+}
+
+const PROGRAMS: &[(&str, Program)] = &[
+    ("LINE", Program::Line),
+    ("LIBR", Program::Librium),
+    ("FER", Program::Fer),
+    ("DRIF", Program::Drift),
+    ("NAUT", Program::Naut),
+];
+/// Codes of an analysis on the JOB line.
+const ANALYSES: &[&str] = &["WFRQ", "DRFT", "STAT", "DYNA", "FIXD"];
+
+/// Options by name, with what they ask for.
+pub const OPTIONS: &[(&str, &str)] = &[
+    ("REST", "the RESTART line names the stages"),
+    ("DATA", "check of the data: stages 1, 2 and 4 only"),
+    ("LSTF", "the hydrostatics of the structure are the linear stiffness of deck 7"),
+    ("NOST", "no statistics of the structure"),
+    ("PRCE", "echo of decks 1 to 5"),
+    ("PPEL", "properties of each element are printed"),
+    ("PBIS", "forces of each step of an iteration are printed"),
+    ("PFLH", "low and high frequency results apart"),
+    ("PRAF", "inactive freedoms are printed"),
+    ("PRAS", "spectra of articulation reactions"),
+    ("PRFS", "spectra of forces"),
+    ("PRCS", "withdrawn"),
+    ("PRTI", "transfer functions"),
+    ("PRRI", "response amplitude operators"),
+    ("PRRS", "response spectra"),
+    ("PRRP", "response spectra"),
+    ("PRTS", "tension spectra"),
+    ("PRDL", "contents of the restart file"),
+    ("RDEP", "the start is the equilibrium of an earlier run"),
+    ("AHD1", "hydrodynamic database in text"),
+    ("AQTF", "quadratic transfer functions in text"),
+    ("CQTF", "quadratic transfer functions"),
+    ("MQTF", "quadratic transfer functions with directions"),
+    ("CONV", "radiation by convolution"),
+    ("NCNV", "no convolution"),
+    ("CRAO", "response amplitude operators with moorings"),
+    ("CRNM", "response amplitude operators without moorings"),
+    ("LDRG", "linearised drag"),
+    ("NASF", "additional stiffness is ignored"),
+    ("SUFC", "forces from another program"),
+    ("GOON", "on after errors of the mesh"),
+    ("LHFR", "irregular frequencies removed"),
+];
+
+/// Deck 0.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Job {
+    /// Identifier of the run, up to four characters.
+    pub run: String,
+    /// The program.
+    pub program: Program,
+    /// Code of the analysis (`WFRQ`, `DRFT`, ..); empty when left blank.
+    pub analysis: String,
+    /// The title.
+    pub title: String,
+    /// Options in the order given, with their places, without END.
+    pub options: Vec<(String, Span)>,
+    /// First and last stage; 1 to 5 when no RESTART line is given.
+    pub stages: (u8, u8),
+    /// Name of the database of an earlier run, from the RESTART line; empty for none.
+    pub database: String,
+    /// The JOB line.
+    pub span: Span,
+}
+
+impl Job {
+    /// Whether an option was given.
+    pub fn option(&self, name: &str) -> bool {
+        self.options.iter().any(|(option, _)| option == name)
+    }
+
+    /// Whether the cards of a deck stand in the file: decks 1 to 5 belong to stage 1, 6 to 8 to stage 2, the others to
+    /// stage 4.
+    pub fn has_deck(&self, deck: u8) -> bool {
+        let (start, finish) = self.stages;
+        match deck {
+            0..=5 => start <= 1,
+            6..=8 => start <= 2 && finish >= 2,
+            _ => start <= 4 && finish >= 4,
+        }
+    }
+}
+
+/// Whether a text is a deck: its first line that is no comment is a JOB line that names a program.
+pub fn is_deck(text: &str) -> bool {
+    let first = text
+        .lines()
+        .map(str::trim_start)
+        .find(|line| !line.is_empty() && !line.starts_with(['*', '!', '/']))
+        .unwrap_or_default()
+        .to_ascii_uppercase();
+    let mut words = first.split_whitespace();
+    words.next() == Some("JOB") && words.any(|word| PROGRAMS.iter().any(|(name, _)| *name == word))
+}
+
+/// Reads deck 0.
+pub fn read(reader: &mut Reader<'_>) -> Job {
+    let mut job = Job { stages: (1, 5), span: reader.here(), ..Job::default() };
+    let (mut met_job, mut restart, mut listed) = (false, None, None);
+    while let Some(line) = reader.peek().cloned() {
+        let Some(word) = Line::words(line.text).next() else { break };
+        let rest = line.text.get(line.place_of(word).end as usize - line.place(0, 0).start as usize..).unwrap_or_default();
+        match word.to_ascii_uppercase().as_str() {
+            "JOB" => {
+                met_job = true;
+                job.span = line.whole();
+                read_job(&mut job, &line, rest, &mut reader.remarks);
+            }
+            "TITLE" => job.title = rest.trim().to_string(),
+            "OPTIONS" => listed = Some((line.whole(), read_options(&mut job, &line, rest, &mut reader.remarks))),
+            "RESTART" => restart = Some(line.clone()),
+            "NUM_CORES" => {}
+            _ => break,
+        }
+        reader.take();
+    }
+    if !met_job {
+        let span = job.span;
+        reader.remarks.add(Diagnostic::error("deck 0 has no JOB line", span).label("JOB belongs in columns 1-3"));
+    }
+    if let Some((span, false)) = listed {
+        reader.remarks.add(
+            Diagnostic::error("deck 0, OPTIONS: the list has no END", span).label("END belongs after the last option"),
+        );
+    }
+    read_restart(&mut job, restart, &mut reader.remarks);
+    job
+}
+
+fn read_job(job: &mut Job, line: &Line<'_>, rest: &str, remarks: &mut Remarks) {
+    let by_columns = line.blank(4, 4) && line.blank(9, 10) && line.blank(15, 16) && !line.blank(11, 14) && !line.tabs();
+    let words: Vec<&str> = if by_columns {
+        vec![line.columns(5, 8).trim(), line.columns(11, 14).trim(), line.columns(17, 20).trim()]
+    } else {
+        Line::words(rest).collect()
+    };
+    let mut words = words.into_iter();
+    job.run = words.next().unwrap_or_default().to_string();
+    let program = words.next().unwrap_or_default();
+    job.analysis = words.next().unwrap_or_default().to_ascii_uppercase();
+    let name = program.to_ascii_uppercase();
+    match PROGRAMS.iter().find(|(known, _)| *known == name) {
+        Some((_, program)) => job.program = *program,
+        None => {
+            let mut error = Diagnostic::error(format!("deck 0, JOB: `{program}` is no program"), line.whole())
+                .label("columns 11-14 name the program: LINE, LIBR, FER, DRIF or NAUT");
+            error.help.extend(did_you_mean(program, PROGRAMS.iter().map(|(name, _)| *name)));
+            remarks.add(error);
+        }
+    }
+    if !job.analysis.is_empty() && !ANALYSES.contains(&job.analysis.as_str()) {
+        let mut warning =
+            Diagnostic::warning(format!("deck 0, JOB: `{}` is no known analysis", job.analysis), line.whole())
+                .label("columns 17-20 hold WFRQ or DRFT for DRIF, nothing for NAUT");
+        warning.help.extend(did_you_mean(&job.analysis, ANALYSES.iter().copied()));
+        remarks.add(warning);
+    }
+}
+
+/// Adds the options of a line; whether END closed the list.
+fn read_options(job: &mut Job, line: &Line<'_>, rest: &str, remarks: &mut Remarks) -> bool {
+    for word in Line::words(rest) {
+        let name = word.to_ascii_uppercase();
+        if name == "END" {
+            return true;
+        }
+        let span = line.place_of(word);
+        if !OPTIONS.iter().any(|(known, _)| *known == name) {
+            let mut warning = Diagnostic::warning(format!("deck 0, OPTIONS: {name} is not known and has no effect"), span);
+            warning.help.extend(did_you_mean(&name, OPTIONS.iter().map(|(known, _)| *known)));
+            remarks.add(warning);
+        }
+        job.options.push((name, span));
+    }
+    false
+}
+
+fn read_restart(job: &mut Job, restart: Option<Line<'_>>, remarks: &mut Remarks) {
+    let Some(line) = restart else {
+        if let Some((_, span)) = job.options.iter().find(|(name, _)| name == "REST") {
+            remarks.add(
+                Diagnostic::error("deck 0: option REST asks for a RESTART line, and there is none", *span)
+                    .help("RESTART, first stage in columns 9-11, last stage in columns 12-14"),
+            );
+        }
+        return;
+    };
+    if !job.option("REST") {
+        remarks.add(
+            Diagnostic::warning("deck 0: the RESTART line has no effect without the option REST", line.whole())
+                .help("stages 1 to 5 are run"),
+        );
+        return;
+    }
+    let mut words = Line::words(line.text).skip(1);
+    let mut stage = |name: &str| {
+        let word = words.next().unwrap_or_default();
+        let value = integer(word).and_then(|n| u8::try_from(n).ok()).filter(|n| (1..=6).contains(n));
+        if value.is_none() {
+            let span = if word.is_empty() { line.whole() } else { line.place_of(word) };
+            remarks.add(
+                Diagnostic::error(format!("deck 0, RESTART: `{word}` is no stage of the analysis"), span)
+                    .label(format!("the {name} stage belongs here, 1 to 6")),
+            );
+        }
+        value
+    };
+    let stages = (stage("first"), stage("last"));
+    job.database = words.next().unwrap_or_default().to_string();
+    let (Some(start), Some(finish)) = stages else { return };
+    if start > finish {
+        let message = format!("deck 0, RESTART: stage {start} comes after stage {finish}");
+        remarks.add(Diagnostic::error(message, line.whole()).label("the first stage, then the last"));
+        return;
+    }
+    job.stages = (start, finish);
+}

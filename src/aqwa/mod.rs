@@ -1,0 +1,179 @@
+//! The AQWA card-image deck: a file of 80-column cards in decks 0 to 20, read into [`Deck`].
+//!
+//! Nothing is converted here: values are as given, in the units of the deck (any consistent set; [`Deck::units`] tells
+//! which from gravity and the density of the water), angles in degrees, directions those towards which something
+//! travels. Card errors name the deck, the card and its columns, and carry the place. A card whose columns no source
+//! confirms is read with a note of what was assumed; a card that would change the answer and is not read is an error.
+//!
+//! How the parts correspond to the model:
+//!
+//! | deck | here | in the model |
+//! |---|---|---|
+//! | 0 | [`job::Job`] | title, kind of run (DRIF spectrum, NAUT regular wave), stages |
+//! | 1 | [`nodes::Nodes`] | points; a node of a structure moves with the body |
+//! | 2 | [`elements::Structure`] | one body each: TUBE and STUB Morison members, PMAS weight, DISC plate, PBOY buoyancy |
+//! | 3, 4 | [`properties::Material`], [`properties::Geometry`] | sizes, densities and coefficients of the members and of tether elements |
+//! | 5 | [`properties::Global`] | depth, density, gravity of the environment |
+//! | 7 | [`hydrostatics::Hydrostatics`] | linear stiffness of a body about (X, Y, ZCGE) with buoyancy BFEQ, as of a hydrodynamic database |
+//! | 10, 11, 13 CURR, WIND | [`surroundings::Surroundings`], [`surroundings::Flow`] | current profile and wind; the model's directions are those they come FROM, so add 180 degrees |
+//! | 12 | [`surroundings::Held`] | fixed freedoms of a body |
+//! | 13 | [`waves::Waves`] | sea of spectral components, or regular wave (second order unless AIRY) |
+//! | 14 LINE, FORC, WNCH, POLY, COMP | [`lines::MooringLine`] | connectors of the classes that seed 002 names LINEAR ELASTIC, CATENARY, POLYNOMIAL and so on |
+//! | 14 TELM .. TETH | [`tethers::Tether`] | a tether connector, towed or installed |
+//! | 15 | [`run::Start`] | position and velocity of the bodies at the start (of their centres of gravity) |
+//! | 16 | [`run::Steps`] | steps of the time domain: the first is the start |
+//! | 17 | [`run::Multipliers`] | multipliers of drag, added mass and slam |
+//! | 18 | [`printing::Printing`] | what the listing prints, and how often |
+//!
+//! Source: seed 003 (AQWATM-TETHER manual of 2006), reference/aqwa-cards.md.
+
+pub mod card;
+mod checks;
+mod echo;
+pub mod elements;
+pub mod hydrostatics;
+pub mod job;
+mod joined;
+pub mod layout;
+pub mod lines;
+pub mod mass;
+pub mod mooring;
+pub mod nodes;
+pub mod printing;
+pub mod properties;
+pub mod reader;
+pub mod remarks;
+pub mod run;
+pub mod surroundings;
+mod tables;
+pub mod tethers;
+pub mod units;
+pub mod waves;
+
+use crate::language::diagnostic::Diagnostic;
+use crate::language::source::{SourceId, Sources};
+use elements::{Shape, Structure};
+use hydrostatics::Hydrostatics;
+use job::Job;
+use mooring::Mooring;
+use nodes::Nodes;
+use printing::Printing;
+use properties::{Geometry, Global, Materials};
+use reader::{Cards, Reader};
+use run::{Multipliers, Start, Steps};
+use surroundings::{Held, Surroundings};
+use waves::Waves;
+
+pub use echo::Echo;
+pub use job::is_deck;
+
+/// A deck that was read.
+#[derive(Clone, Debug, Default)]
+pub struct Deck {
+    /// Deck 0.
+    pub job: Job,
+    /// Deck 1.
+    pub nodes: Nodes,
+    /// Deck 2: the structures in order, 1 first.
+    pub structures: Vec<Structure>,
+    /// Deck 3.
+    pub materials: Materials,
+    /// Deck 4.
+    pub geometries: Vec<Geometry>,
+    /// Deck 5.
+    pub global: Global,
+    /// Decks 6 to 10, one entry a structure.
+    pub hydrostatics: Vec<Hydrostatics>,
+    /// Deck 11.
+    pub surroundings: Surroundings,
+    /// Deck 12.
+    pub held: Vec<Held>,
+    /// Deck 13.
+    pub waves: Waves,
+    /// Deck 14.
+    pub mooring: Mooring,
+    /// Deck 15.
+    pub starts: Vec<Start>,
+    /// Deck 16.
+    pub steps: Option<Steps>,
+    /// Deck 17.
+    pub multipliers: Vec<Multipliers>,
+    /// Deck 18.
+    pub printing: Printing,
+    /// All cards from deck 1 on as they were read, for the echo.
+    pub cards: Vec<Cards>,
+}
+
+/// What came of reading a file.
+#[derive(Clone, Debug, Default)]
+pub struct Reading {
+    /// The deck, as far as it could be read.
+    pub deck: Deck,
+    /// Errors, warnings and notes in the order met.
+    pub messages: Vec<Diagnostic>,
+    /// Whether there was an error; such a deck is not run.
+    pub failed: bool,
+}
+
+impl Deck {
+    /// A geometry group by the kind of element it is for and its number.
+    pub fn geometry(&self, shape: Shape, group: i64) -> Option<&Geometry> {
+        self.geometries.iter().find(|geometry| geometry.shape == shape && geometry.group == group)
+    }
+
+    /// A structure by its number.
+    pub fn structure(&self, number: i64) -> Option<&Structure> {
+        self.structures.iter().find(|structure| structure.number == number)
+    }
+
+    /// Position of the centre of gravity of a structure at the start: X, Y, Z, RX, RY, RZ (degrees). The place of deck 15,
+    /// else that of the structure as modelled.
+    pub fn start(&self, structure: &Structure) -> [f64; 6] {
+        let given = self.starts.iter().find(|start| start.structure == structure.number && !start.velocity);
+        given.map_or_else(
+            || {
+                let [x, y, z] = self.mass_properties(structure).centre;
+                [x, y, z, 0.0, 0.0, 0.0]
+            },
+            |start| start.values,
+        )
+    }
+
+    /// The loads of a structure's Morison elements are multiplied by these.
+    pub fn multipliers(&self, structure: i64) -> Multipliers {
+        let found = self.multipliers.iter().find(|m| m.structure.value == structure);
+        found.copied().unwrap_or(Multipliers {
+            structure: card::Field { value: structure, ..card::Field::default() },
+            drag: 1.0,
+            added_mass: 1.0,
+            slam: 0.0,
+        })
+    }
+
+    /// The units of the deck.
+    ///
+    /// # Errors
+    /// When gravity and the density of the water belong to no set of units known.
+    pub fn units(&self) -> Result<units::Units, Box<Diagnostic>> {
+        units::units(&self.global)
+    }
+}
+
+/// Reads a file of cards.
+pub fn read(sources: &Sources, id: SourceId) -> Reading {
+    let Some(source) = sources.get(id) else { return Reading::default() };
+    let mut reader = Reader::new(source, id);
+    let mut deck = Deck { job: job::read(&mut reader), ..Deck::default() };
+    for number in 1..=20 {
+        if deck.job.has_deck(number) {
+            joined::read(&mut deck, number, &mut reader);
+        }
+    }
+    if let Some(line) = reader.peek() {
+        let warning = Diagnostic::warning("what follows the last deck is not read", line.whole());
+        reader.remarks.add(warning);
+    }
+    checks::check(&deck, &mut reader.remarks);
+    let failed = reader.remarks.failed();
+    Reading { deck, messages: reader.remarks.into_list(), failed }
+}

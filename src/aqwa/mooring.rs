@@ -1,0 +1,175 @@
+//! Deck 14: mooring lines and tethers. This file has the cards and the walk through them; [`super::lines`] and
+//! [`super::tethers`] have what they make.
+//!
+//! Source: seed 003, Appendix A; reference/aqwa-cards.md, section 14.
+
+use super::card::Field;
+use super::layout::{Layout, Record, Slot, int, num};
+use super::lines::{MooringLine, Property, Walk};
+use super::remarks::Remarks;
+use super::tethers::{Builder, Tether};
+use crate::language::source::Span;
+
+const ENDS: [Slot; 4] = [int("structure 1", 11), int("node 1", 16), int("structure 2", 21), int("node 2", 26)];
+const UNSEEN: &str = "this card is not read; give the line with the classes of the model";
+const NOT_YET: &str = "pre-processing of tethers is not available in the manual's program (A.13) nor here";
+
+/// Cards of deck 14.
+pub const LAYOUTS: &[Layout] = &[
+    Layout::new("TELM", &[int("node 1", 11), int("node 2", 16), int("material group", 21), int("geometry group", 26)]),
+    Layout::new("TSPA", SPRING),
+    Layout::new("TSPV", SPRING),
+    Layout::new("TEIG", &[int("number of modes", 11)]),
+    Layout::new(
+        "TFAT",
+        &[num("reserved", 31), num("stress concentration factor", 41), num("S-N intercept", 51), num("S-N slope m", 61)],
+    ),
+    Layout::new("TPSH", &[int("hours", 11), num("hours", 31)]),
+    Layout::new("TSLK", &[num("time", 31)]),
+    Layout::new("TEGR", &[int("number of identical tethers", 11)]),
+    Layout::new("TCAP", &[num("anchor cap area", 31), num("vessel cap area", 41)]),
+    Layout::new("TIFL", &[num("internal pressure", 31), num("density of the internal fluid", 41)]),
+    Layout::new("TIMP", &[num("stress factor", 31), num("half life", 41)]),
+    Layout::new("TLOW", &[num("distance of the lower stop below the anchor", 31)]),
+    Layout::new("TLAC", &[]),
+    Layout::new("TROC", &[]),
+    Layout::new("TLAV", &[num("gap", 31)]),
+    Layout::new("TROV", &[]),
+    Layout::new(
+        "TETH",
+        &[int("structure", 11), int("node on it", 16), int("0 (fixed)", 21), int("anchor or trailing node", 26)],
+    ),
+    Layout::passed("TSTE", NOT_YET),
+    Layout::passed("TTIM", NOT_YET),
+    Layout::passed("TRAO", NOT_YET),
+    Layout::refused("TECP", "composite tethers are not read"),
+    Layout::refused("TSEG", "composite tethers are not read"),
+    Layout::refused("TSGH", "composite tethers are not read"),
+    Layout::new("LINE", &[ENDS[0], ENDS[1], ENDS[2], ENDS[3], num("stiffness", 31), num("unstretched length", 41)]),
+    Layout::new(
+        "LNDW",
+        &[
+            ENDS[0], ENDS[1], ENDS[2], ENDS[3],
+            num("stiffness", 31),
+            num("start length", 41),
+            num("end length", 51),
+            num("winch speed", 61),
+            num("greatest tension", 71),
+        ],
+    ),
+    Layout::new("FORC", &[ENDS[0], ENDS[1], ENDS[2], ENDS[3], num("force", 31)]),
+    Layout::assumed(
+        "WNCH",
+        &[
+            ENDS[0], ENDS[1], ENDS[2], ENDS[3],
+            num("tension", 31),
+            num("length", 41),
+            num("friction winding in", 51),
+            num("friction paying out", 61),
+        ],
+    ),
+    Layout::new("NLIN", NON_LINEAR),
+    Layout::new("NLID", NON_LINEAR),
+    Layout::new("POLY", &[num("P1", 31), num("P2", 41), num("P3", 51), num("P4", 61), num("P5", 71)]),
+    Layout::new(
+        "COMP",
+        &[
+            int("vertical levels", 11),
+            int("horizontal offsets", 16),
+            int("flags", 21),
+            int("number of sections", 26),
+            num("lowest Z", 31),
+            num("highest Z", 41),
+            num("slope of the sea bed", 51),
+        ],
+    ),
+    Layout::new(
+        "ECAT",
+        &[
+            int("pretension flag", 26),
+            num("mass a length", 31),
+            num("area", 41),
+            num("EA", 51),
+            num("greatest tension", 61),
+            num("length", 71),
+        ],
+    ),
+    Layout::new("ECAX", &[num("k1", 31), num("k2", 41), num("k3", 51)]),
+    Layout::new(
+        "ECAH",
+        &[
+            num("added mass coefficient", 31),
+            num("drag coefficient", 51),
+            num("drag diameter", 61),
+            num("inline drag coefficient", 71),
+        ],
+    ),
+    Layout::new("ECAB", &[num("EI", 31)]),
+    Layout::assumed("BUOY", JOINT),
+    Layout::assumed("CLMP", JOINT),
+    Layout::passed("DYNM", "cable dynamics is chosen by the class of the line here; the card has no effect"),
+    Layout::passed("DOFF", "cable dynamics is chosen by the class of the line here; the card has no effect"),
+    Layout::refused("NCEL", UNSEEN),
+    Layout::refused("LBRK", UNSEEN),
+    Layout::refused("SWIR", UNSEEN),
+    Layout::refused("FEND", UNSEEN),
+    Layout::refused("FLIN", UNSEEN),
+    Layout::refused("FENP", UNSEEN),
+    Layout::refused("DWT0", UNSEEN),
+    Layout::refused("DWAL", UNSEEN),
+    Layout::refused("PULY", UNSEEN),
+    Layout::refused("FILE", UNSEEN),
+];
+
+const SPRING: &[Slot] =
+    &[int("1 for a towed tether, blank for an installed one", 11), num("stiffness 1", 31), num("stiffness 2", 41), num("stiffness 3", 51)];
+const NON_LINEAR: &[Slot] = &[
+    ENDS[0], ENDS[1], ENDS[2], ENDS[3],
+    num("winch tension", 31),
+    num("unstretched length", 41),
+    num("friction winding in", 51),
+    num("friction paying out", 61),
+];
+const JOINT: &[Slot] =
+    &[num("mass", 31), num("displaced mass", 41), num("added mass", 51), num("drag coefficient times area", 61)];
+
+/// Deck 14.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Mooring {
+    /// Properties that lines refer to, in the order of input.
+    pub properties: Vec<Property>,
+    /// Mooring lines in the order of input.
+    pub lines: Vec<MooringLine>,
+    /// Tethers in the order of their TETH cards.
+    pub tethers: Vec<Tether>,
+    /// Modes to print of the eigenvalue solution of each tether (TEIG).
+    pub modes: Option<Field<i64>>,
+    /// Time for which a tether is printed after it goes slack (TSLK); the TPRV card of deck 18 overrides it.
+    pub slack_time: Option<Field<f64>>,
+    /// Place of the last card.
+    pub span: Span,
+}
+
+/// The mooring of the cards of deck 14.
+pub fn read(records: &[Record], remarks: &mut Remarks) -> Mooring {
+    let mut mooring = Mooring::default();
+    let mut tether = Builder::default();
+    let mut walk = Walk::default();
+    for record in records {
+        mooring.span = record.span;
+        match record.keyword.as_str() {
+            "TEIG" => mooring.modes = Some(record.int(11)),
+            "TSLK" => mooring.slack_time = Some(record.real(31)),
+            "TETH" => {
+                if let Some(done) = tether.close(record, &mooring.tethers, remarks) {
+                    mooring.tethers.push(done);
+                }
+            }
+            keyword if keyword.starts_with('T') => tether.take(record, remarks),
+            _ => walk.take(record, &mut mooring.properties, &mut mooring.lines, remarks),
+        }
+    }
+    tether.finish(remarks);
+    walk.finish(&mooring.properties, remarks);
+    mooring
+}

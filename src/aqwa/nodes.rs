@@ -1,0 +1,100 @@
+//! Deck 1: the nodes, with generation.
+//!
+//! A card holds a node, the number of nodes to generate, the step of their numbers, the coordinates of the first and
+//! the steps of the coordinates. Nodes are shared by all structures; each moves with the structure that refers to it.
+//!
+//! Source: reference/aqwa-cards.md, section 4; seed 003, 8.1.1 and the listing's card echo.
+
+use super::card::Field;
+use super::layout::{Layout, Record, int, num};
+use super::remarks::Remarks;
+use crate::language::diagnostic::Diagnostic;
+use crate::language::source::Span;
+use indexmap::IndexMap;
+
+/// Most nodes of a deck, as of AQWA.
+pub const MOST_NODES: usize = 60_000;
+
+const SLOTS: &[super::layout::Slot] = &[
+    super::layout::Slot { name: "node number", column: 7, width: 4, holds: super::layout::Holds::Integer },
+    int("how many nodes to generate", 11),
+    int("step of the node numbers", 16),
+    num("X", 21),
+    num("Y", 31),
+    num("Z", 41),
+    num("step of X", 51),
+    num("step of Y", 61),
+    num("step of Z", 71),
+];
+const UNSEEN: &str = "the columns of this card are published nowhere; give the nodes one by one";
+
+/// Cards of deck 1.
+pub const LAYOUTS: &[Layout] = &[
+    Layout::new("", SLOTS),
+    Layout::refused("STRC", UNSEEN),
+    Layout::refused("NODE", UNSEEN),
+];
+
+/// A node of deck 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Node {
+    /// X, Y, Z as given.
+    pub position: [f64; 3],
+    /// The card that made it.
+    pub span: Span,
+}
+
+/// The nodes by number, in the order of input.
+pub type Nodes = IndexMap<i64, Node>;
+
+/// The nodes of the cards of deck 1.
+pub fn read(records: &[Record], remarks: &mut Remarks) -> Nodes {
+    let mut nodes = Nodes::new();
+    for record in records {
+        let (first, count, step) = (record.int(7), record.int(11), record.int(16));
+        if first.value <= 0 {
+            remarks.add(
+                Diagnostic::error(format!("deck 1, columns 7-10: {} is no node number", first.value), first.span)
+                    .label("a node number from 1 on belongs here"),
+            );
+            continue;
+        }
+        let Some(count) = counted(count, nodes.len(), remarks) else { continue };
+        let step = step.or(1);
+        let from: [Field<f64>; 3] = record.reals(21);
+        let by: [Field<f64>; 3] = record.reals(51);
+        for k in 0..count {
+            let number = first.value + k * step;
+            let position = std::array::from_fn(|axis| from[axis].value + k as f64 * by[axis].value);
+            if number <= 0 || position.iter().any(|x: &f64| !x.is_finite()) {
+                let message = format!("deck 1: generation from node {} leads to node {number}", first.value);
+                remarks.add(Diagnostic::error(message, record.span).label("numbers from 1 on and finite coordinates are wanted"));
+                break;
+            }
+            if let Some(earlier) = nodes.get(&number) {
+                remarks.add(
+                    Diagnostic::error(format!("deck 1: node {number} is given twice"), record.span)
+                        .label(if count > 1 { "this card generates it" } else { "node numbers are unique" })
+                        .other(earlier.span, "given here first"),
+                );
+                break;
+            }
+            nodes.insert(number, Node { position, span: record.span });
+        }
+    }
+    nodes
+}
+
+/// The number of nodes that a card makes; none, with an error, when they would be too many.
+fn counted(count: Field<i64>, present: usize, remarks: &mut Remarks) -> Option<i64> {
+    let wanted = count.value.max(1);
+    let room = i64::try_from(MOST_NODES.saturating_sub(present)).unwrap_or(0);
+    if count.value < 0 || wanted > room {
+        remarks.add(
+            Diagnostic::error(format!("deck 1, columns 11-15: {} nodes cannot be generated", count.value), count.span)
+                .label(format!("a deck has at most {MOST_NODES} nodes; {present} stand before this card")),
+        );
+        return None;
+    }
+    Some(wanted)
+}

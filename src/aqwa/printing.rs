@@ -1,0 +1,143 @@
+//! Deck 18: what is printed, and how often.
+//!
+//! Source: seed 003, Appendix B, 8.1.18 and 8.2.18; reference/aqwa-cards.md, section 18.
+
+use super::card::Field;
+use super::layout::{Layout, Record, Slot, int};
+use super::remarks::Remarks;
+use crate::language::diagnostic::Diagnostic;
+use crate::language::source::Span;
+
+const STEPS: &[Slot] = &[int("number of steps", 11)];
+const PARAMETER: &[Slot] = &[int("structure", 11), int("parameter", 16)];
+
+/// Cards of deck 18.
+pub const LAYOUTS: &[Layout] = &[
+    Layout::new("PREV", STEPS),
+    Layout::new("TPRV", STEPS),
+    Layout::new("TGRV", STEPS),
+    Layout::new("GREV", STEPS),
+    Layout::new("PPRV", STEPS),
+    Layout::new("TSTS", &[int("first step of the statistics", 11)]),
+    Layout::new("TSTF", &[int("last step of the statistics", 11)]),
+    Layout::new("PTEN", &[int("structure", 11)]),
+    Layout::new(
+        "NODE",
+        &[int("structure", 11), int("node", 16), int("reference structure", 21), int("reference node", 26)],
+    ),
+    Layout::new("NOPR", PARAMETER),
+    Layout::new("PRNT", PARAMETER),
+    Layout::passed("PCGP", "not available in AQWA nor here"),
+    Layout::passed("PMST", "tensions along dynamic lines are had with the reports of the session"),
+    Layout::passed("PRTD", "has no effect; PREV says how often a structure is printed"),
+    Layout::passed("SSPC", "is for FER"),
+    Layout::passed("ZRWS", "heights above the wave are had with the reports of the session"),
+    Layout::passed("PTST", "has no effect"),
+    Layout::passed("PTRT", "has no effect"),
+];
+
+/// A node whose position is printed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PrintedNode {
+    /// The structure that carries it.
+    pub structure: Field<i64>,
+    /// The node.
+    pub node: Field<i64>,
+    /// The structure and node it is printed relative to; 0 for the fixed reference.
+    pub reference: (Field<i64>, Field<i64>),
+}
+
+/// A printed parameter turned on or off.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Switch {
+    /// The structure.
+    pub structure: Field<i64>,
+    /// Number of the parameter.
+    pub parameter: Field<i64>,
+    /// On (PRNT) or off (NOPR).
+    pub on: bool,
+}
+
+/// Deck 18. Intervals and steps are counts of time steps.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Printing {
+    /// Steps between printed states of the structures (PREV).
+    pub structures: Option<Field<i64>>,
+    /// Steps between printed states of the tethers (TPRV); overrides TSLK.
+    pub tethers: Option<Field<i64>>,
+    /// Steps between records of the tethers for graphics and statistics (TGRV).
+    pub records: Option<Field<i64>>,
+    /// First step of the statistics (TSTS).
+    pub first: Option<Field<i64>>,
+    /// Last step of the statistics (TSTF).
+    pub last: Option<Field<i64>>,
+    /// Structures whose mooring is printed (PTEN); 0 is all.
+    pub tensions: Vec<Field<i64>>,
+    /// Nodes whose positions are printed.
+    pub nodes: Vec<PrintedNode>,
+    /// Parameters turned on and off, in the order given.
+    pub switches: Vec<Switch>,
+    /// Place of the last card.
+    pub span: Span,
+}
+
+impl Printing {
+    /// Whether a parameter of a structure is printed, given whether it usually is.
+    pub fn prints(&self, structure: i64, parameter: i64, usual: bool) -> bool {
+        let fits = |s: &&Switch| {
+            s.parameter.value == parameter && (s.structure.value == structure || s.structure.value == 0)
+        };
+        self.switches.iter().rfind(fits).map_or(usual, |switch| switch.on)
+    }
+}
+
+/// The printing of the cards of deck 18.
+pub fn read(records: &[Record], remarks: &mut Remarks) -> Printing {
+    let mut printing = Printing::default();
+    for record in records {
+        printing.span = record.span;
+        let first = record.int(11);
+        let keyword = record.keyword.as_str();
+        let counts = matches!(keyword, "PREV" | "TPRV" | "TGRV" | "TSTS" | "TSTF" | "GREV" | "PPRV");
+        if counts && first.value <= 0 && first.given {
+            remarks.add(
+                Diagnostic::error(format!("deck 18, {keyword}, columns 11-15: {} is no number of steps", first.value), first.span)
+                    .label("a whole number above 0 belongs here"),
+            );
+            continue;
+        }
+        let count = first.given.then_some(first);
+        match keyword {
+            "PREV" => printing.structures = count,
+            "TPRV" => printing.tethers = count,
+            "TGRV" => printing.records = count,
+            "TSTS" => printing.first = count,
+            "TSTF" => printing.last = count,
+            "PTEN" => printing.tensions.push(first),
+            "NODE" => {
+                if first.value <= 0 {
+                    remarks.add(
+                        Diagnostic::error("deck 18, NODE, columns 11-15: structure 0 carries no node", first.span)
+                            .label("the number of a structure of deck 2 belongs here"),
+                    );
+                }
+                let reference = (record.int(21), record.int(26));
+                printing.nodes.push(PrintedNode { structure: first, node: record.int(16), reference });
+            }
+            "NOPR" | "PRNT" => {
+                printing.switches.push(Switch { structure: first, parameter: record.int(16), on: keyword == "PRNT" });
+            }
+            _ => {}
+        }
+    }
+    if let (Some(first), Some(last)) = (printing.first, printing.last)
+        && first.value > last.value
+    {
+        remarks.add(
+            Diagnostic::error("deck 18: the statistics end before they start", last.span)
+                .label("TSTF")
+                .other(first.span, "TSTS"),
+        );
+    }
+    printing
+}

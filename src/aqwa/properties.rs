@@ -1,0 +1,238 @@
+//! Decks 3 to 5: materials, geometries, and the water.
+//!
+//! Source: reference/aqwa-cards.md, sections 6 to 8; seed 003, 8.1.3 to 8.1.5 and the listing's card echo.
+
+use super::card::Field;
+use super::elements::Shape;
+use super::layout::{Layout, Record, Slot, int, num};
+use super::remarks::Remarks;
+use crate::language::diagnostic::Diagnostic;
+use crate::language::source::Span;
+use indexmap::IndexMap;
+
+/// Drag coefficient of a TUBE without a CONT card (assumed: the manual's page speaks of defaults, its values were not
+/// seen; both decks of seed 003 give these).
+pub const DEFAULT_DRAG: f64 = 0.75;
+/// Added mass coefficient of a TUBE without a CONT card (assumed as [`DEFAULT_DRAG`]).
+pub const DEFAULT_ADDED_MASS: f64 = 1.0;
+
+/// Cards of deck 3.
+pub const MATERIALS: &[Layout] = &[Layout::new(
+    "",
+    &[
+        int("material group", 16),
+        num("density or mass", 21),
+        num("Young's modulus or second property", 31),
+        num("third property", 41),
+    ],
+)];
+
+const SIX: &[Slot] = &[
+    int("geometry group", 16),
+    num("parameter 1 (diameter; Ixx)", 21),
+    num("parameter 2 (wall thickness; Ixy)", 31),
+    num("parameter 3 (Ixz)", 41),
+    num("parameter 4 (Iyy)", 51),
+    num("parameter 5 (Iyz)", 61),
+    num("parameter 6 (Izz)", 71),
+];
+
+/// Cards of deck 4.
+pub const GEOMETRIES: &[Layout] = &[
+    Layout::new("TUBE", SIX),
+    Layout::new("PMAS", SIX),
+    Layout::assumed("STUB", SIX),
+    Layout::assumed("DISC", SIX),
+    Layout::new("CONT", &[num("drag coefficient", 21), num("added mass coefficient", 31)]),
+];
+
+/// Cards of deck 5.
+pub const GLOBALS: &[Layout] = &[
+    Layout::new("DPTH", &[num("depth of water", 11)]),
+    Layout::new("DENS", &[num("density of water", 11)]),
+    Layout::new("ACCG", &[num("acceleration due to gravity", 11)]),
+];
+
+/// A material group.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Material {
+    /// TUBE: density, Young's modulus (tethers). PMAS: mass. STUB: mass and two inertias a length. PBOY: displaced mass.
+    pub properties: [Field<f64>; 3],
+    /// The card.
+    pub span: Span,
+}
+
+/// A geometry group.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Geometry {
+    /// Kind of element it is for.
+    pub shape: Shape,
+    /// Number of the group.
+    pub group: i64,
+    /// TUBE: diameter, wall thickness. PMAS: Ixx, Ixy, Ixz, Iyy, Iyz, Izz about the centre of gravity.
+    pub parameters: [Field<f64>; 6],
+    /// Drag coefficient of the CONT card.
+    pub drag: Option<Field<f64>>,
+    /// Added mass coefficient of the CONT card.
+    pub added_mass: Option<Field<f64>>,
+    /// The card.
+    pub span: Span,
+}
+
+impl Geometry {
+    /// The drag coefficient in force.
+    pub fn drag(&self) -> f64 {
+        self.drag.map_or(DEFAULT_DRAG, |given| given.or(DEFAULT_DRAG))
+    }
+
+    /// The added mass coefficient in force.
+    pub fn added_mass(&self) -> f64 {
+        self.added_mass.map_or(DEFAULT_ADDED_MASS, |given| given.or(DEFAULT_ADDED_MASS))
+    }
+}
+
+/// The water and gravity, in the units of the deck.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Global {
+    /// Depth.
+    pub depth: f64,
+    /// Density of the water.
+    pub density: f64,
+    /// Acceleration due to gravity; it tells the unit of length.
+    pub gravity: f64,
+    /// Where gravity was given.
+    pub gravity_span: Option<Span>,
+    /// Where the density was given.
+    pub density_span: Option<Span>,
+}
+
+impl Default for Global {
+    fn default() -> Self {
+        Global { depth: 1000.0, density: 1025.0, gravity: 9.81, gravity_span: None, density_span: None }
+    }
+}
+
+/// Materials by group.
+pub type Materials = IndexMap<i64, Material>;
+
+/// The materials of the cards of deck 3.
+pub fn read_materials(records: &[Record], remarks: &mut Remarks) -> Materials {
+    let mut list = Materials::new();
+    for record in records {
+        let group = record.int(16);
+        if group.value <= 0 {
+            remarks.add(
+                Diagnostic::error("deck 3, columns 16-20: a material group has a number from 1 on", group.span)
+                    .label("material group"),
+            );
+            continue;
+        }
+        if let Some(earlier) = list.get(&group.value) {
+            let earlier: &Material = earlier;
+            remarks.add(
+                Diagnostic::error(format!("deck 3: material group {} is given twice", group.value), group.span)
+                    .other(earlier.span, "given here first"),
+            );
+            continue;
+        }
+        list.insert(group.value, Material { properties: record.reals(21), span: record.span });
+    }
+    list
+}
+
+/// The geometries of the cards of deck 4. Groups of different kinds of element may have the same number.
+pub fn read_geometries(records: &[Record], remarks: &mut Remarks) -> Vec<Geometry> {
+    let mut list: Vec<Geometry> = Vec::new();
+    let mut continues = false;
+    for record in records {
+        let shape = match record.keyword.as_str() {
+            "TUBE" => Shape::Tube,
+            "PMAS" => Shape::PointMass,
+            "STUB" => Shape::Stub,
+            "DISC" => Shape::Disc,
+            _ => {
+                match list.last_mut().filter(|_| continues) {
+                    Some(geometry) if geometry.shape != Shape::PointMass => {
+                        geometry.drag = Some(record.real(21));
+                        geometry.added_mass = Some(record.real(31));
+                    }
+                    _ => remarks.add(
+                        Diagnostic::error("deck 4, CONT: there is no card that this one continues", record.span)
+                            .label("a TUBE, STUB or DISC card belongs directly before it"),
+                    ),
+                }
+                continues = false;
+                continue;
+            }
+        };
+        let group = record.int(16);
+        continues = true;
+        if let Some(earlier) = list.iter().find(|g| g.shape == shape && g.group == group.value) {
+            let message = format!("deck 4: {} group {} is given twice", record.keyword, group.value);
+            remarks.add(Diagnostic::error(message, group.span).other(earlier.span, "given here first"));
+        }
+        let parameters = record.reals(21);
+        let geometry = Geometry { shape, group: group.value, parameters, drag: None, added_mass: None, span: record.span };
+        if shape == Shape::Tube {
+            check_tube(&geometry, remarks);
+        }
+        list.push(geometry);
+    }
+    list
+}
+
+fn check_tube(geometry: &Geometry, remarks: &mut Remarks) {
+    let [diameter, wall, ..] = geometry.parameters;
+    if diameter.value <= 0.0 {
+        remarks.add(
+            Diagnostic::error("deck 4, TUBE, columns 21-30: a tube has a diameter above 0", diameter.span).label("diameter"),
+        );
+    } else if wall.value < 0.0 || wall.value > diameter.value / 2.0 {
+        remarks.add(
+            Diagnostic::error("deck 4, TUBE, columns 31-40: a wall is between 0 and half the diameter", wall.span)
+                .label("wall thickness"),
+        );
+    }
+    if let Some(other) = geometry.parameters.iter().skip(2).find(|p| p.value != 0.0) {
+        remarks.once("tube parameters", || {
+            Diagnostic::warning("deck 4, TUBE: parameters 3 to 6 (cuts and ends of the tube) have no effect", other.span)
+                .label("the ends are taken as closed and uncut")
+        });
+    }
+}
+
+/// The water of the cards of deck 5.
+pub fn read_global(records: &[Record], remarks: &mut Remarks) -> Global {
+    let mut global = Global::default();
+    for record in records {
+        let value = record.real(11);
+        if value.given && value.value <= 0.0 {
+            let message = format!("deck 5, {}, columns 11-20: {} is not above 0", record.keyword, value.value);
+            remarks.add(Diagnostic::error(message, value.span));
+            continue;
+        }
+        match record.keyword.as_str() {
+            "DPTH" => global.depth = value.or(global.depth),
+            "DENS" => {
+                global.density = value.or(global.density);
+                global.density_span = Some(value.span);
+            }
+            _ => {
+                global.gravity = value.or(global.gravity);
+                global.gravity_span = Some(value.span);
+            }
+        }
+    }
+    for (keyword, unset) in [("DPTH", 1000.0), ("DENS", 1025.0), ("ACCG", 9.81)] {
+        if !records.iter().any(|record| record.keyword == keyword) {
+            remarks.once(keyword, || {
+                Diagnostic::plain(
+                    crate::language::diagnostic::Severity::Note,
+                    format!("deck 5 has no {keyword} card: {unset} is taken"),
+                )
+                .into()
+            });
+        }
+    }
+    global
+}

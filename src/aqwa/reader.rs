@@ -1,0 +1,290 @@
+//! Goes through the cards of a file deck by deck: headers, `END`, `NONE`, `FINI`, and cards whose decks are missing.
+
+use super::card::{Face, Line, lines};
+use super::layout::{Layout, Record, Standing};
+use super::remarks::Remarks;
+use crate::language::diagnostic::{Diagnostic, did_you_mean};
+use crate::language::source::{Source, SourceId, Span};
+
+/// Header keywords of the decks 1 to 20; those of per-structure decks are followed by the number of the structure.
+pub const HEADERS: &[(u8, &[&str], bool)] = &[
+    (1, &["COOR"], false),
+    (2, &["ELM"], true),
+    (3, &["MATE"], false),
+    (4, &["GEOM"], false),
+    (5, &["GLOB"], false),
+    (6, &["FDR"], true),
+    (7, &["WFS"], true),
+    (8, &["DRC"], true),
+    (9, &["DRM"], true),
+    (10, &["HLD"], true),
+    (11, &["ENVR"], false),
+    (12, &["CONS"], false),
+    (13, &["SPEC", "WAVE"], false),
+    (14, &["MOOR"], false),
+    (15, &["STRT"], false),
+    (16, &["TINT"], false),
+    (17, &["HYDC"], false),
+    (18, &["PROP"], false),
+    (19, &[], false),
+    (20, &[], false),
+];
+
+/// The header of a deck.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Header {
+    /// Keyword without the number of the structure: `COOR`, `ELM`, `NONE`, `FINI`.
+    pub keyword: String,
+    /// Number of the structure, on the headers of per-structure decks.
+    pub structure: i64,
+    /// The keyword.
+    pub span: Span,
+}
+
+/// The cards of one deck (of one structure, for per-structure decks).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cards {
+    /// Number of the deck.
+    pub deck: u8,
+    /// Its header.
+    pub header: Header,
+    /// Its cards; none for NONE and FINI.
+    pub records: Vec<Record>,
+}
+
+/// Goes through the cards of a file.
+pub struct Reader<'a> {
+    lines: Vec<Line<'a>>,
+    next: usize,
+    end: Span,
+    /// Messages so far.
+    pub remarks: Remarks,
+}
+
+/// The deck, and the number of the structure, that a header keyword announces; 0 for NONE and FINI.
+fn announced(word: &str) -> Option<(u8, &'static str, i64)> {
+    if word == "NONE" || word == "FINI" {
+        return Some((0, if word == "NONE" { "NONE" } else { "FINI" }, 0));
+    }
+    HEADERS.iter().find_map(|(deck, names, numbered)| {
+        let name = names.iter().find(|name| word.starts_with(**name))?;
+        let rest = word.get(name.len()..)?;
+        match (numbered, rest.is_empty()) {
+            (false, true) => Some((*deck, *name, 1)),
+            (true, false) if rest.len() <= 2 => Some((*deck, *name, rest.parse().ok().filter(|n| *n > 0)?)),
+            _ => None,
+        }
+    })
+}
+
+impl<'a> Reader<'a> {
+    /// A reader at the first card of a source.
+    pub fn new(source: &'a Source, id: SourceId) -> Self {
+        let end = Span::new(id, source.text.len(), source.text.len());
+        Reader { lines: lines(source, id), next: 0, end, remarks: Remarks::default() }
+    }
+
+    /// The next line, not taken.
+    pub fn peek(&self) -> Option<&Line<'a>> {
+        self.lines.get(self.next)
+    }
+
+    /// Takes the next line.
+    pub fn take(&mut self) -> Option<Line<'a>> {
+        let line = self.lines.get(self.next).cloned();
+        self.next += usize::from(line.is_some());
+        line
+    }
+
+    /// The place of the next line, or of the end of the file.
+    pub fn here(&self) -> Span {
+        self.peek().map_or(self.end, Line::whole)
+    }
+
+    /// The header that a line is, if it is one: an identifier of two characters and a keyword in columns 11-14, or both
+    /// apart by blanks.
+    fn header_of(line: &Line<'_>) -> Option<(u8, Header)> {
+        let fixed = line.blank(1, 4) && line.blank(7, 10) && !line.tabs();
+        let mut words = if fixed { Line::words(line.columns(11, 80)) } else { Line::words(line.text) };
+        let mut word = words.next()?;
+        if !fixed {
+            if word.len() <= 2 && word.bytes().all(|b| b.is_ascii_digit()) {
+                word = words.next()?;
+            } else if word.get(..2).is_some_and(|id| id.bytes().all(|b| b.is_ascii_digit())) {
+                word = word.get(2..)?;
+            }
+        }
+        let (deck, name, structure) = announced(&word.to_ascii_uppercase())?;
+        match words.next() {
+            Some(_) => None,
+            None => Some((deck, Header { keyword: name.to_string(), structure, span: line.place_of(word) })),
+        }
+    }
+
+    /// The header that comes next, if the next line is one, with the number of its deck (0 for NONE and FINI).
+    pub fn next_header(&self) -> Option<(u8, Header)> {
+        self.peek().and_then(Self::header_of)
+    }
+
+    /// The header of a deck: its own, NONE, or FINI where a series may end. A header of another deck is left where it
+    /// is and answered with an error; lines that are no header are passed over with one.
+    pub fn header(&mut self, deck: u8, series: bool) -> Option<Header> {
+        let names = HEADERS.iter().find(|(number, ..)| *number == deck).map_or(&[][..], |(_, names, _)| *names);
+        let wanted = match names {
+            [] => "NONE".to_string(),
+            _ => format!("{} or NONE", names.join(", ")),
+        };
+        let mut complained = false;
+        loop {
+            let Some(line) = self.peek() else {
+                if deck <= 18 {
+                    let message = format!("the file ends before deck {deck} ({wanted})");
+                    self.remarks.once("the file ends", || {
+                        Diagnostic::error(message, self.end).help("a deck without data is a card with NONE in columns 11-14")
+                    });
+                }
+                return None;
+            };
+            match Self::header_of(line) {
+                Some((0, header)) if header.keyword == "NONE" || series => {
+                    self.next += 1;
+                    return Some(header);
+                }
+                Some((other, header)) if other == deck => {
+                    self.next += 1;
+                    return Some(header);
+                }
+                Some((0, header)) => {
+                    self.next += 1;
+                    self.remarks.add(
+                        Diagnostic::error(format!("deck {deck}: FINI ends no series of decks here"), header.span)
+                            .label(format!("{wanted} belongs here")),
+                    );
+                }
+                Some((other, header)) if other > deck => {
+                    self.remarks.add(
+                        Diagnostic::error(format!("deck {deck} is missing before deck {other}"), header.span)
+                            .label(format!("{wanted} belongs before this"))
+                            .help("a deck without data is a card with NONE in columns 11-14"),
+                    );
+                    return None;
+                }
+                Some((other, header)) => {
+                    self.next += 1;
+                    self.remarks.add(
+                        Diagnostic::error(format!("deck {other} comes after deck {}", deck - 1), header.span)
+                            .label(format!("deck {deck} ({wanted}) was expected"))
+                            .help("the order of the decks is fixed"),
+                    );
+                    complained = true;
+                }
+                None => {
+                    let word = Line::words(line.text).last().unwrap_or_default().to_ascii_uppercase();
+                    let span = line.whole();
+                    self.next += 1;
+                    if !std::mem::replace(&mut complained, true) {
+                        let mut error = Diagnostic::error(format!("deck {deck}: this is no deck header"), span)
+                            .label(format!("{wanted} belongs in columns 11-14"));
+                        error.help.extend(did_you_mean(&word, names.iter().copied().chain(["NONE"])));
+                        self.remarks.add(error.help("lines up to the next header are passed over"));
+                    }
+                }
+            }
+        }
+    }
+
+    /// The cards of a deck up to the one marked `END`.
+    pub fn records(&mut self, deck: u8, label: &str, layouts: &'static [Layout]) -> Vec<Record> {
+        let mut list = Vec::new();
+        let mut free: Option<(Span, usize)> = None;
+        let keyworded = !layouts.iter().any(|layout| layout.keyword.is_empty());
+        loop {
+            if self.next_header().is_some() || self.peek().is_none() {
+                let span = list.last().map_or(self.here(), |record: &Record| record.span);
+                let message = format!("{label} has no END");
+                self.remarks.add(
+                    Diagnostic::error(message, span).label("END belongs in columns 2-4 of the last card of the deck"),
+                );
+                break;
+            }
+            let Some(line) = self.take() else { break };
+            let face = Face::of(&line, deck, keyworded);
+            if line.overlong() {
+                self.remarks.once(&format!("overlong {deck}"), || {
+                    Diagnostic::warning(format!("{label}: a card is longer than 80 columns; the rest is not read"), line.span(81, 81))
+                });
+            }
+            if face.last && face.keyword.is_empty() && face.rest.trim().is_empty() {
+                break;
+            }
+            let last = face.last;
+            if let Some((record, by_blanks)) = self.record(label, &line, &face, layouts) {
+                if by_blanks {
+                    free.get_or_insert((record.span, 0)).1 += 1;
+                }
+                list.push(record);
+            }
+            if last {
+                break;
+            }
+        }
+        if let Some((span, count)) = free {
+            let what = if count == 1 { "this card was".to_string() } else { format!("{count} cards, this one first, were") };
+            let message = format!("{label}: {what} read by blanks, not by columns");
+            self.remarks.add(
+                Diagnostic::remark(message, span)
+                    .help("a blank field cannot be seen so: values are taken from left to right, whole numbers first"),
+            );
+        }
+        list
+    }
+
+    fn record(
+        &mut self,
+        label: &str,
+        line: &Line<'a>,
+        face: &Face<'a>,
+        layouts: &'static [Layout],
+    ) -> Option<(Record, bool)> {
+        let Some(layout) = layouts.iter().find(|layout| matches(layout.keyword, &face.keyword)) else {
+            let known = || layouts.iter().map(|layout| layout.keyword).filter(|keyword| !keyword.is_empty());
+            let word = if face.keyword.is_empty() { Line::words(face.rest).next().unwrap_or_default() } else { &face.keyword };
+            let mut error = Diagnostic::error(format!("{label} has no card `{word}`"), face.place)
+                .label("a keyword of this deck belongs in columns 7-10");
+            error.help.extend(did_you_mean(word, known()));
+            let list: Vec<&str> = known().collect();
+            if !list.is_empty() {
+                error.help.push(format!("cards of this deck: {}", list.join(" ")));
+            }
+            self.remarks.add(error);
+            return None;
+        };
+        match layout.standing {
+            Standing::Sure => {}
+            Standing::Assumed => self.remarks.once(&format!("{label} {}", layout.keyword), || {
+                Diagnostic::remark(format!("{label}, {}: no source confirms the columns of this card", layout.keyword), face.place)
+                    .help(format!("assumed {}", layout.usage()))
+            }),
+            Standing::Refused(reason) => {
+                self.remarks.add(Diagnostic::error(format!("{label}, {}: {reason}", layout.keyword), face.place));
+                return None;
+            }
+            Standing::Passed(reason) => {
+                self.remarks.add(Diagnostic::warning(format!("{label}, {}: {reason}", layout.keyword), face.place));
+                return None;
+            }
+        }
+        let (record, by_blanks) = self.remarks.keep(layout.read(label, line, face))?;
+        if !by_blanks && let Some(warning) = layout.straddled(label, line) {
+            self.remarks.add(warning);
+        }
+        Some((record, by_blanks))
+    }
+}
+
+/// Whether a keyword is that of a layout; `POSn` and the like stand for the keyword followed by a number.
+fn matches(pattern: &str, keyword: &str) -> bool {
+    let Some(stem) = pattern.strip_suffix('n') else { return pattern == keyword };
+    let number = |stem: &str| keyword.strip_prefix(stem).is_some_and(|n| n.parse::<u8>().is_ok_and(|n| n > 0));
+    number(stem) || (keyword.len() == 4 && stem.len() == 3 && stem.get(..2).is_some_and(number))
+}

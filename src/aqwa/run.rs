@@ -1,0 +1,139 @@
+//! Decks 15 to 17: where the structures start, the steps in time, and multipliers of the loads on Morison elements.
+//!
+//! Source: seed 003, 8.1.15 to 8.1.17 and the listings' card echoes; reference/aqwa-cards.md, sections 15 to 17.
+
+use super::card::Field;
+use super::layout::{Layout, Record, Slot, int, num};
+use super::remarks::Remarks;
+use crate::language::diagnostic::Diagnostic;
+use crate::language::source::Span;
+
+const SIX: &[Slot] = &[num("X", 21), num("Y", 31), num("Z", 41), num("RX", 51), num("RY", 61), num("RZ", 71)];
+const SLOW: &str = "slow drift positions are not read apart from the total ones";
+
+/// Cards of deck 15; `n` stands for the number of the structure.
+pub const STARTS: &[Layout] = &[
+    Layout::new("POSn", SIX),
+    Layout::new("VELn", SIX),
+    Layout::refused("SLPn", SLOW),
+    Layout::refused("SLVn", SLOW),
+];
+
+/// Cards of deck 16.
+pub const STEPS: &[Layout] = &[
+    Layout::new("TIME", &[int("number of time steps", 16), num("time step", 21), num("start time", 31)]),
+    Layout::refused("HOTS", "a start from an earlier run is not read"),
+];
+
+/// Cards of deck 17.
+pub const MULTIPLIERS: &[Layout] = &[
+    Layout::new("SLMM", &[int("structure", 11), num("slam multiplier", 21)]),
+    Layout::assumed("DRGM", &[int("structure", 11), num("drag multiplier", 21)]),
+    Layout::assumed("ADMM", &[int("structure", 11), num("added mass multiplier", 21)]),
+    Layout::refused("SC1/", "drag that depends on the Reynolds number is not read"),
+];
+
+/// Position or velocity of the centre of gravity of a structure at the start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Start {
+    /// Number of the structure.
+    pub structure: i64,
+    /// Whether these are velocities.
+    pub velocity: bool,
+    /// X, Y, Z, then RX, RY, RZ in degrees (a second, for velocities).
+    pub values: [f64; 6],
+    /// The card.
+    pub span: Span,
+}
+
+/// Steps in time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Steps {
+    /// Number of steps; the first is the start, so that N steps last (N - 1) times the step.
+    pub count: Field<i64>,
+    /// Length of a step (s).
+    pub step: Field<f64>,
+    /// Time of the first step (s).
+    pub start: f64,
+    /// The card.
+    pub span: Span,
+}
+
+/// Most time steps of a run.
+pub const MOST_STEPS: i64 = 10_000_000;
+
+/// Multipliers of the loads on the Morison elements of a structure, its tethers among them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Multipliers {
+    /// The structure.
+    pub structure: Field<i64>,
+    /// Of drag; 1 by default.
+    pub drag: f64,
+    /// Of added mass; 1 by default.
+    pub added_mass: f64,
+    /// Of slam; 0 by default, which is no slam.
+    pub slam: f64,
+}
+
+/// The starts of the cards of deck 15.
+pub fn read_starts(records: &[Record], remarks: &mut Remarks) -> Vec<Start> {
+    let mut list: Vec<Start> = Vec::new();
+    for record in records {
+        let number: String = record.keyword.chars().skip_while(|c| !c.is_ascii_digit()).collect();
+        let Ok(structure) = number.parse() else { continue };
+        let velocity = record.keyword.starts_with('V');
+        if let Some(earlier) = list.iter().find(|s| s.structure == structure && s.velocity == velocity) {
+            let message = format!("deck 15: {} is given twice", record.keyword);
+            remarks.add(Diagnostic::error(message, record.span).other(earlier.span, "given here first"));
+        }
+        let values = record.reals(21).map(|field| field.value);
+        list.push(Start { structure, velocity, values, span: record.span });
+    }
+    list
+}
+
+/// The time steps of the cards of deck 16.
+pub fn read_steps(records: &[Record], remarks: &mut Remarks) -> Option<Steps> {
+    let record = records.last()?;
+    let steps =
+        Steps { count: record.int(16), step: record.real(21), start: record.real(31).value, span: record.span };
+    if !(1..=MOST_STEPS).contains(&steps.count.value) {
+        remarks.add(
+            Diagnostic::error(format!("deck 16, TIME, columns 16-20: {} steps cannot be run", steps.count.value), steps.count.span)
+                .label(format!("number of steps, 1 to {MOST_STEPS}")),
+        );
+        return None;
+    }
+    if steps.step.value <= 0.0 {
+        remarks.add(
+            Diagnostic::error("deck 16, TIME, columns 21-30: a time step is above 0", steps.step.span).label("time step"),
+        );
+        return None;
+    }
+    Some(steps)
+}
+
+/// The multipliers of the cards of deck 17.
+pub fn read_multipliers(records: &[Record], remarks: &mut Remarks) -> Vec<Multipliers> {
+    let mut list: Vec<Multipliers> = Vec::new();
+    for record in records {
+        let (structure, factor) = (record.int(11), record.real(21));
+        if factor.value < 0.0 {
+            let message = format!("deck 17, {}, columns 21-30: a multiplier is not below 0", record.keyword);
+            remarks.add(Diagnostic::error(message, factor.span));
+            continue;
+        }
+        let index = list.iter().position(|m| m.structure.value == structure.value).unwrap_or_else(|| {
+            list.push(Multipliers { structure, drag: 1.0, added_mass: 1.0, slam: 0.0 });
+            list.len() - 1
+        });
+        if let Some(multipliers) = list.get_mut(index) {
+            match record.keyword.as_str() {
+                "SLMM" => multipliers.slam = factor.value,
+                "DRGM" => multipliers.drag = factor.value,
+                _ => multipliers.added_mass = factor.value,
+            }
+        }
+    }
+    list
+}

@@ -1,0 +1,133 @@
+//! Decks 11 and 12: current, wind, and the freedoms that are held.
+//!
+//! Directions are those TOWARDS which something travels, in degrees from +X towards +Y.
+//!
+//! Source: seed 003, 6.4 and the listing; reference/aqwa-cards.md, sections 2, 10 and 11.
+
+use super::card::Field;
+use super::layout::{Layout, Record, int, num};
+use super::remarks::Remarks;
+use crate::language::diagnostic::Diagnostic;
+use crate::language::source::Span;
+
+/// Cards of deck 11.
+pub const LAYOUTS: &[Layout] = &[
+    Layout::new("CURR", &[num("speed", 11), num("direction", 21)]),
+    Layout::new("WIND", &[num("speed", 11), num("direction", 21)]),
+    Layout::new("CPRF", &[num("Z of the current", 11), num("speed", 21), num("direction", 31)]),
+    Layout::new("CDRN", &[num("direction of the profile", 11)]),
+];
+
+const ARTICULATION: &str = "articulations are not read from a deck; join the bodies with connectors instead";
+
+/// Cards of deck 12.
+pub const CONSTRAINTS: &[Layout] = &[
+    Layout::assumed("DACF", &[int("structure", 11), int("freedom", 16)]),
+    Layout::refused("DCON", ARTICULATION),
+    Layout::refused("FDCN", ARTICULATION),
+    Layout::refused("KFCN", ARTICULATION),
+    Layout::refused("DFCN", ARTICULATION),
+];
+
+/// A uniform stream.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Flow {
+    /// Speed.
+    pub speed: Field<f64>,
+    /// Direction towards which it travels (degrees).
+    pub direction: Field<f64>,
+    /// The card.
+    pub span: Span,
+}
+
+/// One depth of a current profile.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Layer {
+    /// Z, negative below the water line.
+    pub height: f64,
+    /// Speed.
+    pub speed: f64,
+    /// Direction towards which it travels (degrees).
+    pub direction: f64,
+    /// The card.
+    pub span: Span,
+}
+
+/// Deck 11.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Surroundings {
+    /// Current that is the same at all depths.
+    pub current: Option<Flow>,
+    /// Wind.
+    pub wind: Option<Flow>,
+    /// Current profile from the bottom upwards; it adds to the uniform current.
+    pub profile: Vec<Layer>,
+}
+
+/// A freedom of a structure that is held (DACF).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Held {
+    /// The structure.
+    pub structure: Field<i64>,
+    /// The freedom, 1 to 6.
+    pub freedom: Field<i64>,
+}
+
+/// The current and wind of the cards of deck 11.
+pub fn read(records: &[Record], remarks: &mut Remarks) -> Surroundings {
+    let mut found = Surroundings::default();
+    let mut turn = None;
+    for record in records {
+        match record.keyword.as_str() {
+            "CPRF" => {
+                let height = record.real(11);
+                if let Some(below) = found.profile.last()
+                    && height.value <= below.height
+                {
+                    remarks.add(
+                        Diagnostic::error("deck 11, CPRF, columns 11-20: a profile goes from the bottom upwards", height.span)
+                            .label("a Z above that of the card before belongs here")
+                            .other(below.span, "the card before"),
+                    );
+                    continue;
+                }
+                let (speed, direction) = (record.real(21).value, record.real(31).value);
+                found.profile.push(Layer { height: height.value, speed, direction, span: record.span });
+            }
+            "CDRN" => turn = Some(record.real(11).value),
+            keyword => {
+                let flow = Some(Flow { speed: record.real(11), direction: record.real(21), span: record.span });
+                if keyword == "CURR" { found.current = flow } else { found.wind = flow }
+            }
+        }
+    }
+    if let Some(direction) = turn {
+        for layer in found.profile.iter_mut().filter(|layer| layer.direction == 0.0) {
+            layer.direction = direction;
+        }
+    }
+    if let (Some(current), false) = (found.current, found.profile.is_empty()) {
+        remarks.add(
+            Diagnostic::remark("deck 11: the uniform current and the profile are added as vectors", current.span)
+                .help("assumed: no public page says how the two go together"),
+        );
+    }
+    found
+}
+
+/// The freedoms held by the cards of deck 12.
+pub fn read_constraints(records: &[Record], remarks: &mut Remarks) -> Vec<Held> {
+    let mut list = Vec::new();
+    for record in records {
+        let (structure, freedom) = (record.int(11), record.int(16));
+        if (1..=6).contains(&freedom.value) {
+            list.push(Held { structure, freedom });
+        } else {
+            remarks.add(
+                Diagnostic::error(format!("deck 12, DACF, columns 16-20: {} is no freedom", freedom.value), freedom.span)
+                    .label("1 to 6 belongs here: X, Y, Z, RX, RY, RZ"),
+            );
+        }
+    }
+    list
+}

@@ -1,0 +1,381 @@
+//! Tethers of deck 14.
+//!
+//! The cards of a tether come in any order; TETH closes it, and a TETH directly after another one copies the tether
+//! before it to other nodes. Elements go from the anchor (installed) or the trailing end (towed) to the vessel.
+//!
+//! Source: seed 003, Appendix A and 8.1.14, 8.2.14; the columns of TEGR, whose page A.7 is lost, from 8.2.14 and the
+//! listing's card echo.
+
+use super::card::Field;
+use super::layout::Record;
+use super::remarks::Remarks;
+use crate::language::diagnostic::Diagnostic;
+use crate::language::source::Span;
+
+/// Stiffness of an end spring that is not given (A.2).
+pub const STIFF: f64 = 1.0e15;
+/// Most constraints of an installed tether (A.14).
+const MOST_CONSTRAINTS: usize = 5;
+
+/// A TELM card.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TetherElement {
+    /// Node nearer to the anchor or trailing end.
+    pub node1: Field<i64>,
+    /// Node nearer to the vessel.
+    pub node2: Field<i64>,
+    /// Material group.
+    pub material: Field<i64>,
+    /// Geometry group.
+    pub geometry: Field<i64>,
+    /// The card.
+    pub span: Span,
+}
+
+/// A TSPA or TSPV card.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EndSpring {
+    /// Whether the tether is towed.
+    pub towed: bool,
+    /// Installed: inline, then two rotational. Towed: three translational.
+    pub stiffness: [Field<f64>; 3],
+    /// The card.
+    pub span: Span,
+}
+
+/// A TFAT card.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fatigue {
+    /// Stress concentration factor.
+    pub concentration: f64,
+    /// Intercept A of the S-N curve N = A / R^m, with stresses in kN/m2.
+    pub intercept: f64,
+    /// Slope m.
+    pub slope: f64,
+}
+
+impl Default for Fatigue {
+    /// The values of A.4.
+    fn default() -> Self {
+        Fatigue { concentration: 1.24, intercept: 1.3367e24, slope: 3.5 }
+    }
+}
+
+/// Kinds of constraint of an installed tether.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Constraint {
+    /// TLAC: lateral, fixed.
+    LateralFixed,
+    /// TROC: rotational, fixed.
+    RotationalFixed,
+    /// TLAV: lateral, on the vessel, in a gap.
+    LateralVessel,
+    /// TROV: rotational, on the vessel.
+    RotationalVessel,
+}
+
+/// Everything about a tether but where it is fixed.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Description {
+    /// Elements from the anchor or trailing end upwards.
+    pub elements: Vec<TetherElement>,
+    /// Springs at the anchor or trailing end.
+    pub anchor: Option<EndSpring>,
+    /// Springs at the vessel.
+    pub vessel: Option<EndSpring>,
+    /// Fatigue parameters; the defaults of A.4 where not given.
+    pub fatigue: Fatigue,
+    /// Hours for which the expected peak stress is computed.
+    pub peak_hours: Option<f64>,
+    /// Number of identical tethers: forces on the vessel are multiplied by it. 0 when not given, which stands for 1.
+    pub group: i64,
+    /// Areas of the caps not subject to water pressure, at the anchor and the vessel.
+    pub caps: (f64, f64),
+    /// Pressure and density of the fluid inside.
+    pub fluid: (f64, f64),
+    /// Stress factor and half life (s) of impact.
+    pub impact: Option<(f64, f64)>,
+    /// Distance of the lower stop below the anchor; 0 means that the tether can never hang free.
+    pub lower_stop: f64,
+    /// Constraints with the gap of TLAV and their cards.
+    pub constraints: Vec<(Constraint, f64, Span)>,
+}
+
+/// A tether, closed by a TETH card.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tether {
+    /// What it is.
+    pub description: Description,
+    /// Number (from 1) of the tether that it copies.
+    pub copy_of: Option<usize>,
+    /// The structure it is fixed to.
+    pub structure: Field<i64>,
+    /// Node on the structure.
+    pub node: Field<i64>,
+    /// Node of the anchor, or of the position of the trailing end.
+    pub anchor: Field<i64>,
+    /// The TETH card.
+    pub span: Span,
+}
+
+impl Tether {
+    /// Whether the tether is towed; else it is installed.
+    pub fn towed(&self) -> bool {
+        [self.description.anchor, self.description.vessel].iter().flatten().any(|spring| spring.towed)
+    }
+
+    /// Stiffnesses in force at the anchor or trailing end, and at the vessel.
+    ///
+    /// Installed (A.2): inline 1.0E15 where blank, zero or negative, rotational 0 where negative, 1.0E15 all where the
+    /// card is missing. Towed (8.1.14): 1.0E15 in place of zero.
+    pub fn springs(&self) -> [[f64; 3]; 2] {
+        let towed = self.towed();
+        [self.description.anchor, self.description.vessel].map(|spring| {
+            let Some(spring) = spring else { return [STIFF; 3] };
+            let [first, second, third] = spring.stiffness.map(|field| field.value);
+            let inline = if first <= 0.0 { STIFF } else { first };
+            let rotational = |value: f64| value.max(0.0);
+            let lateral = |value: f64| if value == 0.0 { STIFF } else { value };
+            if towed {
+                [lateral(first), lateral(second), lateral(third)]
+            } else {
+                [inline, rotational(second), rotational(third)]
+            }
+        })
+    }
+}
+
+/// A tether whose TETH card has not come yet.
+#[derive(Clone, Debug, Default)]
+pub struct Builder {
+    description: Description,
+    first: Option<Span>,
+}
+
+impl Builder {
+    /// Takes a card.
+    pub fn take(&mut self, record: &Record, remarks: &mut Remarks) {
+        self.first.get_or_insert(record.span);
+        let tether = &mut self.description;
+        let value = |column: usize| record.real(column).value;
+        match record.keyword.as_str() {
+            "TELM" => self.element(record, remarks),
+            "TSPA" | "TSPV" => {
+                let flag = record.int(11);
+                if !(0..=1).contains(&flag.value) {
+                    let message = format!("deck 14, {}, columns 11-15: {} is no flag", record.keyword, flag.value);
+                    remarks.add(Diagnostic::error(message, flag.span).label("1 for a towed tether, blank for an installed one"));
+                }
+                let spring = EndSpring { towed: flag.value == 1, stiffness: record.reals(31), span: record.span };
+                let place = if record.keyword == "TSPA" { &mut tether.anchor } else { &mut tether.vessel };
+                match place {
+                    Some(earlier) => remarks.add(
+                        Diagnostic::error(format!("deck 14: a tether has only one {} card", record.keyword), record.span)
+                            .other(earlier.span, "given here first"),
+                    ),
+                    None => *place = Some(spring),
+                }
+            }
+            "TFAT" => {
+                let usual = Fatigue::default();
+                tether.fatigue = Fatigue {
+                    concentration: record.real(41).or(usual.concentration),
+                    intercept: record.real(51).or(usual.intercept),
+                    slope: record.real(61).or(usual.slope),
+                };
+                let Fatigue { concentration, intercept, slope } = tether.fatigue;
+                if concentration < 0.0 || intercept < 0.0 || slope < 0.0 {
+                    remarks.add(Diagnostic::error("deck 14, TFAT: fatigue parameters are above 0", record.span));
+                }
+            }
+            "TPSH" => {
+                // columns 31-40 in the manual of 2006, 11-15 in later ones
+                let hours = if record.real(31).given { value(31) } else { record.int(11).value as f64 };
+                if hours < 0.0 {
+                    remarks.add(Diagnostic::error("deck 14, TPSH: hours are not below 0", record.span));
+                }
+                tether.peak_hours = (hours > 0.0).then_some(hours);
+            }
+            "TEGR" => {
+                tether.group = record.int(11).value;
+                if tether.group < 0 {
+                    remarks.add(
+                        Diagnostic::error("deck 14, TEGR, columns 11-15: a number of tethers is not below 0", record.span)
+                            .label("number of identical tethers"),
+                    );
+                }
+            }
+            "TCAP" => tether.caps = (value(31), value(41)),
+            "TIFL" => tether.fluid = (value(31), value(41)),
+            "TIMP" => {
+                if value(31) < 0.0 || value(41) < 0.0 {
+                    remarks.add(Diagnostic::error("deck 14, TIMP: stress factor and half life are not below 0", record.span));
+                }
+                tether.impact = Some((value(31), value(41)));
+            }
+            "TLOW" => {
+                tether.lower_stop = value(31);
+                if tether.lower_stop < 0.0 {
+                    remarks.add(Diagnostic::error("deck 14, TLOW, columns 31-40: a distance below the anchor is not below 0", record.span));
+                }
+            }
+            keyword => {
+                let kind = match keyword {
+                    "TLAC" => Constraint::LateralFixed,
+                    "TROC" => Constraint::RotationalFixed,
+                    "TLAV" => Constraint::LateralVessel,
+                    _ => Constraint::RotationalVessel,
+                };
+                if tether.constraints.len() == MOST_CONSTRAINTS {
+                    let message = format!("deck 14, {keyword}: a tether has at most {MOST_CONSTRAINTS} constraints");
+                    remarks.add(Diagnostic::error(message, record.span));
+                } else if value(31) < 0.0 {
+                    remarks.add(Diagnostic::error("deck 14, TLAV, columns 31-40: a gap is not below 0", record.real(31).span));
+                } else {
+                    tether.constraints.push((kind, value(31), record.span));
+                }
+            }
+        }
+    }
+
+    fn element(&mut self, record: &Record, remarks: &mut Remarks) {
+        let element = TetherElement {
+            node1: record.int(11),
+            node2: record.int(16),
+            material: record.int(21),
+            geometry: record.int(26),
+            span: record.span,
+        };
+        if let Some(before) = self.description.elements.last()
+            && before.node2.value != element.node1.value
+        {
+            let message = format!(
+                "deck 14, TELM, columns 11-15: elements are not contiguous: node {} after node {}",
+                element.node1.value, before.node2.value
+            );
+            remarks.add(
+                Diagnostic::error(message, element.node1.span)
+                    .label(format!("{} belongs here", before.node2.value))
+                    .other(before.node2.span, "where the element before ends"),
+            );
+        }
+        self.description.elements.push(element);
+    }
+
+    /// Closes the tether with its TETH card.
+    pub fn close(&mut self, record: &Record, earlier: &[Tether], remarks: &mut Remarks) -> Option<Tether> {
+        let (structure, fixed) = (record.int(11), record.int(21));
+        if structure.value <= 0 {
+            remarks.add(
+                Diagnostic::error("deck 14, TETH, columns 11-15: structure 0 is no vessel", structure.span)
+                    .label("the number of a structure of deck 2 belongs here, 1 for ELM1"),
+            );
+        }
+        if fixed.value != 0 {
+            remarks.add(
+                Diagnostic::error("deck 14, TETH, columns 21-25: the other end of a tether is fixed", fixed.span)
+                    .label("0 belongs here"),
+            );
+        }
+        let whole = std::mem::take(self);
+        let (description, copy_of) = match (whole.first, earlier.last()) {
+            (Some(_), _) if whole.description.elements.is_empty() => {
+                remarks.add(
+                    Diagnostic::error("deck 14, TETH: this tether has no element", record.span)
+                        .label("TELM cards belong before it")
+                        .help("a TETH card directly after another one copies that tether"),
+                );
+                return None;
+            }
+            (Some(_), _) => (whole.description, None),
+            (None, Some(before)) => (before.description.clone(), Some(before.copy_of.unwrap_or(earlier.len()))),
+            (None, None) => {
+                remarks.add(
+                    Diagnostic::error("deck 14, TETH: there is no tether to copy", record.span)
+                        .label("a tether is described before its TETH card")
+                        .help("a TETH card directly after another one copies that tether"),
+                );
+                return None;
+            }
+        };
+        let tether =
+            Tether { description, copy_of, structure, node: record.int(16), anchor: record.int(26), span: record.span };
+        if tether.copy_of.is_none() {
+            check_springs(&tether, remarks);
+        }
+        Some(tether)
+    }
+
+    /// Says when cards of a tether are left without TETH.
+    pub fn finish(&self, remarks: &mut Remarks) {
+        if let Some(span) = self.first {
+            remarks.add(
+                Diagnostic::error("deck 14: no TETH card closes this tether", span)
+                    .label("its first card")
+                    .help("TETH is the last card of a tether: structure, node on it, 0, anchor or trailing node"),
+            );
+        }
+    }
+}
+
+fn check_springs(tether: &Tether, remarks: &mut Remarks) {
+    let ends = [("TSPA", tether.description.anchor), ("TSPV", tether.description.vessel)];
+    if let [(_, Some(anchor)), (_, Some(vessel))] = ends
+        && anchor.towed != vessel.towed
+    {
+        remarks.add(
+            Diagnostic::error("deck 14: a tether is towed at both ends or at none", vessel.span)
+                .label("flag in column 15")
+                .other(anchor.span, "the other end"),
+        );
+    }
+    for (keyword, spring) in ends {
+        if tether.towed() {
+            check_towed(keyword, spring, tether.span, remarks);
+        } else {
+            check_installed(keyword, spring, tether.span, remarks);
+        }
+    }
+}
+
+fn check_towed(keyword: &str, spring: Option<EndSpring>, at: Span, remarks: &mut Remarks) {
+    let help = "a towed tether has soft springs at both ends, as of its mooring lines, a few kN/m (8.1.14)";
+    let Some(spring) = spring else {
+        let message = format!("deck 14: this towed tether has no {keyword} card; 1.0E15 is taken in each direction");
+        remarks.add(Diagnostic::warning(message, at).help(help));
+        return;
+    };
+    for stiffness in spring.stiffness {
+        if stiffness.value < 0.0 {
+            remarks.add(Diagnostic::error(format!("deck 14, {keyword}: a stiffness is not below 0"), stiffness.span));
+        } else if stiffness.value == 0.0 {
+            let message = format!("deck 14, {keyword}: a zero spring of a towed tether is taken as the default, 1.0E15");
+            remarks.add(Diagnostic::warning(message, stiffness.span).help(help));
+        }
+    }
+}
+
+fn check_installed(keyword: &str, spring: Option<EndSpring>, at: Span, remarks: &mut Remarks) {
+    let Some(spring) = spring else {
+        remarks.once(&format!("{keyword} missing"), || {
+            let message = format!("deck 14: no {keyword} card; 1.0E15 is taken for the inline and both rotational springs");
+            Diagnostic::remark(message, at).help("so for every installed tether without the card (A.2)")
+        });
+        return;
+    };
+    let [inline, second, third] = spring.stiffness;
+    if inline.value <= 0.0 {
+        remarks.once(&format!("{keyword} inline"), || {
+            Diagnostic::remark(format!("deck 14, {keyword}: the inline stiffness is taken as 1.0E15"), inline.span)
+                .help("so for every installed tether where it is blank, zero or negative (A.2)")
+        });
+    }
+    for rotational in [second, third] {
+        if rotational.value < 0.0 {
+            remarks.add(Diagnostic::remark(
+                format!("deck 14, {keyword}: the negative rotational stiffness is taken as 0 (A.2)"),
+                rotational.span,
+            ));
+        }
+    }
+}

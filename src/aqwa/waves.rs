@@ -1,0 +1,364 @@
+//! Deck 13: a spectrum (SPEC), a regular wave (WAVE), or still water (NONE).
+//!
+//! Settings (NSPL, SPDN, SEED, ..) stand before the spectrum they are for and stay in force for the next. Directions are
+//! those towards which the waves travel, in degrees. PHAS is a card of this program: it gives the phases of the spectral
+//! lines, so that a sea whose listing prints them can be had again.
+//!
+//! Source: seed 003, 8.1.13 and 8.2.13, the listings' card echoes (gamma stands before alpha on JONS; the prose of 8.1.13
+//! has the names the other way round); reference/aqwa-cards.md, sections 12 and 13.
+
+use super::card::Field;
+use super::layout::{Layout, Record, Slot, int, num};
+use super::remarks::Remarks;
+use super::surroundings::Flow;
+use crate::language::diagnostic::Diagnostic;
+use crate::language::source::Span;
+use std::f64::consts::PI;
+
+/// Most spectral lines of a spectrum.
+pub const MOST_LINES: i64 = 10_000;
+/// Spectral lines when NSPL is not given (assumed; newer versions of AQWA have 200).
+const USUAL_LINES: i64 = 50;
+
+const START: Slot = num("first frequency", 21);
+const FINISH: Slot = num("last frequency", 31);
+const UNSEEN: &str = "the columns of this card are published nowhere";
+
+/// Cards of deck 13 SPEC.
+pub const SPECTRA: &[Layout] = &[
+    Layout::new("HRTZ", &[]),
+    Layout::new("RADS", &[]),
+    Layout::new("SPGR", &[]),
+    Layout::new("NSPL", &[int("number of spectral lines", 16)]),
+    Layout::new("SPDN", &[int("spreading", 11), int("number of directions", 16), num("direction", 21)]),
+    Layout::assumed("SEED", &[int("seed of the phases", 11), int("seed of the phases", 16)]),
+    Layout::new(
+        "PHAS",
+        &[
+            int("first spectral line of this card", 16),
+            num("phase 1 (deg)", 21),
+            num("phase 2 (deg)", 31),
+            num("phase 3 (deg)", 41),
+            num("phase 4 (deg)", 51),
+            num("phase 5 (deg)", 61),
+            num("phase 6 (deg)", 71),
+        ],
+    ),
+    Layout::new("PSMZ", &[START, FINISH, num("significant height", 41), num("zero crossing period", 51)]),
+    Layout::new("JONS", &[START, FINISH, num("gamma", 41), num("alpha", 51), num("peak frequency", 61)]),
+    Layout::new("JONH", &[START, FINISH, num("gamma", 41), num("significant height", 51), num("peak frequency", 61)]),
+    Layout::new("GAUS", &[START, FINISH, num("sigma (rad/s)", 41), num("significant height", 51), num("peak frequency", 61)]),
+    Layout::assumed("UDEF", &[num("frequency", 21), num("ordinate", 31)]),
+    Layout::new("CURR", &[num("speed", 21), num("direction", 31)]),
+    Layout::new("WIND", &[num("speed", 21), num("direction", 31), num("reference height", 41)]),
+    Layout::new("TOWS", &[num("towing speed", 31), num("towing direction", 41)]),
+    Layout::refused("OHBS", "the Ochi-Hubble spectrum is not read; give it as UDEF"),
+    Layout::refused("XSWL", "a second spectrum of swell is not read"),
+    Layout::refused("UDWS", "a wind spectrum is not read"),
+    Layout::refused("UDWD", "a wind spectrum is not read"),
+    Layout::refused("IWHT", "an imported wave history is not read"),
+    Layout::passed("NAME", "the name of the spectrum has no effect"),
+    Layout::refused("NODR", UNSEEN),
+    Layout::refused("GRAV", UNSEEN),
+];
+
+/// Cards of deck 13 WAVE.
+pub const REGULAR: &[Layout] = &[
+    Layout::new("WAMP", &[num("wave amplitude", 21)]),
+    Layout::new("PERD", &[num("wave period", 21)]),
+    Layout::new("WVDN", &[num("wave direction", 21)]),
+    Layout::assumed("HGHT", &[num("wave height", 21)]),
+    Layout::assumed("FREQ", &[num("wave frequency (rad/s)", 21)]),
+    Layout::assumed("AIRY", &[]),
+    Layout::assumed("WRMP", &[num("time of the ramp", 21)]),
+    Layout::assumed("CURR", &[num("speed", 21), num("direction", 31)]),
+    Layout::assumed("WIND", &[num("speed", 21), num("direction", 31), num("reference height", 41)]),
+];
+
+/// The form of a spectrum; frequencies in rad/s.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Form {
+    /// Pierson-Moskowitz of a significant height and a zero crossing period.
+    PiersonMoskowitz {
+        /// Significant height.
+        height: f64,
+        /// Mean zero crossing period (s).
+        period: f64,
+    },
+    /// JONSWAP of gamma, alpha and the peak frequency.
+    Jonswap {
+        /// Peak enhancement.
+        gamma: f64,
+        /// Alpha of the high frequency end.
+        alpha: f64,
+        /// Peak frequency.
+        peak: f64,
+    },
+    /// JONSWAP of gamma, significant height and the peak frequency.
+    JonswapHeight {
+        /// Peak enhancement.
+        gamma: f64,
+        /// Significant height.
+        height: f64,
+        /// Peak frequency.
+        peak: f64,
+    },
+    /// Gaussian.
+    Gaussian {
+        /// Standard deviation (rad/s).
+        sigma: f64,
+        /// Significant height.
+        height: f64,
+        /// Peak frequency.
+        peak: f64,
+    },
+    /// Frequencies and ordinates given one by one (ordinate a rad/s).
+    Given(Vec<(f64, f64)>),
+}
+
+/// A spectrum with the settings in force at its card.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spectrum {
+    /// Its form.
+    pub form: Form,
+    /// First and last frequency (rad/s); zero where left to the default.
+    pub range: (f64, f64),
+    /// Number of spectral lines.
+    pub lines: i64,
+    /// Direction towards which the waves travel (degrees).
+    pub direction: f64,
+    /// Seed of the phases; 1 by default.
+    pub seed: i64,
+    /// Phases of the spectral lines (degrees), where given (PHAS).
+    pub phases: Vec<f64>,
+    /// Current of this spectrum.
+    pub current: Option<Flow>,
+    /// Wind of this spectrum.
+    pub wind: Option<Flow>,
+    /// Speed and direction of towing (TOWS), the direction in degrees within 30 of the tether.
+    pub towing: Option<(f64, f64)>,
+    /// The card.
+    pub span: Span,
+}
+
+/// A regular wave.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct RegularWave {
+    /// Amplitude.
+    pub amplitude: f64,
+    /// Period (s).
+    pub period: f64,
+    /// Direction towards which it travels (degrees).
+    pub direction: f64,
+    /// Whether the wave is linear (AIRY); else of second order in deep water.
+    pub linear: bool,
+    /// Time over which the wave grows (s); 0 for none.
+    pub ramp: f64,
+    /// Current.
+    pub current: Option<Flow>,
+    /// Wind.
+    pub wind: Option<Flow>,
+}
+
+/// Deck 13.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub enum Waves {
+    /// No waves.
+    #[default]
+    Still,
+    /// Irregular waves.
+    Spectra(Vec<Spectrum>),
+    /// A regular wave.
+    Regular(RegularWave),
+}
+
+fn stream(record: &Record) -> Option<Flow> {
+    Some(Flow { speed: record.real(21), direction: record.real(31), span: record.span })
+}
+
+/// The spectra of the cards of deck 13 SPEC.
+pub fn read_spectra(records: &[Record], remarks: &mut Remarks) -> Waves {
+    let mut list: Vec<Spectrum> = Vec::new();
+    let mut unit = 1.0;
+    let mut now = Spectrum {
+        form: Form::Given(Vec::new()),
+        range: (0.0, 0.0),
+        lines: USUAL_LINES,
+        direction: 0.0,
+        seed: 1,
+        phases: Vec::new(),
+        current: None,
+        wind: None,
+        towing: None,
+        span: records.first().map(|record| record.span).unwrap_or_default(),
+    };
+    for record in records {
+        let third = |column: usize| record.real(column).value;
+        let form = match record.keyword.as_str() {
+            "HRTZ" | "RADS" => {
+                unit = if record.keyword == "HRTZ" { 2.0 * PI } else { 1.0 };
+                continue;
+            }
+            "NSPL" => {
+                now.lines = lines(record.int(16), remarks);
+                continue;
+            }
+            "SPDN" => {
+                if let Some(spread) = [record.int(11), record.int(16)].into_iter().find(|field| field.value != 0) {
+                    remarks.add(
+                        Diagnostic::error("deck 13, SPDN, columns 11-20: directional spreading is not read", spread.span)
+                            .label("leave these columns blank"),
+                    );
+                }
+                now.direction = third(21);
+                continue;
+            }
+            "SEED" => {
+                now.seed = record.int(11).or(record.int(16).or(1));
+                continue;
+            }
+            "PHAS" => {
+                phases(&mut now.phases, record, remarks);
+                continue;
+            }
+            "CURR" | "WIND" => {
+                let flow = stream(record);
+                if record.keyword == "CURR" { now.current = flow } else { now.wind = flow }
+                continue;
+            }
+            "TOWS" => {
+                now.towing = towing(record, remarks);
+                continue;
+            }
+            "PSMZ" => Form::PiersonMoskowitz { height: third(41), period: third(51) },
+            "JONS" => Form::Jonswap { gamma: third(41), alpha: third(51), peak: unit * third(61) },
+            "JONH" => Form::JonswapHeight { gamma: third(41), height: third(51), peak: unit * third(61) },
+            "GAUS" => Form::Gaussian { sigma: third(41), height: third(51), peak: unit * third(61) },
+            "UDEF" => {
+                given_pair(&mut list, &now, record, unit, remarks);
+                continue;
+            }
+            _ => continue,
+        };
+        let range = (unit * third(21), unit * third(31));
+        if range.1 != 0.0 && range.0 >= range.1 {
+            remarks.add(
+                Diagnostic::error(
+                    format!("deck 13, {}: the last frequency is not above the first", record.keyword),
+                    record.real(31).span,
+                )
+                .label("last frequency, columns 31-40"),
+            );
+        }
+        wanted(record, remarks);
+        list.push(Spectrum { form, range, span: record.span, ..now.clone() });
+    }
+    if list.is_empty() {
+        remarks.add(
+            Diagnostic::error("deck 13 SPEC has no spectrum", now.span)
+                .label("settings come before a PSMZ, JONS, JONH, GAUS or UDEF card")
+                .help("still water is NONE in the place of SPEC"),
+        );
+    }
+    Waves::Spectra(list)
+}
+
+fn wanted(record: &Record, remarks: &mut Remarks) {
+    let columns: &[usize] = if record.keyword == "PSMZ" { &[41, 51] } else { &[41, 51, 61] };
+    for column in columns {
+        let field = record.real(*column);
+        if field.value <= 0.0 {
+            let message = format!("deck 13, {}, columns {column}-{}: a value above 0 is wanted", record.keyword, column + 9);
+            remarks.add(Diagnostic::error(message, field.span));
+        }
+    }
+}
+
+fn lines(field: Field<i64>, remarks: &mut Remarks) -> i64 {
+    if (1..=MOST_LINES).contains(&field.value) {
+        return field.value;
+    }
+    if field.given && field.value != 0 {
+        remarks.add(
+            Diagnostic::error(format!("deck 13, NSPL: {} is no number of spectral lines", field.value), field.span)
+                .label(format!("1 to {MOST_LINES} belongs in columns 16-20")),
+        );
+    }
+    USUAL_LINES
+}
+
+fn towing(record: &Record, remarks: &mut Remarks) -> Option<(f64, f64)> {
+    let (speed, direction) = (record.real(31), record.real(41));
+    if direction.value.abs() > 30.0 {
+        remarks.add(
+            Diagnostic::error("deck 13, TOWS, columns 41-50: the tow is within 30 degrees of the tether", direction.span)
+                .label("-30 to 30"),
+        );
+    }
+    Some((speed.value, direction.value))
+}
+
+fn phases(list: &mut Vec<f64>, record: &Record, remarks: &mut Remarks) {
+    let first = record.int(16);
+    let next = i64::try_from(list.len()).unwrap_or(i64::MAX).saturating_add(1);
+    if first.given && first.value != next {
+        remarks.add(
+            Diagnostic::error(format!("deck 13, PHAS, columns 16-20: the next phase is that of line {next}"), first.span)
+                .label("phases are given line by line, six a card"),
+        );
+        return;
+    }
+    let given: Vec<f64> = record.reals::<6>(21).iter().take_while(|field| field.given).map(|field| field.value).collect();
+    if next.saturating_add(6) > MOST_LINES {
+        let message = format!("deck 13, PHAS: a spectrum has at most {MOST_LINES} lines");
+        remarks.once("too many phases", || Diagnostic::error(message, record.span));
+        return;
+    }
+    list.extend(given);
+}
+
+fn given_pair(list: &mut Vec<Spectrum>, now: &Spectrum, record: &Record, unit: f64, remarks: &mut Remarks) {
+    let (frequency, ordinate) = (unit * record.real(21).value, record.real(31).value / unit);
+    if let Some(Spectrum { form: Form::Given(pairs), range, .. }) = list.last_mut() {
+        if frequency <= range.1 {
+            remarks.add(
+                Diagnostic::error("deck 13, UDEF, columns 21-30: frequencies ascend", record.real(21).span)
+                    .label("a frequency above that of the card before"),
+            );
+            return;
+        }
+        pairs.push((frequency, ordinate));
+        range.1 = frequency;
+        return;
+    }
+    let form = Form::Given(vec![(frequency, ordinate)]);
+    list.push(Spectrum { form, range: (frequency, frequency), span: record.span, ..now.clone() });
+}
+
+/// The wave of the cards of deck 13 WAVE.
+pub fn read_regular(records: &[Record], remarks: &mut Remarks) -> Waves {
+    let mut wave = RegularWave::default();
+    for record in records {
+        let value = record.real(21).value;
+        match record.keyword.as_str() {
+            "WAMP" => wave.amplitude = value,
+            "HGHT" => wave.amplitude = value / 2.0,
+            "PERD" => wave.period = value,
+            "FREQ" => wave.period = if value > 0.0 { 2.0 * PI / value } else { 0.0 },
+            "WVDN" => wave.direction = value,
+            "AIRY" => wave.linear = true,
+            "WRMP" => wave.ramp = value,
+            "CURR" => wave.current = stream(record),
+            _ => wave.wind = stream(record),
+        }
+    }
+    if !(wave.period > 0.0 && wave.period.is_finite()) || wave.amplitude < 0.0 {
+        let span = records.first().map(|record| record.span).unwrap_or_default();
+        remarks.add(
+            Diagnostic::error("deck 13 WAVE has no wave", span)
+                .label("an amplitude (WAMP) and a period (PERD) above 0 are wanted")
+                .help("still water is NONE in the place of WAVE"),
+        );
+    }
+    Waves::Regular(wave)
+}
