@@ -174,7 +174,8 @@ impl<'a> Face<'a> {
         let after = rest.get(id.len()..).unwrap_or_default();
         // where a card has no keyword, two digits may be its first value: only the number of the deck is an identifier
         let own = id == format!("{deck:02}");
-        let id = if own || (keyworded && !after.starts_with(|c: char| c.is_ascii_digit() || c == '.')) { id } else { "" };
+        let id =
+            if own || (keyworded && !after.starts_with(|c: char| c.is_ascii_digit() || c == '.')) { id } else { "" };
         rest = rest.get(id.len()..).unwrap_or_default().trim_start();
         let length = rest.find(|c: char| c.is_whitespace() || c == ',' || c == '(').unwrap_or(rest.len());
         let word = rest.get(..length).filter(|word| begins_keyword(word)).unwrap_or_default();

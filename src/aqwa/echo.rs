@@ -49,7 +49,11 @@ impl Deck {
             .iter()
             .map(|cards| {
                 let shown = cards.deck > 4 || self.job.option("PRCE");
-                let lines = if shown { cards.records.iter().map(|record| line(cards.deck, record)).collect() } else { Vec::new() };
+                let lines = if shown {
+                    cards.records.iter().map(|record| line(cards.deck, record)).collect()
+                } else {
+                    Vec::new()
+                };
                 Echo { title: title(cards), lines }
             })
             .collect()

@@ -125,7 +125,8 @@ pub fn read(number: i64, span: Span, records: &[Record], present: usize, remarks
             structure.waterline = remarks.keep(height).map(|height| (height, record.span));
             continue;
         }
-        let Some((name, shape, count, material, geometry)) = KINDS.iter().find(|(name, ..)| *name == record.keyword) else {
+        let Some((name, shape, count, material, geometry)) = KINDS.iter().find(|(name, ..)| *name == record.keyword)
+        else {
             continue;
         };
         let made = present + structure.elements.len();
@@ -154,7 +155,8 @@ fn elements(
     let (_, list) = groups(record)?;
     let wanted = 1 + nodes + usize::from(material) + usize::from(geometry);
     if list.len() != wanted {
-        let message = format!("deck 2, {}: {wanted} bracketed groups are wanted, {} are there", record.keyword, list.len());
+        let message =
+            format!("deck 2, {}: {wanted} bracketed groups are wanted, {} are there", record.keyword, list.len());
         return Err(Diagnostic::error(message, record.text_place).label("from column 21 on"));
     }
     let whole = |group: &Vec<f64>| -> Option<(i64, i64)> {

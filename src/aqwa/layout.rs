@@ -186,7 +186,10 @@ impl Layout {
             let joined = format!("{before}{after}");
             let span = line.place_of(before).to(line.place_of(after));
             (joined.contains('.') && real(&joined).is_some()).then(|| {
-                let message = format!("{}: `{joined}` lies across two fields and was read as {before} and {after}", self.named(deck));
+                let message = format!(
+                    "{}: `{joined}` lies across two fields and was read as {before} and {after}",
+                    self.named(deck)
+                );
                 Diagnostic::warning(message, span).help(self.usage())
             })
         })

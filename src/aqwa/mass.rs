@@ -51,8 +51,9 @@ impl Deck {
         }
         found.mass = pieces.iter().map(|piece| piece.mass).sum();
         if found.mass > 0.0 {
-            found.centre =
-                std::array::from_fn(|i| pieces.iter().map(|piece| piece.mass * piece.centre[i]).sum::<f64>() / found.mass);
+            found.centre = std::array::from_fn(|i| {
+                pieces.iter().map(|piece| piece.mass * piece.centre[i]).sum::<f64>() / found.mass
+            });
         }
         for piece in &pieces {
             let arm: [f64; 3] = std::array::from_fn(|i| piece.centre[i] - found.centre[i]);

@@ -172,7 +172,8 @@ pub fn read_geometries(records: &[Record], remarks: &mut Remarks) -> Vec<Geometr
             remarks.add(Diagnostic::error(message, group.span).other(earlier.span, "given here first"));
         }
         let parameters = record.reals(21);
-        let geometry = Geometry { shape, group: group.value, parameters, drag: None, added_mass: None, span: record.span };
+        let geometry =
+            Geometry { shape, group: group.value, parameters, drag: None, added_mass: None, span: record.span };
         if shape == Shape::Tube {
             check_tube(&geometry, remarks);
         }
@@ -185,7 +186,8 @@ fn check_tube(geometry: &Geometry, remarks: &mut Remarks) {
     let [diameter, wall, ..] = geometry.parameters;
     if diameter.value <= 0.0 {
         remarks.add(
-            Diagnostic::error("deck 4, TUBE, columns 21-30: a tube has a diameter above 0", diameter.span).label("diameter"),
+            Diagnostic::error("deck 4, TUBE, columns 21-30: a tube has a diameter above 0", diameter.span)
+                .label("diameter"),
         );
     } else if wall.value < 0.0 || wall.value > diameter.value / 2.0 {
         remarks.add(
@@ -195,8 +197,11 @@ fn check_tube(geometry: &Geometry, remarks: &mut Remarks) {
     }
     if let Some(other) = geometry.parameters.iter().skip(2).find(|p| p.value != 0.0) {
         remarks.once("tube parameters", || {
-            Diagnostic::warning("deck 4, TUBE: parameters 3 to 6 (cuts and ends of the tube) have no effect", other.span)
-                .label("the ends are taken as closed and uncut")
+            Diagnostic::warning(
+                "deck 4, TUBE: parameters 3 to 6 (cuts and ends of the tube) have no effect",
+                other.span,
+            )
+            .label("the ends are taken as closed and uncut")
         });
     }
 }

@@ -140,7 +140,8 @@ impl<'a> Reader<'a> {
                 if deck <= 18 {
                     let message = format!("the file ends before deck {deck} ({wanted})");
                     self.remarks.once("the file ends", || {
-                        Diagnostic::error(message, self.end).help("a deck without data is a card with NONE in columns 11-14")
+                        Diagnostic::error(message, self.end)
+                            .help("a deck without data is a card with NONE in columns 11-14")
                     });
                 }
                 return None;
@@ -211,7 +212,10 @@ impl<'a> Reader<'a> {
             let face = Face::of(&line, deck, keyworded);
             if line.overlong() {
                 self.remarks.once(&format!("overlong {deck}"), || {
-                    Diagnostic::warning(format!("{label}: a card is longer than 80 columns; the rest is not read"), line.span(81, 81))
+                    Diagnostic::warning(
+                        format!("{label}: a card is longer than 80 columns; the rest is not read"),
+                        line.span(81, 81),
+                    )
                 });
             }
             if face.last && face.keyword.is_empty() && face.rest.trim().is_empty() {
@@ -229,7 +233,8 @@ impl<'a> Reader<'a> {
             }
         }
         if let Some((span, count)) = free {
-            let what = if count == 1 { "this card was".to_string() } else { format!("{count} cards, this one first, were") };
+            let what =
+                if count == 1 { "this card was".to_string() } else { format!("{count} cards, this one first, were") };
             let message = format!("{label}: {what} read by blanks, not by columns");
             self.remarks.add(
                 Diagnostic::remark(message, span)
@@ -248,7 +253,8 @@ impl<'a> Reader<'a> {
     ) -> Option<(Record, bool)> {
         let Some(layout) = layouts.iter().find(|layout| matches(layout.keyword, &face.keyword)) else {
             let known = || layouts.iter().map(|layout| layout.keyword).filter(|keyword| !keyword.is_empty());
-            let word = if face.keyword.is_empty() { Line::words(face.rest).next().unwrap_or_default() } else { &face.keyword };
+            let word =
+                if face.keyword.is_empty() { Line::words(face.rest).next().unwrap_or_default() } else { &face.keyword };
             let mut error = Diagnostic::error(format!("{label} has no card `{word}`"), face.place)
                 .label("a keyword of this deck belongs in columns 7-10");
             error.help.extend(did_you_mean(word, known()));
@@ -262,8 +268,11 @@ impl<'a> Reader<'a> {
         match layout.standing {
             Standing::Sure => {}
             Standing::Assumed => self.remarks.once(&format!("{label} {}", layout.keyword), || {
-                Diagnostic::remark(format!("{label}, {}: no source confirms the columns of this card", layout.keyword), face.place)
-                    .help(format!("assumed {}", layout.usage()))
+                Diagnostic::remark(
+                    format!("{label}, {}: no source confirms the columns of this card", layout.keyword),
+                    face.place,
+                )
+                .help(format!("assumed {}", layout.usage()))
             }),
             Standing::Refused(reason) => {
                 self.remarks.add(Diagnostic::error(format!("{label}, {}: {reason}", layout.keyword), face.place));

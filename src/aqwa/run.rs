@@ -12,12 +12,8 @@ const SIX: &[Slot] = &[num("X", 21), num("Y", 31), num("Z", 41), num("RX", 51), 
 const SLOW: &str = "slow drift positions are not read apart from the total ones";
 
 /// Cards of deck 15; `n` stands for the number of the structure.
-pub const STARTS: &[Layout] = &[
-    Layout::new("POSn", SIX),
-    Layout::new("VELn", SIX),
-    Layout::refused("SLPn", SLOW),
-    Layout::refused("SLVn", SLOW),
-];
+pub const STARTS: &[Layout] =
+    &[Layout::new("POSn", SIX), Layout::new("VELn", SIX), Layout::refused("SLPn", SLOW), Layout::refused("SLVn", SLOW)];
 
 /// Cards of deck 16.
 pub const STEPS: &[Layout] = &[
@@ -95,18 +91,21 @@ pub fn read_starts(records: &[Record], remarks: &mut Remarks) -> Vec<Start> {
 /// The time steps of the cards of deck 16.
 pub fn read_steps(records: &[Record], remarks: &mut Remarks) -> Option<Steps> {
     let record = records.last()?;
-    let steps =
-        Steps { count: record.int(16), step: record.real(21), start: record.real(31).value, span: record.span };
+    let steps = Steps { count: record.int(16), step: record.real(21), start: record.real(31).value, span: record.span };
     if !(1..=MOST_STEPS).contains(&steps.count.value) {
         remarks.add(
-            Diagnostic::error(format!("deck 16, TIME, columns 16-20: {} steps cannot be run", steps.count.value), steps.count.span)
-                .label(format!("number of steps, 1 to {MOST_STEPS}")),
+            Diagnostic::error(
+                format!("deck 16, TIME, columns 16-20: {} steps cannot be run", steps.count.value),
+                steps.count.span,
+            )
+            .label(format!("number of steps, 1 to {MOST_STEPS}")),
         );
         return None;
     }
     if steps.step.value <= 0.0 {
         remarks.add(
-            Diagnostic::error("deck 16, TIME, columns 21-30: a time step is above 0", steps.step.span).label("time step"),
+            Diagnostic::error("deck 16, TIME, columns 21-30: a time step is above 0", steps.step.span)
+                .label("time step"),
         );
         return None;
     }

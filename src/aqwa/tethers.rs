@@ -164,14 +164,19 @@ impl Builder {
                 let flag = record.int(11);
                 if !(0..=1).contains(&flag.value) {
                     let message = format!("deck 14, {}, columns 11-15: {} is no flag", record.keyword, flag.value);
-                    remarks.add(Diagnostic::error(message, flag.span).label("1 for a towed tether, blank for an installed one"));
+                    remarks.add(
+                        Diagnostic::error(message, flag.span).label("1 for a towed tether, blank for an installed one"),
+                    );
                 }
                 let spring = EndSpring { towed: flag.value == 1, stiffness: record.reals(31), span: record.span };
                 let place = if record.keyword == "TSPA" { &mut tether.anchor } else { &mut tether.vessel };
                 match place {
                     Some(earlier) => remarks.add(
-                        Diagnostic::error(format!("deck 14: a tether has only one {} card", record.keyword), record.span)
-                            .other(earlier.span, "given here first"),
+                        Diagnostic::error(
+                            format!("deck 14: a tether has only one {} card", record.keyword),
+                            record.span,
+                        )
+                        .other(earlier.span, "given here first"),
                     ),
                     None => *place = Some(spring),
                 }
@@ -200,8 +205,11 @@ impl Builder {
                 tether.group = record.int(11).value;
                 if tether.group < 0 {
                     remarks.add(
-                        Diagnostic::error("deck 14, TEGR, columns 11-15: a number of tethers is not below 0", record.span)
-                            .label("number of identical tethers"),
+                        Diagnostic::error(
+                            "deck 14, TEGR, columns 11-15: a number of tethers is not below 0",
+                            record.span,
+                        )
+                        .label("number of identical tethers"),
                     );
                 }
             }
@@ -209,14 +217,20 @@ impl Builder {
             "TIFL" => tether.fluid = (value(31), value(41)),
             "TIMP" => {
                 if value(31) < 0.0 || value(41) < 0.0 {
-                    remarks.add(Diagnostic::error("deck 14, TIMP: stress factor and half life are not below 0", record.span));
+                    remarks.add(Diagnostic::error(
+                        "deck 14, TIMP: stress factor and half life are not below 0",
+                        record.span,
+                    ));
                 }
                 tether.impact = Some((value(31), value(41)));
             }
             "TLOW" => {
                 tether.lower_stop = value(31);
                 if tether.lower_stop < 0.0 {
-                    remarks.add(Diagnostic::error("deck 14, TLOW, columns 31-40: a distance below the anchor is not below 0", record.span));
+                    remarks.add(Diagnostic::error(
+                        "deck 14, TLOW, columns 31-40: a distance below the anchor is not below 0",
+                        record.span,
+                    ));
                 }
             }
             keyword => {
@@ -230,7 +244,10 @@ impl Builder {
                     let message = format!("deck 14, {keyword}: a tether has at most {MOST_CONSTRAINTS} constraints");
                     remarks.add(Diagnostic::error(message, record.span));
                 } else if value(31) < 0.0 {
-                    remarks.add(Diagnostic::error("deck 14, TLAV, columns 31-40: a gap is not below 0", record.real(31).span));
+                    remarks.add(Diagnostic::error(
+                        "deck 14, TLAV, columns 31-40: a gap is not below 0",
+                        record.real(31).span,
+                    ));
                 } else {
                     tether.constraints.push((kind, value(31), record.span));
                 }
@@ -349,7 +366,8 @@ fn check_towed(keyword: &str, spring: Option<EndSpring>, at: Span, remarks: &mut
         if stiffness.value < 0.0 {
             remarks.add(Diagnostic::error(format!("deck 14, {keyword}: a stiffness is not below 0"), stiffness.span));
         } else if stiffness.value == 0.0 {
-            let message = format!("deck 14, {keyword}: a zero spring of a towed tether is taken as the default, 1.0E15");
+            let message =
+                format!("deck 14, {keyword}: a zero spring of a towed tether is taken as the default, 1.0E15");
             remarks.add(Diagnostic::warning(message, stiffness.span).help(help));
         }
     }
@@ -358,7 +376,8 @@ fn check_towed(keyword: &str, spring: Option<EndSpring>, at: Span, remarks: &mut
 fn check_installed(keyword: &str, spring: Option<EndSpring>, at: Span, remarks: &mut Remarks) {
     let Some(spring) = spring else {
         remarks.once(&format!("{keyword} missing"), || {
-            let message = format!("deck 14: no {keyword} card; 1.0E15 is taken for the inline and both rotational springs");
+            let message =
+                format!("deck 14: no {keyword} card; 1.0E15 is taken for the inline and both rotational springs");
             Diagnostic::remark(message, at).help("so for every installed tether without the card (A.2)")
         });
         return;

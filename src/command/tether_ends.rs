@@ -7,7 +7,7 @@ use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
 use crate::language::spec::{Kind, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
-use crate::model::{TetherConstraint, TetherEnds, TetherUse};
+use crate::model::{TetherConstraint, TetherEnds, TetherHold, TetherUse};
 
 const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(dim), help)
@@ -87,9 +87,10 @@ pub const CONSTRAINT: OptionSpec = OptionSpec {
         "-CONSTRAINT",
         &[
             ValueSpec::new("KIND", Kind::Choice(KINDS), "what is held, and by what"),
+            ValueSpec::new("NODE", Kind::Integer, "the node, 1 at the anchor").within(1.0, 1e5),
             number("GAP", Dim::Length, "free radius of LATERAL_VESSEL").or("0").not_negative(),
         ],
-        "holds an end of a tether beside its springs, five at most",
+        "holds a node of a tether, five constraints at most",
     )
 };
 /// Card TEGR.
@@ -151,16 +152,18 @@ pub fn read(args: &Args) -> Outcome<Option<TetherEnds>> {
 fn constraints(args: &Args) -> Outcome<Vec<TetherConstraint>> {
     let mut found = Vec::new();
     for given in args.all("-CONSTRAINT") {
-        let gap = given.number(1);
+        let gap = given.number(2);
         if gap.is_some_and(|g| g > 0.0) && given.word(0) != Some("LATERAL_VESSEL") {
             return Err(Diagnostic::error("only LATERAL_VESSEL has a gap", given.span));
         }
-        found.push(match given.word(0) {
-            Some("LATERAL_FIXED") => TetherConstraint::LateralFixed,
-            Some("ROTATIONAL_FIXED") => TetherConstraint::RotationalFixed,
-            Some("LATERAL_VESSEL") => TetherConstraint::LateralVessel { gap: gap.unwrap_or(0.0) },
-            _ => TetherConstraint::RotationalVessel,
-        });
+        let node = given.values.get(1).and_then(|v| v.integer()).and_then(|n| usize::try_from(n).ok()).unwrap_or(1);
+        let hold = match given.word(0) {
+            Some("LATERAL_FIXED") => TetherHold::LateralFixed,
+            Some("ROTATIONAL_FIXED") => TetherHold::RotationalFixed,
+            Some("LATERAL_VESSEL") => TetherHold::LateralVessel { gap: gap.unwrap_or(0.0) },
+            _ => TetherHold::RotationalVessel,
+        };
+        found.push(TetherConstraint { node, hold });
         if found.len() > MOST_CONSTRAINTS {
             return Err(Diagnostic::error(format!("a tether has {MOST_CONSTRAINTS} constraints at most"), given.span));
         }

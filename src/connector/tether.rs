@@ -7,7 +7,7 @@ use super::options::aqwa;
 use super::{ClassKind, checks};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
-use crate::language::spec::{CommandSpec, Kind, ValueSpec};
+use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
 use crate::model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Guess, Response, Situation, Summary,
@@ -50,6 +50,18 @@ static TETHER_SPEC: CommandSpec = CommandSpec {
             "transverse drag 0.5 rho Cd V2 OD",
         )
         .default("0.75"),
+        OptionSpec::new(
+            "-LABEL",
+            &[
+                ValueSpec::new("N1", Kind::Integer, "the node nearer to the anchor"),
+                ValueSpec::new("N2", Kind::Integer, "the node nearer to the vessel"),
+                ValueSpec::new("MATE", Kind::Integer, "its material group"),
+                ValueSpec::new("GEOM", Kind::Integer, "its geometry group"),
+            ],
+            "what the tables call its nodes and groups; of a section of one element",
+        )
+        .owner(Owner::Ours)
+        .default("numbers from 1 at the anchor"),
     ],
     detail: "An AQWA tether or riser section, in kg, m and N in every unit system; one record a section.",
     example: "MEDIT\n~LEG TETHER 1.1 0.035 -LEN 250 -REFINE 10\nEND\n&STATUS CLASS ~LEG",
@@ -78,6 +90,9 @@ fn build_tether(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
             youngs_modulus: args.option_number("-EMODULUS").unwrap_or(material.emodulus),
             added_mass: args.option_number("-CA").unwrap_or(1.0),
             drag: args.option_number("-CD").unwrap_or(0.75),
+            label: args
+                .option("-LABEL")
+                .map(|g| [0, 1, 2, 3].map(|i| g.values.get(i).and_then(|v| v.integer()).unwrap_or(0))),
         });
     }
     Ok(Arc::new(TetherClass(sections)))

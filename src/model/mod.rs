@@ -44,7 +44,7 @@ pub use names::Thing;
 pub use pose::{Pose, Six};
 pub use prescribed::{GivenMotion, PathRow, Prescription, ResponseRow, Responses, Sinusoid};
 pub use selector::Selector;
-pub use tether::{TetherConstraint, TetherEnds, TetherSection, TetherUse};
+pub use tether::{TetherConstraint, TetherEnds, TetherHold, TetherSection, TetherUse};
 
 use crate::language::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use crate::language::source::Span;

@@ -21,6 +21,8 @@ pub struct TetherSection {
     pub added_mass: f64,
     /// Transverse drag coefficient.
     pub drag: f64,
+    /// What the user calls its nodes (that at the anchor's side first), its material and its geometry; for tables alone.
+    pub label: Option<[i64; 4]>,
 }
 
 /// Which of the two tethers of seed 003 it is.
@@ -33,20 +35,29 @@ pub enum TetherUse {
     Towed,
 }
 
-/// What holds a node of an installed tether beside its springs (cards TLAC, TROC, TLAV, TROV).
+/// How a node of an installed tether is held beside the springs of its ends (cards TLAC, TROC, TLAV, TROV).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum TetherConstraint {
-    /// The anchor end does not move sideways.
+pub enum TetherHold {
+    /// It stays where it is sideways when the tether is vertical over its anchor.
     LateralFixed,
-    /// The anchor end does not turn.
+    /// It stays vertical.
     RotationalFixed,
-    /// The structure holds the upper end sideways once it is this far (m) from the centre of its gap.
+    /// It passes through an opening of the structure.
     LateralVessel {
-        /// Radius of the free circle (m).
+        /// What it can move from the middle of the opening to any side (m).
         gap: f64,
     },
-    /// The upper end turns with the structure.
+    /// It turns with the structure.
     RotationalVessel,
+}
+
+/// A constraint: which node, counted from 1 at the anchor, and how it is held.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TetherConstraint {
+    /// The node.
+    pub node: usize,
+    /// How.
+    pub hold: TetherHold,
 }
 
 /// How the ends of a tether are held and what is in it. The first of two values is that of the fairlead, at the vessel; the
