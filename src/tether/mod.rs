@@ -15,12 +15,18 @@
 //! | [`beam`] | matrices and loads of one element in one plane |
 //! | [`banded`] | symmetric band and its factors |
 //! | [`modes`] | natural modes of a plane |
+//! | [`compatibility`] | peculiarities of another program, each with a name |
+//! | [`structure`] | the structure that installed tethers hold, and the water around |
+//! | [`installed`] | tethers between anchors and a moving structure |
 
 pub mod banded;
 pub mod beam;
+pub mod compatibility;
+pub mod installed;
 pub mod line;
 pub mod modes;
 pub mod section;
+pub mod structure;
 
 pub use line::{Line, TetherElement};
 pub use section::Tube;
