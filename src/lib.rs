@@ -17,3 +17,4 @@ pub mod report;
 pub mod session;
 pub mod solve;
 pub mod table;
+pub mod tether;

@@ -7,7 +7,7 @@ mod airy;
 pub mod components;
 pub mod density;
 pub mod dispersion;
-mod eight;
+pub mod eight;
 mod made;
 pub mod phases;
 pub mod spectra;

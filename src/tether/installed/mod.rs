@@ -1,0 +1,21 @@
+//! Tethers between anchors on the bottom and a moving structure (seed 003, chapters 1 to 4, 7, 8.2 and appendix A).
+//!
+//! The axis of a tether (TLA) runs straight from the anchor to the attachment and moves with it; X and Y across it are the global ones
+//! turned with the axis from the vertical. In each plane a chain of beams moves across the axis ([`bending`]); tension is static along it
+//! ([`tension`]). [`run`] moves structure and tethers together and shows every state to an observer, of which [`history`] keeps what is to be
+//! told. Rotations are `RX = -dY/dz`, `RY = dX/dz`.
+
+pub mod axis;
+pub mod bending;
+pub mod description;
+
+pub mod modes;
+pub mod rig;
+pub mod run;
+pub mod stress;
+pub mod tension;
+pub mod tether;
+
+pub use rig::{Change, Rig};
+pub use run::{Course, Event, Installation, Moment, Observer};
+pub use tether::{Constraint, DefaultTaken, EndSprings, Impact, InstalledTether, InternalFluid};

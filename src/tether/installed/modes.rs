@@ -1,0 +1,74 @@
+//! Natural modes of an installed tether in the tension it has where the structure is.
+//!
+//! `K` is bending, tension and the springs of the ends, `M` wall, contents and added mass; deflections at the ends are held. All as the run has
+//! them, of a straight tether (seed 003, 7.2 and 8.2.21; validation/installed-tether.md, 2).
+
+use super::axis::Axis;
+use super::bending::{Bending, Matrices};
+use super::tension::Axial;
+use super::tether::InstalledTether;
+use crate::model::ClassError;
+use crate::tether::beam;
+use crate::tether::modes::{self, NaturalMode, Pencil, Plane};
+use crate::tether::structure::flow::Flow;
+use nalgebra::Vector3;
+
+/// A mode of an installed tether.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InstalledMode {
+    /// Frequency and shape; its plane Z is that of X here.
+    pub mode: NaturalMode,
+    /// Height of each node above the anchor (m).
+    pub heights: Vec<f64>,
+}
+
+impl InstalledMode {
+    /// X, Y (scaled), RX, RY (rad) of a node.
+    pub fn node(&self, index: usize) -> [f64; 4] {
+        let value = |list: &[f64]| list.get(index).copied().unwrap_or_default();
+        let (deflection, slope) = (value(&self.mode.deflections), value(&self.mode.slopes));
+        match self.mode.plane {
+            // the planes of the beam are those of X and Y here
+            Plane::Z => [deflection, 0.0, 0.0, slope],
+            Plane::Y => [0.0, deflection, 0.0 - slope, 0.0],
+        }
+    }
+}
+
+/// The lowest `number` modes of a tether with its attachment at a place (m, global), in still water.
+///
+/// # Errors
+/// A tether that cannot be reckoned with, or is too short for its span.
+pub fn modes(
+    tether: &InstalledTether,
+    attachment: Vector3<f64>,
+    flow: &Flow,
+    number: usize,
+) -> Result<Vec<InstalledMode>, ClassError> {
+    tether.check()?;
+    tether.spans((attachment - tether.anchor).norm())?;
+    let Some(axis) = Axis::of(tether.anchor, attachment) else {
+        return Err(ClassError::new(format!("tether {} hangs straight below its anchor", tether.name)));
+    };
+    let axial = Axial::of(tether, flow.density, flow.gravity);
+    let tension = axial.tension(&axis, attachment.z, 0.0, &flow.at(0.0));
+    let bending = Bending::of(tether, flow.density, flow.gravity);
+    let mut found = [Vec::new(), Vec::new()];
+    for (plane, list) in found.iter_mut().enumerate() {
+        let Matrices { stiffness, mass, beams, springs } = bending.matrices(plane, &tension, &axial);
+        let last = mass.order() - 1;
+        let energy = |x: &[f64]| {
+            let of = |(index, [ei, pull, length]): (usize, &[f64; 3])| {
+                beam::twice_energy(*ei, *pull, *length, &beam::of_element(x, index))
+            };
+            let coils = springs[0] * x[1] * x[1] + springs[1] * x[last] * x[last];
+            beams.iter().enumerate().map(of).sum::<f64>() + coils
+        };
+        *list = modes::modes(&Pencil { stiffness: &stiffness, mass: &mass, twice_energy: &energy }, number)?;
+    }
+    let shares = tether.line.distances().iter().map(|s| s / tether.line.length() * tension.length);
+    let heights: Vec<f64> = shares.collect();
+    let [x, y] = found;
+    let all = modes::together(&y, &x, number);
+    Ok(all.into_iter().map(|mode| InstalledMode { mode, heights: heights.clone() }).collect())
+}

@@ -1,0 +1,283 @@
+//! One tether of a run: where it is, how it stands, what it does to the structure, what its elements bear.
+
+use super::axis::{Attachment, Axis};
+use super::bending::{Bending, Motion, Stage};
+use super::stress::{EndLoads, Stresses};
+use super::tension::{Axial, Standing, Tension};
+use super::tether::InstalledTether;
+use crate::hydro::carried;
+use crate::model::{ClassError, Pose, Six};
+use crate::tether::compatibility::Compatibility;
+use crate::tether::structure::flow::FlowAt;
+use nalgebra::Vector3;
+
+/// Which of the two stages of a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Which {
+    /// The one at its start.
+    First,
+    /// The one at its end as predicted.
+    Second,
+}
+
+/// A tether under way.
+#[derive(Clone, Debug)]
+pub struct Rig {
+    tether: InstalledTether,
+    axial: Axial,
+    bending: Bending,
+    axis: Axis,
+    attachment: Attachment,
+    tension: Tension,
+    /// How it stood, and the tension and axis of it, at the start of the step.
+    start: (Axis, Tension),
+    before: Option<Standing>,
+    /// Axial stress of the last impact (Pa), and its time (s).
+    impact: Option<(f64, f64)>,
+    ends: Vec<[EndLoads; 2]>,
+    stresses: Vec<[Stresses; 2]>,
+}
+
+/// What changes in how a tether stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Change {
+    /// It has become slack, or is so at the start of the run.
+    Slack,
+    /// It is in tension again after it was slack, and has struck its upper anchor constraint.
+    Impact {
+        /// Closing velocity (m/s).
+        velocity: f64,
+        /// Axial stress that the impact makes (Pa).
+        stress: f64,
+    },
+    /// Its lower end has fallen on the lower stop.
+    LowerStop {
+        /// How far it is below the anchor (m).
+        drop: f64,
+    },
+}
+
+impl Rig {
+    /// A tether straight between its ends and at rest, in water of a density (kg/m3) under a gravity (m/s2).
+    ///
+    /// # Errors
+    /// Those of [`InstalledTether::check`].
+    pub fn new(tether: InstalledTether, density: f64, gravity: f64) -> Result<Self, ClassError> {
+        tether.check()?;
+        let elements = tether.line.elements().len();
+        Ok(Rig {
+            axial: Axial::of(&tether, density, gravity),
+            bending: Bending::of(&tether, density, gravity),
+            axis: Axis::default(),
+            attachment: Attachment::default(),
+            tension: Tension::default(),
+            start: (Axis::default(), Tension::default()),
+            before: None,
+            impact: None,
+            ends: vec![[EndLoads::default(); 2]; elements],
+            stresses: vec![[Stresses::default(); 2]; elements],
+            tether,
+        })
+    }
+
+    /// Finds axis and tension for a pose of the structure, and gives what the tether does to it about its centre of gravity.
+    pub(super) fn pull(
+        &mut self,
+        which: Which,
+        (pose, velocity): (&Pose, &Six),
+        water: &FlowAt,
+        compatibility: &Compatibility,
+    ) -> Result<Six, ClassError> {
+        self.attachment = Attachment::of(self.tether.attachment, pose, velocity);
+        let Some(axis) = Axis::of(self.tether.anchor, self.attachment.at) else {
+            return Err(ClassError::new("its attachment is at the anchor or straight below it"));
+        };
+        self.axis = axis;
+        if which == Which::First {
+            // what is held goes by the length; that of a slack one differs by its slack alone
+            self.tension = Tension { length: axis.chord, ..self.tension };
+            let Rig { bending, axis, attachment, tension, .. } = self;
+            bending.place_held(&Stage { axis, attachment, tension, water, dt: 0.0 });
+        }
+        let motion = self.motion(which);
+        let arc = self.bending.arc(motion, axis.chord);
+        let tension = self.axial.tension(&axis, self.attachment.at.z, arc, water);
+        let slopes = self.bending.top_slopes(motion);
+        let coil = self.bending.coil(motion, &axis, self.attachment.upright);
+        self.tension = tension;
+        if which == Which::First {
+            self.start = (axis, tension);
+        }
+        let along = axis.along + axis.across[0] * slopes[0] + axis.across[1] * slopes[1];
+        let force = along * -tension.pull;
+        let arm = self.attachment.at - pose.origin;
+        let mut sum = carried(&Six::new(force.x, force.y, force.z, 0.0, 0.0, 0.0), arm);
+        if !compatibility.tension_alone_on_structure {
+            let moment = axis.across[1] * coil[0] - axis.across[0] * coil[1];
+            sum += Six::new(0.0, 0.0, 0.0, moment.x, moment.y, moment.z);
+        }
+        for (push, at) in &self.bending.pushes {
+            sum += carried(&Six::new(push.x, push.y, push.z, 0.0, 0.0, 0.0), at - pose.origin);
+        }
+        if !sum.iter().all(|x| x.is_finite()) {
+            return Err(ClassError::new("its force on the structure has no value"));
+        }
+        Ok(sum * self.tether.group)
+    }
+
+    /// Finds the accelerations of a stage, that of the structure being known.
+    pub(super) fn solve(
+        &mut self,
+        which: Which,
+        (pose, acceleration): (&Pose, &Six),
+        water: &FlowAt,
+        dt: f64,
+    ) -> Result<(), ClassError> {
+        self.attachment.accelerated(self.attachment.at - pose.origin, acceleration);
+        let stage = Stage { axis: &self.axis, attachment: &self.attachment, tension: &self.tension, water, dt };
+        self.bending.stage(which == Which::Second, &stage, &self.axial)
+    }
+
+    /// What changed since the last state, at a time (s).
+    pub(super) fn change(&mut self, time: f64, compatibility: &Compatibility) -> Option<Change> {
+        let now = self.tension.standing;
+        let before = self.before.replace(now).unwrap_or_default();
+        match (before, now) {
+            (Standing::Taut, Standing::Slack) => Some(Change::Slack),
+            (Standing::Taut | Standing::Slack, Standing::OnStop) => Some(Change::LowerStop { drop: self.tension.drop }),
+            (Standing::Slack | Standing::OnStop, Standing::Taut) => {
+                let closing = self.attachment.velocity.dot(&self.axis.along).max(0.0);
+                let velocity = if compatibility.vertical_impact { closing / self.axis.along.z } else { closing };
+                let made = self.tether.impact.map_or(0.0, |i| i.factor * velocity);
+                self.impact = Some((self.impact_stress(time) + made, time));
+                Some(Change::Impact { velocity, stress: made })
+            }
+            _ => None,
+        }
+    }
+
+    /// Axial stress that impacts left at a time (Pa).
+    pub fn impact_stress(&self, time: f64) -> f64 {
+        match (self.impact, self.tether.impact) {
+            (Some((stress, at)), Some(law)) => law.decayed(stress, time - at),
+            _ => 0.0,
+        }
+    }
+
+    /// Finds what the elements bear and their stresses, of the stage just solved; `time` (s) is that they are told for.
+    pub(super) fn bear(&mut self, which: Which, water: &FlowAt, dt: f64, time: f64) {
+        let impact = self.impact_stress(time);
+        let stage = Stage { axis: &self.axis, attachment: &self.attachment, tension: &self.tension, water, dt };
+        let elements = self.tether.line.elements();
+        for (index, (element, (ends, stresses))) in
+            elements.iter().zip(self.ends.iter_mut().zip(&mut self.stresses)).enumerate()
+        {
+            let [x, y] = self.bending.end_loads(index, which == Which::Second, &stage, &self.axial);
+            let tensions = self.axial.ends(index, &self.tension, water);
+            let tube = element.tube();
+            for (end, upper) in [(0, false), (1, true)] {
+                let at = 2 * end;
+                let [effective, wall, out, inside] = tensions[end];
+                ends[end] = EndLoads {
+                    effective,
+                    wall,
+                    shear: [-x[at], -y[at]],
+                    // RX = -dY/dz turns the sign again
+                    moment: [y[at + 1], -x[at + 1]],
+                    pressure: [out, inside],
+                    impact,
+                    upper,
+                };
+                stresses[end] = ends[end].stresses(&tube);
+            }
+        }
+    }
+
+    /// The end of the step.
+    pub(super) fn advance(&mut self, dt: f64) {
+        self.bending.advance(dt);
+    }
+
+    fn motion(&self, which: Which) -> &[Motion; 2] {
+        match which {
+            Which::First => &self.bending.now,
+            Which::Second => &self.bending.trial,
+        }
+    }
+
+    /// The tether it is.
+    pub fn tether(&self) -> &InstalledTether {
+        &self.tether
+    }
+
+    /// The axis at the time of the moment.
+    pub fn axis(&self) -> &Axis {
+        &self.start.0
+    }
+
+    /// How it stands at the time of the moment, with its tension.
+    pub fn tension(&self) -> &Tension {
+        &self.start.1
+    }
+
+    /// Number of nodes.
+    pub fn nodes(&self) -> usize {
+        self.tether.line.nodes()
+    }
+
+    /// Distance of a node from the lower end along the axis (m).
+    pub fn height(&self, node: usize) -> f64 {
+        let share = self.tether.line.distances().get(node).copied().unwrap_or_default() / self.tether.line.length();
+        share * self.start.1.length
+    }
+
+    /// X and Y (m), RX and RY (rad) of a node against the axis.
+    pub fn position(&self, node: usize) -> [f64; 4] {
+        four([0, 1].map(|p| self.bending.now[p].place.as_slice()), node)
+    }
+
+    /// Their velocities.
+    pub fn velocity(&self, node: usize) -> [f64; 4] {
+        four([0, 1].map(|p| self.bending.now[p].velocity.as_slice()), node)
+    }
+
+    /// Their accelerations, those of the first stage.
+    pub fn acceleration(&self, node: usize) -> [f64; 4] {
+        four([0, 1].map(|p| self.bending.found[0][p].as_slice()), node)
+    }
+
+    /// A node in space (m, global).
+    pub fn place(&self, node: usize) -> Vector3<f64> {
+        let (axis, tension) = &self.start;
+        let [x, y, ..] = self.position(node);
+        let top = self.tether.anchor + axis.along * axis.chord;
+        top - axis.along * (tension.length - self.height(node)) + axis.across[0] * x + axis.across[1] * y
+    }
+
+    /// What each element bears at its lower and its upper end.
+    pub fn ends(&self) -> &[[EndLoads; 2]] {
+        &self.ends
+    }
+
+    /// The stresses at the lower and the upper end of each element.
+    pub fn stresses(&self) -> &[[Stresses; 2]] {
+        &self.stresses
+    }
+
+    /// Axial stiffness of the whole with its end springs (N/m).
+    pub fn axial_stiffness(&self) -> f64 {
+        self.axial.stiffness()
+    }
+
+    /// Where it is attached, from the centre of gravity, in the axes of the structure (m).
+    pub fn attachment(&self) -> Vector3<f64> {
+        self.tether.attachment
+    }
+}
+
+/// X, Y, RX, RY of a node from both planes' deflections and slopes.
+fn four([x, y]: [&[f64]; 2], node: usize) -> [f64; 4] {
+    let at = |list: &[f64], i: usize| list.get(2 * node + i).copied().unwrap_or_default();
+    // 0 - x: no minus before a zero
+    [at(x, 0), at(y, 0), 0.0 - at(y, 1), at(x, 1)]
+}

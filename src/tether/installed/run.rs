@@ -1,0 +1,250 @@
+//! A structure and its tethers in time.
+//!
+//! The structure goes by two stages, `a1 = M^-1 F(t, x, v)` and `a2 = M^-1 F(t + h, x + v h + a1 h^2/2, v + a1 h)`, of which
+//! `v' = v + (a1 + a2) h/2` and `x' = x + v h + (2 a1 + a2) h^2/6`, the acceleration being straight over the step. In each stage the pull of
+//! the tethers, which goes by places alone, is found first, then the acceleration of the structure, then that of the tethers, which ride on
+//! it. For a spring w the scheme is stable to w h = 2 (its roots: determinant `1 - (w h)^4/12`, trace `2 - (w h)^2 + (w h)^4/12`).
+
+use super::rig::{Change, Rig, Which};
+use super::tether::InstalledTether;
+use crate::hydro::{Underway, cross};
+use crate::language::units::Dim;
+use crate::model::{ClassError, Pose, Six};
+use crate::tether::compatibility::Compatibility;
+use crate::tether::structure::flow::{Flow, FlowAt};
+use crate::tether::structure::{Forces, Structure};
+use nalgebra::Matrix6;
+use std::f64::consts::TAU;
+
+/// Steps of a run at most.
+pub const MOST_STEPS: usize = 100_000_000;
+/// The longest step times the highest frequency of the structure on its tethers.
+const STABLE: f64 = 2.0;
+
+/// Where a run starts and how it goes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Course {
+    /// Time of the first state (s).
+    pub start: f64,
+    /// Step (s).
+    pub step: f64,
+    /// Number of states, the first one counted.
+    pub states: usize,
+    /// The centre of gravity of the structure and its axes at the start.
+    pub pose: Pose,
+    /// Velocity of the centre of gravity (m/s) and rotation (rad/s), global axes.
+    pub velocity: Six,
+}
+
+/// What happened to a tether.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Event {
+    /// When (s).
+    pub time: f64,
+    /// Its number, from 0.
+    pub tether: usize,
+    /// What.
+    pub change: Change,
+}
+
+/// A state of the history, as an observer sees it.
+#[derive(Debug)]
+pub struct Moment<'a> {
+    /// Number of the state, from 0.
+    pub state: usize,
+    /// Time (s).
+    pub time: f64,
+    /// Centre of gravity and axes of the structure.
+    pub pose: Pose,
+    /// Velocity of the centre of gravity and rotation, global axes.
+    pub velocity: Six,
+    /// Their change with time.
+    pub acceleration: Six,
+    /// What acts on the structure.
+    pub forces: &'a Forces,
+    /// Expected error of the step (m, rad): `-(a_n - 2 a_n-1 + a_n-2) h^2/24`, nothing being before the start.
+    pub error: Six,
+    /// The tethers.
+    pub tethers: &'a [Rig],
+    /// What happened to them.
+    pub events: &'a [Event],
+}
+
+/// Who is shown each state of a run.
+pub trait Observer {
+    /// Takes a state.
+    ///
+    /// # Errors
+    /// What ends the run.
+    fn observe(&mut self, moment: &Moment) -> Result<(), ClassError>;
+}
+
+/// A structure with its tethers in its water, ready to run.
+#[derive(Debug)]
+pub struct Installation<'a> {
+    structure: &'a mut dyn Structure,
+    rigs: Vec<Rig>,
+    flow: &'a Flow,
+    compatibility: Compatibility,
+}
+
+impl<'a> Installation<'a> {
+    /// A structure with its tethers.
+    ///
+    /// # Errors
+    /// A tether that cannot be reckoned with.
+    pub fn new(
+        structure: &'a mut dyn Structure,
+        tethers: Vec<InstalledTether>,
+        flow: &'a Flow,
+        compatibility: Compatibility,
+    ) -> Result<Self, ClassError> {
+        let rigs = tethers.into_iter().map(|tether| Rig::new(tether, flow.density, flow.gravity));
+        Ok(Installation { structure, rigs: rigs.collect::<Result<_, _>>()?, flow, compatibility })
+    }
+
+    /// Runs, showing each state.
+    ///
+    /// # Errors
+    /// A course that cannot be run, a step too long for the structure on its tethers, a tether too short for its span; what has no value on
+    /// the way, with its time; what the observer says.
+    pub fn run(&mut self, course: &Course, observer: &mut dyn Observer) -> Result<(), ClassError> {
+        course.check()?;
+        for rig in &self.rigs {
+            let at = course.pose.point(rig.attachment());
+            rig.tether().spans((at - rig.tether().anchor).norm())?;
+        }
+        let dt = course.step;
+        let mut water = self.flow.at(course.start);
+        let mut forces = [Forces::default(), Forces::default()];
+        let mut events = Vec::with_capacity(self.rigs.len());
+        let (mut pose, mut velocity) = (course.pose, course.velocity);
+        let mut earlier = [Six::zeros(); 2];
+        for state in 0..course.states {
+            let time = course.start + state as f64 * dt;
+            water.move_to(time);
+            let led = if state == 0 { 0.0 } else { dt };
+            let [first, second] = &mut forces;
+            let now = Underway { time, dt: led, pose: &pose, velocity: &velocity };
+            let a1 = self.accelerate(Which::First, &now, &water, first)?;
+            if state == 0 {
+                self.bears(course, first)?;
+            }
+            events.clear();
+            for (tether, rig) in self.rigs.iter_mut().enumerate() {
+                let change = rig.change(time, &self.compatibility);
+                events.extend(change.map(|change| Event { time, tether, change }));
+            }
+            self.tethers(Which::First, (&pose, &a1), &water, (dt, time))?;
+            let ahead = (pose.moved(&(velocity * dt + a1 * (0.5 * dt * dt))), velocity + a1 * dt);
+            water.move_to(time + dt);
+            let end = Underway { time: time + dt, dt, pose: &ahead.0, velocity: &ahead.1 };
+            let a2 = self.accelerate(Which::Second, &end, &water, second)?;
+            self.tethers(Which::Second, (&ahead.0, &a2), &water, (dt, time))?;
+            let error = (a1 - earlier[0] * 2.0 + earlier[1]) * (-dt * dt / 24.0);
+            earlier = [a1, earlier[0]];
+            observer.observe(&Moment {
+                state,
+                time,
+                pose,
+                velocity,
+                acceleration: a1,
+                forces: first,
+                error,
+                tethers: &self.rigs,
+                events: &events,
+            })?;
+            pose = pose.moved(&(velocity * dt + (a1 * 2.0 + a2) * (dt * dt / 6.0)));
+            velocity += (a1 + a2) * (0.5 * dt);
+            self.rigs.iter_mut().for_each(|rig| rig.advance(dt));
+        }
+        Ok(())
+    }
+
+    /// Pull of the tethers, forces and acceleration of the structure.
+    fn accelerate(
+        &mut self,
+        which: Which,
+        at: &Underway,
+        water: &FlowAt,
+        forces: &mut Forces,
+    ) -> Result<Six, ClassError> {
+        forces.mooring = Six::zeros();
+        for rig in &mut self.rigs {
+            let pull = rig.pull(which, (at.pose, at.velocity), water, &self.compatibility);
+            forces.mooring += pull.map_err(|e| named(e, rig.tether(), at.time))?;
+        }
+        self.structure.forces(at, water, which == Which::First, forces)?;
+        forces.acceleration().map_err(|mut e| {
+            e.message.push_str(" (time {})");
+            e.values.push((at.time, Dim::Time));
+            e
+        })
+    }
+
+    /// Accelerations of the tethers, and what their elements bear.
+    fn tethers(
+        &mut self,
+        which: Which,
+        structure: (&Pose, &Six),
+        water: &FlowAt,
+        (dt, time): (f64, f64),
+    ) -> Result<(), ClassError> {
+        let told = if self.compatibility.second_stage_tables { Which::Second } else { Which::First };
+        for rig in &mut self.rigs {
+            rig.solve(which, structure, water, dt).map_err(|e| named(e, rig.tether(), time))?;
+            if which == told {
+                rig.bear(which, water, dt, time);
+            }
+        }
+        Ok(())
+    }
+
+    /// Sees that the step is short enough for the structure on its tethers.
+    fn bears(&self, course: &Course, forces: &Forces) -> Result<(), ClassError> {
+        let mut stiffness = Matrix6::zeros();
+        for rig in &self.rigs {
+            let (along, arm) = (rig.axis().along, course.pose.axes * rig.attachment());
+            let turning = cross(arm) * along;
+            let row = Six::new(along.x, along.y, along.z, turning.x, turning.y, turning.z);
+            stiffness += row * row.transpose() * (rig.axial_stiffness() * rig.tether().group);
+        }
+        let Some(factor) = forces.inertia.cholesky() else { return Ok(()) };
+        let half = factor.l();
+        let Some(left) = half.solve_lower_triangular(&stiffness) else { return Ok(()) };
+        let Some(whole) = half.solve_lower_triangular(&left.transpose()) else { return Ok(()) };
+        let highest = whole.symmetric_eigenvalues().max().max(0.0).sqrt();
+        if highest * course.step <= STABLE {
+            return Ok(());
+        }
+        let text = "a step of {} is too long: the structure swings on its tethers in {}, for which {} at most is stable";
+        let period = TAU / highest;
+        Err(ClassError::of(text, &[(course.step, Dim::Time), (period, Dim::Time), (STABLE / highest, Dim::Time)])
+            .help(format!("a tenth of the period, {:.3} s, follows that motion", period / 10.0)))
+    }
+}
+
+impl Course {
+    /// Sees that it can be run.
+    fn check(&self) -> Result<(), ClassError> {
+        let finite = self.start.is_finite() && self.velocity.iter().all(|v| v.is_finite());
+        let place = self.pose.origin.iter().chain(self.pose.axes.iter()).all(|v| v.is_finite());
+        if !(finite && place) {
+            return Err(ClassError::new("the run has a start that is no finite number"));
+        }
+        if !(self.step.is_finite() && self.step > 0.0) {
+            return Err(ClassError::of("the step of the run is {}; it must be above zero", &[(self.step, Dim::Time)]));
+        }
+        if self.states == 0 || self.states > MOST_STEPS {
+            return Err(ClassError::new(format!("a run has 1 to {MOST_STEPS} steps, not {}", self.states)));
+        }
+        Ok(())
+    }
+}
+
+/// An error of a tether with its name and the time.
+fn named(mut error: ClassError, tether: &InstalledTether, time: f64) -> ClassError {
+    error.message = format!("tether {} at {{}}: {}", tether.name, error.message);
+    error.values.insert(0, (time, Dim::Time));
+    error
+}

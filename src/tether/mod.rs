@@ -1,0 +1,32 @@
+//! Tethers: chains of slender steel tubes under water, as the AQWATM-TETHER manual (seed 003) has them. Small deflections from
+//! a straight axis; two translations and two slopes a node; nothing moves or turns along the axis.
+//!
+//! Units: SI, or any consistent set (the manual's decks are in t, kN, m): gravity and the density of water are given, and
+//! nothing here knows another constant with a unit.
+//!
+//! Axes of the tether (TLA): x along the straight axis from the first node (trailing end, anchor) to the last (vessel); y and
+//! z across it. The two planes share no stiffness and no mass, so each is a chain of its own with two unknowns a node,
+//! **deflection and slope d/dx**: `y, y'` and `z, z'`. Rotations by the right hand are `RY = -z'`, `RZ = +y'`.
+//!
+//! | file | what it is |
+//! |--|--|
+//! | [`section`] | the tube's cross section |
+//! | [`line`] | elements one after the other, checked |
+//! | [`beam`] | matrices and loads of one element in one plane |
+//! | [`banded`] | symmetric band and its factors |
+//! | [`modes`] | natural modes of a plane |
+//! | [`compatibility`] | peculiarities of another program, each with a name |
+//! | [`structure`] | the structure that installed tethers hold, and the water around |
+//! | [`installed`] | tethers between anchors and a moving structure |
+
+pub mod banded;
+pub mod beam;
+pub mod compatibility;
+pub mod installed;
+pub mod line;
+pub mod modes;
+pub mod section;
+pub mod structure;
+
+pub use line::{Line, TetherElement};
+pub use section::Tube;
