@@ -21,6 +21,7 @@ pub mod beam;
 pub mod line;
 pub mod modes;
 pub mod section;
+pub mod towed;
 
 pub use line::{Line, TetherElement};
 pub use section::Tube;
