@@ -27,6 +27,7 @@ pub mod line;
 pub mod modes;
 pub mod section;
 pub mod structure;
+pub mod towed;
 
 pub use line::{Line, TetherElement};
 pub use section::Tube;

@@ -1,0 +1,211 @@
+//! Waves and current in the axes of the tether, laid out for many places at one time.
+//!
+//! Airy waves added up (as [`crate::hydro::sea`]): with `q = kx x + ky y - w t + phase`, C and S being cosh and sinh of k(z+d)
+//! over sinh(kd), u = a w C cos q, w = a w S sin q. Along an element the places of the first look do not move, so their
+//! `cos(kx x)` and `sin(kx x)` are kept; sines of the time are taken anew at every time, without recurrence.
+
+use super::Towed;
+use crate::hydro::sea::Component;
+use crate::hydro::sea::eight::{Eight, exp, sin_cos};
+
+/// Water this deep (k d) is deep to the last digit: exp(-2 k d) < 1e-17.
+const DEEP: f64 = 20.0;
+
+/// Cosine and sine of eight waves at a place or a time.
+pub type Turn = [Eight; 2];
+
+/// Eight waves in the axes of the tether; those that fill up the last block have no amplitude.
+#[derive(Clone, Debug)]
+struct Block {
+    kx: Eight,
+    ky: Eight,
+    k: Eight,
+    /// Frequency of encounter (rad/s), phase at the first node (rad), amplitude (m).
+    met: Eight,
+    phase: Eight,
+    amplitude: Eight,
+    /// Amplitudes of velocity along x, y, z (m/s) and of acceleration (m/s2).
+    velocity: [Eight; 3],
+    acceleration: [Eight; 3],
+    /// exp(-2 k d), and one over one less it.
+    q: Eight,
+    whole: Eight,
+    /// Whether q is nothing for all of them.
+    deep: bool,
+}
+
+/// The water of a towed tether.
+#[derive(Clone, Debug)]
+pub struct Waters {
+    blocks: Vec<Block>,
+    /// Whether a wave goes across the axis.
+    pub lateral: bool,
+    /// Current less tow in the axes of the tether: height (m) and velocity along x and y (m/s), heights falling.
+    current: Vec<(f64, [f64; 2])>,
+    depth: Option<f64>,
+    stretched: bool,
+}
+
+/// Velocity and acceleration of the water in the axes of the tether; the tow is taken off the velocity.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Flow {
+    /// Along x, y, z (m/s).
+    pub velocity: [f64; 3],
+    /// Along x, y, z (m/s2).
+    pub acceleration: [f64; 3],
+}
+
+/// Eight values, each of its number.
+#[inline(always)]
+fn eight(value: impl Fn(usize) -> f64) -> Eight {
+    let mut made = [0.0; 8];
+    for (i, lane) in made.iter_mut().enumerate() {
+        *lane = value(i);
+    }
+    made
+}
+
+impl Waters {
+    /// That around a tether.
+    pub fn of(case: &Towed) -> Self {
+        let (sin, cos) = case.heading.sin_cos();
+        let turned = |v: [f64; 2]| [cos * v[0] + sin * v[1], cos * v[1] - sin * v[0]];
+        let still = [(0.0, [0.0; 2])];
+        let given = if case.current.is_empty() { &still[..] } else { &case.current[..] };
+        let past = |(height, v): &(f64, [f64; 2])| (*height, turned([v[0] - case.tow[0], v[1] - case.tow[1]]));
+        let current: Vec<_> = given.iter().map(past).collect();
+        let surface = current.first().map_or([0.0; 2], |c| c.1);
+        let block = |waves: &[Component]| {
+            let each = |value: &dyn Fn(&Component) -> f64| {
+                let mut lanes = [0.0; 8];
+                lanes.iter_mut().zip(waves).for_each(|(lane, wave)| *lane = value(wave));
+                lanes
+            };
+            let toward = |c: &Component| turned(c.toward);
+            let kd = |c: &Component| case.depth.map_or(f64::INFINITY, |d| c.number * d);
+            let q = each(&|c| if kd(c) > DEEP { 0.0 } else { (-2.0 * kd(c)).exp() });
+            let rate = |c: &Component| c.amplitude * c.frequency;
+            let growth = |c: &Component| rate(c) * c.frequency;
+            Block {
+                kx: each(&|c| c.number * toward(c)[0]),
+                ky: each(&|c| c.number * toward(c)[1]),
+                k: each(&|c| c.number),
+                met: each(&|c| c.frequency + c.number * (toward(c)[0] * surface[0] + toward(c)[1] * surface[1])),
+                phase: each(&|c| c.phase + c.number * (c.toward[0] * case.origin[0] + c.toward[1] * case.origin[1])),
+                amplitude: each(&|c| c.amplitude),
+                velocity: [each(&|c| rate(c) * toward(c)[0]), each(&|c| rate(c) * toward(c)[1]), each(&rate)],
+                acceleration: [each(&|c| growth(c) * toward(c)[0]), each(&|c| growth(c) * toward(c)[1]), each(&growth)],
+                q,
+                whole: each(&|c| -1.0 / (-2.0 * kd(c)).exp_m1()),
+                deep: q.iter().all(|v| *v == 0.0),
+            }
+        };
+        let blocks: Vec<Block> = case.waves.chunks(8).map(block).collect();
+        // a wave along the axis has the rounding of its direction's sine across it
+        let lateral = blocks.iter().any(|b| b.ky.iter().zip(&b.k).any(|(y, k)| y.abs() > 1e-12 * k));
+        let stretched = !case.compatibility.unstretched_crests;
+        Waters { blocks, lateral, current, depth: case.depth, stretched }
+    }
+
+    /// Number of blocks of eight waves.
+    pub fn blocks(&self) -> usize {
+        self.blocks.len()
+    }
+
+    /// Turns of the waves at a time (s), into a list that is there.
+    pub fn at_time(&self, time: f64, turns: &mut Vec<Turn>) {
+        turns.clear();
+        turns.extend(self.blocks.iter().map(|b| {
+            let (sin, cos) = sin_cos(&eight(|i| b.phase[i] - b.met[i] * time));
+            [cos, sin]
+        }));
+    }
+
+    /// Turns of the waves at a place (m), to the end of a list.
+    pub fn at_place(&self, x: f64, y: f64, turns: &mut Vec<Turn>) {
+        turns.extend(self.blocks.iter().map(|b| {
+            let (sin, cos) = sin_cos(&eight(|i| b.kx[i] * x + b.ky[i] * y));
+            [cos, sin]
+        }));
+    }
+
+    /// Height of the surface above the still water level (m).
+    #[inline]
+    pub fn elevation(&self, time: &[Turn], place: &[Turn]) -> f64 {
+        let mut sums = [0.0; 8];
+        for ((block, t), p) in self.blocks.iter().zip(time).zip(place) {
+            for (i, sum) in sums.iter_mut().enumerate() {
+                *sum += block.amplitude[i] * (t[0][i] * p[0][i] - t[1][i] * p[1][i]);
+            }
+        }
+        total(&sums)
+    }
+
+    /// The water at a height above the still water level (m), under a surface of an elevation (m).
+    pub fn flow(&self, time: &[Turn], place: &[Turn], height: f64, elevation: f64) -> Flow {
+        let z = self.reach(height, elevation);
+        let mut sums = [[0.0; 8]; 6];
+        for ((b, t), p) in self.blocks.iter().zip(time).zip(place) {
+            let grown = exp(&eight(|i| b.k[i] * z));
+            let (along, up) = if b.deep {
+                (grown, grown)
+            } else {
+                let back = eight(|i| b.q[i] / grown[i]);
+                (eight(|i| (grown[i] + back[i]) * b.whole[i]), eight(|i| (grown[i] - back[i]) * b.whole[i]))
+            };
+            let cos = eight(|i| t[0][i] * p[0][i] - t[1][i] * p[1][i]);
+            let sin = eight(|i| t[1][i] * p[0][i] + t[0][i] * p[1][i]);
+            let (ac, as_) = (eight(|i| along[i] * cos[i]), eight(|i| along[i] * sin[i]));
+            sums[0] = eight(|i| sums[0][i] + b.velocity[0][i] * ac[i]);
+            sums[2] = eight(|i| sums[2][i] + b.velocity[2][i] * up[i] * sin[i]);
+            sums[3] = eight(|i| sums[3][i] + b.acceleration[0][i] * as_[i]);
+            sums[5] = eight(|i| sums[5][i] - b.acceleration[2][i] * up[i] * cos[i]);
+            if self.lateral {
+                sums[1] = eight(|i| sums[1][i] + b.velocity[1][i] * ac[i]);
+                sums[4] = eight(|i| sums[4][i] + b.acceleration[1][i] * as_[i]);
+            }
+        }
+        let [u, v, w, ax, ay, az] = sums.map(|lanes| total(&lanes));
+        let [cx, cy] = self.current_at(height);
+        Flow { velocity: [u + cx, v + cy, w], acceleration: [ax, ay, az] }
+    }
+
+    /// The height at which the waves are taken for that of a place. Wheeler (1970): the actual surface is taken for the still
+    /// one, the bottom stays; what is above the surface is as on it.
+    #[inline]
+    fn reach(&self, height: f64, elevation: f64) -> f64 {
+        if !self.stretched {
+            return height;
+        }
+        let scale = self.depth.map_or(1.0, |d| d / (d + elevation).max(f64::MIN_POSITIVE));
+        ((height - elevation) * scale).min(0.0)
+    }
+
+    /// Current less tow at a height (m), along x and y (m/s).
+    fn current_at(&self, height: f64) -> [f64; 2] {
+        let below = self.current.iter().position(|c| c.0 <= height);
+        match below {
+            Some(0) => self.current[0].1,
+            None => self.current.last().map_or([0.0; 2], |c| c.1),
+            Some(i) => {
+                let ((high, above), (low, under)) = (self.current[i - 1], self.current[i]);
+                let share = (height - low) / (high - low);
+                [under[0] + share * (above[0] - under[0]), under[1] + share * (above[1] - under[1])]
+            }
+        }
+    }
+
+    /// The longest integration length (m): a quarter of the length of the wave with number 4N/5 + 1 of N in order of their
+    /// wave numbers; of a regular wave its own (3.4). `None` without waves.
+    pub fn integration_length(waves: &[Component]) -> Option<f64> {
+        let mut numbers: Vec<f64> = waves.iter().map(|c| c.number).collect();
+        numbers.sort_by(f64::total_cmp);
+        numbers.get(4 * numbers.len() / 5).map(|k| std::f64::consts::FRAC_PI_2 / k)
+    }
+}
+
+/// The sum of eight.
+#[inline]
+fn total(lanes: &Eight) -> f64 {
+    ((lanes[0] + lanes[4]) + (lanes[2] + lanes[6])) + ((lanes[1] + lanes[5]) + (lanes[3] + lanes[7]))
+}
