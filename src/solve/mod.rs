@@ -18,6 +18,7 @@ mod search;
 mod settle;
 mod system;
 pub mod tables;
+pub mod tethered;
 pub mod time;
 mod unknowns;
 pub mod watch;

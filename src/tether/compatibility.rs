@@ -23,12 +23,24 @@ pub struct Compatibility {
 impl Compatibility {
     /// Nothing but the theory.
     pub const fn native() -> Self {
-        Compatibility { whole_element_kinematics: false, friction_at_first_node: false, second_stage_tables: false, tension_alone_on_structure: false, vertical_impact: false }
+        Compatibility {
+            whole_element_kinematics: false,
+            friction_at_first_node: false,
+            second_stage_tables: false,
+            tension_alone_on_structure: false,
+            vertical_impact: false,
+        }
     }
 
     /// AQWA 5.4, whose listings seed 003 holds.
     pub const fn aqwa_5_4() -> Self {
-        Compatibility { whole_element_kinematics: true, friction_at_first_node: true, second_stage_tables: true, tension_alone_on_structure: true, vertical_impact: true }
+        Compatibility {
+            whole_element_kinematics: true,
+            friction_at_first_node: true,
+            second_stage_tables: true,
+            tension_alone_on_structure: true,
+            vertical_impact: true,
+        }
     }
 }
 

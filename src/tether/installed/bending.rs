@@ -222,7 +222,8 @@ impl Bending {
     pub fn arc(&self, motion: &[Motion; 2], length: f64) -> f64 {
         let stretch = length / self.length;
         let of = |(index, cell): (usize, &Cell)| -> f64 {
-            let part = |m: &Motion| beam::twice_energy(0.0, 1.0, cell.length * stretch, &beam::of_element(&m.place, index));
+            let part =
+                |m: &Motion| beam::twice_energy(0.0, 1.0, cell.length * stretch, &beam::of_element(&m.place, index));
             0.5 * motion.iter().map(part).sum::<f64>()
         };
         self.cells.iter().enumerate().map(of).sum()
@@ -244,7 +245,8 @@ impl Bending {
     fn target(&self, unknown: usize, hold: Hold, plane: usize, stage: &Stage) -> [f64; 3] {
         let Stage { axis, attachment, tension, .. } = stage;
         let parts = |v: Vector3<f64>| axis.parts(v)[plane];
-        let [rate, growth] = [parts(attachment.velocity) / tension.length, parts(attachment.acceleration) / tension.length];
+        let [rate, growth] =
+            [parts(attachment.velocity) / tension.length, parts(attachment.acceleration) / tension.length];
         let share = self.shares.get(unknown / 2).copied().unwrap_or_default();
         let turn = |v: Vector3<f64>| if plane == 0 { v.y } else { -v.x };
         match hold {
@@ -467,8 +469,7 @@ impl Bending {
             let a = beam::of_element(&self.found[usize::from(second)][plane], element);
             let x = beam::of_element(&self.now[plane].place, element);
             let v = beam::of_element(&self.now[plane].velocity, element);
-            let ahead: Vector4 =
-                std::array::from_fn(|i| x[i] + LOOK_AHEAD * stage.dt * (v[i] + 0.5 * stage.dt * a[i]));
+            let ahead: Vector4 = std::array::from_fn(|i| x[i] + LOOK_AHEAD * stage.dt * (v[i] + 0.5 * stage.dt * a[i]));
             let all: Vector4 = std::array::from_fn(|i| a[i] + frame[i]);
             let mut sum = beam::times(&bends, &ahead);
             beam::add(&mut sum, 1.0, &beam::times(&pulls, &ahead));

@@ -1,0 +1,332 @@
+//! What is kept of a run of tethers.
+
+use super::Tethered;
+use super::case::Installed;
+use crate::language::units::Dim;
+use crate::model::{ClassError, Place};
+use crate::table::Digits;
+use crate::tether::Line;
+use crate::tether::installed::{Change, Installation, Moment, Observer};
+use crate::tether::structure::Forces;
+use crate::tether::towed::{self, History, Steps, Towed};
+use std::ops::ControlFlow;
+
+/// A quantity of nodes or of ends of elements.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quantity {
+    /// Head shared with others of its kind.
+    pub group: &'static str,
+    /// Its own head.
+    pub name: &'static str,
+    /// What it measures.
+    pub dim: Dim,
+    /// Digits in reports.
+    pub digits: Digits,
+}
+
+const fn quantity(group: &'static str, name: &'static str, dim: Dim, digits: Digits) -> Quantity {
+    Quantity { group, name, dim, digits }
+}
+
+const FOUR: Digits = Digits::Scientific(4);
+const STRESS: Dim = crate::post::tether::tables::STRESS;
+const GROUPS: [&str; 3] = ["Position", "Velocity", "Acceleration"];
+const LINEAR: [(Dim, Digits); 3] = [
+    (Dim::Length, Digits::Decimals(3)),
+    (Dim::Velocity, Digits::Decimals(3)),
+    (Dim::Acceleration, Digits::Decimals(3)),
+];
+const ANGULAR: [(Dim, Digits); 3] = [
+    (Dim::Angle, Digits::Decimals(2)),
+    (Dim::AngularVelocity, Digits::Decimals(2)),
+    (Dim::AngularAcceleration, Digits::Decimals(3)),
+];
+
+const fn of_nodes(names: [&'static str; 4]) -> [Quantity; 13] {
+    let mut out = [quantity("", "Along", Dim::Length, Digits::Decimals(2)); 13];
+    let mut kind = 0;
+    while kind < 3 {
+        let mut i = 0;
+        while i < 4 {
+            let (dim, digits) = if i < 2 { LINEAR[kind] } else { ANGULAR[kind] };
+            out[4 * kind + i] = quantity(GROUPS[kind], names[i], dim, digits);
+            i += 1;
+        }
+        kind += 1;
+    }
+    out
+}
+
+/// Quantities of the nodes of a towed tether.
+pub const TOWED_NODE: [Quantity; 13] = of_nodes(["Y", "Z", "RY", "RZ"]);
+/// Quantities of the nodes of an installed tether.
+pub const INSTALLED_NODE: [Quantity; 13] = of_nodes(["X", "Y", "RX", "RY"]);
+/// Quantities of the ends of elements of a towed tether.
+pub const TOWED_END: [Quantity; 7] = [
+    quantity("Shear Force", "Y", Dim::Force, FOUR),
+    quantity("Shear Force", "Z", Dim::Force, FOUR),
+    quantity("Bending Moment", "Y", Dim::Moment, FOUR),
+    quantity("Bending Moment", "Z", Dim::Moment, FOUR),
+    quantity("Bending Stress", "Max", STRESS, FOUR),
+    quantity("Bending Stress", "Y", STRESS, FOUR),
+    quantity("Bending Stress", "Z", STRESS, FOUR),
+];
+/// Quantities of the ends of elements of an installed tether.
+pub const INSTALLED_END: [Quantity; 11] = [
+    quantity("Tension", "Effective", Dim::Force, FOUR),
+    quantity("Tension", "Wall", Dim::Force, FOUR),
+    quantity("Shear Force", "X", Dim::Force, FOUR),
+    quantity("Shear Force", "Y", Dim::Force, FOUR),
+    quantity("Bending Moment", "X", Dim::Moment, FOUR),
+    quantity("Bending Moment", "Y", Dim::Moment, FOUR),
+    quantity("Stress", "Shear", STRESS, FOUR),
+    quantity("Bending and Axial", "Max", STRESS, FOUR),
+    quantity("Bending and Axial", "Min", STRESS, FOUR),
+    quantity("Stress", "von Mises", STRESS, FOUR),
+    quantity("Stress", "Y Bending", STRESS, FOUR),
+];
+
+/// A tether in time.
+#[derive(Clone, Debug)]
+pub struct TetherHistory {
+    /// Its name.
+    pub name: String,
+    /// Whether it is towed.
+    pub towed: bool,
+    /// Its elements from the anchor or the trailing end.
+    pub line: Line,
+    /// `nodes[(instant * number of nodes + node) * 13 + quantity]`, nodes from the anchor or the trailing end.
+    pub nodes: Vec<f64>,
+    /// `ends[(instant * 2 * number of elements + 2 * element + end) * quantities + quantity]`, the lower or trailing end of an element first.
+    pub ends: Vec<f64>,
+}
+
+impl TetherHistory {
+    /// Quantities of its nodes.
+    pub fn of_a_node(&self) -> &'static [Quantity] {
+        if self.towed { &TOWED_NODE } else { &INSTALLED_NODE }
+    }
+
+    /// Quantities of the ends of its elements.
+    pub fn of_an_end(&self) -> &'static [Quantity] {
+        if self.towed { &TOWED_END } else { &INSTALLED_END }
+    }
+
+    /// The series of a quantity of a node.
+    pub fn node(&self, node: usize, quantity: usize) -> Vec<f64> {
+        let step = self.line.nodes() * TOWED_NODE.len();
+        self.nodes.iter().skip(node * TOWED_NODE.len() + quantity).step_by(step.max(1)).copied().collect()
+    }
+
+    /// The series of a quantity of an end: twice the element and the end, from 0.
+    pub fn end(&self, end: usize, quantity: usize) -> Vec<f64> {
+        let each = self.of_an_end().len();
+        let step = 2 * self.line.elements().len() * each;
+        self.ends.iter().skip(end * each + quantity).step_by(step.max(1)).copied().collect()
+    }
+
+    /// A value of a node at an instant.
+    pub fn node_at(&self, instant: usize, node: usize, quantity: usize) -> Option<f64> {
+        self.nodes.get((instant * self.line.nodes() + node) * TOWED_NODE.len() + quantity).copied()
+    }
+
+    /// A value of an end at an instant.
+    pub fn end_at(&self, instant: usize, end: usize, quantity: usize) -> Option<f64> {
+        let each = self.of_an_end().len();
+        self.ends.get((instant * 2 * self.line.elements().len() + end) * each + quantity).copied()
+    }
+}
+
+/// The structure in time, about its centre of gravity.
+#[derive(Clone, Debug)]
+pub struct StructureHistory {
+    /// Name of the body.
+    pub body: String,
+    /// Names of its points.
+    pub points: Vec<String>,
+    /// `rows[instant * width + column]`: [`StructureHistory::KINDS`] by six, then x, y, z of each point.
+    pub rows: Vec<f64>,
+}
+
+impl StructureHistory {
+    /// What there is six of an instant.
+    pub const KINDS: [&'static str; 13] = [
+        "POSITION",
+        "VELOCITY",
+        "ACCELERATION",
+        Forces::KINDS[0],
+        Forces::KINDS[1],
+        Forces::KINDS[2],
+        Forces::KINDS[3],
+        Forces::KINDS[4],
+        Forces::KINDS[5],
+        Forces::KINDS[6],
+        Forces::KINDS[7],
+        Forces::KINDS[8],
+        "ERROR PER TIMESTEP",
+    ];
+
+    /// Values of an instant.
+    pub fn width(&self) -> usize {
+        6 * Self::KINDS.len() + 3 * self.points.len()
+    }
+
+    /// The six of a kind, or the three of a point behind them, at an instant.
+    pub fn at(&self, instant: usize, column: usize) -> Option<f64> {
+        self.rows.get(instant * self.width() + column).copied()
+    }
+
+    /// A column as a series.
+    pub fn series(&self, column: usize) -> Vec<f64> {
+        self.rows.iter().skip(column).step_by(self.width().max(1)).copied().collect()
+    }
+}
+
+/// What happened to a tether.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Happening {
+    /// When (s).
+    pub time: f64,
+    /// Its name.
+    pub tether: String,
+    /// What.
+    pub change: Change,
+}
+
+/// Runs a towed tether.
+///
+/// # Errors
+/// What the engine refuses; a run that would keep too much.
+pub fn towed(
+    (name, case): &(String, Towed),
+    kept: &mut Tethered,
+    goes_on: &mut dyn FnMut(f64) -> bool,
+) -> Result<(), ClassError> {
+    let settings = kept.settings;
+    let per = case.line.nodes() * TOWED_NODE.len() + 2 * case.line.elements().len() * TOWED_END.len();
+    settings.room(per)?;
+    let steps = Steps { step: settings.step, number: settings.states(), ..Steps::default() };
+    let mut history = History { every: settings.store.max(1), ..History::default() };
+    let mut keeper = Keeper { history: &mut history, goes_on, interrupted: false };
+    case.run(&steps, &mut keeper)?;
+    kept.interrupted = keeper.interrupted;
+    kept.times = std::mem::take(&mut history.times);
+    let (nodes, ends) = (history.nodes, history.ends);
+    kept.tethers.push(TetherHistory { name: name.clone(), towed: true, line: case.line.clone(), nodes, ends });
+    Ok(())
+}
+
+struct Keeper<'a> {
+    history: &'a mut History,
+    goes_on: &'a mut dyn FnMut(f64) -> bool,
+    interrupted: bool,
+}
+
+impl towed::Observer for Keeper<'_> {
+    fn record(&mut self, record: &towed::Record<'_>) -> ControlFlow<()> {
+        if !(self.goes_on)(record.time) {
+            self.interrupted = true;
+            return ControlFlow::Break(());
+        }
+        self.history.record(record)
+    }
+}
+
+/// Runs installed tethers with their structure.
+///
+/// # Errors
+/// What the engine refuses; a run that would keep too much.
+pub fn installed(case: Installed, kept: &mut Tethered, goes_on: &mut dyn FnMut(f64) -> bool) -> Result<(), ClassError> {
+    let Installed { body, mut structure, tethers, flow, compatibility, course, points } = case;
+    let of = |t: &crate::tether::installed::InstalledTether| {
+        t.line.nodes() * INSTALLED_NODE.len() + 2 * t.line.elements().len() * INSTALLED_END.len()
+    };
+    let per = tethers.iter().map(of).sum::<usize>() + 6 * StructureHistory::KINDS.len() + 3 * points.len();
+    kept.settings.room(per)?;
+    kept.tethers.extend(tethers.iter().map(|t| TetherHistory {
+        name: t.name.clone(),
+        towed: false,
+        line: t.line.clone(),
+        nodes: Vec::new(),
+        ends: Vec::new(),
+    }));
+    let (names, places) = points.into_iter().unzip();
+    kept.structure = Some(StructureHistory { body, points: names, rows: Vec::new() });
+    let mut near = Place::default();
+    let start = course.pose.place(&near);
+    near = start;
+    let mut taker = Taker { kept, goes_on, places, near, stopped: false };
+    let mut installation = Installation::new(structure.as_mut(), tethers, &flow, compatibility)?;
+    let ended = installation.run(&course, &mut taker);
+    if taker.stopped {
+        kept.interrupted = true;
+        return Ok(());
+    }
+    ended
+}
+
+struct Taker<'a> {
+    kept: &'a mut Tethered,
+    goes_on: &'a mut dyn FnMut(f64) -> bool,
+    places: Vec<nalgebra::Vector3<f64>>,
+    near: Place,
+    stopped: bool,
+}
+
+impl Observer for Taker<'_> {
+    fn observe(&mut self, moment: &Moment) -> Result<(), ClassError> {
+        if !(self.goes_on)(moment.time) {
+            self.stopped = true;
+            return Err(ClassError::new("the run was told to stop"));
+        }
+        let kept = &mut *self.kept;
+        for event in moment.events {
+            let name = kept.tethers.get(event.tether).map(|t| t.name.clone()).unwrap_or_default();
+            kept.happened.push(Happening { time: event.time, tether: name, change: event.change });
+        }
+        self.near = moment.pose.place(&self.near);
+        if !moment.state.is_multiple_of(kept.settings.store.max(1)) {
+            return Ok(());
+        }
+        kept.times.push(moment.time);
+        if let Some(structure) = &mut kept.structure {
+            let rows = &mut structure.rows;
+            rows.extend(self.near.values());
+            rows.extend(moment.velocity.iter());
+            rows.extend(moment.acceleration.iter());
+            for kind in moment.forces.kinds() {
+                rows.extend(kind.iter());
+            }
+            rows.extend(moment.error.iter());
+            for place in &self.places {
+                rows.extend(moment.pose.point(*place).iter());
+            }
+        }
+        for (history, rig) in kept.tethers.iter_mut().zip(moment.tethers) {
+            for node in 0..rig.nodes() {
+                history.nodes.extend(rig.position(node));
+                history.nodes.extend(rig.velocity(node));
+                history.nodes.extend(rig.acceleration(node));
+                history.nodes.push(rig.height(node));
+            }
+            for (loads, stresses) in rig.ends().iter().flatten().zip(rig.stresses().iter().flatten()) {
+                let [shear_x, shear_y] = loads.shear;
+                let [moment_x, moment_y] = loads.moment;
+                history.ends.extend([
+                    loads.effective,
+                    loads.wall,
+                    shear_x,
+                    shear_y,
+                    moment_x,
+                    moment_y,
+                    stresses.shear,
+                    stresses.maximum,
+                    stresses.minimum,
+                    stresses.von_mises,
+                    stresses.bending_y,
+                ]);
+            }
+        }
+        Ok(())
+    }
+}
