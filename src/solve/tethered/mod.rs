@@ -8,10 +8,14 @@
 
 mod case;
 mod history;
+mod modal;
 mod moored;
+mod tables;
 
 pub use case::{Case, case};
 pub use history::{Happening, Quantity, StructureHistory, TetherHistory};
+pub use modal::{described, names, natural};
+pub use tables::{Of, Statistics, along, events, forces, motions, series, structure, structure_series, told};
 
 use crate::model::{ClassError, Model};
 use crate::solve::SolveError;

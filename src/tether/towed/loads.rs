@@ -14,8 +14,8 @@ use crate::model::ClassError;
 
 /// Integration lengths at most: a long element in short waves has many.
 const MOST_LENGTHS: usize = 200_000;
-/// Turns kept at most for places that do not move (128 bytes each); beyond that they are taken anew.
-const MOST_KEPT: usize = 1 << 20;
+/// Turns kept at most for places that do not move (128 bytes each: 32 MB); beyond that they are taken anew.
+const MOST_KEPT: usize = 1 << 18;
 
 /// A piece of an element short enough for the waves.
 #[derive(Clone, Debug)]

@@ -7,6 +7,9 @@
 //!
 //! The frame moves with the tow. Water runs past it with the current less the tow, and waves meet it with the encounter
 //! frequency `w + k . (current - tow)`; their wave number and their accelerations are those of the frequency `w` in still water.
+//!
+//! Not in it, as not in the manual: a drag coefficient that goes with the Reynolds number, slam across y, and the forces of
+//! added mass that a current along a bent tether makes.
 
 pub mod compatibility;
 pub mod loads;
@@ -16,6 +19,7 @@ pub mod tables;
 pub mod water;
 pub mod wetted;
 
+use super::banded::Banded;
 use super::beam::{self, Matrix4};
 use super::line::Line;
 use super::modes::{self, NaturalMode, Pencil};
@@ -23,7 +27,6 @@ use crate::hydro::sea::Component;
 use crate::language::units::Dim;
 use crate::model::ClassError;
 
-pub use super::banded::Banded;
 pub use compatibility::Compatibility;
 pub use run::{History, Observer, Record, Steps};
 use wetted::Wetted;

@@ -221,7 +221,7 @@ impl<'a> Scheme<'a> {
             matrix.add_scaled(0.5 * self.b * dt * dt, &self.stiffness);
             let factors = matrix.factor()?;
             let order = matrix.order();
-            let mut column = |end: usize| {
+            let column = |end: usize| {
                 let mut right = vec![0.0; order];
                 right[if end == 0 { 0 } else { order - 2 }] = 1.0;
                 factors.solve(&mut right);

@@ -6,12 +6,53 @@
 
 use super::Towed;
 use crate::hydro::sea::Component;
-use crate::hydro::sea::eight::{Eight, exp, sin_cos};
+use crate::hydro::sea::eight::{Eight, sin_cos};
+use std::f64::consts::{LN_2, LOG2_E};
 
 /// Water this deep (k d) is deep to the last digit: exp(-2 k d) < 1e-17.
 const DEEP: f64 = 20.0;
 
-/// Cosine and sine of eight waves at a place or a time.
+/// Added to a number and subtracted again it rounds to a whole one, which then stands in the lowest bits.
+const ROUND: f64 = 6_755_399_441_055_744.0;
+/// The Chebyshev series of the exponential over `-ln 2 / 2 .. ln 2 / 2` to the tenth power, highest first: within 4e-16 of it.
+const EXPONENTIAL: [f64; 11] = [
+    2.7632640675430235e-07,
+    2.7640182247362188e-06,
+    2.480148547921643e-05,
+    0.0001984117026651832,
+    0.0013888888952318045,
+    0.008333333385671316,
+    0.04166666666648808,
+    0.16666666666554392,
+    0.5000000000000019,
+    1.0000000000000067,
+    1.0,
+];
+
+/// Four numbers: as many as stay in registers with all that is made of them.
+type Four = [f64; 4];
+
+/// Four values, each of its number.
+#[inline(always)]
+fn four(value: impl Fn(usize) -> f64) -> Four {
+    [value(0), value(1), value(2), value(3)]
+}
+
+/// Exponentials. Beyond 1e300 and below 1e-300 they stay there.
+#[inline(always)]
+fn exp(powers: Four) -> Four {
+    let powers = four(|i| powers[i].clamp(-690.0, 690.0));
+    let shifted = four(|i| powers[i] * LOG2_E + ROUND);
+    // one part of the logarithm is enough: an error of 1e-16 of the power is one of the value
+    let r = four(|i| powers[i] - (shifted[i] - ROUND) * LN_2);
+    let mut value = [EXPONENTIAL[0]; 4];
+    for c in &EXPONENTIAL[1..] {
+        value = four(|i| value[i] * r[i] + c);
+    }
+    four(|i| value[i] * f64::from_bits(shifted[i].to_bits().wrapping_add(1023) << 52))
+}
+
+/// Cosine and sine of eight waves at a place; at a time those times the speed `a w` (m/s).
 pub type Turn = [Eight; 2];
 
 /// Eight waves in the axes of the tether; those that fill up the last block have no amplitude.
@@ -20,13 +61,15 @@ struct Block {
     kx: Eight,
     ky: Eight,
     k: Eight,
-    /// Frequency of encounter (rad/s), phase at the first node (rad), amplitude (m).
+    /// Frequency of encounter (rad/s), phase at the first node (rad).
     met: Eight,
     phase: Eight,
-    amplitude: Eight,
-    /// Amplitudes of velocity along x, y, z (m/s) and of acceleration (m/s2).
-    velocity: [Eight; 3],
-    acceleration: [Eight; 3],
+    /// Speed at the surface `a w` (m/s), and what makes it the amplitude: 1/w (s).
+    speed: Eight,
+    slowness: Eight,
+    /// What makes it the velocity along x and y, and the acceleration along x, y (1/s) and z (1/s).
+    toward: [Eight; 2],
+    growth: [Eight; 3],
     /// exp(-2 k d), and one over one less it.
     q: Eight,
     whole: Eight,
@@ -84,17 +127,20 @@ impl Waters {
             let toward = |c: &Component| turned(c.toward);
             let kd = |c: &Component| case.depth.map_or(f64::INFINITY, |d| c.number * d);
             let q = each(&|c| if kd(c) > DEEP { 0.0 } else { (-2.0 * kd(c)).exp() });
-            let rate = |c: &Component| c.amplitude * c.frequency;
-            let growth = |c: &Component| rate(c) * c.frequency;
             Block {
                 kx: each(&|c| c.number * toward(c)[0]),
                 ky: each(&|c| c.number * toward(c)[1]),
                 k: each(&|c| c.number),
                 met: each(&|c| c.frequency + c.number * (toward(c)[0] * surface[0] + toward(c)[1] * surface[1])),
                 phase: each(&|c| c.phase + c.number * (c.toward[0] * case.origin[0] + c.toward[1] * case.origin[1])),
-                amplitude: each(&|c| c.amplitude),
-                velocity: [each(&|c| rate(c) * toward(c)[0]), each(&|c| rate(c) * toward(c)[1]), each(&rate)],
-                acceleration: [each(&|c| growth(c) * toward(c)[0]), each(&|c| growth(c) * toward(c)[1]), each(&growth)],
+                speed: each(&|c| c.amplitude * c.frequency),
+                slowness: each(&|c| 1.0 / c.frequency),
+                toward: [each(&|c| toward(c)[0]), each(&|c| toward(c)[1])],
+                growth: [
+                    each(&|c| c.frequency * toward(c)[0]),
+                    each(&|c| c.frequency * toward(c)[1]),
+                    each(&|c| c.frequency),
+                ],
                 q,
                 whole: each(&|c| -1.0 / (-2.0 * kd(c)).exp_m1()),
                 deep: q.iter().all(|v| *v == 0.0),
@@ -112,12 +158,12 @@ impl Waters {
         self.blocks.len()
     }
 
-    /// Turns of the waves at a time (s), into a list that is there.
+    /// Turns of the waves at a time (s), times their speeds, into a list that is there.
     pub fn at_time(&self, time: f64, turns: &mut Vec<Turn>) {
         turns.clear();
         turns.extend(self.blocks.iter().map(|b| {
             let (sin, cos) = sin_cos(&eight(|i| b.phase[i] - b.met[i] * time));
-            [cos, sin]
+            [eight(|i| b.speed[i] * cos[i]), eight(|i| b.speed[i] * sin[i])]
         }));
     }
 
@@ -135,7 +181,7 @@ impl Waters {
         let mut sums = [0.0; 8];
         for ((block, t), p) in self.blocks.iter().zip(time).zip(place) {
             for (i, sum) in sums.iter_mut().enumerate() {
-                *sum += block.amplitude[i] * (t[0][i] * p[0][i] - t[1][i] * p[1][i]);
+                *sum += block.slowness[i] * (t[0][i] * p[0][i] - t[1][i] * p[1][i]);
             }
         }
         total(&sums)
@@ -144,28 +190,17 @@ impl Waters {
     /// The water at a height above the still water level (m), under a surface of an elevation (m).
     pub fn flow(&self, time: &[Turn], place: &[Turn], height: f64, elevation: f64) -> Flow {
         let z = self.reach(height, elevation);
-        let mut sums = [[0.0; 8]; 6];
+        let mut sums = [[0.0; 4]; 6];
         for ((b, t), p) in self.blocks.iter().zip(time).zip(place) {
-            let grown = exp(&eight(|i| b.k[i] * z));
-            let (along, up) = if b.deep {
-                (grown, grown)
+            if b.deep {
+                half::<true, 0>(b, t, p, z, self.lateral, &mut sums);
+                half::<true, 4>(b, t, p, z, self.lateral, &mut sums);
             } else {
-                let back = eight(|i| b.q[i] / grown[i]);
-                (eight(|i| (grown[i] + back[i]) * b.whole[i]), eight(|i| (grown[i] - back[i]) * b.whole[i]))
-            };
-            let cos = eight(|i| t[0][i] * p[0][i] - t[1][i] * p[1][i]);
-            let sin = eight(|i| t[1][i] * p[0][i] + t[0][i] * p[1][i]);
-            let (ac, as_) = (eight(|i| along[i] * cos[i]), eight(|i| along[i] * sin[i]));
-            sums[0] = eight(|i| sums[0][i] + b.velocity[0][i] * ac[i]);
-            sums[2] = eight(|i| sums[2][i] + b.velocity[2][i] * up[i] * sin[i]);
-            sums[3] = eight(|i| sums[3][i] + b.acceleration[0][i] * as_[i]);
-            sums[5] = eight(|i| sums[5][i] - b.acceleration[2][i] * up[i] * cos[i]);
-            if self.lateral {
-                sums[1] = eight(|i| sums[1][i] + b.velocity[1][i] * ac[i]);
-                sums[4] = eight(|i| sums[4][i] + b.acceleration[1][i] * as_[i]);
+                half::<false, 0>(b, t, p, z, self.lateral, &mut sums);
+                half::<false, 4>(b, t, p, z, self.lateral, &mut sums);
             }
         }
-        let [u, v, w, ax, ay, az] = sums.map(|lanes| total(&lanes));
+        let [u, v, w, ax, ay, az] = sums.map(|s| (s[0] + s[2]) + (s[1] + s[3]));
         let [cx, cy] = self.current_at(height);
         Flow { velocity: [u + cx, v + cy, w], acceleration: [ax, ay, az] }
     }
@@ -204,8 +239,157 @@ impl Waters {
     }
 }
 
+/// Adds the velocities and accelerations of four waves of a block, from number `FROM`, at a height.
+#[inline(always)]
+fn half<const DEEP: bool, const FROM: usize>(
+    b: &Block,
+    t: &Turn,
+    p: &Turn,
+    z: f64,
+    lateral: bool,
+    sums: &mut [Four; 6],
+) {
+    let grown = exp(four(|i| b.k[FROM + i] * z));
+    let (along, up) = if DEEP {
+        (grown, grown)
+    } else {
+        let back = four(|i| b.q[FROM + i] / grown[i]);
+        (four(|i| (grown[i] + back[i]) * b.whole[FROM + i]), four(|i| (grown[i] - back[i]) * b.whole[FROM + i]))
+    };
+    let cos = four(|i| t[0][FROM + i] * p[0][FROM + i] - t[1][FROM + i] * p[1][FROM + i]);
+    let sin = four(|i| t[1][FROM + i] * p[0][FROM + i] + t[0][FROM + i] * p[1][FROM + i]);
+    let (ac, as_) = (four(|i| along[i] * cos[i]), four(|i| along[i] * sin[i]));
+    sums[0] = four(|i| sums[0][i] + b.toward[0][FROM + i] * ac[i]);
+    sums[2] = four(|i| sums[2][i] + up[i] * sin[i]);
+    sums[3] = four(|i| sums[3][i] + b.growth[0][FROM + i] * as_[i]);
+    sums[5] = four(|i| sums[5][i] - b.growth[2][FROM + i] * up[i] * cos[i]);
+    // most seas have none across
+    if lateral {
+        sums[1] = four(|i| sums[1][i] + b.toward[1][FROM + i] * ac[i]);
+        sums[4] = four(|i| sums[4][i] + b.growth[1][FROM + i] * as_[i]);
+    }
+}
+
 /// The sum of eight.
 #[inline]
 fn total(lanes: &Eight) -> f64 {
     ((lanes[0] + lanes[4]) + (lanes[2] + lanes[6])) + ((lanes[1] + lanes[5]) + (lanes[3] + lanes[7]))
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::super::{Compatibility, EndSpring, Multipliers};
+    use super::*;
+    use crate::hydro::sea::{Sea, Water};
+    use crate::model::Stretching;
+    use crate::tether::{Line, TetherElement};
+    use nalgebra::Vector3;
+
+    fn case(compatibility: Compatibility, depth: Option<f64>) -> Towed {
+        let element = TetherElement {
+            length: 10.0,
+            outer_diameter: 1.0,
+            wall_thickness: 0.02,
+            density: 7850.0,
+            youngs_modulus: 2.1e11,
+            drag: 0.75,
+            added_mass: 1.0,
+            label: Default::default(),
+        };
+        let wave = |i: usize| {
+            let (i, frequency) = (i as f64, 0.4 + 0.13 * i as f64);
+            let number = crate::hydro::sea::dispersion::wave_number(frequency, depth, 9.81).unwrap();
+            let toward = [(0.3 * i).cos(), (0.3 * i).sin()];
+            Component { frequency, number, amplitude: 0.2 + 0.01 * i, toward, phase: 1.3 * i }
+        };
+        Towed {
+            line: Line::numbered(vec![element]).unwrap(),
+            origin: [-20.0, 4.0, -0.5],
+            heading: 0.7,
+            springs: [EndSpring::default(); 2],
+            density: 1025.0,
+            gravity: 9.81,
+            depth,
+            waves: (0..11).map(wave).collect(),
+            current: Vec::new(),
+            tow: [0.0; 2],
+            multipliers: Multipliers::default(),
+            compatibility,
+        }
+    }
+
+    /// Elevation and flow at a place of the tether's axes.
+    fn at(waters: &Waters, time: f64, x: f64, y: f64, height: f64) -> (f64, Flow) {
+        let (mut turns, mut place) = (Vec::new(), Vec::new());
+        waters.at_time(time, &mut turns);
+        waters.at_place(x, y, &mut place);
+        let elevation = waters.elevation(&turns, &place);
+        (elevation, waters.flow(&turns, &place, height, elevation))
+    }
+
+    #[test]
+    fn the_exponential_is_that_of_the_standard_library() {
+        for i in -200_000..200_000i32 {
+            let power = f64::from(i) * 3.4e-3;
+            let value = exp([power; 4])[2];
+            // a rounding of the power is one of the value times the power
+            assert!((value / power.exp() - 1.0).abs() < 1e-15 + 3e-16 * power.abs(), "{power}");
+        }
+        assert!(exp([f64::NAN; 4])[0].is_nan() && exp([1e9; 4])[0].is_finite());
+    }
+
+    #[test]
+    fn the_water_is_that_of_the_sea_in_the_axes_of_the_tether() {
+        for (depth, exponential) in [(None, true), (Some(30.0), true), (None, false), (Some(30.0), false)] {
+            let compatibility = Compatibility { unstretched_crests: exponential, ..Compatibility::native() };
+            let case = case(compatibility, depth);
+            let waters = Waters::of(&case);
+            let stretching = if exponential { Stretching::Exponential } else { Stretching::Wheeler };
+            let water = Water { depth, level: 0.0, gravity: 9.81, density: 1025.0 };
+            let sea = Sea::airy(case.waves.clone(), water, 0.0, stretching);
+            let (sin, cos) = 0.7f64.sin_cos();
+            for (time, x, y, height) in [(0.0, 0.0, 0.0, -1.0), (7.3, 6.0, -0.4, -3.0), (12.9, 9.0, 2.0, -0.9)] {
+                let global = Vector3::new(-20.0 + cos * x - sin * y, 4.0 + sin * x + cos * y, height);
+                let (elevation, flow) = at(&waters, time, x, y, height);
+                let want = sea.kinematics(global, time);
+                assert!((elevation - sea.elevation(global.x, global.y, time)).abs() < 1e-13);
+                assert!(height < elevation, "the place is under water");
+                for (found, v) in [(flow.velocity, want.velocity), (flow.acceleration, want.acceleration)] {
+                    let turned = [cos * v.x + sin * v.y, cos * v.y - sin * v.x, v.z];
+                    for (a, b) in found.iter().zip(turned) {
+                        assert!((a - b).abs() < 1e-13, "{depth:?} {exponential} {time}: {found:?} {turned:?}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn under_way_the_surface_is_that_of_the_place_passed() {
+        let still = case(Compatibility::native(), None);
+        let (vx, vy) = (1.7, -0.6);
+        let under_way = Towed { tow: [vx, vy], ..still.clone() };
+        let (one, other) = (Waters::of(&still), Waters::of(&under_way));
+        let (sin, cos) = 0.7f64.sin_cos();
+        for t in [0.0, 3.0, 11.0] {
+            let (dx, dy) = (cos * vx + sin * vy, cos * vy - sin * vx);
+            let (passed, flow) = at(&one, t, 2.0 + dx * t, 1.0 + dy * t, -2.0);
+            let (met, felt) = at(&other, t, 2.0, 1.0, -2.0);
+            assert!((passed - met).abs() < 1e-13);
+            assert!((flow.velocity[0] - dx - felt.velocity[0]).abs() < 1e-13);
+            assert!((flow.velocity[1] - dy - felt.velocity[1]).abs() < 1e-13);
+            assert!((flow.acceleration[2] - felt.acceleration[2]).abs() < 1e-13);
+        }
+    }
+
+    #[test]
+    fn the_current_is_straight_between_its_heights() {
+        let current = vec![(0.0, [1.0, 0.0]), (-10.0, [0.5, 0.0]), (-20.0, [0.0, 0.0])];
+        let waters = Waters::of(&Towed { heading: 0.0, current, ..case(Compatibility::native(), None) });
+        let found: Vec<f64> = [3.0, 0.0, -4.0, -10.0, -15.0, -30.0].iter().map(|z| waters.current_at(*z)[0]).collect();
+        for (a, b) in found.iter().zip([1.0, 1.0, 0.8, 0.5, 0.25, 0.0]) {
+            assert!((a - b).abs() < 1e-15);
+        }
+    }
 }

@@ -1,0 +1,115 @@
+//! What is told of a tether before it runs: its description and its natural modes.
+
+use super::case::{Kind, case, sections};
+use super::{Settings, case::Installed};
+use crate::language::units::Dim;
+use crate::model::{ClassError, Model};
+use crate::solve::SolveError;
+use crate::table::{Cell, Digits, Table};
+use crate::tether::installed::description::Description;
+use crate::tether::installed::modes::modes;
+
+/// Settings under which a case is made to be told of, not to be run.
+const AT_REST: Settings =
+    Settings { observed: 1.0, step: 1.0, store: 1, compatible: false, slam: 0.0, tow: [0.0; 2] };
+
+/// A tether of the case, by its name.
+fn found<'a>(case: &'a Installed, name: &str) -> Result<&'a crate::tether::installed::InstalledTether, SolveError> {
+    let of = case.tethers.iter().find(|t| t.name.eq_ignore_ascii_case(name));
+    of.ok_or_else(|| SolveError::new(ClassError::new(format!("{name} is no tether that acts"))))
+}
+
+/// The names of the tethers that act, in the order of the model.
+pub fn names(model: &Model) -> Vec<String> {
+    let acts = model.connectors.values().filter(|c| c.active && !sections(model, c).is_empty());
+    acts.map(|c| c.name.clone()).collect()
+}
+
+/// The description of a tether (seed 003, 7.1), and what was taken otherwise than it was given.
+///
+/// # Errors
+/// As [`case`]; a name that is no tether's.
+pub fn described(model: &Model, name: &str) -> Result<Table, SolveError> {
+    let made = case(model, &AT_REST)?;
+    let mut table = match &made.kind {
+        Kind::Towed(towed) => {
+            let elements = towed.1.line.elements();
+            let nodes = [elements.first().map(|e| e.label.nodes[0]), elements.last().map(|e| e.label.nodes[1])];
+            towed.1.description(1, nodes.map(Option::unwrap_or_default)).table()
+        }
+        Kind::Installed(case) => {
+            let tether = found(case, name)?;
+            let attachment = case.course.pose.point(tether.attachment);
+            let description = Description::of(tether, attachment, &case.flow).map_err(SolveError::new)?;
+            let table = description.table(tether);
+            let wrong = |e: crate::table::TableError| SolveError::new(ClassError::new(e.to_string()));
+            let mut table = table.map_err(wrong)?;
+            let places = [("Attachment", attachment), ("Anchor", tether.anchor)];
+            for (what, place) in places {
+                for (axis, value) in ["X", "Y", "Z"].iter().zip(place.iter()) {
+                    table = table.fact(&format!("{what} {axis}"), *value, Dim::Length);
+                }
+            }
+            table.fact("Effective Tension in the Middle", description.tension, Dim::Force)
+        }
+    };
+    table.title = format!("Description of Tether {name}");
+    let about = |note: &&String| note.contains(&format!("tether {name}")) || !note.starts_with("tether ");
+    let notes: Vec<&String> = made.notes.iter().filter(about).collect();
+    for note in notes {
+        table.note(note.clone());
+    }
+    Ok(table)
+}
+
+/// A page for each of the lowest natural modes of a tether where it stands (seed 003, 7.2): frequency, period and the shape, of largest
+/// deflection one or, without one, of largest slope ten degrees.
+///
+/// # Errors
+/// As [`case`]; a name that is no tether's; modes that cannot be found.
+pub fn natural(model: &Model, name: &str, number: usize) -> Result<Vec<Table>, SolveError> {
+    let made = case(model, &AT_REST)?;
+    type Page = (Option<f64>, Option<f64>, Vec<(f64, [f64; 4])>);
+    let (heads, pages): ([&str; 4], Vec<Page>) = match &made.kind {
+        Kind::Towed(towed) => {
+            let distances = towed.1.line.distances();
+            let list = towed.1.modes(number).map_err(SolveError::new)?;
+            let page = |m: &crate::tether::modes::NaturalMode| {
+                let rows = distances.iter().enumerate().map(|(i, d)| (*d, m.node(i))).collect();
+                (m.frequency(), m.period(), rows)
+            };
+            (["Y", "Z", "RY", "RZ"], list.iter().map(page).collect())
+        }
+        Kind::Installed(case) => {
+            let tether = found(case, name)?;
+            let attachment = case.course.pose.point(tether.attachment);
+            let list = modes(tether, attachment, &case.flow, number).map_err(SolveError::new)?;
+            let page = |m: &crate::tether::installed::modes::InstalledMode| {
+                let rows = m.heights.iter().enumerate().map(|(i, h)| (*h, m.node(i))).collect();
+                (m.mode.frequency(), m.mode.period(), rows)
+            };
+            (["X", "Y", "RX", "RY"], list.iter().map(page).collect())
+        }
+    };
+    let mut tables = Vec::new();
+    for (index, (frequency, period, rows)) in pages.into_iter().enumerate() {
+        let mut table = Table::new(format!("Mode {} of Tether {name}", index + 1))
+            .fact("Frequency", frequency, Dim::Frequency)
+            .fact("Frequency in Hertz", frequency.map(|w| w / std::f64::consts::TAU), Dim::None)
+            .fact("Period", period, Dim::Time)
+            .column("", "Node", Dim::None, Digits::Usual)
+            .column("", "Height", Dim::Length, Digits::Decimals(2))
+            .column("Displacement", heads[0], Dim::None, Digits::Decimals(4))
+            .column("Displacement", heads[1], Dim::None, Digits::Decimals(4))
+            .column("Slope", heads[2], Dim::Angle, Digits::Decimals(4))
+            .column("Slope", heads[3], Dim::Angle, Digits::Decimals(4));
+        for (node, (height, shape)) in rows.iter().enumerate().rev() {
+            let mut row: Vec<Cell> = vec![(node + 1).into(), (*height).into()];
+            row.extend(shape.iter().map(|v| Cell::from(*v)));
+            // the row has one cell a column, made just above
+            let _ = table.push(row);
+        }
+        tables.push(table);
+    }
+    Ok(tables)
+}
