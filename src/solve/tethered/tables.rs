@@ -1,7 +1,7 @@
 //! Tables of a run of tethers, in the columns of seed 003, 7.3 to 7.10.
 
-use super::history::{Quantity, StructureHistory, TetherHistory};
 use super::Tethered;
+use super::history::{Quantity, StructureHistory, TetherHistory};
 use crate::language::units::Dim;
 use crate::post::SeriesError;
 use crate::post::tether::fatigue::{self, Asked, EndRecord};
@@ -138,7 +138,13 @@ pub fn series(run: &Tethered, tether: &TetherHistory, of: Of) -> Table {
 }
 
 /// One quantity along the tether at some instants, with the least and the largest of the whole run (2.2, 2.3).
-pub fn along(run: &Tethered, tether: &TetherHistory, at_nodes: bool, index: usize, instants: &[usize]) -> Option<Table> {
+pub fn along(
+    run: &Tethered,
+    tether: &TetherHistory,
+    at_nodes: bool,
+    index: usize,
+    instants: &[usize],
+) -> Option<Table> {
     let list = if at_nodes { tether.of_a_node() } else { tether.of_an_end() };
     let quantity = list.get(index)?;
     let places: Vec<usize> =
@@ -191,14 +197,14 @@ const SIX: [&str; 6] = ["X", "Y", "Z", "RX", "RY", "RZ"];
 pub fn structure(run: &Tethered, structure: &StructureHistory, instant: usize, points: &[usize]) -> [Table; 2] {
     let time = run.times.get(instant).copied();
     let title = |what: &str| format!("{what} of Structure {}", structure.body);
-    let mut out = [title("Motions"), title("Forces")].map(|t| {
-        Table::new(t).fact("Time", time, Dim::Time).column("", "Freedom", Dim::None, Digits::Usual)
-    });
+    let mut out = [title("Motions"), title("Forces")]
+        .map(|t| Table::new(t).fact("Time", time, Dim::Time).column("", "Freedom", Dim::None, Digits::Usual));
     // the six of a motion have two dimensions: metres and degrees stand in columns of their own
     let [motions, forces] = &mut out;
     motions.columns.clear();
     forces.columns.clear();
-    let kinds = |rows: &[usize]| rows.iter().map(|k| text(StructureHistory::KINDS.get(*k).copied().unwrap_or(""))).collect();
+    let kinds =
+        |rows: &[usize]| rows.iter().map(|k| text(StructureHistory::KINDS.get(*k).copied().unwrap_or(""))).collect();
     let moved = [0, 1, 2, 12];
     let pushed: Vec<usize> = (3..12).collect();
     let head = |name: &str, dim, digits, cells| Column { name: name.into(), group: String::new(), dim, digits, cells };
@@ -217,13 +223,16 @@ pub fn structure(run: &Tethered, structure: &StructureHistory, instant: usize, p
                 if range.contains(&f) { Cell::from(structure.at(instant, 6 * kind + f)) } else { Cell::Missing }
             };
             let cells = (0..6).map(value).collect();
-            motions.columns.push(Column { group: name.into(), ..head(["Linear", "Angular"][part], dim, digits, cells) });
+            motions
+                .columns
+                .push(Column { group: name.into(), ..head(["Linear", "Angular"][part], dim, digits, cells) });
         }
     }
     let behind = 6 * StructureHistory::KINDS.len();
     for point in points {
         let name = structure.points.get(*point).map_or("", String::as_str);
-        let cells = (0..6).map(|f| if f < 3 { structure.at(instant, behind + 3 * point + f).into() } else { Cell::Missing });
+        let cells =
+            (0..6).map(|f| if f < 3 { structure.at(instant, behind + 3 * point + f).into() } else { Cell::Missing });
         let column = head("Point", Dim::Length, Digits::Decimals(3), cells.collect());
         motions.columns.push(Column { group: name.into(), ..column });
     }
@@ -380,8 +389,7 @@ impl Statistics {
         let time = |i: usize| run.times.get(i).copied().unwrap_or_default();
         let duration = time(self.end.saturating_sub(1)) - time(self.first);
         let count = 2 * tether.line.elements().len();
-        let moments: Vec<[Vec<f64>; 2]> =
-            (0..count).map(|end| [2, 3].map(|q| self.of(tether.end(end, q)))).collect();
+        let moments: Vec<[Vec<f64>; 2]> = (0..count).map(|end| [2, 3].map(|q| self.of(tether.end(end, q)))).collect();
         let tube = |end: usize| tether.line.elements().get(end / 2).map(|e| e.tube().stress_of_moment());
         let records: Vec<EndRecord> = moments
             .iter()
@@ -390,8 +398,7 @@ impl Statistics {
             .collect();
         let found = fatigue::along(&records, Asked { duration, ..asked })?;
         let distance = |end: usize| tether.line.distances().get(end.div_ceil(2)).copied().unwrap_or_default();
-        let ends: Vec<AtEnd> =
-            found.into_iter().enumerate().map(|(end, f)| (end / 2 + 1, distance(end), f)).collect();
+        let ends: Vec<AtEnd> = found.into_iter().enumerate().map(|(end, f)| (end / 2 + 1, distance(end), f)).collect();
         let title = |what: &str| self.title(run, &format!("{what} of Tether {}", tether.name));
         let mut table = crate::post::tether::tables::fatigue(&title("Fatigue and Peak Stress"), &ends)
             .fact("Elapsed Time", duration, Dim::Time)
