@@ -1,0 +1,103 @@
+//! `TDOM -TETHERS`: tethers in time, with bending and dynamics of their own.
+//!
+//! Source: seed 003, chapters 1 to 4 and decks 16 and 17.
+
+use super::equilibrium::told;
+use super::{Effect, Job};
+use crate::language::args::Args;
+use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::select::Owner;
+use crate::language::spec::{Kind, OptionSpec, ValueSpec};
+use crate::language::units::Dim;
+use crate::model::unit_vector;
+use crate::report::page;
+use crate::solve::tethered::{self, Settings};
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+
+/// -TETHERS.
+pub const TETHERS: OptionSpec = OptionSpec::new(
+    "-TETHERS",
+    &[ValueSpec::new("AS", Kind::Choice(&["NATIVE", "AQWA"]), "AQWA keeps the peculiarities of that program").or("NATIVE")],
+    "runs tethers with bending and dynamics of their own, and the body that installed ones hold",
+)
+.owner(Owner::Ours)
+.default("they are bars without mass");
+/// -SLAM.
+pub const SLAM: OptionSpec = OptionSpec::new(
+    "-SLAM",
+    &[ValueSpec::new("C", Kind::Number(Dim::None), "factor on the force of entry into the water").not_negative()],
+    "slam on a towed tether",
+)
+.owner(Owner::Ours)
+.default("0: none");
+/// -TOW.
+pub const TOW: OptionSpec = OptionSpec::new(
+    "-TOW",
+    &[
+        ValueSpec::new("V", Kind::Number(Dim::Velocity), "speed over the ground").not_negative(),
+        ValueSpec::new("TO", Kind::Number(Dim::Angle), "direction it goes toward, from +X toward +Y"),
+    ],
+    "the tow of a towed tether: waves meet it with their encounter frequency",
+)
+.owner(Owner::Ours)
+.default("0: it stays");
+
+/// What the help of TDOM says of it.
+pub const READING: &str = "-TETHERS runs the connectors of class TETHER by the scheme of two stages of AQWA: a towed one alone, its vessel at \
+     rest; installed ones with the one body they hold and its other connectors. It takes -STORE, -SLAM and -TOW of the options here, and PRCPOST has \
+     TETHER and STRUCTURE for it.";
+
+/// Options of TDOM that a run of tethers does not take.
+const NOT_TAKEN: [&str; 10] = [
+    "-NO_CAPSIZE", "-EQUI", "-NEWMARK", "-CONVERGE", "-RESTART", "-RESET", "-RHO", "-ADAPTIVE", "-CHECK", "-STATISTICS",
+];
+
+/// Runs the tethers of the model.
+///
+/// # Errors
+/// No -TIME, an option that does not go with it, what the engine refuses.
+pub fn run(job: &mut Job, args: &Args) -> Outcome<Effect> {
+    let span = args.span;
+    if let Some(given) = NOT_TAKEN.iter().find_map(|name| args.option(name)) {
+        let text = format!("{} does not go with -TETHERS", given.spec.name);
+        return Err(Diagnostic::error(text, given.span).help("tethers run by a scheme of two stages with fixed steps"));
+    }
+    let Some(window) = job.model.environment.time else {
+        return Err(Diagnostic::error("the environment has no -TIME: how long, and with which step", span)
+            .help("&ENV NAME -TIME TOBSERV DELTA_TIME"));
+    };
+    let compatible = args.option("-TETHERS").and_then(|g| g.word(0)) == Some("AQWA");
+    let store = args.option("-STORE").and_then(|g| g.values.first()).and_then(|v| v.integer());
+    let tow = args.option("-TOW").map(|given| {
+        let (speed, (cos, sin)) = (given.number(0).unwrap_or(0.0), unit_vector(given.number(1).unwrap_or(0.0)));
+        [speed * cos, speed * sin]
+    });
+    let settings = Settings {
+        observed: window.observed,
+        step: window.step,
+        store: store.and_then(|n| usize::try_from(n).ok()).unwrap_or(1),
+        compatible,
+        slam: args.option_number("-SLAM").unwrap_or(0.0),
+        tow: tow.unwrap_or_default(),
+    };
+    let interrupt = Arc::clone(&job.interrupt);
+    let mut goes_on = |_: f64| !interrupt.load(Ordering::Relaxed);
+    let made = tethered::run(&job.model, settings, &mut goes_on).map_err(|e| told(e, &job.model, span, job.units))?;
+    let mut tables = vec![tethered::told(&made)];
+    let events = tethered::events(&made);
+    if events.rows() > 0 {
+        tables.push(events);
+    }
+    let head = job.page_head();
+    let text = tables.iter().map(|t| page::render(t, job.units, &head)).collect::<Vec<_>>().join("\n");
+    job.say(&text);
+    for event in made.happened.iter().filter(|e| matches!(e.change, crate::tether::installed::Change::LowerStop { .. })) {
+        job.warn(format!("tether {} fell on its lower stop at {:.2} s", event.tether, event.time), span);
+    }
+    if made.interrupted {
+        job.warn("the run was interrupted: what it has is kept", span);
+    }
+    job.tethered = Some(made);
+    Ok(Effect::Done)
+}
