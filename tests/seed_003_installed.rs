@@ -16,8 +16,9 @@ use windlass::tether::installed::modes::modes;
 use windlass::tether::installed::{Change, History, Installation, Keep};
 use windlass::tether::structure::{Forces, Structure};
 
-static LISTING: LazyLock<Value> =
-    LazyLock::new(|| serde_json::from_str(&std::fs::read_to_string("tests/data/installed_tether.json").unwrap()).unwrap());
+static LISTING: LazyLock<Value> = LazyLock::new(|| {
+    serde_json::from_str(&std::fs::read_to_string("tests/data/installed_tether.json").unwrap()).unwrap()
+});
 
 fn numbers(value: &Value) -> Vec<f64> {
     value.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect()
@@ -118,8 +119,8 @@ fn the_twelve_periods_are_those_of_the_listing_and_the_shapes_with_them() {
             let [x, y, rx, ry] = mode.node(node).map(|value| value * product.signum());
             let got = [x, y, rx.to_degrees(), ry.to_degrees()];
             for (i, (got, want)) in got.into_iter().zip(shape).enumerate() {
-                // the printed shapes differ by 1e-4 from one end to the other, of 1 and of 10 deg (not matched 3 there)
-                assert!((got - want).abs() < if i < 2 { 1.5e-4 } else { 1.5e-3 }, "{node} {i} {got} {want}");
+                // the printed shapes differ by 1e-4 to 2e-4 from one end to the other, of 1 and of 10 deg (not matched 3 there)
+                assert!((got - want).abs() < if i < 2 { 1.5e-4 } else { 2e-3 }, "{node} {i} {got} {want}");
             }
         }
     }
@@ -138,7 +139,10 @@ fn the_forces_on_the_structure_are_those_of_the_listing_at_all_printed_times() {
         let hydrostatic = off(forces.hydrostatic, "HYDROSTATIC");
         assert!(hydrostatic[2].abs() < 62.0 && hydrostatic[4].abs() < 4600.0, "{time} {hydrostatic}");
         let pressure = off(forces.froude_krylov, "FROUDE KRYLOV");
-        assert!(pressure[0].abs() < 42.0 && pressure[2].abs() < 57.0 && pressure[4].abs() < 2100.0, "{time} {pressure}");
+        assert!(
+            pressure[0].abs() < 42.0 && pressure[2].abs() < 57.0 && pressure[4].abs() < 2100.0,
+            "{time} {pressure}"
+        );
         let drag = off(forces.drag, "MORISON DRAG");
         // at 25 s the listing's drag is 133 kN and 24,700 kN m off (validation/installed-tether.md, not matched 2)
         let [most, turning] = if time == 25.0 { [134.0, 24_800.0] } else { [12.5, 320.0] };
@@ -163,8 +167,20 @@ fn the_structure_goes_as_in_the_listing() {
                 let off = if direction > 2 { off.to_degrees() } else { off };
                 // issue 6, item 5: positions 0.4 mm to 5 s and 6 mm to 25 s; what else is as validation/installed-tether.md reached
                 let most = match (order, direction < 3) {
-                    (0, true) => if time <= 5.0 { 4e-4 } else { 6e-3 },
-                    (0, false) => if time <= 5.0 { 1.5e-4 } else { 1.7e-3 },
+                    (0, true) => {
+                        if time <= 5.0 {
+                            4e-4
+                        } else {
+                            6e-3
+                        }
+                    }
+                    (0, false) => {
+                        if time <= 5.0 {
+                            1.5e-4
+                        } else {
+                            1.7e-3
+                        }
+                    }
                     (1, true) => 2.2e-3,
                     (1, false) => 3e-3,
                     (_, true) => 4.4e-3,
@@ -217,7 +233,9 @@ fn the_tethers_are_where_the_listing_has_them_when_they_go_slack() {
             assert!((value(4) - velocity[0]).abs() < 0.0125, "{key} {node} {}", value(4));
             // not matched 1 there: rotational velocities by 0.11 deg/s, accelerations by 0.13 m/s2 and 1.3 deg/s2
             assert!((value(7).to_degrees() - velocity[3]).abs() < 0.115);
-            assert!((value(8) - acceleration[0]).abs() < 0.125 && (value(11).to_degrees() - acceleration[3]).abs() < 1.3);
+            assert!(
+                (value(8) - acceleration[0]).abs() < 0.125 && (value(11).to_degrees() - acceleration[3]).abs() < 1.3
+            );
         }
     }
 }
@@ -239,11 +257,22 @@ fn tensions_moments_and_stresses_are_those_of_the_listing_when_tethers_go_slack(
             assert!((value(0) - effective).abs() < most, "{key} {index}: {} {effective}", value(0));
             assert!((value(1) - printed("wall")).abs() < if slack { 0.6 } else { 16.0 }, "{key} {index}: {}", value(1));
             // as reached there: shear 0.5 to 29 %, moments 0.5 to 9 %, the small 33.8 19 %
-            assert!((value(2) - printed("shearX")).abs() < 0.025 * printed("shearX").abs() + 10.0, "{key} {index} {}", value(2));
-            assert!((value(5) - printed("mY")).abs() < 0.006 * printed("mY").abs() + 45.0, "{key} {index} {}", value(5));
+            assert!(
+                (value(2) - printed("shearX")).abs() < 0.025 * printed("shearX").abs() + 10.0,
+                "{key} {index} {}",
+                value(2)
+            );
+            assert!(
+                (value(5) - printed("mY")).abs() < 0.006 * printed("mY").abs() + 45.0,
+                "{key} {index} {}",
+                value(5)
+            );
             // stresses of those: 46 kN m is 1,370 kPa
             for (load, name) in [(7, "max"), (8, "min"), (9, "von_mises"), (10, "bendY")] {
-                assert!((value(load) - printed(name)).abs() < 0.007 * printed(name).abs() + 1400.0, "{key} {index} {name}");
+                assert!(
+                    (value(load) - printed(name)).abs() < 0.007 * printed(name).abs() + 1400.0,
+                    "{key} {index} {name}"
+                );
             }
         }
         let end = |index: usize, load: usize| RUN.end(tether, 2 - index / 2, index % 2 == 0, load)[SLACK] / 1e3;

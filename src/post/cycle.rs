@@ -118,7 +118,10 @@ mod tests {
         let values: Vec<f64> = times.iter().map(|t| 2.0 * (TAU * t / 12.0 + 0.9).cos()).collect();
         let found = Cycle::of(&times, &values, (7.0, 12.0), 2, 16).unwrap();
         let [one, two] = [found.harmonics[0], found.harmonics[1]];
-        assert!((one.amplitude - 2.0).abs() < 1e-6 && (one.phase - 0.9).abs() < 1e-6 && two.amplitude < 1e-6, "{found:?}");
+        assert!(
+            (one.amplitude - 2.0).abs() < 1e-6 && (one.phase - 0.9).abs() < 1e-6 && two.amplitude < 1e-6,
+            "{found:?}"
+        );
     }
 
     #[test]
@@ -126,6 +129,9 @@ mod tests {
         let times: Vec<f64> = (0..21).map(f64::from).collect();
         let values = vec![0.0; 21];
         assert!(Cycle::of(&times, &values, (10.0, 12.0), 2, 16).is_err());
-        assert!(Cycle::of(&times, &values, (0.0, 12.0), 8, 16).is_err() && Cycle::of(&times, &values, (0.0, 0.0), 2, 16).is_err());
+        assert!(
+            Cycle::of(&times, &values, (0.0, 12.0), 8, 16).is_err()
+                && Cycle::of(&times, &values, (0.0, 0.0), 2, 16).is_err()
+        );
     }
 }

@@ -73,8 +73,10 @@ impl Axis {
         if !share.is_finite() {
             return None;
         }
-        let across =
-            [Vector3::new(1.0 - x * x * share, -x * y * share, -x), Vector3::new(-x * y * share, 1.0 - y * y * share, -y)];
+        let across = [
+            Vector3::new(1.0 - x * x * share, -x * y * share, -x),
+            Vector3::new(-x * y * share, 1.0 - y * y * share, -y),
+        ];
         Some(Axis { chord, along, across, tilt: tilt(along) })
     }
 

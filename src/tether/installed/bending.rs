@@ -225,7 +225,8 @@ impl Bending {
     pub fn arc(&self, motion: &[Motion; 2], length: f64) -> f64 {
         let stretch = length / self.length;
         let of = |(index, cell): (usize, &Cell)| -> f64 {
-            let part = |m: &Motion| beam::twice_energy(0.0, 1.0, cell.length * stretch, &beam::of_element(&m.place, index));
+            let part =
+                |m: &Motion| beam::twice_energy(0.0, 1.0, cell.length * stretch, &beam::of_element(&m.place, index));
             0.5 * motion.iter().map(part).sum::<f64>()
         };
         self.cells.iter().enumerate().map(of).sum()
@@ -253,7 +254,8 @@ impl Bending {
     fn target(&self, unknown: usize, hold: Hold, plane: usize, stage: &Stage) -> [f64; 3] {
         let Stage { axis, attachment, tension, .. } = stage;
         let parts = |v: Vector3<f64>| axis.parts(v)[plane];
-        let [rate, growth] = [parts(attachment.velocity) / tension.length, parts(attachment.acceleration) / tension.length];
+        let [rate, growth] =
+            [parts(attachment.velocity) / tension.length, parts(attachment.acceleration) / tension.length];
         let share = self.shares.get(unknown / 2).copied().unwrap_or_default();
         // the springs' rest counts at the ends alone
         let last = self.right.len() - 1;
@@ -359,7 +361,8 @@ impl Bending {
             // the frame's work space is free again
             self.stiffness[plane].times(&self.ahead, &mut self.frame);
             self.right.iter_mut().zip(&self.frame).for_each(|(r, k)| *r -= k);
-            self.system.clone_from(&self.mass);
+            self.system.clear();
+            self.system.add_scaled(1.0, &self.mass);
             self.system.add_scaled(implicit, &self.stiffness[plane]);
             self.hold(plane, stage);
             self.system.factor_into(&mut self.factors)?;
@@ -480,8 +483,7 @@ impl Bending {
             let a = beam::of_element(&self.found[usize::from(second)][plane], element);
             let x = beam::of_element(&self.now[plane].place, element);
             let v = beam::of_element(&self.now[plane].velocity, element);
-            let ahead: Vector4 =
-                std::array::from_fn(|i| x[i] + LOOK_AHEAD * stage.dt * (v[i] + 0.5 * stage.dt * a[i]));
+            let ahead: Vector4 = std::array::from_fn(|i| x[i] + LOOK_AHEAD * stage.dt * (v[i] + 0.5 * stage.dt * a[i]));
             let all: Vector4 = std::array::from_fn(|i| a[i] + frame[i]);
             let mut sum = beam::times(&bends, &ahead);
             beam::add(&mut sum, 1.0, &beam::times(&pulls, &ahead));
@@ -502,6 +504,21 @@ impl Bending {
                 place[i] += 0.5 * (before + velocity[i]) * dt;
             }
         }
+    }
+
+    /// What the structure bears across the axis, by plane (N): stiffness times place less the load at the top, of bending and tension, so that
+    /// it is exact at rest. The load is that of the stage before, and the inertia of half an element is left out.
+    pub fn top_shear(&self, motion: &[Motion; 2], tension: &Tension, axial: &Axial) -> [f64; 2] {
+        let last = self.cells.len().saturating_sub(1);
+        let Some(cell) = self.cells.get(last) else { return [0.0; 2] };
+        let length = cell.length * tension.length / self.length;
+        let (bends, pulls) =
+            (beam::stiffness(cell.bending, length), beam::geometric(axial.middle(last, tension), length));
+        [0, 1].map(|plane| {
+            let x = beam::of_element(&motion[plane].place, last);
+            let load = self.loads[plane].get(last).map_or(0.0, |l| l[2]);
+            beam::dot(&bends[2], &x) + beam::dot(&pulls[2], &x) - load
+        })
     }
 
     /// Slopes at the structure by plane (rad).

@@ -1,7 +1,7 @@
 //! What is kept of a run, as tables: structure, tethers, events.
 
-use super::rig::Rig;
 use super::rig::Change;
+use super::rig::Rig;
 use super::run::{Event, Moment, Observer};
 use super::tension::Standing;
 use crate::language::units::Dim;

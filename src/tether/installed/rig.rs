@@ -115,8 +115,12 @@ impl Rig {
         if which == Which::First {
             self.start = (axis, tension);
         }
-        let along = axis.along + axis.across[0] * slopes[0] + axis.across[1] * slopes[1];
-        let force = along * -tension.pull;
+        let across = if compatibility.tension_alone_on_structure {
+            slopes.map(|slope| slope * tension.pull)
+        } else {
+            self.bending.top_shear(self.motion(which), &tension, &self.axial)
+        };
+        let force = -(axis.along * tension.pull + axis.across[0] * across[0] + axis.across[1] * across[1]);
         let arm = self.attachment.at - pose.origin;
         let mut sum = carried(&Six::new(force.x, force.y, force.z, 0.0, 0.0, 0.0), arm);
         if !compatibility.tension_alone_on_structure {

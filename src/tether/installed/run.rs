@@ -221,7 +221,8 @@ impl<'a> Installation<'a> {
         if highest * course.step <= STABLE {
             return Ok(());
         }
-        let text = "a step of {} is too long: the structure swings on its tethers in {}, for which {} at most is stable";
+        let text =
+            "a step of {} is too long: the structure swings on its tethers in {}, for which {} at most is stable";
         let period = TAU / highest;
         Err(ClassError::of(text, &[(course.step, Dim::Time), (period, Dim::Time), (STABLE / highest, Dim::Time)])
             .help(format!("a tenth of the period, {:.3} s, follows that motion", period / 10.0)))

@@ -107,7 +107,8 @@ mod tests {
         };
         let found = loads.stresses(&TUBE);
         // printed to three digits
-        let want = [(found.shear, 2.03e6), (found.maximum, 3.49e7), (found.minimum, -4.57e7), (found.von_mises, 4.12e7)];
+        let want =
+            [(found.shear, 2.03e6), (found.maximum, 3.49e7), (found.minimum, -4.57e7), (found.von_mises, 4.12e7)];
         for (got, printed) in want.into_iter().chain([(found.bending_y, -4.03e7)]) {
             assert!((got / printed - 1.0).abs() < 2e-3, "{got} {printed}");
         }
@@ -117,11 +118,8 @@ mod tests {
     fn pressure_alone_on_a_capped_tube_gives_the_stress_of_lame() {
         // all around, ends too: a bar feels no von Mises stress; a tube at its inner side sqrt(3) p R^2/(R^2 - r^2)
         let bar = Tube { outer_diameter: 1.0, wall_thickness: 0.5 };
-        let of = |tube: &Tube| EndLoads {
-            wall: -1e6 * tube.external_area(),
-            pressure: [1e6, 0.0],
-            ..EndLoads::default()
-        };
+        let of =
+            |tube: &Tube| EndLoads { wall: -1e6 * tube.external_area(), pressure: [1e6, 0.0], ..EndLoads::default() };
         assert!(of(&bar).stresses(&bar).von_mises < 1e-6);
         let (outer, inner) = (TUBE.radius(), 0.5 * TUBE.inner_diameter());
         let want = 3f64.sqrt() * 1e6 * outer * outer / (outer * outer - inner * inner);

@@ -105,8 +105,10 @@ impl Forces {
         let factor = self.inertia.cholesky();
         let found = factor.map(|f| f.solve(&self.total())).filter(|a| a.iter().all(|x| x.is_finite()));
         found.ok_or_else(|| {
-            ClassError::new("the structure has no acceleration: its inertia is not positive, or a force on it has no value")
-                .help("see its mass and radii, and whether the step is too long")
+            ClassError::new(
+                "the structure has no acceleration: its inertia is not positive, or a force on it has no value",
+            )
+            .help("see its mass and radii, and whether the step is too long")
         })
     }
 }
@@ -119,11 +121,5 @@ pub trait Structure: Debug {
     ///
     /// # Errors
     /// A place for which it has no forces.
-    fn forces(
-        &mut self,
-        at: &Underway,
-        water: &FlowAt,
-        accepted: bool,
-        out: &mut Forces,
-    ) -> Result<(), ClassError>;
+    fn forces(&mut self, at: &Underway, water: &FlowAt, accepted: bool, out: &mut Forces) -> Result<(), ClassError>;
 }

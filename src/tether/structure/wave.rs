@@ -73,7 +73,8 @@ impl DeepWave {
 
     /// The surface (m) by the cosine of the angle.
     fn surface(&self, cos: f64) -> f64 {
-        let second = if self.second { 0.5 * self.number * self.amplitude.powi(2) * (2.0 * cos * cos - 1.0) } else { 0.0 };
+        let second =
+            if self.second { 0.5 * self.number * self.amplitude.powi(2) * (2.0 * cos * cos - 1.0) } else { 0.0 };
         self.amplitude * cos + second
     }
 
