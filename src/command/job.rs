@@ -14,6 +14,7 @@ use crate::report::output::Output;
 use crate::report::page::PageHead;
 use crate::solve::Options;
 use crate::solve::results::Exposed;
+use crate::solve::tethered::Tethered;
 use crate::solve::time::{Action, Run};
 use indexmap::IndexMap;
 use std::path::PathBuf;
@@ -218,6 +219,8 @@ pub struct Job {
     pub actions: Vec<Action>,
     /// The last run.
     pub run: Option<Run>,
+    /// The last run of tethers.
+    pub tethered: Option<Tethered>,
     /// The runs that FATIGUE adds up.
     pub scatter: Vec<Exposed>,
     /// Set by Ctrl-C: a command that takes long gives up, and the run ends behind it.
@@ -247,6 +250,7 @@ impl Job {
             equilibrium: Options::default(),
             actions: Vec::new(),
             run: None,
+            tethered: None,
             scatter: Vec::new(),
             interrupt: Arc::default(),
         }

@@ -71,6 +71,9 @@ mod store;
 mod surface;
 mod tdom;
 mod tether_ends;
+mod tether_post;
+mod tether_run;
+mod tether_status;
 mod units;
 mod vary;
 mod weight;
@@ -231,6 +234,8 @@ pub static COMMANDS: &[&Command] = &[
     &prcpost::C_LENGTH,
     &prcpost::BODY_FORCE,
     &fatigue::FATIGUE,
+    &tether_post::TETHER,
+    &tether_post::STRUCTURE,
     &disposition::REPORT,
     &disposition::VLIST,
     &disposition::VIEW,

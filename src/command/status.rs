@@ -12,7 +12,7 @@ use super::prcpost::last_run;
 use super::written::{as_written, kind_data, option_as_written};
 use super::{
     Call, Command, Effect, Job, Menu, body_status, body_tables, database_table, fatigue_table, line_types, member,
-    model_tables, prescribe, sea_table, settings_table, wind_table,
+    model_tables, prescribe, sea_table, settings_table, tether_status, wind_table,
 };
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::{Owner, choose};
@@ -46,6 +46,8 @@ const KINDS: &[(&str, Owner, &str)] = &[
         "the wave components of the seas of the environment in force, or of one kept under a name",
     ),
     ("RUN", Owner::Ours, "how the last run went"),
+    ("TETHERS", Owner::Ours, "what tethers are made of and hang on, as TDOM -TETHERS has them"),
+    ("TETHER_MODES", Owner::Ours, "natural modes of tethers where they stand, -NUMBER of each"),
     ("CLASSES", Owner::Ours, "the same as CL_FLEX"),
     ("LOADS", Owner::Ours, "loads of wind, current and waves on parts, and the forces they come to"),
     ("WEIGHT", Owner::Ours, "weights, centers and radii of gyration of bodies and parts"),
@@ -86,6 +88,13 @@ static SPEC: CommandSpec = CommandSpec {
     options: &[
         OptionSpec::new("-PLOT", &[], "plots curves, or the spectra of SEA_SPECTRUM and WIND_SPECTRUM"),
         body_status::ABOUT,
+        OptionSpec::new(
+            "-NUMBER",
+            &[ValueSpec::new("N", Kind::Integer, "how many").within(1.0, 1000.0)],
+            "modes of each tether",
+        )
+        .owner(Owner::Ours)
+        .default("6"),
         OptionSpec::new(
             "-DISPOSE",
             &[ValueSpec::new("N", Kind::Integer, "which of its tables").or("1").within(1.0, 1e6)],
@@ -146,6 +155,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         "DIMENSIONS" => vec![settings_table::dimensions(job)],
         "DEFAULTS" => vec![settings_table::defaults(model)],
         "RUN" => vec![run_tables::told(last_run(job, args.span)?)],
+        "TETHERS" | "TETHER_MODES" => tether_status::tables(job, args, kind, &fits)?,
         "SELECTORS" => vec![model_tables::selectors(model, &fits)],
         "SN" => fatigue_table::tables(job, &fits, chosen.all()),
         "LINE_TYPES" => line_types::tables(job, &args.data)?,
@@ -193,7 +203,7 @@ fn things(kind: &str) -> &'static [Thing] {
         "PIECES" => &[Thing::Piece, Thing::Body, Thing::Part],
         "ASSEMBLIES" => &[Thing::Assembly],
         "CL_FLEX" | "CLASSES" | "SN" => &[Thing::Class],
-        "G_CONNECTOR" | "F_CONNECTOR" | "FOUNDATION" => &[Thing::Connector],
+        "G_CONNECTOR" | "F_CONNECTOR" | "FOUNDATION" | "TETHERS" | "TETHER_MODES" => &[Thing::Connector],
         "CURVES" => &[Thing::Curve],
         "ENVIRONMENT" | "SEA_SPECTRUM" | "WIND_SPECTRUM" => &[Thing::Environment],
         "POINTS" => &[Thing::Point],

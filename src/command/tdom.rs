@@ -3,7 +3,7 @@
 //! Source: reference/solve.md, "TDOM".
 
 use super::equilibrium::told;
-use super::{Call, Command, Effect, Job};
+use super::{Call, Command, Effect, Job, tether_run};
 use crate::hydro::morison::unmoved;
 use crate::language::args::Args;
 use crate::language::diagnostic::{Diagnostic, Outcome};
@@ -15,7 +15,7 @@ use crate::model::{Model, Place, Six};
 use crate::report::page;
 use crate::report::run_log::{self, RunLog};
 use crate::solve::time::{Convergence, Ending, Method, Run, Scheme, Settings, Snapshot, Watcher};
-use crate::solve::{SolveError, run_tables, settle};
+use crate::solve::{SolveError, run_tables, settle, tethered};
 use crate::table::Table;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::sync::Arc;
@@ -96,13 +96,18 @@ static SPEC: CommandSpec = CommandSpec {
             .owner(Owner::Ours),
         OptionSpec::new("-STATISTICS", &[], "keeps statistics of every result and no instants: flat memory, no file")
             .owner(Owner::Ours),
+        tether_run::TETHERS,
+        tether_run::SLAM,
+        tether_run::TOW,
     ],
     detail: "Runs bodies and connectors from where they stand, at rest, over TOBSERV with the step of &ENV -TIME, in the wind, current \
              and waves of the environment, which -RAMP lets grow; the statistics it prints leave out TTRA_SET. Each step balances forces, inertia included, by Newton's iteration; a \
              step that finds no balance is cut in halves, which is counted. -NEWMARK YES 0.25 0.5 is the trapezoidal rule; -NEWMARK NO \
              needs small steps. The bodies of the model stay where they stand. Results go to PRCPOST, and as the run goes to the file \
              TDOM.run in the job's folder, from which -RESTART goes on, also after the program was killed, with the digits of an \
-             unbroken run. Ctrl-C ends a run and keeps what it has. &ACTION says what happens during a run: lines that break, winches.",
+             unbroken run. Ctrl-C ends a run and keeps what it has. -TETHERS runs the connectors of class TETHER by the scheme of two stages of AQWA: a towed one \
+             alone, its vessel at rest; installed ones with the one body they hold and its other connectors. It takes -STORE, -SLAM and -TOW of the \
+             options here, and PRCPOST has TETHER and STRUCTURE for it. &ACTION says what happens during a run: lines that break, winches.",
     example: "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n*G 0 0 0\n&DESCRIBE BODY CART -IGNORE Y Z RX RY RZ\n*C 0 0 0\n#WEIGHT *C 100 1 1 1\n\
               ~S GSPR BOTH X 40 1000 -LEN 0\nCONNECTOR K ~S *C *G\nEND\n&INSTATE -LOCATE CART 0.5 0 0\n&ENV -TIME 10 0.1\nTDOM",
     ..CommandSpec::new("TDOM", "runs the system in time")
@@ -231,12 +236,24 @@ fn warn_of_still_pieces(job: &mut Job, made: &Run, span: Span) {
 
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (args, span) = (&call.args, call.args.span);
+    if args.has("-TETHERS") {
+        return tether_run::run(job, args);
+    }
+    if let Some(given) = args.option("-SLAM").or(args.option("-TOW")) {
+        return Err(Diagnostic::error(format!("{} goes with -TETHERS", given.spec.name), given.span));
+    }
     let settings = settings(job, args)?;
     if job.model.bodies.is_empty() {
         return Err(Diagnostic::error("there is no body to move", span).help("&DESCRIBE BODY describes one"));
     }
     let (mut made, log) = begun(job, args, settings)?;
     warn_of_still_pieces(job, &made, span);
+    if tethered::has_tethers(&job.model) {
+        job.remark(
+            "tethers are bars without mass in this run: -TETHERS gives them bending and dynamics of their own",
+            span,
+        );
+    }
     let mut going = Going::new(job, &made, log);
     let ended = made.go(&mut going);
     drop(going);

@@ -23,8 +23,7 @@ pub static TETHER: Command = Command { spec: &TETHER_SPEC, edits: false, run: te
 /// STRUCTURE.
 pub static STRUCTURE: Command = Command { spec: &STRUCTURE_SPEC, edits: false, run: structure };
 
-const WHAT: &[&str] =
-    &["MOTIONS", "FORCES", "NODE", "END_OF", "ALONG", "STATISTICS", "RANGES", "FATIGUE", "EVENTS"];
+const WHAT: &[&str] = &["MOTIONS", "FORCES", "NODE", "END_OF", "ALONG", "STATISTICS", "RANGES", "FATIGUE", "EVENTS"];
 const OF_STRUCTURE: &[&str] = &["PAGES", "HISTORY", "HARMONICS"];
 /// Times on one graph (seed 003, 2.2).
 const MOST_CURVES: usize = 20;
@@ -47,7 +46,6 @@ const DISPOSE: OptionSpec = ours(
     &[ValueSpec::new("N", Kind::Integer, "which of its tables").or("1").within(1.0, 1e6)],
     "opens the disposition menu over a table instead of printing",
 );
-const STRESS: Dim = crate::post::tether::tables::STRESS;
 
 static TETHER_SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
@@ -56,7 +54,8 @@ static TETHER_SPEC: CommandSpec = CommandSpec {
     data: &[
         ValueSpec::new("NAME", Kind::Name(Noun::Connector), "a tether of the run"),
         ValueSpec::new("WHAT", Kind::Choice(WHAT), "what to tell of"),
-        ValueSpec::new("N", Kind::Text, "number of the node or the element, or what ALONG is of").or("1, and 2 of STATISTICS"),
+        ValueSpec::new("N", Kind::Text, "number of the node or the element, or what ALONG is of")
+            .or("1, and 2 of STATISTICS"),
     ],
     options: &[
         EVENTS,
@@ -65,13 +64,9 @@ static TETHER_SPEC: CommandSpec = CommandSpec {
             &[ValueSpec::new("T", Kind::Number(Dim::Time), "time told from each time it goes slack").not_negative()],
             "only instants after it went slack",
         ),
-        ours(
-            "-AT",
-            &[ValueSpec::new("T", Kind::Number(Dim::Time), "times, twenty at most")],
-            "instants of ALONG",
-        )
-        .repeating(1)
-        .default("the last"),
+        ours("-AT", &[ValueSpec::new("T", Kind::Number(Dim::Time), "times, twenty at most")], "instants of ALONG")
+            .repeating(1)
+            .default("the last"),
         ours(
             "-SN",
             &[
@@ -140,11 +135,9 @@ fn instants(run: &Tethered, args: &Args) -> Outcome<Vec<usize>> {
     let slack = 1e-6 * run.settings.step;
     let (begin, end, increment) = match args.option("-EVENTS") {
         None => (f64::NEG_INFINITY, f64::INFINITY, 0.0),
-        Some(given) => (
-            given.number(0).unwrap_or(0.0),
-            given.number(1).unwrap_or(f64::INFINITY),
-            given.number(2).unwrap_or(0.0),
-        ),
+        Some(given) => {
+            (given.number(0).unwrap_or(0.0), given.number(1).unwrap_or(f64::INFINITY), given.number(2).unwrap_or(0.0))
+        }
     };
     let mut next = begin;
     let mut list = Vec::new();

@@ -18,7 +18,8 @@ use std::sync::atomic::Ordering;
 /// -TETHERS.
 pub const TETHERS: OptionSpec = OptionSpec::new(
     "-TETHERS",
-    &[ValueSpec::new("AS", Kind::Choice(&["NATIVE", "AQWA"]), "AQWA keeps the peculiarities of that program").or("NATIVE")],
+    &[ValueSpec::new("AS", Kind::Choice(&["NATIVE", "AQWA"]), "AQWA keeps the peculiarities of that program")
+        .or("NATIVE")],
     "runs tethers with bending and dynamics of their own, and the body that installed ones hold",
 )
 .owner(Owner::Ours)
@@ -43,14 +44,18 @@ pub const TOW: OptionSpec = OptionSpec::new(
 .owner(Owner::Ours)
 .default("0: it stays");
 
-/// What the help of TDOM says of it.
-pub const READING: &str = "-TETHERS runs the connectors of class TETHER by the scheme of two stages of AQWA: a towed one alone, its vessel at \
-     rest; installed ones with the one body they hold and its other connectors. It takes -STORE, -SLAM and -TOW of the options here, and PRCPOST has \
-     TETHER and STRUCTURE for it.";
-
 /// Options of TDOM that a run of tethers does not take.
 const NOT_TAKEN: [&str; 10] = [
-    "-NO_CAPSIZE", "-EQUI", "-NEWMARK", "-CONVERGE", "-RESTART", "-RESET", "-RHO", "-ADAPTIVE", "-CHECK", "-STATISTICS",
+    "-NO_CAPSIZE",
+    "-EQUI",
+    "-NEWMARK",
+    "-CONVERGE",
+    "-RESTART",
+    "-RESET",
+    "-RHO",
+    "-ADAPTIVE",
+    "-CHECK",
+    "-STATISTICS",
 ];
 
 /// Runs the tethers of the model.
@@ -92,7 +97,8 @@ pub fn run(job: &mut Job, args: &Args) -> Outcome<Effect> {
     let head = job.page_head();
     let text = tables.iter().map(|t| page::render(t, job.units, &head)).collect::<Vec<_>>().join("\n");
     job.say(&text);
-    for event in made.happened.iter().filter(|e| matches!(e.change, crate::tether::installed::Change::LowerStop { .. })) {
+    for event in made.happened.iter().filter(|e| matches!(e.change, crate::tether::installed::Change::LowerStop { .. }))
+    {
         job.warn(format!("tether {} fell on its lower stop at {:.2} s", event.tether, event.time), span);
     }
     if made.interrupted {

@@ -4,6 +4,7 @@
 //! knows where they come from. [`tables`] does the same to the columns of a [`crate::table::Table`], the first of which
 //! is the independent one.
 
+pub mod cycle;
 pub mod distribution;
 pub mod extremes;
 pub mod fatigue;

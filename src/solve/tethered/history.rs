@@ -14,6 +14,8 @@ use std::ops::ControlFlow;
 /// A quantity of nodes or of ends of elements.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quantity {
+    /// What a record calls it.
+    pub code: &'static str,
     /// Head shared with others of its kind.
     pub group: &'static str,
     /// Its own head.
@@ -24,8 +26,8 @@ pub struct Quantity {
     pub digits: Digits,
 }
 
-const fn quantity(group: &'static str, name: &'static str, dim: Dim, digits: Digits) -> Quantity {
-    Quantity { group, name, dim, digits }
+const fn quantity(code: &'static str, group: &'static str, name: &'static str, dim: Dim, digits: Digits) -> Quantity {
+    Quantity { code, group, name, dim, digits }
 }
 
 const FOUR: Digits = Digits::Scientific(4);
@@ -42,14 +44,15 @@ const ANGULAR: [(Dim, Digits); 3] = [
     (Dim::AngularAcceleration, Digits::Decimals(3)),
 ];
 
-const fn of_nodes(names: [&'static str; 4]) -> [Quantity; 13] {
-    let mut out = [quantity("", "Along", Dim::Length, Digits::Decimals(2)); 13];
+const fn of_nodes(codes: [[&'static str; 4]; 3]) -> [Quantity; 13] {
+    let names = codes[0];
+    let mut out = [quantity("ALONG", "", "Along", Dim::Length, Digits::Decimals(2)); 13];
     let mut kind = 0;
     while kind < 3 {
         let mut i = 0;
         while i < 4 {
             let (dim, digits) = if i < 2 { LINEAR[kind] } else { ANGULAR[kind] };
-            out[4 * kind + i] = quantity(GROUPS[kind], names[i], dim, digits);
+            out[4 * kind + i] = quantity(codes[kind][i], GROUPS[kind], names[i], dim, digits);
             i += 1;
         }
         kind += 1;
@@ -58,32 +61,34 @@ const fn of_nodes(names: [&'static str; 4]) -> [Quantity; 13] {
 }
 
 /// Quantities of the nodes of a towed tether.
-pub const TOWED_NODE: [Quantity; 13] = of_nodes(["Y", "Z", "RY", "RZ"]);
+pub const TOWED_NODE: [Quantity; 13] =
+    of_nodes([["Y", "Z", "RY", "RZ"], ["VY", "VZ", "VRY", "VRZ"], ["AY", "AZ", "ARY", "ARZ"]]);
 /// Quantities of the nodes of an installed tether.
-pub const INSTALLED_NODE: [Quantity; 13] = of_nodes(["X", "Y", "RX", "RY"]);
+pub const INSTALLED_NODE: [Quantity; 13] =
+    of_nodes([["X", "Y", "RX", "RY"], ["VX", "VY", "VRX", "VRY"], ["AX", "AY", "ARX", "ARY"]]);
 /// Quantities of the ends of elements of a towed tether.
 pub const TOWED_END: [Quantity; 7] = [
-    quantity("Shear Force", "Y", Dim::Force, FOUR),
-    quantity("Shear Force", "Z", Dim::Force, FOUR),
-    quantity("Bending Moment", "Y", Dim::Moment, FOUR),
-    quantity("Bending Moment", "Z", Dim::Moment, FOUR),
-    quantity("Bending Stress", "Max", STRESS, FOUR),
-    quantity("Bending Stress", "Y", STRESS, FOUR),
-    quantity("Bending Stress", "Z", STRESS, FOUR),
+    quantity("SY", "Shear Force", "Y", Dim::Force, FOUR),
+    quantity("SZ", "Shear Force", "Z", Dim::Force, FOUR),
+    quantity("MY", "Bending Moment", "Y", Dim::Moment, FOUR),
+    quantity("MZ", "Bending Moment", "Z", Dim::Moment, FOUR),
+    quantity("SMAX", "Bending Stress", "Max", STRESS, FOUR),
+    quantity("STY", "Bending Stress", "Y", STRESS, FOUR),
+    quantity("STZ", "Bending Stress", "Z", STRESS, FOUR),
 ];
 /// Quantities of the ends of elements of an installed tether.
 pub const INSTALLED_END: [Quantity; 11] = [
-    quantity("Tension", "Effective", Dim::Force, FOUR),
-    quantity("Tension", "Wall", Dim::Force, FOUR),
-    quantity("Shear Force", "X", Dim::Force, FOUR),
-    quantity("Shear Force", "Y", Dim::Force, FOUR),
-    quantity("Bending Moment", "X", Dim::Moment, FOUR),
-    quantity("Bending Moment", "Y", Dim::Moment, FOUR),
-    quantity("Stress", "Shear", STRESS, FOUR),
-    quantity("Bending and Axial", "Max", STRESS, FOUR),
-    quantity("Bending and Axial", "Min", STRESS, FOUR),
-    quantity("Stress", "von Mises", STRESS, FOUR),
-    quantity("Stress", "Y Bending", STRESS, FOUR),
+    quantity("EFF", "Tension", "Effective", Dim::Force, FOUR),
+    quantity("WALL", "Tension", "Wall", Dim::Force, FOUR),
+    quantity("SX", "Shear Force", "X", Dim::Force, FOUR),
+    quantity("SY", "Shear Force", "Y", Dim::Force, FOUR),
+    quantity("MX", "Bending Moment", "X", Dim::Moment, FOUR),
+    quantity("MY", "Bending Moment", "Y", Dim::Moment, FOUR),
+    quantity("SHEAR", "Stress", "Shear", STRESS, FOUR),
+    quantity("MAX", "Bending and Axial", "Max", STRESS, FOUR),
+    quantity("MIN", "Bending and Axial", "Min", STRESS, FOUR),
+    quantity("MISES", "Stress", "von Mises", STRESS, FOUR),
+    quantity("STY", "Stress", "Y Bending", STRESS, FOUR),
 ];
 
 /// A tether in time.

@@ -15,7 +15,9 @@ mod tables;
 pub use case::{Case, case};
 pub use history::{Happening, Quantity, StructureHistory, TetherHistory};
 pub use modal::{described, names, natural};
-pub use tables::{Of, Statistics, along, events, forces, motions, series, structure, structure_series, told};
+pub use tables::{
+    Of, Statistics, along, events, forces, harmonics, motions, series, structure, structure_series, told,
+};
 
 use crate::model::{ClassError, Model};
 use crate::solve::SolveError;

@@ -82,7 +82,7 @@ pub fn natural(model: &Model, name: &str, number: usize) -> Result<Vec<Table>, S
         Kind::Installed(case) => {
             let tether = found(case, name)?;
             let attachment = case.course.pose.point(tether.attachment);
-            let list = modes(tether, attachment, &case.flow, number).map_err(SolveError::new)?;
+            let list = modes(tether, attachment, &case.flow, number, &case.compatibility).map_err(SolveError::new)?;
             let page = |m: &crate::tether::installed::modes::InstalledMode| {
                 let rows = m.heights.iter().enumerate().map(|(i, h)| (*h, m.node(i))).collect();
                 (m.mode.frequency(), m.mode.period(), rows)

@@ -4,6 +4,7 @@ use super::Tethered;
 use super::history::{Quantity, StructureHistory, TetherHistory};
 use crate::language::units::Dim;
 use crate::post::SeriesError;
+use crate::post::cycle::{AQWA_SAMPLES, Cycle};
 use crate::post::tether::fatigue::{self, Asked, EndRecord};
 use crate::post::tether::tables::{AtEnd, Channel, Place, STRESS, histogram, type_one, type_two};
 use crate::table::{Cell, Column, Digits, Table};
@@ -125,7 +126,7 @@ pub fn series(run: &Tethered, tether: &TetherHistory, of: Of) -> Table {
     };
     let mut table = Table::new(format!("{what} of Tether {}", tether.name));
     let times = run.times.iter().map(|t| Cell::Number(*t)).collect();
-    let head = Quantity { group: "", name: "Time", dim: Dim::Time, digits: SECONDS };
+    let head = Quantity { code: "", group: "", name: "Time", dim: Dim::Time, digits: SECONDS };
     table.columns.push(column(&head, times));
     for (index, quantity) in list.iter().enumerate() {
         let values = match of {
@@ -154,7 +155,7 @@ pub fn along(
         Cell::from(tether.line.distances().get(node).copied())
     };
     let mut table = Table::new(format!("{} {} along Tether {}", quantity.group, quantity.name, tether.name));
-    let head = Quantity { group: "", name: "Distance", dim: Dim::Length, digits: Digits::Decimals(2) };
+    let head = Quantity { code: "", group: "", name: "Distance", dim: Dim::Length, digits: Digits::Decimals(2) };
     table.columns.push(column(&head, places.iter().map(distance).collect()));
     for instant in instants {
         let value = |place: &usize| {
@@ -242,7 +243,7 @@ pub fn structure(run: &Tethered, structure: &StructureHistory, instant: usize, p
 /// Everything of the structure over time.
 pub fn structure_series(run: &Tethered, structure: &StructureHistory) -> Table {
     let mut table = Table::new(format!("Structure {} in Time", structure.body));
-    let head = Quantity { group: "", name: "Time", dim: Dim::Time, digits: SECONDS };
+    let head = Quantity { code: "", group: "", name: "Time", dim: Dim::Time, digits: SECONDS };
     table.columns.push(column(&head, run.times.iter().map(|t| Cell::Number(*t)).collect()));
     for (kind, name) in StructureHistory::KINDS.iter().enumerate() {
         for (freedom, axis) in SIX.iter().enumerate() {
@@ -260,6 +261,54 @@ pub fn structure_series(run: &Tethered, structure: &StructureHistory) -> Table {
         }
     }
     table
+}
+
+/// Mean, drift and the first harmonics of the structure's motions over one cycle (seed 003, 8.2.21): the cycle of a regular wave's period
+/// from the first of the instants, or what lies between the first and the last of them. As the listing has it, `x = mean + sum A cos(n w t -
+/// phase)` by sixteen samples of the cycle, what it drifts taken off as a straight line about its middle.
+///
+/// # Errors
+/// Too few instants, or a cycle that they do not hold.
+pub fn harmonics(
+    run: &Tethered,
+    structure: &StructureHistory,
+    period: Option<f64>,
+    instants: &[usize],
+) -> Result<Table, SeriesError> {
+    let time = |place: Option<&usize>| place.and_then(|i| run.times.get(*i)).copied().unwrap_or_default();
+    let (start, end) = (time(instants.first()), time(instants.last()));
+    let period = period.unwrap_or(end - start);
+    let mut table = Table::new(format!("Harmonics of Structure {}", structure.body))
+        .fact("Start", start, Dim::Time)
+        .fact("Period", period, Dim::Time)
+        .column("", "Motion", Dim::None, Digits::Usual)
+        .column("", "Freedom", Dim::None, Digits::Usual)
+        .column("", "Mean", Dim::None, Digits::Decimals(4))
+        .column("", "Drift", Dim::None, Digits::Decimals(4));
+    for order in ["1", "2", "3", "4"] {
+        table = table.column(order, "Amplitude", Dim::None, Digits::Decimals(4)).column(
+            order,
+            "Phase",
+            Dim::Angle,
+            Digits::Decimals(1),
+        );
+    }
+    for (kind, motion) in StructureHistory::KINDS.iter().enumerate().take(3) {
+        for (freedom, axis) in SIX.iter().enumerate() {
+            let values = structure.series(6 * kind + freedom);
+            let found = Cycle::of(&run.times, &values, (start, period), 4, AQWA_SAMPLES)?;
+            // one column holds metres and degrees: numbers without a dimension, in metres and degrees
+            let told = |value: f64| Cell::Number(if freedom < 3 { value } else { value.to_degrees() });
+            let mut row = vec![text(motion), text(axis), told(found.mean), told(found.drift)];
+            for harmonic in &found.harmonics {
+                row.extend([told(harmonic.amplitude), Cell::Number(-harmonic.phase)]);
+            }
+            // the row has one cell a column
+            let _ = table.push(row);
+        }
+    }
+    table.note("lengths in metres, angles in degrees; x = mean + sum A cos(n w t - phase)");
+    Ok(table)
 }
 
 /// Which of the stored instants statistics and fatigue are of.

@@ -88,6 +88,8 @@ pub struct Bending {
     length: f64,
     /// Rotational springs by end and plane (N m/rad); those of a held end are zero.
     springs: [[f64; 2]; 2],
+    /// Slopes at which the springs are at rest, by end and plane (rad).
+    rest: [[f64; 2]; 2],
     /// Unknowns that do not go by their forces, by plane.
     held: [Vec<(usize, Hold)>; 2],
     openings: Vec<(usize, f64)>,
@@ -178,6 +180,7 @@ impl Bending {
             shares: line.distances().iter().map(|s| s / length).collect(),
             length,
             springs,
+            rest: [[0.0; 2]; 2],
             held,
             pushes: Vec::with_capacity(2 * tether.constraints.len()),
             openings,
@@ -229,6 +232,12 @@ impl Bending {
         self.cells.iter().enumerate().map(of).sum()
     }
 
+    /// Takes the springs of the ends for at rest along an axis, the structure standing as it does.
+    pub fn rest_along(&mut self, axis: &Axis, upright: Vector3<f64>) {
+        let vessel = tilt(upright);
+        self.rest = [axis.tilt, [0, 1].map(|p| axis.tilt[p] - vessel[p])];
+    }
+
     /// Puts what is held where it is held, at the start of a step.
     pub fn place_held(&mut self, stage: &Stage) {
         for plane in 0..2 {
@@ -248,13 +257,17 @@ impl Bending {
         let [rate, growth] =
             [parts(attachment.velocity) / tension.length, parts(attachment.acceleration) / tension.length];
         let share = self.shares.get(unknown / 2).copied().unwrap_or_default();
+        // the springs' rest counts at the ends alone
+        let last = self.right.len() - 1;
+        let rest = |end: usize| if unknown == [1, last][end] { self.rest[end][plane] } else { 0.0 };
         let turn = |v: Vector3<f64>| if plane == 0 { v.y } else { -v.x };
         match hold {
             Hold::Axis => [0.0; 3],
-            Hold::Vertical => [-axis.tilt[plane], -rate, -growth],
+            Hold::Vertical => [rest(0) - axis.tilt[plane], -rate, -growth],
             Hold::Upright => {
                 let [spin, change] = attachment.spin;
-                [tilt(attachment.upright)[plane] - axis.tilt[plane], turn(spin) - rate, turn(change) - growth]
+                let place = rest(1) + tilt(attachment.upright)[plane] - axis.tilt[plane];
+                [place, turn(spin) - rate, turn(change) - growth]
             }
             Hold::Fixed => {
                 let at = anchor(stage) + Vector3::z() * (share * tension.length);
@@ -338,7 +351,7 @@ impl Bending {
             for (end, unknown, against) in [(0, 1, lean), (1, last, lean - vessel[plane])] {
                 let spring = self.springs[end][plane];
                 self.stiffness[plane].add(unknown, unknown, spring);
-                self.right[unknown] -= spring * against;
+                self.right[unknown] -= spring * (against - self.rest[end][plane]);
             }
             self.edges(second, plane, stage);
             let now = &self.now[plane];
@@ -348,7 +361,8 @@ impl Bending {
             // the frame's work space is free again
             self.stiffness[plane].times(&self.ahead, &mut self.frame);
             self.right.iter_mut().zip(&self.frame).for_each(|(r, k)| *r -= k);
-            self.system.clone_from(&self.mass);
+            self.system.clear();
+            self.system.add_scaled(1.0, &self.mass);
             self.system.add_scaled(implicit, &self.stiffness[plane]);
             self.hold(plane, stage);
             self.system.factor_into(&mut self.factors)?;
@@ -492,6 +506,21 @@ impl Bending {
         }
     }
 
+    /// What the structure bears across the axis, by plane (N): stiffness times place less the load at the top, of bending and tension, so that
+    /// it is exact at rest. The load is that of the stage before, and the inertia of half an element is left out.
+    pub fn top_shear(&self, motion: &[Motion; 2], tension: &Tension, axial: &Axial) -> [f64; 2] {
+        let last = self.cells.len().saturating_sub(1);
+        let Some(cell) = self.cells.get(last) else { return [0.0; 2] };
+        let length = cell.length * tension.length / self.length;
+        let (bends, pulls) =
+            (beam::stiffness(cell.bending, length), beam::geometric(axial.middle(last, tension), length));
+        [0, 1].map(|plane| {
+            let x = beam::of_element(&motion[plane].place, last);
+            let load = self.loads[plane].get(last).map_or(0.0, |l| l[2]);
+            beam::dot(&bends[2], &x) + beam::dot(&pulls[2], &x) - load
+        })
+    }
+
     /// Slopes at the structure by plane (rad).
     pub fn top_slopes(&self, motion: &[Motion; 2]) -> [f64; 2] {
         [0, 1].map(|p| motion[p].place.last().copied().unwrap_or_default())
@@ -500,7 +529,7 @@ impl Bending {
     /// What the coil at the structure does to it by plane (N m), against the slope.
     pub fn coil(&self, motion: &[Motion; 2], axis: &Axis, upright: Vector3<f64>) -> [f64; 2] {
         let (slopes, vessel) = (self.top_slopes(motion), tilt(upright));
-        [0, 1].map(|p| self.springs[1][p] * (slopes[p] + axis.tilt[p] - vessel[p]))
+        [0, 1].map(|p| self.springs[1][p] * (slopes[p] + axis.tilt[p] - vessel[p] - self.rest[1][p]))
     }
 }
 

@@ -45,7 +45,7 @@ impl Description {
             return Err(ClassError::new(format!("tether {} hangs straight below its anchor", tether.name)));
         };
         let (density, gravity) = (flow.density, flow.gravity);
-        let axial = Axial::of(tether, density, gravity);
+        let axial = Axial::of(tether, [density, gravity], false);
         let water = flow.at(0.0);
         let tension = axial.tension(&axis, attachment.z, 0.0, &water);
         let line = &tether.line;

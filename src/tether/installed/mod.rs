@@ -8,7 +8,7 @@
 pub mod axis;
 pub mod bending;
 pub mod description;
-
+pub mod history;
 pub mod modes;
 pub mod rig;
 pub mod run;
@@ -16,6 +16,7 @@ pub mod stress;
 pub mod tension;
 pub mod tether;
 
+pub use history::{History, Keep};
 pub use rig::{Change, Rig};
 pub use run::{Course, Event, Installation, Moment, Observer};
 pub use tether::{Constraint, DefaultTaken, EndSprings, Impact, InstalledTether, InternalFluid};

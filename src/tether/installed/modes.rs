@@ -9,6 +9,7 @@ use super::tension::Axial;
 use super::tether::InstalledTether;
 use crate::model::ClassError;
 use crate::tether::beam;
+use crate::tether::compatibility::Compatibility;
 use crate::tether::modes::{self, NaturalMode, Pencil, Plane};
 use crate::tether::structure::flow::Flow;
 use nalgebra::Vector3;
@@ -44,13 +45,14 @@ pub fn modes(
     attachment: Vector3<f64>,
     flow: &Flow,
     number: usize,
+    compatibility: &Compatibility,
 ) -> Result<Vec<InstalledMode>, ClassError> {
     tether.check()?;
     tether.spans((attachment - tether.anchor).norm())?;
     let Some(axis) = Axis::of(tether.anchor, attachment) else {
         return Err(ClassError::new(format!("tether {} hangs straight below its anchor", tether.name)));
     };
-    let axial = Axial::of(tether, flow.density, flow.gravity);
+    let axial = Axial::of(tether, [flow.density, flow.gravity], compatibility.uniform_tension);
     let tension = axial.tension(&axis, attachment.z, 0.0, &flow.at(0.0));
     let bending = Bending::of(tether, flow.density, flow.gravity);
     let mut found = [Vec::new(), Vec::new()];

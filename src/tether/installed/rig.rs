@@ -7,7 +7,7 @@ use super::tension::{Axial, Standing, Tension};
 use super::tether::InstalledTether;
 use crate::hydro::carried;
 use crate::model::{ClassError, Pose, Six};
-use crate::tether::compatibility::Compatibility;
+use crate::tether::compatibility::{Compatibility, SpringReference};
 use crate::tether::structure::flow::FlowAt;
 use nalgebra::Vector3;
 
@@ -62,11 +62,15 @@ impl Rig {
     ///
     /// # Errors
     /// Those of [`InstalledTether::check`].
-    pub fn new(tether: InstalledTether, density: f64, gravity: f64) -> Result<Self, ClassError> {
+    pub fn new(
+        tether: InstalledTether,
+        [density, gravity]: [f64; 2],
+        compatibility: &Compatibility,
+    ) -> Result<Self, ClassError> {
         tether.check()?;
         let elements = tether.line.elements().len();
         Ok(Rig {
-            axial: Axial::of(&tether, density, gravity),
+            axial: Axial::of(&tether, [density, gravity], compatibility.uniform_tension),
             bending: Bending::of(&tether, density, gravity),
             axis: Axis::default(),
             attachment: Attachment::default(),
@@ -93,6 +97,9 @@ impl Rig {
             return Err(ClassError::new("its attachment is at the anchor or straight below it"));
         };
         self.axis = axis;
+        if self.before.is_none() && compatibility.springs == SpringReference::InitialAxis {
+            self.bending.rest_along(&axis, self.attachment.upright);
+        }
         if which == Which::First {
             // what is held goes by the length; that of a slack one differs by its slack alone
             self.tension = Tension { length: axis.chord, ..self.tension };
@@ -108,8 +115,12 @@ impl Rig {
         if which == Which::First {
             self.start = (axis, tension);
         }
-        let along = axis.along + axis.across[0] * slopes[0] + axis.across[1] * slopes[1];
-        let force = along * -tension.pull;
+        let across = if compatibility.tension_alone_on_structure {
+            slopes.map(|slope| slope * tension.pull)
+        } else {
+            self.bending.top_shear(self.motion(which), &tension, &self.axial)
+        };
+        let force = -(axis.along * tension.pull + axis.across[0] * across[0] + axis.across[1] * across[1]);
         let arm = self.attachment.at - pose.origin;
         let mut sum = carried(&Six::new(force.x, force.y, force.z, 0.0, 0.0, 0.0), arm);
         if !compatibility.tension_alone_on_structure {

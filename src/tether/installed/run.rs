@@ -10,7 +10,7 @@ use super::tether::InstalledTether;
 use crate::hydro::{Underway, cross};
 use crate::language::units::Dim;
 use crate::model::{ClassError, Pose, Six};
-use crate::tether::compatibility::Compatibility;
+use crate::tether::compatibility::{Compatibility, VesselScheme};
 use crate::tether::structure::flow::{Flow, FlowAt};
 use crate::tether::structure::{Forces, Structure};
 use nalgebra::Matrix6;
@@ -99,7 +99,7 @@ impl<'a> Installation<'a> {
         flow: &'a Flow,
         compatibility: Compatibility,
     ) -> Result<Self, ClassError> {
-        let rigs = tethers.into_iter().map(|tether| Rig::new(tether, flow.density, flow.gravity));
+        let rigs = tethers.into_iter().map(|tether| Rig::new(tether, [flow.density, flow.gravity], &compatibility));
         Ok(Installation { structure, rigs: rigs.collect::<Result<_, _>>()?, flow, compatibility })
     }
 
@@ -154,7 +154,11 @@ impl<'a> Installation<'a> {
                 tethers: &self.rigs,
                 events: &events,
             })?;
-            pose = pose.moved(&(velocity * dt + (a1 * 2.0 + a2) * (dt * dt / 6.0)));
+            let second = match self.compatibility.vessel_scheme {
+                VesselScheme::StraightAcceleration => (a1 * 2.0 + a2) / 6.0,
+                VesselScheme::MeanVelocity => (a1 + a2) / 4.0,
+            };
+            pose = pose.moved(&(velocity * dt + second * (dt * dt)));
             velocity += (a1 + a2) * (0.5 * dt);
             self.rigs.iter_mut().for_each(|rig| rig.advance(dt));
         }

@@ -52,6 +52,8 @@ pub struct Axial {
     /// Pressure at the mean level (Pa) and weight density (N/m3) of what is inside.
     inside: [f64; 2],
     stop: Option<f64>,
+    /// Whether the tension in the middle holds all along for bending.
+    uniform: bool,
     /// Weight in water with what is inside (N).
     weight: f64,
 }
@@ -76,8 +78,8 @@ pub struct Tension {
 }
 
 impl Axial {
-    /// That of a tether in water of a density (kg/m3) under a gravity (m/s2).
-    pub fn of(tether: &InstalledTether, density: f64, gravity: f64) -> Self {
+    /// That of a tether in water of a density (kg/m3) under a gravity (m/s2); `uniform`: what bends it is the tension in its middle all along.
+    pub fn of(tether: &InstalledTether, [density, gravity]: [f64; 2], uniform: bool) -> Self {
         let line = &tether.line;
         let (mut below, mut start) = (0.0, 0.0);
         let length = line.length();
@@ -108,6 +110,7 @@ impl Axial {
             caps: tether.caps,
             inside: [tether.fluid.pressure, tether.fluid.density * gravity],
             stop: tether.lower_stop,
+            uniform,
             weight: below,
         }
     }
@@ -168,8 +171,11 @@ impl Axial {
         sum - bottom * self.caps[0] * self.ends[0] + (self.weight * at.cosine - top * self.caps[1]) * self.ends[1]
     }
 
-    /// Effective tension in the middle of an element (N).
+    /// Effective tension that bends an element: that in its middle, or in the middle of a taut tether (N).
     pub fn middle(&self, element: usize, at: &Tension) -> f64 {
+        if self.uniform && at.standing == Standing::Taut {
+            return at.bottom + 0.5 * self.weight * at.cosine;
+        }
         self.spans.get(element).map_or(0.0, |s| at.bottom + s.below[0] * at.cosine)
     }
 

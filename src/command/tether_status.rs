@@ -1,0 +1,32 @@
+//! `&STATUS TETHERS` and `TETHER_MODES`.
+
+use super::Job;
+use super::equilibrium::told;
+use crate::language::args::Args;
+use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::solve::tethered;
+use crate::table::Table;
+
+/// The tables of the tethers that fit.
+///
+/// # Errors
+/// No tether, or one that cannot be reckoned with.
+pub(super) fn tables(job: &Job, args: &Args, kind: &str, fits: &dyn Fn(&str) -> bool) -> Outcome<Vec<Table>> {
+    let wrong = |e| told(e, &job.model, args.span, job.units);
+    let names: Vec<String> = tethered::names(&job.model).into_iter().filter(|name| fits(name)).collect();
+    if names.is_empty() {
+        return Err(Diagnostic::error("the model has no such tether that acts", args.span)
+            .help("a connector of class type TETHER is one"));
+    }
+    let number = args.option("-NUMBER").and_then(|g| g.values.first()).and_then(|v| v.integer());
+    let number = number.and_then(|n| usize::try_from(n).ok()).unwrap_or(6);
+    let mut tables = Vec::new();
+    for name in names {
+        if kind == "TETHERS" {
+            tables.push(tethered::described(&job.model, &name).map_err(wrong)?);
+        } else {
+            tables.extend(tethered::natural(&job.model, &name, number).map_err(wrong)?);
+        }
+    }
+    Ok(tables)
+}
