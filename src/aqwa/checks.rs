@@ -51,12 +51,18 @@ fn elements(deck: &Deck, remarks: &mut Remarks) {
             }
             match element.shape {
                 Shape::Quad | Shape::Triangle | Shape::FieldPoint => remarks.once("panels", || {
-                    Diagnostic::error(format!("deck 2, {keyword}: the diffraction analysis of panels is not done here"), element.span)
-                        .help("take the coefficients of the hull from a hydrodynamic database of the model")
+                    Diagnostic::error(
+                        format!("deck 2, {keyword}: the diffraction analysis of panels is not done here"),
+                        element.span,
+                    )
+                    .help("take the coefficients of the hull from a hydrodynamic database of the model")
                 }),
                 Shape::Stub | Shape::Disc => remarks.once("stubs", || {
-                    Diagnostic::error(format!("deck 2, {keyword}: no source tells the geometry of this element"), element.span)
-                        .help("give a TUBE instead")
+                    Diagnostic::error(
+                        format!("deck 2, {keyword}: no source tells the geometry of this element"),
+                        element.span,
+                    )
+                    .help("give a TUBE instead")
                 }),
                 Shape::Tube | Shape::PointMass | Shape::PointBuoyancy => {}
             }
@@ -122,13 +128,17 @@ fn tether_refers(deck: &Deck, tether: &Tether, remarks: &mut Remarks) {
             }
             Some(tube) if tube.parameters[1].value <= 0.0 => {
                 let message = "deck 14, TELM: a tether element has a wall, and this group has none";
-                remarks.add(Diagnostic::error(message, geometry.span).other(tube.span, "wall thickness, columns 31-40"));
+                remarks
+                    .add(Diagnostic::error(message, geometry.span).other(tube.span, "wall thickness, columns 31-40"));
             }
             Some(_) => {}
         }
         let place = |field: Field<i64>| deck.nodes.get(&field.value).map(|node| node.position);
         if place(element.node1).zip(place(element.node2)).is_some_and(|(a, b)| a == b) {
-            remarks.add(Diagnostic::error("deck 14, TELM: both nodes are at one place", element.span).label("an element has a length"));
+            remarks.add(
+                Diagnostic::error("deck 14, TELM: both nodes are at one place", element.span)
+                    .label("an element has a length"),
+            );
         }
         if let Some(stiff) = deck.materials.get(&material.value).filter(|m| m.properties[1].value <= 0.0) {
             remarks.add(
@@ -189,8 +199,11 @@ fn towed(deck: &Deck, whole: bool, remarks: &mut Remarks) {
     }
     if tether.structure.value != 1 {
         remarks.add(
-            Diagnostic::error("deck 14, TETH, columns 11-15: a towed tether is fixed to structure 1", tether.structure.span)
-                .label("1 belongs here"),
+            Diagnostic::error(
+                "deck 14, TETH, columns 11-15: a towed tether is fixed to structure 1",
+                tether.structure.span,
+            )
+            .label("1 belongs here"),
         );
     }
     if !whole {
@@ -214,8 +227,11 @@ fn towed(deck: &Deck, whole: bool, remarks: &mut Remarks) {
     let straight = along.windows(2).all(|pair| pair[1][0] > pair[0][0] && pair[1][1..] == pair[0][1..]);
     if !straight {
         remarks.add(
-            Diagnostic::error("deck 14: the nodes of a towed tether lie along +X, from the trailing end on", tether.span)
-                .help("X increases from element to element; Y and Z stay (chapter 4 and 6.1)"),
+            Diagnostic::error(
+                "deck 14: the nodes of a towed tether lie along +X, from the trailing end on",
+                tether.span,
+            )
+            .help("X increases from element to element; Y and Z stay (chapter 4 and 6.1)"),
         );
     }
     let (Some(trailing), Some(first), Some(last)) = (place(tether.anchor.value), along.first(), along.last()) else {
@@ -239,6 +255,7 @@ fn nominal_vessel(deck: &Deck, depth: f64, remarks: &mut Remarks) {
     let (Some(structure), Some(known)) = (deck.structures.first(), deck.hydrostatics.first()) else { return };
     let weight = deck.mass_properties(structure).mass * deck.global.gravity;
     if let Some(buoyancy) = known.buoyancy
+        && weight > 0.0
         && (buoyancy.value - weight).abs() > 1e-3 * weight
     {
         remarks.add(

@@ -49,7 +49,11 @@ impl Deck {
             .iter()
             .map(|cards| {
                 let shown = cards.deck > 4 || self.job.option("PRCE");
-                let lines = if shown { cards.records.iter().map(|record| line(cards.deck, record)).collect() } else { Vec::new() };
+                let lines = if shown {
+                    cards.records.iter().map(|record| line(cards.deck, record)).collect()
+                } else {
+                    Vec::new()
+                };
                 Echo { title: title(cards), lines }
             })
             .collect()
@@ -58,7 +62,8 @@ impl Deck {
 
 fn title(cards: &Cards) -> String {
     let deck = cards.deck;
-    let series = deck != 2 && HEADERS.iter().any(|(number, _, series)| *number == deck && *series);
+    // the listings number decks 6, 7, 8 and 10 by structure
+    let series = ![2, 9].contains(&deck) && HEADERS.iter().any(|(number, _, series)| *number == deck && *series);
     match cards.header.keyword.as_str() {
         "WAVE" => format!("DECK {deck}N"),
         _ if series => format!("DECK {deck}.{}", cards.header.structure.max(1)),

@@ -31,6 +31,8 @@ const PROGRAMS: &[(&str, Program)] = &[
     ("DRIF", Program::Drift),
     ("NAUT", Program::Naut),
 ];
+/// Most options that are kept; there are some sixty names.
+const MOST_OPTIONS: usize = 200;
 /// Codes of an analysis on the JOB line.
 const ANALYSES: &[&str] = &["WFRQ", "DRFT", "STAT", "DYNA", "FIXD"];
 
@@ -127,7 +129,8 @@ pub fn read(reader: &mut Reader<'_>) -> Job {
     let (mut met_job, mut restart, mut listed) = (false, None, None);
     while let Some(line) = reader.peek().cloned() {
         let Some(word) = Line::words(line.text).next() else { break };
-        let rest = line.text.get(line.place_of(word).end as usize - line.place(0, 0).start as usize..).unwrap_or_default();
+        let rest =
+            line.text.get(line.place_of(word).end as usize - line.place(0, 0).start as usize..).unwrap_or_default();
         match word.to_ascii_uppercase().as_str() {
             "JOB" => {
                 met_job = true;
@@ -194,11 +197,14 @@ fn read_options(job: &mut Job, line: &Line<'_>, rest: &str, remarks: &mut Remark
         }
         let span = line.place_of(word);
         if !OPTIONS.iter().any(|(known, _)| *known == name) {
-            let mut warning = Diagnostic::warning(format!("deck 0, OPTIONS: {name} is not known and has no effect"), span);
+            let mut warning =
+                Diagnostic::warning(format!("deck 0, OPTIONS: {name} is not known and has no effect"), span);
             warning.help.extend(did_you_mean(&name, OPTIONS.iter().map(|(known, _)| *known)));
             remarks.add(warning);
         }
-        job.options.push((name, span));
+        if job.options.len() < MOST_OPTIONS {
+            job.options.push((name, span));
+        }
     }
     false
 }

@@ -6,9 +6,6 @@ use super::{Deck, elements, hydrostatics, mooring, nodes, printing, properties, 
 use crate::language::diagnostic::Diagnostic;
 use hydrostatics::Hydrostatics;
 
-/// Most structures of a deck.
-const MOST_STRUCTURES: usize = 50;
-
 /// Reads deck `number`, 1 to 20.
 pub fn read(deck: &mut Deck, number: u8, reader: &mut Reader<'_>) {
     match number {
@@ -77,12 +74,13 @@ fn single(deck: &mut Deck, number: u8, reader: &mut Reader<'_>) {
 /// Reads the decks ELM1, ELM2, .. up to FINI.
 fn structures(deck: &mut Deck, reader: &mut Reader<'_>) {
     let mut made = 0;
-    while deck.structures.len() < MOST_STRUCTURES {
+    while deck.structures.len() < run::MOST_STRUCTURES as usize {
         let next = reader.next_header();
         if !deck.structures.is_empty() && !next.is_some_and(|(number, _)| number == 2 || number == 0) {
             let here = reader.here();
             reader.remarks.add(
-                Diagnostic::warning("deck 2: the series of structures has no FINI", here).label("FINI belongs before this"),
+                Diagnostic::warning("deck 2: the series of structures has no FINI", here)
+                    .label("FINI belongs before this"),
             );
             return;
         }
@@ -94,8 +92,11 @@ fn structures(deck: &mut Deck, reader: &mut Reader<'_>) {
         let wanted = i64::try_from(deck.structures.len()).unwrap_or(i64::MAX).saturating_add(1);
         if header.structure != wanted {
             reader.remarks.add(
-                Diagnostic::error(format!("deck 2: ELM{} comes in the place of ELM{wanted}", header.structure), header.span)
-                    .label("structures are numbered 1, 2, .. in order"),
+                Diagnostic::error(
+                    format!("deck 2: ELM{} comes in the place of ELM{wanted}", header.structure),
+                    header.span,
+                )
+                .label("structures are numbered 1, 2, .. in order"),
             );
         }
         let label = format!("deck 2 ELM{}", header.structure);
@@ -115,8 +116,11 @@ fn per_structure(deck: &mut Deck, number: u8, reader: &mut Reader<'_>) {
         if index > 0 && !next.is_some_and(|(other, _)| other == number || other == 0) {
             let here = reader.here();
             reader.remarks.add(
-                Diagnostic::warning(format!("deck {number} is there for {index} of {count} structures and has no FINI"), here)
-                    .label("FINI belongs before this"),
+                Diagnostic::warning(
+                    format!("deck {number} is there for {index} of {count} structures and has no FINI"),
+                    here,
+                )
+                .label("FINI belongs before this"),
             );
             return;
         }

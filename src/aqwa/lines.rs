@@ -225,8 +225,11 @@ impl Walk {
                 self.complete(properties, remarks);
                 let Some(property) = properties.len().checked_sub(1) else {
                     remarks.add(
-                        Diagnostic::error(format!("deck 14, {}: no property comes before this line", record.keyword), record.span)
-                            .help("POLY, or COMP with its ECAT cards, belongs before it"),
+                        Diagnostic::error(
+                            format!("deck 14, {}: no property comes before this line", record.keyword),
+                            record.span,
+                        )
+                        .help("POLY, or COMP with its ECAT cards, belongs before it"),
                     );
                     return;
                 };
@@ -244,8 +247,11 @@ impl Walk {
             && (stiffness <= 0.0 || length < 0.0)
         {
             remarks.add(
-                Diagnostic::error("deck 14, LINE: a line has a stiffness above 0 and a length not below 0", record.span)
-                    .label("stiffness in columns 31-40, unstretched length in 41-50"),
+                Diagnostic::error(
+                    "deck 14, LINE: a line has a stiffness above 0 and a length not below 0",
+                    record.span,
+                )
+                .label("stiffness in columns 31-40, unstretched length in 41-50"),
             );
         }
         let ends = Ends {
@@ -269,7 +275,9 @@ impl Walk {
         if found != last.announced.value {
             let key = format!("sections {}", properties.len());
             let message = format!("deck 14, COMP: {} sections are announced, {found} follow", last.announced.value);
-            remarks.once(&key, || Diagnostic::error(message, last.announced.span).label("number of sections, columns 26-30"));
+            remarks.once(&key, || {
+                Diagnostic::error(message, last.announced.span).label("number of sections, columns 26-30")
+            });
         }
     }
 
@@ -277,7 +285,8 @@ impl Walk {
         let keyword = record.keyword.as_str();
         let value = |column: usize| record.real(column).value;
         if keyword == "ECAH" {
-            let resistance = Resistance { added_mass: value(31), drag: value(51), diameter: value(61), inline: value(71) };
+            let resistance =
+                Resistance { added_mass: value(31), drag: value(51), diameter: value(61), inline: value(71) };
             self.resistance = Some(resistance);
         }
         let Some(Property::Composite(composite)) = properties.last_mut() else {
@@ -326,8 +335,11 @@ fn composite(record: &Record, remarks: &mut Remarks) -> Composite {
     let announced = record.int(26);
     if !(1..=MOST_SECTIONS).contains(&announced.value) {
         remarks.add(
-            Diagnostic::error(format!("deck 14, COMP, columns 26-30: {} is no number of sections", announced.value), announced.span)
-                .label(format!("1 to {MOST_SECTIONS} belongs here")),
+            Diagnostic::error(
+                format!("deck 14, COMP, columns 26-30: {} is no number of sections", announced.value),
+                announced.span,
+            )
+            .label(format!("1 to {MOST_SECTIONS} belongs here")),
         );
     }
     if points.0 < 1 || points.1 < 1 || points.0.saturating_mul(points.1) > MOST_POINTS {
@@ -349,7 +361,10 @@ fn composite(record: &Record, remarks: &mut Remarks) -> Composite {
 fn ecat(record: &Record, resistance: Option<Resistance>) -> Result<Section, Box<Diagnostic>> {
     let (mass, length) = (record.real(31), record.real(71));
     if mass.value <= 0.0 {
-        return Err(Diagnostic::error("deck 14, ECAT, columns 31-40: a section has a mass a length above 0", mass.span));
+        return Err(Diagnostic::error(
+            "deck 14, ECAT, columns 31-40: a section has a mass a length above 0",
+            mass.span,
+        ));
     }
     if length.value < 1.0 {
         return Err(Diagnostic::error("deck 14, ECAT, columns 71-80: a section is at least 1 long", length.span));

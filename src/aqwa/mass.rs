@@ -49,10 +49,11 @@ impl Deck {
                 found.kinds.push(KindMass { shape, count: of.len(), mass });
             }
         }
-        found.mass = pieces.iter().map(|piece| piece.mass).sum();
+        found.mass = pieces.iter().fold(0.0, |sum, piece| sum + piece.mass);
         if found.mass > 0.0 {
-            found.centre =
-                std::array::from_fn(|i| pieces.iter().map(|piece| piece.mass * piece.centre[i]).sum::<f64>() / found.mass);
+            found.centre = std::array::from_fn(|i| {
+                pieces.iter().map(|piece| piece.mass * piece.centre[i]).sum::<f64>() / found.mass
+            });
         }
         for piece in &pieces {
             let arm: [f64; 3] = std::array::from_fn(|i| piece.centre[i] - found.centre[i]);

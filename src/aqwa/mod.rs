@@ -58,7 +58,7 @@ use job::Job;
 use mooring::Mooring;
 use nodes::Nodes;
 use printing::Printing;
-use properties::{Geometry, Global, Materials};
+use properties::{Geometries, Geometry, Global, Materials};
 use reader::{Cards, Reader};
 use run::{Multipliers, Start, Steps};
 use surroundings::{Held, Surroundings};
@@ -79,7 +79,7 @@ pub struct Deck {
     /// Deck 3.
     pub materials: Materials,
     /// Deck 4.
-    pub geometries: Vec<Geometry>,
+    pub geometries: Geometries,
     /// Deck 5.
     pub global: Global,
     /// Decks 6 to 10, one entry a structure.
@@ -118,7 +118,7 @@ pub struct Reading {
 impl Deck {
     /// A geometry group by the kind of element it is for and its number.
     pub fn geometry(&self, shape: Shape, group: i64) -> Option<&Geometry> {
-        self.geometries.iter().find(|geometry| geometry.shape == shape && geometry.group == group)
+        self.geometries.get(&(shape, group))
     }
 
     /// A structure by its number.
@@ -173,6 +173,7 @@ pub fn read(sources: &Sources, id: SourceId) -> Reading {
         let warning = Diagnostic::warning("what follows the last deck is not read", line.whole());
         reader.remarks.add(warning);
     }
+    reader.tell_blanks();
     checks::check(&deck, &mut reader.remarks);
     let failed = reader.remarks.failed();
     Reading { deck, messages: reader.remarks.into_list(), failed }

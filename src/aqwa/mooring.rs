@@ -22,7 +22,12 @@ pub const LAYOUTS: &[Layout] = &[
     Layout::new("TEIG", &[int("number of modes", 11)]),
     Layout::new(
         "TFAT",
-        &[num("reserved", 31), num("stress concentration factor", 41), num("S-N intercept", 51), num("S-N slope m", 61)],
+        &[
+            num("reserved", 31),
+            num("stress concentration factor", 41),
+            num("S-N intercept", 51),
+            num("S-N slope m", 61),
+        ],
     ),
     Layout::new("TPSH", &[int("hours", 11), num("hours", 31)]),
     Layout::new("TSLK", &[num("time", 31)]),
@@ -49,7 +54,10 @@ pub const LAYOUTS: &[Layout] = &[
     Layout::new(
         "LNDW",
         &[
-            ENDS[0], ENDS[1], ENDS[2], ENDS[3],
+            ENDS[0],
+            ENDS[1],
+            ENDS[2],
+            ENDS[3],
             num("stiffness", 31),
             num("start length", 41),
             num("end length", 51),
@@ -61,7 +69,10 @@ pub const LAYOUTS: &[Layout] = &[
     Layout::assumed(
         "WNCH",
         &[
-            ENDS[0], ENDS[1], ENDS[2], ENDS[3],
+            ENDS[0],
+            ENDS[1],
+            ENDS[2],
+            ENDS[3],
             num("tension", 31),
             num("length", 41),
             num("friction winding in", 51),
@@ -121,10 +132,17 @@ pub const LAYOUTS: &[Layout] = &[
     Layout::refused("FILE", UNSEEN),
 ];
 
-const SPRING: &[Slot] =
-    &[int("1 for a towed tether, blank for an installed one", 11), num("stiffness 1", 31), num("stiffness 2", 41), num("stiffness 3", 51)];
+const SPRING: &[Slot] = &[
+    int("1 for a towed tether, blank for an installed one", 11),
+    num("stiffness 1", 31),
+    num("stiffness 2", 41),
+    num("stiffness 3", 51),
+];
 const NON_LINEAR: &[Slot] = &[
-    ENDS[0], ENDS[1], ENDS[2], ENDS[3],
+    ENDS[0],
+    ENDS[1],
+    ENDS[2],
+    ENDS[3],
     num("winch tension", 31),
     num("unstretched length", 41),
     num("friction winding in", 51),

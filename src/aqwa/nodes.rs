@@ -29,11 +29,8 @@ const SLOTS: &[super::layout::Slot] = &[
 const UNSEEN: &str = "the columns of this card are published nowhere; give the nodes one by one";
 
 /// Cards of deck 1.
-pub const LAYOUTS: &[Layout] = &[
-    Layout::new("", SLOTS),
-    Layout::refused("STRC", UNSEEN),
-    Layout::refused("NODE", UNSEEN),
-];
+pub const LAYOUTS: &[Layout] =
+    &[Layout::new("", SLOTS), Layout::refused("STRC", UNSEEN), Layout::refused("NODE", UNSEEN)];
 
 /// A node of deck 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,7 +65,10 @@ pub fn read(records: &[Record], remarks: &mut Remarks) -> Nodes {
             let position = std::array::from_fn(|axis| from[axis].value + k as f64 * by[axis].value);
             if number <= 0 || position.iter().any(|x: &f64| !x.is_finite()) {
                 let message = format!("deck 1: generation from node {} leads to node {number}", first.value);
-                remarks.add(Diagnostic::error(message, record.span).label("numbers from 1 on and finite coordinates are wanted"));
+                remarks.add(
+                    Diagnostic::error(message, record.span)
+                        .label("numbers from 1 on and finite coordinates are wanted"),
+                );
                 break;
             }
             if let Some(earlier) = nodes.get(&number) {

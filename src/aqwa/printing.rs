@@ -84,9 +84,8 @@ pub struct Printing {
 impl Printing {
     /// Whether a parameter of a structure is printed, given whether it usually is.
     pub fn prints(&self, structure: i64, parameter: i64, usual: bool) -> bool {
-        let fits = |s: &&Switch| {
-            s.parameter.value == parameter && (s.structure.value == structure || s.structure.value == 0)
-        };
+        let fits =
+            |s: &&Switch| s.parameter.value == parameter && (s.structure.value == structure || s.structure.value == 0);
         self.switches.iter().rfind(fits).map_or(usual, |switch| switch.on)
     }
 }
@@ -101,8 +100,11 @@ pub fn read(records: &[Record], remarks: &mut Remarks) -> Printing {
         let counts = matches!(keyword, "PREV" | "TPRV" | "TGRV" | "TSTS" | "TSTF" | "GREV" | "PPRV");
         if counts && first.value <= 0 && first.given {
             remarks.add(
-                Diagnostic::error(format!("deck 18, {keyword}, columns 11-15: {} is no number of steps", first.value), first.span)
-                    .label("a whole number above 0 belongs here"),
+                Diagnostic::error(
+                    format!("deck 18, {keyword}, columns 11-15: {} is no number of steps", first.value),
+                    first.span,
+                )
+                .label("a whole number above 0 belongs here"),
             );
             continue;
         }

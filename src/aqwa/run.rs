@@ -12,12 +12,8 @@ const SIX: &[Slot] = &[num("X", 21), num("Y", 31), num("Z", 41), num("RX", 51), 
 const SLOW: &str = "slow drift positions are not read apart from the total ones";
 
 /// Cards of deck 15; `n` stands for the number of the structure.
-pub const STARTS: &[Layout] = &[
-    Layout::new("POSn", SIX),
-    Layout::new("VELn", SIX),
-    Layout::refused("SLPn", SLOW),
-    Layout::refused("SLVn", SLOW),
-];
+pub const STARTS: &[Layout] =
+    &[Layout::new("POSn", SIX), Layout::new("VELn", SIX), Layout::refused("SLPn", SLOW), Layout::refused("SLVn", SLOW)];
 
 /// Cards of deck 16.
 pub const STEPS: &[Layout] = &[
@@ -59,6 +55,9 @@ pub struct Steps {
     pub span: Span,
 }
 
+/// Most structures of a deck.
+pub const MOST_STRUCTURES: i64 = 50;
+
 /// Most time steps of a run.
 pub const MOST_STEPS: i64 = 10_000_000;
 
@@ -95,18 +94,21 @@ pub fn read_starts(records: &[Record], remarks: &mut Remarks) -> Vec<Start> {
 /// The time steps of the cards of deck 16.
 pub fn read_steps(records: &[Record], remarks: &mut Remarks) -> Option<Steps> {
     let record = records.last()?;
-    let steps =
-        Steps { count: record.int(16), step: record.real(21), start: record.real(31).value, span: record.span };
+    let steps = Steps { count: record.int(16), step: record.real(21), start: record.real(31).value, span: record.span };
     if !(1..=MOST_STEPS).contains(&steps.count.value) {
         remarks.add(
-            Diagnostic::error(format!("deck 16, TIME, columns 16-20: {} steps cannot be run", steps.count.value), steps.count.span)
-                .label(format!("number of steps, 1 to {MOST_STEPS}")),
+            Diagnostic::error(
+                format!("deck 16, TIME, columns 16-20: {} steps cannot be run", steps.count.value),
+                steps.count.span,
+            )
+            .label(format!("number of steps, 1 to {MOST_STEPS}")),
         );
         return None;
     }
     if steps.step.value <= 0.0 {
         remarks.add(
-            Diagnostic::error("deck 16, TIME, columns 21-30: a time step is above 0", steps.step.span).label("time step"),
+            Diagnostic::error("deck 16, TIME, columns 21-30: a time step is above 0", steps.step.span)
+                .label("time step"),
         );
         return None;
     }
@@ -118,6 +120,13 @@ pub fn read_multipliers(records: &[Record], remarks: &mut Remarks) -> Vec<Multip
     let mut list: Vec<Multipliers> = Vec::new();
     for record in records {
         let (structure, factor) = (record.int(11), record.real(21));
+        if !(1..=MOST_STRUCTURES).contains(&structure.value) {
+            let message = format!("deck 17, {}, columns 11-15: {} is no structure", record.keyword, structure.value);
+            remarks.add(
+                Diagnostic::error(message, structure.span).label("the number of a structure of deck 2 belongs here"),
+            );
+            continue;
+        }
         if factor.value < 0.0 {
             let message = format!("deck 17, {}, columns 21-30: a multiplier is not below 0", record.keyword);
             remarks.add(Diagnostic::error(message, factor.span));

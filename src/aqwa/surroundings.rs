@@ -85,9 +85,12 @@ pub fn read(records: &[Record], remarks: &mut Remarks) -> Surroundings {
                     && height.value <= below.height
                 {
                     remarks.add(
-                        Diagnostic::error("deck 11, CPRF, columns 11-20: a profile goes from the bottom upwards", height.span)
-                            .label("a Z above that of the card before belongs here")
-                            .other(below.span, "the card before"),
+                        Diagnostic::error(
+                            "deck 11, CPRF, columns 11-20: a profile goes from the bottom upwards",
+                            height.span,
+                        )
+                        .label("a Z above that of the card before belongs here")
+                        .other(below.span, "the card before"),
                     );
                     continue;
                 }
@@ -124,8 +127,11 @@ pub fn read_constraints(records: &[Record], remarks: &mut Remarks) -> Vec<Held> 
             list.push(Held { structure, freedom });
         } else {
             remarks.add(
-                Diagnostic::error(format!("deck 12, DACF, columns 16-20: {} is no freedom", freedom.value), freedom.span)
-                    .label("1 to 6 belongs here: X, Y, Z, RX, RY, RZ"),
+                Diagnostic::error(
+                    format!("deck 12, DACF, columns 16-20: {} is no freedom", freedom.value),
+                    freedom.span,
+                )
+                .label("1 to 6 belongs here: X, Y, Z, RX, RY, RZ"),
             );
         }
     }

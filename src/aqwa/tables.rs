@@ -65,10 +65,13 @@ impl Deck {
         for name in ["1", "2", "3", "4", "5", "6"] {
             table = table.column("Geometric Parameter", name, Dim::None, FIVE);
         }
-        table = table
-            .column("Drag", "Cd", Dim::None, Digits::Decimals(2))
-            .column("Added Mass", "Cm", Dim::None, Digits::Decimals(2));
-        for (index, geometry) in self.geometries.iter().enumerate() {
+        table = table.column("Drag", "Cd", Dim::None, Digits::Decimals(2)).column(
+            "Added Mass",
+            "Cm",
+            Dim::None,
+            Digits::Decimals(2),
+        );
+        for (index, geometry) in self.geometries.values().enumerate() {
             let mut row: Vec<Cell> =
                 vec![(index + 1).into(), Cell::Integer(geometry.group), geometry.shape.keyword().into()];
             row.extend(geometry.parameters.map(|field| Cell::Number(field.value)));

@@ -14,6 +14,10 @@ use crate::language::source::Span;
 
 /// Stiffness of an end spring that is not given (A.2).
 pub const STIFF: f64 = 1.0e15;
+/// Most elements of a tether (AQWA of later years has 24).
+const MOST_ELEMENTS: usize = 1000;
+/// Most tethers of a deck, as AQWA has 100 lines.
+const MOST_TETHERS: usize = 100;
 /// Most constraints of an installed tether (A.14).
 const MOST_CONSTRAINTS: usize = 5;
 
@@ -164,14 +168,19 @@ impl Builder {
                 let flag = record.int(11);
                 if !(0..=1).contains(&flag.value) {
                     let message = format!("deck 14, {}, columns 11-15: {} is no flag", record.keyword, flag.value);
-                    remarks.add(Diagnostic::error(message, flag.span).label("1 for a towed tether, blank for an installed one"));
+                    remarks.add(
+                        Diagnostic::error(message, flag.span).label("1 for a towed tether, blank for an installed one"),
+                    );
                 }
                 let spring = EndSpring { towed: flag.value == 1, stiffness: record.reals(31), span: record.span };
                 let place = if record.keyword == "TSPA" { &mut tether.anchor } else { &mut tether.vessel };
                 match place {
                     Some(earlier) => remarks.add(
-                        Diagnostic::error(format!("deck 14: a tether has only one {} card", record.keyword), record.span)
-                            .other(earlier.span, "given here first"),
+                        Diagnostic::error(
+                            format!("deck 14: a tether has only one {} card", record.keyword),
+                            record.span,
+                        )
+                        .other(earlier.span, "given here first"),
                     ),
                     None => *place = Some(spring),
                 }
@@ -200,8 +209,11 @@ impl Builder {
                 tether.group = record.int(11).value;
                 if tether.group < 0 {
                     remarks.add(
-                        Diagnostic::error("deck 14, TEGR, columns 11-15: a number of tethers is not below 0", record.span)
-                            .label("number of identical tethers"),
+                        Diagnostic::error(
+                            "deck 14, TEGR, columns 11-15: a number of tethers is not below 0",
+                            record.span,
+                        )
+                        .label("number of identical tethers"),
                     );
                 }
             }
@@ -209,14 +221,20 @@ impl Builder {
             "TIFL" => tether.fluid = (value(31), value(41)),
             "TIMP" => {
                 if value(31) < 0.0 || value(41) < 0.0 {
-                    remarks.add(Diagnostic::error("deck 14, TIMP: stress factor and half life are not below 0", record.span));
+                    remarks.add(Diagnostic::error(
+                        "deck 14, TIMP: stress factor and half life are not below 0",
+                        record.span,
+                    ));
                 }
                 tether.impact = Some((value(31), value(41)));
             }
             "TLOW" => {
                 tether.lower_stop = value(31);
                 if tether.lower_stop < 0.0 {
-                    remarks.add(Diagnostic::error("deck 14, TLOW, columns 31-40: a distance below the anchor is not below 0", record.span));
+                    remarks.add(Diagnostic::error(
+                        "deck 14, TLOW, columns 31-40: a distance below the anchor is not below 0",
+                        record.span,
+                    ));
                 }
             }
             keyword => {
@@ -230,7 +248,10 @@ impl Builder {
                     let message = format!("deck 14, {keyword}: a tether has at most {MOST_CONSTRAINTS} constraints");
                     remarks.add(Diagnostic::error(message, record.span));
                 } else if value(31) < 0.0 {
-                    remarks.add(Diagnostic::error("deck 14, TLAV, columns 31-40: a gap is not below 0", record.real(31).span));
+                    remarks.add(Diagnostic::error(
+                        "deck 14, TLAV, columns 31-40: a gap is not below 0",
+                        record.real(31).span,
+                    ));
                 } else {
                     tether.constraints.push((kind, value(31), record.span));
                 }
@@ -259,7 +280,12 @@ impl Builder {
                     .other(before.node2.span, "where the element before ends"),
             );
         }
-        self.description.elements.push(element);
+        if self.description.elements.len() < MOST_ELEMENTS {
+            self.description.elements.push(element);
+        } else {
+            let message = format!("deck 14, TELM: a tether has at most {MOST_ELEMENTS} elements");
+            remarks.once("many elements", || Diagnostic::error(message, record.span));
+        }
     }
 
     /// Closes the tether with its TETH card.
@@ -278,6 +304,11 @@ impl Builder {
             );
         }
         let whole = std::mem::take(self);
+        if earlier.len() == MOST_TETHERS {
+            let message = format!("deck 14, TETH: a deck has at most {MOST_TETHERS} tethers");
+            remarks.once("many tethers", || Diagnostic::error(message, record.span));
+            return None;
+        }
         let (description, copy_of) = match (whole.first, earlier.last()) {
             (Some(_), _) if whole.description.elements.is_empty() => {
                 remarks.add(
@@ -345,20 +376,20 @@ fn check_towed(keyword: &str, spring: Option<EndSpring>, at: Span, remarks: &mut
         remarks.add(Diagnostic::warning(message, at).help(help));
         return;
     };
-    for stiffness in spring.stiffness {
-        if stiffness.value < 0.0 {
-            remarks.add(Diagnostic::error(format!("deck 14, {keyword}: a stiffness is not below 0"), stiffness.span));
-        } else if stiffness.value == 0.0 {
-            let message = format!("deck 14, {keyword}: a zero spring of a towed tether is taken as the default, 1.0E15");
-            remarks.add(Diagnostic::warning(message, stiffness.span).help(help));
-        }
+    if let Some(negative) = spring.stiffness.iter().find(|stiffness| stiffness.value < 0.0) {
+        remarks.add(Diagnostic::error(format!("deck 14, {keyword}: a stiffness is not below 0"), negative.span));
+    }
+    if let Some(zero) = spring.stiffness.iter().find(|stiffness| stiffness.value == 0.0) {
+        let message = format!("deck 14, {keyword}: a zero spring of a towed tether is taken as the default, 1.0E15");
+        remarks.add(Diagnostic::warning(message, zero.span).help(help));
     }
 }
 
 fn check_installed(keyword: &str, spring: Option<EndSpring>, at: Span, remarks: &mut Remarks) {
     let Some(spring) = spring else {
         remarks.once(&format!("{keyword} missing"), || {
-            let message = format!("deck 14: no {keyword} card; 1.0E15 is taken for the inline and both rotational springs");
+            let message =
+                format!("deck 14: no {keyword} card; 1.0E15 is taken for the inline and both rotational springs");
             Diagnostic::remark(message, at).help("so for every installed tether without the card (A.2)")
         });
         return;

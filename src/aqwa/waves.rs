@@ -15,6 +15,8 @@ use crate::language::diagnostic::Diagnostic;
 use crate::language::source::Span;
 use std::f64::consts::PI;
 
+/// Most spectra of a deck.
+const MOST_SPECTRA: usize = 20;
 /// Most spectral lines of a spectrum.
 pub const MOST_LINES: i64 = 10_000;
 /// Spectral lines when NSPL is not given (assumed; newer versions of AQWA have 200).
@@ -47,7 +49,10 @@ pub const SPECTRA: &[Layout] = &[
     Layout::new("PSMZ", &[START, FINISH, num("significant height", 41), num("zero crossing period", 51)]),
     Layout::new("JONS", &[START, FINISH, num("gamma", 41), num("alpha", 51), num("peak frequency", 61)]),
     Layout::new("JONH", &[START, FINISH, num("gamma", 41), num("significant height", 51), num("peak frequency", 61)]),
-    Layout::new("GAUS", &[START, FINISH, num("sigma (rad/s)", 41), num("significant height", 51), num("peak frequency", 61)]),
+    Layout::new(
+        "GAUS",
+        &[START, FINISH, num("sigma (rad/s)", 41), num("significant height", 51), num("peak frequency", 61)],
+    ),
     Layout::assumed("UDEF", &[num("frequency", 21), num("ordinate", 31)]),
     Layout::new("CURR", &[num("speed", 21), num("direction", 31)]),
     Layout::new("WIND", &[num("speed", 21), num("direction", 31), num("reference height", 41)]),
@@ -206,8 +211,11 @@ pub fn read_spectra(records: &[Record], remarks: &mut Remarks) -> Waves {
             "SPDN" => {
                 if let Some(spread) = [record.int(11), record.int(16)].into_iter().find(|field| field.value != 0) {
                     remarks.add(
-                        Diagnostic::error("deck 13, SPDN, columns 11-20: directional spreading is not read", spread.span)
-                            .label("leave these columns blank"),
+                        Diagnostic::error(
+                            "deck 13, SPDN, columns 11-20: directional spreading is not read",
+                            spread.span,
+                        )
+                        .label("leave these columns blank"),
                     );
                 }
                 now.direction = third(21);
@@ -223,7 +231,11 @@ pub fn read_spectra(records: &[Record], remarks: &mut Remarks) -> Waves {
             }
             "CURR" | "WIND" => {
                 let flow = stream(record);
-                if record.keyword == "CURR" { now.current = flow } else { now.wind = flow }
+                if record.keyword == "CURR" {
+                    now.current = flow
+                } else {
+                    now.wind = flow
+                }
                 continue;
             }
             "TOWS" => {
@@ -251,6 +263,11 @@ pub fn read_spectra(records: &[Record], remarks: &mut Remarks) -> Waves {
             );
         }
         wanted(record, remarks);
+        if list.len() == MOST_SPECTRA {
+            let message = format!("deck 13: a deck has at most {MOST_SPECTRA} spectra");
+            remarks.once("many spectra", || Diagnostic::error(message, record.span));
+            continue;
+        }
         list.push(Spectrum { form, range, span: record.span, ..now.clone() });
     }
     if list.is_empty() {
@@ -268,7 +285,8 @@ fn wanted(record: &Record, remarks: &mut Remarks) {
     for column in columns {
         let field = record.real(*column);
         if field.value <= 0.0 {
-            let message = format!("deck 13, {}, columns {column}-{}: a value above 0 is wanted", record.keyword, column + 9);
+            let message =
+                format!("deck 13, {}, columns {column}-{}: a value above 0 is wanted", record.keyword, column + 9);
             remarks.add(Diagnostic::error(message, field.span));
         }
     }
@@ -291,8 +309,11 @@ fn towing(record: &Record, remarks: &mut Remarks) -> Option<(f64, f64)> {
     let (speed, direction) = (record.real(31), record.real(41));
     if direction.value.abs() > 30.0 {
         remarks.add(
-            Diagnostic::error("deck 13, TOWS, columns 41-50: the tow is within 30 degrees of the tether", direction.span)
-                .label("-30 to 30"),
+            Diagnostic::error(
+                "deck 13, TOWS, columns 41-50: the tow is within 30 degrees of the tether",
+                direction.span,
+            )
+            .label("-30 to 30"),
         );
     }
     Some((speed.value, direction.value))
@@ -303,12 +324,16 @@ fn phases(list: &mut Vec<f64>, record: &Record, remarks: &mut Remarks) {
     let next = i64::try_from(list.len()).unwrap_or(i64::MAX).saturating_add(1);
     if first.given && first.value != next {
         remarks.add(
-            Diagnostic::error(format!("deck 13, PHAS, columns 16-20: the next phase is that of line {next}"), first.span)
-                .label("phases are given line by line, six a card"),
+            Diagnostic::error(
+                format!("deck 13, PHAS, columns 16-20: the next phase is that of line {next}"),
+                first.span,
+            )
+            .label("phases are given line by line, six a card"),
         );
         return;
     }
-    let given: Vec<f64> = record.reals::<6>(21).iter().take_while(|field| field.given).map(|field| field.value).collect();
+    let given: Vec<f64> =
+        record.reals::<6>(21).iter().take_while(|field| field.given).map(|field| field.value).collect();
     if next.saturating_add(6) > MOST_LINES {
         let message = format!("deck 13, PHAS: a spectrum has at most {MOST_LINES} lines");
         remarks.once("too many phases", || Diagnostic::error(message, record.span));
