@@ -5,9 +5,10 @@
 
 use proptest::prelude::*;
 use windlass::aqwa::elements::Shape;
+use windlass::aqwa::end_springs::STIFF;
 use windlass::aqwa::job::Program;
 use windlass::aqwa::lines::{LineKind, Property};
-use windlass::aqwa::tethers::{Constraint, Fatigue, STIFF};
+use windlass::aqwa::tethers::{Constraint, Fatigue};
 use windlass::aqwa::waves::{Form, Waves};
 use windlass::aqwa::{Deck, Reading, is_deck, read};
 use windlass::language::diagnostic::{Diagnostic, Severity};
@@ -596,6 +597,62 @@ fn decks_may_stop_at_18_and_restart_stages_leave_decks_out() {
     }
     let early = fixed[..stage_4].replace("OPTIONS END", "OPTIONS REST END\nRESTART   1  3");
     assert_eq!(deck(&early).nodes.len(), 69);
+}
+
+#[test]
+fn the_towed_example_becomes_one_for_naut_as_8_1_22_says() {
+    let text = script("he01.dat").replace("JOB HE01  DRIF  WFRQ", "JOB HE01  NAUT");
+    let (start, end) = (text.find("    13    SPEC").unwrap(), text.find("    14    MOOR").unwrap());
+    for (cards, still) in [
+        ("    13    WAVE\n    13WAMP                 3.0\n END13PERD                10.0\n", false),
+        ("    13    NONE\n", true),
+    ] {
+        let text = format!("{}{cards}{}", &text[..start], &text[end..]);
+        let text = text.replace("    18TSTS  100\n    18TSTF 1501\n", "");
+        let got = reading(&text);
+        assert_eq!(got.messages, []);
+        assert_eq!(got.deck.job.program, Program::Naut);
+        assert_eq!(got.deck.waves == Waves::Still, still);
+        assert_eq!(got.deck.statistics(), (1, 1501));
+    }
+    assert_eq!(deck(&script("he01.dat")).statistics(), (100, 1501));
+}
+
+#[test]
+fn a_data_run_only_checks() {
+    assert!(deck(&script("mint.dat")).job.runs());
+    let checked = deck(&script("mint.dat").replace("OPTIONS END", "OPTIONS DATA\nOPTIONS END"));
+    assert!(!checked.job.runs());
+    assert_eq!(checked.mooring.tethers.len(), 4);
+}
+
+#[test]
+fn what_is_printed_of_tethers_is_said_where_it_is_not_what_was_asked() {
+    let said = |from: &str, to: &str| {
+        let reading = reading(&edited(&script("mint.dat"), from, to));
+        assert!(!reading.failed);
+        reading.messages.iter().map(|m| m.message.clone()).collect::<Vec<_>>().join("\n")
+    };
+    // four nodes of four freedoms
+    assert!(!said("TEIG   16", "TEIG   15").contains("TEIG"));
+    assert!(said("TEIG   16", "TEIG   17").contains("a tether has at most 16 modes here"));
+    assert!(said("    18PTEN    1\n", "").contains("no PTEN card: nothing is printed of the tethers"));
+    assert!(
+        said("    18PTEN    1\n", "    18PTEN    1\n    18TPRV    2\n").contains("TPRV of deck 18 overrides this card")
+    );
+}
+
+#[test]
+fn a_file_that_is_no_deck_is_refused_within_bounds() {
+    let long = edited(&script("mint.dat"), "    14TSLK", &format!("    14{}\n    14TSLK", "(1)".repeat(1000)));
+    assert_eq!(refused(&long).0.message, "a line of 3006 characters is no card");
+    let many = format!("JOB MINT  NAUT\nOPTIONS END\n    01    COOR\n{}", "x\n".repeat(300_000));
+    let reading = reading(&many);
+    assert!(reading.failed && reading.messages.len() == 201);
+    assert!(reading.messages[200].message.ends_with("more messages about this deck are not shown"));
+    let tethers = "    14TETH    1 1010    0 9010\n".repeat(200);
+    let text = edited(&script("mint.dat"), "    14TETH    1 1010    0 9010\n", &tethers);
+    assert_eq!(refused(&text).0.message, "deck 14, TETH: a deck has at most 100 tethers");
 }
 
 /// What is said of a deck with an edit: the first error, its line and column.

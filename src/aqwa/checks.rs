@@ -26,6 +26,7 @@ pub fn check(deck: &Deck, remarks: &mut Remarks) {
     }
     towed(deck, whole, remarks);
     run(deck, remarks);
+    output(deck, remarks);
 }
 
 fn missing(what: String, span: Span, remarks: &mut Remarks) {
@@ -306,5 +307,35 @@ fn run(deck: &Deck, remarks: &mut Remarks) {
             }
         }
         _ => {}
+    }
+}
+
+/// What is asked to be printed of the tethers.
+fn output(deck: &Deck, remarks: &mut Remarks) {
+    let Some(tether) = deck.mooring.tethers.first() else { return };
+    if let Some(modes) = deck.mooring.modes {
+        let most = 4 * deck.mooring.tethers.iter().map(Tether::nodes).max().unwrap_or(0);
+        if i64::try_from(most).is_ok_and(|most| modes.value > most) {
+            remarks.add(
+                Diagnostic::remark(
+                    format!("deck 14, TEIG: a tether has at most {most} modes here; all are printed"),
+                    modes.span,
+                )
+                .help("there are four freedoms at each node (A.3)"),
+            );
+        }
+    }
+    if deck.job.has_deck(18) && deck.printing.tensions.is_empty() {
+        remarks.add(
+            Diagnostic::warning("deck 18 has no PTEN card: nothing is printed of the tethers", tether.span)
+                .help("PTEN, structure in columns 11-15, asks for it (8.1.18)"),
+        );
+    }
+    let slack = deck.mooring.slack_time.filter(|time| time.value > 0.0);
+    if let (Some(slack), Some(every)) = (slack, deck.printing.tethers) {
+        remarks.add(
+            Diagnostic::remark("deck 14, TSLK: TPRV of deck 18 overrides this card", slack.span)
+                .other(every.span, "TPRV"),
+        );
     }
 }

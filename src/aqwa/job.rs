@@ -99,6 +99,12 @@ impl Job {
         self.options.iter().any(|(option, _)| option == name)
     }
 
+    /// Whether the motion is run (stage 5): not with the option DATA, which only checks the data.
+    pub fn runs(&self) -> bool {
+        let (start, finish) = self.stages;
+        start <= 5 && finish >= 5 && !self.option("DATA")
+    }
+
     /// Whether the cards of a deck stand in the file: decks 1 to 5 belong to stage 1, 6 to 8 to stage 2, the others to
     /// stage 4.
     pub fn has_deck(&self, deck: u8) -> bool {

@@ -31,6 +31,7 @@ pub mod card;
 mod checks;
 mod echo;
 pub mod elements;
+pub mod end_springs;
 pub mod hydrostatics;
 pub mod job;
 mod joined;
@@ -148,6 +149,13 @@ impl Deck {
             added_mass: 1.0,
             slam: 0.0,
         })
+    }
+
+    /// First and last time step of the statistics: TSTS and TSTF of deck 18, else all steps.
+    pub fn statistics(&self) -> (i64, i64) {
+        let last = self.steps.map_or(1, |steps| steps.count.value);
+        let given = |field: Option<card::Field<i64>>, usual: i64| field.map_or(usual, |field| field.or(usual));
+        (given(self.printing.first, 1), given(self.printing.last, last).min(last))
     }
 
     /// The units of the deck.
