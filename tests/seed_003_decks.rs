@@ -293,6 +293,52 @@ fn the_installed_example_is_what_chapter_8_says() {
 }
 
 #[test]
+fn attachments_lengths_and_spans_at_the_start_are_those_of_the_listings() {
+    let near = |got: Option<[f64; 3]>, want: [f64; 3]| got.unwrap().iter().zip(want).all(|(a, b)| (a - b).abs() < 1e-9);
+    let installed = deck(&script("mint.dat"));
+    let platform = &installed.structures[0];
+    for (node, x, y) in [(1010, -98.63, 52.63), (1020, -98.63, -52.63), (1030, 6.63, -52.63), (1040, 6.63, 52.63)] {
+        assert!(near(installed.placed(platform, node), [x, y, -68.15]));
+    }
+    // POSITION OF USER-REQUESTED NODES
+    assert!(near(installed.placed(platform, 112), [6.73, 52.73, -68.15]));
+    for tether in &installed.mooring.tethers {
+        // three decimals are printed
+        assert!((installed.unstretched(tether).unwrap() - 265.406).abs() < 6e-4);
+        assert!((installed.span(tether).unwrap() - 265.599).abs() < 6e-4);
+    }
+    let towed = deck(&script("he01.dat"));
+    let tether = &towed.mooring.tethers[0];
+    assert!(near(towed.placed(&towed.structures[0], 999), [0.0, 0.0, -0.5]));
+    assert!((towed.unstretched(tether).unwrap() - 266.486).abs() < 1e-9);
+    assert!((towed.span(tether).unwrap() - 266.486).abs() < 1e-9);
+    // turned by 90 degrees about Z, then moved
+    let text = edited(&script("mint.dat"), "0.000     0.000       0.0\n END15", "0.000     0.000      90.0\n END15");
+    let turned = deck(&text);
+    assert!(near(turned.placed(&turned.structures[0], 112), [-98.73, 52.73, -68.15]));
+    // 8 m higher the tethers are 3 % too short
+    let high = reading(&edited(&script("mint.dat"), "   -17.400", "    -9.400"));
+    let said = high.messages.iter().find(|m| m.message.contains("spans")).unwrap();
+    assert_eq!(said.severity, Severity::Warning);
+    assert!(said.message.starts_with("deck 14, TETH: this tether is 265.406 long and spans 273."), "{}", said.message);
+}
+
+#[test]
+fn the_identifier_of_a_card_is_the_users_own() {
+    let own: String = script("mint.dat")
+        .lines()
+        .map(|line| match (line.get(..4), line.get(6..)) {
+            (Some(end @ ("    " | " END")), Some(rest)) => format!("{end}XY{rest}\n"),
+            _ => format!("{line}\n"),
+        })
+        .collect();
+    assert!(own.contains(" ENDXYTETH") && own.contains("    XY    COOR"));
+    let echo = |text: &str| format!("{:?}", deck(text).echo());
+    assert_eq!(echo(&own).replace("XY", "  "), echo(&own.replace("XY", "  ")));
+    assert_eq!(deck(&own).nodes.len(), 69);
+}
+
+#[test]
 fn tables_have_the_columns_of_the_listing() {
     let deck = deck(&script("mint.dat"));
     let tables = deck.data_tables().unwrap();
@@ -360,7 +406,7 @@ fn every_card_of_appendix_a_has_its_fields() {
 
 #[test]
 fn a_tether_without_cards_has_the_defaults_of_appendix_a() {
-    let elements = "    14TELM  104  103  101  101";
+    let elements = "    14TELM  104  103  101  101\n    14TELM  103  102  101  101\n    14TELM  102  101  101  101";
     let reading = reading(&moor(&[elements, "    14TFAT", " END14TETH    1 1010    0 9010"]));
     assert!(!reading.failed);
     let tether = &reading.deck.mooring.tethers[0];

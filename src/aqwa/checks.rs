@@ -6,6 +6,7 @@ use super::card::Field;
 use super::elements::Shape;
 use super::job::Program;
 use super::lines::LineKind;
+use super::placed;
 use super::remarks::Remarks;
 use super::tethers::Tether;
 use super::waves::Waves;
@@ -23,6 +24,7 @@ pub fn check(deck: &Deck, remarks: &mut Remarks) {
         }
         line_ends(deck, remarks);
         numbers_of_structures(deck, remarks);
+        placed::check(deck, remarks);
     }
     towed(deck, whole, remarks);
     run(deck, remarks);

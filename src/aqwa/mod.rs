@@ -40,6 +40,7 @@ pub mod lines;
 pub mod mass;
 pub mod mooring;
 pub mod nodes;
+mod placed;
 pub mod printing;
 pub mod properties;
 pub mod reader;
