@@ -39,28 +39,51 @@ pub struct Line<'a> {
     source: SourceId,
     /// Byte offset of the line in its source.
     start: usize,
-    /// Byte offset in the line of each column up to one past the last that is read.
-    columns: Vec<usize>,
+    /// Whether every character is one byte, so that columns are bytes.
+    ascii: bool,
 }
 
 /// The lines of a source that say something: no blank line, no comment (first character `*`, `!` or `/`).
-pub fn lines(source: &Source, id: SourceId) -> Vec<Line<'_>> {
-    let mut start = 0;
-    let mut list = Vec::new();
-    for whole in source.text.split('\n') {
-        let text = whole.trim_end();
-        if !text.is_empty() && !text.trim_start().starts_with(['*', '!', '/']) {
-            let columns = text.char_indices().map(|(at, _)| at).take(WIDTH + 1).collect();
-            list.push(Line { text, source: id, start, columns });
-        }
-        start += whole.len() + 1;
+#[derive(Clone, Debug)]
+pub struct Lines<'a> {
+    rest: &'a str,
+    start: usize,
+    source: SourceId,
+}
+
+impl<'a> Lines<'a> {
+    /// The lines of a source.
+    pub fn new(source: &'a Source, id: SourceId) -> Self {
+        Lines { rest: &source.text, start: 0, source: id }
     }
-    list
+}
+
+impl<'a> Iterator for Lines<'a> {
+    type Item = Line<'a>;
+
+    fn next(&mut self) -> Option<Line<'a>> {
+        while !self.rest.is_empty() {
+            let (whole, rest) = self.rest.split_once('\n').unwrap_or((self.rest, ""));
+            let start = self.start;
+            self.start += whole.len() + 1;
+            self.rest = rest;
+            let text = whole.trim_end();
+            if !text.is_empty() && !text.trim_start().starts_with(['*', '!', '/']) {
+                return Some(Line { text, source: self.source, start, ascii: text.is_ascii() });
+            }
+        }
+        None
+    }
 }
 
 impl<'a> Line<'a> {
     fn offset(&self, column: usize) -> usize {
-        self.columns.get(column.saturating_sub(1)).copied().unwrap_or(self.text.len())
+        let index = column.saturating_sub(1);
+        if self.ascii {
+            index.min(self.text.len())
+        } else {
+            self.text.char_indices().nth(index).map_or(self.text.len(), |(at, _)| at)
+        }
     }
 
     /// What stands in the columns `first` to `last`; shorter or empty where the line ends before.
@@ -96,7 +119,7 @@ impl<'a> Line<'a> {
 
     /// Whether the line goes on past the last column that is read.
     pub fn overlong(&self) -> bool {
-        self.columns.len() > WIDTH && !self.text.get(self.offset(WIDTH + 1)..).unwrap_or_default().trim().is_empty()
+        !self.text.get(self.offset(WIDTH + 1)..).unwrap_or_default().trim().is_empty()
     }
 
     /// Whether the line has tabs, which belong to no column.
@@ -213,7 +236,7 @@ mod tests {
     fn columns_are_characters_and_their_places_are_bytes() {
         let mut sources = Sources::default();
         let id = sources.add("a", "* comment\r\n\r\n    01\u{e9}\u{e9} 7\n", 1);
-        let lines = lines(sources.get(id).unwrap(), id);
+        let lines: Vec<Line<'_>> = Lines::new(sources.get(id).unwrap(), id).collect();
         assert_eq!(lines.len(), 1);
         assert_eq!(lines[0].columns(7, 8), "\u{e9}\u{e9}");
         assert_eq!(lines[0].columns(10, 10), "7");

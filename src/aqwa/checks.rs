@@ -6,6 +6,7 @@ use super::card::Field;
 use super::elements::Shape;
 use super::job::Program;
 use super::lines::LineKind;
+use super::placed;
 use super::remarks::Remarks;
 use super::tethers::Tether;
 use super::waves::Waves;
@@ -23,9 +24,11 @@ pub fn check(deck: &Deck, remarks: &mut Remarks) {
         }
         line_ends(deck, remarks);
         numbers_of_structures(deck, remarks);
+        placed::check(deck, remarks);
     }
     towed(deck, whole, remarks);
     run(deck, remarks);
+    output(deck, remarks);
 }
 
 fn missing(what: String, span: Span, remarks: &mut Remarks) {
@@ -255,6 +258,7 @@ fn nominal_vessel(deck: &Deck, depth: f64, remarks: &mut Remarks) {
     let (Some(structure), Some(known)) = (deck.structures.first(), deck.hydrostatics.first()) else { return };
     let weight = deck.mass_properties(structure).mass * deck.global.gravity;
     if let Some(buoyancy) = known.buoyancy
+        && weight > 0.0
         && (buoyancy.value - weight).abs() > 1e-3 * weight
     {
         remarks.add(
@@ -305,5 +309,35 @@ fn run(deck: &Deck, remarks: &mut Remarks) {
             }
         }
         _ => {}
+    }
+}
+
+/// What is asked to be printed of the tethers.
+fn output(deck: &Deck, remarks: &mut Remarks) {
+    let Some(tether) = deck.mooring.tethers.first() else { return };
+    if let Some(modes) = deck.mooring.modes {
+        let most = 4 * deck.mooring.tethers.iter().map(Tether::nodes).max().unwrap_or(0);
+        if i64::try_from(most).is_ok_and(|most| modes.value > most) {
+            remarks.add(
+                Diagnostic::remark(
+                    format!("deck 14, TEIG: a tether has at most {most} modes here; all are printed"),
+                    modes.span,
+                )
+                .help("there are four freedoms at each node (A.3)"),
+            );
+        }
+    }
+    if deck.job.has_deck(18) && deck.printing.tensions.is_empty() {
+        remarks.add(
+            Diagnostic::warning("deck 18 has no PTEN card: nothing is printed of the tethers", tether.span)
+                .help("PTEN, structure in columns 11-15, asks for it (8.1.18)"),
+        );
+    }
+    let slack = deck.mooring.slack_time.filter(|time| time.value > 0.0);
+    if let (Some(slack), Some(every)) = (slack, deck.printing.tethers) {
+        remarks.add(
+            Diagnostic::remark("deck 14, TSLK: TPRV of deck 18 overrides this card", slack.span)
+                .other(every.span, "TPRV"),
+        );
     }
 }

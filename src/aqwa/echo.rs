@@ -62,7 +62,8 @@ impl Deck {
 
 fn title(cards: &Cards) -> String {
     let deck = cards.deck;
-    let series = deck != 2 && HEADERS.iter().any(|(number, _, series)| *number == deck && *series);
+    // the listings number decks 6, 7, 8 and 10 by structure
+    let series = ![2, 9].contains(&deck) && HEADERS.iter().any(|(number, _, series)| *number == deck && *series);
     match cards.header.keyword.as_str() {
         "WAVE" => format!("DECK {deck}N"),
         _ if series => format!("DECK {deck}.{}", cards.header.structure.max(1)),

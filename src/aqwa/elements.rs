@@ -16,7 +16,7 @@ use crate::language::source::Span;
 pub const MOST_ELEMENTS: usize = 60_000;
 
 /// Kinds of element.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Shape {
     /// Morison tube between two nodes.
     Tube,
@@ -104,6 +104,11 @@ pub struct Structure {
 }
 
 impl Shape {
+    /// The kind of a keyword.
+    pub fn named(keyword: &str) -> Option<Shape> {
+        KINDS.iter().find(|(name, ..)| *name == keyword).map(|(_, shape, ..)| *shape)
+    }
+
     /// The keyword of the kind.
     pub fn keyword(self) -> &'static str {
         KINDS.iter().find(|(_, shape, ..)| *shape == self).map_or("", |(name, ..)| name)
@@ -209,7 +214,7 @@ fn groups(record: &Record) -> Result<(i64, Vec<Vec<f64>>), Box<Diagnostic>> {
         let inside = after.get(..close).unwrap_or_default();
         let numbers: Option<Vec<f64>> = inside.split(',').map(|word| real(word.trim())).collect();
         list.push(numbers.ok_or_else(wrong)?);
-        rest = after.get(close + 1..).unwrap_or_default().trim_start();
+        rest = after.get(close + 1..).unwrap_or_default().trim_start_matches([' ', ',']);
     }
     if rest.is_empty() { Ok((group, list)) } else { Err(wrong()) }
 }

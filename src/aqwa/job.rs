@@ -31,6 +31,8 @@ const PROGRAMS: &[(&str, Program)] = &[
     ("DRIF", Program::Drift),
     ("NAUT", Program::Naut),
 ];
+/// Most options that are kept; there are some sixty names.
+const MOST_OPTIONS: usize = 200;
 /// Codes of an analysis on the JOB line.
 const ANALYSES: &[&str] = &["WFRQ", "DRFT", "STAT", "DYNA", "FIXD"];
 
@@ -95,6 +97,12 @@ impl Job {
     /// Whether an option was given.
     pub fn option(&self, name: &str) -> bool {
         self.options.iter().any(|(option, _)| option == name)
+    }
+
+    /// Whether the motion is run (stage 5): not with the option DATA, which only checks the data.
+    pub fn runs(&self) -> bool {
+        let (start, finish) = self.stages;
+        start <= 5 && finish >= 5 && !self.option("DATA")
     }
 
     /// Whether the cards of a deck stand in the file: decks 1 to 5 belong to stage 1, 6 to 8 to stage 2, the others to
@@ -200,7 +208,9 @@ fn read_options(job: &mut Job, line: &Line<'_>, rest: &str, remarks: &mut Remark
             warning.help.extend(did_you_mean(&name, OPTIONS.iter().map(|(known, _)| *known)));
             remarks.add(warning);
         }
-        job.options.push((name, span));
+        if job.options.len() < MOST_OPTIONS {
+            job.options.push((name, span));
+        }
     }
     false
 }

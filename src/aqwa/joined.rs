@@ -6,9 +6,6 @@ use super::{Deck, elements, hydrostatics, mooring, nodes, printing, properties, 
 use crate::language::diagnostic::Diagnostic;
 use hydrostatics::Hydrostatics;
 
-/// Most structures of a deck.
-const MOST_STRUCTURES: usize = 50;
-
 /// Reads deck `number`, 1 to 20.
 pub fn read(deck: &mut Deck, number: u8, reader: &mut Reader<'_>) {
     match number {
@@ -77,7 +74,7 @@ fn single(deck: &mut Deck, number: u8, reader: &mut Reader<'_>) {
 /// Reads the decks ELM1, ELM2, .. up to FINI.
 fn structures(deck: &mut Deck, reader: &mut Reader<'_>) {
     let mut made = 0;
-    while deck.structures.len() < MOST_STRUCTURES {
+    while deck.structures.len() < run::MOST_STRUCTURES as usize {
         let next = reader.next_header();
         if !deck.structures.is_empty() && !next.is_some_and(|(number, _)| number == 2 || number == 0) {
             let here = reader.here();

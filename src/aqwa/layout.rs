@@ -106,12 +106,11 @@ impl Layout {
         format!("columns of {}: {fields}", if self.keyword.is_empty() { "this card" } else { self.keyword })
     }
 
-    /// The fields of a card with this face, by columns or, where those hold no such fields, by blanks; also whether the
-    /// columns were not kept.
+    /// The fields of a card with this face, by columns or, where those hold no such fields, by blanks.
     ///
     /// # Errors
     /// A message that names the columns and what belongs there.
-    pub fn read(&self, deck: &str, line: &Line<'_>, face: &Face<'_>) -> Result<(Record, bool), Box<Diagnostic>> {
+    pub fn read(&self, deck: &str, line: &Line<'_>, face: &Face<'_>) -> Result<(Record, How), Box<Diagnostic>> {
         let mut record = Record {
             keyword: face.keyword.clone(),
             id: face.id.to_string(),
@@ -125,15 +124,24 @@ impl Layout {
         };
         if self.text {
             let rest = if face.fixed { line.columns(11, WIDTH) } else { face.rest };
-            record.text = rest.trim().to_string();
-            record.text_place = line.place_of(rest.trim());
-            return Ok((record, !face.fixed));
+            let rest = rest.trim().trim_start_matches(',').trim();
+            record.text = rest.split_whitespace().collect::<Vec<_>>().join(" ");
+            record.text_place = line.place_of(rest);
+            return Ok((record, if face.fixed { How::Columns } else { How::Blanks }));
         }
-        let by_columns = if face.fixed { self.by_columns(deck, line) } else { Err(self.by_blanks_error(deck, line)) };
-        match (by_columns, self.by_blanks(line, face.rest)) {
-            (Ok((integers, reals)), _) => Ok((Record { integers, reals, ..record }, false)),
-            (Err(_), Some((integers, reals))) => Ok((Record { integers, reals, ..record }, true)),
-            (Err(error), None) => Err(error),
+        if !face.fixed {
+            let (integers, reals) = self.by_blanks(line, face.rest).ok_or_else(|| self.by_blanks_error(deck, line))?;
+            return Ok((Record { integers, reals, ..record }, How::Blanks));
+        }
+        let misfit = match self.by_columns(deck, line) {
+            Ok((integers, reals)) => return Ok((Record { integers, reals, ..record }, How::Columns)),
+            Err(misfit) => misfit,
+        };
+        // what stands past the last column is no more read by blanks than by columns
+        let read = line.columns(11 - 4 * usize::from(self.keyword.is_empty()), WIDTH);
+        match self.by_blanks(line, read) {
+            Some((integers, reals)) => Ok((Record { integers, reals, ..record }, How::Misfit(misfit))),
+            None => Err(misfit),
         }
     }
 
@@ -212,17 +220,14 @@ impl Layout {
 
     /// The values apart by blanks or commas: whole numbers fill the whole-number fields from the left until a number
     /// with a point (or the last such field) is met, the others fill the remaining fields.
-    fn by_blanks(&self, line: &Line<'_>, rest: &str) -> Option<Values> {
+    fn by_blanks<'a>(&self, line: &Line<'a>, rest: &'a str) -> Option<Values> {
         let blank = Field { value: 0, given: false, span: line.whole() };
         let nought = Field { value: 0.0, given: false, span: line.whole() };
         let of = |holds| self.slots.iter().filter(move |slot| slot.holds == holds);
         let mut integers: Vec<_> = of(Holds::Integer).map(|slot| (slot.column, blank)).collect();
         let mut reals: Vec<_> = of(Holds::Real).map(|slot| (slot.column, nought)).collect();
         let (mut whole, mut next) = (0, 0);
-        // what stands past the last column is no more read by blanks than by columns
-        let read = line.columns(1, WIDTH);
-        let end = (read.as_ptr() as usize + read.len()).saturating_sub(rest.as_ptr() as usize);
-        for word in Line::words(rest.get(..end.min(rest.len()))?) {
+        for word in Line::words(rest).flat_map(apart) {
             let span = line.place_of(word);
             match (integer(word), integers.get_mut(whole)) {
                 (Some(value), Some((_, field))) if next == 0 => {
@@ -243,6 +248,33 @@ impl Layout {
     }
 }
 
+/// How the fields of a card were found.
+#[derive(Clone, Debug, PartialEq)]
+pub enum How {
+    /// By columns.
+    Columns,
+    /// By blanks, on a card that keeps no columns.
+    Blanks,
+    /// By blanks, on a card whose face stands in its columns; with what did not fit.
+    Misfit(Box<Diagnostic>),
+}
+
+/// Numbers that touch, as where a sign fills the last column of a field: `-52.630-329.73543`.
+fn apart(word: &str) -> impl Iterator<Item = &str> {
+    let bytes = word.as_bytes();
+    let begins = move |at: usize| {
+        matches!(bytes.get(at), Some(b'+' | b'-'))
+            && at.checked_sub(1).and_then(|before| bytes.get(before)).is_some_and(|b| b.is_ascii_digit() || *b == b'.')
+    };
+    let mut from = 0;
+    std::iter::from_fn(move || {
+        let to = (from + 1..word.len()).find(|at| begins(*at)).unwrap_or(word.len());
+        let piece = word.get(from..to).filter(|piece| !piece.is_empty());
+        from = to;
+        piece
+    })
+}
+
 /// Fields by the column they begin in.
 type Values = (Vec<(usize, Field<i64>)>, Vec<(usize, Field<f64>)>);
 
@@ -261,7 +293,7 @@ pub struct Record {
     pub place: Span,
     integers: Vec<(usize, Field<i64>)>,
     reals: Vec<(usize, Field<f64>)>,
-    /// What follows the keyword, on cards of text.
+    /// What follows the keyword, on cards of text, with single blanks.
     pub text: String,
     /// Its place.
     pub text_place: Span,

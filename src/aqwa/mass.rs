@@ -49,7 +49,7 @@ impl Deck {
                 found.kinds.push(KindMass { shape, count: of.len(), mass });
             }
         }
-        found.mass = pieces.iter().map(|piece| piece.mass).sum();
+        found.mass = pieces.iter().fold(0.0, |sum, piece| sum + piece.mass);
         if found.mass > 0.0 {
             found.centre = std::array::from_fn(|i| {
                 pieces.iter().map(|piece| piece.mass * piece.centre[i]).sum::<f64>() / found.mass

@@ -31,6 +31,7 @@ pub mod card;
 mod checks;
 mod echo;
 pub mod elements;
+pub mod end_springs;
 pub mod hydrostatics;
 pub mod job;
 mod joined;
@@ -39,6 +40,7 @@ pub mod lines;
 pub mod mass;
 pub mod mooring;
 pub mod nodes;
+mod placed;
 pub mod printing;
 pub mod properties;
 pub mod reader;
@@ -58,7 +60,7 @@ use job::Job;
 use mooring::Mooring;
 use nodes::Nodes;
 use printing::Printing;
-use properties::{Geometry, Global, Materials};
+use properties::{Geometries, Geometry, Global, Materials};
 use reader::{Cards, Reader};
 use run::{Multipliers, Start, Steps};
 use surroundings::{Held, Surroundings};
@@ -79,7 +81,7 @@ pub struct Deck {
     /// Deck 3.
     pub materials: Materials,
     /// Deck 4.
-    pub geometries: Vec<Geometry>,
+    pub geometries: Geometries,
     /// Deck 5.
     pub global: Global,
     /// Decks 6 to 10, one entry a structure.
@@ -118,7 +120,7 @@ pub struct Reading {
 impl Deck {
     /// A geometry group by the kind of element it is for and its number.
     pub fn geometry(&self, shape: Shape, group: i64) -> Option<&Geometry> {
-        self.geometries.iter().find(|geometry| geometry.shape == shape && geometry.group == group)
+        self.geometries.get(&(shape, group))
     }
 
     /// A structure by its number.
@@ -150,6 +152,13 @@ impl Deck {
         })
     }
 
+    /// First and last time step of the statistics: TSTS and TSTF of deck 18, else all steps.
+    pub fn statistics(&self) -> (i64, i64) {
+        let last = self.steps.map_or(1, |steps| steps.count.value);
+        let given = |field: Option<card::Field<i64>>, usual: i64| field.map_or(usual, |field| field.or(usual));
+        (given(self.printing.first, 1), given(self.printing.last, last).min(last))
+    }
+
     /// The units of the deck.
     ///
     /// # Errors
@@ -173,6 +182,7 @@ pub fn read(sources: &Sources, id: SourceId) -> Reading {
         let warning = Diagnostic::warning("what follows the last deck is not read", line.whole());
         reader.remarks.add(warning);
     }
+    reader.tell_blanks();
     checks::check(&deck, &mut reader.remarks);
     let failed = reader.remarks.failed();
     Reading { deck, messages: reader.remarks.into_list(), failed }

@@ -8,6 +8,7 @@ use super::layout::{Layout, Record, Slot, int, num};
 use super::lines::{MooringLine, Property, Walk};
 use super::remarks::Remarks;
 use super::tethers::{Builder, Tether};
+use crate::language::diagnostic::Diagnostic;
 use crate::language::source::Span;
 
 const ENDS: [Slot; 4] = [int("structure 1", 11), int("node 1", 16), int("structure 2", 21), int("node 2", 26)];
@@ -176,6 +177,13 @@ pub fn read(records: &[Record], remarks: &mut Remarks) -> Mooring {
     for record in records {
         mooring.span = record.span;
         match record.keyword.as_str() {
+            "TEIG" if record.int(11).value < 0 => remarks.add(
+                Diagnostic::error(
+                    "deck 14, TEIG, columns 11-15: a number of modes is not below 0",
+                    record.int(11).span,
+                )
+                .label("number of modes"),
+            ),
             "TEIG" => mooring.modes = Some(record.int(11)),
             "TSLK" => mooring.slack_time = Some(record.real(31)),
             "TETH" => {

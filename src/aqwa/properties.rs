@@ -115,6 +115,9 @@ impl Default for Global {
 /// Materials by group.
 pub type Materials = IndexMap<i64, Material>;
 
+/// Geometries by the kind of element and the group: groups of different kinds may have the same number.
+pub type Geometries = IndexMap<(Shape, i64), Geometry>;
+
 /// The materials of the cards of deck 3.
 pub fn read_materials(records: &[Record], remarks: &mut Remarks) -> Materials {
     let mut list = Materials::new();
@@ -140,36 +143,32 @@ pub fn read_materials(records: &[Record], remarks: &mut Remarks) -> Materials {
     list
 }
 
-/// The geometries of the cards of deck 4. Groups of different kinds of element may have the same number.
-pub fn read_geometries(records: &[Record], remarks: &mut Remarks) -> Vec<Geometry> {
-    let mut list: Vec<Geometry> = Vec::new();
-    let mut continues = false;
+/// The geometries of the cards of deck 4.
+pub fn read_geometries(records: &[Record], remarks: &mut Remarks) -> Geometries {
+    let mut list = Geometries::new();
+    // what a CONT card continues: the card directly before it
+    let mut continued = None;
     for record in records {
-        let shape = match record.keyword.as_str() {
-            "TUBE" => Shape::Tube,
-            "PMAS" => Shape::PointMass,
-            "STUB" => Shape::Stub,
-            "DISC" => Shape::Disc,
-            _ => {
-                match list.last_mut().filter(|_| continues) {
-                    Some(geometry) if geometry.shape != Shape::PointMass => {
-                        geometry.drag = Some(record.real(21));
-                        geometry.added_mass = Some(record.real(31));
-                    }
-                    _ => remarks.add(
-                        Diagnostic::error("deck 4, CONT: there is no card that this one continues", record.span)
-                            .label("a TUBE, STUB or DISC card belongs directly before it"),
-                    ),
+        let Some(shape) = Shape::named(&record.keyword) else {
+            match continued.take().and_then(|key| list.get_mut(&key)) {
+                Some(geometry) => {
+                    geometry.drag = Some(record.real(21));
+                    geometry.added_mass = Some(record.real(31));
                 }
-                continues = false;
-                continue;
+                None => remarks.add(
+                    Diagnostic::error("deck 4, CONT: there is no card that this one continues", record.span)
+                        .label("a TUBE, STUB or DISC card belongs directly before it"),
+                ),
             }
+            continue;
         };
         let group = record.int(16);
-        continues = true;
-        if let Some(earlier) = list.iter().find(|g| g.shape == shape && g.group == group.value) {
+        let key = (shape, group.value);
+        continued = (shape != Shape::PointMass).then_some(key);
+        if let Some(earlier) = list.get(&key) {
             let message = format!("deck 4: {} group {} is given twice", record.keyword, group.value);
             remarks.add(Diagnostic::error(message, group.span).other(earlier.span, "given here first"));
+            continue;
         }
         let parameters = record.reals(21);
         let geometry =
@@ -177,7 +176,7 @@ pub fn read_geometries(records: &[Record], remarks: &mut Remarks) -> Vec<Geometr
         if shape == Shape::Tube {
             check_tube(&geometry, remarks);
         }
-        list.push(geometry);
+        list.insert(key, geometry);
     }
     list
 }

@@ -1,10 +1,16 @@
 //! Goes through the cards of a file deck by deck: headers, `END`, `NONE`, `FINI`, and cards whose decks are missing.
 
-use super::card::{Face, Line, lines};
-use super::layout::{Layout, Record, Standing};
+use super::card::{Face, Line, Lines};
+use super::layout::{How, Layout, Record, Standing};
 use super::remarks::Remarks;
-use crate::language::diagnostic::{Diagnostic, did_you_mean};
+use crate::language::diagnostic::{Diagnostic, Severity, did_you_mean};
 use crate::language::source::{Source, SourceId, Span};
+use std::collections::BTreeSet;
+
+/// Most cards of a file.
+const MOST_CARDS: usize = 200_000;
+/// Longest line that is taken for a card, of 80 columns or apart by blanks (bytes).
+const LONGEST_LINE: usize = 1000;
 
 /// Header keywords of the decks 1 to 20; those of per-structure decks are followed by the number of the structure.
 pub const HEADERS: &[(u8, &[&str], bool)] = &[
@@ -35,6 +41,8 @@ pub const HEADERS: &[(u8, &[&str], bool)] = &[
 pub struct Header {
     /// Keyword without the number of the structure: `COOR`, `ELM`, `NONE`, `FINI`.
     pub keyword: String,
+    /// The user's identifier, by custom the number of the deck.
+    pub id: String,
     /// Number of the structure, on the headers of per-structure decks.
     pub structure: i64,
     /// The keyword.
@@ -54,11 +62,21 @@ pub struct Cards {
 
 /// Goes through the cards of a file.
 pub struct Reader<'a> {
-    lines: Vec<Line<'a>>,
-    next: usize,
+    lines: Lines<'a>,
+    current: Option<Line<'a>>,
+    taken: usize,
     end: Span,
+    by_blanks: ByBlanks,
     /// Messages so far.
     pub remarks: Remarks,
+}
+
+/// The cards that were read by blanks.
+#[derive(Default)]
+struct ByBlanks {
+    first: Option<Span>,
+    count: usize,
+    decks: BTreeSet<u8>,
 }
 
 /// The deck, and the number of the structure, that a header keyword announces; 0 for NONE and FINI.
@@ -81,19 +99,45 @@ impl<'a> Reader<'a> {
     /// A reader at the first card of a source.
     pub fn new(source: &'a Source, id: SourceId) -> Self {
         let end = Span::new(id, source.text.len(), source.text.len());
-        Reader { lines: lines(source, id), next: 0, end, remarks: Remarks::default() }
+        let mut reader = Reader {
+            lines: Lines::new(source, id),
+            current: None,
+            taken: 0,
+            end,
+            by_blanks: ByBlanks::default(),
+            remarks: Remarks::default(),
+        };
+        reader.take();
+        reader
     }
 
     /// The next line, not taken.
     pub fn peek(&self) -> Option<&Line<'a>> {
-        self.lines.get(self.next)
+        self.current.as_ref()
     }
 
-    /// Takes the next line.
+    /// Takes the next line. A line that is far longer than a card, and all that follows the last card a file may have, is
+    /// answered with an error and not seen.
     pub fn take(&mut self) -> Option<Line<'a>> {
-        let line = self.lines.get(self.next).cloned();
-        self.next += usize::from(line.is_some());
-        line
+        let mut next = self.lines.next();
+        while let Some(line) = next.take_if(|line| line.text.len() > LONGEST_LINE) {
+            self.remarks.once("a long line", || {
+                let message = format!("a line of {} characters is no card", line.text.len());
+                Diagnostic::error(message, line.span(1, 80))
+                    .help("a card has 80 columns; lines this long are passed over")
+            });
+            next = self.lines.next();
+        }
+        if self.taken == MOST_CARDS
+            && let Some(line) = next.take()
+        {
+            self.remarks.once("many cards", || {
+                Diagnostic::error(format!("a file has at most {MOST_CARDS} cards"), line.whole())
+                    .label("not read from here on")
+            });
+        }
+        self.taken += usize::from(next.is_some());
+        std::mem::replace(&mut self.current, next)
     }
 
     /// The place of the next line, or of the end of the file.
@@ -105,20 +149,21 @@ impl<'a> Reader<'a> {
     /// apart by blanks.
     fn header_of(line: &Line<'_>) -> Option<(u8, Header)> {
         let fixed = line.blank(1, 4) && line.blank(7, 10) && !line.tabs();
-        let mut words = if fixed { Line::words(line.columns(11, 80)) } else { Line::words(line.text) };
-        let mut word = words.next()?;
-        if !fixed {
-            if word.len() <= 2 && word.bytes().all(|b| b.is_ascii_digit()) {
-                word = words.next()?;
-            } else if word.get(..2).is_some_and(|id| id.bytes().all(|b| b.is_ascii_digit())) {
-                word = word.get(2..)?;
-            }
-        }
+        let (id, rest) = if fixed {
+            (line.columns(5, 6).trim(), line.columns(11, 80))
+        } else {
+            let text = line.text.trim_start();
+            let digits = text.get(..2).filter(|id| id.bytes().all(|b| b.is_ascii_digit())).unwrap_or_default();
+            (digits, text.get(digits.len()..).unwrap_or_default())
+        };
+        let mut words = Line::words(rest);
+        let word = words.next()?;
         let (deck, name, structure) = announced(&word.to_ascii_uppercase())?;
-        match words.next() {
-            Some(_) => None,
-            None => Some((deck, Header { keyword: name.to_string(), structure, span: line.place_of(word) })),
+        if words.next().is_some() {
+            return None;
         }
+        let header = Header { keyword: name.to_string(), id: id.to_string(), structure, span: line.place_of(word) };
+        Some((deck, header))
     }
 
     /// The header that comes next, if the next line is one, with the number of its deck (0 for NONE and FINI).
@@ -148,15 +193,25 @@ impl<'a> Reader<'a> {
             };
             match Self::header_of(line) {
                 Some((0, header)) if header.keyword == "NONE" || series => {
-                    self.next += 1;
+                    self.take();
+                    if header.id.parse().is_ok_and(|id: u8| id != deck) {
+                        let message = format!(
+                            "this {} card has the identifier {} and is read as that of deck {deck}",
+                            header.keyword, header.id
+                        );
+                        self.remarks.add(
+                            Diagnostic::warning(message, header.span)
+                                .help("the order of the decks is fixed; identifiers are the user's own"),
+                        );
+                    }
                     return Some(header);
                 }
                 Some((other, header)) if other == deck => {
-                    self.next += 1;
+                    self.take();
                     return Some(header);
                 }
                 Some((0, header)) => {
-                    self.next += 1;
+                    self.take();
                     self.remarks.add(
                         Diagnostic::error(format!("deck {deck}: FINI ends no series of decks here"), header.span)
                             .label(format!("{wanted} belongs here")),
@@ -171,7 +226,7 @@ impl<'a> Reader<'a> {
                     return None;
                 }
                 Some((other, header)) => {
-                    self.next += 1;
+                    self.take();
                     self.remarks.add(
                         Diagnostic::error(format!("deck {other} comes after deck {}", deck - 1), header.span)
                             .label(format!("deck {deck} ({wanted}) was expected"))
@@ -182,7 +237,7 @@ impl<'a> Reader<'a> {
                 None => {
                     let word = Line::words(line.text).last().unwrap_or_default().to_ascii_uppercase();
                     let span = line.whole();
-                    self.next += 1;
+                    self.take();
                     if !std::mem::replace(&mut complained, true) {
                         let mut error = Diagnostic::error(format!("deck {deck}: this is no deck header"), span)
                             .label(format!("{wanted} belongs in columns 11-14"));
@@ -197,7 +252,6 @@ impl<'a> Reader<'a> {
     /// The cards of a deck up to the one marked `END`.
     pub fn records(&mut self, deck: u8, label: &str, layouts: &'static [Layout]) -> Vec<Record> {
         let mut list = Vec::new();
-        let mut free: Option<(Span, usize)> = None;
         let keyworded = !layouts.iter().any(|layout| layout.keyword.is_empty());
         loop {
             if self.next_header().is_some() || self.peek().is_none() {
@@ -210,7 +264,7 @@ impl<'a> Reader<'a> {
             }
             let Some(line) = self.take() else { break };
             let face = Face::of(&line, deck, keyworded);
-            if line.overlong() {
+            if face.fixed && line.overlong() {
                 self.remarks.once(&format!("overlong {deck}"), || {
                     Diagnostic::warning(
                         format!("{label}: a card is longer than 80 columns; the rest is not read"),
@@ -222,35 +276,38 @@ impl<'a> Reader<'a> {
                 break;
             }
             let last = face.last;
-            if let Some((record, by_blanks)) = self.record(label, &line, &face, layouts) {
-                if by_blanks {
-                    free.get_or_insert((record.span, 0)).1 += 1;
-                }
-                list.push(record);
-            }
+            list.extend(self.record(deck, label, &line, &face, layouts));
             if last {
                 break;
             }
         }
-        if let Some((span, count)) = free {
-            let what =
-                if count == 1 { "this card was".to_string() } else { format!("{count} cards, this one first, were") };
-            let message = format!("{label}: {what} read by blanks, not by columns");
-            self.remarks.add(
-                Diagnostic::remark(message, span)
-                    .help("a blank field cannot be seen so: values are taken from left to right, whole numbers first"),
-            );
-        }
         list
+    }
+
+    /// Says which cards were read by blanks; to be called after the last deck.
+    pub fn tell_blanks(&mut self) {
+        let Some(first) = self.by_blanks.first else { return };
+        let decks: Vec<String> = self.by_blanks.decks.iter().map(u8::to_string).collect();
+        let what = match self.by_blanks.count {
+            1 => format!("a card of deck {} was", decks.join(", ")),
+            count => format!("{count} cards of the decks {} were", decks.join(", ")),
+        };
+        let message = format!("{what} read by blanks, not by columns");
+        self.remarks.add(
+            Diagnostic::remark(message, first)
+                .label("the first of them")
+                .help("a blank field cannot be seen so: values are taken from left to right, whole numbers first"),
+        );
     }
 
     fn record(
         &mut self,
+        deck: u8,
         label: &str,
         line: &Line<'a>,
         face: &Face<'a>,
         layouts: &'static [Layout],
-    ) -> Option<(Record, bool)> {
+    ) -> Option<Record> {
         let Some(layout) = layouts.iter().find(|layout| matches(layout.keyword, &face.keyword)) else {
             let known = || layouts.iter().map(|layout| layout.keyword).filter(|keyword| !keyword.is_empty());
             let word =
@@ -283,11 +340,25 @@ impl<'a> Reader<'a> {
                 return None;
             }
         }
-        let (record, by_blanks) = self.remarks.keep(layout.read(label, line, face))?;
-        if !by_blanks && let Some(warning) = layout.straddled(label, line) {
-            self.remarks.add(warning);
+        let (record, how) = self.remarks.keep(layout.read(label, line, face))?;
+        match how {
+            How::Columns => {
+                if let Some(warning) = layout.straddled(label, line) {
+                    self.remarks.add(warning);
+                }
+            }
+            How::Blanks => {
+                self.by_blanks.first.get_or_insert(record.span);
+                self.by_blanks.count += 1;
+                self.by_blanks.decks.insert(deck);
+            }
+            How::Misfit(mut misfit) => {
+                misfit.severity = Severity::Warning;
+                misfit.message.push_str("; the card was read by blanks");
+                self.remarks.add(misfit);
+            }
         }
-        Some((record, by_blanks))
+        Some(record)
     }
 }
 

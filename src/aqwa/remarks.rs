@@ -17,6 +17,7 @@ pub struct Remarks {
 
 impl Remarks {
     /// Adds a message; after the first 200, only their number is kept.
+    #[allow(clippy::boxed_local, reason = "messages travel in a box, as the error of a result")]
     pub fn add(&mut self, message: Box<Diagnostic>) {
         self.failed |= matches!(message.severity, Severity::Error | Severity::Fatal);
         if self.list.len() < MOST {

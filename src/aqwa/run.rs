@@ -55,6 +55,9 @@ pub struct Steps {
     pub span: Span,
 }
 
+/// Most structures of a deck.
+pub const MOST_STRUCTURES: i64 = 50;
+
 /// Most time steps of a run.
 pub const MOST_STEPS: i64 = 10_000_000;
 
@@ -117,6 +120,13 @@ pub fn read_multipliers(records: &[Record], remarks: &mut Remarks) -> Vec<Multip
     let mut list: Vec<Multipliers> = Vec::new();
     for record in records {
         let (structure, factor) = (record.int(11), record.real(21));
+        if !(1..=MOST_STRUCTURES).contains(&structure.value) {
+            let message = format!("deck 17, {}, columns 11-15: {} is no structure", record.keyword, structure.value);
+            remarks.add(
+                Diagnostic::error(message, structure.span).label("the number of a structure of deck 2 belongs here"),
+            );
+            continue;
+        }
         if factor.value < 0.0 {
             let message = format!("deck 17, {}, columns 21-30: a multiplier is not below 0", record.keyword);
             remarks.add(Diagnostic::error(message, factor.span));

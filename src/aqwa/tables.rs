@@ -71,7 +71,7 @@ impl Deck {
             Dim::None,
             Digits::Decimals(2),
         );
-        for (index, geometry) in self.geometries.iter().enumerate() {
+        for (index, geometry) in self.geometries.values().enumerate() {
             let mut row: Vec<Cell> =
                 vec![(index + 1).into(), Cell::Integer(geometry.group), geometry.shape.keyword().into()];
             row.extend(geometry.parameters.map(|field| Cell::Number(field.value)));

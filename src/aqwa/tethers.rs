@@ -7,13 +7,16 @@
 //! listing's card echo.
 
 use super::card::Field;
+use super::end_springs::{EndSpring, check, in_force};
 use super::layout::Record;
 use super::remarks::Remarks;
 use crate::language::diagnostic::Diagnostic;
 use crate::language::source::Span;
 
-/// Stiffness of an end spring that is not given (A.2).
-pub const STIFF: f64 = 1.0e15;
+/// Most elements of a tether (AQWA of later years has 24).
+const MOST_ELEMENTS: usize = 1000;
+/// Most tethers of a deck, as AQWA has 100 lines.
+const MOST_TETHERS: usize = 100;
 /// Most constraints of an installed tether (A.14).
 const MOST_CONSTRAINTS: usize = 5;
 
@@ -28,17 +31,6 @@ pub struct TetherElement {
     pub material: Field<i64>,
     /// Geometry group.
     pub geometry: Field<i64>,
-    /// The card.
-    pub span: Span,
-}
-
-/// A TSPA or TSPV card.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct EndSpring {
-    /// Whether the tether is towed.
-    pub towed: bool,
-    /// Installed: inline, then two rotational. Towed: three translational.
-    pub stiffness: [Field<f64>; 3],
     /// The card.
     pub span: Span,
 }
@@ -85,7 +77,7 @@ pub struct Description {
     pub vessel: Option<EndSpring>,
     /// Fatigue parameters; the defaults of A.4 where not given.
     pub fatigue: Fatigue,
-    /// Hours for which the expected peak stress is computed.
+    /// Hours for which the expected peak stress is computed; 3 where not given (A.5).
     pub peak_hours: Option<f64>,
     /// Number of identical tethers: forces on the vessel are multiplied by it. 0 when not given, which stands for 1.
     pub group: i64,
@@ -124,24 +116,15 @@ impl Tether {
         [self.description.anchor, self.description.vessel].iter().flatten().any(|spring| spring.towed)
     }
 
-    /// Stiffnesses in force at the anchor or trailing end, and at the vessel.
-    ///
-    /// Installed (A.2): inline 1.0E15 where blank, zero or negative, rotational 0 where negative, 1.0E15 all where the
-    /// card is missing. Towed (8.1.14): 1.0E15 in place of zero.
+    /// Stiffnesses in force at the anchor or trailing end, and at the vessel; see [`in_force`].
     pub fn springs(&self) -> [[f64; 3]; 2] {
         let towed = self.towed();
-        [self.description.anchor, self.description.vessel].map(|spring| {
-            let Some(spring) = spring else { return [STIFF; 3] };
-            let [first, second, third] = spring.stiffness.map(|field| field.value);
-            let inline = if first <= 0.0 { STIFF } else { first };
-            let rotational = |value: f64| value.max(0.0);
-            let lateral = |value: f64| if value == 0.0 { STIFF } else { value };
-            if towed {
-                [lateral(first), lateral(second), lateral(third)]
-            } else {
-                [inline, rotational(second), rotational(third)]
-            }
-        })
+        [self.description.anchor, self.description.vessel].map(|spring| in_force(spring, towed))
+    }
+
+    /// Number of nodes.
+    pub fn nodes(&self) -> usize {
+        self.description.elements.len() + 1
     }
 }
 
@@ -276,7 +259,12 @@ impl Builder {
                     .other(before.node2.span, "where the element before ends"),
             );
         }
-        self.description.elements.push(element);
+        if self.description.elements.len() < MOST_ELEMENTS {
+            self.description.elements.push(element);
+        } else {
+            let message = format!("deck 14, TELM: a tether has at most {MOST_ELEMENTS} elements");
+            remarks.once("many elements", || Diagnostic::error(message, record.span));
+        }
     }
 
     /// Closes the tether with its TETH card.
@@ -295,6 +283,11 @@ impl Builder {
             );
         }
         let whole = std::mem::take(self);
+        if earlier.len() == MOST_TETHERS {
+            let message = format!("deck 14, TETH: a deck has at most {MOST_TETHERS} tethers");
+            remarks.once("many tethers", || Diagnostic::error(message, record.span));
+            return None;
+        }
         let (description, copy_of) = match (whole.first, earlier.last()) {
             (Some(_), _) if whole.description.elements.is_empty() => {
                 remarks.add(
@@ -318,7 +311,7 @@ impl Builder {
         let tether =
             Tether { description, copy_of, structure, node: record.int(16), anchor: record.int(26), span: record.span };
         if tether.copy_of.is_none() {
-            check_springs(&tether, remarks);
+            check(&tether, remarks);
         }
         Some(tether)
     }
@@ -331,70 +324,6 @@ impl Builder {
                     .label("its first card")
                     .help("TETH is the last card of a tether: structure, node on it, 0, anchor or trailing node"),
             );
-        }
-    }
-}
-
-fn check_springs(tether: &Tether, remarks: &mut Remarks) {
-    let ends = [("TSPA", tether.description.anchor), ("TSPV", tether.description.vessel)];
-    if let [(_, Some(anchor)), (_, Some(vessel))] = ends
-        && anchor.towed != vessel.towed
-    {
-        remarks.add(
-            Diagnostic::error("deck 14: a tether is towed at both ends or at none", vessel.span)
-                .label("flag in column 15")
-                .other(anchor.span, "the other end"),
-        );
-    }
-    for (keyword, spring) in ends {
-        if tether.towed() {
-            check_towed(keyword, spring, tether.span, remarks);
-        } else {
-            check_installed(keyword, spring, tether.span, remarks);
-        }
-    }
-}
-
-fn check_towed(keyword: &str, spring: Option<EndSpring>, at: Span, remarks: &mut Remarks) {
-    let help = "a towed tether has soft springs at both ends, as of its mooring lines, a few kN/m (8.1.14)";
-    let Some(spring) = spring else {
-        let message = format!("deck 14: this towed tether has no {keyword} card; 1.0E15 is taken in each direction");
-        remarks.add(Diagnostic::warning(message, at).help(help));
-        return;
-    };
-    for stiffness in spring.stiffness {
-        if stiffness.value < 0.0 {
-            remarks.add(Diagnostic::error(format!("deck 14, {keyword}: a stiffness is not below 0"), stiffness.span));
-        } else if stiffness.value == 0.0 {
-            let message =
-                format!("deck 14, {keyword}: a zero spring of a towed tether is taken as the default, 1.0E15");
-            remarks.add(Diagnostic::warning(message, stiffness.span).help(help));
-        }
-    }
-}
-
-fn check_installed(keyword: &str, spring: Option<EndSpring>, at: Span, remarks: &mut Remarks) {
-    let Some(spring) = spring else {
-        remarks.once(&format!("{keyword} missing"), || {
-            let message =
-                format!("deck 14: no {keyword} card; 1.0E15 is taken for the inline and both rotational springs");
-            Diagnostic::remark(message, at).help("so for every installed tether without the card (A.2)")
-        });
-        return;
-    };
-    let [inline, second, third] = spring.stiffness;
-    if inline.value <= 0.0 {
-        remarks.once(&format!("{keyword} inline"), || {
-            Diagnostic::remark(format!("deck 14, {keyword}: the inline stiffness is taken as 1.0E15"), inline.span)
-                .help("so for every installed tether where it is blank, zero or negative (A.2)")
-        });
-    }
-    for rotational in [second, third] {
-        if rotational.value < 0.0 {
-            remarks.add(Diagnostic::remark(
-                format!("deck 14, {keyword}: the negative rotational stiffness is taken as 0 (A.2)"),
-                rotational.span,
-            ));
         }
     }
 }

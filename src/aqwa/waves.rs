@@ -15,6 +15,8 @@ use crate::language::diagnostic::Diagnostic;
 use crate::language::source::Span;
 use std::f64::consts::PI;
 
+/// Most spectra of a deck.
+const MOST_SPECTRA: usize = 20;
 /// Most spectral lines of a spectrum.
 pub const MOST_LINES: i64 = 10_000;
 /// Spectral lines when NSPL is not given (assumed; newer versions of AQWA have 200).
@@ -261,6 +263,11 @@ pub fn read_spectra(records: &[Record], remarks: &mut Remarks) -> Waves {
             );
         }
         wanted(record, remarks);
+        if list.len() == MOST_SPECTRA {
+            let message = format!("deck 13: a deck has at most {MOST_SPECTRA} spectra");
+            remarks.once("many spectra", || Diagnostic::error(message, record.span));
+            continue;
+        }
         list.push(Spectrum { form, range, span: record.span, ..now.clone() });
     }
     if list.is_empty() {
