@@ -69,7 +69,7 @@ const OPTIONS: &[OptionSpec] = &[
             choice("STAT", &["RMS", "SIGNIFICANT", "MAXIMUM", "TIME", "PROBABILITY"], "statistic"),
             number("DATA", Dim::None, "its value").or("none"),
         ],
-        "statistic of the results",
+        "statistic of the results: kept and shown, without effect",
     ),
     SEA_OPTION,
     A_SEA_OPTION,
@@ -87,7 +87,7 @@ const OPTIONS: &[OptionSpec] = &[
             number("TOBSERV", Dim::Time, "time observed").positive(),
             number("DELTA_TIME", Dim::Time, "time step").positive(),
             number("TTRA_SET", Dim::Time, "time set aside for the transient").or("0").not_negative(),
-            ValueSpec::new("NCYCLES", Kind::Integer, "cycles").or("1").within(1.0, 1e6),
+            ValueSpec::new("NCYCLES", Kind::Integer, "cycles: kept and shown, without effect").or("1").within(1.0, 1e6),
         ],
         "time window",
     ),
@@ -141,7 +141,7 @@ static ENV_SPEC: CommandSpec = CommandSpec {
     options: OPTIONS,
     detail: "Directions are where sea, wind and current come from, from +X toward +Y: 180 is a head sea. Without a name the \
              environment starts from the defaults; a new name too, and is kept; an old name edits what is kept. It stays in \
-             force until the next &ENV. The sources list no types for -PROBABILITY, -SP_TYPE, -W_PROFILE, -W_DESIGN and \
+             force until the next &ENV. The sources do not say what NCYCLES of -TIME counts nor what -PROBABILITY does to results: both are kept and shown, and act on nothing. They list no types for -PROBABILITY, -SP_TYPE, -W_PROFILE, -W_DESIGN and \
              -W_SPECTRUM: those taken are the field's usual ones. Depth and tide together must leave water. \
              -W_SPECTRUM adds gusts in the time domain, the same at all places and heights, on the speed 10 m up: API RP 2A 20th edition; NPD \
              and ISO (Froya); Ochi and Shin; Harris; Davenport; Kaimal; the drag coefficient of the last four is Wu's, 0.0008 + 0.000065 U. \

@@ -1,6 +1,6 @@
 //! What a line is made of, and what is refused.
 
-use super::between::{Bottom, EndForces};
+use super::end_forces::{Bottom, EndForces};
 use super::chain::{Chain, Pull};
 use super::element::{Element, Ground, Tilt};
 use super::law::Law;

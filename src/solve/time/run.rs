@@ -1,13 +1,14 @@
 //! A run: steps from a start to an end, with what happens on the way, and rows kept.
 
 use super::action::Action;
+use super::course::{Counts, Ending, Settings, Watcher};
 use super::forces::{Memory, Motion};
 use super::history::{History, Layout, Told};
 use super::inertia::gyroscopic;
 use super::scheme::Method;
 use super::snapshot::Snapshot;
 use super::statistics::Statistics;
-use super::step::{Convergence, Effort, Instant, Stepper};
+use super::step::{Effort, Instant, Stepper};
 use crate::hydro::sea::Sea;
 use crate::model::{ClassError, Model, Place, Six};
 use crate::post::SeriesError;
@@ -18,85 +19,6 @@ use std::sync::Arc;
 const HALVINGS: u32 = 12;
 /// Steps between two snapshots, at which what solvers remember is forgotten.
 pub const SNAPSHOT: usize = 500;
-
-/// How a run goes.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Settings {
-    /// Length of the run (s).
-    pub observed: f64,
-    /// Step (s).
-    pub dt: f64,
-    /// Scheme.
-    pub method: Method,
-    /// When a step is solved.
-    pub convergence: Convergence,
-    /// Steps from one stored instant to the next.
-    pub store: usize,
-    /// Goes on when a body has rolled or pitched beyond 90 degrees.
-    pub capsize: bool,
-    /// Largest error of place of one step (m; rotations times 10 m): steps are halved as it asks. None: steps are as given.
-    pub adaptive: Option<f64>,
-    /// Keeps rows. Without, only who is told of them has them.
-    pub keep: bool,
-    /// Time that statistics leave out at the beginning (s).
-    pub transient: f64,
-}
-
-/// Why a run ended.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Ending {
-    /// At its end.
-    Done,
-    /// It was told to stop.
-    Interrupted,
-    /// A body rolled or pitched beyond 90 degrees.
-    Capsized(String),
-    /// An action ended it.
-    Stopped(String),
-}
-
-/// What a run did.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Counts {
-    /// Steps taken, those that were halved by their parts.
-    pub steps: usize,
-    /// Steps that had to be cut because no balance was found.
-    pub cut: usize,
-    /// Iterations.
-    pub iterations: usize,
-    /// Evaluations of all forces.
-    pub evaluations: usize,
-}
-
-/// Who is told how a run goes.
-pub trait Watcher {
-    /// A stored row.
-    ///
-    /// # Errors
-    /// It could not be kept, in one sentence: the run ends.
-    fn row(&mut self, row: &[f64]) -> Result<(), String>;
-
-    /// Everything needed to go on from here.
-    ///
-    /// # Errors
-    /// It could not be kept, in one sentence: the run ends.
-    fn snapshot(&mut self, _snapshot: &Snapshot) -> Result<(), String> {
-        Ok(())
-    }
-
-    /// No more comes.
-    ///
-    /// # Errors
-    /// What came could not be kept, in one sentence.
-    fn finish(&mut self) -> Result<(), String> {
-        Ok(())
-    }
-
-    /// Asked before every step; false ends the run, which keeps what it has.
-    fn goes_on(&mut self, _time: f64) -> bool {
-        true
-    }
-}
 
 /// A run.
 #[derive(Debug)]
@@ -129,8 +51,17 @@ pub struct Run {
     pub(super) wound: bool,
     /// The seas of the run, each with the time since when it has been there (s).
     pub seas: Vec<(f64, Option<Arc<Sea>>)>,
+    /// From what it began, for who reads of it.
+    pub began: String,
     origin: Model,
     start: Vec<(usize, Six)>,
+}
+
+/// A watcher could not keep what it was told: the disk is full, say.
+fn unkept(text: String) -> SolveError {
+    SolveError::new(ClassError::new(text).help(
+        "the run ends here and what it has stays for PRCPOST; with room for its file, TDOM -RESTART goes on from the last snapshot there",
+    ))
 }
 
 impl Run {
@@ -174,6 +105,7 @@ impl Run {
             row: Vec::new(),
             told: Told::default(),
             wound: true,
+            began: "as the bodies stand, at rest".into(),
             origin,
             start: Vec::new(),
         };
@@ -189,6 +121,7 @@ impl Run {
     /// As [`Run::new`].
     pub fn begun_again(&self, change: impl FnOnce(Settings) -> Settings) -> Result<Run, SolveError> {
         let mut again = Run::new(&self.origin, change(self.settings.clone()), self.actions.clone())?;
+        again.began.clone_from(&self.began);
         if !self.start.is_empty() {
             again.begin_with(&self.start)?;
         }
@@ -221,7 +154,7 @@ impl Run {
     /// A body or connector without an answer, or a watcher that could not keep a row; rows so far are kept.
     pub fn go(&mut self, watcher: &mut dyn Watcher) -> Result<Ending, SolveError> {
         let ended = self.steps(watcher);
-        let kept = watcher.finish().map_err(|text| SolveError::new(ClassError::new(text)));
+        let kept = watcher.finish().map_err(unkept);
         ended.and_then(|ending| kept.map(|()| ending))
     }
 
@@ -336,7 +269,7 @@ impl Run {
 
     fn save(&mut self, watcher: &mut dyn Watcher) -> Result<(), SolveError> {
         self.forget();
-        watcher.snapshot(&self.snapshot()).map_err(|text| SolveError::new(ClassError::new(text)))
+        watcher.snapshot(&self.snapshot()).map_err(unkept)
     }
 
     fn keep(&mut self, watcher: &mut dyn Watcher) -> Result<(), SolveError> {
@@ -364,7 +297,7 @@ impl Run {
         if self.settings.keep {
             self.history.values.extend_from_slice(&self.row);
         }
-        watcher.row(&self.row).map_err(|text| SolveError::new(ClassError::new(text)))
+        watcher.row(&self.row).map_err(unkept)
     }
 
     fn capsized(&self) -> Option<String> {
