@@ -71,7 +71,8 @@ fn a_table_that_finds_no_room_is_named_and_leaves_no_piece_of_a_file() {
     let (code, text) = limited(folder.path(), "&BUILDG -CSV in.csv\nSTORE out.csv A B\nSTATISTIC A B\nEND\n");
     assert_eq!(code, Some(1), "{text}");
     assert!(text.contains("answers/out.csv: File too large") && text.contains("Statistics of"), "{text}");
-    let mut names: Vec<_> = fs::read_dir(folder.path().join("answers")).unwrap().map(|e| e.unwrap().file_name()).collect();
+    let mut names: Vec<_> =
+        fs::read_dir(folder.path().join("answers")).unwrap().map(|e| e.unwrap().file_name()).collect();
     names.sort();
     assert_eq!(names, ["LOG00001.TXT"]);
 }

@@ -15,9 +15,7 @@ use std::fmt::Write;
 use std::sync::Arc;
 use windlass::hydro::sea::{Component, Sea, Water};
 use windlass::model::{Model, Pose, Six, Stretching};
-use windlass::solve::time::{
-    Action, Ending, Motion, Prescribed, Run, Settings, What, When, prescribed,
-};
+use windlass::solve::time::{Action, Ending, Motion, Prescribed, Run, Settings, What, When, prescribed};
 
 /// A model with a body B and a file in the job's folder; the text of what was said.
 fn session(file: &str, records: &str) -> (Model, i64, String) {

@@ -189,12 +189,18 @@ fn unlike(data: &Database, mass: f64) -> Option<String> {
     let help = "is it another body's, or are -ULEN or the weight of the body in another unit?";
     let share = largest / mass;
     if !ADDED.contains(&share) {
-        return Some(format!("the largest added mass of {} is {share:.2e} of the mass of the body: {help}", data.source));
+        return Some(format!(
+            "the largest added mass of {} is {share:.2e} of the mass of the body: {help}",
+            data.source
+        ));
     }
     let stiffness = data.hydrostatics.as_ref().map(|c| c[(2, 2)]).filter(|c| *c > 0.0)?;
     let period = TAU * ((mass + long[(2, 2)].max(0.0)) / stiffness).sqrt();
     (!HEAVE.contains(&period)).then(|| {
-        format!("by the stiffness and added mass of {} the body heaves with a period of {period:.2e} s: {help}", data.source)
+        format!(
+            "by the stiffness and added mass of {} the body heaves with a period of {period:.2e} s: {help}",
+            data.source
+        )
     })
 }
 

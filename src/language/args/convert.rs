@@ -1,5 +1,6 @@
 //! The words of a record or an option as values: how many are taken, whether they fit, the conversion to SI.
 
+use super::{Content, Value};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::name;
 use crate::language::number;
@@ -9,7 +10,6 @@ use crate::language::source::Span;
 use crate::language::spec::{Kind, Need, Noun, OptionSpec, Range, ValueSpec, expected};
 use crate::language::token::{Kind as Lex, is_numeric};
 use crate::language::units::{Dim, UnitSystem};
-use super::{Content, Value};
 use std::sync::Arc;
 
 /// The words that belong to an option: a required value takes whatever stands there, an optional or repeated one only

@@ -2,8 +2,7 @@ use super::*;
 use crate::language::units::FOOT;
 
 fn menu() -> Disposition {
-    let mut t =
-        Table::new("t").column("", "X", Dim::Length, Digits::Usual).column("", "F", Dim::None, Digits::Usual);
+    let mut t = Table::new("t").column("", "X", Dim::Length, Digits::Usual).column("", "F", Dim::None, Digits::Usual);
     for n in 1..=5 {
         t.push(vec![Cell::Number(f64::from(n) * FOOT), Cell::Number(f64::from(n * n))]).unwrap();
     }

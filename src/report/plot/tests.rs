@@ -3,12 +3,8 @@ use crate::table::Digits;
 use proptest::prelude::*;
 
 fn chart() -> Chart {
-    let mut t = Table::new("Line A").column("", "X", Dim::Length, Digits::Usual).column(
-        "",
-        "Force",
-        Dim::Force,
-        Digits::Usual,
-    );
+    let mut t =
+        Table::new("Line A").column("", "X", Dim::Length, Digits::Usual).column("", "Force", Dim::Force, Digits::Usual);
     for n in 0..30 {
         let x = f64::from(n);
         let y = if n == 10 { Cell::Missing } else { Cell::Number(x * x) };
@@ -58,8 +54,7 @@ fn a_missing_point_breaks_the_line_and_many_points_have_no_marks() {
 
 #[test]
 fn a_column_of_single_points_is_marks_that_no_line_hides_and_no_line_joins() {
-    let line =
-        Series { name: "Z".into(), points: (0..9).map(|n| Some((f64::from(n), 1.0))).collect(), right: false };
+    let line = Series { name: "Z".into(), points: (0..9).map(|n| Some((f64::from(n), 1.0))).collect(), right: false };
     let at = |rows: &[usize]| {
         let point = |n: usize| rows.contains(&n).then_some((n as f64, 1.0));
         Series { name: "Joint".into(), points: (0..9).map(point).collect(), right: false }

@@ -19,10 +19,10 @@ mod statistics;
 mod step;
 
 pub use action::{Action, Watched, What, When};
+pub use course::{Counts, Ending, Settings, Watcher};
 pub use forces::{Forces, Memory, Motion};
 pub use history::{History, Layout, LinkColumns, OF_BODY};
 pub use prescribed::{Prescribed, prescribed};
-pub use course::{Counts, Ending, Settings, Watcher};
 pub use run::{Run, SNAPSHOT};
 pub use scheme::{Method, Scheme};
 pub use snapshot::Snapshot;

@@ -17,6 +17,8 @@ use std::sync::Arc;
 
 /// Times a step may be halved.
 const HALVINGS: u32 = 12;
+/// Times a step is halved to meet a condition.
+const SOUGHT: u32 = 6;
 /// Steps between two snapshots, at which what solvers remember is forgotten.
 pub const SNAPSHOT: usize = 500;
 
@@ -55,6 +57,14 @@ pub struct Run {
     pub began: String,
     origin: Model,
     start: Vec<(usize, Six)>,
+}
+
+/// What stood before a part of a step.
+struct Before {
+    time: f64,
+    motions: Vec<Motion>,
+    memory: Memory,
+    states: Vec<f64>,
 }
 
 /// A watcher could not keep what it was told: the disk is full, say.
@@ -169,11 +179,13 @@ impl Run {
                 return Ok(Ending::Interrupted);
             }
             let end = (self.settings.dt * (self.taken + 1) as f64).min(self.settings.observed);
-            self.to(end)?;
+            let mut stop = self.to(end)?;
             self.taken += 1;
-            // the step's own time, so that no rounding adds up
-            self.now.time = end;
-            let stop = self.happens()?;
+            if stop.is_none() {
+                // the step's own time, so that no rounding adds up
+                self.now.time = end;
+                stop = self.happens()?;
+            }
             let capsized = self.capsized();
             let last = self.taken == steps || stop.is_some() || capsized.is_some();
             if last || self.taken.is_multiple_of(self.settings.store.max(1)) {
@@ -192,27 +204,24 @@ impl Run {
         Ok(Ending::Done)
     }
 
-    /// Goes to a time, in as many parts as that needs.
-    fn to(&mut self, end: f64) -> Result<(), SolveError> {
-        let mut level = 0;
+    /// Goes to a time, in as many parts as that needs; gives the name of an action that ends the run before.
+    fn to(&mut self, end: f64) -> Result<Option<String>, SolveError> {
+        // halvings for the error or a balance, and for a condition that comes true
+        let (mut level, mut sought) = (0, 0);
         loop {
             let left = end - self.now.time;
             if left <= 1e-9 * self.settings.dt {
-                return Ok(());
+                return Ok(None);
             }
-            let mut part = (self.settings.dt / f64::from(1u32 << level)).min(left);
+            let mut part = (self.settings.dt / f64::from(1u32 << (level + sought).min(HALVINGS))).min(left);
             // an action at a time ends a step there
             if let Some(at) = self.next_action(end)
                 && at > self.now.time + 1e-9 * self.settings.dt
             {
                 part = part.min(at - self.now.time);
             }
-            self.wind(self.now.time + part)?;
-            let before = self
-                .settings
-                .adaptive
-                .map(|_| (self.now.motions.clone(), self.now.memory.clone(), self.system.states.clone()));
-            let start = self.now.time;
+            let before = (self.settings.adaptive.is_some() || self.waits()).then(|| self.before());
+            let winches = self.wind(self.now.time + part)?;
             match self.stepper.step(
                 &mut self.system,
                 &mut self.now,
@@ -222,30 +231,56 @@ impl Run {
                 Ok(Effort { iterations, evaluations }) => {
                     self.counts.iterations += iterations;
                     self.counts.evaluations += evaluations;
-                    if let (Some(allowed), Some((motions, memory, states))) = (self.settings.adaptive, before) {
-                        let error = self.error_of_step(&motions, part);
-                        if error > allowed && level < HALVINGS {
-                            (self.now.motions, self.now.memory, self.system.states) = (motions, memory, states);
-                            self.now.time = start;
-                            level += 1;
+                    if let Some(before) = before {
+                        let error = self.error_of_step(&before.motions, part);
+                        let rough = self.settings.adaptive.is_some_and(|allowed| error > allowed) && level < HALVINGS;
+                        let sudden = sought < SOUGHT && self.comes_true();
+                        if rough || sudden {
+                            self.unwind(winches);
+                            self.go_back(before);
+                            level += u32::from(rough);
+                            sought += u32::from(!rough);
                             continue;
                         }
-                        if error < allowed / 10.0 && level > 0 {
-                            level -= 1;
+                        if self.settings.adaptive.is_some_and(|allowed| error < allowed / 10.0) {
+                            level = level.saturating_sub(1);
                         }
                     }
                     self.counts.steps += 1;
                     if part < self.settings.dt * 0.999 {
-                        self.happens()?;
+                        let fired = self.fired.iter().flatten().count();
+                        if let Some(name) = self.happens()? {
+                            return Ok(Some(name));
+                        }
+                        if self.fired.iter().flatten().count() > fired {
+                            sought = 0;
+                        }
                     }
                 }
                 Err(error) if level >= HALVINGS => return Err(error),
                 Err(_) => {
+                    self.unwind(winches);
                     self.counts.cut += 1;
                     level += 1;
                 }
             }
         }
+    }
+
+    /// What a part of a step changes.
+    fn before(&self) -> Before {
+        Before {
+            time: self.now.time,
+            motions: self.now.motions.clone(),
+            memory: self.now.memory.clone(),
+            states: self.system.states.clone(),
+        }
+    }
+
+    /// Forgets a part of a step.
+    fn go_back(&mut self, before: Before) {
+        (self.now.time, self.now.motions) = (before.time, before.motions);
+        (self.now.memory, self.system.states) = (before.memory, before.states);
     }
 
     /// The error of place of one step (m): `h^2 |beta - 1/6|` times the change of the acceleration (Zienkiewicz and Xie, Earthquake
