@@ -206,7 +206,7 @@ fn a_winch_keeps_its_rate_where_steps_are_cut() {
     run(
         &mut session,
         &format!(
-            "{records}&ACTION PAY -AT 2 -WINCH L2 0.5\n&ACTION FAR -BELOW SHIP X 4 -RELEASE L0\nTDOM -ADAPTIVE 1E-6"
+            "{records}&ACTION PAY -AT 2 -WINCH L2 0.5\n&ACTION FAR -BELOW SHIP X 4.9 -RELEASE L0\nTDOM -ADAPTIVE 1E-6"
         ),
     );
     let made = session.job.run.as_ref().unwrap();
