@@ -1,10 +1,15 @@
-//! #DRIFT in the time domain: against its mean at rest, which is tested beside closed forms in `steady_loads`.
+//! #DRIFT in the time domain: against its mean at rest, which is tested beside closed forms in `steady_loads`, and the slow surge
+//! of a moored body against the closed form of a narrow response to white noise.
 
 #![allow(clippy::unwrap_used)]
 
+#[allow(dead_code)]
 mod common;
+#[allow(dead_code)]
+#[path = "common/run.rs"]
+mod runs;
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 use windlass::hydro::sea::Sea;
 use windlass::hydro::{BodyLoad, Category, Floating, Underway};
@@ -140,4 +145,64 @@ fn drift_of_records_and_of_a_database_on_one_body_is_refused() {
     attached.drift = windlass::model::DriftMethod::None;
     model.bodies["B"].database = Some(attached);
     assert!(Floating::of(&model, &model.bodies["B"]).is_ok());
+}
+
+/// The spectrum of ISSC (m2 s/rad) of a height (m) and mean period (s): both moments in closed form.
+fn issc(w: f64, height: f64, mean_period: f64) -> f64 {
+    // Gamma(3/4), of m1 = m0 B^(1/4) Gamma(3/4)
+    let b = (TAU / mean_period / 1.225_416_702_465_178).powi(4);
+    4.0 * (height * height / 16.0) * b * w.powi(-5) * (-b / w.powi(4)).exp()
+}
+
+/// The spectrum of slow drift (N2 s/rad), 8 int S(w) S(w + mu) D(w + mu/2)^2 dw (Pinkster, Low Frequency Second Order Wave Exciting
+/// Forces on Floating Structures, 1980, eq. 3.36, with Newman's D of the middle), of D = `slope` w.
+fn drift_spectrum(mu: f64, slope: f64, height: f64, mean_period: f64) -> f64 {
+    let step = 2e-3;
+    let at = |n: u32| {
+        let w = 0.1 + step * f64::from(n);
+        let drift = slope * (w + 0.5 * mu);
+        8.0 * issc(w, height, mean_period) * issc(w + mu, height, mean_period) * drift * drift
+    };
+    (0..2000).map(at).sum::<f64>() * step
+}
+
+#[test]
+fn slow_surge_on_a_spring_is_that_of_a_narrow_response_to_white_noise() {
+    // 10 t on 25 N/m: w0 = 0.05 rad/s, 5 % of critical damping
+    let (mass, w0, ratio) = (1e4, 0.05, 0.05);
+    let (stiffness, damping) = (mass * w0 * w0, 2.0 * ratio * mass * w0);
+    let (height, mean_period, slope) = (4.0, 9.0, 10.0);
+    let rows = format!("{} 100 0 0 0 0 0 {} 1 0 0 0 0 0", TAU / 10.0, TAU / 0.1);
+    let weight = mass * 9.80665;
+    let records = format!(
+        "MEDIT\n*G 0 0 0\n&DESCRIBE BODY B -IGNORE Y Z RX RY RZ\n*P 0 0 0\n#WEIGHT *P {weight} 1 1 1\n#DAMP *P {damping}\n\
+         #DRIFT *P 180 {rows}\n#DRIFT *P 0 {}\n~S GSPR BOTH X {stiffness} 1E9 -LEN 0\nCONNECTOR K ~S *P *G\nEND\n\
+         &ENV -SEA ISSC 180 {height} {mean_period} -RAMP 100",
+        rows.replace(" 100", " -100")
+    );
+    let model = runs::model(&records);
+    // the transient has died away to exp(-0.05 x 0.05 x 4000) = 5e-5
+    let (long, transient) = (200_000.0, 4000.0);
+    let made = runs::run(&model, runs::settings(long, 2.0), vec![]);
+    let at = made.history.layout.body(0);
+    let surge: Vec<f64> = made.history.rows().filter(|r| r[0] > transient).map(|r| r[at]).collect();
+    let count = surge.len() as f64;
+    let mean = surge.iter().sum::<f64>() / count;
+    let deviation = (surge.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / count).sqrt();
+    // the mean: 2 int S D dw / k = slope Hs^2/8 2 pi/T1 / k
+    let offset = slope * height * height / 8.0 * TAU / mean_period / stiffness;
+    assert!((mean / offset - 1.0).abs() < 0.02, "{mean} {offset}");
+    let white = (PI * drift_spectrum(w0, slope, height, mean_period) / (2.0 * damping * stiffness)).sqrt();
+    // the same without taking the spectrum as constant over the peak
+    let step = w0 / 200.0;
+    let response = |n: u32| {
+        let mu = (f64::from(n) + 0.5) * step;
+        let s = drift_spectrum(mu, slope, height, mean_period);
+        s / ((stiffness - mass * mu * mu).powi(2) + (damping * mu).powi(2)) * step
+    };
+    let whole = (0..1000).map(response).sum::<f64>().sqrt();
+    // of a record of length T the deviation is sure to 1/(2 sqrt(ratio w0 T)), here 2.3 %: three times that
+    let sure = 0.5 / (ratio * w0 * (long - transient)).sqrt();
+    assert!((deviation / whole - 1.0).abs() < 3.0 * sure, "{deviation} {whole}");
+    assert!((deviation / white - 1.0).abs() < 3.0 * sure + 0.02, "{deviation} {white}");
 }

@@ -13,7 +13,7 @@ use windlass::language::source::Span;
 use windlass::model::{AttachedDatabase, DriftMethod, Model};
 use windlass::session::Session;
 use windlass::solve::frequency::{
-    Asked, Derivative, Linear, Operators, Quantity, Statistics, Trains, in_sea, natural, respond,
+    Asked, Derivative, Extreme, Linear, Operators, Quantity, Statistics, Trains, in_sea, natural, respond,
 };
 
 const G: f64 = 9.80665;
@@ -142,6 +142,9 @@ fn statistics_are_those_of_rayleigh() {
     assert!((made.most_probable(10_800.0).unwrap() - 2.0 * (2.0 * 1080f64.ln()).sqrt()).abs() < 1e-12);
     assert!((made.most_probable(10_800.0).unwrap() - 7.475_14).abs() < 1e-5);
     assert_eq!(made.most_probable(5.0), None);
+    // exp(-2) of the amplitudes are above twice the deviation
+    let twice = [Extreme::Times(2.0), Extreme::Exceeded((-2f64).exp())].map(|e| made.extreme(e).unwrap());
+    assert!(twice.iter().all(|x| (x - made.significant()).abs() < 1e-12), "{twice:?}");
 }
 
 /// Response in the sea of a model.

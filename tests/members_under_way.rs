@@ -4,15 +4,19 @@
 
 #[allow(dead_code)]
 mod common;
+#[allow(dead_code)]
+#[path = "common/run.rs"]
+mod runs;
 
 use nalgebra::{Matrix6, Vector3};
+use runs::{settings, trapezoidal};
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 use std::sync::Arc;
 use windlass::hydro::hull::{Solid, Tube};
 use windlass::hydro::sea::{Component, Sea, Water};
 use windlass::hydro::{BodyLoad, Category, Floating, Underway, grown};
 use windlass::model::{Model, Place, Pose, Six, Stretching};
-use windlass::solve::time::{Convergence, Ending, Method, Run, Scheme, Settings, Watcher};
+use windlass::solve::time::Settings;
 
 const RHO: f64 = 1025.0;
 const G: f64 = 9.80665;
@@ -146,29 +150,10 @@ fn a_member_meets_the_current_of_the_time() {
     near(at(&*members(&ramped, None), 30.0, &Pose::default(), &Six::zeros())[0], want * 1.5 * 1.5, 1e-12);
 }
 
-struct Quiet;
-
-impl Watcher for Quiet {
-    fn row(&mut self, _row: &[f64]) -> Result<(), String> {
-        Ok(())
-    }
-}
-
 /// Time, place and velocity of one freedom of the only body in a run by the trapezoidal rule.
 fn run(model: &Model, (observed, dt): (f64, f64), freedom: usize) -> Vec<[f64; 3]> {
-    let settings = Settings {
-        observed,
-        dt,
-        method: Method::Implicit(Scheme::newmark(0.25, 0.5)),
-        convergence: Convergence::default(),
-        store: 1,
-        capsize: true,
-        adaptive: None,
-        keep: true,
-        transient: 0.0,
-    };
-    let mut run = Run::new(model, settings, vec![]).unwrap();
-    assert_eq!(run.go(&mut Quiet), Ok(Ending::Done));
+    let settings = Settings { method: trapezoidal(), ..settings(observed, dt) };
+    let run = runs::run(model, settings, vec![]);
     let first = run.history.layout.body(0) + freedom;
     run.history.rows().map(|row| [row[0], row[first], row[first + 6]]).collect()
 }

@@ -5,47 +5,23 @@
 
 #[allow(dead_code)]
 mod common;
+#[allow(dead_code)]
+#[path = "common/run.rs"]
+mod runs;
 
 use nalgebra::Vector3;
+use runs::{Quiet, model, settings};
 use std::sync::Arc;
 use windlass::hydro::sea::{Component, Sea, Water};
 use windlass::model::{FatigueSelection, Model, Six, Stretching};
 use windlass::post::fatigue::{find, of_cycles};
 use windlass::post::rainflow::cycles;
 use windlass::solve::results::{self, Exposed, Interest, Magnitude, Told, Window};
-use windlass::solve::time::{Action, Convergence, Ending, Method, Run, Settings, Watcher, What, When};
+use windlass::solve::time::{Action, Ending, Run, What, When};
 use windlass::table::{Cell, Table};
 
-/// Takes rows and says nothing.
-struct Quiet;
-
-impl Watcher for Quiet {
-    fn row(&mut self, _row: &[f64]) -> Result<(), String> {
-        Ok(())
-    }
-}
-
-fn model(records: &str) -> Model {
-    let (mut session, _, _folder) = common::session();
-    session.open("test", format!("&DIMEN -DIMEN METERS N\n{records}"));
-    session.run();
-    assert_eq!(session.errors, 0, "{:?}", session.reports);
-    session.job.model.clone()
-}
-
 fn run(model: &Model, (observed, dt): (f64, f64), start: &[(usize, Six)], actions: Vec<Action>) -> Run {
-    let settings = Settings {
-        observed,
-        dt,
-        method: Method::default(),
-        convergence: Convergence::default(),
-        store: 1,
-        capsize: true,
-        adaptive: None,
-        keep: true,
-        transient: 0.0,
-    };
-    let mut run = Run::new(model, settings, actions).unwrap();
+    let mut run = Run::new(model, settings(observed, dt), actions).unwrap();
     run.begin_with(start).unwrap();
     assert_eq!(run.go(&mut Quiet), Ok(Ending::Done));
     run

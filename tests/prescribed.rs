@@ -4,16 +4,18 @@
 
 #[allow(dead_code)]
 mod common;
+#[allow(dead_code)]
+#[path = "common/run.rs"]
+mod runs;
 
 use nalgebra::Vector3;
+use runs::{Quiet, settings, trapezoidal};
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write;
 use std::sync::Arc;
 use windlass::hydro::sea::{Component, Sea, Water};
 use windlass::model::{Model, Pose, Six, Stretching};
-use windlass::solve::time::{
-    Action, Convergence, Ending, Method, Motion, Prescribed, Run, Scheme, Settings, Watcher, What, When, prescribed,
-};
+use windlass::solve::time::{Action, Ending, Motion, Prescribed, Run, Settings, What, When, prescribed};
 
 /// A model with a body B and a file in the job's folder; the text of what was said.
 fn session(file: &str, records: &str) -> (Model, i64, String) {
@@ -281,14 +283,6 @@ fn a_body_with_a_motion_stands_still_in_equilibria_until_it_is_free() {
     assert!(model.bodies["B"].place.shift[0].abs() < 1e-3);
 }
 
-struct Quiet;
-
-impl Watcher for Quiet {
-    fn row(&mut self, _row: &[f64]) -> Result<(), String> {
-        Ok(())
-    }
-}
-
 #[test]
 fn a_mass_on_a_spring_whose_other_end_swings_follows_its_closed_form() {
     // 10 t on 40 kN/m: w0 = 2 rad/s; the other end moves with A sin(w t) from rest
@@ -299,19 +293,8 @@ fn a_mass_on_a_spring_whose_other_end_swings_follows_its_closed_form() {
     );
     let (model, errors, text) = session("", &records);
     assert_eq!(errors, 0, "{text}");
-    let settings = Settings {
-        observed: 20.0,
-        dt: 0.01,
-        method: Method::Implicit(Scheme::newmark(0.25, 0.5)),
-        convergence: Convergence::default(),
-        store: 1,
-        capsize: true,
-        adaptive: None,
-        keep: true,
-        transient: 0.0,
-    };
-    let mut run = Run::new(&model, settings, vec![]).unwrap();
-    assert_eq!(run.go(&mut Quiet), Ok(Ending::Done));
+    let settings = Settings { method: trapezoidal(), ..settings(20.0, 0.01) };
+    let run = runs::run(&model, settings, vec![]);
     let cart = model.bodies.get_index_of("CART").unwrap();
     let (w0, w) = (2.0, TAU / period);
     let at = run.history.layout.body(cart);
@@ -332,17 +315,7 @@ fn a_body_that_rides_on_the_waves_rides_on_those_of_the_sea_it_comes_into() {
                    &ENV LATER -SEA REGULAR 60 2.6 7.5\n&ENV NOW -SEA REGULAR 200 4 11";
     let (model, errors, text) = session(&file, records);
     assert_eq!(errors, 0, "{text}");
-    let settings = Settings {
-        observed: 40.0,
-        dt: 0.1,
-        method: Method::Implicit(Scheme::newmark(0.25, 0.5)),
-        convergence: Convergence::default(),
-        store: 1,
-        capsize: true,
-        adaptive: None,
-        keep: true,
-        transient: 0.0,
-    };
+    let settings = Settings { method: trapezoidal(), ..settings(40.0, 0.1) };
     let change = Action { name: "CHANGE".into(), when: When::At(20.0), what: What::Environment("LATER".into()) };
     let mut run = Run::new(&model, settings, vec![change]).unwrap();
     let seas = ["NOW", "LATER"].map(|name| Sea::of(&model, &model.environments[name]).unwrap().unwrap());

@@ -4,51 +4,14 @@
 
 #[allow(dead_code)]
 mod common;
+#[allow(dead_code)]
+#[path = "common/run.rs"]
+mod runs;
 
+use runs::{Quiet, model, run, settings, trapezoidal};
 use std::f64::consts::TAU;
 use windlass::model::{Model, Six};
-use windlass::solve::time::{Action, Convergence, Ending, History, Method, Run, Scheme, Settings, Watcher};
-
-/// Takes rows and says nothing.
-struct Quiet;
-
-impl Watcher for Quiet {
-    fn row(&mut self, _row: &[f64]) -> Result<(), String> {
-        Ok(())
-    }
-}
-
-fn model(records: &str) -> Model {
-    let (mut session, _, _folder) = common::session();
-    session.open("test", format!("&DIMEN -DIMEN METERS N\n{records}"));
-    session.run();
-    assert_eq!(session.errors, 0, "{:?}", session.reports);
-    session.job.model.clone()
-}
-
-fn settings(observed: f64, dt: f64) -> Settings {
-    Settings {
-        observed,
-        dt,
-        method: Method::default(),
-        convergence: Convergence::default(),
-        store: 1,
-        capsize: true,
-        adaptive: None,
-        keep: true,
-        transient: 0.0,
-    }
-}
-
-fn trapezoidal() -> Method {
-    Method::Implicit(Scheme::newmark(0.25, 0.5))
-}
-
-fn run(model: &Model, settings: Settings, actions: Vec<Action>) -> Run {
-    let mut run = Run::new(model, settings, actions).unwrap();
-    assert_eq!(run.go(&mut Quiet), Ok(Ending::Done));
-    run
-}
+use windlass::solve::time::{Ending, History, Method, Run, Scheme, Settings};
 
 fn x(history: &History) -> Vec<f64> {
     history.series(history.layout.body(0))

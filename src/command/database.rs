@@ -13,6 +13,8 @@ use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
 use crate::model::{AttachedDatabase, DriftMethod, Mass, Model, find};
 use nalgebra::Vector3;
+use std::f64::consts::TAU;
+use std::ops::RangeInclusive;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -23,6 +25,11 @@ pub static DATABASE: Command = Command { spec: &SPEC, edits: false, run };
 const WAMIT_ENDINGS: [&str; 9] = ["1", "2", "3", "4", "8", "9", "12d", "12s", "hst"];
 /// The largest difference of the mass of a body from that of its database that is let pass.
 const UNLIKE: f64 = 0.2;
+/// The largest added mass of a translation in long waves over the mass of the body: generous on both sides, a slender ship along its
+/// length being let pass by its heave and a plate under water by its size.
+const ADDED: RangeInclusive<f64> = 0.02..=50.0;
+/// Natural periods of heave that are let pass (s): from a small buoy to a slender spar.
+const HEAVE: RangeInclusive<f64> = 0.5..=200.0;
 /// The share of the mass of Ogilvie's relation by which frequencies may stray before it is said.
 const STRAY: f64 = 0.05;
 
@@ -159,6 +166,9 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         let text = format!("{name} has {:.4} times the mass that {} was computed for", mass / other, data.source);
         job.warn(text, source);
     }
+    if let Some(text) = unlike(&data, mass) {
+        job.warn(format!("{name}: {text}"), source);
+    }
     let memory = args.option_number("-MEMORY");
     let made = AttachedDatabase { data: Arc::new(data), at, memory, drift, hydrostatics, span: args.span };
     let old = job.model.bodies.get_mut(&key).and_then(|b| b.database.replace(made));
@@ -166,6 +176,32 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         job.remark(format!("the database of {name} is replaced"), args.span);
     }
     Ok(Effect::Done)
+}
+
+/// What tells that a database is of a body of another size, where its source does not say the mass it was computed for: added
+/// mass in no proportion to the mass (kg) of the body, or a stiffness by which it would heave like nothing that floats.
+fn unlike(data: &Database, mass: f64) -> Option<String> {
+    if data.mass.is_some() || mass <= 0.0 {
+        return None;
+    }
+    let long = data.zero.as_ref().or(data.added_mass.first()).or(data.infinite.as_ref())?;
+    let largest = (0..3).map(|i| long[(i, i)].abs()).fold(0.0, f64::max);
+    let help = "is it another body's, or are -ULEN or the weight of the body in another unit?";
+    let share = largest / mass;
+    if !ADDED.contains(&share) {
+        return Some(format!(
+            "the largest added mass of {} is {share:.2e} of the mass of the body: {help}",
+            data.source
+        ));
+    }
+    let stiffness = data.hydrostatics.as_ref().map(|c| c[(2, 2)]).filter(|c| *c > 0.0)?;
+    let period = TAU * ((mass + long[(2, 2)].max(0.0)) / stiffness).sqrt();
+    (!HEAVE.contains(&period)).then(|| {
+        format!(
+            "by the stiffness and added mass of {} the body heaves with a period of {period:.2e} s: {help}",
+            data.source
+        )
+    })
 }
 
 /// Whether an option says yes.
@@ -274,4 +310,26 @@ fn bytes(path: &Path, name: &str, span: Span) -> Outcome<Vec<u8>> {
         return Err(unusable(format!("it has more than {LARGEST_FILE} bytes")));
     }
     std::fs::read(path).map_err(|e| unusable(e.to_string()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::{Matrix6, Vector6};
+
+    #[test]
+    fn a_database_of_another_size_is_told_from_one_of_this_body() {
+        // a hemisphere of 10 m: 2.1E6 kg, added mass of 0.83 of it in long waves, 3.2E6 N/m
+        let data = |size: f64, stiffness: f64| Database {
+            zero: Some(Matrix6::identity() * 1.8e6 * size.powi(3)),
+            hydrostatics: Some(Matrix6::from_diagonal(&Vector6::new(0.0, 0.0, 3.2e6 * stiffness, 0.0, 0.0, 0.0))),
+            ..Database::default()
+        };
+        assert_eq!(unlike(&data(1.0, 1.0), 2.1e6), None);
+        assert!(unlike(&data(0.1, 0.01), 2.1e6).is_some_and(|t| t.contains("8.57e-4 of the mass")));
+        assert!(unlike(&data(10.0, 100.0), 2.1e6).is_some_and(|t| t.contains("8.57e2 of the mass")));
+        // 2 pi sqrt(3.9E6 / 32)
+        assert!(unlike(&data(1.0, 1e-5), 2.1e6).is_some_and(|t| t.contains("period of 2.19e3 s")));
+        assert_eq!(unlike(&data(0.1, 1.0), 0.0), None);
+    }
 }

@@ -2,7 +2,7 @@
 //!
 //! Source: reference/model.md, "Environment".
 
-use super::{Call, Command, Effect, Job, sea_options, wind_options};
+use super::{Call, Command, Effect, Job, probability, sea_options, wind_options};
 use crate::language::args::{Args, Given};
 use crate::language::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use crate::language::name as rule;
@@ -63,14 +63,7 @@ const OPTIONS: &[OptionSpec] = &[
         &[number("SG", Dim::None, "specific gravity").positive()],
         "specific gravity of the water",
     ),
-    OptionSpec::new(
-        "-PROBABILITY",
-        &[
-            choice("STAT", &["RMS", "SIGNIFICANT", "MAXIMUM", "TIME", "PROBABILITY"], "statistic"),
-            number("DATA", Dim::None, "its value").or("none"),
-        ],
-        "statistic of the results",
-    ),
+    probability::PROBABILITY,
     SEA_OPTION,
     A_SEA_OPTION,
     SP_TYPE_OPTION,
@@ -80,14 +73,14 @@ const OPTIONS: &[OptionSpec] = &[
     sea_options::STRETCHING,
     sea_options::STOKES,
     OptionSpec::new("-S_PERIOD", PERIODS, "periods of the sea's components").repeating(1),
-    OptionSpec::new("-MD_PERIOD", PERIODS, "periods of the mean drift").repeating(1),
+    OptionSpec::new("-MD_PERIOD", PERIODS, "periods of the mean drift: kept and shown, without effect").repeating(1),
     OptionSpec::new(
         "-TIME",
         &[
             number("TOBSERV", Dim::Time, "time observed").positive(),
             number("DELTA_TIME", Dim::Time, "time step").positive(),
             number("TTRA_SET", Dim::Time, "time set aside for the transient").or("0").not_negative(),
-            ValueSpec::new("NCYCLES", Kind::Integer, "cycles").or("1").within(1.0, 1e6),
+            ValueSpec::new("NCYCLES", Kind::Integer, "cycles: kept and shown, without effect").or("1").within(1.0, 1e6),
         ],
         "time window",
     ),
@@ -126,14 +119,14 @@ const OPTIONS: &[OptionSpec] = &[
     OptionSpec::new(
         "-T_PRESSURE",
         &[text("NAME", "name of temperature and pressure data")],
-        "temperature and pressure of rods",
+        "temperature and pressure of rods: kept and shown, without effect",
     ),
     OptionSpec::new(
         "-USE_MEAN",
         &[ValueSpec::new("YES/NO", Kind::Choice(&["YES", "NO"]), "on or off").or("YES")],
-        "uses mean values",
+        "uses mean values: kept and shown, without effect",
     ),
-    OptionSpec::new("-E_PERIOD", PERIODS, "encounter periods (frequency domain)").repeating(1),
+    OptionSpec::new("-E_PERIOD", PERIODS, "periods of the waves in SRESPONSE, where it gives none").repeating(1),
 ];
 
 static ENV_SPEC: CommandSpec = CommandSpec {
@@ -141,7 +134,7 @@ static ENV_SPEC: CommandSpec = CommandSpec {
     options: OPTIONS,
     detail: "Directions are where sea, wind and current come from, from +X toward +Y: 180 is a head sea. Without a name the \
              environment starts from the defaults; a new name too, and is kept; an old name edits what is kept. It stays in \
-             force until the next &ENV. The sources list no types for -PROBABILITY, -SP_TYPE, -W_PROFILE, -W_DESIGN and \
+             force until the next &ENV. NCYCLES of -TIME, -MD_PERIOD, -T_PRESSURE and -USE_MEAN are kept and shown, and act on nothing: the sources do not say what they do to a line. The sources list no types for -PROBABILITY, -SP_TYPE, -W_PROFILE, -W_DESIGN and \
              -W_SPECTRUM: those taken are the field's usual ones. Depth and tide together must leave water. \
              -W_SPECTRUM adds gusts in the time domain, the same at all places and heights, on the speed 10 m up: API RP 2A 20th edition; NPD \
              and ISO (Froya); Ochi and Shin; Harris; Davenport; Kaimal; the drag coefficient of the last four is Wu's, 0.0008 + 0.000065 U. \
@@ -281,6 +274,7 @@ pub(super) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<
         }
         "-CURRENT" => env.current = Some(current(job, given)?),
         "-S_PERIOD" | "-MD_PERIOD" | "-E_PERIOD" => periods(given)?,
+        "-PROBABILITY" => probability::check(given)?,
         "-C_HISTORY" => {
             known_curve(job, given, 0, CurveKind::CurrentHistory)?;
             env.current_history = Some(formula(given));

@@ -4,7 +4,7 @@
 
 use super::chosen::{WARNING, raise};
 use super::equilibrium::told;
-use super::{Call, Command, Effect, Job, Menu};
+use super::{Call, Command, Effect, Job, Menu, probability};
 use crate::language::args::Args;
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::source::Span;
@@ -12,7 +12,7 @@ use crate::language::spec::{CommandSpec, Kind, Noun, Opens, OptionSpec, ValueSpe
 use crate::language::units::Dim;
 use crate::model::{Environment, Model, find};
 use crate::report::page;
-use crate::solve::frequency::{Asked, Linear, Operators, Response, Trains, respond};
+use crate::solve::frequency::{Asked, Extreme, Linear, Operators, Response, Trains, respond};
 use crate::table::Table;
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -32,8 +32,8 @@ pub enum Found {
     Nothing,
     /// Motions of unit waves.
     Operators(Arc<Linear>, Operators),
-    /// Motions in a sea.
-    Spectral(Arc<Linear>, Response),
+    /// Motions in a sea, and the extreme its environment asks for.
+    Spectral(Arc<Linear>, Response, Option<Extreme>),
 }
 
 impl Found {
@@ -41,7 +41,7 @@ impl Found {
     pub(super) fn linear(&self) -> Option<&Arc<Linear>> {
         match self {
             Found::Nothing => None,
-            Found::Operators(linear, _) | Found::Spectral(linear, _) => Some(linear),
+            Found::Operators(linear, _) | Found::Spectral(linear, ..) => Some(linear),
         }
     }
 }
@@ -100,7 +100,7 @@ static RAO_SPEC: CommandSpec = CommandSpec {
 static SRESPONSE_SPEC: CommandSpec = CommandSpec {
     menus: &["FREQ_RESPONSE"],
     data: &[ValueSpec::new("ENV", Kind::Name(Noun::Environment), "environment").or("the environment in force")],
-    options: &[PERIOD.default("as the sea and the natural periods need them")],
+    options: &[PERIOD.default("those of -E_PERIOD, else as the sea and the natural periods need them")],
     detail: "Motions in the seas of an environment, as spectra. Damping that grows with the velocity is linearised in that sea: it is the mean \
              that the velocities meet, found anew until both agree. Slow drift is added for bodies whose database has drift, by Newman's approximation, \
              with all damping; -DRIFT MEAN or NONE of DATABASE leaves it out, and QTF takes the mean drift of the QTF. Spread seas have eleven directions. Mean forces, also of \
@@ -201,6 +201,10 @@ fn sresponse(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let trains = seas(job, &model.environment, args.span)?;
     let mut linear = linear(job, &model, args.span)?;
     let mut frequencies = frequencies(args);
+    if frequencies.is_empty() {
+        let of_env = model.environment.options.iter().find(|g| g.spec.name == "-E_PERIOD");
+        frequencies = of_env.map_or(Vec::new(), |g| g.numbers().iter().map(|t| TAU / t).collect());
+    }
     frequencies.sort_by(f64::total_cmp);
     frequencies.dedup();
     let asked = Asked { frequencies, spectral: true };
@@ -211,6 +215,6 @@ fn sresponse(job: &mut Job, call: &Call) -> Outcome<Effect> {
         .fact("Rounds of Linearisation", made.rounds, Dim::None);
     table.notes.extend(linear.notes.iter().cloned());
     say(job, &table, args.span);
-    keep(job, Found::Spectral(Arc::new(linear), made));
+    keep(job, Found::Spectral(Arc::new(linear), made, probability::extreme(&model.environment)));
     Ok(Effect::Done)
 }

@@ -6,7 +6,7 @@ use super::chosen::{Chosen, raise};
 use super::environment::{self, A_SEA_OPTION, SEA_OPTION, SP_TYPE_OPTION, SPREAD_OPTION};
 use super::equilibrium::told;
 use super::frequency::{Found, found, heaving, seas};
-use super::{Call, Command, Effect, Job, Menu};
+use super::{Call, Command, Effect, Job, Menu, probability};
 use crate::language::args::Args;
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
@@ -16,7 +16,7 @@ use crate::language::units::Dim;
 use crate::model::{Environment, Model, Thing, find};
 use crate::report::disposition::Disposition;
 use crate::solve::frequency::tables::{Told, body_statistics, operators, spectra, statistics};
-use crate::solve::frequency::{Asked, Derivative, Linear, Quantity, Response, in_sea};
+use crate::solve::frequency::{Asked, Derivative, Extreme, Linear, Quantity, Response, in_sea};
 use crate::table::Table;
 use nalgebra::Vector3;
 use std::sync::Arc;
@@ -86,7 +86,7 @@ static STATISTICS_SPEC: CommandSpec = CommandSpec {
             &[ValueSpec::new("T", Kind::Number(Dim::Time), "time").positive()],
             "time of the most probable maximum",
         )
-        .default("10800: three hours")
+        .default("by -PROBABILITY of &ENV, else 10800: three hours")
         .owner(Owner::Ours),
         SEA_OPTION,
         A_SEA_OPTION,
@@ -138,7 +138,7 @@ fn shown(job: &Job, title: String, list: &[Told], derivative: Derivative, span: 
             let unit = Dim::Length.to_si(1.0, job.units);
             operators(title, (linear, made), list, (derivative, unit))
         }
-        Found::Spectral(linear, made) => spectra(title, (linear, made), list, derivative),
+        Found::Spectral(linear, made, _) => spectra(title, (linear, made), list, derivative),
         Found::Nothing => Table::new(title),
     })
 }
@@ -261,7 +261,7 @@ fn response(job: &Job, args: &Args) -> Outcome<(Arc<Linear>, Response)> {
             given.span,
         )
         .help("SRESPONSE ENV takes another environment; a new sea may follow RAO")),
-        (Found::Spectral(linear, made), None) => Ok((Arc::clone(linear), made.clone())),
+        (Found::Spectral(linear, made, _), None) => Ok((Arc::clone(linear), made.clone())),
         (Found::Operators(linear, _), _) => {
             let trains = seas(job, &sea(job, args)?, args.span)?;
             let made = in_sea(linear, &trains, &Asked::default());
@@ -274,9 +274,14 @@ fn response(job: &Job, args: &Args) -> Outcome<(Arc<Linear>, Response)> {
 fn told_statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let derivative = derivative(args)?;
-    let duration = args.option_number("-DURATION").unwrap_or(DURATION);
+    let of_env = match found(job, args.span)? {
+        Found::Spectral(.., extreme) => *extreme,
+        _ => probability::extreme(&job.model.environment),
+    };
+    let given = args.option_number("-DURATION").map(Extreme::MostProbable);
+    let extreme = given.or(of_env).unwrap_or(Extreme::MostProbable(DURATION));
     let (linear, made) = response(job, args)?;
-    let (both, how) = ((linear.as_ref(), &made), (derivative, duration));
+    let (both, how) = ((linear.as_ref(), &made), (derivative, extreme));
     let of = what(derivative);
     let table = match args.word(0) {
         Some("POINT") => {

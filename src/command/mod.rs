@@ -57,6 +57,7 @@ mod pipe;
 mod plot;
 mod prcpost;
 mod prescribe;
+mod probability;
 mod rep_select;
 mod report_menu;
 mod rigging;

@@ -166,16 +166,22 @@ fn begun(job: &mut Job, args: &Args, settings: Settings) -> Outcome<(Run, Option
     let wrong = |e, job: &Job| told(e, &job.model, args.span, job.units);
     let mut model = job.model.clone();
     let mut velocities = Vec::new();
+    let mut began = None;
     if let Some(given) = args.option("-RESET") {
         let time = given.number(0).unwrap_or(0.0);
         velocities = reset(job, &mut model, time)
             .ok_or_else(|| Diagnostic::error("there is no run of these bodies to begin from", given.span))?;
+        began = Some(format!("as the run before had the bodies at {} s", Dim::Time.from_si(time, job.units)));
     }
     if args.has("-EQUI") {
         let options = job.equilibrium.clone();
         settle(&mut model, &options).map_err(|e| wrong(e, job))?;
+        began = Some("at the equilibrium with the mean forces, as &EQUI finds it".into());
     }
     let mut made = Run::new(&model, settings, job.actions.clone()).map_err(|e| wrong(e, job))?;
+    if let Some(text) = began {
+        made.began = text;
+    }
     if !velocities.is_empty() {
         made.begin_with(&velocities).map_err(|e| wrong(e, job))?;
     }

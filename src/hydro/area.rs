@@ -5,9 +5,8 @@
 //! this is the drag of that area alone.
 
 use super::steady::{Medium, Steady};
-use super::stream::{Place, Push};
-use super::{BodyLoad, Category, Load, MovingLoad, Underway};
-use crate::model::{ClassError, Pose, Six};
+use super::stream::{InStream, Place, Push};
+use crate::model::Six;
 use nalgebra::{Matrix6x3, Vector3};
 use std::sync::Arc;
 
@@ -41,6 +40,12 @@ impl AreaLoad {
     pub fn along(self, axes: nalgebra::Matrix3<f64>) -> Self {
         AreaLoad { axes, ..self }
     }
+}
+
+impl InStream for AreaLoad {
+    fn stands(&self) -> (&Place, &Steady) {
+        (&self.place, &self.steady)
+    }
 
     fn push(&self, stream: Vector3<f64>) -> Push {
         let speed = stream.norm();
@@ -54,27 +59,5 @@ impl AreaLoad {
         let change = tensor * speed + (tensor * stream) * stream.transpose() / speed;
         by_velocity.fixed_rows_mut::<3>(0).copy_from(&change);
         Push { wrench: Six::new(force.x, force.y, force.z, 0.0, 0.0, 0.0), by_velocity }
-    }
-}
-
-/// The category of what a stream exerts.
-pub(super) fn category(medium: Medium) -> Category {
-    match medium {
-        Medium::Air => Category::Wind,
-        Medium::Water => Category::ViscousDrag,
-    }
-}
-
-impl BodyLoad for AreaLoad {
-    fn category(&self) -> Category {
-        category(self.place.medium)
-    }
-
-    fn load(&self, pose: &Pose) -> Result<Load, ClassError> {
-        Ok(self.place.load(&self.steady, pose, |stream| self.push(stream)))
-    }
-
-    fn moving(&self, at: &Underway, _state: &[f64]) -> Result<MovingLoad, ClassError> {
-        Ok(self.place.moving(&self.steady, at, |stream| self.push(stream)))
     }
 }

@@ -3,12 +3,9 @@
 //! Direction and speed are those of the stream in the x-y plane of the body: the direction it comes from is counted from
 //! body x toward body y, so that 180 is a stream from ahead for a vessel with x aft.
 
-use super::area::category;
 use super::heading::ByHeading;
 use super::steady::Steady;
-use super::stream::{Place, Push};
-use super::{BodyLoad, Category, Load, MovingLoad, Underway};
-use crate::model::{ClassError, Pose};
+use super::stream::{InStream, Place, Push};
 use nalgebra::{Matrix6x3, Vector3};
 use std::sync::Arc;
 
@@ -25,6 +22,12 @@ impl CoefficientLoad {
     pub fn new(steady: Arc<Steady>, place: Place, table: ByHeading) -> Self {
         CoefficientLoad { steady, place, table }
     }
+}
+
+impl InStream for CoefficientLoad {
+    fn stands(&self) -> (&Place, &Steady) {
+        (&self.place, &self.steady)
+    }
 
     fn push(&self, stream: Vector3<f64>) -> Push {
         let square = stream.x * stream.x + stream.y * stream.y;
@@ -37,19 +40,5 @@ impl CoefficientLoad {
         let grown = nalgebra::RowVector3::new(2.0 * stream.x, 2.0 * stream.y, 0.0);
         let by_velocity: Matrix6x3<f64> = slope * turned + value * grown;
         Push { wrench: value * square, by_velocity }
-    }
-}
-
-impl BodyLoad for CoefficientLoad {
-    fn category(&self) -> Category {
-        category(self.place.medium)
-    }
-
-    fn load(&self, pose: &Pose) -> Result<Load, ClassError> {
-        Ok(self.place.load(&self.steady, pose, |stream| self.push(stream)))
-    }
-
-    fn moving(&self, at: &Underway, _state: &[f64]) -> Result<MovingLoad, ClassError> {
-        Ok(self.place.moving(&self.steady, at, |stream| self.push(stream)))
     }
 }

@@ -1,7 +1,7 @@
 //! `#DRAG`: linear drag of the current at a point, and the sum of the matrices a body has at its origin.
 
-use super::area::category;
 use super::steady::{Medium, Steady};
+use super::stream::category;
 use super::stream::{Place, Push};
 use super::{BodyLoad, Category, Load, MovingLoad, Underway, cross};
 use crate::model::{ClassError, Pose};

@@ -14,13 +14,13 @@
 //! body, both at the centroid of A of each axis, which moves with the body: so one that turns about its middle meets no more than
 //! the centroids do. At rest in the mean stream nothing is added; in a uniform stream all of it is exact.
 
-use super::area::category;
 use super::buoyancy::{SIDES, skin};
 use super::exposed::{Exposed, Skin};
 use super::grown;
 use super::growth::Growth;
 use super::hull::Tube;
 use super::steady::{Medium, Steady};
+use super::stream::category;
 use super::strips::Strips;
 use super::{BodyLoad, Category, Load, MovingLoad, Underway, cross};
 use crate::model::{ClassError, Part, Piece, Pose, Shape};

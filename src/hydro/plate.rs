@@ -1,10 +1,8 @@
 //! `#PLATE`: a flat plate in wind or current, with drag along its normal alone: `1/2 rho Cd A |w.n| (w.n) n` at its centre.
 
-use super::area::category;
 use super::steady::Steady;
-use super::stream::{Place, Push};
-use super::{BodyLoad, Category, Load, MovingLoad, Underway};
-use crate::model::{ClassError, Pose, Six};
+use super::stream::{InStream, Place, Push};
+use crate::model::Six;
 use nalgebra::{Matrix6x3, Vector3};
 use std::sync::Arc;
 
@@ -23,6 +21,12 @@ impl PlateLoad {
     pub fn new(steady: Arc<Steady>, place: Place, area: f64, normal: Vector3<f64>) -> Self {
         PlateLoad { steady, place, area, normal }
     }
+}
+
+impl InStream for PlateLoad {
+    fn stands(&self) -> (&Place, &Steady) {
+        (&self.place, &self.steady)
+    }
 
     fn push(&self, stream: Vector3<f64>) -> Push {
         let rho = self.steady.density(self.place.medium);
@@ -32,19 +36,5 @@ impl PlateLoad {
         let change = self.normal * self.normal.transpose() * (rho * self.area * across.abs());
         by_velocity.fixed_rows_mut::<3>(0).copy_from(&change);
         Push { wrench: Six::new(force.x, force.y, force.z, 0.0, 0.0, 0.0), by_velocity }
-    }
-}
-
-impl BodyLoad for PlateLoad {
-    fn category(&self) -> Category {
-        category(self.place.medium)
-    }
-
-    fn load(&self, pose: &Pose) -> Result<Load, ClassError> {
-        Ok(self.place.load(&self.steady, pose, |stream| self.push(stream)))
-    }
-
-    fn moving(&self, at: &Underway, _state: &[f64]) -> Result<MovingLoad, ClassError> {
-        Ok(self.place.moving(&self.steady, at, |stream| self.push(stream)))
     }
 }

@@ -1,8 +1,8 @@
 //! A load that a stream of air or water exerts on a point of a body, and its exact tangent.
 
 use super::steady::{Medium, Steady};
-use super::{Load, MovingLoad, Underway, cross};
-use crate::model::{Pose, Six};
+use super::{BodyLoad, Category, Load, MovingLoad, Underway, cross};
+use crate::model::{ClassError, Pose, Six};
 use nalgebra::{Matrix3, Matrix6, Matrix6x3, Vector3};
 
 /// Force and moment about the point, in body axes, in a stream of a velocity in body axes; and how they change with it.
@@ -18,6 +18,39 @@ impl Push {
     /// Nothing.
     pub fn none() -> Self {
         Push { wrench: Six::zeros(), by_velocity: Matrix6x3::zeros() }
+    }
+}
+
+/// What a stream pushes at one point of a body: a load.
+pub trait InStream: std::fmt::Debug + Send + Sync {
+    /// Where it stands, and the stream.
+    fn stands(&self) -> (&Place, &Steady);
+
+    /// The push of a stream of a velocity in body axes (m/s).
+    fn push(&self, stream: Vector3<f64>) -> Push;
+}
+
+impl<T: InStream> BodyLoad for T {
+    fn category(&self) -> Category {
+        category(self.stands().0.medium)
+    }
+
+    fn load(&self, pose: &Pose) -> Result<Load, ClassError> {
+        let (place, steady) = self.stands();
+        Ok(place.load(steady, pose, |stream| self.push(stream)))
+    }
+
+    fn moving(&self, at: &Underway, _state: &[f64]) -> Result<MovingLoad, ClassError> {
+        let (place, steady) = self.stands();
+        Ok(place.moving(steady, at, |stream| self.push(stream)))
+    }
+}
+
+/// The category of what a stream exerts.
+pub(super) fn category(medium: Medium) -> Category {
+    match medium {
+        Medium::Air => Category::Wind,
+        Medium::Water => Category::ViscousDrag,
     }
 }
 

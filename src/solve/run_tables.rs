@@ -22,6 +22,7 @@ fn scheme(method: &Method) -> String {
 pub fn told(run: &Run) -> Table {
     let Counts { steps, cut, iterations, evaluations } = run.counts;
     let mut table = Table::new("Time Domain")
+        .fact("Began", run.began.as_str(), Dim::None)
         .fact("Time Reached", run.time(), Dim::Time)
         .fact("Step", run.settings.dt, Dim::Time)
         .fact("Scheme", scheme(&run.settings.method), Dim::None)
@@ -37,6 +38,9 @@ pub fn told(run: &Run) -> Table {
         if let Some(time) = sea.reinforcement {
             table = table.fact("Reinforced At", time, Dim::Time);
         }
+    }
+    if run.actions.is_empty() {
+        return table;
     }
     let mut table = table.column("", "Action", Dim::None, Digits::Usual).column("", "Time", Dim::Time, Digits::Usual);
     for (action, fired) in run.actions.iter().zip(&run.fired) {

@@ -8,89 +8,10 @@
 
 use super::chain::Chain;
 use super::element::{Element, Ground, Tilt, vertical_of_contact};
+use super::end_forces::{Bottom, EndForces, Regime};
 use super::line::{LARGEST, LineError, Segment};
 use super::search::{Point, rising_root};
 use super::segment::{Reach, hanging, lifted};
-
-/// A flat bottom at the anchor's elevation.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Bottom {
-    /// Friction coefficient, zero or more.
-    pub friction: f64,
-}
-
-/// How a segment lies between its ends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Regime {
-    /// Free from end to end.
-    Suspended,
-    /// Straight up and under tension from end to end.
-    VerticalTaut,
-    /// Part of it lies on the bottom under tension.
-    Contact,
-    /// The same; friction on the grounded part takes some of the tension.
-    ContactFriction,
-    /// The same; friction takes all of the tension before the anchor.
-    ContactFrictionAnchorZero,
-    /// It hangs straight down to the bottom and lies there without tension.
-    FullySlack,
-    /// All of it on the bottom, without tension.
-    OnBottomSlack,
-    /// All of it on the bottom, stretched.
-    OnBottomTaut,
-}
-
-impl Regime {
-    /// The name used in tables.
-    pub fn name(self) -> &'static str {
-        match self {
-            Regime::Suspended => "suspended",
-            Regime::VerticalTaut => "vertical_taut",
-            Regime::Contact => "contact",
-            Regime::ContactFriction => "contact_friction",
-            Regime::ContactFrictionAnchorZero => "contact_friction_anchorzero",
-            Regime::FullySlack => "fully_slack",
-            Regime::OnBottomSlack => "on_bottom_slack",
-            Regime::OnBottomTaut => "on_bottom_taut",
-        }
-    }
-}
-
-/// The forces at the ends of a segment.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct EndForces {
-    /// How it lies.
-    pub regime: Regime,
-    /// Where the fairlead is: beside and above the anchor (m).
-    pub at: [f64; 2],
-    /// Pull of the line on the fairlead (N): toward the anchor, and downward.
-    pub fairlead: [f64; 2],
-    /// Pull of the line on the anchor (N): toward the fairlead, and upward.
-    pub anchor: [f64; 2],
-    /// Unstretched length on the bottom (m).
-    pub grounded: f64,
-    /// d(fairlead H, V)/d(x, z) (N/m), row by row. At a change of regime, that of the regime named. Infinite in its last place
-    /// for [`Regime::OnBottomTaut`] alone: there V grows as the root of z.
-    pub stiffness: [[f64; 2]; 2],
-    /// What is left of the distances, mapped through the stiffness to a force (N).
-    pub residual: f64,
-    /// Newton steps.
-    pub iterations: usize,
-}
-
-impl EndForces {
-    /// The same line upside down.
-    pub(super) fn turned(self) -> Self {
-        let EndForces { at: [x, z], fairlead, anchor, stiffness: [[a, b], [c, d]], .. } = self;
-        EndForces {
-            at: [x, -z],
-            fairlead: [fairlead[0], -fairlead[1]],
-            anchor: [anchor[0], -anchor[1]],
-            stiffness: [[a, -b], [-c, d]],
-            ..self
-        }
-    }
-}
 
 /// Newton steps after which the nested search takes over.
 const MOST_STEPS: usize = 40;

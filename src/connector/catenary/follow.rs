@@ -4,7 +4,8 @@
 //! one or two Newton steps are left. Wherever that does not lead to a proven answer at once, or leads so near another
 //! regime that rounding decides, the search of [`Segment::between`] answers as if nothing were known.
 
-use super::between::{Bottom, EndForces, PROOF, Regime, check, cold, in_contact, mapped, prove, prove_contact};
+use super::between::{PROOF, check, cold, in_contact, mapped, prove, prove_contact};
+use super::end_forces::{Bottom, EndForces, Regime};
 use super::line::{LineError, Segment};
 use super::segment::{Reach, hanging};
 

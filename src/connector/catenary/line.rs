@@ -1,8 +1,8 @@
 //! What a line is made of, and what is refused.
 
-use super::between::{Bottom, EndForces};
 use super::chain::{Chain, Pull};
 use super::element::{Element, Ground, Tilt};
+use super::end_forces::{Bottom, EndForces};
 use super::law::Law;
 
 /// A piece of line with the same properties all along.

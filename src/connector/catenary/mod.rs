@@ -15,6 +15,7 @@ mod adjust;
 mod between;
 mod chain;
 mod element;
+mod end_forces;
 mod follow;
 mod interpolate;
 mod law;
@@ -30,7 +31,7 @@ mod state;
 mod table;
 
 pub use adjust::Aim;
-pub use between::{Bottom, EndForces, Regime};
+pub use end_forces::{Bottom, EndForces, Regime};
 pub use interpolate::{FromTable, Interpolated};
 pub use law::Law;
 pub use line::{Floor, Joint, Line, LineError, Segment};

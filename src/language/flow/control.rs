@@ -1,8 +1,9 @@
 //! Carrying out control records: branches, loops, macros, variables.
 
+use super::Interpreter;
+use super::frames::{Branch, Collected, Collecting, Frame, Trips};
 use super::macros::{Macro, control_word};
 use super::specs::CONTROL;
-use super::{Branch, Collected, Collecting, Frame, Interpreter, Trips};
 use crate::language::diagnostic::{Diagnostic, Outcome, Severity};
 use crate::language::record::Record;
 use crate::language::substitution::{World, substitute};

@@ -4,15 +4,17 @@
 //! Source: reference/language.md sections 4 to 6 and 8.
 
 mod control;
+mod frames;
 pub mod macros;
 pub mod specs;
 
 use super::diagnostic::{Diagnostic, Outcome};
-use super::record::{self, LONGEST_RECORD, Record};
+use super::record::{LONGEST_RECORD, Record};
 use super::select::Owner;
-use super::source::{SourceId, Sources, Span, Text};
+use super::source::{Sources, Span, Text};
 use super::substitution::{World, substitute};
 use super::variables::Variables;
+use frames::{Branch, Collecting, Frame};
 use indexmap::IndexMap;
 use macros::{Macro, control_word};
 use std::collections::VecDeque;
@@ -37,49 +39,6 @@ pub enum Step {
     NeedLine,
     /// Nothing is left to read.
     Done,
-}
-
-enum Frame {
-    /// A text being read from byte `at`.
-    Source { id: SourceId, at: usize, tag: u32 },
-    /// What was typed at a terminal and is not read yet; each text from a byte.
-    Terminal { typed: VecDeque<(SourceId, usize)> },
-    /// A loop running over its body.
-    Loop { body: Arc<[Record]>, at: usize, trips: Trips, header: Span },
-    /// A macro call.
-    Macro { name: String, body: Arc<[Record]>, at: usize, called: Span },
-}
-
-enum Trips {
-    Count { variable: String, next: f64, end: f64, step: f64 },
-    List { variable: String, items: std::vec::IntoIter<String> },
-    Endless,
-}
-
-struct Branch {
-    span: Span,
-    /// The records of the current branch are read.
-    active: bool,
-    /// A branch has been taken, or the whole block is passed over.
-    settled: bool,
-    /// Number of frames when it was opened.
-    depth: usize,
-}
-
-enum Collected {
-    Loop(Trips),
-    Macro(Box<Macro>),
-    /// The header was wrong: the block is read and thrown away.
-    Nothing,
-}
-
-struct Collecting {
-    what: Collected,
-    macro_block: bool,
-    span: Span,
-    nested: usize,
-    depth: usize,
-    body: Vec<Record>,
 }
 
 /// The interpreter of records.
@@ -282,117 +241,6 @@ impl Interpreter {
         Ok(())
     }
 
-    /// The next raw record, or what to tell the session when the innermost place is empty.
-    fn fetch(&mut self) -> Outcome<Result<Record, Step>> {
-        loop {
-            let Some(frame) = self.frames.last_mut() else { return Ok(Err(Step::Done)) };
-            match frame {
-                Frame::Terminal { typed } => {
-                    let Some((id, at)) = typed.front_mut() else { return Ok(Err(Step::NeedLine)) };
-                    if let Some((record, _)) = record_at(&self.sources, *id, at)? {
-                        return Ok(Ok(record));
-                    }
-                    typed.pop_front();
-                    continue;
-                }
-                Frame::Source { id, at, tag } => {
-                    let tag = *tag;
-                    let Some((record, open)) = record_at(&self.sources, *id, at)? else {
-                        self.close_frame()?;
-                        return Ok(Err(Step::Ended(tag)));
-                    };
-                    if open {
-                        return Err(Diagnostic::error(
-                            "the file ends inside a record that is continued",
-                            record.whole(),
-                        )
-                        .label("the last line ends with `\\`"));
-                    }
-                    return Ok(Ok(record));
-                }
-                Frame::Macro { body, at, .. } | Frame::Loop { body, at, .. } => {
-                    if let Some(record) = body.get(*at).cloned() {
-                        *at += 1;
-                        return Ok(Ok(record));
-                    }
-                }
-            }
-            if matches!(frame, Frame::Macro { .. }) {
-                self.close_frame()?;
-                continue;
-            }
-            self.spent += 1;
-            let result = self.check_closed();
-            self.trip();
-            result?;
-            if self.spent > self.budget || self.interrupt.load(Ordering::Relaxed) {
-                // a loop without records inside: let the caller count this one and stop
-                let header = match self.frames.last() {
-                    Some(Frame::Loop { header, .. }) => *header,
-                    _ => Span::default(),
-                };
-                return Ok(Ok(Record::verbatim("&LOOP", header)));
-            }
-        }
-    }
-
-    /// Ends the innermost frame; an error tells of blocks it left open.
-    fn close_frame(&mut self) -> Outcome<()> {
-        let result = self.check_closed();
-        if let Some(Frame::Macro { .. }) = self.frames.pop() {
-            self.variables.leave();
-        }
-        result
-    }
-
-    /// Drops the blocks the innermost frame left open and says so.
-    fn check_closed(&mut self) -> Outcome<()> {
-        let depth = self.frames.len();
-        let branch = self.branches.iter().find(|b| b.depth >= depth).map(|b| b.span);
-        self.branches.retain(|b| b.depth < depth);
-        let block = self.collecting.take_if(|c| c.depth >= depth);
-        match (block, branch) {
-            (None, None) => Ok(()),
-            (None, Some(span)) => {
-                Err(Diagnostic::error("this &IF is not closed", span).label("expected &ENDIF before the end"))
-            }
-            (Some(open), branch) => {
-                let name = if open.macro_block { "MACRO" } else { "LOOP" };
-                let error = Diagnostic::error(format!("this &{name} is not closed"), open.span)
-                    .label(format!("expected &END{name} before the end"));
-                Err(match branch {
-                    Some(span) => error.other(span, "nor is this &IF"),
-                    None => error,
-                })
-            }
-        }
-    }
-
-    /// Starts the next trip of the innermost loop, or ends it.
-    fn trip(&mut self) {
-        let Some(Frame::Loop { at, trips, .. }) = self.frames.last_mut() else { return };
-        *at = 0;
-        let assignment = match trips {
-            Trips::Endless => return,
-            Trips::Count { variable, next, end, step } => {
-                let value = *next;
-                let more = if *step > 0.0 { value <= *end } else { value >= *end };
-                *next += *step;
-                more.then(|| (variable.clone(), format!("{value}")))
-            }
-            Trips::List { variable, items } => items.next().map(|item| (variable.clone(), item)),
-        };
-        match assignment {
-            Some((variable, value)) => {
-                // the value of a loop index is short and its name exists after the first trip
-                let _ = self.variables.set_local(&variable, &value);
-            }
-            None => {
-                self.frames.pop();
-            }
-        }
-    }
-
     /// Calls a macro with the words of a record (the first is its name).
     ///
     /// # Errors
@@ -415,22 +263,6 @@ impl Interpreter {
         self.frames.push(Frame::Macro { name: called.name.clone(), body: called.body.clone(), at: 0, called: span });
         Ok(())
     }
-}
-
-/// The record that stands at a byte of a source, and whether the text ends while it is continued; `at` moves behind it.
-/// `None` at the end of the text.
-///
-/// # Errors
-/// A record that holds a byte that is no text; `at` has moved on all the same.
-fn record_at(sources: &Sources, id: SourceId, at: &mut usize) -> Outcome<Option<(Record, bool)>> {
-    let from = *at;
-    let Some(source) = sources.get(id).filter(|s| from < s.text.len()) else { return Ok(None) };
-    let (record, next, open) = record::read(&source.text, id, from);
-    *at = next;
-    let Some((bad, byte)) = source.bad_byte(from..next) else { return Ok(Some((record, open))) };
-    Err(Diagnostic::error(format!("the byte 0x{byte:02X} is not text"), Span::new(id, bad, bad + 1))
-        .label("the record is passed over")
-        .help("records are text in UTF-8, without NUL"))
 }
 
 #[cfg(test)]

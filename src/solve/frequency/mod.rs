@@ -20,5 +20,5 @@ pub use natural::{Natural, natural};
 pub use operators::Operators;
 pub use quantity::{Derivative, Quantity};
 pub use response::{Asked, Point, Response, in_sea, respond};
-pub use statistics::Statistics;
+pub use statistics::{Extreme, Statistics};
 pub use trains::Trains;

@@ -7,6 +7,17 @@ use super::quantity::{Derivative, Quantity};
 use super::response::{Point, Response};
 use std::f64::consts::TAU;
 
+/// Which amplitude about the mean is told as the extreme.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Extreme {
+    /// The most probable largest one in a time (s).
+    MostProbable(f64),
+    /// A multiple of the standard deviation.
+    Times(f64),
+    /// The one that this share of the amplitudes exceeds, `sigma sqrt(-2 ln p)` by Rayleigh's distribution.
+    Exceeded(f64),
+}
+
 /// Statistics of a quantity about its mean.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Statistics {
@@ -46,6 +57,15 @@ impl Statistics {
     /// The mean of the highest third of the amplitudes: twice the deviation.
     pub fn significant(&self) -> f64 {
         2.0 * self.deviation
+    }
+
+    /// An extreme amplitude about the mean; `None` where it is not defined.
+    pub fn extreme(&self, extreme: Extreme) -> Option<f64> {
+        match extreme {
+            Extreme::MostProbable(duration) => self.most_probable(duration),
+            Extreme::Times(factor) => Some(factor * self.deviation),
+            Extreme::Exceeded(share) => Some(self.deviation * (-2.0 * share.ln()).sqrt()),
+        }
     }
 
     /// The most probable largest amplitude in a time (s), about the mean; `None` where that is no more than one period.

@@ -5,7 +5,7 @@ use super::natural::{Natural, natural};
 use super::operators::Operators;
 use super::quantity::{Derivative, Quantity};
 use super::response::{Point, Response};
-use super::statistics::Statistics;
+use super::statistics::{Extreme, Statistics};
 use crate::language::units::Dim;
 use crate::solve::system::FREEDOMS;
 use crate::table::{Cell, Digits, Table};
@@ -151,37 +151,54 @@ fn statistic_columns(mut table: Table, group: &str, prefix: &str, dim: Dim) -> T
     table
 }
 
-fn statistic_cells(made: &Statistics, duration: f64) -> [Cell; 7] {
+/// A table of statistics that says what its maxima are.
+fn titled(title: String, extreme: Extreme) -> Table {
+    let table = Table::new(title);
+    match extreme {
+        Extreme::MostProbable(duration) => table.fact("Duration", duration, Dim::Time),
+        Extreme::Times(factor) => table.fact("Maximum over RMS", factor, Dim::None),
+        Extreme::Exceeded(share) => table.fact("Share above Maximum", share, Dim::None),
+    }
+}
+
+/// What the maxima are, in a note.
+fn told_of(extreme: Extreme) -> &'static str {
+    match extreme {
+        Extreme::MostProbable(_) => "most probable maximum",
+        Extreme::Times(_) | Extreme::Exceeded(_) => "maximum (by -PROBABILITY of the environment)",
+    }
+}
+
+fn statistic_cells(made: &Statistics, extreme: Extreme) -> [Cell; 7] {
     [
         made.mean.into(),
         made.waves.into(),
         made.slow.into(),
         made.deviation.into(),
         made.significant().into(),
-        made.most_probable(duration).into(),
+        made.extreme(extreme).into(),
         made.period.into(),
     ]
 }
 
-/// Statistics of quantities of one dimension, a row each. The most probable maximum is that of a duration (s).
+/// Statistics of quantities of one dimension, a row each. The maximum is the extreme asked for.
 pub fn statistics(
     title: String,
     (linear, response): (&Linear, &Response),
     list: &[Told],
-    (derivative, duration): (Derivative, f64),
+    (derivative, extreme): (Derivative, Extreme),
 ) -> Table {
     let dim = list.first().map_or(Dim::None, |t| derived(t.dim, derivative));
-    let table = Table::new(title).fact("Duration", duration, Dim::Time).column("", "Result", Dim::None, Digits::Usual);
+    let table = titled(title, extreme).column("", "Result", Dim::None, Digits::Usual);
     let mut table = statistic_columns(table, "", "", dim);
     for told in list {
         let made = Statistics::of(response, &told.quantity, derivative);
         let mut row = vec![Cell::from(told.name.as_str())];
-        row.extend(statistic_cells(&made, duration));
+        row.extend(statistic_cells(&made, extreme));
         push(&mut table, row);
     }
-    table.note(
-        "significant and most probable maximum are amplitudes about the mean; Tz is of both, waves and slow drift",
-    );
+    let told = told_of(extreme);
+    table.note(format!("significant and {told} are amplitudes about the mean; Tz is of both, waves and slow drift"));
     notes(&mut table, linear, response);
     table
 }
@@ -191,20 +208,20 @@ pub fn body_statistics(
     title: String,
     (linear, response): (&Linear, &Response),
     body: usize,
-    (derivative, duration): (Derivative, f64),
+    (derivative, extreme): (Derivative, Extreme),
 ) -> Table {
-    let table = Table::new(title).fact("Duration", duration, Dim::Time).column("", "Axis", Dim::None, Digits::Usual);
+    let table = titled(title, extreme).column("", "Axis", Dim::None, Digits::Usual);
     let table = statistic_columns(table, "Translation", "", derived(Dim::Length, derivative));
     let mut table = statistic_columns(table, "Rotation", "R ", derived(Dim::Angle, derivative));
     for (axis, name) in ["X", "Y", "Z"].into_iter().enumerate() {
         let mut row = vec![Cell::from(name)];
         for freedom in [axis, axis + 3] {
             let quantity = Quantity::freedom(linear, body, freedom);
-            row.extend(statistic_cells(&Statistics::of(response, &quantity, derivative), duration));
+            row.extend(statistic_cells(&Statistics::of(response, &quantity, derivative), extreme));
         }
         push(&mut table, row);
     }
-    table.note("significant and most probable maximum are amplitudes about the place at rest");
+    table.note(format!("significant and {} are amplitudes about the place at rest", told_of(extreme)));
     notes(&mut table, linear, response);
     table
 }

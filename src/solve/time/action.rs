@@ -1,4 +1,4 @@
-//! What happens during a run: at a time, or when a condition is first met at the end of a step.
+//! What happens during a run: at a time, or when a condition is first met, within a 64th of a step.
 
 use crate::model::{Body, ClassError, Model, Position};
 
@@ -18,7 +18,7 @@ pub enum Watched {
 pub enum When {
     /// At the first step that ends at this time (s) or after it; the step is made to end there.
     At(f64),
-    /// When what is watched is first above the value at the end of a step.
+    /// When what is watched is first above the value, within a 64th of a step.
     Above(Watched, f64),
     /// When it is first below.
     Below(Watched, f64),

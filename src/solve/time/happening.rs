@@ -1,4 +1,4 @@
-//! What happens on the way of a run: conditions are looked at behind every step, connectors come and go, lengths change.
+//! What happens on the way of a run: conditions are looked at behind every step, which is cut where one comes true, connectors come and go, lengths change.
 
 use super::action::{Watched, What, When, point_in_body};
 use super::run::Run;
@@ -6,6 +6,13 @@ use crate::hydro::sea::Sea;
 use crate::model::{ClassError, Model, Position};
 use crate::solve::system::SolveError;
 use std::sync::Arc;
+
+/// What is winched, and how long it was.
+#[derive(Debug, Default)]
+pub(super) struct Winches {
+    list: Vec<(String, f64, Option<f64>)>,
+    lengths: Vec<Option<f64>>,
+}
 
 impl Run {
     /// Puts bodies whose motion is given where they are now.
@@ -43,11 +50,14 @@ impl Run {
         times.filter(|t| *t > self.now.time && *t < end).min_by(f64::total_cmp)
     }
 
-    /// Changes the lengths of what is winched, to those at a time.
-    pub(super) fn wind(&mut self, time: f64) -> Result<(), SolveError> {
+    /// Changes the lengths of what is winched, to those at a time; gives what they were, for [`Run::unwind`].
+    pub(super) fn wind(&mut self, time: f64) -> Result<Winches, SolveError> {
         if self.winches.is_empty() {
-            return Ok(());
+            return Ok(Winches::default());
         }
+        let length = |name: &String| self.model.connectors.get(&Model::key(name)).and_then(|c| c.first_length);
+        let lengths = self.winches.iter().map(|(name, ..)| length(name)).collect();
+        let before = Winches { list: self.winches.clone(), lengths };
         self.wound = true;
         let dt = time - self.now.time;
         for (name, rate, to) in &mut self.winches {
@@ -70,7 +80,39 @@ impl Run {
             self.system.make_anew(&self.model, name)?;
         }
         self.winches.retain(|(_, rate, _)| *rate != 0.0);
-        Ok(())
+        Ok(before)
+    }
+
+    /// Puts lengths and winches back to what they were; elements follow when they are wound again.
+    pub(super) fn unwind(&mut self, before: Winches) {
+        if before.list.is_empty() {
+            return;
+        }
+        for ((name, ..), length) in before.list.iter().zip(before.lengths) {
+            if let Some(connector) = self.model.connectors.get_mut(&Model::key(name)) {
+                connector.first_length = length;
+            }
+        }
+        self.winches = before.list;
+    }
+
+    /// Whether a condition is still waited for.
+    pub(super) fn waits(&self) -> bool {
+        self.actions.iter().zip(&self.fired).any(|(a, f)| f.is_none() && !matches!(a.when, When::At(_)))
+    }
+
+    /// Whether a condition that is waited for is true now.
+    pub(super) fn comes_true(&self) -> bool {
+        let waited = self.actions.iter().zip(&self.fired).filter(|(_, f)| f.is_none());
+        waited.into_iter().any(|(a, _)| !matches!(a.when, When::At(_)) && self.due(&a.when))
+    }
+
+    fn due(&self, when: &When) -> bool {
+        match when {
+            When::At(time) => self.now.time >= time - 1e-9 * self.settings.dt,
+            When::Above(watched, value) => self.watched(watched).is_some_and(|v| v > *value),
+            When::Below(watched, value) => self.watched(watched).is_some_and(|v| v < *value),
+        }
     }
 
     /// The value of what is watched.
@@ -108,12 +150,7 @@ impl Run {
                 continue;
             }
             let Some(action) = self.actions.get(index).cloned() else { continue };
-            let due = match &action.when {
-                When::At(time) => self.now.time >= time - 1e-9 * self.settings.dt,
-                When::Above(watched, value) => self.watched(watched).is_some_and(|v| v > *value),
-                When::Below(watched, value) => self.watched(watched).is_some_and(|v| v < *value),
-            };
-            if !due {
+            if !self.due(&action.when) {
                 continue;
             }
             if let Some(fired) = self.fired.get_mut(index) {

@@ -30,6 +30,8 @@ pub struct LinkColumns {
 pub struct Layout {
     /// Bodies as written, each with its key in the model.
     pub bodies: Vec<(String, String)>,
+    /// Which freedoms of each body move: the others stay as they are.
+    pub moves: Vec<[bool; 6]>,
     /// Connectors.
     pub links: Vec<LinkColumns>,
     /// Categories of force that are kept.
@@ -43,6 +45,7 @@ impl Layout {
     /// That of a system; `links` are the connectors that act at some time, each with its ends' bodies.
     pub fn new(system: &System, links: Vec<(String, Vec<Option<usize>>)>) -> Self {
         let bodies: Vec<_> = system.nodes.iter().map(|n| (n.name.clone(), n.key.clone())).collect();
+        let moves = system.nodes.iter().map(|n| n.free.map(|free| free || n.prescribed.is_some())).collect();
         let mut at = 1 + OF_BODY * bodies.len();
         let mut columns = Vec::new();
         for (name, ends) in links {
@@ -62,7 +65,7 @@ impl Layout {
         categories.extend(applied);
         let categories: Vec<Category> = Category::ALL.into_iter().filter(|c| categories.contains(c)).collect();
         let width = at + 6 * categories.len() * bodies.len();
-        Layout { bodies, links: columns, categories, width, forces: at }
+        Layout { bodies, moves, links: columns, categories, width, forces: at }
     }
 
     /// Where the numbers of a body begin.

@@ -5,6 +5,7 @@
 
 mod action;
 mod corrector;
+mod course;
 mod forces;
 mod happening;
 mod history;
@@ -18,10 +19,11 @@ mod statistics;
 mod step;
 
 pub use action::{Action, Watched, What, When};
+pub use course::{Counts, Ending, Settings, Watcher};
 pub use forces::{Forces, Memory, Motion};
 pub use history::{History, Layout, LinkColumns, OF_BODY};
 pub use prescribed::{Prescribed, prescribed};
-pub use run::{Counts, Ending, Run, SNAPSHOT, Settings, Watcher};
+pub use run::{Run, SNAPSHOT};
 pub use scheme::{Method, Scheme};
 pub use snapshot::Snapshot;
 pub use statistics::{Series, Statistics, results};

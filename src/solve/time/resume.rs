@@ -1,7 +1,8 @@
 //! A run that goes on from a snapshot, and how it knows its own.
 
 use super::action::Action;
-use super::run::{Run, Settings};
+use super::course::Settings;
+use super::run::Run;
 use super::snapshot::Snapshot;
 use crate::model::{ClassError, Model};
 use crate::post::SeriesError;

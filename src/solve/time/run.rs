@@ -1,13 +1,14 @@
 //! A run: steps from a start to an end, with what happens on the way, and rows kept.
 
 use super::action::Action;
+use super::course::{Counts, Ending, Settings, Watcher};
 use super::forces::{Memory, Motion};
 use super::history::{History, Layout, Told};
 use super::inertia::gyroscopic;
 use super::scheme::Method;
 use super::snapshot::Snapshot;
 use super::statistics::Statistics;
-use super::step::{Convergence, Effort, Instant, Stepper};
+use super::step::{Effort, Instant, Stepper};
 use crate::hydro::sea::Sea;
 use crate::model::{ClassError, Model, Place, Six};
 use crate::post::SeriesError;
@@ -16,87 +17,10 @@ use std::sync::Arc;
 
 /// Times a step may be halved.
 const HALVINGS: u32 = 12;
+/// Times a step is halved to meet a condition.
+const SOUGHT: u32 = 6;
 /// Steps between two snapshots, at which what solvers remember is forgotten.
 pub const SNAPSHOT: usize = 500;
-
-/// How a run goes.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Settings {
-    /// Length of the run (s).
-    pub observed: f64,
-    /// Step (s).
-    pub dt: f64,
-    /// Scheme.
-    pub method: Method,
-    /// When a step is solved.
-    pub convergence: Convergence,
-    /// Steps from one stored instant to the next.
-    pub store: usize,
-    /// Goes on when a body has rolled or pitched beyond 90 degrees.
-    pub capsize: bool,
-    /// Largest error of place of one step (m; rotations times 10 m): steps are halved as it asks. None: steps are as given.
-    pub adaptive: Option<f64>,
-    /// Keeps rows. Without, only who is told of them has them.
-    pub keep: bool,
-    /// Time that statistics leave out at the beginning (s).
-    pub transient: f64,
-}
-
-/// Why a run ended.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Ending {
-    /// At its end.
-    Done,
-    /// It was told to stop.
-    Interrupted,
-    /// A body rolled or pitched beyond 90 degrees.
-    Capsized(String),
-    /// An action ended it.
-    Stopped(String),
-}
-
-/// What a run did.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Counts {
-    /// Steps taken, those that were halved by their parts.
-    pub steps: usize,
-    /// Steps that had to be cut because no balance was found.
-    pub cut: usize,
-    /// Iterations.
-    pub iterations: usize,
-    /// Evaluations of all forces.
-    pub evaluations: usize,
-}
-
-/// Who is told how a run goes.
-pub trait Watcher {
-    /// A stored row.
-    ///
-    /// # Errors
-    /// It could not be kept, in one sentence: the run ends.
-    fn row(&mut self, row: &[f64]) -> Result<(), String>;
-
-    /// Everything needed to go on from here.
-    ///
-    /// # Errors
-    /// It could not be kept, in one sentence: the run ends.
-    fn snapshot(&mut self, _snapshot: &Snapshot) -> Result<(), String> {
-        Ok(())
-    }
-
-    /// No more comes.
-    ///
-    /// # Errors
-    /// What came could not be kept, in one sentence.
-    fn finish(&mut self) -> Result<(), String> {
-        Ok(())
-    }
-
-    /// Asked before every step; false ends the run, which keeps what it has.
-    fn goes_on(&mut self, _time: f64) -> bool {
-        true
-    }
-}
 
 /// A run.
 #[derive(Debug)]
@@ -129,8 +53,25 @@ pub struct Run {
     pub(super) wound: bool,
     /// The seas of the run, each with the time since when it has been there (s).
     pub seas: Vec<(f64, Option<Arc<Sea>>)>,
+    /// From what it began, for who reads of it.
+    pub began: String,
     origin: Model,
     start: Vec<(usize, Six)>,
+}
+
+/// What stood before a part of a step.
+struct Before {
+    time: f64,
+    motions: Vec<Motion>,
+    memory: Memory,
+    states: Vec<f64>,
+}
+
+/// A watcher could not keep what it was told: the disk is full, say.
+fn unkept(text: String) -> SolveError {
+    SolveError::new(ClassError::new(text).help(
+        "the run ends here and what it has stays for PRCPOST; with room for its file, TDOM -RESTART goes on from the last snapshot there",
+    ))
 }
 
 impl Run {
@@ -174,6 +115,7 @@ impl Run {
             row: Vec::new(),
             told: Told::default(),
             wound: true,
+            began: "as the bodies stand, at rest".into(),
             origin,
             start: Vec::new(),
         };
@@ -189,6 +131,7 @@ impl Run {
     /// As [`Run::new`].
     pub fn begun_again(&self, change: impl FnOnce(Settings) -> Settings) -> Result<Run, SolveError> {
         let mut again = Run::new(&self.origin, change(self.settings.clone()), self.actions.clone())?;
+        again.began.clone_from(&self.began);
         if !self.start.is_empty() {
             again.begin_with(&self.start)?;
         }
@@ -221,7 +164,7 @@ impl Run {
     /// A body or connector without an answer, or a watcher that could not keep a row; rows so far are kept.
     pub fn go(&mut self, watcher: &mut dyn Watcher) -> Result<Ending, SolveError> {
         let ended = self.steps(watcher);
-        let kept = watcher.finish().map_err(|text| SolveError::new(ClassError::new(text)));
+        let kept = watcher.finish().map_err(unkept);
         ended.and_then(|ending| kept.map(|()| ending))
     }
 
@@ -236,11 +179,13 @@ impl Run {
                 return Ok(Ending::Interrupted);
             }
             let end = (self.settings.dt * (self.taken + 1) as f64).min(self.settings.observed);
-            self.to(end)?;
+            let mut stop = self.to(end)?;
             self.taken += 1;
-            // the step's own time, so that no rounding adds up
-            self.now.time = end;
-            let stop = self.happens()?;
+            if stop.is_none() {
+                // the step's own time, so that no rounding adds up
+                self.now.time = end;
+                stop = self.happens()?;
+            }
             let capsized = self.capsized();
             let last = self.taken == steps || stop.is_some() || capsized.is_some();
             if last || self.taken.is_multiple_of(self.settings.store.max(1)) {
@@ -259,27 +204,24 @@ impl Run {
         Ok(Ending::Done)
     }
 
-    /// Goes to a time, in as many parts as that needs.
-    fn to(&mut self, end: f64) -> Result<(), SolveError> {
-        let mut level = 0;
+    /// Goes to a time, in as many parts as that needs; gives the name of an action that ends the run before.
+    fn to(&mut self, end: f64) -> Result<Option<String>, SolveError> {
+        // halvings for the error or a balance, and for a condition that comes true
+        let (mut level, mut sought) = (0, 0);
         loop {
             let left = end - self.now.time;
             if left <= 1e-9 * self.settings.dt {
-                return Ok(());
+                return Ok(None);
             }
-            let mut part = (self.settings.dt / f64::from(1u32 << level)).min(left);
+            let mut part = (self.settings.dt / f64::from(1u32 << (level + sought).min(HALVINGS))).min(left);
             // an action at a time ends a step there
             if let Some(at) = self.next_action(end)
                 && at > self.now.time + 1e-9 * self.settings.dt
             {
                 part = part.min(at - self.now.time);
             }
-            self.wind(self.now.time + part)?;
-            let before = self
-                .settings
-                .adaptive
-                .map(|_| (self.now.motions.clone(), self.now.memory.clone(), self.system.states.clone()));
-            let start = self.now.time;
+            let before = (self.settings.adaptive.is_some() || self.waits()).then(|| self.before());
+            let winches = self.wind(self.now.time + part)?;
             match self.stepper.step(
                 &mut self.system,
                 &mut self.now,
@@ -289,30 +231,56 @@ impl Run {
                 Ok(Effort { iterations, evaluations }) => {
                     self.counts.iterations += iterations;
                     self.counts.evaluations += evaluations;
-                    if let (Some(allowed), Some((motions, memory, states))) = (self.settings.adaptive, before) {
-                        let error = self.error_of_step(&motions, part);
-                        if error > allowed && level < HALVINGS {
-                            (self.now.motions, self.now.memory, self.system.states) = (motions, memory, states);
-                            self.now.time = start;
-                            level += 1;
+                    if let Some(before) = before {
+                        let error = self.error_of_step(&before.motions, part);
+                        let rough = self.settings.adaptive.is_some_and(|allowed| error > allowed) && level < HALVINGS;
+                        let sudden = sought < SOUGHT && self.comes_true();
+                        if rough || sudden {
+                            self.unwind(winches);
+                            self.go_back(before);
+                            level += u32::from(rough);
+                            sought += u32::from(!rough);
                             continue;
                         }
-                        if error < allowed / 10.0 && level > 0 {
-                            level -= 1;
+                        if self.settings.adaptive.is_some_and(|allowed| error < allowed / 10.0) {
+                            level = level.saturating_sub(1);
                         }
                     }
                     self.counts.steps += 1;
                     if part < self.settings.dt * 0.999 {
-                        self.happens()?;
+                        let fired = self.fired.iter().flatten().count();
+                        if let Some(name) = self.happens()? {
+                            return Ok(Some(name));
+                        }
+                        if self.fired.iter().flatten().count() > fired {
+                            sought = 0;
+                        }
                     }
                 }
                 Err(error) if level >= HALVINGS => return Err(error),
                 Err(_) => {
+                    self.unwind(winches);
                     self.counts.cut += 1;
                     level += 1;
                 }
             }
         }
+    }
+
+    /// What a part of a step changes.
+    fn before(&self) -> Before {
+        Before {
+            time: self.now.time,
+            motions: self.now.motions.clone(),
+            memory: self.now.memory.clone(),
+            states: self.system.states.clone(),
+        }
+    }
+
+    /// Forgets a part of a step.
+    fn go_back(&mut self, before: Before) {
+        (self.now.time, self.now.motions) = (before.time, before.motions);
+        (self.now.memory, self.system.states) = (before.memory, before.states);
     }
 
     /// The error of place of one step (m): `h^2 |beta - 1/6|` times the change of the acceleration (Zienkiewicz and Xie, Earthquake
@@ -336,7 +304,7 @@ impl Run {
 
     fn save(&mut self, watcher: &mut dyn Watcher) -> Result<(), SolveError> {
         self.forget();
-        watcher.snapshot(&self.snapshot()).map_err(|text| SolveError::new(ClassError::new(text)))
+        watcher.snapshot(&self.snapshot()).map_err(unkept)
     }
 
     fn keep(&mut self, watcher: &mut dyn Watcher) -> Result<(), SolveError> {
@@ -364,7 +332,7 @@ impl Run {
         if self.settings.keep {
             self.history.values.extend_from_slice(&self.row);
         }
-        watcher.row(&self.row).map_err(|text| SolveError::new(ClassError::new(text)))
+        watcher.row(&self.row).map_err(unkept)
     }
 
     fn capsized(&self) -> Option<String> {

@@ -1,7 +1,7 @@
 //! Everything a run needs to go on from an instant with the same digits, as numbers and as bytes.
 
+use super::course::Counts;
 use super::forces::Motion;
-use super::run::Counts;
 use crate::model::{Place, Pose, Six};
 use nalgebra::Matrix3;
 

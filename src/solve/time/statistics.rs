@@ -28,12 +28,13 @@ impl Series {
     }
 }
 
-/// The results a run is judged by: places and angles of the bodies, tensions of the connectors.
+/// The results a run is judged by: places and angles of the bodies in the freedoms that move, tensions of the connectors.
 pub fn results(layout: &Layout) -> Vec<Series> {
     let mut list = Vec::new();
     for (body, (name, _)) in layout.bodies.iter().enumerate() {
         let at = layout.body(body);
-        for (i, freedom) in FREEDOMS.iter().enumerate() {
+        let moves = layout.moves.get(body).copied().unwrap_or([true; 6]);
+        for (i, freedom) in FREEDOMS.iter().enumerate().filter(|(i, _)| moves.get(*i) == Some(&true)) {
             let dim = if i < 3 { Dim::Length } else { Dim::Angle };
             list.push(Series { name: format!("{name} {freedom}"), dim, columns: at + i..at + i + 1 });
         }

@@ -1,0 +1,54 @@
+//! `-PROBABILITY` of `&ENV`: which extreme the statistics of FREQ_RESPONSE tell. What each word does is our reading.
+
+use crate::language::args::Given;
+use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::spec::{Kind, OptionSpec, ValueSpec};
+use crate::language::units::Dim;
+use crate::model::Environment;
+use crate::solve::frequency::Extreme;
+
+const NAME: &str = "-PROBABILITY";
+const STATISTICS: &[&str] = &["RMS", "SIGNIFICANT", "MAXIMUM", "TIME", "PROBABILITY"];
+
+/// The option.
+pub(super) const PROBABILITY: OptionSpec = OptionSpec::new(
+    NAME,
+    &[
+        ValueSpec::new("STAT", Kind::Choice(STATISTICS), "statistic"),
+        ValueSpec::new("DATA", Kind::Number(Dim::None), "its value").or("1; 3 h of MAXIMUM; 10800 s of TIME; 0.001"),
+    ],
+    "the maximum that STATISTICS of FREQ_RESPONSE tells: DATA times the rms or the significant amplitude, the most probable one of DATA \
+     hours (MAXIMUM) or seconds (TIME), the one that a share DATA of the peaks exceeds (PROBABILITY)",
+);
+
+/// What a record says.
+fn read(given: &Given) -> Result<Extreme, &'static str> {
+    let data = given.number(1);
+    let or = |usual: f64| data.unwrap_or(usual);
+    let made = match given.word(0) {
+        Some("RMS") => Extreme::Times(or(1.0)),
+        Some("SIGNIFICANT") => Extreme::Times(2.0 * or(1.0)),
+        Some("MAXIMUM") => Extreme::MostProbable(3600.0 * or(3.0)),
+        Some("TIME") => Extreme::MostProbable(or(10_800.0)),
+        _ => Extreme::Exceeded(or(1e-3)),
+    };
+    match made {
+        Extreme::Exceeded(share) if !(share > 0.0 && share < 1.0) => Err("a share of the peaks is between 0 and 1"),
+        Extreme::Times(value) | Extreme::MostProbable(value) if value <= 0.0 => Err("DATA must be greater than zero"),
+        made => Ok(made),
+    }
+}
+
+/// Sees that a record can be used.
+///
+/// # Errors
+/// A value that is none of its statistic.
+pub(super) fn check(given: &Given) -> Outcome<()> {
+    let place = given.values.get(1).map_or(given.span, |v| v.span);
+    read(given).map(|_| ()).map_err(|text| Diagnostic::error(text, place))
+}
+
+/// The extreme that an environment asks for.
+pub(super) fn extreme(env: &Environment) -> Option<Extreme> {
+    env.options.iter().rev().find(|g| g.spec.name == NAME).and_then(|given| read(given).ok())
+}
