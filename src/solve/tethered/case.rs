@@ -257,7 +257,14 @@ pub(super) fn installed_tether(
     for ((into, given), place) in springs.iter_mut().zip(ends.springs).zip(["vessel", "anchor"]) {
         let (made, taken) = EndSprings::of_card(given);
         *into = made;
-        notes.extend(taken.iter().map(|t| format!("tether {}, {place}: {}", connector.name, t.text())));
+        for taken in &taken {
+            let text = format!(", {place}: {}", taken.text());
+            // one note for all tethers that have it
+            match notes.iter_mut().find(|note| note.starts_with("tether ") && note.ends_with(&text)) {
+                Some(note) => note.insert_str(note.len() - text.len(), &format!(" {}", connector.name)),
+                None => notes.push(format!("tether {}{text}", connector.name)),
+            }
+        }
     }
     let [vessel_springs, anchor_springs] = springs;
     let [cap_vessel, cap_anchor] = ends.caps;

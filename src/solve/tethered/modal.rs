@@ -53,7 +53,11 @@ pub fn described(model: &Model, name: &str) -> Result<Table, SolveError> {
         }
     };
     table.title = format!("Description of Tether {name}");
-    let about = |note: &&String| note.contains(&format!("tether {name}")) || !note.starts_with("tether ");
+    let named = |note: &str| {
+        let list = note.strip_prefix("tether ").and_then(|rest| rest.split([',', ':']).next());
+        list.is_none_or(|list| list.split(' ').any(|n| n.eq_ignore_ascii_case(name)))
+    };
+    let about = |note: &&String| named(note);
     let notes: Vec<&String> = made.notes.iter().filter(about).collect();
     for note in notes {
         table.note(note.clone());
