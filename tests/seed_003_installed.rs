@@ -247,7 +247,7 @@ fn tensions_moments_and_stresses_are_those_of_the_listing_when_tethers_go_slack(
         let rows = want["rows"].as_array().unwrap();
         let slack = tether < 2;
         for (index, row) in rows.iter().enumerate() {
-            let (element, upper) = (2 - index / 2, index % 2 == 0);
+            let (element, upper) = (2 - index / 2, index.is_multiple_of(2));
             let value = |load: usize| RUN.end(tether, element, upper, load)[SLACK] / 1e3;
             let printed = |name: &str| number(&row[name]);
             let node = element + usize::from(upper);
@@ -275,7 +275,8 @@ fn tensions_moments_and_stresses_are_those_of_the_listing_when_tethers_go_slack(
                 );
             }
         }
-        let end = |index: usize, load: usize| RUN.end(tether, 2 - index / 2, index % 2 == 0, load)[SLACK] / 1e3;
+        let end =
+            |index: usize, load: usize| RUN.end(tether, 2 - index / 2, index.is_multiple_of(2), load)[SLACK] / 1e3;
         // the ends, where moments are large: 0.7 %
         for index in [0, 5] {
             assert!((end(index, 5) / number(&rows[index]["mY"]) - 1.0).abs() < 7e-3, "{key} {index}");
