@@ -79,13 +79,19 @@ fn the_description_is_that_of_the_listing_to_its_digits() {
             assert!(prints(value / 1e3, number(&want[name]), 4), "{name} {value}");
         }
         assert_eq!(found.caps, 0.0);
-        let table = found.table(tether).unwrap();
+        // the centre of gravity is 63.6 m above the origin of the nodes
+        let centre = nalgebra::Vector3::new(0.0, 0.0, 63.6);
+        let listed = found.listed(tether, (index + 1, [9010, 1010]), centre, &example::water());
+        let table = listed.table();
+        assert!(
+            prints(listed.free_hanging_reaction() / 1e3, 5.108, 4) && (listed.ends[1].given[2] - 12.85).abs() < 1e-12
+        );
         let column = |name: &str| table.get(name).unwrap().numbers();
         let row = numbers(&want["table"][1]);
         assert!(prints(column("Area")[0], row[6], 4) && prints(column("2nd Moment")[0], row[7], 5));
         assert!(prints(column("EI")[0] / 1e3, row[8], 4) && prints(column("EA")[0] / 1e3, row[9], 4));
-        assert!((column("Ext Area")[0] - row[10]).abs() < 5e-4);
-        let elevations: Vec<String> = column("Elevation").iter().map(|z| format!("{z:.1}")).collect();
+        assert!((column("Diameter")[0] - row[10]).abs() < 5e-4);
+        let elevations: Vec<String> = column("Distance").iter().map(|z| format!("{z:.1}")).collect();
         assert_eq!(elevations, ["265.4", "176.9", "88.5", "0.0"]);
         assert!(column("X Rot").iter().all(|k| prints(k / 1e3, 5730.0, 3)) && column("Inline") == [1e15, 1e15]);
     }

@@ -14,19 +14,24 @@
 //! | [`line`] | elements one after the other, checked |
 //! | [`beam`] | matrices and loads of one element in one plane |
 //! | [`banded`] | symmetric band and its factors |
-//! | [`modes`] | natural modes of a plane |
-//! | [`compatibility`] | peculiarities of another program, each with a name |
+//! | [`modes`], [`mode_table`] | natural modes, and how they are told |
+//! | [`description`] | what is told of a tether before a run |
+//! | [`towed`] | the towed tether in waves |
 //! | [`structure`] | the structure that installed tethers hold, and the water around |
-//! | [`installed`] | tethers between anchors and a moving structure |
+//! | [`installed`] | tethers between anchors and a moving structure; their z runs along the axis, X and Y across |
+//! | [`compatibility`] | peculiarities of another program in the last two, each with a name |
 
 pub mod banded;
 pub mod beam;
 pub mod compatibility;
+pub mod description;
 pub mod installed;
 pub mod line;
+pub mod mode_table;
 pub mod modes;
 pub mod section;
 pub mod structure;
+pub mod towed;
 
 pub use line::{Line, TetherElement};
 pub use section::Tube;

@@ -138,8 +138,8 @@ fn scaled(plane: Plane, mode: &Mode) -> NaturalMode {
     let largest = |list: &[f64]| list.iter().fold(0.0, |most: f64, v| if v.abs() > most.abs() { *v } else { most });
     let (deflection, slope) = (largest(&deflections), largest(&slopes) / TEN_DEGREES);
     let size = if deflection.abs() >= slope.abs() { deflection } else { slope };
-    let factor = if size == 0.0 { 1.0 } else { 1.0 / size };
-    let times = |list: Vec<f64>| list.into_iter().map(|v| v * factor).collect();
+    let size = if size == 0.0 { 1.0 } else { size };
+    let times = |list: Vec<f64>| list.into_iter().map(|v| v / size).collect();
     NaturalMode { plane, eigenvalue: mode.eigenvalue, deflections: times(deflections), slopes: times(slopes) }
 }
 

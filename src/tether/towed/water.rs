@@ -1,0 +1,395 @@
+//! Waves and current in the axes of the tether, laid out for many places at one time.
+//!
+//! Airy waves added up (as [`crate::hydro::sea`]): with `q = kx x + ky y - w t + phase`, C and S being cosh and sinh of k(z+d)
+//! over sinh(kd), u = a w C cos q, w = a w S sin q. Along an element the places of the first look do not move, so their
+//! `cos(kx x)` and `sin(kx x)` are kept; sines of the time are taken anew at every time, without recurrence.
+
+use super::Towed;
+use crate::hydro::sea::Component;
+use crate::hydro::sea::eight::{Eight, sin_cos};
+use std::f64::consts::{LN_2, LOG2_E};
+
+/// Water this deep (k d) is deep to the last digit: exp(-2 k d) < 1e-17.
+const DEEP: f64 = 20.0;
+
+/// Added to a number and subtracted again it rounds to a whole one, which then stands in the lowest bits.
+const ROUND: f64 = 6_755_399_441_055_744.0;
+/// The Chebyshev series of the exponential over `-ln 2 / 2 .. ln 2 / 2` to the tenth power, highest first: within 4e-16 of it.
+const EXPONENTIAL: [f64; 11] = [
+    2.7632640675430235e-07,
+    2.7640182247362188e-06,
+    2.480148547921643e-05,
+    0.0001984117026651832,
+    0.0013888888952318045,
+    0.008333333385671316,
+    0.04166666666648808,
+    0.16666666666554392,
+    0.5000000000000019,
+    1.0000000000000067,
+    1.0,
+];
+
+/// Four numbers: as many as stay in registers with all that is made of them.
+type Four = [f64; 4];
+
+/// Four values, each of its number.
+#[inline(always)]
+fn four(value: impl Fn(usize) -> f64) -> Four {
+    [value(0), value(1), value(2), value(3)]
+}
+
+/// Exponentials. Beyond 1e300 and below 1e-300 they stay there.
+#[inline(always)]
+fn exp(powers: Four) -> Four {
+    let powers = four(|i| powers[i].clamp(-690.0, 690.0));
+    let shifted = four(|i| powers[i] * LOG2_E + ROUND);
+    // one part of the logarithm is enough: an error of 1e-16 of the power is one of the value
+    let r = four(|i| powers[i] - (shifted[i] - ROUND) * LN_2);
+    let mut value = [EXPONENTIAL[0]; 4];
+    for c in &EXPONENTIAL[1..] {
+        value = four(|i| value[i] * r[i] + c);
+    }
+    four(|i| value[i] * f64::from_bits(shifted[i].to_bits().wrapping_add(1023) << 52))
+}
+
+/// Cosine and sine of eight waves at a place; at a time those times the speed `a w` (m/s).
+pub type Turn = [Eight; 2];
+
+/// Eight waves in the axes of the tether; those that fill up the last block have no amplitude.
+#[derive(Clone, Debug)]
+struct Block {
+    kx: Eight,
+    ky: Eight,
+    k: Eight,
+    /// Frequency of encounter (rad/s), phase at the first node (rad).
+    met: Eight,
+    phase: Eight,
+    /// Speed at the surface `a w` (m/s), and what makes it the amplitude: 1/w (s).
+    speed: Eight,
+    slowness: Eight,
+    /// What makes it the velocity along x and y, and the acceleration along x, y (1/s) and z (1/s).
+    toward: [Eight; 2],
+    growth: [Eight; 3],
+    /// exp(-2 k d), and one over one less it.
+    q: Eight,
+    whole: Eight,
+    /// Whether q is nothing for all of them.
+    deep: bool,
+}
+
+/// The water of a towed tether.
+#[derive(Clone, Debug)]
+pub struct Waters {
+    blocks: Vec<Block>,
+    /// Whether a wave goes across the axis.
+    pub lateral: bool,
+    /// Current less tow in the axes of the tether: height (m) and velocity along x and y (m/s), heights falling.
+    current: Vec<(f64, [f64; 2])>,
+    depth: Option<f64>,
+    stretched: bool,
+}
+
+/// Velocity and acceleration of the water in the axes of the tether; the tow is taken off the velocity.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Flow {
+    /// Along x, y, z (m/s).
+    pub velocity: [f64; 3],
+    /// Along x, y, z (m/s2).
+    pub acceleration: [f64; 3],
+}
+
+/// Eight values, each of its number.
+#[inline(always)]
+fn eight(value: impl Fn(usize) -> f64) -> Eight {
+    let mut made = [0.0; 8];
+    for (i, lane) in made.iter_mut().enumerate() {
+        *lane = value(i);
+    }
+    made
+}
+
+impl Waters {
+    /// That around a tether.
+    pub fn of(case: &Towed) -> Self {
+        let (sin, cos) = case.heading.sin_cos();
+        let turned = |v: [f64; 2]| [cos * v[0] + sin * v[1], cos * v[1] - sin * v[0]];
+        let still = [(0.0, [0.0; 2])];
+        let given = if case.current.is_empty() { &still[..] } else { &case.current[..] };
+        let past = |(height, v): &(f64, [f64; 2])| (*height, turned([v[0] - case.tow[0], v[1] - case.tow[1]]));
+        let current: Vec<_> = given.iter().map(past).collect();
+        let surface = current.first().map_or([0.0; 2], |c| c.1);
+        let block = |waves: &[Component]| {
+            let each = |value: &dyn Fn(&Component) -> f64| {
+                let mut lanes = [0.0; 8];
+                lanes.iter_mut().zip(waves).for_each(|(lane, wave)| *lane = value(wave));
+                lanes
+            };
+            let toward = |c: &Component| turned(c.toward);
+            let kd = |c: &Component| case.depth.map_or(f64::INFINITY, |d| c.number * d);
+            let q = each(&|c| if kd(c) > DEEP { 0.0 } else { (-2.0 * kd(c)).exp() });
+            Block {
+                kx: each(&|c| c.number * toward(c)[0]),
+                ky: each(&|c| c.number * toward(c)[1]),
+                k: each(&|c| c.number),
+                met: each(&|c| c.frequency + c.number * (toward(c)[0] * surface[0] + toward(c)[1] * surface[1])),
+                phase: each(&|c| c.phase + c.number * (c.toward[0] * case.origin[0] + c.toward[1] * case.origin[1])),
+                speed: each(&|c| c.amplitude * c.frequency),
+                slowness: each(&|c| 1.0 / c.frequency),
+                toward: [each(&|c| toward(c)[0]), each(&|c| toward(c)[1])],
+                growth: [
+                    each(&|c| c.frequency * toward(c)[0]),
+                    each(&|c| c.frequency * toward(c)[1]),
+                    each(&|c| c.frequency),
+                ],
+                q,
+                whole: each(&|c| -1.0 / (-2.0 * kd(c)).exp_m1()),
+                deep: q.iter().all(|v| *v == 0.0),
+            }
+        };
+        let blocks: Vec<Block> = case.waves.chunks(8).map(block).collect();
+        // a wave along the axis has the rounding of its direction's sine across it
+        let lateral = blocks.iter().any(|b| b.ky.iter().zip(&b.k).any(|(y, k)| y.abs() > 1e-12 * k));
+        let stretched = !case.compatibility.unstretched_crests;
+        Waters { blocks, lateral, current, depth: case.depth, stretched }
+    }
+
+    /// Number of blocks of eight waves.
+    pub fn blocks(&self) -> usize {
+        self.blocks.len()
+    }
+
+    /// Turns of the waves at a time (s), times their speeds, into a list that is there.
+    pub fn at_time(&self, time: f64, turns: &mut Vec<Turn>) {
+        turns.clear();
+        turns.extend(self.blocks.iter().map(|b| {
+            let (sin, cos) = sin_cos(&eight(|i| b.phase[i] - b.met[i] * time));
+            [eight(|i| b.speed[i] * cos[i]), eight(|i| b.speed[i] * sin[i])]
+        }));
+    }
+
+    /// Turns of the waves at a place (m), to the end of a list.
+    pub fn at_place(&self, x: f64, y: f64, turns: &mut Vec<Turn>) {
+        turns.extend(self.blocks.iter().map(|b| {
+            let (sin, cos) = sin_cos(&eight(|i| b.kx[i] * x + b.ky[i] * y));
+            [cos, sin]
+        }));
+    }
+
+    /// Height of the surface above the still water level (m).
+    #[inline]
+    pub fn elevation(&self, time: &[Turn], place: &[Turn]) -> f64 {
+        let mut sums = [0.0; 8];
+        for ((block, t), p) in self.blocks.iter().zip(time).zip(place) {
+            for (i, sum) in sums.iter_mut().enumerate() {
+                *sum += block.slowness[i] * (t[0][i] * p[0][i] - t[1][i] * p[1][i]);
+            }
+        }
+        total(&sums)
+    }
+
+    /// The water at a height above the still water level (m), under a surface of an elevation (m).
+    pub fn flow(&self, time: &[Turn], place: &[Turn], height: f64, elevation: f64) -> Flow {
+        let z = self.reach(height, elevation);
+        let mut sums = [[0.0; 4]; 6];
+        for ((b, t), p) in self.blocks.iter().zip(time).zip(place) {
+            if b.deep {
+                half::<true, 0>(b, t, p, z, self.lateral, &mut sums);
+                half::<true, 4>(b, t, p, z, self.lateral, &mut sums);
+            } else {
+                half::<false, 0>(b, t, p, z, self.lateral, &mut sums);
+                half::<false, 4>(b, t, p, z, self.lateral, &mut sums);
+            }
+        }
+        let [u, v, w, ax, ay, az] = sums.map(|s| (s[0] + s[2]) + (s[1] + s[3]));
+        let [cx, cy] = self.current_at(height);
+        Flow { velocity: [u + cx, v + cy, w], acceleration: [ax, ay, az] }
+    }
+
+    /// The height at which the waves are taken for that of a place. Wheeler (1970): the actual surface is taken for the still
+    /// one, the bottom stays; what is above the surface is as on it.
+    #[inline]
+    fn reach(&self, height: f64, elevation: f64) -> f64 {
+        if !self.stretched {
+            return height;
+        }
+        let scale = self.depth.map_or(1.0, |d| d / (d + elevation).max(f64::MIN_POSITIVE));
+        ((height - elevation) * scale).min(0.0)
+    }
+
+    /// Current less tow at a height (m), along x and y (m/s).
+    fn current_at(&self, height: f64) -> [f64; 2] {
+        let below = self.current.iter().position(|c| c.0 <= height);
+        match below {
+            Some(0) => self.current[0].1,
+            None => self.current.last().map_or([0.0; 2], |c| c.1),
+            Some(i) => {
+                let ((high, above), (low, under)) = (self.current[i - 1], self.current[i]);
+                let share = (height - low) / (high - low);
+                [under[0] + share * (above[0] - under[0]), under[1] + share * (above[1] - under[1])]
+            }
+        }
+    }
+
+    /// The longest integration length (m): a quarter of the length of the wave with number 4N/5 + 1 of N in order of their
+    /// wave numbers; of a regular wave its own (3.4). `None` without waves.
+    pub fn integration_length(waves: &[Component]) -> Option<f64> {
+        let mut numbers: Vec<f64> = waves.iter().map(|c| c.number).collect();
+        numbers.sort_by(f64::total_cmp);
+        numbers.get(4 * numbers.len() / 5).map(|k| std::f64::consts::FRAC_PI_2 / k)
+    }
+}
+
+/// Adds the velocities and accelerations of four waves of a block, from number `FROM`, at a height.
+#[inline(always)]
+fn half<const DEEP: bool, const FROM: usize>(
+    b: &Block,
+    t: &Turn,
+    p: &Turn,
+    z: f64,
+    lateral: bool,
+    sums: &mut [Four; 6],
+) {
+    let grown = exp(four(|i| b.k[FROM + i] * z));
+    let (along, up) = if DEEP {
+        (grown, grown)
+    } else {
+        let back = four(|i| b.q[FROM + i] / grown[i]);
+        (four(|i| (grown[i] + back[i]) * b.whole[FROM + i]), four(|i| (grown[i] - back[i]) * b.whole[FROM + i]))
+    };
+    let cos = four(|i| t[0][FROM + i] * p[0][FROM + i] - t[1][FROM + i] * p[1][FROM + i]);
+    let sin = four(|i| t[1][FROM + i] * p[0][FROM + i] + t[0][FROM + i] * p[1][FROM + i]);
+    let (ac, as_) = (four(|i| along[i] * cos[i]), four(|i| along[i] * sin[i]));
+    sums[0] = four(|i| sums[0][i] + b.toward[0][FROM + i] * ac[i]);
+    sums[2] = four(|i| sums[2][i] + up[i] * sin[i]);
+    sums[3] = four(|i| sums[3][i] + b.growth[0][FROM + i] * as_[i]);
+    sums[5] = four(|i| sums[5][i] - b.growth[2][FROM + i] * up[i] * cos[i]);
+    // most seas have none across
+    if lateral {
+        sums[1] = four(|i| sums[1][i] + b.toward[1][FROM + i] * ac[i]);
+        sums[4] = four(|i| sums[4][i] + b.growth[1][FROM + i] * as_[i]);
+    }
+}
+
+/// The sum of eight.
+#[inline]
+fn total(lanes: &Eight) -> f64 {
+    ((lanes[0] + lanes[4]) + (lanes[2] + lanes[6])) + ((lanes[1] + lanes[5]) + (lanes[3] + lanes[7]))
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::super::{Compatibility, EndSpring, Multipliers};
+    use super::*;
+    use crate::hydro::sea::{Sea, Water};
+    use crate::model::Stretching;
+    use crate::tether::{Line, TetherElement};
+    use nalgebra::Vector3;
+
+    fn case(compatibility: Compatibility, depth: Option<f64>) -> Towed {
+        let element = TetherElement {
+            length: 10.0,
+            outer_diameter: 1.0,
+            wall_thickness: 0.02,
+            density: 7850.0,
+            youngs_modulus: 2.1e11,
+            drag: 0.75,
+            added_mass: 1.0,
+            label: Default::default(),
+        };
+        let wave = |i: usize| {
+            let (i, frequency) = (i as f64, 0.4 + 0.13 * i as f64);
+            let number = crate::hydro::sea::dispersion::wave_number(frequency, depth, 9.81).unwrap();
+            let toward = [(0.3 * i).cos(), (0.3 * i).sin()];
+            Component { frequency, number, amplitude: 0.2 + 0.01 * i, toward, phase: 1.3 * i }
+        };
+        Towed {
+            line: Line::numbered(vec![element]).unwrap(),
+            origin: [-20.0, 4.0, -0.5],
+            heading: 0.7,
+            springs: [EndSpring::default(); 2],
+            density: 1025.0,
+            gravity: 9.81,
+            depth,
+            waves: (0..11).map(wave).collect(),
+            current: Vec::new(),
+            tow: [0.0; 2],
+            multipliers: Multipliers::default(),
+            compatibility,
+        }
+    }
+
+    /// Elevation and flow at a place of the tether's axes.
+    fn at(waters: &Waters, time: f64, x: f64, y: f64, height: f64) -> (f64, Flow) {
+        let (mut turns, mut place) = (Vec::new(), Vec::new());
+        waters.at_time(time, &mut turns);
+        waters.at_place(x, y, &mut place);
+        let elevation = waters.elevation(&turns, &place);
+        (elevation, waters.flow(&turns, &place, height, elevation))
+    }
+
+    #[test]
+    fn the_exponential_is_that_of_the_standard_library() {
+        for i in -200_000..200_000i32 {
+            let power = f64::from(i) * 3.4e-3;
+            let value = exp([power; 4])[2];
+            // a rounding of the power is one of the value times the power
+            assert!((value / power.exp() - 1.0).abs() < 1e-15 + 3e-16 * power.abs(), "{power}");
+        }
+        assert!(exp([f64::NAN; 4])[0].is_nan() && exp([1e9; 4])[0].is_finite());
+    }
+
+    #[test]
+    fn the_water_is_that_of_the_sea_in_the_axes_of_the_tether() {
+        for (depth, exponential) in [(None, true), (Some(30.0), true), (None, false), (Some(30.0), false)] {
+            let compatibility = Compatibility { unstretched_crests: exponential, ..Compatibility::native() };
+            let case = case(compatibility, depth);
+            let waters = Waters::of(&case);
+            let stretching = if exponential { Stretching::Exponential } else { Stretching::Wheeler };
+            let water = Water { depth, level: 0.0, gravity: 9.81, density: 1025.0 };
+            let sea = Sea::airy(case.waves.clone(), water, 0.0, stretching);
+            let (sin, cos) = 0.7f64.sin_cos();
+            for (time, x, y, height) in [(0.0, 0.0, 0.0, -1.0), (7.3, 6.0, -0.4, -3.0), (12.9, 9.0, 2.0, -0.9)] {
+                let global = Vector3::new(-20.0 + cos * x - sin * y, 4.0 + sin * x + cos * y, height);
+                let (elevation, flow) = at(&waters, time, x, y, height);
+                let want = sea.kinematics(global, time);
+                assert!((elevation - sea.elevation(global.x, global.y, time)).abs() < 1e-13);
+                assert!(height < elevation, "the place is under water");
+                for (found, v) in [(flow.velocity, want.velocity), (flow.acceleration, want.acceleration)] {
+                    let turned = [cos * v.x + sin * v.y, cos * v.y - sin * v.x, v.z];
+                    for (a, b) in found.iter().zip(turned) {
+                        assert!((a - b).abs() < 1e-13, "{depth:?} {exponential} {time}: {found:?} {turned:?}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn under_way_the_surface_is_that_of_the_place_passed() {
+        let still = case(Compatibility::native(), None);
+        let (vx, vy) = (1.7, -0.6);
+        let under_way = Towed { tow: [vx, vy], ..still.clone() };
+        let (one, other) = (Waters::of(&still), Waters::of(&under_way));
+        let (sin, cos) = 0.7f64.sin_cos();
+        for t in [0.0, 3.0, 11.0] {
+            let (dx, dy) = (cos * vx + sin * vy, cos * vy - sin * vx);
+            let (passed, flow) = at(&one, t, 2.0 + dx * t, 1.0 + dy * t, -2.0);
+            let (met, felt) = at(&other, t, 2.0, 1.0, -2.0);
+            assert!((passed - met).abs() < 1e-13);
+            assert!((flow.velocity[0] - dx - felt.velocity[0]).abs() < 1e-13);
+            assert!((flow.velocity[1] - dy - felt.velocity[1]).abs() < 1e-13);
+            assert!((flow.acceleration[2] - felt.acceleration[2]).abs() < 1e-13);
+        }
+    }
+
+    #[test]
+    fn the_current_is_straight_between_its_heights() {
+        let current = vec![(0.0, [1.0, 0.0]), (-10.0, [0.5, 0.0]), (-20.0, [0.0, 0.0])];
+        let waters = Waters::of(&Towed { heading: 0.0, current, ..case(Compatibility::native(), None) });
+        let found: Vec<f64> = [3.0, 0.0, -4.0, -10.0, -15.0, -30.0].iter().map(|z| waters.current_at(*z)[0]).collect();
+        for (a, b) in found.iter().zip([1.0, 1.0, 0.8, 0.5, 0.25, 0.0]) {
+            assert!((a - b).abs() < 1e-15);
+        }
+    }
+}

@@ -1,0 +1,224 @@
+//! The towed tether where its motion is known without a program: rest, a particle's path, symmetry, the frame of the tow.
+
+#![allow(clippy::unwrap_used)]
+
+use std::f64::consts::{FRAC_PI_4, PI};
+use windlass::hydro::sea::Component;
+use windlass::tether::towed::{Compatibility, EndSpring, History, Multipliers, Record, Steps, Towed};
+use windlass::tether::{Line, TetherElement};
+
+const DENSITY: f64 = 1025.0;
+const GRAVITY: f64 = 9.81;
+
+/// A tube of 1 m as heavy as a share of its displacement, in ten elements of 10 m.
+fn line(share: f64) -> Line {
+    let area = FRAC_PI_4 * (1.0 - 0.96f64.powi(2));
+    let element = TetherElement {
+        length: 10.0,
+        outer_diameter: 1.0,
+        wall_thickness: 0.02,
+        density: share * DENSITY * FRAC_PI_4 / area,
+        youngs_modulus: 2.1e11,
+        drag: 0.75,
+        added_mass: 1.0,
+        label: Default::default(),
+    };
+    Line::numbered(vec![element; 10]).unwrap()
+}
+
+fn case(share: f64, depth: f64) -> Towed {
+    Towed {
+        line: line(share),
+        origin: [-100.0, 0.0, -depth],
+        heading: 0.0,
+        springs: [EndSpring { along: 500.0, y: 500.0, z: 500.0 }; 2],
+        density: DENSITY,
+        gravity: GRAVITY,
+        depth: None,
+        waves: Vec::new(),
+        current: Vec::new(),
+        tow: [0.0; 2],
+        multipliers: Multipliers { slam: 1.0, ..Multipliers::default() },
+        compatibility: Compatibility::native(),
+    }
+}
+
+fn wave(amplitude: f64, frequency: f64, toward: f64, phase: f64) -> Component {
+    let number = frequency * frequency / GRAVITY;
+    Component { frequency, number, amplitude, toward: [toward.cos(), toward.sin()], phase }
+}
+
+/// Y, Z, RY, RZ of each node at each record.
+fn positions(case: &Towed, steps: &Steps) -> Vec<[f64; 4]> {
+    let mut found = Vec::new();
+    case.run(steps, &mut |r: &Record| found.extend_from_slice(r.positions)).unwrap();
+    found
+}
+
+fn steps(number: usize) -> Steps {
+    Steps { step: 0.1, number, ..Steps::default() }
+}
+
+fn largest(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, |most, v| most.max(v.abs()))
+}
+
+#[test]
+fn a_tube_of_half_the_density_of_water_rests_half_under() {
+    let found = positions(&case(0.5, 0.0), &steps(50));
+    // areas of halves cancel to some roundings of the weight, 4 kN/m, on 800 kg/m
+    assert!(largest(found.into_iter().flatten()) < 1e-12);
+}
+
+#[test]
+fn a_light_tube_let_go_under_water_comes_to_rest_where_its_weight_says() {
+    // a quarter of the area under water: the wet segment spans the angle a with a - sin a = pi/2, a = 2.309881460
+    let bare = Towed { multipliers: Multipliers { slam: 0.0, ..Multipliers::default() }, ..case(0.25, 0.0) };
+    let soft = EndSpring { along: 0.0, y: 1.0, z: 1.0 };
+    let run = Towed { springs: [soft; 2], ..bare };
+    let mut last = 0.0;
+    run.run(&Steps { step: 0.1, number: 6001, ..Steps::default() }, &mut |r: &Record| last = r.positions[5][1])
+        .unwrap();
+    // the chord is r cos(a/2) under the axis, which is above the water by as much
+    let rest = 0.5 * (2.309_881_460_010_057f64 / 2.0).cos();
+    // quadratic drag leaves a motion that dies with one over the time
+    assert!((last - rest).abs() < 5e-3, "{last} {rest}");
+}
+
+#[test]
+fn a_tube_as_heavy_as_water_goes_with_a_small_wave_from_abeam_as_the_water_does() {
+    // mass + added mass times its acceleration is (1 + Ca) rho A times that of the water: without drag it keeps to the water
+    let (amplitude, frequency, depth) = (1e-3, 0.8, 5.0);
+    let free = EndSpring::default();
+    let run = Towed {
+        waves: vec![wave(amplitude, frequency, PI / 2.0, 0.3)],
+        springs: [free; 2],
+        multipliers: Multipliers { drag: 0.0, ..Multipliers::default() },
+        ..case(1.0, depth)
+    };
+    assert_eq!(run.warnings().len(), 4);
+    let found = positions(&run, &steps(201));
+    let orbit = amplitude * (-frequency * frequency / GRAVITY * depth).exp();
+    for (record, nodes) in found.chunks(11).enumerate() {
+        let t = 0.1 * record as f64;
+        // velocity a w cos(p - w t), sin(p - w t) from rest: the velocity at the start is taken off
+        let y = orbit * (0.3f64.sin() - (0.3 - frequency * t).sin() - frequency * t * 0.3f64.cos());
+        let z = orbit * ((0.3 - frequency * t).cos() - 0.3f64.cos() - frequency * t * 0.3f64.sin());
+        for node in nodes {
+            // the scheme is of second order: (w dt)^2/12 of the orbit a radian, and drift; the path itself is a wave number times less
+            let close = orbit * (2e-3 + 1e-3 * frequency * t);
+            assert!((node[0] - y).abs() < close && (node[1] - z).abs() < close, "{t}: {node:?} {y} {z}");
+            assert!(node[2].abs() < 1e-12 && node[3].abs() < 1e-12);
+        }
+    }
+}
+
+#[test]
+fn waves_from_the_other_side_mirror_the_motion() {
+    let of = |sign: f64| {
+        let waves = vec![wave(1.5, 0.7, sign * 2.5, 0.4), wave(0.8, 1.1, sign * 2.0, 1.9)];
+        let current = vec![(0.0, [-0.4, 0.2 * sign]), (-20.0, [0.0, 0.1 * sign])];
+        positions(&Towed { waves, current, ..case(0.95, 0.3) }, &steps(300))
+    };
+    let (one, other) = (of(1.0), of(-1.0));
+    let moved = largest(one.iter().map(|p| p[0]));
+    assert!(moved > 0.1, "{moved}");
+    for (a, b) in one.iter().zip(&other) {
+        let mirrored = [-b[0], b[1], b[2], -b[3]];
+        // roundings, grown by where the surface cuts the tube
+        assert!(largest((0..4).map(|i| a[i] - mirrored[i])) < 1e-9, "{a:?} {b:?}");
+    }
+}
+
+#[test]
+fn turning_the_whole_sea_and_the_tether_changes_nothing() {
+    let of = |turn: f64| {
+        let (sin, cos) = turn.sin_cos();
+        let turned = |x: f64, y: f64| [cos * x - sin * y, sin * x + cos * y];
+        let [x, y] = turned(-100.0, 7.0);
+        positions(
+            &Towed {
+                waves: vec![wave(1.5, 0.7, 2.5 + turn, 0.4), wave(0.8, 1.1, 3.0 + turn, 1.9)],
+                current: vec![(0.0, turned(-0.4, 0.2))],
+                tow: turned(1.0, 0.1),
+                heading: turn,
+                origin: [x, y, -0.3],
+                ..case(0.95, 0.3)
+            },
+            &steps(200),
+        )
+    };
+    for (a, b) in of(0.0).iter().zip(&of(1.234)) {
+        assert!(largest((0..4).map(|i| a[i] - b[i])) < 1e-9, "{a:?} {b:?}");
+    }
+}
+
+#[test]
+fn a_tow_is_a_current_the_other_way() {
+    let waves = vec![wave(1.0, 0.8, PI, 0.4)];
+    let towed = Towed { waves: waves.clone(), tow: [1.5, 0.0], ..case(0.95, 0.3) };
+    let held = Towed { waves, current: vec![(0.0, [-1.5, 0.0])], ..case(0.95, 0.3) };
+    assert_eq!(positions(&towed, &steps(100)), positions(&held, &steps(100)));
+}
+
+#[test]
+fn a_tether_under_way_meets_the_waves_at_their_frequency_of_encounter() {
+    // deep enough to be linear, without drag: a stiff tube swings as the waves come
+    let (frequency, speed) = (0.8f64, 2.0);
+    let number = frequency * frequency / GRAVITY;
+    let stiff = |e: &TetherElement| TetherElement { youngs_modulus: 1e4 * e.youngs_modulus, ..*e };
+    let run = Towed {
+        line: Line::new(line(1.0).elements().iter().map(stiff).collect()).unwrap(),
+        waves: vec![wave(1e-3, frequency, PI, 0.0)],
+        tow: [speed, 0.0],
+        springs: [EndSpring::default(); 2],
+        multipliers: Multipliers { drag: 0.0, ..Multipliers::default() },
+        ..case(1.0, 10.0)
+    };
+    let mut history = History::default();
+    run.run(&Steps { step: 0.05, number: 400, ..Steps::default() }, &mut history).unwrap();
+    let series = history.node(5, 11, 9);
+    // x(t+h) + x(t-h) = 2 cos(w h) x(t) of a harmonic
+    let h = 20;
+    let (mut top, mut bottom) = (0.0, 0.0);
+    for i in 5 * h..series.len() - h {
+        top += (series[i + h] + series[i - h]) * series[i];
+        bottom += 2.0 * series[i] * series[i];
+    }
+    let met = (top / bottom).acos() / (0.05 * h as f64);
+    assert!((met / (frequency + number * speed) - 1.0).abs() < 0.01, "{met}");
+}
+
+#[test]
+fn a_step_too_large_for_the_springs_is_refused_and_the_one_told_would_do() {
+    let stiff = EndSpring { along: 0.0, y: 1e6, z: 1e6 };
+    let run = Towed { springs: [stiff; 2], ..case(0.95, 0.3) };
+    let told = run.run(&Steps { step: 0.5, number: 2, ..Steps::default() }, &mut |_: &Record| {}).unwrap_err();
+    assert!(told.message.contains("too large for the end springs"), "{told}");
+    let longest = told.values[1].0;
+    let mut most: f64 = 0.0;
+    let good = Steps { step: 0.99 * longest, number: 500, ..Steps::default() };
+    run.run(&good, &mut |r: &Record| most = most.max(r.positions[0][1].abs())).unwrap();
+    assert!(longest > 0.01 && most < 1.0, "{longest} {most}");
+}
+
+#[test]
+fn what_cannot_be_is_an_error() {
+    let go = |case: Towed, steps: Steps| case.run(&steps, &mut |_: &Record| {}).unwrap_err().to_string();
+    let usual = || case(0.95, 0.3);
+    assert!(go(Towed { density: 0.0, ..usual() }, steps(2)).contains("density of the water"));
+    assert!(go(Towed { depth: Some(f64::NAN), ..usual() }, steps(2)).contains("depth"));
+    let spring = EndSpring { z: -1.0, ..EndSpring::default() };
+    assert!(go(Towed { springs: [spring; 2], ..usual() }, steps(2)).contains("a spring"));
+    assert!(go(Towed { waves: vec![wave(1.0, 0.0, 0.0, 0.0)], ..usual() }, steps(2)).contains("component 1"));
+    let short = Component { number: 1e9, ..wave(1.0, 1.0, 0.0, 0.0) };
+    assert!(go(Towed { waves: vec![short], ..usual() }, steps(2)).contains("integration lengths"));
+    assert!(
+        go(Towed { current: vec![(-5.0, [0.0; 2]), (0.0, [0.0; 2])], ..usual() }, steps(2))
+            .contains("heights do not fall")
+    );
+    assert!(go(usual(), Steps { step: 0.0, ..steps(2) }).contains("step above zero"));
+    assert!(go(usual(), Steps { b: 0.4, ..steps(2) }).contains("not stable"));
+    let gale = Towed { tow: [0.0, 1e9], ..usual() };
+    assert!(go(gale, steps(200)).contains("towed tether"));
+}
