@@ -316,3 +316,41 @@ fn the_harmonics_of_the_structure_are_those_of_the_listing() {
         }
     }
 }
+
+#[test]
+fn each_peculiarity_makes_the_difference_that_its_doc_tells() {
+    use windlass::tether::compatibility::{SpringReference, VesselScheme};
+    let all = Compatibility::aqwa_5_4();
+    let run = |compatibility: Compatibility| {
+        let (flow, mut platform) = (example::water(), example::platform(compatibility));
+        let mut history = History::new(1, Keep::Always);
+        let mut made = Installation::new(&mut platform, example::tethers(), &flow, compatibility).unwrap();
+        made.run(&example::course(), &mut history).unwrap();
+        history
+    };
+    let impact = |history: &History| match history.events()[2].change {
+        Change::Impact { velocity, .. } => (history.events()[2].time, velocity),
+        _ => panic!("{:?}", history.events()),
+    };
+    let near = |got: f64, want: f64, most: f64| assert!((got - want).abs() < most, "{got} {want}");
+    let surge = |history: &History| {
+        let pairs = history.motion(0, 0).into_iter().zip(RUN.motion(0, 0));
+        pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    };
+    let found = run(Compatibility { whole_element_kinematics: false, ..all });
+    near(found.force(2, 0)[0] / 1e3, 47_006.0, 0.5);
+    near(surge(&found), 0.70, 5e-3);
+    assert_eq!(impact(&found).0, 7.25);
+    let found = run(Compatibility { friction_at_first_node: false, ..all });
+    near(found.force(2, 4)[0] / 1e3, 396_245.0, 1.0);
+    let found = run(Compatibility { second_stage_tables: false, ..all });
+    near(found.end(2, 2, true, 1)[SLACK] / 1e3, 12_138.0, 0.5);
+    assert_eq!(surge(&found), 0.0);
+    near(surge(&run(Compatibility { tension_alone_on_structure: false, ..all })), 0.40, 5e-3);
+    near(impact(&run(Compatibility { vertical_impact: false, ..all })).1, 0.2450, 5e-5);
+    let found = run(Compatibility { vessel_scheme: VesselScheme::MeanVelocity, ..all });
+    near(found.motion(0, 2)[20] - RUN.motion(0, 2)[20], -0.011, 5e-4);
+    let found = run(Compatibility { springs: SpringReference::InitialAxis, ..all });
+    near(found.end(0, 2, true, 5)[SLACK] / 1e3, -391.0, 0.5);
+    near(surge(&found), 0.23, 5e-3);
+}
