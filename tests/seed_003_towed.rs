@@ -104,7 +104,7 @@ fn misfit(found: impl Fn(usize) -> f64, listed: impl Fn(usize) -> f64) -> (f64, 
 fn sections_and_description_have_the_printed_digits() {
     let p = printed();
     let case = case();
-    let description = case.description(1, [100, 999]);
+    let description = case.description(1, ["100", "999"]);
     let table = description.table();
     let rows = p["element_table"].as_array().unwrap();
     // printed: four decimals of area, six of I, four digits of EI and EA, three decimals of the outer area

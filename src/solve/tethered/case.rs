@@ -58,6 +58,8 @@ pub struct Installed {
     pub compatibility: Compatibility,
     /// Where and how it starts, its step and number of states.
     pub course: Course,
+    /// The centre of gravity in the axes of the body (m).
+    pub centre: Vector3<f64>,
     /// Nodes of the body that are told of: names, and places from the centre of gravity in its axes (m).
     pub points: Vec<(String, Vector3<f64>)>,
 }
@@ -378,5 +380,5 @@ fn installed_case(
     };
     let points = model.points.values().filter(|p| model.body_of(p).is_some_and(|b| b.name == body.name));
     let points = points.map(|p| (p.name.clone(), pose.local(Vector3::from(model.global(p))) - centre)).collect();
-    Ok(Installed { body: body.name.clone(), structure, tethers: list, flow, compatibility, course, points })
+    Ok(Installed { body: body.name.clone(), structure, tethers: list, flow, compatibility, course, centre, points })
 }

@@ -152,7 +152,9 @@ impl Statistics {
             .fact("S-N Curve Intercept A", asked.curve.scaled(1e-3).intercept, Dim::None)
             .fact("S-N Curve Slope m", asked.curve.slope, Dim::None)
             .fact("Time of Expected Peak", asked.peak_time / 3600.0, Dim::None);
-        table.note("the expected peak is of the time of expected peaks, in hours; the intercept is for stresses in kN/m2");
+        table.note(
+            "the expected peak is of the time of expected peaks, in hours; the intercept is for stresses in kN/m2",
+        );
         Ok([histogram(&title("Stress Ranges, Half Cycles,"), &ends), table])
     }
 }

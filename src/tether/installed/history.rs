@@ -284,14 +284,14 @@ impl Observer for History {
             self.tethers = moment.tethers.iter().map(kept).collect();
         }
         self.events.extend(moment.events);
-        let due = moment.state % self.every == 0;
+        let due = moment.state.is_multiple_of(self.every);
         if due {
             let mut row = [0.0; STRUCTURE];
             let place = Six::from(moment.pose.place(&Place::default()).values());
             let motions = [place, moment.velocity, moment.acceleration];
             let all = motions.into_iter().chain(moment.forces.kinds()).chain([moment.error]);
             row[0] = moment.time;
-            row[1..].iter_mut().zip(all.flat_map(|six| <[f64; 6]>::from(six))).for_each(|(to, from)| *to = from);
+            row[1..].iter_mut().zip(all.flat_map(<[f64; 6]>::from)).for_each(|(to, from)| *to = from);
             self.structure.push(row);
             self.numbers += STRUCTURE;
         }

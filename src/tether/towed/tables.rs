@@ -65,11 +65,11 @@ pub fn forces(record: &Record<'_>, tether: usize) -> Table {
 impl Towed {
     /// Its description (7.1). Numbers of the nodes the user gave for the trailing end and the vessel's; impact and lower stop do
     /// not belong to a towed tether.
-    pub fn description(&self, tether: usize, nodes: [i64; 2]) -> Description<'_> {
+    pub fn description(&self, tether: usize, nodes: [&str; 2]) -> Description<'_> {
         let [x, y, z] = self.origin;
         let length = self.line.length();
         let far = [x + length * self.heading.cos(), y + length * self.heading.sin(), z];
-        let end = |node, place| Attachment { node, given: place, initial: place };
+        let end = |node: &str, place| Attachment { node: node.into(), given: place, initial: place };
         Description {
             number: tether,
             configuration: Configuration::Towed,
