@@ -79,16 +79,19 @@ pub fn structure(run: &Tethered, structure: &StructureHistory, instant: usize, p
     out
 }
 
+/// What the columns of each kind are called before their axis, in the order of [`StructureHistory::KINDS`].
+const CODES: [&str; 13] = ["", "V", "A", "G", "H", "D", "FK", "WI", "DF", "GY", "M", "T", "E"];
+
 /// Everything of the structure over time.
 pub fn structure_series(run: &Tethered, structure: &StructureHistory) -> Table {
     let mut table = Table::new(format!("Structure {} in Time", structure.body));
     let head = Quantity { code: "", group: "", name: "Time", dim: Dim::Time, digits: SECONDS };
     table.columns.push(column(&head, run.times.iter().map(|t| Cell::Number(*t)).collect()));
-    for (kind, name) in StructureHistory::KINDS.iter().enumerate() {
+    for ((kind, name), code) in StructureHistory::KINDS.iter().enumerate().zip(CODES) {
         for (freedom, axis) in SIX.iter().enumerate() {
             let (dim, digits) = six(kind)[freedom / 3];
             let cells = structure.series(6 * kind + freedom).into_iter().map(Cell::Number).collect();
-            table.columns.push(Column { name: (*axis).into(), group: (*name).into(), dim, digits, cells });
+            table.columns.push(Column { name: format!("{code}{axis}"), group: (*name).into(), dim, digits, cells });
         }
     }
     for (index, point) in structure.points.iter().enumerate() {

@@ -130,7 +130,9 @@ pub fn series(run: &Tethered, tether: &TetherHistory, of: Of) -> Table {
             Of::Node(node) => tether.node(node, index),
             Of::End(end) => tether.end(end, index),
         };
-        table.columns.push(column(quantity, values.into_iter().map(Cell::Number).collect()));
+        // in one table of all of them, codes tell them apart
+        let cells = values.into_iter().map(Cell::Number).collect();
+        table.columns.push(Column { name: quantity.code.into(), ..column(quantity, cells) });
     }
     table
 }
