@@ -12,10 +12,10 @@
 //! added mass that a current along a bent tether makes.
 
 pub mod compatibility;
+mod described;
 pub mod loads;
 pub mod run;
 pub mod scheme;
-pub mod tables;
 pub mod water;
 pub mod wetted;
 
