@@ -69,7 +69,7 @@ use waves::Waves;
 
 pub use echo::Echo;
 pub use job::is_deck;
-pub use records::{Records, records};
+pub use records::{Records, model_records, records};
 
 /// A deck that was read.
 #[derive(Clone, Debug, Default)]

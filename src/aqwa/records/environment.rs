@@ -31,7 +31,7 @@ pub(super) fn spectrum(deck: &Deck) -> Option<&Spectrum> {
 
 /// Time steps; the first is the start.
 fn time(deck: &Deck, out: &mut Script) -> Option<String> {
-    let steps = deck.steps.filter(|_| deck.job.runs())?;
+    let steps = deck.steps?;
     if steps.start != 0.0 {
         out.refuse(
             Diagnostic::error("deck 16, TIME, columns 31-40: a run starts at 0 s", steps.span)

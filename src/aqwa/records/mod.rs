@@ -49,6 +49,23 @@ impl Records {
 /// Units that cannot be told; earlier stages that are not in the file; cards for which the model or its engines have no place: each
 /// with the reason, and where there is one the native record to use.
 pub fn records(deck: &Deck) -> Result<Records, Vec<Diagnostic>> {
+    let mut out = written(deck)?;
+    let model = std::mem::take(&mut out.lines);
+    run::job(deck, &mut out);
+    if out.wrong.is_empty() { Ok(Records { model, job: out.lines }) } else { Err(out.wrong) }
+}
+
+/// The records of the model of a deck, whatever program it is for.
+///
+/// # Errors
+/// As [`records`], but for what is run.
+pub fn model_records(deck: &Deck) -> Result<Records, Vec<Diagnostic>> {
+    let out = written(deck)?;
+    if out.wrong.is_empty() { Ok(Records { model: out.lines, job: Vec::new() }) } else { Err(out.wrong) }
+}
+
+/// The model as it could be written, with what is wrong with it.
+fn written(deck: &Deck) -> Result<Script, Vec<Diagnostic>> {
     let (start, _) = deck.job.stages;
     if start > 1 {
         let error = Diagnostic::error("deck 0, RESTART: this file begins after stage 1", deck.job.span)
@@ -59,9 +76,7 @@ pub fn records(deck: &Deck) -> Result<Records, Vec<Diagnostic>> {
     let units = deck.units().map_err(|error| vec![*error])?;
     let mut out = Script::new(Scale::of(&units));
     model(deck, &units, &mut out);
-    let model = std::mem::take(&mut out.lines);
-    run::job(deck, &mut out);
-    if out.wrong.is_empty() { Ok(Records { model, job: out.lines }) } else { Err(out.wrong) }
+    Ok(out)
 }
 
 fn model(deck: &Deck, units: &super::units::Units, out: &mut Script) {

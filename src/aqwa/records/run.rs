@@ -15,6 +15,12 @@ const HOURS: f64 = 3.0;
 
 /// The records that run a deck.
 pub(super) fn job(deck: &Deck, out: &mut Script) {
+    // a title may hold what the language would read
+    let plain = |c: char| if c.is_ascii_alphanumeric() || "-.()/+=".contains(c) { c } else { ' ' };
+    let title: String = deck.job.title.chars().map(plain).collect();
+    if !title.trim().is_empty() {
+        out.record(format!("&TITLE {}", title.split_whitespace().collect::<Vec<_>>().join(" ")));
+    }
     if !deck.mooring.tethers.is_empty() {
         out.record("&STATUS TETHERS");
         if let Some(modes) = deck.mooring.modes.filter(|modes| modes.value > 0) {
