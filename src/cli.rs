@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 #[derive(Parser, Debug)]
 #[command(name = "windlass", version, about)]
 pub struct Cli {
-    /// A script (model.cif), a ROOT (runs ROOT.cif, then the terminal), or - for standard input
+    /// A script (model.cif), an AQWA deck (tow.dat), a ROOT (runs ROOT.cif, then the terminal), or - for standard input
     pub job: Option<String>,
     /// What cannot be taken besides the job
     #[arg(hide = true)]
@@ -76,7 +76,7 @@ pub fn run(cli: Cli) -> u8 {
             (session.run(), cli.interactive)
         }
         Input::Script { name, text, then_terminal } => {
-            session.open(&name, text);
+            session.open_job(&name, text);
             (session.run(), cli.interactive || then_terminal)
         }
         Input::Terminal => (End::Done, true),

@@ -44,6 +44,7 @@ mod placed;
 pub mod printing;
 pub mod properties;
 pub mod reader;
+pub mod records;
 pub mod remarks;
 pub mod run;
 pub mod surroundings;
@@ -68,6 +69,7 @@ use waves::Waves;
 
 pub use echo::Echo;
 pub use job::is_deck;
+pub use records::{Records, model_records, records};
 
 /// A deck that was read.
 #[derive(Clone, Debug, Default)]

@@ -163,6 +163,8 @@ pub struct RegularWave {
     pub current: Option<Flow>,
     /// Wind.
     pub wind: Option<Flow>,
+    /// The first card.
+    pub span: Span,
 }
 
 /// Deck 13.
@@ -362,7 +364,8 @@ fn given_pair(list: &mut Vec<Spectrum>, now: &Spectrum, record: &Record, unit: f
 
 /// The wave of the cards of deck 13 WAVE.
 pub fn read_regular(records: &[Record], remarks: &mut Remarks) -> Waves {
-    let mut wave = RegularWave::default();
+    let span = records.first().map(|record| record.span).unwrap_or_default();
+    let mut wave = RegularWave { span, ..RegularWave::default() };
     for record in records {
         let value = record.real(21).value;
         match record.keyword.as_str() {
@@ -378,7 +381,6 @@ pub fn read_regular(records: &[Record], remarks: &mut Remarks) -> Waves {
         }
     }
     if !(wave.period > 0.0 && wave.period.is_finite()) || wave.amplitude < 0.0 {
-        let span = records.first().map(|record| record.span).unwrap_or_default();
         remarks.add(
             Diagnostic::error("deck 13 WAVE has no wave", span)
                 .label("an amplitude (WAMP) and a period (PERD) above 0 are wanted")

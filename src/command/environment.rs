@@ -70,6 +70,7 @@ const OPTIONS: &[OptionSpec] = &[
     SPREAD_OPTION,
     sea_options::COMPONENTS,
     sea_options::SEED,
+    sea_options::PHASES,
     sea_options::STRETCHING,
     sea_options::STOKES,
     OptionSpec::new("-S_PERIOD", PERIODS, "periods of the sea's components").repeating(1),
@@ -160,8 +161,9 @@ static ENV_SPEC: CommandSpec = CommandSpec {
              Phases are random from -SEED, 1 unless given: the same in every run, without the crest that one reinforcement time \
              makes; another seed is another realisation. -T_REINFORCE puts all components in phase at X = Y = 0 at TB, as MOSES \
              does: the crest there is the sum of the amplitudes, which &STATUS SEA_SPECTRUM tells; let TB be outside the run unless \
-             it is wanted. A regular wave has its crest at X = Y = 0 at TB, or at 0 s. Of -SEED and -T_REINFORCE the later one \
-             holds. -STRETCHING is what linear waves do above the mean level: LINEAR goes straight on from it, WHEELER takes the \
+             it is wanted. A regular wave has its crest at X = Y = 0 at TB, or at 0 s. Of -SEED, -T_REINFORCE and -PHASES the last one \
+             holds. -PHASES gives the phase of each component, in the order of &STATUS SEA_SPECTRUM with the added sea last, of \
+             zeta = sum a cos(k x - w t + phase), x along its travel. -STRETCHING is what linear waves do above the mean level: LINEAR goes straight on from it, WHEELER takes the \
              actual surface for the mean level, DELTA is between the two (Rodenbusch and Forristall 1986: 0.3, over half the \
              significant height), EXPONENTIAL uses the profile itself also above the water, as AQWATM does; with the others \
              nothing moves above the actual surface. STOKES is Fenton's theory of order -STOKES, without a mean current; neither it \

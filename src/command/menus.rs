@@ -3,11 +3,13 @@
 use super::assembly::build_assembly;
 use super::class::known_curves;
 use super::connector::build_connector;
+use super::device::existing;
 use super::{Call, Command, Effect, INMODEL_FILE, Job, Menu, buildg, pgen, piece};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::record::Word;
+use crate::language::select::Owner;
 use crate::language::source::Span;
-use crate::language::spec::{CommandSpec, Opens};
+use crate::language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 use crate::language::token::Kind as Lex;
 use std::path::PathBuf;
 
@@ -23,8 +25,17 @@ pub static CONN_DESIGN: Command = Command { spec: &CONN_DESIGN_SPEC, edits: fals
 static INMODEL_SPEC: CommandSpec = CommandSpec {
     opens: Opens::UnlessFile("INMODEL"),
     menus: &["MAIN"],
+    options: &[OptionSpec::new(
+        "-AQWA",
+        &[ValueSpec::new("FILE", Kind::File, "the deck; looked for where it says, then beside the script")],
+        "reads the model of an AQWA deck",
+    )
+    .owner(Owner::Ours)],
     detail: "Reads model descriptions from ROOT.DAT, or from the file of &DEVICE -AUXIN; without either the records follow \
-             up to END. A CONNECTOR may name classes and points that are defined later.",
+             up to END. A CONNECTOR may name classes and points that are defined later. -AQWA reads decks 1 to 17 of a deck of \
+             AQWA cards instead: its structures become bodies S1, S2 .. with their centers of gravity as origins, its nodes points *S1_1010 or, in \
+             the ground, *N9010, its tethers and lines connectors T1, L1 .. and its sea the environment in force; a file of INMODEL that is a deck is read so by itself. \
+             `windlass NAME.dat` also runs it, and writes its records to NAME.cif in the folder of answers.",
     example: "INMODEL\n&DESCRIBE BODY TBRG\nCONNECTOR A ~W *P\n*P 0 0 0\n~W B_CAT 4 -LEN 500\nEND",
     ..CommandSpec::new("INMODEL", "reads the model")
 };
@@ -68,7 +79,10 @@ pub fn opened_by(job: &Job, spec: &CommandSpec, words: &[Word]) -> Option<&'stat
             let data = words.iter().skip(1).take_while(|w| w.kind != Lex::Option).count();
             (data <= count).then_some(name)
         }
-        Opens::UnlessFile(name) => model_file(job).is_none().then_some(name),
+        Opens::UnlessFile(name) => {
+            let deck = words.iter().any(|w| w.kind == Lex::Option);
+            (!deck && model_file(job).is_none()).then_some(name)
+        }
     }
 }
 
@@ -80,6 +94,10 @@ fn model_file(job: &Job) -> Option<PathBuf> {
 }
 
 fn inmodel(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    if let Some(value) = call.args.option("-AQWA").and_then(|given| given.values.first()) {
+        let name = value.word().unwrap_or_default();
+        return Ok(Effect::Deck { name: name.to_string(), path: existing(job, name, value.span)? });
+    }
     let found = model_file(job);
     if let Some(path) = found.as_ref().filter(|p| !p.exists()) {
         let text = format!("the auxiliary input {} does not exist", path.display());

@@ -119,6 +119,13 @@ pub enum Effect {
         /// [`PLAIN`] or [`INMODEL_FILE`].
         tag: u32,
     },
+    /// Read the model of an AQWA deck next.
+    Deck {
+        /// Name for messages.
+        name: String,
+        /// Where it is.
+        path: PathBuf,
+    },
     /// End the job.
     Finish,
     /// Set the number of records a run may execute.

@@ -10,8 +10,8 @@ use crate::model::{Components, Division, Environment, Phasing, Stretching};
 const BY_WIDTH: &str = "EQUAL_FREQUENCY";
 const DIVISIONS: &[&str] = &["EQUAL_ENERGY", BY_WIDTH];
 const STRETCHINGS: &[&str] = &["LINEAR", "WHEELER", "DELTA", "EXPONENTIAL"];
-/// The two options of which the later one holds.
-const PHASINGS: [&str; 2] = ["-T_REINFORCE", "-SEED"];
+/// The options of which the last one holds.
+const PHASINGS: [&str; 3] = ["-T_REINFORCE", "-SEED", "-PHASES"];
 
 /// -COMPONENTS.
 pub(super) const COMPONENTS: OptionSpec = OptionSpec::new(
@@ -34,6 +34,16 @@ pub(super) const SEED: OptionSpec = OptionSpec::new(
     "random phases of the wave components, from this seed",
 )
 .default("1, without -T_REINFORCE")
+.owner(Owner::Ours);
+
+/// -PHASES.
+pub(super) const PHASES: OptionSpec = OptionSpec::new(
+    "-PHASES",
+    &[ValueSpec::new("P", Kind::Number(Dim::Angle), "phase, one a component")],
+    "phases of the wave components",
+)
+.repeating(1)
+.default("random, of -SEED")
 .owner(Owner::Ours);
 
 /// -STRETCHING.
@@ -60,6 +70,7 @@ pub(super) fn apply(env: &mut Environment, given: &Given) -> Outcome<()> {
     match given.spec.name {
         "-COMPONENTS" => env.components = Some(components(given)?),
         "-S_PERIOD" => env.sea_periods = given.numbers(),
+        "-PHASES" => env.sea_phases = given.numbers(),
         "-SEED" => env.phasing = whole(0).map(Phasing::Seeded),
         "-T_REINFORCE" => env.phasing = given.number(0).map(Phasing::Reinforced),
         "-STOKES" => env.stokes = whole(0).and_then(|n| u8::try_from(n).ok()),
@@ -75,15 +86,21 @@ pub(super) fn apply(env: &mut Environment, given: &Given) -> Outcome<()> {
     }
     if PHASINGS.contains(&given.spec.name) {
         env.options.retain(|g| !PHASINGS.contains(&g.spec.name));
+        if given.spec.name == "-PHASES" {
+            env.phasing = None;
+        } else {
+            env.sea_phases.clear();
+        }
     }
     Ok(())
 }
 
-/// Refuses both ways to make phases in one record.
+/// Refuses two ways to make phases in one record.
 pub(super) fn one_phasing(args: &Args) -> Outcome<()> {
-    match PHASINGS.map(|name| args.option(name)) {
-        [Some(one), Some(other)] => {
-            let text = "phases come from -T_REINFORCE or from -SEED, not from both";
+    let mut given = PHASINGS.iter().filter_map(|name| args.option(name));
+    match (given.next(), given.next()) {
+        (Some(one), Some(other)) => {
+            let text = format!("phases come from {} or from {}, not from both", one.spec.name, other.spec.name);
             Err(Diagnostic::error(text, other.span).other(one.span, "the other one"))
         }
         _ => Ok(()),

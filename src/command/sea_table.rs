@@ -133,6 +133,7 @@ pub(super) fn turn(angle: f64) -> f64 {
 /// What makes the phases of a sea, in words.
 pub(super) fn phasing(sea: &Sea) -> String {
     match (sea.seed, sea.reinforcement) {
+        _ if sea.phases_given => "as -PHASES gives them".into(),
         (Some(seed), _) => format!("random, seed {seed}"),
         (None, Some(time)) => format!("all in phase at X = Y = 0 at {time} s"),
         (None, None) => "crest at X = Y = 0 at 0 s".into(),

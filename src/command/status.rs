@@ -95,6 +95,8 @@ static SPEC: CommandSpec = CommandSpec {
         )
         .owner(Owner::Ours)
         .default("6"),
+        OptionSpec::new("-AQWA", &[], "modes of tethers with the peculiarities of AQWA, as TDOM -TETHERS AQWA")
+            .owner(Owner::Ours),
         OptionSpec::new(
             "-DISPOSE",
             &[ValueSpec::new("N", Kind::Integer, "which of its tables").or("1").within(1.0, 1e6)],

@@ -25,7 +25,7 @@ pub(super) fn tables(job: &Job, args: &Args, kind: &str, fits: &dyn Fn(&str) -> 
         if kind == "TETHERS" {
             tables.push(tethered::described(&job.model, &name).map_err(wrong)?);
         } else {
-            tables.extend(tethered::natural(&job.model, &name, number).map_err(wrong)?);
+            tables.extend(tethered::natural(&job.model, &name, number, args.has("-AQWA")).map_err(wrong)?);
         }
     }
     Ok(tables)

@@ -60,6 +60,13 @@ impl Text {
     }
 }
 
+impl Text {
+    /// The text.
+    pub fn as_str(&self) -> &str {
+        &self.text
+    }
+}
+
 impl From<String> for Text {
     fn from(text: String) -> Self {
         Text::from_bytes(text.into_bytes())

@@ -185,6 +185,8 @@ pub struct Environment {
     pub sea_periods: Vec<f64>,
     /// What makes the phases.
     pub phasing: Option<Phasing>,
+    /// Phases of the wave components (rad) (`-PHASES`), those of the added sea behind those of the sea; none: as `phasing` says.
+    pub sea_phases: Vec<f64>,
     /// What holds above the mean level (`-STRETCHING`).
     pub stretching: Option<Stretching>,
     /// Order of a STOKES wave (`-STOKES`); 5 when not given.

@@ -1,8 +1,10 @@
 //! One running job: takes records from the interpreter, finds the command each means in the present menu, and keeps the
 //! error policy.
 
+mod deck;
 mod refused;
 
+use crate::aqwa;
 use crate::command::{self, COMMANDS, Call, Command, Effect, INMODEL_FILE, Job, Menu, PLAIN, SCRIPT, offered};
 use crate::language::args::{self, Args};
 use crate::language::diagnostic::{Diagnostic, Outcome, Severity, did_you_mean};
@@ -229,13 +231,27 @@ impl Session {
                 self.insert(&name, &path, tag, record.whole());
                 false
             }
+            Effect::Deck { name, path } => {
+                match read_text(&path) {
+                    Ok(text) => self.insert_deck(&name, text, record.whole()),
+                    Err(text) => self.report(*Diagnostic::error(text, record.whole())),
+                }
+                false
+            }
         }
     }
 
     fn insert(&mut self, name: &str, path: &Path, tag: u32, span: Span) {
-        let opened = read_text(path)
-            .map_err(|text| Diagnostic::error(text, span))
-            .and_then(|text| self.interpreter.open(name, text, tag, Some(span)));
+        let read = read_text(path).map_err(|text| Diagnostic::error(text, span));
+        if let Ok(text) = &read
+            && tag == INMODEL_FILE
+            && aqwa::is_deck(text.as_str())
+        {
+            self.job.menus.pop();
+            self.insert_deck(name, text.clone(), span);
+            return;
+        }
+        let opened = read.and_then(|text| self.interpreter.open(name, text, tag, Some(span)));
         if let Err(error) = opened {
             if tag != PLAIN {
                 self.job.menus.pop();

@@ -58,7 +58,7 @@ impl Sea {
                 Some(spectrum) => cut(spectrum, env).map_err(|e| e.clone().at(e.span.unwrap_or(sea.place(0))))?,
             };
             if spectrum.is_none() {
-                let (wave, nonlinear) = regular(env, sea, water)?;
+                let (wave, nonlinear) = regular(env, sea, env.sea_phases.get(first).copied(), water)?;
                 if nonlinear.is_some() && seas().count() > 1 {
                     return Err(ClassError::new("a STOKES wave cannot be added to another sea: it is not linear")
                         .at(sea.place(0))
@@ -69,7 +69,10 @@ impl Sea {
             }
             let directions =
                 spreading::directions(bands.len(), sea.direction, env.spreading.unwrap_or(spreading::LONG_CRESTED));
-            let angles = phases::phases(phasing, index, bands.iter().map(|b| b.frequency));
+            let angles = match env.sea_phases.get(first..first + bands.len()) {
+                Some(given) if !given.is_empty() => given.to_vec(),
+                _ => phases::phases(phasing, index, bands.iter().map(|b| b.frequency)),
+            };
             for ((band, toward), phase) in bands.iter().zip(directions).zip(angles) {
                 let number = dispersion::wave_number(band.frequency, water.depth, water.gravity)
                     .map_err(|e| e.at(sea.place(0)))?;
@@ -90,14 +93,16 @@ impl Sea {
         if components.is_empty() {
             return Ok(None);
         }
+        phases::one_each(env, &components)?;
         let ramp = env.ramp.unwrap_or(model.defaults.ramp);
-        let random = trains.iter().any(|t| t.spectrum.is_some());
+        let random = env.sea_phases.is_empty() && trains.iter().any(|t| t.spectrum.is_some());
         let (seed, reinforcement) = match phasing {
             Phasing::Seeded(seed) => (random.then_some(seed), None),
             Phasing::Reinforced(time) => (None, Some(time)),
         };
         let made = Sea::airy(components, water, ramp, env.stretching.unwrap_or_default());
-        Ok(Some(Sea { seed, reinforcement, trains, stokes, ..made }))
+        let phases_given = !env.sea_phases.is_empty();
+        Ok(Some(Sea { seed, reinforcement, phases_given, trains, stokes, ..made }))
     }
 }
 
@@ -113,7 +118,12 @@ fn cut(spectrum: &Spectrum, env: &Environment) -> Result<Vec<Band>, ClassError> 
 }
 
 /// A regular wave: its Airy component, and its Stokes wave if it is one.
-fn regular(env: &Environment, sea: &model::Sea, water: Water) -> Result<(Component, Option<Stokes>), ClassError> {
+fn regular(
+    env: &Environment,
+    sea: &model::Sea,
+    given: Option<f64>,
+    water: Water,
+) -> Result<(Component, Option<Stokes>), ClassError> {
     if !(sea.period > 0.0 && sea.height.is_finite()) {
         return Err(
             ClassError::of("there is no regular wave with a period of {}", &[(sea.period, Dim::Time)]).at(sea.place(3))
@@ -122,10 +132,10 @@ fn regular(env: &Environment, sea: &model::Sea, water: Water) -> Result<(Compone
     let frequency = TAU / sea.period;
     let (cos, sin) = model::unit_vector(sea.direction);
     let toward = [-cos, -sin];
-    // a crest at the origin at t = 0, or at the time of reinforcement (MOSES)
+    // a crest at the origin at t = 0, or at the time of reinforcement (MOSES), unless a phase is given
     let phase = match env.phasing {
         Some(Phasing::Reinforced(time)) => (frequency * time).rem_euclid(TAU),
-        _ => 0.0,
+        _ => given.unwrap_or(0.0),
     };
     let at = |error: ClassError| error.at(sea.place(2));
     let mut number = dispersion::wave_number(frequency, water.depth, water.gravity).map_err(|e| e.at(sea.place(3)))?;

@@ -89,6 +89,8 @@ pub struct Sea {
     pub seed: Option<u64>,
     /// Time at which all components are in phase at x = y = 0 (s), where that makes the phases.
     pub reinforcement: Option<f64>,
+    /// Whether its phases were given one by one.
+    pub phases_given: bool,
     /// The seas it is made of, in the order of the components.
     pub trains: Vec<Train>,
     /// The Stokes wave it is. Its only component is then the Airy wave of the same height, frequency and wave number, for what
@@ -112,6 +114,7 @@ impl Sea {
             stretching,
             seed: None,
             reinforcement: None,
+            phases_given: false,
             trains: Vec::new(),
             stokes: None,
             lanes,

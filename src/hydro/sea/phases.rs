@@ -1,9 +1,27 @@
 //! Phases of the components.
 
-use crate::model::Phasing;
+use super::Component;
+use crate::model::{ClassError, Environment, Phasing};
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::Rng;
 use std::f64::consts::TAU;
+
+/// Sees that phases which are given (`-PHASES`) are as many as the components.
+///
+/// # Errors
+/// More or fewer.
+pub fn one_each(env: &Environment, components: &[Component]) -> Result<(), ClassError> {
+    if env.sea_phases.is_empty() || env.sea_phases.len() == components.len() {
+        return Ok(());
+    }
+    let text = format!("-PHASES has {} phases for {} wave components", env.sea_phases.len(), components.len());
+    let error = ClassError::new(text).help("one each, in the order of &STATUS SEA_SPECTRUM; -COMPONENTS says how many there are");
+    let given = env.options.iter().find(|option| option.spec.name == "-PHASES");
+    Err(match given {
+        Some(option) => error.at(option.span),
+        None => error,
+    })
+}
 
 /// Phases (rad) of components by their frequencies (rad/s); `train` is 0 for the sea and 1 for the added sea.
 ///

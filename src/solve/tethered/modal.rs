@@ -57,12 +57,12 @@ pub fn described(model: &Model, name: &str) -> Result<Table, SolveError> {
 }
 
 /// A page for each of the lowest natural modes of a tether where it stands (seed 003, 7.2): frequency, period and the shape, of largest
-/// deflection one or, without one, of largest slope ten degrees.
+/// deflection one or, without one, of largest slope ten degrees. `compatible` keeps the peculiarities of AQWA.
 ///
 /// # Errors
 /// As [`case`]; a name that is no tether's; modes that cannot be found.
-pub fn natural(model: &Model, name: &str, number: usize) -> Result<Vec<Table>, SolveError> {
-    let made = case(model, &AT_REST)?;
+pub fn natural(model: &Model, name: &str, number: usize, compatible: bool) -> Result<Vec<Table>, SolveError> {
+    let made = case(model, &Settings { compatible, ..AT_REST })?;
     type Page = (Option<f64>, Option<f64>, Vec<(f64, [f64; 4])>);
     let (heads, pages): ([&str; 4], Vec<Page>) = match &made.kind {
         Kind::Towed(towed) => {

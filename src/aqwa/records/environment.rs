@@ -1,0 +1,128 @@
+//! The water, waves, current and wind: decks 5, 10, 11, 13 and 16.
+
+use super::sea;
+use super::written::{Script, difference, number, numbers, opposite, rounded};
+use crate::aqwa::Deck;
+use crate::aqwa::surroundings::{Flow, Layer};
+use crate::aqwa::waves::{Spectrum, Waves};
+use crate::language::diagnostic::Diagnostic;
+use crate::language::units::KNOT;
+
+/// Names of the curves of a current profile.
+const PROFILE: [&str; 2] = ["CPRF_X", "CPRF_Y"];
+
+/// The record of the environment, with the curves it names before it.
+pub(super) fn environment(deck: &Deck, out: &mut Script) {
+    let mut options = vec![format!("-DEPTH {}", number(out.scale.length(deck.global.depth)))];
+    options.extend(sea::options(deck, out));
+    options.extend(current(deck, out));
+    options.extend(wind(deck, out));
+    options.extend(time(deck, out));
+    out.record(format!("&ENV {}", options.join(" \\\n  ")));
+}
+
+/// The first spectrum, which is the one that is run.
+pub(super) fn spectrum(deck: &Deck) -> Option<&Spectrum> {
+    match &deck.waves {
+        Waves::Spectra(list) => list.first(),
+        _ => None,
+    }
+}
+
+/// Time steps; the first is the start.
+fn time(deck: &Deck, out: &mut Script) -> Option<String> {
+    let steps = deck.steps?;
+    if steps.start != 0.0 {
+        out.refuse(
+            Diagnostic::error("deck 16, TIME, columns 31-40: a run starts at 0 s", steps.span)
+                .label(format!("this one is to start at {} s", steps.start)),
+        );
+    }
+    if steps.count.value < 2 {
+        out.refuse(
+            Diagnostic::error("deck 16, TIME, columns 16-20: one step is the start alone", steps.count.span)
+                .label("2 steps at least"),
+        );
+        return None;
+    }
+    let observed = rounded((steps.count.value - 1) as f64 * steps.step.value);
+    Some(format!("-TIME {}", numbers([observed, steps.step.value])))
+}
+
+/// A stream as x and y of its velocity (m/s).
+fn components(flow: &Flow, out: &Script) -> [f64; 2] {
+    let (speed, angle) = (out.scale.length(flow.speed.value), flow.direction.value);
+    [rounded(speed * cosine(angle)), rounded(speed * cosine(angle - 90.0))]
+}
+
+fn cosine(degrees: f64) -> f64 {
+    crate::language::number::cosine_of_degrees(degrees)
+}
+
+/// The current of the deck: that of the spectrum or wave, else the uniform one, else that of deck 10; with the profile.
+fn current(deck: &Deck, out: &mut Script) -> Option<String> {
+    let own = match &deck.waves {
+        Waves::Spectra(list) => list.first().and_then(|s| s.current),
+        Waves::Regular(wave) => wave.current,
+        Waves::Still => None,
+    };
+    let of_hulls = deck.hydrostatics.iter().find_map(|h| h.current);
+    let given: Vec<(&str, Flow)> = [("deck 13", own), ("deck 11", deck.surroundings.current), ("deck 10", of_hulls)]
+        .into_iter()
+        .filter_map(|(deck, flow)| Some((deck, flow?)))
+        .filter(|(_, flow)| flow.speed.value != 0.0)
+        .collect();
+    if let [(taken, _), others @ ..] = given.as_slice()
+        && !others.is_empty()
+    {
+        out.remark(&format!("assumed: of several uniform currents that of {taken} is taken"));
+    }
+    let uniform = given.first().map(|(_, flow)| *flow);
+    if deck.surroundings.profile.is_empty() {
+        let flow = uniform?;
+        let speed = out.scale.length(flow.speed.value);
+        let toward = if speed < 0.0 { flow.direction.value + 180.0 } else { flow.direction.value };
+        return Some(format!("-CURRENT {}", numbers([speed.abs(), opposite(toward)])));
+    }
+    let added = uniform.map_or([0.0; 2], |flow| components(&flow, out));
+    Some(profile(&deck.surroundings.profile, added, out))
+}
+
+/// A profile with a uniform current added, as curves along X and Y: the direction may turn with the depth.
+fn profile(layers: &[Layer], added: [f64; 2], out: &mut Script) -> String {
+    let mut rows: Vec<(f64, [f64; 2])> = Vec::new();
+    for layer in layers.iter().rev() {
+        let speed = out.scale.length(layer.speed);
+        let own = [cosine(layer.direction), cosine(layer.direction - 90.0)];
+        let velocity = [0, 1].map(|i| rounded(speed * own[i] + added[i]));
+        rows.push((difference(0.0, out.scale.length(layer.height)), velocity));
+    }
+    if let [(_, [x, y])] = rows.as_slice() {
+        // one layer is the same everywhere
+        let (speed, toward) = (rounded(x.hypot(*y)), rounded(y.atan2(*x).to_degrees()));
+        return format!("-CURRENT {}", numbers([speed, opposite(toward)]));
+    }
+    let mut options = String::from("-CURRENT");
+    for (axis, (name, from)) in PROFILE.iter().zip([180.0, 270.0]).enumerate() {
+        if rows.iter().all(|(_, velocity)| velocity[axis] == 0.0) {
+            continue;
+        }
+        let pairs = numbers(rows.iter().flat_map(|(depth, velocity)| [*depth, velocity[axis]]));
+        out.record(format!("&DATA CURVES C_PROFILE {name} {pairs}"));
+        options.push_str(&format!(" {name} {}", number(from)));
+    }
+    if options == "-CURRENT" { "-CURRENT 0 0".into() } else { options }
+}
+
+fn wind(deck: &Deck, out: &mut Script) -> Option<String> {
+    let own = match &deck.waves {
+        Waves::Spectra(list) => list.first().and_then(|s| s.wind),
+        Waves::Regular(wave) => wave.wind,
+        Waves::Still => None,
+    };
+    let flow = own.or(deck.surroundings.wind).filter(|flow| flow.speed.value != 0.0)?;
+    out.remark("the structures of a deck have no areas for the wind; #AREA of the model gives them");
+    let speed = out.scale.length(flow.speed.value);
+    let toward = if speed < 0.0 { flow.direction.value + 180.0 } else { flow.direction.value };
+    Some(format!("-WIND {}", numbers([rounded(speed.abs() / KNOT), opposite(toward)])))
+}

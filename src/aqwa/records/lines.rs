@@ -1,0 +1,130 @@
+//! Mooring lines of deck 14 as classes of the model.
+
+use super::model::point;
+use super::written::{Script, number, numbers, rounded};
+use crate::aqwa::Deck;
+use crate::aqwa::lines::{Composite, Ends, Joint, LineKind, MooringLine, Property, Section};
+use crate::language::diagnostic::Diagnostic;
+use std::f64::consts::FRAC_PI_4;
+
+/// Diameter (m) of an elastic line as the class has it: only EA of the section counts.
+const DIAMETER: f64 = 1.0;
+
+/// Classes and connectors.
+pub(super) fn lines(deck: &Deck, out: &mut Script) {
+    let mut written: Vec<usize> = Vec::new();
+    for (index, line) in deck.mooring.lines.iter().enumerate() {
+        let number = index + 1;
+        let class = match line.kind {
+            LineKind::Elastic { stiffness, length } => elastic(number, stiffness, length, line, out),
+            LineKind::Property { property, tension, .. } => match deck.mooring.properties.get(property) {
+                Some(Property::Composite(composite)) if tension == 0.0 => {
+                    let name = format!("COMP{}", property + 1);
+                    if !written.contains(&property) {
+                        written.push(property);
+                        catenary(&name, composite, out);
+                    }
+                    Some(name)
+                }
+                Some(Property::Composite(_)) => {
+                    refused("NLIN with a winch tension", "a CATENARY with a PISTON of the model", line, out)
+                }
+                _ => refused("POLY", "a GSPR with a table of force over extension", line, out),
+            },
+            LineKind::Winched { .. } => refused("LNDW", "an SL_ELEM, with &ACTION for the winch", line, out),
+            LineKind::Force(_) => refused("FORC", "a TUG_BOAT, or #TABLE for a force on the body", line, out),
+            LineKind::Winch { .. } => refused("WNCH", "an SL_ELEM with -PISTON, which keeps a tension", line, out),
+        };
+        if let Some(class) = class {
+            let [first, second] = ends(line.ends);
+            out.record(format!("CONNECTOR L{number} ~{class} {} {}", point(first.0, first.1), point(second.0, second.1)));
+        }
+    }
+}
+
+/// Structure and node of both ends, the one on a structure first: that is the fairlead.
+fn ends(ends: Ends) -> [(i64, i64); 2] {
+    let first = (ends.structure1.value, ends.node1.value);
+    let second = (ends.structure2.value, ends.node2.value);
+    if first.0 <= 0 && second.0 > 0 { [second, first] } else { [first, second] }
+}
+
+fn refused(card: &str, class: &str, line: &MooringLine, out: &mut Script) -> Option<String> {
+    out.refuse(
+        Diagnostic::error(format!("deck 14, {card}: this line is not read into the model"), line.span)
+            .help(format!("in a script of the model it is {class}")),
+    );
+    None
+}
+
+/// A linear elastic line: EA over its length is the stiffness.
+fn elastic(number_of: usize, stiffness: f64, length: f64, line: &MooringLine, out: &mut Script) -> Option<String> {
+    if length <= 0.0 {
+        return refused("LINE without a length", "a GSPR along X between the two points", line, out);
+    }
+    let name = format!("L{number_of}");
+    let length = out.scale.length(length);
+    // N/m times m over the area, in MPa
+    let modulus = out.scale.force(stiffness, -1) * 1e3 * length / (FRAC_PI_4 * DIAMETER * DIAMETER) / 1e6;
+    out.record(format!(
+        "~{name} SL_ELEM {} TENSION -LEN {} -EMODULUS {}",
+        number(1000.0 * DIAMETER),
+        number(length),
+        number(rounded(modulus))
+    ));
+    Some(name)
+}
+
+/// A composite line: one record a section from the fairlead, in kg, m, N.
+fn catenary(name: &str, composite: &Composite, out: &mut Script) {
+    if composite.slope != 0.0 {
+        out.refuse(
+            Diagnostic::error("deck 14, COMP, columns 51-60: the sea bed of a CATENARY is level", composite.span)
+                .help("B_CAT of the model has -SLOPE"),
+        );
+    }
+    if let Some(joint) = composite.sections.last().and_then(|section| section.joint) {
+        out.refuse(
+            Diagnostic::error("deck 14: a joint at the fairlead belongs to the structure", joint.span)
+                .label("the section before it is the last one")
+                .help("add its mass to the PMAS of the structure"),
+        );
+    }
+    // the joint of a section of the deck is at its upper end, which is the lower end of the next one
+    let mut below: Vec<Option<Joint>> = vec![None];
+    below.extend(composite.sections.iter().map(|section| section.joint));
+    let rows: Vec<(&Section, Option<Joint>)> = composite.sections.iter().zip(below).collect();
+    for (section, joint) in rows.into_iter().rev() {
+        out.record(record(name, section, joint, out));
+    }
+}
+
+fn record(name: &str, section: &Section, joint: Option<Joint>, out: &Script) -> String {
+    let scale = out.scale;
+    let mut text = format!(
+        "~{name} CATENARY {} -LEN {} -EA {} -TMAX {}",
+        numbers([scale.line_mass(section.mass), scale.area(section.area)]),
+        number(scale.length(section.length)),
+        number(scale.newtons(section.stiffness)),
+        number(scale.newtons(section.tension))
+    );
+    if let Some(growth) = section.growth {
+        text.push_str(&format!(" -K {}", numbers(growth.map(|k| scale.newtons(k)))));
+    }
+    if section.bending > 0.0 {
+        text.push_str(&format!(" -EI {}", number(scale.force(section.bending, 2) * 1e3)));
+    }
+    if let Some(water) = section.resistance {
+        text.push_str(&format!(" -CA {} -CD {}", number(water.added_mass), number(water.drag)));
+        if water.diameter > 0.0 {
+            text.push_str(&format!(" -DE {}", number(scale.length(water.diameter))));
+        }
+        text.push_str(&format!(" -CX {}", number(water.inline)));
+    }
+    if let Some(joint) = joint {
+        let kind = if joint.buoy { "-BUOY" } else { "-CLUMP" };
+        let masses = [joint.mass, joint.displaced, joint.added].map(|mass| scale.mass(mass));
+        text.push_str(&format!(" {kind} {} {}", numbers(masses), number(scale.area(joint.drag))));
+    }
+    text
+}

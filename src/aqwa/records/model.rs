@@ -1,0 +1,256 @@
+//! Structures as bodies: decks 1 to 4, 7, 12, 15 and 17.
+
+use super::written::{Script, difference, number, numbers, rounded};
+use crate::aqwa::Deck;
+use crate::aqwa::elements::{Element, Shape, Structure};
+use crate::aqwa::hydrostatics::{Hydrostatics, SixBySix};
+use crate::aqwa::mass::MassProperties;
+use crate::language::diagnostic::Diagnostic;
+use crate::language::source::Span;
+use nalgebra::Matrix6;
+
+/// Friction along a tube: fixed in AQWA (reference/aqwa-cards.md, "TUBE").
+const FRICTION: f64 = 0.016;
+/// Products of inertia beyond this share of the largest moment of inertia are no rounding.
+const ROUNDING: f64 = 1e-9;
+const FREEDOMS: [&str; 6] = ["X", "Y", "Z", "RX", "RY", "RZ"];
+const ROWS: [&str; 6] = ["-KX", "-KY", "-KZ", "-KRX", "-KRY", "-KRZ"];
+
+/// Name of the body of a structure.
+pub(super) fn body(structure: i64) -> String {
+    format!("S{structure}")
+}
+
+/// Name of a node on a structure, or in the ground (structure 0).
+pub(super) fn point(structure: i64, node: i64) -> String {
+    if structure > 0 { format!("*S{structure}_{node}") } else { format!("*N{node}") }
+}
+
+/// The ground, with the nodes of anchors and trailing ends.
+pub(super) fn ground(deck: &Deck, out: &mut Script) {
+    let of_tethers = deck.mooring.tethers.iter().map(|tether| tether.anchor.value);
+    let of_lines = deck.mooring.lines.iter().flat_map(|line| {
+        let ends = line.ends;
+        [(ends.structure1.value, ends.node1.value), (ends.structure2.value, ends.node2.value)]
+    });
+    let mut nodes: Vec<i64> = of_tethers.collect();
+    nodes.extend(of_lines.filter(|(structure, _)| *structure <= 0).map(|(_, node)| node));
+    nodes.sort_unstable();
+    nodes.dedup();
+    if nodes.is_empty() {
+        return;
+    }
+    out.record("&DESCRIBE BODY GROUND");
+    for node in nodes {
+        if let Some(found) = deck.nodes.get(&node) {
+            let place = found.position.map(|x| out.scale.length(x));
+            out.record(format!("{} {}", point(0, node), numbers(place)));
+        }
+    }
+}
+
+/// The nodes of a structure that something refers to, in order.
+fn nodes(deck: &Deck, structure: &Structure) -> Vec<i64> {
+    let own = structure.number;
+    let mut list: Vec<i64> = Vec::new();
+    let tubes = structure.elements.iter().filter(|element| element.shape == Shape::Tube);
+    list.extend(tubes.flat_map(|element| element.nodes.iter().copied()));
+    list.extend(deck.mooring.tethers.iter().filter(|t| t.structure.value == own).map(|t| t.node.value));
+    for line in &deck.mooring.lines {
+        for (number, node) in [(line.ends.structure1, line.ends.node1), (line.ends.structure2, line.ends.node2)] {
+            list.extend((number.value == own).then_some(node.value));
+        }
+    }
+    list.extend(deck.printing.nodes.iter().filter(|n| n.structure.value == own).map(|n| n.node.value));
+    list.sort_unstable();
+    list.dedup();
+    list
+}
+
+/// A structure as a body whose origin is its centre of gravity.
+pub(super) fn structure(deck: &Deck, of: &Structure, out: &mut Script) {
+    let mass = deck.mass_properties(of);
+    let nominal = deck.mooring.tethers.iter().any(|tether| tether.towed());
+    let name = body(of.number);
+    out.remark(&format!("structure {}: the origin of the body is its center of gravity", of.number));
+    let held = held(deck, of, nominal, out);
+    out.record(format!("&DESCRIBE BODY {name}{held}"));
+    out.record(format!("*{name}_CG 0 0 0"));
+    for node in nodes(deck, of) {
+        if let Some(found) = deck.nodes.get(&node) {
+            let place = [0, 1, 2].map(|i| {
+                let [at, centre] = [found.position[i], mass.centre[i]].map(|x| out.scale.length(x));
+                difference(at, centre)
+            });
+            out.record(format!("{} {}", point(of.number, node), numbers(place)));
+        }
+    }
+    weight(deck, of, &mass, out);
+    let index = deck.structures.iter().position(|s| s.number == of.number);
+    let known = index.and_then(|index| deck.hydrostatics.get(index));
+    if let Some(known) = known {
+        hydrostatics(deck, of, known, nominal, out);
+    }
+    tubes(deck, of, out);
+}
+
+/// The freedoms that are held, as an option.
+fn held(deck: &Deck, of: &Structure, nominal: bool, out: &mut Script) -> String {
+    if nominal {
+        out.remark("a towed tether runs by itself: its nominal vessel is held where it is");
+        return format!(" -IGNORE {}", FREEDOMS.join(" "));
+    }
+    let given: Vec<_> = deck.held.iter().filter(|held| held.structure.value == of.number).collect();
+    if let (Some(first), false) = (given.first(), deck.mooring.tethers.is_empty()) {
+        out.refuse(
+            Diagnostic::error("deck 12, DACF: a structure that tethers hold moves in all freedoms here", first.freedom.span)
+                .help("the engine of tethers holds none; a stiff GSPR of the model to the ground does"),
+        );
+    }
+    let mut freedoms: Vec<usize> = given.iter().filter_map(|h| usize::try_from(h.freedom.value - 1).ok()).collect();
+    freedoms.sort_unstable();
+    freedoms.dedup();
+    let names: Vec<&str> = freedoms.iter().filter_map(|freedom| FREEDOMS.get(*freedom).copied()).collect();
+    if names.is_empty() { String::new() } else { format!(" -IGNORE {}", names.join(" ")) }
+}
+
+fn weight(deck: &Deck, of: &Structure, mass: &MassProperties, out: &mut Script) {
+    if mass.mass <= 0.0 {
+        out.refuse(
+            Diagnostic::error(format!("deck 2: structure {} has no mass", of.number), of.span)
+                .help("a PMAS element with a material and a geometry group gives it mass and inertia"),
+        );
+        return;
+    }
+    let [xx, yy, zz] = [0, 1, 2].map(|i| mass.inertia[i][i]);
+    let products = [(0, 1), (0, 2), (1, 2)].map(|(i, j)| mass.inertia[i][j].abs());
+    let largest = [xx, yy, zz].into_iter().fold(0.0, f64::max);
+    if products.iter().any(|product| *product > ROUNDING * largest) {
+        let text = format!("deck 4: structure {} has products of inertia", of.number);
+        out.refuse(
+            Diagnostic::error(text, of.span)
+                .label("about axes along those of deck 1 through its center of gravity")
+                .help("#WEIGHT has radii of gyration along the axes of its body; give the structure in its principal axes"),
+        );
+    }
+    let radii = [xx, yy, zz].map(|inertia| rounded(out.scale.length((inertia.max(0.0) / mass.mass).sqrt())));
+    let weight = rounded(out.scale.force(mass.mass * deck.global.gravity, 0));
+    out.record(format!("#WEIGHT *{}_CG {} {}", body(of.number), number(weight), numbers(radii)));
+}
+
+fn refuse_card(what: &str, at: Span, help: &str, out: &mut Script) {
+    out.refuse(Diagnostic::error(format!("deck 7: {what} is not read into the model"), at).help(help));
+}
+
+fn hydrostatics(deck: &Deck, of: &Structure, known: &Hydrostatics, nominal: bool, out: &mut Script) {
+    if !nominal {
+        if known.added_mass.is_some() {
+            refuse_card("added mass (FIAM, FIDA)", known.span, "#AMASS of the model adds mass to a body", out);
+        }
+        if known.damping.is_some() {
+            refuse_card("damping (FIDP, FIDD)", known.span, "#DAMP of the model gives damping to a body", out);
+        }
+        if known.position.is_some_and(|p| p.iter().enumerate().any(|(i, x)| i != 2 && *x != 0.0)) {
+            refuse_card("SPOS with X, Y or a rotation", known.span, "#HYDROSTATIC is about (0, 0, ZCGE), upright", out);
+        }
+    }
+    let (Some(buoyancy), Some(height)) = (known.buoyancy, known.height) else {
+        if known.added_stiffness.is_some() && !nominal {
+            refuse_card("ASTF without LSTF", known.span, "a GSPR of the model to the ground is a stiffness", out);
+        }
+        return;
+    };
+    if !nominal && of.elements.iter().any(|element| element.shape == Shape::Tube) {
+        refuse_card(
+            "LSTF of a structure of tubes",
+            known.span,
+            "its tubes displace water themselves; leave out LSTF, or the tubes",
+            out,
+        );
+        return;
+    }
+    let stiffness = sum(known.stiffness, known.added_stiffness);
+    let mut text = format!("#HYDROSTATIC *{}_CG", body(of.number));
+    text.push_str(&format!(" -BUOYANCY {}", number(out.scale.force(buoyancy.value, 0))));
+    text.push_str(&format!(" -ZCGE {}", number(out.scale.length(height.value))));
+    for (row, name) in ROWS.iter().enumerate() {
+        let values: Vec<f64> = (0..6)
+            .map(|column| {
+                let power = i32::from(row > 2) + i32::from(column > 2) - 1;
+                out.scale.force(stiffness[(row, column)], power)
+            })
+            .collect();
+        if values.iter().any(|value| *value != 0.0) {
+            text.push_str(&format!(" {name} {}", numbers(values)));
+        }
+    }
+    if nominal && !deck.job.option("LSTF") {
+        out.remark("without the option LSTF that program would not take this stiffness");
+    }
+    out.record(text);
+}
+
+fn sum(a: Option<SixBySix>, b: Option<SixBySix>) -> Matrix6<f64> {
+    let of = |rows: Option<SixBySix>| {
+        rows.map_or_else(Matrix6::zeros, |rows| Matrix6::from_fn(|i, j| rows.get(i).and_then(|r| r.get(j)).copied().unwrap_or(0.0)))
+    };
+    of(a) + of(b)
+}
+
+/// The tubes of a structure, and what elements have no place in the model.
+fn tubes(deck: &Deck, of: &Structure, out: &mut Script) {
+    if let Some(other) = of.elements.iter().find(|e| e.shape == Shape::PointBuoyancy) {
+        out.refuse(
+            Diagnostic::error("deck 2, PBOY: a buoyancy at a point has no place in the model", other.span)
+                .help("give a TUBE of the same volume, or BFEQ of deck 7"),
+        );
+    }
+    let tubes: Vec<&Element> = of.elements.iter().filter(|element| element.shape == Shape::Tube).collect();
+    if tubes.is_empty() {
+        return;
+    }
+    let factors = deck.multipliers(of.number);
+    out.record("&SURFACE");
+    for (index, tube) in tubes.iter().enumerate() {
+        let (Some(geometry), [first, second]) = (deck.geometry(Shape::Tube, tube.geometry), tube.nodes.as_slice())
+        else {
+            continue;
+        };
+        let name = body(of.number);
+        let text = format!(
+            "TUBE {name}_T{} {} {} {} -CD {} -CDA {} -CA {}",
+            index + 1,
+            point(of.number, *first),
+            point(of.number, *second),
+            number(out.scale.section(geometry.parameters[0].value)),
+            number(product(geometry.drag(), factors.drag)),
+            number(product(FRICTION, factors.drag)),
+            number(product(geometry.added_mass(), factors.added_mass)),
+        );
+        out.record(text);
+    }
+    out.record("END_&SURFACE");
+}
+
+/// A coefficient times a multiplier of deck 17.
+pub(super) fn product(coefficient: f64, factor: f64) -> f64 {
+    if factor == 1.0 { coefficient } else { rounded(coefficient * factor) }
+}
+
+/// Where the structures are at the start.
+pub(super) fn starts(deck: &Deck, out: &mut Script) {
+    for start in deck.starts.iter().filter(|start| start.velocity) {
+        if start.values.iter().any(|value| *value != 0.0) {
+            out.refuse(
+                Diagnostic::error(format!("deck 15, VEL{}: a run starts with the bodies at rest", start.structure), start.span)
+                    .label("zeros belong here")
+                    .help("a run in time lets a body come up to speed before the statistics start"),
+            );
+        }
+    }
+    for structure in &deck.structures {
+        let [x, y, z, rx, ry, rz] = deck.start(structure);
+        let [x, y, z] = [x, y, z].map(|value| out.scale.length(value));
+        out.record(format!("&INSTATE -LOCATE {} {}", body(structure.number), numbers([x, y, z, rx, ry, rz])));
+    }
+}

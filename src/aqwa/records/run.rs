@@ -1,0 +1,195 @@
+//! What a deck runs and prints: decks 0, 14, 16, 17 and 18.
+
+use super::environment::spectrum;
+use super::model::{body, point};
+use super::tethers::name;
+use super::written::{Script, number, numbers, opposite, rounded};
+use crate::aqwa::Deck;
+use crate::aqwa::job::Program;
+use crate::aqwa::tethers::{Fatigue, Tether};
+use crate::aqwa::waves::Waves;
+use crate::language::diagnostic::Diagnostic;
+
+/// Hours for which the peak stress is expected when TPSH is not given (A.5).
+const HOURS: f64 = 3.0;
+
+/// The records that run a deck.
+pub(super) fn job(deck: &Deck, out: &mut Script) {
+    // a title may hold what the language would read
+    let plain = |c: char| if c.is_ascii_alphanumeric() || "-.()/+=".contains(c) { c } else { ' ' };
+    let title: String = deck.job.title.chars().map(plain).collect();
+    if !title.trim().is_empty() {
+        out.record(format!("&TITLE {}", title.split_whitespace().collect::<Vec<_>>().join(" ")));
+    }
+    if !deck.mooring.tethers.is_empty() {
+        out.record("&STATUS TETHERS");
+        if let Some(modes) = deck.mooring.modes.filter(|modes| modes.value > 0) {
+            out.record(format!("&STATUS TETHER_MODES -NUMBER {} -AQWA", modes.value));
+        }
+    }
+    if !deck.job.runs() {
+        let (_, finish) = deck.job.stages;
+        out.remark(if deck.job.option("DATA") {
+            "DATA: the data are checked and told; nothing is run"
+        } else if finish < 4 {
+            "the stages end before the analysis: the model is made, and nothing is run"
+        } else {
+            "the stages end before the motion: nothing is run"
+        });
+        return;
+    }
+    match (deck.job.program, deck.mooring.tethers.is_empty()) {
+        (Program::Drift | Program::Naut, false) => tethered(deck, out),
+        (Program::Drift | Program::Naut, true) => bodies(deck, out),
+        (Program::Librium, true) => {
+            out.record("&EQUI");
+            out.record("&STATUS CONFIGURATION");
+            if !deck.mooring.lines.is_empty() {
+                out.record("&STATUS F_CONNECTOR");
+            }
+        }
+        (Program::Librium, false) => out.refuse(
+            Diagnostic::error("deck 0: tethers are run in time, with DRIF or NAUT", deck.job.span)
+                .label("LIBR is the equilibrium")
+                .help("INMODEL -AQWA reads the model; &EQUI then takes installed tethers as bars"),
+        ),
+        (Program::Line | Program::Fer, _) => out.refuse(
+            Diagnostic::error("deck 0: this program is not run from a deck", deck.job.span)
+                .label("DRIF, NAUT or LIBR belongs here")
+                .help("LINE is the diffraction analysis; for FER, INMODEL -AQWA reads the model and FREQ_RESPONSE runs it"),
+        ),
+    }
+}
+
+/// A run without tethers: bodies and lines as the model has them.
+fn bodies(deck: &Deck, out: &mut Script) {
+    out.record("TDOM");
+    out.record("PRCPOST");
+    for structure in &deck.structures {
+        out.record(format!("TRAJECTORY {}", body(structure.number)));
+        out.record("REPORT");
+        out.record("END");
+    }
+    out.record("END");
+}
+
+/// Steps between printed or kept instants, as given; 1 for a card with nothing on it.
+fn every(field: Option<crate::aqwa::card::Field<i64>>) -> Option<i64> {
+    field.map(|field| field.value.max(1))
+}
+
+fn common_divisor(a: i64, b: i64) -> i64 {
+    if b == 0 { a } else { common_divisor(b, a % b) }
+}
+
+/// Times of a page at each so many steps, from the start to the end.
+fn events(deck: &Deck, steps: i64) -> String {
+    let Some(run) = deck.steps else { return String::new() };
+    let last = rounded((run.count.value - 1) as f64 * run.step.value);
+    format!("-EVENTS {}", numbers([0.0, last, rounded(steps as f64 * run.step.value)]))
+}
+
+fn tethered(deck: &Deck, out: &mut Script) {
+    let towed = deck.mooring.tethers.iter().any(Tether::towed);
+    let printing = &deck.printing;
+    let slack = deck.mooring.slack_time.filter(|_| !towed && printing.tethers.is_none());
+    // a tether may go slack, and its structure comes to a state, at any step
+    let finest = if towed { every(printing.records).unwrap_or(1) } else { 1 };
+    let store = [every(printing.structures), every(printing.tethers)].into_iter().flatten().fold(finest, common_divisor);
+    let mut run = format!("TDOM -TETHERS AQWA -STORE {}", store.max(1));
+    let slam = deck.mooring.tethers.first().map_or(0.0, |tether| deck.multipliers(tether.structure.value).slam);
+    if towed && slam > 0.0 {
+        run.push_str(&format!(" -SLAM {}", number(slam)));
+    } else if slam > 0.0 {
+        out.remark("SLMM: slam is of towed tethers; it has no effect here");
+    }
+    if let Some((speed, toward)) = spectrum(deck).and_then(|s| s.towing).filter(|(speed, _)| *speed != 0.0) {
+        if towed {
+            let toward = if speed < 0.0 { opposite(toward) } else { toward };
+            run.push_str(&format!(" -TOW {}", numbers([out.scale.length(speed.abs()), toward])));
+        } else {
+            out.remark("TOWS is of towed tethers; it has no effect here");
+        }
+    }
+    out.record(run);
+    out.record("PRCPOST");
+    if !towed {
+        structure(deck, out);
+    }
+    let asked = |tether: &Tether| {
+        printing.tensions.iter().any(|field| field.value == 0 || field.value == tether.structure.value)
+    };
+    let silent = !deck.mooring.tethers.iter().any(asked);
+    if silent {
+        out.remark("without PTEN nothing is told of the tethers over time");
+    }
+    for (index, tether) in deck.mooring.tethers.iter().enumerate() {
+        if asked(tether) {
+            pages(deck, &name(index), slack.map(|time| time.value), out);
+        }
+        if deck.job.program == Program::Drift {
+            statistics(deck, &name(index), tether, out);
+        }
+    }
+    if !towed {
+        out.record(format!("TETHER {} EVENTS", name(0)));
+    }
+    out.record("END");
+}
+
+/// Pages of the structure, and the harmonics of its motion in a regular wave.
+fn structure(deck: &Deck, out: &mut Script) {
+    let printing = &deck.printing;
+    if !printing.switches.is_empty() {
+        out.remark("NOPR, PRNT: pages of a structure have all of its forces here");
+    }
+    if let Some(steps) = every(printing.structures) {
+        let mut text = String::from("STRUCTURE PAGES");
+        for printed in &printing.nodes {
+            text.push_str(&format!(" {}", point(printed.structure.value, printed.node.value)));
+            if printed.reference.0.value > 0 || printed.reference.1.value > 0 {
+                out.remark("NODE: places are told in the fixed system, also those with a reference");
+            }
+        }
+        out.record(format!("{text} {}", events(deck, steps)));
+    }
+    if deck.job.program == Program::Naut && matches!(&deck.waves, Waves::Regular(wave) if wave.amplitude > 0.0) {
+        out.record("STRUCTURE HARMONICS");
+    }
+}
+
+/// Pages of a tether: at an interval, or after it went slack.
+fn pages(deck: &Deck, name: &str, slack: Option<f64>, out: &mut Script) {
+    let when = match (every(deck.printing.tethers), slack) {
+        (Some(steps), _) => events(deck, steps),
+        (None, Some(time)) => format!("-SLACK {}", number(time.max(0.0))),
+        // neither card: each state that is printed of the structure, else each one kept
+        (None, None) => events(deck, every(deck.printing.structures).unwrap_or(1)),
+    };
+    out.record(format!("TETHER {name} MOTIONS {when}"));
+    out.record(format!("TETHER {name} FORCES {when}"));
+}
+
+/// Statistics between TSTS and TSTF, and of towed tethers stress ranges and fatigue.
+fn statistics(deck: &Deck, name: &str, tether: &Tether, out: &mut Script) {
+    let Some(steps) = deck.steps else { return };
+    let (first, last) = deck.statistics();
+    let time = |step: i64| rounded((step - 1).max(0) as f64 * steps.step.value);
+    let between = format!("-EVENTS {}", numbers([time(first), time(last)]));
+    out.record(format!("TETHER {name} STATISTICS 1 {between}"));
+    out.record(format!("TETHER {name} STATISTICS 2 {between}"));
+    if !tether.towed() {
+        return;
+    }
+    let Fatigue { concentration, intercept, slope } = tether.description.fatigue;
+    let curve = format!("-SN {}", numbers([concentration, scaled(intercept, slope, out), slope]));
+    let hours = number(tether.description.peak_hours.unwrap_or(HOURS));
+    out.record(format!("TETHER {name} RANGES {between} {curve}"));
+    out.record(format!("TETHER {name} FATIGUE {between} {curve} -HOURS {hours}"));
+}
+
+/// The intercept of `N = A / R^m` for stresses in kN/m2.
+fn scaled(intercept: f64, slope: f64, out: &Script) -> f64 {
+    let unit = out.scale.pascals(1.0) / 1000.0;
+    if unit == 1.0 { intercept } else { rounded(intercept * unit.powf(slope)) }
+}

@@ -1,0 +1,180 @@
+//! Tethers of deck 14: a class for each description, a connector for each TETH card.
+
+use super::model::{point, product};
+use super::written::{Script, difference, number, numbers, rounded};
+use crate::aqwa::Deck;
+use crate::aqwa::elements::Shape;
+use crate::aqwa::end_springs::EndSpring;
+use crate::aqwa::tethers::{Constraint, Description, Tether, TetherElement};
+use crate::language::source::Span;
+
+/// Name of the connector of a tether, by its place in deck 14.
+pub(super) fn name(index: usize) -> String {
+    format!("T{}", index + 1)
+}
+
+/// Classes and connectors.
+pub(super) fn tethers(deck: &Deck, out: &mut Script) {
+    for (index, tether) in deck.mooring.tethers.iter().enumerate() {
+        if tether.copy_of.is_none() {
+            class(deck, index, tether, out);
+        }
+        connector(index, tether, out);
+    }
+}
+
+/// One record a TELM card, from the vessel to the anchor: the class has its sections from the fairlead.
+fn class(deck: &Deck, index: usize, tether: &Tether, out: &mut Script) {
+    let factors = deck.multipliers(tether.structure.value);
+    for element in tether.description.elements.iter().rev() {
+        let (Some(length), Some(material), Some(geometry)) = (
+            length(deck, element, out),
+            deck.materials.get(&element.material.value),
+            deck.geometry(Shape::Tube, element.geometry.value),
+        ) else {
+            continue;
+        };
+        let [density, modulus, _] = material.properties.map(|field| field.value);
+        let [diameter, wall, ..] = geometry.parameters.map(|field| out.scale.length(field.value));
+        let text = format!(
+            "~{} TETHER {} -LEN {} -DENSITY {} -EMODULUS {} -CA {} -CD {} -LABEL {} {} {} {}",
+            name(index),
+            numbers([diameter, wall]),
+            number(length),
+            number(out.scale.density(density)),
+            number(out.scale.pascals(modulus)),
+            number(product(geometry.added_mass(), factors.added_mass)),
+            number(product(geometry.drag(), factors.drag)),
+            element.node1.value,
+            element.node2.value,
+            element.material.value,
+            element.geometry.value,
+        );
+        out.record(text);
+    }
+}
+
+/// Length of an element (m).
+fn length(deck: &Deck, element: &TetherElement, out: &Script) -> Option<f64> {
+    let place = |node: i64| deck.nodes.get(&node).map(|node| node.position.map(|x| out.scale.length(x)));
+    let (from, to) = (place(element.node1.value)?, place(element.node2.value)?);
+    let along = [0, 1, 2].map(|i| difference(to[i], from[i]));
+    Some(match along.iter().filter(|x| **x != 0.0).count() {
+        // along an axis the digits of the cards are the length
+        1 => along.iter().sum::<f64>().abs(),
+        _ => rounded(along.iter().map(|x| x * x).sum::<f64>().sqrt()),
+    })
+}
+
+fn connector(index: usize, tether: &Tether, out: &mut Script) {
+    let class = tether.copy_of.map_or(index, |number| number.saturating_sub(1));
+    let mut text = format!(
+        "CONNECTOR {} ~{} {} {}",
+        name(index),
+        name(class),
+        point(tether.structure.value, tether.node.value),
+        point(0, tether.anchor.value)
+    );
+    let description = &tether.description;
+    text.push_str(if tether.towed() { " -TOWED" } else { " -INSTALLED" });
+    for (spring, side) in [(description.vessel, 'V'), (description.anchor, 'A')] {
+        if let Some(spring) = spring {
+            text.push_str(&springs(spring, side, tether.towed(), out));
+        }
+    }
+    if tether.towed() {
+        not_of_towed(description, out);
+    } else {
+        text.push_str(&of_installed(description, out));
+    }
+    out.record(text);
+}
+
+fn springs(spring: EndSpring, side: char, towed: bool, out: &Script) -> String {
+    let values = spring.stiffness.map(|field| field.value);
+    let (kind, powers) = if towed { ("MOORING", [-1; 3]) } else { ("SPRINGS", [-1, 1, 1]) };
+    let values = values.into_iter().zip(powers).map(|(value, power)| out.scale.force(value, power));
+    format!(" \\\n  -{side}_{kind} {}", numbers(values))
+}
+
+/// Says which cards have no effect on a towed tether.
+fn not_of_towed(description: &Description, out: &mut Script) {
+    let cards = [
+        ("TCAP", description.caps != (0.0, 0.0)),
+        ("TIFL", description.fluid != (0.0, 0.0)),
+        ("TIMP", description.impact.is_some()),
+        ("TLOW", description.lower_stop > 0.0),
+        ("TEGR", description.group > 1),
+        ("TLAC, TROC, TLAV, TROV", !description.constraints.is_empty()),
+    ];
+    let given: Vec<&str> = cards.iter().filter(|(_, given)| *given).map(|(card, _)| *card).collect();
+    if !given.is_empty() {
+        out.remark(&format!("{} are of installed tethers and have no effect on a towed one", given.join(", ")));
+    }
+}
+
+fn of_installed(description: &Description, out: &mut Script) -> String {
+    let mut text = String::new();
+    let (at_anchor, at_vessel) = description.caps;
+    if (at_anchor, at_vessel) != (0.0, 0.0) {
+        text.push_str(&format!(" \\\n  -CAPS {}", numbers([at_anchor, at_vessel].map(|area| out.scale.area(area)))));
+    }
+    let (pressure, density) = description.fluid;
+    if (pressure, density) != (0.0, 0.0) {
+        let values = [out.scale.force(pressure, -2), out.scale.density(density)];
+        text.push_str(&format!(" \\\n  -FLUID {}", numbers(values)));
+    }
+    match description.impact {
+        Some((factor, half_life)) if factor > 0.0 && half_life > 0.0 => {
+            text.push_str(&format!(" \\\n  -IMPACT {}", numbers([out.scale.force(factor, -3), half_life])));
+        }
+        Some((factor, _)) if factor > 0.0 => out.remark("TIMP without a half life: the stress of an impact is gone at once"),
+        _ => {}
+    }
+    if description.lower_stop > 0.0 {
+        text.push_str(&format!(" -LOW_STOP {}", number(out.scale.length(description.lower_stop))));
+    }
+    for (kind, gap, span) in &description.constraints {
+        let node = constrained(description, *kind, *span, out);
+        text.push_str(&format!(" \\\n  -CONSTRAINT {} {node}", hold(*kind)));
+        if *kind == Constraint::LateralVessel && *gap > 0.0 {
+            text.push_str(&format!(" {}", number(out.scale.length(*gap))));
+        }
+    }
+    if description.group > 1 {
+        text.push_str(&format!(" -GROUP {}", description.group));
+    }
+    text
+}
+
+fn hold(kind: Constraint) -> &'static str {
+    match kind {
+        Constraint::LateralFixed => "LATERAL_FIXED",
+        Constraint::RotationalFixed => "ROTATIONAL_FIXED",
+        Constraint::LateralVessel => "LATERAL_VESSEL",
+        Constraint::RotationalVessel => "ROTATIONAL_VESSEL",
+    }
+}
+
+/// The node that a constraint holds, 1 at the anchor. The cards name none (A.14): a card between two TELM cards is taken for the node
+/// between them; else it is next to the end that its kind belongs to.
+fn constrained(description: &Description, kind: Constraint, at: Span, out: &mut Script) -> usize {
+    let count = description.elements.len();
+    let before = description.elements.iter().filter(|element| element.span.start < at.start).count();
+    let card = match kind {
+        Constraint::LateralFixed => "TLAC",
+        Constraint::RotationalFixed => "TROC",
+        Constraint::LateralVessel => "TLAV",
+        Constraint::RotationalVessel => "TROV",
+    };
+    if (1..count).contains(&before) {
+        out.remark(&format!("assumed: {card} holds the node of the TELM card before it"));
+        return before + 1;
+    }
+    let (node, end) = match kind {
+        Constraint::LateralFixed | Constraint::RotationalFixed => (2, "anchor"),
+        Constraint::LateralVessel | Constraint::RotationalVessel => (count.max(1), "vessel"),
+    };
+    out.remark(&format!("assumed: {card} names no node and holds the one next to the {end}"));
+    node.min(count + 1)
+}

@@ -1,0 +1,96 @@
+//! AQWA decks: read, told, and run as the records they amount to.
+
+use super::Session;
+use crate::aqwa::{self, Deck, Records};
+use crate::command::{PLAIN, SCRIPT};
+use crate::language::diagnostic::{Diagnostic, Severity};
+use crate::language::source::{Span, Text};
+use crate::report::page;
+use std::path::Path;
+
+impl Session {
+    /// Opens a text as the job: an AQWA deck as the records it amounts to, anything else as a script.
+    ///
+    /// A deck is told first, as its listing has it. Its records are kept in the folder of answers as a script. A deck with an error
+    /// is not run, and an error in its records ends the run: what would follow would not be that of the deck.
+    pub fn open_job(&mut self, name: &str, text: impl Into<Text>) {
+        let text = text.into();
+        if !aqwa::is_deck(text.as_str()) {
+            self.open(name, text);
+            return;
+        }
+        let Some((deck, records)) = self.translated(name, text, aqwa::records) else { return };
+        self.tell(&deck);
+        let script = records.script();
+        let named = format!("{}.cif", stem(name));
+        if let Err(error) = self.job.output.folder.write(&named, script.as_bytes()) {
+            let text = format!("the records of the deck are not kept: {error}");
+            self.report(Diagnostic::plain(Severity::Warning, text));
+        }
+        self.job.settings.batch = true;
+        if let Err(error) = self.interpreter.open(&named, script, SCRIPT, None) {
+            self.report(*error);
+        }
+    }
+
+    /// Reads the model of a deck next.
+    pub(super) fn insert_deck(&mut self, name: &str, text: Text, span: Span) {
+        if !aqwa::is_deck(text.as_str()) {
+            let error = Diagnostic::error(format!("{name} is no deck of AQWA"), span);
+            self.report(*error.help("a deck begins with a JOB line that names a program, as JOB HE01  DRIF"));
+            return;
+        }
+        let Some((_, records)) = self.translated(name, text, aqwa::model_records) else { return };
+        let named = format!("records of {name}");
+        if let Err(error) = self.interpreter.open(&named, records.model_alone(), PLAIN, Some(span)) {
+            self.report(*error);
+        }
+    }
+
+    /// A deck with its records; nothing when it has an error, which is told.
+    fn translated(
+        &mut self,
+        name: &str,
+        text: Text,
+        records: fn(&Deck) -> Result<Records, Vec<Diagnostic>>,
+    ) -> Option<(Deck, Records)> {
+        let id = self.interpreter.sources.add(name, text, 1);
+        let reading = aqwa::read(&self.interpreter.sources, id);
+        for message in reading.messages {
+            self.report(message);
+        }
+        if reading.failed {
+            return None;
+        }
+        match records(&reading.deck) {
+            Ok(made) => Some((reading.deck, made)),
+            Err(list) => {
+                for message in list {
+                    self.report(message);
+                }
+                None
+            }
+        }
+    }
+
+    /// The echo of the cards and the data of decks 1 to 5.
+    fn tell(&mut self, deck: &Deck) {
+        let mut lines: Vec<String> = Vec::new();
+        for echo in deck.echo() {
+            lines.push(format!("\n {}", echo.title));
+            lines.extend(echo.lines);
+        }
+        let unit = deck.units().map_or("", |units| units.name);
+        // a deck always makes its tables (their rows are made with them)
+        for table in deck.data_tables().unwrap_or_default() {
+            lines.push(format!("\n {} ({unit})\n", table.title));
+            lines.extend(page::grid(&table, self.job.units));
+        }
+        self.job.say(&lines.join("\n"));
+    }
+}
+
+/// A file's name without its folder and ending.
+fn stem(name: &str) -> String {
+    Path::new(name).file_stem().map_or_else(|| "deck".into(), |stem| stem.to_string_lossy().replace(' ', "_"))
+}
