@@ -1,9 +1,13 @@
-//! The fatigue table of the towed tether's listing from its own histogram (seed 003, 8.1): every number is printed there.
+//! The fatigue table of the towed tether's listing (seed 003, 8.1): from its own histogram, of which every number is printed there, and from
+//! the run of its deck with the printed phases.
 
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
+mod common;
+
 use serde_json::Value;
-use windlass::post::tether::fatigue::{BINS, Endurance, Ranges, damage_rate, expected_peak, life_days};
+use windlass::post::tether::fatigue::{Asked, BINS, Endurance, Ranges, damage_rate, expected_peak, life_days};
+use windlass::solve::tethered::Statistics;
 
 const RECORD: f64 = 350.25;
 
@@ -77,4 +81,36 @@ fn peaks_an_hour_are_half_of_the_half_cycles_and_one() {
         let peaks = (counts(&listing, end).total() / 2 + 1) as f64 * 3600.0 / RECORD;
         assert_eq!(peaks.round(), field(&listing, end, "cychr2"), "end {end}");
     }
+}
+
+#[test]
+fn the_simulated_series_have_the_printed_lives_and_peaks() {
+    let listing = listing();
+    let (mut session, screen, _folder) = common::session();
+    session.open_job("he01_phases.dat", std::fs::read_to_string("scripts/he01_phases.dat").unwrap());
+    session.run();
+    let run = session.job.tethered.as_ref().unwrap_or_else(|| panic!("{}", screen.text()));
+    let asked = Asked { duration: 1.0, curve: Endurance::KILONEWTONS.scaled(1000.0), peak_time: 10_800.0 };
+    let [_, table] = Statistics::between(run, 24.75, 375.0).fatigue(run, &run.tethers[0], asked).unwrap();
+    let column = |name: &str| table.columns.iter().find(|c| c.name == name).unwrap().numbers();
+    let (lives, peaks, ranges) = (column("Life"), column("Peak"), column("Eff Range"));
+    let (mut worst_life, mut worst_peak): (f64, f64) = (0.0, 0.0);
+    for end in 0..26 {
+        let printed = field(&listing, end, "lifedays");
+        let life = lives[end] / 86_400.0;
+        let peak = peaks[end] / 1e3 / field(&listing, end, "pk3h") - 1.0;
+        let range = ranges[end] / 1e3 / field(&listing, end, "effrange") - 1.0;
+        eprintln!("{end}: life {life:.1} for {printed}, peak {peak:.4}, range {range:.4}");
+        // where a stress of 1E5 kN/m2 is expected: nodes 4 to 11 of the main body
+        if field(&listing, end, "pk3h") > 1e5 {
+            worst_life = worst_life.max((life / printed - 1.0).abs());
+            worst_peak = worst_peak.max(peak.abs());
+        }
+    }
+    // asked: the life at the worst node within 2 %, the peaks within 1 %
+    let shortest = (9..11).map(|end| lives[end] / 86_400.0 / field(&listing, end, "lifedays") - 1.0);
+    assert!(shortest.clone().all(|e| e.abs() < 0.02), "{:?}", shortest.collect::<Vec<_>>());
+    assert!(worst_peak < 0.01, "{worst_peak}");
+    // lives go with the 3.5th power of ranges: validation/towed-tether.md found them within 5 %
+    assert!(worst_life < 0.05, "{worst_life}");
 }
