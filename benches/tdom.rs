@@ -9,6 +9,7 @@
 
 #[path = "eight/mod.rs"]
 mod eight;
+mod measured;
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -47,13 +48,6 @@ fn model(flag: &str, memory: bool, sea: bool) -> Model {
     model
 }
 
-/// Seconds the processor has worked for this program.
-fn processor() -> Option<f64> {
-    let text = std::fs::read_to_string("/proc/self/stat").ok()?;
-    let ticks: f64 = text.rsplit(')').next()?.split_whitespace().nth(11)?.parse().ok()?;
-    Some(ticks / 100.0)
-}
-
 fn pass(name: &str, model: &Model, keep: bool) {
     let settings = Settings {
         observed: 10800.0,
@@ -71,9 +65,9 @@ fn pass(name: &str, model: &Model, keep: bool) {
     let mut counts = None;
     while begin.elapsed().as_secs_f64() < 4.0 {
         let mut run = Run::new(model, settings.clone(), Vec::new()).unwrap();
-        let (start, clock) = (processor(), Instant::now());
+        let (start, clock) = (measured::processor(), Instant::now());
         run.go(&mut Quiet).unwrap();
-        let spent = processor().zip(start).map(|(end, start)| end - start);
+        let spent = measured::processor().zip(start).map(|(end, start)| end - start);
         least = least.min(spent.unwrap_or(clock.elapsed().as_secs_f64()));
         counts = Some(run.counts);
     }

@@ -7,8 +7,6 @@
 
 use serde_json::Value;
 use windlass::hydro::sea::Component;
-use windlass::tether::mode_table;
-use windlass::tether::towed::tables;
 use windlass::tether::towed::{Compatibility, EndSpring, History, Multipliers, Record, Steps, Towed};
 use windlass::tether::{Line, TetherElement};
 
@@ -104,7 +102,7 @@ fn misfit(found: impl Fn(usize) -> f64, listed: impl Fn(usize) -> f64) -> (f64, 
 fn sections_and_description_have_the_printed_digits() {
     let p = printed();
     let case = case();
-    let description = case.description(1, [100, 999]);
+    let description = case.description(1, ["100", "999"]);
     let table = description.table();
     let rows = p["element_table"].as_array().unwrap();
     // printed: four decimals of area, six of I, four digits of EI and EA, three decimals of the outer area
@@ -271,34 +269,6 @@ fn the_statistics_are_the_printed_ones() {
         let error = double / number(&want["rms2"][0]) - 1.0;
         assert!(error.abs() < 0.015, "moment at end {end}: {error}");
     }
-}
-
-#[test]
-fn the_tables_have_the_rows_of_the_listing_in_its_order() {
-    let case = case();
-    let mut seen = Vec::new();
-    case.run(&Steps { number: 1, ..steps() }, &mut |r: &Record| {
-        seen.extend([tables::motions(r, 1), tables::forces(r, 1)])
-    })
-    .unwrap();
-    let number = |table: usize, name: &str, row: usize| seen[table].get(name).unwrap().cells[row].number().unwrap();
-    // the first rows printed: node 14 at 266.5 with -1.218 m/s2; the ends of element 13 at nodes 14 and 13, then of element 12
-    assert_eq!((seen[0].rows(), number(0, "Node", 0), number(0, "Node", 13)), (14, 14.0, 1.0));
-    assert!((number(0, "Distance", 0) - 266.486).abs() < 1e-9 && (number(0, "Acc Z", 0) + 1.218).abs() < 0.0012);
-    assert!((number(0, "Acc RY", 0).to_degrees() - 5.190).abs() < 0.02);
-    assert_eq!((seen[1].rows(), number(1, "Element", 0), number(1, "Node", 0)), (26, 13.0, 14.0));
-    assert_eq!((number(1, "Element", 1), number(1, "Node", 1), number(1, "Node", 2)), (13.0, 13.0, 13.0));
-    for (row, moment, shear, stress) in
-        [(1, -69.61, -36.99, 3.01e3), (2, -69.61, 36.99, 6.04e2), (24, -103.9, -198.9, 1.32e2)]
-    {
-        // the moments of the start are met to 0.49 kNm, the shears to 0.16 kN
-        assert!((number(1, "MY", row) - moment).abs() < 0.5 && (number(1, "SZ", row) - shear).abs() < 0.2);
-        assert!((number(1, "Max", row) / stress - 1.0).abs() < 3e-3);
-    }
-    let modes = case.modes(6).unwrap();
-    let page = mode_table::table(&modes[4], 5, 1, &case.line);
-    assert_eq!((page.rows(), page.row(0)[0].number(), page.row(0)[3].number()), (14, Some(14.0), Some(1.0)));
-    assert_eq!(mode_table::summary(&modes, 1).get("Plane").unwrap().cells[4], "Z".into());
 }
 
 #[test]

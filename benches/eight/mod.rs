@@ -4,9 +4,11 @@
 
 use std::fmt::Write;
 use windlass::model::Model;
-use windlass::report::files::JobFolder;
-use windlass::report::output::Output;
-use windlass::session::Session;
+
+#[path = "../measured/mod.rs"]
+mod measured;
+
+use measured::scripted;
 
 /// A body SHIP on eight chains around: anchors at 830 m in 300 m of water, fairleads at 30 m and 10 m down, 199 kg/m of 0.18 m in sea
 /// water. `hull` are records of the body, `line` makes the records of ~CHAIN of its options, `then` stand behind all.
@@ -27,11 +29,5 @@ pub fn model(hull: &str, line: &dyn Fn(&str) -> String, then: &str) -> Model {
     }
     records.push_str("END\n");
     records.push_str(then);
-    let job = JobFolder::new("bench".into(), None, false);
-    let mut session = Session::new(Output::new(job, Box::new(std::io::sink()), Box::new(std::io::sink()), false));
-    session.keep_reports = true;
-    session.open("bench", records);
-    session.run();
-    assert_eq!(session.errors, 0, "{:?}", session.reports);
-    session.job.model.clone()
+    scripted(&records)
 }

@@ -98,11 +98,11 @@ static TETHER_SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("TETHER", "results of a tether")
 };
 
-const EXAMPLE: &str = "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n&DESCRIBE BODY TUG -IGNORE X Y Z RX RY RZ\n*V 0 0 -0.5\n#WEIGHT *V 1000 1 1 1\n\
-     ~T TETHER 1.1 0.038 -LEN 100 -REFINE 4\n&DESCRIBE BODY GROUND\n*E -100 0 -0.5\nCONNECTOR T ~T *V *E -TOWED -V_MOORING 1 1 1 -A_MOORING 1 1 1\n\
+const EXAMPLE: &str = "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n*E -100 0 -0.5\n&DESCRIBE BODY TUG -IGNORE X Y Z RX RY RZ\n*V 0 0 -0.5\n#WEIGHT *V 1000 1 1 1\n\
+     ~T TETHER 1.1 0.038 -LEN 100 -REFINE 4\nCONNECTOR T ~T *V *E -TOWED -V_MOORING 1 1 1 -A_MOORING 1 1 1\n\
      END\n&ENV -SEA ISSC 0 2 8 -TIME 20 0.25\nTDOM -TETHERS\nPRCPOST\nTETHER T MOTIONS -EVENTS 0 10 5\nTETHER T FORCES -EVENTS 10\n\
      TETHER T STATISTICS 2 -EVENTS 5 20\nTETHER T FATIGUE\nTETHER T ALONG MY -AT 5 10 15 -DISPOSE\nREPORT\nEND\nTETHER T NODE 3 -DISPOSE\n\
-     VIEW Time 'Position Z'\nEND\nEND";
+     VIEW Time Z VZ\nEND\nEND";
 
 static STRUCTURE_SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
@@ -115,7 +115,8 @@ static STRUCTURE_SPEC: CommandSpec = CommandSpec {
     repeat: 1,
     options: &[EVENTS, DISPOSE, HARD, BOTH],
     detail: "Of the body that installed tethers hold, in a run of TDOM -TETHERS: PAGES of the motion of its centre of gravity and of the \
-             forces on it by category at instants, with the expected error of the step; HISTORY has all over time; HARMONICS the mean, the drift and four harmonics of the \
+             forces on it by category at instants, with the expected error of the step; HISTORY has all over time, in columns X to RZ, VX, AX, and of forces G (gravity), H (hydrostatic), D (drag), FK (Froude-Krylov), \
+             WI (wave inertia), DF (diffraction and what else acts on the body), GY (gyroscopic), M (mooring), T (total) with the axis behind; HARMONICS the mean, the drift and four harmonics of the \
              motion over the first cycle of a regular wave, or over the instants of -EVENTS.",
     example: "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n*A 0 0 -100\n&DESCRIBE BODY SPAR\n*B 0 0 -30\n*T 0 0 12\n*G 0 0 -20\n#WEIGHT *G 18000 12 12 5\n\
               &SURFACE\nTUBE HULL *B *T 10000\nEND\nMEDIT\n~T TETHER 0.6 0.03 -LEN 69.97 -REFINE 4\nCONNECTOR T ~T *B *A -V_SPRINGS 0 0 0 -A_SPRINGS 0 0 0\n\

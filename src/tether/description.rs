@@ -19,10 +19,10 @@ pub enum Configuration {
 }
 
 /// A place where a tether ends.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Attachment {
-    /// Number of its node as the user gave it.
-    pub node: i64,
+    /// What the user calls its node.
+    pub node: String,
     /// Where it was given (m).
     pub given: [f64; 3],
     /// Where it is at the start (m).
@@ -150,7 +150,7 @@ impl Description<'_> {
         let word = if self.configuration == Configuration::Towed { "TOWED" } else { "INSTALLED" };
         let mut out = out.fact("Configuration", word, Dim::None);
         for (name, end) in [("Vessel Attachment", &self.ends[1]), ("Anchor Attachment", &self.ends[0])] {
-            out = out.fact(&format!("{name} Node"), Cell::Integer(end.node), Dim::None);
+            out = out.fact(&format!("{name} Node"), end.node.as_str(), Dim::None);
             for (axis, value) in ["X", "Y", "Z"].iter().zip(end.given) {
                 out = out.fact(&format!("{name} Given {axis}"), value, Dim::Length);
             }
@@ -166,7 +166,7 @@ impl Description<'_> {
             .fact("Buoyancy", self.buoyancy(), Dim::Force)
             .fact("End Cap Buoyancy", self.end_cap_buoyancy(), Dim::Force)
             .fact("Free Hanging Reaction", self.free_hanging_reaction(), Dim::Force)
-            .fact("Internal Pressure", self.internal[0], Dim::Stress)
+            .fact("Internal Pressure", self.internal[0], Dim::Derived { force: 1, length: -2, seconds: 0 })
             .fact("Internal Density", self.internal[1], Dim::Density)
             .fact("Impact Stress Factor", self.impact[0], Dim::Derived { force: 1, length: -3, seconds: 1 })
             .fact("Impact Half Life", self.impact[1], Dim::Time)

@@ -14,12 +14,12 @@
 //! | [`line`] | elements one after the other, checked |
 //! | [`beam`] | matrices and loads of one element in one plane |
 //! | [`banded`] | symmetric band and its factors |
-//! | [`modes`], [`mode_table`] | natural modes, and how they are told |
+//! | [`modes`] | natural modes of a plane |
 //! | [`description`] | what is told of a tether before a run |
-//! | [`compatibility`] | peculiarities of another program, each with a name |
-//! | [`structure`] | the structure that installed tethers hold, and the water around |
-//! | [`installed`] | tethers between anchors and a moving structure |
 //! | [`towed`] | the towed tether in waves |
+//! | [`structure`] | the structure that installed tethers hold, and the water around |
+//! | [`installed`] | tethers between anchors and a moving structure; their z runs along the axis, X and Y across |
+//! | [`compatibility`] | peculiarities of another program in the last two, each with a name |
 
 pub mod banded;
 pub mod beam;
@@ -27,7 +27,6 @@ pub mod compatibility;
 pub mod description;
 pub mod installed;
 pub mod line;
-pub mod mode_table;
 pub mod modes;
 pub mod section;
 pub mod structure;

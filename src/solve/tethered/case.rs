@@ -58,6 +58,8 @@ pub struct Installed {
     pub compatibility: Compatibility,
     /// Where and how it starts, its step and number of states.
     pub course: Course,
+    /// The centre of gravity in the axes of the body (m).
+    pub centre: Vector3<f64>,
     /// Nodes of the body that are told of: names, and places from the centre of gravity in its axes (m).
     pub points: Vec<(String, Vector3<f64>)>,
 }
@@ -257,7 +259,14 @@ pub(super) fn installed_tether(
     for ((into, given), place) in springs.iter_mut().zip(ends.springs).zip(["vessel", "anchor"]) {
         let (made, taken) = EndSprings::of_card(given);
         *into = made;
-        notes.extend(taken.iter().map(|t| format!("tether {}, {place}: {}", connector.name, t.text())));
+        for taken in &taken {
+            let text = format!(", {place}: {}", taken.text());
+            // one note for all tethers that have it
+            match notes.iter_mut().find(|note| note.starts_with("tether ") && note.ends_with(&text)) {
+                Some(note) => note.insert_str(note.len() - text.len(), &format!(" {}", connector.name)),
+                None => notes.push(format!("tether {}{text}", connector.name)),
+            }
+        }
     }
     let [vessel_springs, anchor_springs] = springs;
     let [cap_vessel, cap_anchor] = ends.caps;
@@ -371,5 +380,5 @@ fn installed_case(
     };
     let points = model.points.values().filter(|p| model.body_of(p).is_some_and(|b| b.name == body.name));
     let points = points.map(|p| (p.name.clone(), pose.local(Vector3::from(model.global(p))) - centre)).collect();
-    Ok(Installed { body: body.name.clone(), structure, tethers: list, flow, compatibility, course, points })
+    Ok(Installed { body: body.name.clone(), structure, tethers: list, flow, compatibility, course, centre, points })
 }

@@ -242,7 +242,7 @@ impl towed::Observer for Keeper<'_> {
 /// # Errors
 /// What the engine refuses; a run that would keep too much.
 pub fn installed(case: Installed, kept: &mut Tethered, goes_on: &mut dyn FnMut(f64) -> bool) -> Result<(), ClassError> {
-    let Installed { body, mut structure, tethers, flow, compatibility, course, points } = case;
+    let Installed { body, mut structure, tethers, flow, compatibility, course, points, .. } = case;
     let of = |t: &crate::tether::installed::InstalledTether| {
         t.line.nodes() * INSTALLED_NODE.len() + 2 * t.line.elements().len() * INSTALLED_END.len()
     };

@@ -10,14 +10,16 @@ mod case;
 mod history;
 mod modal;
 mod moored;
+mod statistics;
+mod structure;
 mod tables;
 
 pub use case::{Case, case};
 pub use history::{Happening, Quantity, StructureHistory, TetherHistory};
 pub use modal::{described, names, natural};
-pub use tables::{
-    Of, Statistics, along, events, forces, harmonics, motions, series, structure, structure_series, told,
-};
+pub use statistics::Statistics;
+pub use structure::{harmonics, structure, structure_series};
+pub use tables::{Of, along, events, forces, motions, series, told};
 
 use crate::model::{ClassError, Model};
 use crate::solve::SolveError;

@@ -30,30 +30,25 @@ pub fn names(model: &Model) -> Vec<String> {
 /// As [`case`]; a name that is no tether's.
 pub fn described(model: &Model, name: &str) -> Result<Table, SolveError> {
     let made = case(model, &AT_REST)?;
+    let connector = model.connectors.get(&Model::key(name));
+    let point = |end: usize| connector.and_then(|c| c.points.get(end)).map_or("", String::as_str);
+    let nodes = [point(1), point(0)];
     let mut table = match &made.kind {
-        Kind::Towed(towed) => {
-            let elements = towed.1.line.elements();
-            let nodes = [elements.first().map(|e| e.label.nodes[0]), elements.last().map(|e| e.label.nodes[1])];
-            towed.1.description(1, nodes.map(Option::unwrap_or_default)).table()
-        }
+        Kind::Towed(towed) => towed.1.description(1, nodes).table(),
         Kind::Installed(case) => {
             let tether = found(case, name)?;
             let attachment = case.course.pose.point(tether.attachment);
             let description = Description::of(tether, attachment, &case.flow).map_err(SolveError::new)?;
-            let table = description.table(tether);
-            let wrong = |e: crate::table::TableError| SolveError::new(ClassError::new(e.to_string()));
-            let mut table = table.map_err(wrong)?;
-            let places = [("Attachment", attachment), ("Anchor", tether.anchor)];
-            for (what, place) in places {
-                for (axis, value) in ["X", "Y", "Z"].iter().zip(place.iter()) {
-                    table = table.fact(&format!("{what} {axis}"), *value, Dim::Length);
-                }
-            }
+            let table = description.listed(tether, (1, nodes), case.centre, &case.flow).table();
             table.fact("Effective Tension in the Middle", description.tension, Dim::Force)
         }
     };
     table.title = format!("Description of Tether {name}");
-    let about = |note: &&String| note.contains(&format!("tether {name}")) || !note.starts_with("tether ");
+    let named = |note: &str| {
+        let list = note.strip_prefix("tether ").and_then(|rest| rest.split([',', ':']).next());
+        list.is_none_or(|list| list.split(' ').any(|n| n.eq_ignore_ascii_case(name)))
+    };
+    let about = |note: &&String| named(note);
     let notes: Vec<&String> = made.notes.iter().filter(about).collect();
     for note in notes {
         table.note(note.clone());

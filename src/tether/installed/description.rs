@@ -3,9 +3,8 @@
 use super::axis::Axis;
 use super::tension::Axial;
 use super::tether::InstalledTether;
-use crate::language::units::Dim;
 use crate::model::ClassError;
-use crate::table::{Cell, Digits, Table, TableError};
+use crate::tether::description::{Attachment, Configuration, Description as Listed};
 use crate::tether::structure::flow::Flow;
 use nalgebra::Vector3;
 
@@ -67,70 +66,33 @@ impl Description {
         })
     }
 
-    /// As a table: nodes from the structure down, each with the element below it, in the columns of seed 003.
-    ///
-    /// # Errors
-    /// None that can happen: the rows are made to fit.
-    pub fn table(&self, tether: &InstalledTether) -> Result<Table, TableError> {
-        let (scientific, decimals) = (Digits::Scientific(4), Digits::Decimals);
-        let newton = Dim::Force;
-        let mut table = Table::new(format!("Description of Tension Leg Tether {}", tether.name))
-            .fact("Tether Configuration", "INSTALLED", Dim::None)
-            .fact("Unstretched Length", self.unstretched, Dim::Length)
-            .fact("Initial Distance Anchor to Attachment", self.distance, Dim::Length)
-            .fact("Longitudinal Stiffness", self.stiffness, Dim::ForcePerLength)
-            .fact("Weight", self.weight, newton)
-            .fact("Buoyancy without End Caps", self.buoyancy, newton)
-            .fact("End Cap Buoyancy", self.caps, newton)
-            .fact("Free Hanging Reaction", self.hanging, newton)
-            .fact("Internal Pressure at Sea Level", tether.fluid.pressure, Dim::Stress)
-            .fact("Internal Density", tether.fluid.density, Dim::Density)
-            .fact("Axial Stress Factor", tether.impact.map(|i| i.factor), Dim::None)
-            .fact("Half Life", tether.impact.map(|i| i.half_life), Dim::Time)
-            .fact("Lower Stop below Anchor", tether.lower_stop, Dim::Length)
-            .fact("Group Factor", tether.group, Dim::None)
-            .column("", "Node", Dim::None, decimals(0))
-            .column("", "Elevation", Dim::Length, decimals(1))
-            .column("Element", "Node 1", Dim::None, decimals(0))
-            .column("Element", "Node 2", Dim::None, decimals(0))
-            .column("Element", "Material", Dim::None, decimals(0))
-            .column("Element", "Geometry", Dim::None, decimals(0))
-            .column("", "Area", Dim::Area, decimals(4))
-            .column("", "2nd Moment", Dim::Derived { force: 0, length: 4, seconds: 0 }, decimals(6))
-            .column("", "EI", Dim::Derived { force: 1, length: 2, seconds: 0 }, scientific)
-            .column("", "EA", Dim::Force, scientific)
-            .column("", "Cap Area", Dim::Area, decimals(3))
-            .column("", "Ext Area", Dim::Area, decimals(3))
-            .column("Spring", "Inline", Dim::ForcePerLength, scientific)
-            .column("Spring", "X Rot", Dim::MomentPerRadian, scientific)
-            .column("Spring", "Y Rot", Dim::MomentPerRadian, scientific);
-        let line = &tether.line;
-        for (node, distance) in line.distances().iter().enumerate().rev() {
-            let element = node.checked_sub(1).and_then(|i| line.elements().get(i));
-            let ends = [(0, &tether.anchor_springs), (line.nodes() - 1, &tether.vessel_springs)];
-            let spring = ends.iter().find(|(at, _)| *at == node).map(|(_, s)| *s);
-            let cap = [(0, tether.caps[0]), (line.nodes() - 1, tether.caps[1])];
-            let cap = cap.iter().find(|(at, _)| *at == node).map(|(_, area)| *area);
-            let label = |i: i64| Cell::Integer(i);
-            let of = |value: fn(&crate::tether::TetherElement) -> f64| Cell::from(element.map(value));
-            table.push(vec![
-                Cell::from(node + 1),
-                Cell::from(*distance),
-                element.map_or(Cell::Missing, |e| label(e.label.nodes[0])),
-                element.map_or(Cell::Missing, |e| label(e.label.nodes[1])),
-                element.map_or(Cell::Missing, |e| label(e.label.material)),
-                element.map_or(Cell::Missing, |e| label(e.label.geometry)),
-                of(|e| e.tube().area()),
-                of(|e| e.tube().second_moment()),
-                of(|e| e.bending_stiffness()),
-                of(|e| e.axial_stiffness()),
-                Cell::from(cap),
-                of(|e| e.tube().external_area()),
-                Cell::from(spring.map(|s| s.inline)),
-                Cell::from(spring.map(|s| s.rotation[0])),
-                Cell::from(spring.map(|s| s.rotation[1])),
-            ])?;
+    /// The listing of it (seed 003, 7.1): the tether's number from 1, and what the nodes at anchor and attachment are called. A lower stop
+    /// that is not given is infinitely far down.
+    pub fn listed<'a>(
+        &self,
+        tether: &'a InstalledTether,
+        (number, [anchor, vessel]): (usize, [&str; 2]),
+        centre: Vector3<f64>,
+        flow: &Flow,
+    ) -> Listed<'a> {
+        let ends = [
+            Attachment { node: anchor.into(), given: tether.anchor.into(), initial: tether.anchor.into() },
+            Attachment { node: vessel.into(), given: (centre + tether.attachment).into(), initial: self.attachment.into() },
+        ];
+        let springs = [tether.anchor_springs, tether.vessel_springs].map(|s| [s.inline, s.rotation[0], s.rotation[1]]);
+        Listed {
+            number,
+            configuration: Configuration::Installed,
+            line: &tether.line,
+            ends,
+            springs,
+            caps: tether.caps,
+            stop: tether.lower_stop.unwrap_or(f64::INFINITY),
+            density: flow.density,
+            gravity: flow.gravity,
+            internal: [tether.fluid.pressure, tether.fluid.density],
+            impact: tether.impact.map_or([0.0; 2], |i| [i.factor, i.half_life]),
+            group: tether.group.round() as i64,
         }
-        Ok(table)
     }
 }

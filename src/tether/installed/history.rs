@@ -1,12 +1,9 @@
-//! What is kept of a run, as tables: structure, tethers, events.
+//! What is kept of a run as series: structure, tethers, events.
 
 use super::rig::Change;
 use super::rig::Rig;
 use super::run::{Event, Moment, Observer};
-use super::tension::Standing;
-use crate::language::units::Dim;
 use crate::model::{ClassError, Place, Six};
-use crate::table::{Cell, Digits, Table, TableError};
 use crate::tether::structure::Forces;
 
 /// Numbers kept at most: 400 MB.
@@ -16,41 +13,6 @@ const STRUCTURE: usize = 1 + 18 + 6 * Forces::KINDS.len() + 6;
 /// Numbers of a node, and of an end of an element.
 const NODE: usize = 13;
 const END: usize = 12;
-
-/// Motions of a node across its axis, in the order they are kept.
-pub const MOTIONS: [(&str, &str, Dim); 12] = [
-    ("Position", "X", Dim::Length),
-    ("Position", "Y", Dim::Length),
-    ("Position", "RX", Dim::Angle),
-    ("Position", "RY", Dim::Angle),
-    ("Velocity", "X", Dim::Velocity),
-    ("Velocity", "Y", Dim::Velocity),
-    ("Velocity", "RX", Dim::AngularVelocity),
-    ("Velocity", "RY", Dim::AngularVelocity),
-    ("Acceleration", "X", Dim::Acceleration),
-    ("Acceleration", "Y", Dim::Acceleration),
-    ("Acceleration", "RX", Dim::AngularAcceleration),
-    ("Acceleration", "RY", Dim::AngularAcceleration),
-];
-
-/// What an end of an element bears, in the order it is kept (seed 003, 7.11).
-pub const LOADS: [(&str, &str, Dim); END] = [
-    ("Tension", "Effective", Dim::Force),
-    ("Tension", "Wall", Dim::Force),
-    ("Shear Force", "X", Dim::Force),
-    ("Shear Force", "Y", Dim::Force),
-    ("Bending Moment", "X", Dim::Moment),
-    ("Bending Moment", "Y", Dim::Moment),
-    ("Stress", "Shear", Dim::Stress),
-    ("Stress", "Maximum", Dim::Stress),
-    ("Stress", "Minimum", Dim::Stress),
-    ("Stress", "von Mises", Dim::Stress),
-    ("Stress", "Y Bending", Dim::Stress),
-    ("Stress", "Axial", Dim::Stress),
-];
-
-/// Which of [`LOADS`] the statistics of figures 7.12 and 7.13 are of, in their order.
-pub const STATISTICS: [usize; 7] = [0, 1, 6, 7, 8, 9, 10];
 
 /// When tethers are kept. The structure is kept at every state of [`History::every`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,9 +26,7 @@ pub enum Keep {
 /// A tether's states.
 #[derive(Clone, Debug, Default)]
 struct Kept {
-    name: String,
     times: Vec<f64>,
-    standings: Vec<Standing>,
     /// Node by node, then end by end, of each state.
     numbers: Vec<f64>,
     nodes: usize,
@@ -113,143 +73,30 @@ impl History {
         self.structure.iter().filter_map(|row| row.get(19 + 6 * kind + direction).copied()).collect()
     }
 
+    /// A series of the error expected of the step in a direction (0 to 5).
+    pub fn error(&self, direction: usize) -> Vec<f64> {
+        let at = 19 + 6 * Forces::KINDS.len() + direction;
+        self.structure.iter().filter_map(|row| row.get(at).copied()).collect()
+    }
+
     /// Times at which a tether is kept (s).
     pub fn tether_times(&self, tether: usize) -> &[f64] {
         self.tethers.get(tether).map_or(&[], |t| &t.times)
     }
 
-    /// A series of a node of a tether, by the order of [`MOTIONS`]. Nodes count from 0 at the anchor.
+    /// A series of a node of a tether, X, Y, RX, RY, their velocities and their accelerations in this order. Nodes count from 0 at the anchor.
     pub fn node(&self, tether: usize, node: usize, motion: usize) -> Vec<f64> {
         let Some(kept) = self.tethers.get(tether) else { return Vec::new() };
         kept.states().filter_map(|s| s.get(NODE * node + 1 + motion).copied()).collect()
     }
 
-    /// A series of an end of an element of a tether, by the order of [`LOADS`]; `upper` is its upper end.
+    /// A series of an end of an element of a tether, in the order effective and wall tension, shear along X and Y, moments about X and Y, shear stress, largest and smallest of bending and
+    /// axial stress, von Mises, bending of the moment about Y, axial stress; `upper` is its upper end.
     pub fn end(&self, tether: usize, element: usize, upper: bool, load: usize) -> Vec<f64> {
         let Some(kept) = self.tethers.get(tether) else { return Vec::new() };
         let at = NODE * kept.nodes + END * (2 * element + usize::from(upper)) + load;
         kept.states().filter_map(|s| s.get(at).copied()).collect()
     }
-
-    /// The structure: motions of the centre of gravity, forces and moments about it, error expected of the step.
-    ///
-    /// # Errors
-    /// None that can happen: the rows are made to fit.
-    pub fn structure_table(&self) -> Result<Table, TableError> {
-        let mut table = Table::new("Time History of Structure").column("", "Time", Dim::Time, Digits::Decimals(2));
-        let linear = [Dim::Length, Dim::Velocity, Dim::Acceleration];
-        let angular = [Dim::Angle, Dim::AngularVelocity, Dim::AngularAcceleration];
-        let groups = ["Position", "Velocity", "Acceleration"].into_iter().zip(linear.into_iter().zip(angular));
-        let forces = Forces::KINDS.into_iter().map(|kind| (kind, (Dim::Force, Dim::Moment)));
-        for (group, dims) in groups.chain(forces).chain([("Error per Timestep", (Dim::Length, Dim::Angle))]) {
-            let digits = if dims.0 == Dim::Force || dims.0 == Dim::Length && group != "Position" {
-                Digits::Scientific(5)
-            } else {
-                Digits::Decimals(4)
-            };
-            for (index, name) in ["X", "Y", "Z", "RX", "RY", "RZ"].into_iter().enumerate() {
-                table = table.column(group, name, if index < 3 { dims.0 } else { dims.1 }, digits);
-            }
-        }
-        for row in &self.structure {
-            table.push(row.iter().map(|x| Cell::from(*x)).collect())?;
-        }
-        Ok(table)
-    }
-
-    /// The motions of a tether (seed 003, 7.3), nodes from the structure down.
-    ///
-    /// # Errors
-    /// None that can happen: the rows are made to fit.
-    pub fn motions_table(&self, tether: usize) -> Result<Table, TableError> {
-        let name = self.tethers.get(tether).map_or("", |t| &t.name);
-        let mut table = Table::new(format!("Time History of Single Tether {name}"))
-            .column("", "Time", Dim::Time, Digits::Decimals(2))
-            .column("", "Node", Dim::None, Digits::Decimals(0))
-            .column("", "Height", Dim::Length, Digits::Decimals(1))
-            .column("", "State", Dim::None, Digits::Usual);
-        for (group, name, dim) in MOTIONS {
-            let turns = name.starts_with('R') && group != "Acceleration";
-            table = table.column(group, name, dim, Digits::Decimals(if turns { 2 } else { 3 }));
-        }
-        let Some(kept) = self.tethers.get(tether) else { return Ok(table) };
-        for ((time, standing), state) in kept.times.iter().zip(&kept.standings).zip(kept.states()) {
-            for (node, numbers) in state.chunks_exact(NODE).take(kept.nodes).enumerate().rev() {
-                let [height, motions @ ..] = numbers else { continue };
-                let mut row = vec![Cell::from(*time), Cell::from(node + 1), Cell::from(*height), told(*standing)];
-                row.extend(motions.iter().map(|x| Cell::from(*x)));
-                table.push(row)?;
-            }
-        }
-        Ok(table)
-    }
-
-    /// What the elements of a tether bear (seed 003, 7.11), from the structure down, each by its upper and its lower end.
-    ///
-    /// # Errors
-    /// None that can happen: the rows are made to fit.
-    pub fn loads_table(&self, tether: usize) -> Result<Table, TableError> {
-        let name = self.tethers.get(tether).map_or("", |t| &t.name);
-        let mut table = Table::new(format!("Time History of Forces and Stresses for Tether {name}"))
-            .column("", "Time", Dim::Time, Digits::Decimals(2))
-            .column("", "Element", Dim::None, Digits::Decimals(0))
-            .column("", "Node", Dim::None, Digits::Decimals(0))
-            .column("", "Elevation", Dim::Length, Digits::Decimals(1));
-        for (group, name, dim) in LOADS {
-            let digits = if group == "Stress" { 3 } else { 4 };
-            table = table.column(group, name, dim, Digits::Scientific(digits));
-        }
-        let Some(kept) = self.tethers.get(tether) else { return Ok(table) };
-        for (time, state) in kept.times.iter().zip(kept.states()) {
-            let (nodes, ends) = state.split_at((NODE * kept.nodes).min(state.len()));
-            for (index, loads) in ends.chunks_exact(END).enumerate().rev() {
-                let node = index / 2 + index % 2;
-                let height = nodes.get(NODE * node).copied().unwrap_or_default();
-                let mut row =
-                    vec![Cell::from(*time), Cell::from(index / 2 + 1), Cell::from(node + 1), Cell::from(height)];
-                row.extend(loads.iter().map(|x| Cell::from(*x)));
-                table.push(row)?;
-            }
-        }
-        Ok(table)
-    }
-
-    /// What happened to the tethers.
-    ///
-    /// # Errors
-    /// None that can happen: the rows are made to fit.
-    pub fn events_table(&self) -> Result<Table, TableError> {
-        let mut table = Table::new("Tether Events")
-            .column("", "Time", Dim::Time, Digits::Decimals(2))
-            .column("", "Tether", Dim::None, Digits::Usual)
-            .column("", "Event", Dim::None, Digits::Usual)
-            .column("Impact", "Velocity", Dim::Velocity, Digits::Decimals(2))
-            .column("Impact", "Stress", Dim::Stress, Digits::Scientific(4))
-            .column("", "Drop", Dim::Length, Digits::Decimals(3));
-        for event in &self.events {
-            let (what, numbers) = match event.change {
-                Change::Slack => ("HAS BECOME SLACK", [None; 3]),
-                Change::Impact { velocity, stress } => {
-                    ("HAS IMPACTED ON THE UPPER ANCHOR CONSTRAINT", [Some(velocity), Some(stress), None])
-                }
-                Change::LowerStop { drop } => ("IS ON THE LOWER STOP", [None, None, Some(drop)]),
-            };
-            let name = self.tethers.get(event.tether).map_or("", |t| &t.name);
-            let mut row = vec![Cell::from(event.time), Cell::from(name), Cell::from(what)];
-            row.extend(numbers.map(Cell::from));
-            table.push(row)?;
-        }
-        Ok(table)
-    }
-}
-
-/// How a tether stands, in a word.
-fn told(standing: Standing) -> Cell {
-    Cell::from(match standing {
-        Standing::Taut => "taut",
-        Standing::Slack => "slack",
-        Standing::OnStop => "on stop",
-    })
 }
 
 impl Kept {
@@ -259,7 +106,6 @@ impl Kept {
 
     fn take(&mut self, rig: &Rig, time: f64) {
         self.times.push(time);
-        self.standings.push(rig.tension().standing);
         for node in 0..self.nodes {
             self.numbers.push(rig.height(node));
             self.numbers.extend(rig.position(node));
@@ -280,18 +126,18 @@ impl Kept {
 impl Observer for History {
     fn observe(&mut self, moment: &Moment) -> Result<(), ClassError> {
         if self.tethers.is_empty() {
-            let kept = |rig: &Rig| Kept { name: rig.tether().name.clone(), nodes: rig.nodes(), ..Kept::default() };
+            let kept = |rig: &Rig| Kept { nodes: rig.nodes(), ..Kept::default() };
             self.tethers = moment.tethers.iter().map(kept).collect();
         }
         self.events.extend(moment.events);
-        let due = moment.state % self.every == 0;
+        let due = moment.state.is_multiple_of(self.every);
         if due {
             let mut row = [0.0; STRUCTURE];
             let place = Six::from(moment.pose.place(&Place::default()).values());
             let motions = [place, moment.velocity, moment.acceleration];
             let all = motions.into_iter().chain(moment.forces.kinds()).chain([moment.error]);
             row[0] = moment.time;
-            row[1..].iter_mut().zip(all.flat_map(|six| <[f64; 6]>::from(six))).for_each(|(to, from)| *to = from);
+            row[1..].iter_mut().zip(all.flat_map(<[f64; 6]>::from)).for_each(|(to, from)| *to = from);
             self.structure.push(row);
             self.numbers += STRUCTURE;
         }

@@ -5,11 +5,11 @@ use super::bending::{Bending, Motion, Stage};
 use super::stress::{EndLoads, Stresses};
 use super::tension::{Axial, Standing, Tension};
 use super::tether::InstalledTether;
-use crate::hydro::carried;
+use crate::hydro::{carried, cross};
 use crate::model::{ClassError, Pose, Six};
 use crate::tether::compatibility::{Compatibility, SpringReference};
 use crate::tether::structure::flow::FlowAt;
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Matrix6, Vector3};
 
 /// Which of the two stages of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -115,10 +115,12 @@ impl Rig {
         if which == Which::First {
             self.start = (axis, tension);
         }
+        let stage = Stage { axis: &self.axis, attachment: &self.attachment, tension: &self.tension, water, dt: 0.0 };
+        self.bending.gather(which == Which::Second, &stage, &self.axial);
         let across = if compatibility.tension_alone_on_structure {
             slopes.map(|slope| slope * tension.pull)
         } else {
-            self.bending.top_shear(self.motion(which), &tension, &self.axial)
+            self.bending.top_shear(which == Which::Second, &tension, &self.axial)
         };
         let force = -(axis.along * tension.pull + axis.across[0] * across[0] + axis.across[1] * across[1]);
         let arm = self.attachment.at - pose.origin;
@@ -136,6 +138,18 @@ impl Rig {
         Ok(sum * self.tether.group)
     }
 
+    /// The inertia across its axis that rides on the structure with the axis, about the centre of gravity, after [`Rig::pull`].
+    pub(super) fn entrained(&self, pose: &Pose) -> Matrix6<f64> {
+        let (arm, along) = (cross(self.attachment.at - pose.origin), self.axis.along);
+        let plane = Matrix3::identity() - along * along.transpose();
+        let mut sum = Matrix6::zeros();
+        sum.fixed_view_mut::<3, 3>(0, 0).copy_from(&plane);
+        sum.fixed_view_mut::<3, 3>(0, 3).copy_from(&(-plane * arm));
+        sum.fixed_view_mut::<3, 3>(3, 0).copy_from(&(arm * plane));
+        sum.fixed_view_mut::<3, 3>(3, 3).copy_from(&(-arm * plane * arm));
+        sum * (self.bending.entrained(&self.tension) * self.tether.group)
+    }
+
     /// Finds the accelerations of a stage, that of the structure being known.
     pub(super) fn solve(
         &mut self,
@@ -146,7 +160,7 @@ impl Rig {
     ) -> Result<(), ClassError> {
         self.attachment.accelerated(self.attachment.at - pose.origin, acceleration);
         let stage = Stage { axis: &self.axis, attachment: &self.attachment, tension: &self.tension, water, dt };
-        self.bending.stage(which == Which::Second, &stage, &self.axial)
+        self.bending.stage(which == Which::Second, &stage)
     }
 
     /// What changed since the last state, at a time (s).

@@ -179,6 +179,11 @@ impl<'a> Installation<'a> {
             forces.mooring += pull.map_err(|e| named(e, rig.tether(), at.time))?;
         }
         self.structure.forces(at, water, which == Which::First, forces)?;
+        if !self.compatibility.tension_alone_on_structure {
+            for rig in &self.rigs {
+                forces.inertia += rig.entrained(at.pose);
+            }
+        }
         forces.acceleration().map_err(|mut e| {
             e.message.push_str(" (time {})");
             e.values.push((at.time, Dim::Time));

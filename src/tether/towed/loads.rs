@@ -252,10 +252,10 @@ impl Place {
                 add(&mut forces[1], self.weight * moment, &self.slope);
             }
             add(&mut forces[p], self.weight * force, &self.deflection);
-            for i in 0..4 {
+            for (i, row) in added[p].iter_mut().enumerate() {
                 let part = self.weight * mass * self.deflection[i];
-                for j in i..4 {
-                    added[p][i][j] += part * self.deflection[j];
+                for (entry, shape) in row.iter_mut().zip(&self.deflection).skip(i) {
+                    *entry += part * shape;
                 }
             }
         }

@@ -12,10 +12,10 @@
 //! added mass that a current along a bent tether makes.
 
 pub mod compatibility;
+mod described;
 pub mod loads;
 pub mod run;
 pub mod scheme;
-pub mod tables;
 pub mod water;
 pub mod wetted;
 
@@ -135,14 +135,14 @@ impl Towed {
                 return fail("a place, heading or tow", value, Dim::None);
             }
         }
-        for pair in self.current.windows(2) {
-            if !(pair[1].0 < pair[0].0) {
-                return fail("a current whose heights do not fall, with one", pair[1].0, Dim::Length);
-            }
-        }
         for (height, velocity) in &self.current {
             if ![*height, velocity[0], velocity[1]].iter().all(|v| v.is_finite()) {
                 return fail("a current that is not finite at a height", *height, Dim::Length);
+            }
+        }
+        for pair in self.current.windows(2) {
+            if pair[1].0 >= pair[0].0 {
+                return fail("a current whose heights do not fall, with one", pair[1].0, Dim::Length);
             }
         }
         self.check_waves()

@@ -10,6 +10,9 @@
 //!
 //! End springs are at rest where the tether is vertical at the anchor, and upright in the structure at its other end.
 
+mod ends;
+mod held;
+
 use super::axis::{Attachment, Axis, tilt};
 use super::tension::{Axial, Tension};
 use super::tether::{Constraint, InstalledTether, RIGID};
@@ -17,6 +20,7 @@ use crate::model::ClassError;
 use crate::tether::banded::{Banded, Factors};
 use crate::tether::beam::{self, Vector4};
 use crate::tether::structure::flow::FlowAt;
+use held::Hold;
 use nalgebra::Vector3;
 
 /// How far a stage looks ahead with the stiffness (seed 003, 3.6: the best of its tests).
@@ -109,21 +113,6 @@ pub struct Bending {
     pub found: [[Vec<f64>; 2]; 2],
     /// What the openings and the constraints on the structure did at the last stage: force (N) on the structure with its place (m, global).
     pub pushes: Vec<(Vector3<f64>, Vector3<f64>)>,
-}
-
-/// What an unknown is held to.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Hold {
-    /// The axis: an end.
-    Axis,
-    /// A place across, vertical over the anchor.
-    Fixed,
-    /// The middle of an opening.
-    Opening,
-    /// The vertical.
-    Vertical,
-    /// The structure's upright axis.
-    Upright,
 }
 
 impl Bending {
@@ -221,85 +210,8 @@ impl Bending {
         Matrices { stiffness, mass, beams, springs }
     }
 
-    /// How much longer the tether is than its axis (m): `1/2 int w'^2 ds` with the cubic of each element, of a length altogether (m).
-    pub fn arc(&self, motion: &[Motion; 2], length: f64) -> f64 {
-        let stretch = length / self.length;
-        let of = |(index, cell): (usize, &Cell)| -> f64 {
-            let part =
-                |m: &Motion| beam::twice_energy(0.0, 1.0, cell.length * stretch, &beam::of_element(&m.place, index));
-            0.5 * motion.iter().map(part).sum::<f64>()
-        };
-        self.cells.iter().enumerate().map(of).sum()
-    }
-
-    /// Takes the springs of the ends for at rest along an axis, the structure standing as it does.
-    pub fn rest_along(&mut self, axis: &Axis, upright: Vector3<f64>) {
-        let vessel = tilt(upright);
-        self.rest = [axis.tilt, [0, 1].map(|p| axis.tilt[p] - vessel[p])];
-    }
-
-    /// Puts what is held where it is held, at the start of a step.
-    pub fn place_held(&mut self, stage: &Stage) {
-        for plane in 0..2 {
-            for index in 0..self.held[plane].len() {
-                let (unknown, hold) = self.held[plane][index];
-                let [place, velocity, _] = self.target(unknown, hold, plane, stage);
-                self.now[plane].place[unknown] = place;
-                self.now[plane].velocity[unknown] = velocity;
-            }
-        }
-    }
-
-    /// What an unknown is held to: place, velocity and acceleration in the moving axis.
-    fn target(&self, unknown: usize, hold: Hold, plane: usize, stage: &Stage) -> [f64; 3] {
-        let Stage { axis, attachment, tension, .. } = stage;
-        let parts = |v: Vector3<f64>| axis.parts(v)[plane];
-        let [rate, growth] =
-            [parts(attachment.velocity) / tension.length, parts(attachment.acceleration) / tension.length];
-        let share = self.shares.get(unknown / 2).copied().unwrap_or_default();
-        // the springs' rest counts at the ends alone
-        let last = self.right.len() - 1;
-        let rest = |end: usize| if unknown == [1, last][end] { self.rest[end][plane] } else { 0.0 };
-        let turn = |v: Vector3<f64>| if plane == 0 { v.y } else { -v.x };
-        match hold {
-            Hold::Axis => [0.0; 3],
-            Hold::Vertical => [rest(0) - axis.tilt[plane], -rate, -growth],
-            Hold::Upright => {
-                let [spin, change] = attachment.spin;
-                let place = rest(1) + tilt(attachment.upright)[plane] - axis.tilt[plane];
-                [place, turn(spin) - rate, turn(change) - growth]
-            }
-            Hold::Fixed => {
-                let at = anchor(stage) + Vector3::z() * (share * tension.length);
-                let [here, speed, change] = self.on_axis(share, stage);
-                [parts(at - here), -parts(speed), -parts(change)]
-            }
-            Hold::Opening => {
-                let [at, velocity, acceleration] = self.opening(share, stage);
-                let [here, speed, change] = self.on_axis(share, stage);
-                [parts(at - here), parts(velocity - speed), parts(acceleration - change)]
-            }
-        }
-    }
-
-    /// A point of the axis: place, velocity, acceleration (global).
-    fn on_axis(&self, share: f64, stage: &Stage) -> [Vector3<f64>; 3] {
-        let end = stage.attachment;
-        let at = end.at - stage.axis.along * ((1.0 - share) * stage.tension.length);
-        [at, end.velocity * share, end.acceleration * share]
-    }
-
-    /// The middle of an opening of the structure: place, velocity, acceleration (global).
-    fn opening(&self, share: f64, stage: &Stage) -> [Vector3<f64>; 3] {
-        let end = stage.attachment;
-        let arm = -end.upright * ((1.0 - share) * stage.tension.length);
-        let [spin, change] = end.spin;
-        let turning = spin.cross(&arm);
-        [end.at + arm, end.velocity + turning, end.acceleration + change.cross(&arm) + spin.cross(&turning)]
-    }
-
-    /// Matrices and loads of a stage, with the deflected place at that stage.
-    fn gather(&mut self, second: bool, stage: &Stage, axial: &Axial) {
+    /// Finds matrices and loads of a stage, with the place and velocity at that stage. The acceleration of the attachment need not be known.
+    pub fn gather(&mut self, second: bool, stage: &Stage, axial: &Axial) {
         let stretch = stage.tension.length / self.length;
         self.stiffness.iter_mut().for_each(Banded::clear);
         self.mass.clear();
@@ -329,18 +241,16 @@ impl Bending {
         }
     }
 
-    /// Finds the accelerations of a stage; those of the first also predict the end of the step.
+    /// Finds the accelerations of a stage that is gathered; those of the first also predict the end of the step.
     ///
     /// # Errors
     /// A matrix that is not positive (a tether that buckles on its lower stop within the step), or a load without a value.
-    pub fn stage(&mut self, second: bool, stage: &Stage, axial: &Axial) -> Result<(), ClassError> {
-        self.gather(second, stage, axial);
+    pub fn stage(&mut self, second: bool, stage: &Stage) -> Result<(), ClassError> {
         self.pushes.clear();
         let last = self.right.len() - 1;
-        let vessel = tilt(stage.attachment.upright);
         let dt = stage.dt;
         let implicit = 0.5 * LOOK_AHEAD * dt * dt;
-        for plane in 0..2 {
+        for (plane, vessel) in tilt(stage.attachment.upright).into_iter().enumerate() {
             self.frame_acceleration(plane, stage);
             self.mass.times(&self.frame, &mut self.right);
             self.right.iter_mut().for_each(|r| *r = -*r);
@@ -348,7 +258,7 @@ impl Bending {
                 beam::gather(&mut self.right, index, loads);
             }
             let lean = stage.axis.tilt[plane];
-            for (end, unknown, against) in [(0, 1, lean), (1, last, lean - vessel[plane])] {
+            for (end, unknown, against) in [(0, 1, lean), (1, last, lean - vessel)] {
                 let spring = self.springs[end][plane];
                 self.stiffness[plane].add(unknown, unknown, spring);
                 self.right[unknown] -= spring * (against - self.rest[end][plane]);
@@ -394,105 +304,6 @@ impl Bending {
         }
     }
 
-    /// The edge of each opening that a node is at, as a spring.
-    fn edges(&mut self, second: bool, plane: usize, stage: &Stage) {
-        for index in 0..self.openings.len() {
-            let (unknown, gap) = self.openings[index];
-            let motion = if second { &self.trial } else { &self.now };
-            let share = self.shares.get(unknown / 2).copied().unwrap_or_default();
-            let [here, ..] = self.on_axis(share, stage);
-            let [middle, ..] = self.opening(share, stage);
-            let middle = stage.axis.parts(middle - here);
-            let off = [0, 1].map(|p| motion[p].place[unknown] - middle[p]);
-            let far = off[0].hypot(off[1]);
-            if far <= gap {
-                continue;
-            }
-            let spring = EDGE * self.mass.get(unknown, unknown) / (stage.dt * stage.dt);
-            let edge = middle[plane] + off[plane] * (gap / far);
-            self.stiffness[plane].add(unknown, unknown, spring);
-            self.right[unknown] += spring * edge;
-            let push = stage.axis.across[plane] * (spring * (motion[plane].place[unknown] - edge));
-            self.pushes.push((push, here + middle[0] * stage.axis.across[0] + middle[1] * stage.axis.across[1]));
-        }
-    }
-
-    /// Gives what is held its acceleration.
-    fn hold(&mut self, plane: usize, stage: &Stage) {
-        for index in 0..self.held[plane].len() {
-            let (unknown, hold) = self.held[plane][index];
-            let [_, _, acceleration] = self.target(unknown, hold, plane, stage);
-            if acceleration != 0.0 {
-                let reach = unknown.saturating_sub(3)..(unknown + 4).min(self.right.len());
-                for other in reach.filter(|other| *other != unknown) {
-                    self.right[other] -= self.system.get(other.max(unknown), other.min(unknown)) * acceleration;
-                }
-            }
-            self.system.hold(unknown, 1.0);
-            self.right[unknown] = acceleration;
-        }
-    }
-
-    /// What the constraints on the structure do to it, by what is missing in the balance of the unknowns they hold.
-    fn react(&mut self, plane: usize, stage: &Stage, implicit: f64) {
-        if !self.held[plane].iter().any(|h| h.1 == Hold::Opening) {
-            return;
-        }
-        self.frame_acceleration(plane, stage);
-        for (frame, a) in self.frame.iter_mut().zip(&self.right) {
-            *frame += a;
-        }
-        for (ahead, a) in self.ahead.iter_mut().zip(&self.right) {
-            *ahead += implicit * a;
-        }
-        for index in 0..self.held[plane].len() {
-            let (unknown, hold) = self.held[plane][index];
-            if hold != Hold::Opening {
-                continue;
-            }
-            let reach = unknown.saturating_sub(3)..(unknown + 4).min(self.right.len());
-            let mut push = 0.0;
-            for other in reach {
-                let (row, column) = (other.max(unknown), other.min(unknown));
-                push += self.mass.get(row, column) * self.frame[other];
-                push += self.stiffness[plane].get(row, column) * self.ahead[other];
-            }
-            let element = unknown / 2;
-            let load = |e: Option<usize>, i: usize| e.and_then(|e| self.loads[plane].get(e)).map_or(0.0, |l| l[i]);
-            push -= load(Some(element), 0) + load(element.checked_sub(1), 2);
-            let share = self.shares.get(element).copied().unwrap_or_default();
-            let [at, ..] = self.opening(share, stage);
-            self.pushes.push((stage.axis.across[plane] * -push, at));
-        }
-    }
-
-    /// What each end of an element bears at a stage, by plane: force across and moment of its slope on it, `K x + M a - F` with the place that
-    /// the stage looks ahead to, so that those of two elements at a node balance.
-    pub fn end_loads(&self, element: usize, second: bool, stage: &Stage, axial: &Axial) -> [Vector4; 2] {
-        let Some(cell) = self.cells.get(element) else { return [[0.0; 4]; 2] };
-        let stretch = stage.tension.length / self.length;
-        let length = cell.length * stretch;
-        let mass = beam::mass(cell.mass[0] / stretch + cell.mass[1], length);
-        let (bends, pulls) =
-            (beam::stiffness(cell.bending, length), beam::geometric(axial.middle(element, stage.tension), length));
-        let ends = [element, element + 1].map(|node| self.shares.get(node).copied().unwrap_or_default());
-        [0, 1].map(|plane| {
-            let end = stage.axis.parts(stage.attachment.acceleration)[plane];
-            let turn = end / stage.tension.length;
-            let frame = [ends[0] * end, turn, ends[1] * end, turn];
-            let a = beam::of_element(&self.found[usize::from(second)][plane], element);
-            let x = beam::of_element(&self.now[plane].place, element);
-            let v = beam::of_element(&self.now[plane].velocity, element);
-            let ahead: Vector4 = std::array::from_fn(|i| x[i] + LOOK_AHEAD * stage.dt * (v[i] + 0.5 * stage.dt * a[i]));
-            let all: Vector4 = std::array::from_fn(|i| a[i] + frame[i]);
-            let mut sum = beam::times(&bends, &ahead);
-            beam::add(&mut sum, 1.0, &beam::times(&pulls, &ahead));
-            beam::add(&mut sum, 1.0, &beam::times(&mass, &all));
-            beam::add(&mut sum, -1.0, &self.loads[plane].get(element).copied().unwrap_or_default());
-            sum
-        })
-    }
-
     /// The end of the step: `v' = v + (a1 + a2) h/2`, `x' = x + (v + v') h/2`.
     pub fn advance(&mut self, dt: f64) {
         for plane in 0..2 {
@@ -505,37 +316,6 @@ impl Bending {
             }
         }
     }
-
-    /// What the structure bears across the axis, by plane (N): stiffness times place less the load at the top, of bending and tension, so that
-    /// it is exact at rest. The load is that of the stage before, and the inertia of half an element is left out.
-    pub fn top_shear(&self, motion: &[Motion; 2], tension: &Tension, axial: &Axial) -> [f64; 2] {
-        let last = self.cells.len().saturating_sub(1);
-        let Some(cell) = self.cells.get(last) else { return [0.0; 2] };
-        let length = cell.length * tension.length / self.length;
-        let (bends, pulls) =
-            (beam::stiffness(cell.bending, length), beam::geometric(axial.middle(last, tension), length));
-        [0, 1].map(|plane| {
-            let x = beam::of_element(&motion[plane].place, last);
-            let load = self.loads[plane].get(last).map_or(0.0, |l| l[2]);
-            beam::dot(&bends[2], &x) + beam::dot(&pulls[2], &x) - load
-        })
-    }
-
-    /// Slopes at the structure by plane (rad).
-    pub fn top_slopes(&self, motion: &[Motion; 2]) -> [f64; 2] {
-        [0, 1].map(|p| motion[p].place.last().copied().unwrap_or_default())
-    }
-
-    /// What the coil at the structure does to it by plane (N m), against the slope.
-    pub fn coil(&self, motion: &[Motion; 2], axis: &Axis, upright: Vector3<f64>) -> [f64; 2] {
-        let (slopes, vessel) = (self.top_slopes(motion), tilt(upright));
-        [0, 1].map(|p| self.springs[1][p] * (slopes[p] + axis.tilt[p] - vessel[p] - self.rest[1][p]))
-    }
-}
-
-/// The anchor of a stage's axis.
-fn anchor(stage: &Stage) -> Vector3<f64> {
-    stage.attachment.at - stage.axis.along * stage.axis.chord
 }
 
 impl Cell {

@@ -1,0 +1,27 @@
+//! Models from records, and the seconds of the processor.
+
+// every bench takes what it needs
+#![allow(dead_code, clippy::unwrap_used)]
+
+use windlass::model::Model;
+use windlass::report::files::JobFolder;
+use windlass::report::output::Output;
+use windlass::session::Session;
+
+/// The model that records make.
+pub fn scripted(records: &str) -> Model {
+    let job = JobFolder::new("bench".into(), None, false);
+    let mut session = Session::new(Output::new(job, Box::new(std::io::sink()), Box::new(std::io::sink()), false));
+    session.keep_reports = true;
+    session.open("bench", records.to_string());
+    session.run();
+    assert_eq!(session.errors, 0, "{:?}", session.reports);
+    session.job.model.clone()
+}
+
+/// Seconds the processor has worked for this program, in hundredths.
+pub fn processor() -> Option<f64> {
+    let text = std::fs::read_to_string("/proc/self/stat").ok()?;
+    let ticks: f64 = text.rsplit(')').next()?.split_whitespace().nth(11)?.parse().ok()?;
+    Some(ticks / 100.0)
+}

@@ -1,0 +1,181 @@
+//! Statistics and fatigue of tethers (seed 003, 7.5 to 7.10, 7.12, 7.13).
+
+use super::Tethered;
+use super::history::{Quantity, TetherHistory};
+use crate::language::units::Dim;
+use crate::post::SeriesError;
+use crate::post::tether::fatigue::{self, Asked, EndRecord};
+use crate::post::tether::tables::{AtEnd, Channel, Place, histogram, type_one, type_two};
+use crate::table::Table;
+
+/// Which of the stored instants statistics and fatigue are of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Statistics {
+    /// First of them.
+    pub first: usize,
+    /// One behind the last.
+    pub end: usize,
+}
+
+impl Statistics {
+    /// Those between two times (s), both counted.
+    pub fn between(run: &Tethered, from: f64, to: f64) -> Self {
+        let slack = 1e-6 * run.settings.step;
+        let first = run.times.iter().position(|t| *t >= from - slack).unwrap_or(run.times.len());
+        let end = run.times.iter().rposition(|t| *t <= to + slack).map_or(first, |i| i + 1);
+        Statistics { first, end: end.max(first) }
+    }
+
+    fn of(self, values: Vec<f64>) -> Vec<f64> {
+        values.get(self.first..self.end).unwrap_or_default().to_vec()
+    }
+
+    fn title(self, run: &Tethered, what: &str) -> String {
+        let time = |i: usize| run.times.get(i).copied().unwrap_or_default();
+        format!("{what}, {:.2} to {:.2} s", time(self.first), time(self.end.saturating_sub(1)))
+    }
+
+    /// Statistics of type 1 (7.5, 7.6, 7.12): a page for each node and each end.
+    ///
+    /// # Errors
+    /// No instants.
+    pub fn type_one(self, run: &Tethered, tether: &TetherHistory) -> Result<Vec<Table>, SeriesError> {
+        let mut out = Vec::new();
+        for (places, what) in [(self.nodes(tether), "Node"), (self.ends(tether), "Element")] {
+            for place in &places {
+                let title = format!("Statistics of Tether {}, {what} {}", tether.name, place.number);
+                out.push(type_one(&self.title(run, &title), &place.borrowed())?);
+            }
+        }
+        Ok(out)
+    }
+
+    /// Statistics of type 2 (7.7, 7.8, 7.13): a page for each parameter.
+    ///
+    /// # Errors
+    /// No instants.
+    pub fn type_two(self, run: &Tethered, tether: &TetherHistory) -> Result<Vec<Table>, SeriesError> {
+        let mut out = Vec::new();
+        for (places, what) in [(self.nodes(tether), "Node"), (self.ends(tether), "Elem")] {
+            let title = self.title(run, &format!("Statistics of Tether {}", tether.name));
+            let borrowed: Vec<Place> = places.iter().map(Owned::borrowed).collect();
+            out.extend(type_two(&title, what, &borrowed)?);
+        }
+        Ok(out)
+    }
+
+    fn nodes(self, tether: &TetherHistory) -> Vec<Owned> {
+        let of = tether.of_a_node();
+        let place = |(node, distance): (usize, &f64)| Owned {
+            number: node + 1,
+            distance: *distance,
+            channels: of.iter().take(12).enumerate().map(|(q, of)| (*of, self.of(tether.node(node, q)))).collect(),
+        };
+        tether.line.distances().iter().enumerate().map(place).collect()
+    }
+
+    fn ends(self, tether: &TetherHistory) -> Vec<Owned> {
+        let distances = tether.line.distances();
+        let place = |end: usize| {
+            let channels = if tether.towed { self.towed_end(tether, end) } else { self.installed_end(tether, end) };
+            let distance = distances.get(end.div_ceil(2)).copied().unwrap_or_default();
+            Owned { number: end / 2 + 1, distance, channels }
+        };
+        (0..2 * tether.line.elements().len()).map(place).collect()
+    }
+
+    /// The seven columns of figure 7.12.
+    fn installed_end(self, tether: &TetherHistory, end: usize) -> Vec<(Quantity, Vec<f64>)> {
+        let of = tether.of_an_end();
+        let told = [0, 1, 6, 7, 8, 9, 10];
+        told.iter().filter_map(|q| Some((*of.get(*q)?, self.of(tether.end(end, *q))))).collect()
+    }
+
+    /// The seven columns of figure 7.6: both moments, the moment where its deviation round the tube is largest, the largest stress, both
+    /// stresses, the stress where its deviation is largest.
+    fn towed_end(self, tether: &TetherHistory, end: usize) -> Vec<(Quantity, Vec<f64>)> {
+        let of = tether.of_an_end();
+        let values = |q: usize| self.of(tether.end(end, q));
+        let (y, z) = (values(2), values(3));
+        let turned = |angle: f64| -> Vec<f64> {
+            let (sine, cosine) = angle.sin_cos();
+            y.iter().zip(&z).map(|(y, z)| y * cosine + z * sine).collect()
+        };
+        let spread = |angle: f64| crate::post::tether::global::spread(&turned(angle)).1;
+        let mut best = (0.0, spread(0.0));
+        for step in 1..18 {
+            let angle = f64::from(step * 10).to_radians();
+            let found = spread(angle);
+            if found > best.1 {
+                best = (angle, found);
+            }
+        }
+        let worst = turned(best.0);
+        let tube = tether.line.elements().get(end / 2).map(|e| e.tube().stress_of_moment()).unwrap_or_default();
+        let stress = worst.iter().map(|m| m * tube).collect();
+        let named = |q: usize, name: &'static str| of.get(q).map(|q| Quantity { name, ..*q });
+        let list = [
+            (named(2, "Y"), y.clone()),
+            (named(3, "Z"), z.clone()),
+            (named(3, "Max"), worst.clone()),
+            (named(4, "Max"), values(4)),
+            (named(5, "Y"), values(5)),
+            (named(6, "Z"), values(6)),
+            (named(6, "Max Sig"), stress),
+        ];
+        list.into_iter().filter_map(|(q, values)| Some((q?, values))).collect()
+    }
+
+    /// The histogram of stress ranges and the table of fatigue of a towed tether (7.9, 7.10). `asked.duration` is overwritten by the time
+    /// between the first and the last instant.
+    ///
+    /// # Errors
+    /// Fewer than two instants; what [`fatigue::along`] refuses.
+    pub fn fatigue(self, run: &Tethered, tether: &TetherHistory, asked: Asked) -> Result<[Table; 2], SeriesError> {
+        let time = |i: usize| run.times.get(i).copied().unwrap_or_default();
+        let duration = time(self.end.saturating_sub(1)) - time(self.first);
+        let count = 2 * tether.line.elements().len();
+        let moments: Vec<[Vec<f64>; 2]> = (0..count).map(|end| [2, 3].map(|q| self.of(tether.end(end, q)))).collect();
+        let tube = |end: usize| tether.line.elements().get(end / 2).map(|e| e.tube().stress_of_moment());
+        let records: Vec<EndRecord> = moments
+            .iter()
+            .enumerate()
+            .map(|(end, [y, z])| EndRecord { about_y: y, about_z: z, stress_of_moment: tube(end).unwrap_or_default() })
+            .collect();
+        let found = fatigue::along(&records, Asked { duration, ..asked })?;
+        let distance = |end: usize| tether.line.distances().get(end.div_ceil(2)).copied().unwrap_or_default();
+        let ends: Vec<AtEnd> = found.into_iter().enumerate().map(|(end, f)| (end / 2 + 1, distance(end), f)).collect();
+        let title = |what: &str| self.title(run, &format!("{what} of Tether {}", tether.name));
+        let mut table = crate::post::tether::tables::fatigue(&title("Fatigue and Peak Stress"), &ends)
+            .fact("Elapsed Time", duration, Dim::Time)
+            .fact("Stress Concentration Factor", asked.curve.concentration, Dim::None)
+            .fact("S-N Curve Intercept A", asked.curve.scaled(1e-3).intercept, Dim::None)
+            .fact("S-N Curve Slope m", asked.curve.slope, Dim::None)
+            .fact("Time of Expected Peak", asked.peak_time / 3600.0, Dim::None);
+        table.note(
+            "the expected peak is of the time of expected peaks, in hours; the intercept is for stresses in kN/m2",
+        );
+        Ok([histogram(&title("Stress Ranges, Half Cycles,"), &ends), table])
+    }
+}
+
+/// A place with its series.
+struct Owned {
+    number: usize,
+    distance: f64,
+    channels: Vec<(Quantity, Vec<f64>)>,
+}
+
+impl Owned {
+    fn borrowed(&self) -> Place<'_> {
+        Place {
+            number: self.number,
+            distance: self.distance,
+            channels: self
+                .channels
+                .iter()
+                .map(|(of, values)| Channel { group: of.group, name: of.name, dim: of.dim, digits: of.digits, values })
+                .collect(),
+        }
+    }
+}

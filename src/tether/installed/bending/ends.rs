@@ -1,0 +1,93 @@
+//! What an installed tether tells of its ends and its length: arc, what elements bear, what the structure feels.
+
+use super::{Bending, Cell, LOOK_AHEAD, Motion, Stage};
+use crate::tether::beam::{self, Vector4};
+use crate::tether::installed::axis::{Axis, tilt};
+use crate::tether::installed::tension::{Axial, Tension};
+use nalgebra::Vector3;
+
+impl Bending {
+    /// How much longer the tether is than its axis (m): `1/2 int w'^2 ds` with the cubic of each element, of a length altogether (m).
+    pub fn arc(&self, motion: &[Motion; 2], length: f64) -> f64 {
+        let stretch = length / self.length;
+        let of = |(index, cell): (usize, &Cell)| -> f64 {
+            let part =
+                |m: &Motion| beam::twice_energy(0.0, 1.0, cell.length * stretch, &beam::of_element(&m.place, index));
+            0.5 * motion.iter().map(part).sum::<f64>()
+        };
+        self.cells.iter().enumerate().map(of).sum()
+    }
+
+    /// What each end of an element bears at a stage, by plane: force across and moment of its slope on it, `K x + M a - F` with the place that
+    /// the stage looks ahead to, so that those of two elements at a node balance.
+    pub fn end_loads(&self, element: usize, second: bool, stage: &Stage, axial: &Axial) -> [Vector4; 2] {
+        let Some(cell) = self.cells.get(element) else { return [[0.0; 4]; 2] };
+        let stretch = stage.tension.length / self.length;
+        let length = cell.length * stretch;
+        let mass = beam::mass(cell.mass[0] / stretch + cell.mass[1], length);
+        let (bends, pulls) =
+            (beam::stiffness(cell.bending, length), beam::geometric(axial.middle(element, stage.tension), length));
+        let ends = [element, element + 1].map(|node| self.shares.get(node).copied().unwrap_or_default());
+        [0, 1].map(|plane| {
+            let end = stage.axis.parts(stage.attachment.acceleration)[plane];
+            let turn = end / stage.tension.length;
+            let frame = [ends[0] * end, turn, ends[1] * end, turn];
+            let a = beam::of_element(&self.found[usize::from(second)][plane], element);
+            let x = beam::of_element(&self.now[plane].place, element);
+            let v = beam::of_element(&self.now[plane].velocity, element);
+            let ahead: Vector4 = std::array::from_fn(|i| x[i] + LOOK_AHEAD * stage.dt * (v[i] + 0.5 * stage.dt * a[i]));
+            let all: Vector4 = std::array::from_fn(|i| a[i] + frame[i]);
+            let mut sum = beam::times(&bends, &ahead);
+            beam::add(&mut sum, 1.0, &beam::times(&pulls, &ahead));
+            beam::add(&mut sum, 1.0, &beam::times(&mass, &all));
+            beam::add(&mut sum, -1.0, &self.loads[plane].get(element).copied().unwrap_or_default());
+            sum
+        })
+    }
+
+    /// What the structure bears across the axis, by plane (N): what is missing in the balance of the unknown at the top but for the inertia
+    /// that it has with the axis ([`Bending::entrained`]). Places and loads are those of the stage now gathered; the acceleration against the
+    /// axis is that of the stage before.
+    pub fn top_shear(&self, second: bool, tension: &Tension, axial: &Axial) -> [f64; 2] {
+        let last = self.cells.len().saturating_sub(1);
+        let Some(cell) = self.cells.get(last) else { return [0.0; 2] };
+        let length = cell.length * tension.length / self.length;
+        let mass = self.top_mass(tension);
+        let (bends, pulls) =
+            (beam::stiffness(cell.bending, length), beam::geometric(axial.middle(last, tension), length));
+        let motion = if second { &self.trial } else { &self.now };
+        [0, 1].map(|plane| {
+            let x = beam::of_element(&motion[plane].place, last);
+            let a = beam::of_element(&self.found[usize::from(!second)][plane], last);
+            let load = self.loads[plane].get(last).map_or(0.0, |l| l[2]);
+            beam::dot(&bends[2], &x) + beam::dot(&pulls[2], &x) + beam::dot(&mass, &a) - load
+        })
+    }
+
+    /// The row of the top's deflection in the mass of the last element.
+    fn top_mass(&self, tension: &Tension) -> Vector4 {
+        let stretch = tension.length / self.length;
+        let mass = |c: &Cell| beam::mass(c.mass[0] / stretch + c.mass[1], c.length * stretch)[2];
+        self.cells.last().map_or([0.0; 4], mass)
+    }
+
+    /// The mass (kg) across the axis that rides on the structure's end with the axis itself.
+    pub fn entrained(&self, tension: &Tension) -> f64 {
+        let nodes = self.shares.len();
+        let share = |node: Option<usize>| node.and_then(|n| self.shares.get(n)).copied().unwrap_or_default();
+        let turn = 1.0 / tension.length;
+        let frame = [share(nodes.checked_sub(2)), turn, share(nodes.checked_sub(1)), turn];
+        beam::dot(&self.top_mass(tension), &frame)
+    }
+
+    /// Slopes at the structure by plane (rad).
+    pub fn top_slopes(&self, motion: &[Motion; 2]) -> [f64; 2] {
+        [0, 1].map(|p| motion[p].place.last().copied().unwrap_or_default())
+    }
+
+    /// What the coil at the structure does to it by plane (N m), against the slope.
+    pub fn coil(&self, motion: &[Motion; 2], axis: &Axis, upright: Vector3<f64>) -> [f64; 2] {
+        let (slopes, vessel) = (self.top_slopes(motion), tilt(upright));
+        [0, 1].map(|p| self.springs[1][p] * (slopes[p] + axis.tilt[p] - vessel[p] - self.rest[1][p]))
+    }
+}
