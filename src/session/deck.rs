@@ -41,6 +41,8 @@ impl Session {
             return;
         }
         let Some((_, records)) = self.translated(name, text, aqwa::model_records) else { return };
+        // the first points of a deck are in the ground
+        self.job.model.current_part = None;
         let named = format!("records of {name}");
         if let Err(error) = self.interpreter.open(&named, records.model_alone(), PLAIN, Some(span)) {
             self.report(*error);

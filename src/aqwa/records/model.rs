@@ -13,6 +13,8 @@ use nalgebra::Matrix6;
 const FRICTION: f64 = 0.016;
 /// Products of inertia beyond this share of the largest moment of inertia are no rounding.
 const ROUNDING: f64 = 1e-9;
+/// Tubes of less than this share of the mass of their structure have a nominal mass.
+const NOMINAL: f64 = 1e-10;
 const FREEDOMS: [&str; 6] = ["X", "Y", "Z", "RX", "RY", "RZ"];
 const ROWS: [&str; 6] = ["-KX", "-KY", "-KZ", "-KRX", "-KRY", "-KRZ"];
 
@@ -26,7 +28,7 @@ pub(super) fn point(structure: i64, node: i64) -> String {
     if structure > 0 { format!("*S{structure}_{node}") } else { format!("*N{node}") }
 }
 
-/// The ground, with the nodes of anchors and trailing ends.
+/// The nodes of anchors and trailing ends: points of the ground, as long as no body is described yet.
 pub(super) fn ground(deck: &Deck, out: &mut Script) {
     let of_tethers = deck.mooring.tethers.iter().map(|tether| tether.anchor.value);
     let of_lines = deck.mooring.lines.iter().flat_map(|line| {
@@ -37,10 +39,6 @@ pub(super) fn ground(deck: &Deck, out: &mut Script) {
     nodes.extend(of_lines.filter(|(structure, _)| *structure <= 0).map(|(_, node)| node));
     nodes.sort_unstable();
     nodes.dedup();
-    if nodes.is_empty() {
-        return;
-    }
-    out.record("&DESCRIBE BODY GROUND");
     for node in nodes {
         if let Some(found) = deck.nodes.get(&node) {
             let place = found.position.map(|x| out.scale.length(x));
@@ -69,7 +67,7 @@ fn nodes(deck: &Deck, structure: &Structure) -> Vec<i64> {
 
 /// A structure as a body whose origin is its centre of gravity.
 pub(super) fn structure(deck: &Deck, of: &Structure, out: &mut Script) {
-    let mass = deck.mass_properties(of);
+    let mass = mass(deck, of, out);
     let nominal = deck.mooring.tethers.iter().any(|tether| tether.towed());
     let name = body(of.number);
     out.remark(&format!("structure {}: the origin of the body is its center of gravity", of.number));
@@ -92,6 +90,20 @@ pub(super) fn structure(deck: &Deck, of: &Structure, out: &mut Script) {
         hydrostatics(deck, of, known, nominal, out);
     }
     tubes(deck, of, out);
+}
+
+/// Mass, centre and inertia of a structure. Tubes whose mass is a nominal one (decks of structures whose whole mass stands in PMAS give
+/// them a density of 1E-10) are left out: they would move the centre of gravity by what nobody can measure, and spoil the digits of
+/// the cards.
+fn mass(deck: &Deck, of: &Structure, out: &mut Script) -> MassProperties {
+    let whole = deck.mass_properties(of);
+    let tubes = whole.kinds.iter().find(|kind| kind.shape == Shape::Tube).map_or(0.0, |kind| kind.mass);
+    if tubes == 0.0 || tubes > NOMINAL * whole.mass {
+        return whole;
+    }
+    out.remark(&format!("the nominal mass of its tubes, {tubes:.1E} of {}, is left out", number(whole.mass)));
+    let elements = of.elements.iter().filter(|element| element.shape != Shape::Tube).cloned().collect();
+    deck.mass_properties(&Structure { elements, ..of.clone() })
 }
 
 /// The freedoms that are held, as an option.

@@ -12,6 +12,8 @@ const CURVE: &str = "DECK_13";
 /// Points of the curve of a Gaussian spectrum, and how many standard deviations they reach from its peak: straight lines between them
 /// err by 0.03 % of the density at the peak.
 const GAUSSIAN: (i32, f64) = (240, 6.0);
+/// Phases on a line.
+const PHASES: usize = 10;
 /// Peakedness that the language takes.
 const GAMMA: std::ops::RangeInclusive<f64> = 1.0..=20.0;
 
@@ -71,7 +73,8 @@ fn irregular(deck: &Deck, sea: &Spectrum, out: &mut Script) -> Vec<String> {
         options.push(format!("-SEED {}", sea.seed.max(0)));
         out.remark("the phases are random as windlass makes them; those of that program are had with PHAS cards");
     } else {
-        options.push(format!("-PHASES {}", numbers(sea.phases.iter().copied())));
+        let rows = sea.phases.chunks(PHASES).map(|row| numbers(row.iter().copied()));
+        options.push(format!("-PHASES \\\n    {}", rows.collect::<Vec<_>>().join(" \\\n    ")));
     }
     options.push("-STRETCHING EXPONENTIAL".into());
     options.push("-RAMP 0".into());
