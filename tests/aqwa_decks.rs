@@ -128,7 +128,8 @@ fn a_deck_and_the_script_of_its_case_have_the_same_numbers_bit_for_bit() {
 
 /// A script with -TIME of &ENV and the TDOM record of another.
 fn with_run_of(script: &str, other: &str) -> String {
-    let of = |text: &str, word: &str| text.lines().find(|line| line.trim_start().starts_with(word)).unwrap().to_string();
+    let of =
+        |text: &str, word: &str| text.lines().find(|line| line.trim_start().starts_with(word)).unwrap().to_string();
     let mut text = script.to_string();
     for word in ["-TIME", "TDOM"] {
         text = text.replace(&of(script, word), &of(other, word));
@@ -218,7 +219,10 @@ fn the_records_have_the_digits_of_the_cards() {
 
 #[test]
 fn a_constraint_holds_the_node_between_the_elements_its_card_stands_between() {
-    let between = edited("    14TELM  103  102  101  101\n", "    14TELM  103  102  101  101\n    14TLAV                         0.250\n");
+    let between = edited(
+        "    14TELM  103  102  101  101\n",
+        "    14TELM  103  102  101  101\n    14TLAV                         0.250\n",
+    );
     let made = lines(&records(&between).unwrap());
     assert!(made.contains("-CONSTRAINT LATERAL_VESSEL 3 0.25") && made.contains("$ assumed: TLAV"), "{made}");
     let behind = edited("    14TEGR    4\n", "    14TEGR    4\n    14TROC\n    14TLAV\n");
@@ -253,7 +257,9 @@ fn spectra_become_seas_or_curves() {
     let height: f64 =
         made.split("-SEA DECK_13 210 ").nth(1).unwrap().split_whitespace().next().unwrap().parse().unwrap();
     assert!((height / 4.0 - 1.0).abs() < 1e-4, "{height}");
-    let made = sea("    13UDEF                 0.4       0.0\n    13UDEF                 0.6       5.0\n END13UDEF                 0.8       0.0");
+    let made = sea(
+        "    13UDEF                 0.4       0.0\n    13UDEF                 0.6       5.0\n END13UDEF                 0.8       0.0",
+    );
     // a triangle of 0.4 by 5 has an energy of 1 m2
     assert!(made.contains("-SEA DECK_13 210 4 ") && made.contains("0.4 0  0.6 5  0.8 0"), "{made}");
 }
@@ -296,7 +302,9 @@ fn what_has_no_place_in_the_model_is_refused_with_its_card_and_what_to_use() {
 fn a_check_of_the_data_runs_nothing_and_says_so() {
     let made = records(&edited("OPTIONS END", "OPTIONS DATA END")).unwrap();
     assert!(!made.job.iter().any(|line| line.starts_with("TDOM")), "{:?}", made.job);
-    assert!(made.job.iter().any(|line| line.starts_with("$ DATA")) && made.job.contains(&"&STATUS TETHERS".to_string()));
+    assert!(
+        made.job.iter().any(|line| line.starts_with("$ DATA")) && made.job.contains(&"&STATUS TETHERS".to_string())
+    );
 }
 
 #[test]
@@ -315,5 +323,8 @@ fn phases_are_as_many_as_the_components() {
     session.run();
     assert!(session.errors >= 1, "{:?}", session.reports);
     let said: Vec<&str> = session.reports.iter().map(|r| r.message.as_str()).collect();
-    assert!(said.iter().any(|m| m.contains("2 phases for 3")) && said.iter().any(|m| m.contains("not from both")), "{said:?}");
+    assert!(
+        said.iter().any(|m| m.contains("2 phases for 3")) && said.iter().any(|m| m.contains("not from both")),
+        "{said:?}"
+    );
 }

@@ -61,8 +61,9 @@ static TETHER_SPEC: CommandSpec = CommandSpec {
         EVENTS,
         ours(
             "-SLACK",
-            &[ValueSpec::new("T", Kind::Number(Dim::Time), "time told from each time it goes slack").not_negative()],
-            "only instants after it went slack",
+            &[ValueSpec::new("T", Kind::Number(Dim::Time), "time told from each time a tether goes slack")
+                .not_negative()],
+            "only instants after a tether of the run went slack",
         ),
         ours("-AT", &[ValueSpec::new("T", Kind::Number(Dim::Time), "times, twenty at most")], "instants of ALONG")
             .repeating(1)
@@ -161,12 +162,11 @@ fn instants(run: &Tethered, args: &Args) -> Outcome<Vec<usize>> {
     Ok(list)
 }
 
-/// Those of them that are within a time of the tether's going slack.
-fn slack_alone(run: &Tethered, name: &str, given: Option<&Given>, list: Vec<usize>) -> Vec<usize> {
+/// Those of them that are within a time of a tether's going slack: the listing of seed 003 then has all tethers.
+fn slack_alone(run: &Tethered, given: Option<&Given>, list: Vec<usize>) -> Vec<usize> {
     let Some(lasting) = given.and_then(|g| g.number(0)) else { return list };
     let slack = 1e-6 * run.settings.step;
-    let of = |e: &&tethered::Happening| e.change == Change::Slack && e.tether.eq_ignore_ascii_case(name);
-    let began: Vec<f64> = run.happened.iter().filter(of).map(|e| e.time).collect();
+    let began: Vec<f64> = run.happened.iter().filter(|e| e.change == Change::Slack).map(|e| e.time).collect();
     let near = |place: &usize| {
         let time = run.times.get(*place).copied().unwrap_or_default();
         began.iter().any(|from| time >= from - slack && time <= from + lasting + slack)
@@ -209,7 +209,7 @@ fn tether_tables(job: &Job, args: &Args) -> Outcome<Vec<Table>> {
         if tether.towed { Ok(()) } else { Err(Diagnostic::error(text, args.place(1))) }
     };
     let some = || {
-        let list = slack_alone(run, &tether.name, args.option("-SLACK"), instants(run, args)?);
+        let list = slack_alone(run, args.option("-SLACK"), instants(run, args)?);
         Ok::<_, Box<Diagnostic>>(list)
     };
     Ok(match args.word(1).unwrap_or_default() {

@@ -78,7 +78,7 @@ impl Session {
     /// The echo of the cards and the data of decks 1 to 5.
     fn tell(&mut self, deck: &Deck) {
         let mut lines: Vec<String> = Vec::new();
-        for echo in deck.echo() {
+        for echo in deck.echo().into_iter().filter(|echo| !echo.lines.is_empty()) {
             lines.push(format!("\n {}", echo.title));
             lines.extend(echo.lines);
         }

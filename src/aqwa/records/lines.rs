@@ -37,7 +37,11 @@ pub(super) fn lines(deck: &Deck, out: &mut Script) {
         };
         if let Some(class) = class {
             let [first, second] = ends(line.ends);
-            out.record(format!("CONNECTOR L{number} ~{class} {} {}", point(first.0, first.1), point(second.0, second.1)));
+            out.record(format!(
+                "CONNECTOR L{number} ~{class} {} {}",
+                point(first.0, first.1),
+                point(second.0, second.1)
+            ));
         }
     }
 }

@@ -81,7 +81,10 @@ fn written(deck: &Deck) -> Result<Script, Vec<Diagnostic>> {
 
 fn model(deck: &Deck, units: &super::units::Units, out: &mut Script) {
     out.remark(&format!("deck {} {}: {}", deck.job.run, deck.job.analysis, deck.job.title));
-    out.remark(&format!("its units are {}; all numbers below are in m, kN, kg/m3 and degrees, tethers in kg, m, N", units.name));
+    out.remark(&format!(
+        "its units are {}; all numbers below are in m, kN, kg/m3 and degrees, tethers in kg, m, N",
+        units.name
+    ));
     let density = number(out.scale.density(deck.global.density));
     let gravity = number(out.scale.length(deck.global.gravity));
     out.record(format!("&DEFAULT -WATER {density} -GRAVITY {gravity}"));

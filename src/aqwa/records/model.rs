@@ -115,8 +115,11 @@ fn held(deck: &Deck, of: &Structure, nominal: bool, out: &mut Script) -> String 
     let given: Vec<_> = deck.held.iter().filter(|held| held.structure.value == of.number).collect();
     if let (Some(first), false) = (given.first(), deck.mooring.tethers.is_empty()) {
         out.refuse(
-            Diagnostic::error("deck 12, DACF: a structure that tethers hold moves in all freedoms here", first.freedom.span)
-                .help("the engine of tethers holds none; a stiff GSPR of the model to the ground does"),
+            Diagnostic::error(
+                "deck 12, DACF: a structure that tethers hold moves in all freedoms here",
+                first.freedom.span,
+            )
+            .help("the engine of tethers holds none; a stiff GSPR of the model to the ground does"),
         );
     }
     let mut freedoms: Vec<usize> = given.iter().filter_map(|h| usize::try_from(h.freedom.value - 1).ok()).collect();
@@ -204,7 +207,9 @@ fn hydrostatics(deck: &Deck, of: &Structure, known: &Hydrostatics, nominal: bool
 
 fn sum(a: Option<SixBySix>, b: Option<SixBySix>) -> Matrix6<f64> {
     let of = |rows: Option<SixBySix>| {
-        rows.map_or_else(Matrix6::zeros, |rows| Matrix6::from_fn(|i, j| rows.get(i).and_then(|r| r.get(j)).copied().unwrap_or(0.0)))
+        rows.map_or_else(Matrix6::zeros, |rows| {
+            Matrix6::from_fn(|i, j| rows.get(i).and_then(|r| r.get(j)).copied().unwrap_or(0.0))
+        })
     };
     of(a) + of(b)
 }
@@ -254,9 +259,12 @@ pub(super) fn starts(deck: &Deck, out: &mut Script) {
     for start in deck.starts.iter().filter(|start| start.velocity) {
         if start.values.iter().any(|value| *value != 0.0) {
             out.refuse(
-                Diagnostic::error(format!("deck 15, VEL{}: a run starts with the bodies at rest", start.structure), start.span)
-                    .label("zeros belong here")
-                    .help("a run in time lets a body come up to speed before the statistics start"),
+                Diagnostic::error(
+                    format!("deck 15, VEL{}: a run starts with the bodies at rest", start.structure),
+                    start.span,
+                )
+                .label("zeros belong here")
+                .help("a run in time lets a body come up to speed before the statistics start"),
             );
         }
     }

@@ -95,7 +95,8 @@ fn tethered(deck: &Deck, out: &mut Script) {
     let slack = deck.mooring.slack_time.filter(|_| !towed && printing.tethers.is_none());
     // a tether may go slack, and its structure comes to a state, at any step
     let finest = if towed { every(printing.records).unwrap_or(1) } else { 1 };
-    let store = [every(printing.structures), every(printing.tethers)].into_iter().flatten().fold(finest, common_divisor);
+    let store =
+        [every(printing.structures), every(printing.tethers)].into_iter().flatten().fold(finest, common_divisor);
     let mut run = format!("TDOM -TETHERS AQWA -STORE {}", store.max(1));
     let slam = deck.mooring.tethers.first().map_or(0.0, |tether| deck.multipliers(tether.structure.value).slam);
     if towed && slam > 0.0 {
@@ -153,7 +154,14 @@ fn structure(deck: &Deck, out: &mut Script) {
         }
         out.record(format!("{text} {}", events(deck, steps)));
     }
-    if deck.job.program == Program::Naut && matches!(&deck.waves, Waves::Regular(wave) if wave.amplitude > 0.0) {
+    let Waves::Regular(wave) = &deck.waves else { return };
+    if deck.job.program != Program::Naut || wave.amplitude == 0.0 {
+        return;
+    }
+    let lasts = deck.steps.map_or(0.0, |steps| (steps.count.value - 1) as f64 * steps.step.value);
+    if lasts < wave.period {
+        out.remark("the run is shorter than a cycle of the wave: no harmonics of the structure");
+    } else {
         out.record("STRUCTURE HARMONICS");
     }
 }

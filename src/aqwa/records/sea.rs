@@ -50,8 +50,10 @@ fn regular(deck: &Deck, wave: &RegularWave, out: &mut Script) -> Vec<String> {
     options.push("-STRETCHING EXPONENTIAL".into());
     options.push(format!("-RAMP {}", number(wave.ramp)));
     if wave.ramp > 0.0 && !deck.mooring.tethers.is_empty() {
-        out.refuse(Diagnostic::error("deck 13, WRMP: the regular wave of a run of tethers does not grow", wave.span)
-            .help("leave out the card: the wave acts from the start"));
+        out.refuse(
+            Diagnostic::error("deck 13, WRMP: the regular wave of a run of tethers does not grow", wave.span)
+                .help("leave out the card: the wave acts from the start"),
+        );
     }
     options
 }
@@ -113,7 +115,9 @@ fn form(deck: &Deck, sea: &Spectrum, from: f64, out: &mut Script) -> Option<Vec<
         Form::Gaussian { sigma, height, peak } => {
             let height = out.scale.length(*height);
             let (count, reach) = GAUSSIAN;
-            let density = |w: f64| height * height / 16.0 / (sigma * (2.0 * PI).sqrt()) * (-0.5 * ((w - peak) / sigma).powi(2)).exp();
+            let density = |w: f64| {
+                height * height / 16.0 / (sigma * (2.0 * PI).sqrt()) * (-0.5 * ((w - peak) / sigma).powi(2)).exp()
+            };
             let at = |i: i32| peak + sigma * reach * (2.0 * f64::from(i) / f64::from(count) - 1.0);
             let points = (0..=count).map(at).filter(|w| *w > 0.0).map(|w| (rounded(w), rounded(density(w)))).collect();
             out.remark("GAUS: a curve of the Gaussian spectrum");

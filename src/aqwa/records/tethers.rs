@@ -128,7 +128,9 @@ fn of_installed(description: &Description, out: &mut Script) -> String {
         Some((factor, half_life)) if factor > 0.0 && half_life > 0.0 => {
             text.push_str(&format!(" \\\n  -IMPACT {}", numbers([out.scale.force(factor, -3), half_life])));
         }
-        Some((factor, _)) if factor > 0.0 => out.remark("TIMP without a half life: the stress of an impact is gone at once"),
+        Some((factor, _)) if factor > 0.0 => {
+            out.remark("TIMP without a half life: the stress of an impact is gone at once")
+        }
         _ => {}
     }
     if description.lower_stop > 0.0 {

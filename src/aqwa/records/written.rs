@@ -149,8 +149,8 @@ impl Script {
     }
 
     /// Notes what cannot be written.
-    pub(super) fn refuse(&mut self, error: Box<Diagnostic>) {
-        self.wrong.push(*error);
+    pub(super) fn refuse(&mut self, error: impl Into<Box<Diagnostic>>) {
+        self.wrong.push(*error.into());
     }
 }
 

@@ -77,7 +77,11 @@ impl Description {
     ) -> Listed<'a> {
         let ends = [
             Attachment { node: anchor.into(), given: tether.anchor.into(), initial: tether.anchor.into() },
-            Attachment { node: vessel.into(), given: (centre + tether.attachment).into(), initial: self.attachment.into() },
+            Attachment {
+                node: vessel.into(),
+                given: (centre + tether.attachment).into(),
+                initial: self.attachment.into(),
+            },
         ];
         let springs = [tether.anchor_springs, tether.vessel_springs].map(|s| [s.inline, s.rotation[0], s.rotation[1]]);
         Listed {
