@@ -120,7 +120,7 @@ static STRUCTURE_SPEC: CommandSpec = CommandSpec {
              WI (wave inertia), DF (diffraction and what else acts on the body), GY (gyroscopic), M (mooring), T (total) with the axis behind; HARMONICS the mean, the drift and four harmonics of the \
              motion over the first cycle of a regular wave, or over the instants of -EVENTS.",
     example: "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n*A 0 0 -100\n&DESCRIBE BODY SPAR\n*B 0 0 -30\n*T 0 0 12\n*G 0 0 -20\n#WEIGHT *G 18000 12 12 5\n\
-              &SURFACE\nTUBE HULL *B *T 10000\nEND\nMEDIT\n~T TETHER 0.6 0.03 -LEN 69.97 -REFINE 4\nCONNECTOR T ~T *B *A -V_SPRINGS 0 0 0 -A_SPRINGS 0 0 0\n\
+              &SURFACE\nTUBE HULL *B *T 10000\nEND\n~T TETHER 0.6 0.03 -LEN 69.97 -REFINE 4\nCONNECTOR T ~T *B *A -V_SPRINGS 0 0 0 -A_SPRINGS 0 0 0\n\
               END\n&ENV -DEPTH 100 -SEA STOKES 180 4 8 -STOKES 2 -TIME 16 0.1\nTDOM -TETHERS\nPRCPOST\nSTRUCTURE PAGES *T -EVENTS 0 8 4\n\
               STRUCTURE HARMONICS\nSTRUCTURE HISTORY -DISPOSE\nREPORT POSITION\nEND\nEND",
     ..CommandSpec::new("STRUCTURE", "results of the structure that tethers hold")
