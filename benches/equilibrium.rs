@@ -8,6 +8,7 @@
 
 #[path = "eight/mod.rs"]
 mod eight;
+mod measured;
 #[path = "eight/report.rs"]
 mod report;
 
