@@ -54,7 +54,7 @@ impl Stepper {
             self.trial.extend_from_slice(&ahead.motions);
             self.over.clear();
             self.over.resize(start.len(), Six::zeros());
-            self.prescribe(system, ahead.time)?;
+            self.prescribe(system, (ahead.time, dt))?;
             self.place(system, start, dt, &scheme);
             self.pose(system, start);
             ahead.motions.clone_from(&self.trial);

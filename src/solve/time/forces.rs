@@ -120,11 +120,25 @@ pub struct Forces {
     pub trial: Vec<f64>,
     /// What solvers of the connectors remember.
     pub(super) guesses: Vec<Guess>,
+    /// Whether they are those of the end of the last step, from which the next one may be foretold.
+    pub(super) settled: bool,
+    /// The part of the loads in the sum and in its changes.
+    of_loads: Linear,
+    /// The part of the connectors, when it is foretold.
+    of_connectors: Linear,
     made: MovingLoad,
     response: Response,
     poses: Vec<Pose>,
     ends: Vec<End>,
     arms: Vec<Vector3<f64>>,
+}
+
+/// Forces of all bodies, and their changes with motion and velocity.
+#[derive(Clone, Debug, Default)]
+struct Linear {
+    sum: DVector<f64>,
+    stiffness: DMatrix<f64>,
+    damping: DMatrix<f64>,
 }
 
 /// The index of a category in [`Forces::categories`].
@@ -164,6 +178,53 @@ impl Forces {
         motions: &[Motion],
         (time, dt): (f64, f64),
     ) -> Result<(), SolveError> {
+        self.bear(system, memory, motions, (time, dt))?;
+        self.of_loads.sum.clone_from(&self.sum);
+        self.of_loads.stiffness.clone_from(&self.stiffness);
+        self.of_loads.damping.clone_from(&self.damping);
+        self.connect(system, motions, (time, dt))
+    }
+
+    /// What is expected at a trial of the end of a step, from the forces of its start: loads as they are there, connectors as their
+    /// stiffness and damping have it, by the motion and the change of velocity of each body over the step.
+    ///
+    /// # Errors
+    /// The body that has no answer there.
+    pub(super) fn foretell(
+        &mut self,
+        system: &System,
+        memory: &Memory,
+        (trial, start, over): (&[Motion], &[Motion], &[Six]),
+        (time, dt): (f64, f64),
+    ) -> Result<(), SolveError> {
+        let part = &mut self.of_connectors;
+        part.sum.clone_from(&self.sum);
+        part.sum -= &self.of_loads.sum;
+        part.stiffness.clone_from(&self.stiffness);
+        part.stiffness -= &self.of_loads.stiffness;
+        part.damping.clone_from(&self.damping);
+        part.damping -= &self.of_loads.damping;
+        self.bear(system, memory, trial, (time, dt))?;
+        let part = &self.of_connectors;
+        self.sum += &part.sum;
+        for (body, ((trial, start), over)) in trial.iter().zip(start).zip(over).enumerate() {
+            let faster = trial.velocity - start.velocity;
+            self.sum.gemv(-1.0, &part.stiffness.fixed_columns::<6>(6 * body), over, 1.0);
+            self.sum.gemv(-1.0, &part.damping.fixed_columns::<6>(6 * body), &faster, 1.0);
+        }
+        self.stiffness += &part.stiffness;
+        self.damping += &part.damping;
+        Ok(())
+    }
+
+    /// Evaluates the loads.
+    fn bear(
+        &mut self,
+        system: &System,
+        memory: &Memory,
+        motions: &[Motion],
+        (time, dt): (f64, f64),
+    ) -> Result<(), SolveError> {
         self.clear(system);
         for (body, (node, motion)) in system.nodes.iter().zip(motions).enumerate() {
             let at = Underway { time, dt, pose: &motion.pose, velocity: &motion.velocity };
@@ -193,7 +254,7 @@ impl Forces {
         for (body, wrench) in system.applied.iter().filter(|(body, _)| *body < system.nodes.len()) {
             self.add(*body, place_of(Category::Applied), wrench);
         }
-        self.connect(system, motions, (time, dt))
+        Ok(())
     }
 
     fn add(&mut self, body: usize, category: usize, wrench: &Six) {

@@ -9,6 +9,7 @@ mod forces;
 mod happening;
 mod history;
 mod inertia;
+mod newton;
 mod prescribed;
 mod resume;
 mod run;
