@@ -74,6 +74,11 @@ impl BodyLoad for RadiationLoad {
         Ok(())
     }
 
+    fn held(&self, at: &Underway, state: &[f64]) -> Option<Six> {
+        let velocity = in_axes(at.velocity, &at.pose.axes.transpose());
+        Some(in_axes(&self.memory.force(&velocity, state).0, &at.pose.axes))
+    }
+
     fn moving(&self, at: &Underway, state: &[f64]) -> Result<MovingLoad, ClassError> {
         let velocity = in_axes(at.velocity, &at.pose.axes.transpose());
         let (force, damping) = self.memory.force(&velocity, state);

@@ -110,6 +110,10 @@ impl BodyLoad for Excitation {
         Ok(())
     }
 
+    fn held(&self, _: &Underway, state: &[f64]) -> Option<Six> {
+        Some(kept(state).wrench)
+    }
+
     fn moving(&self, _: &Underway, state: &[f64]) -> Result<MovingLoad, ClassError> {
         Ok(MovingLoad::of(kept(state)))
     }

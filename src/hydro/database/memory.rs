@@ -217,7 +217,7 @@ fn six(state: &[f64], at: usize) -> Six {
 }
 
 /// The sum of products, in eight sums side by side so that it runs in vectors, the widest of the machine; the order is fixed.
-#[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512dq+avx512vl"))]
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     let count = a.len().min(b.len());
     let (a, b) = (&a[..count], &b[..count]);
@@ -233,7 +233,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// The sum of products of weights with values, and of the weights from the second on with the same values.
-#[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512dq+avx512vl"))]
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 fn two_dots(weights: &[f64], values: &[f64]) -> [f64; 2] {
     let mut sums = [[0.0; 8]; 2];
     let from_second = weights.get(1..).unwrap_or_default();

@@ -172,7 +172,9 @@ impl SlowDrift {
         for (group, near) in self.groups.iter().zip(near) {
             let waves = group.amplitude.chunks(WIDE).zip(near.chunks(WIDE));
             for ([cos, sin], (amplitudes, near)) in group.phasors(at).zip(waves) {
-                for ((cos, sin), (amplitude, (low, high, part))) in cos.iter().zip(&sin).zip(amplitudes.iter().zip(near)) {
+                for ((cos, sin), (amplitude, (low, high, part))) in
+                    cos.iter().zip(&sin).zip(amplitudes.iter().zip(near))
+                {
                     let wave = Complex::new(*cos, *sin) * *amplitude;
                     if let Some(c) = gathered.get_mut(*low) {
                         *c += wave * (1.0 - part);
@@ -250,6 +252,10 @@ impl BodyLoad for SlowDrift {
         let force = self.on(ahead.pose, ahead.time)?;
         state.iter_mut().zip(force.iter()).for_each(|(s, f)| *s = *f);
         Ok(())
+    }
+
+    fn held(&self, _: &Underway, state: &[f64]) -> Option<Six> {
+        Some(kept(state).wrench)
     }
 
     fn moving(&self, _: &Underway, state: &[f64]) -> Result<MovingLoad, ClassError> {

@@ -156,7 +156,7 @@ impl ByHeading<7> {
     }
 }
 
-#[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512dq+avx512vl"))]
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 fn real(waves: &[[Wide; 4]], at: (f64, f64, f64), [(first, a), (second, b)]: [Share<'_, 12>; 2]) -> [f64; 6] {
     let mut sums = [[0.0; WIDE]; 6];
     for ((waves, first), second) in waves.iter().zip(first).zip(second) {
@@ -171,7 +171,7 @@ fn real(waves: &[[Wide; 4]], at: (f64, f64, f64), [(first, a), (second, b)]: [Sh
     sums.map(|sum| sum.iter().sum())
 }
 
-#[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512dq+avx512vl"))]
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 fn whole(waves: &[[Wide; 4]], at: (f64, f64, f64), [(first, a), (second, b)]: [Share<'_, 7>; 2]) -> [[f64; 7]; 2] {
     let mut sums = [[[0.0; WIDE]; 7]; 2];
     for ((waves, first), second) in waves.iter().zip(first).zip(second) {
@@ -247,12 +247,10 @@ mod tests {
         }
         let value = |h: usize, w: f64, mode: usize| (w * (h as f64 + 1.7) * (mode as f64 + 0.6)).sin();
         let headings = [0.0, 1.2, 2.4, 3.6, 4.8];
-        let excitation = ByHeading::<12>::of(&group, &headings, |h, w, a| {
-            Ok(std::array::from_fn(|mode| a * value(h, w, mode)))
-        });
-        let drift = ByHeading::<7>::of(&group, &headings, |h, w, a| {
-            Ok(std::array::from_fn(|mode| a * value(h, w, mode)))
-        });
+        let excitation =
+            ByHeading::<12>::of(&group, &headings, |h, w, a| Ok(std::array::from_fn(|mode| a * value(h, w, mode))));
+        let drift =
+            ByHeading::<7>::of(&group, &headings, |h, w, a| Ok(std::array::from_fn(|mode| a * value(h, w, mode))));
         let (time, x, y) = (9876.5, 12.25, -3.5);
         let found = excitation.unwrap().real(&group, (time, x, y), 1.5).unwrap();
         let [real, imaginary] = drift.unwrap().whole(&group, (time, x, y), 1.5).unwrap();
@@ -263,7 +261,8 @@ mod tests {
                 let w = group.frequency[n];
                 let [_, kx, ky, phase] = group.phases[n / WIDE].map(|lane| lane[n % WIDE]);
                 let (sin, cos) = (kx * x + ky * y + phase - w * time).sin_cos();
-                let at = |mode: usize| group.amplitude[n] * ((1.0 - share) * value(1, w, mode) + share * value(2, w, mode));
+                let at =
+                    |mode: usize| group.amplitude[n] * ((1.0 - share) * value(1, w, mode) + share * value(2, w, mode));
                 sums[0] += at(mode) * cos - at((mode + 6) % 12) * sin;
                 sums[1] += at(mode) * cos;
                 sums[2] += at(mode) * sin;

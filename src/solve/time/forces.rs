@@ -32,6 +32,8 @@ pub struct Memory {
     pub loads: Vec<f64>,
     /// Where those of each load of each body stand.
     pub(super) ranges: Vec<Vec<Range<usize>>>,
+    /// What the loads of each body hold ready for the step, beyond what they held for the step before.
+    ahead: Vec<Six>,
 }
 
 impl Memory {
@@ -80,12 +82,19 @@ impl Memory {
         ahead: &[Motion],
         (time, dt): (f64, f64),
     ) -> Result<(), SolveError> {
+        self.ahead.clear();
         for ((node, ranges), motion) in system.nodes.iter().zip(&self.ranges).zip(ahead) {
             let at = Underway { time, dt, pose: &motion.pose, velocity: &motion.velocity };
+            let mut more = Six::zeros();
             for (load, range) in node.floating.loads.iter().zip(ranges) {
                 let state = self.loads.get_mut(range.clone()).unwrap_or_default();
+                let before = load.held(&at, state);
                 load.begin(&at, state).map_err(SolveError::of(&node.name))?;
+                if let (Some(before), Some(now)) = (before, load.held(&at, state)) {
+                    more += now - before;
+                }
             }
+            self.ahead.push(more);
         }
         Ok(())
     }
@@ -120,25 +129,16 @@ pub struct Forces {
     pub trial: Vec<f64>,
     /// What solvers of the connectors remember.
     pub(super) guesses: Vec<Guess>,
-    /// Whether they are those of the end of the last step, from which the next one may be foretold.
-    pub(super) settled: bool,
-    /// The part of the loads in the sum and in its changes.
-    of_loads: Linear,
-    /// The part of the connectors, when it is foretold.
-    of_connectors: Linear,
+    /// Steps in a row at the end of which they stood, and from which the next one may be foretold.
+    settled: usize,
+    /// Stiffness at the end of the last step, and how it changed over it, over its length.
+    earlier: DMatrix<f64>,
+    change: DMatrix<f64>,
     made: MovingLoad,
     response: Response,
     poses: Vec<Pose>,
     ends: Vec<End>,
     arms: Vec<Vector3<f64>>,
-}
-
-/// Forces of all bodies, and their changes with motion and velocity.
-#[derive(Clone, Debug, Default)]
-struct Linear {
-    sum: DVector<f64>,
-    stiffness: DMatrix<f64>,
-    damping: DMatrix<f64>,
 }
 
 /// The index of a category in [`Forces::categories`].
@@ -167,58 +167,55 @@ impl Forces {
         self.trial.extend_from_slice(&system.states);
     }
 
+    /// Nothing foretells the next step.
+    pub(super) fn unsettle(&mut self) {
+        self.settled = 0;
+    }
+
+    /// They are those of the end of a step of a length (s).
+    pub(super) fn settle(&mut self, dt: f64) {
+        if self.settled > 0 {
+            self.change.copy_from(&self.stiffness);
+            self.change -= &self.earlier;
+            self.change /= dt;
+        } else {
+            let size = self.stiffness.nrows();
+            self.change = DMatrix::zeros(size, size);
+            self.earlier = DMatrix::zeros(size, size);
+        }
+        self.earlier.copy_from(&self.stiffness);
+        self.settled += 1;
+    }
+
+    /// What is expected at a trial of the end of a step, from the forces of its start: by stiffness and damping for the motion and the
+    /// change of velocity of each body over the step, with what its loads hold ready. Stiffness goes on as it changed over the
+    /// step before. False without a step to go by.
+    pub(super) fn foretell(
+        &mut self,
+        (memory, dt): (&Memory, f64),
+        (trial, start, over): (&[Motion], &[Motion], &[Six]),
+    ) -> bool {
+        if self.settled == 0 {
+            return false;
+        }
+        for (body, ((trial, start), over)) in trial.iter().zip(start).zip(over).enumerate() {
+            let faster = trial.velocity - start.velocity;
+            self.sum.gemv(-1.0, &self.stiffness.fixed_columns::<6>(6 * body), over, 1.0);
+            self.sum.gemv(-1.0, &self.damping.fixed_columns::<6>(6 * body), &faster, 1.0);
+            self.sum.gemv(-0.5 * dt, &self.change.fixed_columns::<6>(6 * body), over, 1.0);
+            if let Some(held) = memory.ahead.get(body) {
+                let mut at = self.sum.fixed_rows_mut::<6>(6 * body);
+                at += held;
+            }
+        }
+        true
+    }
+
     /// Evaluates everything with the bodies in these motions at the end of a step; `dt` zero: at the start of a run.
     ///
     /// # Errors
     /// The connector or body that has no answer there.
     pub fn evaluate(
-        &mut self,
-        system: &System,
-        memory: &Memory,
-        motions: &[Motion],
-        (time, dt): (f64, f64),
-    ) -> Result<(), SolveError> {
-        self.bear(system, memory, motions, (time, dt))?;
-        self.of_loads.sum.clone_from(&self.sum);
-        self.of_loads.stiffness.clone_from(&self.stiffness);
-        self.of_loads.damping.clone_from(&self.damping);
-        self.connect(system, motions, (time, dt))
-    }
-
-    /// What is expected at a trial of the end of a step, from the forces of its start: loads as they are there, connectors as their
-    /// stiffness and damping have it, by the motion and the change of velocity of each body over the step.
-    ///
-    /// # Errors
-    /// The body that has no answer there.
-    pub(super) fn foretell(
-        &mut self,
-        system: &System,
-        memory: &Memory,
-        (trial, start, over): (&[Motion], &[Motion], &[Six]),
-        (time, dt): (f64, f64),
-    ) -> Result<(), SolveError> {
-        let part = &mut self.of_connectors;
-        part.sum.clone_from(&self.sum);
-        part.sum -= &self.of_loads.sum;
-        part.stiffness.clone_from(&self.stiffness);
-        part.stiffness -= &self.of_loads.stiffness;
-        part.damping.clone_from(&self.damping);
-        part.damping -= &self.of_loads.damping;
-        self.bear(system, memory, trial, (time, dt))?;
-        let part = &self.of_connectors;
-        self.sum += &part.sum;
-        for (body, ((trial, start), over)) in trial.iter().zip(start).zip(over).enumerate() {
-            let faster = trial.velocity - start.velocity;
-            self.sum.gemv(-1.0, &part.stiffness.fixed_columns::<6>(6 * body), over, 1.0);
-            self.sum.gemv(-1.0, &part.damping.fixed_columns::<6>(6 * body), &faster, 1.0);
-        }
-        self.stiffness += &part.stiffness;
-        self.damping += &part.damping;
-        Ok(())
-    }
-
-    /// Evaluates the loads.
-    fn bear(
         &mut self,
         system: &System,
         memory: &Memory,
@@ -254,7 +251,7 @@ impl Forces {
         for (body, wrench) in system.applied.iter().filter(|(body, _)| *body < system.nodes.len()) {
             self.add(*body, place_of(Category::Applied), wrench);
         }
-        Ok(())
+        self.connect(system, motions, (time, dt))
     }
 
     fn add(&mut self, body: usize, category: usize, wrench: &Six) {

@@ -81,22 +81,29 @@ impl Stepper {
 
     /// Finds the correction; what nothing holds and nothing weighs does not move. False where there is none.
     pub(super) fn solve(&mut self) -> bool {
-        self.moved.clear();
         if self.rows.len() == 6 {
             let matrix: Matrix6<f64> = self.matrix.fixed_view::<6, 6>(0, 0).into_owned();
-            let right = Six::from_iterator(self.right.iter().copied());
-            if let Some(found) = matrix.lu().solve(&right) {
-                self.moved.extend(found.iter());
-            }
-        } else if let Some(found) = self.matrix.clone().lu().solve(&self.right) {
-            self.moved.extend(found.iter());
+            self.factors = Some(matrix.lu());
         }
-        if self.moved.len() == self.rows.len() && self.moved.iter().all(|v| v.is_finite()) {
+        if self.solve_again() {
             return true;
         }
         self.moved.clear();
         let scale = self.matrix.amax();
         if let Ok(found) = self.matrix.clone().svd(true, true).solve(&self.right, 1e-12 * scale) {
+            self.moved.extend(found.iter());
+        }
+        self.moved.len() == self.rows.len() && self.moved.iter().all(|v| v.is_finite())
+    }
+
+    /// Finds the correction for another right side with the matrix that was solved last. False where there is none.
+    pub(super) fn solve_again(&mut self) -> bool {
+        self.moved.clear();
+        if let (Some(right), 6) = (self.right.as_slice().first_chunk::<6>(), self.rows.len()) {
+            if let Some(found) = self.factors.as_ref().and_then(|f| f.solve(&Six::from(*right))) {
+                self.moved.extend(found.iter());
+            }
+        } else if let Some(found) = self.matrix.clone().lu().solve(&self.right) {
             self.moved.extend(found.iter());
         }
         self.moved.len() == self.rows.len() && self.moved.iter().all(|v| v.is_finite())
@@ -126,6 +133,5 @@ impl Stepper {
             }
         }
         self.pose(system, start);
-        self.weigh_again(system);
     }
 }

@@ -294,7 +294,7 @@ impl Run {
                         if error > allowed && level < HALVINGS {
                             (self.now.motions, self.now.memory, self.system.states) = (motions, memory, states);
                             self.now.time = start;
-                            self.now.forces.settled = false;
+                            self.now.forces.unsettle();
                             level += 1;
                             continue;
                         }
@@ -333,7 +333,7 @@ impl Run {
     /// Forgets what solvers remember, so that a run that goes on from a snapshot finds the same digits.
     pub(super) fn forget(&mut self) {
         self.now.forces.guesses.clear();
-        self.now.forces.settled = false;
+        self.now.forces.unsettle();
     }
 
     fn save(&mut self, watcher: &mut dyn Watcher) -> Result<(), SolveError> {

@@ -8,7 +8,7 @@ use super::inertia::{gyroscopic, inertia};
 use super::scheme::{Method, Scheme};
 use crate::model::{ClassError, Six};
 use crate::solve::system::{FREEDOMS, SolveError, System};
-use nalgebra::{DMatrix, DVector, Matrix6};
+use nalgebra::{DMatrix, DVector, LU, Matrix6, U6};
 
 /// When a step is solved.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,6 +67,8 @@ pub struct Stepper {
     pub(super) matrix: DMatrix<f64>,
     pub(super) right: DVector<f64>,
     pub(super) moved: Vec<f64>,
+    /// The matrix as it was last solved with, of one body.
+    pub(super) factors: Option<LU<f64, U6, U6>>,
     pub(super) masses: Vec<Matrix6<f64>>,
     /// How inertia changes with place and velocity.
     pub(super) turned: Vec<[Matrix6<f64>; 2]>,
@@ -154,10 +156,15 @@ impl Stepper {
         dt: f64,
         (method, wanted): (&Method, &Convergence),
     ) -> Result<Effort, SolveError> {
-        match method {
+        let made = match method {
             Method::Implicit(scheme) => self.implicit(system, now, dt, (scheme, wanted)),
             Method::Corrector => self.corrector(system, now, dt, wanted),
+        };
+        match made {
+            Ok(_) => now.forces.settle(dt),
+            Err(_) => now.forces.unsettle(),
         }
+        made
     }
 
     /// Trial motions for the present accelerations of the trial.
@@ -207,7 +214,10 @@ impl Stepper {
         self.trial.extend_from_slice(&now.motions);
         self.over.clear();
         self.over.resize(now.motions.len(), Six::zeros());
-        self.weigh(system, &now.motions);
+        // as of the last trial: which freedoms have inertia does not turn with the axes
+        if self.masses.len() != system.nodes.len() {
+            self.weigh(system, &now.motions);
+        }
         self.choose(system);
         self.prescribe(system, (time, dt))?;
         // ahead as the acceleration changed last; what has no inertia goes on with its velocity
@@ -227,17 +237,18 @@ impl Stepper {
         now.memory.begin(system, &self.trial, (time, dt))?;
         let gain = scheme.gain();
         let (by_place, by_velocity) = (dt * dt * scheme.beta * gain, dt * scheme.gamma * gain);
-        let mut foretold = false;
-        if std::mem::take(&mut now.forces.settled) {
-            let motions = (self.trial.as_slice(), now.motions.as_slice(), self.over.as_slice());
-            now.forces.foretell(system, &now.memory, motions, (time, dt))?;
+        let parts = (self.trial.as_slice(), now.motions.as_slice(), self.over.as_slice());
+        let mut foretold = now.forces.foretell((&now.memory, dt), parts);
+        if foretold {
             let left = self.residual(system, &now.forces);
+            // stiffness and damping are still those of the start
             self.turn(system);
             self.jacobian(&now.forces, dt, by_place, by_velocity);
-            if left.is_finite() && self.solve() {
+            foretold = left.is_finite() && self.solve();
+            if foretold {
                 effort.iterations += 1;
                 self.correct_trial(system, &now.motions, dt, (gain, by_place, by_velocity));
-                foretold = true;
+                self.weigh_again(system);
             }
         }
         let mut last = f64::INFINITY;
@@ -250,7 +261,7 @@ impl Stepper {
             }
             if left <= wanted.tolerance * system.gravity || (left >= last && left <= wanted.tolerance) {
                 // what is foretold is near, not balanced: with the matrix at hand what is left goes, too
-                if foretold && effort.evaluations == 1 && self.solve() {
+                if foretold && effort.evaluations == 1 && self.solve_again() {
                     self.correct_trial(system, &now.motions, dt, (gain, by_place, by_velocity));
                 }
                 break;
@@ -266,6 +277,7 @@ impl Stepper {
                 return Err(self.unsolved(system, left, time, dt));
             }
             self.correct_trial(system, &now.motions, dt, (gain, by_place, by_velocity));
+            self.weigh_again(system);
         }
         self.accept(system, now, (time, dt));
         Ok(effort)
@@ -289,7 +301,6 @@ impl Stepper {
         now.memory.commit(system, &now.motions, (time, dt));
         system.states.clear();
         system.states.extend_from_slice(&now.forces.trial);
-        now.forces.settled = true;
     }
 
     /// The error of a step without a balance.
