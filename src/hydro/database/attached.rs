@@ -84,7 +84,16 @@ impl BodyLoad for RadiationLoad {
         let (force, damping) = self.memory.force(&velocity, state);
         let wrench = in_axes(&force, &at.pose.axes);
         let damping = crate::hydro::in_pose(&damping, at.pose);
-        Ok(MovingLoad { load: Load { wrench, ..Load::none() }, damping })
+        // the force turns with the axes, and so do those in which the velocity is taken
+        let halves = |six: &Six| [six.fixed_rows::<3>(0).cross_matrix(), six.fixed_rows::<3>(3).cross_matrix()];
+        let (turned, faster) = (halves(&wrench), halves(at.velocity));
+        let mut stiffness = Matrix6::zeros();
+        for (row, own) in [0, 3].into_iter().zip(turned) {
+            let by_velocity =
+                damping.fixed_view::<3, 3>(row, 0) * faster[0] + damping.fixed_view::<3, 3>(row, 3) * faster[1];
+            stiffness.fixed_view_mut::<3, 3>(row, 3).copy_from(&(own + by_velocity));
+        }
+        Ok(MovingLoad { load: Load { wrench, stiffness }, damping })
     }
 
     fn commit(&self, at: &Underway, state: &mut [f64]) {

@@ -1,5 +1,6 @@
 //! What acts on bodies under way, and how it changes with their places and velocities.
 
+use super::inertia::of_added;
 use crate::hydro::{BodyLoad, Category, MovingLoad, Underway, carried, transferred, turning};
 use crate::model::{Anchored, End, Guess, Pose, Response, Situation, Six, TimeStep};
 use crate::solve::link::{Attachment, Link, pose_of};
@@ -246,6 +247,9 @@ impl Forces {
                 self.add(body, place_of(Category::RadiationDrag), &(-(linear * motion.velocity)));
                 let mut block = self.damping.fixed_view_mut::<6, 6>(6 * body, 6 * body);
                 block += linear;
+                // it turns with its body
+                let mut block = self.stiffness.fixed_view_mut::<6, 6>(6 * body, 6 * body);
+                block += of_added(&linear, &motion.velocity);
             }
         }
         for (body, wrench) in system.applied.iter().filter(|(body, _)| *body < system.nodes.len()) {
