@@ -1,5 +1,6 @@
 //! What acts on bodies under way, and how it changes with their places and velocities.
 
+use super::foretelling::Foretelling;
 use super::inertia::of_added;
 use crate::hydro::{BodyLoad, Category, MovingLoad, Underway, carried, transferred, turning};
 use crate::model::{Anchored, End, Guess, Pose, Response, Situation, Six, TimeStep};
@@ -130,11 +131,7 @@ pub struct Forces {
     pub trial: Vec<f64>,
     /// What solvers of the connectors remember.
     pub(super) guesses: Vec<Guess>,
-    /// Steps in a row at the end of which they stood, and from which the next one may be foretold.
-    settled: usize,
-    /// Stiffness at the end of the last step, and how it changed over it, over its length.
-    earlier: DMatrix<f64>,
-    change: DMatrix<f64>,
+    foretelling: Foretelling,
     made: MovingLoad,
     response: Response,
     poses: Vec<Pose>,
@@ -170,44 +167,23 @@ impl Forces {
 
     /// Nothing foretells the next step.
     pub(super) fn unsettle(&mut self) {
-        self.settled = 0;
+        self.foretelling.forget();
     }
 
     /// They are those of the end of a step of a length (s).
     pub(super) fn settle(&mut self, dt: f64) {
-        if self.settled > 0 {
-            self.change.copy_from(&self.stiffness);
-            self.change -= &self.earlier;
-            self.change /= dt;
-        } else {
-            let size = self.stiffness.nrows();
-            self.change = DMatrix::zeros(size, size);
-            self.earlier = DMatrix::zeros(size, size);
-        }
-        self.earlier.copy_from(&self.stiffness);
-        self.settled += 1;
+        self.foretelling.take(dt, &self.stiffness, &self.damping);
     }
 
-    /// What is expected at a trial of the end of a step, from the forces of its start: by stiffness and damping for the motion and the
-    /// change of velocity of each body over the step, with what its loads hold ready. Stiffness goes on as it changed over the
-    /// step before. False without a step to go by.
-    pub(super) fn foretell(
-        &mut self,
-        (memory, dt): (&Memory, f64),
-        (trial, start, over): (&[Motion], &[Motion], &[Six]),
-    ) -> bool {
-        if self.settled == 0 {
+    /// What is expected at a trial of the end of a step, from the forces of its start: by stiffness and damping for the motion and
+    /// the change of velocity of each body over the step, with what its loads hold ready. False without a step to go by.
+    pub(super) fn foretell(&mut self, (memory, dt): (&Memory, f64), motions: (&[Motion], &[Motion], &[Six])) -> bool {
+        if !self.foretelling.add(dt, motions, &mut self.sum) {
             return false;
         }
-        for (body, ((trial, start), over)) in trial.iter().zip(start).zip(over).enumerate() {
-            let faster = trial.velocity - start.velocity;
-            self.sum.gemv(-1.0, &self.stiffness.fixed_columns::<6>(6 * body), over, 1.0);
-            self.sum.gemv(-1.0, &self.damping.fixed_columns::<6>(6 * body), &faster, 1.0);
-            self.sum.gemv(-0.5 * dt, &self.change.fixed_columns::<6>(6 * body), over, 1.0);
-            if let Some(held) = memory.ahead.get(body) {
-                let mut at = self.sum.fixed_rows_mut::<6>(6 * body);
-                at += held;
-            }
+        for (body, held) in memory.ahead.iter().enumerate() {
+            let mut at = self.sum.fixed_rows_mut::<6>(6 * body);
+            at += held;
         }
         true
     }

@@ -6,6 +6,7 @@
 mod action;
 mod corrector;
 mod forces;
+mod foretelling;
 mod happening;
 mod history;
 mod inertia;
