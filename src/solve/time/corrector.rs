@@ -59,7 +59,7 @@ impl Stepper {
             self.pose(system, start);
             ahead.motions.clone_from(&self.trial);
             if effort.evaluations == 0 {
-                ahead.memory.begin(system, &ahead.motions, (ahead.time, dt))?;
+                ahead.memory.begin(system, (start, &ahead.motions), (ahead.time, dt))?;
             }
             let before: Vec<Six> = ahead.motions.iter().map(|m| m.acceleration).collect();
             self.balance(system, ahead, dt)?;

@@ -77,22 +77,25 @@ impl Memory {
         }
     }
 
-    /// Prepares a step of every load.
+    /// Prepares a step of every load, from a start to where the bodies are expected.
     pub(in crate::solve) fn begin(
         &mut self,
         system: &System,
-        ahead: &[Motion],
+        (start, ahead): (&[Motion], &[Motion]),
         (time, dt): (f64, f64),
     ) -> Result<(), SolveError> {
         self.ahead.clear();
-        for ((node, ranges), motion) in system.nodes.iter().zip(&self.ranges).zip(ahead) {
+        for ((node, ranges), (old, motion)) in system.nodes.iter().zip(&self.ranges).zip(start.iter().zip(ahead)) {
             let at = Underway { time, dt, pose: &motion.pose, velocity: &motion.velocity };
+            // what the loads hold changes while the body turns: by half with the axes of the start, by half with those of the end
+            let axes = (old.pose.axes + motion.pose.axes) * 0.5;
+            let on_the_way = Underway { pose: &Pose { axes, ..motion.pose }, ..at };
             let mut more = Six::zeros();
             for (load, range) in node.floating.loads.iter().zip(ranges) {
                 let state = self.loads.get_mut(range.clone()).unwrap_or_default();
-                let before = load.held(&at, state);
+                let before = load.held(&on_the_way, state);
                 load.begin(&at, state).map_err(SolveError::of(&node.name))?;
-                if let (Some(before), Some(now)) = (before, load.held(&at, state)) {
+                if let (Some(before), Some(now)) = (before, load.held(&on_the_way, state)) {
                     more += now - before;
                 }
             }

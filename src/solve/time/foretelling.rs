@@ -1,8 +1,8 @@
 //! The forces at the end of a step, foretold from those of its start.
 //!
-//! `F1 = F0 - int K q' dt - int C v' dt` over the step, K and C on the way continued from the ends of the last three steps by a
-//! parabola (the weights of Adams and Bashforth; Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, 1993,
-//! table III.1.1). What is foretold is a trial's first correction only: the forces of a step are always evaluated.
+//! `F1 = F0 - (K0 + K1)/2 (q1 - q0) - (C0 + C1)/2 (v1 - v0)` by the trapezoidal rule on the straight way between the two states,
+//! K1 and C1 continued from the ends of the last three steps by a parabola. What is foretold is a trial's first correction only:
+//! the forces of a step are always evaluated.
 
 use super::forces::Motion;
 use crate::model::Six;
@@ -11,7 +11,7 @@ use nalgebra::{DMatrix, DVector};
 /// A step this near another, over its length, is as long.
 const SAME: f64 = 1e-6;
 
-/// A matrix at the ends of the last steps, and its mean expected over the next.
+/// A matrix at the ends of the last steps, and the mean of its value now and that expected at the end of the next.
 #[derive(Debug, Default)]
 struct Course {
     mean: DMatrix<f64>,
@@ -30,7 +30,7 @@ impl Course {
                 return;
             }
             1 => [1.5, -0.5, 0.0],
-            _ => [23.0 / 12.0, -16.0 / 12.0, 5.0 / 12.0],
+            _ => [2.0, -1.5, 0.5],
         };
         let earlier = self.last.iter_mut().zip(&mut self.before);
         for ((mean, now), (last, before)) in self.mean.iter_mut().zip(now).zip(earlier) {
@@ -104,8 +104,8 @@ mod tests {
         let (start, over) = ([start], [Six::repeat(0.3)]);
         assert!(!made.add(0.05, (&[trial], &start, &over), &mut sum));
         assert!(made.add(0.1, (&[trial], &start, &over), &mut sum));
-        // the means of the parabolas over 0 to 0.1
-        let (k, c) = (3.0 + 0.1 + 0.05 / 3.0, 1.0 - 0.05 + 0.005 / 3.0);
+        // the means of the parabolas at 0 and 0.1
+        let (k, c) = (3.0 + 0.5 * (0.2 + 0.05), 1.0 + 0.5 * (0.005 - 0.1));
         assert!(sum.iter().all(|f| (f + 0.3 * k + 0.4 * c).abs() < 1e-14), "{sum}");
     }
 }

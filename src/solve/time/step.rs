@@ -234,7 +234,7 @@ impl Stepper {
         }
         self.pose(system, &now.motions);
         self.weigh_again(system);
-        now.memory.begin(system, &self.trial, (time, dt))?;
+        now.memory.begin(system, (&now.motions, &self.trial), (time, dt))?;
         let gain = scheme.gain();
         let (by_place, by_velocity) = (dt * dt * scheme.beta * gain, dt * scheme.gamma * gain);
         let parts = (self.trial.as_slice(), now.motions.as_slice(), self.over.as_slice());
