@@ -72,6 +72,12 @@ pub trait BodyLoad: Debug + Send + Sync {
         Ok(())
     }
 
+    /// The wrench as the state has it, of a load whose [`BodyLoad::begin`] decides what time changes in it: an engine foretells with
+    /// it how the load goes on from the step before. It is linear in the axes, which may be the mean of two poses. None of others.
+    fn held(&self, _at: &Underway, _state: &[f64]) -> Option<Six> {
+        None
+    }
+
     /// The load at a trial of the end of the step that was begun.
     ///
     /// # Errors

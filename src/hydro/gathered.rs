@@ -56,6 +56,10 @@ impl BodyLoad for Multiplied {
         self.load.begin(ahead, state)
     }
 
+    fn held(&self, at: &Underway, state: &[f64]) -> Option<Six> {
+        self.load.held(at, state).map(|wrench| wrench * self.factor)
+    }
+
     fn moving(&self, at: &Underway, state: &[f64]) -> Result<MovingLoad, ClassError> {
         let MovingLoad { load, damping } = self.load.moving(at, state)?;
         let load = Load { wrench: load.wrench * self.factor, stiffness: load.stiffness * self.factor };

@@ -74,12 +74,26 @@ impl BodyLoad for RadiationLoad {
         Ok(())
     }
 
+    fn held(&self, at: &Underway, state: &[f64]) -> Option<Six> {
+        let velocity = in_axes(at.velocity, &at.pose.axes.transpose());
+        Some(in_axes(&self.memory.force(&velocity, state).0, &at.pose.axes))
+    }
+
     fn moving(&self, at: &Underway, state: &[f64]) -> Result<MovingLoad, ClassError> {
         let velocity = in_axes(at.velocity, &at.pose.axes.transpose());
         let (force, damping) = self.memory.force(&velocity, state);
         let wrench = in_axes(&force, &at.pose.axes);
         let damping = crate::hydro::in_pose(&damping, at.pose);
-        Ok(MovingLoad { load: Load { wrench, ..Load::none() }, damping })
+        // the force turns with the axes, and so do those in which the velocity is taken
+        let halves = |six: &Six| [six.fixed_rows::<3>(0).cross_matrix(), six.fixed_rows::<3>(3).cross_matrix()];
+        let (turned, faster) = (halves(&wrench), halves(at.velocity));
+        let mut stiffness = Matrix6::zeros();
+        for (row, own) in [0, 3].into_iter().zip(turned) {
+            let by_velocity =
+                damping.fixed_view::<3, 3>(row, 0) * faster[0] + damping.fixed_view::<3, 3>(row, 3) * faster[1];
+            stiffness.fixed_view_mut::<3, 3>(row, 3).copy_from(&(own + by_velocity));
+        }
+        Ok(MovingLoad { load: Load { wrench, stiffness }, damping })
     }
 
     fn commit(&self, at: &Underway, state: &mut [f64]) {
@@ -204,4 +218,44 @@ fn hydrostatics(model: &Model, body: &Body, attached: &AttachedDatabase) -> Resu
         stiffness: transferred(&stiffness, arm, arm),
         span: attached.span,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_force_of_memory_changes_with_turning_and_velocity_by_its_differences() {
+        let kernel: Vec<Matrix6<f64>> = (0..50)
+            .map(|n| {
+                Matrix6::from_fn(|i, j| {
+                    (if i == j { 3.0 } else { 0.2 * (i as f64 - 2.0 * j as f64) }) / (1.0 + 0.2 * n as f64)
+                })
+            })
+            .collect();
+        let load = RadiationLoad { memory: Memory::new(&kernel, 0.1) };
+        let mut state = vec![0.0; load.states()];
+        let pose = Pose::default().moved(&Six::new(0.0, 0.0, 0.0, 0.4, -0.7, 1.1));
+        let velocity = Six::new(1.0, 2.0, -1.0, 0.3, -0.5, 0.2);
+        for n in 0..20 {
+            let then = velocity * (0.3 * f64::from(n)).cos();
+            let at = Underway { time: 0.1 * f64::from(n + 1), dt: 0.1, pose: &pose, velocity: &then };
+            load.begin(&at, &mut state).unwrap();
+            load.commit(&at, &mut state);
+        }
+        load.begin(&Underway { time: 2.1, dt: 0.1, pose: &pose, velocity: &velocity }, &mut state).unwrap();
+        let at = |pose: &Pose, velocity: &Six| load.moving(&Underway { time: 2.1, dt: 0.1, pose, velocity }, &state);
+        let whole = at(&pose, &velocity).unwrap();
+        for n in 0..6 {
+            let mut by = Six::zeros();
+            by[n] = 1e-5;
+            let turned = |by: Six| at(&pose.moved(&by), &velocity).unwrap().load.wrench;
+            let faster = |by: Six| at(&pose, &(velocity + by)).unwrap().load.wrench;
+            // forces of 100: rounded 1e-14, over 1e-5; the third derivative 100 times 1e-10
+            let stiffness = (turned(-by) - turned(by)) / 2e-5 - whole.load.stiffness.column(n);
+            let damping = (faster(-by) - faster(by)) / 2e-5 - whole.damping.column(n);
+            assert!(stiffness.amax() < 1e-7 && damping.amax() < 1e-7, "{n}: {stiffness} {damping}");
+        }
+        assert!(whole.load.stiffness.amax() > 0.1 && whole.load.wrench.amax() > 0.1);
+    }
 }

@@ -4,7 +4,7 @@
 //! time of the reference point; between headings X is straight in real and imaginary part, so that the force has no
 //! jump when the body turns. Roll and pitch do not change it (first order).
 
-use super::waves::{BLOCK, ByHeading, Group, block, groups, real_part};
+use super::waves::{ByHeading, Group, groups};
 use crate::hydro::body_load::{BodyLoad, MovingLoad, Underway};
 use crate::hydro::sea::Sea;
 use crate::hydro::{Category, Load, carried};
@@ -60,18 +60,8 @@ impl Excitation {
     /// A heading in a gap of the database.
     pub fn force(&self, time: f64, (x, y): (f64, f64), yaw: f64) -> Result<Six, ClassError> {
         let mut sum = Six::zeros();
-        let mut phasors = [[0.0; BLOCK]; 2];
         for (group, table) in &self.groups {
-            let tables = table.around(group.toward - yaw)?;
-            for index in 0..group.blocks() {
-                group.phasors(index, (time, x, y), &mut phasors);
-                for (lanes, share) in tables.iter().filter(|t| t.1 != 0.0) {
-                    for mode in 0..6 {
-                        let (real, imaginary) = (block(&lanes[mode], index), block(&lanes[mode + 6], index));
-                        sum[mode] += share * real_part(real, imaginary, &phasors);
-                    }
-                }
-            }
+            sum += Six::from(table.real(group, (time, x, y), group.toward - yaw)?);
         }
         Ok(sum * self.sea.factor(time))
     }
@@ -118,6 +108,10 @@ impl BodyLoad for Excitation {
         let force = self.on(ahead.pose, ahead.time)?;
         state.iter_mut().zip(force.iter()).for_each(|(s, f)| *s = *f);
         Ok(())
+    }
+
+    fn held(&self, _: &Underway, state: &[f64]) -> Option<Six> {
+        Some(kept(state).wrench)
     }
 
     fn moving(&self, _: &Underway, state: &[f64]) -> Result<MovingLoad, ClassError> {

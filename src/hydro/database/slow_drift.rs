@@ -11,7 +11,7 @@
 
 use super::at::{around, between};
 use super::excitation::{kept, turned, yaw};
-use super::waves::{BLOCK, ByHeading, Group, block, dot, groups};
+use super::waves::{ByHeading, Group, WIDE, groups};
 use crate::hydro::body_load::{BodyLoad, MovingLoad, Underway};
 use crate::hydro::sea::Sea;
 use crate::hydro::{Category, Load, carried, turning};
@@ -24,8 +24,8 @@ use std::sync::Arc;
 enum Way {
     /// The mean over the sea by heading of the table, for the groups.
     Mean,
-    /// Newman's approximation: amplitude times drift, amplitude.
-    Newman(Vec<ByHeading<6>>),
+    /// Newman's approximation: amplitude times drift, amplitude; the last of the seven.
+    Newman(Vec<ByHeading<7>>),
     /// The QTF, the neighbours of each wave of each group in its frequencies, and the mean direction of the sea (rad).
     Full(Arc<Qtf>, Vec<Vec<(usize, usize, f64)>>, f64),
 }
@@ -93,7 +93,8 @@ impl SlowDrift {
         let lanes = made.groups.iter().map(|group| {
             ByHeading::of(group, &table.headings, |h, w, a| {
                 let heading = table.headings.get(h).copied().unwrap_or_default();
-                Ok(table.at(heading, w)?.map(|d| d * a))
+                let [x, y, z, rx, ry, rz] = table.at(heading, w)?.map(|d| d * a);
+                Ok([x, y, z, rx, ry, rz, a])
             })
         });
         let lanes = lanes.collect::<Result<Vec<_>, _>>()?;
@@ -148,28 +149,15 @@ impl SlowDrift {
         Ok(force * ramp)
     }
 
-    fn by_newman(&self, lanes: &[ByHeading<6>], at: (f64, f64, f64), yaw: f64) -> Result<Six, ClassError> {
-        let (mut real, mut imaginary) = (Six::zeros(), Six::zeros());
-        let mut whole = [0.0; 2];
-        let mut phasors = [[0.0; BLOCK]; 2];
+    fn by_newman(&self, lanes: &[ByHeading<7>], at: (f64, f64, f64), yaw: f64) -> Result<Six, ClassError> {
+        let mut sums = [[0.0; 7]; 2];
         for (group, table) in self.groups.iter().zip(lanes) {
-            let tables = table.around(group.toward - yaw)?;
-            for index in 0..group.blocks() {
-                group.phasors(index, at, &mut phasors);
-                let [cos, sin] = &phasors;
-                let amplitude = block(&group.amplitude, index);
-                whole[0] += dot(amplitude, cos);
-                whole[1] += dot(amplitude, sin);
-                for (lanes, share) in tables.iter().filter(|t| t.1 != 0.0) {
-                    for mode in 0..6 {
-                        let drift = block(&lanes[mode], index);
-                        real[mode] += share * dot(drift, cos);
-                        imaginary[mode] += share * dot(drift, sin);
-                    }
-                }
+            for (sums, parts) in sums.iter_mut().zip(table.whole(group, at, group.toward - yaw)?) {
+                sums.iter_mut().zip(parts).for_each(|(sum, part)| *sum += part);
             }
         }
-        Ok(real * whole[0] + imaginary * whole[1])
+        let [real, imaginary] = sums;
+        Ok(Six::from_fn(|mode, _| real[mode] * real[6] + imaginary[mode] * imaginary[6]))
     }
 
     fn by_pairs(
@@ -181,14 +169,13 @@ impl SlowDrift {
     ) -> Result<Six, ClassError> {
         let (a, b, share) = around(&qtf.headings, heading)?;
         let mut gathered = vec![Complex::new(0.0, 0.0); qtf.frequencies.len()];
-        let mut phasors = [[0.0; BLOCK]; 2];
         for (group, near) in self.groups.iter().zip(near) {
-            for index in 0..group.blocks() {
-                let count = group.phasors(index, at, &mut phasors);
-                let [cos, sin] = &phasors;
-                let waves = block(&group.amplitude, index).iter().zip(near.iter().skip(index * BLOCK));
-                for (n, (amplitude, (low, high, part))) in waves.enumerate().take(count) {
-                    let wave = Complex::new(cos[n], sin[n]) * *amplitude;
+            let waves = group.amplitude.chunks(WIDE).zip(near.chunks(WIDE));
+            for ([cos, sin], (amplitudes, near)) in group.phasors(at).zip(waves) {
+                for ((cos, sin), (amplitude, (low, high, part))) in
+                    cos.iter().zip(&sin).zip(amplitudes.iter().zip(near))
+                {
+                    let wave = Complex::new(*cos, *sin) * *amplitude;
                     if let Some(c) = gathered.get_mut(*low) {
                         *c += wave * (1.0 - part);
                     }
@@ -265,6 +252,10 @@ impl BodyLoad for SlowDrift {
         let force = self.on(ahead.pose, ahead.time)?;
         state.iter_mut().zip(force.iter()).for_each(|(s, f)| *s = *f);
         Ok(())
+    }
+
+    fn held(&self, _: &Underway, state: &[f64]) -> Option<Six> {
+        Some(kept(state).wrench)
     }
 
     fn moving(&self, _: &Underway, state: &[f64]) -> Result<MovingLoad, ClassError> {

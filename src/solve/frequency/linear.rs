@@ -317,7 +317,7 @@ fn damping(
     let motion = |(pose, velocity): (&Pose, &Six)| Motion { pose: *pose, velocity: *velocity, ..Motion::default() };
     let motions: Vec<Motion> = poses.iter().zip(velocities).map(motion).collect();
     let mut memory = Memory::of(system);
-    memory.begin(system, &motions, (0.0, STEP))?;
+    memory.begin(system, (&motions, &motions), (0.0, STEP))?;
     forces.evaluate(system, &memory, &motions, (0.0, STEP))?;
     match forces.damping.iter().all(|v| v.is_finite()) {
         true => Ok(forces.damping.clone()),

@@ -54,12 +54,12 @@ impl Stepper {
             self.trial.extend_from_slice(&ahead.motions);
             self.over.clear();
             self.over.resize(start.len(), Six::zeros());
-            self.prescribe(system, ahead.time)?;
+            self.prescribe(system, (ahead.time, dt))?;
             self.place(system, start, dt, &scheme);
             self.pose(system, start);
             ahead.motions.clone_from(&self.trial);
             if effort.evaluations == 0 {
-                ahead.memory.begin(system, &ahead.motions, (ahead.time, dt))?;
+                ahead.memory.begin(system, (start, &ahead.motions), (ahead.time, dt))?;
             }
             let before: Vec<Six> = ahead.motions.iter().map(|m| m.acceleration).collect();
             self.balance(system, ahead, dt)?;

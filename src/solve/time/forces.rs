@@ -1,5 +1,7 @@
 //! What acts on bodies under way, and how it changes with their places and velocities.
 
+use super::foretelling::Foretelling;
+use super::inertia::of_added;
 use crate::hydro::{BodyLoad, Category, MovingLoad, Underway, carried, transferred, turning};
 use crate::model::{Anchored, End, Guess, Pose, Response, Situation, Six, TimeStep};
 use crate::solve::link::{Attachment, Link, pose_of};
@@ -32,6 +34,8 @@ pub struct Memory {
     pub loads: Vec<f64>,
     /// Where those of each load of each body stand.
     pub(super) ranges: Vec<Vec<Range<usize>>>,
+    /// What the loads of each body hold ready for the step, beyond what they held for the step before.
+    ahead: Vec<Six>,
 }
 
 impl Memory {
@@ -73,19 +77,29 @@ impl Memory {
         }
     }
 
-    /// Prepares a step of every load.
+    /// Prepares a step of every load, from a start to where the bodies are expected.
     pub(in crate::solve) fn begin(
         &mut self,
         system: &System,
-        ahead: &[Motion],
+        (start, ahead): (&[Motion], &[Motion]),
         (time, dt): (f64, f64),
     ) -> Result<(), SolveError> {
-        for ((node, ranges), motion) in system.nodes.iter().zip(&self.ranges).zip(ahead) {
+        self.ahead.clear();
+        for ((node, ranges), (old, motion)) in system.nodes.iter().zip(&self.ranges).zip(start.iter().zip(ahead)) {
             let at = Underway { time, dt, pose: &motion.pose, velocity: &motion.velocity };
+            // what the loads hold changes while the body turns: by half with the axes of the start, by half with those of the end
+            let axes = (old.pose.axes + motion.pose.axes) * 0.5;
+            let on_the_way = Underway { pose: &Pose { axes, ..motion.pose }, ..at };
+            let mut more = Six::zeros();
             for (load, range) in node.floating.loads.iter().zip(ranges) {
                 let state = self.loads.get_mut(range.clone()).unwrap_or_default();
+                let before = load.held(&on_the_way, state);
                 load.begin(&at, state).map_err(SolveError::of(&node.name))?;
+                if let (Some(before), Some(now)) = (before, load.held(&on_the_way, state)) {
+                    more += now - before;
+                }
             }
+            self.ahead.push(more);
         }
         Ok(())
     }
@@ -120,6 +134,7 @@ pub struct Forces {
     pub trial: Vec<f64>,
     /// What solvers of the connectors remember.
     pub(super) guesses: Vec<Guess>,
+    foretelling: Foretelling,
     made: MovingLoad,
     response: Response,
     poses: Vec<Pose>,
@@ -151,6 +166,29 @@ impl Forces {
         self.guesses.resize_with(system.links.len(), || None);
         self.trial.clear();
         self.trial.extend_from_slice(&system.states);
+    }
+
+    /// Nothing foretells the next step.
+    pub(super) fn unsettle(&mut self) {
+        self.foretelling.forget();
+    }
+
+    /// They are those of the end of a step of a length (s).
+    pub(super) fn settle(&mut self, dt: f64) {
+        self.foretelling.take(dt, &self.stiffness, &self.damping);
+    }
+
+    /// What is expected at a trial of the end of a step, from the forces of its start: by stiffness and damping for the motion and
+    /// the change of velocity of each body over the step, with what its loads hold ready. False without a step to go by.
+    pub(super) fn foretell(&mut self, (memory, dt): (&Memory, f64), motions: (&[Motion], &[Motion], &[Six])) -> bool {
+        if !self.foretelling.add(dt, motions, &mut self.sum) {
+            return false;
+        }
+        for (body, held) in memory.ahead.iter().enumerate() {
+            let mut at = self.sum.fixed_rows_mut::<6>(6 * body);
+            at += held;
+        }
+        true
     }
 
     /// Evaluates everything with the bodies in these motions at the end of a step; `dt` zero: at the start of a run.
@@ -188,6 +226,9 @@ impl Forces {
                 self.add(body, place_of(Category::RadiationDrag), &(-(linear * motion.velocity)));
                 let mut block = self.damping.fixed_view_mut::<6, 6>(6 * body, 6 * body);
                 block += linear;
+                // it turns with its body
+                let mut block = self.stiffness.fixed_view_mut::<6, 6>(6 * body, 6 * body);
+                block += of_added(&linear, &motion.velocity);
             }
         }
         for (body, wrench) in system.applied.iter().filter(|(body, _)| *body < system.nodes.len()) {

@@ -32,7 +32,7 @@ pub(super) fn turned_inertia(node: &Node, motion: &Motion) -> [Matrix6<f64>; 2] 
 }
 
 /// `d(A a)/d(rotation)` of a matrix that turns with its body: each 3x3 block B of it changes B x by (B [x] - [B x]) times the rotation.
-fn of_added(matrix: &Matrix6<f64>, a: &Six) -> Matrix6<f64> {
+pub(super) fn of_added(matrix: &Matrix6<f64>, a: &Six) -> Matrix6<f64> {
     let halves = [Vector3::new(a[0], a[1], a[2]), Vector3::new(a[3], a[4], a[5])];
     let mut made = Matrix6::zeros();
     for row in [0, 3] {

@@ -154,7 +154,7 @@ impl Run {
 
     /// Accelerations that balance the forces as they are now.
     pub(super) fn prepare(&mut self) -> Result<(), SolveError> {
-        self.now.memory.begin(&self.system, &self.now.motions, (self.now.time, 0.0))?;
+        self.now.memory.begin(&self.system, (&self.now.motions, &self.now.motions), (self.now.time, 0.0))?;
         self.stepper.balance(&self.system, &mut self.now, 0.0)
     }
 
@@ -281,6 +281,7 @@ impl Run {
     fn go_back(&mut self, before: Before) {
         (self.now.time, self.now.motions) = (before.time, before.motions);
         (self.now.memory, self.system.states) = (before.memory, before.states);
+        self.now.forces.unsettle();
     }
 
     /// The error of place of one step (m): `h^2 |beta - 1/6|` times the change of the acceleration (Zienkiewicz and Xie, Earthquake
@@ -300,6 +301,7 @@ impl Run {
     /// Forgets what solvers remember, so that a run that goes on from a snapshot finds the same digits.
     pub(super) fn forget(&mut self) {
         self.now.forces.guesses.clear();
+        self.now.forces.unsettle();
     }
 
     fn save(&mut self, watcher: &mut dyn Watcher) -> Result<(), SolveError> {

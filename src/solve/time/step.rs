@@ -4,11 +4,11 @@
 //! unknown is its motion over the step, and it stands where nothing is left on it, as in statics.
 
 use super::forces::{Forces, Memory, Motion};
-use super::inertia::{gyroscopic, inertia, turned_inertia};
+use super::inertia::{gyroscopic, inertia};
 use super::scheme::{Method, Scheme};
 use crate::model::{ClassError, Six};
-use crate::solve::system::{FREEDOMS, Node, SolveError, System};
-use nalgebra::{DMatrix, DVector, Matrix6};
+use crate::solve::system::{FREEDOMS, SolveError, System};
+use nalgebra::{DMatrix, DVector, LU, Matrix6, U6};
 
 /// When a step is solved.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,12 +64,14 @@ pub struct Stepper {
     /// Motion of each body over the step: translation and rotation vector.
     pub(super) over: Vec<Six>,
     pub(super) rows: Vec<Row>,
-    matrix: DMatrix<f64>,
-    right: DVector<f64>,
-    moved: Vec<f64>,
-    masses: Vec<Matrix6<f64>>,
+    pub(super) matrix: DMatrix<f64>,
+    pub(super) right: DVector<f64>,
+    pub(super) moved: Vec<f64>,
+    /// The matrix as it was last solved with, of one body.
+    pub(super) factors: Option<LU<f64, U6, U6>>,
+    pub(super) masses: Vec<Matrix6<f64>>,
     /// How inertia changes with place and velocity.
-    turned: Vec<[Matrix6<f64>; 2]>,
+    pub(super) turned: Vec<[Matrix6<f64>; 2]>,
 }
 
 impl Stepper {
@@ -154,10 +156,15 @@ impl Stepper {
         dt: f64,
         (method, wanted): (&Method, &Convergence),
     ) -> Result<Effort, SolveError> {
-        match method {
+        let made = match method {
             Method::Implicit(scheme) => self.implicit(system, now, dt, (scheme, wanted)),
             Method::Corrector => self.corrector(system, now, dt, wanted),
+        };
+        match made {
+            Ok(_) => now.forces.settle(dt),
+            Err(_) => now.forces.unsettle(),
         }
+        made
     }
 
     /// Trial motions for the present accelerations of the trial.
@@ -181,10 +188,15 @@ impl Stepper {
         }
     }
 
-    pub(super) fn prescribe(&mut self, system: &System, time: f64) -> Result<(), SolveError> {
-        for (trial, node) in self.trial.iter_mut().zip(&system.nodes) {
+    pub(super) fn prescribe(&mut self, system: &System, (time, dt): (f64, f64)) -> Result<(), SolveError> {
+        for ((trial, over), node) in self.trial.iter_mut().zip(&mut self.over).zip(&system.nodes) {
             if let Some(prescribed) = &node.prescribed {
+                let before = *trial;
                 *trial = prescribed.at(time).map_err(SolveError::of(&node.name))?;
+                let by = trial.pose.origin - before.pose.origin;
+                let turn = (before.velocity + trial.velocity) * (0.5 * dt);
+                // to the order of the step, as a forecast needs it
+                *over = Six::new(by.x, by.y, by.z, turn[3], turn[4], turn[5]);
             }
         }
         Ok(())
@@ -202,9 +214,12 @@ impl Stepper {
         self.trial.extend_from_slice(&now.motions);
         self.over.clear();
         self.over.resize(now.motions.len(), Six::zeros());
-        self.weigh(system, &now.motions);
+        // as of the last trial: which freedoms have inertia does not turn with the axes
+        if self.masses.len() != system.nodes.len() {
+            self.weigh(system, &now.motions);
+        }
         self.choose(system);
-        self.prescribe(system, time)?;
+        self.prescribe(system, (time, dt))?;
         // ahead as the acceleration changed last; what has no inertia goes on with its velocity
         for (trial, _) in self.trial.iter_mut().zip(&system.nodes).filter(|(_, n)| n.prescribed.is_none()) {
             trial.acceleration += trial.jerk * dt;
@@ -219,9 +234,27 @@ impl Stepper {
         }
         self.pose(system, &now.motions);
         self.weigh_again(system);
-        now.memory.begin(system, &self.trial, (time, dt))?;
+        now.memory.begin(system, (&now.motions, &self.trial), (time, dt))?;
         let gain = scheme.gain();
         let (by_place, by_velocity) = (dt * dt * scheme.beta * gain, dt * scheme.gamma * gain);
+        let parts = (self.trial.as_slice(), now.motions.as_slice(), self.over.as_slice());
+        let mut foretold = now.forces.foretell((&now.memory, dt), parts);
+        if foretold {
+            let left = self.residual(system, &now.forces);
+            // a trial that is expected to hold needs no correction: half, as what is foretold is off, too
+            foretold = left.is_finite() && left > 0.5 * wanted.tolerance * system.gravity;
+        }
+        if foretold {
+            // stiffness and damping are still those of the start
+            self.turn(system);
+            self.jacobian(&now.forces, dt, by_place, by_velocity);
+            foretold = self.solve();
+        }
+        if foretold {
+            effort.iterations += 1;
+            self.correct_trial(system, &now.motions, dt, (gain, by_place, by_velocity));
+            self.weigh_again(system);
+        }
         let mut last = f64::INFINITY;
         loop {
             now.forces.evaluate(system, &now.memory, &self.trial, (time, dt))?;
@@ -231,6 +264,10 @@ impl Stepper {
                 return Err(not_finite(system, &now.forces.sum, time));
             }
             if left <= wanted.tolerance * system.gravity || (left >= last && left <= wanted.tolerance) {
+                // what is foretold is near, not balanced: with the matrix at hand what is left goes, too
+                if foretold && effort.evaluations == 1 && self.solve_again() {
+                    self.correct_trial(system, &now.motions, dt, (gain, by_place, by_velocity));
+                }
                 break;
             }
             if effort.iterations >= wanted.most {
@@ -243,22 +280,7 @@ impl Stepper {
             if !self.solve() {
                 return Err(self.unsolved(system, left, time, dt));
             }
-            for (row, by) in self.rows.iter().zip(&self.moved) {
-                let (Some(trial), Some(over)) = (self.trial.get_mut(row.at / 6), self.over.get_mut(row.at / 6)) else {
-                    continue;
-                };
-                let freedom = row.at % 6;
-                if row.heavy {
-                    trial.acceleration[freedom] += by;
-                    trial.auxiliary[freedom] += by * gain;
-                    trial.velocity[freedom] += by * by_velocity;
-                    over[freedom] += by * by_place;
-                } else {
-                    over[freedom] += by;
-                    trial.velocity[freedom] = over[freedom] / dt;
-                }
-            }
-            self.pose(system, &now.motions);
+            self.correct_trial(system, &now.motions, dt, (gain, by_place, by_velocity));
             self.weigh_again(system);
         }
         self.accept(system, now, (time, dt));
@@ -266,7 +288,7 @@ impl Stepper {
     }
 
     /// Inertia follows the axes of bodies whose inertia is not the same about all of them.
-    fn weigh_again(&mut self, system: &System) {
+    pub(super) fn weigh_again(&mut self, system: &System) {
         for ((mass, node), trial) in self.masses.iter_mut().zip(&system.nodes).zip(&self.trial) {
             *mass = inertia(node, &trial.pose);
         }
@@ -283,100 +305,6 @@ impl Stepper {
         now.memory.commit(system, &now.motions, (time, dt));
         system.states.clear();
         system.states.extend_from_slice(&now.forces.trial);
-    }
-
-    /// Fills the right side with what is left; gives its measure (m/s2).
-    fn residual(&mut self, system: &System, forces: &Forces) -> f64 {
-        if self.right.nrows() != self.rows.len() {
-            self.right = DVector::zeros(self.rows.len());
-        }
-        let mut most: f64 = 0.0;
-        let mut inertia = (usize::MAX, Six::zeros(), 1.0);
-        for (i, row) in self.rows.iter().enumerate() {
-            let (body, freedom) = (row.at / 6, row.at % 6);
-            let (Some(node), Some(trial), Some(mass)) =
-                (system.nodes.get(body), self.trial.get(body), self.masses.get(body))
-            else {
-                continue;
-            };
-            if inertia.0 != body {
-                let own = mass * trial.acceleration + gyroscopic(&node.floating.mass, trial);
-                inertia = (body, own, mass[(0, 0)].max(mass[(2, 2)]));
-            }
-            let left = if row.heavy { forces.sum[row.at] - inertia.1[freedom] } else { forces.sum[row.at] };
-            self.right[i] = left;
-            let measure = if row.heavy {
-                let own = mass[(freedom, freedom)];
-                // of a rotation, times the radius of gyration
-                if freedom < 3 { own } else { (own * inertia.2.max(f64::MIN_POSITIVE)).sqrt() }
-            } else {
-                let pull = forces.pull.get(body).copied().unwrap_or(0.0);
-                pull.max(1.0) / system.gravity
-            };
-            let share = left.abs() / measure;
-            // a comparison with a number that is none would pass it over
-            most = if share.is_nan() { f64::INFINITY } else { most.max(share) };
-        }
-        most
-    }
-
-    /// What turning changes in the inertia of each body.
-    fn turn(&mut self, system: &System) {
-        self.turned.clear();
-        let made = |(node, trial): (&Node, &Motion)| turned_inertia(node, trial);
-        self.turned.extend(system.nodes.iter().zip(&self.trial).map(made));
-    }
-
-    fn jacobian(&mut self, forces: &Forces, dt: f64, by_place: f64, by_velocity: f64) {
-        let size = self.rows.len();
-        if self.matrix.nrows() != size {
-            self.matrix = DMatrix::zeros(size, size);
-        }
-        if let ([mass], 6, true) = (self.masses.as_slice(), size, self.rows.iter().all(|r| r.heavy)) {
-            let block = |m: &DMatrix<f64>| m.fixed_view::<6, 6>(0, 0).into_owned();
-            let [place, velocity] = self.turned.first().copied().unwrap_or_default();
-            let whole = (block(&forces.stiffness) + place) * by_place
-                + (block(&forces.damping) + velocity) * by_velocity
-                + mass;
-            self.matrix.copy_from(&whole);
-            return;
-        }
-        for (j, column) in self.rows.iter().enumerate() {
-            let (place, velocity) = if column.heavy { (by_place, by_velocity) } else { (1.0, 1.0 / dt) };
-            for (i, row) in self.rows.iter().enumerate() {
-                let (at, to) = (row.at, column.at);
-                let mut value = forces.stiffness[(at, to)] * place + forces.damping[(at, to)] * velocity;
-                if row.heavy && column.heavy && at / 6 == to / 6 {
-                    let place = (at % 6, to % 6);
-                    value += self.masses.get(at / 6).map_or(0.0, |m| m[place]);
-                    value += self.turned.get(at / 6).map_or(0.0, |[k, c]| k[place] * by_place + c[place] * by_velocity);
-                }
-                self.matrix[(i, j)] = value;
-            }
-        }
-    }
-
-    /// Finds the correction; what nothing holds and nothing weighs does not move. False where there is none.
-    fn solve(&mut self) -> bool {
-        self.moved.clear();
-        if self.rows.len() == 6 {
-            let matrix: Matrix6<f64> = self.matrix.fixed_view::<6, 6>(0, 0).into_owned();
-            let right = Six::from_iterator(self.right.iter().copied());
-            if let Some(found) = matrix.lu().solve(&right) {
-                self.moved.extend(found.iter());
-            }
-        } else if let Some(found) = self.matrix.clone().lu().solve(&self.right) {
-            self.moved.extend(found.iter());
-        }
-        if self.moved.len() == self.rows.len() && self.moved.iter().all(|v| v.is_finite()) {
-            return true;
-        }
-        self.moved.clear();
-        let scale = self.matrix.amax();
-        if let Ok(found) = self.matrix.clone().svd(true, true).solve(&self.right, 1e-12 * scale) {
-            self.moved.extend(found.iter());
-        }
-        self.moved.len() == self.rows.len() && self.moved.iter().all(|v| v.is_finite())
     }
 
     /// The error of a step without a balance.

@@ -1,0 +1,111 @@
+//! The forces at the end of a step, foretold from those of its start.
+//!
+//! `F1 = F0 - (K0 + K1)/2 (q1 - q0) - (C0 + C1)/2 (v1 - v0)` by the trapezoidal rule on the straight way between the two states,
+//! K1 and C1 continued from the ends of the last three steps by a parabola. What is foretold is a trial's first correction only:
+//! the forces of a step are always evaluated.
+
+use super::forces::Motion;
+use crate::model::Six;
+use nalgebra::{DMatrix, DVector};
+
+/// A step this near another, over its length, is as long.
+const SAME: f64 = 1e-6;
+
+/// A matrix at the ends of the last steps, and the mean of its value now and that expected at the end of the next.
+#[derive(Debug, Default)]
+struct Course {
+    mean: DMatrix<f64>,
+    last: DMatrix<f64>,
+    before: DMatrix<f64>,
+}
+
+impl Course {
+    /// Goes on to its value now, after so many others in a row.
+    fn take(&mut self, now: &DMatrix<f64>, count: usize) {
+        let [a, b, c] = match count {
+            0 => {
+                for matrix in [&mut self.mean, &mut self.last, &mut self.before] {
+                    matrix.clone_from(now);
+                }
+                return;
+            }
+            1 => [1.5, -0.5, 0.0],
+            _ => [2.0, -1.5, 0.5],
+        };
+        let earlier = self.last.iter_mut().zip(&mut self.before);
+        for ((mean, now), (last, before)) in self.mean.iter_mut().zip(now).zip(earlier) {
+            *mean = a * now + b * *last + c * *before;
+            (*before, *last) = (*last, *now);
+        }
+    }
+}
+
+/// What the next step is foretold by.
+#[derive(Debug, Default)]
+pub(super) struct Foretelling {
+    /// Steps of one length in a row at the end of which there was balance.
+    count: usize,
+    /// That length (s).
+    step: f64,
+    stiffness: Course,
+    damping: Course,
+}
+
+impl Foretelling {
+    /// Nothing foretells the next step.
+    pub(super) fn forget(&mut self) {
+        self.count = 0;
+    }
+
+    /// A step of a length (s) has ended with these.
+    pub(super) fn take(&mut self, dt: f64, stiffness: &DMatrix<f64>, damping: &DMatrix<f64>) {
+        if (dt - self.step).abs() > SAME * dt || self.stiffness.last.shape() != stiffness.shape() {
+            (self.count, self.step) = (0, dt);
+        }
+        self.stiffness.take(stiffness, self.count);
+        self.damping.take(damping, self.count);
+        self.count += 1;
+    }
+
+    /// Adds to the forces of the start of a step what motion and change of velocity over it make of them. False without a step of
+    /// that length to go by.
+    pub(super) fn add(
+        &self,
+        dt: f64,
+        (trial, start, over): (&[Motion], &[Motion], &[Six]),
+        sum: &mut DVector<f64>,
+    ) -> bool {
+        if self.count == 0 || (dt - self.step).abs() > SAME * dt {
+            return false;
+        }
+        for (body, ((trial, start), over)) in trial.iter().zip(start).zip(over).enumerate() {
+            let faster = trial.velocity - start.velocity;
+            sum.gemv(-1.0, &self.stiffness.mean.fixed_columns::<6>(6 * body), over, 1.0);
+            sum.gemv(-1.0, &self.damping.mean.fixed_columns::<6>(6 * body), &faster, 1.0);
+        }
+        true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn forces_whose_stiffness_is_a_parabola_in_time_are_foretold_exactly() {
+        let (stiffness, damping) = (|t: f64| 3.0 + 2.0 * t + 5.0 * t * t, |t: f64| 1.0 - t + 0.5 * t * t);
+        let mut made = Foretelling::default();
+        let whole = |value: f64| DMatrix::from_diagonal_element(6, 6, value);
+        for t in [-0.2, -0.1, 0.0] {
+            made.take(0.1, &whole(stiffness(t)), &whole(damping(t)));
+        }
+        let (start, trial) = (Motion::default(), Motion { velocity: Six::repeat(0.4), ..Motion::default() });
+        let mut sum = DVector::zeros(6);
+        let (start, over) = ([start], [Six::repeat(0.3)]);
+        assert!(!made.add(0.05, (&[trial], &start, &over), &mut sum));
+        assert!(made.add(0.1, (&[trial], &start, &over), &mut sum));
+        // the means of the parabolas at 0 and 0.1
+        let (k, c) = (3.0 + 0.5 * (0.2 + 0.05), 1.0 + 0.5 * (0.005 - 0.1));
+        assert!(sum.iter().all(|f| (f + 0.3 * k + 0.4 * c).abs() < 1e-14), "{sum}");
+    }
+}
