@@ -4,6 +4,8 @@
 
 #[path = "../benches/eight/mod.rs"]
 mod eight;
+#[path = "../benches/measured/mod.rs"]
+mod measured;
 
 use std::f64::consts::PI;
 use std::sync::Arc;
