@@ -161,8 +161,9 @@ impl Stepper {
             Method::Corrector => self.corrector(system, now, dt, wanted),
         };
         match made {
-            Ok(_) => now.forces.settle(dt),
-            Err(_) => now.forces.unsettle(),
+            Ok(effort) if effort.iterations > 0 => now.forces.settle(dt),
+            // a trial that held as it was needs no foretelling, nor does most likely the next
+            _ => now.forces.unsettle(),
         }
         made
     }
