@@ -217,8 +217,10 @@ fn the_total_force_of_connectors_is_the_sum_of_their_forces_and_moments() {
     let (forces, moments) =
         (vectors(&total, "Connectors", ["FX", "FY", "FZ"]), vectors(&total, "Connectors", ["MX", "MY", "MZ"]));
     for i in 0..forces.len() {
-        // rounding of forces of 5e5 N on arms of 20 m
-        assert!((forces[i] - sum(i)).norm() < 1e-7 && (moments[i] - moment(i)).norm() < 1e-5, "{i}");
+        // forces: rounding of 5e5 N. Moments: a place is corrected once more behind its forces, by what 1e-7 of gravity left turns a radius of
+        // 15 m in a step of half a second, 4e-9 rad at most; 5e5 N on arms of 20 m
+        let (force, moment) = ((forces[i] - sum(i)).norm(), (moments[i] - moment(i)).norm());
+        assert!(force < 1e-7 && moment < 0.04, "{i}: {force} N, {moment} N m");
     }
 }
 
