@@ -2,11 +2,13 @@
 //!
 //! Airy waves added up (as [`crate::hydro::sea`]): with `q = kx x + ky y - w t + phase`, C and S being cosh and sinh of k(z+d)
 //! over sinh(kd), u = a w C cos q, w = a w S sin q. Along an element the places of the first look do not move, so their
-//! `cos(kx x)` and `sin(kx x)` are kept; sines of the time are taken anew at every time, without recurrence.
+//! `cos(kx x)` and `sin(kx x)` are kept; sines of the time are taken anew at every time, without recurrence. The sums are compiled for
+//! several widths of vector register, in one order on all of them, so that the digits are the same.
 
 use super::Towed;
 use crate::hydro::sea::Component;
 use crate::hydro::sea::eight::{Eight, sin_cos};
+use multiversion::multiversion;
 use std::f64::consts::{LN_2, LOG2_E};
 
 /// Water this deep (k d) is deep to the last digit: exp(-2 k d) < 1e-17.
@@ -178,28 +180,13 @@ impl Waters {
     /// Height of the surface above the still water level (m).
     #[inline]
     pub fn elevation(&self, time: &[Turn], place: &[Turn]) -> f64 {
-        let mut sums = [0.0; 8];
-        for ((block, t), p) in self.blocks.iter().zip(time).zip(place) {
-            for (i, sum) in sums.iter_mut().enumerate() {
-                *sum += block.slowness[i] * (t[0][i] * p[0][i] - t[1][i] * p[1][i]);
-            }
-        }
-        total(&sums)
+        total(&elevations(&self.blocks, time, place))
     }
 
     /// The water at a height above the still water level (m), under a surface of an elevation (m).
     pub fn flow(&self, time: &[Turn], place: &[Turn], height: f64, elevation: f64) -> Flow {
         let z = self.reach(height, elevation);
-        let mut sums = [[0.0; 4]; 6];
-        for ((b, t), p) in self.blocks.iter().zip(time).zip(place) {
-            if b.deep {
-                half::<true, 0>(b, t, p, z, self.lateral, &mut sums);
-                half::<true, 4>(b, t, p, z, self.lateral, &mut sums);
-            } else {
-                half::<false, 0>(b, t, p, z, self.lateral, &mut sums);
-                half::<false, 4>(b, t, p, z, self.lateral, &mut sums);
-            }
-        }
+        let sums = flows(&self.blocks, time, place, z, self.lateral);
         let [u, v, w, ax, ay, az] = sums.map(|s| (s[0] + s[2]) + (s[1] + s[3]));
         let [cx, cy] = self.current_at(height);
         Flow { velocity: [u + cx, v + cy, w], acceleration: [ax, ay, az] }
@@ -237,6 +224,34 @@ impl Waters {
         numbers.sort_by(f64::total_cmp);
         numbers.get(4 * numbers.len() / 5).map(|k| std::f64::consts::FRAC_PI_2 / k)
     }
+}
+
+/// Sums of the elevations of every eighth wave (m).
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn elevations(blocks: &[Block], time: &[Turn], place: &[Turn]) -> Eight {
+    let mut sums = [0.0; 8];
+    for ((block, t), p) in blocks.iter().zip(time).zip(place) {
+        for (i, sum) in sums.iter_mut().enumerate() {
+            *sum += block.slowness[i] * (t[0][i] * p[0][i] - t[1][i] * p[1][i]);
+        }
+    }
+    sums
+}
+
+/// Sums of the velocities and accelerations of every fourth wave at a height.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn flows(blocks: &[Block], time: &[Turn], place: &[Turn], z: f64, lateral: bool) -> [Four; 6] {
+    let mut sums = [[0.0; 4]; 6];
+    for ((b, t), p) in blocks.iter().zip(time).zip(place) {
+        if b.deep {
+            half::<true, 0>(b, t, p, z, lateral, &mut sums);
+            half::<true, 4>(b, t, p, z, lateral, &mut sums);
+        } else {
+            half::<false, 0>(b, t, p, z, lateral, &mut sums);
+            half::<false, 4>(b, t, p, z, lateral, &mut sums);
+        }
+    }
+    sums
 }
 
 /// Adds the velocities and accelerations of four waves of a block, from number `FROM`, at a height.
