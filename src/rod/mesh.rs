@@ -1,0 +1,230 @@
+//! A rod cut into elements, and its state of motion.
+
+use super::error::RodError;
+use super::section::{Attachment, Segment};
+use nalgebra::Vector3;
+
+/// Most elements of one rod: far beyond what a line needs, and still some hundred megabytes.
+pub const MOST_ELEMENTS: usize = 100_000;
+
+/// Memory an element takes in a run (bytes), rounded up: band, state, copies of both.
+const BYTES_PER_ELEMENT: f64 = 2000.0;
+
+/// What one element needs in every iteration; half quantities go to each of its two nodes.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Element {
+    /// Unstretched length (m).
+    pub rest: f64,
+    /// Rate at which it grows (m/s), positive when paid out.
+    pub rate: f64,
+    /// Its segment.
+    pub segment: usize,
+    /// Constant EA (N), or zero where the segment's law must be asked.
+    pub ea: f64,
+    /// Axial damping (N s).
+    pub damping: f64,
+    /// Whether it resists being shortened.
+    pub compression: bool,
+    /// Bending stiffness (N m2).
+    pub bending: f64,
+    /// Torsional stiffness (N m2).
+    pub torsion: f64,
+    /// Half its mass (kg).
+    pub mass: f64,
+    /// Half its displaced volume (m3).
+    pub volume: f64,
+    /// Half its added volumes, normal and tangential (m3).
+    pub added: [f64; 2],
+    /// Half its drag areas, normal and tangential, times a half (m2).
+    pub drag: [f64; 2],
+    /// Half its shadow on the bottom (m2).
+    pub contact: f64,
+    /// Height over which it comes out of the water (m).
+    pub diameter: f64,
+}
+
+impl Element {
+    fn new(segment: &Segment, index: usize, rest: f64) -> Self {
+        let half = 0.5 * rest;
+        Element {
+            rest,
+            rate: 0.0,
+            segment: index,
+            ea: if let super::section::Axial::Linear(ea) = segment.axial { ea } else { 0.0 },
+            damping: segment.axial_damping,
+            compression: segment.compression,
+            bending: segment.bending,
+            torsion: segment.torsion,
+            mass: half * segment.mass,
+            volume: half * segment.displaced,
+            added: [half * segment.added_area * segment.added_normal, half * segment.added_area * segment.added_tangential],
+            drag: [
+                0.5 * half * segment.drag_diameter * segment.drag_normal,
+                0.5 * half * std::f64::consts::PI * segment.drag_diameter * segment.drag_tangential,
+            ],
+            contact: half * segment.contact_diameter,
+            diameter: segment.contact_diameter,
+        }
+    }
+}
+
+/// A slender rod from end A to end B: a row of straight elements between nodes.
+///
+/// Unknowns are the three translations of each node. Tension follows the stretch of an element, bending the angle between the
+/// directions of neighbouring elements: the moment at a node is EI times that angle over the length between the middles of the elements. With EI = 0
+/// nothing but the chain is left. All forces are derivatives of the energy of the actual shape, without restriction of
+/// rotation; errors fall with the square of the element length. The section is the same in all directions and straight when
+/// free of load; shear deformation and rotary inertia are left out, as a slender rod has none worth counting.
+///
+/// Sources: geometry of the discrete rod after Bergou et al., Discrete Elastic Rods (ACM Trans. Graph. 27, 2008), with the angle
+/// itself as measure of curvature, which closes a circle exactly; line properties in the sense of API RP 2SK.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rod {
+    pub(super) name: String,
+    pub(super) segments: Vec<Segment>,
+    pub(super) elements: Vec<Element>,
+    pub(super) attachments: Vec<Attachment>,
+}
+
+impl Rod {
+    /// Cuts segments, from end A to end B, into elements.
+    ///
+    /// # Errors
+    /// A property that makes no rod, more elements than [`MOST_ELEMENTS`], or an attachment to a node that is not there.
+    pub fn new(name: &str, segments: Vec<Segment>, attachments: Vec<Attachment>) -> Result<Self, RodError> {
+        let refuse = |why: String| RodError::Shape { rod: name.to_string(), why };
+        if segments.is_empty() {
+            return Err(refuse("a rod needs at least one segment".to_string()));
+        }
+        for (i, segment) in segments.iter().enumerate() {
+            segment.check(name, i + 1)?;
+        }
+        let count = segments.iter().fold(0usize, |sum, s| sum.saturating_add(s.elements));
+        if count > MOST_ELEMENTS {
+            let megabytes = count as f64 * BYTES_PER_ELEMENT / 1e6;
+            return Err(RodError::TooLarge { rod: name.to_string(), elements: count, megabytes, most: MOST_ELEMENTS });
+        }
+        for a in &attachments {
+            let numbers = [a.mass, a.volume, a.height, a.drag, a.added];
+            if a.node > count || numbers.iter().any(|v| !(v.is_finite() && *v >= 0.0)) {
+                let node = a.node;
+                return Err(refuse(format!("the attachment at node {node} needs a node from 0 to {count} and no negative property")));
+            }
+        }
+        let elements = segments
+            .iter()
+            .enumerate()
+            .flat_map(|(i, s)| (0..s.elements).map(move |_| Element::new(s, i, s.length / s.elements as f64)))
+            .collect();
+        Ok(Rod { name: name.to_string(), segments, elements, attachments })
+    }
+
+    /// Its name.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Its segments from end A.
+    pub fn segments(&self) -> &[Segment] {
+        &self.segments
+    }
+
+    /// Number of nodes: one more than elements.
+    pub fn nodes(&self) -> usize {
+        self.elements.len() + 1
+    }
+
+    /// Unstretched length (m).
+    pub fn length(&self) -> f64 {
+        self.elements.iter().map(|e| e.rest).sum()
+    }
+
+    /// Unstretched distance of each node from end A (m).
+    pub fn arc(&self) -> Vec<f64> {
+        let mut sum = 0.0;
+        std::iter::once(0.0)
+            .chain(self.elements.iter().map(|e| {
+                sum += e.rest;
+                sum
+            }))
+            .collect()
+    }
+
+    /// Changes the unstretched length (m) of an element and the rate (m/s) at which it changes, as a winch does.
+    /// Its mass and everything else that goes by length follow.
+    ///
+    /// # Errors
+    /// An element that is not there, or a length that is not positive.
+    pub fn set_length(&mut self, element: usize, length: f64, rate: f64) -> Result<(), RodError> {
+        let name = self.name.clone();
+        let refuse = |why| Err(RodError::Shape { rod: name, why });
+        let Some(place) = self.elements.get_mut(element) else {
+            return refuse(format!("there is no element {}", element + 1));
+        };
+        if !(length.is_finite() && length > 0.0 && rate.is_finite()) {
+            return refuse(format!("element {} cannot be {length} m long", element + 1));
+        }
+        let segment = place.segment;
+        let Some(properties) = self.segments.get(segment) else {
+            return refuse(format!("element {} is of no segment", element + 1));
+        };
+        *place = Element { rate, ..Element::new(properties, segment, length) };
+        Ok(())
+    }
+
+    /// Stiffness of the hinge at an inner node (N m): the halves of its two elements in series.
+    #[inline(always)]
+    pub(super) fn hinge(&self, node: usize) -> f64 {
+        let (a, b) = (&self.elements[node - 1], &self.elements[node]);
+        if a.bending > 0.0 && b.bending > 0.0 { 2.0 / (a.rest / a.bending + b.rest / b.bending) } else { 0.0 }
+    }
+}
+
+/// Motion of a rod at one time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct State {
+    /// Time (s).
+    pub time: f64,
+    /// Position of each node (m, global).
+    pub position: Vec<Vector3<f64>>,
+    /// Velocity of each node (m/s).
+    pub velocity: Vec<Vector3<f64>>,
+    /// Acceleration of each node (m/s2).
+    pub acceleration: Vec<Vector3<f64>>,
+    /// The averaged acceleration of the scheme (m/s2).
+    pub(super) averaged: Vec<Vector3<f64>>,
+}
+
+impl State {
+    /// At rest along a line of points, spread over it by unstretched length.
+    ///
+    /// # Errors
+    /// Fewer than two points, points that are no numbers, or all in one place.
+    pub fn along(rod: &Rod, points: &[Vector3<f64>]) -> Result<Self, RodError> {
+        let mut along = vec![0.0];
+        for pair in points.windows(2) {
+            along.push(along[along.len() - 1] + (pair[1] - pair[0]).norm());
+        }
+        let total = along[along.len() - 1];
+        if points.len() < 2 || !(total.is_finite() && total > 0.0) {
+            let why = "it needs a line of two points or more, apart from each other, to start from".to_string();
+            return Err(RodError::Shape { rod: rod.name.clone(), why });
+        }
+        let length = rod.length();
+        let mut at = 1;
+        let position = rod
+            .arc()
+            .iter()
+            .map(|s| {
+                let here = s / length * total;
+                while at + 1 < points.len() && along[at] < here {
+                    at += 1;
+                }
+                let share = (here - along[at - 1]) / (along[at] - along[at - 1]).max(f64::MIN_POSITIVE);
+                points[at - 1] + (points[at] - points[at - 1]) * share.clamp(0.0, 1.0)
+            })
+            .collect();
+        let rest = vec![Vector3::zeros(); rod.nodes()];
+        Ok(State { time: 0.0, position, velocity: rest.clone(), acceleration: rest.clone(), averaged: rest })
+    }
+}

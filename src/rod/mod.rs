@@ -1,0 +1,24 @@
+//! The rod: a line whose own dynamics and bending matter.
+
+mod assemble;
+mod band;
+mod bend;
+mod contact;
+mod ends;
+mod error;
+mod immersed;
+mod mesh;
+mod section;
+mod statics;
+mod step;
+mod surroundings;
+#[cfg(test)]
+mod tests;
+mod workspace;
+
+pub use ends::{End, Motion};
+pub use error::RodError;
+pub use mesh::{MOST_ELEMENTS, Rod, State};
+pub use section::{Attachment, Axial, Segment, Tube};
+pub use step::{EndForces, Settings, Solver};
+pub use surroundings::{Bottom, Fluid, FluidField, Ground, PlaneBottom, UniformFluid, World};

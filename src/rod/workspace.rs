@@ -1,0 +1,123 @@
+//! The system of a rod by its kind: as narrow a band as its stiffness needs.
+
+use super::assemble::{System, Trial, Weights, assemble};
+use super::mesh::Rod;
+use super::surroundings::World;
+use nalgebra::Vector3;
+use std::ops::Range;
+
+/// The linear system of one iteration.
+#[derive(Clone, Debug)]
+pub(super) enum Workspace {
+    /// No bending stiffness: two nodes an equation.
+    Rope(System<3, 5, 11>),
+    /// Bending: three nodes an equation.
+    Beam(System<3, 8, 17>),
+}
+
+/// Calls the same with whichever system is there.
+macro_rules! each {
+    ($workspace:expr, $system:ident => $body:expr) => {
+        match $workspace {
+            Workspace::Rope($system) => $body,
+            Workspace::Beam($system) => $body,
+        }
+    };
+}
+pub(super) use each;
+
+impl Workspace {
+    /// The system that fits a rod.
+    pub fn of(rod: &Rod) -> Self {
+        if rod.elements.iter().all(|e| e.bending == 0.0) {
+            Workspace::Rope(System::new(rod.nodes()))
+        } else {
+            Workspace::Beam(System::new(rod.nodes()))
+        }
+    }
+
+    /// Residual and tangent of the whole rod at a trial.
+    pub fn assemble(&mut self, rod: &Rod, world: &World, trial: &Trial, weights: Weights, range: Range<usize>) {
+        each!(self, system => {
+            system.clear();
+            assemble(rod, world, trial, weights, range, system);
+        });
+    }
+
+    /// Force a node needs from outside (N).
+    pub fn residual(&self, node: usize) -> Vector3<f64> {
+        each!(self, system => system.residual_at(node))
+    }
+
+    /// Keeps the residuals and rows of the end nodes before they are fixed.
+    pub fn keep_ends(&mut self) {
+        each!(self, system => system.keep_ends());
+    }
+
+    /// Takes the kept residuals of the ends on to changed positions.
+    pub fn carry_ends(&mut self, change: &[f64]) {
+        each!(self, system => system.carry_ends(change));
+    }
+
+    /// Forces of the rod on its holders (N): the kept residuals, turned around.
+    pub fn end_forces(&self) -> [Vector3<f64>; 2] {
+        each!(self, system => system.ends.map(|force| -force))
+    }
+
+    /// Takes the unknowns of a node as known.
+    pub fn fix(&mut self, node: usize) {
+        each!(self, system => for i in 0..3 {
+            system.band.unit_row(3 * node + i);
+            system.residual[3 * node + i] = 0.0;
+        });
+    }
+
+    /// Adds to the diagonal of a node.
+    pub fn stiffen(&mut self, node: usize, by: f64) {
+        each!(self, system => for i in 0..3 {
+            system.band.add(3 * node + i, 3 * node + i, by);
+        });
+    }
+
+    /// Factors; the node whose pivot vanished otherwise.
+    pub fn factor(&mut self) -> Result<(), usize> {
+        each!(self, system => system.band.factor().map_err(|row| row / 3))
+    }
+
+    /// The change that takes the residual away, by the factors.
+    pub fn newton(&self, change: &mut [f64]) {
+        each!(self, system => {
+            for (c, r) in change.iter_mut().zip(&system.residual) {
+                *c = -r;
+            }
+            system.band.solve(change);
+        });
+    }
+
+    /// Solves for any right-hand side by the factors.
+    pub fn solve(&self, right: &mut [f64]) {
+        each!(self, system => system.band.solve(right));
+    }
+
+    /// Node with the largest residual (N), of those without an end's motion; a residual that is no number comes first.
+    pub fn worst(&self, known: [bool; 2]) -> (usize, f64) {
+        each!(self, system => {
+            let nodes = system.residual.len() / 3;
+            let mut worst = (0, 0.0);
+            for node in 0..nodes {
+                if (node == 0 && known[0]) || (node + 1 == nodes && known[1]) {
+                    continue;
+                }
+                let size = system.residual_at(node).amax();
+                let nan = system.residual[3 * node..3 * node + 3].iter().any(|r| !r.is_finite());
+                if nan {
+                    return (node, f64::NAN);
+                }
+                if size > worst.1 {
+                    worst = (node, size);
+                }
+            }
+            worst
+        })
+    }
+}
