@@ -20,6 +20,8 @@ pub(super) struct Trial {
     pub fluid: Vec<Fluid>,
     /// Direction of the rod at each node at the start of the step, for friction.
     pub lay: Vec<Vector3<f64>>,
+    /// Penetration over which the bottom's stiffness grows at each node (m).
+    pub soft: Vec<f64>,
     pub ends: [End; 2],
 }
 
@@ -306,7 +308,7 @@ fn nodes<const W: usize, const H: usize, const S: usize>(
             let left = if node > 0 { rod.elements[node - 1].contact } else { 0.0 };
             let right = rod.elements.get(node).map_or(0.0, |e| e.contact);
             let (x, v) = (&trial.x[node], &trial.v[node]);
-            if let Some(made) = contact(*bottom, ground, left + right, x, v, &trial.lay[node]) {
+            if let Some(made) = contact(*bottom, ground, trial.soft[node], left + right, x, v, &trial.lay[node]) {
                 system.push(node, &-(made.force[0] + made.force[1]));
                 system.block(node, node, &(made.by_position * -k - made.by_velocity * c));
             }

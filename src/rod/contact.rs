@@ -13,11 +13,10 @@ pub(super) struct Contact {
     pub by_velocity: Matrix3<f64>,
 }
 
-/// Elastic energy of the bottom under a node (J).
-pub(super) fn energy(bottom: &dyn Bottom, ground: &Ground, area: f64, x: &Vector3<f64>) -> f64 {
+/// Elastic energy of the bottom under a node (J); `soft` as in [`contact`].
+pub(super) fn energy(bottom: &dyn Bottom, ground: &Ground, soft: f64, area: f64, x: &Vector3<f64>) -> f64 {
     let (height, slope) = bottom.height(x.x, x.y);
     let depth = (height - x.z) / (1.0 + slope[0] * slope[0] + slope[1] * slope[1]).sqrt();
-    let soft = ground.soft;
     if depth <= 0.0 {
         0.0
     } else if depth < soft {
@@ -28,12 +27,14 @@ pub(super) fn energy(bottom: &dyn Bottom, ground: &Ground, area: f64, x: &Vector
 }
 
 /// What the bottom does to a node with a shadow of `area` (m2) whose rod runs in direction `lay`; none when it is clear of it.
+/// Its stiffness is whole from a penetration `soft` on (m).
 ///
 /// The curvature of the bottom within the penetration is left out of the derivatives.
 #[inline]
 pub(super) fn contact(
     bottom: &dyn Bottom,
     ground: &Ground,
+    soft: f64,
     area: f64,
     x: &Vector3<f64>,
     v: &Vector3<f64>,
@@ -45,10 +46,10 @@ pub(super) fn contact(
     }
     let normal = Vector3::new(-slope[0], -slope[1], 1.0).normalize();
     let depth = (height - x.z) * normal.z;
-    let (penetration, share, bend) = if depth < ground.soft {
-        (0.5 * depth * depth / ground.soft, depth / ground.soft, 1.0 / ground.soft)
+    let (penetration, share, bend) = if depth < soft {
+        (0.5 * depth * depth / soft, depth / soft, 1.0 / soft)
     } else {
-        (depth - 0.5 * ground.soft, 1.0, 0.0)
+        (depth - 0.5 * soft, 1.0, 0.0)
     };
     let sinking = -v.dot(&normal);
     let (k, c) = (ground.stiffness * area, ground.damping * area);
@@ -97,7 +98,7 @@ mod tests {
         };
         let lay = Vector3::new(1.0, 0.3, 0.1);
         let whole = |x: Vector3<f64>, v: Vector3<f64>| {
-            let made = contact(&bottom, &ground, 0.7, &x, &v, &lay).unwrap();
+            let made = contact(&bottom, &ground, 0.02, 0.7, &x, &v, &lay).unwrap();
             (made.force[0] + made.force[1], made)
         };
         let h = 1e-7;
@@ -120,7 +121,7 @@ mod tests {
     fn friction_of_a_fast_slide_is_mu_times_the_normal_force() {
         let bottom = PlaneBottom { height: 0.0, slope: [0.0, 0.0] };
         let ground = Ground { friction_along: 0.4, friction_across: 0.9, friction_speed: 1e-6, ..Ground::elastic(1e5) };
-        let at = |v| contact(&bottom, &ground, 1.0, &Vector3::new(0.0, 0.0, -0.01), &v, &Vector3::x()).unwrap();
+        let at = |v| contact(&bottom, &ground, 0.0, 1.0, &Vector3::new(0.0, 0.0, -0.01), &v, &Vector3::x()).unwrap();
         // 1e5 * 0.01 = 1000 N normal; v0 / v squared is 1e-12
         assert!((at(Vector3::new(1.0, 0.0, 0.0)).force[1].x + 400.0).abs() < 1e-6);
         assert!((at(Vector3::new(0.0, 1.0, 0.0)).force[1].y + 900.0).abs() < 1e-6);

@@ -193,6 +193,8 @@ pub struct State {
     pub acceleration: Vec<Vector3<f64>>,
     /// The averaged acceleration of the scheme (m/s2).
     pub(super) averaged: Vec<Vector3<f64>>,
+    /// Least penetration over which the bottom's stiffness grows at each node (m): see [`Solver::statics`](super::Solver::statics).
+    pub(super) bedding: Vec<f64>,
 }
 
 impl State {
@@ -225,6 +227,6 @@ impl State {
             })
             .collect();
         let rest = vec![Vector3::zeros(); rod.nodes()];
-        Ok(State { time: 0.0, position, velocity: rest.clone(), acceleration: rest.clone(), averaged: rest })
+        Ok(State { time: 0.0, position, velocity: rest.clone(), acceleration: rest.clone(), averaged: rest, bedding: vec![0.0; rod.nodes()] })
     }
 }

@@ -3,6 +3,7 @@
 mod assemble;
 mod band;
 mod bend;
+mod condense;
 mod contact;
 mod ends;
 mod error;
@@ -13,9 +14,12 @@ mod statics;
 mod step;
 mod surroundings;
 #[cfg(test)]
+mod tangent_tests;
+#[cfg(test)]
 mod tests;
 mod workspace;
 
+pub use condense::EndTangent;
 pub use ends::{End, Motion};
 pub use error::RodError;
 pub use mesh::{MOST_ELEMENTS, Rod, State};

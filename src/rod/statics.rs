@@ -4,7 +4,7 @@ use super::assemble::Weights;
 use super::ends::End;
 use super::error::RodError;
 use super::mesh::{Rod, State};
-use super::step::{EndForces, Solver, end_moment, lay, sample};
+use super::step::{EndForces, Solver, end_moment, lay, sample, soften};
 use super::surroundings::World;
 use nalgebra::Vector3;
 
@@ -19,6 +19,11 @@ impl Solver {
     /// Each iteration is Newton's with the mass of the nodes over the square of a pseudo-time step added to the stiffness: a step
     /// from rest by implicit Euler. While forces are far from balance the step is short, and the rod falls into place as a
     /// damped one would; as they settle it grows and Newton's own convergence is left.
+    ///
+    /// With a bottom it also sets how softly a node meets it from then on. Between two nodes a line that lifts off with tension T
+    /// and weight w sags by w l^2 / (8 T): the mesh knows its height over the bottom no better than that. The stiffness of the bottom
+    /// therefore grows to its full value over no less than this height (at most a fiftieth of the element), or every node
+    /// would hit the bottom as a hammer does. It falls with the square of the element length.
     ///
     /// # Errors
     /// [`RodError::Statics`] when no equilibrium is reached; the state is then as before.
@@ -44,6 +49,7 @@ impl Solver {
             }
         }
         lay(rod, state, world, &mut self.trial.lay);
+        soften(state, world, &mut self.trial.soft);
         let mass = masses(rod);
         let reach = 0.05 * rod.length();
         let mut pseudo = (0.001 * rod.length() / world.gravity.abs().max(1.0)).sqrt();
@@ -65,6 +71,7 @@ impl Solver {
                 state.velocity.fill(zero);
                 state.acceleration.fill(zero);
                 state.averaged.fill(zero);
+                self.bed(rod, world, state);
                 let moment = [0, 1].map(|side| end_moment(rod, state, &ends[side], side));
                 return Ok(EndForces { force: self.work.end_forces(), moment, iterations: iteration, parts: 1 });
             }
@@ -105,6 +112,24 @@ impl Solver {
             residual: worst.1,
             element: worst.0.clamp(1, last),
         })
+    }
+
+    /// Sets how softly each node meets the bottom: see [`Solver::statics`].
+    fn bed(&self, rod: &Rod, world: &World, state: &mut State) {
+        let last = rod.elements.len();
+        let sag = |i: usize| {
+            let element = &rod.elements[i];
+            let fluid = &self.trial.fluid[i];
+            let weight = (element.mass - fluid.density * element.volume) * world.gravity / element.rest * 2.0;
+            let strain = (state.position[i + 1] - state.position[i]).norm() / element.rest - 1.0;
+            let tension = rod.segments[element.segment].axial.at(strain).0;
+            let most = 0.02 * element.rest;
+            if tension > 0.0 { (weight.abs() * element.rest * element.rest / (8.0 * tension)).min(most) } else { most }
+        };
+        for node in 0..=last {
+            let sides = [node.checked_sub(1), (node < last).then_some(node)];
+            state.bedding[node] = sides.into_iter().flatten().map(sag).fold(0.0, f64::max);
+        }
     }
 
     /// The largest force in the rod (N), below which nothing can be told from rounding.

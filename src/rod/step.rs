@@ -111,6 +111,7 @@ impl Solver {
             velocity: zero.clone(),
             acceleration: zero.clone(),
             averaged: zero.clone(),
+            bedding: vec![0.0; nodes],
         };
         let still = super::surroundings::UniformFluid::none().0;
         let trial = Trial {
@@ -120,6 +121,7 @@ impl Solver {
             a: zero.clone(),
             fluid: vec![still; nodes],
             lay: zero,
+            soft: vec![0.0; nodes],
             ends: [End::FREE; 2],
         };
         Solver {
@@ -255,6 +257,8 @@ impl Solver {
         self.trial.time = time;
         self.trial.ends = ends;
         lay(rod, from, world, &mut self.trial.lay);
+        soften(from, world, &mut self.trial.soft);
+        self.next.bedding.copy_from_slice(&from.bedding);
         let next = &mut self.next;
         next.time = time;
         for i in 0..=last {
@@ -336,6 +340,13 @@ impl Solver {
         Ok(self.change.iter().fold(0.0, |most: f64, c| most.max(c.abs())))
     }
 
+    /// Takes the end of the last trial as the trial's motion.
+    pub(super) fn follow_next(&mut self) {
+        self.trial.x.copy_from_slice(&self.next.position);
+        self.trial.v.copy_from_slice(&self.next.velocity);
+        self.trial.a.copy_from_slice(&self.next.acceleration);
+    }
+
     fn end_forces(&self, rod: &Rod, iterations: usize, parts: usize) -> EndForces {
         let moment = [0, 1].map(|side| end_moment(rod, &self.next, &self.trial.ends[side], side));
         EndForces { force: self.work.end_forces(), moment, iterations, parts }
@@ -355,7 +366,7 @@ pub(super) fn end_moment(rod: &Rod, state: &State, end: &End, side: usize) -> Ve
 
 impl State {
     fn empty() -> Self {
-        State { time: 0.0, position: vec![], velocity: vec![], acceleration: vec![], averaged: vec![] }
+        State { time: 0.0, position: vec![], velocity: vec![], acceleration: vec![], averaged: vec![], bedding: vec![] }
     }
 }
 
@@ -366,6 +377,7 @@ fn copy(from: &State, to: &mut State) {
     to.velocity.copy_from_slice(&from.velocity);
     to.acceleration.copy_from_slice(&from.acceleration);
     to.averaged.copy_from_slice(&from.averaged);
+    to.bedding.copy_from_slice(&from.bedding);
 }
 
 /// Asks the fluid at the nodes of a trial.
@@ -387,6 +399,15 @@ pub(super) fn lay(rod: &Rod, state: &State, world: &World, lay: &mut [Vector3<f6
         for (i, direction) in lay.iter_mut().enumerate() {
             let d = state.position[(i + 1).min(last)] - state.position[i.saturating_sub(1)];
             *direction = d.try_normalize(1e-12).unwrap_or_else(Vector3::zeros);
+        }
+    }
+}
+
+/// Penetration over which the bottom's stiffness grows at each node: the bottom's own, or the mesh's where it is larger.
+pub(super) fn soften(state: &State, world: &World, soft: &mut [f64]) {
+    if let Some((_, ground)) = &world.bottom {
+        for (soft, bedding) in soft.iter_mut().zip(&state.bedding) {
+            *soft = bedding.max(ground.soft);
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::assemble::{System, Trial, Weights, assemble};
 use super::mesh::Rod;
 use super::surroundings::World;
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use std::ops::Range;
 
 /// The linear system of one iteration.
@@ -45,8 +45,14 @@ impl Workspace {
     }
 
     /// Force a node needs from outside (N).
+    #[cfg(test)]
     pub fn residual(&self, node: usize) -> Vector3<f64> {
         each!(self, system => system.residual_at(node))
+    }
+
+    /// The block that couples a node's residual to the position of another.
+    pub fn block(&self, row: usize, column: usize) -> Matrix3<f64> {
+        each!(self, system => system.block_at(row, column))
     }
 
     /// Keeps the residuals and rows of the end nodes before they are fixed.
