@@ -93,6 +93,11 @@ impl<const W: usize, const H: usize, const S: usize> System<W, H, S> {
         }
     }
 
+    /// Product of the rows of a node with a vector.
+    pub fn rows_times(&self, node: usize, vector: &[f64]) -> Vector3<f64> {
+        Vector3::from_fn(|i, _| Band::<H, S>::product(self.band.row(W * node + i), W * node + i, vector))
+    }
+
     /// Residual of a node as a vector.
     pub fn residual_at(&self, node: usize) -> Vector3<f64> {
         Vector3::from_column_slice(&self.residual[W * node..W * node + 3])

@@ -1,6 +1,7 @@
 //! The rod: a line whose own dynamics and bending matter.
 
 mod assemble;
+mod balance;
 mod band;
 mod bend;
 mod condense;
@@ -9,20 +10,23 @@ mod ends;
 mod error;
 mod immersed;
 mod mesh;
+mod modes;
+mod results;
 mod section;
 mod statics;
 mod step;
 mod surroundings;
 #[cfg(test)]
-mod tangent_tests;
-#[cfg(test)]
 mod tests;
 mod workspace;
 
+pub use balance::{Balance, Energy, Work};
 pub use condense::EndTangent;
 pub use ends::{End, Motion};
 pub use error::RodError;
 pub use mesh::{MOST_ELEMENTS, Rod, State};
+pub use modes::Mode;
+pub use results::{NodeResult, Stress};
 pub use section::{Attachment, Axial, Segment, Tube};
 pub use step::{EndForces, Settings, Solver};
 pub use surroundings::{Bottom, Fluid, FluidField, Ground, PlaneBottom, UniformFluid, World};

@@ -8,17 +8,20 @@ use super::step::{EndForces, Solver, end_moment, lay, sample, soften};
 use super::surroundings::World;
 use nalgebra::Vector3;
 
-/// Iterations after which statics gives up.
-const MOST_ITERATIONS: usize = 3000;
+/// Newton iterations after which statics gives up.
+const MOST_ITERATIONS: usize = 5000;
+/// Newton iterations after which one fall is cut short.
+const MOST_INNER: usize = 12;
 /// Largest residual of a node as a share of the largest force in the rod.
 const PROOF: f64 = 1e-9;
 
 impl Solver {
     /// Moves the state to where it is at rest, from wherever it is: the ends at their motions' positions, all velocities zero.
     ///
-    /// Each iteration is Newton's with the mass of the nodes over the square of a pseudo-time step added to the stiffness: a step
-    /// from rest by implicit Euler. While forces are far from balance the step is short, and the rod falls into place as a
-    /// damped one would; as they settle it grows and Newton's own convergence is left.
+    /// The way there is a row of falls, each a step from rest by implicit Euler, which never gains energy: forces balance the mass of the
+    /// nodes times their move over the square of a pseudo-time step. While Newton's iteration finds a fall easily the next is
+    /// longer; when it does not, the fall is tried again shorter. In the end the falls are so long that Newton's iteration on
+    /// the forces alone is left.
     ///
     /// With a bottom it also sets how softly a node meets it from then on. Between two nodes a line that lifts off with tension T
     /// and weight w sags by w l^2 / (8 T): the mesh knows its height over the bottom no better than that. The stiffness of the bottom
@@ -35,7 +38,6 @@ impl Solver {
         ends: [End; 2],
     ) -> Result<EndForces, RodError> {
         let last = rod.elements.len();
-        let known = [ends[0].motion.is_some(), ends[1].motion.is_some()];
         let zero = Vector3::zeros();
         self.weights = Weights { k: 1.0, c: 0.0, m: 0.0 };
         self.trial.time = state.time;
@@ -51,67 +53,97 @@ impl Solver {
         lay(rod, state, world, &mut self.trial.lay);
         soften(state, world, &mut self.trial.soft);
         let mass = masses(rod);
-        let reach = 0.05 * rod.length();
-        let mut pseudo = (0.001 * rod.length() / world.gravity.abs().max(1.0)).sqrt();
-        let mut best = f64::INFINITY;
-        let mut worst = (0, f64::INFINITY);
-        for iteration in 1..=MOST_ITERATIONS {
-            sample(world, state.time, &mut self.trial);
-            for fluid in &mut self.trial.fluid {
-                fluid.acceleration = zero;
-            }
-            self.work.assemble(rod, world, &self.trial, self.weights, 0..last);
-            self.work.keep_ends();
-            worst = self.work.worst(known);
-            let scale = self.force_scale(rod, world, &mass);
-            if worst.1 <= PROOF * scale {
-                for i in 0..=last {
-                    state.position[i] = self.trial.x[i];
-                }
-                state.velocity.fill(zero);
-                state.acceleration.fill(zero);
-                state.averaged.fill(zero);
-                self.bed(rod, world, state);
-                let moment = [0, 1].map(|side| end_moment(rod, state, &ends[side], side));
-                return Ok(EndForces { force: self.work.end_forces(), moment, iterations: iteration, parts: 1 });
-            }
-            if !worst.1.is_finite() {
-                break;
-            }
-            for (node, m) in mass.iter().enumerate() {
-                self.work.stiffen(node, m / (pseudo * pseudo));
-            }
-            for (side, node) in [(0, 0), (1, last)] {
-                if known[side] {
-                    self.work.fix(node);
+        let mut from = self.trial.x.clone();
+        let mut pseudo = (0.01 * rod.length() / world.gravity.abs().max(1.0)).sqrt();
+        let (mut done, mut worst) = (0, (0, f64::INFINITY));
+        while done < MOST_ITERATIONS && pseudo > 1e-9 {
+            let mut before = f64::INFINITY;
+            let mut settled = None;
+            for inner in 1..=MOST_INNER {
+                done += 1;
+                match self.fall(rod, world, &mass, &from, pseudo) {
+                    Fall::Rest => {
+                        state.position.copy_from_slice(&self.trial.x);
+                        state.velocity.fill(zero);
+                        state.acceleration.fill(zero);
+                        state.averaged.fill(zero);
+                        self.bed(rod, world, state);
+                        let moment = [0, 1].map(|side| end_moment(rod, state, &ends[side], side));
+                        return Ok(EndForces { force: self.work.end_forces(), moment, iterations: done, parts: 1 });
+                    }
+                    Fall::Lost => break,
+                    Fall::Moved { share, worst: found } => {
+                        worst = found;
+                        if share > 0.5 * before && inner > 2 {
+                            break;
+                        }
+                        before = share;
+                        if share < 1e-3 {
+                            settled = Some(inner);
+                            break;
+                        }
+                    }
                 }
             }
-            let solved = self.work.factor().is_ok();
-            if solved {
-                self.work.newton(&mut self.change);
+            match settled {
+                Some(inner) => {
+                    from.copy_from_slice(&self.trial.x);
+                    pseudo = (pseudo * if inner <= 3 { 4.0 } else if inner <= 6 { 2.0 } else { 1.0 }).min(1e6);
+                }
+                None => {
+                    self.trial.x.copy_from_slice(&from);
+                    pseudo *= 0.25;
+                }
             }
-            let size = self.change.iter().fold(0.0, |most: f64, c| if c.is_nan() { f64::INFINITY } else { most.max(c.abs()) });
-            if !solved || !size.is_finite() {
-                pseudo *= 0.25;
-                continue;
-            }
-            // long moves are shortened, not turned: the direction is that of a damped fall
-            let share = (reach / size).min(1.0);
-            for i in 0..=last {
-                let d = &self.change[3 * i..3 * i + 3];
-                self.trial.x[i] += Vector3::new(d[0], d[1], d[2]) * share;
-            }
-            let ratio = best / worst.1;
-            best = worst.1;
-            pseudo *= if share < 1.0 { 0.5 } else { ratio.clamp(0.3, 1.5) * 1.3 };
-            pseudo = pseudo.clamp(1e-4, 1e5);
         }
         Err(RodError::Statics {
             rod: rod.name.clone(),
-            iterations: MOST_ITERATIONS,
+            iterations: done,
             residual: worst.1,
             element: worst.0.clamp(1, last),
         })
+    }
+
+    /// One Newton iteration of a fall that began at `from`.
+    fn fall(&mut self, rod: &Rod, world: &World, mass: &[f64], from: &[Vector3<f64>], pseudo: f64) -> Fall {
+        let last = rod.elements.len();
+        let known = self.trial.ends.map(|e| e.motion.is_some());
+        sample(world, self.trial.time, &mut self.trial);
+        for fluid in &mut self.trial.fluid {
+            fluid.acceleration = Vector3::zeros();
+        }
+        self.work.assemble(rod, world, &self.trial, self.weights, 0..last);
+        self.work.keep_ends();
+        let worst = self.work.worst(known);
+        if !worst.1.is_finite() {
+            return Fall::Lost;
+        }
+        if worst.1 <= self.forces_told(rod, world, mass) {
+            return Fall::Rest;
+        }
+        for (node, m) in mass.iter().enumerate() {
+            let inertia = m / (pseudo * pseudo);
+            self.work.stiffen(node, inertia, &((self.trial.x[node] - from[node]) * inertia));
+        }
+        for (side, node) in [(0, 0), (1, last)] {
+            if known[side] {
+                self.work.fix(node);
+            }
+        }
+        if self.work.factor().is_err() {
+            return Fall::Lost;
+        }
+        self.work.newton(&mut self.change);
+        let size = self.change.iter().fold(0.0, |most: f64, c| if c.is_nan() { f64::INFINITY } else { most.max(c.abs()) });
+        if size > 2.0 * rod.length() {
+            return Fall::Lost;
+        }
+        for i in 0..=last {
+            let d = &self.change[3 * i..3 * i + 3];
+            self.trial.x[i] += Vector3::new(d[0], d[1], d[2]);
+        }
+        let shortest = rod.elements.iter().map(|e| e.rest).fold(f64::INFINITY, f64::min);
+        Fall::Moved { share: size / shortest, worst }
     }
 
     /// Sets how softly each node meets the bottom: see [`Solver::statics`].
@@ -132,15 +164,33 @@ impl Solver {
         }
     }
 
-    /// The largest force in the rod (N), below which nothing can be told from rounding.
-    fn force_scale(&self, rod: &Rod, world: &World, mass: &[f64]) -> f64 {
+    /// The least residual that can be told from nothing (N): a share of the largest force in the rod, or what rounding of
+    /// positions makes through its stiffness.
+    fn forces_told(&self, rod: &Rod, world: &World, mass: &[f64]) -> f64 {
         let weight = mass.iter().sum::<f64>() * world.gravity.abs();
-        let strongest = rod.elements.iter().zip(self.trial.x.windows(2)).map(|(element, x)| {
+        let place = self.trial.x.iter().fold(0.0, |most: f64, x| most.max(x.amax()));
+        let mut told = PROOF * weight;
+        for (element, x) in rod.elements.iter().zip(self.trial.x.windows(2)) {
             let strain = (x[1] - x[0]).norm() / element.rest - 1.0;
-            if strain < 0.0 && !element.compression { 0.0 } else { rod.segments[element.segment].axial.at(strain).0.abs() }
-        });
-        strongest.fold(weight, f64::max)
+            let (force, slope) = rod.segments[element.segment].axial.at(strain);
+            if strain > 0.0 || element.compression {
+                told = told.max(PROOF * force.abs());
+            }
+            let stiffness = slope / element.rest + 10.0 * element.bending / element.rest.powi(3);
+            told = told.max(4.0 * f64::EPSILON * place * stiffness);
+        }
+        told
     }
+}
+
+/// What an iteration of a fall came to.
+enum Fall {
+    /// Forces are in balance.
+    Rest,
+    /// No step could be made.
+    Lost,
+    /// The largest move as a share of the shortest element, and where the largest residual was (N).
+    Moved { share: f64, worst: (usize, f64) },
 }
 
 /// Mass of each node with the water it displaces, so that a buoyant rod settles as a heavy one does (kg).

@@ -24,7 +24,6 @@ macro_rules! each {
         }
     };
 }
-pub(super) use each;
 
 impl Workspace {
     /// The system that fits a rod.
@@ -48,6 +47,11 @@ impl Workspace {
     #[cfg(test)]
     pub fn residual(&self, node: usize) -> Vector3<f64> {
         each!(self, system => system.residual_at(node))
+    }
+
+    /// Product of the rows of a node with a vector.
+    pub fn rows_times(&self, node: usize, vector: &[f64]) -> Vector3<f64> {
+        each!(self, system => system.rows_times(node, vector))
     }
 
     /// The block that couples a node's residual to the position of another.
@@ -78,10 +82,11 @@ impl Workspace {
         });
     }
 
-    /// Adds to the diagonal of a node.
-    pub fn stiffen(&mut self, node: usize, by: f64) {
+    /// Adds to the diagonal of a node and to its residual.
+    pub fn stiffen(&mut self, node: usize, by: f64, force: &Vector3<f64>) {
         each!(self, system => for i in 0..3 {
             system.band.add(3 * node + i, 3 * node + i, by);
+            system.residual[3 * node + i] += force[i];
         });
     }
 

@@ -1,6 +1,6 @@
 //! Whole rods against closed forms and other programs.
 
-use super::*;
+use super::super::*;
 use nalgebra::Vector3;
 
 fn chain(elements: usize) -> Segment {
@@ -15,7 +15,7 @@ fn chain(elements: usize) -> Segment {
 }
 
 #[test]
-fn chain900() {
+fn follows_moordyn() {
     let n: usize = std::env::var("N").ok().and_then(|s| s.parse().ok()).unwrap_or(100);
     let dt: f64 = std::env::var("DT").ok().and_then(|s| s.parse().ok()).unwrap_or(0.05);
     let rho: f64 = std::env::var("RHO").ok().and_then(|s| s.parse().ok()).unwrap_or(0.6);

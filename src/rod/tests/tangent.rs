@@ -1,7 +1,7 @@
 //! Tangents are the differences of what they are tangents of.
 
-use super::assemble::Weights;
-use super::*;
+use super::super::assemble::Weights;
+use super::super::*;
 use nalgebra::Vector3;
 
 /// A rod with everything on it that has a tangent, in a bent and moving position through surface and bottom.
