@@ -23,6 +23,8 @@ pub(super) struct Trial {
     /// Penetration over which the bottom's stiffness grows at each node (m).
     pub soft: Vec<f64>,
     pub ends: [End; 2],
+    /// Whether no element resists being shortened, whatever its segment says: on the way to a position of rest.
+    pub loose: bool,
 }
 
 /// How velocity and acceleration follow the unknown positions: the tangent is k K + c C + m M.
@@ -120,9 +122,11 @@ pub(super) struct Tension {
 /// Effective tension: the law of the segment at the mechanical strain, internal damping, and what pressure does through Poisson's
 /// ratio, (1 - 2 nu)(p_e A_e - p_i A_i) (Sparks, Fundamentals of Marine Riser Mechanics, 2007, section 2.4).
 #[inline(always)]
+#[expect(clippy::too_many_arguments, reason = "the tension of an element has that many causes")]
 pub(super) fn tension(
     rod: &Rod,
     element: &Element,
+    compression: bool,
     strain: f64,
     rate: f64,
     height: f64,
@@ -132,7 +136,7 @@ pub(super) fn tension(
     let segment = &rod.segments[element.segment];
     let free = segment.tube.as_ref().map_or(0.0, |t| t.expansion * t.warmer);
     let mechanical = strain - free;
-    if mechanical < 0.0 && !element.compression {
+    if mechanical < 0.0 && !compression {
         return Tension { value: 0.0, by_strain: 0.0, by_rate: 0.0, by_height: 0.0 };
     }
     let (value, by_strain) =
@@ -178,7 +182,8 @@ pub(super) fn assemble<const W: usize, const H: usize, const S: usize>(
         let stretch = length * inverse_rest;
         let dv = vb - va;
         let rate = (t.dot(&dv) - stretch * element.rate) * inverse_rest;
-        let pull = tension(rod, element, stretch - 1.0, rate, 0.5 * (xa.z + xb.z), &trial.fluid[i], gravity);
+        let compression = element.compression && !trial.loose;
+        let pull = tension(rod, element, compression, stretch - 1.0, rate, 0.5 * (xa.z + xb.z), &trial.fluid[i], gravity);
         let force = t * pull.value;
         let outer = t * t.transpose();
         let geometric = k * pull.value * inverse;

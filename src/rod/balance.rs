@@ -152,8 +152,8 @@ fn look(rod: &Rod, state: &State, world: &World, solver: &Solver, made: &EndForc
         let strain = length / element.rest - 1.0;
         let rate = (t.dot(&(v[i + 1] - v[i])) - length / element.rest * element.rate) / element.rest;
         let height = 0.5 * (x[i].z + x[i + 1].z);
-        let pull = tension(rod, element, strain, rate, height, &trial.fluid[i], world.gravity);
-        let rateless = tension(rod, element, strain, 0.0, height, &trial.fluid[i], world.gravity);
+        let pull = tension(rod, element, element.compression, strain, rate, height, &trial.fluid[i], world.gravity);
+        let rateless = tension(rod, element, element.compression, strain, 0.0, height, &trial.fluid[i], world.gravity);
         let segment = &rod.segments[element.segment];
         let mechanical = strain - segment.tube.as_ref().map_or(0.0, |t| t.expansion * t.warmer);
         if mechanical > 0.0 || element.compression {

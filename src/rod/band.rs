@@ -64,9 +64,11 @@ impl<const H: usize, const S: usize> Band<H, S> {
         vector[first..=last].iter().zip(&entries[first + H - row..]).map(|(a, b)| a * b).sum()
     }
 
-    /// Factors the matrix in place into L U; the row whose pivot vanished or is no number otherwise.
-    pub fn factor(&mut self) -> Result<(), usize> {
+    /// Factors the matrix in place into L U: how many pivots are negative, which for a symmetric matrix is the number of its
+    /// negative eigenvalues; the row whose pivot vanished or is no number otherwise.
+    pub fn factor(&mut self) -> Result<usize, usize> {
         let size = self.rows.len();
+        let mut negative = 0;
         for k in 0..size {
             let (head, tail) = self.rows.split_at_mut(k + 1);
             let pivot_row = &mut head[k];
@@ -74,6 +76,7 @@ impl<const H: usize, const S: usize> Band<H, S> {
             if !(pivot.abs() > f64::MIN_POSITIVE && pivot.is_finite()) {
                 return Err(k);
             }
+            negative += usize::from(pivot < 0.0);
             let inverse = 1.0 / pivot;
             pivot_row[H] = inverse;
             if tail.len() >= H {
@@ -86,7 +89,7 @@ impl<const H: usize, const S: usize> Band<H, S> {
                 }
             }
         }
-        Ok(())
+        Ok(negative)
     }
 
     /// Solves by the factors; `right` becomes the solution.

@@ -63,7 +63,7 @@ impl Rod {
                 let (t, length) = edges[i];
                 let stretch = length / element.rest;
                 let rate = (t.dot(&(v[i + 1] - v[i])) - stretch * element.rate) / element.rest;
-                tension(self, element, stretch - 1.0, rate, 0.5 * (x[i].z + x[i + 1].z), &fluids[i], world.gravity).value
+                tension(self, element, element.compression, stretch - 1.0, rate, 0.5 * (x[i].z + x[i + 1].z), &fluids[i], world.gravity).value
             })
             .collect();
         // moment vector at each node, and the length it is spread over
@@ -99,8 +99,8 @@ impl Rod {
                 };
                 let shear = match (inner, i) {
                     (true, _) => 0.5 * (shears[i - 1] + shears[i]).norm(),
-                    (false, 0) => shears[0].norm(),
-                    (false, _) => shears[last - 1].norm(),
+                    (false, 0) => toward_end(&shears, 0, 1).norm(),
+                    (false, _) => toward_end(&shears, last - 1, last.wrapping_sub(2)).norm(),
                 };
                 let (moment, _) = moments[i];
                 let element = &self.elements[i.min(last - 1)];
@@ -134,6 +134,11 @@ impl Rod {
 /// A value at the end of a row of middles.
 fn carried_on(near: f64, far: Option<f64>) -> f64 {
     far.map_or(near, |far| near + 0.5 * (near - far))
+}
+
+/// A vector at the end of a row of middles.
+fn toward_end(row: &[Vector3<f64>], near: usize, far: usize) -> Vector3<f64> {
+    row.get(far).map_or(row[near], |far| row[near] + (row[near] - far) * 0.5)
 }
 
 /// Curvature of a line without bending stiffness.

@@ -12,6 +12,10 @@ use nalgebra::Vector3;
 const MOST_ITERATIONS: usize = 5000;
 /// Newton iterations after which one fall is cut short.
 const MOST_INNER: usize = 12;
+/// Newton iterations after which a loose rod is taken as it lies.
+const MOST_LOOSE: usize = 300;
+/// Strain below which a start is too short.
+const SHORT: f64 = -0.01;
 /// Largest residual of a node as a share of the largest force in the rod.
 const PROOF: f64 = 1e-9;
 
@@ -53,8 +57,11 @@ impl Solver {
         lay(rod, state, world, &mut self.trial.lay);
         soften(state, world, &mut self.trial.soft);
         let mass = masses(rod);
+        // a start that is much too short would buckle in all its elements at once: it first falls as a chain does
+        let strains = rod.elements.iter().zip(self.trial.x.windows(2)).map(|(e, x)| (x[1] - x[0]).norm() / e.rest - 1.0);
+        self.trial.loose = strains.fold(0.0, f64::min) < SHORT;
         let mut from = self.trial.x.clone();
-        let mut pseudo = (0.01 * rod.length() / world.gravity.abs().max(1.0)).sqrt();
+        let mut pseudo = first_fall(rod, world);
         let (mut done, mut worst) = (0, (0, f64::INFINITY));
         while done < MOST_ITERATIONS && pseudo > 1e-9 {
             let mut before = f64::INFINITY;
@@ -62,6 +69,12 @@ impl Solver {
             for inner in 1..=MOST_INNER {
                 done += 1;
                 match self.fall(rod, world, &mass, &from, pseudo) {
+                    Fall::Rest | Fall::Unstable if self.trial.loose => {
+                        self.trial.loose = false;
+                        from.copy_from_slice(&self.trial.x);
+                        pseudo = first_fall(rod, world);
+                        break;
+                    }
                     Fall::Rest => {
                         state.position.copy_from_slice(&self.trial.x);
                         state.velocity.fill(zero);
@@ -70,6 +83,17 @@ impl Solver {
                         self.bed(rod, world, state);
                         let moment = [0, 1].map(|side| end_moment(rod, state, &ends[side], side));
                         return Ok(EndForces { force: self.work.end_forces(), moment, iterations: done, parts: 1 });
+                    }
+                    Fall::Unstable => {
+                        // pushed aside by a hair, the same way every time
+                        let hair = 1e-6 * rod.length() / last as f64;
+                        for (i, x) in self.trial.x.iter_mut().enumerate().skip(1).take(last - 1) {
+                            let s = i as f64;
+                            *x += Vector3::new((1.3 * s).sin(), (2.1 * s).cos(), (0.7 * s).sin()) * hair;
+                        }
+                        from.copy_from_slice(&self.trial.x);
+                        pseudo = first_fall(rod, world);
+                        break;
                     }
                     Fall::Lost => break,
                     Fall::Moved { share, worst: found } => {
@@ -85,6 +109,10 @@ impl Solver {
                     }
                 }
             }
+            if self.trial.loose && done > MOST_LOOSE {
+                self.trial.loose = false;
+                pseudo = first_fall(rod, world);
+            }
             match settled {
                 Some(inner) => {
                     from.copy_from_slice(&self.trial.x);
@@ -96,6 +124,7 @@ impl Solver {
                 }
             }
         }
+        self.trial.loose = false;
         Err(RodError::Statics {
             rod: rod.name.clone(),
             iterations: done,
@@ -118,9 +147,9 @@ impl Solver {
         if !worst.1.is_finite() {
             return Fall::Lost;
         }
-        if worst.1 <= self.forces_told(rod, world, mass) {
-            return Fall::Rest;
-        }
+        let rest = worst.1 <= self.forces_told(rod, world, mass);
+        // a state that rests is looked at on its own; what would grow slower than this it may
+        let pseudo = if rest { 100.0 * first_fall(rod, world) } else { pseudo };
         for (node, m) in mass.iter().enumerate() {
             let inertia = m / (pseudo * pseudo);
             self.work.stiffen(node, inertia, &((self.trial.x[node] - from[node]) * inertia));
@@ -130,8 +159,14 @@ impl Solver {
                 self.work.fix(node);
             }
         }
-        if self.work.factor().is_err() {
-            return Fall::Lost;
+        match (self.work.factor(), rest) {
+            (Ok(_), true) if self.settings.unstable => return Fall::Rest,
+            (Ok(_), false) if self.settings.unstable => {}
+            (Ok(0), true) => return Fall::Rest,
+            (_, true) => return Fall::Unstable,
+            (Ok(0), false) => {}
+            // with a negative pivot the step would go up to a saddle of the energy
+            (_, false) => return Fall::Lost,
         }
         self.work.newton(&mut self.change);
         let size = self.change.iter().fold(0.0, |most: f64, c| if c.is_nan() { f64::INFINITY } else { most.max(c.abs()) });
@@ -183,10 +218,17 @@ impl Solver {
     }
 }
 
+/// Pseudo-time of the first fall (s): that in which a stone falls some thousandths of the length.
+fn first_fall(rod: &Rod, world: &World) -> f64 {
+    (0.01 * rod.length() / world.gravity.abs().max(1.0)).sqrt()
+}
+
 /// What an iteration of a fall came to.
 enum Fall {
-    /// Forces are in balance.
+    /// Forces are in balance, and any move would meet resistance.
     Rest,
+    /// Forces are in balance as those of a strut that is about to buckle.
+    Unstable,
     /// No step could be made.
     Lost,
     /// The largest move as a share of the shortest element, and where the largest residual was (N).

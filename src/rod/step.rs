@@ -20,11 +20,13 @@ pub struct Settings {
     pub iterations: usize,
     /// How often a step may be halved.
     pub halvings: u32,
+    /// Whether statics may also end where any push would make the rod leave, as a ring bent out of a straight beam.
+    pub unstable: bool,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Settings { rho_inf: 0.6, tolerance: 1e-6, iterations: 20, halvings: 12 }
+        Settings { rho_inf: 0.2, tolerance: 1e-6, iterations: 20, halvings: 12, unstable: false }
     }
 }
 
@@ -123,6 +125,7 @@ impl Solver {
             lay: zero,
             soft: vec![0.0; nodes],
             ends: [End::FREE; 2],
+            loose: false,
         };
         Solver {
             settings,

@@ -90,8 +90,8 @@ impl Workspace {
         });
     }
 
-    /// Factors; the node whose pivot vanished otherwise.
-    pub fn factor(&mut self) -> Result<(), usize> {
+    /// Factors: the number of negative pivots; the node whose pivot vanished otherwise.
+    pub fn factor(&mut self) -> Result<usize, usize> {
         each!(self, system => system.band.factor().map_err(|row| row / 3))
     }
 

@@ -15,7 +15,8 @@ fn a_moment_of_two_pi_ei_over_l_bends_a_beam_into_a_circle() {
     let fluid = UniformFluid::none();
     let world = World { fluid: &fluid, bottom: None, gravity: 0.0, forces: &[] };
     let mut state = State::along(&rod, &[Vector3::zeros(), Vector3::x() * length]).unwrap();
-    let mut solver = Solver::new(&rod, Settings::default());
+    // beyond half a turn the rod could swing out of its plane and straighten, as nothing resists its twist
+    let mut solver = Solver::new(&rod, Settings { unstable: true, ..Settings::default() });
     let clamp = End::pinned(Vector3::zeros()).clamped(Vector3::x());
     let steps = 16;
     let mut moment = 0.0;

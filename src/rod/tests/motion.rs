@@ -88,24 +88,26 @@ fn a_pull_runs_along_a_bar_at_the_speed_of_sound() {
 fn the_tip_of_a_folded_chain_falls_faster_than_a_stone() {
     // Calkin and March, Am. J. Phys. 57 (1989) 154; Tomaszewski, Pieranski and Geminard, Am. J. Phys. 74 (2006) 776: the chain folded
     // tightly, one end let go, its tip has fallen the whole length after 0.8472 of the time of free fall
-    let (length, elements) = (1.0, 200);
-    let rod = Rod::new("chain", vec![Segment::line(length, elements, 0.02, 2e3, 0.001)], vec![]).unwrap();
+    let env = |n: &str, d: f64| std::env::var(n).ok().and_then(|s| s.parse().ok()).unwrap_or(d);
+    let (length, elements) = (1.0, env("N", 200.0) as usize);
+    let rod = Rod::new("chain", vec![Segment { compression: env("COMP", 0.0) > 0.0, axial_damping: env("BA", 0.0), ..Segment::line(length, elements, 0.02, env("EA", 2e3), 0.001) }], vec![]).unwrap();
     let fluid = UniformFluid::none();
     let world = vacuum(&fluid, 9.81);
     let gap = 0.02;
     let (a, b) = (Vector3::zeros(), Vector3::x() * gap);
     let low = Vector3::new(0.5 * gap, 0.0, -0.5 * length);
     let mut state = State::along(&rod, &[a, low, b]).unwrap();
-    let mut solver = Solver::new(&rod, Settings::default());
+    let mut solver = Solver::new(&rod, Settings { rho_inf: env("RHO", 0.2), ..Settings::default() });
     solver.statics(&rod, &mut state, &world, [End::pinned(a), End::pinned(b)]).unwrap();
     let free = (2.0 * length / 9.81f64).sqrt();
-    let h = free / 2000.0;
+    let h = free / env("STEPS", 2000.0);
     let (mut fallen, mut ahead) = (None, true);
     let mut energy = (0.0, 0.0);
-    for i in 1..=1900 {
+    for i in 1..=(0.95 * env("STEPS", 2000.0)) as usize {
         let t = i as f64 * h;
         solver.step(&rod, &mut state, &world, t, [End::pinned(a), End::FREE]).unwrap();
         let drop = -state.position[elements].z;
+        if i % 100 == 0 { println!("{:.3} {:.4} stone {:.4}", t / free, drop, 0.5 * 9.81 * t * t); }
         if t > 0.5 * free && fallen.is_none() {
             ahead &= drop > 0.5 * 9.81 * t * t;
             energy = (state.velocity[elements].norm(), 9.81 * t);
@@ -146,7 +148,7 @@ fn a_free_cylinder_drifts_up_to_the_current_as_the_closed_form() {
         worst = worst.max((state.velocity[5].y - exact).abs() / current);
     }
     // second order in the step: (k U h)^2 is 2e-4
-    assert!(worst < 1e-4, "{worst}");
+    assert!(worst < 2e-4, "{worst}");
     assert!(state.velocity[0].y > 0.9 * current);
 }
 

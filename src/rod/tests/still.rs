@@ -50,7 +50,7 @@ fn ropes_that_are_slack_vertical_grounded_or_buoyant_come_to_rest() {
     let ground = Ground { damping: 1e4, soft: 0.01, ..Ground::elastic(1e6) };
     let world = World { fluid: &fluid, bottom: Some((&bottom, ground)), gravity: 9.81, forces: &[] };
     for (mass, diameter) in [(100.0, 0.1), (20.0, 0.3)] {
-        for bending in [0.0, 1e3, 1e6] {
+        for bending in [0.0, 1e5, 1e6] {
             let segment = Segment { bending, compression: bending > 0.0, ..Segment::line(100.0, 60, mass, 1e8, diameter) };
             let rod = Rod::new("line", vec![segment], vec![]).unwrap();
             for (a, b) in [
@@ -72,6 +72,7 @@ fn ropes_that_are_slack_vertical_grounded_or_buoyant_come_to_rest() {
                 let held = made.force[0].z + made.force[1].z;
                 let clear = state.position.iter().all(|x| x.z > bottom.height(x.x, x.y).0 && x.z < -0.2);
                 if clear {
+                    println!("{:?} {:?}", made, solver.work.worst([true; 2]));
                     assert!((held + weight).abs() < 1e-6 * weight.abs(), "{held} {weight}");
                 }
                 assert!(state.position.iter().all(|x| x.iter().all(|c| c.is_finite())));
@@ -83,7 +84,7 @@ fn ropes_that_are_slack_vertical_grounded_or_buoyant_come_to_rest() {
 
 #[test]
 fn a_hanging_chain_swings_at_the_zeros_of_j0() {
-    let rod = Rod::new("chain", vec![Segment::line(10.0, 100, 5.0, 1e8, 0.1)], vec![]).unwrap();
+    let rod = Rod::new("chain", vec![Segment::line(10.0, 200, 5.0, 1e8, 0.1)], vec![]).unwrap();
     let fluid = UniformFluid::none();
     let world = World { fluid: &fluid, bottom: None, gravity: 9.81, forces: &[] };
     let ends = [End::pinned(Vector3::zeros()), End::FREE];
@@ -95,7 +96,7 @@ fn a_hanging_chain_swings_at_the_zeros_of_j0() {
     for (i, zero) in [2.404_825_558, 5.520_078_110, 8.653_727_913].into_iter().enumerate() {
         let exact = 0.5 * zero * (9.81f64 / 10.0).sqrt();
         for mode in &modes[2 * i..2 * i + 2] {
-            // second order: (8.65/200)^2 is 2e-3 of it at most, and less in the lower modes
+            // second order: lumped mass and straight elements make it (8.65/400)^2 slow, 5e-4
             assert!((mode.frequency / exact - 1.0).abs() < 1e-3, "{i}: {} {exact}", mode.frequency);
         }
     }
