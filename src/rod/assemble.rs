@@ -23,7 +23,7 @@ pub(super) struct Trial {
     /// Penetration over which the bottom's stiffness grows at each node (m).
     pub soft: Vec<f64>,
     pub ends: [End; 2],
-    /// Whether no element resists being shortened, whatever its segment says: on the way to a position of rest.
+    /// Whether it is taken as a chain, without resistance to shortening and bending: on the way to a position of rest.
     pub loose: bool,
 }
 
@@ -262,7 +262,7 @@ pub(super) fn assemble<const W: usize, const H: usize, const S: usize>(
         system.block(i + 1, i + 1, &bb);
 
         // bending
-        if element.bending > 0.0 {
+        if element.bending > 0.0 && !trial.loose {
             if let Some((e, le)) = before {
                 let stiffness = rod.hinge(i);
                 if stiffness > 0.0 {

@@ -9,7 +9,7 @@ use super::surroundings::World;
 use nalgebra::Vector3;
 
 /// Newton iterations after which statics gives up.
-const MOST_ITERATIONS: usize = 5000;
+const MOST_ITERATIONS: usize = 20_000;
 /// Newton iterations after which one fall is cut short.
 const MOST_INNER: usize = 12;
 /// Newton iterations after which a loose rod is taken as it lies.
@@ -62,6 +62,8 @@ impl Solver {
         self.trial.loose = strains.fold(0.0, f64::min) < SHORT;
         let mut from = self.trial.x.clone();
         let mut pseudo = first_fall(rod, world);
+        // the longest fall that is worth a try
+        let mut longest = 1e6;
         let (mut done, mut worst) = (0, (0, f64::INFINITY));
         while done < MOST_ITERATIONS && pseudo > 1e-9 {
             let mut before = f64::INFINITY;
@@ -116,11 +118,13 @@ impl Solver {
             match settled {
                 Some(inner) => {
                     from.copy_from_slice(&self.trial.x);
-                    pseudo = (pseudo * if inner <= 3 { 4.0 } else if inner <= 6 { 2.0 } else { 1.0 }).min(1e6);
+                    longest = (longest * 1.3f64).min(1e6);
+                    pseudo = (pseudo * if inner <= 3 { 4.0 } else if inner <= 6 { 2.0 } else { 1.0 }).min(longest);
                 }
                 None => {
                     self.trial.x.copy_from_slice(&from);
-                    pseudo *= 0.25;
+                    longest = 0.7 * pseudo;
+                    pseudo *= 0.4;
                 }
             }
         }

@@ -18,7 +18,7 @@ fn chain(elements: usize) -> Segment {
 fn follows_moordyn() {
     let n: usize = std::env::var("N").ok().and_then(|s| s.parse().ok()).unwrap_or(100);
     let dt: f64 = std::env::var("DT").ok().and_then(|s| s.parse().ok()).unwrap_or(0.05);
-    let rho: f64 = std::env::var("RHO").ok().and_then(|s| s.parse().ok()).unwrap_or(0.6);
+    let rho: f64 = std::env::var("RHO").ok().and_then(|s| s.parse().ok()).unwrap_or(0.2);
     let soft: f64 = std::env::var("SOFT").ok().and_then(|s| s.parse().ok()).unwrap_or(0.002);
     let tol: f64 = std::env::var("TOL").ok().and_then(|s| s.parse().ok()).unwrap_or(1e-6);
     let rod = Rod::new("chain", vec![chain(n)], vec![]).unwrap();
@@ -89,6 +89,22 @@ fn follows_moordyn() {
         "N {n} dt {dt}: max {:.3} % rms {:.3} % range {:.0}; {:.2} it/step, {} parts of {steps}, {:.0} x real time",
         100.0 * most, 100.0 * rms, hi - lo, its as f64 / steps as f64, parts, 120.0 / took
     );
+    if let Ok(file) = std::env::var("REF") {
+        let own: Vec<(f64, f64)> = std::fs::read_to_string(file)
+            .unwrap()
+            .lines()
+            .map(|l| {
+                let v: Vec<f64> = l.split_whitespace().map(|x| x.parse().unwrap()).collect();
+                (v[0], v[1])
+            })
+            .collect();
+        let errors: Vec<f64> = own.iter().filter(|r| r.0 >= 20.0).map(|r| (find(r.0) - r.1) / (hi - lo)).collect();
+        let most = errors.iter().fold(0.0f64, |m, e| m.max(e.abs()));
+        let grid = own.iter().filter(|r| r.0 >= 20.0 && ((r.0 / dt).round() * dt - r.0).abs() < 1e-6);
+        let at_steps = grid.map(|r| (find(r.0) - r.1).abs() / (hi - lo)).fold(0.0, f64::max);
+        let rms = (errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64).sqrt();
+        println!("N {n} dt {dt}: against own: max {:.3} % (at steps {:.3} %) rms {:.3} %", 100.0 * most, 100.0 * at_steps, 100.0 * rms);
+    }
     if let Ok(file) = std::env::var("OUT") {
         let text: String = history.iter().map(|(t, f)| format!("{t} {f}\n")).collect();
         std::fs::write(file, text).unwrap();
