@@ -70,18 +70,27 @@ impl<const W: usize, const H: usize, const S: usize> System<W, H, S> {
     }
 
     #[inline(always)]
-    fn block(&mut self, row: usize, column: usize, block: &Matrix3<f64>) {
-        self.band.add_block(W * row, W * column, block);
+    fn block<const TANGENT: bool>(&mut self, row: usize, column: usize, block: &Matrix3<f64>) {
+        if TANGENT {
+            self.band.add_block(W * row, W * column, block);
+        }
     }
 
-    /// Keeps residual and rows of the end nodes.
+    /// Keeps the rows of the end nodes.
+    pub fn keep_rows(&mut self) {
+        let last = self.residual.len() / W - 1;
+        for (side, node) in [(0, 0), (1, last)] {
+            for i in 0..3 {
+                self.rows[side][i] = *self.band.row(W * node + i);
+            }
+        }
+    }
+
+    /// Keeps the residual of the end nodes.
     pub fn keep_ends(&mut self) {
         let last = self.residual.len() / W - 1;
         for (side, node) in [(0, 0), (1, last)] {
             self.ends[side] = self.residual_at(node);
-            for i in 0..3 {
-                self.rows[side][i] = *self.band.row(W * node + i);
-            }
         }
     }
 
@@ -156,7 +165,9 @@ pub(super) fn tension(
 }
 
 /// Adds residual and tangent of the elements of a range, and of the nodes they touch.
-pub(super) fn assemble<const W: usize, const H: usize, const S: usize>(
+///
+/// Without `TANGENT` the residual alone.
+pub(super) fn assemble<const TANGENT: bool, const W: usize, const H: usize, const S: usize>(
     rod: &Rod,
     world: &World,
     trial: &Trial,
@@ -224,13 +235,12 @@ pub(super) fn assemble<const W: usize, const H: usize, const S: usize>(
         let (sa, sb) = (trial.fluid[i].surface - xa.z, trial.fluid[i + 1].surface - xb.z);
         let middle = 0.5 * (sa + sb);
         for second in [false, true] {
-            let (node, own, s) = if second { (i + 1, xb, sb) } else { (i, xa, sa) };
+            let (node, s) = if second { (i + 1, sb) } else { (i, sa) };
             let fluid = &trial.fluid[node];
             let (share, by_own, by_middle) = wet_share(s, middle, element.diameter);
             if (share <= 0.0 && by_own == 0.0) || fluid.density <= 0.0 {
                 continue;
             }
-            let _ = own;
             let load = half_load(element, &t, fluid, &trial.v[node], &trial.a[node], gravity);
             let turned = (load.by_direction - (load.by_direction * t) * t.transpose()) * (k * share * inverse);
             let moved = load.by_velocity * (c * share) + load.by_acceleration * (m * share);
@@ -256,10 +266,10 @@ pub(super) fn assemble<const W: usize, const H: usize, const S: usize>(
         }
         system.push(i, &fa);
         system.push(i + 1, &fb);
-        system.block(i, i, &aa);
-        system.block(i, i + 1, &ab);
-        system.block(i + 1, i, &ba);
-        system.block(i + 1, i + 1, &bb);
+        system.block::<TANGENT>(i, i, &aa);
+        system.block::<TANGENT>(i, i + 1, &ab);
+        system.block::<TANGENT>(i + 1, i, &ba);
+        system.block::<TANGENT>(i + 1, i + 1, &bb);
 
         // bending
         if element.bending > 0.0 && !trial.loose {
@@ -273,15 +283,15 @@ pub(super) fn assemble<const W: usize, const H: usize, const S: usize>(
                     system.push(i, &(de - df));
                     system.push(i + 1, &df);
                     let fe = ef.transpose();
-                    system.block(i - 1, i - 1, &ee);
-                    system.block(i - 1, i, &(ef - ee));
-                    system.block(i - 1, i + 1, &-ef);
-                    system.block(i, i - 1, &(fe - ee));
-                    system.block(i, i, &(ee + ff - ef - fe));
-                    system.block(i, i + 1, &(ef - ff));
-                    system.block(i + 1, i - 1, &-fe);
-                    system.block(i + 1, i, &(fe - ff));
-                    system.block(i + 1, i + 1, &ff);
+                    system.block::<TANGENT>(i - 1, i - 1, &ee);
+                    system.block::<TANGENT>(i - 1, i, &(ef - ee));
+                    system.block::<TANGENT>(i - 1, i + 1, &-ef);
+                    system.block::<TANGENT>(i, i - 1, &(fe - ee));
+                    system.block::<TANGENT>(i, i, &(ee + ff - ef - fe));
+                    system.block::<TANGENT>(i, i + 1, &(ef - ff));
+                    system.block::<TANGENT>(i + 1, i - 1, &-fe);
+                    system.block::<TANGENT>(i + 1, i, &(fe - ff));
+                    system.block::<TANGENT>(i + 1, i + 1, &ff);
                 }
             }
             for (side, at) in [(0, 0), (1, last)] {
@@ -292,20 +302,20 @@ pub(super) fn assemble<const W: usize, const H: usize, const S: usize>(
                     let ff = h.curvature[2] * k;
                     system.push(i, &-h.gradient[1]);
                     system.push(i + 1, &h.gradient[1]);
-                    system.block(i, i, &ff);
-                    system.block(i, i + 1, &-ff);
-                    system.block(i + 1, i, &-ff);
-                    system.block(i + 1, i + 1, &ff);
+                    system.block::<TANGENT>(i, i, &ff);
+                    system.block::<TANGENT>(i, i + 1, &-ff);
+                    system.block::<TANGENT>(i + 1, i, &-ff);
+                    system.block::<TANGENT>(i + 1, i + 1, &ff);
                 }
             }
         }
         before = Some((t, length));
     }
-    nodes(rod, world, trial, weights, range, system);
+    nodes::<TANGENT, W, H, S>(rod, world, trial, weights, range, system);
 }
 
 /// What acts on nodes: the bottom, attachments, given forces.
-fn nodes<const W: usize, const H: usize, const S: usize>(
+fn nodes<const TANGENT: bool, const W: usize, const H: usize, const S: usize>(
     rod: &Rod,
     world: &World,
     trial: &Trial,
@@ -320,7 +330,7 @@ fn nodes<const W: usize, const H: usize, const S: usize>(
             let (x, v) = (&trial.x[node], &trial.v[node]);
             if let Some(made) = contact(*bottom, ground, trial.soft[node], left + right, x, v, &trial.lay[node]) {
                 system.push(node, &-(made.force[0] + made.force[1]));
-                system.block(node, node, &(made.by_position * -k - made.by_velocity * c));
+                system.block::<TANGENT>(node, node, &(made.by_position * -k - made.by_velocity * c));
             }
         }
     }
@@ -344,7 +354,7 @@ fn nodes<const W: usize, const H: usize, const S: usize>(
         let mut third = block.column_mut(2);
         third -= wet * (k * (by_own + by_same));
         system.push(node, &force);
-        system.block(node, node, &block);
+        system.block::<TANGENT>(node, node, &block);
     }
     for (node, force) in world.forces.iter().filter(|f| (range.start..=range.end).contains(&f.0)) {
         system.push(*node, &-force);

@@ -160,6 +160,7 @@ impl Solver {
         }
         for (side, node) in [(0, 0), (1, last)] {
             if known[side] {
+                self.work.drop_residual(node);
                 self.work.fix(node);
             }
         }

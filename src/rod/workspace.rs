@@ -39,7 +39,16 @@ impl Workspace {
     pub fn assemble(&mut self, rod: &Rod, world: &World, trial: &Trial, weights: Weights, range: Range<usize>) {
         each!(self, system => {
             system.clear();
-            assemble(rod, world, trial, weights, range, system);
+            assemble::<true, _, _, _>(rod, world, trial, weights, range, system);
+        });
+    }
+
+    /// Residual of the whole rod at a trial; the matrix stays as it is.
+    pub fn forces(&mut self, rod: &Rod, world: &World, trial: &Trial) {
+        let none = Weights { k: 0.0, c: 0.0, m: 0.0 };
+        each!(self, system => {
+            system.residual.fill(0.0);
+            assemble::<false, _, _, _>(rod, world, trial, none, 0..rod.elements.len(), system);
         });
     }
 
@@ -59,7 +68,12 @@ impl Workspace {
         each!(self, system => system.block_at(row, column))
     }
 
-    /// Keeps the residuals and rows of the end nodes before they are fixed.
+    /// Keeps the rows of the end nodes before they are fixed.
+    pub fn keep_rows(&mut self) {
+        each!(self, system => system.keep_rows());
+    }
+
+    /// Keeps the residuals of the end nodes.
     pub fn keep_ends(&mut self) {
         each!(self, system => system.keep_ends());
     }
@@ -74,11 +88,15 @@ impl Workspace {
         each!(self, system => system.ends.map(|force| -force))
     }
 
+    /// Leaves the residual of a node to what holds it.
+    pub fn drop_residual(&mut self, node: usize) {
+        each!(self, system => system.residual[3 * node..3 * node + 3].fill(0.0));
+    }
+
     /// Takes the unknowns of a node as known.
     pub fn fix(&mut self, node: usize) {
         each!(self, system => for i in 0..3 {
             system.band.unit_row(3 * node + i);
-            system.residual[3 * node + i] = 0.0;
         });
     }
 
