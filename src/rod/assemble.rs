@@ -5,9 +5,10 @@ use super::bend::hinge;
 use super::contact::contact;
 use super::ends::End;
 use super::immersed::{half_load, wet_share};
+use super::spatial::{Eight, Side, spatial, transport};
 use super::mesh::{Element, Rod};
 use super::surroundings::{Fluid, World};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, SMatrix, Vector3};
 use std::ops::Range;
 
 /// A trial motion of all nodes at one time, with what surrounds them.
@@ -25,6 +26,8 @@ pub(super) struct Trial {
     pub ends: [End; 2],
     /// Whether it is taken as a chain, without resistance to shortening and bending: on the way to a position of rest.
     pub loose: bool,
+    /// Directors of the elements of a rod with torsion.
+    pub director: Vec<Vector3<f64>>,
 }
 
 /// How velocity and acceleration follow the unknown positions: the tangent is k K + c C + m M.
@@ -76,6 +79,36 @@ impl<const W: usize, const H: usize, const S: usize> System<W, H, S> {
         }
     }
 
+    /// Unknowns a node.
+    pub fn stride(&self) -> usize {
+        W
+    }
+
+    /// Adds a spatial hinge between two elements, or an element and a holder.
+    fn hinge<const TANGENT: bool>(&mut self, sides: [Option<usize>; 2], k: f64, gradient: &Eight, matrix: &SMatrix<f64, 8, 8>) {
+        // each of the eight unknowns by those of the nodes: an edge is its second node less its first
+        let places = |local: usize| -> [Option<(usize, f64)>; 2] {
+            let side = if local < 6 { local / 3 } else { local - 6 };
+            match sides[side] {
+                None => [None, None],
+                Some(i) if local < 6 => [Some((W * (i + 1) + local % 3, 1.0)), Some((W * i + local % 3, -1.0))],
+                Some(i) => [Some((W * i + 3, 1.0)), None],
+            }
+        };
+        for a in 0..8 {
+            for (row, sign) in places(a).into_iter().flatten() {
+                self.residual[row] += sign * gradient[a];
+                if TANGENT {
+                    for b in 0..8 {
+                        for (column, other) in places(b).into_iter().flatten() {
+                            self.band.add(row, column, sign * other * k * matrix[(a, b)]);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
     /// Keeps the rows of the end nodes.
     pub fn keep_rows(&mut self) {
         let last = self.residual.len() / W - 1;
@@ -94,19 +127,17 @@ impl<const W: usize, const H: usize, const S: usize> System<W, H, S> {
         }
     }
 
-    /// Takes the kept residuals on to changed unknowns.
-    pub fn carry_ends(&mut self, change: &[f64]) {
-        let last = self.residual.len() / W - 1;
-        for (side, node) in [(0, 0), (1, last)] {
-            for i in 0..3 {
-                self.ends[side][i] += Band::<H, S>::product(&self.rows[side][i], W * node + i, change);
-            }
-        }
+    /// Product of the kept rows of an end with a change of all unknowns.
+    pub fn ends_by(&self, side: usize, change: &[f64]) -> Vector3<f64> {
+        let node = if side == 0 { 0 } else { self.residual.len() / W - 1 };
+        Vector3::from_fn(|i, _| Band::<H, S>::product(&self.rows[side][i], W * node + i, change))
     }
 
-    /// Product of the rows of a node with a vector.
-    pub fn rows_times(&self, node: usize, vector: &[f64]) -> Vector3<f64> {
-        Vector3::from_fn(|i, _| Band::<H, S>::product(self.band.row(W * node + i), W * node + i, vector))
+    /// Takes the kept residuals on to changed unknowns.
+    pub fn carry_ends(&mut self, change: &[f64]) {
+        for side in [0, 1] {
+            self.ends[side] += self.ends_by(side, change);
+        }
     }
 
     /// Residual of a node as a vector.
@@ -115,6 +146,7 @@ impl<const W: usize, const H: usize, const S: usize> System<W, H, S> {
     }
 
     /// The block that couples a node's residual to another's position.
+    #[cfg(test)]
     pub fn block_at(&self, row: usize, column: usize) -> Matrix3<f64> {
         Matrix3::from_fn(|i, j| self.band.get(W * row + i, W * column + j))
     }
@@ -273,7 +305,11 @@ pub(super) fn assemble<const TANGENT: bool, const W: usize, const H: usize, cons
 
         // bending
         if element.bending > 0.0 && !trial.loose {
-            if let Some((e, le)) = before {
+            if W == 4 {
+                for (sides, gradient, matrix) in spatial_hinges(rod, trial, i) {
+                    system.hinge::<TANGENT>(sides, k, &gradient, &matrix);
+                }
+            } else if let Some((e, le)) = before {
                 let stiffness = rod.hinge(i);
                 if stiffness > 0.0 {
                     let h = hinge(stiffness, &e, le, &t, length);
@@ -295,7 +331,8 @@ pub(super) fn assemble<const TANGENT: bool, const W: usize, const H: usize, cons
                 }
             }
             for (side, at) in [(0, 0), (1, last)] {
-                if i == at
+                if W == 3
+                    && i == at
                     && let Some((stiffness, direction)) = trial.ends[side].hinge(element)
                 {
                     let h = hinge(stiffness, &direction, 1.0, &t, length);
@@ -311,7 +348,75 @@ pub(super) fn assemble<const TANGENT: bool, const W: usize, const H: usize, cons
         }
         before = Some((t, length));
     }
+    if W == 4 && TANGENT {
+        for i in range.start..=range.end {
+            // nothing else holds the turn of a rod that is free to spin: a thousand-millionth of its own stiffness does
+            let held = rod.elements.get(i).map_or(1.0, |e| if e.torsion > 0.0 { 1e-9 * e.torsion / e.rest } else { 1.0 });
+            system.band.add(W * i + 3, W * i + 3, held);
+        }
+    }
     nodes::<TANGENT, W, H, S>(rod, world, trial, weights, range, system);
+}
+
+/// One hinge: the elements on its two sides, its gradient and stiffness.
+type SpatialHinge = ([Option<usize>; 2], Eight, SMatrix<f64, 8, 8>);
+
+/// The sides of the hinge before an element of a rod with torsion, or of that at an end beside it, with its two stiffnesses.
+pub(super) fn hinge_sides(rod: &Rod, x: &[Vector3<f64>], directors: &[Vector3<f64>], ends: &[End; 2], hinge: HingeAt) -> Option<(f64, f64, Side, Side)> {
+    let last = rod.elements.len();
+    let side = |i: usize, natural: [f64; 2]| {
+        let d = x[i + 1] - x[i];
+        Side { direction: d.normalize(), length: d.norm(), director: directors[i], natural }
+    };
+    let held = |end: &End, i: usize, natural: [f64; 2]| {
+        let element = &rod.elements[i];
+        let (k, direction) = end.hinge(element)?;
+        let across = end.side.and_then(|s| (s - direction * direction.dot(&s)).try_normalize(1e-9));
+        let near = side(i, natural);
+        let director = across.unwrap_or_else(|| transport(&near.director, &near.direction, &direction));
+        let kt = if across.is_some() { 2.0 * element.torsion / element.rest } else { 0.0 };
+        Some((k, kt, Side { direction, length: 1.0, director, natural }))
+    };
+    match hinge {
+        HingeAt::Inner(i) => {
+            let natural = rod.bent(i);
+            Some((rod.hinge(i), rod.twist_hinge(i), side(i - 1, natural[0]), side(i, natural[1])))
+        }
+        HingeAt::A => {
+            let natural = rod.bent(0);
+            let (k, kt, holder) = held(&ends[0], 0, natural[0])?;
+            Some((k, kt, holder, side(0, natural[1])))
+        }
+        HingeAt::B => {
+            let natural = rod.bent(last);
+            let (k, kt, holder) = held(&ends[1], last - 1, natural[1])?;
+            Some((k, kt, side(last - 1, natural[0]), holder))
+        }
+    }
+}
+
+/// Where a hinge is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum HingeAt {
+    /// Between end A's holder and the first element.
+    A,
+    /// At an inner node.
+    Inner(usize),
+    /// Between the last element and end B's holder.
+    B,
+}
+
+/// The hinges to be added with element `i`: the one before it, and those of the ends beside it.
+fn spatial_hinges(rod: &Rod, trial: &Trial, i: usize) -> impl Iterator<Item = SpatialHinge> {
+    let last = rod.elements.len();
+    let inner = (i > 0).then_some((HingeAt::Inner(i), [Some(i.wrapping_sub(1)), Some(i)]));
+    let first = (i == 0).then_some((HingeAt::A, [None, Some(0)]));
+    let end = (i + 1 == last).then_some((HingeAt::B, [Some(i), None]));
+    [first, inner, end].into_iter().flatten().filter_map(|(at, sides)| {
+        let (k, kt, e, f) = hinge_sides(rod, &trial.x, &trial.director, &trial.ends, at)?;
+        let (gradient, matrix) = spatial(k, kt, &e, &f);
+        Some((sides, gradient, matrix))
+    })
 }
 
 /// What acts on nodes: the bottom, attachments, given forces.

@@ -1,10 +1,11 @@
 //! The books of energy and momentum of a run.
 
-use super::assemble::tension;
+use super::assemble::{HingeAt, hinge_sides, tension};
 use super::bend::hinge;
 use super::contact::{contact, energy};
 use super::immersed::{half_load, wet_share};
 use super::mesh::{Rod, State};
+use super::spatial;
 use super::step::{EndForces, Solver};
 use super::surroundings::World;
 use nalgebra::Vector3;
@@ -139,7 +140,7 @@ fn look(rod: &Rod, state: &State, world: &World, solver: &Solver, made: &EndForc
     let last = rod.elements.len();
     let mut found =
         Look { energy: Energy::default(), power: Work::default(), momentum: Vector3::zeros(), force: Vector3::zeros() };
-    let mut lump = |found: &mut Look, node: usize, mass: f64| {
+    let lump = |found: &mut Look, node: usize, mass: f64| {
         found.energy.kinetic += 0.5 * mass * v[node].norm_squared();
         found.energy.gravity += mass * world.gravity * x[node].z;
         found.momentum += v[node] * mass;
@@ -175,12 +176,22 @@ fn look(rod: &Rod, state: &State, world: &World, solver: &Solver, made: &EndForc
             }
         }
         if element.bending > 0.0 {
-            if let Some((e, le)) = before {
+            if rod.twists() {
+                let first = (i == 0).then_some(HingeAt::A);
+                let inner = (i > 0).then_some(HingeAt::Inner(i));
+                let end = (i + 1 == last).then_some(HingeAt::B);
+                for at in [first, inner, end].into_iter().flatten() {
+                    if let Some((k, kt, e, f)) = hinge_sides(rod, x, &state.director, &trial.ends, at) {
+                        found.energy.elastic += spatial::energy(k, kt, &e, &f);
+                    }
+                }
+            } else if let Some((e, le)) = before {
                 let k = rod.hinge(i);
                 found.energy.elastic += 0.5 * k * hinge(k, &e, le, &t, length).angle.powi(2);
             }
             for (side, at) in [(0, 0), (1, last - 1)] {
-                if i == at
+                if !rod.twists()
+                    && i == at
                     && let Some((k, direction)) = trial.ends[side].hinge(element)
                 {
                     found.energy.elastic += 0.5 * k * hinge(k, &direction, 1.0, &t, length).angle.powi(2);

@@ -64,6 +64,13 @@ impl<const H: usize, const S: usize> Band<H, S> {
         vector[first..=last].iter().zip(&entries[first + H - row..]).map(|(a, b)| a * b).sum()
     }
 
+    /// Product with a vector.
+    pub fn times(&self, vector: &[f64], product: &mut [f64]) {
+        for (row, made) in product.iter_mut().enumerate() {
+            *made = Self::product(&self.rows[row], row, vector);
+        }
+    }
+
     /// Factors the matrix in place into L U: how many pivots are negative, which for a symmetric matrix is the number of its
     /// negative eigenvalues; the row whose pivot vanished or is no number otherwise.
     pub fn factor(&mut self) -> Result<usize, usize> {

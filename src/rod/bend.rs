@@ -2,6 +2,35 @@
 
 use nalgebra::{Matrix3, Vector3};
 
+/// How the square of the angle between two directions follows c = cos phi.
+pub(super) struct BendSlopes {
+    /// d(phi^2 / 2)/dc.
+    pub first: f64,
+    /// Its derivative by c.
+    pub second: f64,
+    /// phi / sin phi with its first and second derivatives by c.
+    pub ratio: [f64; 3],
+}
+
+/// The slopes at an angle given by its sine and cosine; series where the sine loses its figures.
+#[inline]
+pub(super) fn bend_slopes(sine: f64, c: f64) -> BendSlopes {
+    let angle = sine.atan2(c);
+    let square = angle * angle;
+    let (ratio, second) = if angle < 0.02 {
+        (1.0 + square / 6.0, 1.0 / 3.0 + 2.0 / 15.0 * square)
+    } else {
+        (angle / sine, (1.0 - angle * c / sine) / (sine * sine))
+    };
+    // the third loses five powers of the angle
+    let third = if angle < 0.1 {
+        4.0 / 15.0 + square * 6.0 / 35.0
+    } else {
+        (angle * (1.0 + 2.0 * c * c) - 3.0 * sine * c) / sine.powi(5)
+    };
+    BendSlopes { first: -ratio, second, ratio: [ratio, -second, third] }
+}
+
 /// A hinge between two edges at their actual shape: energy 1/2 k phi^2 of the angle phi between them.
 pub(super) struct Hinge {
     /// The angle (rad).
@@ -21,14 +50,8 @@ pub(super) fn hinge(k: f64, e: &Vector3<f64>, le: f64, f: &Vector3<f64>, lf: f64
     let (across_e, across_f) = (f - e * c, e - f * c);
     let sine = across_e.norm();
     let angle = sine.atan2(c);
-    // d(phi^2/2)/dc = -phi / sin phi and its derivative; the series where sin phi loses its figures
-    let (first, second) = if angle < 0.02 {
-        let square = angle * angle;
-        (-(1.0 + square / 6.0), 1.0 / 3.0 + 2.0 / 15.0 * square)
-    } else {
-        (-angle / sine, (1.0 - angle * c / sine) / (sine * sine))
-    };
-    let (first, second) = (k * first, k * second);
+    let slopes = bend_slopes(sine, c);
+    let (first, second) = (k * slopes.first, k * slopes.second);
     let (de, df) = (across_e / le, across_f / lf);
     let unit = Matrix3::identity();
     let (ee, ff, ef) = (e * e.transpose(), f * f.transpose(), e * f.transpose());

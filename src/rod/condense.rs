@@ -4,7 +4,10 @@ use super::assemble::Weights;
 use super::mesh::Rod;
 use super::step::Solver;
 use super::surroundings::World;
-use nalgebra::{Matrix3, Matrix6, Vector3};
+use nalgebra::Matrix6;
+
+/// Places of the widest row of a band.
+pub(super) const WIDEST: usize = 21;
 
 /// How the forces of a rod on its two holders at the end of a step follow the motion of the ends at that time. Rows and
 /// columns: end A's x, y, z, then end B's. Each is d(force on the holder)/d(position, velocity or acceleration) with the other two and
@@ -43,8 +46,11 @@ impl Solver {
         let known = self.trial.ends.map(|e| e.motion.is_some());
         // the trial's own positions are at hand in the state that follows it
         self.follow_next();
-        // how the nodes beside an end feel its motion, by kind of motion
-        let mut near = [[[Matrix3::<f64>::zeros(); 3]; 2]; 3];
+        // how the unknowns beside an end feel each of its motions: the columns of the matrix
+        let stride = self.work.stride();
+        let size = stride * (last + 1);
+        let end_place = [0, stride * last];
+        let mut near = [[[[0.0; WIDEST]; 3]; 2]; 3];
         for (kind, weights) in near.iter_mut().zip(single) {
             let mut ranges = [0..2.min(last), last.saturating_sub(2)..last];
             if last <= 4 {
@@ -52,25 +58,13 @@ impl Solver {
             }
             for (side, range) in ranges.into_iter().enumerate() {
                 self.work.assemble(rod, world, &self.trial, weights, range);
-                let end = if side == 0 { 0 } else { last };
-                for (d, block) in kind[side].iter_mut().enumerate() {
-                    if let Some(node) = inward(side, d, last) {
-                        *block = self.work.block(node, end);
-                    }
+                for (axis, column) in kind[side].iter_mut().enumerate() {
+                    self.work.column(end_place[side] + axis, column);
                 }
             }
         }
         self.work.assemble(rod, world, &self.trial, weights, 0..last);
-        // how an end feels the nodes beside it
-        let mut felt = [[Matrix3::<f64>::zeros(); 3]; 2];
-        for (side, blocks) in felt.iter_mut().enumerate() {
-            let end = if side == 0 { 0 } else { last };
-            for (d, block) in blocks.iter_mut().enumerate() {
-                if let Some(node) = inward(side, d, last) {
-                    *block = self.work.block(end, node);
-                }
-            }
-        }
+        self.work.keep_rows();
         for (side, node) in [(0, 0), (1, last)] {
             if known[side] {
                 self.work.fix(node);
@@ -81,28 +75,25 @@ impl Solver {
         for (matrix, kind) in made.iter_mut().zip(&near) {
             for side in (0..2).filter(|s| known[*s]) {
                 for axis in 0..3 {
+                    let place = end_place[side] + axis;
+                    let reach = WIDEST / 2;
+                    let first = place.saturating_sub(reach);
+                    let rows = first..(place + reach + 1).min(size);
+                    let entry = |row: usize| kind[side][axis][row + reach - place];
+                    let held = |row: usize| (0..2).any(|s| known[s] && (end_place[s]..end_place[s] + 3).contains(&row));
                     self.change.fill(0.0);
-                    for (d, block) in kind[side].iter().enumerate().skip(1) {
-                        let Some(node) = inward(side, d, last) else { continue };
-                        if (node == 0 && known[0]) || (node == last && known[1]) {
-                            continue;
-                        }
-                        for i in 0..3 {
-                            self.change[3 * node + i] = -block[(i, axis)];
-                        }
+                    for row in rows.clone().filter(|r| !held(*r)) {
+                        self.change[row] = -entry(row);
                     }
                     self.work.solve(&mut self.change);
-                    for (other, blocks) in felt.iter().enumerate().filter(|(o, _)| known[*o]) {
-                        let mut force = Vector3::zeros();
-                        for (d, block) in blocks.iter().enumerate().skip(1) {
-                            let Some(node) = inward(other, d, last) else { continue };
-                            force += block * Vector3::from_column_slice(&self.change[3 * node..3 * node + 3]);
-                        }
-                        // the holder's own part, and across a rod of one or two elements the other holder's
-                        if other == side {
-                            force += kind[side][0].column(axis);
-                        } else if let Some(block) = kind[side].get(last) {
-                            force += block.column(axis);
+                    for other in (0..2).filter(|o| known[*o]) {
+                        let mut force = self.work.ends_by(other, &self.change);
+                        // the holders' own part, without the nodes between
+                        for (i, f) in force.iter_mut().enumerate() {
+                            let row = end_place[other] + i;
+                            if rows.contains(&row) {
+                                *f += entry(row);
+                            }
                         }
                         matrix.fixed_view_mut::<3, 1>(3 * other, 3 * side + axis).copy_from(&-force);
                     }
@@ -111,16 +102,5 @@ impl Solver {
         }
         let [position, velocity, acceleration] = made;
         Some(EndTangent { position, velocity, acceleration })
-    }
-}
-
-/// The node `d` places inward of an end.
-fn inward(side: usize, d: usize, last: usize) -> Option<usize> {
-    if d > last {
-        None
-    } else if side == 0 {
-        Some(d)
-    } else {
-        Some(last - d)
     }
 }

@@ -30,11 +30,14 @@ pub struct End {
     pub direction: Option<Vector3<f64>>,
     /// Rotational stiffness between holder and rod (N m/rad); none for a rigid clamp.
     pub rotation: Option<f64>,
+    /// A direction across the rod that turns with the holder and holds the rod's twist; none leaves it free to twist. It acts on
+    /// rods with torsional stiffness.
+    pub side: Option<Vector3<f64>>,
 }
 
 impl End {
     /// A free end.
-    pub const FREE: End = End { motion: None, direction: None, rotation: None };
+    pub const FREE: End = End { motion: None, direction: None, rotation: None, side: None };
 
     /// Held in place, free to turn.
     pub fn pinned(position: Vector3<f64>) -> Self {
@@ -49,6 +52,11 @@ impl End {
     /// The same with its direction held.
     pub fn clamped(self, direction: Vector3<f64>) -> Self {
         End { direction: Some(direction), ..self }
+    }
+
+    /// The same with its twist held by a direction across.
+    pub fn with_side(self, side: Vector3<f64>) -> Self {
+        End { side: Some(side), ..self }
     }
 
     /// Stiffness of the hinge (N m) between the holder and the half element beside it, and the direction held.

@@ -2,6 +2,7 @@
 
 use super::error::RodError;
 use super::section::{Attachment, Segment};
+use super::spatial::transport;
 use nalgebra::Vector3;
 
 /// Most elements of one rod: far beyond what a line needs, and still some hundred megabytes.
@@ -84,6 +85,17 @@ pub struct Rod {
     pub(super) segments: Vec<Segment>,
     pub(super) elements: Vec<Element>,
     pub(super) attachments: Vec<Attachment>,
+    /// The shape free of load, where it is not straight.
+    pub(super) natural: Option<Natural>,
+}
+
+/// The shape of a rod free of load.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Natural {
+    /// Directors of end A's holder, of the elements, and of end B's holder.
+    directors: Vec<Vector3<f64>>,
+    /// Curvature angle at each node by the directors before and after it (rad).
+    pub curvature: Vec<[[f64; 2]; 2]>,
 }
 
 impl Rod {
@@ -116,7 +128,58 @@ impl Rod {
             .enumerate()
             .flat_map(|(i, s)| (0..s.elements).map(move |_| Element::new(s, i, s.length / s.elements as f64)))
             .collect();
-        Ok(Rod { name: name.to_string(), segments, elements, attachments })
+        Ok(Rod { name: name.to_string(), segments, elements, attachments, natural: None })
+    }
+
+    /// Gives the rod a shape that it has when free of load: the places of its nodes, and its directions at both ends. It needs
+    /// torsional stiffness, as a bent rod can only bend another way by twisting.
+    ///
+    /// # Errors
+    /// A rod without torsional stiffness, or not one place a node.
+    pub fn set_shape(&mut self, points: &[Vector3<f64>], ends: [Vector3<f64>; 2]) -> Result<(), RodError> {
+        let refuse = |why: &str| Err(RodError::Shape { rod: self.name.clone(), why: why.to_string() });
+        if points.len() != self.nodes() || !self.twists() {
+            return refuse("a shape free of load needs torsional stiffness, and the place of every node");
+        }
+        let mut directions = vec![ends[0].normalize()];
+        directions.extend(points.windows(2).map(|p| (p[1] - p[0]).normalize()));
+        directions.push(ends[1].normalize());
+        if directions.iter().any(|d| !d.iter().all(|c| c.is_finite())) {
+            return refuse("two of its nodes have the same place");
+        }
+        let directors = carried_along(&directions);
+        let curvature = (0..self.nodes())
+            .map(|i| {
+                let (e, f) = (directions[i], directions[i + 1]);
+                let axis = e.cross(&f).try_normalize(1e-12).unwrap_or_else(Vector3::zeros);
+                let vector = axis * e.cross(&f).norm().atan2(e.dot(&f));
+                [i, i + 1].map(|j| [vector.dot(&directors[j]), vector.dot(&directions[j].cross(&directors[j]))])
+            })
+            .collect();
+        self.natural = Some(Natural { directors, curvature });
+        Ok(())
+    }
+
+    /// The direction across the rod at end A and end B, in the shape free of load, by which a holder keeps it from twisting.
+    pub fn sides(&self) -> Option<[Vector3<f64>; 2]> {
+        let directors = &self.natural.as_ref()?.directors;
+        Some([*directors.first()?, *directors.last()?])
+    }
+
+    /// Whether torsion is among its unknowns.
+    pub(super) fn twists(&self) -> bool {
+        self.elements.iter().any(|e| e.torsion > 0.0)
+    }
+
+    /// Torsional stiffness of the hinge at an inner node (N m).
+    pub(super) fn twist_hinge(&self, node: usize) -> f64 {
+        let (a, b) = (&self.elements[node - 1], &self.elements[node]);
+        if a.torsion > 0.0 && b.torsion > 0.0 { 2.0 / (a.rest / a.torsion + b.rest / b.torsion) } else { 0.0 }
+    }
+
+    /// Curvature angle of a node when free of load, by the directors before and after it (rad).
+    pub(super) fn bent(&self, node: usize) -> [[f64; 2]; 2] {
+        self.natural.as_ref().map_or([[0.0; 2]; 2], |n| n.curvature[node])
     }
 
     /// Its name.
@@ -180,6 +243,18 @@ impl Rod {
     }
 }
 
+/// Directors of a row of directions: across the first one, and taken along without twist.
+fn carried_along(directions: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
+    let Some(first) = directions.first() else { return Vec::new() };
+    let axis = Vector3::ith(first.iamin(), 1.0);
+    let mut directors = vec![(axis - first * first.dot(&axis)).normalize()];
+    for pair in directions.windows(2) {
+        let last = directors[directors.len() - 1];
+        directors.push(transport(&last, &pair[0], &pair[1]));
+    }
+    directors
+}
+
 /// Motion of a rod at one time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct State {
@@ -193,6 +268,8 @@ pub struct State {
     pub acceleration: Vec<Vector3<f64>>,
     /// The averaged acceleration of the scheme (m/s2).
     pub(super) averaged: Vec<Vector3<f64>>,
+    /// Director of each element of a rod with torsion: a unit vector across it that twists with it.
+    pub(super) director: Vec<Vector3<f64>>,
     /// Least penetration over which the bottom's stiffness grows at each node (m): see [`Solver::statics`](super::Solver::statics).
     pub(super) bedding: Vec<f64>,
 }
@@ -226,7 +303,30 @@ impl State {
                 points[at - 1] + (points[at] - points[at - 1]) * share.clamp(0.0, 1.0)
             })
             .collect();
+        let position: Vec<Vector3<f64>> = position;
+        let director = if rod.twists() {
+            let edges = position.windows(2).map(|p| (p[1] - p[0]).normalize());
+            match &rod.natural {
+                // untwisted against the shape free of load: from its first director on
+                Some(natural) => {
+                    let mut directors = vec![natural.directors[0]];
+                    let mut from = None;
+                    for t in edges {
+                        let last = directors[directors.len() - 1];
+                        directors.push(match from {
+                            Some(from) => transport(&last, &from, &t),
+                            None => (last - t * t.dot(&last)).normalize(),
+                        });
+                        from = Some(t);
+                    }
+                    directors.split_off(1)
+                }
+                None => carried_along(&edges.collect::<Vec<_>>()),
+            }
+        } else {
+            Vec::new()
+        };
         let rest = vec![Vector3::zeros(); rod.nodes()];
-        Ok(State { time: 0.0, position, velocity: rest.clone(), acceleration: rest.clone(), averaged: rest, bedding: vec![0.0; rod.nodes()] })
+        Ok(State { time: 0.0, position, velocity: rest.clone(), acceleration: rest.clone(), averaged: rest, director, bedding: vec![0.0; rod.nodes()] })
     }
 }

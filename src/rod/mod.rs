@@ -13,6 +13,7 @@ mod mesh;
 mod modes;
 mod results;
 mod section;
+mod spatial;
 mod statics;
 mod step;
 mod surroundings;

@@ -42,7 +42,8 @@ impl Solver {
     ) -> Result<Vec<Mode>, RodError> {
         let refuse = |why: String| RodError::Shape { rod: rod.name.clone(), why };
         let last = rod.elements.len();
-        let size = 3 * rod.nodes();
+        let stride = self.work.stride();
+        let size = stride * rod.nodes();
         let space = (count + 8).max(2 * count).min(size.saturating_sub(6));
         if count == 0 || count * 2 > size.saturating_sub(6) {
             return Err(refuse(format!("{count} modes of {size} unknowns cannot be found")));
@@ -50,6 +51,7 @@ impl Solver {
         self.trial.time = state.time;
         self.trial.ends = ends;
         self.trial.x.copy_from_slice(&state.position);
+        self.trial.director.copy_from_slice(&state.director);
         self.trial.v.fill(Vector3::zeros());
         self.trial.a.fill(Vector3::zeros());
         lay(rod, state, world, &mut self.trial.lay);
@@ -72,8 +74,9 @@ impl Solver {
         shifted.factor().map_err(|node| refuse(format!("its stiffness vanishes at element {}", node.clamp(1, last))))?;
         let times = |matrix: &Workspace, vector: &[f64]| {
             let mut made = vec![0.0; size];
-            for node in (0..=last).filter(|n| free(*n)) {
-                made[3 * node..3 * node + 3].copy_from_slice(matrix.rows_times(node, vector).as_slice());
+            matrix.times(vector, &mut made);
+            for node in [0, last].into_iter().filter(|n| !free(*n)) {
+                made[stride * node..stride * node + 3].fill(0.0);
             }
             made
         };
@@ -82,7 +85,10 @@ impl Solver {
             .map(|j| {
                 let half_waves = (j / 3 + 1) as f64;
                 let place = |i: usize| (i as f64 + 0.37) / (last as f64 + 0.74) * std::f64::consts::PI * half_waves;
-                let at = |i: usize| if i % 3 == j % 3 && free(i / 3) { place(i / 3).sin() + 0.1 * place(i / 3).cos() } else { 0.0 };
+                let at = |i: usize| {
+                    let (node, axis) = (i / stride, i % stride);
+                    if axis == j % 3 && free(node) { place(node).sin() + 0.1 * place(node).cos() } else { 0.0 }
+                };
                 (0..size).map(at).collect()
             })
             .collect();
@@ -124,7 +130,7 @@ impl Solver {
                 }
                 let modes = found[..count].iter().zip(&vectors).map(|(value, vector)| {
                     let most = vector.iter().fold(0.0, |m: f64, v| if v.abs() > m.abs() { *v } else { m });
-                    let shape = vector.chunks(3).map(|d| Vector3::new(d[0], d[1], d[2]) / most).collect();
+                    let shape = vector.chunks(stride).map(|d| Vector3::new(d[0], d[1], d[2]) / most).collect();
                     Mode { frequency: value.max(0.0).sqrt(), shape }
                 });
                 return Ok(modes.collect());

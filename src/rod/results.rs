@@ -1,9 +1,10 @@
 //! What is wanted of a rod at one time: tensions, moments, stresses along it.
 
-use super::assemble::tension;
+use super::assemble::{HingeAt, hinge_sides, tension};
 use super::bend::hinge;
 use super::ends::End;
 use super::mesh::{Rod, State};
+use super::spatial::twist;
 use super::surroundings::World;
 use nalgebra::Vector3;
 
@@ -24,7 +25,9 @@ pub struct NodeResult {
     pub shear: f64,
     /// Bending moment (N m).
     pub moment: f64,
-    /// Curvature (1/m).
+    /// Torsional moment (N m), where the rod has torsional stiffness.
+    pub torque: f64,
+    /// Curvature (1/m), from the shape free of load.
     pub curvature: f64,
     /// Height over the bottom (m); infinite without one.
     pub clearance: f64,
@@ -86,6 +89,7 @@ impl Rod {
                 (axis * (k * angle), if k > 0.0 { over } else { over.max(1e-300) })
             })
             .collect();
+        let (moments, torques) = if self.twists() { self.spatial_moments(state, ends) } else { (moments, Vec::new()) };
         let shears: Vec<Vector3<f64>> =
             (0..last).map(|i| (moments[i + 1].0 - moments[i].0) / self.elements[i].rest).collect();
         let mut arc = 0.0;
@@ -113,6 +117,7 @@ impl Rod {
                     wall: effective,
                     shear,
                     moment,
+                    torque: torques.get(i).copied().unwrap_or(0.0),
                     curvature: if element.bending > 0.0 { moment / element.bending } else { bend(&edges, &moments, i) },
                     clearance: clearance(world, &x[i]),
                     stress: None,
@@ -128,6 +133,26 @@ impl Rod {
                 made
             })
             .collect()
+    }
+}
+
+impl Rod {
+    /// Moment vector of each node of a rod with torsion, with the length it is spread over, and its torque.
+    fn spatial_moments(&self, state: &State, ends: &[End; 2]) -> (Vec<(Vector3<f64>, f64)>, Vec<f64>) {
+        let last = self.elements.len();
+        (0..=last)
+            .map(|i| {
+                let at = if i == 0 { HingeAt::A } else if i == last { HingeAt::B } else { HingeAt::Inner(i) };
+                let Some((k, kt, e, f)) = hinge_sides(self, &state.position, &state.director, ends, at) else {
+                    return ((Vector3::zeros(), 1.0), 0.0);
+                };
+                let across = e.direction.cross(&f.direction);
+                let axis = across.try_normalize(1e-300).unwrap_or_else(Vector3::zeros);
+                let bend = axis * across.norm().atan2(e.direction.dot(&f.direction));
+                let moment = (bend - (e.rest() + f.rest()) * 0.5) * k;
+                ((moment, 1.0), kt * twist(&e, &f))
+            })
+            .unzip()
     }
 }
 

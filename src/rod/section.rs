@@ -211,6 +211,9 @@ impl Segment {
                 return refuse(what, value, "it must not be negative");
             }
         }
+        if self.torsion > 0.0 && self.bending == 0.0 {
+            return refuse("the bending stiffness", 0.0, "a segment with torsional stiffness needs it");
+        }
         if let Some(tube) = &self.tube {
             if !(tube.outer.is_finite() && tube.outer > 0.0) {
                 return refuse("the outer diameter", tube.outer, "it must be positive");

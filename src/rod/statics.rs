@@ -4,7 +4,7 @@ use super::assemble::Weights;
 use super::ends::End;
 use super::error::RodError;
 use super::mesh::{Rod, State};
-use super::step::{EndForces, Solver, end_moment, lay, sample, soften};
+use super::step::{EndForces, Solver, end_moment, lay, sample, soften, turn};
 use super::surroundings::World;
 use nalgebra::Vector3;
 
@@ -47,6 +47,7 @@ impl Solver {
         self.trial.time = state.time;
         self.trial.ends = ends;
         self.trial.x.copy_from_slice(&state.position);
+        self.trial.director.copy_from_slice(&state.director);
         self.trial.v.fill(zero);
         self.trial.a.fill(zero);
         for (side, node) in [(0, 0), (1, last)] {
@@ -61,6 +62,7 @@ impl Solver {
         let strains = rod.elements.iter().zip(self.trial.x.windows(2)).map(|(e, x)| (x[1] - x[0]).norm() / e.rest - 1.0);
         self.trial.loose = strains.fold(0.0, f64::min) < SHORT;
         let mut from = self.trial.x.clone();
+        let mut director = self.trial.director.clone();
         let mut pseudo = first_fall(rod, world);
         // the longest fall that is worth a try
         let mut longest = 1e6;
@@ -79,6 +81,7 @@ impl Solver {
                     }
                     Fall::Rest => {
                         state.position.copy_from_slice(&self.trial.x);
+                        state.director.copy_from_slice(&self.trial.director);
                         state.velocity.fill(zero);
                         state.acceleration.fill(zero);
                         state.averaged.fill(zero);
@@ -118,11 +121,13 @@ impl Solver {
             match settled {
                 Some(inner) => {
                     from.copy_from_slice(&self.trial.x);
+                    director.copy_from_slice(&self.trial.director);
                     longest = (longest * 1.3f64).min(1e6);
                     pseudo = (pseudo * if inner <= 3 { 4.0 } else if inner <= 6 { 2.0 } else { 1.0 }).min(longest);
                 }
                 None => {
                     self.trial.x.copy_from_slice(&from);
+                    self.trial.director.copy_from_slice(&director);
                     longest = 0.7 * pseudo;
                     pseudo *= 0.4;
                 }
@@ -178,8 +183,10 @@ impl Solver {
         if size > 2.0 * rod.length() {
             return Fall::Lost;
         }
+        let stride = self.work.stride();
+        turn(&mut self.trial.director, &self.trial.x, &self.change, stride, known);
         for i in 0..=last {
-            let d = &self.change[3 * i..3 * i + 3];
+            let d = &self.change[stride * i..stride * i + 3];
             self.trial.x[i] += Vector3::new(d[0], d[1], d[2]);
         }
         let shortest = rod.elements.iter().map(|e| e.rest).fold(f64::INFINITY, f64::min);

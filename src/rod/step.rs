@@ -1,9 +1,10 @@
 //! One implicit step in time.
 
-use super::assemble::{Trial, Weights};
+use super::assemble::{HingeAt, Trial, Weights, hinge_sides};
 use super::ends::{End, Motion};
 use super::error::RodError;
 use super::mesh::{Rod, State};
+use super::spatial::{spatial, transport, turned};
 use super::surroundings::World;
 use super::workspace::Workspace;
 use nalgebra::Vector3;
@@ -136,6 +137,7 @@ impl Solver {
             velocity: zero.clone(),
             acceleration: zero.clone(),
             averaged: zero.clone(),
+            director: if rod.twists() { vec![Vector3::x(); nodes - 1] } else { Vec::new() },
             bedding: vec![0.0; nodes],
         };
         let still = super::surroundings::UniformFluid::none().0;
@@ -149,12 +151,14 @@ impl Solver {
             soft: vec![0.0; nodes],
             ends: [End::FREE; 2],
             loose: false,
+            director: state.director.clone(),
         };
+        let work = Workspace::of(rod);
         Solver {
             settings,
-            work: Workspace::of(rod),
+            change: vec![0.0; work.stride() * nodes],
+            work,
             trial,
-            change: vec![0.0; 3 * nodes],
             part: state.clone(),
             next: state,
             weights: Weights { k: 1.0, c: 0.0, m: 0.0 },
@@ -304,12 +308,16 @@ impl Solver {
                 }
             }
         }
+        next.director.copy_from_slice(&from.director);
+        carry(&mut next.director, &from.position, &next.position);
+        let stride = self.work.stride();
         let known = [ends[0].motion.is_some(), ends[1].motion.is_some()];
         let (mut before, mut last_move) = (f64::INFINITY, f64::INFINITY);
         for iteration in 1..=self.settings.iterations {
             std::mem::swap(&mut self.trial.x, &mut self.next.position);
             std::mem::swap(&mut self.trial.v, &mut self.next.velocity);
             std::mem::swap(&mut self.trial.a, &mut self.next.acceleration);
+            std::mem::swap(&mut self.trial.director, &mut self.next.director);
             if iteration <= 2 {
                 sample(world, time, &mut self.trial);
             }
@@ -319,16 +327,18 @@ impl Solver {
             std::mem::swap(&mut self.trial.x, &mut self.next.position);
             std::mem::swap(&mut self.trial.v, &mut self.next.velocity);
             std::mem::swap(&mut self.trial.a, &mut self.next.acceleration);
+            std::mem::swap(&mut self.trial.director, &mut self.next.director);
             let size = size?;
             if !(size.is_finite() && size < wild) {
                 return Err(Failure { node: self.work.worst(known).0, why: "the iteration runs away" });
             }
             let next = &mut self.next;
+            turn(&mut next.director, &next.position, &self.change, stride, known);
             for i in 0..=last {
                 if (i == 0 && known[0]) || (i == last && known[1]) {
                     continue;
                 }
-                let d = &self.change[3 * i..3 * i + 3];
+                let d = &self.change[stride * i..stride * i + 3];
                 next.position[i] += Vector3::new(d[0], d[1], d[2]);
                 let u = next.position[i] - from.position[i];
                 let [averaged, v, a] = scheme.follow(from, i, u);
@@ -383,6 +393,7 @@ impl Solver {
         self.trial.x.copy_from_slice(&self.next.position);
         self.trial.v.copy_from_slice(&self.next.velocity);
         self.trial.a.copy_from_slice(&self.next.acceleration);
+        self.trial.director.copy_from_slice(&self.next.director);
     }
 
     fn end_forces(&self, rod: &Rod, iterations: usize, parts: usize) -> EndForces {
@@ -394,6 +405,17 @@ impl Solver {
 /// Moment of the rod on the holder of an end (N m): the hinge turns the rod toward the held direction, and the holder back.
 pub(super) fn end_moment(rod: &Rod, state: &State, end: &End, side: usize) -> Vector3<f64> {
     let (i, element) = if side == 0 { (0, rod.elements.first()) } else { (rod.elements.len() - 1, rod.elements.last()) };
+    if rod.twists() {
+        let at = if side == 0 { HingeAt::A } else { HingeAt::B };
+        let mut ends = [End::FREE; 2];
+        ends[side] = *end;
+        return hinge_sides(rod, &state.position, &state.director, &ends, at).map_or_else(Vector3::zeros, |(k, kt, e, f)| {
+            let gradient = spatial(k, kt, &e, &f).0;
+            let (near, first) = if side == 0 { (f, 3) } else { (e, 0) };
+            let force = gradient.fixed_rows::<3>(first).into_owned();
+            near.direction.cross(&force) * near.length + near.direction * gradient[if side == 0 { 7 } else { 6 }]
+        });
+    }
     let hinge = element.and_then(|e| end.hinge(e));
     let Some((stiffness, direction)) = hinge else { return Vector3::zeros() };
     let t = (state.position[i + 1] - state.position[i]).normalize();
@@ -404,7 +426,7 @@ pub(super) fn end_moment(rod: &Rod, state: &State, end: &End, side: usize) -> Ve
 
 impl State {
     fn empty() -> Self {
-        State { time: 0.0, position: vec![], velocity: vec![], acceleration: vec![], averaged: vec![], bedding: vec![] }
+        State { time: 0.0, position: vec![], velocity: vec![], acceleration: vec![], averaged: vec![], director: vec![], bedding: vec![] }
     }
 }
 
@@ -415,7 +437,30 @@ fn copy(from: &State, to: &mut State) {
     to.velocity.copy_from_slice(&from.velocity);
     to.acceleration.copy_from_slice(&from.acceleration);
     to.averaged.copy_from_slice(&from.averaged);
+    to.director.copy_from_slice(&from.director);
     to.bedding.copy_from_slice(&from.bedding);
+}
+
+/// Takes directors along from one position of the nodes to another.
+fn carry(directors: &mut [Vector3<f64>], from: &[Vector3<f64>], to: &[Vector3<f64>]) {
+    for ((director, a), b) in directors.iter_mut().zip(from.windows(2)).zip(to.windows(2)) {
+        *director = transport(director, &(a[1] - a[0]).normalize(), &(b[1] - b[0]).normalize());
+    }
+}
+
+/// Takes directors along with a change of the unknowns that is about to be made, and turns them by it.
+pub(super) fn turn(directors: &mut [Vector3<f64>], x: &[Vector3<f64>], change: &[f64], stride: usize, known: [bool; 2]) {
+    let last = x.len() - 1;
+    let moved = |i: usize| {
+        if (i == 0 && known[0]) || (i == last && known[1]) {
+            return x[i];
+        }
+        x[i] + Vector3::new(change[stride * i], change[stride * i + 1], change[stride * i + 2])
+    };
+    for (i, director) in directors.iter_mut().enumerate() {
+        let (from, to) = ((x[i + 1] - x[i]).normalize(), (moved(i + 1) - moved(i)).normalize());
+        *director = turned(&transport(director, &from, &to), &to, change[stride * i + 3]);
+    }
 }
 
 /// Asks the fluid at the nodes of a trial.

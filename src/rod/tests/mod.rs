@@ -3,5 +3,6 @@
 mod beam;
 mod chain900;
 mod motion;
+mod section;
 mod still;
 mod tangent;

@@ -195,3 +195,61 @@ fn energy_and_momentum_of_a_swinging_moored_rope_add_up() {
     assert!(coarse.0 < 0.02 && fine.0 < 0.005, "{coarse:?} {fine:?}");
     assert!(coarse.1 < 1e-2 && fine.1 < 3e-3, "{coarse:?} {fine:?}");
 }
+
+#[test]
+fn energy_of_a_swinging_twisted_beam_adds_up() {
+    // a curved cantilever with torsion let go under its own weight: no damping, no outer work but that of its clamp, which stands
+    let (elements, quarter) = (24, std::f64::consts::FRAC_PI_4);
+    let segment = Segment { compression: true, bending: 400.0, torsion: 300.0, ..Segment::line(7.854, elements, 2.0, 1e6, 0.1) };
+    let mut rod = Rod::new("bend", vec![segment], vec![]).unwrap();
+    let at = |i: usize| {
+        let angle = quarter * i as f64 / elements as f64;
+        Vector3::new(10.0 * (1.0 - angle.cos()), 10.0 * angle.sin(), 0.0)
+    };
+    let points: Vec<_> = (0..=elements).map(at).collect();
+    rod.set_shape(&points, [Vector3::y(), Vector3::new(quarter.sin(), quarter.cos(), 0.0)]).unwrap();
+    let fluid = UniformFluid::none();
+    let world = vacuum(&fluid, 9.81);
+    let clamp = End::pinned(Vector3::zeros()).clamped(Vector3::y()).with_side(rod.sides().unwrap()[0]);
+    let run = |h: f64| {
+        let mut state = State::along(&rod, &points).unwrap();
+        let mut solver = Solver::new(&rod, Settings { rho_inf: 1.0, ..Settings::default() });
+        let mut books: Option<Balance> = None;
+        let mut worst: f64 = 0.0;
+        for i in 1..=(3.0 / h) as usize {
+            let made = solver.step(&rod, &mut state, &world, i as f64 * h, [clamp, End::FREE]).unwrap();
+            match &mut books {
+                None => books = Some(Balance::open(&rod, &state, &world, &solver, &made)),
+                Some(books) => {
+                    books.enter(&rod, &state, &world, &solver, &made);
+                    worst = worst.max(books.energy_error().abs() / books.turnover);
+                }
+            }
+        }
+        worst
+    };
+    let (coarse, fine) = (run(0.01), run(0.005));
+    println!("{coarse} {fine}");
+    // second order in the step
+    assert!(coarse < 0.02 && fine < 0.4 * coarse, "{coarse} {fine}");
+}
+
+#[test]
+fn a_step_that_cannot_be_made_is_cut_and_then_named() {
+    let rod = Rod::new("LINE7", vec![Segment::line(100.0, 20, 50.0, 1e8, 0.1)], vec![]).unwrap();
+    let fluid = UniformFluid::none();
+    let world = vacuum(&fluid, 9.81);
+    let (a, b) = (Vector3::zeros(), Vector3::new(80.0, 0.0, 0.0));
+    let mut state = State::along(&rod, &[a, b]).unwrap();
+    let mut solver = Solver::new(&rod, Settings { halvings: 3, ..Settings::default() });
+    solver.statics(&rod, &mut state, &world, [End::pinned(a), End::pinned(b)]).unwrap();
+    let before = state.clone();
+    // an end that is no place at all
+    let nowhere = Motion::still(Vector3::new(f64::NAN, 0.0, 0.0));
+    let failed = solver.step(&rod, &mut state, &world, 0.5, [End::pinned(a), End::moved(nowhere)]).unwrap_err();
+    let told = failed.to_string();
+    assert!(told.starts_with("LINE7: no solution at t = 0.5 s") && told.contains("element"), "{told}");
+    assert_eq!(state, before);
+    // and goes on from the state it had
+    solver.step(&rod, &mut state, &world, 0.5, [End::pinned(a), End::pinned(b)]).unwrap();
+}

@@ -62,8 +62,8 @@ fn ropes_that_are_slack_vertical_grounded_or_buoyant_come_to_rest() {
                 ([0.0, 0.0, -10.0], [0.1, 0.0, -30.0]),
                 ([0.0, 0.0, -49.0], [90.0, 0.0, -5.0]),
             ] {
-                if bending > 0.0 && b[0] == 0.1 {
-                    // a beam folded to a hairpin narrower than its element is none
+                if bending > 0.0 && b[0] < 5.0 {
+                    // such a beam would be folded to a hairpin much narrower than its stiffness lets it
                     continue;
                 }
                 let (a, b) = (Vector3::from(a), Vector3::from(b));
