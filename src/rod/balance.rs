@@ -1,13 +1,14 @@
 //! The books of energy and momentum of a run.
 
-use super::assemble::{HingeAt, hinge_sides, tension};
 use super::bend::hinge;
 use super::contact::{contact, energy};
+use super::hinges::{HingeAt, hinge_sides};
 use super::immersed::{half_load, wet_share};
 use super::mesh::{Rod, State};
 use super::spatial;
 use super::step::{EndForces, Solver};
 use super::surroundings::World;
+use super::tension::tension;
 use nalgebra::Vector3;
 
 /// Energy a rod holds at one time (J).
@@ -119,7 +120,8 @@ impl Balance {
         self.energy = look.energy;
         self.momentum = look.momentum;
         let w = &self.work;
-        let parts = [w.ends[0], w.ends[1], w.fluid, w.damping, w.bottom, w.given, look.energy.kinetic, look.energy.elastic];
+        let parts =
+            [w.ends[0], w.ends[1], w.fluid, w.damping, w.bottom, w.given, look.energy.kinetic, look.energy.elastic];
         self.turnover = parts.iter().fold(self.turnover, |most, p| most.max(p.abs()));
     }
 
@@ -208,7 +210,8 @@ fn look(rod: &Rod, state: &State, world: &World, solver: &Solver, made: &EndForc
         let share = wet_share(depth, depth, held.height).0;
         let (u, q) = (v[node] - fluid.velocity, a[node] - fluid.acceleration);
         let water = fluid.density * held.volume;
-        let mut force = u * (-0.5 * fluid.density * held.drag * u.norm()) - q * (water * held.added) + fluid.acceleration * water;
+        let mut force =
+            u * (-0.5 * fluid.density * held.drag * u.norm()) - q * (water * held.added) + fluid.acceleration * water;
         force.z += water * world.gravity;
         found.power.fluid += force.dot(&v[node]) * share;
         found.force += force * share;

@@ -1,9 +1,9 @@
 //! What a rod is to what holds its ends: its forces there, and how they follow the motion of the ends.
 
-use super::assemble::Weights;
 use super::mesh::Rod;
 use super::step::Solver;
 use super::surroundings::World;
+use super::system::Weights;
 use nalgebra::Matrix6;
 
 /// Places of the widest row of a band.

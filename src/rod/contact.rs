@@ -74,7 +74,8 @@ pub(super) fn contact(
         let pull = -(mu * v) / speed;
         made.force[1] = pull * support;
         made.by_position -= pull * normal.transpose() * by_depth;
-        made.by_velocity += (mu * (-support / speed)) - pull * sliding.transpose() * (support / (speed * speed))
+        made.by_velocity += (mu * (-support / speed))
+            - pull * sliding.transpose() * (support / (speed * speed))
             - pull * normal.transpose() * by_sinking;
     }
     Some(made)

@@ -41,7 +41,8 @@ pub(super) fn half_load(
     let volume = density * half.volume;
     let q_along = q.dot(t);
 
-    let mut force = across * (normal * speed) + t * (tangential * along.abs() * along + added_more * q_along) + q * added;
+    let mut force =
+        across * (normal * speed) + t * (tangential * along.abs() * along + added_more * q_along) + q * added;
     force -= fluid.acceleration * volume;
     force.z -= volume * gravity;
 

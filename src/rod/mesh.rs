@@ -58,7 +58,10 @@ impl Element {
             torsion: segment.torsion,
             mass: half * segment.mass,
             volume: half * segment.displaced,
-            added: [half * segment.added_area * segment.added_normal, half * segment.added_area * segment.added_tangential],
+            added: [
+                half * segment.added_area * segment.added_normal,
+                half * segment.added_area * segment.added_tangential,
+            ],
             drag: [
                 0.5 * half * segment.drag_diameter * segment.drag_normal,
                 0.5 * half * std::f64::consts::PI * segment.drag_diameter * segment.drag_tangential,
@@ -120,7 +123,9 @@ impl Rod {
             let numbers = [a.mass, a.volume, a.height, a.drag, a.added];
             if a.node > count || numbers.iter().any(|v| !(v.is_finite() && *v >= 0.0)) {
                 let node = a.node;
-                return Err(refuse(format!("the attachment at node {node} needs a node from 0 to {count} and no negative property")));
+                return Err(refuse(format!(
+                    "the attachment at node {node} needs a node from 0 to {count} and no negative property"
+                )));
             }
         }
         let elements = segments
@@ -327,6 +332,14 @@ impl State {
             Vec::new()
         };
         let rest = vec![Vector3::zeros(); rod.nodes()];
-        Ok(State { time: 0.0, position, velocity: rest.clone(), acceleration: rest.clone(), averaged: rest, director, bedding: vec![0.0; rod.nodes()] })
+        Ok(State {
+            time: 0.0,
+            position,
+            velocity: rest.clone(),
+            acceleration: rest.clone(),
+            averaged: rest,
+            director,
+            bedding: vec![0.0; rod.nodes()],
+        })
     }
 }

@@ -1,11 +1,12 @@
 //! Natural periods and shapes of a rod about where it rests.
 
-use super::assemble::Weights;
 use super::ends::End;
 use super::error::RodError;
 use super::mesh::{Rod, State};
-use super::step::{Solver, lay, sample, soften};
+use super::step::Solver;
 use super::surroundings::World;
+use super::system::Weights;
+use super::trial::{lay, sample, soften};
 use super::workspace::Workspace;
 use nalgebra::{DMatrix, SymmetricEigen, Vector3};
 
@@ -71,7 +72,9 @@ impl Solver {
         for node in [0, last].into_iter().filter(|n| !free(*n)) {
             shifted.fix(node);
         }
-        shifted.factor().map_err(|node| refuse(format!("its stiffness vanishes at element {}", node.clamp(1, last))))?;
+        shifted
+            .factor()
+            .map_err(|node| refuse(format!("its stiffness vanishes at element {}", node.clamp(1, last))))?;
         let times = |matrix: &Workspace, vector: &[f64]| {
             let mut made = vec![0.0; size];
             matrix.times(vector, &mut made);
@@ -101,10 +104,13 @@ impl Solver {
             let loaded: Vec<Vec<f64>> = vectors.iter().map(|v| times(&mass, v)).collect();
             let held: Vec<Vec<f64>> = vectors.iter().map(|v| times(&stiffness, v)).collect();
             let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(p, q)| p * q).sum::<f64>();
-            let small = |of: &[Vec<f64>]| DMatrix::from_fn(space, space, |i, j| 0.5 * (dot(&vectors[i], &of[j]) + dot(&vectors[j], &of[i])));
+            let small = |of: &[Vec<f64>]| {
+                DMatrix::from_fn(space, space, |i, j| 0.5 * (dot(&vectors[i], &of[j]) + dot(&vectors[j], &of[i])))
+            };
             let (k, m) = (small(&held), small(&loaded));
             let Some(factor) = m.cholesky() else { return Err(refuse("its modes cannot be told apart".to_string())) };
-            let inverse = factor.l().try_inverse().ok_or_else(|| refuse("its modes cannot be told apart".to_string()))?;
+            let inverse =
+                factor.l().try_inverse().ok_or_else(|| refuse("its modes cannot be told apart".to_string()))?;
             let eigen = SymmetricEigen::new(&inverse * k * inverse.transpose());
             let mut order: Vec<usize> = (0..space).collect();
             order.sort_by(|a, b| eigen.eigenvalues[*a].total_cmp(&eigen.eigenvalues[*b]));

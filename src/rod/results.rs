@@ -1,11 +1,12 @@
 //! What is wanted of a rod at one time: tensions, moments, stresses along it.
 
-use super::assemble::{HingeAt, hinge_sides, tension};
 use super::bend::hinge;
 use super::ends::End;
+use super::hinges::{HingeAt, hinge_sides};
 use super::mesh::{Rod, State};
 use super::spatial::twist;
 use super::surroundings::World;
+use super::tension::tension;
 use nalgebra::Vector3;
 
 /// Results at a node.
@@ -57,7 +58,8 @@ impl Rod {
         let last = self.elements.len();
         let (x, v) = (&state.position, &state.velocity);
         let fluids: Vec<_> = x.iter().map(|x| world.fluid.at(x, state.time)).collect();
-        let edges: Vec<(Vector3<f64>, f64)> = x.windows(2).map(|p| ((p[1] - p[0]).normalize(), (p[1] - p[0]).norm())).collect();
+        let edges: Vec<(Vector3<f64>, f64)> =
+            x.windows(2).map(|p| ((p[1] - p[0]).normalize(), (p[1] - p[0]).norm())).collect();
         let pulls: Vec<f64> = self
             .elements
             .iter()
@@ -66,7 +68,17 @@ impl Rod {
                 let (t, length) = edges[i];
                 let stretch = length / element.rest;
                 let rate = (t.dot(&(v[i + 1] - v[i])) - stretch * element.rate) / element.rest;
-                tension(self, element, element.compression, stretch - 1.0, rate, 0.5 * (x[i].z + x[i + 1].z), &fluids[i], world.gravity).value
+                tension(
+                    self,
+                    element,
+                    element.compression,
+                    stretch - 1.0,
+                    rate,
+                    0.5 * (x[i].z + x[i + 1].z),
+                    &fluids[i],
+                    world.gravity,
+                )
+                .value
             })
             .collect();
         // moment vector at each node, and the length it is spread over
@@ -85,7 +97,8 @@ impl Rod {
                     }
                 };
                 let axis = e.cross(&f).try_normalize(1e-300).unwrap_or_else(Vector3::zeros);
-                let angle = if k > 0.0 { hinge(k, &e, 1.0, &f, 1.0).angle } else { e.cross(&f).norm().atan2(e.dot(&f)) };
+                let angle =
+                    if k > 0.0 { hinge(k, &e, 1.0, &f, 1.0).angle } else { e.cross(&f).norm().atan2(e.dot(&f)) };
                 (axis * (k * angle), if k > 0.0 { over } else { over.max(1e-300) })
             })
             .collect();
@@ -142,7 +155,13 @@ impl Rod {
         let last = self.elements.len();
         (0..=last)
             .map(|i| {
-                let at = if i == 0 { HingeAt::A } else if i == last { HingeAt::B } else { HingeAt::Inner(i) };
+                let at = if i == 0 {
+                    HingeAt::A
+                } else if i == last {
+                    HingeAt::B
+                } else {
+                    HingeAt::Inner(i)
+                };
                 let Some((k, kt, e, f)) = hinge_sides(self, &state.position, &state.director, ends, at) else {
                     return ((Vector3::zeros(), 1.0), 0.0);
                 };

@@ -219,7 +219,11 @@ impl Segment {
                 return refuse("the outer diameter", tube.outer, "it must be positive");
             }
             if !(tube.inner >= 0.0 && tube.inner < tube.outer) {
-                return refuse("the inner diameter", tube.inner, "the wall must be thinner than the radius and not nothing");
+                return refuse(
+                    "the inner diameter",
+                    tube.inner,
+                    "the wall must be thinner than the radius and not nothing",
+                );
             }
             let others = [tube.poisson, tube.expansion, tube.warmer, tube.pressure, tube.at, tube.contents];
             if let Some(value) = others.into_iter().find(|v| !v.is_finite()) {

@@ -79,18 +79,28 @@ pub(super) fn spatial(k: f64, kt: f64, e: &Side, f: &Side) -> (Eight, SMatrix<f6
     let unit = Matrix3::identity();
     let o = |a: &Vector3<f64>, b: &Vector3<f64>| a * b.transpose();
     let (cross_u, cross_w) = (u.cross_matrix() / (1.0 + c), w.cross_matrix() / (1.0 + c));
-    let ee = o(&w, &w) * by_cc + (o(&w, &se) + o(&se, &w)) * by_cs + (o(&u, &qe) * c - o(&qe, &w)) * by_s
+    let ee = o(&w, &w) * by_cc
+        + (o(&w, &se) + o(&se, &w)) * by_cs
+        + (o(&u, &qe) * c - o(&qe, &w)) * by_s
         + o(&psi, &psi) * kt
         - (cross_w + o(&fall, &w)) * by_m;
-    let ef = o(&w, &u) * by_cc + o(&w, &sf) * by_cs + o(&se, &u) * by_cs + unit * by_c
+    let ef = o(&w, &u) * by_cc
+        + o(&w, &sf) * by_cs
+        + o(&se, &u) * by_cs
+        + unit * by_c
         + (o(&w, &qf) - o(&qe, &u)) * by_s
         + o(&psi, &psi) * kt
         + (cross_u - o(&fall, &u)) * by_m;
-    let fe = o(&u, &w) * by_cc + o(&u, &se) * by_cs + o(&sf, &w) * by_cs + unit * by_c
+    let fe = o(&u, &w) * by_cc
+        + o(&u, &se) * by_cs
+        + o(&sf, &w) * by_cs
+        + unit * by_c
         + (o(&qf, &w) - o(&u, &qe)) * by_s
         + o(&psi, &psi) * kt
         - (cross_w + o(&fall, &w)) * by_m;
-    let ff = o(&u, &u) * by_cc + (o(&u, &sf) + o(&sf, &u)) * by_cs + (o(&qf, &u) - o(&w, &qf) * c) * by_s
+    let ff = o(&u, &u) * by_cc
+        + (o(&u, &sf) + o(&sf, &u)) * by_cs
+        + (o(&qf, &u) - o(&w, &qf) * c) * by_s
         + o(&psi, &psi) * kt
         + (cross_u - o(&fall, &u)) * by_m;
 

@@ -1,11 +1,13 @@
 //! The position of rest of a rod.
 
-use super::assemble::Weights;
 use super::ends::End;
 use super::error::RodError;
+use super::hinges::end_moment;
 use super::mesh::{Rod, State};
-use super::step::{EndForces, Solver, end_moment, lay, sample, soften, turn};
+use super::step::{EndForces, Solver};
 use super::surroundings::World;
+use super::system::Weights;
+use super::trial::{lay, sample, soften, turn};
 use nalgebra::Vector3;
 
 /// Newton iterations after which statics gives up.
@@ -59,7 +61,8 @@ impl Solver {
         soften(state, world, &mut self.trial.soft);
         let mass = masses(rod);
         // a start that is much too short would buckle in all its elements at once: it first falls as a chain does
-        let strains = rod.elements.iter().zip(self.trial.x.windows(2)).map(|(e, x)| (x[1] - x[0]).norm() / e.rest - 1.0);
+        let strains =
+            rod.elements.iter().zip(self.trial.x.windows(2)).map(|(e, x)| (x[1] - x[0]).norm() / e.rest - 1.0);
         self.trial.loose = strains.fold(0.0, f64::min) < SHORT;
         let mut from = self.trial.x.clone();
         let mut director = self.trial.director.clone();
@@ -123,7 +126,15 @@ impl Solver {
                     from.copy_from_slice(&self.trial.x);
                     director.copy_from_slice(&self.trial.director);
                     longest = (longest * 1.3f64).min(1e6);
-                    pseudo = (pseudo * if inner <= 3 { 4.0 } else if inner <= 6 { 2.0 } else { 1.0 }).min(longest);
+                    pseudo = (pseudo
+                        * if inner <= 3 {
+                            4.0
+                        } else if inner <= 6 {
+                            2.0
+                        } else {
+                            1.0
+                        })
+                    .min(longest);
                 }
                 None => {
                     self.trial.x.copy_from_slice(&from);
@@ -179,7 +190,8 @@ impl Solver {
             (_, false) => return Fall::Lost,
         }
         self.work.newton(&mut self.change);
-        let size = self.change.iter().fold(0.0, |most: f64, c| if c.is_nan() { f64::INFINITY } else { most.max(c.abs()) });
+        let size =
+            self.change.iter().fold(0.0, |most: f64, c| if c.is_nan() { f64::INFINITY } else { most.max(c.abs()) });
         if size > 2.0 * rod.length() {
             return Fall::Lost;
         }

@@ -1,35 +1,15 @@
 //! One implicit step in time.
 
-use super::assemble::{HingeAt, Trial, Weights, hinge_sides};
-use super::ends::{End, Motion};
+use super::ends::End;
 use super::error::RodError;
+use super::hinges::end_moment;
 use super::mesh::{Rod, State};
-use super::spatial::{spatial, transport, turned};
-use super::surroundings::World;
+use super::scheme::{Scheme, Settings};
+use super::surroundings::{UniformFluid, World};
+use super::system::Weights;
+use super::trial::{Trial, carry, interpolate, lay, sample, soften, turn};
 use super::workspace::Workspace;
 use nalgebra::Vector3;
-
-/// How a rod is stepped.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings {
-    /// Spectral radius at infinite frequency of the generalised-alpha scheme, 0 to 1: 1 damps nothing, 0 kills what the step
-    /// cannot follow.
-    pub rho_inf: f64,
-    /// An iteration has converged when no node moves by more than this share of the shortest element.
-    pub tolerance: f64,
-    /// Iterations after which a step is cut.
-    pub iterations: usize,
-    /// How often a step may be halved.
-    pub halvings: u32,
-    /// Whether statics may also end where any push would make the rod leave, as a ring bent out of a straight beam.
-    pub unstable: bool,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Settings { rho_inf: 0.2, tolerance: 1e-5, iterations: 20, halvings: 12, unstable: false }
-    }
-}
 
 /// What a step came to.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,67 +45,6 @@ pub struct Solver {
     pub(super) weights: Weights,
 }
 
-/// The scheme's constants for one step length: generalised-alpha (Chung and Hulbert 1993) in the form of Arnold and Bruels 2007, in which
-/// equilibrium holds at the end of the step.
-#[derive(Clone, Copy, Debug)]
-struct Scheme {
-    h: f64,
-    /// The new averaged acceleration by the move beyond v h, and by the old one.
-    new_by_u: f64,
-    new_by_old: f64,
-    /// The velocity by the old and new averaged accelerations.
-    v_by_old: f64,
-    v_by_new: f64,
-    /// The acceleration by the new and old averaged ones, and by the last.
-    a_by_new: f64,
-    a_by_old: f64,
-    a_by_last: f64,
-}
-
-/// Takes what is smaller than 1e-136 as zero: a motion that dies away would end in denormal numbers, which cost a hundred times
-/// as much as others.
-#[inline(always)]
-fn flush(v: Vector3<f64>) -> Vector3<f64> {
-    const TINY: f64 = 1e-120;
-    v.map(|c| (c + TINY) - TINY)
-}
-
-impl Scheme {
-    fn new(h: f64, rho: f64) -> Self {
-        let (alpha_m, alpha_f) = ((2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0));
-        let gamma = 0.5 + alpha_f - alpha_m;
-        let beta = 0.25 * (1.0 + alpha_f - alpha_m).powi(2);
-        Scheme {
-            h,
-            new_by_u: 1.0 / (beta * h * h),
-            new_by_old: (0.5 - beta) / beta,
-            v_by_old: (1.0 - gamma) * h,
-            v_by_new: gamma * h,
-            a_by_new: (1.0 - alpha_m) / (1.0 - alpha_f),
-            a_by_old: alpha_m / (1.0 - alpha_f),
-            a_by_last: alpha_f / (1.0 - alpha_f),
-        }
-    }
-
-    fn weights(&self) -> Weights {
-        Weights {
-            k: 1.0,
-            c: self.v_by_new * self.new_by_u,
-            m: self.a_by_new * self.new_by_u,
-        }
-    }
-
-    /// Averaged acceleration, velocity and acceleration of node `i` moved by `u` from where the step began.
-    #[inline(always)]
-    fn follow(&self, from: &State, i: usize, u: Vector3<f64>) -> [Vector3<f64>; 3] {
-        let (v, a, acc) = (&from.velocity[i], &from.averaged[i], &from.acceleration[i]);
-        let new = flush((u - v * self.h) * self.new_by_u - a * self.new_by_old);
-        let velocity = flush(v + a * self.v_by_old + new * self.v_by_new);
-        let acceleration = flush(new * self.a_by_new + a * self.a_by_old - acc * self.a_by_last);
-        [new, velocity, acceleration]
-    }
-}
-
 impl Solver {
     /// Memory for a rod.
     pub fn new(rod: &Rod, settings: Settings) -> Self {
@@ -140,7 +59,7 @@ impl Solver {
             director: if rod.twists() { vec![Vector3::x(); nodes - 1] } else { Vec::new() },
             bedding: vec![0.0; nodes],
         };
-        let still = super::surroundings::UniformFluid::none().0;
+        let still = UniformFluid::none().0;
         let trial = Trial {
             time: 0.0,
             x: zero.clone(),
@@ -271,14 +190,7 @@ impl Solver {
     }
 
     /// Newton's iterations of one step; the iterations it took.
-    fn attempt(
-        &mut self,
-        rod: &Rod,
-        from: &State,
-        world: &World,
-        time: f64,
-        ends: [End; 2],
-    ) -> Result<usize, Failure> {
+    fn attempt(&mut self, rod: &Rod, from: &State, world: &World, time: f64, ends: [End; 2]) -> Result<usize, Failure> {
         let scheme = Scheme::new(time - from.time, self.settings.rho_inf.clamp(0.0, 1.0));
         let (h, last) = (scheme.h, rod.elements.len());
         self.weights = scheme.weights();
@@ -292,7 +204,13 @@ impl Solver {
         let next = &mut self.next;
         next.time = time;
         for i in 0..=last {
-            let known = if i == 0 { ends[0].motion } else if i == last { ends[1].motion } else { None };
+            let known = if i == 0 {
+                ends[0].motion
+            } else if i == last {
+                ends[1].motion
+            } else {
+                None
+            };
             match known {
                 Some(m) => {
                     next.position[i] = m.position;
@@ -402,31 +320,17 @@ impl Solver {
     }
 }
 
-/// Moment of the rod on the holder of an end (N m): the hinge turns the rod toward the held direction, and the holder back.
-pub(super) fn end_moment(rod: &Rod, state: &State, end: &End, side: usize) -> Vector3<f64> {
-    let (i, element) = if side == 0 { (0, rod.elements.first()) } else { (rod.elements.len() - 1, rod.elements.last()) };
-    if rod.twists() {
-        let at = if side == 0 { HingeAt::A } else { HingeAt::B };
-        let mut ends = [End::FREE; 2];
-        ends[side] = *end;
-        return hinge_sides(rod, &state.position, &state.director, &ends, at).map_or_else(Vector3::zeros, |(k, kt, e, f)| {
-            let gradient = spatial(k, kt, &e, &f).0;
-            let (near, first) = if side == 0 { (f, 3) } else { (e, 0) };
-            let force = gradient.fixed_rows::<3>(first).into_owned();
-            near.direction.cross(&force) * near.length + near.direction * gradient[if side == 0 { 7 } else { 6 }]
-        });
-    }
-    let hinge = element.and_then(|e| end.hinge(e));
-    let Some((stiffness, direction)) = hinge else { return Vector3::zeros() };
-    let t = (state.position[i + 1] - state.position[i]).normalize();
-    let axis = direction.cross(&t);
-    let sine = axis.norm();
-    if sine > 0.0 { axis * (stiffness * sine.atan2(direction.dot(&t)) / sine) } else { axis }
-}
-
 impl State {
     fn empty() -> Self {
-        State { time: 0.0, position: vec![], velocity: vec![], acceleration: vec![], averaged: vec![], director: vec![], bedding: vec![] }
+        State {
+            time: 0.0,
+            position: vec![],
+            velocity: vec![],
+            acceleration: vec![],
+            averaged: vec![],
+            director: vec![],
+            bedding: vec![],
+        }
     }
 }
 
@@ -439,73 +343,4 @@ fn copy(from: &State, to: &mut State) {
     to.averaged.copy_from_slice(&from.averaged);
     to.director.copy_from_slice(&from.director);
     to.bedding.copy_from_slice(&from.bedding);
-}
-
-/// Takes directors along from one position of the nodes to another.
-fn carry(directors: &mut [Vector3<f64>], from: &[Vector3<f64>], to: &[Vector3<f64>]) {
-    for ((director, a), b) in directors.iter_mut().zip(from.windows(2)).zip(to.windows(2)) {
-        *director = transport(director, &(a[1] - a[0]).normalize(), &(b[1] - b[0]).normalize());
-    }
-}
-
-/// Takes directors along with a change of the unknowns that is about to be made, and turns them by it.
-pub(super) fn turn(directors: &mut [Vector3<f64>], x: &[Vector3<f64>], change: &[f64], stride: usize, known: [bool; 2]) {
-    let last = x.len() - 1;
-    let moved = |i: usize| {
-        if (i == 0 && known[0]) || (i == last && known[1]) {
-            return x[i];
-        }
-        x[i] + Vector3::new(change[stride * i], change[stride * i + 1], change[stride * i + 2])
-    };
-    for (i, director) in directors.iter_mut().enumerate() {
-        let (from, to) = ((x[i + 1] - x[i]).normalize(), (moved(i + 1) - moved(i)).normalize());
-        *director = turned(&transport(director, &from, &to), &to, change[stride * i + 3]);
-    }
-}
-
-/// Asks the fluid at the nodes of a trial.
-pub(super) fn sample(world: &World, time: f64, trial: &mut Trial) {
-    if world.fluid.uniform() {
-        let everywhere = world.fluid.at(&trial.x[0], time);
-        trial.fluid.fill(everywhere);
-    } else {
-        for (fluid, x) in trial.fluid.iter_mut().zip(&trial.x) {
-            *fluid = world.fluid.at(x, time);
-        }
-    }
-}
-
-/// Direction of the rod at each node, where friction needs it.
-pub(super) fn lay(rod: &Rod, state: &State, world: &World, lay: &mut [Vector3<f64>]) {
-    if world.bottom.is_some_and(|(_, g)| g.friction_along > 0.0 || g.friction_across > 0.0) {
-        let last = rod.elements.len();
-        for (i, direction) in lay.iter_mut().enumerate() {
-            let d = state.position[(i + 1).min(last)] - state.position[i.saturating_sub(1)];
-            *direction = d.try_normalize(1e-12).unwrap_or_else(Vector3::zeros);
-        }
-    }
-}
-
-/// Penetration over which the bottom's stiffness grows at each node: the bottom's own, or the mesh's where it is larger.
-pub(super) fn soften(state: &State, world: &World, soft: &mut [f64]) {
-    if let Some((_, ground)) = &world.bottom {
-        for (soft, bedding) in soft.iter_mut().zip(&state.bedding) {
-            *soft = bedding.max(ground.soft);
-        }
-    }
-}
-
-/// An end part of the way through a step: a cubic through position and velocity at both ends of it.
-fn interpolate(state: &State, node: usize, end: &End, whole: f64, share: f64) -> End {
-    let Some(to) = end.motion.filter(|_| share < 1.0) else { return *end };
-    let (x0, v0) = (state.position[node], state.velocity[node] * whole);
-    let (x1, v1) = (to.position, to.velocity * whole);
-    let (s, d) = (share, x1 - x0);
-    let (b, c) = (d * 3.0 - v0 * 2.0 - v1, v0 + v1 - d * 2.0);
-    let motion = Motion {
-        position: x0 + v0 * s + b * (s * s) + c * (s * s * s),
-        velocity: (v0 + b * (2.0 * s) + c * (3.0 * s * s)) / whole,
-        acceleration: (b * 2.0 + c * (6.0 * s)) / (whole * whole),
-    };
-    End { motion: Some(motion), ..*end }
 }

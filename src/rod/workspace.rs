@@ -1,9 +1,11 @@
 //! The system of a rod by its kind: as narrow a band as its stiffness needs.
 
+use super::assemble::assemble;
 use super::condense::WIDEST;
-use super::assemble::{System, Trial, Weights, assemble};
 use super::mesh::Rod;
 use super::surroundings::World;
+use super::system::{System, Weights};
+use super::trial::Trial;
 #[cfg(test)]
 use nalgebra::Matrix3;
 use nalgebra::Vector3;

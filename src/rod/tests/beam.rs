@@ -88,7 +88,11 @@ fn a_clamped_and_tensioned_riser_bends_as_the_beam_with_tension() {
     let middle_moment = q / (k * k) * (1.0 - z / z.sinh());
     // second order in k l = 0.07, small rotations to the square of the slope
     assert!((found[0].moment / clamp_moment - 1.0).abs() < 2e-3, "{} {clamp_moment}", found[0].moment);
-    assert!((found[elements / 2].moment / middle_moment - 1.0).abs() < 2e-3, "{} {middle_moment}", found[elements / 2].moment);
+    assert!(
+        (found[elements / 2].moment / middle_moment - 1.0).abs() < 2e-3,
+        "{} {middle_moment}",
+        found[elements / 2].moment
+    );
     assert!((made.moment[0].norm() / clamp_moment - 1.0).abs() < 2e-3);
     assert!((found[0].shear / (0.5 * q * length) - 1.0).abs() < 0.02, "{}", found[0].shear);
 }

@@ -56,11 +56,7 @@ fn follows_moordyn() {
         let x = r * 5.0 * s;
         let v = 5.0 * (rd * s + r * w * c);
         let acc = 5.0 * (rdd * s + 2.0 * rd * w * c - r * w * w * s);
-        Motion {
-            position: b + Vector3::x() * x,
-            velocity: Vector3::x() * v,
-            acceleration: Vector3::x() * acc,
-        }
+        Motion { position: b + Vector3::x() * x, velocity: Vector3::x() * v, acceleration: Vector3::x() * acc }
     };
     let steps = (120.0 / dt).round() as usize;
     let cpu = || -> f64 {
@@ -91,7 +87,12 @@ fn follows_moordyn() {
     let rms = (errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64).sqrt();
     println!(
         "N {n} dt {dt}: max {:.3} % rms {:.3} % range {:.0}; {:.2} it/step, {} parts of {steps}, {:.0} x real time",
-        100.0 * most, 100.0 * rms, hi - lo, its as f64 / steps as f64, parts, 120.0 / took
+        100.0 * most,
+        100.0 * rms,
+        hi - lo,
+        its as f64 / steps as f64,
+        parts,
+        120.0 / took
     );
     if let Ok(file) = std::env::var("REF") {
         let own: Vec<(f64, f64)> = std::fs::read_to_string(file)
@@ -107,7 +108,12 @@ fn follows_moordyn() {
         let grid = own.iter().filter(|r| r.0 >= 20.0 && ((r.0 / dt).round() * dt - r.0).abs() < 1e-6);
         let at_steps = grid.map(|r| (find(r.0) - r.1).abs() / (hi - lo)).fold(0.0, f64::max);
         let rms = (errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64).sqrt();
-        println!("N {n} dt {dt}: against own: max {:.3} % (at steps {:.3} %) rms {:.3} %", 100.0 * most, 100.0 * at_steps, 100.0 * rms);
+        println!(
+            "N {n} dt {dt}: against own: max {:.3} % (at steps {:.3} %) rms {:.3} %",
+            100.0 * most,
+            100.0 * at_steps,
+            100.0 * rms
+        );
     }
     if let Ok(file) = std::env::var("OUT") {
         let text: String = history.iter().map(|(t, f)| format!("{t} {f}\n")).collect();

@@ -10,14 +10,11 @@ fn vacuum(fluid: &UniformFluid, gravity: f64) -> World<'_> {
 
 #[test]
 fn a_pendulum_let_go_level_takes_the_period_of_the_elliptic_integral() {
-    let rod = Rod::new("pendulum", vec![Segment::line(2.0, 1, 0.01, 1e8, 0.01)], vec![Attachment {
-        node: 1,
-        mass: 100.0,
-        volume: 0.0,
-        height: 0.0,
-        drag: 0.0,
-        added: 0.0,
-    }])
+    let rod = Rod::new(
+        "pendulum",
+        vec![Segment::line(2.0, 1, 0.01, 1e8, 0.01)],
+        vec![Attachment { node: 1, mass: 100.0, volume: 0.0, height: 0.0, drag: 0.0, added: 0.0 }],
+    )
     .unwrap();
     let fluid = UniformFluid::none();
     let world = vacuum(&fluid, 9.81);
@@ -47,7 +44,8 @@ fn a_pendulum_let_go_level_takes_the_period_of_the_elliptic_integral() {
 #[test]
 fn a_pull_runs_along_a_bar_at_the_speed_of_sound() {
     let (length, mass, ea, speed) = (1000.0, 100.0, 4e8, 1.0);
-    let rod = Rod::new("bar", vec![Segment { compression: true, ..Segment::line(length, 400, mass, ea, 0.1) }], vec![]).unwrap();
+    let rod = Rod::new("bar", vec![Segment { compression: true, ..Segment::line(length, 400, mass, ea, 0.1) }], vec![])
+        .unwrap();
     let fluid = UniformFluid::none();
     let world = vacuum(&fluid, 0.0);
     let mut state = State::along(&rod, &[Vector3::zeros(), Vector3::x() * length]).unwrap();
@@ -65,8 +63,13 @@ fn a_pull_runs_along_a_bar_at_the_speed_of_sound() {
         } else {
             (speed * (t - 0.5 * rise), speed, 0.0)
         };
-        let motion = Motion { position: Vector3::x() * (length + x), velocity: Vector3::x() * v, acceleration: Vector3::x() * a };
-        let made = solver.step(&rod, &mut state, &world, t, [End::pinned(Vector3::zeros()), End::moved(motion)]).unwrap();
+        let motion = Motion {
+            position: Vector3::x() * (length + x),
+            velocity: Vector3::x() * v,
+            acceleration: Vector3::x() * a,
+        };
+        let made =
+            solver.step(&rod, &mut state, &world, t, [End::pinned(Vector3::zeros()), End::moved(motion)]).unwrap();
         if t > 2.0 * rise {
             forces.push(-made.force[1].x);
         }
@@ -90,7 +93,16 @@ fn the_tip_of_a_folded_chain_falls_faster_than_a_stone() {
     // tightly, one end let go, its tip has fallen the whole length after 0.8472 of the time of free fall
     let env = |n: &str, d: f64| std::env::var(n).ok().and_then(|s| s.parse().ok()).unwrap_or(d);
     let (length, elements) = (1.0, env("N", 200.0) as usize);
-    let rod = Rod::new("chain", vec![Segment { compression: env("COMP", 0.0) > 0.0, axial_damping: env("BA", 0.0), ..Segment::line(length, elements, 0.02, env("EA", 2e3), 0.001) }], vec![]).unwrap();
+    let rod = Rod::new(
+        "chain",
+        vec![Segment {
+            compression: env("COMP", 0.0) > 0.0,
+            axial_damping: env("BA", 0.0),
+            ..Segment::line(length, elements, 0.02, env("EA", 2e3), 0.001)
+        }],
+        vec![],
+    )
+    .unwrap();
     let fluid = UniformFluid::none();
     let world = vacuum(&fluid, 9.81);
     let gap = 0.02;
@@ -107,7 +119,9 @@ fn the_tip_of_a_folded_chain_falls_faster_than_a_stone() {
         let t = i as f64 * h;
         solver.step(&rod, &mut state, &world, t, [End::pinned(a), End::FREE]).unwrap();
         let drop = -state.position[elements].z;
-        if i % 100 == 0 { println!("{:.3} {:.4} stone {:.4}", t / free, drop, 0.5 * 9.81 * t * t); }
+        if i % 100 == 0 {
+            println!("{:.3} {:.4} stone {:.4}", t / free, drop, 0.5 * 9.81 * t * t);
+        }
         if t > 0.5 * free && fallen.is_none() {
             ahead &= drop > 0.5 * 9.81 * t * t;
             energy = (state.velocity[elements].norm(), 9.81 * t);
@@ -200,7 +214,8 @@ fn energy_and_momentum_of_a_swinging_moored_rope_add_up() {
 fn energy_of_a_swinging_twisted_beam_adds_up() {
     // a curved cantilever with torsion let go under its own weight: no damping, no outer work but that of its clamp, which stands
     let (elements, quarter) = (24, std::f64::consts::FRAC_PI_4);
-    let segment = Segment { compression: true, bending: 400.0, torsion: 300.0, ..Segment::line(7.854, elements, 2.0, 1e6, 0.1) };
+    let segment =
+        Segment { compression: true, bending: 400.0, torsion: 300.0, ..Segment::line(7.854, elements, 2.0, 1e6, 0.1) };
     let mut rod = Rod::new("bend", vec![segment], vec![]).unwrap();
     let at = |i: usize| {
         let angle = quarter * i as f64 / elements as f64;

@@ -42,7 +42,8 @@ fn a_heated_pipe_under_pressure_between_fixed_ends_is_pressed_as_the_closed_form
     assert!((stress.hoop / hoop - 1.0).abs() < 1e-9, "{} {hoop}", stress.hoop);
     assert!((stress.axial / (exact / wall) - 1.0).abs() < 1e-9);
     let radial = -1e7;
-    let mises = (0.5 * ((hoop - radial).powi(2) + (radial - stress.axial).powi(2) + (stress.axial - hoop).powi(2))).sqrt();
+    let mises =
+        (0.5 * ((hoop - radial).powi(2) + (radial - stress.axial).powi(2) + (stress.axial - hoop).powi(2))).sqrt();
     assert!((stress.von_mises / mises - 1.0).abs() < 1e-9);
 }
 
@@ -86,7 +87,8 @@ fn a_polynomial_and_a_table_of_tension_hang_as_the_line_they_describe() {
     assert!((stretch(Axial::Table(table)) / linear - 1.0).abs() < 1e-6);
     // T = c e + d e^2: strain at tension T is (sqrt(c^2 + 4 d T) - c) / 2 d, integrated over T = w s
     let (c, d, w) = (1e4, 4e4, 20.0 * 9.81);
-    let curved = ((c * c + 4.0 * d * w * 10.0f64).powf(1.5) - c * c * c) / (6.0 * d * w) / (2.0 * d) - c * 10.0 / (2.0 * d);
+    let curved =
+        ((c * c + 4.0 * d * w * 10.0f64).powf(1.5) - c * c * c) / (6.0 * d * w) / (2.0 * d) - c * 10.0 / (2.0 * d);
     let found = stretch(Axial::Polynomial(vec![c, d]));
     // midpoint rule over 50 elements
     assert!((found / curved - 1.0).abs() < 1e-3, "{found} {curved}");

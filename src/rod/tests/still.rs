@@ -51,7 +51,8 @@ fn ropes_that_are_slack_vertical_grounded_or_buoyant_come_to_rest() {
     let world = World { fluid: &fluid, bottom: Some((&bottom, ground)), gravity: 9.81, forces: &[] };
     for (mass, diameter) in [(100.0, 0.1), (20.0, 0.3)] {
         for bending in [0.0, 1e5, 1e6] {
-            let segment = Segment { bending, compression: bending > 0.0, ..Segment::line(100.0, 60, mass, 1e8, diameter) };
+            let segment =
+                Segment { bending, compression: bending > 0.0, ..Segment::line(100.0, 60, mass, 1e8, diameter) };
             let rod = Rod::new("line", vec![segment], vec![]).unwrap();
             for (a, b) in [
                 ([0.0, 0.0, -49.9], [20.0, 0.0, -10.0]),

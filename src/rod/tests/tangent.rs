@@ -1,6 +1,6 @@
 //! Tangents are the differences of what they are tangents of.
 
-use super::super::assemble::Weights;
+use super::super::system::Weights;
 use super::super::*;
 use nalgebra::Vector3;
 
@@ -19,8 +19,7 @@ fn everything(bending: f64) -> (Rod, State) {
         ..Segment::line(20.0, 4, 80.0, 1e6, 0.4)
     };
     let tube = Tube { warmer: 40.0, expansion: 1e-5, pressure: 2e5, contents: 800.0, ..Tube::empty(0.4, 0.3) };
-    let segments =
-        vec![segment(Axial::Linear(1e6), Some(tube)), segment(Axial::Polynomial(vec![1e6, 3e6]), None)];
+    let segments = vec![segment(Axial::Linear(1e6), Some(tube)), segment(Axial::Polynomial(vec![1e6, 3e6]), None)];
     let buoy = Attachment { node: 7, mass: 100.0, volume: 0.5, height: 0.8, drag: 0.4, added: 0.5 };
     let rod = Rod::new("all", segments, vec![buoy]).unwrap();
     let mut state = State::along(&rod, &[Vector3::new(0.0, 0.0, -9.0), Vector3::new(30.0, 5.0, 8.0)]).unwrap();
@@ -50,17 +49,18 @@ fn tangent_of_the_whole_rod_is_the_difference_of_its_residual() {
         let mut solver = Solver::new(&rod, Settings::default());
         solver.trial.ends[0] = End::FREE.clamped(Vector3::new(0.8, 0.3, 0.5));
         solver.trial.ends[1] = End { rotation: Some(2e5), ..End::FREE.clamped(Vector3::new(0.5, -0.3, 0.5)) };
-        let mut at = |position: &[Vector3<f64>], velocity: &[Vector3<f64>], acceleration: &[Vector3<f64>], w: Weights| {
-            solver.trial.x.copy_from_slice(position);
-            solver.trial.v.copy_from_slice(velocity);
-            solver.trial.a.copy_from_slice(acceleration);
-            step::sample(&world, 0.0, &mut solver.trial);
-            step::lay(&rod, &state, &world, &mut solver.trial.lay);
-            step::soften(&state, &world, &mut solver.trial.soft);
-            let last = rod.elements.len();
-            solver.work.assemble(&rod, &world, &solver.trial, w, 0..last);
-            solver.work.clone()
-        };
+        let mut at =
+            |position: &[Vector3<f64>], velocity: &[Vector3<f64>], acceleration: &[Vector3<f64>], w: Weights| {
+                solver.trial.x.copy_from_slice(position);
+                solver.trial.v.copy_from_slice(velocity);
+                solver.trial.a.copy_from_slice(acceleration);
+                trial::sample(&world, 0.0, &mut solver.trial);
+                trial::lay(&rod, &state, &world, &mut solver.trial.lay);
+                trial::soften(&state, &world, &mut solver.trial.soft);
+                let last = rod.elements.len();
+                solver.work.assemble(&rod, &world, &solver.trial, w, 0..last);
+                solver.work.clone()
+            };
         for (kind, w) in [(0, [1.0, 0.0, 0.0]), (1, [0.0, 1.0, 0.0]), (2, [0.0, 0.0, 1.0])] {
             let weights = Weights { k: w[0], c: w[1], m: w[2] };
             let whole = at(&state.position, &state.velocity, &state.acceleration, weights);
@@ -78,7 +78,10 @@ fn tangent_of_the_whole_rod_is_the_difference_of_its_residual() {
                         let tangent = whole.block(row, column).column(axis).into_owned();
                         // forces of 1e6 N to 1e-16 over 1e-6 m: 1e-4; second derivatives 1e7 times h squared are less
                         let most = 2e-3 + 1e-7 * tangent.norm();
-                        assert!((difference - tangent).norm() < most, "EI {bending} kind {kind} {row} {column} {axis}: {difference} {tangent}");
+                        assert!(
+                            (difference - tangent).norm() < most,
+                            "EI {bending} kind {kind} {row} {column} {axis}: {difference} {tangent}"
+                        );
                     }
                 }
             }
@@ -105,7 +108,8 @@ fn end_tangent_is_the_difference_of_the_end_forces() {
         solver.statics(&rod, &mut state, &world, [End::pinned(a), End::pinned(b)]).unwrap();
         let mut force = |change: [[Vector3<f64>; 3]; 2]| {
             let motion = |at: Vector3<f64>, c: [Vector3<f64>; 3]| {
-                let m = Motion { position: at + c[0], velocity: Vector3::new(0.4, 0.1, 0.2) + c[1], acceleration: c[2] };
+                let m =
+                    Motion { position: at + c[0], velocity: Vector3::new(0.4, 0.1, 0.2) + c[1], acceleration: c[2] };
                 End::moved(m)
             };
             let made = solver.trial(&rod, &state, &world, 0.1, [motion(a, change[0]), motion(b, change[1])]).unwrap();
@@ -127,7 +131,10 @@ fn end_tangent_is_the_difference_of_the_end_forces() {
                         let column = tangent.fixed_view::<3, 1>(3 * other, 3 * side + axis);
                         // forces of 1e5 N to 1e-13 over 1e-5 m, and the third derivative
                         let most = 0.05 + 1e-5 * tangent.norm();
-                        assert!((difference - column).norm() < most, "{elements} EI {bending} {side} {axis} {kind} {other}: {difference} {column}");
+                        assert!(
+                            (difference - column).norm() < most,
+                            "{elements} EI {bending} {side} {axis} {kind} {other}: {difference} {column}"
+                        );
                     }
                 }
             }
