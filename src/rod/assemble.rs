@@ -7,7 +7,7 @@ use super::mesh::{Element, Rod};
 use super::on_nodes::on_nodes;
 use super::surroundings::World;
 use super::system::{System, Weights};
-use super::tension::{Tension, tension};
+use super::tension::{Stretch, Taken, Tension, tension};
 use super::trial::Trial;
 use nalgebra::{Matrix3, Vector3};
 use std::ops::Range;
@@ -49,7 +49,8 @@ pub(super) fn assemble<const TANGENT: bool, const W: usize, const H: usize, cons
     for i in range.clone() {
         let element = &rod.elements[i];
         let d = trial.x[i + 1] - trial.x[i];
-        let length = d.norm();
+        // nodes of a slack heap may meet: their element then has no direction, and no tension to need one
+        let length = d.norm().max(1e-9 * element.rest);
         let edge = Edge { i, t: d / length, length, inverse: 1.0 / length };
         let mut share = axial(rod, element, trial, weights, &edge, gravity);
         immersed(element, trial, weights, &edge, gravity, &mut share);
@@ -97,10 +98,10 @@ fn axial(
     let stretch = length * inverse_rest;
     let dv = trial.v[i + 1] - trial.v[*i];
     let rate = (t.dot(&dv) - stretch * element.rate) * inverse_rest;
-    let compression = element.compression && !trial.loose;
-    let height = 0.5 * (xa.z + xb.z);
+    let taken = Taken { compression: element.compression && !trial.loose, ease: trial.ease };
+    let stretched = Stretch { strain: stretch - 1.0, rate, height: 0.5 * (xa.z + xb.z) };
     let Tension { value, by_strain, by_rate, by_height } =
-        tension(rod, element, compression, stretch - 1.0, rate, height, &trial.fluid[*i], gravity);
+        tension(rod, element, taken, &stretched, &trial.fluid[*i], gravity);
     let force = t * value;
     let geometric = k * value * inverse;
     let damped = by_rate * inverse_rest;

@@ -8,7 +8,7 @@ use super::mesh::{Rod, State};
 use super::spatial;
 use super::step::{EndForces, Solver};
 use super::surroundings::World;
-use super::tension::tension;
+use super::tension::{Stretch, Taken, tension};
 use nalgebra::Vector3;
 
 /// Energy a rod holds at one time (J).
@@ -151,20 +151,25 @@ fn look(rod: &Rod, state: &State, world: &World, solver: &Solver, made: &EndForc
     let mut before: Option<(Vector3<f64>, f64)> = None;
     for (i, element) in rod.elements.iter().enumerate() {
         let d = x[i + 1] - x[i];
-        let (length, t) = (d.norm(), d.normalize());
+        let length = d.norm().max(1e-9 * element.rest);
+        let t = d / length;
         let strain = length / element.rest - 1.0;
         let rate = (t.dot(&(v[i + 1] - v[i])) - length / element.rest * element.rate) / element.rest;
         let height = 0.5 * (x[i].z + x[i + 1].z);
-        let pull = tension(rod, element, element.compression, strain, rate, height, &trial.fluid[i], world.gravity);
-        let rateless = tension(rod, element, element.compression, strain, 0.0, height, &trial.fluid[i], world.gravity);
+        let taken = Taken { compression: element.compression, ease: 1.0 };
+        let pull = |rate| {
+            let stretched = Stretch { strain, rate, height };
+            tension(rod, element, taken, &stretched, &trial.fluid[i], world.gravity).value
+        };
+        let (whole, rateless) = (pull(rate), pull(0.0));
         let segment = &rod.segments[element.segment];
         let mechanical = strain - segment.tube.as_ref().map_or(0.0, |t| t.expansion * t.warmer);
         if mechanical > 0.0 || element.compression {
             found.energy.elastic += segment.axial.energy(mechanical) * element.rest;
             // what pressure and damping do beside the law's own energy
             let law = segment.axial.at(mechanical).0;
-            found.power.damping -= (pull.value - rateless.value) * rate * element.rest;
-            found.power.fluid -= (rateless.value - law) * rate * element.rest;
+            found.power.damping -= (whole - rateless) * rate * element.rest;
+            found.power.fluid -= (rateless - law) * rate * element.rest;
         }
         let middle = 0.5 * (trial.fluid[i].surface - x[i].z + trial.fluid[i + 1].surface - x[i + 1].z);
         for node in [i, i + 1] {

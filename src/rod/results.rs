@@ -6,7 +6,7 @@ use super::hinges::{HingeAt, hinge_sides};
 use super::mesh::{Rod, State};
 use super::spatial::twist;
 use super::surroundings::World;
-use super::tension::tension;
+use super::tension::{Stretch, Taken, tension};
 use nalgebra::Vector3;
 
 /// Results at a node.
@@ -59,7 +59,7 @@ impl Rod {
         let (x, v) = (&state.position, &state.velocity);
         let fluids: Vec<_> = x.iter().map(|x| world.fluid.at(x, state.time)).collect();
         let edges: Vec<(Vector3<f64>, f64)> =
-            x.windows(2).map(|p| ((p[1] - p[0]).normalize(), (p[1] - p[0]).norm())).collect();
+            x.windows(2).map(|p| (p[1] - p[0], (p[1] - p[0]).norm().max(f64::MIN_POSITIVE))).map(|(d, l)| (d / l, l)).collect();
         let pulls: Vec<f64> = self
             .elements
             .iter()
@@ -68,17 +68,9 @@ impl Rod {
                 let (t, length) = edges[i];
                 let stretch = length / element.rest;
                 let rate = (t.dot(&(v[i + 1] - v[i])) - stretch * element.rate) / element.rest;
-                tension(
-                    self,
-                    element,
-                    element.compression,
-                    stretch - 1.0,
-                    rate,
-                    0.5 * (x[i].z + x[i + 1].z),
-                    &fluids[i],
-                    world.gravity,
-                )
-                .value
+                let stretched = Stretch { strain: stretch - 1.0, rate, height: 0.5 * (x[i].z + x[i + 1].z) };
+                let taken = Taken { compression: element.compression, ease: 1.0 };
+                tension(self, element, taken, &stretched, &fluids[i], world.gravity).value
             })
             .collect();
         // moment vector at each node, and the length it is spread over

@@ -14,8 +14,12 @@ use nalgebra::Vector3;
 const MOST_ITERATIONS: usize = 20_000;
 /// Newton iterations after which one fall is cut short.
 const MOST_INNER: usize = 12;
-/// Newton iterations after which a loose rod is taken as it lies.
-const MOST_LOOSE: usize = 300;
+/// Newton iterations after which a loose or softened rod is taken as it lies.
+const MOST_LOOSE: usize = 3000;
+/// Strain of a softened rod under its own weight.
+const EASY: f64 = 0.01;
+/// How much stiffer it is taken each time it has come to rest.
+const STIFFER: f64 = 30.0;
 /// Strain below which a start is too short.
 const SHORT: f64 = -0.01;
 /// Largest residual of a node as a share of the largest force in the rod.
@@ -61,9 +65,15 @@ impl Solver {
         soften(state, world, &mut self.trial.soft);
         let mass = masses(rod);
         // a start that is much too short would buckle in all its elements at once: it first falls as a chain does
-        let strains =
-            rod.elements.iter().zip(self.trial.x.windows(2)).map(|(e, x)| (x[1] - x[0]).norm() / e.rest - 1.0);
+        let strains = rod.elements.iter().zip(self.trial.x.windows(2)).map(|(e, x)| (x[1] - x[0]).norm() / e.rest - 1.0);
         self.trial.loose = strains.fold(0.0, f64::min) < SHORT;
+        // and one that is stiff by its weight falls more easily as a softer one
+        let weight = mass.iter().sum::<f64>() * world.gravity.abs();
+        let stiffness = rod.segments.iter().map(|s| s.axial.at(0.0).1).fold(0.0, f64::max);
+        self.trial.ease = (weight / (EASY * stiffness)).min(1.0);
+        if self.trial.ease == 0.0 {
+            self.trial.ease = 1.0;
+        }
         let mut from = self.trial.x.clone();
         let mut director = self.trial.director.clone();
         let mut pseudo = first_fall(rod, world);
@@ -76,8 +86,9 @@ impl Solver {
             for inner in 1..=MOST_INNER {
                 done += 1;
                 match self.fall(rod, world, &mass, &from, pseudo) {
-                    Fall::Rest | Fall::Unstable if self.trial.loose => {
+                    Fall::Rest | Fall::Unstable if self.trial.loose || self.trial.ease < 1.0 => {
                         self.trial.loose = false;
+                        self.trial.ease = (self.trial.ease * STIFFER).min(1.0);
                         from.copy_from_slice(&self.trial.x);
                         pseudo = first_fall(rod, world);
                         break;
@@ -117,8 +128,8 @@ impl Solver {
                     }
                 }
             }
-            if self.trial.loose && done > MOST_LOOSE {
-                self.trial.loose = false;
+            if (self.trial.loose || self.trial.ease < 1.0) && done > MOST_LOOSE {
+                (self.trial.loose, self.trial.ease) = (false, 1.0);
                 pseudo = first_fall(rod, world);
             }
             match settled {
@@ -144,7 +155,7 @@ impl Solver {
                 }
             }
         }
-        self.trial.loose = false;
+        (self.trial.loose, self.trial.ease) = (false, 1.0);
         Err(RodError::Statics {
             rod: rod.name.clone(),
             iterations: done,
@@ -236,7 +247,7 @@ impl Solver {
                 told = told.max(PROOF * force.abs());
             }
             let stiffness = slope / element.rest + 10.0 * element.bending / element.rest.powi(3);
-            told = told.max(4.0 * f64::EPSILON * place * stiffness);
+            told = told.max(32.0 * f64::EPSILON * place * stiffness);
         }
         told
     }

@@ -70,6 +70,7 @@ impl Solver {
             soft: vec![0.0; nodes],
             ends: [End::FREE; 2],
             loose: false,
+            ease: 1.0,
             director: state.director.clone(),
         };
         let work = Workspace::of(rod);

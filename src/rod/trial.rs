@@ -21,6 +21,8 @@ pub(super) struct Trial {
     pub ends: [End; 2],
     /// Whether it is taken as a chain, without resistance to shortening and bending: on the way to a position of rest.
     pub loose: bool,
+    /// The share of its axial stiffness that is there; less than one on the way to a position of rest.
+    pub ease: f64,
     /// Directors of the elements of a rod with torsion.
     pub director: Vec<Vector3<f64>>,
 }
