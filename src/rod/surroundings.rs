@@ -20,7 +20,7 @@ pub trait FluidField {
     /// The fluid at a position (m, global) and time (s). Above the surface the velocity is not used.
     fn at(&self, position: &Vector3<f64>, time: f64) -> Fluid;
 
-    /// Whether the answer is the same everywhere and at all times: it is then asked once a step.
+    /// Whether the answer is the same everywhere at one time: it is then asked for one node only.
     fn uniform(&self) -> bool {
         false
     }

@@ -268,3 +268,148 @@ fn a_step_that_cannot_be_made_is_cut_and_then_named() {
     // and goes on from the state it had
     solver.step(&rod, &mut state, &world, 0.5, [End::pinned(a), End::pinned(b)]).unwrap();
 }
+
+/// Water that swings to and fro along y.
+struct Swell {
+    speed: f64,
+    frequency: f64,
+}
+
+impl FluidField for Swell {
+    fn at(&self, _: &Vector3<f64>, time: f64) -> Fluid {
+        let (s, c) = (self.frequency * time).sin_cos();
+        Fluid {
+            velocity: Vector3::y() * (self.speed * s),
+            acceleration: Vector3::y() * (self.speed * self.frequency * c),
+            surface: 0.0,
+            density: 1025.0,
+        }
+    }
+}
+
+#[test]
+fn a_rod_as_light_as_its_water_goes_with_it() {
+    // m = rho A: (m + rho A Ca) a = rho A (1 + Ca) a_f whatever Ca, so that it moves as the water does and drag has nothing to do
+    let (diameter, frequency, speed): (f64, f64, f64) = (0.5, 0.8, 1.2);
+    let mass = 1025.0 * std::f64::consts::FRAC_PI_4 * diameter * diameter;
+    let segment = Segment { drag_normal: 1.0, added_normal: 1.0, ..Segment::line(20.0, 8, mass, 1e7, diameter) };
+    let rod = Rod::new("drifter", vec![segment], vec![]).unwrap();
+    let swell = Swell { speed, frequency };
+    let world = World { fluid: &swell, bottom: None, gravity: 9.81, forces: &[] };
+    let x = |x: f64| Vector3::new(x, 0.0, -30.0);
+    let mut state = State::along(&rod, &[x(0.0), x(20.0)]).unwrap();
+    for a in state.acceleration.iter_mut().chain(state.averaged.iter_mut()) {
+        a.y = speed * frequency;
+    }
+    let mut solver = Solver::new(&rod, Settings::default());
+    let mut worst: f64 = 0.0;
+    for i in 1..=500 {
+        let t = i as f64 * 0.02;
+        solver.step(&rod, &mut state, &world, t, [End::FREE; 2]).unwrap();
+        let exact = speed / frequency * (1.0 - (frequency * t).cos());
+        worst = worst.max((state.position[4].y - exact).abs());
+    }
+    // second order in the step: (w h)^2 is 3e-4 of an amplitude of 1.5 m
+    assert!(worst < 5e-4, "{worst}");
+}
+
+#[test]
+fn a_chain_on_a_slope_slides_when_friction_is_less_than_the_slope() {
+    // a straight chain along the fall line: a = g (sin - mu cos) once it slides faster than the regularising speed
+    let slope: f64 = 0.5;
+    let angle = slope.atan();
+    let bottom = PlaneBottom { height: 0.0, slope: [-slope, 0.0] };
+    let fluid = UniformFluid::none();
+    let rod = Rod::new("chain", vec![Segment::line(20.0, 10, 50.0, 1e7, 0.1)], vec![]).unwrap();
+    let run = |mu: f64| {
+        let ground =
+            Ground { damping: 1e5, friction_along: mu, friction_across: mu, friction_speed: 1e-3, ..Ground::elastic(1e6) };
+        let world = World { fluid: &fluid, bottom: Some((&bottom, ground)), gravity: 9.81, forces: &[] };
+        let down = Vector3::new(angle.cos(), 0.0, -angle.sin());
+        // laid as deep as it sinks in by its own weight
+        let sunk = Vector3::new(angle.sin(), 0.0, angle.cos()) * (-50.0 * 9.81 * angle.cos() / (1e6 * 0.1));
+        let mut state = State::along(&rod, &[sunk, sunk + down * 20.0]).unwrap();
+        let mut solver = Solver::new(&rod, Settings::default());
+        for i in 1..=200 {
+            solver.step(&rod, &mut state, &world, i as f64 * 0.01, [End::FREE; 2]).unwrap();
+        }
+        state.velocity[5].dot(&down)
+    };
+    let exact = 9.81 * (angle.sin() - 0.3 * angle.cos()) * 2.0;
+    // it sticks for the first instants, up to the regularising speed
+    assert!((run(0.3) / exact - 1.0).abs() < 2e-3, "{} {exact}", run(0.3));
+    // held: it creeps at v0 tan / sqrt(mu^2 - tan^2)
+    let creep = 1e-3 * 0.5 / (0.7f64 * 0.7 - 0.25).sqrt();
+    assert!((run(0.7) / creep - 1.0).abs() < 0.01, "{} {creep}", run(0.7));
+}
+
+#[test]
+fn a_load_lowered_by_a_winch_hangs_by_its_weight_and_goes_down_at_the_rate() {
+    let (mass, rate): (f64, f64) = (5000.0, 0.5);
+    let load = Attachment { node: 10, mass, volume: 0.0, height: 0.0, drag: 0.0, added: 0.0 };
+    let segment = Segment { axial_damping: 1e6, ..Segment::line(50.0, 10, 5.0, 1e8, 0.05) };
+    let mut rod = Rod::new("wire", vec![segment], vec![load]).unwrap();
+    let fluid = UniformFluid::none();
+    let world = vacuum(&fluid, 9.81);
+    let ends = [End::pinned(Vector3::zeros()), End::FREE];
+    let mut state = State::along(&rod, &[Vector3::zeros(), Vector3::new(0.0, 0.0, -50.0)]).unwrap();
+    let mut solver = Solver::new(&rod, Settings::default());
+    solver.statics(&rod, &mut state, &world, ends).unwrap();
+    let (start, h) = (state.position[10].z, 0.05);
+    let mut force = Vector3::zeros();
+    for i in 1..=400 {
+        let t = i as f64 * h;
+        // the first element is let out, at a rate that comes up over five seconds
+        let up = (t / 5.0).min(1.0);
+        let out = if t < 5.0 { 0.5 * rate * t * up } else { rate * (t - 2.5) };
+        rod.set_length(0, 5.0 + out, rate * up).unwrap();
+        force = solver.step(&rod, &mut state, &world, t, ends).unwrap().force[0];
+    }
+    let out = rate * 17.5;
+    // the wire stretches by the weight it carries: 5e-4 of what is let out
+    let weight = 9.81 * (mass + 5.0 * (50.0 + out));
+    assert!((state.position[10].z - (start - out * (1.0 + weight / 1e8))).abs() < 2e-3, "{}", state.position[10].z);
+    // what swings still is the wire's own spring: a part in a thousand
+    assert!((force.z / -weight - 1.0).abs() < 2e-3, "{} {weight}", force.z);
+}
+
+#[test]
+fn a_heave_of_the_top_swings_a_load_by_its_own_spring_at_any_mass() {
+    // a light wire with a load of any mass below an end that heaves: amplitude over heave 1 / (1 - (w / wn)^2)
+    for mass in [10.0, 1e4, 1e6] {
+        let load = Attachment { node: 6, mass, volume: 0.0, height: 0.0, drag: 0.0, added: 0.0 };
+        let (length, frequency, heave): (f64, f64, f64) = (30.0, 1.0, 0.1);
+        // the wire's stiffness is that of a natural frequency of three
+        let ea = 9.0 * mass * length;
+        let rod = Rod::new("wire", vec![Segment::line(length, 6, 1e-3 * mass, ea, 0.05)], vec![load]).unwrap();
+        let fluid = UniformFluid::none();
+        let world = vacuum(&fluid, 9.81);
+        let mut state = State::along(&rod, &[Vector3::zeros(), Vector3::new(0.0, 0.0, -length)]).unwrap();
+        let mut solver = Solver::new(&rod, Settings::default());
+        let still = [End::pinned(Vector3::zeros()), End::FREE];
+        solver.statics(&rod, &mut state, &world, still).unwrap();
+        let start = state.position[6].z;
+        let (mut high, mut low) = (f64::MIN, f64::MAX);
+        for i in 1..=4000 {
+            let t = i as f64 * 0.02;
+            let rise = (t / 40.0).min(1.0);
+            let (s, c) = (frequency * t).sin_cos();
+            let ramp = if t < 40.0 { 1.0 / 40.0 } else { 0.0 };
+            let motion = Motion {
+                position: Vector3::z() * (heave * rise * s),
+                velocity: Vector3::z() * (heave * (ramp * s + rise * frequency * c)),
+                acceleration: Vector3::z() * (heave * (2.0 * ramp * frequency * c - rise * frequency * frequency * s)),
+            };
+            solver.step(&rod, &mut state, &world, t, [End::moved(motion), End::FREE]).unwrap();
+            if t > 60.0 {
+                high = high.max(state.position[6].z - start);
+                low = low.min(state.position[6].z - start);
+            }
+        }
+        // load and a third of the wire swing on the spring
+        let square = 9.0 / (1.0 + 0.03 / 3.0);
+        let exact = heave / (1.0 - 1.0 / square);
+        // what the ramp has left of the free swing, and the wire's own weight on the way
+        assert!((0.5 * (high - low) / exact - 1.0).abs() < 0.02, "{mass}: {} {exact}", 0.5 * (high - low));
+    }
+}
