@@ -4,7 +4,9 @@
 
 use nalgebra::Vector3;
 use windlass::connector::catenary;
-use windlass::rod::{Bottom, End, Fluid, Ground, PlaneBottom, Rod, Segment, Settings, Solver, State, UniformFluid, World};
+use windlass::rod::{
+    Bottom, End, Fluid, Ground, PlaneBottom, Rod, Segment, Settings, Solver, State, UniformFluid, World,
+};
 
 const GRAVITY: f64 = 9.80665;
 const WATER: f64 = 1000.0;

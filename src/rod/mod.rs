@@ -17,6 +17,7 @@ mod results;
 mod scheme;
 mod section;
 mod spatial;
+mod start;
 mod statics;
 mod step;
 mod surroundings;

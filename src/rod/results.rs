@@ -58,8 +58,11 @@ impl Rod {
         let last = self.elements.len();
         let (x, v) = (&state.position, &state.velocity);
         let fluids: Vec<_> = x.iter().map(|x| world.fluid.at(x, state.time)).collect();
-        let edges: Vec<(Vector3<f64>, f64)> =
-            x.windows(2).map(|p| (p[1] - p[0], (p[1] - p[0]).norm().max(f64::MIN_POSITIVE))).map(|(d, l)| (d / l, l)).collect();
+        let edges: Vec<(Vector3<f64>, f64)> = x
+            .windows(2)
+            .map(|p| (p[1] - p[0], (p[1] - p[0]).norm().max(f64::MIN_POSITIVE)))
+            .map(|(d, l)| (d / l, l))
+            .collect();
         let pulls: Vec<f64> = self
             .elements
             .iter()

@@ -65,7 +65,8 @@ impl Solver {
         soften(state, world, &mut self.trial.soft);
         let mass = masses(rod);
         // a start that is much too short would buckle in all its elements at once: it first falls as a chain does
-        let strains = rod.elements.iter().zip(self.trial.x.windows(2)).map(|(e, x)| (x[1] - x[0]).norm() / e.rest - 1.0);
+        let strains =
+            rod.elements.iter().zip(self.trial.x.windows(2)).map(|(e, x)| (x[1] - x[0]).norm() / e.rest - 1.0);
         self.trial.loose = strains.fold(0.0, f64::min) < SHORT;
         // and one that is stiff by its weight falls more easily as a softer one
         let weight = mass.iter().sum::<f64>() * world.gravity.abs();
