@@ -46,6 +46,7 @@ impl Solver {
         let known = self.trial.ends.map(|e| e.motion.is_some());
         // the trial's own positions are at hand in the state that follows it
         self.follow_next();
+        self.trial.exact = true;
         // how the unknowns beside an end feel each of its motions: the columns of the matrix
         let stride = self.work.stride();
         let size = stride * (last + 1);
@@ -64,6 +65,7 @@ impl Solver {
             }
         }
         self.work.assemble(rod, world, &self.trial, weights, 0..last);
+        self.trial.exact = false;
         self.work.keep_rows();
         for (side, node) in [(0, 0), (1, last)] {
             if known[side] {
@@ -74,12 +76,12 @@ impl Solver {
         let mut made = [Matrix6::zeros(); 3];
         for (matrix, kind) in made.iter_mut().zip(&near) {
             for side in (0..2).filter(|s| known[*s]) {
-                for axis in 0..3 {
+                for (axis, column) in kind[side].iter().enumerate() {
                     let place = end_place[side] + axis;
                     let reach = WIDEST / 2;
                     let first = place.saturating_sub(reach);
                     let rows = first..(place + reach + 1).min(size);
-                    let entry = |row: usize| kind[side][axis][row + reach - place];
+                    let entry = |row: usize| column[row + reach - place];
                     let held = |row: usize| (0..2).any(|s| known[s] && (end_place[s]..end_place[s] + 3).contains(&row));
                     self.change.fill(0.0);
                     for row in rows.clone().filter(|r| !held(*r)) {

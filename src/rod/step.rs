@@ -71,6 +71,7 @@ impl Solver {
             ends: [End::FREE; 2],
             loose: false,
             ease: 1.0,
+            exact: false,
             director: state.director.clone(),
         };
         let work = Workspace::of(rod);

@@ -23,6 +23,8 @@ pub(super) struct Trial {
     pub loose: bool,
     /// The share of its axial stiffness that is there; less than one on the way to a position of rest.
     pub ease: f64,
+    /// Whether the tangent of friction is the exact one, as a body needs it, or the secant that converges.
+    pub exact: bool,
     /// Directors of the elements of a rod with torsion.
     pub director: Vec<Vector3<f64>>,
 }
