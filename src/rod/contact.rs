@@ -128,7 +128,8 @@ mod tests {
     fn friction_of_a_fast_slide_is_mu_times_the_normal_force() {
         let bottom = PlaneBottom { height: 0.0, slope: [0.0, 0.0] };
         let ground = Ground { friction_along: 0.4, friction_across: 0.9, friction_speed: 1e-6, ..Ground::elastic(1e5) };
-        let at = |v| contact(&bottom, &ground, 0.0, 1.0, &Vector3::new(0.0, 0.0, -0.01), &v, &Vector3::x(), true).unwrap();
+        let at =
+            |v| contact(&bottom, &ground, 0.0, 1.0, &Vector3::new(0.0, 0.0, -0.01), &v, &Vector3::x(), true).unwrap();
         // 1e5 * 0.01 = 1000 N normal; v0 / v squared is 1e-12
         assert!((at(Vector3::new(1.0, 0.0, 0.0)).force[1].x + 400.0).abs() < 1e-6);
         assert!((at(Vector3::new(0.0, 1.0, 0.0)).force[1].y + 900.0).abs() < 1e-6);

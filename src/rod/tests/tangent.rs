@@ -55,7 +55,7 @@ fn tangent_of_the_whole_rod_is_the_difference_of_its_residual() {
                 solver.trial.v.copy_from_slice(velocity);
                 solver.trial.a.copy_from_slice(acceleration);
                 solver.trial.exact = true;
-            trial::sample(&world, 0.0, &mut solver.trial);
+                trial::sample(&world, 0.0, &mut solver.trial);
                 trial::lay(&rod, &state, &world, &mut solver.trial.lay);
                 trial::soften(&state, &world, &mut solver.trial.soft);
                 let last = rod.elements.len();
