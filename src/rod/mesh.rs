@@ -74,11 +74,11 @@ impl Element {
 
 /// A slender rod from end A to end B: a row of straight elements between nodes.
 ///
-/// Unknowns are the three translations of each node. Tension follows the stretch of an element, bending the angle between the
+/// Unknowns are the three translations of each node, and with torsional stiffness the turn of each element about itself. Tension follows the stretch of an element, bending the angle between the
 /// directions of neighbouring elements: the moment at a node is EI times that angle over the length between the middles of the elements. With EI = 0
 /// nothing but the chain is left. All forces are derivatives of the energy of the actual shape, without restriction of
-/// rotation; errors fall with the square of the element length. The section is the same in all directions and straight when
-/// free of load; shear deformation and rotary inertia are left out, as a slender rod has none worth counting.
+/// rotation; errors fall with the square of the element length. The section is the same in all directions, and the rod
+/// straight when free of load unless [`Rod::set_shape`] says otherwise; shear deformation and rotary inertia are left out, as a slender rod has none worth counting.
 ///
 /// Sources: geometry of the discrete rod after Bergou et al., Discrete Elastic Rods (ACM Trans. Graph. 27, 2008), with the angle
 /// itself as measure of curvature, which closes a circle exactly; line properties in the sense of API RP 2SK.

@@ -32,7 +32,7 @@ impl Solver {
     /// decides.
     ///
     /// # Errors
-    /// More modes than half the unknowns, an unstable position, or modes that do not settle.
+    /// A state of another rod, more modes than half the unknowns, an unstable position, or modes that do not settle.
     pub fn modes(
         &mut self,
         rod: &Rod,
@@ -41,6 +41,7 @@ impl Solver {
         ends: [End; 2],
         count: usize,
     ) -> Result<Vec<Mode>, RodError> {
+        self.fits(rod, state)?;
         let refuse = |why: String| RodError::Shape { rod: rod.name.clone(), why };
         let last = rod.elements.len();
         let stride = self.work.stride();

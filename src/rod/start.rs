@@ -14,8 +14,9 @@ impl Solver {
     /// state from [`Solver::statics`] has them.
     ///
     /// # Errors
-    /// A force that is no number, or a node without mass.
+    /// A force that is no number, a node without mass, or a state of another rod.
     pub fn start(&mut self, rod: &Rod, state: &mut State, world: &World, ends: [End; 2]) -> Result<(), RodError> {
+        self.fits(rod, state)?;
         let last = rod.elements.len();
         let known = ends.map(|e| e.motion.is_some());
         self.trial.time = state.time;

@@ -39,7 +39,7 @@ impl Solver {
     /// would hit the bottom as a hammer does. It falls with the square of the element length.
     ///
     /// # Errors
-    /// [`RodError::Statics`] when no equilibrium is reached; the state is then as before.
+    /// [`RodError::Statics`] when no equilibrium is reached, [`RodError::Shape`] for a state of another rod; the state is then as before.
     pub fn statics(
         &mut self,
         rod: &Rod,
@@ -47,6 +47,7 @@ impl Solver {
         world: &World,
         ends: [End; 2],
     ) -> Result<EndForces, RodError> {
+        self.fits(rod, state)?;
         let last = rod.elements.len();
         let zero = Vector3::zeros();
         self.weights = Weights { k: 1.0, c: 0.0, m: 0.0 };

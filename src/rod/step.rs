@@ -86,6 +86,20 @@ impl Solver {
         }
     }
 
+    /// Refuses a rod and state other than those it was made for.
+    pub(super) fn fits(&self, rod: &Rod, state: &State) -> Result<(), RodError> {
+        let nodes = rod.nodes();
+        let own = [self.trial.x.len(), self.change.len() / self.work.stride()];
+        let lists = [&state.position, &state.velocity, &state.acceleration, &state.averaged].map(Vec::len);
+        let directors = if rod.twists() { nodes - 1 } else { 0 };
+        let turns = [state.director.len(), self.trial.director.len()];
+        if own.iter().chain(&lists).any(|n| *n != nodes) || turns != [directors; 2] || state.bedding.len() != nodes {
+            let why = format!("the state or the solver is not that of this rod of {nodes} nodes");
+            return Err(RodError::Shape { rod: rod.name.clone(), why });
+        }
+        Ok(())
+    }
+
     /// Tries the step from `state` to `time`, at which the ends move as given; the state stays as it is until
     /// [`Solver::accept`], so that a body can try again with another motion of an end.
     ///
@@ -101,6 +115,7 @@ impl Solver {
         time: f64,
         ends: [End; 2],
     ) -> Result<EndForces, RodError> {
+        self.fits(rod, state)?;
         let whole = time - state.time;
         if !(whole > 0.0 && whole.is_finite()) {
             let why = format!("a step from {} s to {time} s goes nowhere", state.time);

@@ -5,3 +5,4 @@ mod motion;
 mod section;
 mod still;
 mod tangent;
+mod violent;

@@ -65,6 +65,15 @@ fn what_makes_no_rod_is_refused_with_its_reason() {
     assert!(Rod::new("R", vec![good.clone()], vec![attachment]).unwrap_err().to_string().contains("from 0 to 5"));
     let rod = Rod::new("R", vec![good], vec![]).unwrap();
     assert!(State::along(&rod, &[Vector3::zeros(), Vector3::zeros()]).is_err());
+    // a state of another rod
+    let other = Rod::new("S", vec![Segment::line(10.0, 7, 10.0, 1e6, 0.1)], vec![]).unwrap();
+    let mut state = State::along(&other, &[Vector3::zeros(), Vector3::x()]).unwrap();
+    let fluid = UniformFluid::none();
+    let world = World { fluid: &fluid, bottom: None, gravity: 9.81, forces: &[] };
+    let mut solver = Solver::new(&rod, Settings::default());
+    assert!(solver.statics(&rod, &mut state, &world, [End::FREE; 2]).unwrap_err().to_string().contains("6 nodes"));
+    assert!(solver.step(&rod, &mut state, &world, 1.0, [End::FREE; 2]).is_err());
+    assert!(solver.modes(&other, &state, &world, [End::FREE; 2], 1).is_err());
 }
 
 #[test]
