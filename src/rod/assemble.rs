@@ -97,7 +97,8 @@ fn axial(
     let inverse_rest = 1.0 / element.rest;
     let stretch = length * inverse_rest;
     let dv = trial.v[i + 1] - trial.v[*i];
-    let rate = (t.dot(&dv) - stretch * element.rate) * inverse_rest;
+    let let_out = if trial.still { 0.0 } else { element.rate };
+    let rate = (t.dot(&dv) - stretch * let_out) * inverse_rest;
     let taken = Taken { compression: element.compression && !trial.loose, ease: trial.ease };
     let stretched = Stretch { strain: stretch - 1.0, rate, height: 0.5 * (xa.z + xb.z) };
     let Tension { value, by_strain, by_rate, by_height } =
@@ -106,7 +107,7 @@ fn axial(
     let geometric = k * value * inverse;
     let damped = by_rate * inverse_rest;
     // by the difference of positions, and of velocities through c
-    let along = k * (by_strain - by_rate * element.rate * inverse_rest) * inverse_rest - geometric + c * damped;
+    let along = k * (by_strain - by_rate * let_out * inverse_rest) * inverse_rest - geometric + c * damped;
     let mut stiff = t * t.transpose() * along;
     for j in 0..3 {
         stiff[(j, j)] += geometric;

@@ -45,7 +45,7 @@ pub(super) struct Element {
 }
 
 impl Element {
-    fn new(segment: &Segment, index: usize, rest: f64) -> Self {
+    pub fn new(segment: &Segment, index: usize, rest: f64) -> Self {
         let half = 0.5 * rest;
         Element {
             rest,
@@ -216,28 +216,6 @@ impl Rod {
                 sum
             }))
             .collect()
-    }
-
-    /// Changes the unstretched length (m) of an element and the rate (m/s) at which it changes, as a winch does.
-    /// Its mass and everything else that goes by length follow.
-    ///
-    /// # Errors
-    /// An element that is not there, or a length that is not positive.
-    pub fn set_length(&mut self, element: usize, length: f64, rate: f64) -> Result<(), RodError> {
-        let name = self.name.clone();
-        let refuse = |why| Err(RodError::Shape { rod: name, why });
-        let Some(place) = self.elements.get_mut(element) else {
-            return refuse(format!("there is no element {}", element + 1));
-        };
-        if !(length.is_finite() && length > 0.0 && rate.is_finite()) {
-            return refuse(format!("element {} cannot be {length} m long", element + 1));
-        }
-        let segment = place.segment;
-        let Some(properties) = self.segments.get(segment) else {
-            return refuse(format!("element {} is of no segment", element + 1));
-        };
-        *place = Element { rate, ..Element::new(properties, segment, length) };
-        Ok(())
     }
 
     /// Stiffness of the hinge at an inner node (N m): the halves of its two elements in series.

@@ -35,6 +35,7 @@ mod tension;
 #[cfg(test)]
 mod tests;
 mod trial;
+mod winch;
 mod workspace;
 
 pub use balance::{Balance, Energy, Work};

@@ -48,6 +48,14 @@ impl Solver {
         ends: [End; 2],
     ) -> Result<EndForces, RodError> {
         self.fits(rod, state)?;
+        self.trial.still = true;
+        let made = self.falls(rod, state, world, ends);
+        self.trial.still = false;
+        made
+    }
+
+    /// The row of falls.
+    fn falls(&mut self, rod: &Rod, state: &mut State, world: &World, ends: [End; 2]) -> Result<EndForces, RodError> {
         let last = rod.elements.len();
         let zero = Vector3::zeros();
         self.weights = Weights { k: 1.0, c: 0.0, m: 0.0 };

@@ -72,6 +72,7 @@ impl Solver {
             loose: false,
             ease: 1.0,
             exact: false,
+            still: false,
             director: state.director.clone(),
         };
         let work = Workspace::of(rod);

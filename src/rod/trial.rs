@@ -25,6 +25,8 @@ pub(super) struct Trial {
     pub ease: f64,
     /// Whether the tangent of friction is the exact one, as a body needs it, or the secant that converges.
     pub exact: bool,
+    /// Whether winches stand still, as they do when the rod is brought to rest.
+    pub still: bool,
     /// Directors of the elements of a rod with torsion.
     pub director: Vec<Vector3<f64>>,
 }

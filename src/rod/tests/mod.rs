@@ -1,6 +1,7 @@
 //! Whole rods against closed forms and other programs.
 
 mod beam;
+mod lowering;
 mod motion;
 mod section;
 mod still;
