@@ -1,6 +1,7 @@
-//! Rods in time: the 900 m chain of shared/validation with its fairlead driven in surge, steps of 0.1 s, one thread. In a form that a
-//! program can read: name, elements, seconds of the sea a second of the processor, largest error of the fairlead force from 20 s
-//! on against a run of 400 elements and 0.0125 s as a share of its range, Newton iterations a step; tab between.
+//! Rods in time: the 900 m chain of shared/validation with its fairlead driven in surge, steps of 0.1 s, one thread.
+//! In a form that a program can read: name, elements, seconds of the sea a second of the processor, largest error of
+//! the fairlead force from 20 s on against a run of 400 elements and 0.0125 s as a share of its range, Newton
+//! iterations a step; tab between.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::print_stdout)]
 

@@ -20,8 +20,8 @@ struct Case {
     grounded: bool,
 }
 
-/// Pull of the rod on its fairlead: toward the anchor, and downward; and the iterations it took. On the bottom it sinks in by a share
-/// of its length.
+/// Pull of the rod on its fairlead: toward the anchor, and downward; and the iterations it took. On the bottom it
+/// sinks in by a share of its length.
 fn rest(case: &Case, elements: usize, sinks: f64) -> ([f64; 2], usize) {
     let weight = case.weight;
     // the submerged weight as mass and displacement, buoyant or heavy
@@ -77,7 +77,8 @@ fn random_lines_come_to_rest_at_their_catenaries() {
         let columns: Vec<&str> = line.split(',').collect();
         let v = |i: usize| columns[i].parse::<f64>().unwrap();
         let case = Case { x: v(2), z: v(3), length: v(4), ea: v(5), weight: v(6), grounded: columns[8] == "0" };
-        // friction is the catenary's own; a line that lies on the bottom with its fairlead gives it half an element's weight to bear
+        // friction is the catenary's own; a line that lies on the bottom with its fairlead gives it half an element's
+        // weight to bear
         if case.grounded && (v(7) > 0.0 || v(3) == 0.0) {
             continue;
         }
@@ -86,8 +87,8 @@ fn random_lines_come_to_rest_at_their_catenaries() {
         solved += 1;
         most = most.max(iterations);
         let error = away(found, [v(9), v(10)]);
-        // second order in the share of the suspended part that an element is; but a line that hangs down vertically ends on the
-        // bottom somewhere in an element, half of which is its fairlead's to carry or not
+        // second order in the share of the suspended part that an element is; but a line that hangs down vertically
+        // ends on the bottom somewhere in an element, half of which is its fairlead's to carry or not
         let suspended = (case.length - v(13)) / case.length * elements as f64;
         let allowed = if columns[14] == "fully_slack" { 0.6 / suspended } else { 2e-4 + 4.0 / (suspended * suspended) };
         assert!(error < allowed, "{line}: {error} of {allowed}");

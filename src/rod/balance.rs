@@ -63,8 +63,8 @@ impl Work {
     }
 }
 
-/// The books of one rod. Work and impulse are sums of power and force over the steps by the trapezoidal rule, so what does not add up falls with
-/// the square of the step; beyond that it is what the scheme damps.
+/// The books of one rod. Work and impulse are sums of power and force over the steps by the trapezoidal rule, so what
+/// does not add up falls with the square of the step; beyond that it is what the scheme damps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Balance {
     time: f64,

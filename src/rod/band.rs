@@ -1,9 +1,9 @@
 //! The block-tridiagonal system of a rod, kept as a band.
 //!
-//! An element couples two neighbouring nodes and a bending hinge three, so the matrix has all its entries within `H` places of
-//! the diagonal: H = 5 for a rope (two nodes of three unknowns), 8 for a beam (three nodes). Elimination costs O(H^2) a row.
-//! No pivots are exchanged: the matrix of a step is dominated by its inertia, that of statics by its damping; a pivot that
-//! vanishes is an error of the step, which is then cut.
+//! An element couples two neighbouring nodes and a bending hinge three, so the matrix has all its entries within `H`
+//! places of the diagonal: H = 5 for a rope (two nodes of three unknowns), 8 for a beam (three nodes). Elimination
+//! costs O(H^2) a row. No pivots are exchanged: the matrix of a step is dominated by its inertia, that of statics by
+//! its damping; a pivot that vanishes is an error of the step, which is then cut.
 
 /// A square band matrix; row i holds columns i - H .. i + H in `S` = 2 H + 1 places.
 #[derive(Clone, Debug)]

@@ -9,9 +9,10 @@ use nalgebra::Matrix6;
 /// Places of the widest row of a band.
 pub(super) const WIDEST: usize = 21;
 
-/// How the forces of a rod on its two holders at the end of a step follow the motion of the ends at that time. Rows and
-/// columns: end A's x, y, z, then end B's. Each is d(force on the holder)/d(position, velocity or acceleration) with the other two and
-/// the start of the step as they are, all inner nodes in balance; of a step that was cut, it is that of its last part.
+/// How the forces of a rod on its two holders at the end of a step follow the motion of the ends at that time. Rows
+/// and columns: end A's x, y, z, then end B's. Each is d(force on the holder)/d(position, velocity or acceleration)
+/// with the other two and the start of the step as they are, all inner nodes in balance; of a step that was cut, it
+/// is that of its last part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EndTangent {
     /// By position (N/m).
@@ -30,8 +31,8 @@ impl EndTangent {
 }
 
 impl Solver {
-    /// The tangent of the end forces at the last trial: the rod condensed to its ends. Columns of an end without a given motion are
-    /// zero.
+    /// The tangent of the end forces at the last trial: the rod condensed to its ends. Columns of an end without a
+    /// given motion are zero.
     ///
     /// None where the system cannot be solved, as it could in the trial.
     pub fn end_tangent(&mut self, rod: &Rod, world: &World) -> Option<EndTangent> {

@@ -26,11 +26,12 @@ pub(super) fn energy(bottom: &dyn Bottom, ground: &Ground, soft: f64, area: f64,
     }
 }
 
-/// What the bottom does to a node with a shadow of `area` (m2) whose rod runs in direction `lay`; none when it is clear of it.
-/// Its stiffness is whole from a penetration `soft` on (m).
+/// What the bottom does to a node with a shadow of `area` (m2) whose rod runs in direction `lay`; none when it is
+/// clear of it. Its stiffness is whole from a penetration `soft` on (m).
 ///
-/// Friction grows ever more slowly with speed, so Newton's tangent of it overshoots a stop. Unless `exact`, its derivative by the
-/// velocity is the secant, the slope from standing still, which bounds the force from above and cannot.
+/// Friction grows ever more slowly with speed, so Newton's tangent of it overshoots a stop. Unless `exact`, its
+/// derivative by the velocity is the secant, the slope from standing still, which bounds the force from above and
+/// cannot.
 ///
 /// The curvature of the bottom within the penetration is left out of the derivatives.
 #[inline]

@@ -26,12 +26,13 @@ impl Motion {
 pub struct End {
     /// The motion it is given; none for a free end.
     pub motion: Option<Motion>,
-    /// The direction, from end A toward end B, that its holder gives it; none for a pin. It acts on rods with bending stiffness.
+    /// The direction, from end A toward end B, that its holder gives it; none for a pin. It acts on rods with bending
+    /// stiffness.
     pub direction: Option<Vector3<f64>>,
     /// Rotational stiffness between holder and rod (N m/rad); none for a rigid clamp.
     pub rotation: Option<f64>,
-    /// A direction across the rod that turns with the holder and holds the rod's twist; none leaves it free to twist. It acts on
-    /// rods with torsional stiffness.
+    /// A direction across the rod that turns with the holder and holds the rod's twist; none leaves it free to twist.
+    /// It acts on rods with torsional stiffness.
     pub side: Option<Vector3<f64>>,
 }
 

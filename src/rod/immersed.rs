@@ -18,9 +18,10 @@ pub(super) struct HalfLoad {
 
 /// Buoyancy, the fluid's own inertia, added mass and Morison drag on half an element of direction `t`.
 ///
-/// Effective-tension form: the pressure of the fluid on the sides acts as the displaced fluid's weight and inertia, in full along
-/// all axes. Drag 1/2 rho Cd D |u_n| u_n across and 1/2 rho Cx pi D |u_t| u_t along the rod, u the velocity relative to the fluid;
-/// added mass likewise, normal and tangential (Morison et al. 1950; DNV-RP-C205 section 6.2).
+/// Effective-tension form: the pressure of the fluid on the sides acts as the displaced fluid's weight and inertia,
+/// in full along all axes. Drag 1/2 rho Cd D |u_n| u_n across and 1/2 rho Cx pi D |u_t| u_t along the rod, u the
+/// velocity relative to the fluid; added mass likewise, normal and tangential (Morison et al. 1950; DNV-RP-C205
+/// section 6.2).
 #[inline(always)]
 pub(super) fn half_load(
     half: &Element,
@@ -66,8 +67,8 @@ pub(super) fn half_load(
     HalfLoad { force, by_velocity, by_acceleration, by_direction }
 }
 
-/// Wet share of a length whose ends lie `a` and `b` below the surface (m, negative above), and its slopes by a and b. A section
-/// wets as its diameter goes under, so the share has no jump for a length that lies in the surface.
+/// Wet share of a length whose ends lie `a` and `b` below the surface (m, negative above), and its slopes by a and b.
+/// A section wets as its diameter goes under, so the share has no jump for a length that lies in the surface.
 #[inline]
 pub(super) fn wet_share(a: f64, b: f64, diameter: f64) -> (f64, f64, f64) {
     let half = 0.5 * diameter;

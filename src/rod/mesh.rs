@@ -74,14 +74,17 @@ impl Element {
 
 /// A slender rod from end A to end B: a row of straight elements between nodes.
 ///
-/// Unknowns are the three translations of each node, and with torsional stiffness the turn of each element about itself. Tension follows the stretch of an element, bending the angle between the
-/// directions of neighbouring elements: the moment at a node is EI times that angle over the length between the middles of the elements. With EI = 0
-/// nothing but the chain is left. All forces are derivatives of the energy of the actual shape, without restriction of
-/// rotation; errors fall with the square of the element length. The section is the same in all directions, and the rod
-/// straight when free of load unless [`Rod::set_shape`] says otherwise; shear deformation and rotary inertia are left out, as a slender rod has none worth counting.
+/// Unknowns are the three translations of each node, and with torsional stiffness the turn of each element about
+/// itself. Tension follows the stretch of an element, bending the angle between the directions of neighbouring
+/// elements: the moment at a node is EI times that angle over the length between the middles of the elements. With EI
+/// = 0 nothing but the chain is left. All forces are derivatives of the energy of the actual shape, without
+/// restriction of rotation; errors fall with the square of the element length. The section is the same in all
+/// directions, and the rod straight when free of load unless [`Rod::set_shape`] says otherwise; shear deformation and
+/// rotary inertia are left out, as a slender rod has none worth counting.
 ///
-/// Sources: geometry of the discrete rod after Bergou et al., Discrete Elastic Rods (ACM Trans. Graph. 27, 2008), with the angle
-/// itself as measure of curvature, which closes a circle exactly; line properties in the sense of API RP 2SK.
+/// Sources: geometry of the discrete rod after Bergou et al., Discrete Elastic Rods (ACM Trans. Graph. 27, 2008),
+/// with the angle itself as measure of curvature, which closes a circle exactly; line properties in the sense of API
+/// RP 2SK.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rod {
     pub(super) name: String,
@@ -136,8 +139,8 @@ impl Rod {
         Ok(Rod { name: name.to_string(), segments, elements, attachments, natural: None })
     }
 
-    /// Gives the rod a shape that it has when free of load: the places of its nodes, and its directions at both ends. It needs
-    /// torsional stiffness, as a bent rod can only bend another way by twisting.
+    /// Gives the rod a shape that it has when free of load: the places of its nodes, and its directions at both ends.
+    /// It needs torsional stiffness, as a bent rod can only bend another way by twisting.
     ///
     /// # Errors
     /// A rod without torsional stiffness, or not one place a node.
@@ -253,7 +256,8 @@ pub struct State {
     pub(super) averaged: Vec<Vector3<f64>>,
     /// Director of each element of a rod with torsion: a unit vector across it that twists with it.
     pub(super) director: Vec<Vector3<f64>>,
-    /// Least penetration over which the bottom's stiffness grows at each node (m): see [`Solver::statics`](super::Solver::statics).
+    /// Least penetration over which the bottom's stiffness grows at each node (m): see
+    /// [`Solver::statics`](super::Solver::statics).
     pub(super) bedding: Vec<f64>,
 }
 

@@ -1,13 +1,14 @@
 //! The rod: a line whose own dynamics and bending matter.
 //!
-//! A [`Rod`] is what the line is: [`Segment`]s cut into elements, and [`Attachment`]s on their nodes. A [`State`] is where it is and how it moves.
-//! A [`Solver`] holds the memory of a run: [`Solver::statics`] brings a state to rest, [`Solver::step`] takes it on in time, or
-//! [`Solver::trial`] and [`Solver::accept`] with a body at an end that must find its own motion by [`Solver::end_tangent`];
-//! [`Solver::modes`] finds how it swings. A [`World`] says what surrounds it, an [`End`] what holds it. [`Rod::results`] gives
-//! tensions, moments and stresses along it, [`Balance`] keeps the books of energy and momentum.
+//! A [`Rod`] is what the line is: [`Segment`]s cut into elements, and [`Attachment`]s on their nodes. A [`State`] is
+//! where it is and how it moves. A [`Solver`] holds the memory of a run: [`Solver::statics`] brings a state to rest,
+//! [`Solver::step`] takes it on in time, or [`Solver::trial`] and [`Solver::accept`] with a body at an end that must
+//! find its own motion by [`Solver::end_tangent`]; [`Solver::modes`] finds how it swings. A [`World`] says what
+//! surrounds it, an [`End`] what holds it. [`Rod::results`] gives tensions, moments and stresses along it,
+//! [`Balance`] keeps the books of energy and momentum.
 //!
-//! SI units (m, kg, s, N, rad), global axes with z up. End A is the first node. Nothing is allocated in a step, and a step costs
-//! as much as its elements: one pass over them, and a band to factor.
+//! SI units (m, kg, s, N, rad), global axes with z up. End A is the first node. Nothing is allocated in a step, and a
+//! step costs as much as its elements: one pass over them, and a band to factor.
 
 mod assemble;
 mod balance;

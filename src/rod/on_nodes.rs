@@ -9,7 +9,8 @@ use super::trial::Trial;
 use nalgebra::Vector3;
 use std::ops::Range;
 
-/// Adds the bottom, attachments and given forces at the nodes of a range of elements; without `TANGENT` their residual alone.
+/// Adds the bottom, attachments and given forces at the nodes of a range of elements; without `TANGENT` their
+/// residual alone.
 pub(super) fn on_nodes<const TANGENT: bool, const W: usize, const H: usize, const S: usize>(
     rod: &Rod,
     world: &World,

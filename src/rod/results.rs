@@ -52,8 +52,8 @@ pub struct Stress {
 impl Rod {
     /// Results at every node of a state.
     ///
-    /// Tension of a node is the mean of its two elements; at an end it is that of the nearest two carried on. Shear is the change of the moment
-    /// over the elements beside a node.
+    /// Tension of a node is the mean of its two elements; at an end it is that of the nearest two carried on. Shear
+    /// is the change of the moment over the elements beside a node.
     pub fn results(&self, state: &State, world: &World, ends: &[End; 2]) -> Vec<NodeResult> {
         let last = self.elements.len();
         let (x, v) = (&state.position, &state.velocity);

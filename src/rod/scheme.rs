@@ -26,8 +26,8 @@ impl Default for Settings {
     }
 }
 
-/// The scheme's constants for one step length: generalised-alpha (Chung and Hulbert 1993) in the form of Arnold and Bruels 2007, in which
-/// equilibrium holds at the end of the step.
+/// The scheme's constants for one step length: generalised-alpha (Chung and Hulbert 1993) in the form of Arnold and
+/// Bruels 2007, in which equilibrium holds at the end of the step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scheme {
     pub h: f64,
@@ -43,8 +43,8 @@ pub(super) struct Scheme {
     a_by_last: f64,
 }
 
-/// Takes what is smaller than 1e-136 as zero: a motion that dies away would end in denormal numbers, which cost a hundred times
-/// as much as others.
+/// Takes what is smaller than 1e-136 as zero: a motion that dies away would end in denormal numbers, which cost a
+/// hundred times as much as others.
 #[inline(always)]
 fn flush(v: Vector3<f64>) -> Vector3<f64> {
     const TINY: f64 = 1e-120;

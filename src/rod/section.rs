@@ -155,7 +155,8 @@ pub struct Segment {
 }
 
 impl Segment {
-    /// A chain or rope of a diameter that displaces, drags and lies: no bending, no compression, no hydrodynamic coefficients.
+    /// A chain or rope of a diameter that displaces, drags and lies: no bending, no compression, no hydrodynamic
+    /// coefficients.
     pub fn line(length: f64, elements: usize, mass: f64, ea: f64, diameter: f64) -> Self {
         let area = std::f64::consts::FRAC_PI_4 * diameter * diameter;
         Segment {

@@ -10,8 +10,8 @@ use super::trial::{lay, sample, soften};
 use nalgebra::Vector3;
 
 impl Solver {
-    /// Gives a state the accelerations that its forces make, as at the start of a run that is not at rest, or after a line has parted. A
-    /// state from [`Solver::statics`] has them.
+    /// Gives a state the accelerations that its forces make, as at the start of a run that is not at rest, or after a
+    /// line has parted. A state from [`Solver::statics`] has them.
     ///
     /// # Errors
     /// A force that is no number, a node without mass, or a state of another rod.

@@ -26,20 +26,23 @@ const SHORT: f64 = -0.01;
 const PROOF: f64 = 1e-9;
 
 impl Solver {
-    /// Moves the state to where it is at rest, from wherever it is: the ends at their motions' positions, all velocities zero.
+    /// Moves the state to where it is at rest, from wherever it is: the ends at their motions' positions, all
+    /// velocities zero.
     ///
-    /// The way there is a row of falls, each a step from rest by implicit Euler, which never gains energy: forces balance the mass of the
-    /// nodes times their move over the square of a pseudo-time step. While Newton's iteration finds a fall easily the next is
-    /// longer; when it does not, the fall is tried again shorter. In the end the falls are so long that Newton's iteration on
-    /// the forces alone is left.
+    /// The way there is a row of falls, each a step from rest by implicit Euler, which never gains energy: forces
+    /// balance the mass of the nodes times their move over the square of a pseudo-time step. While Newton's iteration
+    /// finds a fall easily the next is longer; when it does not, the fall is tried again shorter. In the end the
+    /// falls are so long that Newton's iteration on the forces alone is left.
     ///
-    /// With a bottom it also sets how softly a node meets it from then on. Between two nodes a line that lifts off with tension T
-    /// and weight w sags by w l^2 / (8 T): the mesh knows its height over the bottom no better than that. The stiffness of the bottom
-    /// therefore grows to its full value over no less than this height (at most a fiftieth of the element), or every node
-    /// would hit the bottom as a hammer does. It falls with the square of the element length.
+    /// With a bottom it also sets how softly a node meets it from then on. Between two nodes a line that lifts off
+    /// with tension T and weight w sags by w l^2 / (8 T): the mesh knows its height over the bottom no better than
+    /// that. The stiffness of the bottom therefore grows to its full value over no less than this height (at most a
+    /// fiftieth of the element), or every node would hit the bottom as a hammer does. It falls with the square of the
+    /// element length.
     ///
     /// # Errors
-    /// [`RodError::Statics`] when no equilibrium is reached, [`RodError::Shape`] for a state of another rod; the state is then as before.
+    /// [`RodError::Statics`] when no equilibrium is reached, [`RodError::Shape`] for a state of another rod; the
+    /// state is then as before.
     pub fn statics(
         &mut self,
         rod: &Rod,

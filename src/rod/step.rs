@@ -292,8 +292,8 @@ impl Solver {
         Err(Failure { node: self.work.worst(known).0, why: "the iteration does not settle" })
     }
 
-    /// One Newton iteration at the trial, with a fresh tangent or the factors at hand: largest change of a coordinate (m). The forces of the ends are kept, taken on to the
-    /// changed positions by their tangent.
+    /// One Newton iteration at the trial, with a fresh tangent or the factors at hand: largest change of a coordinate
+    /// (m). The forces of the ends are kept, taken on to the changed positions by their tangent.
     fn iterate(&mut self, rod: &Rod, world: &World, known: [bool; 2], fresh: bool) -> Result<f64, Failure> {
         let last = rod.elements.len();
         if fresh {

@@ -80,12 +80,12 @@ impl Bottom for PlaneBottom {
 
 /// How the bottom answers a rod that lies on it.
 ///
-/// Normal to it, a force per area of the rod's shadow (contact diameter times length): stiffness times penetration, plus damping
-/// times the rate of penetration, never a pull. Over the first `soft` of penetration the stiffness grows from zero, so that
-/// the force has no kink.
+/// Normal to it, a force per area of the rod's shadow (contact diameter times length): stiffness times penetration,
+/// plus damping times the rate of penetration, never a pull. Over the first `soft` of penetration the stiffness grows
+/// from zero, so that the force has no kink.
 ///
-/// Along it Coulomb friction, regularised by speed: N mu v / sqrt(v^2 + v0^2), with its own coefficient along and across the rod. A
-/// rod that is pulled by less than mu N therefore creeps, at a speed below v0.
+/// Along it Coulomb friction, regularised by speed: N mu v / sqrt(v^2 + v0^2), with its own coefficient along and
+/// across the rod. A rod that is pulled by less than mu N therefore creeps, at a speed below v0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ground {
     /// Normal stiffness per area (N/m3).

@@ -29,8 +29,9 @@ pub(super) struct Taken {
     pub ease: f64,
 }
 
-/// Effective tension: the law of the segment at the mechanical strain, internal damping, and what pressure does through Poisson's
-/// ratio, (1 - 2 nu)(p_e A_e - p_i A_i) (Sparks, Fundamentals of Marine Riser Mechanics, 2007, section 2.4).
+/// Effective tension: the law of the segment at the mechanical strain, internal damping, and what pressure does
+/// through Poisson's ratio, (1 - 2 nu)(p_e A_e - p_i A_i) (Sparks, Fundamentals of Marine Riser Mechanics, 2007,
+/// section 2.4).
 #[inline(always)]
 pub(super) fn tension(
     rod: &Rod,

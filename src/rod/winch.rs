@@ -23,9 +23,9 @@ impl Rod {
         Ok(())
     }
 
-    /// Divides an element, as one that a winch has let out far enough, into two of half its length with a node between them. Of an element
-    /// at an end the part beside that end keeps the rate, and the new node moves as the rest of the rod; of another both halves
-    /// grow. The rod then needs a new [`Solver`](super::Solver).
+    /// Divides an element, as one that a winch has let out far enough, into two of half its length with a node
+    /// between them. Of an element at an end the part beside that end keeps the rate, and the new node moves as the
+    /// rest of the rod; of another both halves grow. The rod then needs a new [`Solver`](super::Solver).
     ///
     /// # Errors
     /// An element that is not there, too many elements, or a rod with torsional stiffness, whose elements cannot be divided.
@@ -69,8 +69,8 @@ impl Rod {
     /// [`Solver`](super::Solver).
     ///
     /// # Errors
-    /// An element that is not there or has none after it in its segment, something attached between the two, or a rod with torsional
-    /// stiffness.
+    /// An element that is not there or has none after it in its segment, something attached between the two, or a rod
+    /// with torsional stiffness.
     pub fn join(&mut self, element: usize, state: &mut State) -> Result<(), RodError> {
         let first = self.changeable(element, state)?;
         let second = self.changeable(element + 1, state)?;

@@ -88,8 +88,9 @@ fn a_pull_runs_along_a_bar_at_the_speed_of_sound() {
 
 #[test]
 fn the_tip_of_a_folded_chain_falls_faster_than_a_stone() {
-    // Calkin and March, Am. J. Phys. 57 (1989) 154; Tomaszewski, Pieranski and Geminard, Am. J. Phys. 74 (2006) 776: the chain folded
-    // tightly, one end let go, its tip has fallen the whole length after 0.8472 of the time of free fall
+    // Calkin and March, Am. J. Phys. 57 (1989) 154; Tomaszewski, Pieranski and Geminard, Am. J. Phys. 74 (2006) 776:
+    // the chain folded tightly, one end let go, its tip has fallen the whole length after 0.8472 of the time of free
+    // fall
     let env = |n: &str, d: f64| std::env::var(n).ok().and_then(|s| s.parse().ok()).unwrap_or(d);
     let (length, elements) = (1.0, env("N", 200.0) as usize);
     let rod = Rod::new(
@@ -209,7 +210,8 @@ fn energy_and_momentum_of_a_swinging_moored_rope_add_up() {
 
 #[test]
 fn energy_of_a_swinging_twisted_beam_adds_up() {
-    // a curved cantilever with torsion let go under its own weight: no damping, no outer work but that of its clamp, which stands
+    // a curved cantilever with torsion let go under its own weight: no damping, no outer work but that of its clamp,
+    // which stands
     let (elements, quarter) = (24, std::f64::consts::FRAC_PI_4);
     let segment =
         Segment { compression: true, bending: 400.0, torsion: 300.0, ..Segment::line(7.854, elements, 2.0, 1e6, 0.1) };
@@ -286,7 +288,8 @@ impl FluidField for Swell {
 
 #[test]
 fn a_rod_as_light_as_its_water_goes_with_it() {
-    // m = rho A: (m + rho A Ca) a = rho A (1 + Ca) a_f whatever Ca, so that it moves as the water does and drag has nothing to do
+    // m = rho A: (m + rho A Ca) a = rho A (1 + Ca) a_f whatever Ca, so that it moves as the water does and drag has
+    // nothing to do
     let (diameter, frequency, speed): (f64, f64, f64) = (0.5, 0.8, 1.2);
     let mass = 1025.0 * std::f64::consts::FRAC_PI_4 * diameter * diameter;
     let segment = Segment { drag_normal: 1.0, added_normal: 1.0, ..Segment::line(20.0, 8, mass, 1e7, diameter) };

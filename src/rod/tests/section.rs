@@ -29,7 +29,8 @@ fn a_heated_pipe_under_pressure_between_fixed_ends_is_pressed_as_the_closed_form
     let [outside, inside] = tube.areas();
     let wall = outside - inside;
     let outer = 1025.0 * 9.80665 * depth;
-    // fixed length: thermal force -EA alpha dT, and by Poisson's ratio of the hoop and radial stress 2 nu (p_i A_i - p_e A_e) in the wall (Lame)
+    // fixed length: thermal force -EA alpha dT, and by Poisson's ratio of the hoop and radial stress 2 nu (p_i A_i -
+    // p_e A_e) in the wall (Lame)
     let exact = -E * wall * 1.17e-5 * 50.0 + 2.0 * 0.3 * (1e7 * inside - outer * outside);
     // the same formula another way: rounding
     assert!((found.wall / exact - 1.0).abs() < 1e-9, "{} {exact}", found.wall);

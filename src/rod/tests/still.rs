@@ -15,7 +15,8 @@ fn hung(elements: usize, b: Vector3<f64>) -> (EndForces, State) {
     (made, state)
 }
 
-/// x and z of the end of an elastic catenary with horizontal force h and vertical force v at its upper end (Irvine 1981, 1.4).
+/// x and z of the end of an elastic catenary with horizontal force h and vertical force v at its upper end (Irvine
+/// 1981, 1.4).
 fn catenary(h: f64, v: f64, length: f64, w: f64, ea: f64) -> [f64; 2] {
     let low = v - w * length;
     let x = h / w * ((v / h).asinh() - (low / h).asinh()) + h * length / ea;
@@ -72,7 +73,8 @@ fn ropes_that_are_slack_vertical_grounded_or_buoyant_come_to_rest() {
                 let mut solver = Solver::new(&rod, Settings::default());
                 let made = solver.statics(&rod, &mut state, &world, [End::pinned(a), End::pinned(b)]);
                 let made = made.unwrap_or_else(|e| panic!("{mass} {bending} {a} {b}: {e}"));
-                // whatever the shape, the holders and the bottom carry the submerged weight; free of the bottom, the holders alone
+                // whatever the shape, the holders and the bottom carry the submerged weight; free of the bottom, the
+                // holders alone
                 let weight = 100.0 * 9.81 * (mass - 1025.0 * std::f64::consts::FRAC_PI_4 * diameter * diameter);
                 let held = made.force[0].z + made.force[1].z;
                 let clear = state.position.iter().all(|x| x.z > bottom.height(x.x, x.y).0 && x.z < -0.2);

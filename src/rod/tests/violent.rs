@@ -1,4 +1,5 @@
-//! Motions far beyond a design's: lines that go slack and snap, part and fall. Nothing may fail, and no energy come from nowhere.
+//! Motions far beyond a design's: lines that go slack and snap, part and fall. Nothing may fail, and no energy come
+//! from nowhere.
 
 use super::super::*;
 use nalgebra::Vector3;
@@ -26,8 +27,8 @@ fn chain(elements: usize) -> Segment {
     }
 }
 
-/// Runs a line for a minute in steps of a tenth of a second: the energy that came from nowhere at worst and that the scheme has damped in all, as shares of the
-/// books, and the largest speed at the end.
+/// Runs a line for a minute in steps of a tenth of a second: the energy that came from nowhere at worst and that the
+/// scheme has damped in all, as shares of the books, and the largest speed at the end.
 fn run(line: &Line) -> (f64, f64, f64) {
     let rod = Rod::new("line", vec![line.segment.clone()], vec![]).unwrap();
     let fluid = UniformFluid::moving(1025.0, Vector3::new(0.3, 0.5, 0.0));
@@ -95,7 +96,8 @@ fn lines_that_snap_part_and_fall_neither_stop_nor_gain_energy() {
     for (i, case) in cases.iter().enumerate() {
         let (gained, lost, speed) = run(case);
         println!("{i}: gained {gained:.2e} lost {lost:.2e} speed {speed:.2}");
-        // by the trapezoidal rule of the books at a tenth of a second, through snaps that last less; a blow-up gains without bound
+        // by the trapezoidal rule of the books at a tenth of a second, through snaps that last less; a blow-up gains
+        // without bound
         assert!(gained < 0.02, "case {i}: {gained}");
         // and damps what a line that parts had stored, which rings faster than the step follows
         assert!(lost < 0.01, "case {i}: {lost}");
