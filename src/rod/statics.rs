@@ -103,6 +103,7 @@ impl Solver {
                         self.trial.loose = false;
                         self.trial.ease = (self.trial.ease * STIFFER).min(1.0);
                         from.copy_from_slice(&self.trial.x);
+                        director.copy_from_slice(&self.trial.director);
                         pseudo = first_fall(rod, world);
                         break;
                     }
@@ -124,6 +125,7 @@ impl Solver {
                             *x += Vector3::new((1.3 * s).sin(), (2.1 * s).cos(), (0.7 * s).sin()) * hair;
                         }
                         from.copy_from_slice(&self.trial.x);
+                        director.copy_from_slice(&self.trial.director);
                         pseudo = first_fall(rod, world);
                         break;
                     }
