@@ -14,6 +14,7 @@ pub mod model;
 pub mod post;
 pub mod repl;
 pub mod report;
+pub mod rod;
 pub mod session;
 pub mod solve;
 pub mod table;

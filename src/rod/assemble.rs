@@ -1,0 +1,233 @@
+//! One pass over the elements of a rod.
+
+use super::bend::hinge;
+use super::hinges::spatial_hinges;
+use super::immersed::{half_load, wet_share};
+use super::mesh::{Element, Rod};
+use super::on_nodes::on_nodes;
+use super::surroundings::World;
+use super::system::{System, Weights};
+use super::tension::{Stretch, Taken, Tension, tension};
+use super::trial::Trial;
+use nalgebra::{Matrix3, Vector3};
+use std::ops::Range;
+
+/// Where one element is, and which way it points.
+struct Edge {
+    /// Its number.
+    i: usize,
+    /// Its direction.
+    t: Vector3<f64>,
+    /// Its length (m) and the inverse.
+    length: f64,
+    inverse: f64,
+}
+
+/// Residual of an element on its two nodes, and its tangent: first or second node by first or second.
+struct Share {
+    fa: Vector3<f64>,
+    fb: Vector3<f64>,
+    aa: Matrix3<f64>,
+    ab: Matrix3<f64>,
+    ba: Matrix3<f64>,
+    bb: Matrix3<f64>,
+}
+
+/// Adds residual and tangent of the elements of a range, and of the nodes they touch.
+///
+/// Without `TANGENT` the residual alone.
+pub(super) fn assemble<const TANGENT: bool, const W: usize, const H: usize, const S: usize>(
+    rod: &Rod,
+    world: &World,
+    trial: &Trial,
+    weights: Weights,
+    range: Range<usize>,
+    system: &mut System<W, H, S>,
+) {
+    let gravity = world.gravity;
+    let mut before: Option<(Vector3<f64>, f64)> = None;
+    for i in range.clone() {
+        let element = &rod.elements[i];
+        let d = trial.x[i + 1] - trial.x[i];
+        // nodes of a slack heap may meet: their element then has no direction, and no tension to need one
+        let length = d.norm().max(1e-9 * element.rest);
+        let edge = Edge { i, t: d / length, length, inverse: 1.0 / length };
+        let mut share = axial(rod, element, trial, weights, &edge, gravity);
+        immersed(element, trial, weights, &edge, gravity, &mut share);
+        system.push(i, &share.fa);
+        system.push(i + 1, &share.fb);
+        system.block::<TANGENT>(i, i, &share.aa);
+        system.block::<TANGENT>(i, i + 1, &share.ab);
+        system.block::<TANGENT>(i + 1, i, &share.ba);
+        system.block::<TANGENT>(i + 1, i + 1, &share.bb);
+        if element.bending > 0.0 && !trial.loose {
+            if W == 4 {
+                for (sides, gradient, matrix) in spatial_hinges(rod, trial, i) {
+                    system.hinge::<TANGENT>(sides, weights.k, &gradient, &matrix);
+                }
+            } else {
+                bending::<TANGENT, W, H, S>(rod, trial, weights.k, &edge, before, system);
+            }
+        }
+        before = Some((edge.t, length));
+    }
+    if W == 4 && TANGENT {
+        for i in range.start..=range.end {
+            // nothing else holds the turn of a rod that is free to spin: a thousand-millionth of its own stiffness does
+            let held =
+                rod.elements.get(i).map_or(1.0, |e| if e.torsion > 0.0 { 1e-9 * e.torsion / e.rest } else { 1.0 });
+            system.band.add(W * i + 3, W * i + 3, held);
+        }
+    }
+    on_nodes::<TANGENT, W, H, S>(rod, world, trial, weights, range, system);
+}
+
+/// Tension, weight and inertia.
+#[inline(always)]
+fn axial(
+    rod: &Rod,
+    element: &Element,
+    trial: &Trial,
+    Weights { k, c, m }: Weights,
+    edge: &Edge,
+    gravity: f64,
+) -> Share {
+    let Edge { i, t, length, inverse } = edge;
+    let (xa, xb) = (&trial.x[*i], &trial.x[i + 1]);
+    let inverse_rest = 1.0 / element.rest;
+    let stretch = length * inverse_rest;
+    let dv = trial.v[i + 1] - trial.v[*i];
+    let let_out = if trial.still { 0.0 } else { element.rate };
+    let rate = (t.dot(&dv) - stretch * let_out) * inverse_rest;
+    let taken = Taken { compression: element.compression && !trial.loose, ease: trial.ease };
+    let stretched = Stretch { strain: stretch - 1.0, rate, height: 0.5 * (xa.z + xb.z) };
+    let Tension { value, by_strain, by_rate, by_height } =
+        tension(rod, element, taken, &stretched, &trial.fluid[*i], gravity);
+    let force = t * value;
+    let geometric = k * value * inverse;
+    let damped = by_rate * inverse_rest;
+    // by the difference of positions, and of velocities through c
+    let along = k * (by_strain - by_rate * let_out * inverse_rest) * inverse_rest - geometric + c * damped;
+    let mut stiff = t * t.transpose() * along;
+    for j in 0..3 {
+        stiff[(j, j)] += geometric;
+    }
+    if damped > 0.0 {
+        let across = dv - t * t.dot(&dv);
+        stiff += t * (across * (k * damped * inverse)).transpose();
+    }
+    let mut share = Share {
+        fa: trial.a[*i] * element.mass - force,
+        fb: trial.a[i + 1] * element.mass + force,
+        aa: stiff,
+        ab: -stiff,
+        ba: -stiff,
+        bb: stiff,
+    };
+    if by_height != 0.0 {
+        let column = t * (0.5 * k * by_height);
+        for (block, sign) in [(&mut share.aa, -1.0), (&mut share.ab, -1.0), (&mut share.ba, 1.0), (&mut share.bb, 1.0)]
+        {
+            let mut third = block.column_mut(2);
+            third += column * sign;
+        }
+    }
+    share.fa.z += element.mass * gravity;
+    share.fb.z += element.mass * gravity;
+    for j in 0..3 {
+        share.aa[(j, j)] += m * element.mass;
+        share.bb[(j, j)] += m * element.mass;
+    }
+    share
+}
+
+/// The fluid on each half.
+#[inline(always)]
+fn immersed(
+    element: &Element,
+    trial: &Trial,
+    Weights { k, c, m }: Weights,
+    edge: &Edge,
+    gravity: f64,
+    sum: &mut Share,
+) {
+    let Edge { i, t, inverse, .. } = edge;
+    let depth = |node: usize| trial.fluid[node].surface - trial.x[node].z;
+    let (sa, sb) = (depth(*i), depth(i + 1));
+    let middle = 0.5 * (sa + sb);
+    for second in [false, true] {
+        let (node, own) = if second { (i + 1, sb) } else { (*i, sa) };
+        let fluid = &trial.fluid[node];
+        let (share, by_own, by_middle) = wet_share(own, middle, element.diameter);
+        if (share <= 0.0 && by_own == 0.0) || fluid.density <= 0.0 {
+            continue;
+        }
+        let load = half_load(element, t, fluid, &trial.v[node], &trial.a[node], gravity);
+        let turned = (load.by_direction - (load.by_direction * t) * t.transpose()) * (k * share * inverse);
+        let moved = load.by_velocity * (c * share) + load.by_acceleration * (m * share);
+        if second {
+            sum.fb += load.force * share;
+            sum.ba -= turned;
+            sum.bb += turned + moved;
+        } else {
+            sum.fa += load.force * share;
+            sum.aa += moved - turned;
+            sum.ab += turned;
+        }
+        if by_own != 0.0 || by_middle != 0.0 {
+            // depth below the surface falls as a node rises
+            let (to_own, to_other) = (-(by_own + 0.5 * by_middle), -0.5 * by_middle);
+            let (by_a, by_b) = if second { (to_other, to_own) } else { (to_own, to_other) };
+            let (first, other) = if second { (&mut sum.ba, &mut sum.bb) } else { (&mut sum.aa, &mut sum.ab) };
+            let mut third = first.column_mut(2);
+            third += load.force * (k * by_a);
+            let mut third = other.column_mut(2);
+            third += load.force * (k * by_b);
+        }
+    }
+}
+
+/// The hinge before an element, and those of the ends beside it.
+fn bending<const TANGENT: bool, const W: usize, const H: usize, const S: usize>(
+    rod: &Rod,
+    trial: &Trial,
+    k: f64,
+    edge: &Edge,
+    before: Option<(Vector3<f64>, f64)>,
+    system: &mut System<W, H, S>,
+) {
+    let Edge { i, t, length, .. } = edge;
+    let (i, last) = (*i, rod.elements.len() - 1);
+    if let Some((e, le)) = before {
+        let h = hinge(rod.hinge(i), &e, le, t, *length);
+        let [ee, ef, ff] = h.curvature.map(|c| c * k);
+        let [de, df] = h.gradient;
+        system.push(i - 1, &-de);
+        system.push(i, &(de - df));
+        system.push(i + 1, &df);
+        let fe = ef.transpose();
+        system.block::<TANGENT>(i - 1, i - 1, &ee);
+        system.block::<TANGENT>(i - 1, i, &(ef - ee));
+        system.block::<TANGENT>(i - 1, i + 1, &-ef);
+        system.block::<TANGENT>(i, i - 1, &(fe - ee));
+        system.block::<TANGENT>(i, i, &(ee + ff - ef - fe));
+        system.block::<TANGENT>(i, i + 1, &(ef - ff));
+        system.block::<TANGENT>(i + 1, i - 1, &-fe);
+        system.block::<TANGENT>(i + 1, i, &(fe - ff));
+        system.block::<TANGENT>(i + 1, i + 1, &ff);
+    }
+    for (side, at) in [(0, 0), (1, last)] {
+        if i == at
+            && let Some((stiffness, direction)) = trial.ends[side].hinge(&rod.elements[i])
+        {
+            let h = hinge(stiffness, &direction, 1.0, t, *length);
+            let ff = h.curvature[2] * k;
+            system.push(i, &-h.gradient[1]);
+            system.push(i + 1, &h.gradient[1]);
+            system.block::<TANGENT>(i, i, &ff);
+            system.block::<TANGENT>(i, i + 1, &-ff);
+            system.block::<TANGENT>(i + 1, i, &-ff);
+            system.block::<TANGENT>(i + 1, i + 1, &ff);
+        }
+    }
+}

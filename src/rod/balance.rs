@@ -1,0 +1,249 @@
+//! The books of energy and momentum of a run.
+
+use super::bend::hinge;
+use super::contact::{contact, energy};
+use super::hinges::{HingeAt, hinge_sides};
+use super::immersed::{half_load, wet_share};
+use super::mesh::{Rod, State};
+use super::spatial;
+use super::step::{EndForces, Solver};
+use super::surroundings::World;
+use super::tension::{Stretch, Taken, tension};
+use nalgebra::Vector3;
+
+/// Energy a rod holds at one time (J).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Energy {
+    /// Of motion.
+    pub kinetic: f64,
+    /// Of stretch and bending.
+    pub elastic: f64,
+    /// Of height, in air.
+    pub gravity: f64,
+    /// In the bottom under it.
+    pub bottom: f64,
+}
+
+impl Energy {
+    /// Their sum.
+    pub fn total(&self) -> f64 {
+        self.kinetic + self.elastic + self.gravity + self.bottom
+    }
+}
+
+/// Work done on a rod since the books were opened (J).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Work {
+    /// By the holders of end A and end B.
+    pub ends: [f64; 2],
+    /// By the fluid: buoyancy, drag, inertia.
+    pub fluid: f64,
+    /// By internal damping; negative.
+    pub damping: f64,
+    /// By damping and friction of the bottom; negative.
+    pub bottom: f64,
+    /// By forces given.
+    pub given: f64,
+}
+
+impl Work {
+    /// Their sum.
+    pub fn total(&self) -> f64 {
+        self.ends[0] + self.ends[1] + self.fluid + self.damping + self.bottom + self.given
+    }
+
+    fn add(&mut self, h: f64, a: &Work, b: &Work) {
+        let half = 0.5 * h;
+        self.ends[0] += half * (a.ends[0] + b.ends[0]);
+        self.ends[1] += half * (a.ends[1] + b.ends[1]);
+        self.fluid += half * (a.fluid + b.fluid);
+        self.damping += half * (a.damping + b.damping);
+        self.bottom += half * (a.bottom + b.bottom);
+        self.given += half * (a.given + b.given);
+    }
+}
+
+/// The books of one rod. Work and impulse are sums of power and force over the steps by the trapezoidal rule, so what
+/// does not add up falls with the square of the step; beyond that it is what the scheme damps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Balance {
+    time: f64,
+    opened: (f64, Vector3<f64>),
+    power: Work,
+    force: Vector3<f64>,
+    /// Energy now.
+    pub energy: Energy,
+    /// Work done so far.
+    pub work: Work,
+    /// Momentum now (N s).
+    pub momentum: Vector3<f64>,
+    /// Impulse of all outer forces so far (N s).
+    pub impulse: Vector3<f64>,
+    /// The most energy and work that have met in the books (J): what the imbalance is to be seen against.
+    pub turnover: f64,
+}
+
+/// What one pass over a rod finds.
+struct Look {
+    energy: Energy,
+    power: Work,
+    momentum: Vector3<f64>,
+    force: Vector3<f64>,
+}
+
+impl Balance {
+    /// Opens the books at a state; `made` is the trial or statics that led to it.
+    pub fn open(rod: &Rod, state: &State, world: &World, solver: &Solver, made: &EndForces) -> Self {
+        let look = look(rod, state, world, solver, made);
+        Balance {
+            time: state.time,
+            opened: (look.energy.total(), look.momentum),
+            power: look.power,
+            force: look.force,
+            energy: look.energy,
+            work: Work::default(),
+            momentum: look.momentum,
+            impulse: Vector3::zeros(),
+            turnover: 0.0,
+        }
+    }
+
+    /// Enters an accepted step.
+    pub fn enter(&mut self, rod: &Rod, state: &State, world: &World, solver: &Solver, made: &EndForces) {
+        let look = look(rod, state, world, solver, made);
+        let h = state.time - self.time;
+        self.work.add(h, &self.power, &look.power);
+        self.impulse += (self.force + look.force) * (0.5 * h);
+        self.time = state.time;
+        self.power = look.power;
+        self.force = look.force;
+        self.energy = look.energy;
+        self.momentum = look.momentum;
+        let w = &self.work;
+        let parts =
+            [w.ends[0], w.ends[1], w.fluid, w.damping, w.bottom, w.given, look.energy.kinetic, look.energy.elastic];
+        self.turnover = parts.iter().fold(self.turnover, |most, p| most.max(p.abs()));
+    }
+
+    /// Energy gained beyond the work done (J); negative is what the scheme has damped.
+    pub fn energy_error(&self) -> f64 {
+        self.energy.total() - self.opened.0 - self.work.total()
+    }
+
+    /// Momentum gained beyond the impulse (N s).
+    pub fn momentum_error(&self) -> Vector3<f64> {
+        self.momentum - self.opened.1 - self.impulse
+    }
+}
+
+fn look(rod: &Rod, state: &State, world: &World, solver: &Solver, made: &EndForces) -> Look {
+    let (x, v, a) = (&state.position, &state.velocity, &state.acceleration);
+    let trial = &solver.trial;
+    let last = rod.elements.len();
+    let mut found =
+        Look { energy: Energy::default(), power: Work::default(), momentum: Vector3::zeros(), force: Vector3::zeros() };
+    let lump = |found: &mut Look, node: usize, mass: f64| {
+        found.energy.kinetic += 0.5 * mass * v[node].norm_squared();
+        found.energy.gravity += mass * world.gravity * x[node].z;
+        found.momentum += v[node] * mass;
+        found.force.z -= mass * world.gravity;
+    };
+    let mut before: Option<(Vector3<f64>, f64)> = None;
+    for (i, element) in rod.elements.iter().enumerate() {
+        let d = x[i + 1] - x[i];
+        let length = d.norm().max(1e-9 * element.rest);
+        let t = d / length;
+        let strain = length / element.rest - 1.0;
+        let rate = (t.dot(&(v[i + 1] - v[i])) - length / element.rest * element.rate) / element.rest;
+        let height = 0.5 * (x[i].z + x[i + 1].z);
+        let taken = Taken { compression: element.compression, ease: 1.0 };
+        let pull = |rate| {
+            let stretched = Stretch { strain, rate, height };
+            tension(rod, element, taken, &stretched, &trial.fluid[i], world.gravity).value
+        };
+        let (whole, rateless) = (pull(rate), pull(0.0));
+        let segment = &rod.segments[element.segment];
+        let mechanical = strain - segment.tube.as_ref().map_or(0.0, |t| t.expansion * t.warmer);
+        if mechanical > 0.0 || element.compression {
+            found.energy.elastic += segment.axial.energy(mechanical) * element.rest;
+            // what pressure and damping do beside the law's own energy
+            let law = segment.axial.at(mechanical).0;
+            found.power.damping -= (whole - rateless) * rate * element.rest;
+            found.power.fluid -= (rateless - law) * rate * element.rest;
+        }
+        let middle = 0.5 * (trial.fluid[i].surface - x[i].z + trial.fluid[i + 1].surface - x[i + 1].z);
+        for node in [i, i + 1] {
+            lump(&mut found, node, element.mass);
+            let fluid = &trial.fluid[node];
+            let share = wet_share(fluid.surface - x[node].z, middle, element.diameter).0;
+            if share > 0.0 && fluid.density > 0.0 {
+                let force = half_load(element, &t, fluid, &v[node], &a[node], world.gravity).force * -share;
+                found.power.fluid += force.dot(&v[node]);
+                found.force += force;
+            }
+        }
+        if element.bending > 0.0 {
+            if rod.twists() {
+                let first = (i == 0).then_some(HingeAt::A);
+                let inner = (i > 0).then_some(HingeAt::Inner(i));
+                let end = (i + 1 == last).then_some(HingeAt::B);
+                for at in [first, inner, end].into_iter().flatten() {
+                    if let Some((k, kt, e, f)) = hinge_sides(rod, x, &state.director, &trial.ends, at) {
+                        found.energy.elastic += spatial::energy(k, kt, &e, &f);
+                    }
+                }
+            } else if let Some((e, le)) = before {
+                let k = rod.hinge(i);
+                found.energy.elastic += 0.5 * k * hinge(k, &e, le, &t, length).angle.powi(2);
+            }
+            for (side, at) in [(0, 0), (1, last - 1)] {
+                if !rod.twists()
+                    && i == at
+                    && let Some((k, direction)) = trial.ends[side].hinge(element)
+                {
+                    found.energy.elastic += 0.5 * k * hinge(k, &direction, 1.0, &t, length).angle.powi(2);
+                }
+            }
+        }
+        before = Some((t, length));
+    }
+    for held in &rod.attachments {
+        let node = held.node;
+        lump(&mut found, node, held.mass);
+        let fluid = &trial.fluid[node];
+        let depth = fluid.surface - x[node].z;
+        let share = wet_share(depth, depth, held.height).0;
+        let (u, q) = (v[node] - fluid.velocity, a[node] - fluid.acceleration);
+        let water = fluid.density * held.volume;
+        let mut force =
+            u * (-0.5 * fluid.density * held.drag * u.norm()) - q * (water * held.added) + fluid.acceleration * water;
+        force.z += water * world.gravity;
+        found.power.fluid += force.dot(&v[node]) * share;
+        found.force += force * share;
+    }
+    if let Some((bottom, ground)) = &world.bottom {
+        for node in 0..=last {
+            let left = if node > 0 { rod.elements[node - 1].contact } else { 0.0 };
+            let area = left + rod.elements.get(node).map_or(0.0, |e| e.contact);
+            let soft = trial.soft[node];
+            found.energy.bottom += energy(*bottom, ground, soft, area, &x[node]);
+            let acts = contact(*bottom, ground, soft, area, &x[node], &v[node], &trial.lay[node], true);
+            let still = contact(*bottom, ground, soft, area, &x[node], &Vector3::zeros(), &trial.lay[node], true);
+            let acts = acts.map_or_else(Vector3::zeros, |c| c.force[0] + c.force[1]);
+            let still = still.map_or_else(Vector3::zeros, |c| c.force[0]);
+            found.power.bottom += (acts - still).dot(&v[node]);
+            found.force += acts;
+        }
+    }
+    for (node, force) in world.forces.iter().filter(|f| f.0 <= last) {
+        found.power.given += force.dot(&v[*node]);
+        found.force += force;
+    }
+    for (side, node) in [(0, 0), (1, last)] {
+        if trial.ends[side].motion.is_some() {
+            found.power.ends[side] = -made.force[side].dot(&v[node]);
+            found.force -= made.force[side];
+        }
+    }
+    found
+}

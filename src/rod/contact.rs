@@ -1,0 +1,138 @@
+//! A node on the bottom: normal support, damping, friction.
+
+use super::surroundings::{Bottom, Ground};
+use nalgebra::{Matrix3, Vector3};
+
+/// Force of the bottom on a node with its derivatives.
+pub(super) struct Contact {
+    /// The force on the node (N): normal part, and friction.
+    pub force: [Vector3<f64>; 2],
+    /// Derivative of their sum by the position (N/m).
+    pub by_position: Matrix3<f64>,
+    /// Derivative of their sum by the velocity (N s/m).
+    pub by_velocity: Matrix3<f64>,
+}
+
+/// Elastic energy of the bottom under a node (J); `soft` as in [`contact`].
+pub(super) fn energy(bottom: &dyn Bottom, ground: &Ground, soft: f64, area: f64, x: &Vector3<f64>) -> f64 {
+    let (height, slope) = bottom.height(x.x, x.y);
+    let depth = (height - x.z) / (1.0 + slope[0] * slope[0] + slope[1] * slope[1]).sqrt();
+    if depth <= 0.0 {
+        0.0
+    } else if depth < soft {
+        ground.stiffness * area * depth.powi(3) / (6.0 * soft)
+    } else {
+        ground.stiffness * area * (0.5 * depth * depth - 0.5 * soft * depth + soft * soft / 6.0)
+    }
+}
+
+/// What the bottom does to a node with a shadow of `area` (m2) whose rod runs in direction `lay`; none when it is
+/// clear of it. Its stiffness is whole from a penetration `soft` on (m).
+///
+/// Friction grows ever more slowly with speed, so Newton's tangent of it overshoots a stop. Unless `exact`, its
+/// derivative by the velocity is the secant, the slope from standing still, which bounds the force from above and
+/// cannot.
+///
+/// The curvature of the bottom within the penetration is left out of the derivatives.
+#[inline]
+#[expect(clippy::too_many_arguments, reason = "a contact has that many causes")]
+pub(super) fn contact(
+    bottom: &dyn Bottom,
+    ground: &Ground,
+    soft: f64,
+    area: f64,
+    x: &Vector3<f64>,
+    v: &Vector3<f64>,
+    lay: &Vector3<f64>,
+    exact: bool,
+) -> Option<Contact> {
+    let (height, slope) = bottom.height(x.x, x.y);
+    if x.z >= height {
+        return None;
+    }
+    let normal = Vector3::new(-slope[0], -slope[1], 1.0).normalize();
+    let depth = (height - x.z) * normal.z;
+    let (penetration, share, bend) = if depth < soft {
+        (0.5 * depth * depth / soft, depth / soft, 1.0 / soft)
+    } else {
+        (depth - 0.5 * soft, 1.0, 0.0)
+    };
+    let sinking = -v.dot(&normal);
+    let (k, c) = (ground.stiffness * area, ground.damping * area);
+    let support = k * penetration + c * share * sinking;
+    if support <= 0.0 {
+        return None;
+    }
+    let outer = normal * normal.transpose();
+    let (by_depth, by_sinking) = (k * share + c * bend * sinking, c * share);
+    let mut made = Contact {
+        force: [normal * support, Vector3::zeros()],
+        by_position: outer * -by_depth,
+        by_velocity: outer * -by_sinking,
+    };
+    if ground.friction_along > 0.0 || ground.friction_across > 0.0 {
+        let along = (lay - normal * lay.dot(&normal)).try_normalize(1e-9).unwrap_or_else(Vector3::zeros);
+        let (aa, flat) = (along * along.transpose(), Matrix3::identity() - outer);
+        let (mu_a, mu_c) = (ground.friction_along, ground.friction_across);
+        let mu = if along == Vector3::zeros() { flat * mu_a.max(mu_c) } else { aa * mu_a + (flat - aa) * mu_c };
+        let sliding = flat * v;
+        let speed = (sliding.norm_squared() + ground.friction_speed * ground.friction_speed).sqrt();
+        let pull = -(mu * v) / speed;
+        made.force[1] = pull * support;
+        made.by_position -= pull * normal.transpose() * by_depth;
+        made.by_velocity += mu * (-support / speed) - pull * normal.transpose() * by_sinking;
+        if exact {
+            made.by_velocity -= pull * sliding.transpose() * (support / (speed * speed));
+        }
+    }
+    Some(made)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rod::PlaneBottom;
+
+    #[test]
+    fn derivatives_of_contact_and_friction_are_their_differences() {
+        let bottom = PlaneBottom { height: -3.0, slope: [0.2, -0.1] };
+        let ground = Ground {
+            stiffness: 1e5,
+            damping: 1e3,
+            soft: 0.02,
+            friction_along: 0.4,
+            friction_across: 0.9,
+            friction_speed: 0.05,
+        };
+        let lay = Vector3::new(1.0, 0.3, 0.1);
+        let whole = |x: Vector3<f64>, v: Vector3<f64>| {
+            let made = contact(&bottom, &ground, 0.02, 0.7, &x, &v, &lay, true).unwrap();
+            (made.force[0] + made.force[1], made)
+        };
+        let h = 1e-7;
+        for depth in [0.01, 0.05] {
+            let (x, v) = (Vector3::new(1.0, 2.0, -3.0 - depth), Vector3::new(0.03, -0.02, -0.01));
+            let made = whole(x, v).1;
+            for i in 0..3 {
+                let mut e = Vector3::zeros();
+                e[i] = h;
+                let by_x = (whole(x + e, v).0 - whole(x - e, v).0) / (2.0 * h);
+                let by_v = (whole(x, v + e).0 - whole(x, v - e).0) / (2.0 * h);
+                // central differences of forces of order 1e3 N: rounding 1e-13 * 1e3 / 1e-7
+                assert!((by_x - made.by_position.column(i)).norm() < 1e-2 * made.by_position.norm().max(1.0) * 1e-2);
+                assert!((by_v - made.by_velocity.column(i)).norm() < 1e-4 * made.by_velocity.norm().max(1.0));
+            }
+        }
+    }
+
+    #[test]
+    fn friction_of_a_fast_slide_is_mu_times_the_normal_force() {
+        let bottom = PlaneBottom { height: 0.0, slope: [0.0, 0.0] };
+        let ground = Ground { friction_along: 0.4, friction_across: 0.9, friction_speed: 1e-6, ..Ground::elastic(1e5) };
+        let at =
+            |v| contact(&bottom, &ground, 0.0, 1.0, &Vector3::new(0.0, 0.0, -0.01), &v, &Vector3::x(), true).unwrap();
+        // 1e5 * 0.01 = 1000 N normal; v0 / v squared is 1e-12
+        assert!((at(Vector3::new(1.0, 0.0, 0.0)).force[1].x + 400.0).abs() < 1e-6);
+        assert!((at(Vector3::new(0.0, 1.0, 0.0)).force[1].y + 900.0).abs() < 1e-6);
+    }
+}

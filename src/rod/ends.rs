@@ -1,0 +1,71 @@
+//! What holds the two ends of a rod.
+
+use super::mesh::Element;
+use nalgebra::Vector3;
+
+/// Where an end is and how it moves, at the end of a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Motion {
+    /// Position (m, global).
+    pub position: Vector3<f64>,
+    /// Velocity (m/s).
+    pub velocity: Vector3<f64>,
+    /// Acceleration (m/s2).
+    pub acceleration: Vector3<f64>,
+}
+
+impl Motion {
+    /// At rest.
+    pub fn still(position: Vector3<f64>) -> Self {
+        Motion { position, velocity: Vector3::zeros(), acceleration: Vector3::zeros() }
+    }
+}
+
+/// One end of a rod at the end of a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct End {
+    /// The motion it is given; none for a free end.
+    pub motion: Option<Motion>,
+    /// The direction, from end A toward end B, that its holder gives it; none for a pin. It acts on rods with bending
+    /// stiffness.
+    pub direction: Option<Vector3<f64>>,
+    /// Rotational stiffness between holder and rod (N m/rad); none for a rigid clamp.
+    pub rotation: Option<f64>,
+    /// A direction across the rod that turns with the holder and holds the rod's twist; none leaves it free to twist.
+    /// It acts on rods with torsional stiffness.
+    pub side: Option<Vector3<f64>>,
+}
+
+impl End {
+    /// A free end.
+    pub const FREE: End = End { motion: None, direction: None, rotation: None, side: None };
+
+    /// Held in place, free to turn.
+    pub fn pinned(position: Vector3<f64>) -> Self {
+        End::moved(Motion::still(position))
+    }
+
+    /// Moved as given, free to turn.
+    pub fn moved(motion: Motion) -> Self {
+        End { motion: Some(motion), ..End::FREE }
+    }
+
+    /// The same with its direction held.
+    pub fn clamped(self, direction: Vector3<f64>) -> Self {
+        End { direction: Some(direction), ..self }
+    }
+
+    /// The same with its twist held by a direction across.
+    pub fn with_side(self, side: Vector3<f64>) -> Self {
+        End { side: Some(side), ..self }
+    }
+
+    /// Stiffness of the hinge (N m) between the holder and the half element beside it, and the direction held.
+    #[inline]
+    pub(super) fn hinge(&self, element: &Element) -> Option<(f64, Vector3<f64>)> {
+        let direction = self.direction?.try_normalize(1e-12)?;
+        let beam = 2.0 * element.bending / element.rest;
+        let stiffness = self.rotation.map_or(beam, |k| if k > 0.0 { k * beam / (k + beam) } else { 0.0 });
+        Some((stiffness, direction))
+    }
+}

@@ -1,0 +1,100 @@
+//! The hinges of a rod with torsion, and the moments at its ends.
+
+use super::ends::End;
+use super::mesh::{Rod, State};
+use super::spatial::{Eight, Side, spatial, transport};
+use super::trial::Trial;
+use nalgebra::{SMatrix, Vector3};
+
+/// One hinge: the elements on its two sides, its gradient and stiffness.
+pub(super) type SpatialHinge = ([Option<usize>; 2], Eight, SMatrix<f64, 8, 8>);
+
+/// The sides of the hinge before an element of a rod with torsion, or of that at an end beside it, with its two stiffnesses.
+pub(super) fn hinge_sides(
+    rod: &Rod,
+    x: &[Vector3<f64>],
+    directors: &[Vector3<f64>],
+    ends: &[End; 2],
+    hinge: HingeAt,
+) -> Option<(f64, f64, Side, Side)> {
+    let last = rod.elements.len();
+    let side = |i: usize, natural: [f64; 2]| {
+        let d = x[i + 1] - x[i];
+        Side { direction: d.normalize(), length: d.norm(), director: directors[i], natural }
+    };
+    let held = |end: &End, i: usize, natural: [f64; 2]| {
+        let element = &rod.elements[i];
+        let (k, direction) = end.hinge(element)?;
+        let across = end.side.and_then(|s| (s - direction * direction.dot(&s)).try_normalize(1e-9));
+        let near = side(i, natural);
+        let director = across.unwrap_or_else(|| transport(&near.director, &near.direction, &direction));
+        let kt = if across.is_some() { 2.0 * element.torsion / element.rest } else { 0.0 };
+        Some((k, kt, Side { direction, length: 1.0, director, natural }))
+    };
+    match hinge {
+        HingeAt::Inner(i) => {
+            let natural = rod.bent(i);
+            Some((rod.hinge(i), rod.twist_hinge(i), side(i - 1, natural[0]), side(i, natural[1])))
+        }
+        HingeAt::A => {
+            let natural = rod.bent(0);
+            let (k, kt, holder) = held(&ends[0], 0, natural[0])?;
+            Some((k, kt, holder, side(0, natural[1])))
+        }
+        HingeAt::B => {
+            let natural = rod.bent(last);
+            let (k, kt, holder) = held(&ends[1], last - 1, natural[1])?;
+            Some((k, kt, side(last - 1, natural[0]), holder))
+        }
+    }
+}
+
+/// Where a hinge is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum HingeAt {
+    /// Between end A's holder and the first element.
+    A,
+    /// At an inner node.
+    Inner(usize),
+    /// Between the last element and end B's holder.
+    B,
+}
+
+/// The hinges to be added with element `i`: the one before it, and those of the ends beside it.
+pub(super) fn spatial_hinges(rod: &Rod, trial: &Trial, i: usize) -> impl Iterator<Item = SpatialHinge> {
+    let last = rod.elements.len();
+    let inner = (i > 0).then_some((HingeAt::Inner(i), [Some(i.wrapping_sub(1)), Some(i)]));
+    let first = (i == 0).then_some((HingeAt::A, [None, Some(0)]));
+    let end = (i + 1 == last).then_some((HingeAt::B, [Some(i), None]));
+    [first, inner, end].into_iter().flatten().filter_map(|(at, sides)| {
+        let (k, kt, e, f) = hinge_sides(rod, &trial.x, &trial.director, &trial.ends, at)?;
+        let (gradient, matrix) = spatial(k, kt, &e, &f);
+        Some((sides, gradient, matrix))
+    })
+}
+
+/// Moment of the rod on the holder of an end (N m): the hinge turns the rod toward the held direction, and the holder back.
+pub(super) fn end_moment(rod: &Rod, state: &State, end: &End, side: usize) -> Vector3<f64> {
+    let (i, element) =
+        if side == 0 { (0, rod.elements.first()) } else { (rod.elements.len() - 1, rod.elements.last()) };
+    if rod.twists() {
+        let at = if side == 0 { HingeAt::A } else { HingeAt::B };
+        let mut ends = [End::FREE; 2];
+        ends[side] = *end;
+        return hinge_sides(rod, &state.position, &state.director, &ends, at).map_or_else(
+            Vector3::zeros,
+            |(k, kt, e, f)| {
+                let gradient = spatial(k, kt, &e, &f).0;
+                let (near, first) = if side == 0 { (f, 3) } else { (e, 0) };
+                let force = gradient.fixed_rows::<3>(first).into_owned();
+                near.direction.cross(&force) * near.length + near.direction * gradient[if side == 0 { 7 } else { 6 }]
+            },
+        );
+    }
+    let hinge = element.and_then(|e| end.hinge(e));
+    let Some((stiffness, direction)) = hinge else { return Vector3::zeros() };
+    let t = (state.position[i + 1] - state.position[i]).normalize();
+    let axis = direction.cross(&t);
+    let sine = axis.norm();
+    if sine > 0.0 { axis * (stiffness * sine.atan2(direction.dot(&t)) / sine) } else { axis }
+}

@@ -1,0 +1,327 @@
+//! A rod cut into elements, and its state of motion.
+
+use super::error::RodError;
+use super::section::{Attachment, Segment};
+use super::spatial::transport;
+use nalgebra::Vector3;
+
+/// Most elements of one rod: far beyond what a line needs, and still some hundred megabytes.
+pub const MOST_ELEMENTS: usize = 100_000;
+
+/// Memory an element takes in a run (bytes), rounded up: band, state, copies of both.
+const BYTES_PER_ELEMENT: f64 = 2000.0;
+
+/// What one element needs in every iteration; half quantities go to each of its two nodes.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Element {
+    /// Unstretched length (m).
+    pub rest: f64,
+    /// Rate at which it grows (m/s), positive when paid out.
+    pub rate: f64,
+    /// Its segment.
+    pub segment: usize,
+    /// Constant EA (N), or zero where the segment's law must be asked.
+    pub ea: f64,
+    /// Axial damping (N s).
+    pub damping: f64,
+    /// Whether it resists being shortened.
+    pub compression: bool,
+    /// Bending stiffness (N m2).
+    pub bending: f64,
+    /// Torsional stiffness (N m2).
+    pub torsion: f64,
+    /// Half its mass (kg).
+    pub mass: f64,
+    /// Half its displaced volume (m3).
+    pub volume: f64,
+    /// Half its added volumes, normal and tangential (m3).
+    pub added: [f64; 2],
+    /// Half its drag areas, normal and tangential, times a half (m2).
+    pub drag: [f64; 2],
+    /// Half its shadow on the bottom (m2).
+    pub contact: f64,
+    /// Height over which it comes out of the water (m).
+    pub diameter: f64,
+}
+
+impl Element {
+    pub fn new(segment: &Segment, index: usize, rest: f64) -> Self {
+        let half = 0.5 * rest;
+        Element {
+            rest,
+            rate: 0.0,
+            segment: index,
+            ea: if let super::section::Axial::Linear(ea) = segment.axial { ea } else { 0.0 },
+            damping: segment.axial_damping,
+            compression: segment.compression,
+            bending: segment.bending,
+            torsion: segment.torsion,
+            mass: half * segment.mass,
+            volume: half * segment.displaced,
+            added: [
+                half * segment.added_area * segment.added_normal,
+                half * segment.added_area * segment.added_tangential,
+            ],
+            drag: [
+                0.5 * half * segment.drag_diameter * segment.drag_normal,
+                0.5 * half * std::f64::consts::PI * segment.drag_diameter * segment.drag_tangential,
+            ],
+            contact: half * segment.contact_diameter,
+            diameter: segment.contact_diameter,
+        }
+    }
+}
+
+/// A slender rod from end A to end B: a row of straight elements between nodes.
+///
+/// Unknowns are the three translations of each node, and with torsional stiffness the turn of each element about
+/// itself. Tension follows the stretch of an element, bending the angle between the directions of neighbouring
+/// elements: the moment at a node is EI times that angle over the length between the middles of the elements. With EI
+/// = 0 nothing but the chain is left. All forces are derivatives of the energy of the actual shape, without
+/// restriction of rotation; errors fall with the square of the element length. The section is the same in all
+/// directions, and the rod straight when free of load unless [`Rod::set_shape`] says otherwise; shear deformation and
+/// rotary inertia are left out, as a slender rod has none worth counting.
+///
+/// Sources: geometry of the discrete rod after Bergou et al., Discrete Elastic Rods (ACM Trans. Graph. 27, 2008),
+/// with the angle itself as measure of curvature, which closes a circle exactly; line properties in the sense of API
+/// RP 2SK.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rod {
+    pub(super) name: String,
+    pub(super) segments: Vec<Segment>,
+    pub(super) elements: Vec<Element>,
+    pub(super) attachments: Vec<Attachment>,
+    /// The shape free of load, where it is not straight.
+    pub(super) natural: Option<Natural>,
+}
+
+/// The shape of a rod free of load.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Natural {
+    /// Directors of end A's holder, of the elements, and of end B's holder.
+    directors: Vec<Vector3<f64>>,
+    /// Curvature angle at each node by the directors before and after it (rad).
+    pub curvature: Vec<[[f64; 2]; 2]>,
+}
+
+impl Rod {
+    /// Cuts segments, from end A to end B, into elements.
+    ///
+    /// # Errors
+    /// A property that makes no rod, more elements than [`MOST_ELEMENTS`], or an attachment to a node that is not there.
+    pub fn new(name: &str, segments: Vec<Segment>, attachments: Vec<Attachment>) -> Result<Self, RodError> {
+        let refuse = |why: String| RodError::Shape { rod: name.to_string(), why };
+        if segments.is_empty() {
+            return Err(refuse("a rod needs at least one segment".to_string()));
+        }
+        for (i, segment) in segments.iter().enumerate() {
+            segment.check(name, i + 1)?;
+        }
+        let count = segments.iter().fold(0usize, |sum, s| sum.saturating_add(s.elements));
+        if count > MOST_ELEMENTS {
+            let megabytes = count as f64 * BYTES_PER_ELEMENT / 1e6;
+            return Err(RodError::TooLarge { rod: name.to_string(), elements: count, megabytes, most: MOST_ELEMENTS });
+        }
+        for a in &attachments {
+            let numbers = [a.mass, a.volume, a.height, a.drag, a.added];
+            if a.node > count || numbers.iter().any(|v| !(v.is_finite() && *v >= 0.0)) {
+                let node = a.node;
+                return Err(refuse(format!(
+                    "the attachment at node {node} needs a node from 0 to {count} and no negative property"
+                )));
+            }
+        }
+        let elements = segments
+            .iter()
+            .enumerate()
+            .flat_map(|(i, s)| (0..s.elements).map(move |_| Element::new(s, i, s.length / s.elements as f64)))
+            .collect();
+        Ok(Rod { name: name.to_string(), segments, elements, attachments, natural: None })
+    }
+
+    /// Gives the rod a shape that it has when free of load: the places of its nodes, and its directions at both ends.
+    /// It needs torsional stiffness, as a bent rod can only bend another way by twisting.
+    ///
+    /// # Errors
+    /// A rod without torsional stiffness, or not one place a node.
+    pub fn set_shape(&mut self, points: &[Vector3<f64>], ends: [Vector3<f64>; 2]) -> Result<(), RodError> {
+        let refuse = |why: &str| Err(RodError::Shape { rod: self.name.clone(), why: why.to_string() });
+        if points.len() != self.nodes() || !self.twists() {
+            return refuse("a shape free of load needs torsional stiffness, and the place of every node");
+        }
+        let mut directions = vec![ends[0].normalize()];
+        directions.extend(points.windows(2).map(|p| (p[1] - p[0]).normalize()));
+        directions.push(ends[1].normalize());
+        if directions.iter().any(|d| !d.iter().all(|c| c.is_finite())) {
+            return refuse("two of its nodes have the same place");
+        }
+        let directors = carried_along(&directions);
+        let curvature = (0..self.nodes())
+            .map(|i| {
+                let (e, f) = (directions[i], directions[i + 1]);
+                let axis = e.cross(&f).try_normalize(1e-12).unwrap_or_else(Vector3::zeros);
+                let vector = axis * e.cross(&f).norm().atan2(e.dot(&f));
+                [i, i + 1].map(|j| [vector.dot(&directors[j]), vector.dot(&directions[j].cross(&directors[j]))])
+            })
+            .collect();
+        self.natural = Some(Natural { directors, curvature });
+        Ok(())
+    }
+
+    /// The direction across the rod at end A and end B, in the shape free of load, by which a holder keeps it from twisting.
+    pub fn sides(&self) -> Option<[Vector3<f64>; 2]> {
+        let directors = &self.natural.as_ref()?.directors;
+        Some([*directors.first()?, *directors.last()?])
+    }
+
+    /// Whether torsion is among its unknowns.
+    pub(super) fn twists(&self) -> bool {
+        self.elements.iter().any(|e| e.torsion > 0.0)
+    }
+
+    /// Torsional stiffness of the hinge at an inner node (N m).
+    pub(super) fn twist_hinge(&self, node: usize) -> f64 {
+        let (a, b) = (&self.elements[node - 1], &self.elements[node]);
+        if a.torsion > 0.0 && b.torsion > 0.0 { 2.0 / (a.rest / a.torsion + b.rest / b.torsion) } else { 0.0 }
+    }
+
+    /// Curvature angle of a node when free of load, by the directors before and after it (rad).
+    pub(super) fn bent(&self, node: usize) -> [[f64; 2]; 2] {
+        self.natural.as_ref().map_or([[0.0; 2]; 2], |n| n.curvature[node])
+    }
+
+    /// Its name.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Its segments from end A.
+    pub fn segments(&self) -> &[Segment] {
+        &self.segments
+    }
+
+    /// Number of nodes: one more than elements.
+    pub fn nodes(&self) -> usize {
+        self.elements.len() + 1
+    }
+
+    /// Unstretched length (m).
+    pub fn length(&self) -> f64 {
+        self.elements.iter().map(|e| e.rest).sum()
+    }
+
+    /// Unstretched distance of each node from end A (m).
+    pub fn arc(&self) -> Vec<f64> {
+        let mut sum = 0.0;
+        std::iter::once(0.0)
+            .chain(self.elements.iter().map(|e| {
+                sum += e.rest;
+                sum
+            }))
+            .collect()
+    }
+
+    /// Stiffness of the hinge at an inner node (N m): the halves of its two elements in series.
+    #[inline(always)]
+    pub(super) fn hinge(&self, node: usize) -> f64 {
+        let (a, b) = (&self.elements[node - 1], &self.elements[node]);
+        if a.bending > 0.0 && b.bending > 0.0 { 2.0 / (a.rest / a.bending + b.rest / b.bending) } else { 0.0 }
+    }
+}
+
+/// Directors of a row of directions: across the first one, and taken along without twist.
+fn carried_along(directions: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
+    let Some(first) = directions.first() else { return Vec::new() };
+    let axis = Vector3::ith(first.iamin(), 1.0);
+    let mut directors = vec![(axis - first * first.dot(&axis)).normalize()];
+    for pair in directions.windows(2) {
+        let last = directors[directors.len() - 1];
+        directors.push(transport(&last, &pair[0], &pair[1]));
+    }
+    directors
+}
+
+/// Motion of a rod at one time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct State {
+    /// Time (s).
+    pub time: f64,
+    /// Position of each node (m, global).
+    pub position: Vec<Vector3<f64>>,
+    /// Velocity of each node (m/s).
+    pub velocity: Vec<Vector3<f64>>,
+    /// Acceleration of each node (m/s2).
+    pub acceleration: Vec<Vector3<f64>>,
+    /// The averaged acceleration of the scheme (m/s2).
+    pub(super) averaged: Vec<Vector3<f64>>,
+    /// Director of each element of a rod with torsion: a unit vector across it that twists with it.
+    pub(super) director: Vec<Vector3<f64>>,
+    /// Least penetration over which the bottom's stiffness grows at each node (m): see
+    /// [`Solver::statics`](super::Solver::statics).
+    pub(super) bedding: Vec<f64>,
+}
+
+impl State {
+    /// At rest along a line of points, spread over it by unstretched length.
+    ///
+    /// # Errors
+    /// Fewer than two points, points that are no numbers, or all in one place.
+    pub fn along(rod: &Rod, points: &[Vector3<f64>]) -> Result<Self, RodError> {
+        let mut along = vec![0.0];
+        for pair in points.windows(2) {
+            along.push(along[along.len() - 1] + (pair[1] - pair[0]).norm());
+        }
+        let total = along[along.len() - 1];
+        if points.len() < 2 || !(total.is_finite() && total > 0.0) {
+            let why = "it needs a line of two points or more, apart from each other, to start from".to_string();
+            return Err(RodError::Shape { rod: rod.name.clone(), why });
+        }
+        let length = rod.length();
+        let mut at = 1;
+        let position = rod
+            .arc()
+            .iter()
+            .map(|s| {
+                let here = s / length * total;
+                while at + 1 < points.len() && along[at] < here {
+                    at += 1;
+                }
+                let share = (here - along[at - 1]) / (along[at] - along[at - 1]).max(f64::MIN_POSITIVE);
+                points[at - 1] + (points[at] - points[at - 1]) * share.clamp(0.0, 1.0)
+            })
+            .collect();
+        let position: Vec<Vector3<f64>> = position;
+        let director = if rod.twists() {
+            let edges = position.windows(2).map(|p| (p[1] - p[0]).normalize());
+            match &rod.natural {
+                // untwisted against the shape free of load: from its first director on
+                Some(natural) => {
+                    let mut directors = vec![natural.directors[0]];
+                    let mut from = None;
+                    for t in edges {
+                        let last = directors[directors.len() - 1];
+                        directors.push(match from {
+                            Some(from) => transport(&last, &from, &t),
+                            None => (last - t * t.dot(&last)).normalize(),
+                        });
+                        from = Some(t);
+                    }
+                    directors.split_off(1)
+                }
+                None => carried_along(&edges.collect::<Vec<_>>()),
+            }
+        } else {
+            Vec::new()
+        };
+        let rest = vec![Vector3::zeros(); rod.nodes()];
+        Ok(State {
+            time: 0.0,
+            position,
+            velocity: rest.clone(),
+            acceleration: rest.clone(),
+            averaged: rest,
+            director,
+            bedding: vec![0.0; rod.nodes()],
+        })
+    }
+}

@@ -1,0 +1,52 @@
+//! The rod: a line whose own dynamics and bending matter.
+//!
+//! A [`Rod`] is what the line is: [`Segment`]s cut into elements, and [`Attachment`]s on their nodes. A [`State`] is
+//! where it is and how it moves. A [`Solver`] holds the memory of a run: [`Solver::statics`] brings a state to rest,
+//! [`Solver::step`] takes it on in time, or [`Solver::trial`] and [`Solver::accept`] with a body at an end that must
+//! find its own motion by [`Solver::end_tangent`]; [`Solver::modes`] finds how it swings. A [`World`] says what
+//! surrounds it, an [`End`] what holds it. [`Rod::results`] gives tensions, moments and stresses along it,
+//! [`Balance`] keeps the books of energy and momentum.
+//!
+//! SI units (m, kg, s, N, rad), global axes with z up. End A is the first node. Nothing is allocated in a step, and a
+//! step costs as much as its elements: one pass over them, and a band to factor.
+
+mod assemble;
+mod balance;
+mod band;
+mod bend;
+mod condense;
+mod contact;
+mod ends;
+mod error;
+mod hinges;
+mod immersed;
+mod mesh;
+mod modes;
+mod on_nodes;
+mod results;
+mod scheme;
+mod section;
+mod spatial;
+mod start;
+mod statics;
+mod step;
+mod surroundings;
+mod system;
+mod tension;
+#[cfg(test)]
+mod tests;
+mod trial;
+mod winch;
+mod workspace;
+
+pub use balance::{Balance, Energy, Work};
+pub use condense::EndTangent;
+pub use ends::{End, Motion};
+pub use error::RodError;
+pub use mesh::{MOST_ELEMENTS, Rod, State};
+pub use modes::Mode;
+pub use results::{NodeResult, Stress};
+pub use scheme::Settings;
+pub use section::{Attachment, Axial, Segment, Tube};
+pub use step::{EndForces, Solver};
+pub use surroundings::{Bottom, Fluid, FluidField, Ground, PlaneBottom, UniformFluid, World};

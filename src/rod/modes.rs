@@ -1,0 +1,148 @@
+//! Natural periods and shapes of a rod about where it rests.
+
+use super::ends::End;
+use super::error::RodError;
+use super::mesh::{Rod, State};
+use super::step::Solver;
+use super::surroundings::World;
+use super::system::Weights;
+use super::trial::{lay, sample, soften};
+use super::workspace::Workspace;
+use nalgebra::{DMatrix, SymmetricEigen, Vector3};
+
+/// Rounds of iteration after which modes are given up.
+const MOST_ROUNDS: usize = 500;
+/// Change of the square of a frequency from one round to the next, as a share, at which it is taken.
+const PROOF: f64 = 1e-11;
+
+/// One natural mode without damping.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mode {
+    /// Circular frequency (rad/s).
+    pub frequency: f64,
+    /// Displacement of each node; the largest component is 1.
+    pub shape: Vec<Vector3<f64>>,
+}
+
+impl Solver {
+    /// The `count` slowest modes about a state of rest, with added mass and the stiffness of the bottom.
+    ///
+    /// Subspace iteration (Bathe, Finite Element Procedures, section 11.6) with the band's factors, so the cost is
+    /// linear in the number of elements. The stiffness may be a little unsymmetric where a current turns with the
+    /// rod: its symmetric part decides.
+    ///
+    /// # Errors
+    /// A state of another rod, more modes than half the unknowns, an unstable position, or modes that do not settle.
+    pub fn modes(
+        &mut self,
+        rod: &Rod,
+        state: &State,
+        world: &World,
+        ends: [End; 2],
+        count: usize,
+    ) -> Result<Vec<Mode>, RodError> {
+        self.fits(rod, state)?;
+        let refuse = |why: String| RodError::Shape { rod: rod.name.clone(), why };
+        let last = rod.elements.len();
+        let stride = self.work.stride();
+        let size = stride * rod.nodes();
+        let space = (count + 8).max(2 * count).min(size.saturating_sub(6));
+        if count == 0 || count * 2 > size.saturating_sub(6) {
+            return Err(refuse(format!("{count} modes of {size} unknowns cannot be found")));
+        }
+        self.trial.time = state.time;
+        self.trial.ends = ends;
+        self.trial.x.copy_from_slice(&state.position);
+        self.trial.director.copy_from_slice(&state.director);
+        self.trial.v.fill(Vector3::zeros());
+        self.trial.a.fill(Vector3::zeros());
+        lay(rod, state, world, &mut self.trial.lay);
+        soften(state, world, &mut self.trial.soft);
+        sample(world, state.time, &mut self.trial);
+        let known = [ends[0].motion.is_some(), ends[1].motion.is_some()];
+        let free = |node: usize| !((node == 0 && known[0]) || (node == last && known[1]));
+        let mut matrix = |weights: Weights| {
+            self.work.assemble(rod, world, &self.trial, weights, 0..last);
+            self.work.clone()
+        };
+        let stiffness = matrix(Weights { k: 1.0, c: 0.0, m: 0.0 });
+        let mass = matrix(Weights { k: 0.0, c: 0.0, m: 1.0 });
+        // a shift as slow as the rod is long keeps a free rod's stiffness from being singular
+        let shift = 0.01 * world.gravity.abs().max(1e-3) / rod.length();
+        let mut shifted = matrix(Weights { k: 1.0, c: 0.0, m: shift });
+        for node in [0, last].into_iter().filter(|n| !free(*n)) {
+            shifted.fix(node);
+        }
+        shifted
+            .factor()
+            .map_err(|node| refuse(format!("its stiffness vanishes at element {}", node.clamp(1, last))))?;
+        let times = |matrix: &Workspace, vector: &[f64]| {
+            let mut made = vec![0.0; size];
+            matrix.times(vector, &mut made);
+            for node in [0, last].into_iter().filter(|n| !free(*n)) {
+                made[stride * node..stride * node + 3].fill(0.0);
+            }
+            made
+        };
+        // starting vectors: sines along the rod in each direction, whose order is that of a line's modes
+        let mut vectors: Vec<Vec<f64>> = (0..space)
+            .map(|j| {
+                let half_waves = (j / 3 + 1) as f64;
+                let place = |i: usize| (i as f64 + 0.37) / (last as f64 + 0.74) * std::f64::consts::PI * half_waves;
+                let at = |i: usize| {
+                    let (node, axis) = (i / stride, i % stride);
+                    if axis == j % 3 && free(node) { place(node).sin() + 0.1 * place(node).cos() } else { 0.0 }
+                };
+                (0..size).map(at).collect()
+            })
+            .collect();
+        let mut found = vec![0.0; space];
+        for _ in 0..MOST_ROUNDS {
+            for vector in &mut vectors {
+                *vector = times(&mass, vector);
+                shifted.solve(vector);
+            }
+            let loaded: Vec<Vec<f64>> = vectors.iter().map(|v| times(&mass, v)).collect();
+            let held: Vec<Vec<f64>> = vectors.iter().map(|v| times(&stiffness, v)).collect();
+            let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(p, q)| p * q).sum::<f64>();
+            let small = |of: &[Vec<f64>]| {
+                DMatrix::from_fn(space, space, |i, j| 0.5 * (dot(&vectors[i], &of[j]) + dot(&vectors[j], &of[i])))
+            };
+            let (k, m) = (small(&held), small(&loaded));
+            let Some(factor) = m.cholesky() else { return Err(refuse("its modes cannot be told apart".to_string())) };
+            let inverse =
+                factor.l().try_inverse().ok_or_else(|| refuse("its modes cannot be told apart".to_string()))?;
+            let eigen = SymmetricEigen::new(&inverse * k * inverse.transpose());
+            let mut order: Vec<usize> = (0..space).collect();
+            order.sort_by(|a, b| eigen.eigenvalues[*a].total_cmp(&eigen.eigenvalues[*b]));
+            let turn = inverse.transpose() * &eigen.eigenvectors;
+            vectors = order
+                .iter()
+                .map(|j| {
+                    let mut made = vec![0.0; size];
+                    for (i, vector) in vectors.iter().enumerate() {
+                        for (m, v) in made.iter_mut().zip(vector) {
+                            *m += turn[(i, *j)] * v;
+                        }
+                    }
+                    made
+                })
+                .collect();
+            let values: Vec<f64> = order.iter().map(|j| eigen.eigenvalues[*j]).collect();
+            let settled = values[..count].iter().zip(&found).all(|(a, b)| (a - b).abs() <= PROOF * (a.abs() + shift));
+            found = values;
+            if settled {
+                if let Some(value) = found[..count].iter().find(|v| **v < -1e-6 * shift) {
+                    return Err(refuse(format!("it does not rest there: a mode grows at {:.3e} 1/s", (-value).sqrt())));
+                }
+                let modes = found[..count].iter().zip(&vectors).map(|(value, vector)| {
+                    let most = vector.iter().fold(0.0, |m: f64, v| if v.abs() > m.abs() { *v } else { m });
+                    let shape = vector.chunks(stride).map(|d| Vector3::new(d[0], d[1], d[2]) / most).collect();
+                    Mode { frequency: value.max(0.0).sqrt(), shape }
+                });
+                return Ok(modes.collect());
+            }
+        }
+        Err(refuse(format!("its modes do not settle in {MOST_ROUNDS} rounds")))
+    }
+}

@@ -1,0 +1,60 @@
+//! What acts on nodes beside the elements: the bottom, attachments, given forces.
+
+use super::contact::contact;
+use super::immersed::wet_share;
+use super::mesh::Rod;
+use super::surroundings::World;
+use super::system::{System, Weights};
+use super::trial::Trial;
+use nalgebra::Vector3;
+use std::ops::Range;
+
+/// Adds the bottom, attachments and given forces at the nodes of a range of elements; without `TANGENT` their
+/// residual alone.
+pub(super) fn on_nodes<const TANGENT: bool, const W: usize, const H: usize, const S: usize>(
+    rod: &Rod,
+    world: &World,
+    trial: &Trial,
+    Weights { k, c, m }: Weights,
+    range: Range<usize>,
+    system: &mut System<W, H, S>,
+) {
+    if let Some((bottom, ground)) = &world.bottom {
+        for node in range.start..=range.end {
+            let left = if node > 0 { rod.elements[node - 1].contact } else { 0.0 };
+            let right = rod.elements.get(node).map_or(0.0, |e| e.contact);
+            let (x, v) = (&trial.x[node], &trial.v[node]);
+            if let Some(made) =
+                contact(*bottom, ground, trial.soft[node], left + right, x, v, &trial.lay[node], trial.exact)
+            {
+                system.push(node, &-(made.force[0] + made.force[1]));
+                system.block::<TANGENT>(node, node, &(made.by_position * -k - made.by_velocity * c));
+            }
+        }
+    }
+    for held in rod.attachments.iter().filter(|a| (range.start..=range.end).contains(&a.node)) {
+        let node = held.node;
+        let fluid = &trial.fluid[node];
+        let depth = fluid.surface - trial.x[node].z;
+        let (share, by_own, by_same) = wet_share(depth, depth, held.height);
+        let (u, q) = (trial.v[node] - fluid.velocity, trial.a[node] - fluid.acceleration);
+        let speed = u.norm();
+        let (drag, water) = (0.5 * fluid.density * held.drag, fluid.density * held.volume);
+        let mut wet = u * (drag * speed) + q * (water * held.added) - fluid.acceleration * water;
+        wet.z -= water * world.gravity;
+        let mut force = trial.a[node] * held.mass + wet * share;
+        force.z += held.mass * world.gravity;
+        let unit = if speed > 0.0 { u / speed } else { Vector3::zeros() };
+        let mut block = unit * unit.transpose() * (c * share * drag * speed);
+        for j in 0..3 {
+            block[(j, j)] += c * share * drag * speed + m * (held.mass + share * water * held.added);
+        }
+        let mut third = block.column_mut(2);
+        third -= wet * (k * (by_own + by_same));
+        system.push(node, &force);
+        system.block::<TANGENT>(node, node, &block);
+    }
+    for (node, force) in world.forces.iter().filter(|f| (range.start..=range.end).contains(&f.0)) {
+        system.push(*node, &-force);
+    }
+}

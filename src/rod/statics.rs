@@ -1,0 +1,299 @@
+//! The position of rest of a rod.
+
+use super::ends::End;
+use super::error::RodError;
+use super::hinges::end_moment;
+use super::mesh::{Rod, State};
+use super::step::{EndForces, Solver};
+use super::surroundings::World;
+use super::system::Weights;
+use super::trial::{lay, sample, soften, turn};
+use nalgebra::Vector3;
+
+/// Newton iterations after which statics gives up.
+const MOST_ITERATIONS: usize = 20_000;
+/// Newton iterations after which one fall is cut short.
+const MOST_INNER: usize = 12;
+/// Newton iterations after which a loose or softened rod is taken as it lies.
+const MOST_LOOSE: usize = 3000;
+/// Strain of a softened rod under its own weight.
+const EASY: f64 = 0.01;
+/// How much stiffer it is taken each time it has come to rest.
+const STIFFER: f64 = 30.0;
+/// Strain below which a start is too short.
+const SHORT: f64 = -0.01;
+/// Largest residual of a node as a share of the largest force in the rod.
+const PROOF: f64 = 1e-9;
+
+impl Solver {
+    /// Moves the state to where it is at rest, from wherever it is: the ends at their motions' positions, all
+    /// velocities zero.
+    ///
+    /// The way there is a row of falls, each a step from rest by implicit Euler, which never gains energy: forces
+    /// balance the mass of the nodes times their move over the square of a pseudo-time step. While Newton's iteration
+    /// finds a fall easily the next is longer; when it does not, the fall is tried again shorter. In the end the
+    /// falls are so long that Newton's iteration on the forces alone is left.
+    ///
+    /// With a bottom it also sets how softly a node meets it from then on. Between two nodes a line that lifts off
+    /// with tension T and weight w sags by w l^2 / (8 T): the mesh knows its height over the bottom no better than
+    /// that. The stiffness of the bottom therefore grows to its full value over no less than this height (at most a
+    /// fiftieth of the element), or every node would hit the bottom as a hammer does. It falls with the square of the
+    /// element length.
+    ///
+    /// # Errors
+    /// [`RodError::Statics`] when no equilibrium is reached, [`RodError::Shape`] for a state of another rod; the
+    /// state is then as before.
+    pub fn statics(
+        &mut self,
+        rod: &Rod,
+        state: &mut State,
+        world: &World,
+        ends: [End; 2],
+    ) -> Result<EndForces, RodError> {
+        self.fits(rod, state)?;
+        self.trial.still = true;
+        let made = self.falls(rod, state, world, ends);
+        self.trial.still = false;
+        made
+    }
+
+    /// The row of falls.
+    fn falls(&mut self, rod: &Rod, state: &mut State, world: &World, ends: [End; 2]) -> Result<EndForces, RodError> {
+        let last = rod.elements.len();
+        let zero = Vector3::zeros();
+        self.weights = Weights { k: 1.0, c: 0.0, m: 0.0 };
+        self.trial.time = state.time;
+        self.trial.ends = ends;
+        self.trial.x.copy_from_slice(&state.position);
+        self.trial.director.copy_from_slice(&state.director);
+        self.trial.v.fill(zero);
+        self.trial.a.fill(zero);
+        for (side, node) in [(0, 0), (1, last)] {
+            if let Some(motion) = ends[side].motion {
+                self.trial.x[node] = motion.position;
+            }
+        }
+        lay(rod, state, world, &mut self.trial.lay);
+        soften(state, world, &mut self.trial.soft);
+        let mass = masses(rod);
+        // a start that is much too short would buckle in all its elements at once: it first falls as a chain does
+        let strains =
+            rod.elements.iter().zip(self.trial.x.windows(2)).map(|(e, x)| (x[1] - x[0]).norm() / e.rest - 1.0);
+        self.trial.loose = strains.fold(0.0, f64::min) < SHORT;
+        // and one that is stiff by its weight falls more easily as a softer one
+        let weight = mass.iter().sum::<f64>() * world.gravity.abs();
+        let stiffness = rod.segments.iter().map(|s| s.axial.at(0.0).1).fold(0.0, f64::max);
+        self.trial.ease = (weight / (EASY * stiffness)).min(1.0);
+        if self.trial.ease == 0.0 {
+            self.trial.ease = 1.0;
+        }
+        let mut from = self.trial.x.clone();
+        let mut director = self.trial.director.clone();
+        let mut pseudo = first_fall(rod, world);
+        // the longest fall that is worth a try
+        let mut longest = 1e6;
+        let (mut done, mut worst) = (0, (0, f64::INFINITY));
+        while done < MOST_ITERATIONS && pseudo > 1e-9 {
+            let mut before = f64::INFINITY;
+            let mut settled = None;
+            for inner in 1..=MOST_INNER {
+                done += 1;
+                match self.fall(rod, world, &mass, &from, pseudo) {
+                    Fall::Rest | Fall::Unstable if self.trial.loose || self.trial.ease < 1.0 => {
+                        self.trial.loose = false;
+                        self.trial.ease = (self.trial.ease * STIFFER).min(1.0);
+                        from.copy_from_slice(&self.trial.x);
+                        director.copy_from_slice(&self.trial.director);
+                        pseudo = first_fall(rod, world);
+                        break;
+                    }
+                    Fall::Rest => {
+                        state.position.copy_from_slice(&self.trial.x);
+                        state.director.copy_from_slice(&self.trial.director);
+                        state.velocity.fill(zero);
+                        state.acceleration.fill(zero);
+                        state.averaged.fill(zero);
+                        self.bed(rod, world, state);
+                        let moment = [0, 1].map(|side| end_moment(rod, state, &ends[side], side));
+                        return Ok(EndForces { force: self.work.end_forces(), moment, iterations: done, parts: 1 });
+                    }
+                    Fall::Unstable => {
+                        // pushed aside by a hair, the same way every time
+                        let hair = 1e-6 * rod.length() / last as f64;
+                        for (i, x) in self.trial.x.iter_mut().enumerate().skip(1).take(last - 1) {
+                            let s = i as f64;
+                            *x += Vector3::new((1.3 * s).sin(), (2.1 * s).cos(), (0.7 * s).sin()) * hair;
+                        }
+                        from.copy_from_slice(&self.trial.x);
+                        director.copy_from_slice(&self.trial.director);
+                        pseudo = first_fall(rod, world);
+                        break;
+                    }
+                    Fall::Lost => break,
+                    Fall::Moved { share, worst: found } => {
+                        worst = found;
+                        if share > 0.5 * before && inner > 2 {
+                            break;
+                        }
+                        before = share;
+                        if share < 1e-3 {
+                            settled = Some(inner);
+                            break;
+                        }
+                    }
+                }
+            }
+            if (self.trial.loose || self.trial.ease < 1.0) && done > MOST_LOOSE {
+                (self.trial.loose, self.trial.ease) = (false, 1.0);
+                pseudo = first_fall(rod, world);
+            }
+            match settled {
+                Some(inner) => {
+                    from.copy_from_slice(&self.trial.x);
+                    director.copy_from_slice(&self.trial.director);
+                    longest = (longest * 1.3f64).min(1e6);
+                    pseudo = (pseudo
+                        * if inner <= 3 {
+                            4.0
+                        } else if inner <= 6 {
+                            2.0
+                        } else {
+                            1.0
+                        })
+                    .min(longest);
+                }
+                None => {
+                    self.trial.x.copy_from_slice(&from);
+                    self.trial.director.copy_from_slice(&director);
+                    longest = 0.7 * pseudo;
+                    pseudo *= 0.4;
+                }
+            }
+        }
+        (self.trial.loose, self.trial.ease) = (false, 1.0);
+        Err(RodError::Statics {
+            rod: rod.name.clone(),
+            iterations: done,
+            residual: worst.1,
+            element: worst.0.clamp(1, last),
+        })
+    }
+
+    /// One Newton iteration of a fall that began at `from`.
+    fn fall(&mut self, rod: &Rod, world: &World, mass: &[f64], from: &[Vector3<f64>], pseudo: f64) -> Fall {
+        let last = rod.elements.len();
+        let known = self.trial.ends.map(|e| e.motion.is_some());
+        sample(world, self.trial.time, &mut self.trial);
+        for fluid in &mut self.trial.fluid {
+            fluid.acceleration = Vector3::zeros();
+        }
+        self.work.assemble(rod, world, &self.trial, self.weights, 0..last);
+        self.work.keep_ends();
+        let worst = self.work.worst(known);
+        if !worst.1.is_finite() {
+            return Fall::Lost;
+        }
+        let rest = worst.1 <= self.forces_told(rod, world, mass);
+        // a state that rests is looked at on its own; what would grow slower than this it may
+        let pseudo = if rest { 100.0 * first_fall(rod, world) } else { pseudo };
+        for (node, m) in mass.iter().enumerate() {
+            let inertia = m / (pseudo * pseudo);
+            self.work.stiffen(node, inertia, &((self.trial.x[node] - from[node]) * inertia));
+        }
+        for (side, node) in [(0, 0), (1, last)] {
+            if known[side] {
+                self.work.drop_residual(node);
+                self.work.fix(node);
+            }
+        }
+        match (self.work.factor(), rest) {
+            (Ok(_), true) if self.settings.unstable => return Fall::Rest,
+            (Ok(_), false) if self.settings.unstable => {}
+            (Ok(0), true) => return Fall::Rest,
+            (_, true) => return Fall::Unstable,
+            (Ok(0), false) => {}
+            // with a negative pivot the step would go up to a saddle of the energy
+            (_, false) => return Fall::Lost,
+        }
+        self.work.newton(&mut self.change);
+        let size =
+            self.change.iter().fold(0.0, |most: f64, c| if c.is_nan() { f64::INFINITY } else { most.max(c.abs()) });
+        if size > 2.0 * rod.length() {
+            return Fall::Lost;
+        }
+        let stride = self.work.stride();
+        turn(&mut self.trial.director, &self.trial.x, &self.change, stride, known);
+        for i in 0..=last {
+            let d = &self.change[stride * i..stride * i + 3];
+            self.trial.x[i] += Vector3::new(d[0], d[1], d[2]);
+        }
+        let shortest = rod.elements.iter().map(|e| e.rest).fold(f64::INFINITY, f64::min);
+        Fall::Moved { share: size / shortest, worst }
+    }
+
+    /// Sets how softly each node meets the bottom: see [`Solver::statics`].
+    fn bed(&self, rod: &Rod, world: &World, state: &mut State) {
+        let last = rod.elements.len();
+        let sag = |i: usize| {
+            let element = &rod.elements[i];
+            let fluid = &self.trial.fluid[i];
+            let weight = (element.mass - fluid.density * element.volume) * world.gravity / element.rest * 2.0;
+            let strain = (state.position[i + 1] - state.position[i]).norm() / element.rest - 1.0;
+            let tension = rod.segments[element.segment].axial.at(strain).0;
+            let most = 0.02 * element.rest;
+            if tension > 0.0 { (weight.abs() * element.rest * element.rest / (8.0 * tension)).min(most) } else { most }
+        };
+        for node in 0..=last {
+            let sides = [node.checked_sub(1), (node < last).then_some(node)];
+            state.bedding[node] = sides.into_iter().flatten().map(sag).fold(0.0, f64::max);
+        }
+    }
+
+    /// The least residual that can be told from nothing (N): a share of the largest force in the rod, or what rounding of
+    /// positions makes through its stiffness.
+    fn forces_told(&self, rod: &Rod, world: &World, mass: &[f64]) -> f64 {
+        let weight = mass.iter().sum::<f64>() * world.gravity.abs();
+        let place = self.trial.x.iter().fold(0.0, |most: f64, x| most.max(x.amax()));
+        let mut told = PROOF * weight;
+        for (element, x) in rod.elements.iter().zip(self.trial.x.windows(2)) {
+            let strain = (x[1] - x[0]).norm() / element.rest - 1.0;
+            let (force, slope) = rod.segments[element.segment].axial.at(strain);
+            if strain > 0.0 || element.compression {
+                told = told.max(PROOF * force.abs());
+            }
+            let stiffness = slope / element.rest + 10.0 * element.bending / element.rest.powi(3);
+            told = told.max(32.0 * f64::EPSILON * place * stiffness);
+        }
+        told
+    }
+}
+
+/// Pseudo-time of the first fall (s): that in which a stone falls some thousandths of the length.
+fn first_fall(rod: &Rod, world: &World) -> f64 {
+    (0.01 * rod.length() / world.gravity.abs().max(1.0)).sqrt()
+}
+
+/// What an iteration of a fall came to.
+enum Fall {
+    /// Forces are in balance, and any move would meet resistance.
+    Rest,
+    /// Forces are in balance as those of a strut that is about to buckle.
+    Unstable,
+    /// No step could be made.
+    Lost,
+    /// The largest move as a share of the shortest element, and where the largest residual was (N).
+    Moved { share: f64, worst: (usize, f64) },
+}
+
+/// Mass of each node with the water it displaces, so that a buoyant rod settles as a heavy one does (kg).
+fn masses(rod: &Rod) -> Vec<f64> {
+    let mut mass = vec![0.0; rod.nodes()];
+    for (i, element) in rod.elements.iter().enumerate() {
+        mass[i] += element.mass;
+        mass[i + 1] += element.mass;
+    }
+    for a in &rod.attachments {
+        mass[a.node] += a.mass;
+    }
+    mass
+}

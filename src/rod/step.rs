@@ -1,0 +1,364 @@
+//! One implicit step in time.
+
+use super::ends::End;
+use super::error::RodError;
+use super::hinges::end_moment;
+use super::mesh::{Rod, State};
+use super::scheme::{Scheme, Settings};
+use super::surroundings::{UniformFluid, World};
+use super::system::Weights;
+use super::trial::{Trial, carry, interpolate, lay, sample, soften, turn};
+use super::workspace::Workspace;
+use nalgebra::Vector3;
+
+/// What a step came to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EndForces {
+    /// Force on each holder from the rod (N, global): end A, end B. For a free end what is left of the residual.
+    pub force: [Vector3<f64>; 2],
+    /// Moment on each holder from the rod about the end (N m).
+    pub moment: [Vector3<f64>; 2],
+    /// Newton iterations, all parts of a cut step together.
+    pub iterations: usize,
+    /// Parts the step was made in: 1 if it was not cut.
+    pub parts: usize,
+}
+
+/// Why one attempt failed.
+#[derive(Clone, Debug)]
+pub(super) struct Failure {
+    pub node: usize,
+    pub why: &'static str,
+}
+
+/// Steps rods. It holds the memory of one rod; nothing is allocated in a step.
+#[derive(Clone, Debug)]
+pub struct Solver {
+    pub(super) settings: Settings,
+    pub(super) work: Workspace,
+    pub(super) trial: Trial,
+    pub(super) change: Vec<f64>,
+    /// Where the last trial ended.
+    next: State,
+    /// Where the part before it ended, when a step is cut.
+    part: State,
+    pub(super) weights: Weights,
+}
+
+impl Solver {
+    /// Memory for a rod.
+    pub fn new(rod: &Rod, settings: Settings) -> Self {
+        let nodes = rod.nodes();
+        let zero = vec![Vector3::zeros(); nodes];
+        let state = State {
+            time: 0.0,
+            position: zero.clone(),
+            velocity: zero.clone(),
+            acceleration: zero.clone(),
+            averaged: zero.clone(),
+            director: if rod.twists() { vec![Vector3::x(); nodes - 1] } else { Vec::new() },
+            bedding: vec![0.0; nodes],
+        };
+        let still = UniformFluid::none().0;
+        let trial = Trial {
+            time: 0.0,
+            x: zero.clone(),
+            v: zero.clone(),
+            a: zero.clone(),
+            fluid: vec![still; nodes],
+            lay: zero,
+            soft: vec![0.0; nodes],
+            ends: [End::FREE; 2],
+            loose: false,
+            ease: 1.0,
+            exact: false,
+            still: false,
+            director: state.director.clone(),
+        };
+        let work = Workspace::of(rod);
+        Solver {
+            settings,
+            change: vec![0.0; work.stride() * nodes],
+            work,
+            trial,
+            part: state.clone(),
+            next: state,
+            weights: Weights { k: 1.0, c: 0.0, m: 0.0 },
+        }
+    }
+
+    /// Refuses a rod and state other than those it was made for.
+    pub(super) fn fits(&self, rod: &Rod, state: &State) -> Result<(), RodError> {
+        let nodes = rod.nodes();
+        let own = [self.trial.x.len(), self.change.len() / self.work.stride()];
+        let lists = [&state.position, &state.velocity, &state.acceleration, &state.averaged].map(Vec::len);
+        let directors = if rod.twists() { nodes - 1 } else { 0 };
+        let turns = [state.director.len(), self.trial.director.len()];
+        if own.iter().chain(&lists).any(|n| *n != nodes) || turns != [directors; 2] || state.bedding.len() != nodes {
+            let why = format!("the state or the solver is not that of this rod of {nodes} nodes");
+            return Err(RodError::Shape { rod: rod.name.clone(), why });
+        }
+        Ok(())
+    }
+
+    /// Tries the step from `state` to `time`, at which the ends move as given; the state stays as it is until
+    /// [`Solver::accept`], so that a body can try again with another motion of an end.
+    ///
+    /// A step that does not converge is cut in halves, with the ends moving along cubics in between.
+    ///
+    /// # Errors
+    /// [`RodError::Step`] when the shortest step fails as well.
+    pub fn trial(
+        &mut self,
+        rod: &Rod,
+        state: &State,
+        world: &World,
+        time: f64,
+        ends: [End; 2],
+    ) -> Result<EndForces, RodError> {
+        self.fits(rod, state)?;
+        let whole = time - state.time;
+        if !(whole > 0.0 && whole.is_finite()) {
+            let why = format!("a step from {} s to {time} s goes nowhere", state.time);
+            return Err(RodError::Shape { rod: rod.name.clone(), why });
+        }
+        match self.attempt(rod, state, world, time, ends) {
+            Ok(iterations) => Ok(self.end_forces(rod, iterations, 1)),
+            Err(failure) => self.cut(rod, state, world, time, ends, failure),
+        }
+    }
+
+    /// Takes the last trial as the new state.
+    pub fn accept(&mut self, state: &mut State) {
+        std::mem::swap(&mut self.next, state);
+    }
+
+    /// A trial and its acceptance.
+    ///
+    /// # Errors
+    /// As [`Solver::trial`]; the state is then as before.
+    pub fn step(
+        &mut self,
+        rod: &Rod,
+        state: &mut State,
+        world: &World,
+        time: f64,
+        ends: [End; 2],
+    ) -> Result<EndForces, RodError> {
+        let made = self.trial(rod, state, world, time, ends)?;
+        self.accept(state);
+        Ok(made)
+    }
+
+    /// The step in parts, each as long as converges.
+    fn cut(
+        &mut self,
+        rod: &Rod,
+        state: &State,
+        world: &World,
+        time: f64,
+        ends: [End; 2],
+        mut failure: Failure,
+    ) -> Result<EndForces, RodError> {
+        let whole = time - state.time;
+        let (mut level, mut done, mut parts, mut iterations) = (1u32, 0u64, 0usize, self.settings.iterations);
+        // positions in the step are counted in the smallest parts, so that the last one ends at `time` exactly
+        let all = 1u64 << self.settings.halvings.min(40);
+        copy(state, &mut self.part);
+        while done < all {
+            if level > self.settings.halvings {
+                return Err(RodError::Step {
+                    rod: rod.name.clone(),
+                    time,
+                    step: whole / all as f64,
+                    element: failure.node.clamp(1, rod.elements.len()),
+                    why: failure.why.to_string(),
+                });
+            }
+            let to = done + (all >> level);
+            let share = to as f64 / all as f64;
+            let target = if to == all { time } else { state.time + whole * share };
+            let between = [0, 1].map(|side| {
+                let node = if side == 0 { 0 } else { rod.elements.len() };
+                interpolate(state, node, &ends[side], whole, share)
+            });
+            let from = std::mem::replace(&mut self.part, State::empty());
+            let made = self.attempt(rod, &from, world, target, between);
+            self.part = from;
+            match made {
+                Ok(count) => {
+                    iterations += count;
+                    parts += 1;
+                    done = to;
+                    std::mem::swap(&mut self.part, &mut self.next);
+                    // a longer part where it fits the grid of halvings
+                    if level > 1 && done.is_multiple_of(all >> (level - 1)) {
+                        level -= 1;
+                    }
+                }
+                Err(found) => {
+                    iterations += self.settings.iterations;
+                    failure = found;
+                    level += 1;
+                }
+            }
+        }
+        std::mem::swap(&mut self.part, &mut self.next);
+        Ok(self.end_forces(rod, iterations, parts))
+    }
+
+    /// Newton's iterations of one step; the iterations it took.
+    fn attempt(&mut self, rod: &Rod, from: &State, world: &World, time: f64, ends: [End; 2]) -> Result<usize, Failure> {
+        let scheme = Scheme::new(time - from.time, self.settings.rho_inf.clamp(0.0, 1.0));
+        let (h, last) = (scheme.h, rod.elements.len());
+        self.weights = scheme.weights();
+        let shortest = rod.elements.iter().map(|e| e.rest).fold(f64::INFINITY, f64::min);
+        let (tolerance, wild) = (self.settings.tolerance * shortest, 10.0 * rod.length());
+        self.trial.time = time;
+        self.trial.ends = ends;
+        lay(rod, from, world, &mut self.trial.lay);
+        soften(from, world, &mut self.trial.soft);
+        self.next.bedding.copy_from_slice(&from.bedding);
+        let next = &mut self.next;
+        next.time = time;
+        for i in 0..=last {
+            let known = if i == 0 {
+                ends[0].motion
+            } else if i == last {
+                ends[1].motion
+            } else {
+                None
+            };
+            match known {
+                Some(m) => {
+                    next.position[i] = m.position;
+                    next.velocity[i] = m.velocity;
+                    next.acceleration[i] = m.acceleration;
+                    next.averaged[i] = m.acceleration;
+                }
+                None => {
+                    let u = (from.velocity[i] + from.averaged[i] * (0.5 * h)) * h;
+                    next.position[i] = from.position[i] + u;
+                    let [averaged, v, a] = scheme.follow(from, i, u);
+                    (next.averaged[i], next.velocity[i], next.acceleration[i]) = (averaged, v, a);
+                }
+            }
+        }
+        next.director.copy_from_slice(&from.director);
+        carry(&mut next.director, &from.position, &next.position);
+        let stride = self.work.stride();
+        let known = [ends[0].motion.is_some(), ends[1].motion.is_some()];
+        let (mut before, mut last_move) = (f64::INFINITY, f64::INFINITY);
+        for iteration in 1..=self.settings.iterations {
+            std::mem::swap(&mut self.trial.x, &mut self.next.position);
+            std::mem::swap(&mut self.trial.v, &mut self.next.velocity);
+            std::mem::swap(&mut self.trial.a, &mut self.next.acceleration);
+            std::mem::swap(&mut self.trial.director, &mut self.next.director);
+            if iteration <= 2 {
+                sample(world, time, &mut self.trial);
+            }
+            // while the moves shrink fast the factors of the iteration before do as well
+            let fresh = iteration == 1 || last_move > 1e-3 * shortest || last_move > 0.2 * before;
+            let size = self.iterate(rod, world, known, fresh);
+            std::mem::swap(&mut self.trial.x, &mut self.next.position);
+            std::mem::swap(&mut self.trial.v, &mut self.next.velocity);
+            std::mem::swap(&mut self.trial.a, &mut self.next.acceleration);
+            std::mem::swap(&mut self.trial.director, &mut self.next.director);
+            let size = size?;
+            if !(size.is_finite() && size < wild) {
+                return Err(Failure { node: self.work.worst(known).0, why: "the iteration runs away" });
+            }
+            let next = &mut self.next;
+            turn(&mut next.director, &next.position, &self.change, stride, known);
+            for i in 0..=last {
+                if (i == 0 && known[0]) || (i == last && known[1]) {
+                    continue;
+                }
+                let d = &self.change[stride * i..stride * i + 3];
+                next.position[i] += Vector3::new(d[0], d[1], d[2]);
+                let u = next.position[i] - from.position[i];
+                let [averaged, v, a] = scheme.follow(from, i, u);
+                (next.averaged[i], next.velocity[i], next.acceleration[i]) = (averaged, v, a);
+            }
+            if size <= tolerance {
+                return Ok(iteration);
+            }
+            if iteration > 6 && size > last_move {
+                return Err(Failure { node: self.work.worst(known).0, why: "the iteration does not settle" });
+            }
+            before = last_move;
+            last_move = size;
+        }
+        Err(Failure { node: self.work.worst(known).0, why: "the iteration does not settle" })
+    }
+
+    /// One Newton iteration at the trial, with a fresh tangent or the factors at hand: largest change of a coordinate
+    /// (m). The forces of the ends are kept, taken on to the changed positions by their tangent.
+    fn iterate(&mut self, rod: &Rod, world: &World, known: [bool; 2], fresh: bool) -> Result<f64, Failure> {
+        let last = rod.elements.len();
+        if fresh {
+            self.work.assemble(rod, world, &self.trial, self.weights, 0..last);
+            self.work.keep_rows();
+        } else {
+            self.work.forces(rod, world, &self.trial);
+        }
+        self.work.keep_ends();
+        for (side, node) in [(0, 0), (1, last)] {
+            if known[side] {
+                self.work.drop_residual(node);
+                if fresh {
+                    self.work.fix(node);
+                }
+            }
+        }
+        if fresh {
+            self.work.factor().map_err(|node| Failure { node, why: "its stiffness vanishes" })?;
+        }
+        self.work.newton(&mut self.change);
+        self.work.carry_ends(&self.change);
+        // a maximum would pass over a value that is no number
+        let sum: f64 = self.change.iter().sum();
+        if !sum.is_finite() {
+            return Err(Failure { node: self.work.worst(known).0, why: "a force is no number" });
+        }
+        Ok(self.change.iter().fold(0.0, |most: f64, c| most.max(c.abs())))
+    }
+
+    /// Takes the end of the last trial as the trial's motion.
+    pub(super) fn follow_next(&mut self) {
+        self.trial.x.copy_from_slice(&self.next.position);
+        self.trial.v.copy_from_slice(&self.next.velocity);
+        self.trial.a.copy_from_slice(&self.next.acceleration);
+        self.trial.director.copy_from_slice(&self.next.director);
+    }
+
+    fn end_forces(&self, rod: &Rod, iterations: usize, parts: usize) -> EndForces {
+        let moment = [0, 1].map(|side| end_moment(rod, &self.next, &self.trial.ends[side], side));
+        EndForces { force: self.work.end_forces(), moment, iterations, parts }
+    }
+}
+
+impl State {
+    fn empty() -> Self {
+        State {
+            time: 0.0,
+            position: vec![],
+            velocity: vec![],
+            acceleration: vec![],
+            averaged: vec![],
+            director: vec![],
+            bedding: vec![],
+        }
+    }
+}
+
+/// Copies a state into memory that is there.
+fn copy(from: &State, to: &mut State) {
+    to.time = from.time;
+    to.position.copy_from_slice(&from.position);
+    to.velocity.copy_from_slice(&from.velocity);
+    to.acceleration.copy_from_slice(&from.acceleration);
+    to.averaged.copy_from_slice(&from.averaged);
+    to.director.copy_from_slice(&from.director);
+    to.bedding.copy_from_slice(&from.bedding);
+}

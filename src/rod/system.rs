@@ -1,0 +1,133 @@
+//! The residual of a rod and its tangent, with what adds to them by nodes.
+
+use super::band::Band;
+use super::spatial::Eight;
+use nalgebra::{Matrix3, SMatrix, Vector3};
+
+/// How velocity and acceleration follow the unknown positions: the tangent is k K + c C + m M.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Weights {
+    pub k: f64,
+    pub c: f64,
+    pub m: f64,
+}
+
+/// Residual (what the nodes need from outside, N) and its tangent; `W` unknowns a node.
+#[derive(Clone, Debug)]
+pub(super) struct System<const W: usize, const H: usize, const S: usize> {
+    pub band: Band<H, S>,
+    pub residual: Vec<f64>,
+    /// Residual of the two end nodes.
+    pub ends: [Vector3<f64>; 2],
+    /// Rows of the two end nodes.
+    rows: [[[f64; S]; 3]; 2],
+}
+
+impl<const W: usize, const H: usize, const S: usize> System<W, H, S> {
+    pub fn new(nodes: usize) -> Self {
+        System {
+            band: Band::new(W * nodes),
+            residual: vec![0.0; W * nodes],
+            ends: [Vector3::zeros(); 2],
+            rows: [[[0.0; S]; 3]; 2],
+        }
+    }
+
+    pub fn clear(&mut self) {
+        self.band.clear();
+        self.residual.fill(0.0);
+    }
+
+    #[inline(always)]
+    pub fn push(&mut self, node: usize, force: &Vector3<f64>) {
+        let r = &mut self.residual[W * node..W * node + 3];
+        r[0] += force.x;
+        r[1] += force.y;
+        r[2] += force.z;
+    }
+
+    #[inline(always)]
+    pub fn block<const TANGENT: bool>(&mut self, row: usize, column: usize, block: &Matrix3<f64>) {
+        if TANGENT {
+            self.band.add_block(W * row, W * column, block);
+        }
+    }
+
+    /// Unknowns a node.
+    pub fn stride(&self) -> usize {
+        W
+    }
+
+    /// Adds a spatial hinge between two elements, or an element and a holder.
+    pub fn hinge<const TANGENT: bool>(
+        &mut self,
+        sides: [Option<usize>; 2],
+        k: f64,
+        gradient: &Eight,
+        matrix: &SMatrix<f64, 8, 8>,
+    ) {
+        // each of the eight unknowns by those of the nodes: an edge is its second node less its first
+        let places = |local: usize| -> [Option<(usize, f64)>; 2] {
+            let side = if local < 6 { local / 3 } else { local - 6 };
+            match sides[side] {
+                None => [None, None],
+                Some(i) if local < 6 => [Some((W * (i + 1) + local % 3, 1.0)), Some((W * i + local % 3, -1.0))],
+                Some(i) => [Some((W * i + 3, 1.0)), None],
+            }
+        };
+        for a in 0..8 {
+            for (row, sign) in places(a).into_iter().flatten() {
+                self.residual[row] += sign * gradient[a];
+                if TANGENT {
+                    for b in 0..8 {
+                        for (column, other) in places(b).into_iter().flatten() {
+                            self.band.add(row, column, sign * other * k * matrix[(a, b)]);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Keeps the rows of the end nodes.
+    pub fn keep_rows(&mut self) {
+        let last = self.residual.len() / W - 1;
+        for (side, node) in [(0, 0), (1, last)] {
+            for i in 0..3 {
+                self.rows[side][i] = *self.band.row(W * node + i);
+            }
+        }
+    }
+
+    /// Keeps the residual of the end nodes.
+    pub fn keep_ends(&mut self) {
+        let last = self.residual.len() / W - 1;
+        for (side, node) in [(0, 0), (1, last)] {
+            self.ends[side] = self.residual_at(node);
+        }
+    }
+
+    /// Product of the kept rows of an end with a change of all unknowns.
+    pub fn ends_by(&self, side: usize, change: &[f64]) -> Vector3<f64> {
+        let node = if side == 0 { 0 } else { self.residual.len() / W - 1 };
+        Vector3::from_fn(|i, _| Band::<H, S>::product(&self.rows[side][i], W * node + i, change))
+    }
+
+    /// Takes the kept residuals on to changed unknowns.
+    pub fn carry_ends(&mut self, change: &[f64]) {
+        for side in [0, 1] {
+            self.ends[side] += self.ends_by(side, change);
+        }
+    }
+
+    /// Residual of a node as a vector.
+    pub fn residual_at(&self, node: usize) -> Vector3<f64> {
+        Vector3::from_column_slice(&self.residual[W * node..W * node + 3])
+    }
+
+    /// The block that couples a node's residual to another's position.
+    #[cfg(test)]
+    pub fn block_at(&self, row: usize, column: usize) -> Matrix3<f64> {
+        Matrix3::from_fn(|i, j| self.band.get(W * row + i, W * column + j))
+    }
+}

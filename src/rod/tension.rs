@@ -1,0 +1,68 @@
+//! The tension of an element.
+
+use super::mesh::{Element, Rod};
+use super::surroundings::Fluid;
+
+/// Tension of an element (N) with its derivatives by strain, by strain rate and by the height of its middle.
+pub(super) struct Tension {
+    pub value: f64,
+    pub by_strain: f64,
+    pub by_rate: f64,
+    pub by_height: f64,
+}
+
+/// How an element is stretched.
+pub(super) struct Stretch {
+    pub strain: f64,
+    /// Strain rate (1/s).
+    pub rate: f64,
+    /// Elevation of its middle (m).
+    pub height: f64,
+}
+
+/// How the law of an element is taken.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Taken {
+    /// Whether it resists being shortened.
+    pub compression: bool,
+    /// The share of its stiffness that is there; one but on the way to a position of rest.
+    pub ease: f64,
+}
+
+/// Effective tension: the law of the segment at the mechanical strain, internal damping, and what pressure does
+/// through Poisson's ratio, (1 - 2 nu)(p_e A_e - p_i A_i) (Sparks, Fundamentals of Marine Riser Mechanics, 2007,
+/// section 2.4).
+#[inline(always)]
+pub(super) fn tension(
+    rod: &Rod,
+    element: &Element,
+    taken: Taken,
+    stretch: &Stretch,
+    fluid: &Fluid,
+    gravity: f64,
+) -> Tension {
+    let segment = &rod.segments[element.segment];
+    let free = segment.tube.as_ref().map_or(0.0, |t| t.expansion * t.warmer);
+    let mechanical = stretch.strain - free;
+    if mechanical < 0.0 && !taken.compression {
+        return Tension { value: 0.0, by_strain: 0.0, by_rate: 0.0, by_height: 0.0 };
+    }
+    let (value, by_strain) =
+        if element.ea > 0.0 { (element.ea * mechanical, element.ea) } else { segment.axial.at(mechanical) };
+    let mut made = Tension {
+        value: value * taken.ease + element.damping * stretch.rate,
+        by_strain: by_strain * taken.ease,
+        by_rate: element.damping,
+        by_height: 0.0,
+    };
+    if let Some(tube) = &segment.tube {
+        let share = 1.0 - 2.0 * tube.poisson;
+        let [outside, inside] = tube.areas();
+        let outer = fluid.density * gravity * (fluid.surface - stretch.height).max(0.0);
+        let inner = tube.pressure + tube.contents * gravity * (tube.at - stretch.height);
+        made.value += share * (outer * outside - inner * inside);
+        let wet = if stretch.height < fluid.surface { fluid.density } else { 0.0 };
+        made.by_height = share * gravity * (tube.contents * inside - wet * outside);
+    }
+    made
+}

@@ -1,0 +1,149 @@
+//! Bending against published large deflections.
+
+use super::super::*;
+use nalgebra::Vector3;
+
+fn beam(length: f64, elements: usize, bending: f64, ea: f64) -> Rod {
+    let segment = Segment { bending, compression: true, ..Segment::line(length, elements, 1.0, ea, 0.1) };
+    Rod::new("beam", vec![segment], vec![]).unwrap()
+}
+
+#[test]
+fn a_moment_of_two_pi_ei_over_l_bends_a_beam_into_a_circle() {
+    let (length, bending) = (10.0, 1000.0);
+    let rod = beam(length, 20, bending, 1e7);
+    let fluid = UniformFluid::none();
+    let world = World { fluid: &fluid, bottom: None, gravity: 0.0, forces: &[] };
+    let mut state = State::along(&rod, &[Vector3::zeros(), Vector3::x() * length]).unwrap();
+    // beyond half a turn the rod could swing out of its plane and straighten, as nothing resists its twist
+    let mut solver = Solver::new(&rod, Settings { unstable: true, ..Settings::default() });
+    let clamp = End::pinned(Vector3::zeros()).clamped(Vector3::x());
+    let steps = 16;
+    let mut moment = 0.0;
+    for i in 1..=steps {
+        let angle = 2.0 * std::f64::consts::PI * i as f64 / steps as f64;
+        let tip = End::FREE.clamped(Vector3::new(angle.cos(), 0.0, angle.sin()));
+        let made = solver.statics(&rod, &mut state, &world, [clamp, tip]).unwrap();
+        moment = made.moment[1].norm();
+    }
+    // angles add up exactly and no force acts: rounding and the residual allowed are left
+    let exact = 2.0 * std::f64::consts::PI * bending / length;
+    assert!((moment / exact - 1.0).abs() < 1e-6, "{moment} {exact}");
+    // the polygon closes
+    assert!(state.position[20].norm() < 1e-5 * length, "{}", state.position[20]);
+}
+
+#[test]
+fn a_cantilever_with_a_tip_load_takes_the_shape_of_the_elastica() {
+    // Mattiasson, Int. J. Numer. Meth. Eng. 17 (1981), table: P L^2 / EI, deflection w / L, shortening u / L
+    for (load, w, u) in [(1.0, 0.30172, 0.05643), (5.0, 0.71379, 0.38763), (10.0, 0.81061, 0.55500)] {
+        let error = |elements: usize| {
+            let (length, bending) = (1.0, 1.0);
+            let rod = beam(length, elements, bending, 1e7);
+            let fluid = UniformFluid::none();
+            let mut state = State::along(&rod, &[Vector3::zeros(), Vector3::x() * length]).unwrap();
+            let mut solver = Solver::new(&rod, Settings::default());
+            let clamp = End::pinned(Vector3::zeros()).clamped(Vector3::x());
+            let forces = [(elements, Vector3::new(0.0, 0.0, -load))];
+            let world = World { fluid: &fluid, bottom: None, gravity: 0.0, forces: &forces };
+            let made = solver.statics(&rod, &mut state, &world, [clamp, End::FREE]).unwrap();
+            let tip = state.position[elements];
+            let exact_moment = load * (1.0 - u);
+            assert!((made.moment[0].norm() / exact_moment - 1.0).abs() < 0.01, "{}", made.moment[0]);
+            (tip.x - (1.0 - u)).hypot(tip.z + w)
+        };
+        let (coarse, fine) = (error(20), error(80));
+        // second order, down to the five printed figures
+        assert!(fine < 1.5e-4 && coarse < 16.0 * 1.5e-4, "{load}: {coarse} {fine}");
+    }
+}
+
+#[test]
+fn a_clamped_and_tensioned_riser_bends_as_the_beam_with_tension() {
+    // a light beam under tension T between clamps at x = 0 and L with a side load q: closed form of EI y'''' - T y'' = q
+    let (length, bending, tension, q) = (100.0, 1e7, 2e5, 20.0);
+    let elements = 200;
+    let rod = beam(length, elements, bending, 1e10);
+    let fluid = UniformFluid::none();
+    let forces: Vec<_> = (0..=elements)
+        .map(|i| {
+            let share = if i == 0 || i == elements { 0.5 } else { 1.0 };
+            let pull = if i == elements { tension } else { 0.0 };
+            (i, Vector3::new(pull, 0.0, -q * share * length / elements as f64))
+        })
+        .collect();
+    let world = World { fluid: &fluid, bottom: None, gravity: 0.0, forces: &forces };
+    let mut state = State::along(&rod, &[Vector3::zeros(), Vector3::x() * length]).unwrap();
+    let mut solver = Solver::new(&rod, Settings::default());
+    // pinned at both heights: the far end slides, held in height by a stiff clamp of symmetry, is left for the pinned case
+    let end = |x: f64| End::pinned(Vector3::new(x, 0.0, 0.0)).clamped(Vector3::x());
+    let stretched = length;
+    let made = solver.statics(&rod, &mut state, &world, [end(0.0), end(stretched)]).unwrap();
+    // tension comes from the sag of an inextensible rod; take the one found and check the moments against it
+    let found = rod.results(&state, &world, &[end(0.0), end(stretched)]);
+    let t = found[elements / 2].effective;
+    let k = (t / bending).sqrt();
+    let z = 0.5 * k * length;
+    let clamp_moment = q / (k * k) * (z / z.tanh() - 1.0);
+    let middle_moment = q / (k * k) * (1.0 - z / z.sinh());
+    // second order in k l = 0.07, small rotations to the square of the slope
+    assert!((found[0].moment / clamp_moment - 1.0).abs() < 2e-3, "{} {clamp_moment}", found[0].moment);
+    assert!(
+        (found[elements / 2].moment / middle_moment - 1.0).abs() < 2e-3,
+        "{} {middle_moment}",
+        found[elements / 2].moment
+    );
+    assert!((made.moment[0].norm() / clamp_moment - 1.0).abs() < 2e-3);
+    assert!((found[0].shear / (0.5 * q * length) - 1.0).abs() < 0.02, "{}", found[0].shear);
+}
+
+/// The cantilever of Bathe and Bolourchi: an eighth of a circle of radius 100 in the x-y plane, a square of one by
+/// one, E = 1e7, G = E/2, clamped at the origin along y; its tip under a load along z.
+fn forty_five_degrees(elements: usize, load: f64) -> Vector3<f64> {
+    let (radius, quarter) = (100.0, std::f64::consts::FRAC_PI_4);
+    let segment = Segment {
+        compression: true,
+        bending: 1e7 / 12.0,
+        // both papers take the polar moment of the square, GJ = EI
+        torsion: 1e7 / 12.0,
+        ..Segment::line(radius * quarter, elements, 1.0, 1e7, 1.0)
+    };
+    let mut rod = Rod::new("bend", vec![segment], vec![]).unwrap();
+    let at = |i: usize| {
+        let angle = quarter * i as f64 / elements as f64;
+        Vector3::new(radius * (1.0 - angle.cos()), radius * angle.sin(), 0.0)
+    };
+    let points: Vec<_> = (0..=elements).map(at).collect();
+    let root = Vector3::y();
+    rod.set_shape(&points, [root, Vector3::new(quarter.sin(), quarter.cos(), 0.0)]).unwrap();
+    let fluid = UniformFluid::none();
+    let mut state = State::along(&rod, &points).unwrap();
+    let mut solver = Solver::new(&rod, Settings::default());
+    let clamp = End::pinned(Vector3::zeros()).clamped(root).with_side(rod.sides().unwrap()[0]);
+    let forces = [(elements, Vector3::new(0.0, 0.0, load))];
+    let world = World { fluid: &fluid, bottom: None, gravity: 0.0, forces: &forces };
+    let made = solver.statics(&rod, &mut state, &world, [clamp, End::FREE]).unwrap();
+    let tip = state.position[elements];
+    // the clamp carries the load and its moment
+    assert!((made.force[0].z - load).abs() < 1e-6 * load.abs().max(1.0));
+    let moment = tip.cross(&Vector3::new(0.0, 0.0, load));
+    assert!((made.moment[0] - moment).norm() < 1e-4 * moment.norm().max(1.0), "{} {moment}", made.moment[0]);
+    tip
+}
+
+#[test]
+fn the_forty_five_degree_bend_comes_to_the_published_places() {
+    // unloaded it keeps its shape
+    let still = forty_five_degrees(16, 0.0);
+    assert!((still - Vector3::new(29.289_321_9, 70.710_678_1, 0.0)).norm() < 0.1, "{still}");
+    // Bathe and Bolourchi, Int. J. Numer. Meth. Eng. 14 (1979) 961: (22.5, 59.2, 39.5) at 300, (15.9, 47.2, 53.4) at
+    // 600; Simo and Vu-Quoc, Comp. Meth. Appl. Mech. Eng. 58 (1986) 79: (22.33, 58.84, 40.08) and (15.79, 47.23,
+    // 53.37)
+    for (load, published) in [(300.0, [22.33, 58.84, 40.08]), (600.0, [15.79, 47.23, 53.37])] {
+        let (coarse, fine) = (forty_five_degrees(16, load), forty_five_degrees(64, load));
+        // their eight straight elements, and shear deformation, make a part in a thousand of the length; the two
+        // papers differ by 0.6
+        assert!((fine - Vector3::from(published)).amax() < 0.15, "{fine}");
+        assert!((coarse - fine).amax() < 0.1, "{coarse} {fine}");
+    }
+}

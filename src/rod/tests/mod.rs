@@ -1,0 +1,9 @@
+//! Whole rods against closed forms and other programs.
+
+mod beam;
+mod lowering;
+mod motion;
+mod section;
+mod still;
+mod tangent;
+mod violent;

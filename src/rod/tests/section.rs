@@ -1,0 +1,105 @@
+//! Heat, pressure, stresses, and what makes no rod.
+
+use super::super::*;
+use nalgebra::Vector3;
+
+const E: f64 = 2.07e11;
+
+fn pipe(tube: Tube) -> Rod {
+    let [outside, inside] = tube.areas();
+    let segment = Segment {
+        compression: true,
+        bending: E * tube.second_moment(),
+        tube: Some(tube),
+        ..Segment::line(20.0, 10, 100.0, E * (outside - inside), tube.outer)
+    };
+    Rod::new("pipe", vec![segment], vec![]).unwrap()
+}
+
+#[test]
+fn a_heated_pipe_under_pressure_between_fixed_ends_is_pressed_as_the_closed_form() {
+    let tube = Tube { expansion: 1.17e-5, warmer: 50.0, pressure: 1e7, ..Tube::empty(0.3239, 0.2985) };
+    let rod = pipe(tube);
+    let fluid = UniformFluid::still(1025.0);
+    let depth = 100.0;
+    let world = World { fluid: &fluid, bottom: None, gravity: 9.80665, forces: &[] };
+    let (a, b) = (Vector3::new(0.0, 0.0, -depth), Vector3::new(20.0, 0.0, -depth));
+    let state = State::along(&rod, &[a, b]).unwrap();
+    let found = rod.results(&state, &world, &[End::pinned(a), End::pinned(b)])[5];
+    let [outside, inside] = tube.areas();
+    let wall = outside - inside;
+    let outer = 1025.0 * 9.80665 * depth;
+    // fixed length: thermal force -EA alpha dT, and by Poisson's ratio of the hoop and radial stress 2 nu (p_i A_i -
+    // p_e A_e) in the wall (Lame)
+    let exact = -E * wall * 1.17e-5 * 50.0 + 2.0 * 0.3 * (1e7 * inside - outer * outside);
+    // the same formula another way: rounding
+    assert!((found.wall / exact - 1.0).abs() < 1e-9, "{} {exact}", found.wall);
+    let effective = exact + outer * outside - 1e7 * inside;
+    assert!((found.effective / effective - 1.0).abs() < 1e-9);
+    // hoop stress at the inner surface, Lame: (p_i (b^2 + a^2) - 2 p_e b^2) / (b^2 - a^2)
+    let (ri, ro) = (0.5 * tube.inner, 0.5 * tube.outer);
+    let hoop = (1e7 * (ro * ro + ri * ri) - 2.0 * outer * ro * ro) / (ro * ro - ri * ri);
+    let stress = found.stress.unwrap();
+    assert!((stress.hoop / hoop - 1.0).abs() < 1e-9, "{} {hoop}", stress.hoop);
+    assert!((stress.axial / (exact / wall) - 1.0).abs() < 1e-9);
+    let radial = -1e7;
+    let mises =
+        (0.5 * ((hoop - radial).powi(2) + (radial - stress.axial).powi(2) + (stress.axial - hoop).powi(2))).sqrt();
+    assert!((stress.von_mises / mises - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn what_makes_no_rod_is_refused_with_its_reason() {
+    let good = Segment::line(10.0, 5, 10.0, 1e6, 0.1);
+    let told = |segment: Segment| Rod::new("R", vec![segment], vec![]).unwrap_err().to_string();
+    assert!(told(Segment { elements: 0, ..good.clone() }).contains("number of elements"));
+    assert!(told(Segment { mass: 0.0, ..good.clone() }).contains("mass per length is 0"));
+    assert!(told(Segment { axial: Axial::Linear(0.0), ..good.clone() }).contains("axial stiffness"));
+    assert!(told(Segment { axial: Axial::Table(vec![(0.0, 0.0)]), ..good.clone() }).contains("axial stiffness"));
+    assert!(told(Segment { length: f64::NAN, ..good.clone() }).contains("length"));
+    assert!(told(Segment { bending: -1.0, ..good.clone() }).contains("bending stiffness"));
+    assert!(told(Segment { tube: Some(Tube::empty(0.1, 0.1)), ..good.clone() }).contains("thinner than the radius"));
+    let huge = told(Segment { elements: usize::MAX, ..good.clone() });
+    assert!(huge.contains("MB"), "{huge}");
+    assert!(Rod::new("R", vec![], vec![]).is_err());
+    let attachment = Attachment { node: 6, mass: 1.0, volume: 0.0, height: 0.0, drag: 0.0, added: 0.0 };
+    assert!(Rod::new("R", vec![good.clone()], vec![attachment]).unwrap_err().to_string().contains("from 0 to 5"));
+    let rod = Rod::new("R", vec![good], vec![]).unwrap();
+    assert!(State::along(&rod, &[Vector3::zeros(), Vector3::zeros()]).is_err());
+    // a state of another rod
+    let other = Rod::new("S", vec![Segment::line(10.0, 7, 10.0, 1e6, 0.1)], vec![]).unwrap();
+    let mut state = State::along(&other, &[Vector3::zeros(), Vector3::x()]).unwrap();
+    let fluid = UniformFluid::none();
+    let world = World { fluid: &fluid, bottom: None, gravity: 9.81, forces: &[] };
+    let mut solver = Solver::new(&rod, Settings::default());
+    assert!(solver.statics(&rod, &mut state, &world, [End::FREE; 2]).unwrap_err().to_string().contains("6 nodes"));
+    assert!(solver.step(&rod, &mut state, &world, 1.0, [End::FREE; 2]).is_err());
+    assert!(solver.modes(&other, &state, &world, [End::FREE; 2], 1).is_err());
+}
+
+#[test]
+fn a_polynomial_and_a_table_of_tension_hang_as_the_line_they_describe() {
+    let fluid = UniformFluid::none();
+    let world = World { fluid: &fluid, bottom: None, gravity: 9.81, forces: &[] };
+    let stretch = |axial: Axial| {
+        let rod = Rod::new("R", vec![Segment { axial, ..Segment::line(10.0, 50, 20.0, 1e4, 0.1) }], vec![]).unwrap();
+        let top = Vector3::zeros();
+        let mut state = State::along(&rod, &[top, Vector3::new(0.0, 0.0, -10.0)]).unwrap();
+        let mut solver = Solver::new(&rod, Settings::default());
+        solver.statics(&rod, &mut state, &world, [End::pinned(top), End::FREE]).unwrap();
+        -state.position[50].z - 10.0
+    };
+    // own weight w over length L: w L^2 / 2 EA
+    let linear = 20.0 * 9.81 * 100.0 / (2.0 * 1e4);
+    // weight in lumps is exact for the sum of strains of a straight line
+    assert!((stretch(Axial::Linear(1e4)) / linear - 1.0).abs() < 1e-6);
+    let table = (0..=40).map(|i| (i as f64 * 0.01, i as f64 * 100.0)).collect();
+    assert!((stretch(Axial::Table(table)) / linear - 1.0).abs() < 1e-6);
+    // T = c e + d e^2: strain at tension T is (sqrt(c^2 + 4 d T) - c) / 2 d, integrated over T = w s
+    let (c, d, w) = (1e4, 4e4, 20.0 * 9.81);
+    let curved =
+        ((c * c + 4.0 * d * w * 10.0f64).powf(1.5) - c * c * c) / (6.0 * d * w) / (2.0 * d) - c * 10.0 / (2.0 * d);
+    let found = stretch(Axial::Polynomial(vec![c, d]));
+    // midpoint rule over 50 elements
+    assert!((found / curved - 1.0).abs() < 1e-3, "{found} {curved}");
+}

@@ -1,0 +1,131 @@
+//! Rods at rest against the catenary, and their modes against closed forms.
+
+use super::super::*;
+use nalgebra::Vector3;
+
+/// A rope in vacuum hung between two points, cut into elements; end forces and positions.
+fn hung(elements: usize, b: Vector3<f64>) -> (EndForces, State) {
+    let rod = Rod::new("rope", vec![Segment::line(100.0, elements, 50.0, 1e6, 0.1)], vec![]).unwrap();
+    let fluid = UniformFluid::none();
+    let world = World { fluid: &fluid, bottom: None, gravity: 9.81, forces: &[] };
+    let a = Vector3::zeros();
+    let mut state = State::along(&rod, &[a, b]).unwrap();
+    let mut solver = Solver::new(&rod, Settings::default());
+    let made = solver.statics(&rod, &mut state, &world, [End::pinned(a), End::pinned(b)]).unwrap();
+    (made, state)
+}
+
+/// x and z of the end of an elastic catenary with horizontal force h and vertical force v at its upper end (Irvine
+/// 1981, 1.4).
+fn catenary(h: f64, v: f64, length: f64, w: f64, ea: f64) -> [f64; 2] {
+    let low = v - w * length;
+    let x = h / w * ((v / h).asinh() - (low / h).asinh()) + h * length / ea;
+    let z = h / w * ((v / h).hypot(1.0) - (low / h).hypot(1.0)) + (v * length - 0.5 * w * length * length) / ea;
+    [x, z]
+}
+
+#[test]
+fn a_hung_rope_tends_to_the_elastic_catenary_with_the_square_of_the_element() {
+    for b in [Vector3::new(60.0, 0.0, 40.0), Vector3::new(95.0, 0.0, 10.0), Vector3::new(40.0, 0.0, -50.0)] {
+        let error = |elements| {
+            let force = hung(elements, b).0.force[1];
+            // the rope pulls its holder back and down
+            let (h, v) = (-force.x, -force.z);
+            let [x, z] = catenary(h, v, 100.0, 50.0 * 9.81, 1e6);
+            (x - b.x).hypot(z - b.z) / 100.0
+        };
+        let errors = [25, 50, 100, 200].map(error);
+        assert!(errors[3] < 1e-4, "{b}: {errors:?}");
+        for pair in errors.windows(2) {
+            let order = (pair[0] / pair[1]).log2();
+            // two, with a little of the next order left in coarse meshes
+            assert!((order - 2.0).abs() < 0.1, "{b}: {errors:?} order {order}");
+        }
+    }
+}
+
+#[test]
+fn ropes_that_are_slack_vertical_grounded_or_buoyant_come_to_rest() {
+    let fluid = UniformFluid::still(1025.0);
+    let bottom = PlaneBottom { height: -50.0, slope: [0.02, 0.01] };
+    let ground = Ground { damping: 1e4, soft: 0.01, ..Ground::elastic(1e6) };
+    let world = World { fluid: &fluid, bottom: Some((&bottom, ground)), gravity: 9.81, forces: &[] };
+    for (mass, diameter) in [(100.0, 0.1), (20.0, 0.3)] {
+        for bending in [0.0, 1e5, 1e6] {
+            let segment =
+                Segment { bending, compression: bending > 0.0, ..Segment::line(100.0, 60, mass, 1e8, diameter) };
+            let rod = Rod::new("line", vec![segment], vec![]).unwrap();
+            for (a, b) in [
+                ([0.0, 0.0, -49.9], [20.0, 0.0, -10.0]),
+                ([0.0, 0.0, -49.9], [99.0, 0.0, -47.0]),
+                ([0.0, 0.0, -10.0], [30.0, 5.0, -10.0]),
+                ([0.0, 0.0, -49.9], [3.0, 0.0, -1.0]),
+                ([0.0, 0.0, -49.9], [60.0, 0.0, -48.0]),
+                ([0.0, 0.0, -10.0], [0.1, 0.0, -30.0]),
+                ([0.0, 0.0, -49.0], [90.0, 0.0, -5.0]),
+            ] {
+                if bending > 0.0 && b[0] < 5.0 {
+                    // such a beam would be folded to a hairpin much narrower than its stiffness lets it
+                    continue;
+                }
+                let (a, b) = (Vector3::from(a), Vector3::from(b));
+                let mut state = State::along(&rod, &[a, b]).unwrap();
+                let mut solver = Solver::new(&rod, Settings::default());
+                let made = solver.statics(&rod, &mut state, &world, [End::pinned(a), End::pinned(b)]);
+                let made = made.unwrap_or_else(|e| panic!("{mass} {bending} {a} {b}: {e}"));
+                // whatever the shape, the holders and the bottom carry the submerged weight; free of the bottom, the
+                // holders alone
+                let weight = 100.0 * 9.81 * (mass - 1025.0 * std::f64::consts::FRAC_PI_4 * diameter * diameter);
+                let held = made.force[0].z + made.force[1].z;
+                let clear = state.position.iter().all(|x| x.z > bottom.height(x.x, x.y).0 && x.z < -0.2);
+                if clear {
+                    assert!((held + weight).abs() < 1e-6 * weight.abs(), "{held} {weight}");
+                }
+                assert!(state.position.iter().all(|x| x.iter().all(|c| c.is_finite())));
+                println!("{mass} {bending} {:?}: {} iterations", b.as_slice(), made.iterations);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_hanging_chain_swings_at_the_zeros_of_j0() {
+    let rod = Rod::new("chain", vec![Segment::line(10.0, 200, 5.0, 1e8, 0.1)], vec![]).unwrap();
+    let fluid = UniformFluid::none();
+    let world = World { fluid: &fluid, bottom: None, gravity: 9.81, forces: &[] };
+    let ends = [End::pinned(Vector3::zeros()), End::FREE];
+    let mut state = State::along(&rod, &[Vector3::zeros(), Vector3::new(0.0, 0.0, -10.0)]).unwrap();
+    let mut solver = Solver::new(&rod, Settings::default());
+    solver.statics(&rod, &mut state, &world, ends).unwrap();
+    let modes = solver.modes(&rod, &state, &world, ends, 6).unwrap();
+    // zeros of J0 (Abramowitz and Stegun, table 9.5); each mode stands twice, in x and in y
+    for (i, zero) in [2.404_825_558, 5.520_078_110, 8.653_727_913].into_iter().enumerate() {
+        let exact = 0.5 * zero * (9.81f64 / 10.0).sqrt();
+        for mode in &modes[2 * i..2 * i + 2] {
+            // second order: lumped mass and straight elements make it (8.65/400)^2 slow, 5e-4
+            assert!((mode.frequency / exact - 1.0).abs() < 1e-3, "{i}: {} {exact}", mode.frequency);
+        }
+    }
+}
+
+#[test]
+fn a_taut_string_and_a_bar_sound_at_their_closed_forms() {
+    let (length, mass, ea, stretch) = (50.0, 2.0, 1e7, 0.001);
+    let segment = Segment { compression: true, ..Segment::line(length, 80, mass, ea, 0.1) };
+    let rod = Rod::new("string", vec![segment], vec![]).unwrap();
+    let fluid = UniformFluid::none();
+    let world = World { fluid: &fluid, bottom: None, gravity: 0.0, forces: &[] };
+    let (a, b) = (Vector3::zeros(), Vector3::new(length * (1.0 + stretch), 0.0, 0.0));
+    let ends = [End::pinned(a), End::pinned(b)];
+    let mut state = State::along(&rod, &[a, b]).unwrap();
+    let mut solver = Solver::new(&rod, Settings::default());
+    solver.statics(&rod, &mut state, &world, ends).unwrap();
+    let modes = solver.modes(&rod, &state, &world, ends, 12).unwrap();
+    let wave = (ea * stretch / (mass / (1.0 + stretch))).sqrt();
+    for n in 1..=6 {
+        let exact = n as f64 * std::f64::consts::PI / b.x * wave;
+        // lumped mass: (n pi / 80)^2 / 24 is 2e-3 at n = 6
+        let found = modes[2 * (n - 1)].frequency;
+        assert!((found / exact - 1.0).abs() < 2.5e-3, "{n}: {found} {exact}");
+    }
+}

@@ -1,0 +1,107 @@
+//! A trial motion of a rod, and what is asked at it.
+
+use super::ends::{End, Motion};
+use super::mesh::{Rod, State};
+use super::spatial::{transport, turned};
+use super::surroundings::{Fluid, World};
+use nalgebra::Vector3;
+
+/// A trial motion of all nodes at one time, with what surrounds them.
+#[derive(Clone, Debug)]
+pub(super) struct Trial {
+    pub time: f64,
+    pub x: Vec<Vector3<f64>>,
+    pub v: Vec<Vector3<f64>>,
+    pub a: Vec<Vector3<f64>>,
+    pub fluid: Vec<Fluid>,
+    /// Direction of the rod at each node at the start of the step, for friction.
+    pub lay: Vec<Vector3<f64>>,
+    /// Penetration over which the bottom's stiffness grows at each node (m).
+    pub soft: Vec<f64>,
+    pub ends: [End; 2],
+    /// Whether it is taken as a chain, without resistance to shortening and bending: on the way to a position of rest.
+    pub loose: bool,
+    /// The share of its axial stiffness that is there; less than one on the way to a position of rest.
+    pub ease: f64,
+    /// Whether the tangent of friction is the exact one, as a body needs it, or the secant that converges.
+    pub exact: bool,
+    /// Whether winches stand still, as they do when the rod is brought to rest.
+    pub still: bool,
+    /// Directors of the elements of a rod with torsion.
+    pub director: Vec<Vector3<f64>>,
+}
+
+/// Takes directors along from one position of the nodes to another.
+pub(super) fn carry(directors: &mut [Vector3<f64>], from: &[Vector3<f64>], to: &[Vector3<f64>]) {
+    for ((director, a), b) in directors.iter_mut().zip(from.windows(2)).zip(to.windows(2)) {
+        *director = transport(director, &(a[1] - a[0]).normalize(), &(b[1] - b[0]).normalize());
+    }
+}
+
+/// Takes directors along with a change of the unknowns that is about to be made, and turns them by it.
+pub(super) fn turn(
+    directors: &mut [Vector3<f64>],
+    x: &[Vector3<f64>],
+    change: &[f64],
+    stride: usize,
+    known: [bool; 2],
+) {
+    let last = x.len() - 1;
+    let moved = |i: usize| {
+        if (i == 0 && known[0]) || (i == last && known[1]) {
+            return x[i];
+        }
+        x[i] + Vector3::new(change[stride * i], change[stride * i + 1], change[stride * i + 2])
+    };
+    for (i, director) in directors.iter_mut().enumerate() {
+        let (from, to) = ((x[i + 1] - x[i]).normalize(), (moved(i + 1) - moved(i)).normalize());
+        *director = turned(&transport(director, &from, &to), &to, change[stride * i + 3]);
+    }
+}
+
+/// Asks the fluid at the nodes of a trial.
+pub(super) fn sample(world: &World, time: f64, trial: &mut Trial) {
+    if world.fluid.uniform() {
+        let everywhere = world.fluid.at(&trial.x[0], time);
+        trial.fluid.fill(everywhere);
+    } else {
+        for (fluid, x) in trial.fluid.iter_mut().zip(&trial.x) {
+            *fluid = world.fluid.at(x, time);
+        }
+    }
+}
+
+/// Direction of the rod at each node, where friction needs it.
+pub(super) fn lay(rod: &Rod, state: &State, world: &World, lay: &mut [Vector3<f64>]) {
+    if world.bottom.is_some_and(|(_, g)| g.friction_along > 0.0 || g.friction_across > 0.0) {
+        let last = rod.elements.len();
+        for (i, direction) in lay.iter_mut().enumerate() {
+            let d = state.position[(i + 1).min(last)] - state.position[i.saturating_sub(1)];
+            *direction = d.try_normalize(1e-12).unwrap_or_else(Vector3::zeros);
+        }
+    }
+}
+
+/// Penetration over which the bottom's stiffness grows at each node: the bottom's own, or the mesh's where it is larger.
+pub(super) fn soften(state: &State, world: &World, soft: &mut [f64]) {
+    if let Some((_, ground)) = &world.bottom {
+        for (soft, bedding) in soft.iter_mut().zip(&state.bedding) {
+            *soft = bedding.max(ground.soft);
+        }
+    }
+}
+
+/// An end part of the way through a step: a cubic through position and velocity at both ends of it.
+pub(super) fn interpolate(state: &State, node: usize, end: &End, whole: f64, share: f64) -> End {
+    let Some(to) = end.motion.filter(|_| share < 1.0) else { return *end };
+    let (x0, v0) = (state.position[node], state.velocity[node] * whole);
+    let (x1, v1) = (to.position, to.velocity * whole);
+    let (s, d) = (share, x1 - x0);
+    let (b, c) = (d * 3.0 - v0 * 2.0 - v1, v0 + v1 - d * 2.0);
+    let motion = Motion {
+        position: x0 + v0 * s + b * (s * s) + c * (s * s * s),
+        velocity: (v0 + b * (2.0 * s) + c * (3.0 * s * s)) / whole,
+        acceleration: (b * 2.0 + c * (6.0 * s)) / (whole * whole),
+    };
+    End { motion: Some(motion), ..*end }
+}

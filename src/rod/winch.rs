@@ -1,0 +1,124 @@
+//! Elements that appear at a winch and go back into it.
+
+use super::error::RodError;
+use super::mesh::{Element, Rod, State};
+use nalgebra::Vector3;
+
+impl Rod {
+    /// Changes the unstretched length (m) of an element and the rate (m/s) at which it changes, as a winch does.
+    /// Its mass and everything else that goes by length follow.
+    ///
+    /// # Errors
+    /// An element that is not there, or a length that is not positive.
+    pub fn set_length(&mut self, element: usize, length: f64, rate: f64) -> Result<(), RodError> {
+        let segment = self.element(element)?.segment;
+        if !(length.is_finite() && length > 0.0 && rate.is_finite()) {
+            return Err(self.refused(format!("element {} cannot be {length} m long", element + 1)));
+        }
+        let made =
+            self.segments.get(segment).map(|properties| Element { rate, ..Element::new(properties, segment, length) });
+        if let (Some(place), Some(made)) = (self.elements.get_mut(element), made) {
+            *place = made;
+        }
+        Ok(())
+    }
+
+    /// Divides an element, as one that a winch has let out far enough, into two of half its length with a node
+    /// between them. Of an element at an end the part beside that end keeps the rate, and the new node moves as the
+    /// rest of the rod; of another both halves grow. The rod then needs a new [`Solver`](super::Solver).
+    ///
+    /// # Errors
+    /// An element that is not there, too many elements, or a rod with torsional stiffness, whose elements cannot be divided.
+    pub fn divide(&mut self, element: usize, state: &mut State) -> Result<(), RodError> {
+        let old = self.changeable(element, state)?;
+        if self.elements.len() >= super::MOST_ELEMENTS {
+            return Err(self.refused(format!("it has {} elements already", self.elements.len())));
+        }
+        // the part beside the end it comes from goes on growing, and the rest moves as one
+        let (first, last) = (element == 0, element + 1 == self.elements.len());
+        let half = self.sized(&old, 0.5);
+        let rates = if first {
+            [old.rate, 0.0]
+        } else if last {
+            [0.0, old.rate]
+        } else {
+            [half.rate, half.rate]
+        };
+        self.elements.splice(element..=element, rates.map(|rate| Element { rate, ..half.clone() }));
+        let middle = |list: &[Vector3<f64>]| (list[element] + list[element + 1]) * 0.5;
+        let place = middle(&state.position);
+        state.position.insert(element + 1, place);
+        for list in [&mut state.velocity, &mut state.acceleration, &mut state.averaged] {
+            let made = if first {
+                list[element + 1]
+            } else if last {
+                list[element]
+            } else {
+                middle(list)
+            };
+            list.insert(element + 1, made);
+        }
+        state.bedding.insert(element + 1, 0.5 * (state.bedding[element] + state.bedding[element + 1]));
+        for attachment in self.attachments.iter_mut().filter(|a| a.node > element) {
+            attachment.node += 1;
+        }
+        Ok(())
+    }
+
+    /// Makes one of an element and the next, as one that a winch has hauled in far enough. The rod then needs a new
+    /// [`Solver`](super::Solver).
+    ///
+    /// # Errors
+    /// An element that is not there or has none after it in its segment, something attached between the two, or a rod
+    /// with torsional stiffness.
+    pub fn join(&mut self, element: usize, state: &mut State) -> Result<(), RodError> {
+        let first = self.changeable(element, state)?;
+        let second = self.changeable(element + 1, state)?;
+        if first.segment != second.segment || self.attachments.iter().any(|a| a.node == element + 1) {
+            let why = format!("elements {} and {} cannot be one", element + 1, element + 2);
+            return Err(self.refused(why));
+        }
+        let joined =
+            Element { rate: first.rate + second.rate, ..self.sized(&first, (first.rest + second.rest) / first.rest) };
+        self.elements.splice(element..=element + 1, [joined]);
+        for list in [&mut state.position, &mut state.velocity, &mut state.acceleration, &mut state.averaged] {
+            list.remove(element + 1);
+        }
+        state.bedding.remove(element + 1);
+        for attachment in self.attachments.iter_mut().filter(|a| a.node > element) {
+            attachment.node -= 1;
+        }
+        Ok(())
+    }
+
+    /// An element of the same segment that is `share` as long, and grows by that share of its rate.
+    fn sized(&self, element: &Element, share: f64) -> Element {
+        let rest = element.rest * share;
+        self.segments.get(element.segment).map_or_else(
+            || element.clone(),
+            |properties| Element { rate: element.rate * share, ..Element::new(properties, element.segment, rest) },
+        )
+    }
+
+    fn element(&self, element: usize) -> Result<Element, RodError> {
+        let there = self.elements.get(element).cloned();
+        there.ok_or_else(|| self.refused(format!("there is no element {}", element + 1)))
+    }
+
+    /// An element whose nodes may come and go.
+    fn changeable(&self, element: usize, state: &State) -> Result<Element, RodError> {
+        let nodes = self.nodes();
+        let lists = [&state.position, &state.velocity, &state.acceleration, &state.averaged];
+        if lists.iter().any(|l| l.len() != nodes) || state.bedding.len() != nodes {
+            return Err(self.refused("the state is not that of this rod".to_string()));
+        }
+        if self.twists() {
+            return Err(self.refused("elements with torsional stiffness cannot be divided or joined".to_string()));
+        }
+        self.element(element)
+    }
+
+    fn refused(&self, why: String) -> RodError {
+        RodError::Shape { rod: self.name.clone(), why }
+    }
+}

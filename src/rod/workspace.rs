@@ -1,0 +1,188 @@
+//! The system of a rod by its kind: as narrow a band as its stiffness needs.
+
+use super::assemble::assemble;
+use super::condense::WIDEST;
+use super::mesh::Rod;
+use super::surroundings::World;
+use super::system::{System, Weights};
+use super::trial::Trial;
+#[cfg(test)]
+use nalgebra::Matrix3;
+use nalgebra::Vector3;
+use std::ops::Range;
+
+/// The linear system of one iteration.
+#[derive(Clone, Debug)]
+pub(super) enum Workspace {
+    /// No bending stiffness: two nodes an equation.
+    Rope(System<3, 5, 11>),
+    /// Bending: three nodes an equation.
+    Beam(System<3, 8, 17>),
+    /// Bending and torsion: three nodes an equation, with the turns of two elements.
+    Twisted(System<4, 10, 21>),
+}
+
+/// Calls the same with whichever system is there.
+macro_rules! each {
+    ($workspace:expr, $system:ident => $body:expr) => {
+        match $workspace {
+            Workspace::Rope($system) => $body,
+            Workspace::Beam($system) => $body,
+            Workspace::Twisted($system) => $body,
+        }
+    };
+}
+
+impl Workspace {
+    /// The system that fits a rod.
+    pub fn of(rod: &Rod) -> Self {
+        if rod.twists() {
+            Workspace::Twisted(System::new(rod.nodes()))
+        } else if rod.elements.iter().all(|e| e.bending == 0.0) {
+            Workspace::Rope(System::new(rod.nodes()))
+        } else {
+            Workspace::Beam(System::new(rod.nodes()))
+        }
+    }
+
+    /// Unknowns a node: the three translations, and with torsion the turn of the element after it.
+    pub fn stride(&self) -> usize {
+        each!(self, system => system.stride())
+    }
+
+    /// Residual and tangent of the whole rod at a trial.
+    pub fn assemble(&mut self, rod: &Rod, world: &World, trial: &Trial, weights: Weights, range: Range<usize>) {
+        each!(self, system => {
+            system.clear();
+            assemble::<true, _, _, _>(rod, world, trial, weights, range, system);
+        });
+    }
+
+    /// Residual of the whole rod at a trial; the matrix stays as it is.
+    pub fn forces(&mut self, rod: &Rod, world: &World, trial: &Trial) {
+        let none = Weights { k: 0.0, c: 0.0, m: 0.0 };
+        each!(self, system => {
+            system.residual.fill(0.0);
+            assemble::<false, _, _, _>(rod, world, trial, none, 0..rod.elements.len(), system);
+        });
+    }
+
+    /// Force a node needs from outside (N).
+    #[cfg(test)]
+    pub fn residual(&self, node: usize) -> Vector3<f64> {
+        each!(self, system => system.residual_at(node))
+    }
+
+    /// Product of the matrix with a vector.
+    pub fn times(&self, vector: &[f64], product: &mut [f64]) {
+        each!(self, system => system.band.times(vector, product));
+    }
+
+    /// A column of the matrix, its diagonal in the middle place.
+    pub fn column(&self, column: usize, entries: &mut [f64; WIDEST]) {
+        each!(self, system => {
+            let size = system.residual.len();
+            for (i, entry) in entries.iter_mut().enumerate() {
+                let row = (column + i).checked_sub(WIDEST / 2).filter(|r| *r < size);
+                *entry = row.map_or(0.0, |r| system.band.get(r, column));
+            }
+        });
+    }
+
+    /// Product of the kept rows of an end with a change of all unknowns.
+    pub fn ends_by(&self, side: usize, change: &[f64]) -> Vector3<f64> {
+        each!(self, system => system.ends_by(side, change))
+    }
+
+    /// The block that couples a node's residual to the position of another.
+    #[cfg(test)]
+    pub fn block(&self, row: usize, column: usize) -> Matrix3<f64> {
+        each!(self, system => system.block_at(row, column))
+    }
+
+    /// Keeps the rows of the end nodes before they are fixed.
+    pub fn keep_rows(&mut self) {
+        each!(self, system => system.keep_rows());
+    }
+
+    /// Keeps the residuals of the end nodes.
+    pub fn keep_ends(&mut self) {
+        each!(self, system => system.keep_ends());
+    }
+
+    /// Takes the kept residuals of the ends on to changed positions.
+    pub fn carry_ends(&mut self, change: &[f64]) {
+        each!(self, system => system.carry_ends(change));
+    }
+
+    /// Forces of the rod on its holders (N): the kept residuals, turned around.
+    pub fn end_forces(&self) -> [Vector3<f64>; 2] {
+        each!(self, system => system.ends.map(|force| -force))
+    }
+
+    /// Leaves the residual of a node to what holds it.
+    pub fn drop_residual(&mut self, node: usize) {
+        each!(self, system => {
+            let first = system.stride() * node;
+            system.residual[first..first + 3].fill(0.0);
+        });
+    }
+
+    /// Takes the unknowns of a node as known.
+    pub fn fix(&mut self, node: usize) {
+        each!(self, system => for i in 0..3 {
+            system.band.unit_row(system.stride() * node + i);
+        });
+    }
+
+    /// Adds to the diagonal of a node and to its residual.
+    pub fn stiffen(&mut self, node: usize, by: f64, force: &Vector3<f64>) {
+        each!(self, system => for i in 0..3 {
+            let place = system.stride() * node + i;
+            system.band.add(place, place, by);
+            system.residual[place] += force[i];
+        });
+    }
+
+    /// Factors: the number of negative pivots; the node whose pivot vanished otherwise.
+    pub fn factor(&mut self) -> Result<usize, usize> {
+        each!(self, system => system.band.factor().map_err(|row| row / system.stride()))
+    }
+
+    /// The change that takes the residual away, by the factors.
+    pub fn newton(&self, change: &mut [f64]) {
+        each!(self, system => {
+            for (c, r) in change.iter_mut().zip(&system.residual) {
+                *c = -r;
+            }
+            system.band.solve(change);
+        });
+    }
+
+    /// Solves for any right-hand side by the factors.
+    pub fn solve(&self, right: &mut [f64]) {
+        each!(self, system => system.band.solve(right));
+    }
+
+    /// Node with the largest residual (N), of those without an end's motion; a residual that is no number comes first.
+    pub fn worst(&self, known: [bool; 2]) -> (usize, f64) {
+        each!(self, system => {
+            let stride = system.stride();
+            let mut worst = (0, 0.0);
+            let nodes = system.residual.len() / stride;
+            for (node, residual) in system.residual.chunks_exact(stride).enumerate() {
+                let known = (node == 0 && known[0]) || (node + 1 == nodes && known[1]);
+                // the torque of a turn counts as the force it makes on an arm of a metre
+                let looked_at = if known { &residual[3..] } else { residual };
+                if looked_at.iter().any(|r| !r.is_finite()) {
+                    return (node, f64::NAN);
+                }
+                let size = looked_at.iter().fold(0.0, |most: f64, r| most.max(r.abs()));
+                if size > worst.1 {
+                    worst = (node, size);
+                }
+            }
+            worst
+        })
+    }
+}
