@@ -11,7 +11,7 @@
 //! | file | what it is |
 //! |--|--|
 //! | [`section`] | the tube's cross section |
-//! | [`line`] | elements one after the other, checked |
+//! | [`mod@line`] | elements one after the other, checked |
 //! | [`beam`] | matrices and loads of one element in one plane |
 //! | [`banded`] | symmetric band and its factors |
 //! | [`modes`] | natural modes of a plane |
