@@ -242,6 +242,7 @@ impl Bench {
             placement,
             curve: &curve,
             surroundings: &surroundings,
+            ambient: None,
         })
     }
 
@@ -282,8 +283,8 @@ fn ask(
 /// Velocities of the two ends, unlike in all directions.
 fn moving(ends: [Pose; 2]) -> [End; 2] {
     [
-        End { pose: ends[0], velocity: Six::new(0.4, -0.3, 0.2, 0.1, 0.25, -0.15) },
-        End { pose: ends[1], velocity: Six::new(-0.2, 0.35, 0.5, -0.3, 0.1, 0.2) },
+        End { velocity: Six::new(0.4, -0.3, 0.2, 0.1, 0.25, -0.15), ..End::still(ends[0]) },
+        End { velocity: Six::new(-0.2, 0.35, 0.5, -0.3, 0.1, 0.2), ..End::still(ends[1]) },
     ]
 }
 
@@ -321,6 +322,7 @@ fn every_class_that_has_an_element_is_under_the_laws() {
             placement: Placement::default(),
             curve: &|_| None,
             surroundings: &surroundings,
+            ambient: None,
         });
         assert!(made.is_err(), "{name} has an element and no case in tests/element_laws.rs");
     }
@@ -402,6 +404,7 @@ fn a_turned_situation_has_turned_wrenches() {
         let turned = ends.map(|end| End {
             pose: Pose { origin: turn * end.pose.origin, axes: turn * end.pose.axes },
             velocity: both(&end.velocity),
+            acceleration: both(&end.acceleration),
         });
         let (straight, _) = ask(element, &surroundings, &ends, Some(0.2), &committed);
         let (got, _) = ask(element, &surroundings, &turned, Some(0.2), &committed);
@@ -458,7 +461,8 @@ fn path(ends: [Pose; 2], t: f64, size: f64) -> [End; 2] {
         let pose =
             end.pose.moved(&Six::new(motion.x, motion.y, motion.z, axis.x * angle, axis.y * angle, axis.z * angle));
         let speed = Vector3::from(speed) * (size * w);
-        *end = End { pose, velocity: Six::new(speed.x, speed.y, speed.z, axis.x * spin, axis.y * spin, axis.z * spin) };
+        let velocity = Six::new(speed.x, speed.y, speed.z, axis.x * spin, axis.y * spin, axis.z * spin);
+        *end = End { velocity, ..End::still(pose) };
     }
     made
 }

@@ -40,6 +40,7 @@ impl Joint {
             placement: Placement::default(),
             curve: &curve,
             surroundings: &surroundings,
+            ambient: None,
         };
         let element = class.object.element(&made).unwrap();
         let state = vec![0.0; element.states()];
@@ -136,6 +137,7 @@ fn a_single_node_is_held_to_where_it_was_when_the_connector_was_defined() {
         placement: Placement::default(),
         curve: &|_| None,
         surroundings: &surroundings,
+        ambient: None,
     };
     let element = model.classes.values().next().unwrap().object.element(&made).unwrap();
     let mut out = Response::default();
@@ -299,6 +301,7 @@ fn a_curve_in_feet_is_a_moment_per_radian_in_feet_where_it_acts_in_a_rotation() 
         placement: Placement::default(),
         curve: &curve,
         surroundings: &surroundings,
+        ambient: None,
     };
     let element = model.classes.values().next().unwrap().object.element(&made).unwrap();
     let at = Situation { ends: &ends.map(End::still), step: None, surroundings: &surroundings };

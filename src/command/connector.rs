@@ -131,6 +131,8 @@ pub fn build_connector(job: &mut Job, args: &Args) -> Outcome<()> {
         defined: Default::default(),
         euler: args.has("-EULER").then(|| vector("-EULER")),
         first_length: None,
+        dynamics: None,
+        longest: None,
         active: true,
         span: args.span,
     };

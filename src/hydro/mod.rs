@@ -2,6 +2,7 @@
 //!
 //! Each kind of load is one file with a type that implements [`BodyLoad`]; [`Floating`] gathers those of a body.
 
+mod ambient;
 pub mod area;
 mod body_load;
 mod buoyancy;
@@ -34,6 +35,7 @@ pub mod variation;
 mod weight;
 pub mod wind;
 
+pub use ambient::ambient;
 pub use body_load::{BodyLoad, MovingLoad, Underway};
 pub use buoyancy::{Hull, PieceFault, piece_faults};
 pub use righting::{Balanced, balanced};

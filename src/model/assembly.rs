@@ -119,6 +119,7 @@ impl Model {
                 placement,
                 curve: &|name| self.curves.get(&Model::key(name)),
                 surroundings: &surroundings,
+                ambient: None,
             })?);
             hang.push(if upper.is_none() { self.first_length(connector).unwrap_or(0.0) } else { 0.0 });
             nodes.push(node);

@@ -183,6 +183,14 @@ pub trait ConnectorClass: Debug + Send + Sync {
         Err(ClassError::new(format!("a connector of class type {} exerts no force", self.kind())))
     }
 
+    /// A connector of this class as a line that moves by itself, cut into about so many elements.
+    ///
+    /// # Errors
+    /// A class without dynamics of its own, or values that make no such line.
+    fn moving(&self, _: &Connection, _elements: usize) -> Result<Box<dyn Element>, ClassError> {
+        Err(ClassError::new(format!("a connector of class type {} has no dynamics of its own", self.kind())))
+    }
+
     /// The pipe that a pipe assembly makes of this class.
     ///
     /// # Errors

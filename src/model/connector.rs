@@ -51,6 +51,11 @@ pub struct Connector {
     pub euler: Option<[f64; 3]>,
     /// Length of its first segment in place of the class's (m), where `&CONNECTOR` gave one.
     pub first_length: Option<f64>,
+    /// Into how many elements it is cut as a line that moves by itself, where `&CONNECTOR -DYNAMICS` says so of a class that does
+    /// not by itself.
+    pub dynamics: Option<usize>,
+    /// The longest its first segment becomes in a run (m), where a winch pays it out.
+    pub longest: Option<f64>,
     /// Whether it acts.
     pub active: bool,
     /// Where it was defined.

@@ -4,6 +4,8 @@
 //! only with an accepted step. In statics there is no step: rates are zero and a trial state is where the element comes to
 //! rest.
 
+use super::along::LineNode;
+use super::ambient::Ambient;
 use super::class::ClassError;
 use super::connector::Connector;
 use super::curve::Curve;
@@ -13,6 +15,7 @@ use super::pose::{Pose, Six};
 use nalgebra::{Matrix3, Matrix6};
 use std::any::Any;
 use std::fmt::Debug;
+use std::sync::Arc;
 
 /// An end of a connector: a point of a body with that body's axes, or a place in the ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,12 +24,14 @@ pub struct End {
     pub pose: Pose,
     /// Velocity of the point (m/s) and rotation of its body (rad/s), global axes.
     pub velocity: Six,
+    /// Their derivatives (m/s2, rad/s2): for elements with inertia of their own.
+    pub acceleration: Six,
 }
 
 impl End {
     /// An end at rest.
     pub fn still(pose: Pose) -> Self {
-        End { pose, velocity: Six::zeros() }
+        End { pose, velocity: Six::zeros(), acceleration: Six::zeros() }
     }
 }
 
@@ -44,7 +49,8 @@ pub struct TimeStep {
 pub struct Situation<'a> {
     /// The ends, in the order of the connector's points; a second end in the ground stands behind a single point.
     pub ends: &'a [End],
-    /// The step; `None` in statics.
+    /// The step; `None` in statics. To an element with inertia of its own ([`Element::moves`]) also one without length: what
+    /// it exerts at once, as it moves.
     pub step: Option<TimeStep>,
     /// Water, depth, gravity.
     pub surroundings: &'a Surroundings,
@@ -65,6 +71,8 @@ pub struct Response {
     pub stiffness: Vec<Matrix6<f64>>,
     /// -d(wrench)/d(velocity); empty when the wrench depends on no rate.
     pub damping: Vec<Matrix6<f64>>,
+    /// -d(wrench)/d(acceleration); empty of an element without inertia of its own.
+    pub inertia: Vec<Matrix6<f64>>,
 }
 
 impl Response {
@@ -75,6 +83,7 @@ impl Response {
         self.stiffness.clear();
         self.stiffness.resize(ends * ends, Matrix6::zeros());
         self.damping.clear();
+        self.inertia.clear();
     }
 }
 
@@ -177,6 +186,31 @@ pub trait Element: Debug + Send + Sync {
         false
     }
 
+    /// Whether it moves by itself: it has inertia between its ends, its wrench depends on their accelerations, and its state in
+    /// a run begins where it hangs at rest.
+    fn moves(&self) -> bool {
+        false
+    }
+
+    /// How many nodes it tells of along itself at most: none of an element that is nothing between its ends.
+    fn nodes(&self) -> usize {
+        0
+    }
+
+    /// Whether its nodes have a wall, shear and moments to tell.
+    fn bends(&self) -> bool {
+        false
+    }
+
+    /// Its nodes in a state; `out` is overwritten. Elements that appear at a winch make them more.
+    ///
+    /// # Errors
+    /// A state that is not one of its own.
+    fn along(&self, _at: &Situation, _state: &[f64], out: &mut Vec<LineNode>) -> Result<(), ClassError> {
+        out.clear();
+        Ok(())
+    }
+
     /// Whether its force belongs to RIGID_CONNECTORS (restraints) rather than to FLEX_CONNECTORS.
     fn rigid(&self) -> bool {
         false
@@ -198,6 +232,8 @@ pub struct Connection<'a> {
     pub curve: &'a dyn Fn(&str) -> Option<&'a Curve>,
     /// Water, depth, gravity.
     pub surroundings: &'a Surroundings,
+    /// What surrounds it all along, where an engine tells.
+    pub ambient: Option<&'a Arc<dyn Ambient>>,
 }
 
 impl Debug for Connection<'_> {

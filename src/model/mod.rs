@@ -3,6 +3,8 @@
 //! It holds SI values and the places they were written, in the order they were defined, and knows no physics. It
 //! declares what a connector class can be asked ([`ConnectorClass`]); the floors above implement it.
 
+mod along;
+mod ambient;
 mod assembly;
 mod body;
 mod class;
@@ -23,6 +25,8 @@ mod prescribed;
 mod selector;
 mod tether;
 
+pub use along::{LineNode, LineStress};
+pub use ambient::{Ambient, Contents, Flow};
 pub use assembly::{Assemblies, Assembly, AssemblyKind, LaidPipe, PIPE, PipeLayout};
 pub use body::{Body, GROUND, Junction, Mass, Part, Point, Weight};
 pub use class::{Class, ClassError, ClassRecord, ConnectorClass};
@@ -49,6 +53,7 @@ pub use tether::{TetherConstraint, TetherEnds, TetherHold, TetherSection, Tether
 use crate::language::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use crate::language::source::Span;
 use indexmap::IndexMap;
+use std::sync::Arc;
 
 /// The whole database. Keys are names in upper case, with their marker (`~`, `*`, `:`).
 #[derive(Clone, Debug, Default)]
@@ -147,22 +152,40 @@ impl Model {
         [first, self.end_pose(connector, 1).or_else(anchor).unwrap_or(defined)]
     }
 
-    /// The element a connector is to an engine, between its ends as they are.
+    /// The element a connector is to an engine, between its ends as they are, in water and air at rest.
+    ///
+    /// # Errors
+    /// As [`Model::element_in`].
+    pub fn element(&self, connector: &Connector) -> Result<Box<dyn Element>, ClassError> {
+        self.element_in(connector, None)
+    }
+
+    /// The element a connector is to an engine, between its ends as they are; `ambient` surrounds those that feel water, wind and
+    /// bottom all along themselves.
     ///
     /// # Errors
     /// A class that is not defined or exerts no force; values that make no element here.
-    pub fn element(&self, connector: &Connector) -> Result<Box<dyn Element>, ClassError> {
+    pub fn element_in(
+        &self,
+        connector: &Connector,
+        ambient: Option<&Arc<dyn Ambient>>,
+    ) -> Result<Box<dyn Element>, ClassError> {
         let class = self.classes.get(&Model::key(&connector.class));
         let class = class.ok_or_else(|| ClassError::new(format!("there is no class {}", connector.class)))?;
         let placement = self.placement(connector);
-        class.object.element(&Connection {
+        let connection = Connection {
             connector,
             ends: self.end_poses(connector),
             to_ground: placement.to_ground,
             placement,
             curve: &|name| self.curves.get(&Model::key(name)),
             surroundings: &self.surroundings(),
-        })
+            ambient,
+        };
+        match connector.dynamics {
+            Some(elements) => class.object.moving(&connection, elements),
+            None => class.object.element(&connection),
+        }
     }
 
     /// The ends of a connector, in the present configuration.

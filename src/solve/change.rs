@@ -3,6 +3,7 @@
 use super::link::{Attachment, connected, link};
 use super::system::{SolveError, System, moving_nodes};
 use super::time::Memory;
+use crate::hydro::ambient;
 use crate::hydro::sea::Sea;
 use crate::model::{ClassError, Connector, GivenMotion, Model};
 use std::sync::Arc;
@@ -53,7 +54,7 @@ impl System {
         if self.links.iter().any(|l| l.name.eq_ignore_ascii_case(name)) {
             return Ok(());
         }
-        let made = link(model, connector(model, name)?, &mut self.states)?;
+        let made = link((model, &self.ambient), connector(model, name)?, &mut self.states)?;
         self.links.push(made);
         Ok(())
     }
@@ -64,7 +65,7 @@ impl System {
     /// A connector that makes no element.
     pub fn make_anew(&mut self, model: &Model, name: &str) -> Result<(), SolveError> {
         let Some(at) = self.links.iter_mut().find(|l| l.name.eq_ignore_ascii_case(name)) else { return Ok(()) };
-        at.element = model.element(connector(model, name)?).map_err(SolveError::of(name))?;
+        at.element = model.element_in(connector(model, name)?, Some(&self.ambient)).map_err(SolveError::of(name))?;
         Ok(())
     }
 
@@ -80,6 +81,11 @@ impl System {
             return Err(SolveError::new(error));
         }
         let mut nodes = moving_nodes(model, sea)?;
+        self.ambient = ambient(model, sea).map_err(SolveError::new)?;
+        for link in self.links.iter_mut().filter(|l| l.element.moves()) {
+            let made = model.element_in(connector(model, &link.name)?, Some(&self.ambient));
+            link.element = made.map_err(SolveError::of(&link.name))?;
+        }
         for (new, old) in nodes.iter_mut().zip(&mut self.nodes) {
             let given = model.bodies.get(&new.key).and_then(|body| body.prescribed.as_ref());
             // what answers the waves answers those of the new sea

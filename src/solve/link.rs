@@ -1,8 +1,9 @@
 //! Connectors of a system: their elements, and what their ends are fixed to.
 
 use super::system::SolveError;
-use crate::model::{Connector, Element, Model, Pose};
+use crate::model::{Ambient, Connector, Element, Model, Pose};
 use nalgebra::{Matrix3, Vector3};
+use std::sync::Arc;
 
 /// What an end of a connector is fixed to.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,8 +24,12 @@ pub(super) struct Link {
 }
 
 /// A connector of a model; its states go behind the others.
-pub(super) fn link(model: &Model, connector: &Connector, states: &mut Vec<f64>) -> Result<Link, SolveError> {
-    let element = model.element(connector).map_err(SolveError::of(&connector.name))?;
+pub(super) fn link(
+    (model, ambient): (&Model, &Arc<dyn Ambient>),
+    connector: &Connector,
+    states: &mut Vec<f64>,
+) -> Result<Link, SolveError> {
+    let element = model.element_in(connector, Some(ambient)).map_err(SolveError::of(&connector.name))?;
     let from = states.len();
     states.resize(from + element.states(), 0.0);
     if let Some(own) = states.get_mut(from..) {

@@ -4,9 +4,9 @@ use super::link::{Attachment, Link, arm, connected, link, pose_of};
 use super::modes::held;
 use super::time::{Prescribed, prescribed};
 use crate::hydro::sea::Sea;
-use crate::hydro::{Category, Floating, Load, carried, transferred, turning};
+use crate::hydro::{Category, Floating, Load, ambient, carried, transferred, turning};
 use crate::model::{
-    Body, ClassError, End, Guess, LaidPipe, Mass, Model, Place, Pose, Response, Situation, Six, Surroundings,
+    Ambient, Body, ClassError, End, Guess, LaidPipe, Mass, Model, Place, Pose, Response, Situation, Six, Surroundings,
 };
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6};
 use std::sync::Arc;
@@ -116,6 +116,8 @@ pub struct System {
     /// States of all connectors, committed.
     pub states: Vec<f64>,
     pub(super) surroundings: Surroundings,
+    /// What surrounds connectors that feel it all along themselves.
+    pub(super) ambient: Arc<dyn Ambient>,
     /// Acceleration of gravity (m/s2).
     pub gravity: f64,
     /// Forces and moments that act on bodies besides all others, about their origins, global axes; they keep their
@@ -135,7 +137,7 @@ impl System {
             Ok(Node::of(model, key, body, floating))
         };
         let nodes = model.bodies.iter().map(node).collect::<Result<Vec<_>, SolveError>>()?;
-        System::with(model, nodes, left_out)
+        System::with(model, (nodes, None), left_out)
     }
 
     /// The system of a model under way: bodies with what a sea does to them.
@@ -144,10 +146,15 @@ impl System {
     /// As [`System::of`].
     pub fn under_way(model: &Model, sea: Option<&Arc<Sea>>) -> Result<Self, SolveError> {
         let nodes = moving_nodes(model, sea)?;
-        System::with(model, nodes, &[])
+        System::with(model, (nodes, sea), &[])
     }
 
-    fn with(model: &Model, nodes: Vec<Node>, left_out: &[String]) -> Result<Self, SolveError> {
+    fn with(
+        model: &Model,
+        (nodes, sea): (Vec<Node>, Option<&Arc<Sea>>),
+        left_out: &[String],
+    ) -> Result<Self, SolveError> {
+        let ambient = ambient(model, sea).map_err(SolveError::new)?;
         let mut states = Vec::new();
         let mut links: Vec<Link> = Vec::new();
         for connector in model.connectors.values() {
@@ -157,7 +164,7 @@ impl System {
             {
                 continue;
             }
-            links.push(link(model, connector, &mut states)?);
+            links.push(link((model, &ambient), connector, &mut states)?);
         }
         for assembly in model.assemblies.values() {
             let made = model.pipe(assembly).map_err(SolveError::of(&assembly.name))?;
@@ -166,7 +173,17 @@ impl System {
             links.push(Link { name: assembly.name.clone(), element, ends, states: states.len()..states.len() });
         }
         let (surroundings, gravity) = (model.surroundings(), model.defaults.gravity);
-        Ok(System { nodes, links, states, surroundings, gravity, applied: Vec::new() })
+        Ok(System { nodes, links, states, surroundings, ambient, gravity, applied: Vec::new() })
+    }
+
+    /// Connectors that move by themselves begin a run in these states, given for all connectors.
+    pub(super) fn begin_moving(&mut self, states: &[f64]) {
+        for link in self.links.iter().filter(|l| l.element.moves()) {
+            if let (Some(to), Some(from)) = (self.states.get_mut(link.states.clone()), states.get(link.states.clone()))
+            {
+                to.copy_from_slice(from);
+            }
+        }
     }
 
     /// A state with the bodies where they stand in the model.

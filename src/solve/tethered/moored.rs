@@ -1,6 +1,6 @@
 //! The other connectors of a structure that tethers hold.
 
-use crate::hydro::{Underway, carried};
+use crate::hydro::{Underway, ambient, carried};
 use crate::model::{Body, ClassError, Model, Pose, Six};
 use crate::model::{End, Response, Situation, Surroundings, TimeStep};
 use crate::solve::link::{Attachment, Link, link, pose_of};
@@ -36,12 +36,18 @@ impl Moored {
         centre: Vector3<f64>,
     ) -> Result<Box<dyn Structure>, SolveError> {
         let (mut links, mut states) = (Vec::new(), Vec::new());
+        let ambient = ambient(model, None).map_err(SolveError::new)?;
         let Some(index) = model.bodies.get_index_of(&Model::key(&body.name)) else { return Ok(inner) };
         for connector in model.connectors.values().filter(|c| c.active) {
             if !super::case::sections(model, connector).is_empty() {
                 continue;
             }
-            let made = link(model, connector, &mut states)?;
+            let made = link((model, &ambient), connector, &mut states)?;
+            if made.element.moves() {
+                let error = ClassError::new("a line that moves by itself cannot run beside tethers").at(connector.span);
+                let error = error.help("release it, or give a class without dynamics of its own");
+                return Err(SolveError { who: Some(connector.name.clone()), error });
+            }
             let on = |end: &Attachment| matches!(end, Attachment::Body(i, _) if *i == index);
             let elsewhere = |end: &Attachment| matches!(end, Attachment::Body(i, _) if *i != index);
             if !made.ends.iter().any(on) {
@@ -96,7 +102,7 @@ impl Structure for Moored {
                         moves.fixed_rows_mut::<3>(0).copy_from(&own);
                         moves.fixed_rows_mut::<3>(3).copy_from(&spin);
                     }
-                    End { pose: place, velocity: moves }
+                    End { velocity: moves, ..End::still(place) }
                 })
                 .collect();
             let situation = Situation { ends: &ends, step, surroundings: &self.surroundings };

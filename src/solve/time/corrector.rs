@@ -17,7 +17,7 @@ impl Stepper {
     ) -> Result<Effort, SolveError> {
         let (time, mut effort) = (now.time + dt, Effort::default());
         self.weigh(system, &now.motions);
-        self.choose(system);
+        self.choose(system, &now.forces);
         if let Some(row) = self.rows.iter().find(|r| !r.heavy) {
             let name = system.nodes.get(row.at / 6).map(|n| n.name.clone());
             let error = ClassError::new("-NEWMARK NO needs inertia in every freedom that moves")

@@ -124,6 +124,8 @@ pub struct Forces {
     pub stiffness: DMatrix<f64>,
     /// -d(sum)/d(velocity of the bodies).
     pub damping: DMatrix<f64>,
+    /// -d(sum)/d(acceleration of the bodies): of connectors with inertia of their own.
+    pub inertia: DMatrix<f64>,
     /// Largest force of a connector on each body (N).
     pub pull: Vec<f64>,
     /// By body and category, those of inertia left out.
@@ -135,6 +137,8 @@ pub struct Forces {
     /// What solvers of the connectors remember.
     pub(super) guesses: Vec<Guess>,
     foretelling: Foretelling,
+    /// Whether a connector has inertia of its own.
+    moving: bool,
     made: MovingLoad,
     response: Response,
     poses: Vec<Pose>,
@@ -154,15 +158,18 @@ impl Forces {
             self.sum = DVector::zeros(size);
             self.stiffness = DMatrix::zeros(size, size);
             self.damping = DMatrix::zeros(size, size);
+            self.inertia = DMatrix::zeros(size, size);
         }
         self.sum.fill(0.0);
         self.stiffness.fill(0.0);
         self.damping.fill(0.0);
+        self.inertia.fill(0.0);
         self.pull.clear();
         self.pull.resize(system.nodes.len(), 0.0);
         self.categories.clear();
         self.categories.resize(system.nodes.len(), [Six::zeros(); CATEGORIES]);
         self.wrenches.clear();
+        self.moving = system.links.iter().any(|l| l.element.moves());
         self.guesses.resize_with(system.links.len(), || None);
         self.trial.clear();
         self.trial.extend_from_slice(&system.states);
@@ -181,7 +188,8 @@ impl Forces {
     /// What is expected at a trial of the end of a step, from the forces of its start: by stiffness and damping for the motion and
     /// the change of velocity of each body over the step, with what its loads hold ready. False without a step to go by.
     pub(super) fn foretell(&mut self, (memory, dt): (&Memory, f64), motions: (&[Motion], &[Motion], &[Six])) -> bool {
-        if !self.foretelling.add(dt, motions, &mut self.sum) {
+        // what moves by itself changes its pull without its ends
+        if self.moving || !self.foretelling.add(dt, motions, &mut self.sum) {
             return false;
         }
         for (body, held) in memory.ahead.iter().enumerate() {
@@ -259,31 +267,34 @@ impl Forces {
     fn connect(&mut self, system: &System, motions: &[Motion], (time, dt): (f64, f64)) -> Result<(), SolveError> {
         self.poses.clear();
         self.poses.extend(motions.iter().map(|m| m.pose));
-        let step = (dt > 0.0).then_some(TimeStep { time, dt });
         let (flexible, rigid) = (place_of(Category::FlexConnectors), place_of(Category::RigidConnectors));
         for (index, link) in system.links.iter().enumerate() {
             self.ends.clear();
             self.arms.clear();
             for end in &link.ends {
                 let pose = pose_of(end, &self.poses);
-                let (mut velocity, mut arm) = (Six::zeros(), Vector3::zeros());
+                let (mut velocity, mut acceleration) = (Six::zeros(), Six::zeros());
+                let mut arm = Vector3::zeros();
                 if let Attachment::Body(body, _) = end
                     && let Some(motion) = motions.get(*body)
                 {
                     arm = pose.origin - motion.pose.origin;
                     let turn = Vector3::new(motion.velocity[3], motion.velocity[4], motion.velocity[5]);
                     let by_turn = turn.cross(&arm);
-                    velocity = motion.velocity;
-                    velocity[0] += by_turn.x;
-                    velocity[1] += by_turn.y;
-                    velocity[2] += by_turn.z;
+                    velocity = motion.velocity + Six::new(by_turn.x, by_turn.y, by_turn.z, 0.0, 0.0, 0.0);
+                    if link.element.moves() {
+                        let faster = motion.acceleration.fixed_rows::<3>(3).into_owned();
+                        let by_turn = faster.cross(&arm) + turn.cross(&by_turn);
+                        acceleration = motion.acceleration + Six::new(by_turn.x, by_turn.y, by_turn.z, 0.0, 0.0, 0.0);
+                    }
                 }
-                self.ends.push(End { pose, velocity });
+                self.ends.push(End { pose, velocity, acceleration });
                 self.arms.push(arm);
             }
             let committed = system.states.get(link.states.clone()).unwrap_or_default();
             let trial = self.trial.get_mut(link.states.clone()).unwrap_or_default();
             let Some(guess) = self.guesses.get_mut(index) else { continue };
+            let step = (dt > 0.0 || link.element.moves()).then_some(TimeStep { time, dt });
             let at = Situation { ends: &self.ends, step, surroundings: &system.surroundings };
             let anchored = matches!(link.ends.as_slice(), [Attachment::Body(..), Attachment::Ground(_)]);
             if let (true, Some(found)) = (anchored, link.element.anchored(&at, guess)) {
@@ -322,6 +333,10 @@ impl Forces {
                     }
                     if let Some(block) = self.response.damping.get(count * i + j) {
                         let mut at = self.damping.fixed_view_mut::<6, 6>(6 * body, 6 * column);
+                        at += transferred(block, *own, *far);
+                    }
+                    if let Some(block) = self.response.inertia.get(count * i + j) {
+                        let mut at = self.inertia.fixed_view_mut::<6, 6>(6 * body, 6 * column);
                         at += transferred(block, *own, *far);
                     }
                 }

@@ -29,7 +29,7 @@ impl Stepper {
             let left = if row.heavy { forces.sum[row.at] - inertia.1[freedom] } else { forces.sum[row.at] };
             self.right[i] = left;
             let measure = if row.heavy {
-                let own = mass[(freedom, freedom)];
+                let own = mass[(freedom, freedom)] + forces.inertia[(row.at, row.at)].max(0.0);
                 // of a rotation, times the radius of gyration
                 if freedom < 3 { own } else { (own * inertia.2.max(f64::MIN_POSITIVE)).sqrt() }
             } else {
@@ -60,6 +60,7 @@ impl Stepper {
             let [place, velocity] = self.turned.first().copied().unwrap_or_default();
             let whole = (block(&forces.stiffness) + place) * by_place
                 + (block(&forces.damping) + velocity) * by_velocity
+                + block(&forces.inertia)
                 + mass;
             self.matrix.copy_from(&whole);
             return;
@@ -69,6 +70,9 @@ impl Stepper {
             for (i, row) in self.rows.iter().enumerate() {
                 let (at, to) = (row.at, column.at);
                 let mut value = forces.stiffness[(at, to)] * place + forces.damping[(at, to)] * velocity;
+                if row.heavy && column.heavy {
+                    value += forces.inertia[(at, to)];
+                }
                 if row.heavy && column.heavy && at / 6 == to / 6 {
                     let place = (at % 6, to % 6);
                     value += self.masses.get(at / 6).map_or(0.0, |m| m[place]);

@@ -155,7 +155,10 @@ impl Run {
     /// Accelerations that balance the forces as they are now.
     pub(super) fn prepare(&mut self) -> Result<(), SolveError> {
         self.now.memory.begin(&self.system, (&self.now.motions, &self.now.motions), (self.now.time, 0.0))?;
-        self.stepper.balance(&self.system, &mut self.now, 0.0)
+        self.stepper.balance(&self.system, &mut self.now, 0.0)?;
+        // what moves by itself begins where it hangs
+        self.system.begin_moving(&self.now.forces.trial);
+        Ok(())
     }
 
     /// Takes steps to the end.

@@ -76,15 +76,18 @@ pub struct Stepper {
 
 impl Stepper {
     /// Finds the rows that move.
-    pub(super) fn choose(&mut self, system: &System) {
+    pub(super) fn choose(&mut self, system: &System, forces: &Forces) {
         self.rows.clear();
         for (body, node) in system.nodes.iter().enumerate() {
             let Some(mass) = self.masses.get(body) else { continue };
             let largest = mass.diagonal().amax();
             for freedom in 0..6 {
                 if node.moves(freedom) {
-                    let heavy = mass[(freedom, freedom)] > 1e-12 * largest;
-                    self.rows.push(Row { at: 6 * body + freedom, heavy });
+                    let at = 6 * body + freedom;
+                    // what hangs on it may have inertia where it has none itself
+                    let carried = forces.inertia.get((at, at)).copied().unwrap_or(0.0);
+                    let heavy = mass[(freedom, freedom)] > 1e-12 * largest || carried > 1e-12 * largest;
+                    self.rows.push(Row { at, heavy });
                 }
             }
         }
@@ -102,7 +105,7 @@ impl Stepper {
     pub fn balance(&mut self, system: &System, now: &mut Instant, dt: f64) -> Result<(), SolveError> {
         now.forces.evaluate(system, &now.memory, &now.motions, (now.time, dt))?;
         self.weigh(system, &now.motions);
-        self.choose(system);
+        self.choose(system, &now.forces);
         let rows: Vec<usize> = self.rows.iter().filter(|r| r.heavy).map(|r| r.at).collect();
         let mut matrix = DMatrix::zeros(rows.len(), rows.len());
         let mut right = DVector::zeros(rows.len());
@@ -110,8 +113,15 @@ impl Stepper {
             let (Some(node), Some(motion)) = (system.nodes.get(at / 6), now.motions.get(at / 6)) else { continue };
             right[i] = now.forces.sum[*at] - gyroscopic(&node.floating.mass, motion)[at % 6];
             if node.prescribed.is_none() {
-                for (j, column) in rows.iter().enumerate().filter(|(_, c)| *c / 6 == at / 6) {
-                    matrix[(i, j)] = self.masses.get(at / 6).map_or(0.0, |m| m[(at % 6, column % 6)]);
+                for (j, column) in rows.iter().enumerate() {
+                    // the sum is that with the accelerations of before
+                    let carried = now.forces.inertia[(*at, *column)];
+                    let before = now.motions.get(column / 6).map_or(0.0, |m| m.acceleration[column % 6]);
+                    right[i] += carried * before;
+                    matrix[(i, j)] = carried;
+                    if column / 6 == at / 6 {
+                        matrix[(i, j)] += self.masses.get(at / 6).map_or(0.0, |m| m[(at % 6, column % 6)]);
+                    }
                 }
             }
         }
@@ -219,7 +229,7 @@ impl Stepper {
         if self.masses.len() != system.nodes.len() {
             self.weigh(system, &now.motions);
         }
-        self.choose(system);
+        self.choose(system, &now.forces);
         self.prescribe(system, (time, dt))?;
         // ahead as the acceleration changed last; what has no inertia goes on with its velocity
         for (trial, _) in self.trial.iter_mut().zip(&system.nodes).filter(|(_, n)| n.prescribed.is_none()) {

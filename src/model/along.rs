@@ -1,0 +1,49 @@
+//! What a line that moves by itself tells of its nodes.
+
+use nalgebra::Vector3;
+
+/// Stresses of a tube at a node (Pa).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LineStress {
+    /// Axial, of the wall tension.
+    pub axial: f64,
+    /// Bending, at the outer surface.
+    pub bending: f64,
+    /// Hoop, at the inner surface.
+    pub hoop: f64,
+    /// Largest von Mises stress over both surfaces and both sides of the bend.
+    pub von_mises: f64,
+}
+
+/// A node of a line, numbered from its first end.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LineNode {
+    /// Unstretched distance from the first end (m).
+    pub arc: f64,
+    /// Segment of the element behind it, from 0; of the last node the last one.
+    pub segment: usize,
+    /// Position (m, global).
+    pub position: Vector3<f64>,
+    /// Velocity (m/s).
+    pub velocity: Vector3<f64>,
+    /// Effective tension (N): what balances the submerged weight.
+    pub effective: f64,
+    /// Tension in the wall (N).
+    pub wall: f64,
+    /// Shear force (N).
+    pub shear: f64,
+    /// Bending moment (N m).
+    pub moment: f64,
+    /// Its components about two directions across the line that are carried along it without twist (N m).
+    pub bends: [f64; 2],
+    /// Torsional moment (N m).
+    pub torque: f64,
+    /// Curvature (1/m).
+    pub curvature: f64,
+    /// Height over the bottom (m); infinite without one.
+    pub clearance: f64,
+    /// Pressure outside and inside above the atmosphere's (Pa), for a tube.
+    pub pressures: [f64; 2],
+    /// Stresses, for a tube.
+    pub stress: Option<LineStress>,
+}

@@ -1,0 +1,59 @@
+//! What surrounds a line that feels water, wind and bottom all along itself.
+
+use nalgebra::Vector3;
+use std::fmt::Debug;
+
+/// Water and air at a place and a time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Flow {
+    /// Velocity of the water (m/s, global).
+    pub velocity: Vector3<f64>,
+    /// Its acceleration (m/s2, global).
+    pub acceleration: Vector3<f64>,
+    /// Elevation of the surface above or below the place (m, global z).
+    pub surface: f64,
+    /// Velocity of the air (m/s, global).
+    pub wind: Vector3<f64>,
+}
+
+impl Flow {
+    /// Still water with its surface at an elevation (m, global z), and still air.
+    pub fn still(surface: f64) -> Self {
+        Flow { velocity: Vector3::zeros(), acceleration: Vector3::zeros(), surface, wind: Vector3::zeros() }
+    }
+}
+
+/// What a pipe holds: of `T_PRESSURE`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Contents {
+    /// Temperature above the one at which the pipe was laid (K).
+    pub warmer: f64,
+    /// Pressure above the atmosphere's (Pa) at the elevation `at`.
+    pub pressure: f64,
+    /// Elevation of that pressure (m, global z).
+    pub at: f64,
+    /// Density (kg/m3).
+    pub density: f64,
+}
+
+/// Water, wind and bottom around a line, at any place and time.
+pub trait Ambient: Debug + Send + Sync {
+    /// Water and air at places (m, global) at a time (s) of a run, with waves; `out` is as long as `places`.
+    fn flow(&self, time: f64, places: &[Vector3<f64>], out: &mut [Flow]);
+
+    /// The same at rest: mean current and wind, without waves.
+    fn mean(&self, places: &[Vector3<f64>], out: &mut [Flow]);
+
+    /// Elevation of the bottom (m, global z) and its slopes dz/dx, dz/dy at a place; none where no depth is known.
+    fn bottom(&self, x: f64, y: f64) -> Option<(f64, [f64; 2])>;
+
+    /// What pipes hold, where the environment says so.
+    fn contents(&self) -> Option<Contents> {
+        None
+    }
+
+    /// Thickness of marine growth (m) at an elevation (m, global z), and its density (kg/m3).
+    fn growth(&self, _z: f64) -> (f64, f64) {
+        (0.0, 0.0)
+    }
+}
