@@ -26,6 +26,7 @@ mod on_nodes;
 mod results;
 mod scheme;
 mod section;
+mod snapshot;
 mod spatial;
 mod start;
 mod statics;
