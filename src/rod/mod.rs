@@ -44,7 +44,7 @@ pub use balance::{Balance, Energy, Work};
 pub use condense::EndTangent;
 pub use ends::{End, Motion};
 pub use error::RodError;
-pub use mesh::{MOST_ELEMENTS, Rod, State};
+pub use mesh::{BYTES_PER_ELEMENT, MOST_ELEMENTS, Rod, State};
 pub use modes::Mode;
 pub use results::{NodeResult, Stress};
 pub use scheme::Settings;
