@@ -1,8 +1,9 @@
 //! A trial motion of a rod, and what is asked at it.
 
 use super::ends::{End, Motion};
-use super::mesh::{Rod, State};
+use super::mesh::Rod;
 use super::spatial::{transport, turned};
+use super::state::State;
 use super::surroundings::{Fluid, World};
 use nalgebra::Vector3;
 

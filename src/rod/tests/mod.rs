@@ -1,6 +1,7 @@
 //! Whole rods against closed forms and other programs.
 
 mod beam;
+mod end_tangent;
 mod lowering;
 mod motion;
 mod section;
