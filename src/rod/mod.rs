@@ -49,4 +49,4 @@ pub use results::{NodeResult, Stress};
 pub use scheme::Settings;
 pub use section::{Attachment, Axial, Segment, Tube};
 pub use step::{EndForces, Solver};
-pub use surroundings::{Bottom, Fluid, FluidField, Ground, PlaneBottom, UniformFluid, World};
+pub use surroundings::{Bottom, Fluid, FluidField, Ground, PlaneBottom, Roller, UniformFluid, World};

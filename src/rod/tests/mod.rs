@@ -5,5 +5,6 @@ mod lowering;
 mod motion;
 mod section;
 mod still;
+mod surface;
 mod tangent;
 mod violent;
