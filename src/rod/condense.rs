@@ -24,7 +24,7 @@ pub type Twelve = SMatrix<f64, 12, 12>;
 /// rotations where nothing clamps the rod.
 ///
 /// Left out is how the fluid changes from place to place: it is taken as it is where the nodes are.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EndTangent {
     /// By position and angle (N/m, N, N m).
     pub position: Twelve,

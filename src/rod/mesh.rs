@@ -38,6 +38,8 @@ pub(super) struct Element {
     pub added: [f64; 2],
     /// Half its drag areas, normal and tangential, times a half (m2).
     pub drag: [f64; 2],
+    /// Half its drag area to the wind, times a half (m2).
+    pub wind: f64,
     /// Half its shadow on the bottom (m2).
     pub contact: f64,
     /// Height over which it comes out of the water (m).
@@ -66,6 +68,7 @@ impl Element {
                 0.5 * half * segment.drag_diameter * segment.drag_normal,
                 0.5 * half * std::f64::consts::PI * segment.drag_diameter * segment.drag_tangential,
             ],
+            wind: 0.5 * half * segment.wind_diameter * segment.wind_drag,
             contact: half * segment.contact_diameter,
             diameter: segment.contact_diameter,
         }

@@ -53,4 +53,4 @@ pub use scheme::Settings;
 pub use section::{Attachment, Axial, Segment, Tube};
 pub use state::State;
 pub use step::{EndForces, Solver};
-pub use surroundings::{Bottom, Fluid, FluidField, Ground, PlaneBottom, UniformFluid, World};
+pub use surroundings::{Bottom, Fluid, FluidField, Ground, PlaneBottom, Roller, UniformFluid, World};

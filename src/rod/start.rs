@@ -9,12 +9,30 @@ use super::step::{At, EndForces, Solver};
 use super::surroundings::World;
 use super::system::Weights;
 use super::trial::{lay, sample, soften};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 impl Solver {
     /// Copies where the last trial ended, without taking it as the new state of the solver's own run.
     pub fn reached(&self, state: &mut State) {
         state.clone_from(&self.next);
+    }
+
+    /// What each holder feels of inertia at the instant of the last [`Solver::start`]: d(force the holder needs)/d(its
+    /// acceleration) (kg), zero of a free end. At one instant the nodes beside an end do not follow it yet.
+    pub fn end_masses(&self) -> [Matrix3<f64>; 2] {
+        let last = self.change.len() - self.work.stride();
+        [0, 1].map(|side| {
+            let mut made = Matrix3::zeros();
+            if self.trial.ends[side].motion.is_some() {
+                let first = side * last;
+                self.work.kept_rows(side, |i, column, value| {
+                    if (first..first + 3).contains(&column) {
+                        made[(i, column - first)] = value;
+                    }
+                });
+            }
+            made
+        })
     }
 
     /// Gives a state the accelerations that its forces make, as at the start of a run that is not at rest, or after a

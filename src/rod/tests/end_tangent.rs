@@ -136,7 +136,7 @@ fn wrong(
 #[test]
 fn end_tangent_is_the_difference_of_end_forces_and_moments() {
     let fluid = UniformFluid::moving(1025.0, Vector3::new(0.5, 0.3, 0.0));
-    let world = World { fluid: &fluid, bottom: None, gravity: 9.81, forces: &[] };
+    let world = World::new(&fluid, 9.81);
     for case in cases() {
         let mut state = case.state.clone();
         let mut solver = Solver::new(&case.rod, Settings { tolerance: 1e-12, ..Settings::default() });
@@ -163,7 +163,7 @@ fn end_tangent_is_the_difference_of_end_forces_and_moments() {
 #[test]
 fn static_end_stiffness_is_the_difference_of_forces_and_moments_at_rest() {
     let fluid = UniformFluid::moving(1025.0, Vector3::new(0.5, 0.3, 0.0));
-    let world = World { fluid: &fluid, bottom: None, gravity: 9.81, forces: &[] };
+    let world = World::new(&fluid, 9.81);
     for case in cases() {
         let mut state = case.state.clone();
         let mut solver = Solver::new(&case.rod, Settings::default());

@@ -7,5 +7,6 @@ mod motion;
 mod section;
 mod snapshot;
 mod still;
+mod surface;
 mod tangent;
 mod violent;
