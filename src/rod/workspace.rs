@@ -137,6 +137,16 @@ impl Workspace {
         });
     }
 
+    /// Makes the residual of a fixed node one that moves it by a change.
+    pub fn lead_residual(&mut self, node: usize, change: &Vector3<f64>) {
+        each!(self, system => {
+            let first = system.stride() * node;
+            for (residual, c) in system.residual[first..first + 3].iter_mut().zip(change) {
+                *residual = -c;
+            }
+        });
+    }
+
     /// Takes the unknowns of a node as known.
     pub fn fix(&mut self, node: usize) {
         each!(self, system => for i in 0..3 {
