@@ -82,7 +82,8 @@ impl Solver {
             return None;
         }
         self.work.newton(&mut self.change);
-        let most = self.change.iter().fold(0.0, |most: f64, c| if c.is_nan() { f64::INFINITY } else { most.max(c.abs()) });
+        let most =
+            self.change.iter().fold(0.0, |most: f64, c| if c.is_nan() { f64::INFINITY } else { most.max(c.abs()) });
         if most > NEAR * rod.shortest() {
             return None;
         }

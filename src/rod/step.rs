@@ -308,7 +308,9 @@ impl Solver {
                 let [averaged, v, a] = scheme.follow(from, i, u);
                 (next.averaged[i], next.velocity[i], next.acceleration[i]) = (averaged, v, a);
             }
-            if size <= tolerance {
+            // what is still missing if the moves go on shrinking as they do
+            let missing = if iteration == 1 { size } else { size * size / (last_move - size).max(0.0) };
+            if size.min(missing) <= tolerance {
                 return Ok(iteration);
             }
             if iteration > 6 && size > last_move {
