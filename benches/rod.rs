@@ -71,7 +71,7 @@ fn run(elements: usize, step: f64, tolerance: f64, body: bool) -> (Vec<f64>, f64
                 };
                 let made = solver.trial(&rod, &state, &world, t, [ends[0], End::moved(guess)]).unwrap();
                 iterations += made.iterations;
-                assert!(solver.end_tangent(&rod, &world).unwrap().position[(6, 6)] < 0.0);
+                assert!(solver.end_tangent_at_hand(&rod, &world).unwrap().position[(6, 6)] < 0.0);
             }
             let made = solver.step(&rod, &mut state, &world, t, [ends[0], End::moved(motion)]).unwrap();
             iterations += made.iterations;

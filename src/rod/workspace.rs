@@ -50,6 +50,11 @@ impl Workspace {
         each!(self, system => system.stride())
     }
 
+    /// Elements beside an end that the motion of the end enters.
+    pub fn reach(&self) -> usize {
+        if matches!(self, Workspace::Rope(_)) { 1 } else { 2 }
+    }
+
     /// Residual and tangent of the whole rod at a trial.
     pub fn assemble(&mut self, rod: &Rod, world: &World, trial: &Trial, weights: Weights, range: Range<usize>) {
         each!(self, system => {
