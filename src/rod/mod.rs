@@ -27,6 +27,7 @@ mod on_nodes;
 mod results;
 mod scheme;
 mod section;
+mod settle;
 mod snapshot;
 mod spatial;
 mod start;
