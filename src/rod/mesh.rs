@@ -262,6 +262,8 @@ pub struct State {
     /// Least penetration over which the bottom's stiffness grows at each node (m): see
     /// [`Solver::statics`](super::Solver::statics).
     pub(super) bedding: Vec<f64>,
+    /// Strain to which each element has yielded; empty for a rod without viscoelastic rope.
+    pub(super) yielded: Vec<f64>,
 }
 
 impl State {
@@ -317,6 +319,7 @@ impl State {
             Vec::new()
         };
         let rest = vec![Vector3::zeros(); rod.nodes()];
+        let yielded = rod.yielded(&position);
         Ok(State {
             time: 0.0,
             position,
@@ -325,6 +328,7 @@ impl State {
             averaged: rest,
             director,
             bedding: vec![0.0; rod.nodes()],
+            yielded,
         })
     }
 }

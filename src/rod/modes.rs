@@ -3,6 +3,7 @@
 use super::ends::End;
 use super::error::RodError;
 use super::mesh::{Rod, State};
+use super::rope::remember;
 use super::step::Solver;
 use super::surroundings::World;
 use super::system::Weights;
@@ -58,6 +59,7 @@ impl Solver {
         self.trial.a.fill(Vector3::zeros());
         lay(rod, state, world, &mut self.trial.lay);
         soften(state, world, &mut self.trial.soft);
+        remember(rod, state, 0.0, &mut self.trial.memory);
         sample(world, state.time, &mut self.trial);
         let known = [ends[0].motion.is_some(), ends[1].motion.is_some()];
         let free = |node: usize| !((node == 0 && known[0]) || (node == last && known[1]));

@@ -4,6 +4,7 @@ use super::bend::hinge;
 use super::ends::End;
 use super::hinges::{HingeAt, hinge_sides};
 use super::mesh::{Rod, State};
+use super::rope::Memory;
 use super::spatial::twist;
 use super::surroundings::World;
 use super::tension::{Stretch, Taken, tension};
@@ -73,7 +74,8 @@ impl Rod {
                 let rate = (t.dot(&(v[i + 1] - v[i])) - stretch * element.rate) / element.rest;
                 let stretched = Stretch { strain: stretch - 1.0, rate, height: 0.5 * (x[i].z + x[i + 1].z) };
                 let taken = Taken { compression: element.compression, ease: 1.0 };
-                tension(self, element, taken, &stretched, &fluids[i], world.gravity).value
+                let memory = state.yielded.get(i).map(|yielded| Memory::at_once(*yielded));
+                tension(self, element, taken, &stretched, memory.as_ref(), &fluids[i], world.gravity).value
             })
             .collect();
         // moment vector at each node, and the length it is spread over

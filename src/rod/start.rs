@@ -3,6 +3,7 @@
 use super::ends::End;
 use super::error::RodError;
 use super::mesh::{Rod, State};
+use super::rope::remember;
 use super::step::Solver;
 use super::surroundings::World;
 use super::system::Weights;
@@ -32,6 +33,7 @@ impl Solver {
         self.trial.director.copy_from_slice(&state.director);
         lay(rod, state, world, &mut self.trial.lay);
         soften(state, world, &mut self.trial.soft);
+        remember(rod, state, 0.0, &mut self.trial.memory);
         sample(world, state.time, &mut self.trial);
         self.work.assemble(rod, world, &self.trial, Weights { k: 0.0, c: 0.0, m: 1.0 }, 0..last);
         for (side, node) in [(0, 0), (1, last)] {

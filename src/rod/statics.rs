@@ -113,6 +113,7 @@ impl Solver {
                         state.velocity.fill(zero);
                         state.acceleration.fill(zero);
                         state.averaged.fill(zero);
+                        state.yielded = rod.yielded(&state.position);
                         self.bed(rod, world, state);
                         let moment = [0, 1].map(|side| end_moment(rod, state, &ends[side], side));
                         return Ok(EndForces { force: self.work.end_forces(), moment, iterations: done, parts: 1 });

@@ -4,6 +4,7 @@ use super::ends::End;
 use super::error::RodError;
 use super::hinges::end_moment;
 use super::mesh::{Rod, State};
+use super::rope::{Memory, remember, settle};
 use super::scheme::{Scheme, Settings};
 use super::surroundings::{UniformFluid, World};
 use super::system::Weights;
@@ -58,6 +59,7 @@ impl Solver {
             averaged: zero.clone(),
             director: if rod.twists() { vec![Vector3::x(); nodes - 1] } else { Vec::new() },
             bedding: vec![0.0; nodes],
+            yielded: rod.yielded(&zero),
         };
         let still = UniformFluid::none().0;
         let trial = Trial {
@@ -74,6 +76,7 @@ impl Solver {
             exact: false,
             still: false,
             director: state.director.clone(),
+            memory: vec![Memory::default(); state.yielded.len()],
         };
         let work = Workspace::of(rod);
         Solver {
@@ -94,7 +97,12 @@ impl Solver {
         let lists = [&state.position, &state.velocity, &state.acceleration, &state.averaged].map(Vec::len);
         let directors = if rod.twists() { nodes - 1 } else { 0 };
         let turns = [state.director.len(), self.trial.director.len()];
-        if own.iter().chain(&lists).any(|n| *n != nodes) || turns != [directors; 2] || state.bedding.len() != nodes {
+        let strains = if rod.remembers() { nodes - 1 } else { 0 };
+        if own.iter().chain(&lists).any(|n| *n != nodes)
+            || turns != [directors; 2]
+            || state.bedding.len() != nodes
+            || [state.yielded.len(), self.trial.memory.len()] != [strains; 2]
+        {
             let why = format!("the state or the solver is not that of this rod of {nodes} nodes");
             return Err(RodError::Shape { rod: rod.name.clone(), why });
         }
@@ -218,6 +226,7 @@ impl Solver {
         self.trial.ends = ends;
         lay(rod, from, world, &mut self.trial.lay);
         soften(from, world, &mut self.trial.soft);
+        remember(rod, from, h, &mut self.trial.memory);
         self.next.bedding.copy_from_slice(&from.bedding);
         let next = &mut self.next;
         next.time = time;
@@ -281,6 +290,7 @@ impl Solver {
                 (next.averaged[i], next.velocity[i], next.acceleration[i]) = (averaged, v, a);
             }
             if size <= tolerance {
+                settle(rod, &self.trial.memory, next);
                 return Ok(iteration);
             }
             if iteration > 6 && size > last_move {
@@ -348,6 +358,7 @@ impl State {
             averaged: vec![],
             director: vec![],
             bedding: vec![],
+            yielded: vec![],
         }
     }
 }
@@ -361,4 +372,5 @@ fn copy(from: &State, to: &mut State) {
     to.averaged.copy_from_slice(&from.averaged);
     to.director.copy_from_slice(&from.director);
     to.bedding.copy_from_slice(&from.bedding);
+    to.yielded.copy_from_slice(&from.yielded);
 }

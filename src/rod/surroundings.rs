@@ -47,14 +47,7 @@ impl UniformFluid {
     /// Still water with its surface at z = 0.
     pub fn still(density: f64) -> Self {
         let zero = Vector3::zeros();
-        UniformFluid(Fluid {
-            velocity: zero,
-            acceleration: zero,
-            surface: 0.0,
-            density,
-            wind: zero,
-            air_density: 0.0,
-        })
+        UniformFluid(Fluid { velocity: zero, acceleration: zero, surface: 0.0, density, wind: zero, air_density: 0.0 })
     }
 
     /// The same water with a velocity (m/s).
@@ -155,6 +148,28 @@ pub struct Roller {
     pub damping: f64,
     /// Depth over which the stiffness grows to its full value (m).
     pub soft: f64,
+}
+
+impl Roller {
+    /// What keeps it from being a cradle, as one clause; none where it is one.
+    pub fn fault(&self) -> Option<&'static str> {
+        let whole = |v: &Vector3<f64>| v.iter().all(|c| c.is_finite());
+        let [along, across, up] = &self.axes;
+        let square = [along.dot(across), across.dot(up), up.dot(along)].iter().all(|c| c.abs() < 1e-6);
+        if !whole(&self.place) || !whole(&self.velocity) {
+            Some("its place and velocity must be numbers")
+        } else if !(square && self.axes.iter().all(|a| (a.norm() - 1.0).abs() < 1e-6)) {
+            Some("its axes must be unit vectors at right angles")
+        } else if !(self.stiffness.is_finite() && self.stiffness > 0.0) {
+            Some("its stiffness must be positive")
+        } else if ![self.damping, self.soft].iter().all(|v| v.is_finite() && *v >= 0.0) {
+            Some("its damping and soft depth must not be negative")
+        } else if !(self.half_width >= 0.0 && (0.0..std::f64::consts::PI).contains(&self.opening)) {
+            Some("its half width must not be negative, and its opening from 0 to less than half a turn")
+        } else {
+            None
+        }
+    }
 }
 
 /// All that surrounds a rod.

@@ -3,6 +3,8 @@
 mod beam;
 mod lowering;
 mod motion;
+mod rollers;
+mod rope;
 mod section;
 mod still;
 mod surface;
