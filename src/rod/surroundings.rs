@@ -185,7 +185,8 @@ pub struct World<'a> {
     pub forces: &'a [(usize, Vector3<f64>)],
     /// Cradles it is laid over.
     pub rollers: &'a [Roller],
-    /// Whether an element that enters the water is slammed: see [`Segment::added_normal`](super::Segment).
+    /// Whether an element that enters the water is slammed by it: the rate at which its added mass grows, times its
+    /// velocity relative to the water. Off, the added mass comes without its momentum.
     pub slam: bool,
 }
 
