@@ -1,4 +1,4 @@
-//! A rod cut into elements, and its state of motion.
+//! A rod cut into elements.
 
 use super::error::RodError;
 use super::section::{Attachment, Segment};
@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 pub const MOST_ELEMENTS: usize = 100_000;
 
 /// Memory an element takes in a run (bytes), rounded up: band, state, copies of both.
-const BYTES_PER_ELEMENT: f64 = 2000.0;
+pub const BYTES_PER_ELEMENT: f64 = 2000.0;
 
 /// What one element needs in every iteration; half quantities go to each of its two nodes.
 #[derive(Clone, Debug, PartialEq)]
@@ -102,7 +102,7 @@ pub struct Rod {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Natural {
     /// Directors of end A's holder, of the elements, and of end B's holder.
-    directors: Vec<Vector3<f64>>,
+    pub directors: Vec<Vector3<f64>>,
     /// Curvature angle at each node by the directors before and after it (rad).
     pub curvature: Vec<[[f64; 2]; 2]>,
 }
@@ -120,10 +120,30 @@ impl Rod {
         for (i, segment) in segments.iter().enumerate() {
             segment.check(name, i + 1)?;
         }
-        let count = segments.iter().fold(0usize, |sum, s| sum.saturating_add(s.elements));
-        if count > MOST_ELEMENTS {
-            let megabytes = count as f64 * BYTES_PER_ELEMENT / 1e6;
-            return Err(RodError::TooLarge { rod: name.to_string(), elements: count, megabytes, most: MOST_ELEMENTS });
+        few(name, segments.iter().fold(0usize, |sum, s| sum.saturating_add(s.elements)))?;
+        let elements = segments
+            .iter()
+            .enumerate()
+            .flat_map(|(i, s)| (0..s.elements).map(move |_| Element::new(s, i, s.length / s.elements as f64)))
+            .collect();
+        Rod::of_elements(name, segments, attachments, elements)
+    }
+
+    /// Puts elements of the segments together.
+    pub(super) fn of_elements(
+        name: &str,
+        segments: Vec<Segment>,
+        attachments: Vec<Attachment>,
+        elements: Vec<Element>,
+    ) -> Result<Self, RodError> {
+        let refuse = |why: String| RodError::Shape { rod: name.to_string(), why };
+        let count = elements.len();
+        few(name, count)?;
+        if count == 0 {
+            return Err(refuse("a rod needs at least one element".to_string()));
+        }
+        for (i, segment) in segments.iter().enumerate() {
+            segment.check(name, i + 1)?;
         }
         for a in &attachments {
             let numbers = [a.mass, a.volume, a.height, a.drag, a.added];
@@ -134,11 +154,6 @@ impl Rod {
                 )));
             }
         }
-        let elements = segments
-            .iter()
-            .enumerate()
-            .flat_map(|(i, s)| (0..s.elements).map(move |_| Element::new(s, i, s.length / s.elements as f64)))
-            .collect();
         Ok(Rod { name: name.to_string(), segments, elements, attachments, natural: None })
     }
 
@@ -203,6 +218,11 @@ impl Rod {
         &self.segments
     }
 
+    /// What is attached to its nodes, as winches have renumbered them.
+    pub fn attachments(&self) -> &[Attachment] {
+        &self.attachments
+    }
+
     /// Number of nodes: one more than elements.
     pub fn nodes(&self) -> usize {
         self.elements.len() + 1
@@ -211,6 +231,11 @@ impl Rod {
     /// Unstretched length (m).
     pub fn length(&self) -> f64 {
         self.elements.iter().map(|e| e.rest).sum()
+    }
+
+    /// Unstretched length of its shortest element (m).
+    pub(super) fn shortest(&self) -> f64 {
+        self.elements.iter().map(|e| e.rest).fold(f64::INFINITY, f64::min)
     }
 
     /// Unstretched distance of each node from end A (m).
@@ -232,8 +257,17 @@ impl Rod {
     }
 }
 
+/// Refuses more elements than one run should hold.
+fn few(rod: &str, elements: usize) -> Result<(), RodError> {
+    if elements > MOST_ELEMENTS {
+        let megabytes = elements as f64 * BYTES_PER_ELEMENT / 1e6;
+        return Err(RodError::TooLarge { rod: rod.to_string(), elements, megabytes, most: MOST_ELEMENTS });
+    }
+    Ok(())
+}
+
 /// Directors of a row of directions: across the first one, and taken along without twist.
-fn carried_along(directions: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
+pub(super) fn carried_along(directions: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
     let Some(first) = directions.first() else { return Vec::new() };
     let axis = Vector3::ith(first.iamin(), 1.0);
     let mut directors = vec![(axis - first * first.dot(&axis)).normalize()];
@@ -242,93 +276,4 @@ fn carried_along(directions: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
         directors.push(transport(&last, &pair[0], &pair[1]));
     }
     directors
-}
-
-/// Motion of a rod at one time.
-#[derive(Clone, Debug, PartialEq)]
-pub struct State {
-    /// Time (s).
-    pub time: f64,
-    /// Position of each node (m, global).
-    pub position: Vec<Vector3<f64>>,
-    /// Velocity of each node (m/s).
-    pub velocity: Vec<Vector3<f64>>,
-    /// Acceleration of each node (m/s2).
-    pub acceleration: Vec<Vector3<f64>>,
-    /// The averaged acceleration of the scheme (m/s2).
-    pub(super) averaged: Vec<Vector3<f64>>,
-    /// Director of each element of a rod with torsion: a unit vector across it that twists with it.
-    pub(super) director: Vec<Vector3<f64>>,
-    /// Least penetration over which the bottom's stiffness grows at each node (m): see
-    /// [`Solver::statics`](super::Solver::statics).
-    pub(super) bedding: Vec<f64>,
-    /// Strain to which each element has yielded; empty for a rod without viscoelastic rope.
-    pub(super) yielded: Vec<f64>,
-}
-
-impl State {
-    /// At rest along a line of points, spread over it by unstretched length.
-    ///
-    /// # Errors
-    /// Fewer than two points, points that are no numbers, or all in one place.
-    pub fn along(rod: &Rod, points: &[Vector3<f64>]) -> Result<Self, RodError> {
-        let mut along = vec![0.0];
-        for pair in points.windows(2) {
-            along.push(along[along.len() - 1] + (pair[1] - pair[0]).norm());
-        }
-        let total = along[along.len() - 1];
-        if points.len() < 2 || !(total.is_finite() && total > 0.0) {
-            let why = "it needs a line of two points or more, apart from each other, to start from".to_string();
-            return Err(RodError::Shape { rod: rod.name.clone(), why });
-        }
-        let length = rod.length();
-        let mut at = 1;
-        let position = rod
-            .arc()
-            .iter()
-            .map(|s| {
-                let here = s / length * total;
-                while at + 1 < points.len() && along[at] < here {
-                    at += 1;
-                }
-                let share = (here - along[at - 1]) / (along[at] - along[at - 1]).max(f64::MIN_POSITIVE);
-                points[at - 1] + (points[at] - points[at - 1]) * share.clamp(0.0, 1.0)
-            })
-            .collect();
-        let position: Vec<Vector3<f64>> = position;
-        let director = if rod.twists() {
-            let edges = position.windows(2).map(|p| (p[1] - p[0]).normalize());
-            match &rod.natural {
-                // untwisted against the shape free of load: from its first director on
-                Some(natural) => {
-                    let mut directors = vec![natural.directors[0]];
-                    let mut from = None;
-                    for t in edges {
-                        let last = directors[directors.len() - 1];
-                        directors.push(match from {
-                            Some(from) => transport(&last, &from, &t),
-                            None => (last - t * t.dot(&last)).normalize(),
-                        });
-                        from = Some(t);
-                    }
-                    directors.split_off(1)
-                }
-                None => carried_along(&edges.collect::<Vec<_>>()),
-            }
-        } else {
-            Vec::new()
-        };
-        let rest = vec![Vector3::zeros(); rod.nodes()];
-        let yielded = rod.yielded(&position);
-        Ok(State {
-            time: 0.0,
-            position,
-            velocity: rest.clone(),
-            acceleration: rest.clone(),
-            averaged: rest,
-            director,
-            bedding: vec![0.0; rod.nodes()],
-            yielded,
-        })
-    }
 }

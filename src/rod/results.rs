@@ -3,9 +3,10 @@
 use super::bend::hinge;
 use super::ends::End;
 use super::hinges::{HingeAt, hinge_sides};
-use super::mesh::{Rod, State};
+use super::mesh::Rod;
 use super::rope::Memory;
 use super::spatial::{transport, twist};
+use super::state::State;
 use super::surroundings::{UniformFluid, World};
 use super::tension::{Stretch, Taken, tension};
 use nalgebra::Vector3;

@@ -1,6 +1,7 @@
 //! A rod on rollers.
 
-use super::mesh::{Rod, State};
+use super::mesh::Rod;
+use super::state::State;
 use super::surroundings::{Roller, World};
 use nalgebra::{Matrix3, Vector3};
 

@@ -1,7 +1,8 @@
 //! A rope that is stiffer the faster it is pulled.
 
-use super::mesh::{Element, Rod, State};
+use super::mesh::{Element, Rod};
 use super::section::Axial;
+use super::state::State;
 use nalgebra::Vector3;
 
 /// A rope with a static and a dynamic stiffness, as one of polyester: a standard linear solid, the slow law with a

@@ -3,8 +3,10 @@
 use super::ends::End;
 use super::error::RodError;
 use super::hinges::end_moment;
-use super::mesh::{Rod, State};
-use super::step::{EndForces, Solver};
+use super::mesh::Rod;
+use super::rope::Memory;
+use super::state::State;
+use super::step::{At, EndForces, Solver};
 use super::surroundings::World;
 use super::system::Weights;
 use super::trial::{lay, sample, soften, turn};
@@ -51,9 +53,13 @@ impl Solver {
         ends: [End; 2],
     ) -> Result<EndForces, RodError> {
         self.fits(rod, state)?;
+        self.at = At::Nowhere;
         self.trial.still = true;
         let made = self.falls(rod, state, world, ends);
         self.trial.still = false;
+        if made.is_ok() {
+            self.at = At::Rest;
+        }
         made
     }
 
@@ -75,6 +81,8 @@ impl Solver {
         }
         lay(rod, state, world, &mut self.trial.lay);
         soften(state, world, &mut self.trial.soft);
+        // at rest viscoelastic rope has let go of everything
+        self.trial.memory.fill(Memory::default());
         let mass = masses(rod);
         // a start that is much too short would buckle in all its elements at once: it first falls as a chain does
         let strains =

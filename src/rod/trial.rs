@@ -1,9 +1,10 @@
 //! A trial motion of a rod, and what is asked at it.
 
 use super::ends::{End, Motion};
-use super::mesh::{Rod, State};
+use super::mesh::Rod;
 use super::rope::Memory;
 use super::spatial::{transport, turned};
+use super::state::State;
 use super::surroundings::{Fluid, World};
 use nalgebra::Vector3;
 
@@ -30,7 +31,7 @@ pub(super) struct Trial {
     pub still: bool,
     /// Directors of the elements of a rod with torsion.
     pub director: Vec<Vector3<f64>>,
-    /// How each element of a rod with viscoelastic rope follows its strain; without effect while winches stand still.
+    /// How each element of a rod with viscoelastic rope follows its strain.
     pub memory: Vec<Memory>,
 }
 

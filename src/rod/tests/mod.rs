@@ -1,11 +1,13 @@
 //! Whole rods against closed forms and other programs.
 
 mod beam;
+mod end_tangent;
 mod lowering;
 mod motion;
 mod rollers;
 mod rope;
 mod section;
+mod snapshot;
 mod still;
 mod surface;
 mod tangent;
