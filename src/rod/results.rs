@@ -4,9 +4,10 @@ use super::bend::hinge;
 use super::ends::End;
 use super::hinges::{HingeAt, hinge_sides};
 use super::mesh::Rod;
-use super::spatial::twist;
+use super::rope::Memory;
+use super::spatial::{transport, twist};
 use super::state::State;
-use super::surroundings::World;
+use super::surroundings::{UniformFluid, World};
 use super::tension::{Stretch, Taken, tension};
 use nalgebra::Vector3;
 
@@ -15,6 +16,8 @@ use nalgebra::Vector3;
 pub struct NodeResult {
     /// Unstretched distance from end A (m).
     pub arc: f64,
+    /// Segment of the element after it, from 0; of the last node the last one.
+    pub segment: usize,
     /// Position (m, global).
     pub position: Vector3<f64>,
     /// Velocity (m/s).
@@ -27,12 +30,18 @@ pub struct NodeResult {
     pub shear: f64,
     /// Bending moment (N m).
     pub moment: f64,
+    /// Its components about two directions across the rod that are carried along it without twist from end A (N m):
+    /// the first starts from the holder's side, where it has one, otherwise from a direction fixed in space, taken to
+    /// the rod by the shortest turn.
+    pub bends: [f64; 2],
     /// Torsional moment (N m), where the rod has torsional stiffness.
     pub torque: f64,
     /// Curvature (1/m), from the shape free of load.
     pub curvature: f64,
     /// Height over the bottom (m); infinite without one.
     pub clearance: f64,
+    /// Pressure outside and inside above the atmosphere's (Pa), for a tube.
+    pub pressures: [f64; 2],
     /// Stresses, for a tube.
     pub stress: Option<Stress>,
 }
@@ -58,7 +67,8 @@ impl Rod {
     pub fn results(&self, state: &State, world: &World, ends: &[End; 2]) -> Vec<NodeResult> {
         let last = self.elements.len();
         let (x, v) = (&state.position, &state.velocity);
-        let fluids: Vec<_> = x.iter().map(|x| world.fluid.at(x, state.time)).collect();
+        let mut fluids = vec![UniformFluid::none().0; x.len()];
+        world.fluid.fill(x, state.time, &mut fluids);
         let edges: Vec<(Vector3<f64>, f64)> = x
             .windows(2)
             .map(|p| (p[1] - p[0], (p[1] - p[0]).norm().max(f64::MIN_POSITIVE)))
@@ -74,7 +84,8 @@ impl Rod {
                 let rate = (t.dot(&(v[i + 1] - v[i])) - stretch * element.rate) / element.rest;
                 let stretched = Stretch { strain: stretch - 1.0, rate, height: 0.5 * (x[i].z + x[i + 1].z) };
                 let taken = Taken { compression: element.compression, ease: 1.0 };
-                tension(self, element, taken, &stretched, &fluids[i], world.gravity).value
+                let memory = state.yielded.get(i).map(|yielded| Memory::at_once(*yielded));
+                tension(self, element, taken, &stretched, memory.as_ref(), &fluids[i], world.gravity).value
             })
             .collect();
         // moment vector at each node, and the length it is spread over
@@ -99,6 +110,7 @@ impl Rod {
             })
             .collect();
         let (moments, torques) = if self.twists() { self.spatial_moments(state, ends) } else { (moments, Vec::new()) };
+        let across = carried(&edges, &ends[0]);
         let shears: Vec<Vector3<f64>> =
             (0..last).map(|i| (moments[i + 1].0 - moments[i].0) / self.elements[i].rest).collect();
         let mut arc = 0.0;
@@ -115,28 +127,34 @@ impl Rod {
                     (false, 0) => toward_end(&shears, 0, 1).norm(),
                     (false, _) => toward_end(&shears, last - 1, last.wrapping_sub(2)).norm(),
                 };
-                let (moment, _) = moments[i];
-                let element = &self.elements[i.min(last - 1)];
-                let moment = moment.norm();
+                let (bending, _) = moments[i];
+                let beside = i.min(last - 1);
+                let element = &self.elements[beside];
+                let moment = bending.norm();
+                let (director, direction) = (across[beside], edges[beside].0);
                 let mut made = NodeResult {
                     arc,
+                    segment: element.segment,
                     position: x[i],
                     velocity: v[i],
                     effective,
                     wall: effective,
                     shear,
                     moment,
+                    bends: [bending.dot(&director), bending.dot(&direction.cross(&director))],
                     torque: torques.get(i).copied().unwrap_or(0.0),
                     curvature: if element.bending > 0.0 { moment / element.bending } else { bend(&edges, &moments, i) },
                     clearance: clearance(world, &x[i]),
+                    pressures: [0.0; 2],
                     stress: None,
                 };
                 if let Some(tube) = &self.segments[element.segment].tube {
                     let [outside, inside] = tube.areas();
                     let outer = fluids[i].density * world.gravity * (fluids[i].surface - x[i].z).max(0.0);
                     let inner = tube.pressure + tube.contents * world.gravity * (tube.at - x[i].z);
+                    made.pressures = [outer, inner];
                     made.wall = effective - outer * outside + inner * inside;
-                    made.stress = Some(stress(made.wall, moment, [outer, inner], tube));
+                    made.stress = Some(stress(made.wall, moment, made.pressures, tube));
                 }
                 arc += if i < last { element.rest } else { 0.0 };
                 made
@@ -169,6 +187,26 @@ impl Rod {
             })
             .unzip()
     }
+}
+
+/// A direction across each element, carried along the rod without twist.
+///
+/// Without a holder's side it starts from a frame fixed in space by the shortest turn to the first element, which is
+/// smooth as the rod moves but for one direction: this one is askew to all axes and planes a model is laid out in.
+fn carried(edges: &[(Vector3<f64>, f64)], end: &End) -> Vec<Vector3<f64>> {
+    let first = edges[0].0;
+    let held = end.side.and_then(|side| {
+        let direction = end.direction.and_then(|d| d.try_normalize(1e-12)).unwrap_or(first);
+        let across = (side - direction * direction.dot(&side)).try_normalize(1e-9)?;
+        Some(transport(&across, &direction, &first))
+    });
+    let (direction, across) = (Vector3::new(2.0, 3.0, 6.0) / 7.0, Vector3::new(3.0, -6.0, 2.0) / 7.0);
+    let mut before = (first, held.unwrap_or_else(|| transport(&across, &direction, &first)));
+    let on = |(direction, _): &(Vector3<f64>, f64)| {
+        before = (*direction, transport(&before.1, &before.0, direction));
+        before.1
+    };
+    edges.iter().map(on).collect()
 }
 
 /// A value at the end of a row of middles.

@@ -4,6 +4,7 @@ use super::ends::End;
 use super::error::RodError;
 use super::hinges::end_moment;
 use super::mesh::Rod;
+use super::rope::Memory;
 use super::state::State;
 use super::step::{At, EndForces, Solver};
 use super::surroundings::World;
@@ -185,6 +186,8 @@ impl Solver {
         }
         lay(rod, state, world, &mut self.trial.lay);
         soften(state, world, &mut self.trial.soft);
+        // at rest viscoelastic rope has let go of everything
+        self.trial.memory.fill(Memory::default());
     }
 
     /// Takes the trial, which rests, as the state.
@@ -194,6 +197,7 @@ impl Solver {
         for list in [&mut state.velocity, &mut state.acceleration, &mut state.averaged] {
             list.fill(Vector3::zeros());
         }
+        state.yielded = rod.yielded(&state.position);
         self.bed(rod, world, state);
         let moment = [0, 1].map(|side| end_moment(rod, state, &ends[side], side));
         EndForces { force: self.work.end_forces(), moment, iterations: done, parts: 1 }

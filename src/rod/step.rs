@@ -5,6 +5,7 @@ use super::ends::End;
 use super::error::RodError;
 use super::hinges::end_moment;
 use super::mesh::Rod;
+use super::rope::{Memory, remember, settle};
 use super::scheme::{Scheme, Settings};
 use super::state::State;
 use super::surroundings::{UniformFluid, World};
@@ -82,6 +83,7 @@ impl Solver {
             averaged: zero.clone(),
             director: if rod.twists() { vec![Vector3::x(); nodes - 1] } else { Vec::new() },
             bedding: vec![0.0; nodes],
+            yielded: rod.yielded(&zero),
         };
         let still = UniformFluid::none().0;
         let trial = Trial {
@@ -98,6 +100,7 @@ impl Solver {
             exact: false,
             still: false,
             director: state.director.clone(),
+            memory: vec![Memory::default(); state.yielded.len()],
         };
         let work = Workspace::of(rod);
         Solver {
@@ -124,7 +127,12 @@ impl Solver {
         let lists = [&state.position, &state.velocity, &state.acceleration, &state.averaged].map(Vec::len);
         let directors = if rod.twists() { nodes - 1 } else { 0 };
         let turns = [state.director.len(), self.trial.director.len()];
-        if own.iter().chain(&lists).any(|n| *n != nodes) || turns != [directors; 2] || state.bedding.len() != nodes {
+        let strains = if rod.remembers() { nodes - 1 } else { 0 };
+        if own.iter().chain(&lists).any(|n| *n != nodes)
+            || turns != [directors; 2]
+            || state.bedding.len() != nodes
+            || [state.yielded.len(), self.trial.memory.len()] != [strains; 2]
+        {
             let why = format!("the state or the solver is not that of this rod of {nodes} nodes");
             return Err(RodError::Shape { rod: rod.name.clone(), why });
         }
@@ -272,6 +280,7 @@ impl Solver {
         self.trial.ends = ends;
         lay(rod, from, world, &mut self.trial.lay);
         soften(from, world, &mut self.trial.soft);
+        remember(rod, from, scheme.h, &mut self.trial.memory);
         if moved.is_none() {
             self.foretell(from, &scheme, time, &ends);
         }
@@ -315,6 +324,7 @@ impl Solver {
             // what is still missing if the moves go on shrinking as they do
             let missing = if iteration == 1 { size } else { size * size / (last_move - size).max(0.0) };
             if size.min(missing) <= tolerance {
+                settle(rod, &self.trial.memory, next);
                 return Ok(iteration);
             }
             if iteration > 6 && size > last_move {

@@ -36,7 +36,7 @@ fn a_second_trial_of_a_step_takes_an_iteration_and_ends_where_the_first_would() 
     let fluid = UniformFluid::moving(1025.0, Vector3::new(0.2, 0.5, 0.0));
     let bottom = PlaneBottom { height: -300.0, slope: [0.0, 0.0] };
     let ground = Ground { damping: 3e5, friction_along: 0.5, friction_across: 0.5, ..Ground::elastic(3e6) };
-    let world = World { fluid: &fluid, bottom: Some((&bottom, ground)), gravity: 9.80665, forces: &[] };
+    let world = World { bottom: Some((&bottom, ground)), ..World::new(&fluid, 9.80665) };
     for bending in [0.0, 1e5] {
         let (rod, mut state) = chain(bending);
         let clamp = |m: Motion, tilt: f64| End::moved(m).clamped(Vector3::new(0.6, tilt, 0.7));
@@ -80,7 +80,7 @@ fn a_second_trial_of_a_step_takes_an_iteration_and_ends_where_the_first_would() 
 fn forces_at_a_start_are_what_momentum_wants() {
     let (rod, mut state) = chain(0.0);
     let fluid = UniformFluid::none();
-    let world = World { fluid: &fluid, bottom: None, gravity: 9.80665, forces: &[] };
+    let world = World::new(&fluid, 9.80665);
     let mut solver = Solver::new(&rod, Settings::default());
     let made = solver.statics(&rod, &mut state, &world, [End::pinned(A), End::pinned(B)]).unwrap();
     // at rest they are those of statics

@@ -5,6 +5,8 @@ mod beam;
 mod end_tangent;
 mod lowering;
 mod motion;
+mod rollers;
+mod rope;
 mod section;
 mod snapshot;
 mod still;

@@ -136,7 +136,7 @@ fn rest_beside_a_position_of_rest_takes_a_few_iterations() {
     let rod = Rod::new("chain", vec![segment], vec![]).unwrap();
     let fluid = UniformFluid::moving(1025.0, Vector3::new(0.2, 0.5, 0.0));
     let bottom = PlaneBottom { height: -300.0, slope: [0.0, 0.0] };
-    let world = World { fluid: &fluid, bottom: Some((&bottom, Ground::elastic(3e6))), gravity: 9.80665, forces: &[] };
+    let world = World { bottom: Some((&bottom, Ground::elastic(3e6))), ..World::new(&fluid, 9.80665) };
     let (a, b) = (Vector3::new(-800.0, 0.0, -300.0), Vector3::new(0.0, 0.0, -10.0));
     let mut state = State::along(&rod, &[a, Vector3::new(-350.0, 0.0, -300.0), b]).unwrap();
     let mut solver = Solver::new(&rod, Settings::default());
