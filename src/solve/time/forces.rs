@@ -4,7 +4,7 @@ use super::foretelling::Foretelling;
 use super::inertia::of_added;
 use crate::hydro::{BodyLoad, Category, MovingLoad, Underway, carried, transferred, turning};
 use crate::model::{Anchored, End, Guess, Pose, Response, Situation, Six, TimeStep};
-use crate::solve::link::{Attachment, Link, pose_of};
+use crate::solve::link::{Attachment, Link};
 use crate::solve::system::{Node, SolveError, System};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use std::ops::Range;
@@ -141,7 +141,6 @@ pub struct Forces {
     moving: bool,
     made: MovingLoad,
     response: Response,
-    poses: Vec<Pose>,
     ends: Vec<End>,
     arms: Vec<Vector3<f64>>,
 }
@@ -149,6 +148,26 @@ pub struct Forces {
 /// The index of a category in [`Forces::categories`].
 pub fn place_of(category: Category) -> usize {
     Category::ALL.iter().position(|c| *c == category).unwrap_or(0)
+}
+
+/// An end of a connector under way, and its arm from the origin of its body (m, global). Its acceleration is told where it is wanted.
+pub(super) fn end_of(end: &Attachment, motions: &[Motion], accelerates: bool) -> (End, Vector3<f64>) {
+    let (body, at) = match end {
+        Attachment::Ground(pose) => return (End::still(*pose), Vector3::zeros()),
+        Attachment::Body(body, at) => (motions.get(*body).copied().unwrap_or_default(), at),
+    };
+    let pose = Pose { origin: body.pose.point(*at), axes: body.pose.axes };
+    let arm = pose.origin - body.pose.origin;
+    let turn = Vector3::new(body.velocity[3], body.velocity[4], body.velocity[5]);
+    let by_turn = turn.cross(&arm);
+    let velocity = body.velocity + Six::new(by_turn.x, by_turn.y, by_turn.z, 0.0, 0.0, 0.0);
+    let mut acceleration = Six::zeros();
+    if accelerates {
+        let faster = body.acceleration.fixed_rows::<3>(3).into_owned();
+        let by_turn = faster.cross(&arm) + turn.cross(&by_turn);
+        acceleration = body.acceleration + Six::new(by_turn.x, by_turn.y, by_turn.z, 0.0, 0.0, 0.0);
+    }
+    (End { pose, velocity, acceleration }, arm)
 }
 
 impl Forces {
@@ -265,30 +284,13 @@ impl Forces {
 
     /// Adds what connectors exert.
     fn connect(&mut self, system: &System, motions: &[Motion], (time, dt): (f64, f64)) -> Result<(), SolveError> {
-        self.poses.clear();
-        self.poses.extend(motions.iter().map(|m| m.pose));
         let (flexible, rigid) = (place_of(Category::FlexConnectors), place_of(Category::RigidConnectors));
         for (index, link) in system.links.iter().enumerate() {
             self.ends.clear();
             self.arms.clear();
             for end in &link.ends {
-                let pose = pose_of(end, &self.poses);
-                let (mut velocity, mut acceleration) = (Six::zeros(), Six::zeros());
-                let mut arm = Vector3::zeros();
-                if let Attachment::Body(body, _) = end
-                    && let Some(motion) = motions.get(*body)
-                {
-                    arm = pose.origin - motion.pose.origin;
-                    let turn = Vector3::new(motion.velocity[3], motion.velocity[4], motion.velocity[5]);
-                    let by_turn = turn.cross(&arm);
-                    velocity = motion.velocity + Six::new(by_turn.x, by_turn.y, by_turn.z, 0.0, 0.0, 0.0);
-                    if link.element.moves() {
-                        let faster = motion.acceleration.fixed_rows::<3>(3).into_owned();
-                        let by_turn = faster.cross(&arm) + turn.cross(&by_turn);
-                        acceleration = motion.acceleration + Six::new(by_turn.x, by_turn.y, by_turn.z, 0.0, 0.0, 0.0);
-                    }
-                }
-                self.ends.push(End { pose, velocity, acceleration });
+                let (end, arm) = end_of(end, motions, link.element.moves());
+                self.ends.push(end);
                 self.arms.push(arm);
             }
             let committed = system.states.get(link.states.clone()).unwrap_or_default();
