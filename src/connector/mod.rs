@@ -23,6 +23,7 @@ mod lmu;
 mod loads;
 mod mooring;
 mod mooring_table;
+mod moving;
 mod options;
 mod pipe;
 mod piston;

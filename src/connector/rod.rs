@@ -1,7 +1,8 @@
 //! ROD: a line with bending stiffness and its own dynamics.
 //!
-//! Source: seed 001. Its engine comes with a later issue; its records are read, checked, kept and listed here.
+//! Source: seed 001. MOSES treats rods as an assembly of large deflection tubular beam elements with inertia; the engine is `crate::rod`.
 
+use super::moving::{self as m, Description, Flexure, Hold, MovingLine, Part, Seabed};
 use super::pipe::Pipe;
 use super::section::{LineSection, properties};
 use super::{ClassKind, checks, options as o};
@@ -10,16 +11,13 @@ use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Kind, ValueSpec};
 use crate::language::units::Dim;
 use crate::model::{
-    ClassError, ClassRecord, Connector, ConnectorClass, Element, FatigueSegment, PipeLayout, Surroundings,
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, FatigueSegment, PipeLayout, Surroundings,
 };
 use crate::table::Table;
 use std::sync::Arc;
 
 /// The class type.
 pub static ROD: ClassKind = ClassKind { spec: &ROD_SPEC, segmented: true, build };
-
-/// Most elements of a rod, all segments together (seed 001).
-const ROD_ELEMENTS: i64 = 300;
 
 static ROD_SPEC: CommandSpec = CommandSpec {
     data: &[o::OD, ValueSpec::new("T", Kind::Number(Dim::Section), "wall thickness").positive()],
@@ -46,27 +44,55 @@ static ROD_SPEC: CommandSpec = CommandSpec {
         o::FRICTION,
         o::SLOPE,
         o::DEPANCHOR,
+        m::CD,
+        m::CA,
+        m::EI,
+        m::EA,
+        m::STRETCH,
+        m::AX_DAMPING,
+        m::CLAMP,
+        m::SEABED,
     ],
-    detail: "Large-deflection tubular elements with inertia; at most 300 elements over all segments. No convolution.",
+    detail: "Large-deflection tubular elements with inertia, first record at the first end. -REFINE cuts a segment into elements; \
+             the seed's 300 over all segments were MOSES' limit, here it is memory. The rod feels waves, current, wind, growth and bottom along itself, at rest without \
+             the waves. Its weight is that of -WTPLEN or of the wall, empty; what is in it comes by -T_PRESSURE of &ENV. -EI 0 makes a chain or rope, which \
+             neither pushes nor bends. -CLUMP is a weight in water, taken as a mass without volume; negative: a buoy without mass. Its ends turn freely but for -CLAMP. \
+             Per line, on any record: -FRICTION, -SLOPE, -DEPANCHOR, -SEABED, -CLAMP. No convolution.",
     example: "MEDIT\n~PIPE ROD 12.75 0.5 -LEN 1000 -REFINE 50\nEND\n&STATUS CLASS ~PIPE",
     ..CommandSpec::new("ROD", "line with bending stiffness and its own dynamics")
 };
 
+/// Most elements of a line with its memory told: what the engine holds.
+const MOST: i64 = crate::rod::MOST_ELEMENTS as i64;
+
 #[derive(Debug)]
-struct Rod(Vec<LineSection>);
+struct Rod {
+    sections: Vec<LineSection>,
+    flexures: Vec<Flexure>,
+    seabed: Seabed,
+    holds: [Option<Hold>; 2],
+}
 
 fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
-    for name in ["-FRICTION", "-SLOPE", "-DEPANCHOR"] {
-        checks::once(records, name)?;
-    }
     let sections = records.iter().map(|r| LineSection::read(r, "ROD", true)).collect::<Outcome<Vec<_>>>()?;
     let elements = sections.iter().fold(0i64, |sum, s| sum.saturating_add(s.refine));
-    if elements > ROD_ELEMENTS {
+    if elements > MOST {
         let span = records.last().map_or(Span::default(), |r| r.args.option("-REFINE").map_or(r.args.span, |g| g.span));
-        return Err(Diagnostic::error(format!("a ROD has at most {ROD_ELEMENTS} elements"), span)
-            .label(format!("with this segment it has {elements}")));
+        let megabytes = elements as f64 * crate::rod::BYTES_PER_ELEMENT / 1e6;
+        return Err(Diagnostic::error(format!("a ROD has at most {MOST} elements"), span)
+            .label(format!("with this segment it has {elements}, which would take about {megabytes:.0} MB")));
     }
-    Ok(Arc::new(Rod(sections)))
+    let flexures = records.iter().zip(&sections).map(|(r, s)| Flexure::read(r, s)).collect::<Outcome<Vec<_>>>()?;
+    Ok(Arc::new(Rod { sections, flexures, seabed: m::seabed(records)?, holds: m::holds(records)? }))
+}
+
+impl Rod {
+    fn description(&self, around: &Surroundings) -> Description {
+        let count = |s: &LineSection| usize::try_from(s.refine).unwrap_or(1).max(1);
+        let part = |(s, f): (&LineSection, &Flexure)| -> Part { f.part(s, count(s), around) };
+        let parts = self.sections.iter().zip(&self.flexures).map(part).collect();
+        m::description("ROD", parts, self.seabed, self.holds)
+    }
 }
 
 impl ConnectorClass for Rod {
@@ -79,20 +105,32 @@ impl ConnectorClass for Rod {
     }
 
     fn fatigue_segments(&self) -> Vec<FatigueSegment> {
-        self.0.iter().map(LineSection::fatigue).collect()
+        self.sections.iter().map(LineSection::fatigue).collect()
     }
 
     fn properties(&self, name: &str, surroundings: &Surroundings) -> Table {
-        properties(name, "ROD", &self.0, surroundings)
+        properties(name, "ROD", &self.sections, surroundings)
     }
 
     fn first_length(&self) -> Option<f64> {
-        self.0.first().map(|s| s.length)
+        self.sections.first().map(|s| s.length)
+    }
+
+    fn adjustable(&self) -> bool {
+        true
+    }
+
+    fn anchor_depth(&self, surroundings: &Surroundings) -> Option<f64> {
+        self.seabed.depth.or(surroundings.depth)
+    }
+
+    fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
+        Ok(Box::new(MovingLine::made(self.description(connection.surroundings), connection)?))
     }
 
     /// A pipe of the first segment's section, as long as it needs to be.
     fn pipe(&self, layout: PipeLayout) -> Result<Box<dyn Element>, ClassError> {
-        let section = self.0.first().ok_or_else(|| ClassError::new("the class has no record"))?;
+        let section = self.sections.first().ok_or_else(|| ClassError::new("the class has no record"))?;
         Ok(Box::new(Pipe::laid(section, layout)?))
     }
 }

@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 pub const MOST_ELEMENTS: usize = 100_000;
 
 /// Memory an element takes in a run (bytes), rounded up: band, state, copies of both.
-const BYTES_PER_ELEMENT: f64 = 2000.0;
+pub const BYTES_PER_ELEMENT: f64 = 2000.0;
 
 /// What one element needs in every iteration; half quantities go to each of its two nodes.
 #[derive(Clone, Debug, PartialEq)]
@@ -117,10 +117,30 @@ impl Rod {
         for (i, segment) in segments.iter().enumerate() {
             segment.check(name, i + 1)?;
         }
-        let count = segments.iter().fold(0usize, |sum, s| sum.saturating_add(s.elements));
-        if count > MOST_ELEMENTS {
-            let megabytes = count as f64 * BYTES_PER_ELEMENT / 1e6;
-            return Err(RodError::TooLarge { rod: name.to_string(), elements: count, megabytes, most: MOST_ELEMENTS });
+        few(name, segments.iter().fold(0usize, |sum, s| sum.saturating_add(s.elements)))?;
+        let elements = segments
+            .iter()
+            .enumerate()
+            .flat_map(|(i, s)| (0..s.elements).map(move |_| Element::new(s, i, s.length / s.elements as f64)))
+            .collect();
+        Rod::of_elements(name, segments, attachments, elements)
+    }
+
+    /// Puts elements of the segments together.
+    pub(super) fn of_elements(
+        name: &str,
+        segments: Vec<Segment>,
+        attachments: Vec<Attachment>,
+        elements: Vec<Element>,
+    ) -> Result<Self, RodError> {
+        let refuse = |why: String| RodError::Shape { rod: name.to_string(), why };
+        let count = elements.len();
+        few(name, count)?;
+        if count == 0 {
+            return Err(refuse("a rod needs at least one element".to_string()));
+        }
+        for (i, segment) in segments.iter().enumerate() {
+            segment.check(name, i + 1)?;
         }
         for a in &attachments {
             let numbers = [a.mass, a.volume, a.height, a.drag, a.added];
@@ -131,11 +151,6 @@ impl Rod {
                 )));
             }
         }
-        let elements = segments
-            .iter()
-            .enumerate()
-            .flat_map(|(i, s)| (0..s.elements).map(move |_| Element::new(s, i, s.length / s.elements as f64)))
-            .collect();
         Ok(Rod { name: name.to_string(), segments, elements, attachments, natural: None })
     }
 
@@ -200,6 +215,11 @@ impl Rod {
         &self.segments
     }
 
+    /// What is attached to its nodes, as winches have renumbered them.
+    pub fn attachments(&self) -> &[Attachment] {
+        &self.attachments
+    }
+
     /// Number of nodes: one more than elements.
     pub fn nodes(&self) -> usize {
         self.elements.len() + 1
@@ -227,6 +247,15 @@ impl Rod {
         let (a, b) = (&self.elements[node - 1], &self.elements[node]);
         if a.bending > 0.0 && b.bending > 0.0 { 2.0 / (a.rest / a.bending + b.rest / b.bending) } else { 0.0 }
     }
+}
+
+/// Refuses more elements than one run should hold.
+fn few(rod: &str, elements: usize) -> Result<(), RodError> {
+    if elements > MOST_ELEMENTS {
+        let megabytes = elements as f64 * BYTES_PER_ELEMENT / 1e6;
+        return Err(RodError::TooLarge { rod: rod.to_string(), elements, megabytes, most: MOST_ELEMENTS });
+    }
+    Ok(())
 }
 
 /// Directors of a row of directions: across the first one, and taken along without twist.

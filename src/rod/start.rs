@@ -10,6 +10,11 @@ use super::trial::{lay, sample, soften};
 use nalgebra::Vector3;
 
 impl Solver {
+    /// Copies where the last trial ended, without taking it as the new state of the solver's own run.
+    pub fn reached(&self, state: &mut State) {
+        state.clone_from(&self.next);
+    }
+
     /// Gives a state the accelerations that its forces make, as at the start of a run that is not at rest, or after a
     /// line has parted. A state from [`Solver::statics`] has them.
     ///

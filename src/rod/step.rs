@@ -39,7 +39,7 @@ pub struct Solver {
     pub(super) trial: Trial,
     pub(super) change: Vec<f64>,
     /// Where the last trial ended.
-    next: State,
+    pub(super) next: State,
     /// Where the part before it ended, when a step is cut.
     part: State,
     pub(super) weights: Weights,

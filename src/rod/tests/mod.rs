@@ -4,6 +4,7 @@ mod beam;
 mod lowering;
 mod motion;
 mod section;
+mod snapshot;
 mod still;
 mod tangent;
 mod violent;

@@ -1,0 +1,76 @@
+//! Water and bottom around a line, as the rod asks for them.
+
+use super::describe::Seabed;
+use crate::model::{Ambient, Flow, Surroundings};
+use crate::rod::{Bottom, Fluid, FluidField, Ground, PlaneBottom, Segment};
+use nalgebra::Vector3;
+
+/// How far a line presses itself into the bottom by its own weight, as a share of its diameter: what the bottom's stiffness follows
+/// from where none is given.
+const PRESSED: f64 = 0.02;
+/// Damping of the bottom against what is critical for the line on it, where none is given.
+const DAMPED: f64 = 0.5;
+/// Speed below which friction gives way (m/s).
+const CREEP: f64 = 0.01;
+
+/// The water of an environment.
+#[derive(Debug)]
+pub(super) struct Water<'a> {
+    pub ambient: Option<&'a dyn Ambient>,
+    pub around: &'a Surroundings,
+    /// Whether waves are left out: at rest.
+    pub mean: bool,
+}
+
+impl FluidField for Water<'_> {
+    fn at(&self, position: &Vector3<f64>, time: f64) -> Fluid {
+        let mut found = [Flow::still(self.around.tide)];
+        let here = std::slice::from_ref(position);
+        match self.ambient {
+            Some(ambient) if self.mean => ambient.mean(here, &mut found),
+            Some(ambient) => ambient.flow(time, here, &mut found),
+            None => {}
+        }
+        let [Flow { velocity, acceleration, surface, .. }] = found;
+        Fluid { velocity, acceleration, surface, density: self.around.water_density }
+    }
+
+    fn uniform(&self) -> bool {
+        self.ambient.is_none()
+    }
+}
+
+/// The bottom: a plane of the line's own, or that of the environment.
+#[derive(Debug)]
+pub(super) struct Floor<'a> {
+    pub plane: Option<PlaneBottom>,
+    pub ambient: Option<&'a dyn Ambient>,
+    pub flat: f64,
+}
+
+impl Bottom for Floor<'_> {
+    fn height(&self, x: f64, y: f64) -> (f64, [f64; 2]) {
+        match &self.plane {
+            Some(plane) => plane.height(x, y),
+            None => self.ambient.and_then(|a| a.bottom(x, y)).unwrap_or((self.flat, [0.0; 2])),
+        }
+    }
+}
+
+/// How the bottom answers a line of these segments.
+pub(super) fn ground(seabed: &Seabed, segments: &[Segment], around: &Surroundings) -> Ground {
+    // by the heaviest segment, so that none presses itself in deeper
+    let weight = |s: &Segment| (s.mass - around.water_density * s.displaced) * around.gravity;
+    let press = |s: &Segment| weight(s).max(0.0) / (PRESSED * s.contact_diameter * s.contact_diameter);
+    let stiffest = segments.iter().map(press).filter(|k| k.is_finite()).fold(1e4, f64::max);
+    let stiffness = seabed.stiffness.unwrap_or(stiffest);
+    let heavy = segments.iter().map(|s| s.mass / s.contact_diameter).filter(|m| m.is_finite()).fold(0.0, f64::max);
+    Ground {
+        stiffness,
+        damping: seabed.damping.unwrap_or(2.0 * DAMPED * (stiffness * heavy).sqrt()),
+        soft: 0.0,
+        friction_along: seabed.along,
+        friction_across: seabed.across.unwrap_or(seabed.along),
+        friction_speed: CREEP,
+    }
+}

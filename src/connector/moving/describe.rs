@@ -1,0 +1,119 @@
+//! What a line that moves by itself is made of, as its class says.
+
+use crate::model::{Ambient, Contents};
+use crate::rod::{Axial, Segment};
+use std::f64::consts::FRAC_PI_4;
+
+/// What stands where a part ends and the next begins.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct JointMass {
+    /// Mass (kg).
+    pub mass: f64,
+    /// Displaced volume (m3).
+    pub volume: f64,
+    /// Added mass coefficient on the volume.
+    pub added: f64,
+    /// Drag coefficient times area (m2).
+    pub drag: f64,
+    /// Length of the pendant on which it floats above the line (m).
+    pub pendant: f64,
+}
+
+/// What a part bears.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Strength {
+    /// Breaking tension (N).
+    pub breaking: f64,
+    /// Yield stress (Pa), of a tube.
+    pub yields: Option<f64>,
+}
+
+/// A part of a line: one record of its class.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
+    /// Its properties; the number of elements is that of the class.
+    pub segment: Segment,
+    /// What it bears.
+    pub strength: Strength,
+    /// What stands at its end, if anything.
+    pub joint: Option<JointMass>,
+}
+
+/// How the bottom answers.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Seabed {
+    /// Normal stiffness per area (N/m3), where given.
+    pub stiffness: Option<f64>,
+    /// Normal damping per area (N s/m3), where given.
+    pub damping: Option<f64>,
+    /// Friction along the line.
+    pub along: f64,
+    /// Friction across the line; as along where not given.
+    pub across: Option<f64>,
+    /// Slope of the bottom, positive where the depth increases from the first end toward the second.
+    pub slope: Option<f64>,
+    /// Depth of the bottom at the second end below z = 0 (m), where the class says it.
+    pub depth: Option<f64>,
+}
+
+/// How an end is held in its direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hold {
+    /// Declination from straight down of the line where it leaves its first end, in the vertical plane of the ends (rad); along
+    /// the chord of the ends as defined where not given.
+    pub declination: Option<f64>,
+    /// Rotational stiffness (N m/rad); rigid where not given.
+    pub stiffness: Option<f64>,
+}
+
+/// A line that moves by itself.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Description {
+    /// The class type, for messages.
+    pub kind: &'static str,
+    /// Its parts from the first end.
+    pub parts: Vec<Part>,
+    /// The bottom under it.
+    pub seabed: Seabed,
+    /// How its two ends are held; pinned where not.
+    pub holds: [Option<Hold>; 2],
+    /// What is always told of it.
+    pub notes: Vec<String>,
+}
+
+impl Part {
+    /// Its properties at an elevation (m, global z), with what grows on it there and with what it holds.
+    pub fn grown(&self, ambient: Option<&dyn Ambient>, z: f64) -> Segment {
+        let mut made = self.segment.clone();
+        let Some(ambient) = ambient else { return made };
+        let (thickness, density) = ambient.growth(z);
+        if thickness > 0.0 {
+            let more = |area: f64| {
+                let diameter = (area / FRAC_PI_4).sqrt();
+                FRAC_PI_4 * (diameter + 2.0 * thickness).powi(2) - area
+            };
+            made.mass += density * more(made.displaced);
+            made.displaced += more(made.displaced);
+            made.added_area += more(made.added_area);
+            made.drag_diameter += 2.0 * thickness;
+        }
+        if let (Some(tube), Some(Contents { warmer, pressure, at, density })) = (&mut made.tube, ambient.contents()) {
+            (tube.warmer, tube.pressure, tube.at, tube.contents) = (warmer, pressure, at, density);
+            made.mass += density * FRAC_PI_4 * tube.inner * tube.inner;
+        }
+        made
+    }
+
+    /// Weight per length in water (N/m).
+    pub fn submerged(&self, density: f64, gravity: f64) -> f64 {
+        (self.segment.mass - density * self.segment.displaced) * gravity
+    }
+
+    /// Tension over strain at no strain (N).
+    pub fn ea(&self) -> f64 {
+        match &self.segment.axial {
+            Axial::Linear(ea) => *ea,
+            other => other.at(0.0).1,
+        }
+    }
+}

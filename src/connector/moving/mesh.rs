@@ -1,0 +1,151 @@
+//! Elements of a line, and those that a winch lets out or takes in.
+
+use super::describe::{Description, Part};
+use crate::model::{Ambient, ClassError};
+use crate::rod::{Attachment, Rod, RodError, Segment, State};
+use nalgebra::Vector3;
+
+/// An element at the winch is divided when it is longer than this share of those of its part as the class has them.
+const LONG: f64 = 1.5;
+/// It becomes one with the next when it would be shorter than this.
+const SHORT: f64 = 0.5;
+
+/// An error of a rod for the user, who is told its name elsewhere.
+pub(super) fn told(error: RodError) -> ClassError {
+    ClassError::new(match error {
+        RodError::Property { segment, what, value, expected, .. } => {
+            format!("in segment {segment} {what} is {value}; {expected}")
+        }
+        RodError::TooLarge { elements, megabytes, most, .. } => {
+            format!("{elements} elements would take about {megabytes:.0} MB; at most {most} are allowed")
+        }
+        RodError::Shape { why, .. } => why,
+        RodError::Step { time, step, element, why, .. } => {
+            format!(
+                "its rod has no solution at {time} s by steps down to {step:.1e} s; worst at element {element}: {why}"
+            )
+        }
+        RodError::Statics { iterations, residual, element, .. } => {
+            format!("its rod finds no rest in {iterations} iterations: {residual:.2e} N is left at element {element}")
+        }
+    })
+}
+
+/// Segments of a line: one a part, or one an element of the class where properties change along a part.
+pub(super) struct Cut {
+    pub segments: Vec<Segment>,
+    /// Part of each segment.
+    pub part: Vec<usize>,
+    /// Segments of each part.
+    pub bands: Vec<usize>,
+}
+
+impl Cut {
+    /// As the class says; with growth that differs along the line, which is at `shape` when it is made, by element.
+    pub fn of(description: &Description, ambient: Option<&dyn Ambient>, shape: &[Vector3<f64>]) -> Cut {
+        let Description { parts, .. } = description;
+        let grows = |z: f64| ambient.map_or(0.0, |a| a.growth(z).0);
+        let grown = shape.iter().any(|p| grows(p.z) > 0.0);
+        let mut made = Cut { segments: Vec::new(), part: Vec::new(), bands: Vec::new() };
+        let whole: f64 = parts.iter().map(|p| p.segment.length).sum();
+        let mut before = 0.0;
+        for (index, part) in parts.iter().enumerate() {
+            let bands = if grown { part.segment.elements.max(1) } else { 1 };
+            for band in 0..bands {
+                let share = (before + part.segment.length * (band as f64 + 0.5) / bands as f64) / whole;
+                let segment = part.grown(ambient, elevation(shape, share));
+                let (length, elements) = (part.segment.length / bands as f64, part.segment.elements / bands);
+                made.segments.push(Segment { length, elements, ..segment });
+                made.part.push(index);
+            }
+            made.bands.push(bands);
+            before += part.segment.length;
+        }
+        made
+    }
+
+    /// The mesh of a line whose first part has a length (m).
+    pub fn mesh(&self, parts: &[Part], first: f64) -> Vec<(f64, f64, usize)> {
+        let mut made = Vec::new();
+        let mut from = 0;
+        for (index, (part, bands)) in parts.iter().zip(&self.bands).enumerate() {
+            let (mut length, mut count) = (part.segment.length, part.segment.elements);
+            if index == 0 && first != length {
+                count = ((first / length * count as f64).round() as usize).max(1);
+                length = first;
+            }
+            for element in 0..count {
+                // bands are counted from the far end, so that they stay where the line is wound
+                let back = (count - 1 - element) * bands / count;
+                made.push((length / count as f64, 0.0, from + bands - 1 - back));
+            }
+            from += bands;
+        }
+        made
+    }
+}
+
+/// Elevation (m) at a share of the length of a row of points.
+fn elevation(shape: &[Vector3<f64>], share: f64) -> f64 {
+    let long: f64 = shape.windows(2).map(|p| (p[1] - p[0]).norm()).sum();
+    let mut left = share * long;
+    for pair in shape.windows(2) {
+        let piece = (pair[1] - pair[0]).norm();
+        if left <= piece && piece > 0.0 {
+            return pair[0].z + (pair[1].z - pair[0].z) * left / piece;
+        }
+        left -= piece;
+    }
+    shape.last().map_or(0.0, |p| p.z)
+}
+
+/// What is attached at the ends of parts, on a mesh.
+pub(super) fn attachments(parts: &[Part], counts: &[usize], density: f64) -> Vec<Attachment> {
+    let mut node = 0;
+    let mut made = Vec::new();
+    for (part, count) in parts.iter().zip(counts) {
+        node += count;
+        let Some(joint) = part.joint else { continue };
+        // a mass that displaces nothing has its added mass on next to nothing
+        let volume = if joint.volume == 0.0 && joint.added > 0.0 { 1e-9 } else { joint.volume };
+        let added = if joint.volume > 0.0 { joint.added } else { joint.added / (density * volume.max(1e-9)) };
+        let height = (6.0 * volume / std::f64::consts::PI).cbrt().max(1e-3);
+        made.push(Attachment { node, mass: joint.mass, volume, height, drag: joint.drag, added });
+    }
+    made
+}
+
+/// Takes the first part of a line to another length (m) over a step (s): elements appear at its first end or go.
+pub(super) fn wind(
+    rod: &mut Rod,
+    state: &mut State,
+    (first, nominal, dt): (f64, f64, f64),
+    of_first: impl Fn(usize) -> bool,
+) -> Result<bool, ClassError> {
+    let mesh = rod.mesh();
+    let own = || mesh.iter().take_while(|e| of_first(e.2));
+    let now: f64 = own().map(|e| e.0).sum();
+    let change = first - now;
+    let Some((rest, rate, segment)) = mesh.first().copied() else { return Ok(false) };
+    if change.abs() <= 1e-12 * now {
+        if rate != 0.0 {
+            rod.set_length(0, rest, 0.0).map_err(told)?;
+        }
+        return Ok(rate != 0.0);
+    }
+    let mut at = rest;
+    if change > 0.0 && rest + change > LONG * nominal {
+        rod.divide(0, state).map_err(told)?;
+        at = 0.5 * rest;
+    } else if change < 0.0
+        && rest + change < SHORT * nominal
+        && own().count() > 1
+        && let Some((next, _, other)) = mesh.get(1)
+        && *other == segment
+    {
+        rod.join(0, state).map_err(told)?;
+        at = rest + next;
+    }
+    rod.set_length(0, at + change, change / dt).map_err(told)?;
+    Ok(true)
+}

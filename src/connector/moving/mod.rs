@@ -1,0 +1,19 @@
+//! Lines that move by themselves: what classes say of them, and the rod of `crate::rod` as an element of an engine.
+//!
+//! Source: seed 001 (ROD) and seed 002, 5.8.3 (cable dynamics of AQWA). A line is cut into elements, feels water, wind and bottom all
+//! along itself, and is held at its ends by bodies or the ground; what is between its ends is solved and condensed here.
+
+mod around;
+mod describe;
+mod element;
+mod kept;
+mod mesh;
+mod sections;
+mod start;
+
+pub use describe::{Description, Hold, JointMass, Part, Seabed, Strength};
+pub use element::MovingLine;
+pub use sections::{
+    AQWA_CA, AQWA_CD, AQWA_CX, AX_DAMPING, CA, CD, CLAMP, EA, EI, Flexure, SEABED, STRETCH, cut, description, holds,
+    seabed,
+};

@@ -1,0 +1,293 @@
+//! Parts of a line from the records of ROD, B_CAT and H_CAT.
+
+use super::describe::{Description, Hold, JointMass, Part, Seabed, Strength};
+use crate::connector::checks;
+use crate::connector::section::LineSection;
+use crate::language::args::Args;
+use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::select::Owner;
+use crate::language::spec::{Kind, OptionSpec, ValueSpec};
+use crate::language::units::Dim;
+use crate::model::{ClassRecord, Surroundings};
+use crate::rod::{Axial, Segment, Tube};
+use std::f64::consts::{FRAC_PI_4, PI};
+
+/// Drag, inline drag of the skin and added mass where nothing is given: those of AQWA's cable dynamics (seed 002, 5.8.3.1).
+pub const AQWA_CD: f64 = 1.0;
+/// `0.5 rho Cx V2 De`, per diameter.
+pub const AQWA_CX: f64 = 0.025;
+/// Added mass across the line.
+pub const AQWA_CA: f64 = 1.0;
+
+const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
+    ValueSpec::new(name, Kind::Number(dim), help)
+}
+
+const fn ours(name: &'static str, values: &'static [ValueSpec], help: &'static str) -> OptionSpec {
+    OptionSpec::new(name, values, help).owner(Owner::Ours)
+}
+
+/// Bending stiffness: force times length squared.
+const BENDING: Dim = Dim::Derived { force: 1, length: 2, seconds: 0 };
+/// Force per rate of strain.
+const PER_RATE: Dim = Dim::Derived { force: 1, length: 0, seconds: 1 };
+/// Force per area and depth.
+const PER_DEPTH: Dim = Dim::Derived { force: 1, length: -3, seconds: 0 };
+/// Force per area and speed.
+const PER_SPEED: Dim = Dim::Derived { force: 1, length: -3, seconds: 1 };
+
+/// `-CD`.
+pub const CD: OptionSpec = ours(
+    "-CD",
+    &[
+        number("CDN", Dim::None, "drag coefficient across").not_negative(),
+        number("CDT", Dim::None, "drag coefficient of the skin, on pi times the diameter")
+            .or("0.025/pi")
+            .not_negative(),
+    ],
+    "drag coefficients of the segment",
+)
+.default("1.0 0.025/pi");
+/// `-CA`.
+pub const CA: OptionSpec = ours(
+    "-CA",
+    &[
+        number("CAN", Dim::None, "added mass coefficient across").not_negative(),
+        number("CAT", Dim::None, "added mass coefficient along").or("0").not_negative(),
+    ],
+    "added mass coefficients of the segment",
+)
+.default("1.0 0");
+/// `-EI`.
+pub const EI: OptionSpec = ours(
+    "-EI",
+    &[number("EI", BENDING, "bending stiffness; 0: a chain or rope, which cannot push").not_negative()],
+    "bending stiffness in place of the tube's",
+)
+.default("that of the tube");
+/// `-EA`.
+pub const EA: OptionSpec = ours(
+    "-EA",
+    &[
+        number("K1", Dim::Force, "coefficient of strain").positive(),
+        number("K2", Dim::Force, "coefficient of strain squared").or("0"),
+        number("K3", Dim::Force, "coefficient of strain cubed").or("0"),
+    ],
+    "tension by strain e: K1 e + K2 e2 + K3 e3, in place of the tube's",
+)
+.default("that of the tube");
+/// `-STRETCH`.
+pub const STRETCH: OptionSpec = ours(
+    "-STRETCH",
+    &[number("T", Dim::Force, "tension"), number("E", Dim::None, "strain at it")],
+    "tension by strain as a table, straight between its points",
+)
+.repeating(2);
+/// `-AX_DAMPING`.
+pub const AX_DAMPING: OptionSpec = ours(
+    "-AX_DAMPING",
+    &[number("C", PER_RATE, "tension per rate of strain").not_negative()],
+    "axial internal damping",
+)
+.default("0");
+/// `-CLAMP`.
+pub const CLAMP: OptionSpec = ours(
+    "-CLAMP",
+    &[
+        ValueSpec::new("WHICH", Kind::Choice(&["FIRST", "SECOND", "BOTH"]), "which end is held in its direction"),
+        number("DEC", Dim::Angle, "declination from straight down at the first end, in the plane of the ends")
+            .or("along the chord of the ends as defined"),
+        number("K", Dim::MomentPerRadian, "rotational stiffness").or("rigid").positive(),
+    ],
+    "ends that what they are fixed to keeps from turning",
+)
+.default("both turn freely")
+.many();
+/// `-SEABED`.
+pub const SEABED: OptionSpec = ours(
+    "-SEABED",
+    &[
+        number("K", PER_DEPTH, "normal stiffness per area of the line's shadow").positive(),
+        number("C", PER_SPEED, "normal damping per area").or("half of critical").not_negative(),
+        number("MUX", Dim::None, "friction across the line").or("that of -FRICTION").not_negative(),
+    ],
+    "how the bottom answers the line",
+)
+.default("the heaviest segment sinks in by 2% of its diameter");
+
+/// What a record says beyond its section.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Flexure {
+    drag: f64,
+    wind: f64,
+    added: f64,
+    cd: [f64; 2],
+    ca: [f64; 2],
+    axial: Axial,
+    damping: f64,
+    /// Bending stiffness, Poisson's ratio, thermal expansion of a tube.
+    tube: Option<[f64; 3]>,
+    yields: f64,
+}
+
+impl Flexure {
+    /// Of a record and its section; `tube` where it has a wall.
+    ///
+    /// # Errors
+    /// A law of stretch that does not rise.
+    pub fn read(record: &ClassRecord, section: &LineSection) -> Outcome<Flexure> {
+        let args = &record.args;
+        let material = &record.defaults.material;
+        let option = |name: &str| args.option_number(name);
+        let pair = |name: &str, default: [f64; 2]| {
+            args.option(name)
+                .map_or(default, |g| [0, 1].map(|i| g.number(i).or(default.get(i).copied()).unwrap_or(0.0)))
+        };
+        let typed = section.of_type.as_ref();
+        let inner = section.thickness.map(|t| section.od - 2.0 * t);
+        let wall = |d: f64| FRAC_PI_4 * (section.od * section.od - d * d);
+        // EI of the tube from its EA: I/A is (D2 + d2)/16
+        let bending = inner.map(|d| section.ea * (section.od * section.od + d * d) / 16.0);
+        let bending = option("-EI").or(bending).unwrap_or(0.0);
+        let yields = option("-FYIELD").unwrap_or(material.yield_stress);
+        debug_assert!(inner.is_none_or(|d| wall(d) >= 0.0));
+        Ok(Flexure {
+            drag: option("-DRAGDIAMETER").or(typed.map(|t| t.drag)).unwrap_or(section.od),
+            wind: option("-WINDDIAMETER").or(typed.map(|t| t.wind)).unwrap_or(section.od),
+            added: option("-AMASDIAMETER").or(typed.map(|t| t.added_mass)).unwrap_or(section.od),
+            cd: pair("-CD", [typed.map_or(AQWA_CD, |t| t.line_type.drag.coefficient), AQWA_CX / PI]),
+            ca: pair("-CA", [AQWA_CA, 0.0]),
+            axial: law(args, section.ea)?,
+            damping: option("-AX_DAMPING").unwrap_or(0.0),
+            tube: (bending > 0.0).then(|| {
+                let poisson = option("-POI_RAT").unwrap_or(material.poisson);
+                [bending, poisson, option("-ALPHA").unwrap_or(material.expansion)]
+            }),
+            yields,
+        })
+    }
+
+    /// The part of a section.
+    pub fn part(&self, section: &LineSection, elements: usize, around: &Surroundings) -> Part {
+        let area = |d: f64| FRAC_PI_4 * d * d;
+        let displaced = area(section.buoyancy_diameter) + section.displacement / around.water_weight();
+        let inner = section.thickness.map_or(0.0, |t| section.od - 2.0 * t);
+        let tube = self.tube.map(|[_, poisson, expansion]| Tube {
+            poisson,
+            expansion,
+            ..Tube::empty(section.od, inner.max(0.0))
+        });
+        let segment = Segment {
+            axial: self.axial.clone(),
+            axial_damping: self.damping,
+            compression: self.tube.is_some(),
+            bending: self.tube.map_or(0.0, |[bending, ..]| bending),
+            displaced,
+            drag_diameter: self.drag,
+            drag_normal: self.cd[0],
+            drag_tangential: self.cd[1],
+            added_area: area(self.added),
+            added_normal: self.ca[0],
+            added_tangential: self.ca[1],
+            tube,
+            ..Segment::line(section.length, elements, section.weight / around.gravity, section.ea, section.od)
+        };
+        let strength = Strength { breaking: section.breaking, yields: self.tube.map(|_| self.yields) };
+        Part { segment, strength, joint: joint(section, around) }
+    }
+
+    /// Diameter for wind (m).
+    pub fn wind(&self) -> f64 {
+        self.wind
+    }
+}
+
+/// What `-CLUMP` attaches: a weight in water without volume, or a buoy without mass on its pendant.
+fn joint(section: &LineSection, around: &Surroundings) -> Option<JointMass> {
+    let clump = section.clump;
+    if clump > 0.0 {
+        return Some(JointMass { mass: clump / around.gravity, ..JointMass::default() });
+    }
+    let volume = -clump / around.water_weight();
+    (clump < 0.0).then_some(JointMass { volume, added: 0.5, pendant: section.pendant, ..JointMass::default() })
+}
+
+/// Tension by strain.
+fn law(args: &Args, ea: f64) -> Outcome<Axial> {
+    let (polynomial, table) = (args.option("-EA"), args.option("-STRETCH"));
+    match (polynomial, table) {
+        (Some(given), Some(other)) => {
+            Err(Diagnostic::error("tension by strain is given twice", other.span).other(given.span, "and here"))
+        }
+        (Some(given), None) => Ok(Axial::Polynomial([0, 1, 2].map(|i| given.number(i).unwrap_or(0.0)).to_vec())),
+        (None, Some(given)) => {
+            let mut points = vec![(0.0, 0.0)];
+            for pair in given.values.chunks_exact(2) {
+                let [tension, strain] = pair else { continue };
+                let (Some(t), Some(e)) = (tension.number(), strain.number()) else { continue };
+                if points.last().is_some_and(|(last, pull)| e <= *last || t <= *pull) {
+                    return Err(Diagnostic::error(
+                        "tension and strain must both grow from point to point",
+                        strain.span,
+                    )
+                    .label("not beyond the point before, or zero"));
+                }
+                points.push((e, t));
+            }
+            Ok(Axial::Table(points))
+        }
+        (None, None) => Ok(Axial::Linear(ea)),
+    }
+}
+
+/// The bottom under a line, of its records.
+///
+/// # Errors
+/// An option of the line given twice.
+pub fn seabed(records: &[ClassRecord]) -> Outcome<Seabed> {
+    let number = |name: &str| checks::once(records, name).map(|g| g.and_then(|g| g.number(0)));
+    let own = checks::once(records, "-SEABED")?;
+    Ok(Seabed {
+        stiffness: own.and_then(|g| g.number(0)),
+        damping: own.and_then(|g| g.number(1)),
+        along: number("-FRICTION")?.unwrap_or(0.0),
+        across: own.and_then(|g| g.number(2)),
+        // -SLOPE is positive where the depth increases toward the anchor
+        slope: number("-SLOPE")?,
+        depth: number("-DEPANCHOR")?,
+    })
+}
+
+/// How the ends are held, of the records of a ROD.
+///
+/// # Errors
+/// An end held twice.
+pub fn holds(records: &[ClassRecord]) -> Outcome<[Option<Hold>; 2]> {
+    let mut made = [None, None];
+    for given in records.iter().flat_map(|r| r.args.options.iter()).filter(|g| g.spec.name == "-CLAMP") {
+        let word = given.word(0).unwrap_or_default();
+        let hold = Hold { declination: given.number(1), stiffness: given.number(2) };
+        for (place, name) in made.iter_mut().zip(["FIRST", "SECOND"]) {
+            if word == name || word == "BOTH" {
+                if place.is_some() {
+                    let text = format!("the {} end is held twice", name.to_lowercase());
+                    return Err(Diagnostic::error(text, given.span));
+                }
+                *place = Some(hold);
+            }
+        }
+    }
+    Ok(made)
+}
+
+/// A line of sections without bending of their own, cut into about so many elements.
+pub fn cut(elements: usize, lengths: &[f64], refined: &[usize]) -> Vec<usize> {
+    let whole: f64 = lengths.iter().sum();
+    let share = |l: &f64| ((elements as f64 * l / whole).round() as usize).max(1);
+    lengths.iter().zip(refined).map(|(l, n)| share(l).max(*n)).collect()
+}
+
+/// A line of these parts.
+pub fn description(kind: &'static str, parts: Vec<Part>, seabed: Seabed, holds: [Option<Hold>; 2]) -> Description {
+    Description { kind, parts, seabed, holds, notes: Vec::new() }
+}

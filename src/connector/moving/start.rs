@@ -1,0 +1,89 @@
+//! From where a line falls into its first position of rest.
+
+use super::describe::Part;
+use crate::connector::catenary::{Floor, Joint, Line, Segment};
+use crate::model::Surroundings;
+use nalgebra::Vector3;
+
+/// Points of each part between its ends.
+const BETWEEN: usize = 40;
+/// Points of a shape that only has the right length.
+const ROUGH: usize = 60;
+
+/// Points from the first end to the second: the catenary of the line, or, where that has no answer, a bow of its length.
+pub(super) fn points(
+    parts: &[Part],
+    lengths: &[f64],
+    ends: [Vector3<f64>; 2],
+    floor: Option<f64>,
+    around: &Surroundings,
+) -> Vec<Vector3<f64>> {
+    catenary(parts, lengths, ends, floor, around)
+        .unwrap_or_else(|| bow(lengths.iter().sum(), ends, floor, parts, around))
+}
+
+fn catenary(
+    parts: &[Part],
+    lengths: &[f64],
+    [from, to]: [Vector3<f64>; 2],
+    floor: Option<f64>,
+    around: &Surroundings,
+) -> Option<Vec<Vector3<f64>>> {
+    let weight = |p: &Part| p.submerged(around.water_density, around.gravity);
+    let segments =
+        parts.iter().zip(lengths).map(|(p, l)| Segment { length: *l, weight: weight(p), ea: p.ea() }).collect();
+    let joint = |p: &Part| {
+        p.joint.map_or(Joint::Free, |j| Joint::Weight((j.mass - around.water_density * j.volume) * around.gravity))
+    };
+    let joints = parts.iter().take(parts.len().saturating_sub(1)).map(joint).collect();
+    // the catenary engine knows a bottom at the elevation of the second end alone
+    let lies = floor.filter(|z| (to.z - z).abs() < 1e-6 * (1.0 + z.abs()));
+    if floor.is_some() && lies.is_none() {
+        return None;
+    }
+    let line = Line::new(segments, joints, to.z, around.tide).ok()?;
+    let line = line.over(lies.map(|elevation| Floor { elevation, slope: 0.0, friction: 0.0 })).ok()?;
+    let across = Vector3::new(to.x - from.x, to.y - from.y, 0.0);
+    let distance = across.norm();
+    let toward = across.try_normalize(1e-12).unwrap_or_else(Vector3::x);
+    let state = line.at_distance(distance, from.z).ok()?;
+    let shape = line.shape(&state, BETWEEN);
+    let points: Vec<_> = shape.iter().map(|p| Vector3::new(from.x, from.y, p.z) + toward * p.x).collect();
+    points.iter().all(|p| p.iter().all(|c| c.is_finite())).then_some(points)
+}
+
+/// A bow of a length between two ends in their vertical plane, downward of a heavy line and upward of a buoyant one; what would be
+/// under the bottom lies on it.
+fn bow(
+    length: f64,
+    [from, to]: [Vector3<f64>; 2],
+    floor: Option<f64>,
+    parts: &[Part],
+    around: &Surroundings,
+) -> Vec<Vector3<f64>> {
+    let weight: f64 = parts.iter().map(|p| p.submerged(around.water_density, around.gravity) * p.segment.length).sum();
+    let side = if weight < 0.0 { 1.0 } else { -1.0 };
+    let shape = |sag: f64| -> Vec<Vector3<f64>> {
+        (0..=ROUGH)
+            .map(|i| {
+                let s = i as f64 / ROUGH as f64;
+                let mut point = from + (to - from) * s;
+                point.z += side * 4.0 * sag * s * (1.0 - s);
+                if let Some(floor) = floor {
+                    point.z = point.z.max(floor);
+                }
+                point
+            })
+            .collect()
+    };
+    let long = |points: &[Vector3<f64>]| points.windows(2).map(|p| (p[1] - p[0]).norm()).sum::<f64>();
+    let (mut low, mut high) = (0.0, length);
+    if long(&shape(0.0)) >= length {
+        return shape(0.0);
+    }
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if long(&shape(middle)) < length { low = middle } else { high = middle }
+    }
+    shape(high)
+}

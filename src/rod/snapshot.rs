@@ -1,0 +1,96 @@
+//! A rod and its state as rows of numbers, and back: what a snapshot of a run keeps.
+
+use super::error::RodError;
+use super::mesh::{Element, Rod, State};
+use super::section::{Attachment, Segment};
+use nalgebra::Vector3;
+
+/// Numbers of a node: position, velocity, acceleration, averaged acceleration, bedding.
+const PER_NODE: usize = 13;
+
+impl Rod {
+    /// Its elements from end A, as winches have made them: unstretched length (m), rate at which it grows (m/s), and
+    /// segment, from 0.
+    pub fn mesh(&self) -> Vec<(f64, f64, usize)> {
+        self.elements.iter().map(|e| (e.rest, e.rate, e.segment)).collect()
+    }
+
+    /// Makes a rod of given elements, as [`Rod::mesh`] tells them; `attachments` are on its nodes as they now are. A
+    /// shape free of load must be given again.
+    ///
+    /// # Errors
+    /// As [`Rod::new`], and an element of no length, of a segment that is not there, or of one before that of the
+    /// element before it.
+    pub fn with_mesh(
+        name: &str,
+        segments: Vec<Segment>,
+        attachments: Vec<Attachment>,
+        mesh: &[(f64, f64, usize)],
+    ) -> Result<Self, RodError> {
+        let elements: Option<Vec<Element>> = mesh
+            .iter()
+            .map(|(rest, rate, index)| {
+                let sound = rest.is_finite() && *rest > 0.0 && rate.is_finite();
+                let segment = segments.get(*index).filter(|_| sound)?;
+                Some(Element { rate: *rate, ..Element::new(segment, *index, *rest) })
+            })
+            .collect();
+        let refuse = |why: &str| RodError::Shape { rod: name.to_string(), why: why.to_string() };
+        let elements = elements.ok_or_else(|| refuse("every element needs a length above zero and a segment"))?;
+        if elements.windows(2).any(|pair| pair[1].segment < pair[0].segment) {
+            return Err(refuse("its elements must follow each other as the segments do"));
+        }
+        Rod::of_elements(name, segments, attachments, elements)
+    }
+}
+
+impl State {
+    /// Appends all of it to a row of numbers: the time; position, velocity, acceleration, averaged acceleration and
+    /// bedding of each node; the director of each element of a rod with torsion.
+    pub fn pack(&self, out: &mut Vec<f64>) {
+        out.reserve(1 + PER_NODE * self.position.len() + 3 * self.director.len());
+        out.push(self.time);
+        for (i, position) in self.position.iter().enumerate() {
+            for vector in [position, &self.velocity[i], &self.acceleration[i], &self.averaged[i]] {
+                out.extend_from_slice(vector.as_slice());
+            }
+            out.push(self.bedding[i]);
+        }
+        for director in &self.director {
+            out.extend_from_slice(director.as_slice());
+        }
+    }
+
+    /// How many numbers [`State::pack`] makes of a state of a rod.
+    pub fn packed(rod: &Rod) -> usize {
+        1 + PER_NODE * rod.nodes() + if rod.twists() { 3 * rod.elements.len() } else { 0 }
+    }
+
+    /// The state that [`State::pack`] made numbers of, to the last bit.
+    ///
+    /// # Errors
+    /// Another count of numbers than a state of this rod has, or one that is no number.
+    pub fn unpack(rod: &Rod, from: &[f64]) -> Result<Self, RodError> {
+        let wanted = State::packed(rod);
+        let refuse = |why: String| RodError::Shape { rod: rod.name.clone(), why };
+        if from.len() != wanted {
+            return Err(refuse(format!("its state is {wanted} numbers, not {}", from.len())));
+        }
+        if let Some(place) = from.iter().position(|v| !v.is_finite()) {
+            return Err(refuse(format!("number {} of its state is {}", place + 1, from[place])));
+        }
+        let (nodes, directors) = from[1..].split_at(PER_NODE * rod.nodes());
+        let list = |first: usize| {
+            nodes.chunks_exact(PER_NODE).map(|n| Vector3::new(n[first], n[first + 1], n[first + 2])).collect()
+        };
+        Ok(State {
+            time: from[0],
+            position: list(0),
+            velocity: list(3),
+            acceleration: list(6),
+            averaged: list(9),
+            bedding: nodes.chunks_exact(PER_NODE).map(|n| n[PER_NODE - 1]).collect(),
+            director: directors.chunks_exact(3).map(Vector3::from_column_slice).collect(),
+        })
+    }
+}

@@ -1,0 +1,77 @@
+//! A rod and its state rebuilt from their numbers go on as the first ones do, to the last bit.
+
+use super::super::*;
+use nalgebra::Vector3;
+
+#[test]
+fn a_rod_whose_winch_has_changed_it_goes_on_from_a_snapshot_to_the_last_bit() {
+    let segment = |elements| Segment {
+        axial_damping: 1e4,
+        drag_normal: 1.2,
+        added_normal: 1.0,
+        ..Segment::line(100.0, elements, 80.0, 1e7, 0.2)
+    };
+    let buoy = Attachment { node: 6, mass: 100.0, volume: 0.5, height: 0.8, drag: 0.4, added: 0.5 };
+    let mut rod = Rod::new("line", vec![segment(6), segment(9)], vec![buoy]).unwrap();
+    let fluid = UniformFluid::moving(1025.0, Vector3::new(0.2, 0.5, 0.0));
+    let bottom = PlaneBottom { height: -80.0, slope: [0.0, 0.0] };
+    let ground = Ground { damping: 1e3, soft: 0.05, friction_along: 0.3, friction_across: 0.6, ..Ground::elastic(1e5) };
+    let world = World { fluid: &fluid, bottom: Some((&bottom, ground)), gravity: 9.81, forces: &[] };
+    let (a, b) = (Vector3::new(0.0, 0.0, -80.0), Vector3::new(165.0, 0.0, -5.0));
+    let mut state = State::along(&rod, &[a, b]).unwrap();
+    let ends = [End::pinned(a), End::pinned(b)];
+    Solver::new(&rod, Settings::default()).statics(&rod, &mut state, &world, ends).unwrap();
+    rod.set_length(14, 14.0, 0.4).unwrap();
+    rod.divide(14, &mut state).unwrap();
+    rod.join(1, &mut state).unwrap();
+    let run = |rod: &Rod, state: &mut State, steps: usize| {
+        let mut solver = Solver::new(rod, Settings::default());
+        (0..steps)
+            .map(|_| {
+                let time = state.time + 0.1;
+                let lift = Motion { position: b + Vector3::z() * (0.5 * time), ..Motion::still(b) };
+                solver.step(rod, state, &world, time, [ends[0], End::moved(lift)]).unwrap()
+            })
+            .last()
+            .unwrap()
+    };
+    run(&rod, &mut state, 7);
+    let mut numbers = vec![1.5];
+    state.pack(&mut numbers);
+    assert_eq!(numbers.len() - 1, State::packed(&rod));
+    let again = Rod::with_mesh("line", rod.segments().to_vec(), rod.attachments().to_vec(), &rod.mesh()).unwrap();
+    assert_eq!(again, rod);
+    let mut later = State::unpack(&again, &numbers[1..]).unwrap();
+    assert_eq!(later, state);
+    assert_eq!(run(&rod, &mut state, 5), run(&again, &mut later, 5));
+    assert_eq!(later, state);
+}
+
+#[test]
+fn a_twisted_state_comes_back_and_a_wrong_one_is_refused() {
+    let segment =
+        Segment { compression: true, bending: 400.0, torsion: 300.0, ..Segment::line(10.0, 8, 2.0, 1e6, 0.1) };
+    let rod = Rod::new("pipe", vec![segment.clone()], vec![]).unwrap();
+    let mut state = State::along(&rod, &[Vector3::zeros(), Vector3::new(7.0, 1.0, 0.0)]).unwrap();
+    state.director[3] = Vector3::new(0.3, -0.2, 0.9);
+    state.time = 4.25;
+    let mut numbers = Vec::new();
+    state.pack(&mut numbers);
+    assert_eq!(State::unpack(&rod, &numbers).unwrap(), state);
+    let told = State::unpack(&rod, &numbers[1..]).unwrap_err().to_string();
+    assert_eq!(told, "pipe: its state is 142 numbers, not 141");
+    numbers[5] = f64::NAN;
+    assert!(State::unpack(&rod, &numbers).unwrap_err().to_string().contains("number 6 of its state is NaN"));
+    let made = |mesh: &[(f64, f64, usize)]| Rod::with_mesh("pipe", vec![segment.clone(); 2], vec![], mesh);
+    assert!(made(&[(1.0, 0.0, 0), (1.0, 0.0, 1)]).is_ok());
+    for mesh in [
+        &[][..],
+        &[(1.0, 0.0, 2)],
+        &[(0.0, 0.0, 0)],
+        &[(1.0, f64::NAN, 0)],
+        &[(f64::INFINITY, 0.0, 0)],
+        &[(1.0, 0.0, 1), (1.0, 0.0, 0)],
+    ] {
+        assert!(made(mesh).is_err(), "{mesh:?}");
+    }
+}
