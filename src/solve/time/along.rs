@@ -100,7 +100,9 @@ impl AlongColumns {
                 _ => nodes.len().checked_sub(self.most - number + 1).filter(|i| *i > 0).and_then(|i| nodes.get(i)),
             };
             let Some(node) = found else { continue };
-            let LineNode { arc, position, effective, wall, shear, bends, clearance, stress, .. } = node;
+            let LineNode { arc, position, effective, wall, shear, moment, clearance, stress, .. } = node;
+            // of a line that tells its moment alone, all of it is about one direction
+            let bends = if node.bends == [0.0; 2] { [*moment, 0.0] } else { node.bends };
             let clearance = if clearance.is_finite() { *clearance } else { f64::NAN };
             let told = [*arc, position.x, position.y, position.z, clearance, *effective];
             let mises = stress.map_or(0.0, |s| s.von_mises);

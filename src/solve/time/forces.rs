@@ -2,9 +2,10 @@
 
 use super::foretelling::Foretelling;
 use super::inertia::of_added;
+use super::side_by_side::{self, Alone};
 use crate::hydro::{BodyLoad, Category, MovingLoad, Underway, carried, transferred, turning};
 use crate::model::{Anchored, End, Guess, Pose, Response, Situation, Six, TimeStep};
-use crate::solve::link::{Attachment, Link};
+use crate::solve::link::{Attachment, Link, pose_of};
 use crate::solve::system::{Node, SolveError, System};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use std::ops::Range;
@@ -139,8 +140,11 @@ pub struct Forces {
     foretelling: Foretelling,
     /// Whether a connector has inertia of its own.
     moving: bool,
+    /// Those of them, evaluated side by side.
+    alone: Vec<Alone>,
     made: MovingLoad,
     response: Response,
+    poses: Vec<Pose>,
     ends: Vec<End>,
     arms: Vec<Vector3<f64>>,
 }
@@ -148,26 +152,6 @@ pub struct Forces {
 /// The index of a category in [`Forces::categories`].
 pub fn place_of(category: Category) -> usize {
     Category::ALL.iter().position(|c| *c == category).unwrap_or(0)
-}
-
-/// An end of a connector under way, and its arm from the origin of its body (m, global). Its acceleration is told where it is wanted.
-pub(super) fn end_of(end: &Attachment, motions: &[Motion], accelerates: bool) -> (End, Vector3<f64>) {
-    let (body, at) = match end {
-        Attachment::Ground(pose) => return (End::still(*pose), Vector3::zeros()),
-        Attachment::Body(body, at) => (motions.get(*body).copied().unwrap_or_default(), at),
-    };
-    let pose = Pose { origin: body.pose.point(*at), axes: body.pose.axes };
-    let arm = pose.origin - body.pose.origin;
-    let turn = Vector3::new(body.velocity[3], body.velocity[4], body.velocity[5]);
-    let by_turn = turn.cross(&arm);
-    let velocity = body.velocity + Six::new(by_turn.x, by_turn.y, by_turn.z, 0.0, 0.0, 0.0);
-    let mut acceleration = Six::zeros();
-    if accelerates {
-        let faster = body.acceleration.fixed_rows::<3>(3).into_owned();
-        let by_turn = faster.cross(&arm) + turn.cross(&by_turn);
-        acceleration = body.acceleration + Six::new(by_turn.x, by_turn.y, by_turn.z, 0.0, 0.0, 0.0);
-    }
-    (End { pose, velocity, acceleration }, arm)
 }
 
 impl Forces {
@@ -284,19 +268,17 @@ impl Forces {
 
     /// Adds what connectors exert.
     fn connect(&mut self, system: &System, motions: &[Motion], (time, dt): (f64, f64)) -> Result<(), SolveError> {
+        self.poses.clear();
+        self.poses.extend(motions.iter().map(|m| m.pose));
+        self.connect_moving(system, motions, (time, dt));
+        let mut alone = std::mem::take(&mut self.alone).into_iter();
         let (flexible, rigid) = (place_of(Category::FlexConnectors), place_of(Category::RigidConnectors));
         for (index, link) in system.links.iter().enumerate() {
-            self.ends.clear();
-            self.arms.clear();
-            for end in &link.ends {
-                let (end, arm) = end_of(end, motions, link.element.moves());
-                self.ends.push(end);
-                self.arms.push(arm);
-            }
+            self.place_ends(link, motions);
             let committed = system.states.get(link.states.clone()).unwrap_or_default();
             let trial = self.trial.get_mut(link.states.clone()).unwrap_or_default();
             let Some(guess) = self.guesses.get_mut(index) else { continue };
-            let step = (dt > 0.0 || link.element.moves()).then_some(TimeStep { time, dt });
+            let step = (dt > 0.0).then_some(TimeStep { time, dt });
             let at = Situation { ends: &self.ends, step, surroundings: &system.surroundings };
             let anchored = matches!(link.ends.as_slice(), [Attachment::Body(..), Attachment::Ground(_)]);
             if let (true, Some(found)) = (anchored, link.element.anchored(&at, guess)) {
@@ -305,9 +287,19 @@ impl Forces {
                 self.hold(link, &wrenches, &stiffness, flexible);
                 continue;
             }
-            link.element
-                .evaluate(&at, committed, trial, guess, &mut self.response)
-                .map_err(SolveError::of(&link.name))?;
+            if link.element.moves() {
+                let Some(mut found) = alone.next() else { continue };
+                if let Some(error) = found.failed.take() {
+                    return Err(SolveError::of(&link.name)(error));
+                }
+                std::mem::swap(guess, &mut found.guess);
+                trial.copy_from_slice(&found.trial);
+                std::mem::swap(&mut self.response, &mut found.response);
+            } else {
+                link.element
+                    .evaluate(&at, committed, trial, guess, &mut self.response)
+                    .map_err(SolveError::of(&link.name))?;
+            }
             self.wrenches.extend_from_slice(&self.response.wrench);
             let category = if link.element.rigid() { rigid } else { flexible };
             let count = link.ends.len();
@@ -345,6 +337,47 @@ impl Forces {
             }
         }
         Ok(())
+    }
+
+    /// Where the ends of a connector are and how they move, and their arms from the origins of their bodies.
+    fn place_ends(&mut self, link: &Link, motions: &[Motion]) {
+        self.ends.clear();
+        self.arms.clear();
+        for end in &link.ends {
+            let pose = pose_of(end, &self.poses);
+            let (mut velocity, mut acceleration) = (Six::zeros(), Six::zeros());
+            let mut arm = Vector3::zeros();
+            if let Attachment::Body(body, _) = end
+                && let Some(motion) = motions.get(*body)
+            {
+                arm = pose.origin - motion.pose.origin;
+                let turn = Vector3::new(motion.velocity[3], motion.velocity[4], motion.velocity[5]);
+                let by_turn = turn.cross(&arm);
+                velocity = motion.velocity + Six::new(by_turn.x, by_turn.y, by_turn.z, 0.0, 0.0, 0.0);
+                if link.element.moves() {
+                    let faster = motion.acceleration.fixed_rows::<3>(3).into_owned();
+                    let by_turn = faster.cross(&arm) + turn.cross(&by_turn);
+                    acceleration = motion.acceleration + Six::new(by_turn.x, by_turn.y, by_turn.z, 0.0, 0.0, 0.0);
+                }
+            }
+            self.ends.push(End { pose, velocity, acceleration });
+            self.arms.push(arm);
+        }
+    }
+
+    /// Evaluates the connectors that move by themselves, side by side.
+    fn connect_moving(&mut self, system: &System, motions: &[Motion], (time, dt): (f64, f64)) {
+        self.alone.clear();
+        if !self.moving {
+            return;
+        }
+        for (index, link) in system.links.iter().enumerate().filter(|(_, l)| l.element.moves()) {
+            self.place_ends(link, motions);
+            let trial = self.trial.get(link.states.clone()).unwrap_or_default().to_vec();
+            let guess = self.guesses.get_mut(index).and_then(Option::take);
+            self.alone.push(Alone { link: index, ends: self.ends.clone(), trial, guess, ..Alone::default() });
+        }
+        side_by_side::evaluate(system, &mut self.alone, Some(TimeStep { time, dt }));
     }
 
     /// Adds a force at the first end of a connector that the place of that end alone changes.

@@ -4,7 +4,8 @@
 //! pull on the anchor, share of the break) follows from these when it is asked for.
 
 use super::along::AlongColumns;
-use super::forces::{CATEGORIES, Forces, Motion, end_of, place_of};
+use super::ends::end_of;
+use super::forces::{CATEGORIES, Forces, Motion, place_of};
 use crate::hydro::Category;
 use crate::model::{ClassError, LineNode, Place, Situation, Six, TimeStep};
 use crate::solve::link::{Attachment, Link};
@@ -237,7 +238,7 @@ fn nodes_of(
     (time, motions): (f64, &[Motion]),
     nodes: &mut Vec<LineNode>,
 ) -> Result<(), ClassError> {
-    let ends: Vec<_> = link.ends.iter().map(|end| end_of(end, motions, true).0).collect();
+    let ends: Vec<_> = link.ends.iter().map(|end| end_of(end, motions)).collect();
     let step = Some(TimeStep { time, dt: 0.0 });
     let at = Situation { ends: &ends, step, surroundings: &system.surroundings };
     link.element.along(&at, system.states.get(link.states.clone()).unwrap_or_default(), nodes)

@@ -7,6 +7,7 @@ mod action;
 mod along;
 mod corrector;
 mod course;
+mod ends;
 mod forces;
 mod foretelling;
 mod happening;
