@@ -6,7 +6,7 @@
 use super::{Call, Command, Effect, Job};
 use crate::language::args::{Args, Given, Value};
 use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::select::{is_wild, matches};
+use crate::language::select::{Owner, is_wild, matches};
 use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
 use crate::language::units::{Dim, UnitSystem};
@@ -56,6 +56,14 @@ static SPEC: CommandSpec = CommandSpec {
         .many(),
         OptionSpec::new("-A_HORIZONTAL", HORIZONTAL, "solves the place of the anchor along its direction").many(),
         OptionSpec::new("-A_TENSION", TENSION, "solves the place of the anchor along its direction").many(),
+        OptionSpec::new(
+            "-DYNAMICS",
+            &[ValueSpec::new("N", Kind::Integer, "elements of the whole line, at least one a segment; 0: none")
+                .within(0.0, 100_000.0)],
+            "makes a line of B_CAT, H_CAT or CATENARY move by itself, as a ROD does",
+        )
+        .owner(Owner::Ours)
+        .many(),
         OptionSpec::new("-ACTIVE", &[], "the connector acts").many(),
         OptionSpec::new("-INACTIVE", &[], "the connector does not act").many(),
     ],
@@ -65,7 +73,9 @@ static SPEC: CommandSpec = CommandSpec {
              its class and the other connectors of the class keep theirs. -A_HORIZONTAL and -A_TENSION keep the direction from \
              the fairlead and the depth. An anchor put at X Y Z has the depth -Z whatever -DEPANCHOR and &ENV say; under a B_CAT \
              the bottom goes with it. What solves does so exactly, also for a class whose forces come from its table, and \
-             passes over connectors that are inactive.",
+             passes over connectors that are inactive. \
+             -DYNAMICS is the cable dynamics of AQWA: weight, drag, added mass and bottom act all along the line, in statics and in time; \
+             its forces then follow from -CD, -CA and the diameters of its class.",
     example: "MEDIT\n&DESCRIBE BODY TBRG\n*MLA 400 50 20\n*MLB 400 -50 20\n\
               ~WIRE b_cat 4.19 EXACT -DEP 500 -LEN 4000 -BUOY 0 -WTPL .0125\n\
               CONNECTOR A -ANC 45 20 ~WIRE *MLA\nCONNECTOR B -ANC -45 20 ~WIRE *MLB\nEND\n\
@@ -197,6 +207,15 @@ fn change(model: &Model, made: &mut Connector, given: &Given, said: &mut Said) -
         made.active = option == "-ACTIVE";
         return Ok(if made.active { "active" } else { "inactive" }.into());
     }
+    if option == "-DYNAMICS" {
+        let elements = given.values.first().and_then(|v| v.integer()).and_then(|n| usize::try_from(n).ok());
+        made.dynamics = elements.filter(|n| *n > 0);
+        // what makes no such line is refused here, not in a run
+        model.element(made)?;
+        return Ok(made
+            .dynamics
+            .map_or("without dynamics of its own".into(), |n| format!("moves by itself, in {n} elements")));
+    }
     let aim = aim(given);
     if aim.is_some() && !made.active {
         return Ok(format!("inactive, passed over by {option}"));
@@ -247,7 +266,7 @@ fn change(model: &Model, made: &mut Connector, given: &Given, said: &mut Said) -
         }
         _ => {}
     }
-    if adjustable(model, made) && matches!(option, "-LENGTH" | "-L_DELTA") {
+    if adjustable(model, made) && matches!(option, "-LENGTH" | "-L_DELTA" | "-ANCHOR") {
         return Ok(told(made, given, old, said));
     }
     let found = line(model, made)?;

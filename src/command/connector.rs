@@ -133,6 +133,7 @@ pub fn build_connector(job: &mut Job, args: &Args) -> Outcome<()> {
         first_length: None,
         dynamics: None,
         longest: None,
+        freed: false,
         active: true,
         span: args.span,
     };

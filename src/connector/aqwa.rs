@@ -5,6 +5,7 @@
 
 use super::catenary::{Floor, Joint, Law, Line, Segment};
 use super::mooring::{Mooring, line_error, no_other_end};
+use super::moving::{Description, JointMass, MovingLine, Part, Seabed, Strength};
 use super::options::aqwa;
 use super::{ClassKind, checks};
 use crate::language::args::{Args, Given};
@@ -13,9 +14,12 @@ use crate::language::select::Owner;
 use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
-use crate::model::{ClassError, ClassRecord, Connector, ConnectorClass, LineModel, Placement, Surroundings};
+use crate::model::{
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, LineModel, Placement, Surroundings,
+};
+use crate::rod::{self, Axial};
 use crate::table::{Cell, Digits, Table};
-use std::f64::consts::FRAC_PI_4;
+use std::f64::consts::{FRAC_PI_4, PI};
 use std::sync::Arc;
 
 /// The class type CATENARY: an AQWA catenary section with the joint at its end.
@@ -114,6 +118,8 @@ struct CatenarySection {
     cx: f64,
     ei: f64,
     joint: Option<(&'static str, f64)>,
+    /// Structural mass, mass of water displaced, added mass (kg), drag coefficient times area (m2).
+    joint_mass: Option<[f64; 4]>,
     joint_span: Span,
 }
 
@@ -177,6 +183,10 @@ fn build_catenary(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
             cx: option("-CX", 0.025),
             ei: option("-EI", 0.0),
             joint,
+            joint_mass: args
+                .option("-BUOY")
+                .or(args.option("-CLUMP"))
+                .map(|g| [0, 1, 2, 3].map(|i| g.number(i).unwrap_or(0.0))),
             joint_span,
         });
     }
@@ -290,6 +300,50 @@ impl ConnectorClass for CatenaryClass {
                     .into(),
             ],
         }))
+    }
+
+    /// Cable dynamics: `rho Ca A` of added mass, `0.5 rho Cd V2 De` across and `0.5 rho Cx V2 De` along, EI, and no maximum tension
+    /// (seed 002, 5.8.3.1).
+    fn moving(&self, connection: &Connection, elements: usize) -> Result<Box<dyn Element>, ClassError> {
+        let density = connection.surroundings.water_density;
+        if let Some(dry) = self.sections.iter().find(|s| s.area == 0.0) {
+            return Err(ClassError::new("cable dynamics needs a section with an area").at(dry.span).help("give AREA"));
+        }
+        let whole: f64 = self.sections.iter().map(|s| s.length).sum();
+        let part = |s: &CatenarySection| Part {
+            segment: rod::Segment {
+                axial: s
+                    .coefficients
+                    .map_or(Axial::Linear(s.ea), |[k1, k2, k3]| Axial::Polynomial(vec![s.ea, k1, k2, k3])),
+                bending: s.ei,
+                compression: s.ei > 0.0,
+                displaced: s.area,
+                drag_diameter: s.diameter,
+                drag_normal: s.cd,
+                drag_tangential: s.cx / PI,
+                added_area: s.area,
+                added_normal: s.ca,
+                ..rod::Segment::line(
+                    s.length,
+                    ((elements as f64 * s.length / whole).round() as usize).max(1),
+                    s.mass,
+                    s.ea,
+                    (s.area / FRAC_PI_4).sqrt(),
+                )
+            },
+            strength: Strength { breaking: s.largest, yields: None },
+            joint: s.joint_mass.map(|[mass, displaced, added, drag]| JointMass {
+                mass,
+                volume: displaced / density,
+                added: if displaced > 0.0 { added / displaced } else { added },
+                drag,
+                pendant: 0.0,
+            }),
+        };
+        let seabed = Seabed { depth: self.depth, ..Seabed::default() };
+        let parts = self.sections.iter().map(part).collect();
+        let made = Description { kind: "CATENARY", parts, seabed, holds: [None, None], notes: Vec::new() };
+        Ok(Box::new(MovingLine::made(made, connection)?))
     }
 
     fn first_length(&self) -> Option<f64> {

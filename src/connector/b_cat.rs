@@ -7,6 +7,7 @@ use super::catenary::{Floor, Law, Line, LineError};
 use super::devices::Devices;
 use super::line_element::LineElement;
 use super::mooring::{Mooring, end_springs, line_error, parts, with_series};
+use super::moving::{self as m, Flexure, MovingLine, Seabed};
 use super::section::{LineSection, properties};
 use super::{ClassKind, checks, options as o};
 use crate::language::diagnostic::{Diagnostic, Outcome};
@@ -58,8 +59,12 @@ static SPEC: CommandSpec = CommandSpec {
         o::AMASDIAMETER,
         o::FRICTION,
         o::SLOPE,
+        m::CD,
+        m::CA,
+        m::AX_DAMPING,
+        m::SEABED,
     ],
-    detail: "One record a segment, fairlead first, all with the same class name. A negative -CLUMP is a spring buoy: \
+    detail: "-CD, -CA, -AX_DAMPING and -SEABED act with the line's own dynamics alone: &CONNECTOR -DYNAMICS. One record a segment, fairlead first, all with the same class name. A negative -CLUMP is a spring buoy: \
              the joint stays CLEN below the surface until the pull reaches the buoy's displacement, then sinks; the \
              segments above it do not see the bottom. -TYPE NAME D takes a chain or rope of the library (&STATUS LINE_TYPES) \
              instead of OD. Per segment: OD, -TYPE, -LEN, material, diameters, -CLUMP, -B_TENSION, -C_SN. Per line, on any \
@@ -80,6 +85,8 @@ const PER_LINE: [&str; 9] =
 
 #[derive(Debug)]
 struct Catenary {
+    flexures: Vec<Flexure>,
+    seabed: Seabed,
     sections: Vec<LineSection>,
     places: Vec<Span>,
     exact: bool,
@@ -97,7 +104,10 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
         checks::once(records, name)?;
     }
     let number = |name: &str| checks::once(records, name).map(|g| g.and_then(|g| g.number(0)));
+    let flexures = records.iter().zip(&sections).map(|(r, s)| Flexure::read(r, s)).collect::<Outcome<Vec<_>>>()?;
     Ok(Arc::new(Catenary {
+        flexures,
+        seabed: m::seabed(records)?,
         sections,
         places: records.iter().map(|r| r.args.option("-CLUMP").map_or(r.args.span, |c| c.span)).collect(),
         exact: records.iter().any(|r| r.args.word(1) == Some("EXACT")),
@@ -224,6 +234,13 @@ impl ConnectorClass for Catenary {
         let mut line = self.made(place, surroundings, springs)?;
         line.notes.extend(self.devices.notes());
         Ok(Box::new(line))
+    }
+
+    fn moving(&self, connection: &Connection, elements: usize) -> Result<Box<dyn Element>, ClassError> {
+        let plain = self.devices.is_none() && self.springs.iter().all(Option::is_none);
+        let made = (self.sections.as_slice(), self.flexures.as_slice());
+        let made = m::chain(("B_CAT", plain), made, self.seabed, elements, connection.surroundings)?;
+        Ok(Box::new(MovingLine::made(made, connection)?))
     }
 
     fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {

@@ -8,6 +8,7 @@ use super::devices::Devices;
 use super::extension::Extended;
 use super::line_element::LineElement;
 use super::mooring::{Mooring, end_springs, line_error, no_other_end, parts, with_series};
+use super::moving::{self as m, Flexure, MovingLine, Seabed};
 use super::section::{LineSection, properties};
 use super::{ClassKind, checks, options as o};
 use crate::language::diagnostic::{Diagnostic, Outcome};
@@ -52,12 +53,16 @@ pub const LINE_OPTIONS: &[OptionSpec] = &[
     o::DRAGDIAMETER,
     o::WINDDIAMETER,
     o::AMASDIAMETER,
+    m::CD,
+    m::CA,
+    m::AX_DAMPING,
+    m::SEABED,
 ];
 
 static H_CAT_SPEC: CommandSpec = CommandSpec {
     data: &[o::LINE_OD, ValueSpec::new("FLAG", Kind::Choice(&["EXACT"]), "with its weight").or("weightless")],
     options: LINE_OPTIONS,
-    detail: "A hanging catenary: it knows neither bottom nor surface, and takes no buoys. Without EXACT it is weightless: \
+    detail: "-CD, -CA, -AX_DAMPING and -SEABED act with the line's own dynamics alone: &CONNECTOR -DYNAMICS. A hanging catenary: it knows neither bottom nor surface, and takes no buoys. Without EXACT it is weightless: \
              a spring along the chord that only pulls. -PISTON is a link of its position less LD between the first end and the line, in the direction of the tension; it has no weight. \
              MAX stands as near to LD as TMAX allows; MINMAX stays where it is between TMIN and TMAX. While it can follow, the tension \
              stays at the limit without stiffness along it; beyond VLONG, VSHORT or the stroke (0 to LT) it departs. At rest the piston \
@@ -72,6 +77,8 @@ const PER_LINE: [&str; 6] = ["-SEND", "-X_PY", "-X_DAMPING", "-CONVOLUTION", "-P
 
 #[derive(Debug)]
 struct Hanging {
+    flexures: Vec<Flexure>,
+    seabed: Seabed,
     sections: Vec<LineSection>,
     places: Vec<Span>,
     exact: bool,
@@ -101,8 +108,12 @@ pub fn check_records(records: &[ClassRecord], kind: &str) -> Outcome<()> {
 
 fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
     check_records(records, "H_CAT")?;
+    let sections = records.iter().map(|r| LineSection::read(r, "H_CAT", false)).collect::<Outcome<Vec<_>>>()?;
+    let flexures = records.iter().zip(&sections).map(|(r, s)| Flexure::read(r, s)).collect::<Outcome<Vec<_>>>()?;
     Ok(Arc::new(Hanging {
-        sections: records.iter().map(|r| LineSection::read(r, "H_CAT", false)).collect::<Outcome<Vec<_>>>()?,
+        flexures,
+        seabed: m::seabed(records)?,
+        sections,
         places: records.iter().map(|r| r.args.span).collect(),
         exact: records.iter().any(|r| r.args.word(1) == Some("EXACT")),
         springs: end_springs(records)?,
@@ -153,6 +164,13 @@ impl ConnectorClass for Hanging {
             return Ok(Box::new(Chord { line, springs, pushes: false }));
         }
         Ok(Box::new(line))
+    }
+
+    fn moving(&self, connection: &Connection, elements: usize) -> Result<Box<dyn Element>, ClassError> {
+        let plain = self.devices.is_none() && self.springs.iter().all(Option::is_none);
+        let made = (self.sections.as_slice(), self.flexures.as_slice());
+        let made = m::chain(("H_CAT", plain), made, self.seabed, elements, connection.surroundings)?;
+        Ok(Box::new(MovingLine::made(made, connection)?))
     }
 
     fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {

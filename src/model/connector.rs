@@ -56,6 +56,8 @@ pub struct Connector {
     pub dynamics: Option<usize>,
     /// The longest its first segment becomes in a run (m), where a winch pays it out.
     pub longest: Option<f64>,
+    /// Whether its first end is let go, of a line that moves by itself: it falls, held at its second end.
+    pub freed: bool,
     /// Whether it acts.
     pub active: bool,
     /// Where it was defined.

@@ -45,6 +45,11 @@ impl System {
         Ok(LinkEnds { name: found.name.clone(), ends: bodies(&connected(model, found)), nodes })
     }
 
+    /// Whether a connector of this name moves by itself.
+    pub(super) fn moves(&self, name: &str) -> bool {
+        self.links.iter().any(|l| l.element.moves() && l.name.eq_ignore_ascii_case(name))
+    }
+
     /// A connector acts no more.
     pub fn leave_out(&mut self, name: &str) {
         let Some(at) = self.links.iter().position(|l| l.name.eq_ignore_ascii_case(name)) else { return };

@@ -34,6 +34,8 @@ struct Base {
     ground: Ground,
     /// Direction in which each end is held, in the axes of what holds it, and the stiffness of that.
     holds: [Option<(Vector3<f64>, Option<f64>)>; 2],
+    /// Whether the first end is let go.
+    freed: bool,
 }
 
 /// A line between two ends.
@@ -114,7 +116,18 @@ impl MovingLine {
         let holds = holds(&description, connection)?;
         let ground = ground(&description.seabed, rod.segments(), around);
         let layout = Layout::new(capacity, per_node * (capacity + 2));
-        let base = Base { description, rod, attached, part: cut.part, ambient, plane, flat, ground, holds };
+        let base = Base {
+            description,
+            rod,
+            attached,
+            part: cut.part,
+            ambient,
+            plane,
+            flat,
+            ground,
+            holds,
+            freed: connection.connector.freed,
+        };
         Ok(MovingLine { base: Arc::new(base), layout, first, nominal })
     }
 
@@ -158,7 +171,8 @@ impl MovingLine {
             }
         };
         let [a, b] = &self.base.holds;
-        Ok([made(first, a), made(second, b)])
+        let first = if self.base.freed { rod::End::FREE } else { made(first, a) };
+        Ok([first, made(second, b)])
     }
 
     /// Where it hangs at rest between ends.

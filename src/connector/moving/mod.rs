@@ -14,6 +14,6 @@ mod start;
 pub use describe::{Description, Hold, JointMass, Part, Seabed, Strength};
 pub use element::MovingLine;
 pub use sections::{
-    AQWA_CA, AQWA_CD, AQWA_CX, AX_DAMPING, CA, CD, CLAMP, EA, EI, Flexure, SEABED, STRETCH, cut, description, holds,
+    AQWA_CA, AQWA_CD, AQWA_CX, AX_DAMPING, CA, CD, CLAMP, EA, EI, Flexure, SEABED, STRETCH, chain, description, holds,
     seabed,
 };

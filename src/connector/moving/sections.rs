@@ -8,7 +8,7 @@ use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
 use crate::language::spec::{Kind, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
-use crate::model::{ClassRecord, Surroundings};
+use crate::model::{ClassError, ClassRecord, Surroundings};
 use crate::rod::{Axial, Segment, Tube};
 use std::f64::consts::{FRAC_PI_4, PI};
 
@@ -280,11 +280,26 @@ pub fn holds(records: &[ClassRecord]) -> Outcome<[Option<Hold>; 2]> {
     Ok(made)
 }
 
-/// A line of sections without bending of their own, cut into about so many elements.
-pub fn cut(elements: usize, lengths: &[f64], refined: &[usize]) -> Vec<usize> {
-    let whole: f64 = lengths.iter().sum();
-    let share = |l: &f64| ((elements as f64 * l / whole).round() as usize).max(1);
-    lengths.iter().zip(refined).map(|(l, n)| share(l).max(*n)).collect()
+/// The line of sections without bending, cut into about so many elements by their lengths.
+///
+/// # Errors
+/// Springs or devices at its ends, which a line that moves by itself does not have.
+pub fn chain(
+    (kind, plain): (&'static str, bool),
+    (sections, flexures): (&[LineSection], &[Flexure]),
+    seabed: Seabed,
+    elements: usize,
+    around: &Surroundings,
+) -> Result<Description, ClassError> {
+    if !plain {
+        let text = "springs, dashpots, convolutions and pistons of a class do not go with dynamics of the line";
+        return Err(ClassError::new(text).help("take -DYNAMICS 0, or a class without them"));
+    }
+    let whole: f64 = sections.iter().map(|s| s.length).sum();
+    let share = |s: &LineSection| ((elements as f64 * s.length / whole).round() as usize).max(1);
+    let count = |s: &LineSection| share(s).max(usize::try_from(s.refine).unwrap_or(1));
+    let parts = sections.iter().zip(flexures).map(|(s, f)| f.part(s, count(s), around)).collect();
+    Ok(Description { kind, parts, seabed, holds: [None, None], notes: Vec::new() })
 }
 
 /// A line of these parts.

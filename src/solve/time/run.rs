@@ -83,7 +83,8 @@ impl Run {
     /// # Errors
     /// The body or connector that makes no part of it; an action on what is not there.
     pub fn new(model: &Model, settings: Settings, actions: Vec<Action>) -> Result<Self, SolveError> {
-        let (origin, model) = (model.clone(), model.clone());
+        let (origin, mut model) = (model.clone(), model.clone());
+        Run::foresee_winches(&mut model, &actions, settings.observed);
         let sea = Sea::of(&model, &model.environment).map_err(SolveError::new)?.map(Arc::new);
         let system = System::under_way(&model, sea.as_ref())?;
         let mut links = system.link_ends();

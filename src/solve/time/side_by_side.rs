@@ -1,0 +1,38 @@
+//! Lines that move by themselves, evaluated side by side: each by itself, so that the number of threads changes nothing.
+
+use crate::model::{ClassError, End, Guess, Response, Situation};
+use crate::solve::system::System;
+use rayon::iter::{IntoParallelRefMutIterator, ParallelIterator};
+
+/// One of them, with what its evaluation needs and finds.
+#[derive(Default)]
+pub(super) struct Alone {
+    /// Its number among the connectors.
+    pub link: usize,
+    pub ends: Vec<End>,
+    pub trial: Vec<f64>,
+    pub guess: Guess,
+    pub response: Response,
+    pub failed: Option<ClassError>,
+}
+
+impl std::fmt::Debug for Alone {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Alone").field("link", &self.link).field("ends", &self.ends).finish_non_exhaustive()
+    }
+}
+
+/// Evaluates them at the end of a step; `step` as of [`Situation`].
+pub(super) fn evaluate(system: &System, lines: &mut [Alone], step: Option<crate::model::TimeStep>) {
+    let one = |line: &mut Alone| {
+        let Some(link) = system.links.get(line.link) else { return };
+        let at = Situation { ends: &line.ends, step, surroundings: &system.surroundings };
+        let committed = system.states.get(link.states.clone()).unwrap_or_default();
+        let made = link.element.evaluate(&at, committed, &mut line.trial, &mut line.guess, &mut line.response);
+        line.failed = made.err();
+    };
+    match lines {
+        [single] => one(single),
+        many => many.par_iter_mut().for_each(one),
+    }
+}
