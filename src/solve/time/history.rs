@@ -238,7 +238,7 @@ fn nodes_of(
     (time, motions): (f64, &[Motion]),
     nodes: &mut Vec<LineNode>,
 ) -> Result<(), ClassError> {
-    let ends: Vec<_> = link.ends.iter().map(|end| end_of(end, motions)).collect();
+    let ends: Vec<_> = link.ends.iter().map(|end| end_of(end, motions, true).0).collect();
     let step = Some(TimeStep { time, dt: 0.0 });
     let at = Situation { ends: &ends, step, surroundings: &system.surroundings };
     link.element.along(&at, system.states.get(link.states.clone()).unwrap_or_default(), nodes)

@@ -36,7 +36,7 @@ impl Code {
 /// A segment as it is checked.
 #[derive(Debug)]
 enum Checked {
-    Lrfd(Box<Resistance>, Tube),
+    Lrfd(Box<Resistance>),
     WorkingStress(Tube, DesignCase),
     Break(f64),
 }
@@ -47,7 +47,7 @@ impl Checked {
         let thinner = |tube: Tube, corroded: f64| Tube { wall: tube.wall - corroded, ..tube };
         Ok(match (code, tube) {
             (Code::Lrfd(factors, corroded), Some(tube)) => {
-                Checked::Lrfd(Box::new(Resistance::of(thinner(tube, *corroded), *factors)?), tube)
+                Checked::Lrfd(Box::new(Resistance::of(thinner(tube, *corroded), *factors)?))
             }
             (Code::WorkingStress(case, corroded), Some(tube)) => {
                 let thinner = thinner(tube, *corroded);
@@ -106,7 +106,7 @@ pub fn check(line: &Line, code: &Code, events: &[Event]) -> Result<Table, SolveE
             let Some(how) = checked.get(segment) else { continue };
             let acting = acting(&node, section, outside(node.position[2]));
             let used = match how {
-                Checked::Lrfd(resistance, _) => {
+                Checked::Lrfd(resistance) => {
                     let at_rest = rest.as_ref().unwrap_or(&node);
                     resistance.used_now(design(at_rest), design(&node), [acting.inside, acting.outside])
                 }
