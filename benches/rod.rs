@@ -49,7 +49,7 @@ fn run(elements: usize, step: f64, tolerance: f64) -> (Vec<f64>, f64, usize) {
     let fluid = UniformFluid::still(1025.0);
     let bottom = PlaneBottom { height: -300.0, slope: [0.0, 0.0] };
     let ground = Ground { damping: 3e5, ..Ground::elastic(3e6) };
-    let world = World { fluid: &fluid, bottom: Some((&bottom, ground)), gravity: 9.80665, forces: &[] };
+    let world = World { bottom: Some((&bottom, ground)), ..World::new(&fluid, 9.80665) };
     let (a, b) = (Vector3::new(-800.0, 0.0, -300.0), Vector3::new(0.0, 0.0, -10.0));
     let mut state = State::along(&rod, &[a, Vector3::new(-350.0, 0.0, -300.0), b]).unwrap();
     let mut solver = Solver::new(&rod, Settings { tolerance, ..Settings::default() });

@@ -33,12 +33,8 @@ fn rest(case: &Case, elements: usize, sinks: f64) -> ([f64; 2], usize) {
     let fluid = UniformFluid(Fluid { surface: 1e5, ..UniformFluid::still(WATER).0 });
     let bottom = PlaneBottom { height: 0.0, slope: [0.0, 0.0] };
     let ground = Ground::elastic(weight.abs() / (sinks * case.length));
-    let world = World {
-        fluid: &fluid,
-        bottom: case.grounded.then_some((&bottom as &dyn Bottom, ground)),
-        gravity: GRAVITY,
-        forces: &[],
-    };
+    let bottom = case.grounded.then_some((&bottom as &dyn Bottom, ground));
+    let world = World { bottom, ..World::new(&fluid, GRAVITY) };
     let (a, b) = (Vector3::zeros(), Vector3::new(case.x, 0.0, case.z));
     let foot = Vector3::new(0.999 * case.x, 0.0, 0.01 * case.z);
     let start = if case.grounded { vec![a, foot, b] } else { vec![a, b] };

@@ -350,9 +350,7 @@ fn forces(
 ) -> Result<String, ClassError> {
     let Some([_, _, anchor]) = model.placement(made).other else { return Ok(String::new()) };
     let aim = aim(given);
-    let class = model.classes.get(&Model::key(&made.class));
-    if let ("-ANCHOR", Some(depth)) =
-        (given.spec.name, class.and_then(|c| c.object.anchor_depth(&model.surroundings())))
+    if let ("-ANCHOR", Some(depth)) = (given.spec.name, model.anchor_depth(made))
         && (depth + anchor).abs() > 1e-3 * depth
     {
         let (own, other) = (said.measured(-anchor, Dim::Length), said.measured(depth, Dim::Length));

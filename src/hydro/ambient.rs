@@ -1,8 +1,9 @@
-//! What a line feels all along itself: waves, current, wind and the bottom.
+//! What a line feels all along itself: waves, current, wind, marine growth, the bottom, and what a pipe holds.
 
+use super::growth::Growth;
 use super::sea::Sea;
 use super::steady::{Medium, Steady};
-use crate::model::{Ambient, ClassError, Flow, Model};
+use crate::model::{Ambient, Bathymetry, ClassError, Contents, Flow, Model};
 use nalgebra::Vector3;
 use std::sync::Arc;
 
@@ -11,16 +12,38 @@ use std::sync::Arc;
 struct Around {
     steady: Steady,
     sea: Option<Arc<Sea>>,
+    growth: Option<Growth>,
+    /// The bottom, where it is not flat.
+    bottom: Option<Arc<Bathymetry>>,
+    contents: Option<Contents>,
 }
 
 /// Water, wind and bottom of the environment in force, with the waves of a sea.
 ///
 /// # Errors
-/// An environment that cannot be computed.
+/// An environment that cannot be computed, or names a bottom or contents that are not there.
 pub fn ambient(model: &Model, sea: Option<&Arc<Sea>>) -> Result<Arc<dyn Ambient>, ClassError> {
     let env = &model.environment;
-    let steady = Steady::streams(model, env)?.under_way(model, env)?;
-    Ok(Arc::new(Around { steady, sea: sea.cloned() }))
+    let mut steady = Steady::streams(model, env)?.under_way(model, env)?;
+    let bottom = model.bathymetry_in(env).cloned();
+    if let (Some(named), None) = (&env.bathymetry, &bottom) {
+        return Err(ClassError::new(format!("there is no bathymetry {}", named.kind)).at(named.span));
+    }
+    if bottom.is_some() {
+        // the current goes on to the bottom, where that lies deeper than -DEPTH
+        steady.current = steady.current.bottomless();
+    }
+    let contents = match &env.filling {
+        None => None,
+        Some(named) => match model.fillings.get(&Model::key(&named.kind)) {
+            Some(filling) => Some(filling.contents),
+            None => {
+                let text = format!("there is no set of T_PRESSURE data {}", named.kind);
+                return Err(ClassError::new(text).at(named.span));
+            }
+        },
+    };
+    Ok(Arc::new(Around { steady, sea: sea.cloned(), growth: Growth::of(model, env)?, bottom, contents }))
 }
 
 impl Ambient for Around {
@@ -33,11 +56,9 @@ impl Ambient for Around {
             if !self.steady.still(Medium::Water) {
                 out.velocity = streams.velocity(Medium::Water, place.z).0;
             }
-            if !self.steady.still(Medium::Air) {
-                out.wind = streams.velocity(Medium::Air, place.z).0;
-            }
+            out.wind = streams.velocity(Medium::Air, place.z).0;
             if let Some(sea) = &sea {
-                let found = sea.kinematics(*place);
+                let found = sea.wetted(*place);
                 out.velocity += found.velocity;
                 out.acceleration += found.acceleration;
                 out.surface += found.elevation;
@@ -54,7 +75,21 @@ impl Ambient for Around {
         }
     }
 
-    fn bottom(&self, _: f64, _: f64) -> Option<(f64, [f64; 2])> {
-        self.steady.around.depth.map(|depth| (-depth, [0.0; 2]))
+    fn bottom(&self, x: f64, y: f64) -> Option<(f64, [f64; 2])> {
+        match &self.bottom {
+            Some(grid) => Some(grid.at(x, y)),
+            None => self.steady.around.depth.map(|depth| (-depth, [0.0; 2])),
+        }
+    }
+
+    fn contents(&self) -> Option<Contents> {
+        self.contents
+    }
+
+    fn growth(&self, z: f64) -> (f64, f64) {
+        self.growth.as_ref().map_or((0.0, 0.0), |growth| (0.5 * growth.added(z), growth.density))
     }
 }
+
+#[cfg(test)]
+mod tests;

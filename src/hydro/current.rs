@@ -51,6 +51,11 @@ impl CurrentField {
         CurrentField { parts: vec![Layered::new(from, vec![(0.0, speed)])], bottom: None }
     }
 
+    /// The same down to any depth: for a bottom that is not everywhere at one depth.
+    pub fn bottomless(self) -> Self {
+        CurrentField { bottom: None, ..self }
+    }
+
     /// Whether there is none.
     pub fn is_none(&self) -> bool {
         self.parts.is_empty()

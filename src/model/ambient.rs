@@ -1,9 +1,13 @@
 //! What surrounds a line that feels water, wind and bottom all along itself.
 
+use crate::language::source::Span;
 use nalgebra::Vector3;
 use std::fmt::Debug;
 
 /// Water and air at a place and a time.
+///
+/// There is water where the place lies below `surface`, and air above it. Above the surface velocity and acceleration are those of the water
+/// at the surface: what stands half in the water feels them, without a jump.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Flow {
     /// Velocity of the water (m/s, global).
@@ -34,6 +38,17 @@ pub struct Contents {
     pub at: f64,
     /// Density (kg/m3).
     pub density: f64,
+}
+
+/// Contents kept under a name (`T_PRESSURE`).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Filling {
+    /// Its name as written.
+    pub name: String,
+    /// What it is.
+    pub contents: Contents,
+    /// Where it was defined.
+    pub span: Span,
 }
 
 /// Water, wind and bottom around a line, at any place and time.

@@ -167,6 +167,10 @@ pub struct Environment {
     pub current_history: Option<Formula>,
     /// Curve of marine growth (`-M_GROWTH`), with the density of the growth (kg/m3).
     pub growth: Option<Formula>,
+    /// Bottom over a grid (`-BATHYMETRY`), by its name.
+    pub bathymetry: Option<Formula>,
+    /// What pipes hold (`-T_PRESSURE`), by its name.
+    pub filling: Option<Formula>,
     /// Water density (kg/m3).
     pub water_density: Option<f64>,
     /// Depth (m).

@@ -6,6 +6,7 @@
 mod along;
 mod ambient;
 mod assembly;
+pub mod bathymetry;
 mod body;
 mod class;
 mod connector;
@@ -26,8 +27,9 @@ mod selector;
 mod tether;
 
 pub use along::{LineNode, LineStress};
-pub use ambient::{Ambient, Contents, Flow};
+pub use ambient::{Ambient, Contents, Filling, Flow};
 pub use assembly::{Assemblies, Assembly, AssemblyKind, LaidPipe, PIPE, PipeLayout};
+pub use bathymetry::Bathymetry;
 pub use body::{Body, GROUND, Junction, Mass, Part, Point, Weight};
 pub use class::{Class, ClassError, ClassRecord, ConnectorClass, WallMaterial};
 pub use connector::{Anchor, Connector, Tug};
@@ -76,6 +78,10 @@ pub struct Model {
     pub assemblies: Assemblies,
     /// Curves.
     pub curves: IndexMap<String, Curve>,
+    /// Bottoms over a grid.
+    pub bathymetries: IndexMap<String, Arc<Bathymetry>>,
+    /// What pipes hold, under a name.
+    pub fillings: IndexMap<String, Filling>,
     /// Fatigue curves and what `&REP_SELECT` chose of them.
     pub fatigue: FatigueSelection,
     /// Environments kept under a name.
@@ -114,6 +120,22 @@ impl Model {
             depth: env.depth.or(self.defaults.depth),
             tide: env.tide.unwrap_or(0.0),
         }
+    }
+
+    /// The bottom over a grid of an environment; none where it is flat.
+    pub fn bathymetry_in(&self, env: &Environment) -> Option<&Arc<Bathymetry>> {
+        env.bathymetry.as_ref().and_then(|named| self.bathymetries.get(&Model::key(&named.kind)))
+    }
+
+    /// Depth below z = 0 at which a connector has its anchor (m) where nothing else is said: that of its class, else of the bottom there.
+    pub fn anchor_depth(&self, connector: &Connector) -> Option<f64> {
+        let class = self.classes.get(&Model::key(&connector.class))?;
+        let mut around = self.surroundings();
+        if let (Some(anchor), Some(bottom)) = (connector.anchor, self.bathymetry_in(&self.environment)) {
+            let [x, y] = anchor.at;
+            around.depth = Some(-bottom.at(x, y).0);
+        }
+        class.object.anchor_depth(&around)
     }
 
     /// Global coordinates of a point (m), in the present configuration of its body.
@@ -191,7 +213,7 @@ impl Model {
     /// The ends of a connector, in the present configuration.
     pub fn placement(&self, connector: &Connector) -> Placement {
         let class = self.classes.get(&Model::key(&connector.class));
-        let depth = class.and_then(|c| c.object.anchor_depth(&self.surroundings()));
+        let depth = self.anchor_depth(connector);
         let series =
             class.and_then(|c| c.object.series_curve()).and_then(|(name, _)| self.curves.get(&Model::key(name)));
         let on_body = |name: &String| self.points.get(&Model::key(name)).is_some_and(|p| self.body_of(p).is_some());

@@ -2,7 +2,7 @@
 
 use super::bend::hinge;
 use super::hinges::spatial_hinges;
-use super::immersed::{half_load, wet_share};
+use super::immersed::{entry, half_load, slam_load, wet_share, wind_load};
 use super::mesh::{Element, Rod};
 use super::on_nodes::on_nodes;
 use super::surroundings::World;
@@ -53,7 +53,7 @@ pub(super) fn assemble<const TANGENT: bool, const W: usize, const H: usize, cons
         let length = d.norm().max(1e-9 * element.rest);
         let edge = Edge { i, t: d / length, length, inverse: 1.0 / length };
         let mut share = axial(rod, element, trial, weights, &edge, gravity);
-        immersed(element, trial, weights, &edge, gravity, &mut share);
+        immersed(element, trial, weights, &edge, world, &mut share);
         system.push(i, &share.fa);
         system.push(i + 1, &share.fb);
         system.block::<TANGENT>(i, i, &share.aa);
@@ -141,16 +141,17 @@ fn axial(
     share
 }
 
-/// The fluid on each half.
+/// The water and the wind on each half.
 #[inline(always)]
 fn immersed(
     element: &Element,
     trial: &Trial,
-    Weights { k, c, m }: Weights,
+    weights: Weights,
     edge: &Edge,
-    gravity: f64,
+    World { gravity, slam, .. }: &World,
     sum: &mut Share,
 ) {
+    let Weights { k, c, m } = weights;
     let Edge { i, t, inverse, .. } = edge;
     let depth = |node: usize| trial.fluid[node].surface - trial.x[node].z;
     let (sa, sb) = (depth(*i), depth(i + 1));
@@ -159,31 +160,75 @@ fn immersed(
         let (node, own) = if second { (i + 1, sb) } else { (*i, sa) };
         let fluid = &trial.fluid[node];
         let (share, by_own, by_middle) = wet_share(own, middle, element.diameter);
-        if (share <= 0.0 && by_own == 0.0) || fluid.density <= 0.0 {
-            continue;
+        if (share > 0.0 || by_own != 0.0) && fluid.density > 0.0 {
+            let load = half_load(element, t, fluid, &trial.v[node], &trial.a[node], *gravity);
+            let turned = (load.by_direction - (load.by_direction * t) * t.transpose()) * (k * share * inverse);
+            let moved = load.by_velocity * (c * share) + load.by_acceleration * (m * share);
+            sum.load(second, &(load.force * share), &turned, &moved);
+            if by_own != 0.0 || by_middle != 0.0 {
+                // depth below the surface falls as a node rises
+                let (to_own, to_other) = (-(by_own + 0.5 * by_middle), -0.5 * by_middle);
+                sum.lift(second, &load.force, [k * to_own, k * to_other]);
+                if *slam && !trial.still {
+                    slammed(element, trial, weights, edge, [own, middle], second, sum);
+                }
+            }
         }
-        let load = half_load(element, t, fluid, &trial.v[node], &trial.a[node], gravity);
-        let turned = (load.by_direction - (load.by_direction * t) * t.transpose()) * (k * share * inverse);
-        let moved = load.by_velocity * (c * share) + load.by_acceleration * (m * share);
+        if share < 1.0 && fluid.air_density * element.wind > 0.0 {
+            let load = wind_load(element, t, fluid, &trial.v[node]);
+            let dry = 1.0 - share;
+            let turned = (load.by_direction - (load.by_direction * t) * t.transpose()) * (k * dry * inverse);
+            sum.load(second, &(load.force * dry), &turned, &(load.by_velocity * (c * dry)));
+            sum.lift(second, &load.force, [k * (by_own + 0.5 * by_middle), k * 0.5 * by_middle]);
+        }
+    }
+}
+
+/// The slam on a half whose own node and middle lie that far below the surface (m).
+fn slammed(
+    element: &Element,
+    trial: &Trial,
+    Weights { k, c, .. }: Weights,
+    edge: &Edge,
+    [own, middle]: [f64; 2],
+    second: bool,
+    sum: &mut Share,
+) {
+    let Edge { i, t, inverse, .. } = edge;
+    let (node, other) = if second { (i + 1, *i) } else { (*i, i + 1) };
+    let rising = [node, other].map(|n| trial.v[n].z - trial.fluid[n].velocity.z);
+    let Some(entry) = entry(own, middle, element.diameter, rising) else { return };
+    let (fluid, v) = (&trial.fluid[node], &trial.v[node]);
+    let load = slam_load(element, t, fluid, v, entry.rate);
+    let turned = (load.by_direction - (load.by_direction * t) * t.transpose()) * (k * inverse);
+    sum.load(second, &load.force, &turned, &(load.by_velocity * c));
+    let by_rate = load.force / entry.rate;
+    sum.lift(second, &by_rate, [0, 1].map(|n| k * entry.by_height[n] + c * entry.by_velocity[n]));
+}
+
+impl Share {
+    /// Adds a load of one half, with its tangent by the direction of the element and by the motion of its node.
+    #[inline(always)]
+    fn load(&mut self, second: bool, force: &Vector3<f64>, turned: &Matrix3<f64>, moved: &Matrix3<f64>) {
         if second {
-            sum.fb += load.force * share;
-            sum.ba -= turned;
-            sum.bb += turned + moved;
+            self.fb += force;
+            self.ba -= turned;
+            self.bb += turned + moved;
         } else {
-            sum.fa += load.force * share;
-            sum.aa += moved - turned;
-            sum.ab += turned;
+            self.fa += force;
+            self.aa += moved - turned;
+            self.ab += turned;
         }
-        if by_own != 0.0 || by_middle != 0.0 {
-            // depth below the surface falls as a node rises
-            let (to_own, to_other) = (-(by_own + 0.5 * by_middle), -0.5 * by_middle);
-            let (by_a, by_b) = if second { (to_other, to_own) } else { (to_own, to_other) };
-            let (first, other) = if second { (&mut sum.ba, &mut sum.bb) } else { (&mut sum.aa, &mut sum.ab) };
-            let mut third = first.column_mut(2);
-            third += load.force * (k * by_a);
-            let mut third = other.column_mut(2);
-            third += load.force * (k * by_b);
-        }
+    }
+
+    /// Adds the tangent of a load of one half that grows in proportion as its own node rises, and the other.
+    #[inline(always)]
+    fn lift(&mut self, second: bool, force: &Vector3<f64>, [by_own, by_other]: [f64; 2]) {
+        let (own, other) = if second { (&mut self.bb, &mut self.ba) } else { (&mut self.aa, &mut self.ab) };
+        let mut third = own.column_mut(2);
+        third += force * by_own;
+        let mut third = other.column_mut(2);
+        third += force * by_other;
     }
 }
 

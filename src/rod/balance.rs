@@ -3,9 +3,10 @@
 use super::bend::hinge;
 use super::contact::{contact, energy};
 use super::hinges::{HingeAt, hinge_sides};
-use super::immersed::{half_load, wet_share};
-use super::mesh::{Rod, State};
+use super::immersed::{entry, half_load, slam_load, wet_prism, wet_share, wind_load};
+use super::mesh::Rod;
 use super::spatial;
+use super::state::State;
 use super::step::{EndForces, Solver};
 use super::surroundings::World;
 use super::tension::{Stretch, Taken, tension};
@@ -36,7 +37,7 @@ impl Energy {
 pub struct Work {
     /// By the holders of end A and end B.
     pub ends: [f64; 2],
-    /// By the fluid: buoyancy, drag, inertia.
+    /// By the water and the air: buoyancy, drag, inertia, slam.
     pub fluid: f64,
     /// By internal damping; negative.
     pub damping: f64,
@@ -172,15 +173,25 @@ fn look(rod: &Rod, state: &State, world: &World, solver: &Solver, made: &EndForc
             found.power.fluid -= (rateless - law) * rate * element.rest;
         }
         let middle = 0.5 * (trial.fluid[i].surface - x[i].z + trial.fluid[i + 1].surface - x[i + 1].z);
-        for node in [i, i + 1] {
+        let rising = [i, i + 1].map(|node| v[node].z - trial.fluid[node].velocity.z);
+        for (node, rising) in [(i, rising), (i + 1, [rising[1], rising[0]])] {
             lump(&mut found, node, element.mass);
             let fluid = &trial.fluid[node];
-            let share = wet_share(fluid.surface - x[node].z, middle, element.diameter).0;
+            let own = fluid.surface - x[node].z;
+            let share = wet_share(own, middle, element.diameter).0;
+            let mut force = Vector3::zeros();
             if share > 0.0 && fluid.density > 0.0 {
-                let force = half_load(element, &t, fluid, &v[node], &a[node], world.gravity).force * -share;
-                found.power.fluid += force.dot(&v[node]);
-                found.force += force;
+                force -= half_load(element, &t, fluid, &v[node], &a[node], world.gravity).force * share;
+                if world.slam
+                    && share < 1.0
+                    && let Some(entry) = entry(own, middle, element.diameter, rising)
+                {
+                    force -= slam_load(element, &t, fluid, &v[node], entry.rate).force;
+                }
             }
+            force -= wind_load(element, &t, fluid, &v[node]).force * (1.0 - share);
+            found.power.fluid += force.dot(&v[node]);
+            found.force += force;
         }
         if element.bending > 0.0 {
             if rod.twists() {
@@ -212,7 +223,7 @@ fn look(rod: &Rod, state: &State, world: &World, solver: &Solver, made: &EndForc
         lump(&mut found, node, held.mass);
         let fluid = &trial.fluid[node];
         let depth = fluid.surface - x[node].z;
-        let share = wet_share(depth, depth, held.height).0;
+        let share = wet_prism(depth, held.height).0;
         let (u, q) = (v[node] - fluid.velocity, a[node] - fluid.acceleration);
         let water = fluid.density * held.volume;
         let mut force =

@@ -23,6 +23,11 @@ impl<const H: usize, const S: usize> Band<H, S> {
         self.rows.fill([0.0; S]);
     }
 
+    /// Sets the entries of some rows to zero.
+    pub fn clear_rows(&mut self, rows: std::ops::Range<usize>) {
+        self.rows[rows].fill([0.0; S]);
+    }
+
     /// Adds to an entry within the band.
     #[inline(always)]
     pub fn add(&mut self, row: usize, column: usize, value: f64) {
@@ -115,6 +120,33 @@ impl<const H: usize, const S: usize> Band<H, S> {
             right[i] = (right[i] - sum) * row[H];
         }
     }
+
+    /// Solves with the transpose of the matrix, for `N` right-hand sides at once, all zero before row `first`.
+    pub fn solve_transposed<const N: usize>(&self, right: &mut [[f64; N]], first: usize) {
+        let size = self.rows.len();
+        for k in first..size {
+            let row = &self.rows[k];
+            let (head, tail) = right.split_at_mut(k + 1);
+            let solved = &mut head[k];
+            for value in solved.iter_mut() {
+                *value *= row[H];
+            }
+            for (other, factor) in tail.iter_mut().zip(&row[H + 1..]) {
+                for (o, value) in other.iter_mut().zip(solved.iter()) {
+                    *o -= factor * value;
+                }
+            }
+        }
+        for i in (0..size).rev() {
+            let row = &self.rows[i];
+            let (head, tail) = right.split_at_mut(i);
+            for (other, factor) in head[i.saturating_sub(H)..].iter_mut().zip(&row[H - i.min(H)..H]) {
+                for (o, value) in other.iter_mut().zip(tail[0].iter()) {
+                    *o -= factor * value;
+                }
+            }
+        }
+    }
 }
 
 /// Takes the pivot row out of the row `d` below it.
@@ -148,6 +180,30 @@ mod tests {
         // diagonally dominant: rounding alone is left
         for (found, wanted) in b.iter().zip(&x) {
             assert!((found - wanted).abs() < 1e-13, "{found} {wanted}");
+        }
+    }
+
+    #[test]
+    fn the_transpose_gives_the_same_product_from_the_other_side() {
+        let (size, first) = (23, 9);
+        let mut band = Band::<5, 11>::new(size);
+        for i in 0..size {
+            for j in i.saturating_sub(5)..(i + 6).min(size) {
+                band.add(i, j, ((i * 7 + j * 3) % 11) as f64 - 5.0 + if i == j { 30.0 } else { 0.0 });
+            }
+        }
+        band.factor().unwrap();
+        let right: Vec<f64> = (0..size).map(|i| (i as f64).sin()).collect();
+        let asked: Vec<[f64; 2]> =
+            (0..size).map(|i| if i < first { [0.0; 2] } else { [(i as f64).cos(), 1.0] }).collect();
+        let (mut solved, mut across) = (right.clone(), asked.clone());
+        band.solve(&mut solved);
+        band.solve_transposed(&mut across, first);
+        for k in 0..2 {
+            // f' (A^-1 b) = (A^-T f)' b
+            let one: f64 = asked.iter().zip(&solved).map(|(f, x)| f[k] * x).sum();
+            let other: f64 = across.iter().zip(&right).map(|(y, b)| y[k] * b).sum();
+            assert!((one - other).abs() < 1e-14, "{one} {other}");
         }
     }
 

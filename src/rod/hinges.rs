@@ -1,10 +1,12 @@
 //! The hinges of a rod with torsion, and the moments at its ends.
 
+use super::bend::hinge;
 use super::ends::End;
-use super::mesh::{Rod, State};
+use super::mesh::Rod;
 use super::spatial::{Eight, Side, spatial, transport};
+use super::state::State;
 use super::trial::Trial;
-use nalgebra::{SMatrix, Vector3};
+use nalgebra::{Matrix3, Matrix4, Matrix4x3, SMatrix, Vector3, Vector4};
 
 /// One hinge: the elements on its two sides, its gradient and stiffness.
 pub(super) type SpatialHinge = ([Option<usize>; 2], Eight, SMatrix<f64, 8, 8>);
@@ -97,4 +99,56 @@ pub(super) fn end_moment(rod: &Rod, state: &State, end: &End, side: usize) -> Ve
     let axis = direction.cross(&t);
     let sine = axis.norm();
     if sine > 0.0 { axis * (stiffness * sine.atan2(direction.dot(&t)) / sine) } else { axis }
+}
+
+/// How a holder that turns and the rod beside it feel each other. The rod's unknowns are the edge beside the holder
+/// and its turn about itself.
+pub(super) struct Clamp {
+    /// Moment on the holder by the edge and its turn (N, N m).
+    pub moment_by_near: SMatrix<f64, 3, 4>,
+    /// What edge and turn need from outside by the rotation of the holder (N, N m).
+    pub near_by_rotation: Matrix4x3<f64>,
+    /// Moment on the holder by its own rotation (N m).
+    pub moment_by_rotation: Matrix3<f64>,
+}
+
+/// The clamp of an end at a trial; none where a holder that turns turns nothing.
+///
+/// A holder of direction e that turns by theta moves its direction by theta x e and turns about it by theta.e: these
+/// are J theta. With the gradient g of the hinge's energy by the two, the moment on the holder is -J'g.
+pub(super) fn clamp(rod: &Rod, trial: &Trial, side: usize) -> Option<Clamp> {
+    let last = rod.elements.len();
+    let i = if side == 0 { 0 } else { last - 1 };
+    let element = rod.elements.get(i).filter(|e| e.bending > 0.0)?;
+    let mut gradient = Vector4::zeros();
+    let [mut by_own, mut by_near, mut near_by] = [Matrix4::zeros(); 3];
+    let direction = if rod.twists() {
+        let at = if side == 0 { HingeAt::A } else { HingeAt::B };
+        let (k, kt, e, f) = hinge_sides(rod, &trial.x, &trial.director, &trial.ends, at)?;
+        let (slopes, matrix) = spatial(k, kt, &e, &f);
+        let (own, near) = if side == 0 { ([0, 1, 2, 6], [3, 4, 5, 7]) } else { ([3, 4, 5, 7], [0, 1, 2, 6]) };
+        let part = |rows: [usize; 4], columns: [usize; 4]| Matrix4::from_fn(|i, j| matrix[(rows[i], columns[j])]);
+        gradient = Vector4::from_fn(|i, _| slopes[own[i]]);
+        (by_own, by_near, near_by) = (part(own, own), part(own, near), part(near, own));
+        if side == 0 { e.direction } else { f.direction }
+    } else {
+        let (stiffness, direction) = trial.ends[side].hinge(element)?;
+        let d = trial.x[i + 1] - trial.x[i];
+        let made = hinge(stiffness, &direction, 1.0, &d.normalize(), d.norm());
+        gradient.fixed_rows_mut::<3>(0).copy_from(&made.gradient[0]);
+        by_own.fixed_view_mut::<3, 3>(0, 0).copy_from(&made.curvature[0]);
+        by_near.fixed_view_mut::<3, 3>(0, 0).copy_from(&made.curvature[1]);
+        near_by.fixed_view_mut::<3, 3>(0, 0).copy_from(&made.curvature[1].transpose());
+        direction
+    };
+    let cross = direction.cross_matrix();
+    let mut turn = Matrix4x3::zeros();
+    turn.fixed_view_mut::<3, 3>(0, 0).copy_from(&-cross);
+    turn.fixed_view_mut::<1, 3>(3, 0).copy_from(&direction.transpose());
+    let force = gradient.fixed_rows::<3>(0).into_owned();
+    Some(Clamp {
+        moment_by_near: -turn.transpose() * by_near,
+        near_by_rotation: near_by * turn,
+        moment_by_rotation: cross * gradient[3] - force.cross_matrix() * cross - turn.transpose() * by_own * turn,
+    })
 }

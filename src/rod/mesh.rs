@@ -1,4 +1,4 @@
-//! A rod cut into elements, and its state of motion.
+//! A rod cut into elements.
 
 use super::error::RodError;
 use super::section::{Attachment, Segment};
@@ -38,6 +38,8 @@ pub(super) struct Element {
     pub added: [f64; 2],
     /// Half its drag areas, normal and tangential, times a half (m2).
     pub drag: [f64; 2],
+    /// Half its drag area to the wind, times a half (m2).
+    pub wind: f64,
     /// Half its shadow on the bottom (m2).
     pub contact: f64,
     /// Height over which it comes out of the water (m).
@@ -66,6 +68,7 @@ impl Element {
                 0.5 * half * segment.drag_diameter * segment.drag_normal,
                 0.5 * half * std::f64::consts::PI * segment.drag_diameter * segment.drag_tangential,
             ],
+            wind: 0.5 * half * segment.wind_diameter * segment.wind_drag,
             contact: half * segment.contact_diameter,
             diameter: segment.contact_diameter,
         }
@@ -99,7 +102,7 @@ pub struct Rod {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Natural {
     /// Directors of end A's holder, of the elements, and of end B's holder.
-    directors: Vec<Vector3<f64>>,
+    pub directors: Vec<Vector3<f64>>,
     /// Curvature angle at each node by the directors before and after it (rad).
     pub curvature: Vec<[[f64; 2]; 2]>,
 }
@@ -230,6 +233,11 @@ impl Rod {
         self.elements.iter().map(|e| e.rest).sum()
     }
 
+    /// Unstretched length of its shortest element (m).
+    pub(super) fn shortest(&self) -> f64 {
+        self.elements.iter().map(|e| e.rest).fold(f64::INFINITY, f64::min)
+    }
+
     /// Unstretched distance of each node from end A (m).
     pub fn arc(&self) -> Vec<f64> {
         let mut sum = 0.0;
@@ -259,7 +267,7 @@ fn few(rod: &str, elements: usize) -> Result<(), RodError> {
 }
 
 /// Directors of a row of directions: across the first one, and taken along without twist.
-fn carried_along(directions: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
+pub(super) fn carried_along(directions: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
     let Some(first) = directions.first() else { return Vec::new() };
     let axis = Vector3::ith(first.iamin(), 1.0);
     let mut directors = vec![(axis - first * first.dot(&axis)).normalize()];
@@ -268,89 +276,4 @@ fn carried_along(directions: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
         directors.push(transport(&last, &pair[0], &pair[1]));
     }
     directors
-}
-
-/// Motion of a rod at one time.
-#[derive(Clone, Debug, PartialEq)]
-pub struct State {
-    /// Time (s).
-    pub time: f64,
-    /// Position of each node (m, global).
-    pub position: Vec<Vector3<f64>>,
-    /// Velocity of each node (m/s).
-    pub velocity: Vec<Vector3<f64>>,
-    /// Acceleration of each node (m/s2).
-    pub acceleration: Vec<Vector3<f64>>,
-    /// The averaged acceleration of the scheme (m/s2).
-    pub(super) averaged: Vec<Vector3<f64>>,
-    /// Director of each element of a rod with torsion: a unit vector across it that twists with it.
-    pub(super) director: Vec<Vector3<f64>>,
-    /// Least penetration over which the bottom's stiffness grows at each node (m): see
-    /// [`Solver::statics`](super::Solver::statics).
-    pub(super) bedding: Vec<f64>,
-}
-
-impl State {
-    /// At rest along a line of points, spread over it by unstretched length.
-    ///
-    /// # Errors
-    /// Fewer than two points, points that are no numbers, or all in one place.
-    pub fn along(rod: &Rod, points: &[Vector3<f64>]) -> Result<Self, RodError> {
-        let mut along = vec![0.0];
-        for pair in points.windows(2) {
-            along.push(along[along.len() - 1] + (pair[1] - pair[0]).norm());
-        }
-        let total = along[along.len() - 1];
-        if points.len() < 2 || !(total.is_finite() && total > 0.0) {
-            let why = "it needs a line of two points or more, apart from each other, to start from".to_string();
-            return Err(RodError::Shape { rod: rod.name.clone(), why });
-        }
-        let length = rod.length();
-        let mut at = 1;
-        let position = rod
-            .arc()
-            .iter()
-            .map(|s| {
-                let here = s / length * total;
-                while at + 1 < points.len() && along[at] < here {
-                    at += 1;
-                }
-                let share = (here - along[at - 1]) / (along[at] - along[at - 1]).max(f64::MIN_POSITIVE);
-                points[at - 1] + (points[at] - points[at - 1]) * share.clamp(0.0, 1.0)
-            })
-            .collect();
-        let position: Vec<Vector3<f64>> = position;
-        let director = if rod.twists() {
-            let edges = position.windows(2).map(|p| (p[1] - p[0]).normalize());
-            match &rod.natural {
-                // untwisted against the shape free of load: from its first director on
-                Some(natural) => {
-                    let mut directors = vec![natural.directors[0]];
-                    let mut from = None;
-                    for t in edges {
-                        let last = directors[directors.len() - 1];
-                        directors.push(match from {
-                            Some(from) => transport(&last, &from, &t),
-                            None => (last - t * t.dot(&last)).normalize(),
-                        });
-                        from = Some(t);
-                    }
-                    directors.split_off(1)
-                }
-                None => carried_along(&edges.collect::<Vec<_>>()),
-            }
-        } else {
-            Vec::new()
-        };
-        let rest = vec![Vector3::zeros(); rod.nodes()];
-        Ok(State {
-            time: 0.0,
-            position,
-            velocity: rest.clone(),
-            acceleration: rest.clone(),
-            averaged: rest,
-            director,
-            bedding: vec![0.0; rod.nodes()],
-        })
-    }
 }

@@ -10,6 +10,7 @@
 //! SI units (m, kg, s, N, rad), global axes with z up. End A is the first node. Nothing is allocated in a step, and a
 //! step costs as much as its elements: one pass over them, and a band to factor.
 
+mod again;
 mod assemble;
 mod balance;
 mod band;
@@ -29,6 +30,7 @@ mod section;
 mod snapshot;
 mod spatial;
 mod start;
+mod state;
 mod statics;
 mod step;
 mod surroundings;
@@ -41,13 +43,14 @@ mod winch;
 mod workspace;
 
 pub use balance::{Balance, Energy, Work};
-pub use condense::EndTangent;
+pub use condense::{EndTangent, Twelve};
 pub use ends::{End, Motion};
 pub use error::RodError;
-pub use mesh::{BYTES_PER_ELEMENT, MOST_ELEMENTS, Rod, State};
+pub use mesh::{BYTES_PER_ELEMENT, MOST_ELEMENTS, Rod};
 pub use modes::Mode;
 pub use results::{NodeResult, Stress};
 pub use scheme::Settings;
 pub use section::{Attachment, Axial, Segment, Tube};
+pub use state::State;
 pub use step::{EndForces, Solver};
-pub use surroundings::{Bottom, Fluid, FluidField, Ground, PlaneBottom, UniformFluid, World};
+pub use surroundings::{Bottom, Fluid, FluidField, Ground, PlaneBottom, Roller, UniformFluid, World};

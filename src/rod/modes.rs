@@ -2,8 +2,9 @@
 
 use super::ends::End;
 use super::error::RodError;
-use super::mesh::{Rod, State};
-use super::step::Solver;
+use super::mesh::Rod;
+use super::state::State;
+use super::step::{At, Solver};
 use super::surroundings::World;
 use super::system::Weights;
 use super::trial::{lay, sample, soften};
@@ -42,6 +43,7 @@ impl Solver {
         count: usize,
     ) -> Result<Vec<Mode>, RodError> {
         self.fits(rod, state)?;
+        self.at = At::Nowhere;
         let refuse = |why: String| RodError::Shape { rod: rod.name.clone(), why };
         let last = rod.elements.len();
         let stride = self.work.stride();

@@ -1,7 +1,7 @@
 //! What acts on nodes beside the elements: the bottom, attachments, given forces.
 
 use super::contact::contact;
-use super::immersed::wet_share;
+use super::immersed::wet_prism;
 use super::mesh::Rod;
 use super::surroundings::World;
 use super::system::{System, Weights};
@@ -36,7 +36,7 @@ pub(super) fn on_nodes<const TANGENT: bool, const W: usize, const H: usize, cons
         let node = held.node;
         let fluid = &trial.fluid[node];
         let depth = fluid.surface - trial.x[node].z;
-        let (share, by_own, by_same) = wet_share(depth, depth, held.height);
+        let (share, by_depth) = wet_prism(depth, held.height);
         let (u, q) = (trial.v[node] - fluid.velocity, trial.a[node] - fluid.acceleration);
         let speed = u.norm();
         let (drag, water) = (0.5 * fluid.density * held.drag, fluid.density * held.volume);
@@ -50,7 +50,7 @@ pub(super) fn on_nodes<const TANGENT: bool, const W: usize, const H: usize, cons
             block[(j, j)] += c * share * drag * speed + m * (held.mass + share * water * held.added);
         }
         let mut third = block.column_mut(2);
-        third -= wet * (k * (by_own + by_same));
+        third -= wet * (k * by_depth);
         system.push(node, &force);
         system.block::<TANGENT>(node, node, &block);
     }

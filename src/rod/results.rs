@@ -3,8 +3,9 @@
 use super::bend::hinge;
 use super::ends::End;
 use super::hinges::{HingeAt, hinge_sides};
-use super::mesh::{Rod, State};
+use super::mesh::Rod;
 use super::spatial::twist;
+use super::state::State;
 use super::surroundings::World;
 use super::tension::{Stretch, Taken, tension};
 use nalgebra::Vector3;

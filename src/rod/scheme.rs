@@ -1,6 +1,6 @@
 //! The scheme that steps in time.
 
-use super::mesh::State;
+use super::state::State;
 use super::system::Weights;
 use nalgebra::Vector3;
 

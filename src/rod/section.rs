@@ -150,6 +150,10 @@ pub struct Segment {
     pub added_tangential: f64,
     /// Diameter by which it lies on the bottom and meets the surface (m).
     pub contact_diameter: f64,
+    /// Diameter for wind on the part above the surface (m).
+    pub wind_diameter: f64,
+    /// Normal drag coefficient of wind, on the wind diameter.
+    pub wind_drag: f64,
     /// Its section, where pressure, temperature or stresses are wanted.
     pub tube: Option<Tube>,
 }
@@ -176,6 +180,8 @@ impl Segment {
             added_normal: 0.0,
             added_tangential: 0.0,
             contact_diameter: diameter,
+            wind_diameter: diameter,
+            wind_drag: 0.0,
             tube: None,
         }
     }
@@ -207,6 +213,8 @@ impl Segment {
             ("the normal added mass coefficient", self.added_normal),
             ("the tangential added mass coefficient", self.added_tangential),
             ("the contact diameter", self.contact_diameter),
+            ("the wind diameter", self.wind_diameter),
+            ("the drag coefficient of wind", self.wind_drag),
         ] {
             if !(value.is_finite() && value >= 0.0) {
                 return refuse(what, value, "it must not be negative");

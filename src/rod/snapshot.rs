@@ -1,8 +1,9 @@
 //! A rod and its state as rows of numbers, and back: what a snapshot of a run keeps.
 
 use super::error::RodError;
-use super::mesh::{Element, Rod, State};
+use super::mesh::{Element, Rod};
 use super::section::{Attachment, Segment};
+use super::state::State;
 use nalgebra::Vector3;
 
 /// Numbers of a node: position, velocity, acceleration, averaged acceleration, bedding.

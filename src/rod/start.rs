@@ -2,12 +2,14 @@
 
 use super::ends::End;
 use super::error::RodError;
-use super::mesh::{Rod, State};
-use super::step::Solver;
+use super::hinges::end_moment;
+use super::mesh::Rod;
+use super::state::State;
+use super::step::{At, EndForces, Solver};
 use super::surroundings::World;
 use super::system::Weights;
 use super::trial::{lay, sample, soften};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 impl Solver {
     /// Copies where the last trial ended, without taking it as the new state of the solver's own run.
@@ -15,13 +17,39 @@ impl Solver {
         state.clone_from(&self.next);
     }
 
+    /// What each holder feels of inertia at the instant of the last [`Solver::start`]: d(force the holder needs)/d(its
+    /// acceleration) (kg), zero of a free end. At one instant the nodes beside an end do not follow it yet.
+    pub fn end_masses(&self) -> [Matrix3<f64>; 2] {
+        let last = self.change.len() - self.work.stride();
+        [0, 1].map(|side| {
+            let mut made = Matrix3::zeros();
+            if self.trial.ends[side].motion.is_some() {
+                let first = side * last;
+                self.work.kept_rows(side, |i, column, value| {
+                    if (first..first + 3).contains(&column) {
+                        made[(i, column - first)] = value;
+                    }
+                });
+            }
+            made
+        })
+    }
+
     /// Gives a state the accelerations that its forces make, as at the start of a run that is not at rest, or after a
-    /// line has parted. A state from [`Solver::statics`] has them.
+    /// line has parted, and tells the forces at that instant on holders with the given accelerations. A state from
+    /// [`Solver::statics`] has its accelerations.
     ///
     /// # Errors
     /// A force that is no number, a node without mass, or a state of another rod.
-    pub fn start(&mut self, rod: &Rod, state: &mut State, world: &World, ends: [End; 2]) -> Result<(), RodError> {
+    pub fn start(
+        &mut self,
+        rod: &Rod,
+        state: &mut State,
+        world: &World,
+        ends: [End; 2],
+    ) -> Result<EndForces, RodError> {
         self.fits(rod, state)?;
+        self.at = At::Nowhere;
         let last = rod.elements.len();
         let known = ends.map(|e| e.motion.is_some());
         self.trial.time = state.time;
@@ -39,6 +67,8 @@ impl Solver {
         soften(state, world, &mut self.trial.soft);
         sample(world, state.time, &mut self.trial);
         self.work.assemble(rod, world, &self.trial, Weights { k: 0.0, c: 0.0, m: 1.0 }, 0..last);
+        self.work.keep_rows();
+        self.work.keep_ends();
         for (side, node) in [(0, 0), (1, last)] {
             if known[side] {
                 self.work.drop_residual(node);
@@ -62,6 +92,9 @@ impl Solver {
             let moved = self.trial.a[i] + Vector3::new(d[0], d[1], d[2]);
             (state.acceleration[i], state.averaged[i]) = (moved, moved);
         }
-        Ok(())
+        // forces are linear in the accelerations, so one solution has them whole
+        self.work.carry_ends(&self.change);
+        let moment = [0, 1].map(|side| end_moment(rod, state, &ends[side], side));
+        Ok(EndForces { force: self.work.end_forces(), moment, iterations: 1, parts: 1 })
     }
 }

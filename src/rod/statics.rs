@@ -3,8 +3,9 @@
 use super::ends::End;
 use super::error::RodError;
 use super::hinges::end_moment;
-use super::mesh::{Rod, State};
-use super::step::{EndForces, Solver};
+use super::mesh::Rod;
+use super::state::State;
+use super::step::{At, EndForces, Solver};
 use super::surroundings::World;
 use super::system::Weights;
 use super::trial::{lay, sample, soften, turn};
@@ -51,9 +52,13 @@ impl Solver {
         ends: [End; 2],
     ) -> Result<EndForces, RodError> {
         self.fits(rod, state)?;
+        self.at = At::Nowhere;
         self.trial.still = true;
         let made = self.falls(rod, state, world, ends);
         self.trial.still = false;
+        if made.is_ok() {
+            self.at = At::Rest;
+        }
         made
     }
 

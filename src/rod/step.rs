@@ -1,10 +1,12 @@
 //! One implicit step in time.
 
+use super::condense::Near;
 use super::ends::End;
 use super::error::RodError;
 use super::hinges::end_moment;
-use super::mesh::{Rod, State};
+use super::mesh::Rod;
 use super::scheme::{Scheme, Settings};
+use super::state::State;
 use super::surroundings::{UniformFluid, World};
 use super::system::Weights;
 use super::trial::{Trial, carry, interpolate, lay, sample, soften, turn};
@@ -43,6 +45,26 @@ pub struct Solver {
     /// Where the part before it ended, when a step is cut.
     part: State,
     pub(super) weights: Weights,
+    /// What is at hand: see [`At`].
+    pub(super) at: At,
+    /// Where the step of the last trial began, and whether it was made in one part.
+    pub(super) began: State,
+    pub(super) whole: bool,
+    /// The ends' part in the matrix of the last trial.
+    pub(super) near: Near,
+    /// Solutions with the transpose of the matrix.
+    pub(super) adjoint: Vec<f64>,
+}
+
+/// What the solver has at hand.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum At {
+    /// Nothing that could be asked about.
+    Nowhere,
+    /// A trial that has not been accepted.
+    Trial,
+    /// A position of rest.
+    Rest,
 }
 
 impl Solver {
@@ -79,11 +101,16 @@ impl Solver {
         Solver {
             settings,
             change: vec![0.0; work.stride() * nodes],
+            adjoint: vec![0.0; 6 * work.stride() * nodes],
             work,
             trial,
             part: state.clone(),
+            began: state.clone(),
             next: state,
             weights: Weights { k: 1.0, c: 0.0, m: 0.0 },
+            at: At::Nowhere,
+            whole: false,
+            near: Near::new(),
         }
     }
 
@@ -104,6 +131,9 @@ impl Solver {
     /// Tries the step from `state` to `time`, at which the ends move as given; the state stays as it is until
     /// [`Solver::accept`], so that a body can try again with another motion of an end.
     ///
+    /// The second and later trials of a step begin where the one before ended, and cost about one iteration if the ends
+    /// have moved little since.
+    ///
     /// A step that does not converge is cut in halves, with the ends moving along cubics in between.
     ///
     /// # Errors
@@ -122,15 +152,27 @@ impl Solver {
             let why = format!("a step from {} s to {time} s goes nowhere", state.time);
             return Err(RodError::Shape { rod: rod.name.clone(), why });
         }
-        match self.attempt(rod, state, world, time, ends) {
-            Ok(iterations) => Ok(self.end_forces(rod, iterations, 1)),
-            Err(failure) => self.cut(rod, state, world, time, ends, failure),
+        let mut iterations = 0;
+        if self.follows(state, time, &ends) {
+            match self.attempt(rod, state, world, time, ends, true) {
+                Ok(count) => return Ok(self.end_forces(rod, count, 1)),
+                Err(_) => iterations = self.settings.iterations,
+            }
         }
+        self.at = At::Nowhere;
+        self.began.copy_from(state);
+        let made = match self.attempt(rod, state, world, time, ends, false) {
+            Ok(count) => Ok(self.end_forces(rod, iterations + count, 1)),
+            Err(failure) => self.cut(rod, state, world, time, ends, failure),
+        }?;
+        (self.at, self.whole) = (At::Trial, made.parts == 1);
+        Ok(made)
     }
 
     /// Takes the last trial as the new state.
     pub fn accept(&mut self, state: &mut State) {
         std::mem::swap(&mut self.next, state);
+        self.at = At::Nowhere;
     }
 
     /// A trial and its acceptance.
@@ -164,7 +206,7 @@ impl Solver {
         let (mut level, mut done, mut parts, mut iterations) = (1u32, 0u64, 0usize, self.settings.iterations);
         // positions in the step are counted in the smallest parts, so that the last one ends at `time` exactly
         let all = 1u64 << self.settings.halvings.min(40);
-        copy(state, &mut self.part);
+        self.part.copy_from(state);
         while done < all {
             if level > self.settings.halvings {
                 return Err(RodError::Step {
@@ -183,7 +225,7 @@ impl Solver {
                 interpolate(state, node, &ends[side], whole, share)
             });
             let from = std::mem::replace(&mut self.part, State::empty());
-            let made = self.attempt(rod, &from, world, target, between);
+            let made = self.attempt(rod, &from, world, target, between, false);
             self.part = from;
             match made {
                 Ok(count) => {
@@ -207,45 +249,29 @@ impl Solver {
         Ok(self.end_forces(rod, iterations, parts))
     }
 
-    /// Newton's iterations of one step; the iterations it took.
-    fn attempt(&mut self, rod: &Rod, from: &State, world: &World, time: f64, ends: [End; 2]) -> Result<usize, Failure> {
+    /// Newton's iterations of one step, from where the last trial ended if that is `near`: the iterations it took.
+    fn attempt(
+        &mut self,
+        rod: &Rod,
+        from: &State,
+        world: &World,
+        time: f64,
+        ends: [End; 2],
+        near: bool,
+    ) -> Result<usize, Failure> {
         let scheme = Scheme::new(time - from.time, self.settings.rho_inf.clamp(0.0, 1.0));
-        let (h, last) = (scheme.h, rod.elements.len());
+        let last = rod.elements.len();
         self.weights = scheme.weights();
-        let shortest = rod.elements.iter().map(|e| e.rest).fold(f64::INFINITY, f64::min);
+        let shortest = rod.shortest();
         let (tolerance, wild) = (self.settings.tolerance * shortest, 10.0 * rod.length());
+        let moved = if near { self.again(rod, from, world, &scheme, &ends) } else { None };
         self.trial.time = time;
         self.trial.ends = ends;
         lay(rod, from, world, &mut self.trial.lay);
         soften(from, world, &mut self.trial.soft);
-        self.next.bedding.copy_from_slice(&from.bedding);
-        let next = &mut self.next;
-        next.time = time;
-        for i in 0..=last {
-            let known = if i == 0 {
-                ends[0].motion
-            } else if i == last {
-                ends[1].motion
-            } else {
-                None
-            };
-            match known {
-                Some(m) => {
-                    next.position[i] = m.position;
-                    next.velocity[i] = m.velocity;
-                    next.acceleration[i] = m.acceleration;
-                    next.averaged[i] = m.acceleration;
-                }
-                None => {
-                    let u = (from.velocity[i] + from.averaged[i] * (0.5 * h)) * h;
-                    next.position[i] = from.position[i] + u;
-                    let [averaged, v, a] = scheme.follow(from, i, u);
-                    (next.averaged[i], next.velocity[i], next.acceleration[i]) = (averaged, v, a);
-                }
-            }
+        if moved.is_none() {
+            self.foretell(from, &scheme, time, &ends);
         }
-        next.director.copy_from_slice(&from.director);
-        carry(&mut next.director, &from.position, &next.position);
         let stride = self.work.stride();
         let known = [ends[0].motion.is_some(), ends[1].motion.is_some()];
         let (mut before, mut last_move) = (f64::INFINITY, f64::INFINITY);
@@ -254,11 +280,13 @@ impl Solver {
             std::mem::swap(&mut self.trial.v, &mut self.next.velocity);
             std::mem::swap(&mut self.trial.a, &mut self.next.acceleration);
             std::mem::swap(&mut self.trial.director, &mut self.next.director);
-            if iteration <= 2 {
+            // the fluid is that of the trial before where the nodes are, and so are the factors
+            let close = iteration == 1 && moved.is_some();
+            if iteration <= 2 && !(close && moved.is_some_and(|m| m < 1e-4)) {
                 sample(world, time, &mut self.trial);
             }
             // while the moves shrink fast the factors of the iteration before do as well
-            let fresh = iteration == 1 || last_move > 1e-3 * shortest || last_move > 0.2 * before;
+            let fresh = !close && (iteration == 1 || last_move > 1e-3 * shortest || last_move > 0.2 * before);
             let size = self.iterate(rod, world, known, fresh);
             std::mem::swap(&mut self.trial.x, &mut self.next.position);
             std::mem::swap(&mut self.trial.v, &mut self.next.velocity);
@@ -292,11 +320,32 @@ impl Solver {
         Err(Failure { node: self.work.worst(known).0, why: "the iteration does not settle" })
     }
 
+    /// Where a step ends if its averaged accelerations stay.
+    fn foretell(&mut self, from: &State, scheme: &Scheme, time: f64, ends: &[End; 2]) {
+        let next = &mut self.next;
+        next.bedding.copy_from_slice(&from.bedding);
+        next.time = time;
+        let last = from.position.len() - 1;
+        for i in 0..=last {
+            let u = (from.velocity[i] + from.averaged[i] * (0.5 * scheme.h)) * scheme.h;
+            next.position[i] = from.position[i] + u;
+            [next.averaged[i], next.velocity[i], next.acceleration[i]] = scheme.follow(from, i, u);
+        }
+        for (side, node) in [(0, 0), (1, last)] {
+            if let Some(motion) = ends[side].motion {
+                next.hold(node, &motion);
+            }
+        }
+        next.director.copy_from_slice(&from.director);
+        carry(&mut next.director, &from.position, &next.position);
+    }
+
     /// One Newton iteration at the trial, with a fresh tangent or the factors at hand: largest change of a coordinate
     /// (m). The forces of the ends are kept, taken on to the changed positions by their tangent.
     fn iterate(&mut self, rod: &Rod, world: &World, known: [bool; 2], fresh: bool) -> Result<f64, Failure> {
         let last = rod.elements.len();
         if fresh {
+            self.near.ready = false;
             self.work.assemble(rod, world, &self.trial, self.weights, 0..last);
             self.work.keep_rows();
         } else {
@@ -336,29 +385,4 @@ impl Solver {
         let moment = [0, 1].map(|side| end_moment(rod, &self.next, &self.trial.ends[side], side));
         EndForces { force: self.work.end_forces(), moment, iterations, parts }
     }
-}
-
-impl State {
-    fn empty() -> Self {
-        State {
-            time: 0.0,
-            position: vec![],
-            velocity: vec![],
-            acceleration: vec![],
-            averaged: vec![],
-            director: vec![],
-            bedding: vec![],
-        }
-    }
-}
-
-/// Copies a state into memory that is there.
-fn copy(from: &State, to: &mut State) {
-    to.time = from.time;
-    to.position.copy_from_slice(&from.position);
-    to.velocity.copy_from_slice(&from.velocity);
-    to.acceleration.copy_from_slice(&from.acceleration);
-    to.averaged.copy_from_slice(&from.averaged);
-    to.director.copy_from_slice(&from.director);
-    to.bedding.copy_from_slice(&from.bedding);
 }

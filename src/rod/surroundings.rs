@@ -13,12 +13,25 @@ pub struct Fluid {
     pub surface: f64,
     /// Density (kg/m3).
     pub density: f64,
+    /// Velocity of the air (m/s).
+    pub wind: Vector3<f64>,
+    /// Density of the air (kg/m3); zero where there is no wind to speak of.
+    pub air_density: f64,
 }
 
 /// Kinematics of the fluid around a rod. It is asked at the actual positions of the nodes.
 pub trait FluidField {
-    /// The fluid at a position (m, global) and time (s). Above the surface the velocity is not used.
+    /// The fluid at a position (m, global) and time (s). Somewhat above the surface the water's motion should be that
+    /// of the surface: it acts on the wet part of an element whose node is dry.
     fn at(&self, position: &Vector3<f64>, time: f64) -> Fluid;
+
+    /// The same at many positions at one time, into a list as long as theirs: for a sea that is prepared once for all
+    /// of them.
+    fn fill(&self, positions: &[Vector3<f64>], time: f64, out: &mut [Fluid]) {
+        for (fluid, position) in out.iter_mut().zip(positions) {
+            *fluid = self.at(position, time);
+        }
+    }
 
     /// Whether the answer is the same everywhere at one time: it is then asked for one node only.
     fn uniform(&self) -> bool {
@@ -26,14 +39,15 @@ pub trait FluidField {
     }
 }
 
-/// Water that moves at one velocity everywhere.
+/// Water and air that move at one velocity each everywhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct UniformFluid(pub Fluid);
 
 impl UniformFluid {
     /// Still water with its surface at z = 0.
     pub fn still(density: f64) -> Self {
-        UniformFluid(Fluid { velocity: Vector3::zeros(), acceleration: Vector3::zeros(), surface: 0.0, density })
+        let zero = Vector3::zeros();
+        UniformFluid(Fluid { velocity: zero, acceleration: zero, surface: 0.0, density, wind: zero, air_density: 0.0 })
     }
 
     /// The same water with a velocity (m/s).
@@ -109,6 +123,33 @@ impl Ground {
     }
 }
 
+/// A cradle of rollers over which a rod is laid: a floor with a flank on each side, or two flanks alone.
+///
+/// Its shape is that of where the rod's axis may be, so the radius of the rod is part of `place`. Across the cradle
+/// the floor reaches `half_width` to each side of the place; beyond it the flanks rise, `opening` between them: a U has
+/// a floor and parallel flanks (0), a V no floor and a wide opening. Floor and flanks push the rod back into the
+/// cradle by stiffness times depth, with damping, never a pull; over the first `soft` of depth the stiffness grows
+/// from zero. Nothing acts along the rod, as the rollers roll.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Roller {
+    /// Where the axis of a rod is that just lies in it (m, global).
+    pub place: Vector3<f64>,
+    /// Velocity of that place (m/s).
+    pub velocity: Vector3<f64>,
+    /// Directions along the rod's way, across it and up, at right angles to each other.
+    pub axes: [Vector3<f64>; 3],
+    /// Half the width of the floor (m): zero for a V, infinite for a plain roller without flanks.
+    pub half_width: f64,
+    /// Angle between the flanks (rad), from 0 for a U to less than pi.
+    pub opening: f64,
+    /// Stiffness of the floor and of each flank (N/m).
+    pub stiffness: f64,
+    /// Damping of each (N s/m).
+    pub damping: f64,
+    /// Depth over which the stiffness grows to its full value (m).
+    pub soft: f64,
+}
+
 /// All that surrounds a rod.
 #[derive(Clone, Copy)]
 pub struct World<'a> {
@@ -120,4 +161,15 @@ pub struct World<'a> {
     pub gravity: f64,
     /// Forces on nodes beside those the rod makes itself (N, global): node from end A, force.
     pub forces: &'a [(usize, Vector3<f64>)],
+    /// Cradles it is laid over.
+    pub rollers: &'a [Roller],
+    /// Whether an element that enters the water is slammed: see [`Segment::added_normal`](super::Segment).
+    pub slam: bool,
+}
+
+impl<'a> World<'a> {
+    /// A fluid and gravity (m/s2), and nothing else.
+    pub fn new(fluid: &'a dyn FluidField, gravity: f64) -> Self {
+        World { fluid, bottom: None, gravity, forces: &[], rollers: &[], slam: false }
+    }
 }

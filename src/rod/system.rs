@@ -38,6 +38,12 @@ impl<const W: usize, const H: usize, const S: usize> System<W, H, S> {
         self.residual.fill(0.0);
     }
 
+    /// Clears what the elements of a range add to.
+    pub fn clear_part(&mut self, range: &std::ops::Range<usize>) {
+        let rows = W * range.start.saturating_sub(1)..W * (range.end + 1);
+        self.band.clear_rows(rows);
+    }
+
     #[inline(always)]
     pub fn push(&mut self, node: usize, force: &Vector3<f64>) {
         let r = &mut self.residual[W * node..W * node + 3];
@@ -111,6 +117,19 @@ impl<const W: usize, const H: usize, const S: usize> System<W, H, S> {
     pub fn ends_by(&self, side: usize, change: &[f64]) -> Vector3<f64> {
         let node = if side == 0 { 0 } else { self.residual.len() / W - 1 };
         Vector3::from_fn(|i, _| Band::<H, S>::product(&self.rows[side][i], W * node + i, change))
+    }
+
+    /// Tells every entry of the kept rows of an end: row of the three, column, value.
+    pub fn kept_rows(&self, side: usize, mut entry: impl FnMut(usize, usize, f64)) {
+        let size = self.residual.len();
+        let node = if side == 0 { 0 } else { size / W - 1 };
+        for (i, row) in self.rows[side].iter().enumerate() {
+            for (j, value) in row.iter().enumerate() {
+                if let Some(column) = (W * node + i + j).checked_sub(H).filter(|c| *c < size) {
+                    entry(i, column, *value);
+                }
+            }
+        }
     }
 
     /// Takes the kept residuals on to changed unknowns.

@@ -1,8 +1,9 @@
 //! A trial motion of a rod, and what is asked at it.
 
 use super::ends::{End, Motion};
-use super::mesh::{Rod, State};
+use super::mesh::Rod;
 use super::spatial::{transport, turned};
+use super::state::State;
 use super::surroundings::{Fluid, World};
 use nalgebra::Vector3;
 
@@ -65,9 +66,7 @@ pub(super) fn sample(world: &World, time: f64, trial: &mut Trial) {
         let everywhere = world.fluid.at(&trial.x[0], time);
         trial.fluid.fill(everywhere);
     } else {
-        for (fluid, x) in trial.fluid.iter_mut().zip(&trial.x) {
-            *fluid = world.fluid.at(x, time);
-        }
+        world.fluid.fill(&trial.x, time, &mut trial.fluid);
     }
 }
 

@@ -1,7 +1,8 @@
 //! Elements that appear at a winch and go back into it.
 
 use super::error::RodError;
-use super::mesh::{Element, Rod, State};
+use super::mesh::{Element, Rod};
+use super::state::State;
 use nalgebra::Vector3;
 
 impl Rod {

@@ -58,6 +58,15 @@ impl Workspace {
         });
     }
 
+    /// Tangent of the elements of a range on their own nodes; the other rows and the residual are left as they are, or
+    /// worse.
+    pub fn assemble_part(&mut self, rod: &Rod, world: &World, trial: &Trial, weights: Weights, range: Range<usize>) {
+        each!(self, system => {
+            system.clear_part(&range);
+            assemble::<true, _, _, _>(rod, world, trial, weights, range, system);
+        });
+    }
+
     /// Residual of the whole rod at a trial; the matrix stays as it is.
     pub fn forces(&mut self, rod: &Rod, world: &World, trial: &Trial) {
         let none = Weights { k: 0.0, c: 0.0, m: 0.0 };
@@ -89,9 +98,9 @@ impl Workspace {
         });
     }
 
-    /// Product of the kept rows of an end with a change of all unknowns.
-    pub fn ends_by(&self, side: usize, change: &[f64]) -> Vector3<f64> {
-        each!(self, system => system.ends_by(side, change))
+    /// Tells every entry of the kept rows of an end: row of the three, column, value.
+    pub fn kept_rows(&self, side: usize, entry: impl FnMut(usize, usize, f64)) {
+        each!(self, system => system.kept_rows(side, entry));
     }
 
     /// The block that couples a node's residual to the position of another.
@@ -162,6 +171,11 @@ impl Workspace {
     /// Solves for any right-hand side by the factors.
     pub fn solve(&self, right: &mut [f64]) {
         each!(self, system => system.band.solve(right));
+    }
+
+    /// Solves with the transpose by the factors: see [`Band::solve_transposed`](super::band::Band::solve_transposed).
+    pub fn solve_transposed<const N: usize>(&self, right: &mut [[f64; N]], first: usize) {
+        each!(self, system => system.band.solve_transposed(right, first));
     }
 
     /// Node with the largest residual (N), of those without an end's motion; a residual that is no number comes first.

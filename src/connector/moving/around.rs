@@ -2,8 +2,9 @@
 
 use super::describe::Seabed;
 use crate::model::{Ambient, Flow, Surroundings};
-use crate::rod::{Bottom, Fluid, FluidField, Ground, PlaneBottom, Segment};
+use crate::rod::{Bottom, Fluid, FluidField, Ground, PlaneBottom, Segment, UniformFluid};
 use nalgebra::Vector3;
+use std::cell::RefCell;
 
 /// How far a line presses itself into the bottom by its own weight, as a share of its diameter: what the bottom's stiffness follows
 /// from where none is given.
@@ -20,19 +21,30 @@ pub(super) struct Water<'a> {
     pub around: &'a Surroundings,
     /// Whether waves are left out: at rest.
     pub mean: bool,
+    /// Room for what is asked.
+    pub flows: RefCell<Vec<Flow>>,
 }
 
 impl FluidField for Water<'_> {
     fn at(&self, position: &Vector3<f64>, time: f64) -> Fluid {
-        let mut found = [Flow::still(self.around.tide)];
-        let here = std::slice::from_ref(position);
+        let mut found = [UniformFluid::none().0];
+        self.fill(std::slice::from_ref(position), time, &mut found);
+        found[0]
+    }
+
+    fn fill(&self, positions: &[Vector3<f64>], time: f64, out: &mut [Fluid]) {
+        let mut flows = self.flows.borrow_mut();
+        flows.clear();
+        flows.resize(positions.len(), Flow::still(self.around.tide));
         match self.ambient {
-            Some(ambient) if self.mean => ambient.mean(here, &mut found),
-            Some(ambient) => ambient.flow(time, here, &mut found),
+            Some(ambient) if self.mean => ambient.mean(positions, &mut flows),
+            Some(ambient) => ambient.flow(time, positions, &mut flows),
             None => {}
         }
-        let [Flow { velocity, acceleration, surface, .. }] = found;
-        Fluid { velocity, acceleration, surface, density: self.around.water_density }
+        let (density, air_density) = (self.around.water_density, self.around.air_density);
+        for (out, Flow { velocity, acceleration, surface, wind }) in out.iter_mut().zip(flows.iter().copied()) {
+            *out = Fluid { velocity, acceleration, surface, density, wind, air_density };
+        }
     }
 
     fn uniform(&self) -> bool {

@@ -10,8 +10,11 @@ use crate::model::{
     Ambient, ClassError, Connection, Element, End, Guess, LineNode, LineStress, Response, Situation, Six, Summary,
     Surroundings,
 };
-use crate::rod::{self, EndForces, EndTangent, Ground, Motion, PlaneBottom, Rod, Settings, Solver, State, World};
-use nalgebra::{Matrix3, Vector3};
+use crate::rod::{
+    self, EndForces, EndTangent, Ground, Motion, PlaneBottom, Rod, Settings, Solver, State, Twelve, World,
+};
+use nalgebra::{Matrix6, Vector3};
+use std::cell::RefCell;
 use std::sync::Arc;
 
 /// How often a rod halves a step of the run by itself, before the run halves its own.
@@ -146,11 +149,11 @@ impl MovingLine {
     /// The line's surroundings, at rest or under way, for what needs them.
     fn within<T>(&self, around: &Surroundings, mean: bool, act: impl FnOnce(&World) -> T) -> T {
         let ambient = self.base.ambient.as_deref();
-        let water = Water { ambient, around, mean };
+        let water = Water { ambient, around, mean, flows: RefCell::default() };
         let floor = Floor { plane: self.base.plane, ambient, flat: self.base.flat.unwrap_or(0.0) };
         let known = self.base.plane.is_some() || self.base.flat.is_some();
         let bottom: Option<(&dyn rod::Bottom, Ground)> = known.then_some((&floor, self.base.ground));
-        act(&World { fluid: &water, bottom, gravity: around.gravity, forces: &[] })
+        act(&World { bottom, ..World::new(&water, around.gravity) })
     }
 
     /// What holds the ends.
@@ -261,9 +264,12 @@ impl MovingLine {
                 solver.reached(&mut state);
                 Ok::<_, ClassError>((forces, solver.end_tangent(rod, world)))
             } else {
-                solver.start(rod, &mut state, world, ends).map_err(told)?;
-                let forces = solver.trial(rod, &state, world, time + 1e-5, ends).map_err(told)?;
-                Ok((forces, solver.end_tangent(rod, world)))
+                let forces = solver.start(rod, &mut state, world, ends).map_err(told)?;
+                let mut tangent = EndTangent::default();
+                for (side, mass) in solver.end_masses().iter().enumerate() {
+                    tangent.acceleration.fixed_view_mut::<3, 3>(6 * side, 6 * side).copy_from(&-mass);
+                }
+                Ok((forces, Some(tangent)))
             }
         })?;
         self.layout.write(rod, &state, trial)?;
@@ -286,12 +292,9 @@ fn answer(
         return Err(ClassError::new("its force is no number"));
     }
     let Some(tangent) = tangent else { return Ok(()) };
-    let fill = |blocks: &mut Vec<nalgebra::Matrix6<f64>>, whole: &nalgebra::Matrix6<f64>| {
-        blocks.resize(4, nalgebra::Matrix6::zeros());
-        for (index, block) in blocks.iter_mut().enumerate() {
-            let part: Matrix3<f64> = whole.fixed_view::<3, 3>(3 * (index / 2), 3 * (index % 2)).into_owned();
-            block.fixed_view_mut::<3, 3>(0, 0).copy_from(&-part);
-        }
+    let fill = |blocks: &mut Vec<Matrix6<f64>>, whole: &Twelve| {
+        blocks.clear();
+        blocks.extend((0..4).map(|index| -whole.fixed_view::<6, 6>(6 * (index / 2), 6 * (index % 2))));
     };
     fill(&mut out.stiffness, &tangent.position);
     if moving {

@@ -13,7 +13,4 @@ mod start;
 
 pub use describe::{Description, Hold, JointMass, Part, Seabed, Strength};
 pub use element::MovingLine;
-pub use sections::{
-    AQWA_CA, AQWA_CD, AQWA_CX, AX_DAMPING, CA, CD, CLAMP, EA, EI, Flexure, SEABED, STRETCH, chain, description, holds,
-    seabed,
-};
+pub use sections::{AX_DAMPING, CA, CD, CLAMP, EA, EI, Flexure, SEABED, STRETCH, chain, description, holds, seabed};

@@ -13,11 +13,13 @@ use crate::rod::{Axial, Segment, Tube};
 use std::f64::consts::{FRAC_PI_4, PI};
 
 /// Drag, inline drag of the skin and added mass where nothing is given: those of AQWA's cable dynamics (seed 002, 5.8.3.1).
-pub const AQWA_CD: f64 = 1.0;
+const AQWA_CD: f64 = 1.0;
 /// `0.5 rho Cx V2 De`, per diameter.
-pub const AQWA_CX: f64 = 0.025;
+const AQWA_CX: f64 = 0.025;
 /// Added mass across the line.
-pub const AQWA_CA: f64 = 1.0;
+const AQWA_CA: f64 = 1.0;
+/// Drag of the wind on a cylinder (DNV-RP-C205, 5.4.3: infinitely long, circular, rough or below the critical Reynolds number).
+const WIND_CD: f64 = 1.2;
 
 const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(dim), help)
@@ -44,10 +46,11 @@ pub const CD: OptionSpec = ours(
         number("CDT", Dim::None, "drag coefficient of the skin, on pi times the diameter")
             .or("0.025/pi")
             .not_negative(),
+        number("CDW", Dim::None, "drag coefficient of the wind across what is dry").or("1.2").not_negative(),
     ],
     "drag coefficients of the segment",
 )
-.default("1.0 0.025/pi");
+.default("1.0 0.025/pi 1.2");
 /// `-CA`.
 pub const CA: OptionSpec = ours(
     "-CA",
@@ -121,13 +124,25 @@ pub struct Flexure {
     drag: f64,
     wind: f64,
     added: f64,
-    cd: [f64; 2],
+    /// Across, of the skin, of the wind.
+    cd: [f64; 3],
     ca: [f64; 2],
     axial: Axial,
     damping: f64,
     /// Bending stiffness, Poisson's ratio, thermal expansion of a tube.
     tube: Option<[f64; 3]>,
     yields: f64,
+}
+
+/// The values of an option, as far as they are given.
+fn given_or<const N: usize>(args: &Args, name: &str, default: [f64; N]) -> [f64; N] {
+    let mut made = default;
+    if let Some(given) = args.option(name) {
+        for (i, value) in made.iter_mut().enumerate() {
+            *value = given.number(i).unwrap_or(*value);
+        }
+    }
+    made
 }
 
 impl Flexure {
@@ -139,10 +154,6 @@ impl Flexure {
         let args = &record.args;
         let material = &record.defaults.material;
         let option = |name: &str| args.option_number(name);
-        let pair = |name: &str, default: [f64; 2]| {
-            args.option(name)
-                .map_or(default, |g| [0, 1].map(|i| g.number(i).or(default.get(i).copied()).unwrap_or(0.0)))
-        };
         let typed = section.of_type.as_ref();
         let inner = section.thickness.map(|t| section.od - 2.0 * t);
         let wall = |d: f64| FRAC_PI_4 * (section.od * section.od - d * d);
@@ -155,8 +166,8 @@ impl Flexure {
             drag: option("-DRAGDIAMETER").or(typed.map(|t| t.drag)).unwrap_or(section.od),
             wind: option("-WINDDIAMETER").or(typed.map(|t| t.wind)).unwrap_or(section.od),
             added: option("-AMASDIAMETER").or(typed.map(|t| t.added_mass)).unwrap_or(section.od),
-            cd: pair("-CD", [typed.map_or(AQWA_CD, |t| t.line_type.drag.coefficient), AQWA_CX / PI]),
-            ca: pair("-CA", [AQWA_CA, 0.0]),
+            cd: given_or(args, "-CD", [typed.map_or(AQWA_CD, |t| t.line_type.drag.coefficient), AQWA_CX / PI, WIND_CD]),
+            ca: given_or(args, "-CA", [AQWA_CA, 0.0]),
             axial: law(args, section.ea)?,
             damping: option("-AX_DAMPING").unwrap_or(0.0),
             tube: (bending > 0.0).then(|| {
@@ -186,6 +197,8 @@ impl Flexure {
             drag_diameter: self.drag,
             drag_normal: self.cd[0],
             drag_tangential: self.cd[1],
+            wind_diameter: self.wind,
+            wind_drag: self.cd[2],
             added_area: area(self.added),
             added_normal: self.ca[0],
             added_tangential: self.ca[1],
@@ -194,11 +207,6 @@ impl Flexure {
         };
         let strength = Strength { breaking: section.breaking, yields: self.tube.map(|_| self.yields) };
         Part { segment, strength, joint: joint(section, around) }
-    }
-
-    /// Diameter for wind (m).
-    pub fn wind(&self) -> f64 {
-        self.wind
     }
 }
 

@@ -19,6 +19,8 @@ pub(super) struct Lanes {
     blocks: Vec<Block>,
     /// Depth of delta stretching: two standard deviations of the surface (m).
     stretch: f64,
+    /// The sum of the amplitudes: the surface is never farther from the mean level (m).
+    highest: f64,
 }
 
 /// Eight components; those that fill up the last block have no amplitude.
@@ -66,7 +68,11 @@ impl Lanes {
             }
         };
         let variance: f64 = components.iter().map(|c| 0.5 * c.amplitude * c.amplitude).sum();
-        Lanes { blocks: components.chunks(8).map(block).collect(), stretch: 2.0 * variance.sqrt() }
+        Lanes {
+            blocks: components.chunks(8).map(block).collect(),
+            stretch: 2.0 * variance.sqrt(),
+            highest: components.iter().map(|c| c.amplitude.abs()).sum(),
+        }
     }
 }
 
@@ -120,28 +126,46 @@ impl<'a> SeaAt<'a> {
     /// The water at a global place (m); nothing above the surface, but with [`Stretching::Exponential`]. Below the bottom it
     /// is as on it.
     pub fn kinematics(&self, at: Vector3<f64>) -> Kinematics {
+        let height = at.z - self.sea.level;
+        match (&self.sea.stokes, self.sea.stretching) {
+            (None, Stretching::Exponential) => self.inside(at, height, 0.0),
+            (None, Stretching::Wheeler | Stretching::Delta) => {
+                let elevation = self.elevation(at.x, at.y);
+                if height > elevation { Kinematics::still(elevation) } else { self.inside(at, height, elevation) }
+            }
+            _ => {
+                let found = self.inside(at, height, 0.0);
+                if height > found.elevation { Kinematics::still(found.elevation) } else { found }
+            }
+        }
+    }
+
+    /// The same, but above the surface it is the water at the surface.
+    pub fn wetted(&self, at: Vector3<f64>) -> Kinematics {
+        let height = at.z - self.sea.level;
+        if self.sea.stokes.is_none() && self.sea.stretching == Stretching::Linear && height < -self.sea.lanes.highest {
+            return self.inside(at, height, 0.0);
+        }
+        let elevation = self.elevation(at.x, at.y);
+        self.inside(at, height.min(elevation), elevation)
+    }
+
+    /// The water at a height over the mean level (m) that is not above the surface; its elevation (m) is used by Wheeler and
+    /// delta stretching.
+    fn inside(&self, at: Vector3<f64>, height: f64, elevation: f64) -> Kinematics {
         let sea = self.sea;
-        let height = at.z - sea.level;
         if let Some(wave) = &sea.stokes {
-            return self.below(self.grown(wave.kinematics(at, self.time)), height);
+            return self.grown(wave.kinematics(Vector3::new(at.x, at.y, sea.level + height), self.time));
         }
         match sea.stretching {
             Stretching::Exponential => self.sums(at, height, 0.0),
-            Stretching::Linear => self.below(self.sums(at, height.min(0.0), height.max(0.0)), height),
+            Stretching::Linear => self.sums(at, height.min(0.0), height.max(0.0)),
             Stretching::Wheeler => {
-                let elevation = self.elevation(at.x, at.y);
-                if height > elevation {
-                    return Kinematics::still(elevation);
-                }
                 // Wheeler (1970): the surface is taken for the mean level, the bottom stays
                 let scale = sea.depth.map_or(1.0, |d| d / (d + elevation).max(f64::MIN_POSITIVE));
                 self.sums(at, ((height - elevation) * scale).min(0.0), 0.0)
             }
             Stretching::Delta => {
-                let elevation = self.elevation(at.x, at.y);
-                if height > elevation {
-                    return Kinematics::still(elevation);
-                }
                 let deep = sea.lanes.stretch;
                 let mapped = if height > -deep && deep + elevation > 0.0 {
                     (height + deep) * (deep + DELTA * elevation) / (deep + elevation) - deep
@@ -162,10 +186,6 @@ impl<'a> SeaAt<'a> {
             pressure: full.pressure * self.factor,
             elevation: full.elevation * self.factor,
         }
-    }
-
-    fn below(&self, found: Kinematics, height: f64) -> Kinematics {
-        if height > found.elevation { Kinematics::still(found.elevation) } else { found }
     }
 
     /// The waves added up at a height over the mean level (m), and straight on by a rise above it (m).

@@ -13,7 +13,7 @@ fn a_moment_of_two_pi_ei_over_l_bends_a_beam_into_a_circle() {
     let (length, bending) = (10.0, 1000.0);
     let rod = beam(length, 20, bending, 1e7);
     let fluid = UniformFluid::none();
-    let world = World { fluid: &fluid, bottom: None, gravity: 0.0, forces: &[] };
+    let world = World::new(&fluid, 0.0);
     let mut state = State::along(&rod, &[Vector3::zeros(), Vector3::x() * length]).unwrap();
     // beyond half a turn the rod could swing out of its plane and straighten, as nothing resists its twist
     let mut solver = Solver::new(&rod, Settings { unstable: true, ..Settings::default() });
@@ -45,7 +45,7 @@ fn a_cantilever_with_a_tip_load_takes_the_shape_of_the_elastica() {
             let mut solver = Solver::new(&rod, Settings::default());
             let clamp = End::pinned(Vector3::zeros()).clamped(Vector3::x());
             let forces = [(elements, Vector3::new(0.0, 0.0, -load))];
-            let world = World { fluid: &fluid, bottom: None, gravity: 0.0, forces: &forces };
+            let world = World { forces: &forces, ..World::new(&fluid, 0.0) };
             let made = solver.statics(&rod, &mut state, &world, [clamp, End::FREE]).unwrap();
             let tip = state.position[elements];
             let exact_moment = load * (1.0 - u);
@@ -72,7 +72,7 @@ fn a_clamped_and_tensioned_riser_bends_as_the_beam_with_tension() {
             (i, Vector3::new(pull, 0.0, -q * share * length / elements as f64))
         })
         .collect();
-    let world = World { fluid: &fluid, bottom: None, gravity: 0.0, forces: &forces };
+    let world = World { forces: &forces, ..World::new(&fluid, 0.0) };
     let mut state = State::along(&rod, &[Vector3::zeros(), Vector3::x() * length]).unwrap();
     let mut solver = Solver::new(&rod, Settings::default());
     // pinned at both heights: the far end slides, held in height by a stiff clamp of symmetry, is left for the pinned case
@@ -121,7 +121,7 @@ fn forty_five_degrees(elements: usize, load: f64) -> Vector3<f64> {
     let mut solver = Solver::new(&rod, Settings::default());
     let clamp = End::pinned(Vector3::zeros()).clamped(root).with_side(rod.sides().unwrap()[0]);
     let forces = [(elements, Vector3::new(0.0, 0.0, load))];
-    let world = World { fluid: &fluid, bottom: None, gravity: 0.0, forces: &forces };
+    let world = World { forces: &forces, ..World::new(&fluid, 0.0) };
     let made = solver.statics(&rod, &mut state, &world, [clamp, End::FREE]).unwrap();
     let tip = state.position[elements];
     // the clamp carries the load and its moment

@@ -10,7 +10,7 @@ fn a_load_lowered_by_a_winch_hangs_by_its_weight_and_goes_down_at_the_rate() {
     let segment = Segment { axial_damping: 1e6, ..Segment::line(50.0, 10, 5.0, 1e8, 0.05) };
     let mut rod = Rod::new("wire", vec![segment], vec![load]).unwrap();
     let fluid = UniformFluid::none();
-    let world = World { fluid: &fluid, bottom: None, gravity: 9.81, forces: &[] };
+    let world = World::new(&fluid, 9.81);
     let ends = [End::pinned(Vector3::zeros()), End::FREE];
     let mut state = State::along(&rod, &[Vector3::zeros(), Vector3::new(0.0, 0.0, -50.0)]).unwrap();
     let mut solver = Solver::new(&rod, Settings::default());
@@ -40,7 +40,7 @@ fn elements_that_appear_at_a_winch_leave_the_load_where_it_was() {
     let segment = Segment { axial_damping: 1e6, ..Segment::line(25.0, 5, 5.0, 1e8, 0.05) };
     let mut rod = Rod::new("wire", vec![segment], vec![load]).unwrap();
     let fluid = UniformFluid::none();
-    let world = World { fluid: &fluid, bottom: None, gravity: 9.81, forces: &[] };
+    let world = World::new(&fluid, 9.81);
     let ends = [End::pinned(Vector3::zeros()), End::FREE];
     let mut state = State::along(&rod, &[Vector3::zeros(), Vector3::new(0.0, 0.0, -25.0)]).unwrap();
     let mut solver = Solver::new(&rod, Settings::default());
@@ -87,7 +87,7 @@ fn a_heave_of_the_top_swings_a_load_by_its_own_spring_at_any_mass() {
         let ea = 9.0 * mass * length;
         let rod = Rod::new("wire", vec![Segment::line(length, 6, 1e-3 * mass, ea, 0.05)], vec![load]).unwrap();
         let fluid = UniformFluid::none();
-        let world = World { fluid: &fluid, bottom: None, gravity: 9.81, forces: &[] };
+        let world = World::new(&fluid, 9.81);
         let mut state = State::along(&rod, &[Vector3::zeros(), Vector3::new(0.0, 0.0, -length)]).unwrap();
         let mut solver = Solver::new(&rod, Settings::default());
         let still = [End::pinned(Vector3::zeros()), End::FREE];

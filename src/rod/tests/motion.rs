@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 
 /// No fluid, no bottom.
 fn vacuum(fluid: &UniformFluid, gravity: f64) -> World<'_> {
-    World { fluid, bottom: None, gravity, forces: &[] }
+    World::new(fluid, gravity)
 }
 
 #[test]
@@ -177,7 +177,7 @@ fn energy_and_momentum_of_a_swinging_moored_rope_add_up() {
     let fluid = UniformFluid::moving(1025.0, Vector3::new(0.2, 0.5, 0.0));
     let bottom = PlaneBottom { height: -50.0, slope: [0.0, 0.0] };
     let ground = Ground { damping: 1e3, soft: 0.05, friction_along: 0.3, friction_across: 0.6, ..Ground::elastic(1e5) };
-    let world = World { fluid: &fluid, bottom: Some((&bottom, ground)), gravity: 9.81, forces: &[] };
+    let world = World { bottom: Some((&bottom, ground)), ..World::new(&fluid, 9.81) };
     let (a, b) = (Vector3::new(0.0, 0.0, -50.0), Vector3::new(75.0, 0.0, -5.0));
     let run = |h: f64| {
         let mut state = State::along(&rod, &[a, b]).unwrap();
@@ -280,8 +280,7 @@ impl FluidField for Swell {
         Fluid {
             velocity: Vector3::y() * (self.speed * s),
             acceleration: Vector3::y() * (self.speed * self.frequency * c),
-            surface: 0.0,
-            density: 1025.0,
+            ..UniformFluid::still(1025.0).0
         }
     }
 }
@@ -295,7 +294,7 @@ fn a_rod_as_light_as_its_water_goes_with_it() {
     let segment = Segment { drag_normal: 1.0, added_normal: 1.0, ..Segment::line(20.0, 8, mass, 1e7, diameter) };
     let rod = Rod::new("drifter", vec![segment], vec![]).unwrap();
     let swell = Swell { speed, frequency };
-    let world = World { fluid: &swell, bottom: None, gravity: 9.81, forces: &[] };
+    let world = World::new(&swell, 9.81);
     let x = |x: f64| Vector3::new(x, 0.0, -30.0);
     let mut state = State::along(&rod, &[x(0.0), x(20.0)]).unwrap();
     let mut solver = Solver::new(&rod, Settings::default());
@@ -327,7 +326,7 @@ fn a_chain_on_a_slope_slides_when_friction_is_less_than_the_slope() {
             friction_speed: 1e-3,
             ..Ground::elastic(1e6)
         };
-        let world = World { fluid: &fluid, bottom: Some((&bottom, ground)), gravity: 9.81, forces: &[] };
+        let world = World { bottom: Some((&bottom, ground)), ..World::new(&fluid, 9.81) };
         let down = Vector3::new(angle.cos(), 0.0, -angle.sin());
         // laid as deep as it sinks in by its own weight
         let sunk = Vector3::new(angle.sin(), 0.0, angle.cos()) * (-50.0 * 9.81 * angle.cos() / (1e6 * 0.1));

@@ -22,7 +22,7 @@ fn a_heated_pipe_under_pressure_between_fixed_ends_is_pressed_as_the_closed_form
     let rod = pipe(tube);
     let fluid = UniformFluid::still(1025.0);
     let depth = 100.0;
-    let world = World { fluid: &fluid, bottom: None, gravity: 9.80665, forces: &[] };
+    let world = World::new(&fluid, 9.80665);
     let (a, b) = (Vector3::new(0.0, 0.0, -depth), Vector3::new(20.0, 0.0, -depth));
     let state = State::along(&rod, &[a, b]).unwrap();
     let found = rod.results(&state, &world, &[End::pinned(a), End::pinned(b)])[5];
@@ -70,7 +70,7 @@ fn what_makes_no_rod_is_refused_with_its_reason() {
     let other = Rod::new("S", vec![Segment::line(10.0, 7, 10.0, 1e6, 0.1)], vec![]).unwrap();
     let mut state = State::along(&other, &[Vector3::zeros(), Vector3::x()]).unwrap();
     let fluid = UniformFluid::none();
-    let world = World { fluid: &fluid, bottom: None, gravity: 9.81, forces: &[] };
+    let world = World::new(&fluid, 9.81);
     let mut solver = Solver::new(&rod, Settings::default());
     assert!(solver.statics(&rod, &mut state, &world, [End::FREE; 2]).unwrap_err().to_string().contains("6 nodes"));
     assert!(solver.step(&rod, &mut state, &world, 1.0, [End::FREE; 2]).is_err());
@@ -80,7 +80,7 @@ fn what_makes_no_rod_is_refused_with_its_reason() {
 #[test]
 fn a_polynomial_and_a_table_of_tension_hang_as_the_line_they_describe() {
     let fluid = UniformFluid::none();
-    let world = World { fluid: &fluid, bottom: None, gravity: 9.81, forces: &[] };
+    let world = World::new(&fluid, 9.81);
     let stretch = |axial: Axial| {
         let rod = Rod::new("R", vec![Segment { axial, ..Segment::line(10.0, 50, 20.0, 1e4, 0.1) }], vec![]).unwrap();
         let top = Vector3::zeros();

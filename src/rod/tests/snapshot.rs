@@ -16,7 +16,7 @@ fn a_rod_whose_winch_has_changed_it_goes_on_from_a_snapshot_to_the_last_bit() {
     let fluid = UniformFluid::moving(1025.0, Vector3::new(0.2, 0.5, 0.0));
     let bottom = PlaneBottom { height: -80.0, slope: [0.0, 0.0] };
     let ground = Ground { damping: 1e3, soft: 0.05, friction_along: 0.3, friction_across: 0.6, ..Ground::elastic(1e5) };
-    let world = World { fluid: &fluid, bottom: Some((&bottom, ground)), gravity: 9.81, forces: &[] };
+    let world = World { bottom: Some((&bottom, ground)), ..World::new(&fluid, 9.81) };
     let (a, b) = (Vector3::new(0.0, 0.0, -80.0), Vector3::new(165.0, 0.0, -5.0));
     let mut state = State::along(&rod, &[a, b]).unwrap();
     let ends = [End::pinned(a), End::pinned(b)];

@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 fn hung(elements: usize, b: Vector3<f64>) -> (EndForces, State) {
     let rod = Rod::new("rope", vec![Segment::line(100.0, elements, 50.0, 1e6, 0.1)], vec![]).unwrap();
     let fluid = UniformFluid::none();
-    let world = World { fluid: &fluid, bottom: None, gravity: 9.81, forces: &[] };
+    let world = World::new(&fluid, 9.81);
     let a = Vector3::zeros();
     let mut state = State::along(&rod, &[a, b]).unwrap();
     let mut solver = Solver::new(&rod, Settings::default());
@@ -49,7 +49,7 @@ fn ropes_that_are_slack_vertical_grounded_or_buoyant_come_to_rest() {
     let fluid = UniformFluid::still(1025.0);
     let bottom = PlaneBottom { height: -50.0, slope: [0.02, 0.01] };
     let ground = Ground { damping: 1e4, soft: 0.01, ..Ground::elastic(1e6) };
-    let world = World { fluid: &fluid, bottom: Some((&bottom, ground)), gravity: 9.81, forces: &[] };
+    let world = World { bottom: Some((&bottom, ground)), ..World::new(&fluid, 9.81) };
     for (mass, diameter) in [(100.0, 0.1), (20.0, 0.3)] {
         for bending in [0.0, 1e5, 1e6] {
             let segment =
@@ -92,7 +92,7 @@ fn ropes_that_are_slack_vertical_grounded_or_buoyant_come_to_rest() {
 fn a_hanging_chain_swings_at_the_zeros_of_j0() {
     let rod = Rod::new("chain", vec![Segment::line(10.0, 200, 5.0, 1e8, 0.1)], vec![]).unwrap();
     let fluid = UniformFluid::none();
-    let world = World { fluid: &fluid, bottom: None, gravity: 9.81, forces: &[] };
+    let world = World::new(&fluid, 9.81);
     let ends = [End::pinned(Vector3::zeros()), End::FREE];
     let mut state = State::along(&rod, &[Vector3::zeros(), Vector3::new(0.0, 0.0, -10.0)]).unwrap();
     let mut solver = Solver::new(&rod, Settings::default());
@@ -114,7 +114,7 @@ fn a_taut_string_and_a_bar_sound_at_their_closed_forms() {
     let segment = Segment { compression: true, ..Segment::line(length, 80, mass, ea, 0.1) };
     let rod = Rod::new("string", vec![segment], vec![]).unwrap();
     let fluid = UniformFluid::none();
-    let world = World { fluid: &fluid, bottom: None, gravity: 0.0, forces: &[] };
+    let world = World::new(&fluid, 0.0);
     let (a, b) = (Vector3::zeros(), Vector3::new(length * (1.0 + stretch), 0.0, 0.0));
     let ends = [End::pinned(a), End::pinned(b)];
     let mut state = State::along(&rod, &[a, b]).unwrap();

@@ -15,6 +15,7 @@ fn everything(bending: f64) -> (Rod, State) {
         drag_tangential: 0.1,
         added_normal: 1.0,
         added_tangential: 0.3,
+        wind_drag: 1.1,
         tube,
         ..Segment::line(20.0, 4, 80.0, 1e6, 0.4)
     };
@@ -39,104 +40,57 @@ fn tangent_of_the_whole_rod_is_the_difference_of_its_residual() {
         acceleration: Vector3::new(0.1, 0.3, -0.2),
         surface: 0.3,
         density: 1025.0,
+        wind: Vector3::new(12.0, -5.0, 1.0),
+        air_density: 1.226,
     });
     let bottom = PlaneBottom { height: -8.0, slope: [0.05, -0.02] };
     let ground = Ground { damping: 1e3, soft: 0.1, friction_along: 0.3, friction_across: 0.6, ..Ground::elastic(1e5) };
-    let world = World { fluid: &fluid, bottom: Some((&bottom, ground)), gravity: 9.81, forces: &[] };
+    let world = World { bottom: Some((&bottom, ground)), slam: true, ..World::new(&fluid, 9.81) };
     for bending in [0.0, 4e5] {
         let (mut rod, state) = everything(bending);
         rod.elements[2].rate = 0.3;
         let mut solver = Solver::new(&rod, Settings::default());
         solver.trial.ends[0] = End::FREE.clamped(Vector3::new(0.8, 0.3, 0.5));
         solver.trial.ends[1] = End { rotation: Some(2e5), ..End::FREE.clamped(Vector3::new(0.5, -0.3, 0.5)) };
-        let mut at =
-            |position: &[Vector3<f64>], velocity: &[Vector3<f64>], acceleration: &[Vector3<f64>], w: Weights| {
-                solver.trial.x.copy_from_slice(position);
-                solver.trial.v.copy_from_slice(velocity);
-                solver.trial.a.copy_from_slice(acceleration);
-                solver.trial.exact = true;
-                trial::sample(&world, 0.0, &mut solver.trial);
-                trial::lay(&rod, &state, &world, &mut solver.trial.lay);
-                trial::soften(&state, &world, &mut solver.trial.soft);
-                let last = rod.elements.len();
-                solver.work.assemble(&rod, &world, &solver.trial, w, 0..last);
-                solver.work.clone()
-            };
-        for (kind, w) in [(0, [1.0, 0.0, 0.0]), (1, [0.0, 1.0, 0.0]), (2, [0.0, 0.0, 1.0])] {
-            let weights = Weights { k: w[0], c: w[1], m: w[2] };
-            let whole = at(&state.position, &state.velocity, &state.acceleration, weights);
-            for column in 0..rod.nodes() {
-                for axis in 0..3 {
-                    let h = 1e-6;
-                    let mut moved = |by: f64| {
-                        let mut s = [state.position.clone(), state.velocity.clone(), state.acceleration.clone()];
-                        s[kind][column][axis] += by;
-                        at(&s[0], &s[1], &s[2], weights)
-                    };
-                    let (plus, minus) = (moved(h), moved(-h));
-                    for row in 0..rod.nodes() {
-                        let difference = (plus.residual(row) - minus.residual(row)) / (2.0 * h);
-                        let tangent = whole.block(row, column).column(axis).into_owned();
-                        // forces of 1e6 N to 1e-16 over 1e-6 m: 1e-4; second derivatives 1e7 times h squared are less
-                        let most = 2e-3 + 1e-7 * tangent.norm();
-                        assert!(
-                            (difference - tangent).norm() < most,
-                            "EI {bending} kind {kind} {row} {column} {axis}: {difference} {tangent}"
-                        );
-                    }
-                }
-            }
-        }
+        compare(&rod, &state, &world, &mut solver);
     }
 }
 
-#[test]
-fn end_tangent_is_the_difference_of_the_end_forces() {
-    let fluid = UniformFluid::moving(1025.0, Vector3::new(0.5, 0.3, 0.0));
-    let world = World { fluid: &fluid, bottom: None, gravity: 9.81, forces: &[] };
-    for (elements, bending) in [(1, 0.0), (2, 0.0), (2, 1e4), (9, 0.0), (9, 1e4)] {
-        let segment = Segment {
-            axial_damping: 1e4,
-            bending,
-            drag_normal: 1.2,
-            added_normal: 1.0,
-            ..Segment::line(50.0, elements, 80.0, 1e6, 0.2)
-        };
-        let rod = Rod::new("line", vec![segment], vec![]).unwrap();
-        let (a, b) = (Vector3::new(0.0, 0.0, -60.0), Vector3::new(35.0, 8.0, -25.0));
-        let mut state = State::along(&rod, &[a, b]).unwrap();
-        let mut solver = Solver::new(&rod, Settings { tolerance: 1e-12, ..Settings::default() });
-        solver.statics(&rod, &mut state, &world, [End::pinned(a), End::pinned(b)]).unwrap();
-        let mut force = |change: [[Vector3<f64>; 3]; 2]| {
-            let motion = |at: Vector3<f64>, c: [Vector3<f64>; 3]| {
-                let m =
-                    Motion { position: at + c[0], velocity: Vector3::new(0.4, 0.1, 0.2) + c[1], acceleration: c[2] };
-                End::moved(m)
-            };
-            let made = solver.trial(&rod, &state, &world, 0.1, [motion(a, change[0]), motion(b, change[1])]).unwrap();
-            (made.force, solver.end_tangent(&rod, &world).unwrap())
-        };
-        let zero = [[Vector3::zeros(); 3]; 2];
-        let whole = force(zero).1;
-        for side in 0..2 {
+/// Compares the tangent of a rod in a state, by each of position, velocity and acceleration, with differences.
+pub(super) fn compare(rod: &Rod, state: &State, world: &World, solver: &mut Solver) {
+    let mut at = |position: &[Vector3<f64>], velocity: &[Vector3<f64>], acceleration: &[Vector3<f64>], w: Weights| {
+        solver.trial.x.copy_from_slice(position);
+        solver.trial.v.copy_from_slice(velocity);
+        solver.trial.a.copy_from_slice(acceleration);
+        solver.trial.exact = true;
+        trial::sample(world, 0.0, &mut solver.trial);
+        trial::lay(rod, state, world, &mut solver.trial.lay);
+        trial::soften(state, world, &mut solver.trial.soft);
+        let last = rod.elements.len();
+        solver.work.assemble(rod, world, &solver.trial, w, 0..last);
+        solver.work.clone()
+    };
+    for (kind, w) in [(0, [1.0, 0.0, 0.0]), (1, [0.0, 1.0, 0.0]), (2, [0.0, 0.0, 1.0])] {
+        let weights = Weights { k: w[0], c: w[1], m: w[2] };
+        let whole = at(&state.position, &state.velocity, &state.acceleration, weights);
+        for column in 0..rod.nodes() {
             for axis in 0..3 {
-                for (kind, tangent) in [whole.position, whole.velocity, whole.acceleration].iter().enumerate() {
-                    let h = 1e-5;
-                    let mut change = zero;
-                    change[side][kind][axis] = h;
-                    let plus = force(change).0;
-                    change[side][kind][axis] = -h;
-                    let minus = force(change).0;
-                    for other in 0..2 {
-                        let difference = (plus[other] - minus[other]) / (2.0 * h);
-                        let column = tangent.fixed_view::<3, 1>(3 * other, 3 * side + axis);
-                        // forces of 1e5 N to 1e-13 over 1e-5 m, and the third derivative
-                        let most = 0.05 + 1e-5 * tangent.norm();
-                        assert!(
-                            (difference - column).norm() < most,
-                            "{elements} EI {bending} {side} {axis} {kind} {other}: {difference} {column}"
-                        );
-                    }
+                let h = 1e-6;
+                let mut moved = |by: f64| {
+                    let mut s = [state.position.clone(), state.velocity.clone(), state.acceleration.clone()];
+                    s[kind][column][axis] += by;
+                    at(&s[0], &s[1], &s[2], weights)
+                };
+                let (plus, minus) = (moved(h), moved(-h));
+                for row in 0..rod.nodes() {
+                    let difference = (plus.residual(row) - minus.residual(row)) / (2.0 * h);
+                    let tangent = whole.block(row, column).column(axis).into_owned();
+                    // forces of 1e6 N to 1e-16 over 1e-6 m: 1e-4; second derivatives 1e7 times h squared are less
+                    let most = 2e-3 + 1e-7 * tangent.norm();
+                    assert!(
+                        (difference - tangent).norm() < most,
+                        "kind {kind} {row} {column} {axis}: {difference} {tangent}"
+                    );
                 }
             }
         }

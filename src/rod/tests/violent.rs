@@ -35,7 +35,7 @@ fn run(line: &Line) -> (f64, f64, f64) {
     let bottom = PlaneBottom { height: -300.0, slope: [0.0, 0.0] };
     let (friction_along, friction_across) = (line.friction, line.friction);
     let ground = Ground { damping: 3e4, friction_along, friction_across, ..Ground::elastic(3e6) };
-    let world = World { fluid: &fluid, bottom: Some((&bottom, ground)), gravity: 9.81, forces: &[] };
+    let world = World { bottom: Some((&bottom, ground)), ..World::new(&fluid, 9.81) };
     let mut state = State::along(&rod, &line.start).unwrap();
     let mut solver = Solver::new(&rod, Settings::default());
     let (a, b) = (line.start[0], line.start[line.start.len() - 1]);

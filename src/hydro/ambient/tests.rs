@@ -1,0 +1,250 @@
+use super::*;
+use crate::language::source::Span;
+use crate::model::{
+    Components, Current, Curve, CurveKind, Division, Environment, Filling, Formula, Phasing, Stretching, Wind,
+};
+use std::f64::consts::{PI, TAU};
+
+const GRAVITY: f64 = 9.80665;
+
+fn named(kind: &str, value: Option<f64>) -> Option<Formula> {
+    Some(Formula { kind: kind.into(), value, span: Span::default() })
+}
+
+fn sea(spectrum: &str, height: f64, period: f64) -> Option<crate::model::Sea> {
+    let places = [Span::default(); 5];
+    Some(crate::model::Sea { spectrum: spectrum.into(), direction: PI, height, period, gamma: None, places })
+}
+
+/// A model whose environment in force is this.
+fn model(environment: Environment) -> Model {
+    let mut model = Model { environment, ..Model::default() };
+    model.defaults.gravity = GRAVITY;
+    model.defaults.ramp = 0.0;
+    model
+}
+
+fn curve(model: &mut Model, name: &str, kind: CurveKind, points: &[(f64, f64)]) {
+    let made = Curve {
+        name: name.into(),
+        kind,
+        points: points.to_vec(),
+        exponentials: 5,
+        metres: 1.0,
+        span: Span::default(),
+    };
+    model.curves.insert(name.into(), made);
+}
+
+fn of(model: &Model) -> (Arc<dyn Ambient>, Option<Arc<Sea>>) {
+    let sea = Sea::of(model, &model.environment).unwrap().map(Arc::new);
+    (ambient(model, sea.as_ref()).unwrap(), sea)
+}
+
+fn flow(around: &Arc<dyn Ambient>, time: f64, place: [f64; 3]) -> Flow {
+    let mut out = [Flow::still(f64::NAN)];
+    around.flow(time, &[place.into()], &mut out);
+    out[0]
+}
+
+#[test]
+fn a_regular_wave_is_that_of_the_closed_form_on_the_tide() {
+    let env = Environment { sea: sea("REGULAR", 4.0, 10.0), tide: Some(1.5), ..Environment::default() };
+    let (around, _) = of(&model(env));
+    let (w, a) = (TAU / 10.0, 2.0);
+    let k = w * w / GRAVITY;
+    for (x, y, z, t) in [(0.0, 0.0, -3.0, 0.0), (17.0, -40.0, -0.2, 3.3), (-250.0, 9.0, -25.0, 77.0)] {
+        let found = flow(&around, t, [x, y, z]);
+        // Airy in deep water, from 180 degrees: it travels toward +X
+        let (sin, cos) = (k * x - w * t).sin_cos();
+        let decay = (k * (z - 1.5)).exp();
+        let velocity = Vector3::new(cos, 0.0, sin) * (a * w * decay);
+        let acceleration = Vector3::new(sin, 0.0, -cos) * (a * w * w * decay);
+        // wave numbers are solved to 1e-12
+        assert!((found.surface - 1.5 - a * cos).abs() < 1e-9, "{x}");
+        assert!((found.velocity - velocity).norm() < 1e-9 && (found.acceleration - acceleration).norm() < 1e-9, "{x}");
+    }
+}
+
+#[test]
+fn below_the_surface_it_is_the_sea_and_above_it_the_water_at_the_surface() {
+    let kinds = [Stretching::Linear, Stretching::Wheeler, Stretching::Delta, Stretching::Exponential];
+    for (stretching, spectrum, depth) in kinds
+        .iter()
+        .flat_map(|s| [(*s, "ISSC", None), (*s, "ISSC", Some(40.0))])
+        .chain([(Stretching::Linear, "STOKES", Some(40.0))])
+    {
+        let env = Environment {
+            sea: sea(spectrum, 6.0, 10.0),
+            depth,
+            tide: Some(2.0),
+            ramp: Some(30.0),
+            stretching: Some(stretching),
+            phasing: Some(Phasing::Seeded(3)),
+            ..Environment::default()
+        };
+        let (around, sea) = of(&model(env));
+        let sea = sea.unwrap();
+        let time = 21.0;
+        let (mut over, mut under) = (0, 0);
+        for i in 0..40 {
+            let place = Vector3::new(11.0 * f64::from(i), -3.0 * f64::from(i), -38.0 + 1.3 * f64::from(i));
+            let found = flow(&around, time, place.into());
+            let surface = 2.0 + sea.elevation(place.x, place.y, time);
+            assert!((found.surface - surface).abs() < 1e-12, "{stretching:?} {i}");
+            // a micron below the surface, where the place is above it
+            let at = Vector3::new(place.x, place.y, place.z.min(surface - 1e-6));
+            let want = sea.kinematics(at, time);
+            let near = if place.z > surface { 1e-5 } else { 1e-12 };
+            (over, under) = if place.z > surface { (over + 1, under) } else { (over, under + 1) };
+            assert!((found.velocity - want.velocity).norm() < near, "{stretching:?} {i}");
+            assert!((found.acceleration - want.acceleration).norm() < near, "{stretching:?} {i}");
+        }
+        assert!(over > 5 && under > 20, "{over} {under}");
+    }
+}
+
+#[test]
+fn current_has_its_profile_its_history_and_no_waves_in_the_mean() {
+    let env = Environment {
+        current: Some(Current::Profiles(vec![("CUR".into(), PI), ("SIDE".into(), -PI / 2.0)])),
+        current_history: named("TURN", None),
+        sea: sea("REGULAR", 4.0, 10.0),
+        depth: Some(100.0),
+        tide: Some(1.0),
+        ..Environment::default()
+    };
+    let mut model = model(env);
+    curve(&mut model, "CUR", CurveKind::CurrentProfile, &[(0.0, 2.0), (50.0, 1.0)]);
+    curve(&mut model, "SIDE", CurveKind::CurrentProfile, &[(0.0, 0.5), (10.0, 0.5)]);
+    curve(&mut model, "TURN", CurveKind::CurrentHistory, &[(0.0, 1.0), (100.0, 3.0)]);
+    let (around, sea) = of(&model);
+    let sea = sea.unwrap();
+    // 26 m deep at z = -25 with the tide: 2 - 26/50; at 50 s twice that
+    let at = Vector3::new(5.0, 6.0, -25.0);
+    let mean = Vector3::new(2.0 - 26.0 / 50.0, 0.5, 0.0);
+    let mut out = [Flow::still(0.0)];
+    around.mean(&[at], &mut out);
+    assert!((out[0].velocity - mean).norm() < 1e-12 && out[0].acceleration.norm() == 0.0);
+    assert_eq!(out[0].surface, 1.0);
+    let found = flow(&around, 50.0, at.into());
+    assert!((found.velocity - 2.0 * mean - sea.kinematics(at, 50.0).velocity).norm() < 1e-12);
+    // below the bottom there is none
+    around.mean(&[Vector3::new(0.0, 0.0, -100.1)], &mut out);
+    assert_eq!(out[0].velocity, Vector3::zeros());
+}
+
+#[test]
+fn wind_has_its_profile_and_its_history() {
+    let env = Environment {
+        wind: Some(Wind { speed: 0.0, direction: PI / 2.0 }),
+        wind_history: named("BLOW", None),
+        tide: Some(1.0),
+        ..Environment::default()
+    };
+    let mut model = model(env);
+    curve(&mut model, "BLOW", CurveKind::WindHistory, &[(0.0, 0.0), (60.0, 30.0)]);
+    let (around, _) = of(&model);
+    // a power law of exponent 1/7 over 10 m above the water, from +Y
+    let found = flow(&around, 40.0, [0.0, 0.0, 31.0]);
+    assert!((found.wind - Vector3::new(0.0, -20.0 * 3f64.powf(1.0 / 7.0), 0.0)).norm() < 1e-9, "{}", found.wind);
+    let mut out = [Flow::still(0.0)];
+    around.mean(&[Vector3::new(0.0, 0.0, 31.0)], &mut out);
+    assert_eq!(out[0].wind.norm(), 0.0);
+    model.environment.wind = Some(Wind { speed: 25.0, direction: PI / 2.0 });
+    model.environment.wind_history = None;
+    let (around, _) = of(&model);
+    around.mean(&[Vector3::new(0.0, 0.0, 11.0)], &mut out);
+    assert!((out[0].wind - Vector3::new(0.0, -25.0, 0.0)).norm() < 1e-9);
+    // gusts are the same at all heights
+    model.environment.gusts = named("NPD", None);
+    let (around, _) = of(&model);
+    let gust = |z: f64| flow(&around, 12.0, [0.0, 0.0, z]).wind.norm();
+    let still = |z: f64| 25.0 * (z / 10.0f64).powf(1.0 / 7.0);
+    assert!((gust(11.0) - 25.0).abs() > 1e-3);
+    assert!((gust(51.0) - still(50.0) - (gust(11.0) - 25.0)).abs() < 1e-9);
+}
+
+#[test]
+fn growth_is_half_of_what_it_adds_to_a_diameter() {
+    let mut model = model(Environment { growth: named("GROW", None), ..Environment::default() });
+    curve(&mut model, "GROW", CurveKind::MarineGrowth, &[(-40.0, 0.1), (0.0, 0.2)]);
+    let (around, _) = of(&model);
+    assert_eq!(around.growth(0.0), (0.1, super::super::growth::DENSITY));
+    assert!((around.growth(-20.0).0 - 0.075).abs() < 1e-15);
+    assert_eq!(around.growth(0.1).0, 0.0);
+    model.environment.growth = named("GROW", Some(1100.0));
+    assert_eq!(of(&model).0.growth(0.0).1, 1100.0);
+    model.environment.growth = None;
+    assert_eq!(of(&model).0.growth(0.0), (0.0, 0.0));
+}
+
+#[test]
+fn the_bottom_is_flat_or_that_of_a_grid_down_to_which_the_current_goes() {
+    let env = Environment {
+        depth: Some(50.0),
+        current: Some(Current::Uniform { velocity: 1.0, direction: PI }),
+        ..Environment::default()
+    };
+    let mut model = model(env);
+    let deep = Vector3::new(50.0, 0.0, -54.0);
+    let (around, _) = of(&model);
+    assert_eq!(around.bottom(3.0, 4.0), Some((-50.0, [0.0, 0.0])));
+    assert_eq!(flow(&around, 0.0, deep.into()).velocity.norm(), 0.0);
+    let heights = [-50.0, -60.0, -50.0, -60.0];
+    let grid = Bathymetry::new("SLOPE", vec![0.0, 100.0], vec![0.0, 100.0], &heights, Span::default()).unwrap();
+    model.bathymetries.insert("SLOPE".into(), Arc::new(grid));
+    model.environment.bathymetry = named("slope", None);
+    let (around, _) = of(&model);
+    let (z, [by_x, by_y]) = around.bottom(50.0, 70.0).unwrap();
+    assert!((z + 55.0).abs() < 1e-12 && (by_x + 0.1).abs() < 1e-15 && by_y.abs() < 1e-15);
+    assert!((flow(&around, 0.0, deep.into()).velocity.x - 1.0).abs() < 1e-15);
+    model.environment.bathymetry = named("GONE", None);
+    assert!(ambient(&model, None).unwrap_err().to_string().contains("no bathymetry GONE"));
+    model.environment = Environment::default();
+    model.defaults.depth = None;
+    assert_eq!(of(&model).0.bottom(0.0, 0.0), None);
+}
+
+#[test]
+fn contents_are_those_of_the_set_that_the_environment_names() {
+    let mut model = model(Environment { filling: named("HOT", None), ..Environment::default() });
+    assert!(ambient(&model, None).unwrap_err().to_string().contains("no set of T_PRESSURE data HOT"));
+    let contents = Contents { warmer: 60.0, pressure: 1.5e7, at: 12.0, density: 800.0 };
+    model.fillings.insert("HOT".into(), Filling { name: "Hot".into(), contents, span: Span::default() });
+    assert_eq!(of(&model).0.contents(), Some(contents));
+    model.environment.filling = None;
+    assert_eq!(of(&model).0.contents(), None);
+}
+
+#[test]
+fn many_places_at_once_are_each_as_if_alone() {
+    let env = Environment {
+        sea: sea("ISSC", 6.0, 10.0),
+        components: Some(Components {
+            number: 100,
+            division: Division::EqualEnergy,
+            limits: None,
+            span: Span::default(),
+        }),
+        wind: Some(Wind { speed: 20.0, direction: 0.3 }),
+        current: Some(Current::Uniform { velocity: 1.0, direction: PI }),
+        ..Environment::default()
+    };
+    let (around, _) = of(&model(env));
+    let places: Vec<Vector3<f64>> =
+        (0..200).map(|i| Vector3::new(3.0 * f64::from(i), f64::from(i), -190.0 + f64::from(i))).collect();
+    let mut out = vec![Flow::still(0.0); places.len()];
+    around.flow(123.4, &places, &mut out);
+    for (place, found) in places.iter().zip(&out) {
+        assert_eq!(*found, flow(&around, 123.4, (*place).into()));
+    }
+    if std::env::var_os("AMBIENT_SPEED").is_some() {
+        let begun = std::time::Instant::now();
+        for i in 0..500 {
+            around.flow(f64::from(i), &places, &mut out);
+        }
+        let each = begun.elapsed().as_secs_f64() / (500.0 * places.len() as f64);
+        std::io::Write::write_fmt(&mut std::io::stderr(), format_args!("{:.0} ns a place\n", each * 1e9)).unwrap();
+    }
+}

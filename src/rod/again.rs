@@ -1,0 +1,86 @@
+//! A trial that follows another of the same step, as when a body looks for its own motion.
+
+use super::ends::End;
+use super::mesh::Rod;
+use super::scheme::Scheme;
+use super::state::State;
+use super::step::{At, Solver};
+use super::surroundings::World;
+use super::trial::turn;
+use nalgebra::Vector3;
+
+/// Largest move of a node, as a share of the shortest element, that is foretold from the trial before.
+const NEAR: f64 = 0.1;
+
+impl Solver {
+    /// Whether the last trial was one of the same step, made in one part.
+    pub(super) fn follows(&self, state: &State, time: f64, ends: &[End; 2]) -> bool {
+        let held = |ends: &[End; 2]| ends.map(|e| e.motion.is_some());
+        self.at == At::Trial
+            && self.whole
+            && self.next.time == time
+            && held(&self.trial.ends) == held(ends)
+            && self.began == *state
+    }
+
+    /// Begins a trial where the last one of the step ended, moved by the linear response to what is new in the motion
+    /// of the ends: the largest move as a share of the shortest element, or none if the last one is too far away.
+    pub(super) fn again(
+        &mut self,
+        rod: &Rod,
+        from: &State,
+        world: &World,
+        scheme: &Scheme,
+        ends: &[End; 2],
+    ) -> Option<f64> {
+        if !self.near.ready {
+            self.linearise(rod, world)?;
+        }
+        let (stride, last) = (self.work.stride(), rod.elements.len());
+        let size = self.change.len();
+        let known = ends.map(|e| e.motion.is_some());
+        self.change.fill(0.0);
+        for (side, node) in [(0, 0), (1, last)] {
+            let (Some(old), Some(new)) = (self.trial.ends[side].motion, ends[side].motion) else { continue };
+            let place = stride * node;
+            let moved = new.position - old.position;
+            // the matrix has the columns of the ends, with velocity and acceleration as the scheme makes them follow
+            let faster = new.velocity - old.velocity - moved * self.weights.c;
+            let harder = new.acceleration - old.acceleration - moved * self.weights.m;
+            for axis in 0..3 {
+                let by = [&self.near.columns[1][side][axis], &self.near.columns[2][side][axis]];
+                for (i, (c, m)) in by[0].iter().zip(by[1]).enumerate() {
+                    let row = (place + axis + i + 1).checked_sub(by[0].len().div_ceil(2));
+                    let held = |row: usize| {
+                        (known[0] && row < 3) || (known[1] && (stride * last..stride * last + 3).contains(&row))
+                    };
+                    if let Some(row) = row.filter(|row| *row < size && !held(*row)) {
+                        self.change[row] -= c * faster[axis] + m * harder[axis];
+                    }
+                }
+            }
+            self.change[place..place + 3].copy_from_slice(moved.as_slice());
+        }
+        self.work.solve(&mut self.change);
+        let most =
+            self.change.iter().fold(0.0, |most: f64, c| if c.is_nan() { f64::INFINITY } else { most.max(c.abs()) });
+        let share = most / rod.shortest();
+        if share > NEAR {
+            return None;
+        }
+        let next = &mut self.next;
+        turn(&mut next.director, &next.position, &self.change, stride, [false; 2]);
+        for i in 0..=last {
+            let d = &self.change[stride * i..stride * i + 3];
+            next.position[i] += Vector3::new(d[0], d[1], d[2]);
+            let u = next.position[i] - from.position[i];
+            [next.averaged[i], next.velocity[i], next.acceleration[i]] = scheme.follow(from, i, u);
+        }
+        for (side, node) in [(0, 0), (1, last)] {
+            if let Some(motion) = ends[side].motion {
+                next.hold(node, &motion);
+            }
+        }
+        Some(share)
+    }
+}

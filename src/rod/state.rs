@@ -1,0 +1,124 @@
+//! Where a rod is and how it moves.
+
+use super::ends::Motion;
+use super::error::RodError;
+use super::mesh::{Rod, carried_along};
+use super::spatial::transport;
+use nalgebra::Vector3;
+
+/// Motion of a rod at one time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct State {
+    /// Time (s).
+    pub time: f64,
+    /// Position of each node (m, global).
+    pub position: Vec<Vector3<f64>>,
+    /// Velocity of each node (m/s).
+    pub velocity: Vec<Vector3<f64>>,
+    /// Acceleration of each node (m/s2).
+    pub acceleration: Vec<Vector3<f64>>,
+    /// The averaged acceleration of the scheme (m/s2).
+    pub(super) averaged: Vec<Vector3<f64>>,
+    /// Director of each element of a rod with torsion: a unit vector across it that twists with it.
+    pub(super) director: Vec<Vector3<f64>>,
+    /// Least penetration over which the bottom's stiffness grows at each node (m): see
+    /// [`Solver::statics`](super::Solver::statics).
+    pub(super) bedding: Vec<f64>,
+}
+
+impl State {
+    /// At rest along a line of points, spread over it by unstretched length.
+    ///
+    /// # Errors
+    /// Fewer than two points, points that are no numbers, or all in one place.
+    pub fn along(rod: &Rod, points: &[Vector3<f64>]) -> Result<Self, RodError> {
+        let mut along = vec![0.0];
+        for pair in points.windows(2) {
+            along.push(along[along.len() - 1] + (pair[1] - pair[0]).norm());
+        }
+        let total = along[along.len() - 1];
+        if points.len() < 2 || !(total.is_finite() && total > 0.0) {
+            let why = "it needs a line of two points or more, apart from each other, to start from".to_string();
+            return Err(RodError::Shape { rod: rod.name.clone(), why });
+        }
+        let length = rod.length();
+        let mut at = 1;
+        let position = rod
+            .arc()
+            .iter()
+            .map(|s| {
+                let here = s / length * total;
+                while at + 1 < points.len() && along[at] < here {
+                    at += 1;
+                }
+                let share = (here - along[at - 1]) / (along[at] - along[at - 1]).max(f64::MIN_POSITIVE);
+                points[at - 1] + (points[at] - points[at - 1]) * share.clamp(0.0, 1.0)
+            })
+            .collect();
+        let position: Vec<Vector3<f64>> = position;
+        let director = if rod.twists() {
+            let edges = position.windows(2).map(|p| (p[1] - p[0]).normalize());
+            match &rod.natural {
+                // untwisted against the shape free of load: from its first director on
+                Some(natural) => {
+                    let mut directors = vec![natural.directors[0]];
+                    let mut from = None;
+                    for t in edges {
+                        let last = directors[directors.len() - 1];
+                        directors.push(match from {
+                            Some(from) => transport(&last, &from, &t),
+                            None => (last - t * t.dot(&last)).normalize(),
+                        });
+                        from = Some(t);
+                    }
+                    directors.split_off(1)
+                }
+                None => carried_along(&edges.collect::<Vec<_>>()),
+            }
+        } else {
+            Vec::new()
+        };
+        let rest = vec![Vector3::zeros(); rod.nodes()];
+        Ok(State {
+            time: 0.0,
+            position,
+            velocity: rest.clone(),
+            acceleration: rest.clone(),
+            averaged: rest,
+            director,
+            bedding: vec![0.0; rod.nodes()],
+        })
+    }
+
+    /// Of a rod without nodes: what stands in for a state that is elsewhere for a while.
+    pub(super) fn empty() -> Self {
+        State {
+            time: 0.0,
+            position: vec![],
+            velocity: vec![],
+            acceleration: vec![],
+            averaged: vec![],
+            director: vec![],
+            bedding: vec![],
+        }
+    }
+
+    /// Becomes another state of the same rod, in memory that is there.
+    pub(super) fn copy_from(&mut self, other: &State) {
+        self.time = other.time;
+        self.position.copy_from_slice(&other.position);
+        self.velocity.copy_from_slice(&other.velocity);
+        self.acceleration.copy_from_slice(&other.acceleration);
+        self.averaged.copy_from_slice(&other.averaged);
+        self.director.copy_from_slice(&other.director);
+        self.bedding.copy_from_slice(&other.bedding);
+    }
+
+    /// Gives a node a motion.
+    pub(super) fn hold(&mut self, node: usize, motion: &Motion) {
+        self.position[node] = motion.position;
+        self.velocity[node] = motion.velocity;
+        self.acceleration[node] = motion.acceleration;
+        self.averaged[node] = motion.acceleration;
+    }
+}
