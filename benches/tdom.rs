@@ -58,6 +58,7 @@ fn pass(name: &str, model: &Model, keep: bool) {
         capsize: true,
         adaptive: None,
         keep,
+        along: 1,
         transient: 0.0,
     };
     let mut least = f64::INFINITY;

@@ -50,6 +50,7 @@ fn run(model: &Model, observed: f64, tolerance: f64) -> Run {
         capsize: true,
         adaptive: None,
         keep: true,
+        along: 1,
         transient: 0.0,
     };
     let mut run = Run::new(model, settings, Vec::new()).unwrap();

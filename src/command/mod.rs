@@ -64,6 +64,8 @@ mod probability;
 mod rep_select;
 mod report_menu;
 mod rigging;
+mod rod_post;
+mod rod_status;
 mod sea_options;
 mod sea_table;
 mod select;
@@ -250,6 +252,7 @@ pub static COMMANDS: &[&Command] = &[
     &prcpost::C_LENGTH,
     &prcpost::BODY_FORCE,
     &fatigue::FATIGUE,
+    &rod_post::ROD,
     &tether_post::TETHER,
     &tether_post::STRUCTURE,
     &disposition::REPORT,

@@ -12,7 +12,7 @@ use super::prcpost::last_run;
 use super::written::{as_written, kind_data, option_as_written};
 use super::{
     Call, Command, Effect, Job, Menu, bathymetry, body_status, body_tables, database_table, fatigue_table, line_types,
-    member, model_tables, prescribe, sea_table, settings_table, t_pressure, tether_status, wind_table,
+    member, model_tables, prescribe, rod_status, sea_table, settings_table, t_pressure, tether_status, wind_table,
 };
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::{Owner, choose};
@@ -48,6 +48,7 @@ const KINDS: &[(&str, Owner, &str)] = &[
         "the wave components of the seas of the environment in force, or of one kept under a name",
     ),
     ("RUN", Owner::Ours, "how the last run went"),
+    ("ROD", Owner::Ours, "lines that move by themselves, at rest between their ends as they stand"),
     ("TETHERS", Owner::Ours, "what tethers are made of and hang on, as TDOM -TETHERS has them"),
     ("TETHER_MODES", Owner::Ours, "natural modes of tethers where they stand, -NUMBER of each"),
     ("CLASSES", Owner::Ours, "the same as CL_FLEX"),
@@ -161,6 +162,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         "DIMENSIONS" => vec![settings_table::dimensions(job)],
         "DEFAULTS" => vec![settings_table::defaults(model)],
         "RUN" => vec![run_tables::told(last_run(job, args.span)?)],
+        "ROD" => rod_status::tables(job, args, &fits)?,
         "TETHERS" | "TETHER_MODES" => tether_status::tables(job, args, kind, &fits)?,
         "SELECTORS" => vec![model_tables::selectors(model, &fits)],
         "SN" => fatigue_table::tables(job, &fits, chosen.all()),
@@ -209,7 +211,7 @@ fn things(kind: &str) -> &'static [Thing] {
         "PIECES" => &[Thing::Piece, Thing::Body, Thing::Part],
         "ASSEMBLIES" => &[Thing::Assembly],
         "CL_FLEX" | "CLASSES" | "SN" => &[Thing::Class],
-        "G_CONNECTOR" | "F_CONNECTOR" | "FOUNDATION" | "TETHERS" | "TETHER_MODES" => &[Thing::Connector],
+        "G_CONNECTOR" | "F_CONNECTOR" | "FOUNDATION" | "ROD" | "TETHERS" | "TETHER_MODES" => &[Thing::Connector],
         "CURVES" => &[Thing::Curve],
         "BATHYMETRY" => &[Thing::Bathymetry],
         "T_PRESSURE" => &[Thing::Filling],

@@ -96,6 +96,13 @@ static SPEC: CommandSpec = CommandSpec {
             .owner(Owner::Ours),
         OptionSpec::new("-STATISTICS", &[], "keeps statistics of every result and no instants: flat memory, no file")
             .owner(Owner::Ours),
+        OptionSpec::new(
+            "-ALONG",
+            &[ValueSpec::new("N", Kind::Integer, "every Nth; 0: none").within(0.0, 1e6)],
+            "keeps every Nth node of lines that move by themselves, counted from their second ends, and both ends",
+        )
+        .owner(Owner::Ours)
+        .default("1: all nodes"),
         tether_run::TETHERS,
         tether_run::SLAM,
         tether_run::TOW,
@@ -147,16 +154,20 @@ fn settings(job: &Job, args: &Args) -> Outcome<Settings> {
         convergence.most = most.unwrap_or(convergence.most);
         convergence.tolerance = given.number(1).unwrap_or(convergence.tolerance);
     }
-    let store = args.option("-STORE").and_then(|g| g.values.first()).and_then(|v| v.integer());
+    let whole = |name: &str| {
+        let given = args.option(name).and_then(|g| g.values.first()).and_then(|v| v.integer());
+        given.and_then(|n| usize::try_from(n).ok()).unwrap_or(1)
+    };
     Ok(Settings {
         observed: window.observed,
         dt: window.step,
         method,
         convergence,
-        store: store.and_then(|n| usize::try_from(n).ok()).unwrap_or(1),
+        store: whole("-STORE"),
         capsize: said("-NO_CAPSIZE"),
         adaptive: args.option_number("-ADAPTIVE"),
         keep: !args.has("-STATISTICS"),
+        along: whole("-ALONG"),
         transient: window.transient.unwrap_or(0.0),
     })
 }

@@ -45,7 +45,7 @@ pub const TOW: OptionSpec = OptionSpec::new(
 .default("0: it stays");
 
 /// Options of TDOM that a run of tethers does not take.
-const NOT_TAKEN: [&str; 10] = [
+const NOT_TAKEN: [&str; 11] = [
     "-NO_CAPSIZE",
     "-EQUI",
     "-NEWMARK",
@@ -56,6 +56,7 @@ const NOT_TAKEN: [&str; 10] = [
     "-ADAPTIVE",
     "-CHECK",
     "-STATISTICS",
+    "-ALONG",
 ];
 
 /// Runs the tethers of the model.

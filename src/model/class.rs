@@ -54,6 +54,38 @@ impl Class {
     }
 }
 
+/// What the wall of a tube is made of, SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WallMaterial {
+    /// Yield stress (Pa).
+    pub yield_stress: f64,
+    /// Tensile strength (Pa).
+    pub tensile: f64,
+    /// Young's modulus (Pa).
+    pub modulus: f64,
+    /// Poisson's ratio.
+    pub poisson: f64,
+}
+
+impl Class {
+    /// What the walls of its segments are made of, one a record: of its options, else of `&DEFAULT` when it was read.
+    pub fn wall_materials(&self) -> Vec<WallMaterial> {
+        let of = |record: &ClassRecord| {
+            let (args, usual) = (&record.args, &record.defaults.material);
+            let given = args.option_number("-FYIELD");
+            // as the break of a section: without a strength of its own, yield / 0.6
+            let by_yield = given.map(|y| y / 0.6);
+            WallMaterial {
+                yield_stress: given.unwrap_or(usual.yield_stress),
+                tensile: args.option_number("-TENSTR").or(by_yield).unwrap_or(usual.ultimate()),
+                modulus: args.option_number("-EMODULUS").unwrap_or(usual.emodulus),
+                poisson: args.option_number("-POI_RAT").unwrap_or(usual.poisson),
+            }
+        };
+        self.records.iter().map(of).collect()
+    }
+}
+
 /// Why a class could not answer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ClassError {

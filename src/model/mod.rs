@@ -31,7 +31,7 @@ pub use ambient::{Ambient, Contents, Filling, Flow};
 pub use assembly::{Assemblies, Assembly, AssemblyKind, LaidPipe, PIPE, PipeLayout};
 pub use bathymetry::Bathymetry;
 pub use body::{Body, GROUND, Junction, Mass, Part, Point, Weight};
-pub use class::{Class, ClassError, ClassRecord, ConnectorClass};
+pub use class::{Class, ClassError, ClassRecord, ConnectorClass, WallMaterial};
 pub use connector::{Anchor, Connector, Tug};
 pub use curve::{Curve, CurveKind};
 pub use database::{Amplitudes, AttachedDatabase, Database, DriftMethod, DriftTable, Qtf};

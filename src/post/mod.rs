@@ -9,6 +9,7 @@ pub mod distribution;
 pub mod extremes;
 pub mod fatigue;
 pub mod harmonics;
+pub mod line;
 pub mod rainflow;
 pub mod running;
 pub mod sampling;

@@ -1,11 +1,11 @@
 //! Changes of a system under way: connectors that come and go or change their length, loads of another environment.
 
-use super::link::{Attachment, connected, link};
+use super::link::{Attachment, Link, connected, link};
 use super::system::{SolveError, System, moving_nodes};
-use super::time::Memory;
+use super::time::{LinkEnds, Memory};
 use crate::hydro::ambient;
 use crate::hydro::sea::Sea;
-use crate::model::{ClassError, Connector, GivenMotion, Model};
+use crate::model::{ClassError, Connector, Element, GivenMotion, Model};
 use std::sync::Arc;
 
 /// A connector of a model.
@@ -21,19 +21,28 @@ fn bodies(ends: &[Attachment]) -> Vec<Option<usize>> {
     ends.iter().map(|e| if let Attachment::Body(body, _) = e { Some(*body) } else { None }).collect()
 }
 
+/// How many nodes an element tells of at most, and whether they bend.
+fn nodes(element: &dyn Element) -> (usize, bool) {
+    (element.nodes(), element.bends())
+}
+
 impl System {
-    /// Its connectors, as written, with the body at each end; none in the ground.
-    pub fn link_ends(&self) -> Vec<(String, Vec<Option<usize>>)> {
-        self.links.iter().map(|l| (l.name.clone(), bodies(&l.ends))).collect()
+    /// Its connectors, as a layout is made of them.
+    pub fn link_ends(&self) -> Vec<LinkEnds> {
+        let of = |l: &Link| LinkEnds { name: l.name.clone(), ends: bodies(&l.ends), nodes: nodes(l.element.as_ref()) };
+        self.links.iter().map(of).collect()
     }
 
-    /// The bodies at the ends of a connector of a model, which need not act.
+    /// A connector of a model, which need not act, as a layout is made of it.
     ///
     /// # Errors
     /// There is no such connector.
-    pub fn ends_of(model: &Model, name: &str) -> Result<(String, Vec<Option<usize>>), SolveError> {
+    pub fn ends_of(&self, model: &Model, name: &str) -> Result<LinkEnds, SolveError> {
         let found = connector(model, name)?;
-        Ok((found.name.clone(), bodies(&connected(model, found))))
+        // one that cannot be made says so when it is to act
+        let element = model.element_in(found, Some(&self.ambient)).ok();
+        let nodes = element.map_or((0, false), |e| nodes(e.as_ref()));
+        Ok(LinkEnds { name: found.name.clone(), ends: bodies(&connected(model, found)), nodes })
     }
 
     /// Whether a connector of this name moves by itself.

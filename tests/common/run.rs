@@ -33,6 +33,7 @@ pub fn settings(observed: f64, dt: f64) -> Settings {
         capsize: true,
         adaptive: None,
         keep: true,
+        along: 1,
         transient: 0.0,
     }
 }

@@ -3,6 +3,7 @@
 //! Source: reference/solve.md, "PRCPOST". A table has a row an event. A command says what it makes of a stored row of a
 //! [`History`]; which instants are told, and what lies between stored ones, is decided here for all of them.
 
+pub mod along;
 mod connectors;
 mod events;
 mod fatigue;

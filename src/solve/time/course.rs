@@ -1,8 +1,12 @@
 //! How a run is to go, how it ended and what it did, and who is told as it goes.
 
+use super::along::AlongColumns;
+use super::history::Layout;
 use super::scheme::Method;
 use super::snapshot::Snapshot;
 use super::step::Convergence;
+use crate::model::ClassError;
+use crate::solve::system::SolveError;
 
 /// How a run goes.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,8 +27,38 @@ pub struct Settings {
     pub adaptive: Option<f64>,
     /// Keeps rows. Without, only who is told of them has them.
     pub keep: bool,
+    /// Of the nodes of lines that move by themselves every so manieth is kept; 0: none.
+    pub along: usize,
     /// Time that statistics leave out at the beginning (s).
     pub transient: f64,
+}
+
+/// Most bytes of the rows of a run.
+const MOST_BYTES: f64 = 4e9;
+
+impl Settings {
+    /// Sees that the rows of a run have room in memory.
+    ///
+    /// # Errors
+    /// They would take more than 4 GB.
+    pub fn fits(&self, layout: &Layout) -> Result<(), SolveError> {
+        if !self.keep {
+            return Ok(());
+        }
+        let rows = (self.observed / self.dt / self.store.max(1) as f64).ceil() + 2.0;
+        let bytes = rows * layout.width as f64 * size_of::<f64>() as f64;
+        if bytes <= MOST_BYTES {
+            return Ok(());
+        }
+        let along: usize = layout.links.iter().filter_map(|l| l.along.as_ref()).map(AlongColumns::width).sum();
+        let (size, most) = (bytes / 1e9, MOST_BYTES / 1e9);
+        let text = format!(
+            "{rows} stored instants of {} numbers each, {along} of them of nodes of lines, take {size:.1} GB of memory: more than {most} GB",
+            layout.width
+        );
+        let help = "-STORE keeps fewer instants, -ALONG fewer nodes of lines, -STATISTICS none of either";
+        Err(SolveError::new(ClassError::new(text).help(help)))
+    }
 }
 
 /// Why a run ended.

@@ -1,11 +1,12 @@
 //! What acts on bodies under way, and how it changes with their places and velocities.
 
+use super::ends::end_of;
 use super::foretelling::Foretelling;
 use super::inertia::of_added;
 use super::side_by_side::{self, Alone};
 use crate::hydro::{BodyLoad, Category, MovingLoad, Underway, carried, transferred, turning};
 use crate::model::{Anchored, End, Guess, Pose, Response, Situation, Six, TimeStep};
-use crate::solve::link::{Attachment, Link, pose_of};
+use crate::solve::link::{Attachment, Link};
 use crate::solve::system::{Node, SolveError, System};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use std::ops::Range;
@@ -144,7 +145,6 @@ pub struct Forces {
     alone: Vec<Alone>,
     made: MovingLoad,
     response: Response,
-    poses: Vec<Pose>,
     ends: Vec<End>,
     arms: Vec<Vector3<f64>>,
 }
@@ -268,8 +268,6 @@ impl Forces {
 
     /// Adds what connectors exert.
     fn connect(&mut self, system: &System, motions: &[Motion], (time, dt): (f64, f64)) -> Result<(), SolveError> {
-        self.poses.clear();
-        self.poses.extend(motions.iter().map(|m| m.pose));
         self.connect_moving(system, motions, (time, dt));
         let mut alone = std::mem::take(&mut self.alone).into_iter();
         let (flexible, rigid) = (place_of(Category::FlexConnectors), place_of(Category::RigidConnectors));
@@ -344,23 +342,8 @@ impl Forces {
         self.ends.clear();
         self.arms.clear();
         for end in &link.ends {
-            let pose = pose_of(end, &self.poses);
-            let (mut velocity, mut acceleration) = (Six::zeros(), Six::zeros());
-            let mut arm = Vector3::zeros();
-            if let Attachment::Body(body, _) = end
-                && let Some(motion) = motions.get(*body)
-            {
-                arm = pose.origin - motion.pose.origin;
-                let turn = Vector3::new(motion.velocity[3], motion.velocity[4], motion.velocity[5]);
-                let by_turn = turn.cross(&arm);
-                velocity = motion.velocity + Six::new(by_turn.x, by_turn.y, by_turn.z, 0.0, 0.0, 0.0);
-                if link.element.moves() {
-                    let faster = motion.acceleration.fixed_rows::<3>(3).into_owned();
-                    let by_turn = faster.cross(&arm) + turn.cross(&by_turn);
-                    acceleration = motion.acceleration + Six::new(by_turn.x, by_turn.y, by_turn.z, 0.0, 0.0, 0.0);
-                }
-            }
-            self.ends.push(End { pose, velocity, acceleration });
+            let (end, arm) = end_of(end, motions, link.element.moves());
+            self.ends.push(end);
             self.arms.push(arm);
         }
     }

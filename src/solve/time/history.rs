@@ -1,13 +1,15 @@
 //! What a run keeps: a row of numbers for every stored instant, in the order of a layout that does not change during the run.
 //!
-//! A row holds the motions of the bodies and the wrenches of the connectors. What else is told of an instant (line on the bottom,
+//! A row holds the motions of the bodies, the wrenches of the connectors, and the nodes of lines that move by themselves. What else is told of an instant (line on the bottom,
 //! pull on the anchor, share of the break) follows from these when it is asked for.
 
+use super::along::AlongColumns;
+use super::ends::end_of;
 use super::forces::{CATEGORIES, Forces, Motion, place_of};
 use crate::hydro::Category;
-use crate::model::{Place, Six};
-use crate::solve::link::Attachment;
-use crate::solve::system::System;
+use crate::model::{ClassError, LineNode, Place, Situation, Six, TimeStep};
+use crate::solve::link::{Attachment, Link};
+use crate::solve::system::{SolveError, System};
 
 /// Values of a body in a row: place (m), roll, pitch, yaw (rad), velocity (m/s, rad/s), acceleration (m/s2, rad/s2), global.
 pub const OF_BODY: usize = 18;
@@ -23,6 +25,19 @@ pub struct LinkColumns {
     pub wrench: usize,
     /// Where it says whether it acts, 1 or 0, and the length of its first segment (m; not a number without one).
     pub active: usize,
+    /// Where its nodes stand, where it tells of them and they are kept.
+    pub along: Option<AlongColumns>,
+}
+
+/// A connector as a layout is made of it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LinkEnds {
+    /// Its name as written.
+    pub name: String,
+    /// The body at each end; none in the ground.
+    pub ends: Vec<Option<usize>>,
+    /// How many nodes it tells of at most, and whether they bend.
+    pub nodes: (usize, bool),
 }
 
 /// Which number of a row is what.
@@ -42,17 +57,18 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// That of a system; `links` are the connectors that act at some time, each with its ends' bodies.
-    pub fn new(system: &System, links: Vec<(String, Vec<Option<usize>>)>) -> Self {
+    /// That of a system; `links` are the connectors that act at some time; of their nodes every so manieth is kept, 0 for none.
+    pub fn new(system: &System, links: Vec<LinkEnds>, every: usize) -> Self {
         let bodies: Vec<_> = system.nodes.iter().map(|n| (n.name.clone(), n.key.clone())).collect();
         let moves = system.nodes.iter().map(|n| n.free.map(|free| free || n.prescribed.is_some())).collect();
         let mut at = 1 + OF_BODY * bodies.len();
         let mut columns = Vec::new();
-        for (name, ends) in links {
-            let wrench = at + 2;
-            let on_bodies = ends.iter().flatten().count();
-            columns.push(LinkColumns { name, ends, wrench, active: at });
-            at = wrench + 6 * on_bodies;
+        for LinkEnds { name, ends, nodes } in links {
+            let (active, wrench) = (at, at + 2);
+            at = wrench + 6 * ends.iter().flatten().count();
+            let along = AlongColumns::new(at, nodes, every);
+            at += along.as_ref().map_or(0, AlongColumns::width);
+            columns.push(LinkColumns { name, ends, wrench, active, along });
         }
         let mut categories = vec![Category::Inertia, Category::Coriolis];
         let loads = system.nodes.iter().flat_map(|n| &n.floating.loads).map(|l| l.category());
@@ -94,6 +110,8 @@ pub struct Told {
     pub inertia: Vec<[Six; 3]>,
     /// Length of the first segment of each connector of the layout (m).
     pub lengths: Vec<Option<f64>>,
+    /// Nodes of a line, made anew for each.
+    nodes: Vec<LineNode>,
 }
 
 /// Rows of a run.
@@ -139,13 +157,16 @@ impl History {
 
 impl Layout {
     /// Writes the row of an instant. `near` are the places of the row before: angles go on from them without a jump.
+    ///
+    /// # Errors
+    /// A line that cannot tell of its nodes.
     pub fn write(
         &self,
         (system, time): (&System, f64),
-        (motions, forces, told): (&[Motion], &Forces, &Told),
+        (motions, forces, told): (&[Motion], &Forces, &mut Told),
         near: &mut [Place],
         row: &mut Vec<f64>,
-    ) {
+    ) -> Result<(), SolveError> {
         row.clear();
         row.push(time);
         for (motion, near) in motions.iter().zip(near) {
@@ -156,6 +177,12 @@ impl Layout {
             row.extend_from_slice(motion.acceleration.as_slice());
         }
         row.resize(self.width, 0.0);
+        // a line that does not act has no nodes
+        for along in self.links.iter().filter_map(|l| l.along.as_ref()) {
+            if let Some(own) = row.get_mut(along.at..along.at + along.width()) {
+                own.fill(f64::NAN);
+            }
+        }
         let mut first = 0;
         for (index, link) in system.links.iter().enumerate() {
             // in the same place unless a connector has gone
@@ -175,6 +202,11 @@ impl Layout {
                         place.copy_from_slice(wrench.as_slice());
                         at += 6;
                     }
+                }
+                if let Some(along) = &columns.along {
+                    nodes_of((system, link), (time, motions), &mut told.nodes)
+                        .and_then(|()| along.write(&told.nodes, row))
+                        .map_err(|e| SolveError::of(&link.name)(at_time(e, time)))?;
                 }
             }
             first += link.ends.len();
@@ -196,5 +228,22 @@ impl Layout {
                 }
             }
         }
+        Ok(())
     }
+}
+
+/// The nodes of a line at an instant.
+fn nodes_of(
+    (system, link): (&System, &Link),
+    (time, motions): (f64, &[Motion]),
+    nodes: &mut Vec<LineNode>,
+) -> Result<(), ClassError> {
+    let ends: Vec<_> = link.ends.iter().map(|end| end_of(end, motions, true).0).collect();
+    let step = Some(TimeStep { time, dt: 0.0 });
+    let at = Situation { ends: &ends, step, surroundings: &system.surroundings };
+    link.element.along(&at, system.states.get(link.states.clone()).unwrap_or_default(), nodes)
+}
+
+fn at_time(error: ClassError, time: f64) -> ClassError {
+    ClassError { message: format!("at {time} s: {}", error.message), ..error }
 }

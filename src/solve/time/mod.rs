@@ -4,8 +4,10 @@
 //! `M a = F(t, q, v) - gyroscopic(v)`; connectors and loads are evaluated at the end of each step.
 
 mod action;
+mod along;
 mod corrector;
 mod course;
+mod ends;
 mod forces;
 mod foretelling;
 mod happening;
@@ -22,9 +24,10 @@ mod statistics;
 mod step;
 
 pub use action::{Action, Watched, What, When};
+pub use along::{AlongColumns, AlongEnvelope, BentRow, NodeRow, Quantity};
 pub use course::{Counts, Ending, Settings, Watcher};
 pub use forces::{Forces, Memory, Motion};
-pub use history::{History, Layout, LinkColumns, OF_BODY};
+pub use history::{History, Layout, LinkColumns, LinkEnds, OF_BODY};
 pub use prescribed::{Prescribed, prescribed};
 pub use run::{Run, SNAPSHOT};
 pub use scheme::{Method, Scheme};

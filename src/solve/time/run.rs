@@ -1,6 +1,7 @@
 //! A run: steps from a start to an end, with what happens on the way, and rows kept.
 
 use super::action::Action;
+use super::along::AlongEnvelope;
 use super::course::{Counts, Ending, Settings, Watcher};
 use super::forces::{Memory, Motion};
 use super::history::{History, Layout, Told};
@@ -37,6 +38,8 @@ pub struct Run {
     pub history: History,
     /// Statistics of the stored instants behind the transient.
     pub statistics: Statistics,
+    /// Least and most along each line of the layout behind the transient, of a run that keeps no rows.
+    pub envelopes: Vec<AlongEnvelope>,
     /// What it did.
     pub counts: Counts,
     /// The sea now.
@@ -84,13 +87,14 @@ impl Run {
         Run::foresee_winches(&mut model, &actions, settings.observed);
         let sea = Sea::of(&model, &model.environment).map_err(SolveError::new)?.map(Arc::new);
         let system = System::under_way(&model, sea.as_ref())?;
-        let mut links: Vec<(String, Vec<Option<usize>>)> = system.link_ends();
+        let mut links = system.link_ends();
         for name in actions.iter().flat_map(|a| a.connectors()) {
-            if !links.iter().any(|(n, _)| n.eq_ignore_ascii_case(name)) {
-                links.push(System::ends_of(&model, name)?);
+            if !links.iter().any(|l| l.name.eq_ignore_ascii_case(name)) {
+                links.push(system.ends_of(&model, name)?);
             }
         }
-        let layout = Layout::new(&system, links);
+        let layout = Layout::new(&system, links, settings.along);
+        settings.fits(&layout)?;
         let motions: Vec<Motion> =
             system.state(&model).poses.into_iter().map(|pose| Motion { pose, ..Motion::default() }).collect();
         let memory = Memory::of(&system);
@@ -104,6 +108,7 @@ impl Run {
             actions,
             fired,
             statistics: Statistics::new(&layout, from),
+            envelopes: vec![AlongEnvelope::default(); layout.links.len()],
             history: History::new(layout),
             counts: Counts::default(),
             seas: vec![(0.0, sea.clone())],
@@ -331,12 +336,19 @@ impl Run {
             self.wound = false;
         }
         let (layout, now) = (&self.history.layout, &self.now);
-        layout.write((&self.system, now.time), (&now.motions, &now.forces, &told), &mut self.near, &mut self.row);
+        let parts = (now.motions.as_slice(), &now.forces, &mut told);
+        layout.write((&self.system, now.time), parts, &mut self.near, &mut self.row)?;
         self.told = told;
         let wrong = |e: SeriesError| SolveError::new(ClassError::new(e.to_string()));
         self.statistics.take(&self.row).map_err(wrong)?;
         if self.settings.keep {
             self.history.values.extend_from_slice(&self.row);
+        } else if now.time >= self.settings.transient {
+            for (link, envelope) in self.history.layout.links.iter().zip(&mut self.envelopes) {
+                if let Some(along) = &link.along {
+                    envelope.take(along, &self.row).map_err(wrong)?;
+                }
+            }
         }
         watcher.row(&self.row).map_err(unkept)
     }

@@ -1,0 +1,112 @@
+//! The least, mean and largest of many quantities as a run goes, in flat memory.
+
+use crate::post::SeriesError;
+use crate::post::statistics::Peak;
+
+/// What was seen of a quantity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Seen {
+    /// Samples.
+    pub count: u64,
+    /// Their mean.
+    pub mean: f64,
+    /// Their standard deviation (divided by the number).
+    pub deviation: f64,
+    /// The least with its time.
+    pub least: Peak,
+    /// The largest with its time.
+    pub most: Peak,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Track {
+    count: u64,
+    mean: f64,
+    squares: f64,
+    least: Peak,
+    most: Peak,
+}
+
+/// Quantities side by side, a sample of each at a time; what is not there at a time (not a number) does not count.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Envelope {
+    tracks: Vec<Option<Track>>,
+}
+
+impl Envelope {
+    /// Takes a sample of each quantity, always in the same order. Mean and deviation by the update of B. P. Welford
+    /// (Technometrics 4, 1962, 419-420).
+    ///
+    /// # Errors
+    /// An infinite sample; those before it are taken.
+    pub fn take(&mut self, time: f64, samples: impl IntoIterator<Item = f64>) -> Result<(), SeriesError> {
+        for (place, value) in samples.into_iter().enumerate() {
+            if self.tracks.len() <= place {
+                self.tracks.resize(place + 1, None);
+            }
+            if value.is_nan() {
+                continue;
+            }
+            if value.is_infinite() {
+                return Err(SeriesError::NotFinite { row: place + 1 });
+            }
+            let Some(track) = self.tracks.get_mut(place) else { continue };
+            let now = Peak { time, value };
+            match track {
+                None => *track = Some(Track { count: 1, mean: value, squares: 0.0, least: now, most: now }),
+                Some(track) => {
+                    track.count += 1;
+                    let off = value - track.mean;
+                    track.mean += off / track.count as f64;
+                    track.squares += off * (value - track.mean);
+                    if value < track.least.value {
+                        track.least = now;
+                    }
+                    if value > track.most.value {
+                        track.most = now;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// What was seen of a quantity by its place; none where it never was there.
+    pub fn seen(&self, place: usize) -> Option<Seen> {
+        let Track { count, mean, squares, least, most } = *self.tracks.get(place)?.as_ref()?;
+        Some(Seen { count, mean, deviation: (squares / count as f64).max(0.0).sqrt(), least, most })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::post::statistics;
+
+    #[test]
+    fn an_envelope_is_what_statistics_of_each_series_are() {
+        let wave = |i: i32, k: f64| 1e6 + (f64::from(i) * k).sin();
+        let mut envelope = Envelope::default();
+        for i in 0..200 {
+            envelope.take(f64::from(i), [wave(i, 0.3), wave(i, 0.7)]).unwrap();
+        }
+        for (place, k) in [0.3, 0.7].into_iter().enumerate() {
+            let series: Vec<f64> = (0..200).map(|i| wave(i, k)).collect();
+            let (want, found) = (statistics::moments(&series).unwrap(), envelope.seen(place).unwrap());
+            assert!((found.mean - want.mean).abs() < 1e-8 && (found.deviation - want.deviation).abs() < 1e-8);
+            assert_eq!(found.most.value, want.maximum.1);
+            assert_eq!(found.count, 200);
+        }
+    }
+
+    #[test]
+    fn what_is_not_there_does_not_count_and_what_is_infinite_is_an_error() {
+        let mut envelope = Envelope::default();
+        envelope.take(0.0, [f64::NAN, 2.0, f64::NAN]).unwrap();
+        envelope.take(1.0, [5.0, 4.0, f64::NAN]).unwrap();
+        assert_eq!(envelope.seen(0).unwrap().count, 1);
+        assert_eq!(envelope.seen(1).unwrap().mean, 3.0);
+        assert_eq!((envelope.seen(2), envelope.seen(9)), (None, None));
+        assert!(envelope.take(2.0, [f64::INFINITY]).is_err());
+    }
+}

@@ -1,0 +1,84 @@
+//! A line at rest between its ends where they stand.
+
+use super::{sections, segment_at};
+use crate::hydro::ambient;
+use crate::language::units::Dim;
+use crate::model::{End, Model, Situation};
+use crate::solve::link::{connected, pose_of};
+use crate::solve::system::SolveError;
+use crate::table::{Cell, Digits, Table};
+
+/// The lines that move by themselves and whose names fit, at rest between their ends as they stand: a table each, a row a node.
+///
+/// # Errors
+/// A line that has no answer there.
+pub fn lines_at_rest(model: &Model, fits: &dyn Fn(&str) -> bool) -> Result<Vec<Table>, SolveError> {
+    let around = ambient(model, None).map_err(SolveError::new)?;
+    let poses: Vec<_> = model.bodies.values().map(|b| crate::model::Pose::of(&b.place)).collect();
+    let surroundings = model.surroundings();
+    let mut tables = Vec::new();
+    for connector in model.connectors.values().filter(|c| c.active && fits(&c.name)) {
+        let wrong = SolveError::of(&connector.name);
+        // what makes no element here tells of no nodes; who needs its force says why
+        let Ok(element) = model.element_in(connector, Some(&around)) else { continue };
+        if element.nodes() == 0 {
+            continue;
+        }
+        let ends: Vec<End> = connected(model, connector).iter().map(|end| End::still(pose_of(end, &poses))).collect();
+        let at = Situation { ends: &ends, step: None, surroundings: &surroundings };
+        let mut state = vec![0.0; element.states()];
+        element.start(&mut state);
+        let mut nodes = Vec::new();
+        element.along(&at, &state, &mut nodes).map_err(wrong)?;
+        let sections = sections(model, &connector.name);
+        let tube = sections.iter().any(|s| s.tube.is_some());
+        let bends = element.bends();
+        let mut table = Table::new("Line at Rest")
+            .fact("Line", connector.name.as_str(), Dim::None)
+            .column("", "Node", Dim::None, Digits::Usual)
+            .column("", "Arc", Dim::Length, Digits::Usual);
+        for name in ["X", "Y", "Z", "Clearance"] {
+            table = table.column("", name, Dim::Length, Digits::Usual);
+        }
+        table = table.column("", "Tension", Dim::Force, Digits::Usual);
+        if bends {
+            table = table
+                .column("", "Shear", Dim::Force, Digits::Usual)
+                .column("", "Moment", Dim::Moment, Digits::Usual)
+                .column("", "Curvature", Dim::Derived { force: 0, length: -1, seconds: 0 }, Digits::Scientific(4));
+        }
+        if tube {
+            table = table.column("", "Wall", Dim::Force, Digits::Usual);
+            for name in ["Axial", "Bending", "Hoop", "Von Mises"] {
+                table = table.column("Stress", name, Dim::Stress, Digits::Usual);
+            }
+        }
+        let mut table = table.column("", "Used", Dim::None, Digits::Decimals(3));
+        let length = nodes.last().map_or(f64::NAN, |n| n.arc);
+        for (index, node) in nodes.iter().enumerate() {
+            let mut cells: Vec<Cell> = vec![(index + 1).into()];
+            let place = [node.arc, node.position.x, node.position.y, node.position.z, node.clearance, node.effective];
+            cells.extend(place.map(|v| if v.is_finite() { Cell::Number(v + 0.0) } else { Cell::Missing }));
+            if bends {
+                cells.extend([node.shear, node.moment, node.curvature].map(Cell::from));
+            }
+            if tube {
+                cells.push(node.wall.into());
+                let stress = node.stress.map(|s| [s.axial, s.bending, s.hoop, s.von_mises]);
+                cells.extend((0..4).map(|i| Cell::from(stress.and_then(|s| s.get(i).copied()))));
+            }
+            let section = sections.get(segment_at(&sections, length - node.arc));
+            cells.push(section.map(|s| s.used(node.effective, node.stress.map(|s| s.von_mises))).into());
+            let text = |e: crate::table::TableError| SolveError::new(crate::model::ClassError::new(e.to_string()));
+            table.push(cells).map_err(text)?;
+        }
+        table.note("between its ends where they stand, in the mean current, without waves");
+        table.note(if tube {
+            "Used is von Mises stress over yield stress of a tube, tension over breaking tension of other sections"
+        } else {
+            "Used is tension over breaking tension"
+        });
+        tables.push(table);
+    }
+    Ok(tables)
+}

@@ -1,0 +1,202 @@
+//! Unity checks along a line.
+
+use super::{Line, Section};
+use crate::language::units::Dim;
+use crate::model::ClassError;
+use crate::post::SeriesError;
+use crate::post::line::lrfd::{Factors, Resistance};
+use crate::post::line::working_stress::{self, DesignCase};
+use crate::post::line::{Acting, Tube, inside_pressure, over_break};
+use crate::solve::results::Event;
+use crate::solve::system::SolveError;
+use crate::solve::time::NodeRow;
+use crate::table::{Digits, Table};
+
+/// What a tube is checked by; other sections go by tension over break.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Code {
+    /// DNV-ST-F201, with what corrodes of the wall (m).
+    Lrfd(Factors, f64),
+    /// API RP 2RD, with what corrodes of the wall (m).
+    WorkingStress(DesignCase, f64),
+    /// Tension over break for tubes, too.
+    Break,
+}
+
+impl Code {
+    fn name(&self) -> &'static str {
+        match self {
+            Code::Lrfd(..) => "F201",
+            Code::WorkingStress(..) => "2RD",
+            Code::Break => "BREAK",
+        }
+    }
+}
+
+/// A segment as it is checked.
+#[derive(Debug)]
+enum Checked {
+    Lrfd(Box<Resistance>),
+    WorkingStress(Tube, DesignCase),
+    Break(f64),
+}
+
+impl Checked {
+    fn of(section: &Section, code: &Code, bends: bool) -> Result<Checked, SeriesError> {
+        let tube = section.tube.filter(|_| bends);
+        let thinner = |tube: Tube, corroded: f64| Tube { wall: tube.wall - corroded, ..tube };
+        Ok(match (code, tube) {
+            (Code::Lrfd(factors, corroded), Some(tube)) => {
+                Checked::Lrfd(Box::new(Resistance::of(thinner(tube, *corroded), *factors)?))
+            }
+            (Code::WorkingStress(case, corroded), Some(tube)) => {
+                let thinner = thinner(tube, *corroded);
+                thinner.check()?;
+                Checked::WorkingStress(thinner, *case)
+            }
+            _ => Checked::Break(section.segment.breaking),
+        })
+    }
+
+    fn name(&self) -> &'static str {
+        match self {
+            Checked::Lrfd(..) => "F201",
+            Checked::WorkingStress(..) => "2RD",
+            Checked::Break(_) => "BREAK",
+        }
+    }
+}
+
+/// The most a node uses, and what acts then.
+#[derive(Clone, Copy, Debug)]
+struct Worst {
+    used: f64,
+    time: f64,
+    arc: f64,
+    segment: usize,
+    acting: Acting,
+}
+
+/// The largest use of what each node resists over some events, and when. What acts at the first stored instant, at rest, is functional
+/// load; what is more or less later is of the environment.
+///
+/// # Errors
+/// A section that is no tube, a factor out of range.
+pub fn check(line: &Line, code: &Code, events: &[Event]) -> Result<Table, SolveError> {
+    let wrong = |e: SeriesError| SolveError { who: Some(line.name.to_string()), error: ClassError::new(e.to_string()) };
+    let (run, columns) = (line.run, line.columns);
+    let checked: Vec<Checked> = line
+        .sections
+        .iter()
+        .map(|section| Checked::of(section, code, columns.bends))
+        .collect::<Result<_, _>>()
+        .map_err(wrong)?;
+    let around = run.model.surroundings();
+    let outside = |z: f64| around.water_weight() * (around.tide - z).max(0.0);
+    let first = run.history.rows().next().unwrap_or_default();
+    let rest: Vec<Option<NodeRow>> = line.places.iter().map(|p| columns.node(*p, first)).collect();
+    let mut worst: Vec<Option<Worst>> = vec![None; line.places.len()];
+    let mut row = Vec::new();
+    for event in events {
+        line.row(event, &mut row);
+        let time = row.first().copied().unwrap_or(f64::NAN);
+        for ((place, rest), worst) in line.places.iter().zip(&rest).zip(&mut worst) {
+            let Some(node) = columns.node(*place, &row) else { continue };
+            let Some((segment, section)) = line.section(&node, &row) else { continue };
+            let Some(how) = checked.get(segment) else { continue };
+            let acting = acting(&node, section, outside(node.position[2]));
+            let used = match how {
+                Checked::Lrfd(resistance) => {
+                    let at_rest = rest.as_ref().unwrap_or(&node);
+                    resistance.used_now(design(at_rest), design(&node), [acting.inside, acting.outside])
+                }
+                Checked::WorkingStress(tube, case) => working_stress::used(tube, &acting, *case).map_err(wrong)?,
+                Checked::Break(breaking) => over_break(node.effective, *breaking).map_err(wrong)?,
+            };
+            if !used.is_finite() {
+                return Err(line.wrong(format!("its check at {time} s is no number")));
+            }
+            if worst.is_none_or(|w| used > w.used) {
+                *worst = Some(Worst { used, time, arc: node.arc, segment, acting });
+            }
+        }
+    }
+    told(line, code, &checked, &worst)
+}
+
+/// Moments about two directions and effective tension.
+fn design(node: &NodeRow) -> [f64; 3] {
+    let [one, other] = node.bent.map(|b| b.bends).unwrap_or_default();
+    [one, other, node.effective]
+}
+
+fn acting(node: &NodeRow, section: &Section, outside: f64) -> Acting {
+    let Some(bent) = &node.bent else { return Acting { effective: node.effective, ..Acting::default() } };
+    let inside = section.tube.and_then(|tube| inside_pressure(&tube, (node.effective, bent.wall), outside));
+    Acting { moment: bent.moment(), effective: node.effective, wall: bent.wall, inside: inside.unwrap_or(0.0), outside }
+}
+
+fn told(line: &Line, code: &Code, checked: &[Checked], worst: &[Option<Worst>]) -> Result<Table, SolveError> {
+    let bends = line.columns.bends;
+    let mut table = Table::new("Unity Checks Along a Line")
+        .fact("Line", line.name, Dim::None)
+        .fact("Code", code.name(), Dim::None)
+        .column("", "Node", Dim::None, Digits::Usual)
+        .column("", "Arc", Dim::Length, Digits::Usual)
+        .column("", "Check", Dim::None, Digits::Usual)
+        .column("Largest", "Used", Dim::None, Digits::Decimals(3))
+        .column("Largest", "At", Dim::Time, Digits::Usual)
+        .column("Then", "Tension", Dim::Force, Digits::Usual);
+    if bends {
+        table = table.column("Then", "Moment", Dim::Moment, Digits::Usual).column(
+            "Then",
+            "Net Pressure",
+            Dim::Stress,
+            Digits::Usual,
+        );
+    }
+    let mut most: Option<(usize, Worst)> = None;
+    for (index, found) in worst.iter().enumerate() {
+        let Some(found) = found else { continue };
+        if most.is_none_or(|(_, m)| found.used > m.used) {
+            most = Some((index + 1, *found));
+        }
+        let name = checked.get(found.segment).map(Checked::name);
+        let mut cells = vec![
+            (index + 1).into(),
+            found.arc.into(),
+            name.into(),
+            found.used.into(),
+            found.time.into(),
+            found.acting.effective.into(),
+        ];
+        if bends {
+            cells.push(found.acting.moment.into());
+            cells.push((found.acting.inside - found.acting.outside).into());
+        }
+        table.push(cells).map_err(|e| line.wrong(e.to_string()))?;
+    }
+    if let Some((node, Worst { used, time, .. })) = most {
+        let holds = if used > 1.0 { "warning: it does not hold; most" } else { "most" };
+        table.note(format!("{holds} is used at node {node}: {used:.3} at {time} s"));
+    }
+    let by_code = checked.iter().any(|c| !matches!(c, Checked::Break(_)));
+    match code {
+        Code::Lrfd(factors, _) if by_code => table.note(format!(
+            "DNV-ST-F201, combined loading, gamma_SC {} gamma_m {} gamma_F {} gamma_E {}: at rest functional, the rest of the environment",
+            factors.class.factor(),
+            factors.material,
+            factors.functional,
+            factors.environmental
+        )),
+        Code::WorkingStress(case, _) if by_code => table.note(format!(
+            "API RP 2RD (1998), von Mises stress at the middle of the wall over {} times 2/3 of the yield stress",
+            case.factor()
+        )),
+        _ => {}
+    }
+    if checked.iter().any(|c| matches!(c, Checked::Break(_))) {
+        table.note("BREAK is tension over breaking tension");
+    }
+    Ok(table)
+}

@@ -1,0 +1,289 @@
+//! What a run keeps of a line that moves by itself: some numbers of each of its nodes.
+//!
+//! A line that a winch lengthens has more nodes later. Nodes are numbered so that 1 is the first end, and each node of the line keeps
+//! its number while it lasts, as counted from the second end; a place whose node is not there holds no numbers.
+
+use crate::model::{ClassError, LineNode};
+use crate::post::SeriesError;
+use crate::post::line::envelope::{Envelope, Seen};
+
+/// Numbers of every node: unstretched distance from the first end, x, y, z, clearance of the bottom (m; none: not a number), effective
+/// tension (N).
+const OF_NODE: usize = 6;
+/// Numbers of a node of a line that bends: also tension in the wall (N), shear (N), moments about two directions (N m), von Mises
+/// stress (Pa; 0 without a wall).
+const OF_BENT: usize = OF_NODE + 5;
+
+/// Which numbers of a row are those of the nodes of a line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AlongColumns {
+    /// Where they begin.
+    pub at: usize,
+    /// Whether its nodes have a wall, shear and moments to tell.
+    pub bends: bool,
+    /// Numbers of the nodes that are kept, from 1 at the first end.
+    pub numbers: Vec<usize>,
+    /// Most nodes of the line.
+    pub most: usize,
+}
+
+/// A node as a row has it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NodeRow {
+    /// Unstretched distance from the first end (m).
+    pub arc: f64,
+    /// Position (m, global).
+    pub position: [f64; 3],
+    /// Height over the bottom (m); not a number without one.
+    pub clearance: f64,
+    /// Effective tension (N).
+    pub effective: f64,
+    /// What a line that bends has more.
+    pub bent: Option<BentRow>,
+}
+
+/// What a node of a line that bends has more.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BentRow {
+    /// Tension in the wall (N).
+    pub wall: f64,
+    /// Shear force (N).
+    pub shear: f64,
+    /// Moments about two directions across the line, carried along it without twist (N m).
+    pub bends: [f64; 2],
+    /// Largest von Mises stress (Pa); 0 without a wall.
+    pub von_mises: f64,
+}
+
+impl BentRow {
+    /// Bending moment (N m).
+    pub fn moment(&self) -> f64 {
+        let [one, other] = self.bends;
+        one.hypot(other)
+    }
+}
+
+impl AlongColumns {
+    /// Of a line with at most so many nodes, of which every so manieth is kept, counted from the second end, and both ends; none of a
+    /// line without nodes, or where none are kept.
+    pub fn new(at: usize, (most, bends): (usize, bool), every: usize) -> Option<Self> {
+        if most < 2 || every == 0 {
+            return None;
+        }
+        let mut numbers: Vec<usize> = (2..=most).rev().step_by(every).collect();
+        numbers.push(1);
+        numbers.reverse();
+        Some(AlongColumns { at, bends, numbers, most })
+    }
+
+    /// Numbers of a node.
+    pub fn stride(&self) -> usize {
+        if self.bends { OF_BENT } else { OF_NODE }
+    }
+
+    /// Numbers of all nodes that are kept.
+    pub fn width(&self) -> usize {
+        self.stride() * self.numbers.len()
+    }
+
+    /// Writes the nodes of an instant, given from the first end.
+    ///
+    /// # Errors
+    /// The node that has something that is no number.
+    pub(super) fn write(&self, nodes: &[LineNode], row: &mut [f64]) -> Result<(), ClassError> {
+        let Some(own) = row.get_mut(self.at..self.at + self.width()) else { return Ok(()) };
+        own.fill(f64::NAN);
+        for (number, place) in self.numbers.iter().zip(own.chunks_exact_mut(self.stride())) {
+            let found = match number {
+                1 => nodes.first(),
+                // counted from the second end, and never the first end twice
+                _ => nodes.len().checked_sub(self.most - number + 1).filter(|i| *i > 0).and_then(|i| nodes.get(i)),
+            };
+            let Some(node) = found else { continue };
+            let LineNode { arc, position, effective, wall, shear, moment, clearance, stress, .. } = node;
+            // of a line that tells its moment alone, all of it is about one direction
+            let bends = if node.bends == [0.0; 2] { [*moment, 0.0] } else { node.bends };
+            let clearance = if clearance.is_finite() { *clearance } else { f64::NAN };
+            let told = [*arc, position.x, position.y, position.z, clearance, *effective];
+            let mises = stress.map_or(0.0, |s| s.von_mises);
+            let bent = [*wall, *shear, bends[0], bends[1], mises];
+            if told.iter().enumerate().any(|(i, v)| i != 4 && !v.is_finite())
+                || (self.bends && bent.iter().any(|v| !v.is_finite()))
+            {
+                return Err(ClassError::new(format!("what node {number} tells is no number")));
+            }
+            for (to, from) in place.iter_mut().zip(told.into_iter().chain(bent)) {
+                *to = from;
+            }
+        }
+        Ok(())
+    }
+
+    /// A node that is kept, by its place among these, in a row; none where it is not there.
+    pub fn node(&self, place: usize, row: &[f64]) -> Option<NodeRow> {
+        let from = self.at + self.stride() * place;
+        let numbers = row.get(from..from + self.stride()).filter(|_| place < self.numbers.len())?;
+        let [arc, x, y, z, clearance, effective, rest @ ..] = numbers else { return None };
+        let bent = match rest {
+            [wall, shear, one, other, von_mises] => {
+                Some(BentRow { wall: *wall, shear: *shear, bends: [*one, *other], von_mises: *von_mises })
+            }
+            _ => None,
+        };
+        let node = NodeRow { arc: *arc, position: [*x, *y, *z], clearance: *clearance, effective: *effective, bent };
+        arc.is_finite().then_some(node)
+    }
+
+    /// All nodes that are kept, with their places, from the first end; those that are not there are left out.
+    pub fn nodes<'a>(&'a self, row: &'a [f64]) -> impl Iterator<Item = (usize, NodeRow)> + 'a {
+        (0..self.numbers.len()).filter_map(|place| Some((place, self.node(place, row)?)))
+    }
+}
+
+/// Quantities of a node whose least, mean and most are told.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// Unstretched distance from the first end (m).
+    Arc,
+    /// Height over the bottom (m).
+    Clearance,
+    /// Effective tension (N).
+    Effective,
+    /// Tension in the wall (N).
+    Wall,
+    /// Shear force (N).
+    Shear,
+    /// Bending moment (N m).
+    Moment,
+    /// Von Mises stress (Pa).
+    VonMises,
+}
+
+impl Quantity {
+    const ALL: [Quantity; 7] = [
+        Quantity::Arc,
+        Quantity::Clearance,
+        Quantity::Effective,
+        Quantity::Wall,
+        Quantity::Shear,
+        Quantity::Moment,
+        Quantity::VonMises,
+    ];
+
+    /// Its value; not a number of a node that has none.
+    pub fn of(self, node: &NodeRow) -> f64 {
+        let bent = |of: fn(&BentRow) -> f64| node.bent.as_ref().map_or(f64::NAN, of);
+        match self {
+            Quantity::Arc => node.arc,
+            Quantity::Clearance => node.clearance,
+            Quantity::Effective => node.effective,
+            Quantity::Wall => bent(|b| b.wall),
+            Quantity::Shear => bent(|b| b.shear),
+            Quantity::Moment => bent(BentRow::moment),
+            Quantity::VonMises => bent(|b| b.von_mises),
+        }
+    }
+}
+
+/// Least, mean and most at each node of a line.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct AlongEnvelope(Envelope);
+
+impl AlongEnvelope {
+    /// Takes the nodes of a row.
+    ///
+    /// # Errors
+    /// Something infinite.
+    pub fn take(&mut self, along: &AlongColumns, row: &[f64]) -> Result<(), SeriesError> {
+        let time = row.first().copied().unwrap_or(f64::NAN);
+        let all = (0..along.numbers.len()).flat_map(|place| {
+            let node = along.node(place, row);
+            Quantity::ALL.map(|quantity| node.as_ref().map_or(f64::NAN, |node| quantity.of(node)))
+        });
+        self.0.take(time, all)
+    }
+
+    /// What was seen of a quantity at the node of a place; none where it never was there.
+    pub fn seen(&self, place: usize, quantity: Quantity) -> Option<Seen> {
+        self.0.seen(place * Quantity::ALL.len() + quantity as usize)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::Vector3;
+
+    fn line(nodes: usize) -> Vec<LineNode> {
+        let at = |i: usize| LineNode {
+            arc: i as f64,
+            position: Vector3::new(10.0 * i as f64, 0.0, -5.0),
+            effective: 100.0 + i as f64,
+            clearance: f64::INFINITY,
+            bends: [3.0, 4.0],
+            ..LineNode::default()
+        };
+        (0..nodes).map(at).collect()
+    }
+
+    #[test]
+    fn nodes_keep_their_numbers_from_the_second_end() {
+        let columns = AlongColumns::new(2, (5, false), 1).unwrap();
+        assert_eq!(columns.numbers, [1, 2, 3, 4, 5]);
+        let mut row = vec![0.0; 2 + columns.width()];
+        columns.write(&line(5), &mut row).unwrap();
+        let all: Vec<f64> = columns.nodes(&row).map(|(_, n)| n.arc).collect();
+        assert_eq!(all, [0.0, 1.0, 2.0, 3.0, 4.0]);
+        // a line of three nodes: its first end is node 1, the others 4 and 5
+        columns.write(&line(3), &mut row).unwrap();
+        let now: Vec<(usize, f64)> = columns.nodes(&row).map(|(p, n)| (columns.numbers[p], n.arc)).collect();
+        assert_eq!(now, [(1, 0.0), (4, 1.0), (5, 2.0)]);
+        assert_eq!(columns.node(1, &row), None);
+        assert_eq!(columns.node(9, &row), None);
+        assert!(columns.node(0, &row).unwrap().clearance.is_nan());
+        // more than were foretold: the end and those next to the other
+        columns.write(&line(7), &mut row).unwrap();
+        let now: Vec<f64> = columns.nodes(&row).map(|(_, n)| n.arc).collect();
+        assert_eq!(now, [0.0, 3.0, 4.0, 5.0, 6.0]);
+    }
+
+    #[test]
+    fn every_second_node_is_counted_from_the_second_end_with_both_ends() {
+        let columns = AlongColumns::new(0, (6, true), 2).unwrap();
+        assert_eq!(columns.numbers, [1, 2, 4, 6]);
+        let mut row = vec![0.0; columns.width()];
+        columns.write(&line(6), &mut row).unwrap();
+        let last = columns.node(3, &row).unwrap();
+        assert_eq!((last.arc, last.bent.unwrap().moment()), (5.0, 5.0));
+        assert_eq!(AlongColumns::new(0, (6, true), 9).unwrap().numbers, [1, 6]);
+        assert_eq!(AlongColumns::new(0, (6, true), 0), None);
+        assert_eq!(AlongColumns::new(0, (0, true), 1), None);
+    }
+
+    #[test]
+    fn an_envelope_knows_each_node_by_its_place() {
+        let columns = AlongColumns::new(1, (3, true), 1).unwrap();
+        let mut envelope = AlongEnvelope::default();
+        for time in [1.0, 2.0] {
+            let mut row = vec![time; 1 + columns.width()];
+            let mut nodes = line(if time > 1.5 { 2 } else { 3 });
+            nodes.iter_mut().for_each(|n| n.effective *= time);
+            columns.write(&nodes, &mut row).unwrap();
+            envelope.take(&columns, &row).unwrap();
+        }
+        let top = envelope.seen(0, Quantity::Effective).unwrap();
+        assert_eq!((top.least.value, top.most.value, top.most.time, top.count), (100.0, 200.0, 2.0, 2));
+        assert_eq!(envelope.seen(1, Quantity::Moment).unwrap().count, 1);
+        assert_eq!(envelope.seen(2, Quantity::Arc).unwrap().least.value, 1.0);
+        assert_eq!(envelope.seen(2, Quantity::Clearance), None);
+    }
+
+    #[test]
+    fn a_node_that_is_no_number_is_an_error() {
+        let columns = AlongColumns::new(0, (3, true), 1).unwrap();
+        let mut row = vec![0.0; columns.width()];
+        let mut nodes = line(3);
+        nodes[1].shear = f64::NAN;
+        assert!(columns.write(&nodes, &mut row).unwrap_err().message.contains("node 2"));
+    }
+}
