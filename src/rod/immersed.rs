@@ -177,6 +177,12 @@ pub(super) fn wet_share(a: f64, b: f64, diameter: f64) -> (f64, f64, f64) {
     if a <= -half && b <= -half {
         return (0.0, 0.0, 0.0);
     }
+    in_surface(a, b, diameter)
+}
+
+/// The same where the length is neither wet nor dry all along.
+#[inline(never)]
+fn in_surface(a: f64, b: f64, diameter: f64) -> (f64, f64, f64) {
     let width = diameter.max(1e-6);
     if (a - b).abs() < LEVEL * width {
         return GAUSS.iter().fold((0.0, 0.0, 0.0), |(share, by_a, by_b), g| {
