@@ -29,6 +29,7 @@ mod rollers;
 mod rope;
 mod scheme;
 mod section;
+mod settle;
 mod snapshot;
 mod spatial;
 mod start;

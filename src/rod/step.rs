@@ -51,8 +51,10 @@ pub struct Solver {
     /// Where the step of the last trial began, and whether it was made in one part.
     pub(super) began: State,
     pub(super) whole: bool,
-    /// The ends' part in the matrix of the last trial.
+    /// The ends' part in the matrix at hand.
     pub(super) near: Near,
+    /// Room for the parts of a matrix beside its ends, which leaves the factors at hand alone.
+    pub(super) beside: Workspace,
     /// Solutions with the transpose of the matrix.
     pub(super) adjoint: Vec<f64>,
 }
@@ -104,6 +106,7 @@ impl Solver {
         Solver {
             settings,
             change: vec![0.0; work.stride() * nodes],
+            beside: work.clone(),
             adjoint: vec![0.0; 6 * work.stride() * nodes],
             work,
             trial,
@@ -305,6 +308,7 @@ impl Solver {
             if !(size.is_finite() && size < wild) {
                 return Err(Failure { node: self.work.worst(known).0, why: "the iteration runs away" });
             }
+            self.near.moved += size;
             let next = &mut self.next;
             turn(&mut next.director, &next.position, &self.change, stride, known);
             for i in 0..=last {
@@ -317,7 +321,9 @@ impl Solver {
                 let [averaged, v, a] = scheme.follow(from, i, u);
                 (next.averaged[i], next.velocity[i], next.acceleration[i]) = (averaged, v, a);
             }
-            if size <= tolerance {
+            // what is still missing if the moves go on shrinking as they do
+            let missing = if iteration == 1 { size } else { size * size / (last_move - size).max(0.0) };
+            if size.min(missing) <= tolerance {
                 settle(rod, &self.trial.memory, next);
                 return Ok(iteration);
             }
@@ -355,9 +361,9 @@ impl Solver {
     fn iterate(&mut self, rod: &Rod, world: &World, known: [bool; 2], fresh: bool) -> Result<f64, Failure> {
         let last = rod.elements.len();
         if fresh {
-            self.near.ready = false;
+            self.near.moved = f64::INFINITY;
             self.work.assemble(rod, world, &self.trial, self.weights, 0..last);
-            self.work.keep_rows();
+            self.keep_matrix();
         } else {
             self.work.forces(rod, world, &self.trial);
         }
@@ -372,6 +378,7 @@ impl Solver {
         }
         if fresh {
             self.work.factor().map_err(|node| Failure { node, why: "its stiffness vanishes" })?;
+            self.near.moved = 0.0;
         }
         self.work.newton(&mut self.change);
         self.work.carry_ends(&self.change);
