@@ -153,7 +153,7 @@ impl MovingLine {
         let floor = Floor { plane: self.base.plane, ambient, flat: self.base.flat.unwrap_or(0.0) };
         let known = self.base.plane.is_some() || self.base.flat.is_some();
         let bottom: Option<(&dyn rod::Bottom, Ground)> = known.then_some((&floor, self.base.ground));
-        act(&World { bottom, ..World::new(&water, around.gravity) })
+        act(&World { bottom, slam: self.base.description.slam, ..World::new(&water, around.gravity) })
     }
 
     /// What holds the ends.
