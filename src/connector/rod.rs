@@ -137,6 +137,11 @@ impl ConnectorClass for Rod {
         Ok(Box::new(MovingLine::made(self.description(connection.surroundings), connection)?))
     }
 
+    fn moving(&self, _: &Connection, _: usize) -> Result<Box<dyn Element>, ClassError> {
+        Err(ClassError::new("a ROD moves by itself already")
+            .help("-REFINE of its class says into how many elements it is cut"))
+    }
+
     /// A pipe of the first segment's section, as long as it needs to be.
     fn pipe(&self, layout: PipeLayout) -> Result<Box<dyn Element>, ClassError> {
         let section = self.sections.first().ok_or_else(|| ClassError::new("the class has no record"))?;

@@ -34,6 +34,7 @@ pub fn settings(observed: f64, dt: f64) -> Settings {
         adaptive: None,
         keep: true,
         along: 1,
+        books: false,
         transient: 0.0,
     }
 }

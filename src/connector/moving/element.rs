@@ -386,6 +386,8 @@ impl Element for MovingLine {
             self.layout.write(rod, &state, trial)?;
             let kept = self.layout.read(trial)?;
             if let Some(kept) = kept {
+                // its books are not open yet
+                let kept = Kept { balance: None, ..kept };
                 return self.step(at, (step.time, 0.0), &kept, trial, warm, out);
             }
         }
