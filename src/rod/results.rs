@@ -8,7 +8,7 @@ use super::spatial::twist;
 use super::state::State;
 use super::surroundings::World;
 use super::tension::{Stretch, Taken, tension};
-use nalgebra::Vector3;
+use nalgebra::{Rotation3, Vector3};
 
 /// Results at a node.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -27,6 +27,8 @@ pub struct NodeResult {
     pub shear: f64,
     /// Bending moment (N m).
     pub moment: f64,
+    /// Its components about two directions across the rod that are carried along it without twist (N m).
+    pub bends: [f64; 2],
     /// Torsional moment (N m), where the rod has torsional stiffness.
     pub torque: f64,
     /// Curvature (1/m), from the shape free of load.
@@ -99,6 +101,7 @@ impl Rod {
             })
             .collect();
         let (moments, torques) = if self.twists() { self.spatial_moments(state, ends) } else { (moments, Vec::new()) };
+        let across = carried(&edges);
         let shears: Vec<Vector3<f64>> =
             (0..last).map(|i| (moments[i + 1].0 - moments[i].0) / self.elements[i].rest).collect();
         let mut arc = 0.0;
@@ -117,6 +120,8 @@ impl Rod {
                 };
                 let (moment, _) = moments[i];
                 let element = &self.elements[i.min(last - 1)];
+                // the axis of a bend has the same parts on either side of its node
+                let bends = across.get(i.min(last - 1)).map_or([0.0; 2], |d| d.map(|d| moment.dot(&d)));
                 let moment = moment.norm();
                 let mut made = NodeResult {
                     arc,
@@ -126,6 +131,7 @@ impl Rod {
                     wall: effective,
                     shear,
                     moment,
+                    bends,
                     torque: torques.get(i).copied().unwrap_or(0.0),
                     curvature: if element.bending > 0.0 { moment / element.bending } else { bend(&edges, &moments, i) },
                     clearance: clearance(world, &x[i]),
@@ -169,6 +175,23 @@ impl Rod {
             })
             .unzip()
     }
+}
+
+/// Two directions across each element, carried along the rod without twist. Those of the first element come from fixed ones by
+/// the smallest turn; it is not known only where a rod begins against the fixed direction, which lies where none does but by chance.
+fn carried(edges: &[(Vector3<f64>, f64)]) -> Vec<[Vector3<f64>; 2]> {
+    let mut along = Vector3::new(-0.50, -0.62, -0.60).normalize();
+    let mut across = Vector3::new(0.62, -0.50, 0.0).normalize();
+    let step = |(t, _): &(Vector3<f64>, f64)| {
+        if let Some(turn) = Rotation3::rotation_between(&along, t) {
+            across = turn * across;
+        }
+        // what rounding adds along the rod is left out
+        across = (across - t * across.dot(t)).try_normalize(1e-300).unwrap_or(across);
+        along = *t;
+        [across, t.cross(&across)]
+    };
+    edges.iter().map(step).collect()
 }
 
 /// A value at the end of a row of middles.
@@ -218,4 +241,36 @@ fn stress(wall: f64, moment: f64, [outer, inner]: [f64; 2], tube: &super::sectio
         }
     }
     Stress { axial, bending, hoop: hoop_inside, von_mises: worst }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn edge(x: f64, y: f64, z: f64) -> (Vector3<f64>, f64) {
+        (Vector3::new(x, y, z).normalize(), 1.0)
+    }
+
+    #[test]
+    fn directions_across_a_rod_in_a_plane_keep_their_angle_to_it() {
+        let turn = |i: usize| (i as f64 * 0.2).sin_cos();
+        let arc: Vec<_> = (0..30).map(turn).map(|(s, c)| edge(0.6 * c, 0.8 * c, -s)).collect();
+        let normal = Vector3::new(0.8, -0.6, 0.0);
+        let all = carried(&arc);
+        let first = all[0].map(|d| d.dot(&normal));
+        assert!((first[0].hypot(first[1]) - 1.0).abs() < 1e-12);
+        for ([one, other], (t, _)) in all.iter().zip(&arc) {
+            assert!((one.dot(&normal) - first[0]).abs() < 1e-12 && (other.dot(&normal) - first[1]).abs() < 1e-12);
+            assert!(one.dot(t).abs() < 1e-14 && (one.norm() - 1.0).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn directions_across_change_little_where_the_rod_does() {
+        // straight down and up, where lines begin and end
+        for z in [-1.0, 1.0] {
+            let [a, b] = [[edge(1e-6, 0.0, z)], [edge(-1e-6, 1e-6, z)]].map(|e| carried(&e)[0][0]);
+            assert!((a - b).norm() < 1e-5, "{a} {b}");
+        }
+    }
 }

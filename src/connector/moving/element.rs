@@ -393,7 +393,7 @@ impl Element for MovingLine {
             wall: n.wall,
             shear: n.shear,
             moment: n.moment,
-            bends: [0.0; 2],
+            bends: n.bends,
             torque: n.torque,
             curvature: n.curvature,
             clearance: n.clearance,
