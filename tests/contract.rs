@@ -15,7 +15,7 @@ use windlass::report::files::JobFolder;
 use windlass::report::output::Output;
 use windlass::session::Session;
 
-const MENUS: [&str; 17] = [
+const MENUS: [&str; 18] = [
     "MAIN",
     "INMODEL",
     "MEDIT",
@@ -31,6 +31,7 @@ const MENUS: [&str; 17] = [
     "MESH",
     "PGEN",
     "BUILDG",
+    "BATHYMETRY",
     "HSTATICS",
     "FREQ_RESPONSE",
 ];

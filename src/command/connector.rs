@@ -161,6 +161,7 @@ pub fn build_connector(job: &mut Job, args: &Args) -> Outcome<()> {
         job.warn(text, span);
     }
     job.model.connectors.insert(Model::key(name), made);
+    super::ambient_options::plane(job, name, span);
     job.note_name(name, span);
     Ok(())
 }

@@ -2,7 +2,7 @@
 //!
 //! Source: reference/model.md, "Environment".
 
-use super::{Call, Command, Effect, Job, probability, sea_options, wind_options};
+use super::{Call, Command, Effect, Job, ambient_options, probability, sea_options, wind_options};
 use crate::language::args::{Args, Given};
 use crate::language::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use crate::language::name as rule;
@@ -117,11 +117,8 @@ const OPTIONS: &[OptionSpec] = &[
         &[curve("M_GROWTH curve"), number("RHO", Dim::Density, "density of the growth").or("1325 kg/m3").positive()],
         "marine growth",
     ),
-    OptionSpec::new(
-        "-T_PRESSURE",
-        &[text("NAME", "name of temperature and pressure data")],
-        "temperature and pressure of rods: kept and shown, without effect",
-    ),
+    ambient_options::BATHYMETRY,
+    ambient_options::T_PRESSURE,
     OptionSpec::new(
         "-USE_MEAN",
         &[ValueSpec::new("YES/NO", Kind::Choice(&["YES", "NO"]), "on or off").or("YES")],
@@ -135,8 +132,11 @@ static ENV_SPEC: CommandSpec = CommandSpec {
     options: OPTIONS,
     detail: "Directions are where sea, wind and current come from, from +X toward +Y: 180 is a head sea. Without a name the \
              environment starts from the defaults; a new name too, and is kept; an old name edits what is kept. It stays in \
-             force until the next &ENV. NCYCLES of -TIME, -MD_PERIOD, -T_PRESSURE and -USE_MEAN are kept and shown, and act on nothing: the sources do not say what they do to a line. The sources list no types for -PROBABILITY, -SP_TYPE, -W_PROFILE, -W_DESIGN and \
+             force until the next &ENV. NCYCLES of -TIME, -MD_PERIOD and -USE_MEAN are kept and shown, and act on nothing: the sources do not say what they do to a line. The sources list no types for -PROBABILITY, -SP_TYPE, -W_PROFILE, -W_DESIGN and \
              -W_SPECTRUM: those taken are the field's usual ones. Depth and tide together must leave water. \
+             -T_PRESSURE names data of the command T_PRESSURE: what pipes of class ROD hold, and how warm. -BATHYMETRY names a bottom of \
+             &BATHYMETRY: lines that move by themselves lie on it, and anchors of connectors defined by -ANCHOR stand on it; lines of other classes \
+             lie on the plane through their own anchor, and waves have the depth of -DEPTH everywhere. \
              -W_SPECTRUM adds gusts in the time domain, the same at all places and heights, on the speed 10 m up: API RP 2A 20th edition; NPD \
              and ISO (Froya); Ochi and Shin; Harris; Davenport; Kaimal; the drag coefficient of the last four is Wu's, 0.0008 + 0.000065 U. \
              The speed of -WIND is then an hourly mean: periods from an hour to a second are taken, in -W_COMPONENTS of equal energy or about \
@@ -186,6 +186,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         job.model.environments.insert(Model::key(&made.name), made.clone());
     }
     job.model.environment = made;
+    ambient_options::planes(job, call.args.option("-BATHYMETRY"));
     Ok(Effect::Done)
 }
 
@@ -287,6 +288,7 @@ pub(super) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<
         }
         _ => {}
     }
+    ambient_options::apply(job, env, given)?;
     wind_options::apply(job, env, given)?;
     sea_options::apply(env, given)
 }

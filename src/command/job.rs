@@ -1,5 +1,6 @@
 //! The job that commands act on: model, units, menus, titles, settings, output.
 
+use super::bathymetry::Soundings;
 use super::buildg::Building;
 use super::frequency::Found;
 use super::pgen::Planes;
@@ -62,6 +63,8 @@ pub enum Menu {
     Frequency(Box<Found>),
     /// A table being given by the records of `&BUILDG`.
     Building(Box<Building>),
+    /// Rows of a bottom being given by the records of `&BATHYMETRY`.
+    Soundings(Box<Soundings>),
     /// Sections of a hull being given by `PGEN`.
     Planes(Box<Planes>),
     /// The menu of this name whose opener was refused: its commands are passed over up to its `END`.
@@ -86,6 +89,7 @@ impl Menu {
             Menu::Block => "BLOCK",
             Menu::Mesh => "MESH",
             Menu::Building(_) => "BUILDG",
+            Menu::Soundings(_) => "BATHYMETRY",
             Menu::Planes(_) => "PGEN",
             Menu::Hydrostatics(_) => "HSTATICS",
             Menu::Frequency(_) => "FREQ_RESPONSE",
@@ -107,6 +111,7 @@ impl Menu {
             "SURFACE" => "END_&SURFACE",
             "BLOCK" => "END_BLOCK",
             "MESH" => "END_MESH",
+            "BATHYMETRY" => "END_&BATHYMETRY",
             "BUILDG" => "END_&BUILDG",
             "PGEN" => "END_PGEN",
             "HSTATICS" => "END_HSTATICS",

@@ -4,7 +4,7 @@ use super::assembly::build_assembly;
 use super::class::known_curves;
 use super::connector::build_connector;
 use super::device::existing;
-use super::{Call, Command, Effect, INMODEL_FILE, Job, Menu, buildg, pgen, piece};
+use super::{Call, Command, Effect, INMODEL_FILE, Job, Menu, bathymetry, buildg, pgen, piece};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::record::Word;
 use crate::language::select::Owner;
@@ -71,10 +71,8 @@ pub fn opened_by(job: &Job, spec: &CommandSpec, words: &[Word]) -> Option<&'stat
         Opens::Menu(name) => Some(name),
         Opens::AtMost(name, count) => (words.len() <= count + 1).then_some(name),
         Opens::AtMostElse(name, count, other) => Some(if words.len() <= count + 1 { name } else { other }),
-        Opens::WithOption(name, option) => {
-            let given = |w: &Word| w.text.len() >= 3 && option.starts_with(&w.text.to_ascii_uppercase());
-            words.iter().any(given).then_some(name)
-        }
+        Opens::WithOption(name, option) => words.iter().any(|w| stands_for(w, option)).then_some(name),
+        Opens::WithoutOption(name, option) => (!words.iter().any(|w| stands_for(w, option))).then_some(name),
         Opens::Short(name, count) => {
             let data = words.iter().skip(1).take_while(|w| w.kind != Lex::Option).count();
             (data <= count).then_some(name)
@@ -84,6 +82,11 @@ pub fn opened_by(job: &Job, spec: &CommandSpec, words: &[Word]) -> Option<&'stat
             (!deck && model_file(job).is_none()).then_some(name)
         }
     }
+}
+
+/// Whether a word is an option, in full or not.
+fn stands_for(word: &Word, option: &str) -> bool {
+    word.text.len() >= 3 && option.starts_with(&word.text.to_ascii_uppercase())
 }
 
 /// The file INMODEL reads: that of `&DEVICE -AUXIN`, there or not, else ROOT.DAT when there is one.
@@ -136,6 +139,7 @@ pub fn finish(job: &mut Job, left: Menu, at: Option<Span>) -> Vec<Diagnostic> {
         }
         Menu::Medit | Menu::Block | Menu::Mesh => piece::completed(job, at),
         Menu::Building(building) => buildg::built(job, &building, at).err().into_iter().map(|e| *e).collect(),
+        Menu::Soundings(soundings) => bathymetry::made(job, *soundings, at).err().into_iter().map(|e| *e).collect(),
         Menu::Planes(planes) => pgen::build(job, *planes, at).err().into_iter().map(|e| *e).collect(),
         _ => Vec::new(),
     }

@@ -6,10 +6,12 @@
 
 mod action;
 mod alter;
+mod ambient_options;
 mod animate;
 mod apply;
 mod assembly;
 mod assembly_table;
+mod bathymetry;
 mod body_status;
 mod body_tables;
 mod buildg;
@@ -49,6 +51,7 @@ mod menus;
 mod message;
 mod model_tables;
 mod names;
+mod number_rows;
 mod offsets;
 mod pgen;
 mod picture;
@@ -72,6 +75,7 @@ mod statistic;
 mod status;
 mod store;
 mod surface;
+mod t_pressure;
 mod tdom;
 mod tether_ends;
 mod tether_post;
@@ -230,6 +234,10 @@ pub static COMMANDS: &[&Command] = &[
     &curves::EFFICIENCY,
     &curves::CS_VELOCITY,
     &curves::AM_PRESSURE,
+    &bathymetry::BATHYMETRY,
+    &bathymetry::X,
+    &bathymetry::Y,
+    &t_pressure::T_PRESSURE,
     &conn_design::TABLE,
     &conn_design::GEOMETRY,
     &conn_design::PROPERTIES,

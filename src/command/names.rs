@@ -20,10 +20,10 @@ static DELETE_SPEC: CommandSpec = CommandSpec {
     menus: &["INMODEL", "MEDIT"],
     data: &[ValueSpec::new("NAME", Kind::Name(Noun::Selector), "what to delete; wild characters may be used")],
     repeat: 1,
-    detail: "Names are those of connectors, classes, points, assemblies, parts, bodies, pieces, curves, environments and selectors; a name \
-             means one thing, since connectors, assemblies, bodies, parts, pieces, curves and environments all have different names. A \
+    detail: "Names are those of connectors, classes, points, assemblies, parts, bodies, pieces, curves, bathymetries, T_PRESSURE data, environments and selectors; a name \
+             means one thing, since all but classes, points and selectors have different names. A \
              body goes with its parts, points, weights and pieces. An assembly goes with its hook, and its connectors have a single node again. What is still used is not deleted: a class or point by a connector, a connector by an assembly, a curve by \
-             a class or an environment (also by the one in force), a selector by another. With one name that is refused \
+             a class or an environment (also by the one in force), a bathymetry or T_PRESSURE data by an environment, a selector by another. With one name that is refused \
              nothing is deleted.",
     example: "MEDIT\n*P 0 0 0\nDELETE *P\nEND",
     ..CommandSpec::new("DELETE", "deletes things from the model")
@@ -82,6 +82,8 @@ fn remove(model: &mut Model, thing: Thing, name: &str) {
         Thing::Point => drop(model.points.shift_remove(&key)),
         Thing::Environment => drop(model.environments.shift_remove(&key)),
         Thing::Curve => drop(model.curves.shift_remove(&key)),
+        Thing::Bathymetry => drop(model.bathymetries.shift_remove(&key)),
+        Thing::Filling => drop(model.fillings.shift_remove(&key)),
         Thing::Selector => drop(model.selectors.shift_remove(&key)),
         Thing::Part => {
             model.loads.retain(|l| Model::key(&l.part) != key);

@@ -11,8 +11,8 @@ use super::offsets::offsets;
 use super::prcpost::last_run;
 use super::written::{as_written, kind_data, option_as_written};
 use super::{
-    Call, Command, Effect, Job, Menu, body_status, body_tables, database_table, fatigue_table, line_types, member,
-    model_tables, prescribe, rod_status, sea_table, settings_table, tether_status, wind_table,
+    Call, Command, Effect, Job, Menu, bathymetry, body_status, body_tables, database_table, fatigue_table, line_types,
+    member, model_tables, prescribe, rod_status, sea_table, settings_table, t_pressure, tether_status, wind_table,
 };
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::{Owner, choose};
@@ -38,6 +38,8 @@ const KINDS: &[(&str, Owner, &str)] = &[
     ("STIFFNESS", Owner::Ours, "stiffness of bodies and connectors about a point"),
     ("MODES", Owner::Ours, "natural periods, damping and shapes of small motions about where the bodies stand"),
     ("CURVES", Owner::Moses, "curves"),
+    ("BATHYMETRY", Owner::Ours, "bottoms over a grid: extent, least and greatest depth"),
+    ("T_PRESSURE", Owner::Ours, "temperature, pressure and contents of pipes"),
     ("ENVIRONMENT", Owner::Moses, "the environment in force, or one kept under a name"),
     ("WIND_SPECTRUM", Owner::Ours, "the components of the gusts of an environment, and with -PLOT their spectrum"),
     (
@@ -143,6 +145,8 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         "STIFFNESS" => body_status::stiffness(job, call, &chosen)?,
         "MODES" => body_status::modes(job, call)?,
         "CURVES" => curves(model, &fits),
+        "BATHYMETRY" => vec![bathymetry::table(model, &fits)],
+        "T_PRESSURE" => vec![t_pressure::table(model, &fits)],
         "ENVIRONMENT" => environments(job, (!chosen.all()).then_some(&fits)),
         "SEA_SPECTRUM" => sea_table::spectra(job, (!chosen.all()).then_some(&fits), args.place(0))?,
         "WIND_SPECTRUM" => wind_table::spectra(job, (!chosen.all()).then_some(&fits), args.place(0))?,
@@ -209,6 +213,8 @@ fn things(kind: &str) -> &'static [Thing] {
         "CL_FLEX" | "CLASSES" | "SN" => &[Thing::Class],
         "G_CONNECTOR" | "F_CONNECTOR" | "FOUNDATION" | "ROD" | "TETHERS" | "TETHER_MODES" => &[Thing::Connector],
         "CURVES" => &[Thing::Curve],
+        "BATHYMETRY" => &[Thing::Bathymetry],
+        "T_PRESSURE" => &[Thing::Filling],
         "ENVIRONMENT" | "SEA_SPECTRUM" | "WIND_SPECTRUM" => &[Thing::Environment],
         "POINTS" => &[Thing::Point],
         "SELECTORS" => &[Thing::Selector],

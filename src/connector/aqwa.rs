@@ -257,6 +257,10 @@ impl ConnectorClass for CatenaryClass {
         self.depth.or(surroundings.depth)
     }
 
+    fn lies_on_plane(&self) -> bool {
+        true
+    }
+
     fn is_line(&self) -> bool {
         true
     }

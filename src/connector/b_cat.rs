@@ -221,6 +221,10 @@ impl ConnectorClass for Catenary {
         self.depth.or(surroundings.depth)
     }
 
+    fn lies_on_plane(&self) -> bool {
+        true
+    }
+
     fn series_curve(&self) -> Option<(&str, Span)> {
         self.devices.convolution.as_ref().map(|(name, span)| (name.as_str(), *span))
     }

@@ -25,6 +25,10 @@ pub enum Noun {
     Selector,
     /// A macro.
     Macro,
+    /// A bottom over a grid.
+    Bathymetry,
+    /// What pipes hold, kept under a name.
+    Filling,
     /// A line type of the library.
     LineType,
     /// A new name, not to be looked up.
@@ -218,6 +222,8 @@ pub enum Opens {
     /// The menu of this name when at most this many words stand between the command and its first option; with more it is
     /// complete in itself.
     Short(&'static str, usize),
+    /// The menu of the first name, unless it has this option, in full or not.
+    WithoutOption(&'static str, &'static str),
     /// The menu of this name, unless a file of the job's gives the menu's records.
     UnlessFile(&'static str),
 }
@@ -335,6 +341,8 @@ pub fn expected(kind: Kind, units: UnitSystem) -> String {
             Noun::Environment => "an environment",
             Noun::Selector => "a name or selector",
             Noun::Macro => "a macro",
+            Noun::Bathymetry => "a bathymetry",
+            Noun::Filling => "a set of T_PRESSURE data",
             Noun::LineType => "a line type",
             Noun::New => "a name",
         }

@@ -164,6 +164,8 @@ pub enum Dim {
     Acceleration,
     /// Thermal expansion, 1/F with feet and 1/C with metres (1/K).
     ThermalExpansion,
+    /// Change of temperature, degrees F with feet and C with metres (K); no temperature from a zero.
+    TemperatureRise,
     /// Frequency, rad/s (rad/s).
     Frequency,
     /// Area, ft2 or m2 (m2).
@@ -246,6 +248,13 @@ impl Dim {
                     1.0
                 }
             }
+            Dim::TemperatureRise => {
+                if feet {
+                    1.0 / 1.8
+                } else {
+                    1.0
+                }
+            }
             Dim::Area | Dim::SpectralDensity => m * m,
             Dim::Volume => m * m * m,
             Dim::Damping(exponent) => n / m.powf(exponent),
@@ -305,6 +314,7 @@ impl Dim {
             Dim::WindSpeed => "knots".into(),
             Dim::Acceleration => format!("{length}/s2"),
             Dim::ThermalExpansion => if feet { "1/F" } else { "1/C" }.into(),
+            Dim::TemperatureRise => if feet { "F" } else { "C" }.into(),
             Dim::Frequency => "rad/s".into(),
             Dim::Area => format!("{length}2"),
             Dim::Volume => format!("{length}3"),
@@ -364,6 +374,15 @@ mod tests {
         assert_eq!(dim.to_si(1.0, us), KIP / (FOOT * FOOT));
         assert_eq!(dim.label(us), "kips-s2/ft2");
         assert_eq!(Dim::Derived { force: 0, length: -1, seconds: -2 }.label(us), "1/ft-s2");
+    }
+
+    #[test]
+    fn an_expansion_is_the_same_in_fahrenheit_and_in_celsius() {
+        // steel, 6.5e-6 per F over 90 F, is 11.7e-6 per C over 50 C
+        let (us, si) = (UnitSystem::default(), UnitSystem::SI);
+        let strain =
+            |a: f64, rise: f64, units| Dim::ThermalExpansion.to_si(a, units) * Dim::TemperatureRise.to_si(rise, units);
+        assert!((strain(6.5e-6, 90.0, us) - strain(11.7e-6, 50.0, si)).abs() < 1e-18);
     }
 
     #[test]

@@ -102,7 +102,8 @@ impl Bathymetry {
             let there = given.iter().map(Some).chain(std::iter::repeat(None));
             let missing = |((x, y), p): &((f64, f64), Option<&[f64; 3]>)| p.is_none_or(|p| p[0] != *x || p[1] != *y);
             if let Some(((x, y), _)) = places.zip(there).find(missing) {
-                let told = ClassError::of("the first place without a height is x = {}, y = {}", &[length(x), length(y)]);
+                let told =
+                    ClassError::of("the first place without a height is x = {}, y = {}", &[length(x), length(y)]);
                 error.message = format!("{}; {}", error.message, told.message);
                 error.values = told.values;
             }
@@ -117,15 +118,15 @@ impl Bathymetry {
         let (column, across) = Cell::of(&self.x, x);
         let (row, up) = Cell::of(&self.y, y);
         let columns = self.x.len();
-        let corner = |i: usize, j: usize| {
-            self.points.get((row + j) * columns + column + i).copied().unwrap_or([f64::NAN; 4])
-        };
+        let corner =
+            |i: usize, j: usize| self.points.get((row + j) * columns + column + i).copied().unwrap_or([f64::NAN; 4]);
         let (mut z, mut by_x, mut by_y) = (0.0, 0.0, 0.0);
         for i in 0..2 {
             for j in 0..2 {
                 let [height, slope_x, slope_y, twist] = corner(i, j);
                 // along x the height and its slope, each with what it is along y
-                let (h, hy) = (height * up.value[j] + slope_y * up.slope[j], height * up.value_by[j] + slope_y * up.slope_by[j]);
+                let (h, hy) =
+                    (height * up.value[j] + slope_y * up.slope[j], height * up.value_by[j] + slope_y * up.slope_by[j]);
                 let (s, sy) =
                     (slope_x * up.value[j] + twist * up.slope[j], slope_x * up.value_by[j] + twist * up.slope_by[j]);
                 z += h * across.value[i] + s * across.slope[i];
@@ -174,7 +175,10 @@ pub fn fits(columns: usize, rows: usize) -> Result<usize, ClassError> {
 
 fn grows(places: &[f64], what: &str) -> Result<(), ClassError> {
     if places.len() < 2 {
-        return Err(ClassError::new(format!("a bottom has at least two different {what}, and this one {}", places.len())));
+        return Err(ClassError::new(format!(
+            "a bottom has at least two different {what}, and this one {}",
+            places.len()
+        )));
     }
     let wrong = places.windows(2).find_map(|w| match w {
         [a, b] if a < b && a.is_finite() && b.is_finite() => None,

@@ -194,6 +194,11 @@ pub trait ConnectorClass: Debug + Send + Sync {
         None
     }
 
+    /// Whether its lines lie on a plane bottom through their own anchor.
+    fn lies_on_plane(&self) -> bool {
+        false
+    }
+
     /// The convolution curve of a viscoelastic spring in series, where the class names one, with its place.
     fn series_curve(&self) -> Option<(&str, Span)> {
         None

@@ -1,10 +1,10 @@
 //! What things are called: the sorts of things that have names, which names are taken, and what uses a thing.
 //!
-//! Connectors, bodies, parts, pieces, curves and environments share one set of names, so that a name means one thing;
+//! Connectors, bodies, parts, pieces, curves, bathymetries, sets of T_PRESSURE data and environments share one set of names, so that a name means one thing;
 //! classes, points and selectors are told apart by their markers. A body and its own part have one name, and a piece may have
 //! that of its body or part.
 
-use super::{Assembly, AssemblyKind, Model, Piece};
+use super::{Assembly, AssemblyKind, Environment, Formula, Model, Piece};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::name::with_article;
 use crate::language::source::Span;
@@ -31,13 +31,17 @@ pub enum Thing {
     Environment,
     /// A curve.
     Curve,
+    /// A bottom over a grid.
+    Bathymetry,
+    /// What pipes hold.
+    Filling,
     /// A selector.
     Selector,
 }
 
 impl Thing {
     /// All sorts.
-    pub const ALL: [Thing; 10] = [
+    pub const ALL: [Thing; 12] = [
         Thing::Connector,
         Thing::Class,
         Thing::Point,
@@ -47,6 +51,8 @@ impl Thing {
         Thing::Piece,
         Thing::Environment,
         Thing::Curve,
+        Thing::Bathymetry,
+        Thing::Filling,
         Thing::Selector,
     ];
 
@@ -62,14 +68,25 @@ impl Thing {
             Thing::Piece => "piece",
             Thing::Environment => "environment",
             Thing::Curve => "curve",
+            Thing::Bathymetry => "bathymetry",
+            Thing::Filling => "set of T_PRESSURE data",
             Thing::Selector => "selector",
         }
     }
 }
 
 /// The sorts without a marker, which share one set of names.
-const UNMARKED: [Thing; 7] =
-    [Thing::Connector, Thing::Assembly, Thing::Body, Thing::Part, Thing::Piece, Thing::Environment, Thing::Curve];
+const UNMARKED: [Thing; 9] = [
+    Thing::Connector,
+    Thing::Assembly,
+    Thing::Body,
+    Thing::Part,
+    Thing::Piece,
+    Thing::Environment,
+    Thing::Curve,
+    Thing::Bathymetry,
+    Thing::Filling,
+];
 
 impl Model {
     /// The names of one sort, as written, in the order of their definition.
@@ -84,6 +101,8 @@ impl Model {
             Thing::Piece => self.parts.values().flat_map(|p| p.pieces.iter().map(|s| s.name.as_str())).collect(),
             Thing::Environment => self.environments.values().map(|e| e.name.as_str()).collect(),
             Thing::Curve => self.curves.values().map(|c| c.name.as_str()).collect(),
+            Thing::Bathymetry => self.bathymetries.values().map(|b| b.name.as_str()).collect(),
+            Thing::Filling => self.fillings.values().map(|f| f.name.as_str()).collect(),
             Thing::Selector => self.selectors.values().map(|s| s.name.as_str()).collect(),
         }
     }
@@ -115,6 +134,8 @@ impl Model {
             Thing::Piece => self.piece(name).map(|(_, piece)| piece.span),
             Thing::Environment => self.environments.get(&key).map(|e| e.span),
             Thing::Curve => self.curves.get(&key).map(|c| c.span),
+            Thing::Bathymetry => self.bathymetries.get(&key).map(|b| b.span),
+            Thing::Filling => self.fillings.get(&key).map(|f| f.span),
             Thing::Selector => self.selectors.get(&key).map(|s| s.span),
         }
     }
@@ -132,7 +153,7 @@ impl Model {
             Some((thing, place)) => {
                 Err(Diagnostic::error(format!("{name} is the name of {} already", with_article(thing.word())), span)
                     .other(place, "defined here")
-                    .help("connectors, bodies, parts, pieces, curves and environments all have different names"))
+                    .help("connectors, bodies, parts, pieces, curves, bathymetries, T_PRESSURE data and environments all have different names"))
             }
         }
     }
@@ -156,6 +177,8 @@ impl Model {
                 self.points.values().filter(|p| Model::key(&p.part) == key).map(|p| p.name.as_str()).collect()
             }
             Thing::Curve => self.users_of_curve(&key),
+            Thing::Bathymetry => self.environments_with(|e| e.bathymetry.as_ref(), &key),
+            Thing::Filling => self.environments_with(|e| e.filling.as_ref(), &key),
             Thing::Selector => {
                 let names = |list: &[String]| list.iter().any(|n| Model::key(n) == key);
                 let users = self.selectors.values().filter(|s| names(&s.select) || names(&s.except));
@@ -164,6 +187,13 @@ impl Model {
             Thing::Connector => self.assembly_of(name).map(|a| a.name.as_str()).into_iter().collect(),
             Thing::Environment | Thing::Piece | Thing::Assembly => Vec::new(),
         }
+    }
+
+    /// The environments that name a thing of this key, the one in force last.
+    fn environments_with(&self, of: impl Fn(&Environment) -> Option<&Formula>, key: &str) -> Vec<&str> {
+        let uses = |e: &&Environment| of(e).is_some_and(|named| Model::key(&named.kind) == key);
+        let kept = self.environments.values().filter(uses).map(|e| e.name.as_str());
+        kept.chain(uses(&&self.environment).then_some("the environment in force")).collect()
     }
 
     fn users_of_curve(&self, key: &str) -> Vec<&str> {

@@ -29,6 +29,8 @@ pub struct Known {
     classes: Vec<String>,
     connectors: Vec<String>,
     curves: Vec<String>,
+    bathymetries: Vec<String>,
+    fillings: Vec<String>,
     environments: Vec<String>,
     selectors: Vec<String>,
     columns: Vec<String>,
@@ -49,6 +51,8 @@ impl Known {
             points: model.points.values().map(|p| p.name.clone()).collect(),
             classes: model.classes.values().map(|c| c.name.clone()).collect(),
             connectors: model.connectors.values().map(|c| c.name.clone()).collect(),
+            bathymetries: model.bathymetries.values().map(|b| b.name.clone()).collect(),
+            fillings: model.fillings.values().map(|f| f.name.clone()).collect(),
             curves: model.curves.values().map(|c| c.name.clone()).collect(),
             environments: model.environments.values().map(|e| e.name.clone()).collect(),
             selectors: model.selectors.values().map(|s| s.name.clone()).collect(),
@@ -69,6 +73,8 @@ impl Known {
             Noun::Part => self.parts.clone(),
             Noun::Connector => self.connectors.clone(),
             Noun::Curve => self.curves.clone(),
+            Noun::Bathymetry => self.bathymetries.clone(),
+            Noun::Filling => self.fillings.clone(),
             Noun::Environment => self.environments.clone(),
             Noun::Selector if !self.columns.is_empty() => self.columns.clone(),
             Noun::Selector => [
@@ -79,6 +85,8 @@ impl Known {
                 &self.bodies,
                 &self.parts,
                 &self.curves,
+                &self.bathymetries,
+                &self.fillings,
                 &self.environments,
             ]
             .into_iter()

@@ -84,7 +84,8 @@ fn fixed(value: f64, decimals: u8) -> String {
 fn usual(dim: Dim, units: UnitSystem) -> u8 {
     let small_force = matches!(units.force, ForceUnit::Newtons);
     match dim {
-        Dim::Length | Dim::Angle | Dim::Time | Dim::Velocity | Dim::WindSpeed | Dim::Area | Dim::Volume => 2,
+        Dim::Length | Dim::Angle | Dim::Time | Dim::TemperatureRise => 2,
+        Dim::Velocity | Dim::WindSpeed | Dim::Area | Dim::Volume => 2,
         Dim::Force | Dim::Moment | Dim::MomentPerRadian => {
             if small_force {
                 0

@@ -33,9 +33,7 @@ impl Solver {
         scheme: &Scheme,
         ends: &[End; 2],
     ) -> Option<f64> {
-        if !self.near.ready {
-            self.linearise(rod, world)?;
-        }
+        self.linearise(rod, world, false)?;
         let (stride, last) = (self.work.stride(), rod.elements.len());
         let size = self.change.len();
         let known = ends.map(|e| e.motion.is_some());
@@ -68,6 +66,7 @@ impl Solver {
         if share > NEAR {
             return None;
         }
+        self.near.moved += most;
         let next = &mut self.next;
         turn(&mut next.director, &next.position, &self.change, stride, [false; 2]);
         for i in 0..=last {

@@ -101,8 +101,9 @@ fn axial(
     let rate = (t.dot(&dv) - stretch * let_out) * inverse_rest;
     let taken = Taken { compression: element.compression && !trial.loose, ease: trial.ease };
     let stretched = Stretch { strain: stretch - 1.0, rate, height: 0.5 * (xa.z + xb.z) };
+    let memory = trial.memory.get(*i);
     let Tension { value, by_strain, by_rate, by_height } =
-        tension(rod, element, taken, &stretched, &trial.fluid[*i], gravity);
+        tension(rod, element, taken, &stretched, memory, &trial.fluid[*i], gravity);
     let force = t * value;
     let geometric = k * value * inverse;
     let damped = by_rate * inverse_rest;

@@ -1,10 +1,12 @@
 //! The books of energy and momentum of a run.
 
 use super::bend::hinge;
-use super::contact::{contact, energy};
+use super::contact::{self, contact};
 use super::hinges::{HingeAt, hinge_sides};
 use super::immersed::{entry, half_load, slam_load, wet_prism, wet_share, wind_load};
 use super::mesh::Rod;
+use super::rollers::{cradled, crossing};
+use super::rope::Memory;
 use super::spatial;
 use super::state::State;
 use super::step::{EndForces, Solver};
@@ -23,12 +25,14 @@ pub struct Energy {
     pub gravity: f64,
     /// In the bottom under it.
     pub bottom: f64,
+    /// In the rollers under it.
+    pub rollers: f64,
 }
 
 impl Energy {
     /// Their sum.
     pub fn total(&self) -> f64 {
-        self.kinetic + self.elastic + self.gravity + self.bottom
+        self.kinetic + self.elastic + self.gravity + self.bottom + self.rollers
     }
 }
 
@@ -43,6 +47,8 @@ pub struct Work {
     pub damping: f64,
     /// By damping and friction of the bottom; negative.
     pub bottom: f64,
+    /// By damping and motion of the rollers.
+    pub rollers: f64,
     /// By forces given.
     pub given: f64,
 }
@@ -50,7 +56,7 @@ pub struct Work {
 impl Work {
     /// Their sum.
     pub fn total(&self) -> f64 {
-        self.ends[0] + self.ends[1] + self.fluid + self.damping + self.bottom + self.given
+        self.ends[0] + self.ends[1] + self.fluid + self.damping + self.bottom + self.rollers + self.given
     }
 
     fn add(&mut self, h: f64, a: &Work, b: &Work) {
@@ -60,6 +66,7 @@ impl Work {
         self.fluid += half * (a.fluid + b.fluid);
         self.damping += half * (a.damping + b.damping);
         self.bottom += half * (a.bottom + b.bottom);
+        self.rollers += half * (a.rollers + b.rollers);
         self.given += half * (a.given + b.given);
     }
 }
@@ -121,8 +128,17 @@ impl Balance {
         self.energy = look.energy;
         self.momentum = look.momentum;
         let w = &self.work;
-        let parts =
-            [w.ends[0], w.ends[1], w.fluid, w.damping, w.bottom, w.given, look.energy.kinetic, look.energy.elastic];
+        let parts = [
+            w.ends[0],
+            w.ends[1],
+            w.fluid,
+            w.damping,
+            w.bottom,
+            w.rollers,
+            w.given,
+            look.energy.kinetic,
+            look.energy.elastic,
+        ];
         self.turnover = parts.iter().fold(self.turnover, |most, p| most.max(p.abs()));
     }
 
@@ -158,17 +174,28 @@ fn look(rod: &Rod, state: &State, world: &World, solver: &Solver, made: &EndForc
         let rate = (t.dot(&(v[i + 1] - v[i])) - length / element.rest * element.rate) / element.rest;
         let height = 0.5 * (x[i].z + x[i + 1].z);
         let taken = Taken { compression: element.compression, ease: 1.0 };
+        let memory = state.yielded.get(i).map(|yielded| Memory::at_once(*yielded));
         let pull = |rate| {
             let stretched = Stretch { strain, rate, height };
-            tension(rod, element, taken, &stretched, &trial.fluid[i], world.gravity).value
+            tension(rod, element, taken, &stretched, memory.as_ref(), &trial.fluid[i], world.gravity).value
         };
         let (whole, rateless) = (pull(rate), pull(0.0));
         let segment = &rod.segments[element.segment];
         let mechanical = strain - segment.tube.as_ref().map_or(0.0, |t| t.expansion * t.warmer);
-        if mechanical > 0.0 || element.compression {
-            found.energy.elastic += segment.axial.energy(mechanical) * element.rest;
+        let held = mechanical > 0.0 || element.compression;
+        let (law, energy) = if let (Some(rope), Some(memory)) = (rod.rope(element), &memory) {
+            let pulled = rod.pulled(element, rope, [&x[i], &x[i + 1]], memory);
+            let (energy, lost) = rope.books(pulled, -memory.kept);
+            found.power.damping -= lost * element.rest;
+            (rope.slow.at(pulled).0 + rope.beside(pulled, memory).0, energy)
+        } else if held {
+            (segment.axial.at(mechanical).0, segment.axial.energy(mechanical))
+        } else {
+            (0.0, 0.0)
+        };
+        found.energy.elastic += energy * element.rest;
+        if held {
             // what pressure and damping do beside the law's own energy
-            let law = segment.axial.at(mechanical).0;
             found.power.damping -= (whole - rateless) * rate * element.rest;
             found.power.fluid -= (rateless - law) * rate * element.rest;
         }
@@ -237,13 +264,24 @@ fn look(rod: &Rod, state: &State, world: &World, solver: &Solver, made: &EndForc
             let left = if node > 0 { rod.elements[node - 1].contact } else { 0.0 };
             let area = left + rod.elements.get(node).map_or(0.0, |e| e.contact);
             let soft = trial.soft[node];
-            found.energy.bottom += energy(*bottom, ground, soft, area, &x[node]);
+            found.energy.bottom += contact::energy(*bottom, ground, soft, area, &x[node]);
             let acts = contact(*bottom, ground, soft, area, &x[node], &v[node], &trial.lay[node], true);
             let still = contact(*bottom, ground, soft, area, &x[node], &Vector3::zeros(), &trial.lay[node], true);
             let acts = acts.map_or_else(Vector3::zeros, |c| c.force[0] + c.force[1]);
             let still = still.map_or_else(Vector3::zeros, |c| c.force[0]);
             found.power.bottom += (acts - still).dot(&v[node]);
             found.force += acts;
+        }
+    }
+    for roller in world.rollers {
+        let Some(over) = crossing(roller, x) else { continue };
+        let i = over.element;
+        if let Some(made) = cradled(roller, &over, [&v[i], &v[i + 1]]) {
+            let velocity = v[i] * made.shares[0] + v[i + 1] * made.shares[1];
+            found.energy.rollers += made.energy;
+            // the springs give back what they take but for the motion of the cradle itself
+            found.power.rollers -= (made.force - made.elastic).dot(&velocity) + made.elastic.dot(&roller.velocity);
+            found.force -= made.force;
         }
     }
     for (node, force) in world.forces.iter().filter(|f| f.0 <= last) {

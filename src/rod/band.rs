@@ -105,19 +105,33 @@ impl<const H: usize, const S: usize> Band<H, S> {
     }
 
     /// Solves by the factors; `right` becomes the solution.
+    ///
+    /// The values found last are kept at hand, as a processor waits for what it has only just stored; the last of them
+    /// comes last in each sum, so that the others do not wait for it. Beyond either end they are zero, as the entries are.
     pub fn solve(&self, right: &mut [f64]) {
-        let size = self.rows.len();
-        for i in 0..size {
-            let first = i.saturating_sub(H);
-            let row = &self.rows[i][first + H - i..H];
-            let sum: f64 = row.iter().zip(&right[first..i]).map(|(a, b)| a * b).sum();
-            right[i] -= sum;
+        let mut near = [0.0; H];
+        for (row, value) in self.rows.iter().zip(right.iter_mut()) {
+            let mut sum = *value;
+            for j in (0..H).rev() {
+                sum -= row[H - 1 - j] * near[j];
+            }
+            for j in (1..H).rev() {
+                near[j] = near[j - 1];
+            }
+            near[0] = sum;
+            *value = sum;
         }
-        for i in (0..size).rev() {
-            let last = (i + H).min(size - 1);
-            let row = &self.rows[i];
-            let sum: f64 = row[H + 1..].iter().zip(&right[i + 1..=last]).map(|(a, b)| a * b).sum();
-            right[i] = (right[i] - sum) * row[H];
+        near = [0.0; H];
+        for (row, value) in self.rows.iter().zip(right.iter_mut()).rev() {
+            let mut sum = *value;
+            for j in (0..H).rev() {
+                sum -= row[H + 1 + j] * near[j];
+            }
+            for j in (1..H).rev() {
+                near[j] = near[j - 1];
+            }
+            near[0] = sum * row[H];
+            *value = near[0];
         }
     }
 

@@ -41,19 +41,30 @@ impl EndTangent {
     }
 }
 
-/// The matrix at the last trial, as the motions of the ends enter it.
+/// The ends' part in the matrix at hand.
 #[derive(Clone, Debug)]
 pub(super) struct Near {
     /// How the unknowns beside an end feel its position, velocity and acceleration: kind, side, axis; a column of the
     /// matrix with its diagonal in the middle place.
-    pub columns: [[[[f64; WIDEST]; 3]; 2]; 3],
-    /// Whether they and the factors at hand are those of the last trial.
+    pub columns: [[Columns; 2]; 3],
+    /// The same by all three together, as the scheme makes them follow each other.
+    pub together: [Columns; 2],
+    /// Whether the columns are there.
     pub ready: bool,
+    /// How far a node may have moved since the matrix was factored (m).
+    pub moved: f64,
 }
+
+/// Columns of the matrix by the three translations of an end.
+type Columns = [[f64; WIDEST]; 3];
+
+/// Share of the shortest element that nodes may have moved since a matrix was factored that is as good as a new one.
+const CLOSE: f64 = 1e-3;
 
 impl Near {
     pub fn new() -> Self {
-        Near { columns: [[[[0.0; WIDEST]; 3]; 2]; 3], ready: false }
+        let none = [[[0.0; WIDEST]; 3]; 2];
+        Near { columns: [none; 3], together: none, ready: false, moved: f64::INFINITY }
     }
 }
 
@@ -64,10 +75,20 @@ impl Solver {
     ///
     /// None where there is no trial, or the system cannot be solved, as it could in the trial.
     pub fn end_tangent(&mut self, rod: &Rod, world: &World) -> Option<EndTangent> {
-        self.linearise(rod, world)?;
+        self.linearise(rod, world, true)?;
+        Some(self.condense(rod))
+    }
+
+    /// The same by the factors the trial has left, as long as its nodes have moved by less than a thousandth of the
+    /// shortest element since: for a body's Newton iteration, which converges by it as well, at a quarter of the cost.
+    pub fn end_tangent_at_hand(&mut self, rod: &Rod, world: &World) -> Option<EndTangent> {
+        self.linearise(rod, world, false)?;
+        Some(self.condense(rod))
+    }
+
+    fn condense(&mut self, rod: &Rod) -> EndTangent {
         let clamps = [0, 1].map(|side| clamp(rod, &self.trial, side));
-        let zero = Twelve::zeros();
-        let mut made = [zero; 3];
+        let mut made = [Twelve::zeros(); 3];
         for side in 0..2 {
             let held = self.trial.ends[side].motion.is_some();
             match &clamps[side] {
@@ -77,54 +98,80 @@ impl Solver {
             }
         }
         let [position, velocity, acceleration] = made;
-        Some(EndTangent { position, velocity, acceleration })
+        EndTangent { position, velocity, acceleration }
     }
 
-    /// Assembles and factors the tangent where the last trial ended, with the columns of the ends.
-    pub(super) fn linearise(&mut self, rod: &Rod, world: &World) -> Option<()> {
-        let last = rod.elements.len();
-        let weights = self.weights;
-        let single = [
-            Weights { k: 1.0, c: 0.0, m: 0.0 },
-            Weights { k: 0.0, c: 1.0, m: 0.0 },
-            Weights { k: 0.0, c: 0.0, m: 1.0 },
-        ];
-        let kinds = match self.at {
+    /// Sees to factors of the matrix where the last trial ended, or unless `exact` near enough, and to the columns of
+    /// the ends.
+    pub(super) fn linearise(&mut self, rod: &Rod, world: &World, exact: bool) -> Option<()> {
+        match self.at {
             At::Nowhere => return None,
             // the trial's own positions are at hand in the state that follows it
-            At::Trial => {
-                self.follow_next();
-                3
-            }
-            At::Rest => {
-                self.trial.still = true;
-                1
-            }
-        };
+            At::Trial => self.follow_next(),
+            At::Rest => {}
+        }
+        let at_rest = self.at == At::Rest;
+        let close = !exact && !at_rest && self.near.moved <= CLOSE * rod.shortest();
+        if !(close && self.near.ready) {
+            (self.trial.exact, self.trial.still) = (!close, at_rest);
+            let made = self.columns(rod, world, close, at_rest);
+            (self.trial.exact, self.trial.still) = (false, false);
+            made?;
+        }
+        Some(())
+    }
+
+    fn columns(&mut self, rod: &Rod, world: &World, close: bool, at_rest: bool) -> Option<()> {
+        let last = rod.elements.len();
         let known = self.trial.ends.map(|e| e.motion.is_some());
-        self.near = Near::new();
-        self.trial.exact = true;
+        if !close {
+            self.near.moved = f64::INFINITY;
+            self.work.assemble(rod, world, &self.trial, self.weights, 0..last);
+            self.keep_matrix();
+            for (side, node) in [(0, 0), (1, last)] {
+                if known[side] {
+                    self.work.fix(node);
+                }
+            }
+            self.work.factor().ok()?;
+            self.near.moved = 0.0;
+        }
         let stride = self.work.stride();
-        let ranges = if last <= 4 { [0..last, 0..last] } else { [0..2, last - 2..last] };
-        for (kind, weights) in self.near.columns.iter_mut().zip(single).take(kinds) {
-            for (side, range) in ranges.iter().enumerate().filter(|(side, _)| known[*side]) {
-                self.work.assemble_part(rod, world, &self.trial, weights, range.clone());
-                for (axis, column) in kind[side].iter_mut().enumerate() {
-                    self.work.column(side * stride * last + axis, column);
+        let reach = self.work.reach().min(last);
+        let single = [Weights { k: 0.0, c: 1.0, m: 0.0 }, Weights { k: 0.0, c: 0.0, m: 1.0 }];
+        let shares = [self.weights.c, self.weights.m];
+        let [by_position, others @ ..] = &mut self.near.columns;
+        *by_position = self.near.together;
+        for (side, range) in [(0, 0..reach), (1, last - reach..last)] {
+            for ((kind, weights), share) in others.iter_mut().zip(single).zip(shares) {
+                kind[side] = [[0.0; WIDEST]; 3];
+                if !known[side] || at_rest {
+                    continue;
+                }
+                self.beside.assemble_part(rod, world, &self.trial, weights, range.clone());
+                for axis in 0..3 {
+                    let column = &mut kind[side][axis];
+                    self.beside.column(side * stride * last + axis, column);
+                    for (p, other) in by_position[side][axis].iter_mut().zip(column) {
+                        *p -= share * *other;
+                    }
                 }
             }
         }
-        self.work.assemble(rod, world, &self.trial, weights, 0..last);
-        (self.trial.exact, self.trial.still) = (false, false);
-        self.work.keep_rows();
-        for (side, node) in [(0, 0), (1, last)] {
-            if known[side] {
-                self.work.fix(node);
-            }
-        }
-        self.work.factor().ok()?;
         self.near.ready = true;
         Some(())
+    }
+
+    /// Keeps of a matrix that has just been assembled what is asked of it later: the rows and columns of the ends.
+    pub(super) fn keep_matrix(&mut self) {
+        self.near.ready = false;
+        self.work.keep_rows();
+        let place = [0, self.change.len() - self.work.stride()];
+        for (columns, place) in self.near.together.iter_mut().zip(place) {
+            for (axis, column) in columns.iter_mut().enumerate() {
+                self.work.column(place + axis, column);
+            }
+        }
     }
 
     /// The rows of an end: its force, and with `N` = 6 its moment.

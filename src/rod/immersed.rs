@@ -68,8 +68,8 @@ pub(super) fn half_load(
 }
 
 /// Drag of wind on half an element of direction `t` if all of it were dry: 1/2 rho Cd D |u_n| u_n across it, u the
-/// velocity relative to the air (DNV-RP-C205 section 5.4, by the cross-flow principle of 5.3). Its `by_acceleration`
-/// is zero.
+/// velocity relative to the air (DNV-RP-C205 section 5, wind loads; the cross-flow principle as for Morison's drag).
+/// Its `by_acceleration` is zero.
 #[inline]
 pub(super) fn wind_load(half: &Element, t: &Vector3<f64>, fluid: &Fluid, velocity: &Vector3<f64>) -> HalfLoad {
     let u = velocity - fluid.wind;
@@ -118,7 +118,7 @@ pub(super) fn entry(own: f64, middle: f64, diameter: f64, rising: [f64; 2]) -> O
 /// mass that it takes up, d(m_a)/dt u, with its derivatives by velocity and direction, the rate as it is.
 ///
 /// Water entry by the momentum of the added mass (von Karman, NACA TN 321, 1929; Faltinsen, Sea Loads, 1990, section
-/// 9.2; DNV-RP-H103 (2011) section 3.2.9, C_s = 2 / (rho A_p) dA33/dh): on entry alone, as water that is left behind
+/// 9.2; DNV-RP-H103 (2011) section 3.2.9, C_s = 2 / (rho A_p) dA33/dh; DNV-RP-C205 section 8): on entry alone, as water that is left behind
 /// gives nothing back.
 pub(super) fn slam_load(
     half: &Element,

@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 pub const MOST_ELEMENTS: usize = 100_000;
 
 /// Memory an element takes in a run (bytes), rounded up: band, state, copies of both.
-pub const BYTES_PER_ELEMENT: f64 = 2000.0;
+pub const BYTES_PER_ELEMENT: f64 = 3000.0;
 
 /// What one element needs in every iteration; half quantities go to each of its two nodes.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,6 +3,7 @@
 use super::ends::End;
 use super::error::RodError;
 use super::mesh::Rod;
+use super::rope::remember;
 use super::state::State;
 use super::step::{At, Solver};
 use super::surroundings::World;
@@ -60,6 +61,7 @@ impl Solver {
         self.trial.a.fill(Vector3::zeros());
         lay(rod, state, world, &mut self.trial.lay);
         soften(state, world, &mut self.trial.soft);
+        remember(rod, state, 0.0, &mut self.trial.memory);
         sample(world, state.time, &mut self.trial);
         let known = [ends[0].motion.is_some(), ends[1].motion.is_some()];
         let free = |node: usize| !((node == 0 && known[0]) || (node == last && known[1]));

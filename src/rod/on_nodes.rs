@@ -1,15 +1,16 @@
-//! What acts on nodes beside the elements: the bottom, attachments, given forces.
+//! What acts on nodes beside the elements: the bottom, rollers, attachments, given forces.
 
 use super::contact::contact;
 use super::immersed::wet_prism;
 use super::mesh::Rod;
+use super::rollers::{cradled, crossing};
 use super::surroundings::World;
 use super::system::{System, Weights};
 use super::trial::Trial;
 use nalgebra::Vector3;
 use std::ops::Range;
 
-/// Adds the bottom, attachments and given forces at the nodes of a range of elements; without `TANGENT` their
+/// Adds the bottom, rollers, attachments and given forces at the nodes of a range of elements; without `TANGENT` their
 /// residual alone.
 pub(super) fn on_nodes<const TANGENT: bool, const W: usize, const H: usize, const S: usize>(
     rod: &Rod,
@@ -29,6 +30,21 @@ pub(super) fn on_nodes<const TANGENT: bool, const W: usize, const H: usize, cons
             {
                 system.push(node, &-(made.force[0] + made.force[1]));
                 system.block::<TANGENT>(node, node, &(made.by_position * -k - made.by_velocity * c));
+            }
+        }
+    }
+    for roller in world.rollers {
+        let Some(over) = crossing(roller, &trial.x).filter(|c| range.contains(&c.element)) else { continue };
+        let nodes = [over.element, over.element + 1];
+        // cradles stand still where winches do
+        let velocity = nodes.map(|node| if trial.still { &roller.velocity } else { &trial.v[node] });
+        if let Some(made) = cradled(roller, &over, velocity) {
+            for (row, node) in nodes.into_iter().enumerate() {
+                system.push(node, &(made.force * made.shares[row]));
+                for (column, other) in nodes.into_iter().enumerate() {
+                    let block = made.by_position[row][column] * k + made.by_velocity[row][column] * c;
+                    system.block::<TANGENT>(node, other, &block);
+                }
             }
         }
     }

@@ -4,17 +4,20 @@ use super::bend::hinge;
 use super::ends::End;
 use super::hinges::{HingeAt, hinge_sides};
 use super::mesh::Rod;
-use super::spatial::twist;
+use super::rope::Memory;
+use super::spatial::{transport, twist};
 use super::state::State;
-use super::surroundings::World;
+use super::surroundings::{UniformFluid, World};
 use super::tension::{Stretch, Taken, tension};
-use nalgebra::{Rotation3, Vector3};
+use nalgebra::Vector3;
 
 /// Results at a node.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct NodeResult {
     /// Unstretched distance from end A (m).
     pub arc: f64,
+    /// Segment of the element after it, from 0; of the last node the last one.
+    pub segment: usize,
     /// Position (m, global).
     pub position: Vector3<f64>,
     /// Velocity (m/s).
@@ -27,7 +30,9 @@ pub struct NodeResult {
     pub shear: f64,
     /// Bending moment (N m).
     pub moment: f64,
-    /// Its components about two directions across the rod that are carried along it without twist (N m).
+    /// Its components about two directions across the rod that are carried along it without twist from end A (N m):
+    /// the first starts from the holder's side, where it has one, otherwise from a direction fixed in space, taken to
+    /// the rod by the shortest turn.
     pub bends: [f64; 2],
     /// Torsional moment (N m), where the rod has torsional stiffness.
     pub torque: f64,
@@ -35,6 +40,8 @@ pub struct NodeResult {
     pub curvature: f64,
     /// Height over the bottom (m); infinite without one.
     pub clearance: f64,
+    /// Pressure outside and inside above the atmosphere's (Pa), for a tube.
+    pub pressures: [f64; 2],
     /// Stresses, for a tube.
     pub stress: Option<Stress>,
 }
@@ -60,7 +67,8 @@ impl Rod {
     pub fn results(&self, state: &State, world: &World, ends: &[End; 2]) -> Vec<NodeResult> {
         let last = self.elements.len();
         let (x, v) = (&state.position, &state.velocity);
-        let fluids: Vec<_> = x.iter().map(|x| world.fluid.at(x, state.time)).collect();
+        let mut fluids = vec![UniformFluid::none().0; x.len()];
+        world.fluid.fill(x, state.time, &mut fluids);
         let edges: Vec<(Vector3<f64>, f64)> = x
             .windows(2)
             .map(|p| (p[1] - p[0], (p[1] - p[0]).norm().max(f64::MIN_POSITIVE)))
@@ -76,7 +84,8 @@ impl Rod {
                 let rate = (t.dot(&(v[i + 1] - v[i])) - stretch * element.rate) / element.rest;
                 let stretched = Stretch { strain: stretch - 1.0, rate, height: 0.5 * (x[i].z + x[i + 1].z) };
                 let taken = Taken { compression: element.compression, ease: 1.0 };
-                tension(self, element, taken, &stretched, &fluids[i], world.gravity).value
+                let memory = state.yielded.get(i).map(|yielded| Memory::at_once(*yielded));
+                tension(self, element, taken, &stretched, memory.as_ref(), &fluids[i], world.gravity).value
             })
             .collect();
         // moment vector at each node, and the length it is spread over
@@ -101,7 +110,7 @@ impl Rod {
             })
             .collect();
         let (moments, torques) = if self.twists() { self.spatial_moments(state, ends) } else { (moments, Vec::new()) };
-        let across = carried(&edges);
+        let across = carried(&edges, &ends[0]);
         let shears: Vec<Vector3<f64>> =
             (0..last).map(|i| (moments[i + 1].0 - moments[i].0) / self.elements[i].rest).collect();
         let mut arc = 0.0;
@@ -118,31 +127,34 @@ impl Rod {
                     (false, 0) => toward_end(&shears, 0, 1).norm(),
                     (false, _) => toward_end(&shears, last - 1, last.wrapping_sub(2)).norm(),
                 };
-                let (moment, _) = moments[i];
-                let element = &self.elements[i.min(last - 1)];
-                // the axis of a bend has the same parts on either side of its node
-                let bends = across.get(i.min(last - 1)).map_or([0.0; 2], |d| d.map(|d| moment.dot(&d)));
-                let moment = moment.norm();
+                let (bending, _) = moments[i];
+                let beside = i.min(last - 1);
+                let element = &self.elements[beside];
+                let moment = bending.norm();
+                let (director, direction) = (across[beside], edges[beside].0);
                 let mut made = NodeResult {
                     arc,
+                    segment: element.segment,
                     position: x[i],
                     velocity: v[i],
                     effective,
                     wall: effective,
                     shear,
                     moment,
-                    bends,
+                    bends: [bending.dot(&director), bending.dot(&direction.cross(&director))],
                     torque: torques.get(i).copied().unwrap_or(0.0),
                     curvature: if element.bending > 0.0 { moment / element.bending } else { bend(&edges, &moments, i) },
                     clearance: clearance(world, &x[i]),
+                    pressures: [0.0; 2],
                     stress: None,
                 };
                 if let Some(tube) = &self.segments[element.segment].tube {
                     let [outside, inside] = tube.areas();
                     let outer = fluids[i].density * world.gravity * (fluids[i].surface - x[i].z).max(0.0);
                     let inner = tube.pressure + tube.contents * world.gravity * (tube.at - x[i].z);
+                    made.pressures = [outer, inner];
                     made.wall = effective - outer * outside + inner * inside;
-                    made.stress = Some(stress(made.wall, moment, [outer, inner], tube));
+                    made.stress = Some(stress(made.wall, moment, made.pressures, tube));
                 }
                 arc += if i < last { element.rest } else { 0.0 };
                 made
@@ -177,21 +189,24 @@ impl Rod {
     }
 }
 
-/// Two directions across each element, carried along the rod without twist. Those of the first element come from fixed ones by
-/// the smallest turn; it is not known only where a rod begins against the fixed direction, which lies where none does but by chance.
-fn carried(edges: &[(Vector3<f64>, f64)]) -> Vec<[Vector3<f64>; 2]> {
-    let mut along = Vector3::new(-0.50, -0.62, -0.60).normalize();
-    let mut across = Vector3::new(0.62, -0.50, 0.0).normalize();
-    let step = |(t, _): &(Vector3<f64>, f64)| {
-        if let Some(turn) = Rotation3::rotation_between(&along, t) {
-            across = turn * across;
-        }
-        // what rounding adds along the rod is left out
-        across = (across - t * across.dot(t)).try_normalize(1e-300).unwrap_or(across);
-        along = *t;
-        [across, t.cross(&across)]
+/// A direction across each element, carried along the rod without twist.
+///
+/// Without a holder's side it starts from a frame fixed in space by the shortest turn to the first element, which is
+/// smooth as the rod moves but for one direction: this one is askew to all axes and planes a model is laid out in.
+fn carried(edges: &[(Vector3<f64>, f64)], end: &End) -> Vec<Vector3<f64>> {
+    let first = edges[0].0;
+    let held = end.side.and_then(|side| {
+        let direction = end.direction.and_then(|d| d.try_normalize(1e-12)).unwrap_or(first);
+        let across = (side - direction * direction.dot(&side)).try_normalize(1e-9)?;
+        Some(transport(&across, &direction, &first))
+    });
+    let (direction, across) = (Vector3::new(2.0, 3.0, 6.0) / 7.0, Vector3::new(3.0, -6.0, 2.0) / 7.0);
+    let mut before = (first, held.unwrap_or_else(|| transport(&across, &direction, &first)));
+    let on = |(direction, _): &(Vector3<f64>, f64)| {
+        before = (*direction, transport(&before.1, &before.0, direction));
+        before.1
     };
-    edges.iter().map(step).collect()
+    edges.iter().map(on).collect()
 }
 
 /// A value at the end of a row of middles.
@@ -241,36 +256,4 @@ fn stress(wall: f64, moment: f64, [outer, inner]: [f64; 2], tube: &super::sectio
         }
     }
     Stress { axial, bending, hoop: hoop_inside, von_mises: worst }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn edge(x: f64, y: f64, z: f64) -> (Vector3<f64>, f64) {
-        (Vector3::new(x, y, z).normalize(), 1.0)
-    }
-
-    #[test]
-    fn directions_across_a_rod_in_a_plane_keep_their_angle_to_it() {
-        let turn = |i: usize| (i as f64 * 0.2).sin_cos();
-        let arc: Vec<_> = (0..30).map(turn).map(|(s, c)| edge(0.6 * c, 0.8 * c, -s)).collect();
-        let normal = Vector3::new(0.8, -0.6, 0.0);
-        let all = carried(&arc);
-        let first = all[0].map(|d| d.dot(&normal));
-        assert!((first[0].hypot(first[1]) - 1.0).abs() < 1e-12);
-        for ([one, other], (t, _)) in all.iter().zip(&arc) {
-            assert!((one.dot(&normal) - first[0]).abs() < 1e-12 && (other.dot(&normal) - first[1]).abs() < 1e-12);
-            assert!(one.dot(t).abs() < 1e-14 && (one.norm() - 1.0).abs() < 1e-14);
-        }
-    }
-
-    #[test]
-    fn directions_across_change_little_where_the_rod_does() {
-        // straight down and up, where lines begin and end
-        for z in [-1.0, 1.0] {
-            let [a, b] = [[edge(1e-6, 0.0, z)], [edge(-1e-6, 1e-6, z)]].map(|e| carried(&e)[0][0]);
-            assert!((a - b).norm() < 1e-5, "{a} {b}");
-        }
-    }
 }

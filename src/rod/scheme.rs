@@ -10,7 +10,8 @@ pub struct Settings {
     /// Spectral radius at infinite frequency of the generalised-alpha scheme, 0 to 1: 1 damps nothing, 0 kills what the step
     /// cannot follow.
     pub rho_inf: f64,
-    /// An iteration has converged when no node moves by more than this share of the shortest element.
+    /// An iteration has converged when no node moves by more than this share of the shortest element, or none would
+    /// from then on if its moves went on shrinking as they do.
     pub tolerance: f64,
     /// Iterations after which a step is cut.
     pub iterations: usize,

@@ -1,6 +1,7 @@
 //! The properties of a rod: its segments and what is attached between them.
 
 use super::error::RodError;
+use super::rope::Viscoelastic;
 
 /// Tension by strain.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,6 +12,8 @@ pub enum Axial {
     Polynomial(Vec<f64>),
     /// Points (strain, tension in N) by rising strain and tension, straight between and beyond.
     Table(Vec<(f64, f64)>),
+    /// A rope with a static and a dynamic stiffness. Its static law is what [`Axial::at`] and [`Axial::energy`] give.
+    Viscoelastic(Box<Viscoelastic>),
 }
 
 impl Axial {
@@ -33,6 +36,19 @@ impl Axial {
                 let slope = (b.1 - a.1) / (b.0 - a.0);
                 (a.1 + slope * (strain - a.0), slope)
             }
+            Axial::Viscoelastic(rope) => rope.slow.at(strain),
+        }
+    }
+
+    /// Slope of the slope (N) at a strain.
+    pub(super) fn bend(&self, strain: f64) -> f64 {
+        match self {
+            Axial::Linear(_) | Axial::Table(_) => 0.0,
+            Axial::Polynomial(coefficients) => {
+                let powers = coefficients.iter().enumerate().skip(1);
+                powers.map(|(k, c)| c * (k * (k + 1)) as f64 * strain.powi(k as i32 - 1)).sum()
+            }
+            Axial::Viscoelastic(rope) => rope.slow.bend(strain),
         }
     }
 
@@ -56,10 +72,11 @@ impl Axial {
                 }
                 sign * sum
             }
+            Axial::Viscoelastic(rope) => rope.slow.energy(strain),
         }
     }
 
-    fn fault(&self) -> Option<(f64, &'static str)> {
+    pub(super) fn fault(&self) -> Option<(f64, &'static str)> {
         match self {
             Axial::Linear(ea) if !(ea.is_finite() && *ea > 0.0) => Some((*ea, "it must be positive")),
             Axial::Polynomial(c) if !c.first().is_some_and(|c| *c > 0.0) || c.iter().any(|c| !c.is_finite()) => {
@@ -72,6 +89,7 @@ impl Axial {
             {
                 Some((points.len() as f64, "its points must be two or more, with strain and tension both rising"))
             }
+            Axial::Viscoelastic(rope) => rope.fault(),
             _ => None,
         }
     }
@@ -279,6 +297,8 @@ mod tests {
                 assert!((slope - law.at(strain).0).abs() < 1e-8, "{law:?} {strain}");
                 let tangent = (law.at(strain + h).0 - law.at(strain - h).0) / (2.0 * h);
                 assert!((tangent - law.at(strain).1).abs() < 1e-7, "{law:?} {strain}");
+                let bend = (law.at(strain + h).1 - law.at(strain - h).1) / (2.0 * h);
+                assert!((bend - law.bend(strain)).abs() < 1e-7, "{law:?} {strain}");
             }
         }
     }

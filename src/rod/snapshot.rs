@@ -47,9 +47,10 @@ impl Rod {
 
 impl State {
     /// Appends all of it to a row of numbers: the time; position, velocity, acceleration, averaged acceleration and
-    /// bedding of each node; the director of each element of a rod with torsion.
+    /// bedding of each node; the director of each element of a rod with torsion; the strain to which each element of
+    /// one with viscoelastic rope has yielded.
     pub fn pack(&self, out: &mut Vec<f64>) {
-        out.reserve(1 + PER_NODE * self.position.len() + 3 * self.director.len());
+        out.reserve(1 + PER_NODE * self.position.len() + 3 * self.director.len() + self.yielded.len());
         out.push(self.time);
         for (i, position) in self.position.iter().enumerate() {
             for vector in [position, &self.velocity[i], &self.acceleration[i], &self.averaged[i]] {
@@ -60,11 +61,15 @@ impl State {
         for director in &self.director {
             out.extend_from_slice(director.as_slice());
         }
+        out.extend_from_slice(&self.yielded);
     }
 
     /// How many numbers [`State::pack`] makes of a state of a rod.
     pub fn packed(rod: &Rod) -> usize {
-        1 + PER_NODE * rod.nodes() + if rod.twists() { 3 * rod.elements.len() } else { 0 }
+        let elements = rod.elements.len();
+        let (turns, strains) =
+            (if rod.twists() { 3 * elements } else { 0 }, if rod.remembers() { elements } else { 0 });
+        1 + PER_NODE * rod.nodes() + turns + strains
     }
 
     /// The state that [`State::pack`] made numbers of, to the last bit.
@@ -80,7 +85,8 @@ impl State {
         if let Some(place) = from.iter().position(|v| !v.is_finite()) {
             return Err(refuse(format!("number {} of its state is {}", place + 1, from[place])));
         }
-        let (nodes, directors) = from[1..].split_at(PER_NODE * rod.nodes());
+        let (nodes, elements) = from[1..].split_at(PER_NODE * rod.nodes());
+        let (directors, yielded) = elements.split_at(if rod.twists() { 3 * rod.elements.len() } else { 0 });
         let list = |first: usize| {
             nodes.chunks_exact(PER_NODE).map(|n| Vector3::new(n[first], n[first + 1], n[first + 2])).collect()
         };
@@ -92,6 +98,7 @@ impl State {
             averaged: list(9),
             bedding: nodes.chunks_exact(PER_NODE).map(|n| n[PER_NODE - 1]).collect(),
             director: directors.chunks_exact(3).map(Vector3::from_column_slice).collect(),
+            yielded: yielded.to_vec(),
         })
     }
 }

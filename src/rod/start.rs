@@ -4,6 +4,7 @@ use super::ends::End;
 use super::error::RodError;
 use super::hinges::end_moment;
 use super::mesh::Rod;
+use super::rope::remember;
 use super::state::State;
 use super::step::{At, EndForces, Solver};
 use super::surroundings::World;
@@ -65,6 +66,7 @@ impl Solver {
         self.trial.director.copy_from_slice(&state.director);
         lay(rod, state, world, &mut self.trial.lay);
         soften(state, world, &mut self.trial.soft);
+        remember(rod, state, 0.0, &mut self.trial.memory);
         sample(world, state.time, &mut self.trial);
         self.work.assemble(rod, world, &self.trial, Weights { k: 0.0, c: 0.0, m: 1.0 }, 0..last);
         self.work.keep_rows();

@@ -24,6 +24,8 @@ pub struct State {
     /// Least penetration over which the bottom's stiffness grows at each node (m): see
     /// [`Solver::statics`](super::Solver::statics).
     pub(super) bedding: Vec<f64>,
+    /// Strain to which each element has yielded; empty for a rod without viscoelastic rope.
+    pub(super) yielded: Vec<f64>,
 }
 
 impl State {
@@ -79,6 +81,7 @@ impl State {
             Vec::new()
         };
         let rest = vec![Vector3::zeros(); rod.nodes()];
+        let yielded = rod.yielded(&position);
         Ok(State {
             time: 0.0,
             position,
@@ -87,6 +90,7 @@ impl State {
             averaged: rest,
             director,
             bedding: vec![0.0; rod.nodes()],
+            yielded,
         })
     }
 
@@ -100,6 +104,7 @@ impl State {
             averaged: vec![],
             director: vec![],
             bedding: vec![],
+            yielded: vec![],
         }
     }
 
@@ -112,6 +117,7 @@ impl State {
         self.averaged.copy_from_slice(&other.averaged);
         self.director.copy_from_slice(&other.director);
         self.bedding.copy_from_slice(&other.bedding);
+        self.yielded.copy_from_slice(&other.yielded);
     }
 
     /// Gives a node a motion.

@@ -4,6 +4,7 @@ use super::ends::End;
 use super::error::RodError;
 use super::hinges::end_moment;
 use super::mesh::Rod;
+use super::rope::Memory;
 use super::state::State;
 use super::step::{At, EndForces, Solver};
 use super::surroundings::World;
@@ -33,7 +34,8 @@ impl Solver {
     /// The way there is a row of falls, each a step from rest by implicit Euler, which never gains energy: forces
     /// balance the mass of the nodes times their move over the square of a pseudo-time step. While Newton's iteration
     /// finds a fall easily the next is longer; when it does not, the fall is tried again shorter. In the end the
-    /// falls are so long that Newton's iteration on the forces alone is left.
+    /// falls are so long that Newton's iteration on the forces alone is left. With it the search begins where the state
+    /// rested before and its ends have moved little, and takes a few iterations.
     ///
     /// With a bottom it also sets how softly a node meets it from then on. Between two nodes a line that lifts off
     /// with tension T and weight w sags by w l^2 / (8 T): the mesh knows its height over the bottom no better than
@@ -65,22 +67,12 @@ impl Solver {
     /// The row of falls.
     fn falls(&mut self, rod: &Rod, state: &mut State, world: &World, ends: [End; 2]) -> Result<EndForces, RodError> {
         let last = rod.elements.len();
-        let zero = Vector3::zeros();
-        self.weights = Weights { k: 1.0, c: 0.0, m: 0.0 };
-        self.trial.time = state.time;
-        self.trial.ends = ends;
-        self.trial.x.copy_from_slice(&state.position);
-        self.trial.director.copy_from_slice(&state.director);
-        self.trial.v.fill(zero);
-        self.trial.a.fill(zero);
-        for (side, node) in [(0, 0), (1, last)] {
-            if let Some(motion) = ends[side].motion {
-                self.trial.x[node] = motion.position;
-            }
-        }
-        lay(rod, state, world, &mut self.trial.lay);
-        soften(state, world, &mut self.trial.soft);
         let mass = masses(rod);
+        self.lie(rod, state, world, &ends);
+        if let Some(done) = self.settle(rod, state, world, &mass, &ends) {
+            return Ok(self.rested(rod, state, world, &ends, done));
+        }
+        self.lie(rod, state, world, &ends);
         // a start that is much too short would buckle in all its elements at once: it first falls as a chain does
         let strains =
             rod.elements.iter().zip(self.trial.x.windows(2)).map(|(e, x)| (x[1] - x[0]).norm() / e.rest - 1.0);
@@ -113,14 +105,7 @@ impl Solver {
                         break;
                     }
                     Fall::Rest => {
-                        state.position.copy_from_slice(&self.trial.x);
-                        state.director.copy_from_slice(&self.trial.director);
-                        state.velocity.fill(zero);
-                        state.acceleration.fill(zero);
-                        state.averaged.fill(zero);
-                        self.bed(rod, world, state);
-                        let moment = [0, 1].map(|side| end_moment(rod, state, &ends[side], side));
-                        return Ok(EndForces { force: self.work.end_forces(), moment, iterations: done, parts: 1 });
+                        return Ok(self.rested(rod, state, world, &ends, done));
                     }
                     Fall::Unstable => {
                         // pushed aside by a hair, the same way every time
@@ -184,8 +169,42 @@ impl Solver {
         })
     }
 
+    /// Takes the state as the trial, at rest with its ends where they are to be.
+    fn lie(&mut self, rod: &Rod, state: &State, world: &World, ends: &[End; 2]) {
+        let (last, zero) = (rod.elements.len(), Vector3::zeros());
+        self.weights = Weights { k: 1.0, c: 0.0, m: 0.0 };
+        self.trial.time = state.time;
+        self.trial.ends = *ends;
+        self.trial.x.copy_from_slice(&state.position);
+        self.trial.director.copy_from_slice(&state.director);
+        self.trial.v.fill(zero);
+        self.trial.a.fill(zero);
+        for (side, node) in [(0, 0), (1, last)] {
+            if let Some(motion) = ends[side].motion {
+                self.trial.x[node] = motion.position;
+            }
+        }
+        lay(rod, state, world, &mut self.trial.lay);
+        soften(state, world, &mut self.trial.soft);
+        // at rest viscoelastic rope has let go of everything
+        self.trial.memory.fill(Memory::default());
+    }
+
+    /// Takes the trial, which rests, as the state.
+    fn rested(&mut self, rod: &Rod, state: &mut State, world: &World, ends: &[End; 2], done: usize) -> EndForces {
+        state.position.copy_from_slice(&self.trial.x);
+        state.director.copy_from_slice(&self.trial.director);
+        for list in [&mut state.velocity, &mut state.acceleration, &mut state.averaged] {
+            list.fill(Vector3::zeros());
+        }
+        state.yielded = rod.yielded(&state.position);
+        self.bed(rod, world, state);
+        let moment = [0, 1].map(|side| end_moment(rod, state, &ends[side], side));
+        EndForces { force: self.work.end_forces(), moment, iterations: done, parts: 1 }
+    }
+
     /// One Newton iteration of a fall that began at `from`.
-    fn fall(&mut self, rod: &Rod, world: &World, mass: &[f64], from: &[Vector3<f64>], pseudo: f64) -> Fall {
+    pub(super) fn fall(&mut self, rod: &Rod, world: &World, mass: &[f64], from: &[Vector3<f64>], pseudo: f64) -> Fall {
         let last = rod.elements.len();
         let known = self.trial.ends.map(|e| e.motion.is_some());
         sample(world, self.trial.time, &mut self.trial);
@@ -274,12 +293,12 @@ impl Solver {
 }
 
 /// Pseudo-time of the first fall (s): that in which a stone falls some thousandths of the length.
-fn first_fall(rod: &Rod, world: &World) -> f64 {
+pub(super) fn first_fall(rod: &Rod, world: &World) -> f64 {
     (0.01 * rod.length() / world.gravity.abs().max(1.0)).sqrt()
 }
 
 /// What an iteration of a fall came to.
-enum Fall {
+pub(super) enum Fall {
     /// Forces are in balance, and any move would meet resistance.
     Rest,
     /// Forces are in balance as those of a strut that is about to buckle.

@@ -5,6 +5,7 @@ use super::ends::End;
 use super::error::RodError;
 use super::hinges::end_moment;
 use super::mesh::Rod;
+use super::rope::{Memory, remember, settle};
 use super::scheme::{Scheme, Settings};
 use super::state::State;
 use super::surroundings::{UniformFluid, World};
@@ -50,8 +51,10 @@ pub struct Solver {
     /// Where the step of the last trial began, and whether it was made in one part.
     pub(super) began: State,
     pub(super) whole: bool,
-    /// The ends' part in the matrix of the last trial.
+    /// The ends' part in the matrix at hand.
     pub(super) near: Near,
+    /// Room for the parts of a matrix beside its ends, which leaves the factors at hand alone.
+    pub(super) beside: Workspace,
     /// Solutions with the transpose of the matrix.
     pub(super) adjoint: Vec<f64>,
 }
@@ -80,6 +83,7 @@ impl Solver {
             averaged: zero.clone(),
             director: if rod.twists() { vec![Vector3::x(); nodes - 1] } else { Vec::new() },
             bedding: vec![0.0; nodes],
+            yielded: rod.yielded(&zero),
         };
         let still = UniformFluid::none().0;
         let trial = Trial {
@@ -96,11 +100,13 @@ impl Solver {
             exact: false,
             still: false,
             director: state.director.clone(),
+            memory: vec![Memory::default(); state.yielded.len()],
         };
         let work = Workspace::of(rod);
         Solver {
             settings,
             change: vec![0.0; work.stride() * nodes],
+            beside: work.clone(),
             adjoint: vec![0.0; 6 * work.stride() * nodes],
             work,
             trial,
@@ -121,7 +127,12 @@ impl Solver {
         let lists = [&state.position, &state.velocity, &state.acceleration, &state.averaged].map(Vec::len);
         let directors = if rod.twists() { nodes - 1 } else { 0 };
         let turns = [state.director.len(), self.trial.director.len()];
-        if own.iter().chain(&lists).any(|n| *n != nodes) || turns != [directors; 2] || state.bedding.len() != nodes {
+        let strains = if rod.remembers() { nodes - 1 } else { 0 };
+        if own.iter().chain(&lists).any(|n| *n != nodes)
+            || turns != [directors; 2]
+            || state.bedding.len() != nodes
+            || [state.yielded.len(), self.trial.memory.len()] != [strains; 2]
+        {
             let why = format!("the state or the solver is not that of this rod of {nodes} nodes");
             return Err(RodError::Shape { rod: rod.name.clone(), why });
         }
@@ -269,6 +280,7 @@ impl Solver {
         self.trial.ends = ends;
         lay(rod, from, world, &mut self.trial.lay);
         soften(from, world, &mut self.trial.soft);
+        remember(rod, from, scheme.h, &mut self.trial.memory);
         if moved.is_none() {
             self.foretell(from, &scheme, time, &ends);
         }
@@ -296,6 +308,7 @@ impl Solver {
             if !(size.is_finite() && size < wild) {
                 return Err(Failure { node: self.work.worst(known).0, why: "the iteration runs away" });
             }
+            self.near.moved += size;
             let next = &mut self.next;
             turn(&mut next.director, &next.position, &self.change, stride, known);
             for i in 0..=last {
@@ -308,7 +321,10 @@ impl Solver {
                 let [averaged, v, a] = scheme.follow(from, i, u);
                 (next.averaged[i], next.velocity[i], next.acceleration[i]) = (averaged, v, a);
             }
-            if size <= tolerance {
+            // what is still missing if the moves go on shrinking as they do
+            let missing = if iteration == 1 { size } else { size * size / (last_move - size).max(0.0) };
+            if size.min(missing) <= tolerance {
+                settle(rod, &self.trial.memory, next);
                 return Ok(iteration);
             }
             if iteration > 6 && size > last_move {
@@ -345,9 +361,9 @@ impl Solver {
     fn iterate(&mut self, rod: &Rod, world: &World, known: [bool; 2], fresh: bool) -> Result<f64, Failure> {
         let last = rod.elements.len();
         if fresh {
-            self.near.ready = false;
+            self.near.moved = f64::INFINITY;
             self.work.assemble(rod, world, &self.trial, self.weights, 0..last);
-            self.work.keep_rows();
+            self.keep_matrix();
         } else {
             self.work.forces(rod, world, &self.trial);
         }
@@ -362,6 +378,7 @@ impl Solver {
         }
         if fresh {
             self.work.factor().map_err(|node| Failure { node, why: "its stiffness vanishes" })?;
+            self.near.moved = 0.0;
         }
         self.work.newton(&mut self.change);
         self.work.carry_ends(&self.change);

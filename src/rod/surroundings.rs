@@ -150,6 +150,28 @@ pub struct Roller {
     pub soft: f64,
 }
 
+impl Roller {
+    /// What keeps it from being a cradle, as one clause; none where it is one.
+    pub fn fault(&self) -> Option<&'static str> {
+        let whole = |v: &Vector3<f64>| v.iter().all(|c| c.is_finite());
+        let [along, across, up] = &self.axes;
+        let square = [along.dot(across), across.dot(up), up.dot(along)].iter().all(|c| c.abs() < 1e-6);
+        if !whole(&self.place) || !whole(&self.velocity) {
+            Some("its place and velocity must be numbers")
+        } else if !(square && self.axes.iter().all(|a| (a.norm() - 1.0).abs() < 1e-6)) {
+            Some("its axes must be unit vectors at right angles")
+        } else if !(self.stiffness.is_finite() && self.stiffness > 0.0) {
+            Some("its stiffness must be positive")
+        } else if ![self.damping, self.soft].iter().all(|v| v.is_finite() && *v >= 0.0) {
+            Some("its damping and soft depth must not be negative")
+        } else if !(self.half_width >= 0.0 && (0.0..std::f64::consts::PI).contains(&self.opening)) {
+            Some("its half width must not be negative, and its opening from 0 to less than half a turn")
+        } else {
+            None
+        }
+    }
+}
+
 /// All that surrounds a rod.
 #[derive(Clone, Copy)]
 pub struct World<'a> {
@@ -163,7 +185,8 @@ pub struct World<'a> {
     pub forces: &'a [(usize, Vector3<f64>)],
     /// Cradles it is laid over.
     pub rollers: &'a [Roller],
-    /// Whether an element that enters the water is slammed: see [`Segment::added_normal`](super::Segment).
+    /// Whether an element that enters the water is slammed by it: the rate at which its added mass grows, times its
+    /// velocity relative to the water. Off, the added mass comes without its momentum.
     pub slam: bool,
 }
 

@@ -1,6 +1,7 @@
 //! The tension of an element.
 
 use super::mesh::{Element, Rod};
+use super::rope::Memory;
 use super::surroundings::Fluid;
 
 /// Tension of an element (N) with its derivatives by strain, by strain rate and by the height of its middle.
@@ -31,13 +32,14 @@ pub(super) struct Taken {
 
 /// Effective tension: the law of the segment at the mechanical strain, internal damping, and what pressure does
 /// through Poisson's ratio, (1 - 2 nu)(p_e A_e - p_i A_i) (Sparks, Fundamentals of Marine Riser Mechanics, 2007,
-/// section 2.4).
+/// section 2.4). A viscoelastic rope with a `memory` adds its Maxwell element, but never pushes.
 #[inline(always)]
 pub(super) fn tension(
     rod: &Rod,
     element: &Element,
     taken: Taken,
     stretch: &Stretch,
+    memory: Option<&Memory>,
     fluid: &Fluid,
     gravity: f64,
 ) -> Tension {
@@ -55,6 +57,14 @@ pub(super) fn tension(
         by_rate: element.damping,
         by_height: 0.0,
     };
+    if let (Some(memory), Some(rope)) = (memory, rod.rope(element)) {
+        let (beside, slope) = rope.beside(mechanical, memory);
+        if value + beside < 0.0 && !taken.compression {
+            return Tension { value: 0.0, by_strain: 0.0, by_rate: 0.0, by_height: 0.0 };
+        }
+        made.value += beside;
+        made.by_strain += slope;
+    }
     if let Some(tube) = &segment.tube {
         let share = 1.0 - 2.0 * tube.poisson;
         let [outside, inside] = tube.areas();

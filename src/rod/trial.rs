@@ -2,6 +2,7 @@
 
 use super::ends::{End, Motion};
 use super::mesh::Rod;
+use super::rope::Memory;
 use super::spatial::{transport, turned};
 use super::state::State;
 use super::surroundings::{Fluid, World};
@@ -30,6 +31,8 @@ pub(super) struct Trial {
     pub still: bool,
     /// Directors of the elements of a rod with torsion.
     pub director: Vec<Vector3<f64>>,
+    /// How each element of a rod with viscoelastic rope follows its strain.
+    pub memory: Vec<Memory>,
 }
 
 /// Takes directors along from one position of the nodes to another.

@@ -46,6 +46,9 @@ impl Rod {
             [half.rate, half.rate]
         };
         self.elements.splice(element..=element, rates.map(|rate| Element { rate, ..half.clone() }));
+        if let Some(strain) = state.yielded.get(element).copied() {
+            state.yielded.insert(element, strain);
+        }
         let middle = |list: &[Vector3<f64>]| (list[element] + list[element + 1]) * 0.5;
         let place = middle(&state.position);
         state.position.insert(element + 1, place);
@@ -86,6 +89,12 @@ impl Rod {
             list.remove(element + 1);
         }
         state.bedding.remove(element + 1);
+        if let [a, b] = [element, element + 1].map(|i| state.yielded.get(i).copied())
+            && let (Some(a), Some(b)) = (a, b)
+        {
+            state.yielded[element] = (a * first.rest + b * second.rest) / (first.rest + second.rest);
+            state.yielded.remove(element + 1);
+        }
         for attachment in self.attachments.iter_mut().filter(|a| a.node > element) {
             attachment.node -= 1;
         }
@@ -110,7 +119,8 @@ impl Rod {
     fn changeable(&self, element: usize, state: &State) -> Result<Element, RodError> {
         let nodes = self.nodes();
         let lists = [&state.position, &state.velocity, &state.acceleration, &state.averaged];
-        if lists.iter().any(|l| l.len() != nodes) || state.bedding.len() != nodes {
+        let strains = if self.remembers() { nodes - 1 } else { 0 };
+        if lists.iter().any(|l| l.len() != nodes) || state.bedding.len() != nodes || state.yielded.len() != strains {
             return Err(self.refused("the state is not that of this rod".to_string()));
         }
         if self.twists() {

@@ -50,6 +50,11 @@ impl Workspace {
         each!(self, system => system.stride())
     }
 
+    /// Elements beside an end that the motion of the end enters.
+    pub fn reach(&self) -> usize {
+        if matches!(self, Workspace::Rope(_)) { 1 } else { 2 }
+    }
+
     /// Residual and tangent of the whole rod at a trial.
     pub fn assemble(&mut self, rod: &Rod, world: &World, trial: &Trial, weights: Weights, range: Range<usize>) {
         each!(self, system => {
@@ -134,6 +139,16 @@ impl Workspace {
         each!(self, system => {
             let first = system.stride() * node;
             system.residual[first..first + 3].fill(0.0);
+        });
+    }
+
+    /// Makes the residual of a fixed node one that moves it by a change.
+    pub fn lead_residual(&mut self, node: usize, change: &Vector3<f64>) {
+        each!(self, system => {
+            let first = system.stride() * node;
+            for (residual, c) in system.residual[first..first + 3].iter_mut().zip(change) {
+                *residual = -c;
+            }
         });
     }
 

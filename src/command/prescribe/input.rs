@@ -1,54 +1,12 @@
 //! Files of places at times, and of responses to waves.
 
 use super::super::Job;
-use super::super::device::existing;
+use super::super::number_rows::{Row, rows};
 use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::source::{LARGEST_FILE, Span};
+use crate::language::source::Span;
 use crate::language::units::Dim;
 use crate::model::{PathRow, ResponseRow, Responses};
 use std::f64::consts::TAU;
-
-/// A row of numbers, with its line in the file.
-type Row<const N: usize> = (u64, [f64; N]);
-
-/// The numbers of a CSV file, N a row.
-fn rows<const N: usize>(job: &Job, (name, span): (&str, Span), what: &str) -> Outcome<Vec<Row<N>>> {
-    let path = existing(job, name, span)?;
-    let refused =
-        |why: String| Diagnostic::error(format!("{name} cannot be used: {why}"), span).help(format!("a row is {what}"));
-    let size = std::fs::metadata(&path).map_err(|e| refused(e.to_string()))?.len();
-    if size > LARGEST_FILE {
-        return Err(refused(format!("it has more than {LARGEST_FILE} bytes")));
-    }
-    let mut reader = csv::ReaderBuilder::new()
-        .has_headers(false)
-        .flexible(true)
-        .comment(Some(b'#'))
-        .trim(csv::Trim::All)
-        .from_path(&path)
-        .map_err(|e| refused(e.to_string()))?;
-    let mut found = Vec::new();
-    for (index, record) in reader.records().enumerate() {
-        let record = record.map_err(|e| refused(e.to_string()))?;
-        let line = record.position().map_or(0, csv::Position::line);
-        let number = |text: &str| text.parse::<f64>();
-        if index == 0 && record.iter().all(|text| number(text).is_err()) {
-            continue;
-        }
-        if record.len() != N {
-            return Err(refused(format!("line {line} has {} values, not {N}", record.len())));
-        }
-        let mut row = [0.0; N];
-        for (column, (slot, text)) in row.iter_mut().zip(&record).enumerate() {
-            *slot = number(text)
-                .ok()
-                .filter(|v| v.is_finite())
-                .ok_or_else(|| refused(format!("line {line}: value {} is `{text}`, which is no number", column + 1)))?;
-        }
-        found.push((line, row));
-    }
-    if found.is_empty() { Err(refused("it has no rows of numbers".into())) } else { Ok(found) }
-}
 
 /// Places at times, in SI.
 ///
@@ -57,7 +15,7 @@ fn rows<const N: usize>(job: &Job, (name, span): (&str, Span), what: &str) -> Ou
 pub(super) fn path(job: &Job, file: (&str, Span)) -> Outcome<Vec<PathRow>> {
     let (name, span) = file;
     let what = "time, x, y, z, roll, pitch, yaw; times grow, and angles are in degrees";
-    let read: Vec<Row<7>> = rows(job, file, what)?;
+    let read: Vec<Row<7>> = rows(job, file, what, usize::MAX)?;
     let refused = |why: String| Diagnostic::error(format!("{name} cannot be used: {why}"), span);
     let wrong = read.windows(2).find_map(|w| w.last().zip(w.first()).filter(|(b, a)| b.1[0] <= a.1[0]));
     if let Some((late, early)) = wrong {
@@ -88,7 +46,7 @@ pub(super) fn responses(job: &Job, file: (&str, Span), symmetric: bool) -> Outco
     let (name, span) = file;
     let what =
         "heading, period, and for surge, sway, heave, roll, pitch, yaw each amplitude and lag; angles are in degrees";
-    let read: Vec<Row<14>> = rows(job, file, what)?;
+    let read: Vec<Row<14>> = rows(job, file, what, usize::MAX)?;
     let refused = |why: String| Diagnostic::error(format!("{name} cannot be used: {why}"), span);
     let mut headings: Vec<(f64, Vec<ResponseRow>)> = Vec::new();
     for (line, row) in read {

@@ -386,7 +386,7 @@ impl Element for MovingLine {
         let found = self.within(at.surroundings, still, |world| warm.rod.results(&state, world, &ends));
         out.extend(found.iter().map(|n| LineNode {
             arc: n.arc,
-            segment: 0,
+            segment: self.base.part.get(n.segment).copied().unwrap_or(0),
             position: n.position,
             velocity: n.velocity,
             effective: n.effective,
@@ -397,7 +397,7 @@ impl Element for MovingLine {
             torque: n.torque,
             curvature: n.curvature,
             clearance: n.clearance,
-            pressures: [0.0; 2],
+            pressures: n.pressures,
             stress: n.stress.map(|s| LineStress {
                 axial: s.axial,
                 bending: s.bending,

@@ -25,14 +25,8 @@ fn model(environment: Environment) -> Model {
 }
 
 fn curve(model: &mut Model, name: &str, kind: CurveKind, points: &[(f64, f64)]) {
-    let made = Curve {
-        name: name.into(),
-        kind,
-        points: points.to_vec(),
-        exponentials: 5,
-        metres: 1.0,
-        span: Span::default(),
-    };
+    let made =
+        Curve { name: name.into(), kind, points: points.to_vec(), exponentials: 5, metres: 1.0, span: Span::default() };
     model.curves.insert(name.into(), made);
 }
 

@@ -6,10 +6,13 @@
 use super::eight::{Eight, exp, sin_cos};
 use super::{Component, Kinematics, Sea};
 use crate::model::Stretching;
+use multiversion::multiversion;
 use nalgebra::Vector3;
 
 /// Water this deep (k d) is deep to the last digit: exp(-2 k d) < 1e-17.
 const DEEP: f64 = 20.0;
+/// At this power of e, and below, nothing of a wave is left in sixteen digits.
+const GONE: f64 = -40.0;
 /// The factor of delta stretching (Rodenbusch and Forristall 1986).
 const DELTA: f64 = 0.3;
 
@@ -41,6 +44,8 @@ struct Block {
     q: Eight,
     whole: Eight,
     tanh: Eight,
+    /// Wave number of the longest of them (1/m).
+    longest: f64,
 }
 
 impl Lanes {
@@ -65,6 +70,7 @@ impl Lanes {
                 q: each(&|c| if kd(c) > DEEP { 0.0 } else { (-2.0 * kd(c)).exp() }),
                 whole: each(&|c| -1.0 / (-2.0 * kd(c)).exp_m1()),
                 tanh: each(&|c| kd(c).tanh()),
+                longest: list.iter().map(|c| c.number).fold(f64::INFINITY, f64::min),
             }
         };
         let variance: f64 = components.iter().map(|c| 0.5 * c.amplitude * c.amplitude).sum();
@@ -115,12 +121,7 @@ impl<'a> SeaAt<'a> {
         if let Some(wave) = &self.sea.stokes {
             return self.factor * wave.elevation(x, y, self.time);
         }
-        let mut sums = [0.0; 8];
-        for (block, [c, s]) in self.sea.lanes.blocks.iter().zip(&self.phasors) {
-            let (sin, cos) = sin_cos(&eight(|i| block.kx[i] * x + block.ky[i] * y));
-            sums = eight(|i| sums[i] + c[i] * cos[i] - s[i] * sin[i]);
-        }
-        sums.iter().sum()
+        raised(&self.sea.lanes.blocks, &self.phasors, [x, y])
     }
 
     /// The water at a global place (m); nothing above the surface, but with [`Stretching::Exponential`]. Below the bottom it
@@ -192,40 +193,62 @@ impl<'a> SeaAt<'a> {
     fn sums(&self, at: Vector3<f64>, height: f64, rise: f64) -> Kinematics {
         let sea = self.sea;
         let height = sea.depth.map_or(height, |d| height.max(-d));
-        // elevation, pressure over rho g, velocity, acceleration
-        let mut sums = [[0.0; 8]; 8];
-        for (block, [c, s]) in sea.lanes.blocks.iter().zip(&self.phasors) {
-            let (sin, cos) = sin_cos(&eight(|i| block.kx[i] * at.x + block.ky[i] * at.y));
-            let decay = exp(&eight(|i| block.k[i] * height));
-            for i in 0..8 {
-                let (a_cos, a_sin) = (c[i] * cos[i] - s[i] * sin[i], s[i] * cos[i] + c[i] * sin[i]);
-                // cosh(k(z+d)) / sinh(kd) = exp(kz) (1 + exp(-2k(z+d))) / (1 - exp(-2kd)), and so the sine; in deep water
-                // exp(-2kd) is 0, and the square of the smallest decay is kept above that
-                let mirror = block.q[i] / (decay[i] * decay[i]).max(f64::MIN_POSITIVE);
-                let scale = decay[i] * block.whole[i];
-                let (cosh, sinh) = (scale * (1.0 + mirror), scale * (1.0 - mirror));
-                let along = rise * block.k[i];
-                let (w, u) = (block.w[i] * (sinh + along * cosh), block.w[i] * (cosh + along * sinh));
-                let rate = block.w[i] * a_sin;
-                sums[0][i] += a_cos;
-                sums[1][i] += cosh * block.tanh[i] * a_cos;
-                sums[2][i] += u * a_cos * block.x[i];
-                sums[3][i] += u * a_cos * block.y[i];
-                sums[4][i] += w * a_sin;
-                sums[5][i] += u * rate * block.x[i];
-                sums[6][i] += u * rate * block.y[i];
-                sums[7][i] -= w * block.w[i] * a_cos;
-            }
-        }
-        let [elevation, pressure, u, v, w, u_rate, v_rate, w_rate] = sums.map(|lanes| lanes.iter().sum::<f64>());
+        let [elevation, pressure, u, v, w, u_rate, v_rate, w_rate] =
+            added_up(&sea.lanes.blocks, &self.phasors, [at.x, at.y], [height, rise]);
         let velocity = Vector3::new(u, v, w);
         let acceleration = Vector3::new(u_rate, v_rate, w_rate) + velocity * self.growth;
         Kinematics { velocity, acceleration, pressure: pressure * sea.density * sea.gravity, elevation }
     }
 }
 
+/// Elevation at a place (m).
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn raised(blocks: &[Block], phasors: &[[Eight; 2]], [x, y]: [f64; 2]) -> f64 {
+    let mut sums = [0.0; 8];
+    for (block, [c, s]) in blocks.iter().zip(phasors) {
+        let (sin, cos) = sin_cos(&eight(|i| block.kx[i] * x + block.ky[i] * y));
+        sums = eight(|i| sums[i] + c[i] * cos[i] - s[i] * sin[i]);
+    }
+    sums.iter().sum()
+}
+
+/// Elevation, pressure over rho g, velocity and acceleration, each added up over the waves, at a place, a height over the mean
+/// level and a rise above it (m).
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn added_up(blocks: &[Block], phasors: &[[Eight; 2]], [x, y]: [f64; 2], [height, rise]: [f64; 2]) -> [f64; 8] {
+    let mut sums = [[0.0; 8]; 8];
+    for (block, [c, s]) in blocks.iter().zip(phasors) {
+        let (sin, cos) = sin_cos(&eight(|i| block.kx[i] * x + block.ky[i] * y));
+        if block.longest * height < GONE {
+            sums[0] = eight(|i| sums[0][i] + (c[i] * cos[i] - s[i] * sin[i]));
+            continue;
+        }
+        let decay = exp(&eight(|i| block.k[i] * height));
+        for i in 0..8 {
+            let (a_cos, a_sin) = (c[i] * cos[i] - s[i] * sin[i], s[i] * cos[i] + c[i] * sin[i]);
+            // cosh(k(z+d)) / sinh(kd) = exp(kz) (1 + exp(-2k(z+d))) / (1 - exp(-2kd)), and so the sine; in deep water
+            // exp(-2kd) is 0, and the square of the smallest decay is kept above that
+            let mirror = block.q[i] / (decay[i] * decay[i]).max(f64::MIN_POSITIVE);
+            let scale = decay[i] * block.whole[i];
+            let (cosh, sinh) = (scale * (1.0 + mirror), scale * (1.0 - mirror));
+            let along = rise * block.k[i];
+            let (w, u) = (block.w[i] * (sinh + along * cosh), block.w[i] * (cosh + along * sinh));
+            let rate = block.w[i] * a_sin;
+            sums[0][i] += a_cos;
+            sums[1][i] += cosh * block.tanh[i] * a_cos;
+            sums[2][i] += u * a_cos * block.x[i];
+            sums[3][i] += u * a_cos * block.y[i];
+            sums[4][i] += w * a_sin;
+            sums[5][i] += u * rate * block.x[i];
+            sums[6][i] += u * rate * block.y[i];
+            sums[7][i] -= w * block.w[i] * a_cos;
+        }
+    }
+    sums.map(|lanes| lanes.iter().sum::<f64>())
+}
+
 /// Eight numbers by their index.
-#[inline]
+#[inline(always)]
 fn eight(value: impl FnMut(usize) -> f64) -> Eight {
     std::array::from_fn(value)
 }

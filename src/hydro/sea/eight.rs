@@ -45,7 +45,7 @@ const TAYLOR: [f64; 14] = {
 const DEEP: f64 = 700.0;
 
 /// Sines and cosines of angles (rad).
-#[inline]
+#[inline(always)]
 pub fn sin_cos(angles: &Eight) -> (Eight, Eight) {
     let (mut sines, mut cosines) = ([0.0; 8], [0.0; 8]);
     if !angles.iter().all(|a| a.abs() <= FAR) {
@@ -71,7 +71,7 @@ pub fn sin_cos(angles: &Eight) -> (Eight, Eight) {
 }
 
 /// Exponentials.
-#[inline]
+#[inline(always)]
 pub fn exp(powers: &Eight) -> Eight {
     let mut found = [0.0; 8];
     for (found, power) in found.iter_mut().zip(powers) {

@@ -104,7 +104,8 @@ fn what_makes_no_bottom_is_refused_with_the_reason() {
     let many: Vec<f64> = (0..3000).map(f64::from).collect();
     assert!(new(&many, &many, &[]).contains("3000 by 3000 points asks for 288 MB"));
     assert!(fits(usize::MAX, 3).is_err());
-    let of = |points: &[[f64; 3]]| Bathymetry::of_points("B", points.to_vec(), Span::default()).unwrap_err().to_string();
+    let of =
+        |points: &[[f64; 3]]| Bathymetry::of_points("B", points.to_vec(), Span::default()).unwrap_err().to_string();
     let hole = of(&[[0.0, 0.0, -1.0], [1.0, 0.0, -1.0], [0.0, 1.0, -1.0]]);
     assert!(hole.contains("3 points with 2 different x and 2 different y make no grid"), "{hole}");
     let inner = of(&[[0.0, 0.0, 1.0], [0.0, 1.0, 1.0], [1.0, 1.0, 1.0]]);

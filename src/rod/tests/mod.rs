@@ -1,9 +1,12 @@
 //! Whole rods against closed forms and other programs.
 
+mod again;
 mod beam;
 mod end_tangent;
 mod lowering;
 mod motion;
+mod rollers;
+mod rope;
 mod section;
 mod snapshot;
 mod still;

@@ -26,6 +26,8 @@ fn a_heated_pipe_under_pressure_between_fixed_ends_is_pressed_as_the_closed_form
     let (a, b) = (Vector3::new(0.0, 0.0, -depth), Vector3::new(20.0, 0.0, -depth));
     let state = State::along(&rod, &[a, b]).unwrap();
     let found = rod.results(&state, &world, &[End::pinned(a), End::pinned(b)])[5];
+    // rho g h, and what the pipe was filled to
+    assert_eq!(found.pressures, [1025.0 * 9.80665 * depth, 1e7]);
     let [outside, inside] = tube.areas();
     let wall = outside - inside;
     let outer = 1025.0 * 9.80665 * depth;
@@ -102,4 +104,53 @@ fn a_polynomial_and_a_table_of_tension_hang_as_the_line_they_describe() {
     let found = stretch(Axial::Polynomial(vec![c, d]));
     // midpoint rule over 50 elements
     assert!((found / curved - 1.0).abs() < 1e-3, "{found} {curved}");
+}
+
+#[test]
+fn moments_along_a_helix_turn_against_the_untwisted_frame_by_its_torsion() {
+    // a helix of radius r and rise c per radian: curvature r / (r^2 + c^2), torsion c / (r^2 + c^2); against a frame
+    // carried without twist the binormal turns by the torsion along the arc (Bishop, Am. Math. Monthly 82, 1975, 246)
+    let (r, c, turns, elements, bending): (f64, f64, f64, usize, f64) = (3.0, 4.0, 1.5, 600, 2e5);
+    let (speed, whole) = (r.hypot(c), 2.0 * std::f64::consts::PI * turns);
+    let point = |s: f64| Vector3::new(r * s.cos(), r * s.sin(), c * s);
+    let points: Vec<_> = (0..=elements).map(|i| point(whole * i as f64 / elements as f64)).collect();
+    let (half, length) = (elements / 2, speed * whole);
+    let segment = |elements| Segment { bending, ..Segment::line(0.5 * length, elements, 10.0, 1e9, 0.1) };
+    let rod = Rod::new("helix", vec![segment(half), segment(half)], vec![]).unwrap();
+    let state = State::along(&rod, &points).unwrap();
+    let fluid = UniformFluid::none();
+    let found = rod.results(&state, &World::new(&fluid, 9.81), &[End::FREE; 2]);
+    let (curvature, torsion) = (r / (speed * speed), c / (speed * speed));
+    let inner = &found[1..elements];
+    let start = inner[0].bends[1].atan2(inner[0].bends[0]);
+    for (i, node) in inner.iter().enumerate() {
+        // chords of a six-hundredth of three half turns: (ds k)^2 / 12
+        assert!((node.moment / (bending * curvature) - 1.0).abs() < 1e-4, "{node:?}");
+        assert!((node.bends[0].hypot(node.bends[1]) / node.moment - 1.0).abs() < 1e-4, "{node:?}");
+        let angle = start + torsion * length * i as f64 / elements as f64;
+        let wrong = node.bends[1].atan2(node.bends[0]) - angle;
+        assert!(wrong.sin().abs() < 1e-3 && wrong.cos() > 0.0, "{i} {wrong}");
+    }
+    assert_eq!([0, half - 1, half, elements].map(|i| found[i].segment), [0, 0, 1, 1]);
+    assert_eq!(found[5].pressures, [0.0; 2]);
+}
+
+#[test]
+fn a_bend_is_told_about_the_side_of_the_holder() {
+    // a cantilever along y under a load along -z: its moment is about x alone, load times the arm
+    let segment = Segment { bending: 1e9, compression: true, ..Segment::line(10.0, 20, 1.0, 1e12, 0.1) };
+    let rod = Rod::new("arm", vec![segment], vec![]).unwrap();
+    let fluid = UniformFluid::none();
+    let forces = [(20, Vector3::z() * -100.0)];
+    let world = World { forces: &forces, ..World::new(&fluid, 0.0) };
+    let mut state = State::along(&rod, &[Vector3::zeros(), Vector3::y() * 10.0]).unwrap();
+    let ends = [End::pinned(Vector3::zeros()).clamped(Vector3::y()).with_side(Vector3::x()), End::FREE];
+    Solver::new(&rod, Settings::default()).statics(&rod, &mut state, &world, ends).unwrap();
+    let found = rod.results(&state, &world, &ends);
+    for node in &found[..20] {
+        let moment = 100.0 * (10.0 - node.arc);
+        // the moment of a bend toward -z of a rod along y is about -x; slopes of 5e-6, residual of statics
+        assert!((node.bends[0] + moment).abs() < 1e-3 * moment.max(1.0), "{node:?} {moment}");
+        assert!(node.bends[1].abs() < 1e-3, "{node:?}");
+    }
 }

@@ -129,3 +129,37 @@ fn a_taut_string_and_a_bar_sound_at_their_closed_forms() {
         assert!((found / exact - 1.0).abs() < 2.5e-3, "{n}: {found} {exact}");
     }
 }
+
+#[test]
+fn rest_beside_a_position_of_rest_takes_a_few_iterations() {
+    let segment = Segment { drag_normal: 1.2, ..Segment::line(900.0, 50, 199.0, 8.54e8, 0.18) };
+    let rod = Rod::new("chain", vec![segment], vec![]).unwrap();
+    let fluid = UniformFluid::moving(1025.0, Vector3::new(0.2, 0.5, 0.0));
+    let bottom = PlaneBottom { height: -300.0, slope: [0.0, 0.0] };
+    let world = World { bottom: Some((&bottom, Ground::elastic(3e6))), ..World::new(&fluid, 9.80665) };
+    let (a, b) = (Vector3::new(-800.0, 0.0, -300.0), Vector3::new(0.0, 0.0, -10.0));
+    let mut state = State::along(&rod, &[a, Vector3::new(-350.0, 0.0, -300.0), b]).unwrap();
+    let mut solver = Solver::new(&rod, Settings::default());
+    let mut at = |state: &mut State, b| solver.statics(&rod, state, &world, [End::pinned(a), End::pinned(b)]).unwrap();
+    at(&mut state, b);
+    // the first time on a bottom that has become as soft as the elements are long
+    assert!(at(&mut state, b).iterations <= 10);
+    assert!(at(&mut state, b).iterations <= 3);
+    let moves = [
+        (Vector3::zeros(), 1),
+        (Vector3::x() * 0.01, 4),
+        (Vector3::new(0.3, -0.2, 0.1), 4),
+        (Vector3::new(-2.0, 1.0, 0.0), 9),
+    ];
+    for (move_by, most) in moves {
+        let mut near = state.clone();
+        let made = at(&mut near, b + move_by);
+        assert!(made.iterations <= most, "{move_by} {}", made.iterations);
+        // the same as from far away, on a bottom as soft
+        let mut far = State::along(&rod, &[a, Vector3::new(-350.0, 0.0, -300.0), b + move_by]).unwrap();
+        far.bedding.clone_from(&state.bedding);
+        let other = at(&mut far, b + move_by);
+        // what a residual of 1e-9 of the largest force leaves, through a line fifty elements long
+        assert!((made.force[1] - other.force[1]).norm() < 1e-7 * other.force[1].norm());
+    }
+}

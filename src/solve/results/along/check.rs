@@ -138,9 +138,10 @@ fn acting(node: &NodeRow, section: &Section, outside: f64) -> Acting {
 
 fn told(line: &Line, code: &Code, checked: &[Checked], worst: &[Option<Worst>]) -> Result<Table, SolveError> {
     let bends = line.columns.bends;
+    let by_code = checked.iter().any(|c| !matches!(c, Checked::Break(_)));
     let mut table = Table::new("Unity Checks Along a Line")
         .fact("Line", line.name, Dim::None)
-        .fact("Code", code.name(), Dim::None)
+        .fact("Code", if by_code { code.name() } else { Code::Break.name() }, Dim::None)
         .column("", "Node", Dim::None, Digits::Usual)
         .column("", "Arc", Dim::Length, Digits::Usual)
         .column("", "Check", Dim::None, Digits::Usual)
@@ -180,7 +181,6 @@ fn told(line: &Line, code: &Code, checked: &[Checked], worst: &[Option<Worst>]) 
         let holds = if used > 1.0 { "warning: it does not hold; most" } else { "most" };
         table.note(format!("{holds} is used at node {node}: {used:.3} at {time} s"));
     }
-    let by_code = checked.iter().any(|c| !matches!(c, Checked::Break(_)));
     match code {
         Code::Lrfd(factors, _) if by_code => table.note(format!(
             "DNV-ST-F201, combined loading, gamma_SC {} gamma_m {} gamma_F {} gamma_E {}: at rest functional, the rest of the environment",

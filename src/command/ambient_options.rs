@@ -1,0 +1,81 @@
+//! The options of `&ENV` for what lines feel beside water and wind: the bottom, and what pipes hold.
+
+use super::Job;
+use super::environment::formula;
+use crate::language::args::Given;
+use crate::language::diagnostic::Outcome;
+use crate::language::select::Owner;
+use crate::language::source::Span;
+use crate::language::spec::{Kind, Noun, OptionSpec, ValueSpec};
+use crate::model::{Connector, Environment, Model, find};
+
+/// -BATHYMETRY.
+pub(super) const BATHYMETRY: OptionSpec = OptionSpec::new(
+    "-BATHYMETRY",
+    &[ValueSpec::new("NAME", Kind::Name(Noun::Bathymetry), "a bottom of &BATHYMETRY")],
+    "bottom over a grid",
+)
+.owner(Owner::Ours)
+.default("flat, at -DEPTH");
+
+/// -T_PRESSURE.
+pub(super) const T_PRESSURE: OptionSpec = OptionSpec::new(
+    "-T_PRESSURE",
+    &[ValueSpec::new("NAME", Kind::Name(Noun::Filling), "data of the command T_PRESSURE")],
+    "temperature, pressure and contents of pipes of class ROD",
+)
+.default("none: nothing in them, and no warmer than laid");
+
+/// Takes one of these options.
+///
+/// # Errors
+/// A name that is not there.
+pub(super) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<()> {
+    let name = given.word(0).unwrap_or_default();
+    let span = given.values.first().map_or(given.span, |v| v.span);
+    match given.spec.name {
+        "-BATHYMETRY" => {
+            find(&job.model.bathymetries, name, "bathymetry", span)?;
+            env.bathymetry = Some(formula(given));
+        }
+        "-T_PRESSURE" => {
+            find(&job.model.fillings, name, "set of T_PRESSURE data", span)?;
+            env.filling = Some(formula(given));
+        }
+        _ => {}
+    }
+    Ok(())
+}
+
+/// Whether a connector lies on a plane bottom whatever the bottom of the environment is.
+fn on_plane(model: &Model, connector: &Connector) -> bool {
+    let class = model.classes.get(&Model::key(&connector.class));
+    connector.points.len() < 2 && connector.dynamics.is_none() && class.is_some_and(|c| c.object.lies_on_plane())
+}
+
+/// Says of lines on a plane bottom of their own that the bottom just put in force is none.
+pub(super) fn planes(job: &mut Job, given: Option<&Given>) {
+    let (Some(given), Some(named)) = (given, &job.model.environment.bathymetry) else { return };
+    let lines: Vec<&str> =
+        job.model.connectors.values().filter(|c| on_plane(&job.model, c)).map(|c| c.name.as_str()).collect();
+    let few = match lines.as_slice() {
+        [] => return,
+        [first, second, third, others @ ..] if others.len() > 1 => {
+            format!("{first}, {second}, {third} and {} more lie", others.len())
+        }
+        [one] => format!("{one} lies"),
+        all => format!("{} lie", all.join(", ")),
+    };
+    let text = format!("{few} on the plane bottom through the anchor, not on bathymetry {}", named.kind);
+    job.remark(text, given.span);
+}
+
+/// The same of a connector just defined, where a bottom over a grid is in force.
+pub(super) fn plane(job: &mut Job, connector: &str, span: Span) {
+    let model = &job.model;
+    let found = model.connectors.get(&Model::key(connector)).is_some_and(|c| on_plane(model, c));
+    if let Some(named) = model.environment.bathymetry.as_ref().filter(|_| found) {
+        let text = format!("{connector} lies on the plane bottom through its anchor, not on bathymetry {}", named.kind);
+        job.remark(text, span);
+    }
+}

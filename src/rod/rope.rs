@@ -1,0 +1,205 @@
+//! A rope that is stiffer the faster it is pulled.
+
+use super::mesh::{Element, Rod};
+use super::section::Axial;
+use super::state::State;
+use nalgebra::Vector3;
+
+/// A rope with a static and a dynamic stiffness, as one of polyester: a standard linear solid, the slow law with a
+/// Maxwell element beside it, whose spring makes up the dynamic stiffness and whose damper lets it go within the
+/// relaxation time.
+///
+/// The strain by which the damper has yielded is the mean strain of the last relaxation times, and the slow tension at
+/// it the mean tension, by which the dynamic stiffness goes: EA_d = a + b T_mean (API RP 2SM, Design, Manufacture,
+/// Installation and Maintenance of Synthetic Fiber Ropes; DNV-RP-E305; the pair of static and dynamic stiffness after
+/// Falkenberg, Ahjem and Yang, OTC-27761, 2017). In statics the slow law is left. Where the slow law is the stiffer of
+/// the two it acts alone.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Viscoelastic {
+    /// Tension by strain when pulled slowly; not another viscoelastic law.
+    pub slow: Axial,
+    /// Stiffness when pulled fast: a (N), and b (N of stiffness per N of mean tension).
+    pub fast: [f64; 2],
+    /// Relaxation time (s) of the Maxwell element: its damper over its spring.
+    pub relaxation: f64,
+}
+
+/// How the stretch of the Maxwell spring follows the strain: stretch = `kept` + `follows` * strain.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Memory {
+    pub kept: f64,
+    pub follows: f64,
+}
+
+impl Memory {
+    /// At once, the damper standing where it has `yielded` to.
+    pub fn at_once(yielded: f64) -> Self {
+        Memory { kept: -yielded, follows: 1.0 }
+    }
+
+    /// After a share `alpha` of the relaxation time in which the strain went evenly from `before` to where it is: the
+    /// exact answer of dy/dt = d(strain)/dt - y / tau.
+    fn after(alpha: f64, before: f64, yielded: f64) -> Self {
+        let follows = if alpha > 0.0 { -(-alpha).exp_m1() / alpha } else { 1.0 };
+        Memory { kept: (-alpha).exp() * (before - yielded) - follows * before, follows }
+    }
+}
+
+impl Viscoelastic {
+    /// Stiffness of the Maxwell spring (N) where its damper has yielded by a strain, and its slope.
+    fn spring(&self, yielded: f64) -> (f64, f64) {
+        let (mean, slope) = self.slow.at(yielded);
+        let stiffness = self.fast[0] + self.fast[1] * mean - slope;
+        if stiffness > 0.0 { (stiffness, self.fast[1] * slope - self.slow.bend(yielded)) } else { (0.0, 0.0) }
+    }
+
+    /// Tension of the Maxwell element (N) at a strain, and its slope by the strain.
+    pub(super) fn beside(&self, strain: f64, memory: &Memory) -> (f64, f64) {
+        let y = memory.kept + memory.follows * strain;
+        let (stiffness, slope) = self.spring(strain - y);
+        (stiffness * y, stiffness * memory.follows + y * slope * (1.0 - memory.follows))
+    }
+
+    /// Energy of a strain per unstretched length (J/m), and power lost in the damper (W/m).
+    pub(super) fn books(&self, strain: f64, yielded: f64) -> (f64, f64) {
+        let y = strain - yielded;
+        let (stiffness, slope) = self.spring(yielded);
+        let lost = (stiffness - 0.5 * slope * y) * y * y / self.relaxation;
+        (self.slow.energy(strain) + 0.5 * stiffness * y * y, lost)
+    }
+
+    /// Strain of a rope that is slack: that at which it has no tension. It shrinks as its damper goes back.
+    fn slack(&self, memory: &Memory) -> f64 {
+        // without the Maxwell spring's pull there is tension, at no strain there is none
+        let (mut low, mut high) = (0.0, -memory.kept / memory.follows.max(f64::MIN_POSITIVE));
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            let tension = self.slow.at(middle).0 + self.beside(middle, memory).0;
+            *(if tension > 0.0 { &mut high } else { &mut low }) = middle;
+        }
+        low.max(0.0)
+    }
+
+    pub(super) fn fault(&self) -> Option<(f64, &'static str)> {
+        let [a, b] = self.fast;
+        if matches!(self.slow, Axial::Viscoelastic(_)) {
+            return Some((a, "its slow law must not be viscoelastic itself"));
+        }
+        if let Some(fault) = self.slow.fault() {
+            return Some(fault);
+        }
+        if !(a.is_finite() && a >= self.slow.at(0.0).1) {
+            return Some((a, "its dynamic stiffness must be no less than the static one"));
+        }
+        if !(b.is_finite() && b >= 0.0) {
+            return Some((b, "its dynamic stiffness must not fall with the mean tension"));
+        }
+        if !(self.relaxation.is_finite() && self.relaxation > 0.0) {
+            return Some((self.relaxation, "its relaxation time must be positive"));
+        }
+        None
+    }
+}
+
+impl Rod {
+    /// Whether any of it remembers how it was pulled.
+    pub(super) fn remembers(&self) -> bool {
+        self.elements.iter().any(|e| self.rope(e).is_some())
+    }
+
+    pub(super) fn rope(&self, element: &Element) -> Option<&Viscoelastic> {
+        match &self.segments[element.segment].axial {
+            Axial::Viscoelastic(rope) => Some(rope),
+            _ => None,
+        }
+    }
+
+    /// Strain of the rope in an element between two places: less the thermal one, and of a slack one its own.
+    pub(super) fn pulled(
+        &self,
+        element: &Element,
+        rope: &Viscoelastic,
+        [a, b]: [&Vector3<f64>; 2],
+        memory: &Memory,
+    ) -> f64 {
+        let free = self.segments[element.segment].tube.as_ref().map_or(0.0, |t| t.expansion * t.warmer);
+        let strain = (b - a).norm() / element.rest - 1.0 - free;
+        let taut = strain > 0.0 && rope.slow.at(strain).0 + rope.beside(strain, memory).0 >= 0.0;
+        if element.compression || taut { strain } else { rope.slack(memory) }
+    }
+
+    /// The strain of each element, where any of them remembers it: yielded in full.
+    pub(super) fn yielded(&self, position: &[Vector3<f64>]) -> Vec<f64> {
+        if !self.remembers() {
+            return Vec::new();
+        }
+        let pairs = self.elements.iter().zip(position.windows(2));
+        let strain = |(element, x): (&Element, &[Vector3<f64>])| {
+            // a spring that has let go of everything
+            let all = Memory::default();
+            self.rope(element).map_or(0.0, |rope| self.pulled(element, rope, [&x[0], &x[1]], &all))
+        };
+        pairs.map(strain).collect()
+    }
+}
+
+/// How each element follows its strain over a step of `h` seconds from a state; zero for at once.
+pub(super) fn remember(rod: &Rod, from: &State, h: f64, memory: &mut [Memory]) {
+    let elements = rod.elements.iter().zip(from.position.windows(2)).zip(&from.yielded);
+    for (memory, ((element, x), yielded)) in memory.iter_mut().zip(elements) {
+        if let Some(rope) = rod.rope(element) {
+            let before = rod.pulled(element, rope, [&x[0], &x[1]], &Memory::at_once(*yielded));
+            *memory = Memory::after(h / rope.relaxation, before, *yielded);
+        }
+    }
+}
+
+/// Where the dampers have yielded to at the end of a step.
+pub(super) fn settle(rod: &Rod, memory: &[Memory], state: &mut State) {
+    let elements = rod.elements.iter().zip(state.position.windows(2)).zip(memory);
+    for (yielded, ((element, x), memory)) in state.yielded.iter_mut().zip(elements) {
+        if let Some(rope) = rod.rope(element) {
+            let strain = rod.pulled(element, rope, [&x[0], &x[1]], memory);
+            *yielded = strain - (memory.kept + memory.follows * strain);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slope_of_a_viscoelastic_rope_is_the_difference_of_its_tension() {
+        let slow = [
+            Axial::Linear(1e7),
+            Axial::Polynomial(vec![8e6, 3e7, 2e8]),
+            Axial::Table(vec![(0.0, 0.0), (0.02, 2e5), (0.1, 1.8e6)]),
+        ];
+        for slow in slow {
+            let rope = Viscoelastic { slow, fast: [2e7, 12.0], relaxation: 30.0 };
+            assert_eq!(rope.fault(), None);
+            for alpha in [0.0, 1e-3, 0.7, 1e3] {
+                let memory = Memory::after(alpha, 0.015, 0.012);
+                let (h, strain) = (1e-7, 0.031);
+                let slope = (rope.beside(strain + h, &memory).0 - rope.beside(strain - h, &memory).0) / (2.0 * h);
+                // central differences of forces of order 1e6 N
+                assert!((slope - rope.beside(strain, &memory).1).abs() < 1e-2 + 1e-8 * slope.abs(), "{rope:?} {alpha}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_held_strain_is_let_go_exponentially_however_long_the_steps() {
+        // y = y0 exp(-t / tau)
+        for steps in [1, 7, 200] {
+            let alpha = 1.3 / steps as f64;
+            let yielded = (0..steps).fold(0.0, |yielded, _| {
+                let memory = Memory::after(alpha, 0.02, yielded);
+                0.02 - (memory.kept + memory.follows * 0.02)
+            });
+            // exact but for rounding
+            assert!((0.02 - yielded - 0.02 * (-1.3f64).exp()).abs() < 1e-15);
+        }
+    }
+}

@@ -1,0 +1,101 @@
+//! Trials of one step after each other, and the forces with which a run starts.
+
+use super::super::*;
+use nalgebra::Vector3;
+
+const A: Vector3<f64> = Vector3::new(-800.0, 0.0, -300.0);
+const B: Vector3<f64> = Vector3::new(0.0, 0.0, -10.0);
+
+fn chain(bending: f64) -> (Rod, State) {
+    let segment = Segment {
+        axial_damping: 1e6,
+        drag_normal: 1.333,
+        drag_tangential: 0.639,
+        added_normal: 1.0,
+        added_tangential: 0.5,
+        compression: bending > 0.0,
+        bending,
+        ..Segment::line(900.0, 50, 199.0, 8.54e8, 0.18)
+    };
+    let rod = Rod::new("chain", vec![segment], vec![]).unwrap();
+    let state = State::along(&rod, &[A, Vector3::new(-350.0, 0.0, -300.0), B]).unwrap();
+    (rod, state)
+}
+
+fn surge(t: f64) -> Motion {
+    let (s, c) = (0.6 * t).sin_cos();
+    Motion {
+        position: B + Vector3::x() * (5.0 * (1.0 - c)),
+        velocity: Vector3::x() * (3.0 * s),
+        acceleration: Vector3::x() * (1.8 * c),
+    }
+}
+
+#[test]
+fn a_second_trial_of_a_step_takes_an_iteration_and_ends_where_the_first_would() {
+    let fluid = UniformFluid::moving(1025.0, Vector3::new(0.2, 0.5, 0.0));
+    let bottom = PlaneBottom { height: -300.0, slope: [0.0, 0.0] };
+    let ground = Ground { damping: 3e5, friction_along: 0.5, friction_across: 0.5, ..Ground::elastic(3e6) };
+    let world = World { bottom: Some((&bottom, ground)), ..World::new(&fluid, 9.80665) };
+    for bending in [0.0, 1e5] {
+        let (rod, mut state) = chain(bending);
+        let clamp = |m: Motion, tilt: f64| End::moved(m).clamped(Vector3::new(0.6, tilt, 0.7));
+        let mut solver = Solver::new(&rod, Settings::default());
+        solver.statics(&rod, &mut state, &world, [End::pinned(A), clamp(surge(0.0), 0.0)]).unwrap();
+        let mut alone = Solver::new(&rod, Settings::default());
+        let mut exact = Solver::new(&rod, Settings { tolerance: 1e-8, ..Settings::default() });
+        let h = 0.1;
+        let (mut iterations, mut worst): (usize, [f64; 2]) = (0, [0.0; 2]);
+        for i in 1..=200 {
+            let t = i as f64 * h;
+            let to = surge(t);
+            // a body's guess that is a centimetre off, in a scheme of its own
+            let off = Vector3::new(0.006, -0.003, 0.008);
+            let guess = Motion {
+                position: to.position + off,
+                velocity: to.velocity + off * (2.0 / h),
+                acceleration: to.acceleration + off * (4.0 / h / h),
+            };
+            solver.trial(&rod, &state, &world, t, [End::pinned(A), clamp(guess, 0.001)]).unwrap();
+            if i % 2 == 0 {
+                solver.end_tangent(&rod, &world).unwrap();
+            }
+            let made = solver.trial(&rod, &state, &world, t, [End::pinned(A), clamp(to, 0.0)]).unwrap();
+            iterations += made.iterations;
+            let other = alone.trial(&rod, &state, &world, t, [End::pinned(A), clamp(to, 0.0)]).unwrap();
+            let wanted = exact.trial(&rod, &state, &world, t, [End::pinned(A), clamp(to, 0.0)]).unwrap();
+            for (worst, found) in worst.iter_mut().zip([made, other]).filter(|_| wanted.parts == 1) {
+                *worst = worst.max((found.force[1] - wanted.force[1]).norm() / wanted.force[1].norm());
+            }
+            solver.accept(&mut state);
+        }
+        println!("EI {bending}: {} {worst:?}", iterations as f64 / 200.0);
+        // an iteration is left when moves are 1e-5 of an element, and forces are taken on to it by their tangent
+
+        assert!(iterations <= 300, "{iterations}");
+    }
+}
+
+#[test]
+fn forces_at_a_start_are_what_momentum_wants() {
+    let (rod, mut state) = chain(0.0);
+    let fluid = UniformFluid::none();
+    let world = World::new(&fluid, 9.80665);
+    let mut solver = Solver::new(&rod, Settings::default());
+    let made = solver.statics(&rod, &mut state, &world, [End::pinned(A), End::pinned(B)]).unwrap();
+    // at rest they are those of statics
+    let again = solver.start(&rod, &mut state, &world, [End::pinned(A), End::pinned(B)]).unwrap();
+    assert!((made.force[1] - again.force[1]).norm() < 1e-7 * made.force[1].norm());
+    // a holder that is jerked feels the half element in its hand at once, and nothing else yet
+    let jerk = Vector3::new(0.5, -0.2, 0.3);
+    let jerked = End::moved(Motion { acceleration: jerk, ..Motion::still(B) });
+    let hit = solver.start(&rod, &mut state, &world, [End::pinned(A), jerked]).unwrap();
+    assert!((hit.force[1] - again.force[1] + jerk * (199.0 * 9.0)).norm() < 1e-9 * made.force[1].norm());
+    // end B parts: what the holder of A still gives and weight are the change of momentum
+    let parted = solver.start(&rod, &mut state, &world, [End::pinned(A), End::FREE]).unwrap();
+    let mass = |i: usize| 199.0 * 18.0 * if i == 50 { 0.5 } else { 1.0 };
+    let change: Vector3<f64> = (1..=50).map(|i| state.acceleration[i] * mass(i)).sum();
+    let outer = -parted.force[0] - Vector3::z() * (199.0 * 900.0 * 9.80665);
+    assert!((change - outer).norm() < 1e-9 * outer.norm().max(made.force[1].norm()), "{change} {outer}");
+    assert!(parted.force[1].norm() < 1e-6 * made.force[1].norm());
+}

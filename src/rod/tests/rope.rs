@@ -1,0 +1,212 @@
+//! Ropes with a static and a dynamic stiffness, against the standard linear solid.
+
+use super::super::rope::Memory;
+use super::super::*;
+use super::tangent::compare;
+use nalgebra::Vector3;
+use std::f64::consts::PI;
+
+/// Unstretched length (m).
+const LENGTH: f64 = 10.0;
+/// Amplitude of the strain.
+const SWING: f64 = 1e-3;
+
+/// What a cycle of strain about a mean found.
+struct Cycle {
+    /// Stiffness in phase with the strain (N).
+    storage: f64,
+    /// Work lost in the cycle (J).
+    lost: f64,
+    /// Mean tension (N).
+    mean: f64,
+    /// What the books say was lost (J), and what they cannot say (J).
+    booked: [f64; 2],
+}
+
+/// Stretches one massless element by a mean strain and swings it at `frequency` (rad/s) for some cycles of `steps` steps.
+fn cycle(rope: Viscoelastic, mean: f64, frequency: f64, steps: usize) -> Cycle {
+    let axial = Axial::Viscoelastic(Box::new(rope));
+    let segment = Segment { axial, ..Segment::line(LENGTH, 1, 1e-6, 1.0, 0.1) };
+    let rod = Rod::new("rope", vec![segment], vec![]).unwrap();
+    let fluid = UniformFluid::none();
+    let world = World::new(&fluid, 0.0);
+    let (a, b) = (Vector3::zeros(), Vector3::x() * (LENGTH * (1.0 + mean)));
+    let swing = Vector3::x() * (LENGTH * SWING);
+    let mut state = State::along(&rod, &[a, b]).unwrap();
+    let mut solver = Solver::new(&rod, Settings::default());
+    let held = End::pinned(a);
+    let made = solver.statics(&rod, &mut state, &world, [held, End::pinned(b + swing)]).unwrap();
+    let mut books = Balance::open(&rod, &state, &world, &solver, &made);
+    let mut found = Cycle { storage: 0.0, lost: 0.0, mean: 0.0, booked: [0.0; 2] };
+    let (mut before, mut damped) = ((-made.force[1].x, b.x + swing.x), 0.0);
+    // the start dies out with the relaxation time: eight of them, and whole cycles
+    let settling = (8.0 * 20.0 * frequency / (2.0 * PI)).ceil().max(3.0) as usize;
+    for i in 1..=(settling + 1) * steps {
+        let t = 2.0 * PI / frequency * i as f64 / steps as f64;
+        let (s, c) = (2.0 * PI * (i % steps) as f64 / steps as f64).sin_cos();
+        let motion = Motion {
+            position: b + swing * c,
+            velocity: swing * (-frequency * s),
+            acceleration: swing * (-frequency * frequency * c),
+        };
+        let made = solver.step(&rod, &mut state, &world, t, [held, End::moved(motion)]).unwrap();
+        books.enter(&rod, &state, &world, &solver, &made);
+        let now = (-made.force[1].x, motion.position.x);
+        if i == settling * steps {
+            damped = books.work.damping;
+        }
+        if i > settling * steps {
+            found.storage += now.0 * c * 2.0 / (steps as f64 * SWING);
+            found.mean += now.0 / steps as f64;
+            found.lost += 0.5 * (now.0 + before.0) * (now.1 - before.1);
+        }
+        before = now;
+    }
+    found.booked = [damped - books.work.damping, books.energy_error()];
+    found
+}
+
+#[test]
+fn a_cycled_rope_has_the_modulus_and_the_loss_of_the_standard_linear_solid() {
+    let (slow, fast, tau) = (1e7, 2.5e7, 20.0);
+    for frequency in [1e-3, 0.02, 0.05, 0.3, 6.0] {
+        let rope = Viscoelastic { slow: Axial::Linear(slow), fast: [fast, 0.0], relaxation: tau };
+        let found = cycle(rope, 0.02, frequency, 400);
+        let wt = frequency * tau;
+        // E' = E0 + E1 (w tau)^2 / (1 + (w tau)^2), E'' = E1 w tau / (1 + (w tau)^2), loss pi e^2 E''
+        let storage = slow + (fast - slow) * wt * wt / (1.0 + wt * wt);
+        let lost = PI * SWING * SWING * LENGTH * (fast - slow) * wt / (1.0 + wt * wt);
+        // chords of the sine of 400 steps: (2 pi / 400)^2 / 12 = 2e-5, and as much for the sums; what is left of the
+        // start, exp(-8) of E1 / (w tau)^2 at most
+        assert!((found.storage / storage - 1.0).abs() < 1e-4, "{frequency}: {} {storage}", found.storage);
+        assert!((found.lost / lost - 1.0).abs() < 2e-3, "{frequency}: {} {lost}", found.lost);
+        assert!((found.booked[0] / lost - 1.0).abs() < 2e-3, "{frequency}: {:?} {lost}", found.booked);
+        // the books sum power by the trapezoidal rule
+        assert!(found.booked[1].abs() < 1e-4 * slow * 0.02 * 0.02 * LENGTH, "{frequency}: {:?}", found.booked);
+    }
+}
+
+#[test]
+fn a_slow_cycle_has_the_static_stiffness_and_a_fast_one_the_dynamic_of_its_mean_tension() {
+    for (mean, tension) in [(0.01, 1.1e5), (0.03, 3.9e5)] {
+        // T = 1e7 e + 1e8 e^2; dynamic 1.8e7 + 12 T
+        let (a, b) = (1.8e7, 12.0);
+        let slow = Axial::Polynomial(vec![1e7, 1e8]);
+        let rope = || Viscoelastic { slow: slow.clone(), fast: [a, b], relaxation: 20.0 };
+        let (still, quick) = (cycle(rope(), mean, 1e-4, 100), cycle(rope(), mean, 6.0, 100));
+        let (told, at) = (slow.at(mean), a + b * tension);
+        assert!((told.0 / tension - 1.0).abs() < 1e-12);
+        // (w tau)^2 is 4e-6 and the sums 3e-4; 7e-5 for the fast one
+        assert!((still.storage / told.1 - 1.0).abs() < 1e-3, "{} {told:?}", still.storage);
+        assert!((quick.storage / at - 1.0).abs() < 1e-3, "{} {at}", quick.storage);
+        // the swing's square in the slow law: 1e8 e^2 / 2 = 50 N
+        assert!((quick.mean - tension).abs() < 100.0, "{} {tension}", quick.mean);
+        assert!(quick.lost > 0.0 && still.lost > 0.0);
+    }
+}
+
+#[test]
+fn a_hanging_load_creeps_to_the_static_length_and_its_books_add_up() {
+    // pulled by a weight at once the rope stretches by W / E_d, then creeps with tau E_d / E_s to W / E_s
+    let (slow, fast, tau, load) = (1e7, 2.5e7, 20.0, 1e5);
+    let axial =
+        Axial::Viscoelastic(Box::new(Viscoelastic { slow: Axial::Linear(slow), fast: [fast, 0.0], relaxation: tau }));
+    let segment = Segment { axial, axial_damping: 2e5, ..Segment::line(LENGTH, 4, 1.0, 1.0, 0.1) };
+    let rod = Rod::new("rope", vec![segment], vec![]).unwrap();
+    let fluid = UniformFluid::none();
+    let forces = [(4, Vector3::x() * load)];
+    let world = World { forces: &forces, ..World::new(&fluid, 0.0) };
+    let (a, b) = (Vector3::zeros(), Vector3::x() * LENGTH);
+    let mut state = State::along(&rod, &[a, b]).unwrap();
+    let mut solver = Solver::new(&rod, Settings::default());
+    let ends = [End::pinned(a), End::FREE];
+    let made = EndForces { force: [Vector3::zeros(); 2], moment: [Vector3::zeros(); 2], iterations: 0, parts: 1 };
+    let mut books = Balance::open(&rod, &state, &world, &solver, &made);
+    let h = 0.01;
+    for i in 1..=10_000 {
+        let t = i as f64 * h;
+        let made = solver.step(&rod, &mut state, &world, t, ends).unwrap();
+        if i == 1 {
+            books = Balance::open(&rod, &state, &world, &solver, &made);
+        }
+        books.enter(&rod, &state, &world, &solver, &made);
+        let stretch = state.position[4].x / LENGTH - 1.0;
+        let wanted = load / slow - (load / slow - load / fast) * (-t * slow / (tau * fast)).exp();
+        if t > 2.0 {
+            // the internal damping takes 2e5 N s * 1.2e-4 / s = 24 N of the load
+            assert!((stretch / wanted - 1.0).abs() < 1e-3, "{t}: {stretch} {wanted}");
+        }
+    }
+    let told = rod.results(&state, &world, &ends);
+    assert!((told[2].effective / load - 1.0).abs() < 1e-4, "{}", told[2].effective);
+    assert!(books.energy_error().abs() < 0.01 * books.turnover, "{} {}", books.energy_error(), books.turnover);
+    // and statics go to the static law at once
+    solver.statics(&rod, &mut state, &world, ends).unwrap();
+    assert!((state.position[4].x / (LENGTH * (1.0 + load / slow)) - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn a_rope_that_is_let_go_slack_never_pushes() {
+    let slow = Axial::Linear(1e7);
+    let axial = Axial::Viscoelastic(Box::new(Viscoelastic { slow, fast: [3e7, 5.0], relaxation: 50.0 }));
+    let segment = Segment { axial, ..Segment::line(LENGTH, 1, 10.0, 1.0, 0.1) };
+    let rod = Rod::new("rope", vec![segment], vec![]).unwrap();
+    let fluid = UniformFluid::none();
+    let world = World::new(&fluid, 0.0);
+    let (a, b) = (Vector3::zeros(), Vector3::x() * (1.02 * LENGTH));
+    let mut state = State::along(&rod, &[a, b]).unwrap();
+    let mut solver = Solver::new(&rod, Settings::default());
+    let made = solver.statics(&rod, &mut state, &world, [End::pinned(a), End::pinned(b)]).unwrap();
+    let mut books = Balance::open(&rod, &state, &world, &solver, &made);
+    for i in 1..=400 {
+        let t = i as f64 * 0.05;
+        let (s, c) = (0.5 * t).sin_cos();
+        let (r, w) = (0.03 * LENGTH, 0.5);
+        let motion = Motion {
+            position: b - Vector3::x() * (r * (1.0 - c)),
+            velocity: Vector3::x() * (-r * w * s),
+            acceleration: Vector3::x() * (-r * w * w * c),
+        };
+        let made = solver.step(&rod, &mut state, &world, t, [End::pinned(a), End::moved(motion)]).unwrap();
+        // one massless element but for 50 kg at an acceleration of 0.075 m/s2
+        assert!(made.force[1].x < 4.0, "{t}: {}", made.force[1].x);
+        books.enter(&rod, &state, &world, &solver, &made);
+    }
+    assert!(books.work.damping < 0.0, "{books:?}");
+    assert!(books.energy_error().abs() < 0.01 * books.turnover, "{} {}", books.energy_error(), books.turnover);
+}
+
+#[test]
+fn a_viscoelastic_law_that_makes_no_rope_is_refused() {
+    let told = |slow: Axial, fast, relaxation| {
+        let axial = Axial::Viscoelastic(Box::new(Viscoelastic { slow, fast, relaxation }));
+        let segment = Segment { axial, ..Segment::line(10.0, 1, 1.0, 1.0, 0.1) };
+        Rod::new("rope", vec![segment], vec![]).unwrap_err().to_string()
+    };
+    assert!(told(Axial::Linear(2e7), [1e7, 1.0], 10.0).contains("no less than the static one"));
+    assert!(told(Axial::Linear(1e7), [f64::NAN, 1.0], 10.0).contains("no less than the static one"));
+    assert!(told(Axial::Linear(1e7), [2e7, -1.0], 10.0).contains("mean tension"));
+    assert!(told(Axial::Linear(1e7), [2e7, 1.0], 0.0).contains("relaxation time"));
+    assert!(told(Axial::Linear(0.0), [2e7, 1.0], 1.0).contains("positive"));
+    let inner =
+        Axial::Viscoelastic(Box::new(Viscoelastic { slow: Axial::Linear(1.0), fast: [2.0, 0.0], relaxation: 1.0 }));
+    assert!(told(inner, [2e7, 1.0], 1.0).contains("viscoelastic itself"));
+}
+
+#[test]
+fn tangent_of_a_viscoelastic_rod_is_the_difference_of_its_residual() {
+    let slow = Axial::Polynomial(vec![1e6, 4e6]);
+    let axial = Axial::Viscoelastic(Box::new(Viscoelastic { slow, fast: [2e6, 9.0], relaxation: 5.0 }));
+    let segment = Segment { axial, axial_damping: 1e4, ..Segment::line(20.0, 4, 30.0, 1.0, 0.1) };
+    let rod = Rod::new("rope", vec![segment], vec![]).unwrap();
+    let mut state = State::along(&rod, &[Vector3::zeros(), Vector3::new(20.0, 3.0, 8.0)]).unwrap();
+    for i in 0..rod.nodes() {
+        let s = i as f64;
+        state.position[i] += Vector3::new((s * 1.3).sin(), (s * 2.1).cos(), (s * 0.7).sin()) * 0.1;
+        state.velocity[i] = Vector3::new((s * 0.9).cos(), (s * 1.7).sin(), 0.5 * (s * 2.3).cos());
+    }
+    let mut solver = Solver::new(&rod, Settings::default());
+    solver.trial.memory.fill(Memory { kept: -0.04, follows: 0.7 });
+    let fluid = UniformFluid::none();
+    compare(&rod, &state, &World::new(&fluid, 9.81), &mut solver);
+}
