@@ -10,7 +10,7 @@ use windlass::report::output::Output;
 use windlass::session::Session;
 
 /// What surrounds lines after a script; `errors` of its records are refused.
-fn after(script: &str, errors: usize) -> Arc<dyn Ambient> {
+fn after(script: &str, errors: i64) -> Arc<dyn Ambient> {
     let folder = tempfile::tempdir().unwrap();
     let job = JobFolder::new(folder.path().join("job"), None, false);
     let mut session = Session::new(Output::new(job, Box::new(Vec::new()), Box::new(Vec::new()), false));

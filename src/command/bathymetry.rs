@@ -18,9 +18,9 @@ use std::sync::Arc;
 /// &BATHYMETRY.
 pub static BATHYMETRY: Command = Command { spec: &SPEC, edits: false, run };
 /// X within `&BATHYMETRY`.
-pub static X: Command = Command { spec: &X_SPEC, edits: false, run: |job, call| record(job, call, &X_SPEC, columns) };
+pub static X: Command = Command { spec: &X_SPEC, edits: false, run: |job, call| record(job, call, &X_WORDS, columns) };
 /// Y within `&BATHYMETRY`.
-pub static Y: Command = Command { spec: &Y_SPEC, edits: false, run: |job, call| record(job, call, &Y_SPEC, row) };
+pub static Y: Command = Command { spec: &Y_SPEC, edits: false, run: |job, call| record(job, call, &Y_WORDS, row) };
 
 const fn length(name: &'static str, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(Dim::Length), help)
@@ -60,7 +60,7 @@ static X_SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
     menus: &["BATHYMETRY"],
     form: Form::Text,
-    data: &[length("X", "place of a column, growing")],
+    data: &[length("x", "place of a column, growing")],
     repeat: 1,
     detail: "Several X records before the first Y continue each other.",
     example: "&BATHYMETRY SLOPE\nX 0 100\nX 200\nY 0 -30 -35 -42\nY 150 -31 -36 -43\nEND",
@@ -71,12 +71,16 @@ static Y_SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
     menus: &["BATHYMETRY"],
     form: Form::Text,
-    data: &[length("Y", "place of the row, growing from record to record"), length("Z", "height at each X in turn")],
+    data: &[length("y", "place of the row, growing from record to record"), length("z", "height at each X in turn")],
     repeat: 1,
     detail: "As many heights as there are X: a record goes on behind a \\ at its end. With -DEPTHS of &BATHYMETRY they are depths.",
     example: "&BATHYMETRY SLOPE\nX 0 100\nY 0 -30 -35\nY 150 -31 \\\n -36\nEND",
     ..CommandSpec::new("Y", "a row of a bottom")
 };
+
+/// What is behind X and Y: read here and not before, so that a record that is refused is known of.
+static X_WORDS: CommandSpec = CommandSpec { form: Form::Words, ..X_SPEC };
+static Y_WORDS: CommandSpec = CommandSpec { form: Form::Words, ..Y_SPEC };
 
 /// Rows of a bottom on their way to a grid.
 #[derive(Clone, Debug)]

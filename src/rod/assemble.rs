@@ -53,7 +53,7 @@ pub(super) fn assemble<const TANGENT: bool, const W: usize, const H: usize, cons
         let length = d.norm().max(1e-9 * element.rest);
         let edge = Edge { i, t: d / length, length, inverse: 1.0 / length };
         let mut share = axial(rod, element, trial, weights, &edge, gravity);
-        immersed(element, trial, weights, &edge, world, &mut share);
+        immersed::<TANGENT>(element, trial, weights, &edge, world, &mut share);
         system.push(i, &share.fa);
         system.push(i + 1, &share.fb);
         system.block::<TANGENT>(i, i, &share.aa);
@@ -144,7 +144,7 @@ fn axial(
 
 /// The water and the wind on each half.
 #[inline(always)]
-fn immersed(
+fn immersed<const TANGENT: bool>(
     element: &Element,
     trial: &Trial,
     weights: Weights,
@@ -171,21 +171,39 @@ fn immersed(
                 let (to_own, to_other) = (-(by_own + 0.5 * by_middle), -0.5 * by_middle);
                 sum.lift(second, &load.force, [k * to_own, k * to_other]);
                 if *slam && !trial.still {
-                    slammed(element, trial, weights, edge, [own, middle], second, sum);
+                    sum.add::<TANGENT>(&slammed(element, trial, weights, edge, [own, middle], second));
                 }
             }
         }
         if share < 1.0 && fluid.air_density * element.wind > 0.0 {
-            let load = wind_load(element, t, fluid, &trial.v[node]);
-            let dry = 1.0 - share;
-            let turned = (load.by_direction - (load.by_direction * t) * t.transpose()) * (k * dry * inverse);
-            sum.load(second, &(load.force * dry), &turned, &(load.by_velocity * (c * dry)));
-            sum.lift(second, &load.force, [k * (by_own + 0.5 * by_middle), k * 0.5 * by_middle]);
+            sum.add::<TANGENT>(&blown(element, trial, weights, edge, (share, by_own, by_middle), second));
         }
     }
 }
 
+/// The wind on a half with that wet share, and its slopes by the depths of its own node and of the middle.
+#[inline(never)]
+fn blown(
+    element: &Element,
+    trial: &Trial,
+    Weights { k, c, .. }: Weights,
+    edge: &Edge,
+    (share, by_own, by_middle): (f64, f64, f64),
+    second: bool,
+) -> Share {
+    let Edge { i, t, inverse, .. } = edge;
+    let mut sum = Share::none();
+    let node = if second { i + 1 } else { *i };
+    let load = wind_load(element, t, &trial.fluid[node], &trial.v[node]);
+    let dry = 1.0 - share;
+    let turned = (load.by_direction - (load.by_direction * t) * t.transpose()) * (k * dry * inverse);
+    sum.load(second, &(load.force * dry), &turned, &(load.by_velocity * (c * dry)));
+    sum.lift(second, &load.force, [k * (by_own + 0.5 * by_middle), k * 0.5 * by_middle]);
+    sum
+}
+
 /// The slam on a half whose own node and middle lie that far below the surface (m).
+#[inline(never)]
 fn slammed(
     element: &Element,
     trial: &Trial,
@@ -193,21 +211,40 @@ fn slammed(
     edge: &Edge,
     [own, middle]: [f64; 2],
     second: bool,
-    sum: &mut Share,
-) {
+) -> Share {
     let Edge { i, t, inverse, .. } = edge;
+    let mut sum = Share::none();
     let (node, other) = if second { (i + 1, *i) } else { (*i, i + 1) };
     let rising = [node, other].map(|n| trial.v[n].z - trial.fluid[n].velocity.z);
-    let Some(entry) = entry(own, middle, element.diameter, rising) else { return };
+    let Some(entry) = entry(own, middle, element.diameter, rising) else { return sum };
     let (fluid, v) = (&trial.fluid[node], &trial.v[node]);
     let load = slam_load(element, t, fluid, v, entry.rate);
     let turned = (load.by_direction - (load.by_direction * t) * t.transpose()) * (k * inverse);
     sum.load(second, &load.force, &turned, &(load.by_velocity * c));
     let by_rate = load.force / entry.rate;
     sum.lift(second, &by_rate, [0, 1].map(|n| k * entry.by_height[n] + c * entry.by_velocity[n]));
+    sum
 }
 
 impl Share {
+    fn none() -> Self {
+        let (force, block) = (Vector3::zeros(), Matrix3::zeros());
+        Share { fa: force, fb: force, aa: block, ab: block, ba: block, bb: block }
+    }
+
+    /// Adds another. What is not asked for is left alone, so that it need not be known.
+    #[inline(always)]
+    fn add<const TANGENT: bool>(&mut self, other: &Share) {
+        self.fa += other.fa;
+        self.fb += other.fb;
+        if TANGENT {
+            self.aa += other.aa;
+            self.ab += other.ab;
+            self.ba += other.ba;
+            self.bb += other.bb;
+        }
+    }
+
     /// Adds a load of one half, with its tangent by the direction of the element and by the motion of its node.
     #[inline(always)]
     fn load(&mut self, second: bool, force: &Vector3<f64>, turned: &Matrix3<f64>, moved: &Matrix3<f64>) {

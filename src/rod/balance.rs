@@ -249,7 +249,7 @@ fn look(rod: &Rod, state: &State, world: &World, solver: &Solver, made: &EndForc
         let node = held.node;
         lump(&mut found, node, held.mass);
         let fluid = &trial.fluid[node];
-        let depth = fluid.surface - x[node].z;
+        let depth = fluid.surface - x[node].z - held.pendant;
         let share = wet_prism(depth, held.height).0;
         let (u, q) = (v[node] - fluid.velocity, a[node] - fluid.acceleration);
         let water = fluid.density * held.volume;

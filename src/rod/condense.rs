@@ -20,8 +20,8 @@ pub type Twelve = SMatrix<f64, 12, 12>;
 /// of end A and rotation of its holder, which turns direction and side of a clamped end, then end B's; all by global
 /// axes, a rotation by its small vector from where the holder now is. Each matrix is the derivative by one of
 /// position, velocity and acceleration with the other two and the start of the step as they are. Forces follow a
-/// rotation by position alone. Columns and rows of an end without a given motion are zero, as are those of moments and
-/// rotations where nothing clamps the rod.
+/// rotation by position alone. What an end without a given motion has of forces and translations is zero, as are
+/// moments and rotations where nothing clamps the rod.
 ///
 /// Left out is how the fluid changes from place to place: it is taken as it is where the nodes are.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -80,12 +80,14 @@ impl Solver {
     }
 
     /// The same by the factors the trial has left, as long as its nodes have moved by less than a thousandth of the
-    /// shortest element since: for a body's Newton iteration, which converges by it as well, at a quarter of the cost.
+    /// shortest element since, with friction by its secant: for a body's Newton iteration, which converges by it as
+    /// well, at a quarter of the cost. The trial's forces stay what they are.
     pub fn end_tangent_at_hand(&mut self, rod: &Rod, world: &World) -> Option<EndTangent> {
         self.linearise(rod, world, false)?;
         Some(self.condense(rod))
     }
 
+    /// Condenses the matrix at hand to the ends.
     fn condense(&mut self, rod: &Rod) -> EndTangent {
         let clamps = [0, 1].map(|side| clamp(rod, &self.trial, side));
         let mut made = [Twelve::zeros(); 3];
@@ -121,6 +123,7 @@ impl Solver {
         Some(())
     }
 
+    /// Factors the matrix where the trial is unless those at hand are `close`, and finds the columns of the ends.
     fn columns(&mut self, rod: &Rod, world: &World, close: bool, at_rest: bool) -> Option<()> {
         let last = rod.elements.len();
         let known = self.trial.ends.map(|e| e.motion.is_some());

@@ -177,6 +177,12 @@ pub(super) fn wet_share(a: f64, b: f64, diameter: f64) -> (f64, f64, f64) {
     if a <= -half && b <= -half {
         return (0.0, 0.0, 0.0);
     }
+    in_surface(a, b, diameter)
+}
+
+/// The same where the length is neither wet nor dry all along.
+#[inline(never)]
+fn in_surface(a: f64, b: f64, diameter: f64) -> (f64, f64, f64) {
     let width = diameter.max(1e-6);
     if (a - b).abs() < LEVEL * width {
         return GAUSS.iter().fold((0.0, 0.0, 0.0), |(share, by_a, by_b), g| {
@@ -233,7 +239,8 @@ mod tests {
             air_density: 1.226,
         };
         let (t, v, a) = (Vector3::new(0.6, 0.0, 0.8), Vector3::new(0.2, 0.7, -1.0), Vector3::new(0.3, -0.2, 0.9));
-        let loads: [fn(&Element, Vector3<f64>, &Fluid, Vector3<f64>, Vector3<f64>) -> HalfLoad; 3] = [
+        type Load = fn(&Element, Vector3<f64>, &Fluid, Vector3<f64>, Vector3<f64>) -> HalfLoad;
+        let loads: [Load; 3] = [
             |half, t, fluid, v, a| half_load(half, &t, fluid, &v, &a, 9.81),
             |half, t, fluid, v, _| wind_load(half, &t, fluid, &v),
             |half, t, fluid, v, _| slam_load(half, &t, fluid, &v, 0.7),

@@ -120,6 +120,16 @@ impl State {
         self.yielded.copy_from_slice(&other.yielded);
     }
 
+    /// Whether it is a state of a rod, by the length of all its lists.
+    pub(super) fn fits(&self, rod: &Rod) -> bool {
+        let (nodes, elements) = (rod.nodes(), rod.elements.len());
+        let lists = [&self.position, &self.velocity, &self.acceleration, &self.averaged];
+        lists.iter().all(|l| l.len() == nodes)
+            && self.bedding.len() == nodes
+            && self.director.len() == if rod.twists() { elements } else { 0 }
+            && self.yielded.len() == if rod.remembers() { elements } else { 0 }
+    }
+
     /// Gives a node a motion.
     pub(super) fn hold(&mut self, node: usize, motion: &Motion) {
         self.position[node] = motion.position;

@@ -124,15 +124,8 @@ impl Solver {
     pub(super) fn fits(&self, rod: &Rod, state: &State) -> Result<(), RodError> {
         let nodes = rod.nodes();
         let own = [self.trial.x.len(), self.change.len() / self.work.stride()];
-        let lists = [&state.position, &state.velocity, &state.acceleration, &state.averaged].map(Vec::len);
-        let directors = if rod.twists() { nodes - 1 } else { 0 };
-        let turns = [state.director.len(), self.trial.director.len()];
-        let strains = if rod.remembers() { nodes - 1 } else { 0 };
-        if own.iter().chain(&lists).any(|n| *n != nodes)
-            || turns != [directors; 2]
-            || state.bedding.len() != nodes
-            || [state.yielded.len(), self.trial.memory.len()] != [strains; 2]
-        {
+        let other = [self.trial.director.len(), self.trial.memory.len()] != [state.director.len(), state.yielded.len()];
+        if own != [nodes; 2] || other || !state.fits(rod) {
             let why = format!("the state or the solver is not that of this rod of {nodes} nodes");
             return Err(RodError::Shape { rod: rod.name.clone(), why });
         }

@@ -117,10 +117,7 @@ impl Rod {
 
     /// An element whose nodes may come and go.
     fn changeable(&self, element: usize, state: &State) -> Result<Element, RodError> {
-        let nodes = self.nodes();
-        let lists = [&state.position, &state.velocity, &state.acceleration, &state.averaged];
-        let strains = if self.remembers() { nodes - 1 } else { 0 };
-        if lists.iter().any(|l| l.len() != nodes) || state.bedding.len() != nodes || state.yielded.len() != strains {
+        if !state.fits(self) {
             return Err(self.refused("the state is not that of this rod".to_string()));
         }
         if self.twists() {

@@ -153,7 +153,7 @@ impl MovingLine {
         let floor = Floor { plane: self.base.plane, ambient, flat: self.base.flat.unwrap_or(0.0) };
         let known = self.base.plane.is_some() || self.base.flat.is_some();
         let bottom: Option<(&dyn rod::Bottom, Ground)> = known.then_some((&floor, self.base.ground));
-        act(&World { bottom, ..World::new(&water, around.gravity) })
+        act(&World { bottom, slam: self.base.description.slam, ..World::new(&water, around.gravity) })
     }
 
     /// What holds the ends.
@@ -199,7 +199,12 @@ impl MovingLine {
             }
             let mut state = match warm.rest.take() {
                 Some(state) => state,
-                None => self.fallen(places, at.surroundings)?,
+                None => {
+                    // how softly it meets the bottom is known where it rests first
+                    let mut fallen = self.fallen(places, at.surroundings)?;
+                    warm.solver.statics(&warm.rod, &mut fallen, world, ends).map_err(told)?;
+                    fallen
+                }
             };
             let forces = warm.solver.statics(&warm.rod, &mut state, world, ends).map_err(told)?;
             warm.rest = Some(state.clone());
@@ -262,7 +267,7 @@ impl MovingLine {
             if dt > 0.0 {
                 let forces = solver.trial(rod, &state, world, time, ends).map_err(told)?;
                 solver.reached(&mut state);
-                Ok::<_, ClassError>((forces, solver.end_tangent(rod, world)))
+                Ok::<_, ClassError>((forces, solver.end_tangent_at_hand(rod, world)))
             } else {
                 let forces = solver.start(rod, &mut state, world, ends).map_err(told)?;
                 let mut tangent = EndTangent::default();

@@ -45,7 +45,7 @@ fn a_second_trial_of_a_step_takes_an_iteration_and_ends_where_the_first_would() 
         let mut alone = Solver::new(&rod, Settings::default());
         let mut exact = Solver::new(&rod, Settings { tolerance: 1e-8, ..Settings::default() });
         let h = 0.1;
-        let (mut iterations, mut worst): (usize, [f64; 2]) = (0, [0.0; 2]);
+        let (mut iterations, mut worst, mut apart): (usize, [f64; 2], f64) = (0, [0.0; 2], 0.0);
         for i in 1..=200 {
             let t = i as f64 * h;
             let to = surge(t);
@@ -58,7 +58,10 @@ fn a_second_trial_of_a_step_takes_an_iteration_and_ends_where_the_first_would() 
             };
             solver.trial(&rod, &state, &world, t, [End::pinned(A), clamp(guess, 0.001)]).unwrap();
             if i % 2 == 0 {
-                solver.end_tangent(&rod, &world).unwrap();
+                let near = solver.end_tangent_at_hand(&rod, &world).unwrap();
+                let b = |t: &EndTangent| t.by_position(20.0, 400.0).fixed_view::<6, 6>(6, 6).into_owned();
+                let exact = solver.end_tangent(&rod, &world).unwrap();
+                apart = apart.max(b(&near).metric_distance(&b(&exact)) / b(&exact).norm());
             }
             let made = solver.trial(&rod, &state, &world, t, [End::pinned(A), clamp(to, 0.0)]).unwrap();
             iterations += made.iterations;
@@ -69,9 +72,11 @@ fn a_second_trial_of_a_step_takes_an_iteration_and_ends_where_the_first_would() 
             }
             solver.accept(&mut state);
         }
-        println!("EI {bending}: {} {worst:?}", iterations as f64 / 200.0);
+        println!("EI {bending}: {} {worst:?} {apart}", iterations as f64 / 200.0);
         // an iteration is left when moves are 1e-5 of an element, and forces are taken on to it by their tangent
-
+        assert!(worst[0] < 1e-4 && worst[1] < 1e-4, "{worst:?}");
+        // factors of a position a thousandth of an element away, where friction is taken by its secant
+        assert!(apart < 0.02, "{apart}");
         assert!(iterations <= 300, "{iterations}");
     }
 }

@@ -83,6 +83,11 @@ fn cases() -> Vec<Case> {
         add("twisted", one(52.0, elements, 1e4, 8e3), &[a, b], twisted);
         add("one twist held", one(52.0, elements, 1e4, 8e3), &[a, b], [twisted[0], elastic]);
     }
+    let slow = Axial::Polynomial(vec![8e5, 1e6]);
+    let rope = Viscoelastic { slow, fast: [2e6, 8.0], relaxation: 0.3 };
+    let axial = Axial::Viscoelastic(Box::new(rope));
+    let rope = Rod::new("rope", vec![Segment { axial, ..segment(50.0, 6, 0.0, 0.0) }], vec![]).unwrap();
+    add("viscoelastic rope", rope, &[a, b], [held(a, 0.2), held(b, 0.4)]);
     let hung = [a, a + along * 20.0];
     add("cantilever", one(20.0, 7, 2e6, 0.0), &hung, [held(a, 0.2).clamped(d[0]), End::FREE]);
     add("cantilever at B", one(20.0, 7, 2e6, 0.0), &hung, [End::FREE, held(hung[1], 0.2).clamped(d[0])]);

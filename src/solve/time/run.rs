@@ -189,7 +189,14 @@ impl Run {
                 return Ok(Ending::Interrupted);
             }
             let end = (self.settings.dt * (self.taken + 1) as f64).min(self.settings.observed);
-            let mut stop = self.to(end)?;
+            let mut stop = match self.to(end) {
+                Ok(stop) => stop,
+                Err(error) => {
+                    // from here -RESTART goes on, with what made it fail put right
+                    self.save(watcher)?;
+                    return Err(error);
+                }
+            };
             self.taken += 1;
             if stop.is_none() {
                 // the step's own time, so that no rounding adds up
