@@ -42,16 +42,23 @@ enum Checked {
 }
 
 impl Checked {
-    fn of(section: &Section, code: &Code, bends: bool) -> Result<Checked, SeriesError> {
+    fn of(section: &Section, code: &Code, bends: bool) -> Result<Checked, ClassError> {
         let tube = section.tube.filter(|_| bends);
-        let thinner = |tube: Tube, corroded: f64| Tube { wall: tube.wall - corroded, ..tube };
+        let wrong = |e: SeriesError| ClassError::new(e.to_string());
+        let thinner = |tube: Tube, corroded: f64| {
+            if corroded < tube.wall {
+                return Ok(Tube { wall: tube.wall - corroded, ..tube });
+            }
+            let values = [(corroded, Dim::Section), (tube.wall, Dim::Section)];
+            Err(ClassError::of("-CORROSION of {} leaves nothing of a wall of {}", &values))
+        };
         Ok(match (code, tube) {
             (Code::Lrfd(factors, corroded), Some(tube)) => {
-                Checked::Lrfd(Box::new(Resistance::of(thinner(tube, *corroded), *factors)?))
+                Checked::Lrfd(Box::new(Resistance::of(thinner(tube, *corroded)?, *factors).map_err(wrong)?))
             }
             (Code::WorkingStress(case, corroded), Some(tube)) => {
-                let thinner = thinner(tube, *corroded);
-                thinner.check()?;
+                let thinner = thinner(tube, *corroded)?;
+                thinner.check().map_err(wrong)?;
                 Checked::WorkingStress(thinner, *case)
             }
             _ => Checked::Break(section.segment.breaking),
@@ -89,8 +96,8 @@ pub fn check(line: &Line, code: &Code, events: &[Event]) -> Result<Table, SolveE
         .sections
         .iter()
         .map(|section| Checked::of(section, code, columns.bends))
-        .collect::<Result<_, _>>()
-        .map_err(wrong)?;
+        .collect::<Result<_, ClassError>>()
+        .map_err(|error| SolveError { who: Some(line.name.to_string()), error })?;
     let around = run.model.surroundings();
     let outside = |z: f64| around.water_weight() * (around.tide - z).max(0.0);
     let first = run.history.rows().next().unwrap_or_default();
