@@ -46,8 +46,9 @@ fn a_chain_at_rest_comes_down_where_the_catenary_does() {
         off.push((arc - suspended).abs());
         assert!((last(&table, "Length") - (400.0 - suspended)).abs() < 1.5 * 400.0 / elements as f64);
     }
-    // within a tenth of an element
-    assert!(off[0] < 1.0 && off[1] < 0.5, "{off:?}");
+    // a line that sinks 2 mm in leaves the bottom over sqrt(2 a 2 mm), 0.3 m, and two heights tell the slope to a share of an element of 10
+    // or 5 m
+    assert!(off.iter().all(|off| *off < 1.0), "{off:?}");
 }
 
 #[test]
@@ -102,7 +103,10 @@ fn fewer_nodes_kept_and_none_kept_tell_what_all_tell() {
     let table = histories(&line, &[Where::Node(2), Where::Arc(middle), Where::Node(3)], &kept).unwrap();
     let tensions: Vec<Vec<f64>> = table.columns.iter().filter(|c| c.name == "Tension").map(|c| c.numbers()).collect();
     for ((low, middle), high) in tensions[0].iter().zip(&tensions[1]).zip(&tensions[2]) {
-        assert!((middle - (low + high) / 2.0).abs() < 1e-9 * low.abs(), "{low} {middle} {high}, nodes at {arcs:?}");
+        assert!(
+            (middle - (low + high) / 2.0).abs() < 1e-9 * (low.abs() + high.abs()),
+            "{low} {middle} {high}, nodes at {arcs:?}"
+        );
     }
     assert!(histories(&line, &[Where::Arc(401.0)], &kept).is_err());
     assert!(histories(&line, &[Where::Node(14)], &kept).is_err());

@@ -226,7 +226,14 @@ fn refuse_what_does_not_go(args: &Args, what: &str) -> Outcome<()> {
 fn at(job: &Job, args: &Args, line: &Line) -> Outcome<Vec<Table>> {
     let history = &last_run(job, args.span)?.history;
     let times: Vec<(f64, Span)> = (2..args.data.len()).filter_map(|i| Some((args.number(i)?, args.place(i)))).collect();
+    let stored = history.times();
     let one = |begin: f64, span: Span| -> Outcome<Event> {
+        if let (Some(first), Some(last)) = (stored.first(), stored.last())
+            && !(*first - 1e-9..=last * (1.0 + 1e-9)).contains(&begin)
+        {
+            let text = format!("the run has no instant at {begin} s: it is from {first} s to {last} s");
+            return Err(Diagnostic::error(text, span));
+        }
         // an increment, so that a time between two stored ones is one, too
         let window = Window { begin, end: Some(begin), increment: Some(1.0) };
         let found = results::events(history, Some(&window)).map_err(|e| e.diagnostic(span, job.units))?;
