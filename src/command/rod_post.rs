@@ -136,7 +136,7 @@ static SPEC: CommandSpec = CommandSpec {
 };
 
 const EXAMPLE: &str = "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n&DESCRIBE BODY SHIP -IGNORE X Y Z RX RY RZ\n*T 0 0 -5\n#WEIGHT *T 1000 5 5 5\n*E 150 0 -100\n\
-     ~R ROD 300 20 -LEN 210 -REFINE 12 -C_SN DNV_D_FREE\nCONNECTOR A ~R *T *E\nEND\n&ENV -DEPTH 100 -SEA REGULAR 180 4 9 -TIME 10 0.5\nTDOM\nPRCPOST\n\
+     ~R ROD 300 20 -LEN 185 -REFINE 12 -FYIELD 450 -C_SN DNV_D_FREE\nCONNECTOR A ~R *T *E\nEND\n&ENV -DEPTH 100 -SEA REGULAR 180 4 9 -TIME 10 0.5\nTDOM\nPRCPOST\n\
      ROD A\nROD A AT 5 10\nROD A NODE 1 3 -ARC 50 -DISPOSE\nVIEW Time Tension\nEND\nROD A TOUCHDOWN -EVENTS 5 10\nROD A FATIGUE -DFF 3\n\
      ROD A CHECK -SAFETY HIGH\nROD A CHECK -CODE 2RD -CASE EXTREME\nEND";
 
@@ -226,7 +226,14 @@ fn refuse_what_does_not_go(args: &Args, what: &str) -> Outcome<()> {
 fn at(job: &Job, args: &Args, line: &Line) -> Outcome<Vec<Table>> {
     let history = &last_run(job, args.span)?.history;
     let times: Vec<(f64, Span)> = (2..args.data.len()).filter_map(|i| Some((args.number(i)?, args.place(i)))).collect();
+    let stored = history.times();
     let one = |begin: f64, span: Span| -> Outcome<Event> {
+        if let (Some(first), Some(last)) = (stored.first(), stored.last())
+            && !(*first - 1e-9..=last * (1.0 + 1e-9)).contains(&begin)
+        {
+            let text = format!("the run has no instant at {begin} s: it is from {first} s to {last} s");
+            return Err(Diagnostic::error(text, span));
+        }
         // an increment, so that a time between two stored ones is one, too
         let window = Window { begin, end: Some(begin), increment: Some(1.0) };
         let found = results::events(history, Some(&window)).map_err(|e| e.diagnostic(span, job.units))?;

@@ -1,7 +1,7 @@
 //! Combined loading of a riser by DNV-ST-F201, "Dynamic risers" (DNV-OS-F201 until 2017), load and resistance factor design.
 //!
 //! Confirmed by what others publish of the standard: the cubic of collapse with its elastic and plastic pressures and the least
-//! ovality 0.005 (DNV-ST-F101 2017, eqs. 5.11 to 5.14, the same formulas; Y. Bai, "Pipelines and Risers", 2001, eq. 2.20); the bursting
+//! ovality 0.005 (DNV-ST-F101 2017, 5.4.4 with eqs. 5.12 and 5.14, the same formulas, as PDover2t has them; Y. Bai, "Pipelines and Risers", 2001, eq. 2.20); the bursting
 //! pressure; gamma_m 1.15, gamma_SC 1.26 of class High, gamma_F 1.1 and gamma_E 1.3 with 1/gamma_E where the environment relieves
 //! (manual of Flexcom); where the standard has them: t2 in section 5 C203, tables 5-2 and 5-5, f0 in section 5 G201 (manual of OrcaFlex,
 //! edition of October 2010). Not confirmed by its text, which could not be read: the two forms of combined loading as they are
@@ -46,7 +46,8 @@ pub struct Factors {
     pub functional: f64,
     /// gamma_E on what the environment adds, or its inverse where that is worse.
     pub environmental: f64,
-    /// alpha_fab, on the plastic collapse pressure: 1 of seamless pipe, 0.925 of UO and 0.85 of UOE pipe (DNV-ST-F101, table 5-5).
+    /// alpha_fab, on the plastic collapse pressure: 1 of seamless pipe, 0.85 of UOE pipe (DNV-OS-F101 2012, table 5-5), 0.925 of UO
+    /// pipe (not confirmed).
     pub fabrication: f64,
     /// f0, (largest less least diameter) over diameter.
     pub ovality: f64,

@@ -181,7 +181,8 @@ impl Run {
 
     fn steps(&mut self, watcher: &mut dyn Watcher) -> Result<Ending, SolveError> {
         let steps = (self.settings.observed / self.settings.dt - 1e-9).ceil().max(0.0) as usize;
-        if self.taken == 0 {
+        // one that goes on from its start has that row
+        if self.taken == 0 && self.history.is_empty() {
             self.keep(watcher)?;
             self.save(watcher)?;
         }

@@ -1,6 +1,6 @@
 //! A line at rest between its ends where they stand.
 
-use super::{sections, segment_at};
+use super::{CLEARANCE, sections, segment_at};
 use crate::hydro::ambient;
 use crate::language::units::Dim;
 use crate::model::{End, Model, Situation};
@@ -37,9 +37,10 @@ pub fn lines_at_rest(model: &Model, fits: &dyn Fn(&str) -> bool) -> Result<Vec<T
             .fact("Line", connector.name.as_str(), Dim::None)
             .column("", "Node", Dim::None, Digits::Usual)
             .column("", "Arc", Dim::Length, Digits::Usual);
-        for name in ["X", "Y", "Z", "Clearance"] {
+        for name in ["X", "Y", "Z"] {
             table = table.column("", name, Dim::Length, Digits::Usual);
         }
+        table = table.column("", "Clearance", Dim::Length, CLEARANCE);
         table = table.column("", "Tension", Dim::Force, Digits::Usual);
         if bends {
             table = table

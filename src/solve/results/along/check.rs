@@ -42,16 +42,23 @@ enum Checked {
 }
 
 impl Checked {
-    fn of(section: &Section, code: &Code, bends: bool) -> Result<Checked, SeriesError> {
+    fn of(section: &Section, code: &Code, bends: bool) -> Result<Checked, ClassError> {
         let tube = section.tube.filter(|_| bends);
-        let thinner = |tube: Tube, corroded: f64| Tube { wall: tube.wall - corroded, ..tube };
+        let wrong = |e: SeriesError| ClassError::new(e.to_string());
+        let thinner = |tube: Tube, corroded: f64| {
+            if corroded < tube.wall {
+                return Ok(Tube { wall: tube.wall - corroded, ..tube });
+            }
+            let values = [(corroded, Dim::Section), (tube.wall, Dim::Section)];
+            Err(ClassError::of("-CORROSION of {} leaves nothing of a wall of {}", &values))
+        };
         Ok(match (code, tube) {
             (Code::Lrfd(factors, corroded), Some(tube)) => {
-                Checked::Lrfd(Box::new(Resistance::of(thinner(tube, *corroded), *factors)?))
+                Checked::Lrfd(Box::new(Resistance::of(thinner(tube, *corroded)?, *factors).map_err(wrong)?))
             }
             (Code::WorkingStress(case, corroded), Some(tube)) => {
-                let thinner = thinner(tube, *corroded);
-                thinner.check()?;
+                let thinner = thinner(tube, *corroded)?;
+                thinner.check().map_err(wrong)?;
                 Checked::WorkingStress(thinner, *case)
             }
             _ => Checked::Break(section.segment.breaking),
@@ -89,8 +96,8 @@ pub fn check(line: &Line, code: &Code, events: &[Event]) -> Result<Table, SolveE
         .sections
         .iter()
         .map(|section| Checked::of(section, code, columns.bends))
-        .collect::<Result<_, _>>()
-        .map_err(wrong)?;
+        .collect::<Result<_, ClassError>>()
+        .map_err(|error| SolveError { who: Some(line.name.to_string()), error })?;
     let around = run.model.surroundings();
     let outside = |z: f64| around.water_weight() * (around.tide - z).max(0.0);
     let first = run.history.rows().next().unwrap_or_default();
@@ -138,9 +145,10 @@ fn acting(node: &NodeRow, section: &Section, outside: f64) -> Acting {
 
 fn told(line: &Line, code: &Code, checked: &[Checked], worst: &[Option<Worst>]) -> Result<Table, SolveError> {
     let bends = line.columns.bends;
+    let by_code = checked.iter().any(|c| !matches!(c, Checked::Break(_)));
     let mut table = Table::new("Unity Checks Along a Line")
         .fact("Line", line.name, Dim::None)
-        .fact("Code", code.name(), Dim::None)
+        .fact("Code", if by_code { code.name() } else { Code::Break.name() }, Dim::None)
         .column("", "Node", Dim::None, Digits::Usual)
         .column("", "Arc", Dim::Length, Digits::Usual)
         .column("", "Check", Dim::None, Digits::Usual)
@@ -180,7 +188,6 @@ fn told(line: &Line, code: &Code, checked: &[Checked], worst: &[Option<Worst>]) 
         let holds = if used > 1.0 { "warning: it does not hold; most" } else { "most" };
         table.note(format!("{holds} is used at node {node}: {used:.3} at {time} s"));
     }
-    let by_code = checked.iter().any(|c| !matches!(c, Checked::Break(_)));
     match code {
         Code::Lrfd(factors, _) if by_code => table.note(format!(
             "DNV-ST-F201, combined loading, gamma_SC {} gamma_m {} gamma_F {} gamma_E {}: at rest functional, the rest of the environment",

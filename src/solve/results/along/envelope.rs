@@ -1,6 +1,6 @@
 //! The least, mean and most at each node.
 
-use super::Line;
+use super::{CLEARANCE, Line};
 use crate::language::units::Dim;
 use crate::post::line::envelope::Seen;
 use crate::solve::results::Event;
@@ -35,12 +35,12 @@ pub fn envelope(line: &Line, events: &[Event]) -> Result<Table, SolveError> {
         Some(kept) if run.history.is_empty() => kept,
         _ => &made,
     };
-    let wall = line.sections.iter().any(|s| s.tube.is_some());
+    let wall = columns.bends && line.sections.iter().any(|s| s.tube.is_some());
     let told: Vec<_> = TOLD
         .iter()
         .filter(|(.., quantity, _)| match quantity {
             Quantity::Clearance | Quantity::Effective => true,
-            Quantity::Wall | Quantity::VonMises => columns.bends && wall,
+            Quantity::Wall | Quantity::VonMises => wall,
             _ => columns.bends,
         })
         .collect();
@@ -49,16 +49,18 @@ pub fn envelope(line: &Line, events: &[Event]) -> Result<Table, SolveError> {
         .column("", "Node", Dim::None, Digits::Usual)
         .column("", "Arc", Dim::Length, Digits::Usual);
     for (group, sign, _, dim) in &told {
+        let digits = if *sign == "C" { CLEARANCE } else { Digits::Usual };
         for part in ["Min", "Mean", "Max"] {
-            table = table.column(group, &format!("{sign} {part}"), *dim, Digits::Usual);
+            table = table.column(group, &format!("{sign} {part}"), *dim, digits);
         }
     }
     let mut table = table.column("", "Used", Dim::None, Digits::Decimals(3));
     let length = line.places.last().and_then(|p| seen.seen(*p, Quantity::Arc)).map_or(f64::NAN, |s| s.mean);
-    let mut worst: Option<(f64, usize)> = None;
+    let (mut worst, mut wound): (Option<(f64, usize)>, bool) = (None, false);
     for (number, place) in line.numbered() {
         let of = |quantity: Quantity| seen.seen(place, quantity);
         let arc = of(Quantity::Arc).map(|s| s.mean);
+        wound |= of(Quantity::Arc).is_some_and(|s| s.most.value - s.least.value > 1e-6 * length);
         let mut cells: Vec<Cell> = vec![number.into(), arc.into()];
         for (.., quantity, _) in &told {
             let found: Option<Seen> = of(*quantity);
@@ -88,6 +90,9 @@ pub fn envelope(line: &Line, events: &[Event]) -> Result<Table, SolveError> {
     } else {
         "Used is tension over breaking tension"
     });
+    if wound {
+        table.note("a winch changed the length: Arc is the mean of each node while it was there");
+    }
     if line.columns.most > line.nodes() && run.settings.along > 1 {
         table.note(format!("every {} node is kept: TDOM -ALONG", ordinal(run.settings.along)));
     }

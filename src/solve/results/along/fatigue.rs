@@ -53,24 +53,36 @@ pub fn along(
         .fact("Line", line.name, Dim::None)
         .fact("Record", records.iter().map(Record::length).fold(0.0, f64::max), Dim::Time)
         .fact("Design Fatigue Factor", factor, Dim::None);
-    if line.sections.iter().any(|s| s.tube.is_some()) {
+    let by = |kind: FatigueKind| curves.iter().any(|c| c.kind == kind);
+    let round_tubes = line.columns.bends && by(FatigueKind::Stress) && line.sections.iter().any(|s| s.tube.is_some());
+    if round_tubes {
         table = table.fact("Points Round a Tube", round.points, Dim::None).fact(
             "Stress Concentration",
             round.concentration,
             Dim::None,
         );
     }
-    let mut table = table
+    table = table
         .column("", "Node", Dim::None, Digits::Usual)
         .column("", "Arc", Dim::Length, Digits::Usual)
         .column("", "Segment", Dim::None, Digits::Usual)
         .column("", "Curve", Dim::None, Digits::Usual)
-        .column("", "Cycles", Dim::None, Digits::Decimals(1))
-        .column("Largest Range", "Stress", Dim::Stress, Digits::Usual)
-        .column("Largest Range", "T/TB", Dim::None, Digits::Decimals(4))
-        .column("", "Point", Dim::Angle, Digits::Decimals(1))
-        .column("", "Damage", Dim::None, Digits::Scientific(4))
-        .column("", "Life, Years", Dim::None, Digits::Scientific(4));
+        .column("", "Cycles", Dim::None, Digits::Decimals(1));
+    if by(FatigueKind::Stress) {
+        table = table.column("Largest Range", "Stress", Dim::Stress, Digits::Usual);
+    }
+    if by(FatigueKind::Tension) {
+        table = table.column("Largest Range", "T/TB", Dim::None, Digits::Decimals(4));
+    }
+    if round_tubes {
+        table = table.column("", "Point", Dim::Angle, Digits::Decimals(1));
+    }
+    let mut table = table.column("", "Damage", Dim::None, Digits::Scientific(4)).column(
+        "",
+        "Life, Years",
+        Dim::None,
+        Digits::Scientific(4),
+    );
     let mut worst: Option<(f64, usize)> = None;
     for (index, record) in records.iter().enumerate() {
         let (Some(section), Some(curve)) = (line.sections.get(record.segment), curves.get(record.segment)) else {
@@ -88,18 +100,18 @@ pub fn along(
             worst = Some((found.damage, index + 1));
         }
         let of_kind = |kind: FatigueKind| Cell::from((curve.kind == kind).then_some(found.largest));
-        let cells = vec![
+        let mut cells: Vec<Cell> = vec![
             (index + 1).into(),
             record.arc.into(),
             (record.segment + 1).into(),
             curve.name.as_str().into(),
             found.cycles.into(),
-            of_kind(FatigueKind::Stress),
-            of_kind(FatigueKind::Tension),
-            found.angle.into(),
-            found.damage.into(),
-            years.into(),
         ];
+        cells.extend([FatigueKind::Stress, FatigueKind::Tension].into_iter().filter(|k| by(*k)).map(of_kind));
+        if round_tubes {
+            cells.push(found.angle.into());
+        }
+        cells.extend([found.damage.into(), years.into()]);
         table.push(cells).map_err(|e| line.wrong(e.to_string()))?;
     }
     if table.rows() == 0 {

@@ -22,6 +22,10 @@ use super::super::time::{AlongColumns, NodeRow, Quantity, Run};
 use super::Event;
 use crate::model::{ClassError, FatigueSegment, Model};
 use crate::post::line::Tube;
+use crate::table::Digits;
+
+/// Digits of the height over the bottom, into which a line that lies presses itself by millimetres.
+pub(super) const CLEARANCE: Digits = Digits::Decimals(3);
 
 /// A segment of the line.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,6 +1,6 @@
 //! Where a line is at an instant, with its forces there; and its nodes over time.
 
-use super::Line;
+use super::{CLEARANCE, Line};
 use crate::language::units::Dim;
 use crate::model::ClassError;
 use crate::solve::results::{Event, columns, filled, timed};
@@ -19,7 +19,7 @@ pub enum Where {
 
 /// Columns of a node behind its place.
 fn forces(mut table: Table, group: &str, bends: bool) -> Table {
-    table = columns(table, group, &["X", "Y", "Z", "Clearance"], Dim::Length);
+    table = columns(table, group, &["X", "Y", "Z"], Dim::Length).column(group, "Clearance", Dim::Length, CLEARANCE);
     table = columns(table, group, &["Tension"], Dim::Force);
     if bends {
         table = columns(table, group, &["Wall", "Shear"], Dim::Force);

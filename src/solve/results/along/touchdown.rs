@@ -5,7 +5,7 @@ use crate::language::units::Dim;
 use crate::solve::results::{Event, columns, filled, timed};
 use crate::solve::system::SolveError;
 use crate::solve::time::NodeRow;
-use crate::table::Table;
+use crate::table::{Digits, Table};
 
 /// The touchdown point over some events, from the first end: the first node on the bottom with its distance and tension, the point
 /// between it and the one before at which the line would begin to lie, and the unstretched length on the bottom.
@@ -14,7 +14,7 @@ use crate::table::Table;
 /// None of its own.
 pub fn touchdown(line: &Line, events: &[Event]) -> Result<Table, SolveError> {
     let mut table = timed("Touchdown").fact("Line", line.name, Dim::None);
-    table = columns(table, "First Node on Bottom", &["Node"], Dim::None);
+    table = table.column("First Node on Bottom", "Node", Dim::None, Digits::Decimals(0));
     table = columns(table, "First Node on Bottom", &["Node Arc"], Dim::Length);
     table = columns(table, "First Node on Bottom", &["Tension"], Dim::Force);
     table = columns(table, "Touchdown", &["Arc", "X", "Y", "Z"], Dim::Length);
