@@ -134,6 +134,7 @@ pub fn build_connector(job: &mut Job, args: &Args) -> Outcome<()> {
         dynamics: None,
         longest: None,
         freed: false,
+        books: false,
         active: true,
         span: args.span,
     };

@@ -96,6 +96,8 @@ static SPEC: CommandSpec = CommandSpec {
             .owner(Owner::Ours),
         OptionSpec::new("-STATISTICS", &[], "keeps statistics of every result and no instants: flat memory, no file")
             .owner(Owner::Ours),
+        OptionSpec::new("-BALANCE", &[], "prints the books of energy and momentum of lines that move by themselves")
+            .owner(Owner::Ours),
         OptionSpec::new(
             "-ALONG",
             &[ValueSpec::new("N", Kind::Integer, "every Nth; 0: none").within(0.0, 1e6)],
@@ -168,6 +170,7 @@ fn settings(job: &Job, args: &Args) -> Outcome<Settings> {
         adaptive: args.option_number("-ADAPTIVE"),
         keep: !args.has("-STATISTICS"),
         along: whole("-ALONG"),
+        books: args.has("-BALANCE"),
         transient: window.transient.unwrap_or(0.0),
     })
 }
@@ -276,6 +279,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     drop(going);
     let mut tables = vec![run_tables::told(&made)];
     tables.extend(run_tables::extremes(&made));
+    tables.extend(run_tables::books(&made));
     let checked = match &ended {
         Ok(_) if args.has("-CHECK") => Some(check(job, &made)),
         _ => None,

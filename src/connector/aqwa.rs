@@ -5,7 +5,7 @@
 
 use super::catenary::{Floor, Joint, Law, Line, Segment};
 use super::mooring::{Mooring, line_error, no_other_end};
-use super::moving::{Description, JointMass, MovingLine, Part, Seabed, Strength};
+use super::moving::{JointMass, MovingLine, Part, Seabed, Strength, description};
 use super::options::aqwa;
 use super::{ClassKind, checks};
 use crate::language::args::{Args, Given};
@@ -346,7 +346,7 @@ impl ConnectorClass for CatenaryClass {
         };
         let seabed = Seabed { depth: self.depth, ..Seabed::default() };
         let parts = self.sections.iter().map(part).collect();
-        let made = Description { kind: "CATENARY", parts, seabed, holds: [None, None], notes: Vec::new() };
+        let made = description("CATENARY", parts, seabed, [None, None]);
         Ok(Box::new(MovingLine::made(made, connection)?))
     }
 

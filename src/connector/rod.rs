@@ -50,13 +50,15 @@ static ROD_SPEC: CommandSpec = CommandSpec {
         m::EA,
         m::STRETCH,
         m::AX_DAMPING,
+        m::ROPE,
+        m::SLAM,
         m::CLAMP,
         m::SEABED,
     ],
     detail: "Large-deflection tubular elements with inertia, first record at the first end. -REFINE cuts a segment into elements; \
              the seed's 300 over all segments were MOSES' limit, here it is memory. The rod feels waves, current, wind, growth and bottom along itself, at rest without \
              the waves. Its weight is that of -WTPLEN or of the wall, empty; what is in it comes by -T_PRESSURE of &ENV. -EI 0 makes a chain or rope, which \
-             neither pushes nor bends. -CLUMP is a weight in water, taken as a mass without volume; negative: a buoy without mass. Its ends turn freely but for -CLAMP. \
+             neither pushes nor bends. -CLUMP is a weight in water, taken as a mass without volume; negative: a buoy without mass, CLEN above the line. -ROPE: a standard linear solid. Its ends turn freely but for -CLAMP. \
              Per line, on any record: -FRICTION, -SLOPE, -DEPANCHOR, -SEABED, -CLAMP. No convolution.",
     example: "MEDIT\n~PIPE ROD 12.75 0.5 -LEN 1000 -REFINE 50\nEND\n&STATUS CLASS ~PIPE",
     ..CommandSpec::new("ROD", "line with bending stiffness and its own dynamics")
@@ -76,6 +78,7 @@ struct Rod {
     flexures: Vec<Flexure>,
     seabed: Seabed,
     holds: [Option<Hold>; 2],
+    slam: bool,
 }
 
 fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
@@ -94,7 +97,13 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
             .label(format!("with this segment it has {elements}, which would take about {megabytes:.0} MB")));
     }
     let flexures = records.iter().zip(&sections).map(|(r, s)| Flexure::read(r, s)).collect::<Outcome<Vec<_>>>()?;
-    Ok(Arc::new(Rod { sections, flexures, seabed: m::seabed(records)?, holds: m::holds(records)? }))
+    Ok(Arc::new(Rod {
+        sections,
+        flexures,
+        seabed: m::seabed(records)?,
+        holds: m::holds(records)?,
+        slam: records.iter().any(|r| r.args.has("-SLAM")),
+    }))
 }
 
 impl Rod {
@@ -102,7 +111,7 @@ impl Rod {
         let count = |s: &LineSection| usize::try_from(s.refine).unwrap_or(1).max(1);
         let part = |(s, f): (&LineSection, &Flexure)| -> Part { f.part(s, count(s), around) };
         let parts = self.sections.iter().zip(&self.flexures).map(part).collect();
-        m::description("ROD", parts, self.seabed, self.holds)
+        Description { slam: self.slam, ..m::description("ROD", parts, self.seabed, self.holds) }
     }
 }
 

@@ -15,6 +15,21 @@ pub struct LineStress {
     pub von_mises: f64,
 }
 
+/// The books of energy and momentum of a line that moves by itself, since its run began.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LineBooks {
+    /// Energy now: of motion, of stretch and bending, of height in air, in what it lies on (J).
+    pub energy: [f64; 4],
+    /// Work done on it: by what holds its first and its second end, by water and air, by internal damping, by the bottom (J).
+    pub work: [f64; 5],
+    /// Energy gained beyond the work done (J); negative is what the scheme has damped.
+    pub energy_error: f64,
+    /// The most energy or work that met in the books (J): what the error is to be seen against.
+    pub turnover: f64,
+    /// Momentum gained beyond the impulse of all outer forces (N s, global).
+    pub momentum_error: Vector3<f64>,
+}
+
 /// A node of a line, numbered from its first end.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LineNode {

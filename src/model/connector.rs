@@ -56,6 +56,8 @@ pub struct Connector {
     pub dynamics: Option<usize>,
     /// The longest its first segment becomes in a run (m), where a winch pays it out.
     pub longest: Option<f64>,
+    /// Whether a run keeps the books of its energy and momentum, of a line that moves by itself.
+    pub books: bool,
     /// Whether its first end is let go, of a line that moves by itself: it falls, held at its second end.
     pub freed: bool,
     /// Whether it acts.

@@ -4,7 +4,7 @@
 //! only with an accepted step. In statics there is no step: rates are zero and a trial state is where the element comes to
 //! rest.
 
-use super::along::LineNode;
+use super::along::{LineBooks, LineNode};
 use super::ambient::Ambient;
 use super::class::ClassError;
 use super::connector::Connector;
@@ -190,6 +190,11 @@ pub trait Element: Debug + Send + Sync {
     /// a run begins where it hangs at rest.
     fn moves(&self) -> bool {
         false
+    }
+
+    /// The books of energy and momentum in a state, where a run keeps them.
+    fn books(&self, _state: &[f64]) -> Option<LineBooks> {
+        None
     }
 
     /// How many nodes it tells of along itself at most: none of an element that is nothing between its ends.

@@ -75,10 +75,10 @@ impl Work {
 /// does not add up falls with the square of the step; beyond that it is what the scheme damps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Balance {
-    time: f64,
-    opened: (f64, Vector3<f64>),
-    power: Work,
-    force: Vector3<f64>,
+    pub(super) time: f64,
+    pub(super) opened: (f64, Vector3<f64>),
+    pub(super) power: Work,
+    pub(super) force: Vector3<f64>,
     /// Energy now.
     pub energy: Energy,
     /// Work done so far.
@@ -249,7 +249,7 @@ fn look(rod: &Rod, state: &State, world: &World, solver: &Solver, made: &EndForc
         let node = held.node;
         lump(&mut found, node, held.mass);
         let fluid = &trial.fluid[node];
-        let depth = fluid.surface - x[node].z;
+        let depth = fluid.surface - x[node].z - held.pendant;
         let share = wet_prism(depth, held.height).0;
         let (u, q) = (v[node] - fluid.velocity, a[node] - fluid.acceleration);
         let water = fluid.density * held.volume;

@@ -146,7 +146,7 @@ impl Rod {
             segment.check(name, i + 1)?;
         }
         for a in &attachments {
-            let numbers = [a.mass, a.volume, a.height, a.drag, a.added];
+            let numbers = [a.mass, a.volume, a.height, a.pendant, a.drag, a.added];
             if a.node > count || numbers.iter().any(|v| !(v.is_finite() && *v >= 0.0)) {
                 let node = a.node;
                 return Err(refuse(format!(

@@ -15,6 +15,7 @@ mod assemble;
 mod balance;
 mod band;
 mod bend;
+mod books;
 mod condense;
 mod contact;
 mod ends;

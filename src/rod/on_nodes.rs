@@ -51,7 +51,7 @@ pub(super) fn on_nodes<const TANGENT: bool, const W: usize, const H: usize, cons
     for held in rod.attachments.iter().filter(|a| (range.start..=range.end).contains(&a.node)) {
         let node = held.node;
         let fluid = &trial.fluid[node];
-        let depth = fluid.surface - trial.x[node].z;
+        let depth = fluid.surface - trial.x[node].z - held.pendant;
         let (share, by_depth) = wet_prism(depth, held.height);
         let (u, q) = (trial.v[node] - fluid.velocity, trial.a[node] - fluid.acceleration);
         let speed = u.norm();

@@ -272,6 +272,8 @@ pub struct Attachment {
     pub volume: f64,
     /// Height over which it comes out of the water (m).
     pub height: f64,
+    /// Length of the pendant on which it floats above its node (m), taken as plumb.
+    pub pendant: f64,
     /// Drag area times coefficient (m2), the same in all directions.
     pub drag: f64,
     /// Added mass coefficient on the volume.

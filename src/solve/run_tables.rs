@@ -142,3 +142,34 @@ fn push(table: &mut Table, name: &str, cells: impl IntoIterator<Item = Cell>) {
         table.note(format!("{name} is left out"));
     }
 }
+
+/// The books of energy and momentum of lines that move by themselves, where the run kept them.
+pub fn books(run: &Run) -> Option<Table> {
+    let kept = run.books();
+    if kept.is_empty() {
+        return None;
+    }
+    let energy = Dim::Derived { force: 1, length: 1, seconds: 0 };
+    let impulse = Dim::Derived { force: 1, length: 0, seconds: 1 };
+    let mut table = Table::new("Books of Lines".to_string()).column("", "Line", Dim::None, Digits::Usual);
+    for name in ["Motion", "Stretch", "Height", "Bottom"] {
+        table = table.column("Energy Now", name, energy, Digits::Scientific(3));
+    }
+    for name in ["1st End", "2nd End", "Water", "Damping", "Bottom"] {
+        table = table.column("Work Done by", name, energy, Digits::Scientific(3));
+    }
+    table = table
+        .column("Not in the Books", "Energy", energy, Digits::Scientific(2))
+        .column("Not in the Books", "of Most", Dim::None, Digits::Scientific(2))
+        .column("Not in the Books", "Momentum", impulse, Digits::Scientific(2));
+    for (name, b) in kept {
+        let mut row: Vec<Cell> = vec![name.as_str().into()];
+        row.extend(b.energy.iter().chain(&b.work).map(|v| Cell::Number(*v)));
+        let share = if b.turnover > 0.0 { b.energy_error / b.turnover } else { 0.0 };
+        row.extend([b.energy_error, share, b.momentum_error.norm()].map(Cell::Number));
+        // the row has one cell a column, made just above
+        let _ = table.push(row);
+    }
+    table.note("energy that is in no book was damped by the scheme (negative) or is the error of its steps; a winch adds mass that the books do not follow");
+    Some(table)
+}

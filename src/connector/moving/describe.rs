@@ -77,6 +77,8 @@ pub struct Description {
     pub seabed: Seabed,
     /// How its two ends are held; pinned where not.
     pub holds: [Option<Hold>; 2],
+    /// Whether it is slammed where it enters the water.
+    pub slam: bool,
     /// What is always told of it.
     pub notes: Vec<String>,
 }

@@ -7,11 +7,11 @@ use super::mesh::{Cut, attachments, told, wind};
 use super::start;
 use crate::language::units::Dim;
 use crate::model::{
-    Ambient, ClassError, Connection, Element, End, Guess, LineNode, LineStress, Response, Situation, Six, Summary,
-    Surroundings,
+    Ambient, ClassError, Connection, Element, End, Guess, LineBooks, LineNode, LineStress, Response, Situation, Six,
+    Summary, Surroundings,
 };
 use crate::rod::{
-    self, EndForces, EndTangent, Ground, Motion, PlaneBottom, Rod, Settings, Solver, State, Twelve, World,
+    self, Balance, EndForces, EndTangent, Ground, Motion, PlaneBottom, Rod, Settings, Solver, State, Twelve, World,
 };
 use nalgebra::{Matrix6, Vector3};
 use std::cell::RefCell;
@@ -118,7 +118,7 @@ impl MovingLine {
         let per_node = State::packed(&rod).div_ceil(rod.nodes()) + 1;
         let holds = holds(&description, connection)?;
         let ground = ground(&description.seabed, rod.segments(), around);
-        let layout = Layout::new(capacity, per_node * (capacity + 2));
+        let layout = Layout::new(capacity, per_node * (capacity + 2), connection.connector.books);
         let base = Base {
             description,
             rod,
@@ -153,7 +153,7 @@ impl MovingLine {
         let floor = Floor { plane: self.base.plane, ambient, flat: self.base.flat.unwrap_or(0.0) };
         let known = self.base.plane.is_some() || self.base.flat.is_some();
         let bottom: Option<(&dyn rod::Bottom, Ground)> = known.then_some((&floor, self.base.ground));
-        act(&World { bottom, ..World::new(&water, around.gravity) })
+        act(&World { bottom, slam: self.base.description.slam, ..World::new(&water, around.gravity) })
     }
 
     /// What holds the ends.
@@ -277,7 +277,20 @@ impl MovingLine {
                 Ok((forces, Some(tangent)))
             }
         })?;
+        let books = self.layout.has_books().then(|| {
+            self.within(at.surroundings, false, |world| match kept.balance {
+                Some(mut balance) if dt > 0.0 => {
+                    balance.enter(rod, &state, world, solver, &forces);
+                    balance
+                }
+                Some(balance) => balance,
+                None => Balance::open(rod, &state, world, solver, &forces),
+            })
+        });
         self.layout.write(rod, &state, trial)?;
+        if let Some(balance) = books {
+            self.layout.keep_books(&balance, trial);
+        }
         answer(out, &forces, tangent.as_ref(), true)
     }
 }
@@ -377,6 +390,18 @@ impl Element for MovingLine {
             }
         }
         Ok(())
+    }
+
+    fn books(&self, state: &[f64]) -> Option<LineBooks> {
+        let found = self.layout.balance(state)?;
+        let (e, w) = (&found.energy, &found.work);
+        Some(LineBooks {
+            energy: [e.kinetic, e.elastic, e.gravity, e.bottom + e.rollers],
+            work: [w.ends[0], w.ends[1], w.fluid + w.given, w.damping, w.bottom + w.rollers],
+            energy_error: found.energy_error(),
+            turnover: found.turnover,
+            momentum_error: found.momentum_error(),
+        })
     }
 
     fn along(&self, at: &Situation, state: &[f64], out: &mut Vec<LineNode>) -> Result<(), ClassError> {

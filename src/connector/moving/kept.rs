@@ -2,7 +2,7 @@
 //! mesh needs.
 
 use crate::model::ClassError;
-use crate::rod::{Rod, State};
+use crate::rod::{Balance, Rod, State};
 
 /// Where what stands.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,6 +11,8 @@ pub(super) struct Layout {
     pub elements: usize,
     /// Values of the motion of a mesh of so many.
     motion: usize,
+    /// Values of the books behind them.
+    books: usize,
 }
 
 /// A mesh: unstretched length (m), rate at which it grows (m/s) and segment of each element.
@@ -21,6 +23,7 @@ pub(super) type Mesh = Vec<(f64, f64, usize)>;
 pub(super) struct Kept {
     pub mesh: Mesh,
     pub motion: Vec<f64>,
+    pub balance: Option<Balance>,
 }
 
 /// Flag, and the counts of elements and of values of the motion.
@@ -30,13 +33,33 @@ const EACH: usize = 3;
 
 impl Layout {
     /// That of a line of so many elements at most; `motion` values are those of a mesh of so many.
-    pub fn new(elements: usize, motion: usize) -> Self {
-        Layout { elements, motion }
+    pub fn new(elements: usize, motion: usize, books: bool) -> Self {
+        Layout { elements, motion, books: if books { Balance::NUMBERS } else { 0 } }
     }
 
     /// Values of a state.
     pub fn size(&self) -> usize {
-        HEAD + EACH * self.elements + self.motion
+        HEAD + EACH * self.elements + self.motion + self.books
+    }
+
+    /// Whether books are kept.
+    pub fn has_books(&self) -> bool {
+        self.books > 0
+    }
+
+    /// The books of a state that has them and has begun.
+    pub fn balance(&self, state: &[f64]) -> Option<Balance> {
+        let begun = state.first().is_some_and(|f| *f != 0.0) && self.books > 0;
+        begun.then(|| state.last_chunk().map(Balance::unpack)).flatten()
+    }
+
+    /// Writes the books behind a state.
+    pub fn keep_books(&self, balance: &Balance, out: &mut [f64]) {
+        if self.books > 0
+            && let Some(place) = out.last_chunk_mut()
+        {
+            *place = balance.pack();
+        }
     }
 
     /// Writes a state that has begun.
@@ -71,6 +94,10 @@ impl Layout {
         let mesh = mesh.chunks_exact(EACH).take(elements);
         let mesh =
             mesh.map(|e| if let [rest, rate, segment] = e { (*rest, *rate, *segment as usize) } else { (0.0, 0.0, 0) });
-        Ok(Some(Kept { mesh: mesh.collect(), motion: all.get(..motion).ok_or_else(wrong)?.to_vec() }))
+        Ok(Some(Kept {
+            mesh: mesh.collect(),
+            motion: all.get(..motion).ok_or_else(wrong)?.to_vec(),
+            balance: self.balance(state),
+        }))
     }
 }

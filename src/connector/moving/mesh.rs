@@ -110,7 +110,15 @@ pub(super) fn attachments(parts: &[Part], counts: &[usize], density: f64) -> Vec
         let volume = if joint.volume == 0.0 && joint.added > 0.0 { 1e-9 } else { joint.volume };
         let added = if joint.volume > 0.0 { joint.added } else { joint.added / (density * volume.max(1e-9)) };
         let height = (6.0 * volume / std::f64::consts::PI).cbrt().max(1e-3);
-        made.push(Attachment { node, mass: joint.mass, volume, height, drag: joint.drag, added });
+        made.push(Attachment {
+            node,
+            mass: joint.mass,
+            volume,
+            height,
+            pendant: joint.pendant,
+            drag: joint.drag,
+            added,
+        });
     }
     made
 }

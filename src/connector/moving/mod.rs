@@ -13,4 +13,6 @@ mod start;
 
 pub use describe::{Description, Hold, JointMass, Part, Seabed, Strength};
 pub use element::MovingLine;
-pub use sections::{AX_DAMPING, CA, CD, CLAMP, EA, EI, Flexure, SEABED, STRETCH, chain, description, holds, seabed};
+pub use sections::{
+    AX_DAMPING, CA, CD, CLAMP, EA, EI, Flexure, ROPE, SEABED, SLAM, STRETCH, chain, description, holds, seabed,
+};

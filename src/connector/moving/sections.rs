@@ -9,7 +9,7 @@ use crate::language::select::Owner;
 use crate::language::spec::{Kind, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
 use crate::model::{ClassError, ClassRecord, Surroundings};
-use crate::rod::{Axial, Segment, Tube};
+use crate::rod::{Axial, Segment, Tube, Viscoelastic};
 use std::f64::consts::{FRAC_PI_4, PI};
 
 /// Drag, inline drag of the skin and added mass where nothing is given: those of AQWA's cable dynamics (seed 002, 5.8.3.1).
@@ -28,6 +28,9 @@ const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
 const fn ours(name: &'static str, values: &'static [ValueSpec], help: &'static str) -> OptionSpec {
     OptionSpec::new(name, values, help).owner(Owner::Ours)
 }
+
+/// Relaxation time of a fibre rope (s) where none is given: beyond waves, within the slow drift of a vessel.
+const RELAXES: f64 = 100.0;
 
 /// Bending stiffness: force times length squared.
 const BENDING: Dim = Dim::Derived { force: 1, length: 2, seconds: 0 };
@@ -86,6 +89,18 @@ pub const STRETCH: OptionSpec = ours(
     "tension by strain as a table, straight between its points",
 )
 .repeating(2);
+/// `-ROPE`.
+pub const ROPE: OptionSpec = ours(
+    "-ROPE",
+    &[
+        number("EAD", Dim::Force, "stiffness when pulled fast, without load").positive(),
+        number("B", Dim::None, "how that grows with the mean tension").or("0").not_negative(),
+        number("TAU", Dim::Time, "relaxation time").or("100").positive(),
+    ],
+    "fibre rope: -EA or -STRETCH is its static stiffness, EAD + B T its dynamic one",
+);
+/// `-SLAM`.
+pub const SLAM: OptionSpec = ours("-SLAM", &[], "the line is slammed where it enters the water");
 /// `-AX_DAMPING`.
 pub const AX_DAMPING: OptionSpec = ours(
     "-AX_DAMPING",
@@ -168,7 +183,7 @@ impl Flexure {
             added: option("-AMASDIAMETER").or(typed.map(|t| t.added_mass)).unwrap_or(section.od),
             cd: given_or(args, "-CD", [typed.map_or(AQWA_CD, |t| t.line_type.drag.coefficient), AQWA_CX / PI, WIND_CD]),
             ca: given_or(args, "-CA", [AQWA_CA, 0.0]),
-            axial: law(args, section.ea)?,
+            axial: rope(args, law(args, section.ea)?)?,
             damping: option("-AX_DAMPING").unwrap_or(0.0),
             tube: (bending > 0.0).then(|| {
                 let poisson = option("-POI_RAT").unwrap_or(material.poisson);
@@ -218,6 +233,18 @@ fn joint(section: &LineSection, around: &Surroundings) -> Option<JointMass> {
     }
     let volume = -clump / around.water_weight();
     (clump < 0.0).then_some(JointMass { volume, added: 0.5, pendant: section.pendant, ..JointMass::default() })
+}
+
+/// The law of a fibre rope, whose static one is given; that itself of another line.
+fn rope(args: &Args, slow: Axial) -> Outcome<Axial> {
+    let Some(given) = args.option("-ROPE") else { return Ok(slow) };
+    let fast = [given.number(0).unwrap_or(0.0), given.number(1).unwrap_or(0.0)];
+    let stiffest = slow.at(0.0).1;
+    if fast[0] <= stiffest {
+        return Err(Diagnostic::error("the dynamic stiffness EAD must be larger than the static one", given.span)
+            .help("-EA K1 or -STRETCH gives the static stiffness of the rope; without them it is that of OD and T"));
+    }
+    Ok(Axial::Viscoelastic(Box::new(Viscoelastic { slow, fast, relaxation: given.number(2).unwrap_or(RELAXES) })))
 }
 
 /// Tension by strain.
@@ -307,10 +334,10 @@ pub fn chain(
     let share = |s: &LineSection| ((elements as f64 * s.length / whole).round() as usize).max(1);
     let count = |s: &LineSection| share(s).max(usize::try_from(s.refine).unwrap_or(1));
     let parts = sections.iter().zip(flexures).map(|(s, f)| f.part(s, count(s), around)).collect();
-    Ok(Description { kind, parts, seabed, holds: [None, None], notes: Vec::new() })
+    Ok(description(kind, parts, seabed, [None, None]))
 }
 
 /// A line of these parts.
 pub fn description(kind: &'static str, parts: Vec<Part>, seabed: Seabed, holds: [Option<Hold>; 2]) -> Description {
-    Description { kind, parts, seabed, holds, notes: Vec::new() }
+    Description { kind, parts, seabed, holds, slam: false, notes: Vec::new() }
 }

@@ -29,6 +29,8 @@ pub struct Settings {
     pub keep: bool,
     /// Of the nodes of lines that move by themselves every so manieth is kept; 0: none.
     pub along: usize,
+    /// Keeps the books of energy and momentum of lines that move by themselves.
+    pub books: bool,
     /// Time that statistics leave out at the beginning (s).
     pub transient: f64,
 }

@@ -11,8 +11,9 @@ use super::snapshot::Snapshot;
 use super::statistics::Statistics;
 use super::step::{Effort, Instant, Stepper};
 use crate::hydro::sea::Sea;
-use crate::model::{ClassError, Model, Place, Six};
+use crate::model::{ClassError, LineBooks, Model, Place, Six};
 use crate::post::SeriesError;
+use crate::solve::link::Link;
 use crate::solve::system::{SolveError, System, mass_block};
 use std::sync::Arc;
 
@@ -85,6 +86,7 @@ impl Run {
     pub fn new(model: &Model, settings: Settings, actions: Vec<Action>) -> Result<Self, SolveError> {
         let (origin, mut model) = (model.clone(), model.clone());
         Run::foresee_winches(&mut model, &actions, settings.observed);
+        model.connectors.values_mut().for_each(|c| c.books = settings.books);
         let sea = Sea::of(&model, &model.environment).map_err(SolveError::new)?.map(Arc::new);
         let system = System::under_way(&model, sea.as_ref())?;
         let mut links = system.link_ends();
@@ -188,7 +190,14 @@ impl Run {
                 return Ok(Ending::Interrupted);
             }
             let end = (self.settings.dt * (self.taken + 1) as f64).min(self.settings.observed);
-            let mut stop = self.to(end)?;
+            let mut stop = match self.to(end) {
+                Ok(stop) => stop,
+                Err(error) => {
+                    // from here -RESTART goes on, with what made it fail put right
+                    self.save(watcher)?;
+                    return Err(error);
+                }
+            };
             self.taken += 1;
             if stop.is_none() {
                 // the step's own time, so that no rounding adds up
@@ -365,6 +374,15 @@ impl Run {
     /// Time reached (s).
     pub fn time(&self) -> f64 {
         self.now.time
+    }
+
+    /// The books of the lines that move by themselves, by name, where they are kept.
+    pub fn books(&self) -> Vec<(String, LineBooks)> {
+        let of = |link: &Link| {
+            let state = self.system.states.get(link.states.clone()).unwrap_or_default();
+            link.element.books(state).map(|books| (link.name.clone(), books))
+        };
+        self.system.links.iter().filter_map(of).collect()
     }
 
     /// Motions now.
