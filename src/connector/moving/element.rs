@@ -3,7 +3,7 @@
 use super::around::{Floor, Water, ground};
 use super::describe::{Description, Part};
 use super::kept::{Kept, Layout};
-use super::mesh::{Cut, attachments, told, wind};
+use super::mesh::{Cut, SHORT, attachments, told, wind};
 use super::start;
 use crate::language::units::Dim;
 use crate::model::{
@@ -107,8 +107,10 @@ impl MovingLine {
         let attached = attachments(&description.parts, &counts, around.water_density);
         let nominal = description.parts.first().map_or(1.0, |p| p.segment.length / p.segment.elements.max(1) as f64);
         let rod = Rod::with_mesh(&connection.connector.name, cut.segments, attached.clone(), &mesh).map_err(told)?;
-        let longer = connection.connector.longest.map_or(0.0, |l| (l - first).max(0.0) / nominal);
-        let capacity = rod.nodes() - 1 + if longer > 0.0 { (longer / 0.5).ceil() as usize + 2 } else { 1 };
+        // the same however much is wound: an element at the winch is never shorter than half of those of the class
+        let of_first = counts.first().copied().unwrap_or(0);
+        let wound = connection.connector.longest.map(|l| (l / (SHORT * nominal)).ceil() as usize);
+        let capacity = rod.nodes() - 1 - of_first + wound.unwrap_or(of_first) + 2;
         if capacity > rod::MOST_ELEMENTS {
             return Err(ClassError::new(format!(
                 "its winch would make more than {} elements of it",
@@ -269,7 +271,12 @@ impl MovingLine {
                 solver.reached(&mut state);
                 Ok::<_, ClassError>((forces, solver.end_tangent_at_hand(rod, world)))
             } else {
+                // what a broken line springs back with lasts for a wave along an element, not for a step: it goes on as it moved
+                let before = self.base.freed.then(|| state.clone());
                 let forces = solver.start(rod, &mut state, world, ends).map_err(told)?;
+                if let Some(before) = before {
+                    state = before;
+                }
                 let mut tangent = EndTangent::default();
                 for (side, mass) in solver.end_masses().iter().enumerate() {
                     tangent.acceleration.fixed_view_mut::<3, 3>(6 * side, 6 * side).copy_from(&-mass);
