@@ -59,6 +59,7 @@ fn pass(name: &str, model: &Model, keep: bool) {
         adaptive: None,
         keep,
         along: 1,
+        books: false,
         transient: 0.0,
     };
     let mut least = f64::INFINITY;

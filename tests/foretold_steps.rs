@@ -51,6 +51,7 @@ fn run(model: &Model, observed: f64, tolerance: f64) -> Run {
         adaptive: None,
         keep: true,
         along: 1,
+        books: false,
         transient: 0.0,
     };
     let mut run = Run::new(model, settings, Vec::new()).unwrap();

@@ -2,6 +2,7 @@
 
 use super::chosen::{WARNING, gathered};
 use super::status::push;
+use crate::hydro::ambient;
 use crate::language::units::{Dim, UnitSystem};
 use crate::model::{ClassError, Connector, End, Model, Response, Situation, Six, Summary};
 use crate::table::{Cell, Digits, Table};
@@ -91,7 +92,11 @@ pub fn foundations(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem
 }
 
 fn found(model: &Model, connector: &Connector) -> Result<Found, ClassError> {
-    let element = model.element(connector)?;
+    let mut element = model.element(connector)?;
+    if element.moves() {
+        // it feels current, bottom and contents all along itself
+        element = model.element_in(connector, Some(&ambient(model, None)?))?;
+    }
     let ends = model.end_poses(connector).map(End::still);
     let mut committed = vec![0.0; element.states()];
     element.start(&mut committed);

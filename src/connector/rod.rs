@@ -8,7 +8,7 @@ use super::section::{LineSection, properties};
 use super::{ClassKind, checks, options as o};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::source::Span;
-use crate::language::spec::{CommandSpec, Kind, ValueSpec};
+use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
 use crate::model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, FatigueSegment, PipeLayout, Surroundings,
@@ -23,7 +23,7 @@ static ROD_SPEC: CommandSpec = CommandSpec {
     data: &[o::OD, ValueSpec::new("T", Kind::Number(Dim::Section), "wall thickness").positive()],
     options: &[
         o::LEN,
-        o::REFINE,
+        REFINE,
         o::IG_STIFF,
         o::SPGRAVITY,
         o::DENSITY,
@@ -64,6 +64,9 @@ static ROD_SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("ROD", "line with bending stiffness and its own dynamics")
 };
 
+/// `-REFINE N`, without the limit of what other classes cut: how many elements are too many is told with the memory they take.
+const REFINE: OptionSpec =
+    OptionSpec { values: &[ValueSpec::new("N", Kind::Integer, "number of elements").positive()], ..o::REFINE };
 /// Most elements of a line with its memory told: what the engine holds.
 const MOST: i64 = crate::rod::MOST_ELEMENTS as i64;
 
@@ -79,6 +82,15 @@ struct Rod {
 fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
     let sections = records.iter().map(|r| LineSection::read(r, "ROD", true)).collect::<Outcome<Vec<_>>>()?;
     let elements = sections.iter().fold(0i64, |sum, s| sum.saturating_add(s.refine));
+    if let Some((record, section)) = records.iter().zip(&sections).find(|(_, s)| s.weight <= 0.0) {
+        let args = &record.args;
+        let given = ["-WTPLEN", "-DENSITY", "-SPGRAVITY"].iter().find_map(|name| args.option(name));
+        return Err(Diagnostic::error(
+            "a ROD needs weight: its mass is what it moves by",
+            given.map_or(args.span, |g| g.span),
+        )
+        .label(format!("{} N/m", section.weight)));
+    }
     if elements > MOST {
         let span = records.last().map_or(Span::default(), |r| r.args.option("-REFINE").map_or(r.args.span, |g| g.span));
         let megabytes = elements as f64 * crate::rod::BYTES_PER_ELEMENT / 1e6;

@@ -82,6 +82,10 @@ impl Ambient for Around {
         }
     }
 
+    fn charted(&self) -> bool {
+        self.bottom.is_some()
+    }
+
     fn contents(&self) -> Option<Contents> {
         self.contents
     }

@@ -62,6 +62,11 @@ pub trait Ambient: Debug + Send + Sync {
     /// Elevation of the bottom (m, global z) and its slopes dz/dx, dz/dy at a place; none where no depth is known.
     fn bottom(&self, x: f64, y: f64) -> Option<(f64, [f64; 2])>;
 
+    /// Whether the bottom is one over a grid. A flat one gives way to the depth that a line says of its own bottom.
+    fn charted(&self) -> bool {
+        false
+    }
+
     /// What pipes hold, where the environment says so.
     fn contents(&self) -> Option<Contents> {
         None

@@ -12,6 +12,7 @@ use windlass::session::Session;
 pub struct Screen(Arc<Mutex<Vec<u8>>>);
 
 impl Screen {
+    #[allow(dead_code)]
     pub fn text(&self) -> String {
         String::from_utf8(self.0.lock().unwrap().clone()).unwrap()
     }

@@ -52,7 +52,7 @@ impl FluidField for Water<'_> {
     }
 }
 
-/// The bottom: a plane of the line's own, or that of the environment.
+/// The bottom: a plane of the line's own, the environment's over a grid, or flat at the depth the line or the environment says.
 #[derive(Debug)]
 pub(super) struct Floor<'a> {
     pub plane: Option<PlaneBottom>,
@@ -64,7 +64,10 @@ impl Bottom for Floor<'_> {
     fn height(&self, x: f64, y: f64) -> (f64, [f64; 2]) {
         match &self.plane {
             Some(plane) => plane.height(x, y),
-            None => self.ambient.and_then(|a| a.bottom(x, y)).unwrap_or((self.flat, [0.0; 2])),
+            None => {
+                let grid = self.ambient.filter(|a| a.charted());
+                grid.and_then(|a| a.bottom(x, y)).unwrap_or((self.flat, [0.0; 2]))
+            }
         }
     }
 }

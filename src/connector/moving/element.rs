@@ -3,7 +3,7 @@
 use super::around::{Floor, Water, ground};
 use super::describe::{Description, Part};
 use super::kept::{Kept, Layout};
-use super::mesh::{Cut, attachments, told, wind};
+use super::mesh::{Cut, SHORT, attachments, told, wind};
 use super::start;
 use crate::language::units::Dim;
 use crate::model::{
@@ -22,6 +22,9 @@ const HALVINGS: u32 = 8;
 /// An end may lie this much below the bottom (m).
 const BELOW: f64 = 1e-3;
 
+/// The direction in which an end is held, in the axes of what holds it, and the stiffness of that (N m/rad); rigid where none.
+type Held = (Vector3<f64>, Option<f64>);
+
 /// What does not change while it is wound.
 #[derive(Debug)]
 struct Base {
@@ -36,7 +39,7 @@ struct Base {
     flat: Option<f64>,
     ground: Ground,
     /// Direction in which each end is held, in the axes of what holds it, and the stiffness of that.
-    holds: [Option<(Vector3<f64>, Option<f64>)>; 2],
+    holds: [Option<Held>; 2],
     /// Whether the first end is let go.
     freed: bool,
 }
@@ -107,8 +110,10 @@ impl MovingLine {
         let attached = attachments(&description.parts, &counts, around.water_density);
         let nominal = description.parts.first().map_or(1.0, |p| p.segment.length / p.segment.elements.max(1) as f64);
         let rod = Rod::with_mesh(&connection.connector.name, cut.segments, attached.clone(), &mesh).map_err(told)?;
-        let longer = connection.connector.longest.map_or(0.0, |l| (l - first).max(0.0) / nominal);
-        let capacity = rod.nodes() - 1 + if longer > 0.0 { (longer / 0.5).ceil() as usize + 2 } else { 1 };
+        // the same however much is wound: an element at the winch is never shorter than half of those of the class
+        let of_first = counts.first().copied().unwrap_or(0);
+        let wound = connection.connector.longest.map(|l| (l / (SHORT * nominal)).ceil() as usize);
+        let capacity = rod.nodes() - 1 - of_first + wound.unwrap_or(of_first) + 2;
         if capacity > rod::MOST_ELEMENTS {
             return Err(ClassError::new(format!(
                 "its winch would make more than {} elements of it",
@@ -159,7 +164,7 @@ impl MovingLine {
     /// What holds the ends.
     fn held(&self, ends: &[End], still: bool) -> Result<[rod::End; 2], ClassError> {
         let [first, second] = ends else { return Err(ClassError::new("a line has two ends")) };
-        let made = |end: &End, hold: &Option<(Vector3<f64>, Option<f64>)>| {
+        let made = |end: &End, hold: &Option<Held>| {
             let three = |six: &Six| Vector3::new(six[0], six[1], six[2]);
             let mut motion = Motion::still(end.pose.origin);
             if !still {
@@ -269,7 +274,12 @@ impl MovingLine {
                 solver.reached(&mut state);
                 Ok::<_, ClassError>((forces, solver.end_tangent_at_hand(rod, world)))
             } else {
+                // what a broken line springs back with lasts for a wave along an element, not for a step: it goes on as it moved
+                let before = self.base.freed.then(|| state.clone());
                 let forces = solver.start(rod, &mut state, world, ends).map_err(told)?;
+                if let Some(before) = before {
+                    state = before;
+                }
                 let mut tangent = EndTangent::default();
                 for (side, mass) in solver.end_masses().iter().enumerate() {
                     tangent.acceleration.fixed_view_mut::<3, 3>(6 * side, 6 * side).copy_from(&-mass);
@@ -323,10 +333,7 @@ fn answer(
 }
 
 /// The directions in which the ends are held, in the axes of their holders as defined.
-fn holds(
-    description: &Description,
-    connection: &Connection,
-) -> Result<[Option<(Vector3<f64>, Option<f64>)>; 2], ClassError> {
+fn holds(description: &Description, connection: &Connection) -> Result<[Option<Held>; 2], ClassError> {
     let [a, b] = connection.connector.defined;
     let b = if connection.to_ground { crate::model::Pose { origin: connection.ends[1].origin, ..b } } else { b };
     let chord = b.origin - a.origin;

@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 /// An element at the winch is divided when it is longer than this share of those of its part as the class has them.
 const LONG: f64 = 1.5;
 /// It becomes one with the next when it would be shorter than this.
-const SHORT: f64 = 0.5;
+pub(super) const SHORT: f64 = 0.5;
 
 /// An error of a rod for the user, who is told its name elsewhere.
 pub(super) fn told(error: RodError) -> ClassError {
