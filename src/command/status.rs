@@ -215,7 +215,9 @@ fn things(kind: &str) -> &'static [Thing] {
         "PIECES" => &[Thing::Piece, Thing::Body, Thing::Part],
         "ASSEMBLIES" => &[Thing::Assembly],
         "CL_FLEX" | "CLASSES" | "SN" => &[Thing::Class],
-        "G_CONNECTOR" | "F_CONNECTOR" | "FOUNDATION" | "ROD" | "ROD_MODES" | "TETHERS" | "TETHER_MODES" => &[Thing::Connector],
+        "G_CONNECTOR" | "F_CONNECTOR" | "FOUNDATION" | "ROD" | "ROD_MODES" | "TETHERS" | "TETHER_MODES" => {
+            &[Thing::Connector]
+        }
         "CURVES" => &[Thing::Curve],
         "BATHYMETRY" => &[Thing::Bathymetry],
         "T_PRESSURE" => &[Thing::Filling],

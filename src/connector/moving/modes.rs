@@ -48,7 +48,11 @@ pub(super) fn of(
     let told = |mode: Mode| {
         // of two signs the one in which the largest component is positive
         let most = mode.shape.iter().map(|d| d.norm()).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
-        let peak = mode.shape.iter().flat_map(|d| d.iter()).fold(0.0, |m: f64, c| if c.abs() > m.abs() * (1.0 + 1e-6) { *c } else { m });
+        let peak = mode
+            .shape
+            .iter()
+            .flat_map(|d| d.iter())
+            .fold(0.0, |m: f64, c| if c.abs() > m.abs() * (1.0 + 1e-6) { *c } else { m });
         let scale = if peak < 0.0 { -most } else { most };
         LineMode { frequency: mode.frequency, shape: mode.shape.iter().map(|d| d / scale).collect() }
     };

@@ -55,13 +55,13 @@ fn periods(name: &str, nodes: &[LineNode], modes: &[LineMode]) -> Result<Table, 
     }
     for (index, mode) in modes.iter().enumerate() {
         let size = |i: usize| mode.shape.get(i).map_or(0.0, Vector3::norm);
-        // of equals the first: a symmetric shape must not tell its place by rounding
-        let most = (0..nodes.len()).fold(0, |most, i| if size(i) > size(most) * (1.0 + 1e-6) { i } else { most });
+        // of equals the first: which of two like bows is larger by a thousandth tells nothing
+        let most = (0..nodes.len()).fold(0, |most, i| if size(i) > size(most) * 1.001 { i } else { most });
         let mut row: Vec<Cell> = vec![(index + 1).into(), mode.period().into(), mode.frequency.into()];
         row.push((most + 1).into());
         let place = nodes.get(most).map(|n| [n.arc, n.position.x, n.position.y, n.position.z]);
-        row.extend((0..4).map(|i| Cell::from(place.and_then(|p| p.get(i).map(|v| v + 0.0)))));
-        row.extend(shares(nodes, &mode.shape).map(Cell::from));
+        row.extend((0..4).map(|i| Cell::from(place.and_then(|p| p.get(i).map(|v| clean(*v))))));
+        row.extend(shares(nodes, &mode.shape).map(|s| Cell::from(if s < 5e-4 { 0.0 } else { s })));
         table.push(row).map_err(text)?;
     }
     table.note("about rest between its ends where they stand and are held, in the mean current, with added mass, without damping");
@@ -95,6 +95,11 @@ fn shares(nodes: &[LineNode], shape: &[Vector3<f64>]) -> [f64; 3] {
     if whole > 0.0 { sums.map(|s| s / whole) } else { sums }
 }
 
+/// A coordinate (m) as zero where it is but rounding.
+fn clean(place: f64) -> f64 {
+    if place.abs() < 1e-9 { 0.0 } else { place }
+}
+
 /// The shape of one mode.
 fn shape(name: &str, number: usize, nodes: &[LineNode], mode: &LineMode) -> Result<Table, SolveError> {
     let mut table = Table::new(format!("Shape of Mode {number} of a Line"))
@@ -110,7 +115,7 @@ fn shape(name: &str, number: usize, nodes: &[LineNode], mode: &LineMode) -> Resu
     }
     for (index, (node, moved)) in nodes.iter().zip(&mode.shape).enumerate() {
         let mut row: Vec<Cell> = vec![(index + 1).into(), node.arc.into()];
-        row.extend(node.position.iter().map(|v| Cell::from(v + 0.0)));
+        row.extend(node.position.iter().map(|v| Cell::from(clean(*v))));
         // what is nothing but rounding is nothing
         row.extend(moved.iter().map(|v| Cell::from(if v.abs() < 5e-5 { 0.0 } else { *v })));
         table.push(row).map_err(text)?;
