@@ -49,6 +49,7 @@ const KINDS: &[(&str, Owner, &str)] = &[
     ),
     ("RUN", Owner::Ours, "how the last run went"),
     ("ROD", Owner::Ours, "lines that move by themselves, at rest between their ends as they stand"),
+    ("ROD_MODES", Owner::Ours, "how lines that move by themselves swing about that, -NUMBER modes of each"),
     ("TETHERS", Owner::Ours, "what tethers are made of and hang on, as TDOM -TETHERS has them"),
     ("TETHER_MODES", Owner::Ours, "natural modes of tethers where they stand, -NUMBER of each"),
     ("CLASSES", Owner::Ours, "the same as CL_FLEX"),
@@ -94,10 +95,12 @@ static SPEC: CommandSpec = CommandSpec {
         OptionSpec::new(
             "-NUMBER",
             &[ValueSpec::new("N", Kind::Integer, "how many").within(1.0, 1000.0)],
-            "modes of each tether",
+            "modes of each tether or line that moves by itself",
         )
         .owner(Owner::Ours)
         .default("6"),
+        OptionSpec::new("-SHAPE", &[], "a table of the shape of each mode of ROD_MODES behind that of their periods")
+            .owner(Owner::Ours),
         OptionSpec::new("-AQWA", &[], "modes of tethers with the peculiarities of AQWA, as TDOM -TETHERS AQWA")
             .owner(Owner::Ours),
         OptionSpec::new(
@@ -118,7 +121,8 @@ static SPEC: CommandSpec = CommandSpec {
              A line without a solution has a row without numbers and a warning that says why. FORCE sums what acts on each body \
              where it stands, about its origin. STIFFNESS is the change of these forces with the motion of one body, other bodies held: \
              -d(force)/d(translation of the point, rotation in radians) in global axes, about the body's origin or the point of -ABOUT, \
-             taken to move with the body; junctions follow to their own equilibrium; with names of connectors that of each of them. Connectors of classes with -IG_STIFF between two bodies are left out of it. -DISPOSE takes a table to the disposition menu: \
+             taken to move with the body; junctions follow to their own equilibrium; with names of connectors that of each of them. Connectors of classes with -IG_STIFF between two bodies are left out of it. \
+             ROD_MODES holds the ends of a line where they stand, and tells of its slowest modes about its rest there. -DISPOSE takes a table to the disposition menu: \
              REPORT, VIEW, STORE, PLOT.",
     example: "MEDIT\n*P 0 0 10\n~W B_CAT 4 EXACT -LEN 4000 -DEP 500\nCONNECTOR A -ANC 0 3900 ~W *P\nEND\n&STATUS F_CONNECTOR A\n\
               &STATUS\n&STATUS DEFAULTS\n&STATUS DIMENSIONS\n&STATUS LINE_TYPES 3\n&STATUS F_CONNECTOR -DISPOSE\nVIEW Name FX FZ\nEND",
@@ -162,7 +166,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         "DIMENSIONS" => vec![settings_table::dimensions(job)],
         "DEFAULTS" => vec![settings_table::defaults(model)],
         "RUN" => vec![run_tables::told(last_run(job, args.span)?)],
-        "ROD" => rod_status::tables(job, args, &fits)?,
+        "ROD" | "ROD_MODES" => rod_status::tables(job, args, kind, &fits)?,
         "TETHERS" | "TETHER_MODES" => tether_status::tables(job, args, kind, &fits)?,
         "SELECTORS" => vec![model_tables::selectors(model, &fits)],
         "SN" => fatigue_table::tables(job, &fits, chosen.all()),
@@ -211,7 +215,9 @@ fn things(kind: &str) -> &'static [Thing] {
         "PIECES" => &[Thing::Piece, Thing::Body, Thing::Part],
         "ASSEMBLIES" => &[Thing::Assembly],
         "CL_FLEX" | "CLASSES" | "SN" => &[Thing::Class],
-        "G_CONNECTOR" | "F_CONNECTOR" | "FOUNDATION" | "ROD" | "TETHERS" | "TETHER_MODES" => &[Thing::Connector],
+        "G_CONNECTOR" | "F_CONNECTOR" | "FOUNDATION" | "ROD" | "ROD_MODES" | "TETHERS" | "TETHER_MODES" => {
+            &[Thing::Connector]
+        }
         "CURVES" => &[Thing::Curve],
         "BATHYMETRY" => &[Thing::Bathymetry],
         "T_PRESSURE" => &[Thing::Filling],

@@ -1,4 +1,4 @@
-//! What a line that moves by itself tells of its nodes.
+//! What a line that moves by itself tells of its nodes, and of how it swings.
 
 use nalgebra::Vector3;
 
@@ -61,4 +61,20 @@ pub struct LineNode {
     pub pressures: [f64; 2],
     /// Stresses, for a tube.
     pub stress: Option<LineStress>,
+}
+
+/// A natural mode of a line between ends that stand still.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LineMode {
+    /// Circular frequency without damping (rad/s); zero of a motion that nothing holds.
+    pub frequency: f64,
+    /// Displacement of each node, numbered from the first end (global axes); its largest is 1.
+    pub shape: Vec<Vector3<f64>>,
+}
+
+impl LineMode {
+    /// Natural period (s), of a mode that something holds.
+    pub fn period(&self) -> Option<f64> {
+        (self.frequency > 0.0).then(|| std::f64::consts::TAU / self.frequency)
+    }
 }

@@ -4,7 +4,7 @@
 //! only with an accepted step. In statics there is no step: rates are zero and a trial state is where the element comes to
 //! rest.
 
-use super::along::{LineBooks, LineNode};
+use super::along::{LineBooks, LineMode, LineNode};
 use super::ambient::Ambient;
 use super::class::ClassError;
 use super::connector::Connector;
@@ -214,6 +214,15 @@ pub trait Element: Debug + Send + Sync {
     fn along(&self, _at: &Situation, _state: &[f64], out: &mut Vec<LineNode>) -> Result<(), ClassError> {
         out.clear();
         Ok(())
+    }
+
+    /// Its slowest natural modes in a state, slowest first, with its ends held where they are; none of an element that is
+    /// nothing between its ends.
+    ///
+    /// # Errors
+    /// A state that is not one of its own, one that is not stable, or more modes than it has.
+    fn swings(&self, _at: &Situation, _state: &[f64], _number: usize) -> Result<Vec<LineMode>, ClassError> {
+        Ok(Vec::new())
     }
 
     /// Whether its force belongs to RIGID_CONNECTORS (restraints) rather than to FLEX_CONNECTORS.

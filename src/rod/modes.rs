@@ -16,6 +16,10 @@ use nalgebra::{DMatrix, SymmetricEigen, Vector3};
 const MOST_ROUNDS: usize = 500;
 /// Change of the square of a frequency from one round to the next, as a share, at which it is taken.
 const PROOF: f64 = 1e-11;
+/// The same at which it is taken when the changes no longer shrink: a stiff line's slow modes are known to rounding only.
+const ROUNDING: f64 = 1e-7;
+/// Rounds in which a change that shrinks would have halved.
+const STALE: usize = 8;
 
 /// One natural mode without damping.
 #[derive(Clone, Debug, PartialEq)]
@@ -101,6 +105,7 @@ impl Solver {
             })
             .collect();
         let mut found = vec![0.0; space];
+        let (mut least, mut stale) = (f64::INFINITY, 0);
         for _ in 0..MOST_ROUNDS {
             for vector in &mut vectors {
                 *vector = times(&mass, vector);
@@ -133,7 +138,15 @@ impl Solver {
                 })
                 .collect();
             let values: Vec<f64> = order.iter().map(|j| eigen.eigenvalues[*j]).collect();
-            let settled = values[..count].iter().zip(&found).all(|(a, b)| (a - b).abs() <= PROOF * (a.abs() + shift));
+            let change = |(a, b): (&f64, &f64)| (a - b).abs() / (a.abs() + shift);
+            let larger = |most: f64, c: f64| if c.is_nan() { f64::INFINITY } else { most.max(c) };
+            let worst = values[..count].iter().zip(&found).map(change).fold(0.0, larger);
+            if worst < 0.5 * least {
+                (least, stale) = (worst, 0);
+            } else {
+                stale += 1;
+            }
+            let settled = worst <= PROOF || (worst <= ROUNDING && stale >= STALE);
             found = values;
             if settled {
                 if let Some(value) = found[..count].iter().find(|v| **v < -1e-6 * shift) {

@@ -4,11 +4,11 @@ use super::around::{Floor, Water, ground};
 use super::describe::{Description, Part};
 use super::kept::{Kept, Layout};
 use super::mesh::{Cut, SHORT, attachments, told, wind};
-use super::start;
+use super::{modes, start};
 use crate::language::units::Dim;
 use crate::model::{
-    Ambient, ClassError, Connection, Element, End, Guess, LineBooks, LineNode, LineStress, Response, Situation, Six,
-    Summary, Surroundings,
+    Ambient, ClassError, Connection, Element, End, Guess, LineBooks, LineMode, LineNode, LineStress, Response,
+    Situation, Six, Summary, Surroundings,
 };
 use crate::rod::{
     self, Balance, EndForces, EndTangent, Ground, Motion, PlaneBottom, Rod, Settings, Solver, State, Twelve, World,
@@ -24,6 +24,9 @@ const BELOW: f64 = 1e-3;
 
 /// The direction in which an end is held, in the axes of what holds it, and the stiffness of that (N m/rad); rigid where none.
 type Held = (Vector3<f64>, Option<f64>);
+
+/// What is said of a line that was given memory not its own.
+const NO_MEMORY: &str = "the line has no memory";
 
 /// What does not change while it is wound.
 #[derive(Debug)]
@@ -244,6 +247,14 @@ impl MovingLine {
         State::unpack(&warm.rod, &kept.motion).map_err(told)
     }
 
+    /// Its motion as a state has it, or where it rests if it has not begun; and whether that is without the waves.
+    fn where_it_is(&self, at: &Situation, state: &[f64], warm: &mut Warm) -> Result<(State, bool), ClassError> {
+        Ok(match self.layout.read(state)? {
+            Some(kept) => (self.resumed(&kept, warm)?, at.step.is_none()),
+            None => (self.rest(at, warm)?.state, true),
+        })
+    }
+
     /// Takes it to the end of a step.
     fn step(
         &self,
@@ -378,7 +389,7 @@ impl Element for MovingLine {
         out: &mut Response,
     ) -> Result<(), ClassError> {
         let kept = self.layout.read(committed)?;
-        let Some(warm) = self.warm(guess) else { return Err(ClassError::new("the line has no memory")) };
+        let Some(warm) = self.warm(guess) else { return Err(ClassError::new(NO_MEMORY)) };
         if let (Some(step), Some(kept)) = (at.step, &kept) {
             return self.step(at, (step.time, step.dt), kept, trial, warm, out);
         }
@@ -415,11 +426,8 @@ impl Element for MovingLine {
 
     fn along(&self, at: &Situation, state: &[f64], out: &mut Vec<LineNode>) -> Result<(), ClassError> {
         let mut guess = None;
-        let Some(warm) = self.warm(&mut guess) else { return Err(ClassError::new("the line has no memory")) };
-        let (state, still) = match self.layout.read(state)? {
-            Some(kept) => (self.resumed(&kept, warm)?, at.step.is_none()),
-            None => (self.rest(at, warm)?.state, true),
-        };
+        let Some(warm) = self.warm(&mut guess) else { return Err(ClassError::new(NO_MEMORY)) };
+        let (state, still) = self.where_it_is(at, state, warm)?;
         let ends = self.held(at.ends, still)?;
         out.clear();
         let found = self.within(at.surroundings, still, |world| warm.rod.results(&state, world, &ends));
@@ -445,6 +453,15 @@ impl Element for MovingLine {
             }),
         }));
         Ok(())
+    }
+
+    fn swings(&self, at: &Situation, state: &[f64], number: usize) -> Result<Vec<LineMode>, ClassError> {
+        let mut guess = None;
+        let Some(warm) = self.warm(&mut guess) else { return Err(ClassError::new(NO_MEMORY)) };
+        let (state, _) = self.where_it_is(at, state, warm)?;
+        let ends = self.held(at.ends, true)?;
+        let Warm { rod, solver, .. } = warm;
+        self.within(at.surroundings, true, |world| modes::of(rod, solver, &state, world, ends, number))
     }
 
     fn summary(&self, at: &Situation, committed: &[f64]) -> Result<Summary, ClassError> {

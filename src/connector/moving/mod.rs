@@ -8,6 +8,7 @@ mod describe;
 mod element;
 mod kept;
 mod mesh;
+mod modes;
 mod sections;
 mod start;
 

@@ -3,22 +3,25 @@
 use super::{CLEARANCE, sections, segment_at};
 use crate::hydro::ambient;
 use crate::language::units::Dim;
-use crate::model::{End, Model, Situation};
+use crate::model::{Connector, Element, End, Model, Situation};
 use crate::solve::link::{connected, pose_of};
 use crate::solve::system::SolveError;
 use crate::table::{Cell, Digits, Table};
 
-/// The lines that move by themselves and whose names fit, at rest between their ends as they stand: a table each, a row a node.
+/// Tells of each line that moves by itself and whose name fits, between its ends where they stand: the connector, its element, how its
+/// ends stand, and its state before anything has happened.
 ///
 /// # Errors
-/// A line that has no answer there.
-pub fn lines_at_rest(model: &Model, fits: &dyn Fn(&str) -> bool) -> Result<Vec<Table>, SolveError> {
+/// What telling comes to.
+pub(super) fn standing(
+    model: &Model,
+    fits: &dyn Fn(&str) -> bool,
+    mut tell: impl FnMut(&Connector, &dyn Element, &Situation, &[f64]) -> Result<(), SolveError>,
+) -> Result<(), SolveError> {
     let around = ambient(model, None).map_err(SolveError::new)?;
     let poses: Vec<_> = model.bodies.values().map(|b| crate::model::Pose::of(&b.place)).collect();
     let surroundings = model.surroundings();
-    let mut tables = Vec::new();
     for connector in model.connectors.values().filter(|c| c.active && fits(&c.name)) {
-        let wrong = SolveError::of(&connector.name);
         // what makes no element here tells of no nodes; who needs its force says why
         let Ok(element) = model.element_in(connector, Some(&around)) else { continue };
         if element.nodes() == 0 {
@@ -28,8 +31,20 @@ pub fn lines_at_rest(model: &Model, fits: &dyn Fn(&str) -> bool) -> Result<Vec<T
         let at = Situation { ends: &ends, step: None, surroundings: &surroundings };
         let mut state = vec![0.0; element.states()];
         element.start(&mut state);
+        tell(connector, element.as_ref(), &at, &state)?;
+    }
+    Ok(())
+}
+
+/// The lines that move by themselves and whose names fit, at rest between their ends as they stand: a table each, a row a node.
+///
+/// # Errors
+/// A line that has no answer there.
+pub fn lines_at_rest(model: &Model, fits: &dyn Fn(&str) -> bool) -> Result<Vec<Table>, SolveError> {
+    let mut tables = Vec::new();
+    standing(model, fits, |connector, element, at, state| {
         let mut nodes = Vec::new();
-        element.along(&at, &state, &mut nodes).map_err(wrong)?;
+        element.along(at, state, &mut nodes).map_err(SolveError::of(&connector.name))?;
         let sections = sections(model, &connector.name);
         let tube = sections.iter().any(|s| s.tube.is_some());
         let bends = element.bends();
@@ -80,6 +95,7 @@ pub fn lines_at_rest(model: &Model, fits: &dyn Fn(&str) -> bool) -> Result<Vec<T
             "Used is tension over breaking tension"
         });
         tables.push(table);
-    }
+        Ok(())
+    })?;
     Ok(tables)
 }

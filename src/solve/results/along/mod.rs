@@ -7,6 +7,7 @@ mod at_rest;
 mod check;
 mod envelope;
 mod fatigue;
+mod modes;
 mod shape;
 mod touchdown;
 
@@ -14,6 +15,7 @@ pub use at_rest::lines_at_rest;
 pub use check::{Code, check};
 pub use envelope::envelope;
 pub use fatigue::along as fatigue_along;
+pub use modes::natural_modes;
 pub use shape::{Where, histories, shape};
 pub use touchdown::touchdown;
 

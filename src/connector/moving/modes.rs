@@ -1,0 +1,83 @@
+//! Natural modes of a line.
+
+use super::mesh::told;
+use crate::model::{ClassError, LineMode};
+use crate::rod::{End, Mode, Rod, Solver, State, World};
+use nalgebra::{Matrix2, SymmetricEigen, Vector2, Vector3};
+
+/// Most modes that are found: the cost grows with the square of their number, and no one reads as many.
+const MOST: usize = 200;
+/// Two modes swing alike if their frequencies differ by no more than this share.
+const ALIKE: f64 = 1e-6;
+
+/// The slowest modes about a state of rest, with added mass and the bottom's stiffness, slowest first.
+///
+/// A round line that hangs straight down swings alike in all directions, and any mix of two such modes is a mode: one is
+/// told in the vertical plane of its ends and one across it, in that order.
+pub(super) fn of(
+    rod: &Rod,
+    solver: &mut Solver,
+    state: &State,
+    world: &World,
+    ends: [End; 2],
+    number: usize,
+) -> Result<Vec<LineMode>, ClassError> {
+    if number > MOST {
+        return Err(ClassError::new(format!("{number} modes of a line are not found: at most {MOST}")));
+    }
+    // one more than asked, so that the last is told apart from its like
+    let mut found = match solver.modes(rod, state, world, ends, number + 1) {
+        Ok(found) => found,
+        Err(_) => solver.modes(rod, state, world, ends, number).map_err(told)?,
+    };
+    let (first, last) = (state.position.first(), state.position.last());
+    let chord = first.zip(last).map_or_else(Vector3::x, |(a, b)| b - a);
+    let level = Vector3::new(chord.x, chord.y, 0.0);
+    // ends above each other within a thousandth stand in no plane of their own
+    let along = if level.norm() > 1e-3 * chord.norm() { level.normalize() } else { Vector3::x() };
+    let across = Vector3::z().cross(&along);
+    let mut index = 0;
+    while let Some([a, b]) = found.get_mut(index..index + 2).and_then(|pair| <&mut [Mode; 2]>::try_from(pair).ok()) {
+        let alike = (b.frequency - a.frequency).abs() <= ALIKE * b.frequency;
+        if alike {
+            set_apart(a, b, &across);
+        }
+        index += if alike { 2 } else { 1 };
+    }
+    found.truncate(number);
+    let told = |mode: Mode| {
+        // of two signs the one in which the largest component is positive
+        let most = mode.shape.iter().map(|d| d.norm()).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
+        let peak = mode
+            .shape
+            .iter()
+            .flat_map(|d| d.iter())
+            .fold(0.0, |m: f64, c| if c.abs() > m.abs() * (1.0 + 1e-6) { *c } else { m });
+        let scale = if peak < 0.0 { -most } else { most };
+        LineMode { frequency: mode.frequency, shape: mode.shape.iter().map(|d| d / scale).collect() }
+    };
+    Ok(found.into_iter().map(told).collect())
+}
+
+/// Makes of two modes of one frequency one with the least motion in a direction, and one with the least beside it.
+fn set_apart(a: &mut Mode, b: &mut Mode, across: &Vector3<f64>) {
+    let least = |part: &dyn Fn(&Vector3<f64>, &Vector3<f64>) -> f64| -> Vector2<f64> {
+        let mut sums = Matrix2::zeros();
+        for (p, q) in a.shape.iter().zip(&b.shape) {
+            let mixed = part(p, q);
+            sums += Matrix2::new(part(p, p), mixed, mixed, part(q, q));
+        }
+        let eigen = SymmetricEigen::new(sums);
+        let which = if eigen.eigenvalues[0] <= eigen.eigenvalues[1] { 0 } else { 1 };
+        eigen.eigenvectors.column(which).into_owned()
+    };
+    let within = least(&|p, q| p.dot(across) * q.dot(across));
+    let beside = least(&|p, q| p.dot(q) - p.dot(across) * q.dot(across));
+    // the same twice: neither direction tells them apart, as of two along the line
+    if (within[0] * beside[1] - within[1] * beside[0]).abs() < 1e-3 {
+        return;
+    }
+    for (p, q) in a.shape.iter_mut().zip(b.shape.iter_mut()) {
+        (*p, *q) = (*p * within[0] + *q * within[1], *p * beside[0] + *q * beside[1]);
+    }
+}
