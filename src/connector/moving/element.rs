@@ -7,7 +7,7 @@ use super::mesh::{Cut, attachments, told, wind};
 use super::start;
 use crate::language::units::Dim;
 use crate::model::{
-    Ambient, ClassError, Connection, Element, End, Guess, LineNode, LineStress, Response, Situation, Six, Summary,
+    Ambient, ClassError, Connection, Element, End, Flow, Guess, LineNode, LineStress, Response, Situation, Six, Summary,
     Surroundings,
 };
 use crate::rod::{
@@ -58,6 +58,28 @@ struct Warm {
     solver: Solver,
     /// Where it last hung at rest.
     rest: Option<State>,
+    /// Room for its state on the way, for that as numbers, and for the water at its nodes.
+    state: State,
+    room: Vec<f64>,
+    flows: Vec<Flow>,
+}
+
+impl Warm {
+    fn of(base: &Arc<Base>) -> Self {
+        let rod = base.rod.clone();
+        let (state, room, flows) = (State::default(), Vec::new(), Vec::new());
+        Warm { base: base.clone(), solver: solver_of(&rod), rod, rest: None, state, room, flows }
+    }
+
+    /// Becomes that of another rod.
+    fn take(&mut self, rod: Rod) {
+        self.solver = solver_of(&rod);
+        self.rod = rod;
+    }
+}
+
+fn solver_of(rod: &Rod) -> Solver {
+    Solver::new(rod, Settings { halvings: HALVINGS, ..Settings::default() })
 }
 
 /// A line at rest.
@@ -139,21 +161,26 @@ impl MovingLine {
             g.downcast_ref::<Warm>().is_some_and(|w| Arc::ptr_eq(&w.base, &self.base))
         };
         if !guess.as_ref().is_some_and(fits) {
-            let rod = self.base.rod.clone();
-            let solver = Solver::new(&rod, Settings { halvings: HALVINGS, ..Settings::default() });
-            *guess = Some(Box::new(Warm { base: self.base.clone(), rod, solver, rest: None }));
+            *guess = Some(Box::new(Warm::of(&self.base)));
         }
         guess.as_mut()?.downcast_mut::<Warm>()
     }
 
-    /// The line's surroundings, at rest or under way, for what needs them.
-    fn within<T>(&self, around: &Surroundings, mean: bool, act: impl FnOnce(&World) -> T) -> T {
+    /// The line's surroundings, at rest or under way, for what needs them; `flows` is room for what is asked of the water.
+    fn within<T>(
+        &self,
+        (around, mean): (&Surroundings, bool),
+        flows: &mut Vec<Flow>,
+        act: impl FnOnce(&World) -> T,
+    ) -> T {
         let ambient = self.base.ambient.as_deref();
-        let water = Water { ambient, around, mean, flows: RefCell::default() };
+        let water = Water { ambient, around, mean, flows: RefCell::new(std::mem::take(flows)) };
         let floor = Floor { plane: self.base.plane, ambient, flat: self.base.flat.unwrap_or(0.0) };
         let known = self.base.plane.is_some() || self.base.flat.is_some();
         let bottom: Option<(&dyn rod::Bottom, Ground)> = known.then_some((&floor, self.base.ground));
-        act(&World { bottom, ..World::new(&water, around.gravity) })
+        let made = act(&World { bottom, ..World::new(&water, around.gravity) });
+        *flows = water.flows.into_inner();
+        made
     }
 
     /// What holds the ends.
@@ -182,11 +209,11 @@ impl MovingLine {
     fn rest(&self, at: &Situation, warm: &mut Warm) -> Result<Rest, ClassError> {
         let ends = self.held(at.ends, true)?;
         if warm.rod != self.base.rod {
-            warm.rod.clone_from(&self.base.rod);
-            warm.solver = Solver::new(&warm.rod, Settings { halvings: HALVINGS, ..Settings::default() });
+            warm.take(self.base.rod.clone());
         }
         let places = [0, 1].map(|i| at.ends.get(i).map_or_else(Vector3::zeros, |e| e.pose.origin));
-        self.within(at.surroundings, true, |world| {
+        let Warm { rod, solver, rest, flows, .. } = warm;
+        self.within((at.surroundings, true), flows, |world| {
             if let Some((bottom, _)) = &world.bottom {
                 for (place, name) in places.iter().zip(["first", "second"]) {
                     let below = bottom.height(place.x, place.y).0 - place.z;
@@ -197,17 +224,17 @@ impl MovingLine {
                     }
                 }
             }
-            let mut state = match warm.rest.take() {
+            let mut state = match rest.take() {
                 Some(state) => state,
                 None => {
                     // how softly it meets the bottom is known where it rests first
                     let mut fallen = self.fallen(places, at.surroundings)?;
-                    warm.solver.statics(&warm.rod, &mut fallen, world, ends).map_err(told)?;
+                    solver.statics(rod, &mut fallen, world, ends).map_err(told)?;
                     fallen
                 }
             };
-            let forces = warm.solver.statics(&warm.rod, &mut state, world, ends).map_err(told)?;
-            warm.rest = Some(state.clone());
+            let forces = solver.statics(rod, &mut state, world, ends).map_err(told)?;
+            *rest = Some(state.clone());
             Ok(Rest { state, forces })
         })
     }
@@ -224,19 +251,19 @@ impl MovingLine {
         State::along(&self.base.rod, &points).map_err(told)
     }
 
-    /// A state read back, with the line it is of.
-    fn resumed(&self, kept: &Kept, warm: &mut Warm) -> Result<State, ClassError> {
-        if warm.rod.mesh() != kept.mesh {
-            // what is attached stands behind the first part, whose elements alone come and go
-            let before = self.base.rod.nodes() - 1;
-            let shifted =
-                |a: &rod::Attachment| rod::Attachment { node: (a.node + kept.mesh.len()).saturating_sub(before), ..*a };
-            let attached = self.base.attached.iter().map(shifted).collect();
-            let name = self.base.rod.name().to_string();
-            warm.rod = Rod::with_mesh(&name, self.base.rod.segments().to_vec(), attached, &kept.mesh).map_err(told)?;
-            warm.solver = Solver::new(&warm.rod, Settings { halvings: HALVINGS, ..Settings::default() });
+    /// The rod of a mesh other than that of `rod`.
+    fn meshed(&self, kept: &Kept, rod: &Rod) -> Result<Option<Rod>, ClassError> {
+        if kept.mesh().eq(rod.each_of_mesh()) {
+            return Ok(None);
         }
-        State::unpack(&warm.rod, &kept.motion).map_err(told)
+        // what is attached stands behind the first part, whose elements alone come and go
+        let mesh: Vec<_> = kept.mesh().collect();
+        let before = self.base.rod.nodes() - 1;
+        let shifted =
+            |a: &rod::Attachment| rod::Attachment { node: (a.node + mesh.len()).saturating_sub(before), ..*a };
+        let attached = self.base.attached.iter().map(shifted).collect();
+        let segments = self.base.rod.segments().to_vec();
+        Rod::with_mesh(self.base.rod.name(), segments, attached, &mesh).map(Some).map_err(told)
     }
 
     /// Takes it to the end of a step.
@@ -250,26 +277,29 @@ impl MovingLine {
         out: &mut Response,
     ) -> Result<(), ClassError> {
         let ends = self.held(at.ends, false)?;
-        let mut state = self.resumed(kept, warm)?;
+        if let Some(rod) = self.meshed(kept, &warm.rod)? {
+            warm.take(rod);
+        }
+        let Warm { rod, solver, state, room, flows, .. } = warm;
+        state.become_unpacked(rod, kept.motion).map_err(told)?;
         if dt > 0.0 {
             let of_first = |segment: usize| self.base.part.get(segment) == Some(&0);
-            let nodes = warm.rod.nodes();
-            wind(&mut warm.rod, &mut state, (self.first, self.nominal, dt), of_first)?;
-            if warm.rod.nodes() != nodes {
-                warm.solver = Solver::new(&warm.rod, Settings { halvings: HALVINGS, ..Settings::default() });
+            let nodes = rod.nodes();
+            wind(rod, state, (self.first, self.nominal, dt), of_first)?;
+            if rod.nodes() != nodes {
+                *solver = solver_of(rod);
             }
             state.time = time - dt;
         } else {
             state.time = time;
         }
-        let Warm { rod, solver, .. } = warm;
-        let (forces, tangent) = self.within(at.surroundings, false, |world| {
+        let (forces, tangent) = self.within((at.surroundings, false), flows, |world| {
             if dt > 0.0 {
-                let forces = solver.trial(rod, &state, world, time, ends).map_err(told)?;
-                solver.reached(&mut state);
+                let forces = solver.trial(rod, state, world, time, ends).map_err(told)?;
+                solver.reached(state);
                 Ok::<_, ClassError>((forces, solver.end_tangent_at_hand(rod, world)))
             } else {
-                let forces = solver.start(rod, &mut state, world, ends).map_err(told)?;
+                let forces = solver.start(rod, state, world, ends).map_err(told)?;
                 let mut tangent = EndTangent::default();
                 for (side, mass) in solver.end_masses().iter().enumerate() {
                     tangent.acceleration.fixed_view_mut::<3, 3>(6 * side, 6 * side).copy_from(&-mass);
@@ -277,7 +307,7 @@ impl MovingLine {
                 Ok((forces, Some(tangent)))
             }
         })?;
-        self.layout.write(rod, &state, trial)?;
+        self.layout.write(rod, state, room, trial)?;
         answer(out, &forces, tangent.as_ref(), true)
     }
 }
@@ -363,16 +393,16 @@ impl Element for MovingLine {
             return self.step(at, (step.time, step.dt), kept, trial, warm, out);
         }
         let found = self.rest(at, warm)?;
-        let Warm { rod, solver, .. } = warm;
-        let tangent = self.within(at.surroundings, true, |world| solver.end_tangent(rod, world));
+        let Warm { rod, solver, room, flows, .. } = &mut *warm;
+        let tangent = self.within((at.surroundings, true), flows, |world| solver.end_tangent(rod, world));
         answer(out, &found.forces, tangent.as_ref(), false)?;
         if let Some(step) = at.step {
             // a run begins here
             let mut state = found.state;
             state.time = step.time;
-            self.layout.write(rod, &state, trial)?;
-            let kept = self.layout.read(trial)?;
-            if let Some(kept) = kept {
+            self.layout.write(rod, &state, room, trial)?;
+            let begun = trial.to_vec();
+            if let Some(kept) = self.layout.read(&begun)? {
                 return self.step(at, (step.time, 0.0), &kept, trial, warm, out);
             }
         }
@@ -380,15 +410,19 @@ impl Element for MovingLine {
     }
 
     fn along(&self, at: &Situation, state: &[f64], out: &mut Vec<LineNode>) -> Result<(), ClassError> {
-        let mut guess = None;
-        let Some(warm) = self.warm(&mut guess) else { return Err(ClassError::new("the line has no memory")) };
+        let (mut other, base) = (None, &self.base.rod);
         let (state, still) = match self.layout.read(state)? {
-            Some(kept) => (self.resumed(&kept, warm)?, at.step.is_none()),
-            None => (self.rest(at, warm)?.state, true),
+            Some(kept) => {
+                other = self.meshed(&kept, base)?;
+                let state = State::unpack(other.as_ref().unwrap_or(base), kept.motion).map_err(told)?;
+                (state, at.step.is_none())
+            }
+            None => (self.rest(at, &mut Warm::of(&self.base))?.state, true),
         };
+        let rod = other.as_ref().unwrap_or(base);
         let ends = self.held(at.ends, still)?;
         out.clear();
-        let found = self.within(at.surroundings, still, |world| warm.rod.results(&state, world, &ends));
+        let found = self.within((at.surroundings, still), &mut Vec::new(), |world| rod.results(&state, world, &ends));
         out.extend(found.iter().map(|n| LineNode {
             arc: n.arc,
             segment: self.base.part.get(n.segment).copied().unwrap_or(0),

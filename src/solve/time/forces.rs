@@ -269,7 +269,7 @@ impl Forces {
     /// Adds what connectors exert.
     fn connect(&mut self, system: &System, motions: &[Motion], (time, dt): (f64, f64)) -> Result<(), SolveError> {
         self.connect_moving(system, motions, (time, dt));
-        let mut alone = std::mem::take(&mut self.alone).into_iter();
+        let mut alone = 0..;
         let (flexible, rigid) = (place_of(Category::FlexConnectors), place_of(Category::RigidConnectors));
         for (index, link) in system.links.iter().enumerate() {
             self.place_ends(link, motions);
@@ -286,11 +286,10 @@ impl Forces {
                 continue;
             }
             if link.element.moves() {
-                let Some(mut found) = alone.next() else { continue };
+                let Some(found) = alone.next().and_then(|at| self.alone.get_mut(at)) else { continue };
                 if let Some(error) = found.failed.take() {
                     return Err(SolveError::of(&link.name)(error));
                 }
-                std::mem::swap(guess, &mut found.guess);
                 trial.copy_from_slice(&found.trial);
                 std::mem::swap(&mut self.response, &mut found.response);
             } else {
@@ -350,17 +349,28 @@ impl Forces {
 
     /// Evaluates the connectors that move by themselves, side by side.
     fn connect_moving(&mut self, system: &System, motions: &[Motion], (time, dt): (f64, f64)) {
-        self.alone.clear();
         if !self.moving {
+            self.alone.clear();
             return;
         }
-        for (index, link) in system.links.iter().enumerate().filter(|(_, l)| l.element.moves()) {
+        let moving = || system.links.iter().enumerate().filter(|(_, l)| l.element.moves());
+        self.alone.resize_with(moving().count(), Alone::default);
+        let mut alone = std::mem::take(&mut self.alone);
+        for (one, (index, link)) in alone.iter_mut().zip(moving()) {
             self.place_ends(link, motions);
-            let trial = self.trial.get(link.states.clone()).unwrap_or_default().to_vec();
-            let guess = self.guesses.get_mut(index).and_then(Option::take);
-            self.alone.push(Alone { link: index, ends: self.ends.clone(), trial, guess, ..Alone::default() });
+            one.link = index;
+            one.ends.clone_from(&self.ends);
+            one.trial.clear();
+            one.trial.extend_from_slice(self.trial.get(link.states.clone()).unwrap_or_default());
+            one.guess = self.guesses.get_mut(index).and_then(Option::take);
         }
-        side_by_side::evaluate(system, &mut self.alone, Some(TimeStep { time, dt }));
+        side_by_side::evaluate(system, &mut alone, Some(TimeStep { time, dt }));
+        for one in &mut alone {
+            if let Some(guess) = self.guesses.get_mut(one.link) {
+                *guess = one.guess.take();
+            }
+        }
+        self.alone = alone;
     }
 
     /// Adds a force at the first end of a connector that the place of that end alone changes.
