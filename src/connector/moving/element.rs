@@ -39,6 +39,8 @@ struct Base {
     holds: [Option<(Vector3<f64>, Option<f64>)>; 2],
     /// Whether the first end is let go.
     freed: bool,
+    /// Which ends can move.
+    felt: [bool; 2],
 }
 
 /// A line between two ends.
@@ -152,6 +154,7 @@ impl MovingLine {
             ground,
             holds,
             freed: connection.connector.freed,
+            felt: [true, !connection.to_ground],
         };
         Ok(MovingLine { base: Arc::new(base), layout, first, nominal })
     }
@@ -297,7 +300,7 @@ impl MovingLine {
             if dt > 0.0 {
                 let forces = solver.trial(rod, state, world, time, ends).map_err(told)?;
                 solver.reached(state);
-                Ok::<_, ClassError>((forces, solver.end_tangent_at_hand(rod, world)))
+                Ok::<_, ClassError>((forces, solver.end_tangent_felt(rod, world, self.base.felt)))
             } else {
                 let forces = solver.start(rod, state, world, ends).map_err(told)?;
                 let mut tangent = EndTangent::default();

@@ -185,21 +185,36 @@ impl Forces {
 
     /// They are those of the end of a step of a length (s).
     pub(super) fn settle(&mut self, dt: f64) {
+        if self.moving {
+            self.foretelling.take_inertia(dt, &self.inertia);
+        }
         self.foretelling.take(dt, &self.stiffness, &self.damping);
     }
 
     /// What is expected at a trial of the end of a step, from the forces of its start: by stiffness and damping for the motion and
     /// the change of velocity of each body over the step, with what its loads hold ready. False without a step to go by.
     pub(super) fn foretell(&mut self, (memory, dt): (&Memory, f64), motions: (&[Motion], &[Motion], &[Six])) -> bool {
-        // what moves by itself changes its pull without its ends
-        if self.moving || !self.foretelling.add(dt, motions, &mut self.sum) {
-            return false;
-        }
         for (body, held) in memory.ahead.iter().enumerate() {
             let mut at = self.sum.fixed_rows_mut::<6>(6 * body);
             at += held;
         }
-        true
+        if self.moving {
+            self.foretelling.begin(&self.sum);
+        }
+        self.foretelling.add(dt, motions, &mut self.sum)
+            && (!self.moving || self.foretelling.add_moving((motions.0, motions.1), &mut self.sum))
+    }
+
+    /// They are those of a trial that holds, of a step of a length (s): what foretells the next learns by it.
+    pub(super) fn learn(&mut self, dt: f64, motions: (&[Motion], &[Motion], &[Six])) {
+        if self.moving {
+            self.foretelling.learn(dt, motions, &self.sum);
+        }
+    }
+
+    /// Whether a connector moves by itself: it stands where the trial was that was evaluated last.
+    pub(super) fn moving(&self) -> bool {
+        self.moving
     }
 
     /// Evaluates everything with the bodies in these motions at the end of a step; `dt` zero: at the start of a run.
