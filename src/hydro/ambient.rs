@@ -66,6 +66,13 @@ impl Ambient for Around {
         }
     }
 
+    fn level(&self, time: f64, places: &[Vector3<f64>], out: &mut [Flow]) {
+        let sea = self.sea.as_ref().map(|sea| sea.at(time));
+        for (place, out) in places.iter().zip(out) {
+            out.surface = self.steady.around.tide + sea.as_ref().map_or(0.0, |sea| sea.elevation(place.x, place.y));
+        }
+    }
+
     fn mean(&self, places: &[Vector3<f64>], out: &mut [Flow]) {
         let streams = self.steady.mean();
         for (place, out) in places.iter().zip(out) {

@@ -56,6 +56,11 @@ pub trait Ambient: Debug + Send + Sync {
     /// Water and air at places (m, global) at a time (s) of a run, with waves; `out` is as long as `places`.
     fn flow(&self, time: f64, places: &[Vector3<f64>], out: &mut [Flow]);
 
+    /// The surface alone: of [`Ambient::flow`] what is asked of it most cheaply; the rest of `out` may be left as it is.
+    fn level(&self, time: f64, places: &[Vector3<f64>], out: &mut [Flow]) {
+        self.flow(time, places, out);
+    }
+
     /// The same at rest: mean current and wind, without waves.
     fn mean(&self, places: &[Vector3<f64>], out: &mut [Flow]);
 

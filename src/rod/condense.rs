@@ -76,22 +76,28 @@ impl Solver {
     /// None where there is no trial, or the system cannot be solved, as it could in the trial.
     pub fn end_tangent(&mut self, rod: &Rod, world: &World) -> Option<EndTangent> {
         self.linearise(rod, world, true)?;
-        Some(self.condense(rod))
+        Some(self.condense(rod, [true; 2]))
     }
 
     /// The same by the factors the trial has left, as long as its nodes have moved by less than a thousandth of the
     /// shortest element since, with friction by its secant: for a body's Newton iteration, which converges by it as
     /// well, at a quarter of the cost. The trial's forces stay what they are.
     pub fn end_tangent_at_hand(&mut self, rod: &Rod, world: &World) -> Option<EndTangent> {
-        self.linearise(rod, world, false)?;
-        Some(self.condense(rod))
+        self.end_tangent_felt(rod, world, [true; 2])
     }
 
-    /// Condenses the matrix at hand to the ends.
-    fn condense(&mut self, rod: &Rod) -> EndTangent {
+    /// The same, of which only the rows of some ends are asked for, A and B: an end in the ground feels nothing. The other
+    /// rows are zero.
+    pub fn end_tangent_felt(&mut self, rod: &Rod, world: &World, felt: [bool; 2]) -> Option<EndTangent> {
+        self.linearise(rod, world, false)?;
+        Some(self.condense(rod, felt))
+    }
+
+    /// Condenses the matrix at hand to the ends that are asked about.
+    fn condense(&mut self, rod: &Rod, felt: [bool; 2]) -> EndTangent {
         let clamps = [0, 1].map(|side| clamp(rod, &self.trial, side));
         let mut made = [Twelve::zeros(); 3];
-        for side in 0..2 {
+        for side in (0..2).filter(|side| felt[*side]) {
             let held = self.trial.ends[side].motion.is_some();
             match &clamps[side] {
                 Some(_) => self.feel::<6>(side, &clamps, &mut made),

@@ -68,7 +68,10 @@ impl Rod {
         let last = self.elements.len();
         let (x, v) = (&state.position, &state.velocity);
         let mut fluids = vec![UniformFluid::none().0; x.len()];
-        world.fluid.fill(x, state.time, &mut fluids);
+        // tubes feel the pressure outside, nothing else is asked of it here
+        if self.segments.iter().any(|s| s.tube.is_some()) {
+            world.fluid.fill_levels(x, state.time, &mut fluids);
+        }
         let edges: Vec<(Vector3<f64>, f64)> = x
             .windows(2)
             .map(|p| (p[1] - p[0], (p[1] - p[0]).norm().max(f64::MIN_POSITIVE)))

@@ -13,7 +13,12 @@ impl Rod {
     /// Its elements from end A, as winches have made them: unstretched length (m), rate at which it grows (m/s), and
     /// segment, from 0.
     pub fn mesh(&self) -> Vec<(f64, f64, usize)> {
-        self.elements.iter().map(|e| (e.rest, e.rate, e.segment)).collect()
+        self.each_of_mesh().collect()
+    }
+
+    /// The elements of [`Rod::mesh`], one after the other.
+    pub fn each_of_mesh(&self) -> impl ExactSizeIterator<Item = (f64, f64, usize)> {
+        self.elements.iter().map(|e| (e.rest, e.rate, e.segment))
     }
 
     /// Makes a rod of given elements, as [`Rod::mesh`] tells them; `attachments` are on its nodes as they now are. A
@@ -77,6 +82,16 @@ impl State {
     /// # Errors
     /// Another count of numbers than a state of this rod has, or one that is no number.
     pub fn unpack(rod: &Rod, from: &[f64]) -> Result<Self, RodError> {
+        let mut made = State::default();
+        made.become_unpacked(rod, from)?;
+        Ok(made)
+    }
+
+    /// Becomes the state of [`State::unpack`], in memory that is there. It is left as it was where there is an error.
+    ///
+    /// # Errors
+    /// As [`State::unpack`].
+    pub fn become_unpacked(&mut self, rod: &Rod, from: &[f64]) -> Result<(), RodError> {
         let wanted = State::packed(rod);
         let refuse = |why: String| RodError::Shape { rod: rod.name.clone(), why };
         if from.len() != wanted {
@@ -87,18 +102,20 @@ impl State {
         }
         let (nodes, elements) = from[1..].split_at(PER_NODE * rod.nodes());
         let (directors, yielded) = elements.split_at(if rod.twists() { 3 * rod.elements.len() } else { 0 });
-        let list = |first: usize| {
-            nodes.chunks_exact(PER_NODE).map(|n| Vector3::new(n[first], n[first + 1], n[first + 2])).collect()
-        };
-        Ok(State {
-            time: from[0],
-            position: list(0),
-            velocity: list(3),
-            acceleration: list(6),
-            averaged: list(9),
-            bedding: nodes.chunks_exact(PER_NODE).map(|n| n[PER_NODE - 1]).collect(),
-            director: directors.chunks_exact(3).map(Vector3::from_column_slice).collect(),
-            yielded: yielded.to_vec(),
-        })
+        self.time = from[0];
+        for (first, list) in
+            [&mut self.position, &mut self.velocity, &mut self.acceleration, &mut self.averaged].into_iter().enumerate()
+        {
+            let three = |n: &[f64]| Vector3::from_column_slice(&n[3 * first..3 * first + 3]);
+            list.clear();
+            list.extend(nodes.chunks_exact(PER_NODE).map(three));
+        }
+        self.bedding.clear();
+        self.bedding.extend(nodes.chunks_exact(PER_NODE).map(|n| n[PER_NODE - 1]));
+        self.director.clear();
+        self.director.extend(directors.chunks_exact(3).map(Vector3::from_column_slice));
+        self.yielded.clear();
+        self.yielded.extend_from_slice(yielded);
+        Ok(())
     }
 }

@@ -15,7 +15,7 @@ use nalgebra::{Matrix3, Vector3};
 impl Solver {
     /// Copies where the last trial ended, without taking it as the new state of the solver's own run.
     pub fn reached(&self, state: &mut State) {
-        state.clone_from(&self.next);
+        state.copy_from(&self.next);
     }
 
     /// What each holder feels of inertia at the instant of the last [`Solver::start`]: d(force the holder needs)/d(its

@@ -7,7 +7,7 @@ use super::spatial::transport;
 use nalgebra::Vector3;
 
 /// Motion of a rod at one time.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct State {
     /// Time (s).
     pub time: f64,
@@ -92,20 +92,6 @@ impl State {
             bedding: vec![0.0; rod.nodes()],
             yielded,
         })
-    }
-
-    /// Of a rod without nodes: what stands in for a state that is elsewhere for a while.
-    pub(super) fn empty() -> Self {
-        State {
-            time: 0.0,
-            position: vec![],
-            velocity: vec![],
-            acceleration: vec![],
-            averaged: vec![],
-            director: vec![],
-            bedding: vec![],
-            yielded: vec![],
-        }
     }
 
     /// Becomes another state of the same rod, in memory that is there.

@@ -10,7 +10,7 @@ use super::scheme::{Scheme, Settings};
 use super::state::State;
 use super::surroundings::{UniformFluid, World};
 use super::system::Weights;
-use super::trial::{Trial, carry, interpolate, lay, sample, soften, turn};
+use super::trial::{Trial, carry, interpolate, lay, sample, sample_again, soften, turn};
 use super::workspace::Workspace;
 use nalgebra::Vector3;
 
@@ -92,6 +92,7 @@ impl Solver {
             v: zero.clone(),
             a: zero.clone(),
             fluid: vec![still; nodes],
+            asked: zero.clone(),
             lay: zero,
             soft: vec![0.0; nodes],
             ends: [End::FREE; 2],
@@ -228,7 +229,7 @@ impl Solver {
                 let node = if side == 0 { 0 } else { rod.elements.len() };
                 interpolate(state, node, &ends[side], whole, share)
             });
-            let from = std::mem::replace(&mut self.part, State::empty());
+            let from = std::mem::replace(&mut self.part, State::default());
             let made = self.attempt(rod, &from, world, target, between, false);
             self.part = from;
             match made {
@@ -285,10 +286,12 @@ impl Solver {
             std::mem::swap(&mut self.trial.v, &mut self.next.velocity);
             std::mem::swap(&mut self.trial.a, &mut self.next.acceleration);
             std::mem::swap(&mut self.trial.director, &mut self.next.director);
-            // the fluid is that of the trial before where the nodes are, and so are the factors
+            // the factors are those of the trial before where the nodes are, and so is the fluid unless they have left its place
             let close = iteration == 1 && moved.is_some();
-            if iteration <= 2 && !(close && moved.is_some_and(|m| m < 1e-4)) {
-                sample(world, time, &mut self.trial);
+            match iteration {
+                1 if !close => sample(world, time, &mut self.trial),
+                1 | 2 => sample_again(world, &mut self.trial, shortest),
+                _ => {}
             }
             // while the moves shrink fast the factors of the iteration before do as well
             let fresh = !close && (iteration == 1 || last_move > 1e-3 * shortest || last_move > 0.2 * before);

@@ -33,6 +33,11 @@ pub trait FluidField {
         }
     }
 
+    /// The same of which only surface and density are wanted; the rest may be left as it is.
+    fn fill_levels(&self, positions: &[Vector3<f64>], time: f64, out: &mut [Fluid]) {
+        self.fill(positions, time, out);
+    }
+
     /// Whether the answer is the same everywhere at one time: it is then asked for one node only.
     fn uniform(&self) -> bool {
         false

@@ -1,14 +1,14 @@
 //! A line that moves by itself as an engine sees it.
 
-use super::around::{Floor, Water, ground};
-use super::describe::{Description, Part};
+use super::around::{Floor, Water};
+use super::describe::Description;
 use super::kept::{Kept, Layout};
-use super::mesh::{Cut, SHORT, attachments, told, wind};
-use super::{modes, start};
+use super::mesh::{told, wind};
+use super::start;
 use crate::language::units::Dim;
 use crate::model::{
-    Ambient, ClassError, Connection, Element, End, Guess, LineBooks, LineMode, LineNode, LineStress, Response,
-    Situation, Six, Summary, Surroundings,
+    Ambient, ClassError, Element, End, Flow, Guess, LineBooks, LineMode, LineNode, Response, Situation, Six, Summary,
+    Surroundings,
 };
 use crate::rod::{
     self, Balance, EndForces, EndTangent, Ground, Motion, PlaneBottom, Rod, Settings, Solver, State, Twelve, World,
@@ -23,38 +23,40 @@ const HALVINGS: u32 = 8;
 const BELOW: f64 = 1e-3;
 
 /// The direction in which an end is held, in the axes of what holds it, and the stiffness of that (N m/rad); rigid where none.
-type Held = (Vector3<f64>, Option<f64>);
+pub(super) type Held = (Vector3<f64>, Option<f64>);
 
 /// What is said of a line that was given memory not its own.
 const NO_MEMORY: &str = "the line has no memory";
 
 /// What does not change while it is wound.
 #[derive(Debug)]
-struct Base {
-    description: Description,
-    rod: Rod,
-    attached: Vec<rod::Attachment>,
+pub(super) struct Base {
+    pub(super) description: Description,
+    pub(super) rod: Rod,
+    pub(super) attached: Vec<rod::Attachment>,
     /// Part of each segment of the rod.
-    part: Vec<usize>,
-    ambient: Option<Arc<dyn Ambient>>,
-    plane: Option<PlaneBottom>,
+    pub(super) part: Vec<usize>,
+    pub(super) ambient: Option<Arc<dyn Ambient>>,
+    pub(super) plane: Option<PlaneBottom>,
     /// Elevation of a flat bottom (m), where one is known.
-    flat: Option<f64>,
-    ground: Ground,
+    pub(super) flat: Option<f64>,
+    pub(super) ground: Ground,
     /// Direction in which each end is held, in the axes of what holds it, and the stiffness of that.
-    holds: [Option<Held>; 2],
+    pub(super) holds: [Option<Held>; 2],
     /// Whether the first end is let go.
-    freed: bool,
+    pub(super) freed: bool,
+    /// Which ends can move.
+    pub(super) felt: [bool; 2],
 }
 
 /// A line between two ends.
 #[derive(Debug)]
 pub struct MovingLine {
-    base: Arc<Base>,
-    layout: Layout,
+    pub(super) base: Arc<Base>,
+    pub(super) layout: Layout,
     /// Length of the first part (m), and of its elements as the class has them.
-    first: f64,
-    nominal: f64,
+    pub(super) first: f64,
+    pub(super) nominal: f64,
 }
 
 /// What a solver of a line remembers.
@@ -64,6 +66,28 @@ struct Warm {
     solver: Solver,
     /// Where it last hung at rest.
     rest: Option<State>,
+    /// Room for its state on the way, for that as numbers, and for the water at its nodes.
+    state: State,
+    room: Vec<f64>,
+    flows: Vec<Flow>,
+}
+
+impl Warm {
+    fn of(base: &Arc<Base>) -> Self {
+        let rod = base.rod.clone();
+        let (state, room, flows) = (State::default(), Vec::new(), Vec::new());
+        Warm { base: base.clone(), solver: solver_of(&rod), rod, rest: None, state, room, flows }
+    }
+
+    /// Becomes that of another rod.
+    fn take(&mut self, rod: Rod) {
+        self.solver = solver_of(&rod);
+        self.rod = rod;
+    }
+}
+
+fn solver_of(rod: &Rod) -> Solver {
+    Solver::new(rod, Settings { halvings: HALVINGS, ..Settings::default() })
 }
 
 /// A line at rest.
@@ -73,99 +97,35 @@ struct Rest {
 }
 
 impl MovingLine {
-    /// The line of a class between the ends of a connector.
-    ///
-    /// # Errors
-    /// Properties that make no rod, more elements than memory should hold, no direction for an end that is held.
-    pub fn made(description: Description, connection: &Connection) -> Result<Self, ClassError> {
-        let around = connection.surroundings;
-        let ambient = connection.ambient.cloned();
-        let ends = connection.ends.map(|p| p.origin);
-        let known = |p: &Part| p.segment.length;
-        let class_first = description.parts.first().map_or(0.0, known);
-        let first = connection.placement.first_length.unwrap_or(class_first);
-        let mut lengths: Vec<f64> = description.parts.iter().map(known).collect();
-        if let Some(length) = lengths.first_mut() {
-            *length = first;
-        }
-        let far = ends[1];
-        let plane = description.seabed.slope.filter(|s| *s != 0.0).map(|slope| {
-            // it rises from the second end toward the first
-            let across = Vector3::new(ends[0].x - far.x, ends[0].y - far.y, 0.0);
-            let toward = across.try_normalize(1e-9).unwrap_or_else(Vector3::x);
-            let height = description.seabed.depth.map_or(far.z, |d| -d);
-            let rise = [toward.x * slope, toward.y * slope];
-            PlaneBottom { height: height - rise[0] * far.x - rise[1] * far.y, slope: rise }
-        });
-        let flat = description.seabed.depth.or(around.depth).map(|d| -d);
-        let floor = if plane.is_some() { None } else { flat };
-        let shape = match &ambient {
-            Some(a) if a.growth(ends[0].z.min(ends[1].z)).0 > 0.0 || a.growth(around.tide).0 > 0.0 => {
-                start::points(&description.parts, &lengths, ends, floor, around)
-            }
-            _ => Vec::new(),
-        };
-        let cut = Cut::of(&description, ambient.as_deref(), &shape);
-        let mesh = cut.mesh(&description.parts, first);
-        let counts: Vec<usize> = (0..description.parts.len())
-            .map(|part| mesh.iter().filter(|e| cut.part.get(e.2) == Some(&part)).count())
-            .collect();
-        let attached = attachments(&description.parts, &counts, around.water_density);
-        let nominal = description.parts.first().map_or(1.0, |p| p.segment.length / p.segment.elements.max(1) as f64);
-        let rod = Rod::with_mesh(&connection.connector.name, cut.segments, attached.clone(), &mesh).map_err(told)?;
-        // the same however much is wound: an element at the winch is never shorter than half of those of the class
-        let of_first = counts.first().copied().unwrap_or(0);
-        let wound = connection.connector.longest.map(|l| (l / (SHORT * nominal)).ceil() as usize);
-        let capacity = rod.nodes() - 1 - of_first + wound.unwrap_or(of_first) + 2;
-        if capacity > rod::MOST_ELEMENTS {
-            return Err(ClassError::new(format!(
-                "its winch would make more than {} elements of it",
-                rod::MOST_ELEMENTS
-            )));
-        }
-        let per_node = State::packed(&rod).div_ceil(rod.nodes()) + 1;
-        let holds = holds(&description, connection)?;
-        let ground = ground(&description.seabed, rod.segments(), around);
-        let layout = Layout::new(capacity, per_node * (capacity + 2), connection.connector.books);
-        let base = Base {
-            description,
-            rod,
-            attached,
-            part: cut.part,
-            ambient,
-            plane,
-            flat,
-            ground,
-            holds,
-            freed: connection.connector.freed,
-        };
-        Ok(MovingLine { base: Arc::new(base), layout, first, nominal })
-    }
-
     fn warm<'a>(&self, guess: &'a mut Guess) -> Option<&'a mut Warm> {
         let fits = |g: &Box<dyn std::any::Any + Send>| {
             g.downcast_ref::<Warm>().is_some_and(|w| Arc::ptr_eq(&w.base, &self.base))
         };
         if !guess.as_ref().is_some_and(fits) {
-            let rod = self.base.rod.clone();
-            let solver = Solver::new(&rod, Settings { halvings: HALVINGS, ..Settings::default() });
-            *guess = Some(Box::new(Warm { base: self.base.clone(), rod, solver, rest: None }));
+            *guess = Some(Box::new(Warm::of(&self.base)));
         }
         guess.as_mut()?.downcast_mut::<Warm>()
     }
 
-    /// The line's surroundings, at rest or under way, for what needs them.
-    fn within<T>(&self, around: &Surroundings, mean: bool, act: impl FnOnce(&World) -> T) -> T {
+    /// The line's surroundings, at rest or under way, for what needs them; `flows` is room for what is asked of the water.
+    pub(super) fn within<T>(
+        &self,
+        (around, mean): (&Surroundings, bool),
+        flows: &mut Vec<Flow>,
+        act: impl FnOnce(&World) -> T,
+    ) -> T {
         let ambient = self.base.ambient.as_deref();
-        let water = Water { ambient, around, mean, flows: RefCell::default() };
+        let water = Water { ambient, around, mean, flows: RefCell::new(std::mem::take(flows)) };
         let floor = Floor { plane: self.base.plane, ambient, flat: self.base.flat.unwrap_or(0.0) };
         let known = self.base.plane.is_some() || self.base.flat.is_some();
         let bottom: Option<(&dyn rod::Bottom, Ground)> = known.then_some((&floor, self.base.ground));
-        act(&World { bottom, slam: self.base.description.slam, ..World::new(&water, around.gravity) })
+        let made = act(&World { bottom, slam: self.base.description.slam, ..World::new(&water, around.gravity) });
+        *flows = water.flows.into_inner();
+        made
     }
 
     /// What holds the ends.
-    fn held(&self, ends: &[End], still: bool) -> Result<[rod::End; 2], ClassError> {
+    pub(super) fn held(&self, ends: &[End], still: bool) -> Result<[rod::End; 2], ClassError> {
         let [first, second] = ends else { return Err(ClassError::new("a line has two ends")) };
         let made = |end: &End, hold: &Option<Held>| {
             let three = |six: &Six| Vector3::new(six[0], six[1], six[2]);
@@ -190,11 +150,11 @@ impl MovingLine {
     fn rest(&self, at: &Situation, warm: &mut Warm) -> Result<Rest, ClassError> {
         let ends = self.held(at.ends, true)?;
         if warm.rod != self.base.rod {
-            warm.rod.clone_from(&self.base.rod);
-            warm.solver = Solver::new(&warm.rod, Settings { halvings: HALVINGS, ..Settings::default() });
+            warm.take(self.base.rod.clone());
         }
         let places = [0, 1].map(|i| at.ends.get(i).map_or_else(Vector3::zeros, |e| e.pose.origin));
-        self.within(at.surroundings, true, |world| {
+        let Warm { rod, solver, rest, flows, .. } = warm;
+        self.within((at.surroundings, true), flows, |world| {
             if let Some((bottom, _)) = &world.bottom {
                 for (place, name) in places.iter().zip(["first", "second"]) {
                     let below = bottom.height(place.x, place.y).0 - place.z;
@@ -205,17 +165,17 @@ impl MovingLine {
                     }
                 }
             }
-            let mut state = match warm.rest.take() {
+            let mut state = match rest.take() {
                 Some(state) => state,
                 None => {
                     // how softly it meets the bottom is known where it rests first
                     let mut fallen = self.fallen(places, at.surroundings)?;
-                    warm.solver.statics(&warm.rod, &mut fallen, world, ends).map_err(told)?;
+                    solver.statics(rod, &mut fallen, world, ends).map_err(told)?;
                     fallen
                 }
             };
-            let forces = warm.solver.statics(&warm.rod, &mut state, world, ends).map_err(told)?;
-            warm.rest = Some(state.clone());
+            let forces = solver.statics(rod, &mut state, world, ends).map_err(told)?;
+            *rest = Some(state.clone());
             Ok(Rest { state, forces })
         })
     }
@@ -232,27 +192,33 @@ impl MovingLine {
         State::along(&self.base.rod, &points).map_err(told)
     }
 
-    /// A state read back, with the line it is of.
-    fn resumed(&self, kept: &Kept, warm: &mut Warm) -> Result<State, ClassError> {
-        if warm.rod.mesh() != kept.mesh {
-            // what is attached stands behind the first part, whose elements alone come and go
-            let before = self.base.rod.nodes() - 1;
-            let shifted =
-                |a: &rod::Attachment| rod::Attachment { node: (a.node + kept.mesh.len()).saturating_sub(before), ..*a };
-            let attached = self.base.attached.iter().map(shifted).collect();
-            let name = self.base.rod.name().to_string();
-            warm.rod = Rod::with_mesh(&name, self.base.rod.segments().to_vec(), attached, &kept.mesh).map_err(told)?;
-            warm.solver = Solver::new(&warm.rod, Settings { halvings: HALVINGS, ..Settings::default() });
+    /// The rod of a mesh other than that of `rod`.
+    fn meshed(&self, kept: &Kept, rod: &Rod) -> Result<Option<Rod>, ClassError> {
+        if kept.mesh().eq(rod.each_of_mesh()) {
+            return Ok(None);
         }
-        State::unpack(&warm.rod, &kept.motion).map_err(told)
+        // what is attached stands behind the first part, whose elements alone come and go
+        let mesh: Vec<_> = kept.mesh().collect();
+        let before = self.base.rod.nodes() - 1;
+        let shifted =
+            |a: &rod::Attachment| rod::Attachment { node: (a.node + mesh.len()).saturating_sub(before), ..*a };
+        let attached = self.base.attached.iter().map(shifted).collect();
+        let segments = self.base.rod.segments().to_vec();
+        Rod::with_mesh(self.base.rod.name(), segments, attached, &mesh).map(Some).map_err(told)
     }
 
-    /// Its motion as a state has it, or where it rests if it has not begun; and whether that is without the waves.
-    fn where_it_is(&self, at: &Situation, state: &[f64], warm: &mut Warm) -> Result<(State, bool), ClassError> {
-        Ok(match self.layout.read(state)? {
-            Some(kept) => (self.resumed(&kept, warm)?, at.step.is_none()),
-            None => (self.rest(at, warm)?.state, true),
-        })
+    /// Its motion as a state has it, or where it rests if it has not begun, with its rod where that is not the one it was made with;
+    /// and whether that is without the waves.
+    pub(super) fn where_it_is(&self, at: &Situation, state: &[f64]) -> Result<(Option<Rod>, State, bool), ClassError> {
+        let base = &self.base.rod;
+        match self.layout.read(state)? {
+            Some(kept) => {
+                let other = self.meshed(&kept, base)?;
+                let state = State::unpack(other.as_ref().unwrap_or(base), kept.motion).map_err(told)?;
+                Ok((other, state, at.step.is_none()))
+            }
+            None => Ok((None, self.rest(at, &mut Warm::of(&self.base))?.state, true)),
+        }
     }
 
     /// Takes it to the end of a step.
@@ -266,30 +232,33 @@ impl MovingLine {
         out: &mut Response,
     ) -> Result<(), ClassError> {
         let ends = self.held(at.ends, false)?;
-        let mut state = self.resumed(kept, warm)?;
+        if let Some(rod) = self.meshed(kept, &warm.rod)? {
+            warm.take(rod);
+        }
+        let Warm { rod, solver, state, room, flows, .. } = warm;
+        state.become_unpacked(rod, kept.motion).map_err(told)?;
         if dt > 0.0 {
             let of_first = |segment: usize| self.base.part.get(segment) == Some(&0);
-            let nodes = warm.rod.nodes();
-            wind(&mut warm.rod, &mut state, (self.first, self.nominal, dt), of_first)?;
-            if warm.rod.nodes() != nodes {
-                warm.solver = Solver::new(&warm.rod, Settings { halvings: HALVINGS, ..Settings::default() });
+            let nodes = rod.nodes();
+            wind(rod, state, (self.first, self.nominal, dt), of_first)?;
+            if rod.nodes() != nodes {
+                *solver = solver_of(rod);
             }
             state.time = time - dt;
         } else {
             state.time = time;
         }
-        let Warm { rod, solver, .. } = warm;
-        let (forces, tangent) = self.within(at.surroundings, false, |world| {
+        let (forces, tangent) = self.within((at.surroundings, false), flows, |world| {
             if dt > 0.0 {
-                let forces = solver.trial(rod, &state, world, time, ends).map_err(told)?;
-                solver.reached(&mut state);
-                Ok::<_, ClassError>((forces, solver.end_tangent_at_hand(rod, world)))
+                let forces = solver.trial(rod, state, world, time, ends).map_err(told)?;
+                solver.reached(state);
+                Ok::<_, ClassError>((forces, solver.end_tangent_felt(rod, world, self.base.felt)))
             } else {
                 // what a broken line springs back with lasts for a wave along an element, not for a step: it goes on as it moved
                 let before = self.base.freed.then(|| state.clone());
-                let forces = solver.start(rod, &mut state, world, ends).map_err(told)?;
+                let forces = solver.start(rod, state, world, ends).map_err(told)?;
                 if let Some(before) = before {
-                    state = before;
+                    state.clone_from(&before);
                 }
                 let mut tangent = EndTangent::default();
                 for (side, mass) in solver.end_masses().iter().enumerate() {
@@ -299,16 +268,16 @@ impl MovingLine {
             }
         })?;
         let books = self.layout.has_books().then(|| {
-            self.within(at.surroundings, false, |world| match kept.balance {
+            self.within((at.surroundings, false), flows, |world| match kept.balance {
                 Some(mut balance) if dt > 0.0 => {
-                    balance.enter(rod, &state, world, solver, &forces);
+                    balance.enter(rod, state, world, solver, &forces);
                     balance
                 }
                 Some(balance) => balance,
-                None => Balance::open(rod, &state, world, solver, &forces),
+                None => Balance::open(rod, state, world, solver, &forces),
             })
         });
-        self.layout.write(rod, &state, trial)?;
+        self.layout.write(rod, state, room, trial)?;
         if let Some(balance) = books {
             self.layout.keep_books(&balance, trial);
         }
@@ -343,26 +312,6 @@ fn answer(
     Ok(())
 }
 
-/// The directions in which the ends are held, in the axes of their holders as defined.
-fn holds(description: &Description, connection: &Connection) -> Result<[Option<Held>; 2], ClassError> {
-    let [a, b] = connection.connector.defined;
-    let b = if connection.to_ground { crate::model::Pose { origin: connection.ends[1].origin, ..b } } else { b };
-    let chord = b.origin - a.origin;
-    let across = Vector3::new(chord.x, chord.y, 0.0).try_normalize(1e-9).unwrap_or_else(Vector3::x);
-    let mut made = [None, None];
-    for ((place, hold), pose) in made.iter_mut().zip(&description.holds).zip([a, b]) {
-        let Some(hold) = hold else { continue };
-        let direction = match hold.declination {
-            Some(angle) => across * angle.sin() - Vector3::z() * angle.cos(),
-            None => chord.try_normalize(1e-9).ok_or_else(|| {
-                ClassError::new("the two ends are at one place: an end that is held has no direction there")
-            })?,
-        };
-        *place = Some((pose.axes.transpose() * direction, hold.stiffness));
-    }
-    Ok(made)
-}
-
 impl Element for MovingLine {
     fn states(&self) -> usize {
         self.layout.size()
@@ -394,18 +343,18 @@ impl Element for MovingLine {
             return self.step(at, (step.time, step.dt), kept, trial, warm, out);
         }
         let found = self.rest(at, warm)?;
-        let Warm { rod, solver, .. } = warm;
-        let tangent = self.within(at.surroundings, true, |world| solver.end_tangent(rod, world));
+        let Warm { rod, solver, room, flows, .. } = &mut *warm;
+        let tangent = self.within((at.surroundings, true), flows, |world| solver.end_tangent(rod, world));
         answer(out, &found.forces, tangent.as_ref(), false)?;
         if let Some(step) = at.step {
             // a run begins here
             let mut state = found.state;
             state.time = step.time;
-            self.layout.write(rod, &state, trial)?;
-            let kept = self.layout.read(trial)?;
-            if let Some(kept) = kept {
+            self.layout.write(rod, &state, room, trial)?;
+            let begun = trial.to_vec();
+            if let Some(kept) = self.layout.read(&begun)? {
                 // its books are not open yet
-                let kept = Kept { balance: None, ..kept };
+                let kept = kept.without_books();
                 return self.step(at, (step.time, 0.0), &kept, trial, warm, out);
             }
         }
@@ -413,72 +362,18 @@ impl Element for MovingLine {
     }
 
     fn books(&self, state: &[f64]) -> Option<LineBooks> {
-        let found = self.layout.balance(state)?;
-        let (e, w) = (&found.energy, &found.work);
-        Some(LineBooks {
-            energy: [e.kinetic, e.elastic, e.gravity, e.bottom + e.rollers],
-            work: [w.ends[0], w.ends[1], w.fluid + w.given, w.damping, w.bottom + w.rollers],
-            energy_error: found.energy_error(),
-            turnover: found.turnover,
-            momentum_error: found.momentum_error(),
-        })
+        self.tell_books(state)
     }
 
     fn along(&self, at: &Situation, state: &[f64], out: &mut Vec<LineNode>) -> Result<(), ClassError> {
-        let mut guess = None;
-        let Some(warm) = self.warm(&mut guess) else { return Err(ClassError::new(NO_MEMORY)) };
-        let (state, still) = self.where_it_is(at, state, warm)?;
-        let ends = self.held(at.ends, still)?;
-        out.clear();
-        let found = self.within(at.surroundings, still, |world| warm.rod.results(&state, world, &ends));
-        out.extend(found.iter().map(|n| LineNode {
-            arc: n.arc,
-            segment: self.base.part.get(n.segment).copied().unwrap_or(0),
-            position: n.position,
-            velocity: n.velocity,
-            effective: n.effective,
-            wall: n.wall,
-            shear: n.shear,
-            moment: n.moment,
-            bends: n.bends,
-            torque: n.torque,
-            curvature: n.curvature,
-            clearance: n.clearance,
-            pressures: n.pressures,
-            stress: n.stress.map(|s| LineStress {
-                axial: s.axial,
-                bending: s.bending,
-                hoop: s.hoop,
-                von_mises: s.von_mises,
-            }),
-        }));
-        Ok(())
+        self.tell_along(at, state, out)
     }
 
     fn swings(&self, at: &Situation, state: &[f64], number: usize) -> Result<Vec<LineMode>, ClassError> {
-        let mut guess = None;
-        let Some(warm) = self.warm(&mut guess) else { return Err(ClassError::new(NO_MEMORY)) };
-        let (state, _) = self.where_it_is(at, state, warm)?;
-        let ends = self.held(at.ends, true)?;
-        let Warm { rod, solver, .. } = warm;
-        self.within(at.surroundings, true, |world| modes::of(rod, solver, &state, world, ends, number))
+        self.tell_modes(at, state, number)
     }
 
     fn summary(&self, at: &Situation, committed: &[f64]) -> Result<Summary, ClassError> {
-        let mut nodes = Vec::new();
-        self.along(at, committed, &mut nodes)?;
-        let mut told = Summary { solution: "rod", notes: self.base.description.notes.clone(), ..Summary::default() };
-        told.tension = nodes.first().map(|n| n.effective);
-        let breaks = |n: &LineNode| self.base.description.parts.get(n.segment).map(|p| p.strength.breaking);
-        let ratios = nodes.iter().filter_map(|n| breaks(n).map(|b| (n.effective / b, n.segment + 1)));
-        if let Some((ratio, segment)) = ratios.max_by(|a, b| a.0.total_cmp(&b.0)) {
-            (told.ratio, told.critical) = (Some(ratio), Some(segment));
-            if ratio > 1.0 {
-                told.notes.push("warning: the line is beyond its breaking tension".into());
-            }
-        }
-        let lies = |pair: &[LineNode]| pair.iter().all(|n| n.clearance <= 0.0);
-        told.grounded = Some(nodes.windows(2).filter(|p| lies(p)).map(|p| p[1].arc - p[0].arc).sum());
-        Ok(told)
+        self.tell_summary(at, committed)
     }
 }

@@ -15,15 +15,28 @@ pub(super) struct Layout {
     books: usize,
 }
 
-/// A mesh: unstretched length (m), rate at which it grows (m/s) and segment of each element.
-pub(super) type Mesh = Vec<(f64, f64, usize)>;
-
-/// A state read back.
-#[derive(Clone, Debug)]
-pub(super) struct Kept {
-    pub mesh: Mesh,
-    pub motion: Vec<f64>,
+/// A state as it stands in the engine's vector.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Kept<'a> {
+    /// Unstretched length (m), rate at which it grows (m/s) and segment of each element.
+    mesh: &'a [f64],
+    /// What [`State::pack`] made of the motion.
+    pub motion: &'a [f64],
+    /// Its books, where they are kept and open.
     pub balance: Option<Balance>,
+}
+
+impl Kept<'_> {
+    /// The same before its books are open.
+    pub fn without_books(self) -> Self {
+        Kept { balance: None, ..self }
+    }
+
+    /// The elements of its mesh, as [`Rod::mesh`] tells them.
+    pub fn mesh(&self) -> impl ExactSizeIterator<Item = (f64, f64, usize)> {
+        let (each, _) = self.mesh.as_chunks::<EACH>();
+        each.iter().map(|[rest, rate, segment]| (*rest, *rate, *segment as usize))
+    }
 }
 
 /// Flag, and the counts of elements and of values of the motion.
@@ -62,27 +75,31 @@ impl Layout {
         }
     }
 
-    /// Writes a state that has begun.
-    pub fn write(&self, rod: &Rod, state: &State, out: &mut [f64]) -> Result<(), ClassError> {
-        let mesh = rod.mesh();
-        let mut motion = Vec::with_capacity(self.motion);
-        state.pack(&mut motion);
-        if out.len() != self.size() || mesh.len() > self.elements || motion.len() > self.motion {
-            return Err(ClassError::new("the line has grown beyond what its winch was to pay out"));
+    /// Writes a state that has begun; `room` is for its motion.
+    pub fn write(&self, rod: &Rod, state: &State, room: &mut Vec<f64>, out: &mut [f64]) -> Result<(), ClassError> {
+        let wrong = || ClassError::new("the line has grown beyond what its winch was to pay out");
+        let mesh = rod.each_of_mesh();
+        room.clear();
+        state.pack(room);
+        if out.len() != self.size() || mesh.len() > self.elements || room.len() > self.motion {
+            return Err(wrong());
         }
-        let head = [1.0, mesh.len() as f64, motion.len() as f64];
-        let elements = mesh.iter().flat_map(|(rest, rate, segment)| [*rest, *rate, *segment as f64]);
-        let room = EACH * (self.elements - mesh.len());
-        let values = head.into_iter().chain(elements).chain(std::iter::repeat_n(0.0, room)).chain(motion);
-        out.fill(0.0);
-        for (place, value) in out.iter_mut().zip(values) {
-            *place = value;
+        let (head, rest) = out.split_first_chunk_mut::<HEAD>().ok_or_else(wrong)?;
+        *head = [1.0, mesh.len() as f64, room.len() as f64];
+        let (elements, motion) = rest.split_at_mut_checked(EACH * self.elements).ok_or_else(wrong)?;
+        let (own, free) = elements.split_at_mut_checked(EACH * mesh.len()).ok_or_else(wrong)?;
+        for (place, (rest, rate, segment)) in own.as_chunks_mut::<EACH>().0.iter_mut().zip(mesh) {
+            *place = [rest, rate, segment as f64];
         }
+        free.fill(0.0);
+        let (own, free) = motion.split_at_mut_checked(room.len()).ok_or_else(wrong)?;
+        own.copy_from_slice(room);
+        free.fill(0.0);
         Ok(())
     }
 
     /// Reads a state; none of one that has not begun.
-    pub fn read(&self, state: &[f64]) -> Result<Option<Kept>, ClassError> {
+    pub fn read<'a>(&self, state: &'a [f64]) -> Result<Option<Kept<'a>>, ClassError> {
         let wrong = || ClassError::new("the state of the line is not one of its own");
         let (head, rest) = state.split_at_checked(HEAD).ok_or_else(wrong)?;
         let [begun, elements, motion] = head else { return Err(wrong()) };
@@ -91,13 +108,7 @@ impl Layout {
         }
         let (mesh, all) = rest.split_at_checked(EACH * self.elements).ok_or_else(wrong)?;
         let (elements, motion) = (*elements as usize, *motion as usize);
-        let mesh = mesh.chunks_exact(EACH).take(elements);
-        let mesh =
-            mesh.map(|e| if let [rest, rate, segment] = e { (*rest, *rate, *segment as usize) } else { (0.0, 0.0, 0) });
-        Ok(Some(Kept {
-            mesh: mesh.collect(),
-            motion: all.get(..motion).ok_or_else(wrong)?.to_vec(),
-            balance: self.balance(state),
-        }))
+        let mesh = mesh.get(..EACH.saturating_mul(elements)).ok_or_else(wrong)?;
+        Ok(Some(Kept { mesh, motion: all.get(..motion).ok_or_else(wrong)?, balance: self.balance(state) }))
     }
 }

@@ -130,11 +130,13 @@ pub(super) fn wind(
     (first, nominal, dt): (f64, f64, f64),
     of_first: impl Fn(usize) -> bool,
 ) -> Result<bool, ClassError> {
-    let mesh = rod.mesh();
-    let own = || mesh.iter().take_while(|e| of_first(e.2));
-    let now: f64 = own().map(|e| e.0).sum();
+    let own = rod.each_of_mesh().take_while(|e| of_first(e.2));
+    let (count, now) = own.fold((0, 0.0), |(count, sum), e| (count + 1, sum + e.0));
     let change = first - now;
-    let Some((rest, rate, segment)) = mesh.first().copied() else { return Ok(false) };
+    let mut mesh = rod.each_of_mesh();
+    let Some((rest, rate, segment)) = mesh.next() else { return Ok(false) };
+    let after = mesh.next();
+    drop(mesh);
     if change.abs() <= 1e-12 * now {
         if rate != 0.0 {
             rod.set_length(0, rest, 0.0).map_err(told)?;
@@ -147,9 +149,9 @@ pub(super) fn wind(
         at = 0.5 * rest;
     } else if change < 0.0
         && rest + change < SHORT * nominal
-        && own().count() > 1
-        && let Some((next, _, other)) = mesh.get(1)
-        && *other == segment
+        && count > 1
+        && let Some((next, _, other)) = after
+        && other == segment
     {
         rod.join(0, state).map_err(told)?;
         at = rest + next;

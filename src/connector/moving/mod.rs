@@ -7,10 +7,12 @@ mod around;
 mod describe;
 mod element;
 mod kept;
+mod made;
 mod mesh;
 mod modes;
 mod sections;
 mod start;
+mod tell;
 
 pub use describe::{Description, Hold, JointMass, Part, Seabed, Strength};
 pub use element::MovingLine;

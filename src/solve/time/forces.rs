@@ -185,21 +185,36 @@ impl Forces {
 
     /// They are those of the end of a step of a length (s).
     pub(super) fn settle(&mut self, dt: f64) {
+        if self.moving {
+            self.foretelling.take_inertia(dt, &self.inertia);
+        }
         self.foretelling.take(dt, &self.stiffness, &self.damping);
     }
 
     /// What is expected at a trial of the end of a step, from the forces of its start: by stiffness and damping for the motion and
     /// the change of velocity of each body over the step, with what its loads hold ready. False without a step to go by.
     pub(super) fn foretell(&mut self, (memory, dt): (&Memory, f64), motions: (&[Motion], &[Motion], &[Six])) -> bool {
-        // what moves by itself changes its pull without its ends
-        if self.moving || !self.foretelling.add(dt, motions, &mut self.sum) {
-            return false;
-        }
         for (body, held) in memory.ahead.iter().enumerate() {
             let mut at = self.sum.fixed_rows_mut::<6>(6 * body);
             at += held;
         }
-        true
+        if self.moving {
+            self.foretelling.begin(&self.sum);
+        }
+        self.foretelling.add(dt, motions, &mut self.sum)
+            && (!self.moving || self.foretelling.add_moving((motions.0, motions.1), &mut self.sum))
+    }
+
+    /// They are those of a trial that holds, of a step of a length (s): what foretells the next learns by it.
+    pub(super) fn learn(&mut self, dt: f64, motions: (&[Motion], &[Motion], &[Six])) {
+        if self.moving {
+            self.foretelling.learn(dt, motions, &self.sum);
+        }
+    }
+
+    /// Whether a connector moves by itself: it stands where the trial was that was evaluated last.
+    pub(super) fn moving(&self) -> bool {
+        self.moving
     }
 
     /// Evaluates everything with the bodies in these motions at the end of a step; `dt` zero: at the start of a run.
@@ -269,7 +284,7 @@ impl Forces {
     /// Adds what connectors exert.
     fn connect(&mut self, system: &System, motions: &[Motion], (time, dt): (f64, f64)) -> Result<(), SolveError> {
         self.connect_moving(system, motions, (time, dt));
-        let mut alone = std::mem::take(&mut self.alone).into_iter();
+        let mut alone = 0..;
         let (flexible, rigid) = (place_of(Category::FlexConnectors), place_of(Category::RigidConnectors));
         for (index, link) in system.links.iter().enumerate() {
             self.place_ends(link, motions);
@@ -286,11 +301,10 @@ impl Forces {
                 continue;
             }
             if link.element.moves() {
-                let Some(mut found) = alone.next() else { continue };
+                let Some(found) = alone.next().and_then(|at| self.alone.get_mut(at)) else { continue };
                 if let Some(error) = found.failed.take() {
                     return Err(SolveError::of(&link.name)(error));
                 }
-                std::mem::swap(guess, &mut found.guess);
                 trial.copy_from_slice(&found.trial);
                 std::mem::swap(&mut self.response, &mut found.response);
             } else {
@@ -350,17 +364,28 @@ impl Forces {
 
     /// Evaluates the connectors that move by themselves, side by side.
     fn connect_moving(&mut self, system: &System, motions: &[Motion], (time, dt): (f64, f64)) {
-        self.alone.clear();
         if !self.moving {
+            self.alone.clear();
             return;
         }
-        for (index, link) in system.links.iter().enumerate().filter(|(_, l)| l.element.moves()) {
+        let moving = || system.links.iter().enumerate().filter(|(_, l)| l.element.moves());
+        self.alone.resize_with(moving().count(), Alone::default);
+        let mut alone = std::mem::take(&mut self.alone);
+        for (one, (index, link)) in alone.iter_mut().zip(moving()) {
             self.place_ends(link, motions);
-            let trial = self.trial.get(link.states.clone()).unwrap_or_default().to_vec();
-            let guess = self.guesses.get_mut(index).and_then(Option::take);
-            self.alone.push(Alone { link: index, ends: self.ends.clone(), trial, guess, ..Alone::default() });
+            one.link = index;
+            one.ends.clone_from(&self.ends);
+            one.trial.clear();
+            one.trial.extend_from_slice(self.trial.get(link.states.clone()).unwrap_or_default());
+            one.guess = self.guesses.get_mut(index).and_then(Option::take);
         }
-        side_by_side::evaluate(system, &mut self.alone, Some(TimeStep { time, dt }));
+        side_by_side::evaluate(system, &mut alone, Some(TimeStep { time, dt }));
+        for one in &mut alone {
+            if let Some(guess) = self.guesses.get_mut(one.link) {
+                *guess = one.guess.take();
+            }
+        }
+        self.alone = alone;
     }
 
     /// Adds a force at the first end of a connector that the place of that end alone changes.

@@ -3,6 +3,9 @@
 //! `F1 = F0 - (K0 + K1)/2 (q1 - q0) - (C0 + C1)/2 (v1 - v0)` by the trapezoidal rule on the straight way between the two states,
 //! K1 and C1 continued from the ends of the last three steps by a parabola. What is foretold is a trial's first correction only:
 //! the forces of a step are always evaluated.
+//!
+//! What moves by itself changes its pull without its ends, and by their accelerations: `- (M0 + M1)/2 (a1 - a0)` more, and by how much
+//! all this was off in the last steps, continued by a parabola, too.
 
 use super::forces::Motion;
 use crate::model::Six;
@@ -49,22 +52,78 @@ pub(super) struct Foretelling {
     step: f64,
     stiffness: Course,
     damping: Course,
+    inertia: Course,
+    /// By how much the ends of the last steps in a row were off, the latest first (N, N m), and how many of these there are.
+    off: [DVector<f64>; 3],
+    known: usize,
+    /// The forces of the start of a step under way, with what loads hold ready for it.
+    start: DVector<f64>,
 }
 
 impl Foretelling {
     /// Nothing foretells the next step.
     pub(super) fn forget(&mut self) {
-        self.count = 0;
+        (self.count, self.known) = (0, 0);
     }
 
     /// A step of a length (s) has ended with these.
     pub(super) fn take(&mut self, dt: f64, stiffness: &DMatrix<f64>, damping: &DMatrix<f64>) {
         if (dt - self.step).abs() > SAME * dt || self.stiffness.last.shape() != stiffness.shape() {
-            (self.count, self.step) = (0, dt);
+            (self.count, self.known, self.step) = (0, 0, dt);
         }
         self.stiffness.take(stiffness, self.count);
         self.damping.take(damping, self.count);
         self.count += 1;
+    }
+
+    /// With that of a step, its -d(sum)/d(acceleration) of what moves by itself: before [`Foretelling::take`].
+    pub(super) fn take_inertia(&mut self, dt: f64, inertia: &DMatrix<f64>) {
+        let again = (dt - self.step).abs() <= SAME * dt && self.inertia.last.shape() == inertia.shape();
+        self.inertia.take(inertia, if again { self.count } else { 0 });
+    }
+
+    /// Keeps the forces of the start of a step, with what loads hold ready.
+    pub(super) fn begin(&mut self, sum: &DVector<f64>) {
+        self.start.clone_from(sum);
+    }
+
+    /// Adds to the forces of the start of a step what accelerations make of them over it, and by how much the steps before were off.
+    /// False without enough of these to go by.
+    pub(super) fn add_moving(&self, (trial, start): (&[Motion], &[Motion]), sum: &mut DVector<f64>) -> bool {
+        let weights = match self.known {
+            0 => return false,
+            1 => [1.0, 0.0, 0.0],
+            2 => [2.0, -1.0, 0.0],
+            _ => [3.0, -3.0, 1.0],
+        };
+        self.add_inertia((trial, start), sum);
+        for (off, weight) in self.off.iter().zip(weights).filter(|(_, w)| *w != 0.0) {
+            sum.axpy(weight, off, 1.0);
+        }
+        true
+    }
+
+    fn add_inertia(&self, (trial, start): (&[Motion], &[Motion]), sum: &mut DVector<f64>) {
+        for (body, (trial, start)) in trial.iter().zip(start).enumerate() {
+            let harder = trial.acceleration - start.acceleration;
+            sum.gemv(-1.0, &self.inertia.mean.fixed_columns::<6>(6 * body), &harder, 1.0);
+        }
+    }
+
+    /// Learns from the forces at the end of a step by how much they would have been off.
+    pub(super) fn learn(&mut self, dt: f64, motions: (&[Motion], &[Motion], &[Six]), sum: &DVector<f64>) {
+        let mut told = std::mem::take(&mut self.start);
+        if told.len() == sum.len() && self.add(dt, motions, &mut told) {
+            self.add_inertia((motions.0, motions.1), &mut told);
+            self.off.rotate_right(1);
+            let [latest, ..] = &mut self.off;
+            latest.clone_from(sum);
+            *latest -= &told;
+            self.known = (self.known + 1).min(3);
+        } else {
+            self.known = 0;
+        }
+        self.start = told;
     }
 
     /// Adds to the forces of the start of a step what motion and change of velocity over it make of them. False without a step of

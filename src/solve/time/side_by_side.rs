@@ -2,7 +2,7 @@
 
 use crate::model::{ClassError, End, Guess, Response, Situation};
 use crate::solve::system::System;
-use rayon::iter::{IntoParallelRefMutIterator, ParallelIterator};
+use std::sync::{Mutex, PoisonError};
 
 /// One of them, with what its evaluation needs and finds.
 #[derive(Default)]
@@ -31,8 +31,23 @@ pub(super) fn evaluate(system: &System, lines: &mut [Alone], step: Option<crate:
         let made = link.element.evaluate(&at, committed, &mut line.trial, &mut line.guess, &mut line.response);
         line.failed = made.err();
     };
-    match lines {
-        [single] => one(single),
-        many => many.par_iter_mut().for_each(one),
+    let helpers = rayon::current_num_threads().min(lines.len()).saturating_sub(1);
+    if helpers == 0 {
+        lines.iter_mut().for_each(one);
+        return;
     }
+    // this thread takes one after the other, as do others that find time
+    let left = Mutex::new(lines.iter_mut());
+    let next = || left.lock().unwrap_or_else(PoisonError::into_inner).next();
+    let work = || {
+        while let Some(line) = next() {
+            one(line);
+        }
+    };
+    rayon::in_place_scope(|scope| {
+        for _ in 0..helpers {
+            scope.spawn(|_| work());
+        }
+        work();
+    });
 }

@@ -1,0 +1,104 @@
+//! How a line that moves by itself is made of its class and the ends of its connector.
+
+use super::around::ground;
+use super::describe::{Description, Part};
+use super::element::{Base, Held, MovingLine};
+use super::kept::Layout;
+use super::mesh::{Cut, SHORT, attachments, told};
+use super::start;
+use crate::model::{ClassError, Connection};
+use crate::rod::{self, PlaneBottom, Rod, State};
+use nalgebra::Vector3;
+use std::sync::Arc;
+
+impl MovingLine {
+    /// The line of a class between the ends of a connector.
+    ///
+    /// # Errors
+    /// Properties that make no rod, more elements than memory should hold, no direction for an end that is held.
+    pub fn made(description: Description, connection: &Connection) -> Result<Self, ClassError> {
+        let around = connection.surroundings;
+        let ambient = connection.ambient.cloned();
+        let ends = connection.ends.map(|p| p.origin);
+        let known = |p: &Part| p.segment.length;
+        let class_first = description.parts.first().map_or(0.0, known);
+        let first = connection.placement.first_length.unwrap_or(class_first);
+        let mut lengths: Vec<f64> = description.parts.iter().map(known).collect();
+        if let Some(length) = lengths.first_mut() {
+            *length = first;
+        }
+        let far = ends[1];
+        let plane = description.seabed.slope.filter(|s| *s != 0.0).map(|slope| {
+            // it rises from the second end toward the first
+            let across = Vector3::new(ends[0].x - far.x, ends[0].y - far.y, 0.0);
+            let toward = across.try_normalize(1e-9).unwrap_or_else(Vector3::x);
+            let height = description.seabed.depth.map_or(far.z, |d| -d);
+            let rise = [toward.x * slope, toward.y * slope];
+            PlaneBottom { height: height - rise[0] * far.x - rise[1] * far.y, slope: rise }
+        });
+        let flat = description.seabed.depth.or(around.depth).map(|d| -d);
+        let floor = if plane.is_some() { None } else { flat };
+        let shape = match &ambient {
+            Some(a) if a.growth(ends[0].z.min(ends[1].z)).0 > 0.0 || a.growth(around.tide).0 > 0.0 => {
+                start::points(&description.parts, &lengths, ends, floor, around)
+            }
+            _ => Vec::new(),
+        };
+        let cut = Cut::of(&description, ambient.as_deref(), &shape);
+        let mesh = cut.mesh(&description.parts, first);
+        let counts: Vec<usize> = (0..description.parts.len())
+            .map(|part| mesh.iter().filter(|e| cut.part.get(e.2) == Some(&part)).count())
+            .collect();
+        let attached = attachments(&description.parts, &counts, around.water_density);
+        let nominal = description.parts.first().map_or(1.0, |p| p.segment.length / p.segment.elements.max(1) as f64);
+        let rod = Rod::with_mesh(&connection.connector.name, cut.segments, attached.clone(), &mesh).map_err(told)?;
+        // the same however much is wound: an element at the winch is never shorter than half of those of the class
+        let of_first = counts.first().copied().unwrap_or(0);
+        let wound = connection.connector.longest.map(|l| (l / (SHORT * nominal)).ceil() as usize);
+        let capacity = rod.nodes() - 1 - of_first + wound.unwrap_or(of_first) + 2;
+        if capacity > rod::MOST_ELEMENTS {
+            return Err(ClassError::new(format!(
+                "its winch would make more than {} elements of it",
+                rod::MOST_ELEMENTS
+            )));
+        }
+        let per_node = State::packed(&rod).div_ceil(rod.nodes()) + 1;
+        let holds = holds(&description, connection)?;
+        let ground = ground(&description.seabed, rod.segments(), around);
+        let layout = Layout::new(capacity, per_node * (capacity + 2), connection.connector.books);
+        let base = Base {
+            description,
+            rod,
+            attached,
+            part: cut.part,
+            ambient,
+            plane,
+            flat,
+            ground,
+            holds,
+            freed: connection.connector.freed,
+            felt: [true, !connection.to_ground],
+        };
+        Ok(MovingLine { base: Arc::new(base), layout, first, nominal })
+    }
+}
+
+/// The directions in which the ends are held, in the axes of their holders as defined.
+fn holds(description: &Description, connection: &Connection) -> Result<[Option<Held>; 2], ClassError> {
+    let [a, b] = connection.connector.defined;
+    let b = if connection.to_ground { crate::model::Pose { origin: connection.ends[1].origin, ..b } } else { b };
+    let chord = b.origin - a.origin;
+    let across = Vector3::new(chord.x, chord.y, 0.0).try_normalize(1e-9).unwrap_or_else(Vector3::x);
+    let mut made = [None, None];
+    for ((place, hold), pose) in made.iter_mut().zip(&description.holds).zip([a, b]) {
+        let Some(hold) = hold else { continue };
+        let direction = match hold.declination {
+            Some(angle) => across * angle.sin() - Vector3::z() * angle.cos(),
+            None => chord.try_normalize(1e-9).ok_or_else(|| {
+                ClassError::new("the two ends are at one place: an end that is held has no direction there")
+            })?,
+        };
+        *place = Some((pose.axes.transpose() * direction, hold.stiffness));
+    }
+    Ok(made)
+}

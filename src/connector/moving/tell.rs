@@ -1,0 +1,78 @@
+//! What a line that moves by itself tells of itself: its nodes, modes and books.
+
+use super::element::MovingLine;
+use super::modes;
+use crate::model::{ClassError, LineBooks, LineMode, LineNode, LineStress, Situation, Summary};
+use crate::rod::{Settings, Solver};
+
+impl MovingLine {
+    pub(super) fn tell_books(&self, state: &[f64]) -> Option<LineBooks> {
+        let found = self.layout.balance(state)?;
+        let (e, w) = (&found.energy, &found.work);
+        Some(LineBooks {
+            energy: [e.kinetic, e.elastic, e.gravity, e.bottom + e.rollers],
+            work: [w.ends[0], w.ends[1], w.fluid + w.given, w.damping, w.bottom + w.rollers],
+            energy_error: found.energy_error(),
+            turnover: found.turnover,
+            momentum_error: found.momentum_error(),
+        })
+    }
+
+    pub(super) fn tell_along(&self, at: &Situation, state: &[f64], out: &mut Vec<LineNode>) -> Result<(), ClassError> {
+        let (other, state, still) = self.where_it_is(at, state)?;
+        let rod = other.as_ref().unwrap_or(&self.base.rod);
+        let ends = self.held(at.ends, still)?;
+        out.clear();
+        let found = self.within((at.surroundings, still), &mut Vec::new(), |world| rod.results(&state, world, &ends));
+        out.extend(found.iter().map(|n| LineNode {
+            arc: n.arc,
+            segment: self.base.part.get(n.segment).copied().unwrap_or(0),
+            position: n.position,
+            velocity: n.velocity,
+            effective: n.effective,
+            wall: n.wall,
+            shear: n.shear,
+            moment: n.moment,
+            bends: n.bends,
+            torque: n.torque,
+            curvature: n.curvature,
+            clearance: n.clearance,
+            pressures: n.pressures,
+            stress: n.stress.map(|s| LineStress {
+                axial: s.axial,
+                bending: s.bending,
+                hoop: s.hoop,
+                von_mises: s.von_mises,
+            }),
+        }));
+        Ok(())
+    }
+
+    pub(super) fn tell_modes(&self, at: &Situation, state: &[f64], number: usize) -> Result<Vec<LineMode>, ClassError> {
+        let (other, state, _) = self.where_it_is(at, state)?;
+        let rod = other.as_ref().unwrap_or(&self.base.rod);
+        let ends = self.held(at.ends, true)?;
+        let mut solver = Solver::new(rod, Settings::default());
+        self.within((at.surroundings, true), &mut Vec::new(), |world| {
+            modes::of(rod, &mut solver, &state, world, ends, number)
+        })
+    }
+
+    pub(super) fn tell_summary(&self, at: &Situation, committed: &[f64]) -> Result<Summary, ClassError> {
+        let mut nodes = Vec::new();
+        self.tell_along(at, committed, &mut nodes)?;
+        let mut told = Summary { solution: "rod", notes: self.base.description.notes.clone(), ..Summary::default() };
+        told.tension = nodes.first().map(|n| n.effective);
+        let breaks = |n: &LineNode| self.base.description.parts.get(n.segment).map(|p| p.strength.breaking);
+        let ratios = nodes.iter().filter_map(|n| breaks(n).map(|b| (n.effective / b, n.segment + 1)));
+        if let Some((ratio, segment)) = ratios.max_by(|a, b| a.0.total_cmp(&b.0)) {
+            (told.ratio, told.critical) = (Some(ratio), Some(segment));
+            if ratio > 1.0 {
+                told.notes.push("warning: the line is beyond its breaking tension".into());
+            }
+        }
+        let lies = |pair: &[LineNode]| pair.iter().all(|n| n.clearance <= 0.0);
+        told.grounded = Some(nodes.windows(2).filter(|p| lies(p)).map(|p| p[1].arc - p[0].arc).sum());
+        Ok(told)
+    }
+}
