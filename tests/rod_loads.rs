@@ -148,6 +148,24 @@ fn a_joint_of_aqwa_drags_by_half_the_density_times_its_drag_area() {
 }
 
 #[test]
+fn a_joint_of_aqwa_swings_with_its_added_mass() {
+    // a light taut string with a mass in its middle: w2 = 4 T / (l M), and a third of the string goes with the mass
+    let frequency = |joint: &str| {
+        let class =
+            format!("~LINE CATENARY 1 1E-4 -EA 1E9 -LEN 49.5 {joint}\n~LINE CATENARY 1 1E-4 -EA 1E9 -LEN 49.5");
+        let line = held(&class, "", (-50.0, true));
+        let at = Situation { ends: &line.ends, step: None, surroundings: &line.around };
+        let state = vec![0.0; line.element.states()];
+        line.element.swings(&at, &state, 1).unwrap()[0].frequency
+    };
+    let tension = 1e9 / 99.0;
+    for (joint, mass) in [("-CLUMP 2000 1000", 2000.0), ("-CLUMP 2000 1000 3000", 5000.0)] {
+        let want = (4.0 * tension / 100.0 / (mass + 1.1 * 99.0 / 3.0)).sqrt();
+        near(frequency(joint), want, 5e-3);
+    }
+}
+
+#[test]
 fn cable_dynamics_bends_with_ei_and_knows_no_maximum_tension() {
     let plain = held(&format!("{CATENARY}-TMAX 1E6"), "", (-50.0, true));
     // 1 % of strain of 1E9 N: ten times the maximum that ends the database
