@@ -140,17 +140,22 @@ fn an_installed_rod_swings_as_the_tether_of_the_listing_does() {
         let all = tables[0].get("Frequency").unwrap().numbers();
         all.iter().step_by(2).copied().collect::<Vec<f64>>()
     };
-    let (rod, fine) = (frequencies(20), frequencies(80));
+    let [rough, coarse, fine] = [20, 40, 80].map(frequencies);
     let listing = [1.2601, 2.6169, 4.2510, 6.2645, 9.3175, 11.9184];
     let share = |found: &[f64], of: &[f64]| -> Vec<f64> { found.iter().zip(of).map(|(f, o)| f / o - 1.0).collect() };
-    let (own, coarse) = (tether_frequencies(24, 6), tether_frequencies(3, 6));
-    println!("rod 20 {rod:?}\nrod 80 {fine:?}\ntether 24 {own:?}\ntether 3 {coarse:?}");
-    println!("20 {:?}\n80 {:?}", share(&rod, &own), share(&fine, &own));
-    // the tether engine in the listing's three elements gives its frequencies (tests/seed_003_installed.rs says to what)
-    assert!(share(&coarse, &listing).iter().all(|e| e.abs() < 1e-4));
-    // three cubic elements are stiff beyond their second mode: 24 of them swing slower from the third mode on
-    // the rod's are those of the tether in elements that are small enough
-    assert!(share(&fine, &own).iter().all(|e| e.abs() < 2e-3), "{:?}", share(&fine, &own));
+    let (own, of_three) = (tether_frequencies(24, 6), tether_frequencies(3, 6));
+    // the tether engine in the listing's three elements gives its frequencies (tests/seed_003_installed.rs says to what), but three cubic
+    // elements are too stiff from the second mode on: by 0.2, 2.7, 6, 17 and 15 %, as 24 of them show
+    assert!(share(&of_three, &listing).iter().all(|e| e.abs() < 1e-4), "{of_three:?}");
+    assert!(share(&of_three, &own)[2] > 0.02 && share(&of_three, &own)[5] > 0.1, "{own:?}");
+    // lumped masses and hinges make the rod slow where the tether is fast, by the square of its elements
+    let errors = [&rough, &coarse, &fine].map(|f| share(f, &own));
+    assert!(errors[0][5] < 0.0 && (3.0..5.0).contains(&(errors[0][5] / errors[1][5])), "{errors:?}");
+    // taken to no length of element the two agree: the first mode is 3E-4 faster for the 6 kN of its bent ends, and for the rod's tension
+    // that grows along it
+    let limit: Vec<f64> = fine.iter().zip(&coarse).map(|(f, c)| f + (f - c) / 3.0).collect();
+    assert!(share(&limit, &own).iter().all(|e| e.abs() < 6e-4), "{:?}", share(&limit, &own));
+    assert!((fine[0] / listing[0] - 1.0).abs() < 4e-4, "{fine:?}");
 }
 
 /// Period of a freedom of the platform that &STATUS MODES prints.
@@ -212,7 +217,7 @@ fn rods_move_the_platform_as_tethers_do_until_a_tether_goes_slack() {
     // What is left: the shear and the inertia of the tethers, which the tether engine keeps from the platform, 0.5 % of its mass
     let before = [0, 1, 2].map(|f| apart(&RODS, &TETHERS, f, [0.0, 6.2]));
     println!("before {before:?}");
-    assert!(before[0] < 3e-3 && before[1] < 3.5e-3 && before[2] < 0.003f64.to_radians(), "{before:?}");
+    assert!(before[0] < 3e-3 && before[1] < 4e-3 && before[2] < 0.003f64.to_radians(), "{before:?}");
     // then the tethers of one side are without tension for 0.8 s. Those of AQWA let go; a rod goes on to push, as it cannot buckle in that
     // time: its load doubles an imperfection in seconds. It leaves the platform 20 mm higher, which rings on in heave
     let after = [0, 1, 2].map(|f| apart(&RODS, &TETHERS, f, [6.2, 25.0]));
@@ -254,11 +259,22 @@ fn a_rod_pushes_where_a_tether_of_the_listing_is_slack() {
 fn the_platform_on_rods_has_the_harmonics_of_the_listing_but_for_its_half_wet_tubes() {
     let harmonics = |m: &Motion, f: usize| Cycle::of(&m.0, &m.1[f], (0.0, 15.0), 4, AQWA_SAMPLES).unwrap();
     let aqwa = of_tethers(0.25, "AQWA").0;
-    let listing =
-        [(-56.0, -7.6679, [6.3223, 0.18, 0.1323, 0.0798]), (-19.5151, -1.5671, [1.3677, 0.0717, 0.0239, 0.0264])];
-    for (f, (mean, drift, amplitudes)) in listing.iter().enumerate() {
-        let (rod, tether, same) = (harmonics(&RODS, f), harmonics(&TETHERS, f), harmonics(&aqwa, f));
-        println!("{f} rod {rod:?}\ntether {tether:?}\naqwa {same:?}\nlisting {mean} {drift} {amplitudes:?}");
+    // means, drifts and first amplitudes of surge and heave, as printed
+    let listing = [[-56.0, -7.6679, 6.3223], [-19.5151, -1.5671, 1.3677]];
+    for (f, listing) in listing.iter().enumerate() {
+        let told = |m: &Motion| {
+            let cycle = harmonics(m, f);
+            [cycle.mean, cycle.drift, cycle.harmonics[0].amplitude]
+        };
+        let (rod, tether, same) = (told(&RODS), told(&TETHERS), told(&aqwa));
+        // the tether engine as AQWA has the listing's, to 3 mm
+        assert!(same.iter().zip(listing).all(|(a, b)| (a - b).abs() < 3e-3), "{same:?}");
+        // without AQWA's peculiarities, above all the velocity of the water at a tube's point that is half wet taken from another of its
+        // points (installed-tether.md, 3), surge is larger by 5.6 % and heave by 6.3 %: the rods' motion is that, to 0.5 % of the drift and
+        // 0.1 % of the amplitude
+        assert!((tether[2] / same[2] - 1.0 - [0.056, 0.063][f]).abs() < 3e-3, "{tether:?} {same:?}");
+        assert!((rod[2] / tether[2] - 1.0).abs() < 1e-3 && (rod[0] - tether[0]).abs() < 5e-3, "{rod:?} {tether:?}");
+        assert!((rod[1] - tether[1]).abs() < 0.016, "{rod:?} {tether:?}");
     }
 }
 
