@@ -91,13 +91,13 @@ fn a_taut_string_in_water_swings_with_its_added_mass() {
 #[test]
 fn a_pinned_beam_under_tension_has_the_frequencies_of_its_closed_form() {
     // w2 = k2 (T + EI k2) / m, k = n pi/L, in air; light, so that it does not sag
-    let class = "~S ROD 500 20 -LEN 100 -REFINE 100 -EI 2E8 -EA 6E9 -WTPLEN 10";
+    let class = "~S ROD 500 20 -LEN 100 -REFINE 100 -EI 2E8 -EA 6E9 -WTPLEN 1";
     let length = 100.0 + 5e5 / 6e9 * 100.0;
     let tables = modes(class, [[0.0, 0.0, 50.0], [length, 0.0, 50.0]], 8, false);
     let found = across(&tables[0]);
     for (n, w) in [1.0, 2.0, 3.0].iter().zip(&found) {
         let k = n * PI / length;
-        let want = k * ((5e5 + 2e8 * k * k) * length / (10.0 / GRAVITY * 100.0)).sqrt();
+        let want = k * ((5e5 + 2e8 * k * k) * length / (1.0 / GRAVITY * 100.0)).sqrt();
         // hinges between 100 straight elements are soft by up to (n pi/100)2 / 12
         let soft = (n * PI / 100.0).powi(2) / 12.0;
         assert!((w / want - 1.0).abs() < soft + 1e-4, "{n} {w} {want}");

@@ -140,17 +140,22 @@ fn an_installed_rod_swings_as_the_tether_of_the_listing_does() {
         let all = tables[0].get("Frequency").unwrap().numbers();
         all.iter().step_by(2).copied().collect::<Vec<f64>>()
     };
-    let (rod, fine) = (frequencies(20), frequencies(80));
+    let [rough, coarse, fine] = [20, 40, 80].map(frequencies);
     let listing = [1.2601, 2.6169, 4.2510, 6.2645, 9.3175, 11.9184];
     let share = |found: &[f64], of: &[f64]| -> Vec<f64> { found.iter().zip(of).map(|(f, o)| f / o - 1.0).collect() };
-    let (own, coarse) = (tether_frequencies(24, 6), tether_frequencies(3, 6));
-    println!("rod 20 {rod:?}\nrod 80 {fine:?}\ntether 24 {own:?}\ntether 3 {coarse:?}");
-    println!("20 {:?}\n80 {:?}", share(&rod, &own), share(&fine, &own));
-    // the tether engine in the listing's three elements gives its frequencies (tests/seed_003_installed.rs says to what)
-    assert!(share(&coarse, &listing).iter().all(|e| e.abs() < 1e-4));
-    // three cubic elements are stiff beyond their second mode: 24 of them swing slower from the third mode on
-    // the rod's are those of the tether in elements that are small enough
-    assert!(share(&fine, &own).iter().all(|e| e.abs() < 2e-3), "{:?}", share(&fine, &own));
+    let (own, of_three) = (tether_frequencies(24, 6), tether_frequencies(3, 6));
+    // the tether engine in the listing's three elements gives its frequencies (tests/seed_003_installed.rs says to what), but three cubic
+    // elements are too stiff from the second mode on: by 0.2, 2.7, 6, 17 and 15 %, as 24 of them show
+    assert!(share(&of_three, &listing).iter().all(|e| e.abs() < 1e-4), "{of_three:?}");
+    assert!(share(&of_three, &own)[2] > 0.02 && share(&of_three, &own)[5] > 0.1, "{own:?}");
+    // lumped masses and hinges make the rod slow where the tether is fast, by the square of its elements
+    let errors = [&rough, &coarse, &fine].map(|f| share(f, &own));
+    assert!(errors[0][5] < 0.0 && (3.0..5.0).contains(&(errors[0][5] / errors[1][5])), "{errors:?}");
+    // taken to no length of element the two agree: the first mode is 3E-4 faster for the 6 kN of its bent ends, and for the rod's tension
+    // that grows along it
+    let limit: Vec<f64> = fine.iter().zip(&coarse).map(|(f, c)| f + (f - c) / 3.0).collect();
+    assert!(share(&limit, &own).iter().all(|e| e.abs() < 6e-4), "{:?}", share(&limit, &own));
+    assert!((fine[0] / listing[0] - 1.0).abs() < 4e-4, "{fine:?}");
 }
 
 /// Period of a freedom of the platform that &STATUS MODES prints.
@@ -190,15 +195,16 @@ fn of_rods(step: f64) -> (Motion, Session) {
     ((history.times(), [0, 2, 4].map(|f| history.series(at + f))), session)
 }
 
-fn of_tethers(step: f64, option: &str) -> (Motion, Tethered) {
-    let (session, _) = done(&(platform(&format!("25 {step}")) + &tethers(12) + &format!("TDOM -TETHERS {option}\n")));
+fn of_tethers(step: f64, elements: usize, option: &str) -> (Motion, Tethered) {
+    let (session, _) =
+        done(&(platform(&format!("25 {step}")) + &tethers(elements) + &format!("TDOM -TETHERS {option}\n")));
     let run = session.job.tethered.clone().unwrap();
     let structure = run.structure.as_ref().unwrap();
     ((run.times.clone(), [0, 2, 4].map(|f| structure.series(f))), run)
 }
 
 static RODS: LazyLock<Motion> = LazyLock::new(|| of_rods(0.05).0);
-static TETHERS: LazyLock<Motion> = LazyLock::new(|| of_tethers(0.05, "").0);
+static TETHERS: LazyLock<Motion> = LazyLock::new(|| of_tethers(0.05, 12, "").0);
 
 /// Largest difference of two motions from a time to another.
 fn apart(a: &Motion, b: &Motion, freedom: usize, [from, to]: [f64; 2]) -> f64 {
@@ -211,12 +217,10 @@ fn rods_move_the_platform_as_tethers_do_until_a_tether_goes_slack() {
     // before the first slack of any length, at 6.25 s, the platform has gone 13 m and swung twice on its tethers: surge, heave and pitch.
     // What is left: the shear and the inertia of the tethers, which the tether engine keeps from the platform, 0.5 % of its mass
     let before = [0, 1, 2].map(|f| apart(&RODS, &TETHERS, f, [0.0, 6.2]));
-    println!("before {before:?}");
-    assert!(before[0] < 3e-3 && before[1] < 3.5e-3 && before[2] < 0.003f64.to_radians(), "{before:?}");
-    // then the tethers of one side are without tension for 0.8 s. Those of AQWA let go; a rod goes on to push, as it cannot buckle in that
-    // time: its load doubles an imperfection in seconds. It leaves the platform 20 mm higher, which rings on in heave
+    assert!(before[0] < 3e-3 && before[1] < 4e-3 && before[2] < 0.003f64.to_radians(), "{before:?}");
+    // then the tethers of one side are without tension for 0.8 s. Those of AQWA let go; a rod goes on to push, as it has no time to
+    // buckle (below). It leaves the platform 20 mm higher, which rings on in heave
     let after = [0, 1, 2].map(|f| apart(&RODS, &TETHERS, f, [6.2, 25.0]));
-    println!("after {after:?}");
     assert!(after[0] < 0.035 && after[1] < 0.025 && after[2] < 0.02f64.to_radians(), "{after:?}");
     let most = |m: &Motion, f: usize| {
         let (low, high) = m.1[f].iter().fold((f64::MAX, f64::MIN), |(l, h), v| (l.min(*v), h.max(*v)));
@@ -234,31 +238,47 @@ fn a_rod_pushes_where_a_tether_of_the_listing_is_slack() {
     assert!(history.layout.wrench(link, 0).is_some());
     let rows: Vec<(f64, f64)> =
         history.rows().map(|row| (row[0], along.node(along.numbers.len() / 2, row).unwrap().effective)).collect();
-    let (_, run) = of_tethers(0.05, "");
+    let (_, run) = of_tethers(0.05, 12, "");
     let effective = run.tethers[0].end(12, 0);
     let pushes: Vec<f64> = rows.iter().filter(|(t, _)| (6.0..7.5).contains(t)).map(|r| r.1).collect();
     let least = pushes.iter().copied().fold(f64::MAX, f64::min);
     let slack = effective.iter().zip(&run.times).filter(|(_, t)| (6.0..7.5).contains(*t)).map(|(e, _)| *e);
     let slack = slack.fold(f64::MAX, f64::min);
-    println!("rod least {least} tether least {slack}");
+    // the tether has its weight in water below the middle, the rod pushes with 3.3 MN for 0.7 s. That is six times what it bears at rest, but a
+    // bend grows by exp(P t / 2 sqrt(EI m)) at most, m with added mass: by half in this time
     let time = pushes.iter().filter(|p| **p < 0.0).count() as f64 * 0.05;
-    println!("time {time}");
-    // where both have tension they have the same, but for what the 6 kN of bent ends and the motion come to
-    let both: Vec<(f64, f64)> =
-        rows.iter().zip(&effective).filter(|(r, _)| r.0 <= 6.0).map(|(r, e)| (r.1, *e)).collect();
-    let worst = both.iter().map(|(r, e)| (r - e).abs()).fold(0.0, f64::max);
-    println!("worst {worst}");
+    assert!((0.0..5.2e3).contains(&slack) && (-4e6..-2.5e6).contains(&least), "{least} {slack}");
+    assert!((time - 0.75).abs() < 0.11, "{time}");
+    let [_, ei] = stiff();
+    let mass = 7816.94 * steel() + 1025.0 * FRAC_PI_4 * OUTER * OUTER;
+    let growth = (-least * time / (2.0 * (ei * mass).sqrt())).exp();
+    assert!(-least > 5.0 * PI * PI * ei / (LENGTH * LENGTH) && growth < 1.6, "{growth}");
+    // before that they pull alike but for the 6 kN of bent ends, and 104 MN/m of the 5 mm by which the platform stands elsewhere at a corner
+    let both = rows.iter().zip(&effective).filter(|(r, _)| r.0 <= 3.5);
+    let worst = both.map(|(r, e)| (r.1 - e).abs()).fold(0.0, f64::max);
+    assert!(worst < 0.6e6, "{worst}");
 }
 
 #[test]
 fn the_platform_on_rods_has_the_harmonics_of_the_listing_but_for_its_half_wet_tubes() {
     let harmonics = |m: &Motion, f: usize| Cycle::of(&m.0, &m.1[f], (0.0, 15.0), 4, AQWA_SAMPLES).unwrap();
-    let aqwa = of_tethers(0.25, "AQWA").0;
-    let listing =
-        [(-56.0, -7.6679, [6.3223, 0.18, 0.1323, 0.0798]), (-19.5151, -1.5671, [1.3677, 0.0717, 0.0239, 0.0264])];
-    for (f, (mean, drift, amplitudes)) in listing.iter().enumerate() {
-        let (rod, tether, same) = (harmonics(&RODS, f), harmonics(&TETHERS, f), harmonics(&aqwa, f));
-        println!("{f} rod {rod:?}\ntether {tether:?}\naqwa {same:?}\nlisting {mean} {drift} {amplitudes:?}");
+    let aqwa = of_tethers(0.25, 3, "AQWA").0;
+    // means, drifts and first amplitudes of surge and heave, as printed
+    let listing = [[-56.0, -7.6679, 6.3223], [-19.5151, -1.5671, 1.3677]];
+    for (f, listing) in listing.iter().enumerate() {
+        let told = |m: &Motion| {
+            let cycle = harmonics(m, f);
+            [cycle.mean, cycle.drift, cycle.harmonics[0].amplitude]
+        };
+        let (rod, tether, same) = (told(&RODS), told(&TETHERS), told(&aqwa));
+        // the tether engine as AQWA has the listing's, to 3 mm
+        assert!(same.iter().zip(listing).all(|(a, b)| (a - b).abs() < 3e-3), "{same:?}");
+        // without AQWA's peculiarities, above all the velocity of the water at a tube's point that is half wet taken from another of its
+        // points (installed-tether.md, 3), surge is larger by 5.6 % and heave by 6.3 %: the rods' motion is that, to 0.5 % of the drift and
+        // 0.1 % of the amplitude
+        assert!((tether[2] / same[2] - 1.0 - [0.056, 0.063][f]).abs() < 3e-3, "{tether:?} {same:?}");
+        assert!((rod[2] / tether[2] - 1.0).abs() < 1e-3 && (rod[0] - tether[0]).abs() < 5e-3, "{rod:?} {tether:?}");
+        assert!((rod[1] - tether[1]).abs() < 0.016, "{rod:?} {tether:?}");
     }
 }
 
@@ -285,10 +305,11 @@ fn added(diameter: f64, upward: bool) -> f64 {
     TOWED_WATER * FRAC_PI_4 * area
 }
 
-/// Periods of the towed tether as a rod, with its share of motion along, across and upward. The springs of 500 N/m at both ends are ropes 2 cm
-/// long that 10 N pull to twice their length. With `added` that is part of the mass, and there is no water; without it floats.
+/// Periods of the towed tether as a rod, with its share of motion along, across and upward. The springs of 500 N/m at both ends are short ropes
+/// that the pull of the spring over their length stretches to twice of what they are. With `added` that is part of the mass, and there is no water; without it floats.
 fn towed_periods(cut: usize, plane: Option<bool>) -> Vec<(f64, [f64; 3])> {
-    let (spring, tail) = (500.0, 0.02);
+    // afloat the ends rise by centimetres
+    let (spring, tail) = (500.0, if plane.is_some() { 0.02 } else { 0.2 });
     let rope = Segment { displaced: 0.0, added_area: 0.0, ..Segment::line(tail / 2.0, 1, 1e-3, spring * tail, 0.01) };
     let mut segments = vec![rope.clone()];
     for (length, elements, outer, wall, density, modulus) in TOWED {
@@ -347,10 +368,11 @@ fn a_towed_rod_on_springs_has_the_bending_modes_of_the_listing() {
             all.into_iter().filter(|(_, s)| s[0] < 0.5).map(|(t, _)| t).step_by(2).collect()
         };
         let [coarse, fine] = [2, 8].map(periods);
-        println!("{coarse:?} {fine:?}");
         for i in 0..3 {
             assert!((fine[i] / beam[i] - 1.0).abs() < 1e-3, "{fine:?}");
         }
+        // in a fourth of the elements bending is slow by their square
+        assert!((coarse[2] / beam[2] - 1.0) > 4.0 * (fine[2] / beam[2] - 1.0).abs(), "{coarse:?}");
         assert!((fine[2] / listing[2] - 1.0).abs() < 1.5e-3, "{fine:?}");
         assert!(
             (0.012..0.04).contains(&(listing[0] / fine[0] - 1.0))
@@ -364,7 +386,6 @@ fn a_towed_rod_on_springs_has_the_bending_modes_of_the_listing() {
 #[test]
 fn a_rod_afloat_is_held_by_its_water_line_which_the_listing_leaves_out() {
     let all = towed_periods(4, None);
-    println!("{all:?}");
     let slowest = |axis: usize| all.iter().filter(|(_, s)| s[axis] > 0.5).map(|(t, _)| *t).collect::<Vec<f64>>();
     // upward the listing has two rigid modes of 151 and 92 s and bending of 15.3 s: its stiffness has no water line. That of the rod holds it
     // with rho g times the chord, some 5 kN/m on each metre, so that it heaves in 6 s and bends faster
