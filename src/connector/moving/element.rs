@@ -1,47 +1,24 @@
 //! A line that moves by itself as an engine sees it.
 
+use super::answer::{answer, holds};
 use super::around::{Floor, Water, ground};
 use super::describe::{Description, Part};
 use super::kept::{Kept, Layout};
 use super::mesh::{Cut, attachments, told, wind};
 use super::start;
+use super::warm::{Base, Warm, solver_of};
 use crate::language::units::Dim;
 use crate::model::{
-    Ambient, ClassError, Connection, Element, End, Flow, Guess, LineNode, LineStress, Response, Situation, Six, Summary,
+    ClassError, Connection, Element, End, Flow, Guess, LineNode, LineStress, Response, Situation, Six, Summary,
     Surroundings,
 };
-use crate::rod::{
-    self, EndForces, EndTangent, Ground, Motion, PlaneBottom, Rod, Settings, Solver, State, Twelve, World,
-};
-use nalgebra::{Matrix6, Vector3};
+use crate::rod::{self, EndForces, EndTangent, Ground, Motion, PlaneBottom, Rod, State, World};
+use nalgebra::Vector3;
 use std::cell::RefCell;
 use std::sync::Arc;
 
-/// How often a rod halves a step of the run by itself, before the run halves its own.
-const HALVINGS: u32 = 8;
 /// An end may lie this much below the bottom (m).
 const BELOW: f64 = 1e-3;
-
-/// What does not change while it is wound.
-#[derive(Debug)]
-struct Base {
-    description: Description,
-    rod: Rod,
-    attached: Vec<rod::Attachment>,
-    /// Part of each segment of the rod.
-    part: Vec<usize>,
-    ambient: Option<Arc<dyn Ambient>>,
-    plane: Option<PlaneBottom>,
-    /// Elevation of a flat bottom (m), where one is known.
-    flat: Option<f64>,
-    ground: Ground,
-    /// Direction in which each end is held, in the axes of what holds it, and the stiffness of that.
-    holds: [Option<(Vector3<f64>, Option<f64>)>; 2],
-    /// Whether the first end is let go.
-    freed: bool,
-    /// Which ends can move.
-    felt: [bool; 2],
-}
 
 /// A line between two ends.
 #[derive(Debug)]
@@ -51,37 +28,6 @@ pub struct MovingLine {
     /// Length of the first part (m), and of its elements as the class has them.
     first: f64,
     nominal: f64,
-}
-
-/// What a solver of a line remembers.
-struct Warm {
-    base: Arc<Base>,
-    rod: Rod,
-    solver: Solver,
-    /// Where it last hung at rest.
-    rest: Option<State>,
-    /// Room for its state on the way, for that as numbers, and for the water at its nodes.
-    state: State,
-    room: Vec<f64>,
-    flows: Vec<Flow>,
-}
-
-impl Warm {
-    fn of(base: &Arc<Base>) -> Self {
-        let rod = base.rod.clone();
-        let (state, room, flows) = (State::default(), Vec::new(), Vec::new());
-        Warm { base: base.clone(), solver: solver_of(&rod), rod, rest: None, state, room, flows }
-    }
-
-    /// Becomes that of another rod.
-    fn take(&mut self, rod: Rod) {
-        self.solver = solver_of(&rod);
-        self.rod = rod;
-    }
-}
-
-fn solver_of(rod: &Rod) -> Solver {
-    Solver::new(rod, Settings { halvings: HALVINGS, ..Settings::default() })
 }
 
 /// A line at rest.
@@ -313,56 +259,6 @@ impl MovingLine {
         self.layout.write(rod, state, room, trial)?;
         answer(out, &forces, tangent.as_ref(), true)
     }
-}
-
-/// Wrenches and their changes.
-fn answer(
-    out: &mut Response,
-    forces: &EndForces,
-    tangent: Option<&EndTangent>,
-    moving: bool,
-) -> Result<(), ClassError> {
-    out.clear(2);
-    for (wrench, (force, moment)) in out.wrench.iter_mut().zip(forces.force.iter().zip(&forces.moment)) {
-        *wrench = Six::new(force.x, force.y, force.z, moment.x, moment.y, moment.z);
-    }
-    if out.wrench.iter().any(|w| w.iter().any(|v| !v.is_finite())) {
-        return Err(ClassError::new("its force is no number"));
-    }
-    let Some(tangent) = tangent else { return Ok(()) };
-    let fill = |blocks: &mut Vec<Matrix6<f64>>, whole: &Twelve| {
-        blocks.clear();
-        blocks.extend((0..4).map(|index| -whole.fixed_view::<6, 6>(6 * (index / 2), 6 * (index % 2))));
-    };
-    fill(&mut out.stiffness, &tangent.position);
-    if moving {
-        fill(&mut out.damping, &tangent.velocity);
-        fill(&mut out.inertia, &tangent.acceleration);
-    }
-    Ok(())
-}
-
-/// The directions in which the ends are held, in the axes of their holders as defined.
-fn holds(
-    description: &Description,
-    connection: &Connection,
-) -> Result<[Option<(Vector3<f64>, Option<f64>)>; 2], ClassError> {
-    let [a, b] = connection.connector.defined;
-    let b = if connection.to_ground { crate::model::Pose { origin: connection.ends[1].origin, ..b } } else { b };
-    let chord = b.origin - a.origin;
-    let across = Vector3::new(chord.x, chord.y, 0.0).try_normalize(1e-9).unwrap_or_else(Vector3::x);
-    let mut made = [None, None];
-    for ((place, hold), pose) in made.iter_mut().zip(&description.holds).zip([a, b]) {
-        let Some(hold) = hold else { continue };
-        let direction = match hold.declination {
-            Some(angle) => across * angle.sin() - Vector3::z() * angle.cos(),
-            None => chord.try_normalize(1e-9).ok_or_else(|| {
-                ClassError::new("the two ends are at one place: an end that is held has no direction there")
-            })?,
-        };
-        *place = Some((pose.axes.transpose() * direction, hold.stiffness));
-    }
-    Ok(made)
 }
 
 impl Element for MovingLine {

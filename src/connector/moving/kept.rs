@@ -47,13 +47,7 @@ impl Layout {
     }
 
     /// Writes a state that has begun; `room` is for its motion.
-    pub fn write(
-        &self,
-        rod: &Rod,
-        state: &State,
-        room: &mut Vec<f64>,
-        out: &mut [f64],
-    ) -> Result<(), ClassError> {
+    pub fn write(&self, rod: &Rod, state: &State, room: &mut Vec<f64>, out: &mut [f64]) -> Result<(), ClassError> {
         let wrong = || ClassError::new("the line has grown beyond what its winch was to pay out");
         let mesh = rod.each_of_mesh();
         room.clear();
