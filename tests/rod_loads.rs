@@ -151,8 +151,7 @@ fn a_joint_of_aqwa_drags_by_half_the_density_times_its_drag_area() {
 fn a_joint_of_aqwa_swings_with_its_added_mass() {
     // a light taut string with a mass in its middle: w2 = 4 T / (l M), and a third of the string goes with the mass
     let frequency = |joint: &str| {
-        let class =
-            format!("~LINE CATENARY 1 1E-4 -EA 1E9 -LEN 49.5 {joint}\n~LINE CATENARY 1 1E-4 -EA 1E9 -LEN 49.5");
+        let class = format!("~LINE CATENARY 1 1E-4 -EA 1E9 -LEN 49.5 {joint}\n~LINE CATENARY 1 1E-4 -EA 1E9 -LEN 49.5");
         let line = held(&class, "", (-50.0, true));
         let at = Situation { ends: &line.ends, step: None, surroundings: &line.around };
         let state = vec![0.0; line.element.states()];
@@ -160,7 +159,7 @@ fn a_joint_of_aqwa_swings_with_its_added_mass() {
     };
     let tension = 1e9 / 99.0;
     for (joint, mass) in [("-CLUMP 2000 1000", 2000.0), ("-CLUMP 2000 1000 3000", 5000.0)] {
-        let want = (4.0 * tension / 100.0 / (mass + 1.1 * 99.0 / 3.0)).sqrt();
+        let want = (4.0_f64 * tension / 100.0 / (mass + 1.1 * 99.0 / 3.0)).sqrt();
         near(frequency(joint), want, 5e-3);
     }
 }

@@ -1,53 +1,26 @@
 //! A line that moves by itself as an engine sees it.
 
+use super::answer::answer;
 use super::around::{Floor, Water};
-use super::describe::Description;
 use super::kept::{Kept, Layout};
 use super::mesh::{told, wind};
 use super::start;
+use super::warm::{Base, Held, Warm, solver_of};
 use crate::language::units::Dim;
 use crate::model::{
-    Ambient, ClassError, Element, End, Flow, Guess, LineBooks, LineMode, LineNode, Response, Situation, Six, Summary,
+    ClassError, Element, End, Flow, Guess, LineBooks, LineMode, LineNode, Response, Situation, Six, Summary,
     Surroundings,
 };
-use crate::rod::{
-    self, Balance, EndForces, EndTangent, Ground, Motion, PlaneBottom, Rod, Settings, Solver, State, Twelve, World,
-};
-use nalgebra::{Matrix6, Vector3};
+use crate::rod::{self, Balance, EndForces, EndTangent, Ground, Motion, Rod, State, World};
+use nalgebra::Vector3;
 use std::cell::RefCell;
 use std::sync::Arc;
 
-/// How often a rod halves a step of the run by itself, before the run halves its own.
-const HALVINGS: u32 = 8;
 /// An end may lie this much below the bottom (m).
 const BELOW: f64 = 1e-3;
 
-/// The direction in which an end is held, in the axes of what holds it, and the stiffness of that (N m/rad); rigid where none.
-pub(super) type Held = (Vector3<f64>, Option<f64>);
-
 /// What is said of a line that was given memory not its own.
 const NO_MEMORY: &str = "the line has no memory";
-
-/// What does not change while it is wound.
-#[derive(Debug)]
-pub(super) struct Base {
-    pub(super) description: Description,
-    pub(super) rod: Rod,
-    pub(super) attached: Vec<rod::Attachment>,
-    /// Part of each segment of the rod.
-    pub(super) part: Vec<usize>,
-    pub(super) ambient: Option<Arc<dyn Ambient>>,
-    pub(super) plane: Option<PlaneBottom>,
-    /// Elevation of a flat bottom (m), where one is known.
-    pub(super) flat: Option<f64>,
-    pub(super) ground: Ground,
-    /// Direction in which each end is held, in the axes of what holds it, and the stiffness of that.
-    pub(super) holds: [Option<Held>; 2],
-    /// Whether the first end is let go.
-    pub(super) freed: bool,
-    /// Which ends can move.
-    pub(super) felt: [bool; 2],
-}
 
 /// A line between two ends.
 #[derive(Debug)]
@@ -57,37 +30,6 @@ pub struct MovingLine {
     /// Length of the first part (m), and of its elements as the class has them.
     pub(super) first: f64,
     pub(super) nominal: f64,
-}
-
-/// What a solver of a line remembers.
-struct Warm {
-    base: Arc<Base>,
-    rod: Rod,
-    solver: Solver,
-    /// Where it last hung at rest.
-    rest: Option<State>,
-    /// Room for its state on the way, for that as numbers, and for the water at its nodes.
-    state: State,
-    room: Vec<f64>,
-    flows: Vec<Flow>,
-}
-
-impl Warm {
-    fn of(base: &Arc<Base>) -> Self {
-        let rod = base.rod.clone();
-        let (state, room, flows) = (State::default(), Vec::new(), Vec::new());
-        Warm { base: base.clone(), solver: solver_of(&rod), rod, rest: None, state, room, flows }
-    }
-
-    /// Becomes that of another rod.
-    fn take(&mut self, rod: Rod) {
-        self.solver = solver_of(&rod);
-        self.rod = rod;
-    }
-}
-
-fn solver_of(rod: &Rod) -> Solver {
-    Solver::new(rod, Settings { halvings: HALVINGS, ..Settings::default() })
 }
 
 /// A line at rest.
@@ -283,33 +225,6 @@ impl MovingLine {
         }
         answer(out, &forces, tangent.as_ref(), true)
     }
-}
-
-/// Wrenches and their changes.
-fn answer(
-    out: &mut Response,
-    forces: &EndForces,
-    tangent: Option<&EndTangent>,
-    moving: bool,
-) -> Result<(), ClassError> {
-    out.clear(2);
-    for (wrench, (force, moment)) in out.wrench.iter_mut().zip(forces.force.iter().zip(&forces.moment)) {
-        *wrench = Six::new(force.x, force.y, force.z, moment.x, moment.y, moment.z);
-    }
-    if out.wrench.iter().any(|w| w.iter().any(|v| !v.is_finite())) {
-        return Err(ClassError::new("its force is no number"));
-    }
-    let Some(tangent) = tangent else { return Ok(()) };
-    let fill = |blocks: &mut Vec<Matrix6<f64>>, whole: &Twelve| {
-        blocks.clear();
-        blocks.extend((0..4).map(|index| -whole.fixed_view::<6, 6>(6 * (index / 2), 6 * (index % 2))));
-    };
-    fill(&mut out.stiffness, &tangent.position);
-    if moving {
-        fill(&mut out.damping, &tangent.velocity);
-        fill(&mut out.inertia, &tangent.acceleration);
-    }
-    Ok(())
 }
 
 impl Element for MovingLine {

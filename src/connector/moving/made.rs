@@ -2,10 +2,11 @@
 
 use super::around::ground;
 use super::describe::{Description, Part};
-use super::element::{Base, Held, MovingLine};
+use super::element::MovingLine;
 use super::kept::Layout;
 use super::mesh::{Cut, SHORT, attachments, told};
 use super::start;
+use super::warm::{Base, Held};
 use crate::model::{ClassError, Connection};
 use crate::rod::{self, PlaneBottom, Rod, State};
 use nalgebra::Vector3;

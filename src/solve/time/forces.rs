@@ -3,7 +3,7 @@
 use super::ends::end_of;
 use super::foretelling::Foretelling;
 use super::inertia::of_added;
-use super::side_by_side::{self, Alone};
+use super::side_by_side::Alone;
 use crate::hydro::{BodyLoad, Category, MovingLoad, Underway, carried, transferred, turning};
 use crate::model::{Anchored, End, Guess, Pose, Response, Situation, Six, TimeStep};
 use crate::solve::link::{Attachment, Link};
@@ -140,12 +140,12 @@ pub struct Forces {
     pub(super) guesses: Vec<Guess>,
     foretelling: Foretelling,
     /// Whether a connector has inertia of its own.
-    moving: bool,
+    pub(super) moving: bool,
     /// Those of them, evaluated side by side.
-    alone: Vec<Alone>,
+    pub(super) alone: Vec<Alone>,
     made: MovingLoad,
     response: Response,
-    ends: Vec<End>,
+    pub(super) ends: Vec<End>,
     arms: Vec<Vector3<f64>>,
 }
 
@@ -210,11 +210,6 @@ impl Forces {
         if self.moving {
             self.foretelling.learn(dt, motions, &self.sum);
         }
-    }
-
-    /// Whether a connector moves by itself: it stands where the trial was that was evaluated last.
-    pub(super) fn moving(&self) -> bool {
-        self.moving
     }
 
     /// Evaluates everything with the bodies in these motions at the end of a step; `dt` zero: at the start of a run.
@@ -352,7 +347,7 @@ impl Forces {
     }
 
     /// Where the ends of a connector are and how they move, and their arms from the origins of their bodies.
-    fn place_ends(&mut self, link: &Link, motions: &[Motion]) {
+    pub(super) fn place_ends(&mut self, link: &Link, motions: &[Motion]) {
         self.ends.clear();
         self.arms.clear();
         for end in &link.ends {
@@ -360,32 +355,6 @@ impl Forces {
             self.ends.push(end);
             self.arms.push(arm);
         }
-    }
-
-    /// Evaluates the connectors that move by themselves, side by side.
-    fn connect_moving(&mut self, system: &System, motions: &[Motion], (time, dt): (f64, f64)) {
-        if !self.moving {
-            self.alone.clear();
-            return;
-        }
-        let moving = || system.links.iter().enumerate().filter(|(_, l)| l.element.moves());
-        self.alone.resize_with(moving().count(), Alone::default);
-        let mut alone = std::mem::take(&mut self.alone);
-        for (one, (index, link)) in alone.iter_mut().zip(moving()) {
-            self.place_ends(link, motions);
-            one.link = index;
-            one.ends.clone_from(&self.ends);
-            one.trial.clear();
-            one.trial.extend_from_slice(self.trial.get(link.states.clone()).unwrap_or_default());
-            one.guess = self.guesses.get_mut(index).and_then(Option::take);
-        }
-        side_by_side::evaluate(system, &mut alone, Some(TimeStep { time, dt }));
-        for one in &mut alone {
-            if let Some(guess) = self.guesses.get_mut(one.link) {
-                *guess = one.guess.take();
-            }
-        }
-        self.alone = alone;
     }
 
     /// Adds a force at the first end of a connector that the place of that end alone changes.

@@ -167,4 +167,39 @@ mod tests {
         let (k, c) = (3.0 + 0.5 * (0.2 + 0.05), 1.0 + 0.5 * (0.005 - 0.1));
         assert!(sum.iter().all(|f| (f + 0.3 * k + 0.4 * c).abs() < 1e-14), "{sum}");
     }
+
+    #[test]
+    fn what_a_line_does_by_itself_is_foretold_by_how_it_went_in_the_last_steps() {
+        // stiffness 3, damping 2, inertia 5, and a pull that is a cubic of time: its changes over the steps are a parabola
+        let whole = |value: f64| DMatrix::from_diagonal_element(6, 6, value);
+        let own = |t: f64| 7.0 * t * t * t - 4.0 * t * t + t;
+        let place = |t: f64| 0.3 * t * t;
+        let motion = |t: f64| Motion {
+            velocity: Six::repeat(0.6 * t),
+            acceleration: Six::repeat(0.6 * (10.0 * t).sin()),
+            ..Motion::default()
+        };
+        let force = |t: f64| {
+            let at = motion(t);
+            DVector::repeat(6, own(t) - 3.0 * place(t) - 2.0 * at.velocity[0] - 5.0 * at.acceleration[0])
+        };
+        let mut made = Foretelling::default();
+        let dt = 0.1;
+        for step in 0..5 {
+            let t = f64::from(step) * dt;
+            let (start, trial, over) = ([motion(t)], [motion(t + dt)], [Six::repeat(place(t + dt) - place(t))]);
+            let mut told = force(t);
+            made.begin(&told);
+            let ready =
+                made.add(dt, (&trial, &start, &over), &mut told) && made.add_moving((&trial, &start), &mut told);
+            // three steps to learn from, behind one that gives the matrices
+            assert_eq!(ready, step >= 2);
+            let off = (&told - force(t + dt)).amax();
+            // rounding of numbers about one, weighed by three
+            assert!(step < 4 || off < 1e-13, "{off}");
+            made.learn(dt, (&trial, &start, &over), &force(t + dt));
+            made.take_inertia(dt, &whole(5.0));
+            made.take(dt, &whole(3.0), &whole(2.0));
+        }
+    }
 }

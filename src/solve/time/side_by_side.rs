@@ -1,6 +1,7 @@
 //! Lines that move by themselves, evaluated side by side: each by itself, so that the number of threads changes nothing.
 
-use crate::model::{ClassError, End, Guess, Response, Situation};
+use super::forces::{Forces, Motion};
+use crate::model::{ClassError, End, Guess, Response, Situation, TimeStep};
 use crate::solve::system::System;
 use std::sync::{Mutex, PoisonError};
 
@@ -22,8 +23,36 @@ impl std::fmt::Debug for Alone {
     }
 }
 
+impl Forces {
+    /// Evaluates the connectors that move by themselves.
+    pub(super) fn connect_moving(&mut self, system: &System, motions: &[Motion], (time, dt): (f64, f64)) {
+        if !self.moving {
+            self.alone.clear();
+            return;
+        }
+        let moving = || system.links.iter().enumerate().filter(|(_, l)| l.element.moves());
+        self.alone.resize_with(moving().count(), Alone::default);
+        let mut alone = std::mem::take(&mut self.alone);
+        for (one, (index, link)) in alone.iter_mut().zip(moving()) {
+            self.place_ends(link, motions);
+            one.link = index;
+            one.ends.clone_from(&self.ends);
+            one.trial.clear();
+            one.trial.extend_from_slice(self.trial.get(link.states.clone()).unwrap_or_default());
+            one.guess = self.guesses.get_mut(index).and_then(Option::take);
+        }
+        evaluate(system, &mut alone, Some(TimeStep { time, dt }));
+        for one in &mut alone {
+            if let Some(guess) = self.guesses.get_mut(one.link) {
+                *guess = one.guess.take();
+            }
+        }
+        self.alone = alone;
+    }
+}
+
 /// Evaluates them at the end of a step; `step` as of [`Situation`].
-pub(super) fn evaluate(system: &System, lines: &mut [Alone], step: Option<crate::model::TimeStep>) {
+fn evaluate(system: &System, lines: &mut [Alone], step: Option<TimeStep>) {
     let one = |line: &mut Alone| {
         let Some(link) = system.links.get(line.link) else { return };
         let at = Situation { ends: &line.ends, step, surroundings: &system.surroundings };

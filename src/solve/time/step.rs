@@ -276,7 +276,7 @@ impl Stepper {
             }
             if left <= wanted.tolerance * system.gravity || (left >= last && left <= wanted.tolerance) {
                 // what is foretold is near, not balanced: with the matrix at hand what is left goes, too
-                if foretold && effort.evaluations == 1 && !now.forces.moving() && self.solve_again() {
+                if foretold && effort.evaluations == 1 && !now.forces.moving && self.solve_again() {
                     self.correct_trial(system, &now.motions, dt, (gain, by_place, by_velocity));
                 }
                 break;
