@@ -242,6 +242,22 @@ fn a_catenary_with_dynamics_knows_no_highest_tension() {
 }
 
 #[test]
+fn bending_stiffness_of_an_aqwa_section_holds_it_up_as_a_tensioned_beam() {
+    // pinned under its weight: w L2/8T - w EI/T2 (1 - sech u), u = L/2 sqrt(T/EI); T is the pull across at an end
+    let (mass, ei, l): (f64, f64, f64) = (100.0, 2e6, 30.0);
+    let class = format!("~L CATENARY {mass} 0.001 -LEN 29.99 -EA 1E8 -EI {ei}");
+    let mut made = model(&between("", &class, "0 0 50", "30 0 50"));
+    made.connectors[0].dynamics = Some(40);
+    let z = lines_at_rest(&made, &|_| true).unwrap().remove(0).get("Z").unwrap().numbers();
+    let w = mass * GRAVITY;
+    let t = (pull(&made).powi(2) - (0.5 * w * l).powi(2)).sqrt();
+    let u = 0.5 * l * (t / ei).sqrt();
+    let [cable, beam] = [0.0, w * ei / (t * t) * (1.0 - 1.0 / u.cosh())].map(|less| w * l * l / (8.0 * t) - less);
+    // a slope of 8 % squared is 0.6 %, of which a sixth lengthens the line; bending takes 11 %
+    assert!(((50.0 - z[20]) / beam - 1.0).abs() < 2e-3 && beam < 0.95 * cable, "{} {beam} {cable}", 50.0 - z[20]);
+}
+
+#[test]
 fn a_line_on_a_bathymetry_that_slopes_is_that_of_the_exact_catenary_on_a_slope() {
     let grid = "&BATHYMETRY SLOPE -DEPTHS\nX -1000 1000\nY -1000 50 150\nY 1000 50 150\nEND\n&ENV -DEPTH 100 -BATHYMETRY SLOPE";
     let exact = pull(&model(&moored(grid, "B_CAT 120 EXACT -LEN 300 -SLOPE 0.05 -DEPANCHOR 113", 260.0)));
