@@ -266,7 +266,8 @@ fn change(model: &Model, made: &mut Connector, given: &Given, said: &mut Said) -
         }
         _ => {}
     }
-    if adjustable(model, made) && matches!(option, "-LENGTH" | "-L_DELTA" | "-ANCHOR") {
+    let placed_anew = option == "-ANCHOR" && old.1.is_some();
+    if adjustable(model, made) && (placed_anew || matches!(option, "-LENGTH" | "-L_DELTA")) {
         return Ok(told(made, given, old, said));
     }
     let found = line(model, made)?;

@@ -56,7 +56,7 @@ impl MovingLine {
         // the same however much is wound: an element at the winch is never shorter than half of those of the class
         let of_first = counts.first().copied().unwrap_or(0);
         let wound = connection.connector.longest.map(|l| (l / (SHORT * nominal)).ceil() as usize);
-        let capacity = rod.nodes() - 1 - of_first + wound.unwrap_or(of_first) + 2;
+        let capacity = rod.nodes() - 1 - of_first + wound.map_or(of_first + 1, |most| most + 2);
         if capacity > rod::MOST_ELEMENTS {
             return Err(ClassError::new(format!(
                 "its winch would make more than {} elements of it",
