@@ -80,10 +80,10 @@ pub fn run(model: &Model, (span, dt): (f64, f64), along: usize, passes: usize) -
     };
     let once = || {
         let mut run = Run::new(model, settings.clone(), Vec::new()).unwrap();
-        let (clock, start) = (Instant::now(), measured::processor_time());
+        let (clock, start) = (Instant::now(), measured::thread_time());
         run.go(&mut Quiet).unwrap();
         let wall = clock.elapsed().as_secs_f64();
-        let spent = measured::processor_time().zip(start).map_or(wall, |(end, start)| end - start);
+        let spent = measured::thread_time().zip(start).map_or(wall, |(end, start)| end - start);
         let at = run.history.layout.wrench(0, 0).unwrap();
         let force = |row: &[f64]| row[at..at + 3].iter().map(|f| f * f).sum::<f64>().sqrt();
         Made { seconds: [spent, wall], counts: run.counts, forces: run.history.rows().map(force).collect() }
