@@ -1,7 +1,8 @@
 //! What a line that moves by itself is made of, as its class says.
 
-use crate::model::{Ambient, Contents};
+use crate::model::{Ambient, ClassError, Connection, Contents};
 use crate::rod::{Axial, Segment};
+use nalgebra::Vector3;
 use std::f64::consts::FRAC_PI_4;
 
 /// What stands where a part ends and the next begins.
@@ -79,6 +80,34 @@ pub struct Description {
     pub holds: [Option<Hold>; 2],
     /// What is always told of it.
     pub notes: Vec<String>,
+}
+
+impl Description {
+    /// The directions in which the ends are held, in the axes of their holders as defined, and the stiffness of that.
+    ///
+    /// # Errors
+    /// An end held along a chord that has no length.
+    pub(super) fn held_directions(
+        &self,
+        connection: &Connection,
+    ) -> Result<[Option<(Vector3<f64>, Option<f64>)>; 2], ClassError> {
+        let [a, b] = connection.connector.defined;
+        let b = if connection.to_ground { crate::model::Pose { origin: connection.ends[1].origin, ..b } } else { b };
+        let chord = b.origin - a.origin;
+        let across = Vector3::new(chord.x, chord.y, 0.0).try_normalize(1e-9).unwrap_or_else(Vector3::x);
+        let mut made = [None, None];
+        for ((place, hold), pose) in made.iter_mut().zip(&self.holds).zip([a, b]) {
+            let Some(hold) = hold else { continue };
+            let direction = match hold.declination {
+                Some(angle) => across * angle.sin() - Vector3::z() * angle.cos(),
+                None => chord.try_normalize(1e-9).ok_or_else(|| {
+                    ClassError::new("the two ends are at one place: an end that is held has no direction there")
+                })?,
+            };
+            *place = Some((pose.axes.transpose() * direction, hold.stiffness));
+        }
+        Ok(made)
+    }
 }
 
 impl Part {

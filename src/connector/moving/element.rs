@@ -119,7 +119,7 @@ impl MovingLine {
             )));
         }
         let per_node = State::packed(&rod).div_ceil(rod.nodes()) + 1;
-        let holds = holds(&description, connection)?;
+        let holds = description.held_directions(connection)?;
         let ground = ground(&description.seabed, rod.segments(), around);
         let layout = Layout::new(capacity, per_node * (capacity + 2));
         let base = Base {
@@ -318,29 +318,6 @@ fn answer(
         fill(&mut out.inertia, &tangent.acceleration);
     }
     Ok(())
-}
-
-/// The directions in which the ends are held, in the axes of their holders as defined.
-fn holds(
-    description: &Description,
-    connection: &Connection,
-) -> Result<[Option<(Vector3<f64>, Option<f64>)>; 2], ClassError> {
-    let [a, b] = connection.connector.defined;
-    let b = if connection.to_ground { crate::model::Pose { origin: connection.ends[1].origin, ..b } } else { b };
-    let chord = b.origin - a.origin;
-    let across = Vector3::new(chord.x, chord.y, 0.0).try_normalize(1e-9).unwrap_or_else(Vector3::x);
-    let mut made = [None, None];
-    for ((place, hold), pose) in made.iter_mut().zip(&description.holds).zip([a, b]) {
-        let Some(hold) = hold else { continue };
-        let direction = match hold.declination {
-            Some(angle) => across * angle.sin() - Vector3::z() * angle.cos(),
-            None => chord.try_normalize(1e-9).ok_or_else(|| {
-                ClassError::new("the two ends are at one place: an end that is held has no direction there")
-            })?,
-        };
-        *place = Some((pose.axes.transpose() * direction, hold.stiffness));
-    }
-    Ok(made)
 }
 
 impl Element for MovingLine {
