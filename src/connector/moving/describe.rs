@@ -82,15 +82,15 @@ pub struct Description {
     pub notes: Vec<String>,
 }
 
+/// A direction, and the rotational stiffness (N m/rad) that holds it; none for a rigid hold.
+pub(super) type HeldDirection = (Vector3<f64>, Option<f64>);
+
 impl Description {
     /// The directions in which the ends are held, in the axes of their holders as defined, and the stiffness of that.
     ///
     /// # Errors
     /// An end held along a chord that has no length.
-    pub(super) fn held_directions(
-        &self,
-        connection: &Connection,
-    ) -> Result<[Option<(Vector3<f64>, Option<f64>)>; 2], ClassError> {
+    pub(super) fn held_directions(&self, connection: &Connection) -> Result<[Option<HeldDirection>; 2], ClassError> {
         let [a, b] = connection.connector.defined;
         let b = if connection.to_ground { crate::model::Pose { origin: connection.ends[1].origin, ..b } } else { b };
         let chord = b.origin - a.origin;

@@ -1,7 +1,7 @@
 //! A line that moves by itself as an engine sees it.
 
 use super::around::{Floor, Water, ground};
-use super::describe::{Description, Part};
+use super::describe::{Description, HeldDirection, Part};
 use super::kept::{Kept, Layout};
 use super::mesh::{Cut, attachments, told, wind};
 use super::{modes, start};
@@ -39,7 +39,7 @@ struct Base {
     flat: Option<f64>,
     ground: Ground,
     /// Direction in which each end is held, in the axes of what holds it, and the stiffness of that.
-    holds: [Option<(Vector3<f64>, Option<f64>)>; 2],
+    holds: [Option<HeldDirection>; 2],
     /// Whether the first end is let go.
     freed: bool,
 }
@@ -162,7 +162,7 @@ impl MovingLine {
     /// What holds the ends.
     fn held(&self, ends: &[End], still: bool) -> Result<[rod::End; 2], ClassError> {
         let [first, second] = ends else { return Err(ClassError::new("a line has two ends")) };
-        let made = |end: &End, hold: &Option<(Vector3<f64>, Option<f64>)>| {
+        let made = |end: &End, hold: &Option<HeldDirection>| {
             let three = |six: &Six| Vector3::new(six[0], six[1], six[2]);
             let mut motion = Motion::still(end.pose.origin);
             if !still {
