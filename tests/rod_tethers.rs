@@ -161,7 +161,7 @@ fn an_installed_rod_swings_as_the_tether_of_the_listing_does() {
 /// Period of a freedom of the platform that &STATUS MODES prints.
 fn period(text: &str, freedom: &str) -> f64 {
     let rows = text.lines().map(|l| l.split_whitespace().collect::<Vec<_>>());
-    let row = rows.filter(|r| r.len() == 6 && r[4] == "S1" && r[5] == freedom).last().unwrap();
+    let row = rows.filter(|r| r.len() == 6 && r[4] == "S1" && r[5] == freedom).next_back().unwrap();
     row[1].parse().unwrap()
 }
 

@@ -125,7 +125,8 @@ static SPEC: CommandSpec = CommandSpec {
              ROD_MODES holds the ends of a line where they stand, and tells of its slowest modes about its rest there. -DISPOSE takes a table to the disposition menu: \
              REPORT, VIEW, STORE, PLOT.",
     example: "MEDIT\n*P 0 0 10\n~W B_CAT 4 EXACT -LEN 4000 -DEP 500\nCONNECTOR A -ANC 0 3900 ~W *P\nEND\n&STATUS F_CONNECTOR A\n\
-              &STATUS\n&STATUS DEFAULTS\n&STATUS DIMENSIONS\n&STATUS LINE_TYPES 3\n&STATUS F_CONNECTOR -DISPOSE\nVIEW Name FX FZ\nEND",
+              &STATUS\n&STATUS DEFAULTS\n&STATUS DIMENSIONS\n&STATUS LINE_TYPES 3\n&STATUS F_CONNECTOR -DISPOSE\nVIEW Name FX FZ\nEND\n\
+              MEDIT\n&CONNECTOR A -DYNAMICS 40\nEND\n&STATUS ROD_MODES A -NUMBER 2",
     ..CommandSpec::new("&STATUS", "reports what the model holds")
 };
 
