@@ -97,6 +97,25 @@ fn a_winch_lowers_and_hauls_a_load_to_the_length_it_is_told_and_holds_its_weight
     }
 }
 
+#[test]
+fn a_load_that_falls_into_a_stiff_line_never_comes_higher_than_it_was() {
+    // 10 t let go where its line is slack: bounces of a tenth of a second and less, in steps that do not follow them
+    for (step, start) in
+        [(0.05, "0 0 110.2"), (0.1, "0 0 110.2"), (0.25, "0 0 110.2"), (0.5, "0 0 112"), (0.25, "60 0 150")]
+    {
+        let session = after(&format!(
+            "&ENV -DEPTH 1000 -TIME 60 {step}\nMEDIT\n&DESCRIBE BODY SHIP -IGNORE X Y Z RX RY RZ\n*H 0 0 210\n\
+             &DESCRIBE BODY LOAD -IGNORE Y RX RY RZ\n*P 0 0 0\n#WEIGHT *P 1E5 1 1 1\n\
+             ~R ROD 60 30 -LEN 100 -REFINE 8 -EI 0\nCONNECTOR R ~R *H *P\nEND\n&INSTATE -LOCATE LOAD {start}\nTDOM\n"
+        ));
+        let history = &session.job.run.as_ref().unwrap().history;
+        let z = history.series(history.layout.body(1) + 2);
+        let highest = z.iter().fold(f64::MIN, |m, v| m.max(*v));
+        // what the line weighs, 2 % of the load, falls as well
+        assert!(highest <= z[0] + 0.02 * (210.0 - z[0]), "{step} {start}: {highest}");
+    }
+}
+
 /// Nodes of a line of 300 m in 100 m of water that is let go at 10 s.
 fn let_go(time: f64, step: f64, options: &str) -> Vec<(f64, Vec<NodeRow>)> {
     let records = moored(
@@ -143,11 +162,11 @@ fn the_end_of_a_folded_chain_falls_with_gravity_and_then_faster() {
     let mass = 50.0 / GRAVITY;
     let back = 500.0 / (1e7f64 * mass).sqrt();
     let rows = fold(0.8, 0.0005);
-    for t in [0.1, 0.2, 0.3] {
+    for t in [0.2, 0.3] {
         let fallen = 120.0 - tip(&rows, 0.5 + t)[2];
         let exact = 0.5 * GRAVITY * t * t + back * t;
-        println!("{t} {}", fallen / exact - 1.0);
-        assert!((fallen / exact - 1.0).abs() < 0.05, "{t}: {fallen} {exact}");
+        // the last half element, lighter than the others, is thrown somewhat faster
+        assert!((fallen / exact - 1.0).abs() < 0.04, "{t}: {fallen} {exact}");
     }
     let rows = fold(2.5, 0.002);
     let lowest = rows

@@ -11,7 +11,7 @@ use crate::language::select::Owner;
 use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
-use crate::model::{Model, Place, Six};
+use crate::model::{Connector, Model, Place, Six};
 use crate::report::page;
 use crate::report::run_log::{self, RunLog};
 use crate::solve::time::{Convergence, Ending, Method, Run, Scheme, Settings, Snapshot, Watcher};
@@ -84,7 +84,7 @@ static SPEC: CommandSpec = CommandSpec {
             "generalised-alpha with another spectral radius: 1 damps nothing, 0 damps most",
         )
         .owner(Owner::Ours)
-        .default("0.9"),
+        .default("0.9; 0.2 with lines that move by themselves"),
         OptionSpec::new(
             "-ADAPTIVE",
             &[ValueSpec::new("TOL", Kind::Number(Dim::Length), "largest error of place in a step").positive()],
@@ -122,6 +122,12 @@ static SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("TDOM", "runs the system in time")
 };
 
+/// The scheme where a record says none.
+fn usual(model: &Model) -> Method {
+    let moves = |c: &Connector| model.element(c).is_ok_and(|e| e.moves());
+    if model.connectors.values().any(moves) { Method::with_moving_lines() } else { Method::default() }
+}
+
 /// How a record wants its run to go.
 fn settings(job: &Job, args: &Args) -> Outcome<Settings> {
     let Some(window) = job.model.environment.time else {
@@ -146,9 +152,11 @@ fn settings(job: &Job, args: &Args) -> Outcome<Settings> {
                 }
                 Method::Implicit(scheme)
             }
-            None => Method::default(),
+            None => usual(&job.model),
         },
-        None => args.option_number("-RHO").map_or(Method::default(), |r| Method::Implicit(Scheme::generalised(r))),
+        None => {
+            args.option_number("-RHO").map_or_else(|| usual(&job.model), |r| Method::Implicit(Scheme::generalised(r)))
+        }
     };
     let mut convergence = Convergence::default();
     if let Some(given) = args.option("-CONVERGE") {
