@@ -108,7 +108,7 @@ fn the_force_of_a_hanging_rod_goes_to_that_of_the_exact_catenary_with_the_second
         assert!(errors[3] < 1e-4, "{what}: {errors:?}");
         // a U whose bend is within a few elements converges faster than its mesh, until it is fine enough
         let order = (errors[0] / errors[3]).log2() / 3.0;
-        assert!(order > 1.9 && (order < 2.1 || what == "U"), "{what}: {order} {errors:?}");
+        assert!(order > 1.9 && (order < 2.2 || what == "U"), "{what}: {order} {errors:?}");
     }
 }
 
