@@ -248,6 +248,16 @@ fn reset(job: &Job, model: &mut Model, time: f64) -> Option<Vec<(usize, Six)>> {
     Some(velocities)
 }
 
+/// Warns of a scheme that damps less than lines that move by themselves do.
+fn warn_of_throwing(job: &mut Job, args: &Args) {
+    let Some(given) = args.option("-RHO").or(args.option("-NEWMARK")) else { return };
+    let damps = given.spec.name == "-RHO" && given.number(0).is_some_and(|r| r <= 0.2);
+    if !damps && usual(&job.model) == Method::with_moving_lines() {
+        let text = "with lines that move by themselves a scheme that damps less than -RHO 0.2 can throw up what hangs on a stiff line that goes slack within a step";
+        job.warn(text, given.span);
+    }
+}
+
 /// Warns of pieces that displace water and that the waves of a run move by no pressure.
 fn warn_of_still_pieces(job: &mut Job, made: &Run, span: Span) {
     if made.sea.is_none() {
@@ -282,6 +292,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             span,
         );
     }
+    warn_of_throwing(job, args);
     let mut going = Going::new(job, &made, log);
     let ended = made.go(&mut going);
     drop(going);
