@@ -215,9 +215,10 @@ fn apart(a: &Motion, b: &Motion, freedom: usize, [from, to]: [f64; 2]) -> f64 {
 #[test]
 fn rods_move_the_platform_as_tethers_do_until_a_tether_goes_slack() {
     // before the first slack of any length, at 6.25 s, the platform has gone 13 m and swung twice on its tethers: surge, heave and pitch.
-    // What is left: the shear and the inertia of the tethers, which the tether engine keeps from the platform, 0.5 % of its mass
+    // What is left: the shear and the inertia of the tethers, which the tether engine keeps from the platform, 0.5 % of its mass; and 2.5 mm
+    // of heave, of 3.9 m, that the damping of runs with lines that move by themselves takes (-RHO 0.2 for 0.9)
     let before = [0, 1, 2].map(|f| apart(&RODS, &TETHERS, f, [0.0, 6.2]));
-    assert!(before[0] < 3e-3 && before[1] < 4e-3 && before[2] < 0.003f64.to_radians(), "{before:?}");
+    assert!(before[0] < 3e-3 && before[1] < 7e-3 && before[2] < 0.003f64.to_radians(), "{before:?}");
     // then the tethers of one side are without tension for 0.8 s. Those of AQWA let go; a rod goes on to push, as it has no time to
     // buckle (below). It leaves the platform 20 mm higher, which rings on in heave
     let after = [0, 1, 2].map(|f| apart(&RODS, &TETHERS, f, [6.2, 25.0]));

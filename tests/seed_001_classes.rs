@@ -57,6 +57,8 @@ fn every_option_of_every_class_type_is_read_and_listed_back() {
                 "-PISTON" => text = "MAX 12 4 1 1 100 10".into(),
                 "-TYPE" => text = "CHAIN_R4 4".into(),
                 "-C_SN" => text = "WIRE".into(),
+                // the dynamic stiffness is larger than the static one, that of the tube
+                "-ROPE" => text = "1000000 20 100".into(),
                 "-CLUMP" if spec.name == "CATENARY" => text = "100 50".into(),
                 "-BUOY" => text = "50 100".into(),
                 _ => {}

@@ -261,6 +261,7 @@ impl Element for MovingLine {
         let Warm { rod, solver, room, flows, .. } = &mut *warm;
         let tangent = self.within((at.surroundings, true), flows, |world| solver.end_tangent(rod, world));
         answer(out, &found.forces, tangent.as_ref(), false)?;
+        self.layout.write(rod, &found.state, room, trial)?;
         if let Some(step) = at.step {
             // a run begins here
             let mut state = found.state;
