@@ -17,7 +17,7 @@ fn after(script: &str, errors: i64) -> Arc<dyn Ambient> {
     session.keep_reports = true;
     session.open("script", script.to_string());
     session.run();
-    assert_eq!(session.errors, errors as i64, "{:?}", session.reports);
+    assert_eq!(session.errors, errors, "{:?}", session.reports);
     ambient(&session.job.model, None).unwrap()
 }
 

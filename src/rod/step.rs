@@ -229,7 +229,7 @@ impl Solver {
                 let node = if side == 0 { 0 } else { rod.elements.len() };
                 interpolate(state, node, &ends[side], whole, share)
             });
-            let from = std::mem::replace(&mut self.part, State::default());
+            let from = std::mem::take(&mut self.part);
             let made = self.attempt(rod, &from, world, target, between, false);
             self.part = from;
             match made {
