@@ -160,8 +160,8 @@ fn an_installed_rod_swings_as_the_tether_of_the_listing_does() {
 
 /// Period of a freedom of the platform that &STATUS MODES prints.
 fn period(text: &str, freedom: &str) -> f64 {
-    let rows = text.lines().map(|l| l.split_whitespace().collect::<Vec<_>>());
-    let row = rows.filter(|r| r.len() == 6 && r[4] == "S1" && r[5] == freedom).next_back().unwrap();
+    let mut rows = text.lines().map(|l| l.split_whitespace().collect::<Vec<_>>());
+    let row = rows.rfind(|r| r.len() == 6 && r[4] == "S1" && r[5] == freedom).unwrap();
     row[1].parse().unwrap()
 }
 
