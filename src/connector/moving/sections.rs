@@ -171,12 +171,10 @@ impl Flexure {
         let option = |name: &str| args.option_number(name);
         let typed = section.of_type.as_ref();
         let inner = section.thickness.map(|t| section.od - 2.0 * t);
-        let wall = |d: f64| FRAC_PI_4 * (section.od * section.od - d * d);
         // EI of the tube from its EA: I/A is (D2 + d2)/16
         let bending = inner.map(|d| section.ea * (section.od * section.od + d * d) / 16.0);
         let bending = option("-EI").or(bending).unwrap_or(0.0);
         let yields = option("-FYIELD").unwrap_or(material.yield_stress);
-        debug_assert!(inner.is_none_or(|d| wall(d) >= 0.0));
         Ok(Flexure {
             drag: option("-DRAGDIAMETER").or(typed.map(|t| t.drag)).unwrap_or(section.od),
             wind: option("-WINDDIAMETER").or(typed.map(|t| t.wind)).unwrap_or(section.od),
