@@ -12,6 +12,7 @@ use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
 use crate::language::units::{Dim, UnitSystem};
 use crate::model::{Anchor, ClassError, Condition, Connector, LineLoads, LineModel, Model, find, unit_vector};
 use crate::report::format::report;
+use crate::solve::pretension;
 use crate::table::{Cell, Digits};
 
 /// &CONNECTOR.
@@ -235,6 +236,9 @@ fn change(model: &Model, made: &mut Connector, given: &Given, said: &mut Said) -
             }
             made.first_length = Some(length);
         }
+        ("-L_HORIZONTAL" | "-L_TENSION", Some(aim)) if model.element(made).is_ok_and(|e| e.moves()) => {
+            made.first_length = Some(pretension::first_length(model, made, aim).map_err(|e| e.error)?);
+        }
         ("-L_HORIZONTAL" | "-L_TENSION", Some(aim)) => {
             line(model, made)?;
             placed(model, made)?;
@@ -267,7 +271,9 @@ fn change(model: &Model, made: &mut Connector, given: &Given, said: &mut Said) -
         _ => {}
     }
     let placed_anew = option == "-ANCHOR" && old.1.is_some();
-    if adjustable(model, made) && (placed_anew || matches!(option, "-LENGTH" | "-L_DELTA")) {
+    if adjustable(model, made)
+        && (placed_anew || matches!(option, "-LENGTH" | "-L_DELTA" | "-L_HORIZONTAL" | "-L_TENSION"))
+    {
         return Ok(told(made, given, old, said));
     }
     let found = line(model, made)?;

@@ -11,6 +11,7 @@ mod link;
 mod modes;
 pub mod offset;
 mod outline;
+pub mod pretension;
 pub mod results;
 pub mod run_tables;
 pub mod scene;
