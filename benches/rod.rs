@@ -13,14 +13,16 @@
 #[path = "eight/mod.rs"]
 mod eight;
 mod measured;
+#[allow(dead_code)]
+#[path = "../tests/common/moordyn.rs"]
+mod moordyn;
 #[path = "rods/mod.rs"]
 mod rods;
 
 use nalgebra::Vector3;
-use std::f64::consts::PI;
 use std::process::Command;
 use std::time::Instant;
-use windlass::rod::{End, Ground, Motion, PlaneBottom, Rod, Segment, Settings, Solver, State, UniformFluid, World};
+use windlass::rod::{End, Motion, Settings};
 
 const SPAN: f64 = 120.0;
 const STEP: f64 = 0.1;
@@ -32,49 +34,16 @@ fn seconds(since: Instant) -> f64 {
     measured::thread_time().unwrap_or_else(|| since.elapsed().as_secs_f64())
 }
 
-/// Surge of the fairlead: 5 m, 10 s, brought up over 20 s.
-fn driven(t: f64) -> Motion {
-    let (w, p) = (2.0 * PI / 10.0, PI / 20.0);
-    let (r, rate, bend) = if t < 20.0 {
-        (0.5 * (1.0 - (p * t).cos()), 0.5 * p * (p * t).sin(), 0.5 * p * p * (p * t).cos())
-    } else {
-        (1.0, 0.0, 0.0)
-    };
-    let (s, c) = (w * t).sin_cos();
-    Motion {
-        position: Vector3::new(5.0 * r * s, 0.0, -10.0),
-        velocity: Vector3::x() * (5.0 * (rate * s + r * w * c)),
-        acceleration: Vector3::x() * (5.0 * (bend * s + 2.0 * rate * w * c - r * w * w * s)),
-    }
-}
-
 /// Fairlead force at each step, seconds it took, iterations. With `body` as a body at the fairlead asks for it: a trial
 /// at a motion a centimetre off, the end tangent there, and a second trial.
 fn run(elements: usize, step: f64, tolerance: f64, body: bool) -> (Vec<f64>, f64, usize) {
-    let chain = Segment {
-        axial_damping: 1e6,
-        drag_normal: 1.333,
-        drag_tangential: 0.639,
-        added_normal: 1.0,
-        added_tangential: 0.5,
-        ..Segment::line(900.0, elements, 199.0, 8.54e8, 0.18)
-    };
-    let rod = Rod::new("chain", vec![chain], vec![]).unwrap();
-    let fluid = UniformFluid::still(1025.0);
-    let bottom = PlaneBottom { height: -300.0, slope: [0.0, 0.0] };
-    let ground = Ground { damping: 3e5, ..Ground::elastic(3e6) };
-    let world = World { bottom: Some((&bottom, ground)), ..World::new(&fluid, 9.80665) };
-    let (a, b) = (Vector3::new(-800.0, 0.0, -300.0), Vector3::new(0.0, 0.0, -10.0));
-    let mut state = State::along(&rod, &[a, Vector3::new(-350.0, 0.0, -300.0), b]).unwrap();
-    let mut solver = Solver::new(&rod, Settings { tolerance, ..Settings::default() });
-    let ends = [End::pinned(a), End::pinned(b)];
-    solver.statics(&rod, &mut state, &world, ends).unwrap();
-    let (since, mut iterations) = (Instant::now(), 0);
-    let start = seconds(since);
-    let forces = (1..=(SPAN / step).round() as usize)
-        .map(|i| {
+    let settings = Settings { tolerance, ..Settings::default() };
+    moordyn::chain((elements, settings), |rod, solver, state, world, anchor, _| {
+        let (since, mut iterations) = (Instant::now(), 0);
+        let start = seconds(since);
+        let mut force = |i: usize| {
             let t = i as f64 * step;
-            let motion = driven(t);
+            let motion = moordyn::driven(t);
             if body {
                 let off = Vector3::new(0.006, 0.0, -0.008);
                 let guess = Motion {
@@ -82,16 +51,17 @@ fn run(elements: usize, step: f64, tolerance: f64, body: bool) -> (Vec<f64>, f64
                     velocity: motion.velocity + off * (2.0 / step),
                     acceleration: motion.acceleration + off * (4.0 / step / step),
                 };
-                let made = solver.trial(&rod, &state, &world, t, [ends[0], End::moved(guess)]).unwrap();
+                let made = solver.trial(rod, state, world, t, [anchor, End::moved(guess)]).unwrap();
                 iterations += made.iterations;
-                assert!(solver.end_tangent_at_hand(&rod, &world).unwrap().position[(6, 6)] < 0.0);
+                assert!(solver.end_tangent_at_hand(rod, world).unwrap().position[(6, 6)] < 0.0);
             }
-            let made = solver.step(&rod, &mut state, &world, t, [ends[0], End::moved(motion)]).unwrap();
+            let made = solver.step(rod, state, world, t, [anchor, End::moved(motion)]).unwrap();
             iterations += made.iterations;
             made.force[1].norm()
-        })
-        .collect();
-    (forces, seconds(since) - start, iterations)
+        };
+        let forces = (1..=(SPAN / step).round() as usize).map(&mut force).collect();
+        (forces, seconds(since) - start, iterations)
+    })
 }
 
 /// The fairlead force against which others are measured: times of one step (s), and its range from 20 s on (N).

@@ -5,6 +5,9 @@
 #[allow(dead_code)]
 mod common;
 #[allow(dead_code)]
+#[path = "common/moordyn.rs"]
+mod moordyn;
+#[allow(dead_code)]
 #[path = "common/run.rs"]
 mod runs;
 
@@ -129,17 +132,7 @@ fn chain(elements: usize, step: f64) -> Vec<f64> {
 
 #[test]
 fn the_fairlead_force_of_a_driven_chain_is_that_of_moordyn() {
-    let text = std::fs::read_to_string("tests/data/moordyn_chain900.csv").unwrap();
-    let rows: Vec<(f64, f64)> = text
-        .lines()
-        .skip(2)
-        .map(|line| {
-            let v: Vec<f64> = line.split(',').map(|c| c.parse().unwrap()).collect();
-            (v[0], v[1].hypot(v[2]))
-        })
-        .collect();
-    let high = rows.iter().fold(f64::MIN, |m, r| m.max(r.1));
-    let range = high - rows.iter().fold(f64::MAX, |m, r| m.min(r.1));
+    let (rows, range) = moordyn::reference();
     let made = [(200, 0.05), (400, 0.025), (400, 0.0125)].map(|(n, step)| (step, chain(n, step)));
     let at = |(step, force): &(f64, Vec<f64>), t: f64| force[(t / step).round() as usize] / range;
     for run in &made {
