@@ -148,6 +148,20 @@ fn a_joint_of_aqwa_drags_by_half_the_density_times_its_drag_area() {
 }
 
 #[test]
+fn what_is_attached_to_a_rod_drags_by_its_drag_area() {
+    let class = |clump: &str| {
+        format!(
+            "~LINE ROD 200 100 -EI 0 -EA 1E9 -LEN 49.5 -REFINE 10 -WTPLEN 1000 {clump}\n~LINE ROD 200 100 -EI 0 -EA 1E9 -LEN 49.5 -REFINE 10 -WTPLEN 1000"
+        )
+    };
+    let load = |clump: &str| held(&class(clump), "-CURRENT 1.5 -90", (-50.0, false)).load().y;
+    for clump in ["-CLUMP 10000", "-CLUMP -10000"] {
+        let drag = load(&format!("{clump} -CLUMP_DRAG 6.5")) - load(clump);
+        near(drag, 0.5 * RHO * 6.5 * 1.5 * 1.5, 5e-3);
+    }
+}
+
+#[test]
 fn a_joint_of_aqwa_swings_with_its_added_mass() {
     // a light taut string with a mass in its middle: w2 = 4 T / (l M), and a third of the string goes with the mass
     let frequency = |joint: &str| {

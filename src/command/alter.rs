@@ -236,7 +236,7 @@ fn change(model: &Model, made: &mut Connector, given: &Given, said: &mut Said) -
             }
             made.first_length = Some(length);
         }
-        ("-L_HORIZONTAL" | "-L_TENSION", Some(aim)) if model.element(made).is_ok_and(|e| e.moves()) => {
+        ("-L_HORIZONTAL" | "-L_TENSION", Some(aim)) if model.moves(made) => {
             made.first_length = Some(pretension::first_length(model, made, aim).map_err(|e| e.error)?);
         }
         ("-L_HORIZONTAL" | "-L_TENSION", Some(aim)) => {

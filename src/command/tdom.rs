@@ -11,7 +11,7 @@ use crate::language::select::Owner;
 use crate::language::source::Span;
 use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
-use crate::model::{Connector, Model, Place, Six};
+use crate::model::{Model, Place, Six};
 use crate::report::page;
 use crate::report::run_log::{self, RunLog};
 use crate::solve::time::{Convergence, Ending, Method, Run, Scheme, Settings, Snapshot, Watcher};
@@ -124,8 +124,11 @@ static SPEC: CommandSpec = CommandSpec {
 
 /// The scheme where a record says none.
 fn usual(model: &Model) -> Method {
-    let moves = |c: &Connector| model.element(c).is_ok_and(|e| e.moves());
-    if model.connectors.values().any(moves) { Method::with_moving_lines() } else { Method::default() }
+    if model.connectors.values().any(|c| c.active && model.moves(c)) {
+        Method::with_moving_lines()
+    } else {
+        Method::default()
+    }
 }
 
 /// How a record wants its run to go.

@@ -52,6 +52,7 @@ static ROD_SPEC: CommandSpec = CommandSpec {
         m::AX_DAMPING,
         m::ROPE,
         m::SLAM,
+        m::CLUMP_DRAG,
         m::CLAMP,
         m::SEABED,
     ],
@@ -138,6 +139,10 @@ impl ConnectorClass for Rod {
     }
 
     fn adjustable(&self) -> bool {
+        true
+    }
+
+    fn moves(&self) -> bool {
         true
     }
 

@@ -9,7 +9,7 @@ pub struct LineStress {
     pub axial: f64,
     /// Bending, at the outer surface.
     pub bending: f64,
-    /// Hoop, at the inner surface.
+    /// Hoop, at the inner surface (Lame).
     pub hoop: f64,
     /// Largest von Mises stress over both surfaces and both sides of the bend.
     pub von_mises: f64,
@@ -43,17 +43,19 @@ pub struct LineNode {
     pub velocity: Vector3<f64>,
     /// Effective tension (N): what balances the submerged weight.
     pub effective: f64,
-    /// Tension in the wall (N).
+    /// Tension in the wall (N): effective tension less outer pressure times outer area plus inner pressure times inner area.
     pub wall: f64,
     /// Shear force (N).
     pub shear: f64,
     /// Bending moment (N m).
     pub moment: f64,
-    /// Its components about two directions across the line that are carried along it without twist (N m).
+    /// Its components about two directions across the line that are carried along it without twist from the first end (N m): the first
+    /// starts from the holder's side, where it has one, otherwise from a direction fixed in space, taken to the line by the shortest
+    /// turn.
     pub bends: [f64; 2],
     /// Torsional moment (N m).
     pub torque: f64,
-    /// Curvature (1/m).
+    /// Curvature (1/m), from the shape free of load.
     pub curvature: f64,
     /// Height over the bottom (m); infinite without one.
     pub clearance: f64,

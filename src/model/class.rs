@@ -220,6 +220,11 @@ pub trait ConnectorClass: Debug + Send + Sync {
         Err(ClassError::new(format!("a connector of class type {} exerts no force", self.kind())))
     }
 
+    /// Whether its connectors move by themselves, as [`Element::moves`] tells of what they make.
+    fn moves(&self) -> bool {
+        false
+    }
+
     /// A connector of this class as a line that moves by itself, cut into about so many elements.
     ///
     /// # Errors

@@ -174,6 +174,12 @@ impl Model {
         [first, self.end_pose(connector, 1).or_else(anchor).unwrap_or(defined)]
     }
 
+    /// Whether a connector moves by itself: its class does, or `&CONNECTOR -DYNAMICS` says so.
+    pub fn moves(&self, connector: &Connector) -> bool {
+        let class = self.classes.get(&Model::key(&connector.class));
+        connector.dynamics.is_some() || class.is_some_and(|c| c.object.moves())
+    }
+
     /// The element a connector is to an engine, between its ends as they are, in water and air at rest.
     ///
     /// # Errors

@@ -52,7 +52,6 @@ pub use ends::{End, Motion};
 pub use error::RodError;
 pub use mesh::{BYTES_PER_ELEMENT, MOST_ELEMENTS, Rod};
 pub use modes::Mode;
-pub use results::{NodeResult, Stress};
 pub use rollers::RollerResult;
 pub use rope::Viscoelastic;
 pub use scheme::Settings;

@@ -9,62 +9,15 @@ use super::spatial::{transport, twist};
 use super::state::State;
 use super::surroundings::{UniformFluid, World};
 use super::tension::{Stretch, Taken, tension};
+use crate::model::{LineNode, LineStress};
 use nalgebra::Vector3;
-
-/// Results at a node.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct NodeResult {
-    /// Unstretched distance from end A (m).
-    pub arc: f64,
-    /// Segment of the element after it, from 0; of the last node the last one.
-    pub segment: usize,
-    /// Position (m, global).
-    pub position: Vector3<f64>,
-    /// Velocity (m/s).
-    pub velocity: Vector3<f64>,
-    /// Effective tension (N): what balances the submerged weight.
-    pub effective: f64,
-    /// Tension in the wall (N): effective tension less outer pressure times outer area plus inner pressure times inner area.
-    pub wall: f64,
-    /// Shear force (N).
-    pub shear: f64,
-    /// Bending moment (N m).
-    pub moment: f64,
-    /// Its components about two directions across the rod that are carried along it without twist from end A (N m):
-    /// the first starts from the holder's side, where it has one, otherwise from a direction fixed in space, taken to
-    /// the rod by the shortest turn.
-    pub bends: [f64; 2],
-    /// Torsional moment (N m), where the rod has torsional stiffness.
-    pub torque: f64,
-    /// Curvature (1/m), from the shape free of load.
-    pub curvature: f64,
-    /// Height over the bottom (m); infinite without one.
-    pub clearance: f64,
-    /// Pressure outside and inside above the atmosphere's (Pa), for a tube.
-    pub pressures: [f64; 2],
-    /// Stresses, for a tube.
-    pub stress: Option<Stress>,
-}
-
-/// Stresses of a tube at a node (Pa).
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Stress {
-    /// Axial, of the wall tension.
-    pub axial: f64,
-    /// Bending, at the outer surface.
-    pub bending: f64,
-    /// Hoop, at the inner surface (Lame).
-    pub hoop: f64,
-    /// Largest von Mises stress over the inner and outer surfaces, on both sides of the bend.
-    pub von_mises: f64,
-}
 
 impl Rod {
     /// Results at every node of a state.
     ///
     /// Tension of a node is the mean of its two elements; at an end it is that of the nearest two carried on. Shear
     /// is the change of the moment over the elements beside a node.
-    pub fn results(&self, state: &State, world: &World, ends: &[End; 2]) -> Vec<NodeResult> {
+    pub fn results(&self, state: &State, world: &World, ends: &[End; 2]) -> Vec<LineNode> {
         let last = self.elements.len();
         let (x, v) = (&state.position, &state.velocity);
         let mut fluids = vec![UniformFluid::none().0; x.len()];
@@ -135,7 +88,7 @@ impl Rod {
                 let element = &self.elements[beside];
                 let moment = bending.norm();
                 let (director, direction) = (across[beside], edges[beside].0);
-                let mut made = NodeResult {
+                let mut made = LineNode {
                     arc,
                     segment: element.segment,
                     position: x[i],
@@ -236,7 +189,7 @@ fn clearance(world: &World, x: &Vector3<f64>) -> f64 {
 }
 
 /// Stresses by Lame's thick cylinder and the beam's bending.
-fn stress(wall: f64, moment: f64, [outer, inner]: [f64; 2], tube: &super::section::Tube) -> Stress {
+fn stress(wall: f64, moment: f64, [outer, inner]: [f64; 2], tube: &super::section::Tube) -> LineStress {
     let (b, a) = (0.5 * tube.outer, 0.5 * tube.inner);
     let [outside, inside] = tube.areas();
     let axial = wall / (outside - inside);
@@ -258,5 +211,5 @@ fn stress(wall: f64, moment: f64, [outer, inner]: [f64; 2], tube: &super::sectio
             worst = worst.max((0.5 * sum).sqrt());
         }
     }
-    Stress { axial, bending, hoop: hoop_inside, von_mises: worst }
+    LineStress { axial, bending, hoop: hoop_inside, von_mises: worst }
 }

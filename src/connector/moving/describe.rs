@@ -11,7 +11,7 @@ pub struct JointMass {
     pub mass: f64,
     /// Displaced volume (m3).
     pub volume: f64,
-    /// Added mass coefficient on the volume.
+    /// Added mass coefficient on the volume; of what displaces nothing its added mass (kg).
     pub added: f64,
     /// Drag coefficient times area (m2).
     pub drag: f64,

@@ -19,5 +19,6 @@ mod warm;
 pub use describe::{Description, Hold, JointMass, Part, Seabed, Strength};
 pub use element::MovingLine;
 pub use sections::{
-    AX_DAMPING, CA, CD, CLAMP, EA, EI, Flexure, ROPE, SEABED, SLAM, STRETCH, chain, description, holds, seabed,
+    AX_DAMPING, CA, CD, CLAMP, CLUMP_DRAG, EA, EI, Flexure, ROPE, SEABED, SLAM, STRETCH, chain, description, holds,
+    seabed,
 };

@@ -99,6 +99,17 @@ pub const ROPE: OptionSpec = ours(
     ],
     "fibre rope: -EA or -STRETCH is its static stiffness, EAD + B T its dynamic one",
 );
+/// `-CLUMP_DRAG`.
+pub const CLUMP_DRAG: OptionSpec = ours(
+    "-CLUMP_DRAG",
+    &[
+        number("CDA", Dim::Area, "drag coefficient times area, the same in all directions").not_negative(),
+        number("ADDED", Dim::Force, "weight of its added mass")
+            .or("none; of a buoy half of what it displaces")
+            .not_negative(),
+    ],
+    "drag and added mass of what -CLUMP attaches",
+);
 /// `-SLAM`.
 pub const SLAM: OptionSpec = ours("-SLAM", &[], "the line is slammed where it enters the water");
 /// `-AX_DAMPING`.
@@ -147,6 +158,8 @@ pub struct Flexure {
     /// Bending stiffness, Poisson's ratio, thermal expansion of a tube.
     tube: Option<[f64; 3]>,
     yields: f64,
+    /// Drag area (m2) and weight of the added mass (N) of what is attached, where given.
+    clump: [Option<f64>; 2],
 }
 
 /// The values of an option, as far as they are given.
@@ -188,7 +201,22 @@ impl Flexure {
                 [bending, poisson, option("-ALPHA").unwrap_or(material.expansion)]
             }),
             yields,
+            clump: [0, 1].map(|i| args.option("-CLUMP_DRAG").and_then(|g| g.number(i))),
         })
+    }
+
+    /// What `-CLUMP` attaches: a weight in water without volume, or a buoy without mass on its pendant.
+    fn joint(&self, section: &LineSection, around: &Surroundings) -> Option<JointMass> {
+        let clump = section.clump;
+        let [drag, added] = self.clump;
+        let added = added.map(|weight| weight / around.gravity);
+        let made = JointMass { drag: drag.unwrap_or(0.0), pendant: section.pendant, ..JointMass::default() };
+        if clump > 0.0 {
+            return Some(JointMass { mass: clump / around.gravity, added: added.unwrap_or(0.0), pendant: 0.0, ..made });
+        }
+        let displaced = -clump / around.gravity;
+        let share = added.map_or(0.5, |added| added / displaced);
+        (clump < 0.0).then_some(JointMass { volume: displaced / around.water_density, added: share, ..made })
     }
 
     /// The part of a section.
@@ -219,18 +247,8 @@ impl Flexure {
             ..Segment::line(section.length, elements, section.weight / around.gravity, section.ea, section.od)
         };
         let strength = Strength { breaking: section.breaking, yields: self.tube.map(|_| self.yields) };
-        Part { segment, strength, joint: joint(section, around) }
+        Part { segment, strength, joint: self.joint(section, around) }
     }
-}
-
-/// What `-CLUMP` attaches: a weight in water without volume, or a buoy without mass on its pendant.
-fn joint(section: &LineSection, around: &Surroundings) -> Option<JointMass> {
-    let clump = section.clump;
-    if clump > 0.0 {
-        return Some(JointMass { mass: clump / around.gravity, ..JointMass::default() });
-    }
-    let volume = -clump / around.water_weight();
-    (clump < 0.0).then_some(JointMass { volume, added: 0.5, pendant: section.pendant, ..JointMass::default() })
 }
 
 /// The law of a fibre rope, whose static one is given; that itself of another line.

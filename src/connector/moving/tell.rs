@@ -2,7 +2,7 @@
 
 use super::element::MovingLine;
 use super::modes;
-use crate::model::{ClassError, LineBooks, LineMode, LineNode, LineStress, Situation, Summary};
+use crate::model::{ClassError, LineBooks, LineMode, LineNode, Situation, Summary};
 use crate::rod::{Settings, Solver};
 
 impl MovingLine {
@@ -24,27 +24,9 @@ impl MovingLine {
         let ends = self.held(at.ends, still)?;
         out.clear();
         let found = self.within((at.surroundings, still), &mut Vec::new(), |world| rod.results(&state, world, &ends));
-        out.extend(found.iter().map(|n| LineNode {
-            arc: n.arc,
-            segment: self.base.part.get(n.segment).copied().unwrap_or(0),
-            position: n.position,
-            velocity: n.velocity,
-            effective: n.effective,
-            wall: n.wall,
-            shear: n.shear,
-            moment: n.moment,
-            bends: n.bends,
-            torque: n.torque,
-            curvature: n.curvature,
-            clearance: n.clearance,
-            pressures: n.pressures,
-            stress: n.stress.map(|s| LineStress {
-                axial: s.axial,
-                bending: s.bending,
-                hoop: s.hoop,
-                von_mises: s.von_mises,
-            }),
-        }));
+        // the class speaks of its parts, of which a rod may have several segments
+        let part = |n: LineNode| LineNode { segment: self.base.part.get(n.segment).copied().unwrap_or(0), ..n };
+        out.extend(found.into_iter().map(part));
         Ok(())
     }
 
