@@ -18,6 +18,7 @@ mod prescribed;
 mod resume;
 mod run;
 mod scheme;
+mod seen;
 mod side_by_side;
 mod snapshot;
 mod statistics;

@@ -7,13 +7,11 @@ use super::forces::{Memory, Motion};
 use super::history::{History, Layout, Told};
 use super::inertia::gyroscopic;
 use super::scheme::Method;
-use super::snapshot::Snapshot;
 use super::statistics::Statistics;
 use super::step::{Effort, Instant, Stepper};
 use crate::hydro::sea::Sea;
-use crate::model::{ClassError, LineBooks, Model, Place, Six};
+use crate::model::{ClassError, Model, Place, Six};
 use crate::post::SeriesError;
-use crate::solve::link::Link;
 use crate::solve::system::{SolveError, System, mass_block};
 use std::sync::Arc;
 
@@ -370,48 +368,5 @@ impl Run {
         let over = |m: &Motion| m.pose.axes[(2, 2)] < 0.0;
         let found = self.system.nodes.iter().zip(&self.now.motions).find(|(n, m)| !n.junction && over(m));
         found.map(|(n, _)| n.name.clone())
-    }
-
-    /// Time reached (s).
-    pub fn time(&self) -> f64 {
-        self.now.time
-    }
-
-    /// The books of the lines that move by themselves, by name, where they are kept.
-    pub fn books(&self) -> Vec<(String, LineBooks)> {
-        let of = |link: &Link| {
-            let state = self.system.states.get(link.states.clone()).unwrap_or_default();
-            link.element.books(state).map(|books| (link.name.clone(), books))
-        };
-        self.system.links.iter().filter_map(of).collect()
-    }
-
-    /// Motions now.
-    pub fn motions(&self) -> &[Motion] {
-        &self.now.motions
-    }
-
-    /// The sea at a time (s) of the run: actions may have changed it.
-    pub fn sea_at(&self, time: f64) -> Option<&Sea> {
-        let found = self.seas.iter().rev().find(|(since, _)| *since <= time).or(self.seas.first());
-        found.and_then(|(_, sea)| sea.as_deref())
-    }
-
-    /// Everything needed to go on from here.
-    pub fn snapshot(&self) -> Snapshot {
-        let lengths = self.history.layout.links.iter().map(|l| self.model.connectors.get(&Model::key(&l.name)));
-        Snapshot {
-            time: self.now.time,
-            taken: self.taken,
-            motions: self.now.motions.clone(),
-            loads: self.now.memory.loads.clone(),
-            states: self.system.states.clone(),
-            lengths: lengths.map(|c| c.and_then(|c| c.first_length)).collect(),
-            fired: self.fired.clone(),
-            winches: self.winches.clone(),
-            near: self.near.clone(),
-            rows: self.history.len(),
-            counts: self.counts,
-        }
     }
 }
