@@ -2,6 +2,7 @@
 
 use super::chosen::WARNING;
 use super::status::push;
+use crate::hydro::ambient;
 use crate::language::units::{Dim, UnitSystem};
 use crate::model::{Assembly, AssemblyKind, ClassError, Connector, End, LaidPipe, Model, Response, Situation, Summary};
 use crate::table::{Cell, Digits, Table};
@@ -75,14 +76,16 @@ type OnSupports = (Vec<[f64; 3]>, Summary);
 
 /// The forces of a pipe on the nodes of its active supports (N), and what it tells of itself.
 fn on_supports(model: &Model, assembly: &Assembly) -> Result<Option<OnSupports>, ClassError> {
-    let Some(LaidPipe { supports, element }) = model.pipe(assembly)? else { return Ok(None) };
+    let around = ambient(model, None)?;
+    let Some(LaidPipe { supports, element }) = model.pipe(assembly, Some(&around))? else { return Ok(None) };
     let ends: Vec<End> = supports.iter().map(|c| End::still(model.end_pose(c, 0).unwrap_or_default())).collect();
     let surroundings = model.surroundings();
     let at = Situation { ends: &ends, step: None, surroundings: &surroundings };
     let mut out = Response::default();
-    element.evaluate(&at, &[], &mut [], &mut None, &mut out)?;
+    let mut state = vec![0.0; element.states()];
+    element.evaluate(&at, &state.clone(), &mut state, &mut None, &mut out)?;
     let forces = out.wrench.iter().map(|w| [w[0], w[1], w[2]]).collect();
-    Ok(Some((forces, element.summary(&at, &[])?)))
+    Ok(Some((forces, element.summary(&at, &state)?)))
 }
 
 fn rows(table: &mut Table, model: &Model, assembly: &Assembly, units: UnitSystem) {

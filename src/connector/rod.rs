@@ -3,7 +3,6 @@
 //! Source: seed 001. MOSES treats rods as an assembly of large deflection tubular beam elements with inertia; the engine is `crate::rod`.
 
 use super::moving::{self as m, Description, Flexure, Hold, MovingLine, Part, Seabed};
-use super::pipe::Pipe;
 use super::section::{LineSection, properties};
 use super::{ClassKind, checks, options as o};
 use crate::language::diagnostic::{Diagnostic, Outcome};
@@ -161,7 +160,6 @@ impl ConnectorClass for Rod {
 
     /// A pipe of the first segment's section, as long as it needs to be.
     fn pipe(&self, layout: PipeLayout) -> Result<Box<dyn Element>, ClassError> {
-        let section = self.sections.first().ok_or_else(|| ClassError::new("the class has no record"))?;
-        Ok(Box::new(Pipe::laid(section, layout)?))
+        Ok(Box::new(MovingLine::laid(self.description(layout.surroundings), layout)?))
     }
 }

@@ -83,7 +83,8 @@ impl Contact {
                 for (axis, gap) in gaps.iter().enumerate().map(|(i, gap)| (i + 1, gap)) {
                     let free = gap.map_or(u[axis], |[below, above]| u[axis].clamp(-below, above));
                     made.at[axis] = u[axis] - free;
-                    let touches = made.at[axis] != 0.0;
+                    // without gaps a pair of rollers holds also what stands between them
+                    let touches = made.at[axis] != 0.0 || *gap == Some([0.0, 0.0]);
                     made.slopes[(axis, axis)] = f64::from(u8::from(touches));
                     if let Some(slot) = made.touches.get_mut(axis) {
                         *slot = touches;

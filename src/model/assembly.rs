@@ -1,8 +1,9 @@
 //! Assemblies: connectors of a single node whose other ends an assembly takes care of.
 
-use super::{Body, ClassError, Connection, Connector, Element, Model, Pose, Surroundings};
+use super::{Ambient, Body, ClassError, Connection, Connector, Element, Model, Pose, Surroundings};
 use crate::language::source::Span;
 use indexmap::IndexMap;
+use std::sync::Arc;
 
 /// What an assembly is made of.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,6 +28,8 @@ pub enum AssemblyKind {
 
 /// What a pipe is made of where its supports are.
 pub struct PipeLayout<'a> {
+    /// Its name.
+    pub name: &'a str,
     /// The law of each support, between its node and a point of the pipe.
     pub supports: Vec<Box<dyn Element>>,
     /// Their nodes.
@@ -39,6 +42,10 @@ pub struct PipeLayout<'a> {
     pub upper: Option<f64>,
     /// Water, depth, gravity.
     pub surroundings: &'a Surroundings,
+    /// Water, air and bottom along it.
+    pub ambient: Option<&'a Arc<dyn Ambient>>,
+    /// Whether a run keeps its books of energy and momentum.
+    pub books: bool,
 }
 
 /// A pipe over the supports that act, in the order of its ends.
@@ -95,11 +102,16 @@ impl Model {
         self.assembly_of(connector).is_some_and(|a| matches!(a.kind, AssemblyKind::Pipe { .. }))
     }
 
-    /// The supports of a pipe assembly that act, and the pipe on them; `None` of another assembly, or where none acts.
+    /// The supports of a pipe assembly that act, and the pipe on them; `None` of another assembly, or where none acts. `ambient`
+    /// surrounds it.
     ///
     /// # Errors
     /// A class or support that makes none here.
-    pub fn pipe(&self, assembly: &Assembly) -> Result<Option<LaidPipe<'_>>, ClassError> {
+    pub fn pipe(
+        &self,
+        assembly: &Assembly,
+        ambient: Option<&Arc<dyn Ambient>>,
+    ) -> Result<Option<LaidPipe<'_>>, ClassError> {
         let AssemblyKind::Pipe { class, supports, tension: (lower, upper) } = &assembly.kind else { return Ok(None) };
         let held = supports.iter().filter_map(|name| self.connectors.get(&Model::key(name)));
         let held: Vec<&Connector> = held.filter(|c| c.active).collect();
@@ -125,7 +137,17 @@ impl Model {
             nodes.push(node);
         }
         let (lower, upper) = (*lower, *upper);
-        let layout = PipeLayout { supports: laws, nodes, hang, lower, upper, surroundings: &surroundings };
+        let layout = PipeLayout {
+            name: &assembly.name,
+            supports: laws,
+            nodes,
+            hang,
+            lower,
+            upper,
+            surroundings: &surroundings,
+            ambient,
+            books: held.iter().any(|c| c.books),
+        };
         Ok(Some(LaidPipe { element: found.pipe(layout)?, supports: held }))
     }
 

@@ -5,11 +5,11 @@ use super::contact::{self, contact};
 use super::hinges::{HingeAt, hinge_sides};
 use super::immersed::{entry, half_load, slam_load, wet_prism, wet_share, wind_load};
 use super::mesh::Rod;
-use super::rollers::{cradled, crossing};
 use super::rope::Memory;
 use super::spatial;
 use super::state::State;
 use super::step::{EndForces, Solver};
+use super::supports::{meeting, supported};
 use super::surroundings::World;
 use super::tension::{Stretch, Taken, tension};
 use nalgebra::Vector3;
@@ -25,14 +25,14 @@ pub struct Energy {
     pub gravity: f64,
     /// In the bottom under it.
     pub bottom: f64,
-    /// In the rollers under it.
-    pub rollers: f64,
+    /// In what supports it.
+    pub supports: f64,
 }
 
 impl Energy {
     /// Their sum.
     pub fn total(&self) -> f64 {
-        self.kinetic + self.elastic + self.gravity + self.bottom + self.rollers
+        self.kinetic + self.elastic + self.gravity + self.bottom + self.supports
     }
 }
 
@@ -47,8 +47,8 @@ pub struct Work {
     pub damping: f64,
     /// By damping and friction of the bottom; negative.
     pub bottom: f64,
-    /// By damping and motion of the rollers.
-    pub rollers: f64,
+    /// By damping and motion of its supports.
+    pub supports: f64,
     /// By forces given.
     pub given: f64,
 }
@@ -56,7 +56,7 @@ pub struct Work {
 impl Work {
     /// Their sum.
     pub fn total(&self) -> f64 {
-        self.ends[0] + self.ends[1] + self.fluid + self.damping + self.bottom + self.rollers + self.given
+        self.ends[0] + self.ends[1] + self.fluid + self.damping + self.bottom + self.supports + self.given
     }
 
     fn add(&mut self, h: f64, a: &Work, b: &Work) {
@@ -66,7 +66,7 @@ impl Work {
         self.fluid += half * (a.fluid + b.fluid);
         self.damping += half * (a.damping + b.damping);
         self.bottom += half * (a.bottom + b.bottom);
-        self.rollers += half * (a.rollers + b.rollers);
+        self.supports += half * (a.supports + b.supports);
         self.given += half * (a.given + b.given);
     }
 }
@@ -134,7 +134,7 @@ impl Balance {
             w.fluid,
             w.damping,
             w.bottom,
-            w.rollers,
+            w.supports,
             w.given,
             look.energy.kinetic,
             look.energy.elastic,
@@ -273,14 +273,13 @@ fn look(rod: &Rod, state: &State, world: &World, solver: &Solver, made: &EndForc
             found.force += acts;
         }
     }
-    for roller in world.rollers {
-        let Some(over) = crossing(roller, x) else { continue };
-        let i = over.element;
-        if let Some(made) = cradled(roller, &over, [&v[i], &v[i + 1]]) {
-            let velocity = v[i] * made.shares[0] + v[i + 1] * made.shares[1];
-            found.energy.rollers += made.energy;
-            // the springs give back what they take but for the motion of the cradle itself
-            found.power.rollers -= (made.force - made.elastic).dot(&velocity) + made.elastic.dot(&roller.velocity);
+    for support in world.supports {
+        let Some(over) = meeting(rod.smooth(), support, x) else { continue };
+        if let Some(made) = supported(support, &over, v) {
+            found.energy.supports += made.energy;
+            // the springs give back what they take but for the motion of the support itself
+            let power = (made.force - made.elastic).dot(&over.at_point(v)) + made.elastic.dot(&support.velocity);
+            found.power.supports -= power;
             found.force -= made.force;
         }
     }

@@ -9,14 +9,14 @@ impl Balance {
 
     /// The books as numbers.
     pub fn pack(&self) -> [f64; Balance::NUMBERS] {
-        let work = |w: &Work| [w.ends[0], w.ends[1], w.fluid, w.damping, w.bottom, w.rollers, w.given];
+        let work = |w: &Work| [w.ends[0], w.ends[1], w.fluid, w.damping, w.bottom, w.supports, w.given];
         let e = &self.energy;
         let vectors = [self.opened.1, self.force, self.momentum, self.impulse];
         let all = [self.time, self.opened.0, self.turnover]
             .into_iter()
             .chain(work(&self.power))
             .chain(work(&self.work))
-            .chain([e.kinetic, e.elastic, e.gravity, e.bottom, e.rollers])
+            .chain([e.kinetic, e.elastic, e.gravity, e.bottom, e.supports])
             .chain(vectors.iter().flat_map(|v| [v.x, v.y, v.z]));
         let mut made = [0.0; Balance::NUMBERS];
         for (place, value) in made.iter_mut().zip(all) {
@@ -32,7 +32,7 @@ impl Balance {
             fluid: from[at + 2],
             damping: from[at + 3],
             bottom: from[at + 4],
-            rollers: from[at + 5],
+            supports: from[at + 5],
             given: from[at + 6],
         };
         let vector = |n: usize| Vector3::new(from[22 + 3 * n], from[23 + 3 * n], from[24 + 3 * n]);
@@ -47,7 +47,7 @@ impl Balance {
                 elastic: from[18],
                 gravity: from[19],
                 bottom: from[20],
-                rollers: from[21],
+                supports: from[21],
             },
             force: vector(1),
             momentum: vector(2),

@@ -1,16 +1,16 @@
-//! What acts on nodes beside the elements: the bottom, rollers, attachments, given forces.
+//! What acts on nodes beside the elements: the bottom, supports, attachments, given forces.
 
 use super::contact::contact;
 use super::immersed::wet_prism;
 use super::mesh::Rod;
-use super::rollers::{cradled, crossing};
+use super::supports::{meeting, supported};
 use super::surroundings::World;
 use super::system::{System, Weights};
 use super::trial::Trial;
 use nalgebra::Vector3;
 use std::ops::Range;
 
-/// Adds the bottom, rollers, attachments and given forces at the nodes of a range of elements; without `TANGENT` their
+/// Adds the bottom, supports, attachments and given forces at the nodes of a range of elements; without `TANGENT` their
 /// residual alone.
 pub(super) fn on_nodes<const TANGENT: bool, const W: usize, const H: usize, const S: usize>(
     rod: &Rod,
@@ -33,15 +33,17 @@ pub(super) fn on_nodes<const TANGENT: bool, const W: usize, const H: usize, cons
             }
         }
     }
-    for roller in world.rollers {
-        let Some(over) = crossing(roller, &trial.x).filter(|c| range.contains(&c.element)) else { continue };
-        let nodes = [over.element, over.element + 1];
-        // cradles stand still where winches do
-        let velocity = nodes.map(|node| if trial.still { &roller.velocity } else { &trial.v[node] });
-        if let Some(made) = cradled(roller, &over, velocity) {
-            for (row, node) in nodes.into_iter().enumerate() {
-                system.push(node, &(made.force * made.shares[row]));
-                for (column, other) in nodes.into_iter().enumerate() {
+    for support in world.supports {
+        // two nodes an equation have no room for a curve
+        let Some(over) = meeting(H > 5, support, &trial.x) else { continue };
+        let nodes = over.nodes();
+        if nodes.start < range.start || nodes.end > range.end + 1 {
+            continue;
+        }
+        if let Some(made) = supported(support, &over, &trial.v) {
+            for (row, node) in nodes.clone().enumerate() {
+                system.push(node, &(made.force * over.shares[row]));
+                for (column, other) in nodes.clone().enumerate() {
                     let block = made.by_position[row][column] * k + made.by_velocity[row][column] * c;
                     system.block::<TANGENT>(node, other, &block);
                 }

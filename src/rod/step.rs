@@ -230,7 +230,9 @@ impl Solver {
                 interpolate(state, node, &ends[side], whole, share)
             });
             let from = std::mem::take(&mut self.part);
-            let made = self.attempt(rod, &from, world, target, between, false);
+            let supports = world.supports_before(time - target);
+            let within = World { supports: &supports, ..*world };
+            let made = self.attempt(rod, &from, &within, target, between, false);
             self.part = from;
             match made {
                 Ok(count) => {

@@ -1,6 +1,6 @@
 //! What a rod lies in: the fluid, the bottom, gravity.
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 /// The fluid at a place and time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -128,53 +128,51 @@ impl Ground {
     }
 }
 
-/// A cradle of rollers over which a rod is laid: a floor with a flank on each side, or two flanks alone.
+/// How a support answers a rod that is against it.
+pub trait Grip: std::fmt::Debug {
+    /// What it does to a rod whose point is `at` from the place of the support (m, global) and moves at `velocity`
+    /// beside it (m/s); none where it is clear of it.
+    fn answer(&self, at: &Vector3<f64>, velocity: &Vector3<f64>) -> Option<Gripped>;
+}
+
+/// What a support does to a point of a rod.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Gripped {
+    /// Force on the rod (N, global).
+    pub force: Vector3<f64>,
+    /// -d(force)/d(place of the point) (N/m).
+    pub by_position: Matrix3<f64>,
+    /// -d(force)/d(velocity of the point) (N s/m).
+    pub by_velocity: Matrix3<f64>,
+    /// The part of the force that is the slope of an energy (N), and that energy (J); zero where it keeps none: the
+    /// whole force then counts as work.
+    pub elastic: (Vector3<f64>, f64),
+}
+
+/// What holds a rod on its way between its ends.
 ///
-/// Its shape is that of where the rod's axis may be, so the radius of the rod is part of `place`. Across the cradle
-/// the floor reaches `half_width` to each side of the place; beyond it the flanks rise, `opening` between them: a U has
-/// a floor and parallel flanks (0), a V no floor and a wide opening. Floor and flanks push the rod back into the
-/// cradle by stiffness times depth, with damping, never a pull; over the first `soft` of depth the stiffness grows
-/// from zero. Nothing acts along the rod, as the rollers roll.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Roller {
-    /// Where the axis of a rod is that just lies in it (m, global).
+/// It holds a node of the rod, or it is a roller: the point of the rod that crosses its plane then, and nothing acts
+/// along the rod, which rolls through it. Its force depends on where that point is as seen from the support itself, so
+/// the support feels the opposite force there.
+#[derive(Clone, Copy, Debug)]
+pub struct Support<'a> {
+    /// Its place (m, global), about which its moment is told.
     pub place: Vector3<f64>,
     /// Velocity of that place (m/s).
     pub velocity: Vector3<f64>,
-    /// Directions along the rod's way, across it and up, at right angles to each other.
-    pub axes: [Vector3<f64>; 3],
-    /// Half the width of the floor (m): zero for a V, infinite for a plain roller without flanks.
-    pub half_width: f64,
-    /// Angle between the flanks (rad), from 0 for a U to less than pi.
-    pub opening: f64,
-    /// Stiffness of the floor and of each flank (N/m).
-    pub stiffness: f64,
-    /// Damping of each (N s/m).
-    pub damping: f64,
-    /// Depth over which the stiffness grows to its full value (m).
-    pub soft: f64,
+    /// What it holds.
+    pub holds: Holds,
+    /// How it answers.
+    pub grip: &'a dyn Grip,
 }
 
-impl Roller {
-    /// What keeps it from being a cradle, as one clause; none where it is one.
-    pub fn fault(&self) -> Option<&'static str> {
-        let whole = |v: &Vector3<f64>| v.iter().all(|c| c.is_finite());
-        let [along, across, up] = &self.axes;
-        let square = [along.dot(across), across.dot(up), up.dot(along)].iter().all(|c| c.abs() < 1e-6);
-        if !whole(&self.place) || !whole(&self.velocity) {
-            Some("its place and velocity must be numbers")
-        } else if !(square && self.axes.iter().all(|a| (a.norm() - 1.0).abs() < 1e-6)) {
-            Some("its axes must be unit vectors at right angles")
-        } else if !(self.stiffness.is_finite() && self.stiffness > 0.0) {
-            Some("its stiffness must be positive")
-        } else if ![self.damping, self.soft].iter().all(|v| v.is_finite() && *v >= 0.0) {
-            Some("its damping and soft depth must not be negative")
-        } else if !(self.half_width >= 0.0 && (0.0..std::f64::consts::PI).contains(&self.opening)) {
-            Some("its half width must not be negative, and its opening from 0 to less than half a turn")
-        } else {
-            None
-        }
-    }
+/// What of a rod a support holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Holds {
+    /// A node, from end A.
+    Node(usize),
+    /// What crosses the plane through the place of the support at right angles to this unit vector.
+    Crossing(Vector3<f64>),
 }
 
 /// All that surrounds a rod.
@@ -188,8 +186,8 @@ pub struct World<'a> {
     pub gravity: f64,
     /// Forces on nodes beside those the rod makes itself (N, global): node from end A, force.
     pub forces: &'a [(usize, Vector3<f64>)],
-    /// Cradles it is laid over.
-    pub rollers: &'a [Roller],
+    /// What holds it on its way between its ends.
+    pub supports: &'a [Support<'a>],
     /// Whether an element that enters the water is slammed by it: the rate at which its added mass grows, times its
     /// velocity relative to the water. Off, the added mass comes without its momentum.
     pub slam: bool,
@@ -198,6 +196,11 @@ pub struct World<'a> {
 impl<'a> World<'a> {
     /// A fluid and gravity (m/s2), and nothing else.
     pub fn new(fluid: &'a dyn FluidField, gravity: f64) -> Self {
-        World { fluid, bottom: None, gravity, forces: &[], rollers: &[], slam: false }
+        World { fluid, bottom: None, gravity, forces: &[], supports: &[], slam: false }
+    }
+    /// Its supports a time (s) before they are where they are, as they move.
+    pub(super) fn supports_before(&self, time: f64) -> Vec<Support<'a>> {
+        let at = |s: &Support<'a>| Support { place: s.place - s.velocity * time, ..*s };
+        self.supports.iter().map(at).collect()
     }
 }

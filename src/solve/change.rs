@@ -97,8 +97,13 @@ impl System {
         let mut nodes = moving_nodes(model, sea)?;
         self.ambient = ambient(model, sea).map_err(SolveError::new)?;
         for link in self.links.iter_mut().filter(|l| l.element.moves()) {
-            let made = model.element_in(connector(model, &link.name)?, Some(&self.ambient));
-            link.element = made.map_err(SolveError::of(&link.name))?;
+            let assembly = model.assemblies.get(&Model::key(&link.name));
+            link.element = match assembly.map(|a| model.pipe(a, Some(&self.ambient))) {
+                Some(made) => made.map(|found| found.map(|laid| laid.element)),
+                None => model.element_in(connector(model, &link.name)?, Some(&self.ambient)).map(Some),
+            }
+            .map_err(SolveError::of(&link.name))?
+            .ok_or_else(|| SolveError::of(&link.name)(ClassError::new("nothing holds it any more")))?;
         }
         for (new, old) in nodes.iter_mut().zip(&mut self.nodes) {
             let given = model.bodies.get(&new.key).and_then(|body| body.prescribed.as_ref());

@@ -1,7 +1,7 @@
 //! Connectors of a system: their elements, and what their ends are fixed to.
 
 use super::system::SolveError;
-use crate::model::{Ambient, Connector, Element, Model, Pose};
+use crate::model::{Ambient, Assembly, Connector, Element, LaidPipe, Model, Pose};
 use nalgebra::{Matrix3, Vector3};
 use std::sync::Arc;
 
@@ -30,13 +30,32 @@ pub(super) fn link(
     states: &mut Vec<f64>,
 ) -> Result<Link, SolveError> {
     let element = model.element_in(connector, Some(ambient)).map_err(SolveError::of(&connector.name))?;
-    let from = states.len();
-    states.resize(from + element.states(), 0.0);
-    if let Some(own) = states.get_mut(from..) {
-        element.start(own);
+    Ok(Link::of(&connector.name, element, connected(model, connector).to_vec(), states))
+}
+
+/// The pipe of an assembly of a model, where it has one that acts; its states go behind the others.
+pub(super) fn laid(
+    (model, ambient): (&Model, &Arc<dyn Ambient>),
+    assembly: &Assembly,
+    states: &mut Vec<f64>,
+) -> Result<Option<Link>, SolveError> {
+    let made = model.pipe(assembly, Some(ambient)).map_err(SolveError::of(&assembly.name))?;
+    let of = |LaidPipe { supports, element }: LaidPipe| {
+        let ends = supports.iter().map(|c| connected(model, c)[0]).collect();
+        Link::of(&assembly.name, element, ends, states)
+    };
+    Ok(made.map(of))
+}
+
+impl Link {
+    fn of(name: &str, element: Box<dyn Element>, ends: Vec<Attachment>, states: &mut Vec<f64>) -> Link {
+        let from = states.len();
+        states.resize(from + element.states(), 0.0);
+        if let Some(own) = states.get_mut(from..) {
+            element.start(own);
+        }
+        Link { name: name.to_string(), element, ends, states: from..states.len() }
     }
-    let ends = connected(model, connector).to_vec();
-    Ok(Link { name: connector.name.clone(), element, ends, states: from..states.len() })
 }
 
 /// What the ends of a connector are fixed to.

@@ -1,12 +1,12 @@
 //! The system of bodies and connectors: who hangs on whom, what acts on each body, how that changes with their places.
 
-use super::link::{Attachment, Link, arm, connected, link, pose_of};
+use super::link::{Attachment, Link, arm, laid, link, pose_of};
 use super::modes::held;
 use super::time::{Prescribed, prescribed};
 use crate::hydro::sea::Sea;
 use crate::hydro::{Category, Floating, Load, ambient, carried, transferred, turning};
 use crate::model::{
-    Ambient, Body, ClassError, End, Guess, LaidPipe, Mass, Model, Place, Pose, Response, Situation, Six, Surroundings,
+    Ambient, Body, ClassError, End, Guess, Mass, Model, Place, Pose, Response, Situation, Six, Surroundings,
 };
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6};
 use std::sync::Arc;
@@ -167,10 +167,7 @@ impl System {
             links.push(link((model, &ambient), connector, &mut states)?);
         }
         for assembly in model.assemblies.values() {
-            let made = model.pipe(assembly).map_err(SolveError::of(&assembly.name))?;
-            let Some(LaidPipe { supports, element }) = made else { continue };
-            let ends = supports.iter().map(|c| connected(model, c)[0]).collect();
-            links.push(Link { name: assembly.name.clone(), element, ends, states: states.len()..states.len() });
+            links.extend(laid((model, &ambient), assembly, &mut states)?);
         }
         let (surroundings, gravity) = (model.surroundings(), model.defaults.gravity);
         Ok(System { nodes, links, states, surroundings, ambient, gravity, applied: Vec::new() })

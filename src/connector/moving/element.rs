@@ -1,8 +1,9 @@
 //! A line that moves by itself as an engine sees it.
 
-use super::answer::answer;
+use super::answer::{On, answer};
 use super::around::{Floor, Water};
 use super::kept::{Kept, Layout};
+use super::laid::Felt;
 use super::mesh::{told, wind};
 use super::start;
 use super::warm::{Base, Held, Warm, solver_of};
@@ -33,9 +34,9 @@ pub struct MovingLine {
 }
 
 /// A line at rest.
-struct Rest {
-    state: State,
-    forces: EndForces,
+pub(super) struct Rest {
+    pub state: State,
+    pub forces: EndForces,
 }
 
 impl MovingLine {
@@ -52,22 +53,29 @@ impl MovingLine {
     /// The line's surroundings, at rest or under way, for what needs them; `flows` is room for what is asked of the water.
     pub(super) fn within<T>(
         &self,
-        (around, mean): (&Surroundings, bool),
+        (at, mean): (&Situation, bool),
         flows: &mut Vec<Flow>,
         act: impl FnOnce(&World) -> T,
     ) -> T {
+        let around = at.surroundings;
         let ambient = self.base.ambient.as_deref();
         let water = Water { ambient, around, mean, flows: RefCell::new(std::mem::take(flows)) };
         let floor = Floor { plane: self.base.plane, ambient, flat: self.base.flat.unwrap_or(0.0) };
         let known = self.base.plane.is_some() || self.base.flat.is_some();
         let bottom: Option<(&dyn rod::Bottom, Ground)> = known.then_some((&floor, self.base.ground));
-        let made = act(&World { bottom, slam: self.base.description.slam, ..World::new(&water, around.gravity) });
+        let felt = self.base.laid.as_ref().map(|laid| laid.felt(at.ends, around)).unwrap_or_default();
+        let supports: Vec<_> = felt.iter().map(Felt::support).collect();
+        let slam = self.base.description.slam;
+        let made = act(&World { bottom, slam, supports: &supports, ..World::new(&water, around.gravity) });
         *flows = water.flows.into_inner();
         made
     }
 
     /// What holds the ends.
     pub(super) fn held(&self, ends: &[End], still: bool) -> Result<[rod::End; 2], ClassError> {
+        if let Some(laid) = &self.base.laid {
+            return Ok([rod::End::FREE, rod::End::pinned(laid.anchor)]);
+        }
         let [first, second] = ends else { return Err(ClassError::new("a line has two ends")) };
         let made = |end: &End, hold: &Option<Held>| {
             let three = |six: &Six| Vector3::new(six[0], six[1], six[2]);
@@ -89,15 +97,15 @@ impl MovingLine {
     }
 
     /// Where it hangs at rest between ends.
-    fn rest(&self, at: &Situation, warm: &mut Warm) -> Result<Rest, ClassError> {
+    pub(super) fn rest(&self, at: &Situation, warm: &mut Warm) -> Result<Rest, ClassError> {
         let ends = self.held(at.ends, true)?;
         if warm.rod != self.base.rod {
             warm.take(self.base.rod.clone());
         }
         let places = [0, 1].map(|i| at.ends.get(i).map_or_else(Vector3::zeros, |e| e.pose.origin));
         let Warm { rod, solver, rest, flows, .. } = warm;
-        self.within((at.surroundings, true), flows, |world| {
-            if let Some((bottom, _)) = &world.bottom {
+        self.within((at, true), flows, |world| {
+            if let Some((bottom, _)) = &world.bottom.filter(|_| self.base.laid.is_none()) {
                 for (place, name) in places.iter().zip(["first", "second"]) {
                     let below = bottom.height(place.x, place.y).0 - place.z;
                     if below > BELOW {
@@ -107,16 +115,18 @@ impl MovingLine {
                     }
                 }
             }
-            let mut state = match rest.take() {
-                Some(state) => state,
-                None => {
-                    // how softly it meets the bottom is known where it rests first
+            let mut beside = rest.take();
+            let near = beside.as_mut().and_then(|state| solver.statics(rod, state, world, ends).ok());
+            let (state, forces) = match (beside, near) {
+                (Some(state), Some(forces)) => (state, forces),
+                // from afar: how softly it meets the bottom is known where it rests first
+                _ => {
                     let mut fallen = self.fallen(places, at.surroundings)?;
                     solver.statics(rod, &mut fallen, world, ends).map_err(told)?;
-                    fallen
+                    let forces = solver.statics(rod, &mut fallen, world, ends).map_err(told)?;
+                    (fallen, forces)
                 }
             };
-            let forces = solver.statics(rod, &mut state, world, ends).map_err(told)?;
             *rest = Some(state.clone());
             Ok(Rest { state, forces })
         })
@@ -124,6 +134,9 @@ impl MovingLine {
 
     /// From where it falls.
     fn fallen(&self, places: [Vector3<f64>; 2], around: &Surroundings) -> Result<State, ClassError> {
+        if let Some(laid) = &self.base.laid {
+            return State::along(&self.base.rod, &laid.shape).map_err(told);
+        }
         let parts = &self.base.description.parts;
         let mut lengths: Vec<f64> = parts.iter().map(|p| p.segment.length).collect();
         if let Some(length) = lengths.first_mut() {
@@ -190,11 +203,15 @@ impl MovingLine {
         } else {
             state.time = time;
         }
-        let (forces, tangent) = self.within((at.surroundings, false), flows, |world| {
+        let (forces, felt) = self.within((at, false), flows, |world| {
             if dt > 0.0 {
                 let forces = solver.trial(rod, state, world, time, ends).map_err(told)?;
                 solver.reached(state);
-                Ok::<_, ClassError>((forces, solver.end_tangent_felt(rod, world, self.base.felt)))
+                let felt = match self.base.laid {
+                    Some(_) => On::Supports(rod.on_supports(state, world), solver.support_tangent(rod, world)),
+                    None => On::Ends(forces, solver.end_tangent_felt(rod, world, self.base.felt)),
+                };
+                Ok::<_, ClassError>((forces, felt))
             } else {
                 // what a broken line springs back with lasts for a wave along an element, not for a step: it goes on as it moved
                 let before = self.base.freed.then(|| state.clone());
@@ -202,15 +219,19 @@ impl MovingLine {
                 if let Some(before) = before {
                     state.clone_from(&before);
                 }
+                if self.base.laid.is_some() {
+                    // what its supports feel does not follow their accelerations
+                    return Ok((forces, On::Supports(rod.on_supports(state, world), None)));
+                }
                 let mut tangent = EndTangent::default();
                 for (side, mass) in solver.end_masses().iter().enumerate() {
                     tangent.acceleration.fixed_view_mut::<3, 3>(6 * side, 6 * side).copy_from(&-mass);
                 }
-                Ok((forces, Some(tangent)))
+                Ok((forces, On::Ends(forces, Some(tangent))))
             }
         })?;
         let books = self.layout.has_books().then(|| {
-            self.within((at.surroundings, false), flows, |world| match kept.balance {
+            self.within((at, false), flows, |world| match kept.balance {
                 Some(mut balance) if dt > 0.0 => {
                     balance.enter(rod, state, world, solver, &forces);
                     balance
@@ -223,7 +244,7 @@ impl MovingLine {
         if let Some(balance) = books {
             self.layout.keep_books(&balance, trial);
         }
-        answer(out, &forces, tangent.as_ref(), true)
+        answer(out, &felt, true)
     }
 }
 
@@ -234,6 +255,10 @@ impl Element for MovingLine {
 
     fn moves(&self) -> bool {
         true
+    }
+
+    fn made_for_place(&self) -> bool {
+        self.base.laid.is_some()
     }
 
     fn nodes(&self) -> usize {
@@ -259,14 +284,16 @@ impl Element for MovingLine {
         }
         let found = self.rest(at, warm)?;
         let Warm { rod, solver, room, flows, .. } = &mut *warm;
-        let tangent = self.within((at.surroundings, true), flows, |world| solver.end_tangent(rod, world));
-        answer(out, &found.forces, tangent.as_ref(), false)?;
-        self.layout.write(rod, &found.state, room, trial)?;
+        let felt = self.within((at, true), flows, |world| match self.base.laid {
+            Some(_) => On::Supports(rod.on_supports(&found.state, world), solver.support_tangent(rod, world)),
+            None => On::Ends(found.forces, solver.end_tangent(rod, world)),
+        });
+        answer(out, &felt, false)?;
+        let mut state = found.state;
+        state.time = at.step.map_or(0.0, |step| step.time);
+        self.layout.write(rod, &state, room, trial)?;
         if let Some(step) = at.step {
             // a run begins here
-            let mut state = found.state;
-            state.time = step.time;
-            self.layout.write(rod, &state, room, trial)?;
             let begun = trial.to_vec();
             if let Some(kept) = self.layout.read(&begun)? {
                 // its books are not open yet

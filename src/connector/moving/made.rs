@@ -79,6 +79,7 @@ impl MovingLine {
             holds,
             freed: connection.connector.freed,
             felt: [true, !connection.to_ground],
+            laid: None,
         };
         Ok(MovingLine { base: Arc::new(base), layout, first, nominal })
     }

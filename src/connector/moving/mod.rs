@@ -8,6 +8,7 @@ mod around;
 mod describe;
 mod element;
 mod kept;
+mod laid;
 mod made;
 mod mesh;
 mod modes;

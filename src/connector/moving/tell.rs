@@ -10,8 +10,8 @@ impl MovingLine {
         let found = self.layout.balance(state)?;
         let (e, w) = (&found.energy, &found.work);
         Some(LineBooks {
-            energy: [e.kinetic, e.elastic, e.gravity, e.bottom + e.rollers],
-            work: [w.ends[0], w.ends[1], w.fluid + w.given, w.damping, w.bottom + w.rollers],
+            energy: [e.kinetic, e.elastic, e.gravity, e.bottom + e.supports],
+            work: [w.ends[0], w.ends[1], w.fluid + w.given, w.damping, w.bottom + w.supports],
             energy_error: found.energy_error(),
             turnover: found.turnover,
             momentum_error: found.momentum_error(),
@@ -23,7 +23,7 @@ impl MovingLine {
         let rod = other.as_ref().unwrap_or(&self.base.rod);
         let ends = self.held(at.ends, still)?;
         out.clear();
-        let found = self.within((at.surroundings, still), &mut Vec::new(), |world| rod.results(&state, world, &ends));
+        let found = self.within((at, still), &mut Vec::new(), |world| rod.results(&state, world, &ends));
         // the class speaks of its parts, of which a rod may have several segments
         let part = |n: LineNode| LineNode { segment: self.base.part.get(n.segment).copied().unwrap_or(0), ..n };
         out.extend(found.into_iter().map(part));
@@ -35,9 +35,7 @@ impl MovingLine {
         let rod = other.as_ref().unwrap_or(&self.base.rod);
         let ends = self.held(at.ends, true)?;
         let mut solver = Solver::new(rod, Settings::default());
-        self.within((at.surroundings, true), &mut Vec::new(), |world| {
-            modes::of(rod, &mut solver, &state, world, ends, number)
-        })
+        self.within((at, true), &mut Vec::new(), |world| modes::of(rod, &mut solver, &state, world, ends, number))
     }
 
     pub(super) fn tell_summary(&self, at: &Situation, committed: &[f64]) -> Result<Summary, ClassError> {

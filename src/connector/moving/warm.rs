@@ -1,6 +1,7 @@
 //! What a line that moves by itself is made of, and what its solver remembers.
 
 use super::describe::Description;
+use super::laid::Laid;
 use crate::model::{Ambient, Flow};
 use crate::rod::{self, Ground, PlaneBottom, Rod, Settings, Solver, State};
 use nalgebra::Vector3;
@@ -31,6 +32,8 @@ pub(super) struct Base {
     pub freed: bool,
     /// Which ends can move.
     pub felt: [bool; 2],
+    /// What it lies on, of a pipe; its ends are then those of its supports.
+    pub laid: Option<Laid>,
 }
 
 /// What a solver of a line remembers.

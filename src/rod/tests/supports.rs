@@ -2,11 +2,76 @@
 
 use super::super::*;
 use super::tangent::compare;
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Rotation3, Vector3};
+
+/// A cradle: a floor that reaches `half_width` to each side, with a flank beyond on each side, `opening` between them.
+/// Each pushes by stiffness times depth, which grows from zero over the first `soft`, with damping, and never pulls.
+#[derive(Clone, Copy, Debug)]
+struct Cradle {
+    place: Vector3<f64>,
+    velocity: Vector3<f64>,
+    axes: [Vector3<f64>; 3],
+    half_width: f64,
+    opening: f64,
+    stiffness: f64,
+    damping: f64,
+    soft: f64,
+}
+
+impl Cradle {
+    /// The faces that push: unit normal into the cradle, and how far from the place along it the face lies (m).
+    fn faces(&self) -> impl Iterator<Item = (Vector3<f64>, f64)> {
+        let [_, across, up] = self.axes;
+        let (sine, cosine) = (0.5 * self.opening).sin_cos();
+        let floor = (self.half_width > 0.0).then_some((up, 0.0));
+        let walled = self.half_width.is_finite();
+        let flank = move |side: f64| walled.then(|| (up * sine - across * (side * cosine), -self.half_width * cosine));
+        [floor, flank(-1.0), flank(1.0)].into_iter().flatten()
+    }
+
+    fn support(&self) -> Support<'_> {
+        let holds = Holds::Crossing(self.axes[0]);
+        Support { place: self.place, velocity: self.velocity, holds, grip: self }
+    }
+}
+
+impl Grip for Cradle {
+    fn answer(&self, at: &Vector3<f64>, velocity: &Vector3<f64>) -> Option<Gripped> {
+        let mut made = Gripped::default();
+        for (normal, offset) in self.faces() {
+            let depth = offset - at.dot(&normal);
+            if depth <= 0.0 {
+                continue;
+            }
+            let soft = self.soft;
+            let (spring, grown, bend, held) = if depth < soft {
+                (0.5 * depth * depth / soft, depth / soft, 1.0 / soft, depth.powi(3) / (6.0 * soft))
+            } else {
+                (depth - 0.5 * soft, 1.0, 0.0, 0.5 * depth * depth - 0.5 * soft * depth + soft * soft / 6.0)
+            };
+            made.elastic.1 += self.stiffness * held;
+            made.elastic.0 += normal * (self.stiffness * spring);
+            let sinking = -velocity.dot(&normal);
+            let push = self.stiffness * spring + self.damping * grown * sinking;
+            if push <= 0.0 {
+                continue;
+            }
+            let outer = normal * normal.transpose();
+            made.force += normal * push;
+            made.by_position += outer * (self.stiffness * grown + self.damping * bend * sinking);
+            made.by_velocity += outer * (self.damping * grown);
+        }
+        (made.elastic.1 > 0.0).then_some(made)
+    }
+}
+
+fn supports(cradles: &[Cradle]) -> Vec<Support<'_>> {
+    cradles.iter().map(Cradle::support).collect()
+}
 
 /// A roller at x under a rod that runs along x.
-fn plain(x: f64, stiffness: f64) -> Roller {
-    Roller {
+fn plain(x: f64, stiffness: f64) -> Cradle {
+    Cradle {
         place: Vector3::new(x, 0.0, 0.0),
         velocity: Vector3::zeros(),
         axes: [Vector3::x(), Vector3::y(), Vector3::z()],
@@ -39,23 +104,24 @@ fn a_beam_over_three_rollers_has_the_reactions_of_the_continuous_beam() {
         let rod = pipe(3.0 * span + overhang, elements, w, ei);
         let rollers = [1.0, 2.0, 3.0].map(|i| plain(i * span, 1e8));
         let fluid = UniformFluid::none();
-        let world = World { rollers: &rollers, ..World::new(&fluid, 9.81) };
+        let world = World { supports: &supports(&rollers), ..World::new(&fluid, 9.81) };
         let (a, b) = (Vector3::zeros(), Vector3::x() * rod.length());
         let mut state = State::along(&rod, &[a, b]).unwrap();
         let mut solver = Solver::new(&rod, Settings::default());
         let made = solver.statics(&rod, &mut state, &world, [End::pinned(a), End::FREE]).unwrap();
-        let told = rod.rollers(&state, &world);
+        let told = rod.on_supports(&state, &world);
         for (told, wanted) in told.iter().zip(wanted) {
             // second order in the element, (1/80)^2; a support sinks by 2e-5 m, which takes 12 EI / L^3 of it
-            assert!((told.force.z / wanted - 1.0).abs() < 1e-3, "{elements}: {told:?} {wanted}");
-            assert!(told.gap.unwrap() < 0.0);
+            assert!((-told.force.z / wanted - 1.0).abs() < 1e-3, "{elements}: {told:?} {wanted}");
         }
-        let sum = told.iter().map(|r| r.force.z).sum::<f64>() - made.force[0].z;
+        let sum = -told.iter().map(|r| r.force.z).sum::<f64>() - made.force[0].z;
         // of the whole weight, to the residual of statics
         assert!((sum / (w * rod.length()) - 1.0).abs() < 1e-6, "{sum}");
         let moment = rod.results(&state, &world, &[End::pinned(a), End::FREE]);
         let most = moment.iter().filter(|n| (n.arc - span).abs() < 1.0).fold(0.0, |m: f64, n| m.max(n.moment));
-        assert!((most / m1.abs() - 1.0).abs() < 0.02, "{most} {m1}");
+        // the nodes beside a roller share its force, which rounds the peak by a quarter of force times element at most
+        let rounded = 0.25 * wanted[0] * rod.length() / elements as f64;
+        assert!(most < m1.abs() && most > 0.995 * m1.abs() - rounded, "{most} {m1} {rounded}");
     }
 }
 
@@ -64,9 +130,9 @@ fn slid(elements: usize) -> (Vec<f64>, f64) {
     let (span, w) = (10.0, 100.0);
     let length = 7.0 * span;
     let rod = pipe(length, elements, w, 1e7);
-    let rollers: Vec<Roller> = (0..7).map(|i| Roller { damping: 1e4, ..plain(span * i as f64 + 4.0, 1e7) }).collect();
+    let rollers: Vec<Cradle> = (0..7).map(|i| Cradle { damping: 1e4, ..plain(span * i as f64 + 4.0, 1e7) }).collect();
     let fluid = UniformFluid::none();
-    let world = World { rollers: &rollers, ..World::new(&fluid, 9.81) };
+    let world = World { supports: &supports(&rollers), ..World::new(&fluid, 9.81) };
     let mut state = State::along(&rod, &[Vector3::zeros(), Vector3::x() * length]).unwrap();
     let mut solver = Solver::new(&rod, Settings::default());
     solver.statics(&rod, &mut state, &world, [End::pinned(Vector3::zeros()), End::FREE]).unwrap();
@@ -82,7 +148,7 @@ fn slid(elements: usize) -> (Vec<f64>, f64) {
         let made = solver.step(&rod, &mut state, &world, t, [End::moved(motion), End::FREE]).unwrap();
         // the jolt of the start has died out after two seconds
         if i > 20 {
-            reactions.push(rod.rollers(&state, &world)[3].force.z);
+            reactions.push(-rod.on_supports(&state, &world)[3].force.z);
             pull = pull.max(made.force[0].x.abs());
         }
     }
@@ -107,41 +173,40 @@ fn a_pipe_that_slides_over_rollers_presses_evenly_as_nodes_go_by() {
 }
 
 /// A heavy point on a hinge of light rope along x, let down into a cradle and pulled aside.
-fn lying(cradle: Roller, load: Vector3<f64>) -> (Vector3<f64>, RollerResult) {
+fn lying(cradle: Cradle, load: Vector3<f64>) -> (Vector3<f64>, OnSupport) {
     let segment = Segment { compression: true, ..Segment::line(200.0, 2, 1e-3, 1e7, 0.1) };
     let rod = Rod::new("line", vec![segment], vec![]).unwrap();
     let forces = [(1, load)];
     let fluid = UniformFluid::none();
     let rollers = [cradle];
-    let world = World { rollers: &rollers, forces: &forces, ..World::new(&fluid, 0.0) };
+    let world = World { supports: &supports(&rollers), forces: &forces, ..World::new(&fluid, 0.0) };
     let (a, b) = (Vector3::x() * -100.0, Vector3::x() * 100.0);
     let mut state = State::along(&rod, &[a, b]).unwrap();
     let mut solver = Solver::new(&rod, Settings::default());
     solver.statics(&rod, &mut state, &world, [End::pinned(a), End::pinned(b)]).unwrap();
-    (state.position[1], rod.rollers(&state, &world)[0])
+    (state.position[1], rod.on_supports(&state, &world)[0])
 }
 
 #[test]
 fn a_cradle_holds_a_pipe_by_the_balance_of_its_faces() {
     let load = Vector3::new(0.0, 300.0, -1000.0);
     // a V of 90 degrees: N1 + N2 = W / sin 45, N1 - N2 = H / cos 45
-    let vee = Roller { half_width: 0.0, opening: std::f64::consts::FRAC_PI_2, ..plain(0.0, 1e5) };
+    let vee = Cradle { half_width: 0.0, opening: std::f64::consts::FRAC_PI_2, ..plain(0.0, 1e5) };
     let (place, told) = lying(vee, load);
     // the rope, taut by 1e7 (d / 100)^2 / 2, bears a hundred-thousandth
-    assert!((told.force + load).norm() < 1e-3 * load.norm(), "{told:?}");
+    assert!((told.force - load).norm() < 1e-3 * load.norm(), "{told:?}");
     // depth of each face N / k: z = -(N1 + N2) sin / (2 k sin^2) and y = (N1 - N2) cos / (2 k cos^2)
     assert!((place.z + 1000.0 / 1e5).abs() < 1e-5 && (place.y - 300.0 / 1e5).abs() < 1e-5, "{place}");
     // a U: the floor bears the weight, the flank at 0.2 m the side load
-    let (place, told) = lying(Roller { half_width: 0.2, ..plain(0.0, 1e5) }, load);
+    let (place, _) = lying(Cradle { half_width: 0.2, ..plain(0.0, 1e5) }, load);
     assert!((place.z + 0.01).abs() < 2e-4 && (place.y - 0.203).abs() < 2e-4, "{place}");
-    assert!((told.gap.unwrap() + 0.01).abs() < 2e-4, "{told:?}");
-    // lifted: nothing acts, and the gap is its height
-    let (place, told) = lying(Roller { half_width: 0.2, ..plain(0.0, 1e5) }, Vector3::z() * 2.0);
+    // lifted: nothing acts
+    let (place, told) = lying(Cradle { half_width: 0.2, ..plain(0.0, 1e5) }, Vector3::z() * 2.0);
     assert_eq!(told.force, Vector3::zeros());
-    assert!(place.z > 0.0 && (told.gap.unwrap() - place.z.min(0.2)).abs() < 1e-9, "{told:?} {place}");
+    assert!(place.z > 0.0, "{place}");
     // a rod that ends before it
     let (_, told) = lying(plain(300.0, 1e5), load * 1e-3);
-    assert_eq!((told.gap, told.arc), (None, None));
+    assert_eq!((told.force, told.arc), (Vector3::zeros(), None));
 }
 
 /// The books of a pipe dropped on two rollers that heave, by steps of `h` seconds.
@@ -152,7 +217,7 @@ fn dropped(h: f64) -> Balance {
     let fluid = UniformFluid::none();
     let w = 0.9;
     let rollers = |t: f64| {
-        [12.3, 30.0].map(|x| Roller {
+        [12.3, 30.0].map(|x| Cradle {
             place: Vector3::new(x, 0.0, -0.4 + 0.2 * (w * t).sin()),
             velocity: Vector3::z() * (0.2 * w * (w * t).cos()),
             damping: 2e3,
@@ -167,12 +232,12 @@ fn dropped(h: f64) -> Balance {
     let mut solver = Solver::new(&rod, Settings { rho_inf: 0.9, ..Settings::default() });
     let ends = [End::pinned(start), End::FREE];
     let at = rollers(0.0);
-    solver.start(&rod, &mut state, &World { rollers: &at, ..World::new(&fluid, 9.81) }, ends).unwrap();
+    solver.start(&rod, &mut state, &World { supports: &supports(&at), ..World::new(&fluid, 9.81) }, ends).unwrap();
     let mut books = None;
     for i in 1..=(6.0 / h).round() as usize {
         let t = i as f64 * h;
         let at = rollers(t);
-        let world = World { rollers: &at, ..World::new(&fluid, 9.81) };
+        let world = World { supports: &supports(&at), ..World::new(&fluid, 9.81) };
         let made = solver.step(&rod, &mut state, &world, t, ends).unwrap();
         match &mut books {
             None => books = Some(Balance::open(&rod, &state, &world, &solver, &made)),
@@ -185,7 +250,7 @@ fn dropped(h: f64) -> Balance {
 #[test]
 fn a_pipe_dropped_on_moving_rollers_keeps_its_books() {
     let (coarse, fine) = (dropped(0.002), dropped(0.0005));
-    assert!(fine.work.rollers.abs() > 0.01 * fine.turnover, "{fine:?}");
+    assert!(fine.work.supports.abs() > 0.01 * fine.turnover, "{fine:?}");
     // what the scheme damps of the pipe's ringing as it lands, and the trapezoidal rule leaves, falls with the step
     let [coarse_error, error] = [&coarse, &fine].map(|b| b.energy_error().abs() / b.turnover);
     assert!(coarse_error < 1e-3 && error < 0.3 * coarse_error, "{coarse_error} {error}");
@@ -205,28 +270,90 @@ fn tangent_of_a_rod_on_rollers_is_the_difference_of_its_residual() {
     }
     let tilted = nalgebra::Rotation3::from_euler_angles(0.2, -0.3, 0.4);
     let axes = [Vector3::x(), Vector3::y(), Vector3::z()].map(|a| tilted * a);
-    let base = Roller { axes, velocity: Vector3::new(0.3, -0.4, 0.2), damping: 2e3, ..plain(0.0, 4e4) };
+    let base = Cradle { axes, velocity: Vector3::new(0.3, -0.4, 0.2), damping: 2e3, ..plain(0.0, 4e4) };
     let rollers = [
-        Roller { place: Vector3::new(5.0, 0.4, 0.6), half_width: 0.0, opening: 1.7, ..base },
-        Roller { place: Vector3::new(10.0, 1.5, 0.9), half_width: 0.1, opening: 0.3, soft: 0.02, ..base },
-        Roller { place: Vector3::new(15.0, 1.2, 0.9), soft: 5.0, ..base },
+        Cradle { place: Vector3::new(5.0, 0.4, 0.6), half_width: 0.0, opening: 1.7, ..base },
+        Cradle { place: Vector3::new(10.0, 1.5, 0.9), half_width: 0.1, opening: 0.3, soft: 0.02, ..base },
+        Cradle { place: Vector3::new(15.0, 1.2, 0.9), soft: 5.0, ..base },
     ];
     let fluid = UniformFluid::none();
-    let world = World { rollers: &rollers, ..World::new(&fluid, 9.81) };
+    let world = World { supports: &supports(&rollers), ..World::new(&fluid, 9.81) };
     // all three are in touch
-    assert!(rod.rollers(&state, &world).iter().all(|r| r.force.norm() > 100.0), "{:?}", rod.rollers(&state, &world));
+    assert!(
+        rod.on_supports(&state, &world).iter().all(|r| r.force.norm() > 100.0),
+        "{:?}",
+        rod.on_supports(&state, &world)
+    );
     let mut solver = Solver::new(&rod, Settings::default());
     compare(&rod, &state, &world, &mut solver);
 }
 
+/// A soft spring from a support to a node.
+#[derive(Debug)]
+struct Sling(f64);
+
+impl Grip for Sling {
+    fn answer(&self, at: &Vector3<f64>, _: &Vector3<f64>) -> Option<Gripped> {
+        let stiffness = Matrix3::identity() * self.0;
+        let elastic = (-at * self.0, 0.5 * self.0 * at.norm_squared());
+        Some(Gripped { force: -at * self.0, by_position: stiffness, by_velocity: Matrix3::zeros(), elastic })
+    }
+}
+
+/// A pipe on two cradles, the first turned by `motion` about its place and the second tilted, its first node on a sling: forces and
+/// moments on all three, and how they follow.
+fn on_three(motion: &[[f64; 6]; 3]) -> (Vec<[Vector3<f64>; 2]>, SupportTangent) {
+    let segment = Segment { bending: 1e4, compression: true, ..Segment::line(30.0, 30, 30.0, 1e6, 0.3) };
+    let rod = Rod::new("pipe", vec![segment], vec![]).unwrap();
+    let placed = |i: usize, place: Vector3<f64>| place + Vector3::from_row_slice(&motion[i][..3]);
+    let turned = |i: usize, tilt: f64| {
+        let turn = Rotation3::from_scaled_axis(Vector3::from_row_slice(&motion[i][3..]));
+        let axes = Rotation3::from_axis_angle(&Vector3::y_axis(), tilt);
+        [Vector3::x(), Vector3::y(), Vector3::z()].map(|a| turn * (axes * a))
+    };
+    let cradle = |i: usize, x: f64, tilt: f64| Cradle {
+        place: placed(i, Vector3::new(x, 0.1, 0.2)),
+        axes: turned(i, tilt),
+        half_width: 0.0,
+        opening: 1.5,
+        ..plain(x, 1e5)
+    };
+    let cradles = [cradle(0, 10.2, 0.0), cradle(1, 20.4, -0.15)];
+    let sling = Sling(2e4);
+    let mut held = supports(&cradles);
+    let place = placed(2, Vector3::new(-0.5, 0.3, 0.4));
+    held.push(Support { place, velocity: Vector3::zeros(), holds: Holds::Node(0), grip: &sling });
+    let fluid = UniformFluid::none();
+    let world = World { supports: &held, ..World::new(&fluid, 9.81) };
+    let (a, b) = (Vector3::zeros(), Vector3::new(30.0, 0.0, -0.5));
+    let mut state = State::along(&rod, &[a, b]).unwrap();
+    let mut solver = Solver::new(&rod, Settings::default());
+    solver.statics(&rod, &mut state, &world, [End::FREE, End::pinned(b)]).unwrap();
+    let told = rod.on_supports(&state, &world).iter().map(|s| [s.force, s.moment]).collect();
+    (told, solver.support_tangent(&rod, &world).unwrap())
+}
+
 #[test]
-fn what_makes_no_cradle_says_why() {
-    let good = plain(0.0, 1e5);
-    assert_eq!(good.fault(), None);
-    assert!(Roller { stiffness: -1.0, ..good }.fault().unwrap().contains("stiffness"));
-    assert!(Roller { damping: f64::NAN, ..good }.fault().unwrap().contains("damping"));
-    assert!(Roller { half_width: f64::NAN, ..good }.fault().unwrap().contains("half width"));
-    assert!(Roller { opening: 3.2, ..good }.fault().unwrap().contains("opening"));
-    assert!(Roller { axes: [Vector3::x(); 3], ..good }.fault().unwrap().contains("right angles"));
-    assert!(Roller { place: Vector3::repeat(f64::INFINITY), ..good }.fault().unwrap().contains("place"));
+fn what_supports_feel_follows_their_motion_as_its_differences() {
+    let (told, tangent) = on_three(&[[0.0; 6]; 3]);
+    assert!(told.iter().all(|t| t[0].norm() > 100.0), "{told:?}");
+    assert!(tangent.velocity.is_empty());
+    let size = tangent.position.iter().map(|k| k.amax()).fold(0.0, f64::max);
+    let step = 1e-4;
+    for (j, freedom) in (0..3).flat_map(|j| (0..6).map(move |f| (j, f))) {
+        let moved = |sign: f64| {
+            let mut motion = [[0.0; 6]; 3];
+            motion[j][freedom] = sign * step;
+            on_three(&motion).0
+        };
+        let (plus, minus) = (moved(1.0), moved(-1.0));
+        for i in 0..3 {
+            for row in 0..6 {
+                let slope = (plus[i][row / 3][row % 3] - minus[i][row / 3][row % 3]) / (2.0 * step);
+                let own = tangent.position[3 * i + j][(row, freedom)];
+                // positions of rest are found to a part in 1e9 of the weight, 9 kN, against a step of 1e-4
+                assert!((slope - own).abs() < 1e-4 * size, "{i} {row} {j} {freedom}: {slope} {own} {size}");
+            }
+        }
+    }
 }

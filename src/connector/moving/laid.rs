@@ -1,0 +1,348 @@
+//! A pipe laid over rollers or davits down to the bottom.
+//!
+//! Source: seed 001 (ROLLER, DAVIT), reference/model.md, Assemblies, and the public page on pipe assemblies of the MOSES manual
+//! (conn_pipe). The pipe runs from the last support, the tensioner, over the first and down to the bottom, where it is held far beyond
+//! the touchdown. It rolls through rollers, and hangs by davits from its own nodes.
+
+use super::around::ground;
+use super::describe::{Description, Part};
+use super::element::MovingLine;
+use super::kept::Layout;
+use super::mesh::{Cut, told};
+use super::warm::{Base, Warm};
+use crate::language::units::Dim;
+use crate::model::{ClassError, Element, End, PipeLayout, Pose, Response, Situation, Surroundings};
+use crate::rod::{self, Grip, Gripped, Holds, Rod, State, Support};
+use nalgebra::Vector3;
+use std::cell::RefCell;
+use std::sync::Arc;
+
+/// Elements between two supports, where -REFINE does not say.
+const BETWEEN: usize = 8;
+/// Elements over a length sqrt(EI/H), in which the bend at an end decays, where -REFINE does not say.
+const PER_LAYER: f64 = 4.0;
+/// Fewest and most elements from the first support on, where -REFINE does not say.
+const FREE: [f64; 2] = [60.0, 3000.0];
+/// Length over which the brake of the tensioner yields as the pipe does (m).
+const BRAKE: f64 = 10.0;
+/// How often it is cut at the tensioner until it ends there.
+const CUTS: usize = 4;
+/// How far from the tensioner it may end (m).
+const SHORT: f64 = 1e-3;
+/// Least cosine of the angle between the X axis of a support and the way of the pipe.
+const MOST_ASIDE: f64 = 0.5;
+
+/// What a pipe lies on.
+#[derive(Debug)]
+pub(super) struct Laid {
+    /// The law of each support, between its node and a point of the pipe.
+    supports: Arc<[Box<dyn Element>]>,
+    holds: Vec<Held>,
+    tensioner: Option<Tensioner>,
+    /// Where the far end is held on the bottom (m).
+    pub anchor: Vector3<f64>,
+    /// Nodes from which it comes to rest (m).
+    pub shape: Vec<Vector3<f64>>,
+}
+
+/// What of the pipe a support holds.
+#[derive(Clone, Copy, Debug)]
+enum Held {
+    Node(usize),
+    /// What crosses the plane through its node at right angles to this, in the axes of the node.
+    Crossing(Vector3<f64>),
+}
+
+/// What pulls the end of a pipe back.
+#[derive(Clone, Copy, Debug)]
+struct Tensioner {
+    /// Way of the pipe from it, in the axes of its node.
+    along: Vector3<f64>,
+    /// How far along the end is from its node as laid (m).
+    at: f64,
+    /// As laid, least and largest (N).
+    tension: [f64; 3],
+    /// N/m.
+    stiffness: f64,
+}
+
+impl Tensioner {
+    /// Tension (N), by how far along the end is from its node (m), and its slope (N/m).
+    fn tension(&self, along: f64) -> (f64, f64) {
+        let [laid, least, most] = self.tension;
+        let free = laid + self.stiffness * (along - self.at);
+        let tension = free.clamp(least, most);
+        (tension, if tension == free { self.stiffness } else { 0.0 })
+    }
+}
+
+/// A support where its end is, as the pipe feels it.
+#[derive(Debug)]
+pub(super) struct Felt<'a> {
+    law: &'a dyn Element,
+    tensioner: Option<&'a Tensioner>,
+    holds: Held,
+    end: &'a End,
+    around: &'a Surroundings,
+    room: RefCell<Response>,
+}
+
+impl Grip for Felt<'_> {
+    fn answer(&self, at: &Vector3<f64>, _: &Vector3<f64>) -> Option<Gripped> {
+        let Pose { origin, axes } = self.end.pose;
+        let ends = [End::still(self.end.pose), End::still(Pose { origin: origin + at, axes })];
+        let situation = Situation { ends: &ends, step: None, surroundings: self.around };
+        let mut out = self.room.borrow_mut();
+        let found = self.law.evaluate(&situation, &[], &mut [], &mut None, &mut out);
+        let mut made = Gripped::default();
+        match (found, out.wrench.get(1), out.stiffness.get(3)) {
+            (Ok(()), Some(wrench), Some(block)) => {
+                made.force = wrench.fixed_rows::<3>(0).into_owned();
+                made.by_position = block.fixed_view::<3, 3>(0, 0).into_owned();
+            }
+            // a force that is no number makes the solver say that there is no answer
+            _ => made.force = Vector3::repeat(f64::NAN),
+        }
+        if let Some(tensioner) = self.tensioner {
+            let along = axes * tensioner.along;
+            let (tension, slope) = tensioner.tension(along.dot(at));
+            made.force -= along * tension;
+            made.by_position += along * along.transpose() * slope;
+        }
+        (made != Gripped::default()).then_some(made)
+    }
+}
+
+impl Felt<'_> {
+    pub fn support(&self) -> Support<'_> {
+        let Pose { origin, axes } = self.end.pose;
+        let holds = match self.holds {
+            Held::Node(node) => Holds::Node(node),
+            Held::Crossing(along) => Holds::Crossing(axes * along),
+        };
+        Support { place: origin, velocity: self.end.velocity.fixed_rows::<3>(0).into_owned(), holds, grip: self }
+    }
+}
+
+impl Laid {
+    /// The supports where their ends are.
+    pub fn felt<'a>(&'a self, ends: &'a [End], around: &'a Surroundings) -> Vec<Felt<'a>> {
+        let last = self.supports.len().saturating_sub(1);
+        let of = |(i, ((law, holds), end)): (usize, ((&'a Box<dyn Element>, &Held), &'a End))| Felt {
+            law: law.as_ref(),
+            tensioner: self.tensioner.as_ref().filter(|_| i == last),
+            holds: *holds,
+            end,
+            around,
+            room: RefCell::default(),
+        };
+        self.supports.iter().zip(&self.holds).zip(ends).enumerate().map(of).collect()
+    }
+}
+
+/// Where a pipe goes before it comes to rest.
+struct Course {
+    /// Corners, from the tensioner (m).
+    points: Vec<Vector3<f64>>,
+    /// Point of each support, from the first to the tensioner.
+    at: Vec<usize>,
+    /// Elements and length (m) of each span, from the tensioner, and of what is beyond the first support.
+    spans: Vec<(usize, f64)>,
+    /// Tension at the tensioner (N).
+    pulled: f64,
+}
+
+impl Course {
+    /// Straight from support to support; a catenary from the first to the bottom, and as much again on it.
+    fn of(part: &Part, layout: &PipeLayout, bottom: f64) -> Result<Course, ClassError> {
+        let around = layout.surroundings;
+        let segment = part.grown(layout.ambient.map(|a| a.as_ref()), 0.5 * bottom);
+        let weight = |density: f64| (segment.mass - density * segment.displaced) * around.gravity;
+        let (in_air, in_water) = (weight(0.0), weight(around.water_density));
+        let hung = |(node, hang): (&Pose, &f64)| node.origin - Vector3::z() * *hang;
+        let stations: Vec<_> = layout.nodes.iter().zip(&layout.hang).map(hung).collect();
+        let (Some(first), Some(last)) = (stations.first(), stations.last()) else {
+            return Err(ClassError::new("a pipe needs a support"));
+        };
+        let single = stations.len() < 2;
+        let height = first.z - bottom;
+        let risen = in_air * (last.z - first.z);
+        // TLOW is the tension at the first davit; on rollers the tensioner begins between its limits
+        let pulled = match layout.upper {
+            Some(upper) if single => upper,
+            Some(upper) => 0.5 * (layout.lower + upper),
+            None => layout.lower + risen,
+        };
+        // by weight from the tensioner down to the first support, and from there to the bottom
+        let dry = (first.z - around.tide).clamp(0.0, height.max(0.0));
+        let horizontal = pulled - risen - in_air * dry - in_water * (height - dry);
+        if height <= 0.0 || in_water <= 0.0 || horizontal <= 0.0 {
+            let text = "its tension of {} does not carry it to the bottom, {} below the first support, at {} in water";
+            let values = [(pulled, Dim::Force), (height, Dim::Length), (in_water, Dim::ForcePerLength)];
+            return Err(ClassError::of(text, &values).help("-PIPE_TENSION needs more than weight times height"));
+        }
+        let elements = |length: f64, own: f64| {
+            let counted = segment.length / segment.elements as f64;
+            let wanted = if segment.elements > 1 { (length / counted).ceil() } else { own };
+            wanted.clamp(1.0, rod::MOST_ELEMENTS as f64) as usize
+        };
+        let mut made = Course { points: vec![*last], at: Vec::new(), spans: Vec::new(), pulled };
+        made.at.push(0);
+        for pair in stations.windows(2).rev() {
+            let [near, far] = pair else { continue };
+            made.to(elements((near - far).norm(), BETWEEN as f64), |s| far + (near - far) * s);
+            made.at.insert(0, made.points.len() - 1);
+        }
+        let layer = (segment.bending / horizontal).sqrt();
+        if single {
+            let own = (height / layer * PER_LAYER).clamp(FREE[0], FREE[1]).ceil();
+            made.to(elements(height, own), |s| first - Vector3::z() * (height * s));
+            return Ok(made);
+        }
+        let across = Vector3::new(first.x - last.x, first.y - last.y, 0.0);
+        let Some(toward) = across.try_normalize(1e-9) else {
+            return Err(ClassError::new("its first and last support stand above each other, so that it goes nowhere"));
+        };
+        let a = horizontal / in_water;
+        let arc = (height * height + 2.0 * height * a).sqrt();
+        let whole = arc + arc.max(20.0 * layer);
+        let own = (whole / layer * PER_LAYER).clamp(FREE[0], FREE[1]).ceil();
+        let landed = a * (arc / a).asinh();
+        made.to(elements(whole, own), |s| {
+            let up = arc - whole * s;
+            let (along, z) =
+                if up > 0.0 { (landed - a * (up / a).asinh(), a.hypot(up) - a) } else { (landed - up, 0.0) };
+            Vector3::new(first.x, first.y, bottom + z) + toward * along
+        });
+        Ok(made)
+    }
+
+    /// Goes on by a span of so many elements to the points at shares of it.
+    fn to(&mut self, elements: usize, at: impl Fn(f64) -> Vector3<f64>) {
+        let mut length = 0.0;
+        for n in 1..=elements {
+            let point = at(n as f64 / elements as f64);
+            length += self.points.last().map_or(0.0, |before| (point - before).norm());
+            self.points.push(point);
+        }
+        self.spans.push((elements, length));
+    }
+}
+
+/// The way of a pipe through a support, in the axes of its node: along its X axis, toward a place.
+fn along(node: &Pose, place: &Vector3<f64>) -> Result<Vector3<f64>, ClassError> {
+    let x = node.axes.column(0).into_owned();
+    let way = (place - node.origin).try_normalize(1e-9).map_or(0.0, |way| way.dot(&x));
+    if way.abs() < MOST_ASIDE {
+        let error = ClassError::new("a pipe runs along the X axes of its supports, and these lie across it");
+        return Err(error.help("-EULER of the CONNECTOR turns the axes of a roller"));
+    }
+    Ok(Vector3::x() * way.signum())
+}
+
+impl MovingLine {
+    /// A pipe laid over its supports: its first part's section, as long as it needs to be.
+    ///
+    /// # Errors
+    /// No depth, a support below the bottom, a tension too small to reach the bottom, supports along which it cannot run, no rest.
+    pub fn laid(description: Description, layout: PipeLayout) -> Result<Self, ClassError> {
+        let around = layout.surroundings;
+        let depth = description.seabed.depth.or(around.depth).ok_or_else(|| {
+            ClassError::new("a pipe is laid on the bottom, and there is no depth").help("&ENV -DEPTH gives one")
+        })?;
+        if description.seabed.slope.is_some_and(|s| s != 0.0) {
+            let error = ClassError::new("a pipe is laid on the bottom of the environment, and its class has a -SLOPE");
+            return Err(error.help("&BATHYMETRY and &ENV -BATHYMETRY make a bottom that slopes"));
+        }
+        if layout.upper.is_none() && layout.nodes.len() < 2 {
+            let error = ClassError::new("a pipe hangs from two davits or more");
+            return Err(error.help("a single roller makes a vertical riser of it"));
+        }
+        let part = description.parts.first().ok_or_else(|| ClassError::new("the class has no record"))?;
+        let mut course = Course::of(part, &layout, -depth)?;
+        let mut tensioner = tensioner(&layout, course.pulled)?;
+        let holds = holds(&layout, &course)?;
+        let supports: Arc<[Box<dyn Element>]> = layout.supports.into();
+        let ends: Vec<End> = layout.nodes.iter().map(|n| End::still(*n)).collect();
+        let at = Situation { ends: &ends, step: None, surroundings: around };
+        let stretched = 1.0 + course.pulled / part.ea();
+        course.spans.iter_mut().for_each(|(_, length)| *length /= stretched);
+        for cut in 0.. {
+            let sized = |(elements, length): &(usize, f64)| {
+                let mut made = part.clone();
+                (made.segment.length, made.segment.elements) = (*length, *elements);
+                made
+            };
+            let parts: Vec<Part> = course.spans.iter().map(sized).collect();
+            let made = Cut::of(
+                &Description { parts: parts.clone(), ..description.clone() },
+                layout.ambient.map(|a| a.as_ref()),
+                &course.points,
+            );
+            let mesh = made.mesh(&parts, parts.first().map_or(0.0, |p| p.segment.length));
+            let rod = Rod::with_mesh(layout.name, made.segments, Vec::new(), &mesh).map_err(told)?;
+            let laid = Laid {
+                supports: supports.clone(),
+                holds: holds.clone(),
+                tensioner,
+                anchor: course.points.last().copied().unwrap_or_default(),
+                shape: course.points.clone(),
+            };
+            let (elements, length) = (rod.nodes() - 1, mesh.iter().map(|e| e.0).sum());
+            let line = MovingLine {
+                layout: Layout::new(elements, State::packed(&rod) + 2, layout.books),
+                first: length,
+                nominal: length / elements as f64,
+                base: Arc::new(Base {
+                    description: description.clone(),
+                    attached: Vec::new(),
+                    part: vec![0; rod.segments().len()],
+                    ground: ground(&description.seabed, rod.segments(), around),
+                    rod,
+                    ambient: layout.ambient.cloned(),
+                    plane: None,
+                    flat: Some(-depth),
+                    holds: [None, None],
+                    freed: false,
+                    felt: [false, false],
+                    laid: Some(laid),
+                }),
+            };
+            let Some(tensioner) = &mut tensioner else { return Ok(line) };
+            if tensioner.stiffness > 0.0 {
+                return Ok(line);
+            }
+            // it is cut where the tensioner holds it as laid
+            let rest = line.rest(&at, &mut Warm::of(&line.base))?.state;
+            let end = ends.last().zip(rest.position.first());
+            let short = end.map_or(0.0, |(end, x)| (end.pose.axes * tensioner.along).dot(&(x - end.pose.origin)));
+            course.points = rest.position;
+            match course.spans.first_mut() {
+                Some((_, length)) if short.abs() > SHORT && cut < CUTS && *length + short > 0.0 => *length += short,
+                _ => (tensioner.at, tensioner.stiffness) = (short, part.ea() / BRAKE),
+            }
+        }
+        Err(ClassError::new("it does not end at its tensioner"))
+    }
+}
+
+/// The tensioner of a pipe on rollers, which pulls as it does when it is laid however far its end is.
+fn tensioner(layout: &PipeLayout, pulled: f64) -> Result<Option<Tensioner>, ClassError> {
+    let (Some(upper), [.., last]) = (layout.upper, layout.nodes.as_slice()) else { return Ok(None) };
+    let along = match layout.nodes.as_slice() {
+        [first, .., _] => along(last, &first.origin)?,
+        _ => -(last.axes.transpose() * Vector3::z()),
+    };
+    Ok(Some(Tensioner { along, at: 0.0, tension: [pulled, layout.lower, upper], stiffness: 0.0 }))
+}
+
+/// What each support holds: davits the nodes below them, rollers what crosses them, and the last of them the end.
+fn holds(layout: &PipeLayout, course: &Course) -> Result<Vec<Held>, ClassError> {
+    let last = layout.nodes.len().saturating_sub(1);
+    let of =
+        |(i, (node, at)): (usize, (&Pose, &usize))| match layout.nodes.get(i + 1).filter(|_| layout.upper.is_some()) {
+            Some(next) if i < last => Ok(Held::Crossing(-along(node, &next.origin)?)),
+            _ => Ok(Held::Node(*at)),
+        };
+    layout.nodes.iter().zip(&course.at).enumerate().map(of).collect()
+}

@@ -1,0 +1,347 @@
+//! A rod on what holds it between its ends.
+
+use super::mesh::Rod;
+use super::state::State;
+use super::step::Solver;
+use super::surroundings::{Gripped, Holds, Support, World};
+use nalgebra::{Matrix3, Matrix6, SMatrix, Vector3};
+
+/// What a rod does to one of its supports.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OnSupport {
+    /// Force on the support (N, global).
+    pub force: Vector3<f64>,
+    /// Moment on it about its place (N m).
+    pub moment: Vector3<f64>,
+    /// Unstretched distance from end A of the point it holds (m); none of a roller that the rod does not cross.
+    pub arc: Option<f64>,
+}
+
+/// How forces and moments on supports follow their motion, the rod in balance: blocks row by row, the motion of support
+/// `j` in the wrench on support `i` at `i * supports + j`, translation and turn about its place.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SupportTangent {
+    /// By place and turn (N/m, N, N m).
+    pub position: Vec<Matrix6<f64>>,
+    /// By their rates; empty where no support feels any.
+    pub velocity: Vec<Matrix6<f64>>,
+}
+
+/// Most nodes a support acts on.
+const FEW: usize = 3;
+
+/// Where a support holds a rod.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Meeting {
+    /// The first node it acts on, and how many.
+    node: usize,
+    count: usize,
+    /// The nodes' shares of the point.
+    pub shares: [f64; FEW],
+    /// The point from the place of the support (m).
+    at: Vector3<f64>,
+    /// Of a roller.
+    rolls: Option<Rolling>,
+}
+
+/// How a rod goes through the plane of a roller.
+#[derive(Clone, Copy, Debug)]
+struct Rolling {
+    along: Vector3<f64>,
+    /// How the shares change along the curve.
+    slopes: [f64; FEW],
+    /// The curve's own direction and its change, and how far the direction goes along the rollers' way (m).
+    edge: Vector3<f64>,
+    bend: Vector3<f64>,
+    reach: f64,
+}
+
+/// Load of a support on the nodes it acts on, as one to be overcome, with its derivatives.
+pub(super) struct Supported {
+    /// Force the rod needs from outside at the point (N), shared over the nodes by the shares of their meeting.
+    pub force: Vector3<f64>,
+    /// Derivatives of the nodes' shares of it by their positions (N/m) and velocities (N s/m): node by node.
+    pub by_position: [[Matrix3<f64>; FEW]; FEW],
+    pub by_velocity: [[Matrix3<f64>; FEW]; FEW],
+    /// Energy of the springs (J), and the part of the force that they make (N).
+    pub energy: f64,
+    pub elastic: Vector3<f64>,
+}
+
+/// The curve of a rod between two points of it, as rollers meet it: a parabola by the shares of three nodes, or straight.
+struct Piece {
+    node: usize,
+    count: usize,
+    /// Share of each node at the start, and its first and second change over the piece, which is 1 long.
+    shares: [[f64; 3]; FEW],
+}
+
+/// Pieces of a rod in a row. One that bends rolls as the smooth curve that touches each element in its middle, so that
+/// a roller pushes it at right angles to where it bends, and not to the one or the other element beside a node.
+fn pieces(smooth: bool, nodes: usize) -> impl Iterator<Item = Piece> {
+    let elements = nodes.saturating_sub(1);
+    let straight = |node: usize, from: f64, to: f64| Piece {
+        node,
+        count: 2,
+        shares: [[1.0 - from, from - to, 0.0], [from, to - from, 0.0], [0.0; 3]],
+    };
+    let round = |node: usize| Piece { node, count: 3, shares: [[0.5, -1.0, 1.0], [0.5, 1.0, -2.0], [0.0, 0.0, 1.0]] };
+    let chords = (0..if smooth { 0 } else { elements }).map(move |i| straight(i, 0.0, 1.0));
+    let first = (smooth && elements > 0).then(|| straight(0, 0.0, 0.5));
+    let last = (smooth && elements > 0).then(|| straight(elements - 1, 0.5, 1.0));
+    let bends = (0..if smooth { elements.saturating_sub(1) } else { 0 }).map(round);
+    chords.chain(first).chain(bends).chain(last)
+}
+
+impl Piece {
+    /// A sum of the nodes' vectors by their shares, or a change of those.
+    fn sum(weights: impl Iterator<Item = f64>, x: &[Vector3<f64>]) -> Vector3<f64> {
+        weights.zip(x).fold(Vector3::zeros(), |sum, (w, x)| sum + x * w)
+    }
+
+    /// Where it crosses the plane of a roller.
+    fn crossing(&self, support: &Support, along: Vector3<f64>, x: &[Vector3<f64>]) -> Option<Meeting> {
+        let nodes = x.get(self.node..self.node + self.count)?;
+        // height over the plane by c0 + c1 s + c2 s^2 / 2
+        let plane = along.dot(&support.place);
+        let mut c = [-plane, 0.0, 0.0];
+        for (shares, x) in self.shares.iter().zip(nodes) {
+            let own = x.dot(&along);
+            c.iter_mut().zip(shares).for_each(|(c, share)| *c += own * share);
+        }
+        let [c0, c1, c2] = c;
+        let end = c0 + c1 + 0.5 * c2;
+        // a point in the plane belongs to one piece alone
+        if (c0 < 0.0) == (end < 0.0) {
+            return None;
+        }
+        // of the two roots that in the piece, between whose ends the sign changes once
+        let root = (c1 * c1 - 2.0 * c2 * c0).max(0.0).sqrt();
+        let rise = if end > c0 { root } else { -root };
+        let s = if c1 + rise != 0.0 && (c1 < 0.0) == (rise < 0.0) { -2.0 * c0 / (c1 + rise) } else { (rise - c1) / c2 };
+        let s = s.clamp(0.0, 1.0);
+        let shares = self.shares.map(|[a, b, c]| a + b * s + 0.5 * c * s * s);
+        let slopes = self.shares.map(|[_, b, c]| b + c * s);
+        let edge = Piece::sum(slopes.into_iter(), nodes);
+        let bend = Piece::sum(self.shares.iter().map(|share| share[2]), nodes);
+        let reach = edge.dot(&along);
+        let at = Piece::sum(shares.into_iter(), nodes) - support.place;
+        let rolls = Some(Rolling { along, slopes, edge, bend, reach });
+        (reach != 0.0).then_some(Meeting { node: self.node, count: self.count, shares, at, rolls })
+    }
+}
+
+impl Meeting {
+    /// The nodes it acts on.
+    pub fn nodes(&self) -> std::ops::Range<usize> {
+        self.node..self.node + self.count
+    }
+
+    /// A vector of its nodes at the point.
+    pub fn at_point(&self, of: &[Vector3<f64>]) -> Vector3<f64> {
+        Piece::sum(self.shares.into_iter(), of.get(self.nodes()).unwrap_or_default())
+    }
+}
+
+/// Where a support holds a rod: of a roller, where that crosses its plane nearest to its place. A rod is `smooth` where
+/// it bends: see [`Rod::smooth`].
+pub(super) fn meeting(smooth: bool, support: &Support, x: &[Vector3<f64>]) -> Option<Meeting> {
+    let along = match support.holds {
+        Holds::Node(node) => {
+            let at = x.get(node)? - support.place;
+            return Some(Meeting { node, count: 1, shares: [1.0, 0.0, 0.0], at, rolls: None });
+        }
+        Holds::Crossing(along) => along,
+    };
+    let crossings = pieces(smooth, x.len()).filter_map(|piece| piece.crossing(support, along, x));
+    crossings.min_by(|a, b| a.at.norm_squared().total_cmp(&b.at.norm_squared()))
+}
+
+/// What a support does where it holds a rod that moves at the velocities `v` of all its nodes; none when it is
+/// clear.
+///
+/// A roller is asked at the point where the rod crosses its plane, so that its force is at right angles to the rod, as
+/// that of something that rolls, and the rod slides from one element to the next without a jump.
+pub(super) fn supported(support: &Support, meeting: &Meeting, v: &[Vector3<f64>]) -> Option<Supported> {
+    let velocity = meeting.at_point(v) - support.velocity;
+    let none = [[Matrix3::zeros(); FEW]; FEW];
+    let Some(Rolling { along, slopes, edge, bend, reach }) = meeting.rolls else {
+        let Gripped { force, by_position, by_velocity, elastic } = support.grip.answer(&meeting.at, &velocity)?;
+        let mut made =
+            Supported { force: -force, by_position: none, by_velocity: none, energy: elastic.1, elastic: -elastic.0 };
+        (made.by_position[0][0], made.by_velocity[0][0]) = (by_position, by_velocity);
+        return Some(made);
+    };
+    // how the crossing moves with the material there, as the rod slides along itself through the plane
+    let slide = Matrix3::identity() - edge * along.transpose() / reach;
+    let made = support.grip.answer(&meeting.at, &(slide * velocity))?;
+    let across = |force: Vector3<f64>| force - along * (edge.dot(&force) / reach);
+    let force = across(-made.force);
+    let turned = slide.transpose();
+    let (stiff, damp) = (turned * made.by_position * slide, turned * made.by_velocity * slide);
+    // by the material at the crossing, which slides along the curve; and by the direction of the curve there
+    let dv = Piece::sum(slopes.into_iter(), v.get(meeting.nodes()).unwrap_or_default());
+    let by_edge = -(along * force.transpose()) / reach - damp * (along.dot(&velocity) / reach);
+    let by_material = stiff - (damp * dv + by_edge * bend) * along.transpose() / reach;
+    // the shares of the nodes change as it slides
+    let pull = force * along.transpose() / reach;
+    let (mut by_position, mut by_velocity) = (none, none);
+    for row in 0..meeting.count {
+        for column in 0..meeting.count {
+            let (share, own) = (meeting.shares[row], meeting.shares[column]);
+            by_position[row][column] =
+                (by_material * own + by_edge * slopes[column]) * share - pull * (slopes[row] * own);
+            by_velocity[row][column] = damp * (share * own);
+        }
+    }
+    Some(Supported { force, by_position, by_velocity, energy: made.elastic.1, elastic: across(-made.elastic.0) })
+}
+
+impl Rod {
+    /// Whether rollers meet it as a smooth curve: where it bends. The system of one that does not has no room for it.
+    pub(super) fn smooth(&self) -> bool {
+        self.twists() || self.elements.iter().any(|e| e.bending > 0.0)
+    }
+
+    /// What the rod does to each support of a world in a state.
+    pub fn on_supports(&self, state: &State, world: &World) -> Vec<OnSupport> {
+        let look = |support: &Support| {
+            let clear = OnSupport { force: Vector3::zeros(), moment: Vector3::zeros(), arc: None };
+            let Some(found) = meeting(self.smooth(), support, &state.position) else { return clear };
+            let mut node: f64 = self.elements.iter().take(found.node).map(|e| e.rest).sum();
+            let mut arc = 0.0;
+            for (share, element) in found.shares.iter().zip(&self.elements[found.node.min(self.elements.len())..]) {
+                arc += share * node;
+                node += element.rest;
+            }
+            let force = supported(support, &found, &state.velocity).map_or_else(Vector3::zeros, |made| made.force);
+            OnSupport { force, moment: found.at.cross(&force), arc: Some(arc) }
+        };
+        world.supports.iter().map(look).collect()
+    }
+}
+
+/// A support that holds the rod, where the solver is.
+struct Held {
+    meeting: Meeting,
+    load: Supported,
+    /// How its nodes move with it, as seen from the support: by its translation and turn.
+    carried: [SMatrix<f64, 3, 6>; FEW],
+}
+
+impl Held {
+    fn of(smooth: bool, support: &Support, x: &[Vector3<f64>], v: &[Vector3<f64>]) -> Option<Held> {
+        let meeting = meeting(smooth, support, x)?;
+        let load = supported(support, &meeting, v)?;
+        let mut carried = [SMatrix::<f64, 3, 6>::zeros(); FEW];
+        for (made, x) in carried.iter_mut().zip(x.get(meeting.nodes()).unwrap_or_default()) {
+            made.fixed_view_mut::<3, 3>(0, 0).fill_with_identity();
+            made.fixed_view_mut::<3, 3>(0, 3).copy_from(&-(x - support.place).cross_matrix());
+        }
+        Some(Held { meeting, load, carried })
+    }
+
+    /// Load of one of its nodes.
+    fn share(&self, row: usize) -> Vector3<f64> {
+        self.load.force * self.meeting.shares[row]
+    }
+
+    /// Change of the load of one of its nodes with the motion of the support, the rod as it is: what counts is where the
+    /// rod is as seen from the support, and with that the load turns.
+    fn by_support(&self, row: usize, rates: bool) -> SMatrix<f64, 3, 6> {
+        let blocks = if rates { &self.load.by_velocity } else { &self.load.by_position };
+        let mut made = SMatrix::zeros();
+        for (block, carried) in blocks[row].iter().zip(&self.carried) {
+            made -= block * carried;
+        }
+        if !rates {
+            let mut turn = made.fixed_view_mut::<3, 3>(0, 3);
+            turn -= self.share(row).cross_matrix();
+        }
+        made
+    }
+
+    /// Change of the wrench on the support with a move of its nodes, by the weights of position and velocity.
+    fn by_rod(&self, moved: impl Fn(usize) -> Vector3<f64>, [k, c]: [f64; 2]) -> SMatrix<f64, 6, 1> {
+        let mut made = SMatrix::<f64, 6, 1>::zeros();
+        for row in 0..self.meeting.count {
+            let mut change = Vector3::zeros();
+            for (column, node) in self.meeting.nodes().enumerate() {
+                change +=
+                    (self.load.by_position[row][column] * k + self.load.by_velocity[row][column] * c) * moved(node);
+            }
+            made += self.carried[row].transpose() * change;
+            let mut moment = made.fixed_rows_mut::<3>(3);
+            moment += moved(self.meeting.node + row).cross(&self.share(row));
+        }
+        made
+    }
+
+    /// Change of the wrench on the support with its own motion, the rod as it is.
+    fn own(&self, rates: bool) -> Matrix6<f64> {
+        let mut made = Matrix6::zeros();
+        for row in 0..self.meeting.count {
+            made += self.carried[row].transpose() * self.by_support(row, rates);
+            if !rates {
+                // the arm is shorter by what the place has moved
+                let mut arm = made.fixed_view_mut::<3, 3>(3, 0);
+                arm += self.share(row).cross_matrix();
+            }
+        }
+        made
+    }
+}
+
+impl Solver {
+    /// How what the rod does to its supports follows their motion at the last [`Solver::trial`], before it is accepted,
+    /// or at rest after [`Solver::statics`]: the rod condensed to its supports, each derivative with the other motion
+    /// and the start of the step as they are. That the turn of a support changes how fast the rod goes by it is left out.
+    ///
+    /// None where there is no trial, or the system cannot be solved, as it could in the trial.
+    pub fn support_tangent(&mut self, rod: &Rod, world: &World) -> Option<SupportTangent> {
+        self.linearise(rod, world, true)?;
+        let count = world.supports.len();
+        let (x, v) = (&self.trial.x, &self.trial.v);
+        let smooth = rod.smooth();
+        let held: Vec<_> = world.supports.iter().map(|support| Held::of(smooth, support, x, v)).collect();
+        let feels = |h: &Held| h.load.by_velocity.iter().flatten().any(|block| *block != Matrix3::zeros());
+        let rated = held.iter().flatten().any(feels);
+        let mut made = SupportTangent::default();
+        made.position.resize(count * count, Matrix6::zeros());
+        if rated {
+            made.velocity.resize(count * count, Matrix6::zeros());
+        }
+        let (stride, last) = (self.work.stride(), rod.elements.len());
+        let known = self.trial.ends.map(|end| end.motion.is_some());
+        let given = |node: usize| (node == 0 && known[0]) || (node == last && known[1]);
+        let weights = [self.weights.k, self.weights.c];
+        let mut right = vec![0.0; self.change.len()];
+        for (blocks, rates) in [(&mut made.position, false), (&mut made.velocity, true)] {
+            if rates && !rated {
+                continue;
+            }
+            for (j, from) in held.iter().enumerate() {
+                let Some(from) = from else { continue };
+                blocks[count * j + j] += from.own(rates);
+                for freedom in 0..6 {
+                    right.fill(0.0);
+                    for (row, node) in from.meeting.nodes().enumerate().filter(|(_, node)| !given(*node)) {
+                        let load = from.by_support(row, rates);
+                        for axis in 0..3 {
+                            right[stride * node + axis] -= load[(axis, freedom)];
+                        }
+                    }
+                    self.work.solve(&mut right);
+                    let moved = |node: usize| Vector3::from_row_slice(&right[stride * node..stride * node + 3]);
+                    for (i, on) in held.iter().enumerate() {
+                        let Some(on) = on else { continue };
+                        let change = on.by_rod(moved, weights);
+                        let mut column = blocks[count * i + j].column_mut(freedom);
+                        column += change;
+                    }
+                }
+            }
+        }
+        Some(made)
+    }
+}
