@@ -202,6 +202,11 @@ pub trait Element: Debug + Send + Sync {
         0
     }
 
+    /// The most by which a winch may change its length within one step (m), of one that is cut into elements.
+    fn most_wound(&self) -> Option<f64> {
+        None
+    }
+
     /// Whether its nodes have a wall, shear and moments to tell.
     fn bends(&self) -> bool {
         false

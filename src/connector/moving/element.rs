@@ -3,7 +3,7 @@
 use super::answer::answer;
 use super::around::{Floor, Water};
 use super::kept::{Kept, Layout};
-use super::mesh::{told, wind};
+use super::mesh::{most_wound, told, wind};
 use super::start;
 use super::warm::{Base, Held, Warm, solver_of};
 use crate::language::units::Dim;
@@ -237,6 +237,10 @@ impl Element for MovingLine {
 
     fn nodes(&self) -> usize {
         self.layout.elements + 1
+    }
+
+    fn most_wound(&self) -> Option<f64> {
+        Some(most_wound(self.nominal))
     }
 
     fn bends(&self) -> bool {

@@ -158,7 +158,8 @@ pub(super) fn attachments(parts: &[Part], counts: &[usize], density: f64) -> Vec
     made
 }
 
-/// Takes the first part of a line to another length (m) over a step (s): elements appear at its first end or go. Whether the rod has other elements than before.
+/// Takes the first part of a line to another length (m) over a step (s): elements appear at its first end or go. Of a change by more than
+/// [`most_wound`] the element there stays longer than it should. Whether the rod has other elements than before.
 pub(super) fn wind(
     rod: &mut Rod,
     state: &mut State,
@@ -198,4 +199,10 @@ pub(super) fn wind(
         }
     }
     Ok(other)
+}
+
+/// The most by which a winch may change a line in one step (m): an element at the winch is divided or taken in once, and is then as long as
+/// [`LONG`] and [`SHORT`] say.
+pub(super) fn most_wound(nominal: f64) -> f64 {
+    SHORT * nominal
 }

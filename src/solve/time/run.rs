@@ -231,6 +231,9 @@ impl Run {
                 return Ok(None);
             }
             let mut part = (self.settings.dt / f64::from(1u32 << (level + sought).min(HALVINGS))).min(left);
+            if !self.winches.is_empty() {
+                part = part.min(self.part_to_wind()?);
+            }
             // an action at a time ends a step there
             if let Some(at) = self.next_action(end)
                 && at > self.now.time + 1e-9 * self.settings.dt
