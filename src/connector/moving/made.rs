@@ -53,7 +53,7 @@ impl MovingLine {
         let rod = Rod::with_mesh(&connection.connector.name, cut.segments, attached.clone(), &mesh).map_err(told)?;
         // the same however much is wound: an element at the winch is never shorter than half of those of the class
         let of_first = counts.first().copied().unwrap_or(0);
-        let wound = connection.connector.longest.map(|l| (l / (SHORT * nominal)).ceil() as usize);
+        let wound = connection.duty.longest.map(|l| (l / (SHORT * nominal)).ceil() as usize);
         let capacity = rod.nodes() - 1 - of_first + wound.map_or(of_first + 1, |most| most + 2);
         if capacity > rod::MOST_ELEMENTS {
             return Err(ClassError::new(format!(
@@ -64,7 +64,7 @@ impl MovingLine {
         let per_node = State::packed(&rod).div_ceil(rod.nodes()) + 1;
         let holds = holds(&description, connection)?;
         let ground = ground(&description.seabed, rod.segments(), around);
-        let layout = Layout::new(capacity, per_node * (capacity + 2), connection.connector.books);
+        let layout = Layout::new(capacity, per_node * (capacity + 2), connection.duty.books);
         let base = Base {
             description,
             rod,
@@ -75,7 +75,7 @@ impl MovingLine {
             flat,
             ground,
             holds,
-            freed: connection.connector.freed,
+            freed: connection.duty.freed,
             felt: [true, !connection.to_ground],
         };
         Ok(MovingLine { base: Arc::new(base), layout, first, nominal })

@@ -1,6 +1,6 @@
 //! What happens on the way of a run: conditions are looked at behind every step, which is cut where one comes true, connectors come and go, lengths change.
 
-use super::action::{Action, Watched, What, When, point_in_body};
+use super::action::{Watched, What, When, point_in_body};
 use super::run::Run;
 use crate::hydro::sea::Sea;
 use crate::language::units::Dim;
@@ -27,24 +27,6 @@ impl Run {
             }
         }
         Ok(())
-    }
-
-    /// Tells lines that move by themselves how long their winches make them.
-    pub(super) fn foresee_winches(model: &mut Model, actions: &[Action], observed: f64) {
-        for action in actions {
-            let What::Winch(names, rate, to) = &action.what else { continue };
-            for name in names {
-                let key = Model::key(name);
-                let Some(now) = model.connectors.get(&key).and_then(|c| model.first_length(c)) else { continue };
-                let paid = to.unwrap_or(now + rate.max(0.0) * observed);
-                if let Some(connector) = model.connectors.get_mut(&key) {
-                    let before = connector.longest.unwrap_or(now);
-                    // winches that follow one another add up
-                    let longest = if to.is_some() { before.max(paid) } else { before + (paid - now).max(0.0) };
-                    connector.longest = Some(longest);
-                }
-            }
-        }
     }
 
     /// In how many parts a step of the run is taken while a line is wound at a rate (m/s): its elements appear and go one by one.
@@ -234,9 +216,10 @@ impl Run {
                     // a line that moves by itself is let go at its first end, and falls
                     let falls = self.system.moves(name);
                     if let Some(connector) = self.model.connectors.get_mut(&Model::key(name)) {
-                        (connector.active, connector.freed) = (falls, falls);
+                        connector.active = falls;
                     }
                     if falls {
+                        self.system.duties.let_go(name, true);
                         self.system.make_anew(&self.model, name)?;
                     } else {
                         self.system.leave_out(name);
@@ -246,11 +229,11 @@ impl Run {
             What::Activate(names) => {
                 for name in names {
                     if let Some(connector) = self.model.connectors.get_mut(&Model::key(name)) {
-                        if connector.freed {
-                            // what has fallen is brought back as it first hung
-                            self.system.leave_out(name);
-                        }
-                        (connector.active, connector.freed) = (true, false);
+                        connector.active = true;
+                    }
+                    if self.system.duties.let_go(name, false) {
+                        // what has fallen is brought back as it first hung
+                        self.system.leave_out(name);
                     }
                     self.system.take_in(&self.model, name)?;
                 }
