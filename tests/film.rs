@@ -211,8 +211,7 @@ fn a_film_shows_rods_where_their_nodes_were_and_a_line_that_was_let_go_falls() {
     let (session, ..) = run(&format!("{RODS}TDOM\n"));
     assert_eq!(session.errors, 0, "{:?}", session.reports);
     let run = session.job.run.as_ref().unwrap();
-    let take =
-        Take { connector: &|_| true, body: &|_| true, window: None, points: 31, stop: &|| false };
+    let take = Take { connector: &|_| true, body: &|_| true, window: None, points: 31, stop: &|| false };
     let film = Film::of(run, &take).unwrap();
     assert_eq!(film.times, run.history.times());
     for (strand, link) in film.strands.iter().zip(&run.history.layout.links) {
@@ -223,7 +222,9 @@ fn a_film_shows_rods_where_their_nodes_were_and_a_line_that_was_let_go_falls() {
             for ((_, node), (n, point)) in along.nodes(row).zip(strand.at(frame).iter().enumerate()) {
                 let apart = node.position.iter().zip(point).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
                 assert!(apart < 1e-6, "{} {frame} {n}: {apart}", strand.name);
-                assert!((strand.tensions[31 * frame + n] - node.effective).abs() < 1e-6 * node.effective.abs().max(1e6));
+                assert!(
+                    (strand.tensions[31 * frame + n] - node.effective).abs() < 1e-6 * node.effective.abs().max(1e6)
+                );
             }
         }
     }
@@ -241,6 +242,10 @@ fn a_film_of_a_rod_whose_nodes_were_not_kept_says_so() {
     let take = Take { connector: &|_| true, body: &|_| true, window: None, points: 31, stop: &|| false };
     let film = Film::of(run, &take).unwrap();
     for name in ["A", "B"] {
-        assert!(film.notes.iter().any(|n| n.starts_with(&format!("{name} is not shown as it moved"))), "{:?}", film.notes);
+        assert!(
+            film.notes.iter().any(|n| n.starts_with(&format!("{name} is not shown as it moved"))),
+            "{:?}",
+            film.notes
+        );
     }
 }

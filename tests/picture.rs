@@ -123,7 +123,9 @@ fn files_are_the_same_twice_and_hold_names_and_a_round_scale() {
 
 #[test]
 fn a_line_that_moves_by_itself_is_drawn_by_its_nodes_at_rest() {
-    let rod = MOORING.replace("B_CAT 100 EXACT", "ROD 100 50 -EI 0 -REFINE 140").replace("-WTPL 0.5", "-WTPL 0.5 -SEABED 1E4");
+    let rod = MOORING
+        .replace("B_CAT 100 EXACT", "ROD 100 50 -EI 0 -REFINE 140")
+        .replace("-WTPL 0.5", "-WTPL 0.5 -SEABED 1E4");
     let [exact, drawn] = [MOORING, &rod].map(|records| {
         let (model, reports, ..) = run(records);
         assert!(reports.is_empty(), "{reports:?}");

@@ -163,9 +163,8 @@ fn growth_that_comes_or_goes_with_an_environment_leaves_the_line_as_one_that_alw
 fn a_run_whose_growth_has_changed_goes_on_from_its_file_with_the_digits_of_an_unbroken_one() {
     let records = changing("CLEAN", "FOUL").replace("-TIME 200 0.2", "-TIME 120 0.2");
     let wound = format!("{records}&ACTION OUT -AT 20 -WINCH L 0.4 120\n&ACTION IN -AT 80 -WINCH L -0.6 99\n");
-    let values = |s: &Session| -> Vec<u64> {
-        s.job.run.as_ref().unwrap().history.values.iter().map(|v| v.to_bits()).collect()
-    };
+    let values =
+        |s: &Session| -> Vec<u64> { s.job.run.as_ref().unwrap().history.values.iter().map(|v| v.to_bits()).collect() };
     let (session, _, folder) = common::session();
     let whole = after(&format!("{wound}TDOM\n"), &folder, session);
     let bytes = fs::read(folder.path().join("job.ans/TDOM.run")).unwrap();

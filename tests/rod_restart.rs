@@ -100,9 +100,8 @@ fn a_pull_that_a_line_cannot_bear_names_time_line_and_element_and_is_met_again_b
     // what was kept is what it was: nothing has been put right, and the same is told
     let (again, _kept) = run(records(&file, "-EA 1E8 -1E9", "-RESTART"), Some(&kept));
     assert_eq!(error(&again).split(" by steps").next(), told.split(" by steps").next());
-    let bits = |s: &Session| -> Vec<u64> {
-        s.job.run.as_ref().unwrap().history.values.iter().map(|v| v.to_bits()).collect()
-    };
+    let bits =
+        |s: &Session| -> Vec<u64> { s.job.run.as_ref().unwrap().history.values.iter().map(|v| v.to_bits()).collect() };
     assert!(bits(&broken) == bits(&again));
     // it began where the other had come to
     let from = again.reports.iter().find(|r| r.message.starts_with("goes on from ")).unwrap();

@@ -36,7 +36,9 @@ pub use connector::{Anchor, Connector, Tug};
 pub use curve::{Curve, CurveKind};
 pub use database::{Amplitudes, AttachedDatabase, Database, DriftMethod, DriftTable, Qtf};
 pub use defaults::{Coordinates, Defaults, Material};
-pub use element::{Anchored, Connection, Element, End, Guess, LineDuty, Response, Situation, SpringState, Summary, TimeStep};
+pub use element::{
+    Anchored, Connection, Element, End, Guess, LineDuty, Response, Situation, SpringState, Summary, TimeStep,
+};
 pub use environment::{
     Components, Current, Division, Environment, Formula, GustParts, Phasing, Sea, Stretching, Surroundings, TimeWindow,
     Wind,

@@ -104,8 +104,7 @@ impl System {
         }
         let mut nodes = moving_nodes(model, sea)?;
         self.ambient = ambient(model, sea).map_err(SolveError::new)?;
-        let moving: Vec<String> =
-            self.links.iter().filter(|l| l.element.moves()).map(|l| l.name.clone()).collect();
+        let moving: Vec<String> = self.links.iter().filter(|l| l.element.moves()).map(|l| l.name.clone()).collect();
         for name in &moving {
             self.make_anew(model, name)?;
         }

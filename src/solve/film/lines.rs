@@ -1,8 +1,8 @@
 //! Connectors of a film: their shape at every instant.
 
 use crate::model::{ClassError, Condition, Connector, Model, Placement, Position};
-use crate::solve::scene::{CORNER, cubic};
 use crate::solve::results::along::{Section, sections, segment_at};
+use crate::solve::scene::{CORNER, cubic};
 use crate::solve::time::{AlongColumns, Layout, LinkColumns};
 use crate::table::{Cell, Table};
 

@@ -204,16 +204,12 @@ impl Forces {
         if self.moving {
             self.foretelling.begin(&self.sum);
         }
-        if !self.foretelling.add(dt, motions, &mut self.sum) {
-            return false;
+        let parts = (motions.0, motions.1);
+        if self.carried && !self.moving {
+            self.foretelling.add_inertia(parts, &mut self.sum);
         }
-        if self.moving {
-            return self.foretelling.add_moving((motions.0, motions.1), &mut self.sum);
-        }
-        if self.carried {
-            self.foretelling.add_inertia((motions.0, motions.1), &mut self.sum);
-        }
-        true
+        self.foretelling.add(dt, motions, &mut self.sum)
+            && (!self.moving || self.foretelling.add_moving(parts, &mut self.sum))
     }
 
     /// They are those of a trial that holds, of a step of a length (s): what foretells the next learns by it.

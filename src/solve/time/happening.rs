@@ -42,7 +42,8 @@ impl Run {
         );
         let values =
             [(rate.abs() * self.settings.dt, Dim::Length), (self.settings.dt, Dim::Time), (2.0 * most, Dim::Length)];
-        let error = ClassError::of(text, &values).help("a lower rate, a shorter step of -TIME of &ENV, or fewer elements by -REFINE");
+        let error = ClassError::of(text, &values)
+            .help("a lower rate, a shorter step of -TIME of &ENV, or fewer elements by -REFINE");
         Err(SolveError { who: Some(link.name.clone()), error })
     }
 
