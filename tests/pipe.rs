@@ -5,7 +5,7 @@
 mod common;
 
 use windlass::language::diagnostic::Severity;
-use windlass::model::{Element, End, Model, PIPE, Pose, Response, Situation, Six};
+use windlass::model::{Element, End, LineDuty, Model, PIPE, Pose, Response, Situation, Six};
 use windlass::session::Session;
 
 fn model(records: &str) -> Model {
@@ -27,7 +27,7 @@ fn stinger(tension: f64) -> Model {
 }
 
 fn pipe(model: &Model) -> (Box<dyn Element>, Vec<End>) {
-    let laid = model.pipe(model.assemblies.get(PIPE).unwrap(), None).unwrap().unwrap();
+    let laid = model.pipe(model.assemblies.get(PIPE).unwrap(), None, LineDuty::default()).unwrap().unwrap();
     let (supports, element) = (laid.supports, laid.element);
     let ends = supports.iter().map(|c| End::still(model.end_pose(c, 0).unwrap())).collect();
     (element, ends)

@@ -4,7 +4,9 @@ use super::chosen::WARNING;
 use super::status::push;
 use crate::hydro::ambient;
 use crate::language::units::{Dim, UnitSystem};
-use crate::model::{Assembly, AssemblyKind, ClassError, Connector, End, LaidPipe, Model, Response, Situation, Summary};
+use crate::model::{
+    Assembly, AssemblyKind, ClassError, Connector, End, LaidPipe, LineDuty, Model, Response, Situation, Summary,
+};
 use crate::table::{Cell, Digits, Table};
 use nalgebra::Vector3;
 
@@ -77,7 +79,9 @@ type OnSupports = (Vec<[f64; 3]>, Summary);
 /// The forces of a pipe on the nodes of its active supports (N), and what it tells of itself.
 fn on_supports(model: &Model, assembly: &Assembly) -> Result<Option<OnSupports>, ClassError> {
     let around = ambient(model, None)?;
-    let Some(LaidPipe { supports, element }) = model.pipe(assembly, Some(&around))? else { return Ok(None) };
+    let Some(LaidPipe { supports, element }) = model.pipe(assembly, Some(&around), LineDuty::default())? else {
+        return Ok(None);
+    };
     let ends: Vec<End> = supports.iter().map(|c| End::still(model.end_pose(c, 0).unwrap_or_default())).collect();
     let surroundings = model.surroundings();
     let at = Situation { ends: &ends, step: None, surroundings: &surroundings };

@@ -1,6 +1,6 @@
 //! Assemblies: connectors of a single node whose other ends an assembly takes care of.
 
-use super::{Ambient, Body, ClassError, Connection, Connector, Element, Model, Pose, Surroundings};
+use super::{Ambient, Body, ClassError, Connection, Connector, Element, LineDuty, Model, Pose, Surroundings};
 use crate::language::source::Span;
 use indexmap::IndexMap;
 use std::sync::Arc;
@@ -103,7 +103,7 @@ impl Model {
     }
 
     /// The supports of a pipe assembly that act, and the pipe on them; `None` of another assembly, or where none acts. `ambient`
-    /// surrounds it.
+    /// surrounds it, and a run may ask for its books.
     ///
     /// # Errors
     /// A class or support that makes none here.
@@ -111,6 +111,7 @@ impl Model {
         &self,
         assembly: &Assembly,
         ambient: Option<&Arc<dyn Ambient>>,
+        duty: LineDuty,
     ) -> Result<Option<LaidPipe<'_>>, ClassError> {
         let AssemblyKind::Pipe { class, supports, tension: (lower, upper) } = &assembly.kind else { return Ok(None) };
         let held = supports.iter().filter_map(|name| self.connectors.get(&Model::key(name)));
@@ -132,6 +133,7 @@ impl Model {
                 curve: &|name| self.curves.get(&Model::key(name)),
                 surroundings: &surroundings,
                 ambient: None,
+                duty: LineDuty::default(),
             })?);
             hang.push(if upper.is_none() { self.first_length(connector).unwrap_or(0.0) } else { 0.0 });
             nodes.push(node);
@@ -146,7 +148,7 @@ impl Model {
             upper,
             surroundings: &surroundings,
             ambient,
-            books: held.iter().any(|c| c.books),
+            books: duty.books,
         };
         Ok(Some(LaidPipe { element: found.pipe(layout)?, supports: held }))
     }

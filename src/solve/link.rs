@@ -1,6 +1,7 @@
 //! Connectors of a system: their elements, and what their ends are fixed to.
 
 use super::system::SolveError;
+use super::time::Duties;
 use crate::model::{Ambient, Assembly, Connector, Element, LaidPipe, Model, Pose};
 use nalgebra::{Matrix3, Vector3};
 use std::sync::Arc;
@@ -25,30 +26,32 @@ pub(super) struct Link {
 
 /// A connector of a model; its states go behind the others.
 pub(super) fn link(
-    (model, ambient): (&Model, &Arc<dyn Ambient>),
+    (model, ambient, duties): (&Model, &Arc<dyn Ambient>, &Duties),
     connector: &Connector,
     states: &mut Vec<f64>,
 ) -> Result<Link, SolveError> {
-    let element = model.element_in(connector, Some(ambient)).map_err(SolveError::of(&connector.name))?;
+    let made = model.element_of_run(connector, Some(ambient), duties.of(&connector.name));
+    let element = made.map_err(SolveError::of(&connector.name))?;
     Ok(Link::of(&connector.name, element, connected(model, connector).to_vec(), states))
 }
 
-/// The pipe of an assembly of a model, where it has one that acts; its states go behind the others.
+/// What a pipe is, and what its ends are fixed to.
+pub(super) type Laid = (Box<dyn Element>, Vec<Attachment>);
+
+/// The pipe of an assembly of a model, where it has one that acts.
 pub(super) fn laid(
-    (model, ambient): (&Model, &Arc<dyn Ambient>),
+    (model, ambient, duties): (&Model, &Arc<dyn Ambient>, &Duties),
     assembly: &Assembly,
-    states: &mut Vec<f64>,
-) -> Result<Option<Link>, SolveError> {
-    let made = model.pipe(assembly, Some(ambient)).map_err(SolveError::of(&assembly.name))?;
-    let of = |LaidPipe { supports, element }: LaidPipe| {
-        let ends = supports.iter().map(|c| connected(model, c)[0]).collect();
-        Link::of(&assembly.name, element, ends, states)
-    };
-    Ok(made.map(of))
+) -> Result<Option<Laid>, SolveError> {
+    let made = model.pipe(assembly, Some(ambient), duties.of(&assembly.name));
+    let of =
+        |LaidPipe { supports, element }: LaidPipe| (element, supports.iter().map(|c| connected(model, c)[0]).collect());
+    Ok(made.map_err(SolveError::of(&assembly.name))?.map(of))
 }
 
 impl Link {
-    fn of(name: &str, element: Box<dyn Element>, ends: Vec<Attachment>, states: &mut Vec<f64>) -> Link {
+    /// Of an element; its states go behind the others.
+    pub(super) fn of(name: &str, element: Box<dyn Element>, ends: Vec<Attachment>, states: &mut Vec<f64>) -> Link {
         let from = states.len();
         states.resize(from + element.states(), 0.0);
         if let Some(own) = states.get_mut(from..) {

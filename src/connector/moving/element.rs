@@ -4,7 +4,7 @@ use super::answer::{On, answer};
 use super::around::{Floor, Water};
 use super::kept::{Kept, Layout};
 use super::laid::Felt;
-use super::mesh::{told, wind};
+use super::mesh::{most_wound, told, wind};
 use super::start;
 use super::warm::{Base, Held, Warm, solver_of};
 use crate::language::units::Dim;
@@ -149,11 +149,13 @@ impl MovingLine {
 
     /// The rod of a mesh other than that of `rod`.
     fn meshed(&self, kept: &Kept, rod: &Rod) -> Result<Option<Rod>, ClassError> {
-        if kept.mesh().eq(rod.each_of_mesh()) {
+        let bands = &self.base.bands;
+        if kept.mesh().eq(rod.each_of_mesh().map(|(rest, rate, segment)| (rest, rate, bands.part_of(segment)))) {
             return Ok(None);
         }
         // what is attached stands behind the first part, whose elements alone come and go
-        let mesh: Vec<_> = kept.mesh().collect();
+        let mut mesh: Vec<_> = kept.mesh().collect();
+        bands.lay(&mut mesh);
         let before = self.base.rod.nodes() - 1;
         let shifted =
             |a: &rod::Attachment| rod::Attachment { node: (a.node + mesh.len()).saturating_sub(before), ..*a };
@@ -193,10 +195,7 @@ impl MovingLine {
         let Warm { rod, solver, state, room, flows, .. } = warm;
         state.become_unpacked(rod, kept.motion).map_err(told)?;
         if dt > 0.0 {
-            let of_first = |segment: usize| self.base.part.get(segment) == Some(&0);
-            let nodes = rod.nodes();
-            wind(rod, state, (self.first, self.nominal, dt), of_first)?;
-            if rod.nodes() != nodes {
+            if wind(rod, state, (self.first, self.nominal, dt), &self.base.bands)? {
                 *solver = solver_of(rod);
             }
             state.time = time - dt;
@@ -240,7 +239,7 @@ impl MovingLine {
                 None => Balance::open(rod, state, world, solver, &forces),
             })
         });
-        self.layout.write(rod, state, room, trial)?;
+        self.layout.write((rod, &self.base.bands), state, room, trial)?;
         if let Some(balance) = books {
             self.layout.keep_books(&balance, trial);
         }
@@ -263,6 +262,10 @@ impl Element for MovingLine {
 
     fn nodes(&self) -> usize {
         self.layout.elements + 1
+    }
+
+    fn most_wound(&self) -> Option<f64> {
+        Some(most_wound(self.nominal))
     }
 
     fn bends(&self) -> bool {
@@ -291,7 +294,7 @@ impl Element for MovingLine {
         answer(out, &felt, false)?;
         let mut state = found.state;
         state.time = at.step.map_or(0.0, |step| step.time);
-        self.layout.write(rod, &state, room, trial)?;
+        self.layout.write((rod, &self.base.bands), &state, room, trial)?;
         if let Some(step) = at.step {
             // a run begins here
             let begun = trial.to_vec();

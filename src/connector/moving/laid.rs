@@ -8,7 +8,7 @@ use super::around::ground;
 use super::describe::{Description, Part};
 use super::element::MovingLine;
 use super::kept::Layout;
-use super::mesh::{Cut, told};
+use super::mesh::{Cut, mesh, told};
 use super::warm::{Base, Warm};
 use crate::language::units::Dim;
 use crate::model::{ClassError, Element, End, PipeLayout, Pose, Response, Situation, Surroundings};
@@ -274,12 +274,12 @@ impl MovingLine {
                 made
             };
             let parts: Vec<Part> = course.spans.iter().map(sized).collect();
-            let made = Cut::of(
-                &Description { parts: parts.clone(), ..description.clone() },
-                layout.ambient.map(|a| a.as_ref()),
-                &course.points,
-            );
-            let mesh = made.mesh(&parts, parts.first().map_or(0.0, |p| p.segment.length));
+            let lengths: Vec<f64> = course.spans.iter().map(|(_, length)| *length).collect();
+            let grows = layout.ambient.is_some_and(|a| a.grows());
+            let grown = if grows { course.points.clone() } else { Vec::new() };
+            let made = Cut::of(&parts, &lengths, layout.ambient.map(|a| a.as_ref()), &grown);
+            let mut mesh = mesh(&parts, lengths.first().copied().unwrap_or(0.0));
+            made.bands.lay(&mut mesh);
             let rod = Rod::with_mesh(layout.name, made.segments, Vec::new(), &mesh).map_err(told)?;
             let laid = Laid {
                 supports: supports.clone(),
@@ -288,15 +288,15 @@ impl MovingLine {
                 anchor: course.points.last().copied().unwrap_or_default(),
                 shape: course.points.clone(),
             };
-            let (elements, length) = (rod.nodes() - 1, mesh.iter().map(|e| e.0).sum());
+            let (elements, first) = course.spans.first().copied().unwrap_or((1, 0.0));
             let line = MovingLine {
-                layout: Layout::new(elements, State::packed(&rod) + 2, layout.books),
-                first: length,
-                nominal: length / elements as f64,
+                layout: Layout::new(rod.nodes() - 1, State::packed(&rod) + 2, layout.books),
+                first,
+                nominal: first / elements as f64,
                 base: Arc::new(Base {
                     description: description.clone(),
                     attached: Vec::new(),
-                    part: vec![0; rod.segments().len()],
+                    bands: made.bands,
                     ground: ground(&description.seabed, rod.segments(), around),
                     rod,
                     ambient: layout.ambient.cloned(),

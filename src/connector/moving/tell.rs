@@ -24,8 +24,9 @@ impl MovingLine {
         let ends = self.held(at.ends, still)?;
         out.clear();
         let found = self.within((at, still), &mut Vec::new(), |world| rod.results(&state, world, &ends));
-        // the class speaks of its parts, of which a rod may have several segments
-        let part = |n: LineNode| LineNode { segment: self.base.part.get(n.segment).copied().unwrap_or(0), ..n };
+        // the class speaks of its records, of which a rod may have several segments, and a pipe all of the first
+        let record = |segment| if self.base.laid.is_some() { 0 } else { self.base.bands.part_of(segment) };
+        let part = |n: LineNode| LineNode { segment: record(n.segment), ..n };
         out.extend(found.into_iter().map(part));
         Ok(())
     }

@@ -2,6 +2,7 @@
 
 use super::describe::Description;
 use super::laid::Laid;
+use super::mesh::Bands;
 use crate::model::{Ambient, Flow};
 use crate::rod::{self, Ground, PlaneBottom, Rod, Settings, Solver, State};
 use nalgebra::Vector3;
@@ -19,8 +20,8 @@ pub(super) struct Base {
     pub description: Description,
     pub rod: Rod,
     pub attached: Vec<rod::Attachment>,
-    /// Part of each segment of the rod.
-    pub part: Vec<usize>,
+    /// Which segments of the rod are those of each part.
+    pub bands: Bands,
     pub ambient: Option<Arc<dyn Ambient>>,
     pub plane: Option<PlaneBottom>,
     /// Elevation of a flat bottom (m), where one is known.

@@ -12,6 +12,7 @@ mod shape;
 mod touchdown;
 
 pub use at_rest::lines_at_rest;
+pub(in crate::solve) use at_rest::standing;
 pub use check::{Code, check};
 pub use envelope::envelope;
 pub use fatigue::along as fatigue_along;
@@ -31,7 +32,7 @@ pub(super) const CLEARANCE: Digits = Digits::Decimals(3);
 
 /// A segment of the line.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Section {
+pub(in crate::solve) struct Section {
     /// What fatigue and break go by.
     pub segment: FatigueSegment,
     /// Its tube, where it has a wall.
@@ -40,7 +41,7 @@ pub(super) struct Section {
 
 impl Section {
     /// Largest von Mises stress of a tube over yield, or tension over break of another section.
-    pub(super) fn used(&self, tension: f64, von_mises: Option<f64>) -> f64 {
+    pub(in crate::solve) fn used(&self, tension: f64, von_mises: Option<f64>) -> f64 {
         match (&self.tube, von_mises) {
             (Some(tube), Some(stress)) => stress / tube.yield_stress,
             _ => (tension / self.segment.breaking).max(0.0),
@@ -49,7 +50,7 @@ impl Section {
 }
 
 /// The segments of the class of a connector, from its first end.
-pub(super) fn sections(model: &Model, name: &str) -> Vec<Section> {
+pub(in crate::solve) fn sections(model: &Model, name: &str) -> Vec<Section> {
     let connector = model.connectors.get(&Model::key(name));
     let Some(class) = connector.and_then(|c| model.classes.get(&Model::key(&c.class))) else { return Vec::new() };
     let made = class.fatigue_segments().into_iter().zip(class.wall_materials());
@@ -69,7 +70,7 @@ pub(super) fn sections(model: &Model, name: &str) -> Vec<Section> {
 
 /// The number of the segment (from 0) that a place is in, by its unstretched distance from the second end (m); where two meet, that
 /// toward the second end. The first segment is as long as a winch has made it.
-pub(super) fn segment_at(sections: &[Section], from_second: f64) -> usize {
+pub(in crate::solve) fn segment_at(sections: &[Section], from_second: f64) -> usize {
     let mut left = from_second;
     for (index, section) in sections.iter().enumerate().skip(1).rev() {
         left -= section.segment.length;
