@@ -2,7 +2,7 @@
 
 use super::describe::{Description, Part};
 use crate::model::{Ambient, ClassError};
-use crate::rod::{Attachment, Rod, RodError, Segment, State};
+use crate::rod::{self, Attachment, Rod, RodError, Segment, State};
 use nalgebra::Vector3;
 
 /// An element at the winch is divided when it is longer than this share of those of its part as the class has them.
@@ -29,6 +29,29 @@ pub(super) fn told(error: RodError) -> ClassError {
             format!("its rod finds no rest in {iterations} iterations: {residual:.2e} N is left at element {element}")
         }
     })
+}
+
+/// Elements of a part as it is wound to a length (m) other than that of its class.
+fn wound(part: &Part, length: f64) -> f64 {
+    (length / part.segment.length * part.segment.elements as f64).round().max(1.0)
+}
+
+/// Refuses more elements than a rod may have before any of them takes memory: those of the class, and those of a first part with a
+/// length (m).
+pub(super) fn few(parts: &[Part], first: f64) -> Result<(), ClassError> {
+    let own = |part: &Part| part.segment.elements as f64;
+    let whole: f64 = parts.iter().map(own).sum();
+    let longer = parts.first().map_or(0.0, |part| wound(part, first) - own(part));
+    let most = whole.max(whole + longer);
+    if most <= rod::MOST_ELEMENTS as f64 {
+        return Ok(());
+    }
+    Err(told(RodError::TooLarge {
+        rod: String::new(),
+        elements: most as usize,
+        megabytes: most * rod::BYTES_PER_ELEMENT / 1e6,
+        most: rod::MOST_ELEMENTS,
+    }))
 }
 
 /// Segments of a line: one a part, or one an element of the class where properties change along a part.
@@ -71,7 +94,7 @@ impl Cut {
         for (index, (part, bands)) in parts.iter().zip(&self.bands).enumerate() {
             let (mut length, mut count) = (part.segment.length, part.segment.elements);
             if index == 0 && first != length {
-                count = ((first / length * count as f64).round() as usize).max(1);
+                count = wound(part, first) as usize;
                 length = first;
             }
             for element in 0..count {
