@@ -5,7 +5,7 @@ use super::around::{Floor, Water};
 use super::kept::{Kept, Layout};
 use super::mesh::{told, wind};
 use super::start;
-use super::warm::{Base, Held, Warm, solver_of};
+use super::warm::{Base, Held, Warm};
 use crate::language::units::Dim;
 use crate::model::{
     ClassError, Element, End, Flow, Guess, LineBooks, LineMode, LineNode, Response, Situation, Six, Summary,
@@ -58,8 +58,8 @@ impl MovingLine {
     ) -> T {
         let ambient = self.base.ambient.as_deref();
         let water = Water { ambient, around, mean, flows: RefCell::new(std::mem::take(flows)) };
-        let floor = Floor { plane: self.base.plane, ambient, flat: self.base.flat.unwrap_or(0.0) };
-        let known = self.base.plane.is_some() || self.base.flat.is_some();
+        let floor = Floor { plane: self.base.plane, ambient, flat: self.base.flat.unwrap_or(f64::NEG_INFINITY) };
+        let known = self.base.plane.is_some() || self.base.flat.is_some() || ambient.is_some_and(|a| a.charted());
         let bottom: Option<(&dyn rod::Bottom, Ground)> = known.then_some((&floor, self.base.ground));
         let made = act(&World { bottom, slam: self.base.description.slam, ..World::new(&water, around.gravity) });
         *flows = water.flows.into_inner();
@@ -92,8 +92,9 @@ impl MovingLine {
     fn rest(&self, at: &Situation, warm: &mut Warm) -> Result<Rest, ClassError> {
         let ends = self.held(at.ends, true)?;
         if warm.rod != self.base.rod {
-            warm.take(self.base.rod.clone());
+            warm.rod = self.base.rod.clone();
         }
+        warm.fit();
         let places = [0, 1].map(|i| at.ends.get(i).map_or_else(Vector3::zeros, |e| e.pose.origin));
         let Warm { rod, solver, rest, flows, .. } = warm;
         self.within((at.surroundings, true), flows, |world| {
@@ -175,21 +176,17 @@ impl MovingLine {
     ) -> Result<(), ClassError> {
         let ends = self.held(at.ends, false)?;
         if let Some(rod) = self.meshed(kept, &warm.rod)? {
-            warm.take(rod);
+            warm.rod = rod;
         }
-        let Warm { rod, solver, state, room, flows, .. } = warm;
+        let Warm { rod, state, .. } = &mut *warm;
         state.become_unpacked(rod, kept.motion).map_err(told)?;
+        state.time = time - dt;
         if dt > 0.0 {
             let of_first = |segment: usize| self.base.part.get(segment) == Some(&0);
-            let nodes = rod.nodes();
             wind(rod, state, (self.first, self.nominal, dt), of_first)?;
-            if rod.nodes() != nodes {
-                *solver = solver_of(rod);
-            }
-            state.time = time - dt;
-        } else {
-            state.time = time;
         }
+        warm.fit();
+        let Warm { rod, solver, state, room, flows, .. } = warm;
         let (forces, tangent) = self.within((at.surroundings, false), flows, |world| {
             if dt > 0.0 {
                 let forces = solver.trial(rod, state, world, time, ends).map_err(told)?;
