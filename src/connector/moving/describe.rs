@@ -56,6 +56,13 @@ pub struct Seabed {
     pub depth: Option<f64>,
 }
 
+impl Seabed {
+    /// Whether it is a plane of the line's own.
+    pub fn slopes(&self) -> bool {
+        self.slope.is_some_and(|s| s != 0.0)
+    }
+}
+
 /// How an end is held in its direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hold {

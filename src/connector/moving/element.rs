@@ -68,7 +68,7 @@ impl MovingLine {
 
     /// What holds the ends.
     pub(super) fn held(&self, ends: &[End], still: bool) -> Result<[rod::End; 2], ClassError> {
-        let [first, second] = ends else { return Err(ClassError::new("a line has two ends")) };
+        let [first, second] = ends else { return Err(ClassError::new("a line has two ends").lasting()) };
         let made = |end: &End, hold: &Option<Held>| {
             let three = |six: &Six| Vector3::new(six[0], six[1], six[2]);
             let mut motion = Motion::still(end.pose.origin);
@@ -250,7 +250,7 @@ impl Element for MovingLine {
         out: &mut Response,
     ) -> Result<(), ClassError> {
         let kept = self.layout.read(committed)?;
-        let Some(warm) = self.warm(guess) else { return Err(ClassError::new(NO_MEMORY)) };
+        let Some(warm) = self.warm(guess) else { return Err(ClassError::new(NO_MEMORY).lasting()) };
         if let (Some(step), Some(kept)) = (at.step, &kept) {
             return self.step(at, (step.time, step.dt), kept, trial, warm, out);
         }

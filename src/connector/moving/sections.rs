@@ -142,7 +142,7 @@ pub const SEABED: OptionSpec = ours(
     ],
     "how the bottom answers the line",
 )
-.default("the heaviest segment sinks in by 2% of its diameter");
+.default("the heaviest segment sinks in by 2% of its diameter, under a tenth of its weight in air at least");
 
 /// What a record says beyond its section.
 #[derive(Clone, Debug, PartialEq)]
