@@ -109,7 +109,8 @@ mod tests {
 
     #[test]
     fn a_line_sinks_into_the_bottom_by_a_share_of_its_diameter() {
-        let around = Surroundings { water_density: 1000.0, gravity: 10.0, ..Surroundings::default() };
+        let around =
+            Surroundings { water_density: 1000.0, air_density: 1.2, gravity: 10.0, depth: Some(50.0), tide: 0.0 };
         let segment = |mass: f64| Segment { displaced: 0.01, ..Segment::line(10.0, 1, mass, 1e6, 0.1) };
         let stiffness = |mass: f64| ground(&Seabed::default(), &[segment(mass), segment(5.0)], &around).stiffness;
         // 100 N/m on a shadow of 0.1 m sink in by 2 mm

@@ -238,7 +238,7 @@ impl Element for MovingLine {
     }
 
     fn bends(&self) -> bool {
-        self.base.rod.segments().iter().any(|s| s.bending > 0.0)
+        self.base.rod.segments().iter().any(|s| s.bending > 0.0 || s.tube.is_some())
     }
 
     fn evaluate(
