@@ -7,7 +7,7 @@ mod common;
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use windlass::connector::CLASSES;
 use windlass::model::{
-    ClassError, Connection, Connector, Element, End, Model, Place, Placement, Pose, Response, Situation, Six,
+    ClassError, Connection, Connector, Element, End, LineDuty, Model, Place, Placement, Pose, Response, Situation, Six,
     Surroundings, TimeStep,
 };
 use windlass::session::Session;
@@ -243,6 +243,7 @@ impl Bench {
             curve: &curve,
             surroundings: &surroundings,
             ambient: None,
+            duty: LineDuty::default(),
         })
     }
 
@@ -324,6 +325,7 @@ fn every_class_that_has_an_element_is_under_the_laws() {
             curve: &|_| None,
             surroundings: &surroundings,
             ambient: None,
+            duty: LineDuty::default(),
         });
         assert!(made.is_err(), "{name} has an element and no case in tests/element_laws.rs");
     }

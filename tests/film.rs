@@ -200,3 +200,47 @@ fn what_cannot_be_shown_is_refused_and_leaves_no_file() {
         assert!(!job.join("a.html").exists() && !job.join("a_0000.vtk").exists());
     }
 }
+
+/// A rod that is let go at 2 s, and one that is moved, on a vessel in waves.
+const RODS: &str = "&DIMEN -DIMEN METERS K-NTS\n&ENV -DEPTH 100 -TIME 6 0.2 -SEA REGULAR 180 3 7\nMEDIT\n&DESCRIBE BODY SHIP -IGNORE Z RX RY RZ\n\
+    *CG 0 0 0\n#WEIGHT *CG 50000 10 20 20\n*A 20 0 0\n*B -20 0 0\n~ROD ROD 100 50 -LEN 400 -REFINE 30 -EI 0\n\
+    CONNECTOR A -ANC 0 370 ~ROD *A\nCONNECTOR B -ANC 180 370 ~ROD *B\nEND\n&ACTION GONE -AT 2 -RELEASE B\n";
+
+#[test]
+fn a_film_shows_rods_where_their_nodes_were_and_a_line_that_was_let_go_falls() {
+    let (session, ..) = run(&format!("{RODS}TDOM\n"));
+    assert_eq!(session.errors, 0, "{:?}", session.reports);
+    let run = session.job.run.as_ref().unwrap();
+    let take =
+        Take { connector: &|_| true, body: &|_| true, window: None, points: 31, stop: &|| false };
+    let film = Film::of(run, &take).unwrap();
+    assert_eq!(film.times, run.history.times());
+    for (strand, link) in film.strands.iter().zip(&run.history.layout.links) {
+        let along = link.along.as_ref().unwrap();
+        assert!(strand.line && strand.count == 31);
+        // elements are alike, so that 31 points are the 31 nodes
+        for (frame, row) in run.history.rows().enumerate() {
+            for ((_, node), (n, point)) in along.nodes(row).zip(strand.at(frame).iter().enumerate()) {
+                let apart = node.position.iter().zip(point).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+                assert!(apart < 1e-6, "{} {frame} {n}: {apart}", strand.name);
+                assert!((strand.tensions[31 * frame + n] - node.effective).abs() < 1e-6 * node.effective.abs().max(1e6));
+            }
+        }
+    }
+    // let go at 2 s, B falls; A is held
+    let first = |name: &str, frame: usize| film.strands.iter().find(|s| s.name == name).unwrap().at(frame)[0];
+    assert!(first("B", 10)[2] > -1e-6 && first("B", 30)[2] < -10.0);
+    assert!(first("A", 30)[2].abs() < 1e-6);
+    assert!(film.notes.iter().all(|n| !n.contains("is not shown")), "{:?}", film.notes);
+}
+
+#[test]
+fn a_film_of_a_rod_whose_nodes_were_not_kept_says_so() {
+    let (session, ..) = run(&format!("{RODS}TDOM -ALONG 0\n"));
+    let run = session.job.run.as_ref().unwrap();
+    let take = Take { connector: &|_| true, body: &|_| true, window: None, points: 31, stop: &|| false };
+    let film = Film::of(run, &take).unwrap();
+    for name in ["A", "B"] {
+        assert!(film.notes.iter().any(|n| n.starts_with(&format!("{name} is not shown as it moved"))), "{:?}", film.notes);
+    }
+}

@@ -12,7 +12,7 @@ use std::sync::Arc;
 use windlass::hydro::Category;
 use windlass::model::{Model, Pose, Six};
 use windlass::solve::System;
-use windlass::solve::time::{Convergence, Ending, Forces, Memory, Method, Motion, Run, Settings, Watcher};
+use windlass::solve::time::{Convergence, Duties, Ending, Forces, Memory, Method, Motion, Run, Settings, Watcher};
 
 /// Takes rows and says nothing.
 struct Quiet;
@@ -110,7 +110,7 @@ fn damping_that_turns_with_its_body_has_that_in_its_stiffness() {
     let hull = format!("*CG 3 -2 5\n#WEIGHT *CG {weight} 4 5 6\n#DAMP *CG 1E4 3E4 2E4 3E6 1E6 5E6\n");
     let mut model = eight::model(&hull, &line, "");
     model.connectors.clear();
-    let system = System::under_way(&model, None::<&Arc<_>>).unwrap();
+    let system = System::under_way(&model, None::<&Arc<_>>, Duties::default()).unwrap();
     let memory = Memory::of(&system);
     let pose = Pose::default().moved(&Six::new(1.0, 2.0, -1.0, 0.4, -0.7, 1.1));
     let start = Motion { pose, velocity: Six::new(1.0, 2.0, -1.0, 0.3, -0.5, 0.2), ..Motion::default() };

@@ -234,3 +234,23 @@ fn the_heave_of_a_spar_in_still_water_has_its_period_and_never_gains_energy() {
     near(last, want, 5e-3);
     assert!(last < 0.9 * start);
 }
+
+#[test]
+fn a_member_that_waves_wet_and_bare_converges_in_time_with_the_second_order() {
+    // a column through the surface in waves of 6 m: its wet added mass changes by a tenth, against waves that go on
+    let records = "*W 0 0 -30\n#WEIGHT *W 25263 10 10 10\n&DESCRIBE BODY B -IGNORE Y RX RY RZ";
+    let sea = "&ENV -DEPTH 345 -SEA STOKES 180 6 10 -STRETCHING EXPONENTIAL -RAMP 0";
+    let model = body(records, "TUBE S *A *B 8000 -CD 0 -CA 1", sea);
+    let place = |dt: f64| {
+        let run = runs::run(&model, settings(20.0, dt), vec![]);
+        let at = run.history.layout.body(0);
+        let row = run.history.rows().last().unwrap();
+        [row[at], row[at + 2]]
+    };
+    let [coarse, middle, fine] = [0.1, 0.05, 0.025].map(place);
+    for freedom in 0..2 {
+        let [first, second] = [(coarse, middle), (middle, fine)].map(|(a, b)| (a[freedom] - b[freedom]).abs());
+        // 4 of the second order, 2 of the first; and what is left is small
+        assert!(first / second > 3.0 && second < 5e-3, "{freedom}: {first} {second}");
+    }
+}

@@ -120,3 +120,29 @@ fn files_are_the_same_twice_and_hold_names_and_a_round_scale() {
     }
     assert!(png.starts_with(b"\x89PNG"));
 }
+
+#[test]
+fn a_line_that_moves_by_itself_is_drawn_by_its_nodes_at_rest() {
+    let rod = MOORING.replace("B_CAT 100 EXACT", "ROD 100 50 -EI 0 -REFINE 140").replace("-WTPL 0.5", "-WTPL 0.5 -SEABED 1E4");
+    let [exact, drawn] = [MOORING, &rod].map(|records| {
+        let (model, reports, ..) = run(records);
+        assert!(reports.is_empty(), "{reports:?}");
+        let (scene, unshaped) = scene(&model);
+        assert_eq!(unshaped, 0);
+        scene.paths.into_iter().find(|p| p.name == "B").unwrap()
+    });
+    assert_eq!((drawn.stroke, drawn.points.len()), (Stroke::Line, 141));
+    // every node lies by the line that hangs as heavy, within what a mesh of 5 m and a soft bottom make of it
+    for point in &drawn.points {
+        let near = |p: &[f64; 3]| p.iter().zip(point).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
+        let across = exact.points.windows(2).map(|w| {
+            let along: Vec<f64> = w[1].iter().zip(&w[0]).map(|(b, a)| b - a).collect();
+            let square: f64 = along.iter().map(|v| v * v).sum();
+            let dot: f64 = along.iter().zip(point.iter().zip(&w[0])).map(|(d, (p, a))| d * (p - a)).sum();
+            let t = (dot / square.max(1e-12)).clamp(0.0, 1.0);
+            near(&[0, 1, 2].map(|i| w[0][i] + t * along[i]))
+        });
+        let apart = across.fold(f64::MAX, f64::min).sqrt();
+        assert!(apart < 0.3, "{point:?}: {apart}");
+    }
+}

@@ -361,3 +361,52 @@ fn a_run_with_rods_goes_on_from_its_file_with_the_digits_of_an_unbroken_one() {
         assert!(values(&again) == values(&whole), "cut at {share}");
     }
 }
+
+/// A load of 5 t on 30 m of 10 kg/m in elements of 0.5 m, from a winch at 120 m, in steps of 0.5 s.
+fn fine_winch(action: &str) -> String {
+    format!(
+        "&ENV -DEPTH 500 -TIME 60 0.5\nMEDIT\n&DESCRIBE BODY CRANE -IGNORE X Y Z RX RY RZ\n*H 0 0 120\n\
+         &DESCRIBE BODY LOAD -IGNORE X Y RX RY RZ\n*P 0 0 0\n#WEIGHT *P 49033.25 1 1 1\n\
+         ~ROPE ROD 40 20 -LEN 30 -REFINE 60 -EI 0 -EA 5E7 -WTPLEN 100 -BUOY 0 -AX_DAMPING 1E6\nCONNECTOR ROPE ~ROPE *H *P\nEND\n\
+         &INSTATE -LOCATE LOAD 0 0 89.97\n&EQUI\n&ACTION WIND -AT 5 -WINCH ROPE {action}\nTDOM\n"
+    )
+}
+
+#[test]
+fn a_winch_lets_out_and_takes_in_as_many_elements_in_a_step_as_its_rate_asks_for() {
+    // 2 m/s: two elements of half a metre in every step
+    for (action, length) in [("2 80", 80.0), ("-2 6", 6.0)] {
+        let session = after(&fine_winch(action));
+        let run = session.job.run.as_ref().unwrap();
+        let history = &run.history;
+        for (time, row) in nodes(run) {
+            for pair in row.windows(2) {
+                let element = pair[1].arc - pair[0].arc;
+                // as `wind` has them: from half of an element of the class to one and a half
+                assert!((0.249..=0.751).contains(&element), "{action} {time}: {element}");
+            }
+        }
+        let force = history.series(history.layout.wrench(0, 0).unwrap() + 2);
+        let z = history.series(history.layout.body(1) + 2);
+        let last = z.len() - 1;
+        // as where a winch winds slowly: weight of load and rope, and mean strain
+        assert!((force[last] / -(49033.25 + 100.0 * length) - 1.0).abs() < 1e-5, "{action}: {}", force[last]);
+        let below = 120.0 - length * (1.0 + (49033.25 + 50.0 * length) / 5e7);
+        assert!((z[last] - below).abs() < 1e-4, "{action}: {} {below}", z[last]);
+        // in between it goes at the rate of the winch, a thousandth more by the strain
+        let speed = (z[20] - z[30]) / 5.0;
+        let rate = if length > 30.0 { 2.0 } else { -2.0 };
+        assert!((speed / rate - 1.001).abs() < 2e-3, "{action}: {speed}");
+    }
+}
+
+#[test]
+fn a_winch_so_fast_that_a_step_would_need_thousands_of_elements_is_told_before_the_run() {
+    let (mut session, _, _folder) = common::session();
+    session.open("test", format!("&DIMEN -DIMEN METERS N\n{}", fine_winch("2000 70")));
+    session.run();
+    let told = format!("{:?}", session.reports);
+    assert_eq!(session.errors, 1, "{told}");
+    assert!(told.contains("ROPE") && told.contains("4000 parts of the step"), "{told}");
+    assert!(session.job.run.is_none());
+}

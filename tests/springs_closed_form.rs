@@ -5,7 +5,7 @@
 mod common;
 
 use windlass::model::{
-    Connection, Element, End, Model, Place, Placement, Pose, Response, Situation, Six, Summary, TimeStep,
+    Connection, Element, End, LineDuty, Model, Place, Placement, Pose, Response, Situation, Six, Summary, TimeStep,
 };
 use windlass::session::Session;
 
@@ -41,6 +41,7 @@ impl Joint {
             curve: &curve,
             surroundings: &surroundings,
             ambient: None,
+            duty: LineDuty::default(),
         };
         let element = class.object.element(&made).unwrap();
         let state = vec![0.0; element.states()];
@@ -138,6 +139,7 @@ fn a_single_node_is_held_to_where_it_was_when_the_connector_was_defined() {
         curve: &|_| None,
         surroundings: &surroundings,
         ambient: None,
+        duty: LineDuty::default(),
     };
     let element = model.classes.values().next().unwrap().object.element(&made).unwrap();
     let mut out = Response::default();
@@ -302,6 +304,7 @@ fn a_curve_in_feet_is_a_moment_per_radian_in_feet_where_it_acts_in_a_rotation() 
         curve: &curve,
         surroundings: &surroundings,
         ambient: None,
+        duty: LineDuty::default(),
     };
     let element = model.classes.values().next().unwrap().object.element(&made).unwrap();
     let at = Situation { ends: &ends.map(End::still), step: None, surroundings: &surroundings };

@@ -132,9 +132,6 @@ pub fn build_connector(job: &mut Job, args: &Args) -> Outcome<()> {
         euler: args.has("-EULER").then(|| vector("-EULER")),
         first_length: None,
         dynamics: None,
-        longest: None,
-        freed: false,
-        books: false,
         active: true,
         span: args.span,
     };

@@ -97,6 +97,10 @@ impl Ambient for Around {
         self.contents
     }
 
+    fn grows(&self) -> bool {
+        self.growth.is_some()
+    }
+
     fn growth(&self, z: f64) -> (f64, f64) {
         self.growth.as_ref().map_or((0.0, 0.0), |growth| (0.5 * growth.added(z), growth.density))
     }

@@ -86,6 +86,13 @@ pub trait BodyLoad: Debug + Send + Sync {
         self.load(at.pose).map(MovingLoad::of)
     }
 
+    /// What the load adds to the inertia of the body over the step that was begun: -d(wrench)/d(acceleration of the origin, of the
+    /// rotation), global axes (kg, kg m, kg m2). The wrench of [`BodyLoad::moving`] is without it: the engine has the acceleration at
+    /// the end of the step, where that of the velocities of both ends would be late by half a step. None of most loads.
+    fn inertia(&self, _state: &[f64]) -> Option<Matrix6<f64>> {
+        None
+    }
+
     /// What of the load counts in another category than its own, where there is such.
     fn apart(&self, _at: &Underway, _state: &[f64]) -> Option<(Category, Six)> {
         None

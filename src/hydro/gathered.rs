@@ -66,6 +66,10 @@ impl BodyLoad for Multiplied {
         Ok(MovingLoad { load, damping: damping * self.factor })
     }
 
+    fn inertia(&self, state: &[f64]) -> Option<Matrix6<f64>> {
+        self.load.inertia(state).map(|inertia| inertia * self.factor)
+    }
+
     fn apart(&self, at: &Underway, state: &[f64]) -> Option<(Category, Six)> {
         self.load.apart(at, state).map(|(category, wrench)| (category, wrench * self.factor))
     }

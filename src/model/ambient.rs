@@ -77,6 +77,11 @@ pub trait Ambient: Debug + Send + Sync {
         None
     }
 
+    /// Whether there is marine growth anywhere.
+    fn grows(&self) -> bool {
+        false
+    }
+
     /// Thickness of marine growth (m) at an elevation (m, global z), and its density (kg/m3).
     fn growth(&self, _z: f64) -> (f64, f64) {
         (0.0, 0.0)

@@ -1,6 +1,6 @@
 //! Assemblies: connectors of a single node whose other ends an assembly takes care of.
 
-use super::{Body, ClassError, Connection, Connector, Element, Model, Pose, Surroundings};
+use super::{Body, ClassError, Connection, Connector, Element, LineDuty, Model, Pose, Surroundings};
 use crate::language::source::Span;
 use indexmap::IndexMap;
 
@@ -120,6 +120,7 @@ impl Model {
                 curve: &|name| self.curves.get(&Model::key(name)),
                 surroundings: &surroundings,
                 ambient: None,
+                duty: LineDuty::default(),
             })?);
             hang.push(if upper.is_none() { self.first_length(connector).unwrap_or(0.0) } else { 0.0 });
             nodes.push(node);

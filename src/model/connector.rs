@@ -54,12 +54,6 @@ pub struct Connector {
     /// Into how many elements it is cut as a line that moves by itself, where `&CONNECTOR -DYNAMICS` says so of a class that does
     /// not by itself.
     pub dynamics: Option<usize>,
-    /// The longest its first segment becomes in a run (m), where a winch pays it out.
-    pub longest: Option<f64>,
-    /// Whether a run keeps the books of its energy and momentum, of a line that moves by itself.
-    pub books: bool,
-    /// Whether its first end is let go, of a line that moves by itself: it falls, held at its second end.
-    pub freed: bool,
     /// Whether it acts.
     pub active: bool,
     /// Where it was defined.

@@ -202,6 +202,11 @@ pub trait Element: Debug + Send + Sync {
         0
     }
 
+    /// The most by which a winch may change its length within one step (m), of one that is cut into elements.
+    fn most_wound(&self) -> Option<f64> {
+        None
+    }
+
     /// Whether its nodes have a wall, shear and moments to tell.
     fn bends(&self) -> bool {
         false
@@ -231,6 +236,17 @@ pub trait Element: Debug + Send + Sync {
     }
 }
 
+/// What a run asks of a line that moves by itself; nothing of the kind where there is no run.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LineDuty {
+    /// The longest its first segment becomes (m), where a winch pays it out.
+    pub longest: Option<f64>,
+    /// Whether the books of its energy and momentum are kept.
+    pub books: bool,
+    /// Whether its first end is let go: it falls, held at its second end.
+    pub freed: bool,
+}
+
 /// What a class is told of the connector that an element is made of.
 #[derive(Clone, Copy)]
 pub struct Connection<'a> {
@@ -248,6 +264,8 @@ pub struct Connection<'a> {
     pub surroundings: &'a Surroundings,
     /// What surrounds it all along, where an engine tells.
     pub ambient: Option<&'a Arc<dyn Ambient>>,
+    /// What a run asks of it.
+    pub duty: LineDuty,
 }
 
 impl Debug for Connection<'_> {

@@ -36,7 +36,7 @@ pub use connector::{Anchor, Connector, Tug};
 pub use curve::{Curve, CurveKind};
 pub use database::{Amplitudes, AttachedDatabase, Database, DriftMethod, DriftTable, Qtf};
 pub use defaults::{Coordinates, Defaults, Material};
-pub use element::{Anchored, Connection, Element, End, Guess, Response, Situation, SpringState, Summary, TimeStep};
+pub use element::{Anchored, Connection, Element, End, Guess, LineDuty, Response, Situation, SpringState, Summary, TimeStep};
 pub use environment::{
     Components, Current, Division, Environment, Formula, GustParts, Phasing, Sea, Stretching, Surroundings, TimeWindow,
     Wind,
@@ -198,6 +198,19 @@ impl Model {
         connector: &Connector,
         ambient: Option<&Arc<dyn Ambient>>,
     ) -> Result<Box<dyn Element>, ClassError> {
+        self.element_of_run(connector, ambient, LineDuty::default())
+    }
+
+    /// The same in a run, with what that asks of a line that moves by itself.
+    ///
+    /// # Errors
+    /// As [`Model::element_in`].
+    pub fn element_of_run(
+        &self,
+        connector: &Connector,
+        ambient: Option<&Arc<dyn Ambient>>,
+        duty: LineDuty,
+    ) -> Result<Box<dyn Element>, ClassError> {
         let class = self.classes.get(&Model::key(&connector.class));
         let class = class.ok_or_else(|| ClassError::new(format!("there is no class {}", connector.class)))?;
         let placement = self.placement(connector);
@@ -209,6 +222,7 @@ impl Model {
             curve: &|name| self.curves.get(&Model::key(name)),
             surroundings: &self.surroundings(),
             ambient,
+            duty,
         };
         match connector.dynamics {
             Some(elements) => class.object.moving(&connection, elements),

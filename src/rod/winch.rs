@@ -69,21 +69,20 @@ impl Rod {
         Ok(())
     }
 
-    /// Makes one of an element and the next, as one that a winch has hauled in far enough. The rod then needs a new
-    /// [`Solver`](super::Solver).
+    /// Makes one of an element and the next, as one that a winch has hauled in far enough; it is of the segment of the next. The rod
+    /// then needs a new [`Solver`](super::Solver).
     ///
     /// # Errors
-    /// An element that is not there or has none after it in its segment, something attached between the two, or a rod
-    /// with torsional stiffness.
+    /// An element that is not there or has none after it, something attached between the two, or a rod with torsional stiffness.
     pub fn join(&mut self, element: usize, state: &mut State) -> Result<(), RodError> {
         let first = self.changeable(element, state)?;
         let second = self.changeable(element + 1, state)?;
-        if first.segment != second.segment || self.attachments.iter().any(|a| a.node == element + 1) {
+        if self.attachments.iter().any(|a| a.node == element + 1) {
             let why = format!("elements {} and {} cannot be one", element + 1, element + 2);
             return Err(self.refused(why));
         }
         let joined =
-            Element { rate: first.rate + second.rate, ..self.sized(&first, (first.rest + second.rest) / first.rest) };
+            Element { rate: first.rate + second.rate, ..self.sized(&second, (first.rest + second.rest) / second.rest) };
         self.elements.splice(element..=element + 1, [joined]);
         for list in [&mut state.position, &mut state.velocity, &mut state.acceleration, &mut state.averaged] {
             list.remove(element + 1);

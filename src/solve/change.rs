@@ -40,7 +40,7 @@ impl System {
     pub fn ends_of(&self, model: &Model, name: &str) -> Result<LinkEnds, SolveError> {
         let found = connector(model, name)?;
         // one that cannot be made says so when it is to act
-        let element = model.element_in(found, Some(&self.ambient)).ok();
+        let element = self.element(model, found).ok();
         let nodes = element.map_or((0, false), |e| nodes(e.as_ref()));
         Ok(LinkEnds { name: found.name.clone(), ends: bodies(&connected(model, found)), nodes })
     }
@@ -68,7 +68,7 @@ impl System {
         if self.links.iter().any(|l| l.name.eq_ignore_ascii_case(name)) {
             return Ok(());
         }
-        let made = link((model, &self.ambient), connector(model, name)?, &mut self.states)?;
+        let made = link((model, &self.ambient, &self.duties), connector(model, name)?, &mut self.states)?;
         self.links.push(made);
         Ok(())
     }
@@ -78,9 +78,17 @@ impl System {
     /// # Errors
     /// A connector that makes no element.
     pub fn make_anew(&mut self, model: &Model, name: &str) -> Result<(), SolveError> {
-        let Some(at) = self.links.iter_mut().find(|l| l.name.eq_ignore_ascii_case(name)) else { return Ok(()) };
-        at.element = model.element_in(connector(model, name)?, Some(&self.ambient)).map_err(SolveError::of(name))?;
+        let Some(at) = self.links.iter().position(|l| l.name.eq_ignore_ascii_case(name)) else { return Ok(()) };
+        let made = self.element(model, connector(model, name)?).map_err(SolveError::of(name))?;
+        if let Some(link) = self.links.get_mut(at) {
+            link.element = made;
+        }
         Ok(())
+    }
+
+    /// A connector of a model as its run asks for it.
+    fn element(&self, model: &Model, connector: &Connector) -> Result<Box<dyn Element>, ClassError> {
+        model.element_of_run(connector, Some(&self.ambient), self.duties.of(&connector.name))
     }
 
     /// Loads of the environment now in force in the model; a load that is of the same kind and size as the one in its place
@@ -96,9 +104,10 @@ impl System {
         }
         let mut nodes = moving_nodes(model, sea)?;
         self.ambient = ambient(model, sea).map_err(SolveError::new)?;
-        for link in self.links.iter_mut().filter(|l| l.element.moves()) {
-            let made = model.element_in(connector(model, &link.name)?, Some(&self.ambient));
-            link.element = made.map_err(SolveError::of(&link.name))?;
+        let moving: Vec<String> =
+            self.links.iter().filter(|l| l.element.moves()).map(|l| l.name.clone()).collect();
+        for name in &moving {
+            self.make_anew(model, name)?;
         }
         for (new, old) in nodes.iter_mut().zip(&mut self.nodes) {
             let given = model.bodies.get(&new.key).and_then(|body| body.prescribed.as_ref());

@@ -1,6 +1,7 @@
 //! Connectors of a system: their elements, and what their ends are fixed to.
 
 use super::system::SolveError;
+use super::time::Duties;
 use crate::model::{Ambient, Connector, Element, Model, Pose};
 use nalgebra::{Matrix3, Vector3};
 use std::sync::Arc;
@@ -25,11 +26,12 @@ pub(super) struct Link {
 
 /// A connector of a model; its states go behind the others.
 pub(super) fn link(
-    (model, ambient): (&Model, &Arc<dyn Ambient>),
+    (model, ambient, duties): (&Model, &Arc<dyn Ambient>, &Duties),
     connector: &Connector,
     states: &mut Vec<f64>,
 ) -> Result<Link, SolveError> {
-    let element = model.element_in(connector, Some(ambient)).map_err(SolveError::of(&connector.name))?;
+    let made = model.element_of_run(connector, Some(ambient), duties.of(&connector.name));
+    let element = made.map_err(SolveError::of(&connector.name))?;
     let from = states.len();
     states.resize(from + element.states(), 0.0);
     if let Some(own) = states.get_mut(from..) {

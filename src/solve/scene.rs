@@ -3,6 +3,8 @@
 
 pub use super::outline::Outline;
 use super::outline::outline;
+use super::results::along::standing;
+use super::system::SolveError;
 use crate::model::{Body, ClassError, Condition, Connector, Model, Placement, Position};
 use crate::table::{Cell, Table};
 use std::collections::BTreeSet;
@@ -167,11 +169,20 @@ struct Drawn {
 /// A connector as it hangs, or straight where it has no shape or none was found.
 fn shape(model: &Model, connector: &Connector) -> Drawn {
     let placement = model.placement(connector);
-    let solved = solve(model, connector, &placement);
+    let solved = || solve(model, connector, &placement);
     let stroke = |active: Stroke| if connector.active { active } else { Stroke::Inactive };
     let grounded = !connector.points.get(1).is_some_and(|p| on_body(model, p));
     let path = |stroke, points| Some(Path { stroke, name: connector.name.clone(), points, grounded });
-    match solved {
+    if connector.active && model.moves(connector) {
+        let [from, to] = model.end_poses(connector).map(|p| Position::from(p.origin));
+        return match at_rest(model, connector) {
+            Ok(points) => Drawn { path: path(Stroke::Line, points), ..Drawn::default() },
+            Err(error) => {
+                Drawn { path: path(Stroke::Unsolved, vec![from, to]), error: Some(error.error), ..Drawn::default() }
+            }
+        };
+    }
+    match solved() {
         Ok(Some(table)) => {
             let shape = Shape::of(&table, &placement);
             Drawn {
@@ -192,6 +203,15 @@ fn shape(model: &Model, connector: &Connector) -> Drawn {
             ..Drawn::default()
         },
     }
+}
+
+/// The nodes of a line that moves by itself, at rest in the mean current.
+fn at_rest(model: &Model, connector: &Connector) -> Result<Vec<Position>, SolveError> {
+    let mut nodes = Vec::new();
+    standing(model, &|name| name == connector.name, |_, element, at, state| {
+        element.along(at, state, &mut nodes).map_err(SolveError::of(&connector.name))
+    })?;
+    Ok(nodes.iter().map(|node| node.position.into()).collect())
 }
 
 /// The shape of a mooring line; `None` of a connector that is straight.

@@ -2,7 +2,7 @@
 
 use super::link::{Attachment, Link, arm, connected, link, pose_of};
 use super::modes::held;
-use super::time::{Prescribed, prescribed};
+use super::time::{Duties, Prescribed, prescribed};
 use crate::hydro::sea::Sea;
 use crate::hydro::{Category, Floating, Load, ambient, carried, transferred, turning};
 use crate::model::{
@@ -118,6 +118,8 @@ pub struct System {
     pub(super) surroundings: Surroundings,
     /// What surrounds connectors that feel it all along themselves.
     pub(super) ambient: Arc<dyn Ambient>,
+    /// What a run asks of lines that move by themselves.
+    pub(super) duties: Duties,
     /// Acceleration of gravity (m/s2).
     pub gravity: f64,
     /// Forces and moments that act on bodies besides all others, about their origins, global axes; they keep their
@@ -137,22 +139,23 @@ impl System {
             Ok(Node::of(model, key, body, floating))
         };
         let nodes = model.bodies.iter().map(node).collect::<Result<Vec<_>, SolveError>>()?;
-        System::with(model, (nodes, None), left_out)
+        System::with(model, (nodes, None), left_out, Duties::default())
     }
 
-    /// The system of a model under way: bodies with what a sea does to them.
+    /// The system of a model under way: bodies with what a sea does to them, lines as a run asks for them.
     ///
     /// # Errors
     /// As [`System::of`].
-    pub fn under_way(model: &Model, sea: Option<&Arc<Sea>>) -> Result<Self, SolveError> {
+    pub fn under_way(model: &Model, sea: Option<&Arc<Sea>>, duties: Duties) -> Result<Self, SolveError> {
         let nodes = moving_nodes(model, sea)?;
-        System::with(model, (nodes, sea), &[])
+        System::with(model, (nodes, sea), &[], duties)
     }
 
     fn with(
         model: &Model,
         (nodes, sea): (Vec<Node>, Option<&Arc<Sea>>),
         left_out: &[String],
+        duties: Duties,
     ) -> Result<Self, SolveError> {
         let ambient = ambient(model, sea).map_err(SolveError::new)?;
         let mut states = Vec::new();
@@ -164,7 +167,7 @@ impl System {
             {
                 continue;
             }
-            links.push(link((model, &ambient), connector, &mut states)?);
+            links.push(link((model, &ambient, &duties), connector, &mut states)?);
         }
         for assembly in model.assemblies.values() {
             let made = model.pipe(assembly).map_err(SolveError::of(&assembly.name))?;
@@ -173,7 +176,7 @@ impl System {
             links.push(Link { name: assembly.name.clone(), element, ends, states: states.len()..states.len() });
         }
         let (surroundings, gravity) = (model.surroundings(), model.defaults.gravity);
-        Ok(System { nodes, links, states, surroundings, ambient, gravity, applied: Vec::new() })
+        Ok(System { nodes, links, states, surroundings, ambient, duties, gravity, applied: Vec::new() })
     }
 
     /// Connectors that move by themselves begin a run in these states, given for all connectors.

@@ -3,7 +3,7 @@
 use super::answer::answer;
 use super::around::{Floor, Water};
 use super::kept::{Kept, Layout};
-use super::mesh::{told, wind};
+use super::mesh::{most_wound, told, wind};
 use super::start;
 use super::warm::{Base, Held, Warm};
 use crate::language::units::Dim;
@@ -137,11 +137,13 @@ impl MovingLine {
 
     /// The rod of a mesh other than that of `rod`.
     fn meshed(&self, kept: &Kept, rod: &Rod) -> Result<Option<Rod>, ClassError> {
-        if kept.mesh().eq(rod.each_of_mesh()) {
+        let bands = &self.base.bands;
+        if kept.mesh().eq(rod.each_of_mesh().map(|(rest, rate, segment)| (rest, rate, bands.part_of(segment)))) {
             return Ok(None);
         }
         // what is attached stands behind the first part, whose elements alone come and go
-        let mesh: Vec<_> = kept.mesh().collect();
+        let mut mesh: Vec<_> = kept.mesh().collect();
+        bands.lay(&mut mesh);
         let before = self.base.rod.nodes() - 1;
         let shifted =
             |a: &rod::Attachment| rod::Attachment { node: (a.node + mesh.len()).saturating_sub(before), ..*a };
@@ -182,8 +184,7 @@ impl MovingLine {
         state.become_unpacked(rod, kept.motion).map_err(told)?;
         state.time = time - dt;
         if dt > 0.0 {
-            let of_first = |segment: usize| self.base.part.get(segment) == Some(&0);
-            wind(rod, state, (self.first, self.nominal, dt), of_first)?;
+            wind(rod, state, (self.first, self.nominal, dt), &self.base.bands)?;
         }
         warm.fit();
         let Warm { rod, solver, state, room, flows, .. } = warm;
@@ -216,7 +217,7 @@ impl MovingLine {
                 None => Balance::open(rod, state, world, solver, &forces),
             })
         });
-        self.layout.write(rod, state, room, trial)?;
+        self.layout.write((rod, &self.base.bands), state, room, trial)?;
         if let Some(balance) = books {
             self.layout.keep_books(&balance, trial);
         }
@@ -235,6 +236,10 @@ impl Element for MovingLine {
 
     fn nodes(&self) -> usize {
         self.layout.elements + 1
+    }
+
+    fn most_wound(&self) -> Option<f64> {
+        Some(most_wound(self.nominal))
     }
 
     fn bends(&self) -> bool {
@@ -258,12 +263,12 @@ impl Element for MovingLine {
         let Warm { rod, solver, room, flows, .. } = &mut *warm;
         let tangent = self.within((at.surroundings, true), flows, |world| solver.end_tangent(rod, world));
         answer(out, &found.forces, tangent.as_ref(), false)?;
-        self.layout.write(rod, &found.state, room, trial)?;
+        self.layout.write((rod, &self.base.bands), &found.state, room, trial)?;
         if let Some(step) = at.step {
             // a run begins here
             let mut state = found.state;
             state.time = step.time;
-            self.layout.write(rod, &state, room, trial)?;
+            self.layout.write((rod, &self.base.bands), &state, room, trial)?;
             let begun = trial.to_vec();
             if let Some(kept) = self.layout.read(&begun)? {
                 // its books are not open yet

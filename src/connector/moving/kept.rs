@@ -1,6 +1,7 @@
 //! The state of a line in an engine's vector of states: a flag, the mesh, and the motion of its nodes, in as much room as its longest
 //! mesh needs.
 
+use super::mesh::Bands;
 use crate::model::ClassError;
 use crate::rod::{Balance, Rod, State};
 
@@ -18,7 +19,7 @@ pub(super) struct Layout {
 /// A state as it stands in the engine's vector.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Kept<'a> {
-    /// Unstretched length (m), rate at which it grows (m/s) and segment of each element.
+    /// Unstretched length (m), rate at which it grows (m/s) and part of each element.
     mesh: &'a [f64],
     /// What [`State::pack`] made of the motion.
     pub motion: &'a [f64],
@@ -32,10 +33,11 @@ impl Kept<'_> {
         Kept { balance: None, ..self }
     }
 
-    /// The elements of its mesh, as [`Rod::mesh`] tells them.
+    /// The elements of its mesh, as [`Rod::mesh`] tells them, but for their parts in place of segments: how many of these a part has
+    /// may change during a run.
     pub fn mesh(&self) -> impl ExactSizeIterator<Item = (f64, f64, usize)> {
         let (each, _) = self.mesh.as_chunks::<EACH>();
-        each.iter().map(|[rest, rate, segment]| (*rest, *rate, *segment as usize))
+        each.iter().map(|[rest, rate, part]| (*rest, *rate, *part as usize))
     }
 }
 
@@ -76,7 +78,13 @@ impl Layout {
     }
 
     /// Writes a state that has begun; `room` is for its motion.
-    pub fn write(&self, rod: &Rod, state: &State, room: &mut Vec<f64>, out: &mut [f64]) -> Result<(), ClassError> {
+    pub fn write(
+        &self,
+        (rod, bands): (&Rod, &Bands),
+        state: &State,
+        room: &mut Vec<f64>,
+        out: &mut [f64],
+    ) -> Result<(), ClassError> {
         let wrong = || ClassError::new("the line has grown beyond what its winch was to pay out").lasting();
         let mesh = rod.each_of_mesh();
         room.clear();
@@ -89,7 +97,7 @@ impl Layout {
         let (elements, motion) = rest.split_at_mut_checked(EACH * self.elements).ok_or_else(wrong)?;
         let (own, free) = elements.split_at_mut_checked(EACH * mesh.len()).ok_or_else(wrong)?;
         for (place, (rest, rate, segment)) in own.as_chunks_mut::<EACH>().0.iter_mut().zip(mesh) {
-            *place = [rest, rate, segment as f64];
+            *place = [rest, rate, bands.part_of(segment) as f64];
         }
         free.fill(0.0);
         let (own, free) = motion.split_at_mut_checked(room.len()).ok_or_else(wrong)?;

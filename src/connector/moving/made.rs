@@ -4,7 +4,7 @@ use super::around::ground;
 use super::describe::{Description, Part};
 use super::element::MovingLine;
 use super::kept::Layout;
-use super::mesh::{Cut, SHORT, attachments, few, told};
+use super::mesh::{Cut, SHORT, attachments, few, mesh, told};
 use super::start;
 use super::warm::{Base, Held};
 use crate::model::{ClassError, Connection};
@@ -41,23 +41,22 @@ impl MovingLine {
         let flat = description.seabed.depth.or(around.depth).map(|d| -d);
         let floor = if plane.is_some() { None } else { flat };
         let shape = match &ambient {
-            Some(a) if a.growth(ends[0].z.min(ends[1].z)).0 > 0.0 || a.growth(around.tide).0 > 0.0 => {
-                start::points(&description.parts, &lengths, ends, floor, around)
-            }
+            Some(a) if a.grows() => start::points(&description.parts, &lengths, ends, floor, around),
             _ => Vec::new(),
         };
-        let cut = Cut::of(&description, ambient.as_deref(), &shape);
-        let mesh = cut.mesh(&description.parts, first);
-        let counts: Vec<usize> = (0..description.parts.len())
-            .map(|part| mesh.iter().filter(|e| cut.part.get(e.2) == Some(&part)).count())
-            .collect();
+        let cut = Cut::of(&description.parts, &lengths, ambient.as_deref(), &shape);
+        let mut mesh = mesh(&description.parts, first);
+        let counts: Vec<usize> =
+            (0..description.parts.len()).map(|part| mesh.iter().filter(|e| e.2 == part).count()).collect();
+        cut.bands.lay(&mut mesh);
         let attached = attachments(&description.parts, &counts, around.water_density);
         let nominal = description.parts.first().map_or(1.0, |p| p.segment.length / p.segment.elements.max(1) as f64);
         let rod = Rod::with_mesh(&connection.connector.name, cut.segments, attached.clone(), &mesh).map_err(told)?;
         // the same however much is wound: an element at the winch is never shorter than half of those of the class
         let of_first = counts.first().copied().unwrap_or(0);
-        let wound = connection.connector.longest.map(|l| (l / (SHORT * nominal)).ceil() as usize);
-        let capacity = (rod.nodes() - 1 - of_first).saturating_add(wound.map_or(of_first + 1, |most| most.saturating_add(2)));
+        let wound = connection.duty.longest.map(|l| (l / (SHORT * nominal)).ceil() as usize);
+        let capacity =
+            (rod.nodes() - 1 - of_first).saturating_add(wound.map_or(of_first + 1, |most| most.saturating_add(2)));
         if capacity > rod::MOST_ELEMENTS {
             return Err(ClassError::new(format!(
                 "its winch would make more than {} elements of it",
@@ -67,18 +66,18 @@ impl MovingLine {
         let per_node = State::packed(&rod).div_ceil(rod.nodes()) + 1;
         let holds = holds(&description, connection)?;
         let ground = ground(&description.seabed, rod.segments(), around);
-        let layout = Layout::new(capacity, per_node * (capacity + 2), connection.connector.books);
+        let layout = Layout::new(capacity, per_node * (capacity + 2), connection.duty.books);
         let base = Base {
             description,
             rod,
             attached,
-            part: cut.part,
+            bands: cut.bands,
             ambient,
             plane,
             flat,
             ground,
             holds,
-            freed: connection.connector.freed,
+            freed: connection.duty.freed,
             felt: [true, !connection.to_ground],
         };
         Ok(MovingLine { base: Arc::new(base), layout, first, nominal })

@@ -1,6 +1,6 @@
 //! Elements of a line, and those that a winch lets out or takes in.
 
-use super::describe::{Description, JointMass, Part};
+use super::describe::{JointMass, Part};
 use crate::model::{Ambient, ClassError};
 use crate::rod::{self, Attachment, Rod, RodError, Segment, State};
 use nalgebra::Vector3;
@@ -61,55 +61,90 @@ pub(super) fn few(parts: &[Part], first: f64) -> Result<(), ClassError> {
 /// Segments of a line: one a part, or one an element of the class where properties change along a part.
 pub(super) struct Cut {
     pub segments: Vec<Segment>,
-    /// Part of each segment.
-    pub part: Vec<usize>,
-    /// Segments of each part.
-    pub bands: Vec<usize>,
+    pub bands: Bands,
 }
 
 impl Cut {
-    /// As the class says; with growth that differs along the line, which is at `shape` when it is made, by element.
-    pub fn of(description: &Description, ambient: Option<&dyn Ambient>, shape: &[Vector3<f64>]) -> Cut {
-        let Description { parts, .. } = description;
-        let grows = |z: f64| ambient.map_or(0.0, |a| a.growth(z).0);
-        let grown = shape.iter().any(|p| grows(p.z) > 0.0);
-        let mut made = Cut { segments: Vec::new(), part: Vec::new(), bands: Vec::new() };
-        let whole: f64 = parts.iter().map(|p| p.segment.length).sum();
-        let mut before = 0.0;
-        for (index, part) in parts.iter().enumerate() {
-            let bands = if grown { part.segment.elements.max(1) } else { 1 };
-            for band in 0..bands {
-                let share = (before + part.segment.length * (band as f64 + 0.5) / bands as f64) / whole;
-                let segment = part.grown(ambient, elevation(shape, share));
-                let (length, elements) = (part.segment.length / bands as f64, part.segment.elements / bands);
+    /// As the class says; with growth along the line, which is at `shape` when it is made, by element. The parts have these lengths (m)
+    /// as they are wound.
+    pub fn of(parts: &[Part], lengths: &[f64], ambient: Option<&dyn Ambient>, shape: &[Vector3<f64>]) -> Cut {
+        let mut made = Cut { segments: Vec::new(), bands: Bands::default() };
+        let whole: f64 = lengths.iter().sum();
+        let mut behind = whole;
+        for (index, (part, now)) in parts.iter().zip(lengths).enumerate() {
+            behind -= now;
+            let count = if shape.is_empty() { 1 } else { part.segment.elements.max(1) };
+            let long = part.segment.length;
+            made.bands.each.push(Band { from: made.segments.len(), count, long });
+            for band in 0..count {
+                let back = behind + long * (1.0 - (band as f64 + 0.5) / count as f64);
+                let segment = part.grown(ambient, elevation(shape, (1.0 - back / whole).max(0.0)));
+                let (length, elements) = (long / count as f64, part.segment.elements / count);
                 made.segments.push(Segment { length, elements, ..segment });
-                made.part.push(index);
+                made.bands.part.push(index);
             }
-            made.bands.push(bands);
-            before += part.segment.length;
         }
         made
+    }
+}
+
+/// Equal lengths of a part, each a segment of the rod.
+#[derive(Clone, Copy, Debug)]
+struct Band {
+    /// First of the segments.
+    from: usize,
+    count: usize,
+    /// Length of the part as the class has it (m).
+    long: f64,
+}
+
+/// The segments of each part. How many there are is up to the environment; a mesh is one of parts, the same in all of them.
+#[derive(Debug, Default)]
+pub(super) struct Bands {
+    each: Vec<Band>,
+    /// Part of each segment.
+    part: Vec<usize>,
+}
+
+impl Bands {
+    /// The part of a segment.
+    pub fn part_of(&self, segment: usize) -> usize {
+        self.part.get(segment).copied().unwrap_or(0)
     }
 
-    /// The mesh of a line whose first part has a length (m).
-    pub fn mesh(&self, parts: &[Part], first: f64) -> Vec<(f64, f64, usize)> {
-        let mut made = Vec::new();
-        let mut from = 0;
-        for (index, (part, bands)) in parts.iter().zip(&self.bands).enumerate() {
-            let (mut length, mut count) = (part.segment.length, part.segment.elements);
-            if index == 0 && first != length {
-                count = wound(part, first) as usize;
-                length = first;
-            }
-            for element in 0..count {
-                // bands are counted from the far end, so that they stay where the line is wound
-                let back = (count - 1 - element) * bands / count;
-                made.push((length / count as f64, 0.0, from + bands - 1 - back));
-            }
-            from += bands;
-        }
-        made
+    /// Whether a part has several segments.
+    pub fn several(&self) -> bool {
+        self.part.len() > self.each.len()
     }
+
+    /// Gives the elements of a mesh of parts their segments, by what of the part lies behind the middle of each: what is wound at the
+    /// first end leaves the others where they are.
+    pub fn lay(&self, mesh: &mut [(f64, f64, usize)]) {
+        let (mut part, mut behind) = (usize::MAX, 0.0);
+        for (rest, _, place) in mesh.iter_mut().rev() {
+            if *place != part {
+                (part, behind) = (*place, 0.0);
+            }
+            let Some(Band { from, count, long }) = self.each.get(part) else { continue };
+            let back = ((behind + 0.5 * *rest) / long * *count as f64) as usize;
+            *place = from + count.saturating_sub(1 + back);
+            behind += *rest;
+        }
+    }
+}
+
+/// The mesh of a line whose first part has a length (m): unstretched length, rate and part of each element.
+pub(super) fn mesh(parts: &[Part], first: f64) -> Vec<(f64, f64, usize)> {
+    let mut made = Vec::new();
+    for (index, part) in parts.iter().enumerate() {
+        let (mut length, mut count) = (part.segment.length, part.segment.elements);
+        if index == 0 && first != length {
+            count = wound(part, first) as usize;
+            length = first;
+        }
+        made.extend((0..count).map(|_| (length / count as f64, 0.0, index)));
+    }
+    made
 }
 
 /// Elevation (m) at a share of the length of a row of points.
@@ -175,41 +210,50 @@ pub(super) fn attachments(parts: &[Part], counts: &[usize], density: f64) -> Vec
     made
 }
 
-/// Takes the first part of a line to another length (m) over a step (s): elements appear at its first end or go.
+/// Takes the first part of a line to another length (m) over a step (s): elements appear at its first end or go. Of a change by more than
+/// [`most_wound`] the element there stays longer than it should.
 pub(super) fn wind(
     rod: &mut Rod,
     state: &mut State,
     (first, nominal, dt): (f64, f64, f64),
-    of_first: impl Fn(usize) -> bool,
-) -> Result<bool, ClassError> {
-    let own = rod.each_of_mesh().take_while(|e| of_first(e.2));
+    bands: &Bands,
+) -> Result<(), ClassError> {
+    let own = rod.each_of_mesh().take_while(|e| bands.part_of(e.2) == 0);
     let (count, now) = own.fold((0, 0.0), |(count, sum), e| (count + 1, sum + e.0));
     let change = first - now;
-    let mut mesh = rod.each_of_mesh();
-    let Some((rest, rate, segment)) = mesh.next() else { return Ok(false) };
-    let after = mesh.next();
-    drop(mesh);
+    let Some((mut rest, rate, _)) = rod.each_of_mesh().next() else { return Ok(()) };
     if change.abs() <= 1e-12 * now {
         if rate != 0.0 {
             rod.set_length(0, rest, 0.0).map_err(told)?;
         }
-        return Ok(rate != 0.0);
+        return Ok(());
     }
-    let mut at = rest;
     if change > 0.0 && rest + change > LONG * nominal {
         rod.divide(0, state).map_err(told)?;
-        at = 0.5 * rest;
-    } else if change < 0.0
-        && rest + change < SHORT * nominal
-        && count > 1
-        && let Some((next, _, other)) = after
-        && other == segment
-    {
-        rod.join(0, state).map_err(told)?;
-        at = rest + next;
+        rest *= 0.5;
     }
-    rod.set_length(0, at + change, change / dt).map_err(told)?;
-    Ok(true)
+    if change < 0.0 && rest + change < SHORT * nominal && count > 1 {
+        let next = rod.each_of_mesh().nth(1).map_or(0.0, |e| e.0);
+        rod.join(0, state).map_err(told)?;
+        rest += next;
+    }
+    rod.set_length(0, rest + change, change / dt).map_err(told)?;
+    if bands.several() {
+        // what is wound may lie in another band than it did
+        let mut mesh: Vec<_> = rod.each_of_mesh().map(|(rest, rate, at)| (rest, rate, bands.part_of(at))).collect();
+        bands.lay(&mut mesh);
+        if !rod.each_of_mesh().eq(mesh.iter().copied()) {
+            let attached = rod.attachments().to_vec();
+            *rod = Rod::with_mesh(rod.name(), rod.segments().to_vec(), attached, &mesh).map_err(told)?;
+        }
+    }
+    Ok(())
+}
+
+/// The most by which a winch may change a line in one step (m): an element at the winch is divided or taken in once, and is then as long as
+/// [`LONG`] and [`SHORT`] say.
+pub(super) fn most_wound(nominal: f64) -> f64 {
+    SHORT * nominal
 }
 
 #[cfg(test)]

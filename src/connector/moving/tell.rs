@@ -25,7 +25,7 @@ impl MovingLine {
         out.clear();
         let found = self.within((at.surroundings, still), &mut Vec::new(), |world| rod.results(&state, world, &ends));
         // the class speaks of its parts, of which a rod may have several segments
-        let part = |n: LineNode| LineNode { segment: self.base.part.get(n.segment).copied().unwrap_or(0), ..n };
+        let part = |n: LineNode| LineNode { segment: self.base.bands.part_of(n.segment), ..n };
         out.extend(found.into_iter().map(part));
         Ok(())
     }

@@ -1,6 +1,7 @@
 //! What a line that moves by itself is made of, and what its solver remembers.
 
 use super::describe::Description;
+use super::mesh::Bands;
 use crate::model::{Ambient, Flow};
 use crate::rod::{self, Ground, PlaneBottom, Rod, Settings, Solver, State};
 use nalgebra::Vector3;
@@ -18,8 +19,8 @@ pub(super) struct Base {
     pub description: Description,
     pub rod: Rod,
     pub attached: Vec<rod::Attachment>,
-    /// Part of each segment of the rod.
-    pub part: Vec<usize>,
+    /// Which segments of the rod are those of each part.
+    pub bands: Bands,
     pub ambient: Option<Arc<dyn Ambient>>,
     pub plane: Option<PlaneBottom>,
     /// Elevation of a flat bottom (m), where one is known.
@@ -92,7 +93,7 @@ mod tests {
             description: description("ROD", vec![], Seabed::default(), [None, None]),
             rod: rod.clone(),
             attached: vec![],
-            part: vec![0],
+            bands: Bands::default(),
             ambient: None,
             plane: None,
             flat: None,

@@ -14,9 +14,10 @@
 //! (u . grad u), the slap on sections that enter the water (category SLAM), and drag of flat ends are left out.
 //!
 //! The body's part of the added mass under the mean level, where the body was when the load was made, is part of its inertia. What the
-//! surface and the motion take or give is a force in a step of time: `-(A(t) - A) (v - v_before) / dt`, A(t) of the place expected at
-//! the end of the step. That is implicit and stays stable, as no difference is larger than the added mass itself. A member whose wet
-//! length changes so does no work of its own: the formula has `A(t) b` and not `d(A v)/dt`, whose rest is slamming.
+//! surface and the motion take or give, `A(t) - A` with A(t) of the place expected at the end of the step, is inertia of the step: it acts
+//! on the acceleration at the end of the step, so that a run is of the order of its scheme; on the difference of velocities over the step
+//! it would be late by half a step. A member whose wet length changes so does no work of its own: the formula has `A(t) b` and not
+//! `d(A v)/dt`, whose rest is slamming.
 //!
 //! Water is asked for once a step, at four Gauss points of each segment (and four more where its sections are cut, or the profile
 //! of the current has a point), at the place
@@ -249,10 +250,8 @@ impl BodyLoad for Members {
         }
     }
 
-    fn commit(&self, at: &Underway, state: &mut [f64]) {
-        if let Some(way) = &self.under_way {
-            way.commit(at, state);
-        }
+    fn inertia(&self, state: &[f64]) -> Option<Matrix6<f64>> {
+        self.under_way.as_ref().map(|_| UnderWay::inertia(state))
     }
 
     fn apart(&self, at: &Underway, state: &[f64]) -> Option<(Category, Six)> {

@@ -10,11 +10,10 @@ use crate::model::Six;
 use nalgebra::{Matrix6, Vector3};
 use std::sync::Arc;
 
-/// What is kept first: force of waves, difference of added mass, velocity at the end of the last step.
+/// What is kept first: force of waves, difference of added mass.
 const WAVE: usize = 0;
 const ADDED: usize = 6;
-const BEFORE: usize = 42;
-const HEAD: usize = 48;
+const HEAD: usize = 42;
 /// Of each segment: height of the surface over the mean level, and whether that may change what is wet of it.
 const SEGMENT: usize = 2;
 /// Of each station: the drag factors times its length, the axis, its arm, and the velocity of the water.
@@ -132,9 +131,6 @@ impl UnderWay {
         for (kept, value) in head.iter_mut().skip(ADDED).zip(mass.iter()) {
             *kept = *value;
         }
-        if ahead.dt == 0.0 {
-            self.commit(ahead, state);
-        }
     }
 
     /// One member: the force of the waves on it but for hydrostatics, and its added mass; its segments are kept.
@@ -241,7 +237,7 @@ impl UnderWay {
     }
 
     pub(super) fn moving(&self, rods: &[Rod], at: &Underway, state: &[f64]) -> MovingLoad {
-        let (drag, mut damping) = self.drag(at, state);
+        let (drag, damping) = self.drag(at, state);
         let mut load = Load { wrench: drag + six(state, WAVE), stiffness: Matrix6::zeros() };
         let segments = rods.iter().flat_map(|rod| rod.segments.iter().map(move |tube| (rod, tube)));
         for ((rod, tube), kept) in segments.zip(state.get(HEAD..).unwrap_or_default().chunks_exact(SEGMENT)) {
@@ -256,18 +252,12 @@ impl UnderWay {
             load.wrench += more.wrench;
             load.stiffness += more.stiffness;
         }
-        if at.dt > 0.0 {
-            let difference = Matrix6::from_iterator(state.iter().skip(ADDED).copied().chain([0.0; 36]).take(36));
-            load.wrench -= difference * ((at.velocity - six(state, BEFORE)) / at.dt);
-            damping += difference / at.dt;
-        }
         MovingLoad { load, damping }
     }
 
-    pub(super) fn commit(&self, at: &Underway, state: &mut [f64]) {
-        for (kept, value) in state.iter_mut().skip(BEFORE).zip(at.velocity.iter()) {
-            *kept = *value;
-        }
+    /// Added mass of what is wet beyond what the body's inertia holds, global axes.
+    pub(super) fn inertia(state: &[f64]) -> Matrix6<f64> {
+        Matrix6::from_iterator(state.iter().skip(ADDED).copied().chain([0.0; 36]).take(36))
     }
 }
 

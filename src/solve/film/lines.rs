@@ -2,7 +2,8 @@
 
 use crate::model::{ClassError, Condition, Connector, Model, Placement, Position};
 use crate::solve::scene::{CORNER, cubic};
-use crate::solve::time::{Layout, LinkColumns};
+use crate::solve::results::along::{Section, most_used, sections, segments_at};
+use crate::solve::time::{AlongColumns, Layout, LinkColumns};
 use crate::table::{Cell, Table};
 
 /// How a connector is at an instant.
@@ -37,6 +38,10 @@ pub struct Strand {
     pub(super) bottom: Option<f64>,
     /// Why it was last without a shape.
     pub(super) error: Option<String>,
+    /// Whether it moves by itself and the run kept none of its nodes.
+    pub(super) nodeless: bool,
+    /// What it is made of, of one whose nodes were kept.
+    sections: Vec<Section>,
     link: usize,
 }
 
@@ -53,9 +58,12 @@ impl Strand {
     pub(super) fn new(link: usize, columns: &LinkColumns, model: &Model) -> Option<Strand> {
         let connector = model.connectors.get(&Model::key(&columns.name))?;
         let class = model.classes.get(&Model::key(&connector.class))?;
+        let kept = columns.along.is_some();
         Some(Strand {
             name: connector.name.clone(),
-            line: class.object.is_line(),
+            line: kept || class.object.is_line(),
+            nodeless: !kept && model.moves(connector),
+            sections: if kept { sections(model, &connector.name) } else { Vec::new() },
             count: 0,
             points: Vec::new(),
             tensions: Vec::new(),
@@ -86,8 +94,13 @@ impl Strand {
         });
         let pull = pull.unwrap_or(0.0);
         self.count = if self.line { points.max(2) } else { 2 };
+        let moved = || moved(columns?.along.as_ref()?, row, &self.sections, self.count);
         let (shape, state) = match (active, self.line) {
             (false, _) => (self.straight(model, connector, 0.0), State::Inactive),
+            (true, _) if self.kept(columns) => match moved() {
+                Some(shape) => (shape, State::Acting),
+                None => (self.straight(model, connector, pull), State::Unsolved),
+            },
             (true, false) => (self.straight(model, connector, pull), State::Acting),
             (true, true) => match hanging(model, connector, self.count) {
                 Ok(Some(shape)) => (shape, State::Acting),
@@ -103,6 +116,11 @@ impl Strand {
         self.tensions.extend(shape.tensions);
         self.shares.extend(shape.shares);
         self.states.push(state);
+    }
+
+    /// Whether its nodes were kept.
+    fn kept(&self, columns: Option<&LinkColumns>) -> bool {
+        columns.is_some_and(|c| c.along.is_some())
     }
 
     /// Straight between the ends.
@@ -130,6 +148,30 @@ impl Strand {
     pub fn at(&self, frame: usize) -> &[Position] {
         self.points.get(frame * self.count..(frame + 1) * self.count).unwrap_or_default()
     }
+}
+
+/// A line that moves by itself as its nodes were, a number of points evenly along its length, straight between nodes; `None` where none
+/// of them is there.
+fn moved(along: &AlongColumns, row: &[f64], sections: &[Section], count: usize) -> Option<Shape> {
+    let nodes: Vec<_> = along.nodes(row).map(|(_, node)| node).collect();
+    let (first, last) = (nodes.first()?.arc, nodes.last()?.arc);
+    let mut shape = Shape { points: Vec::new(), tensions: Vec::new(), shares: Vec::new(), bottom: None };
+    for n in 0..count {
+        let share = n as f64 / (count - 1).max(1) as f64;
+        let wanted = if n + 1 == count { last } else { first + (last - first) * share };
+        let behind = nodes.partition_point(|node| node.arc < wanted).min(nodes.len() - 1);
+        let (a, b) = (nodes.get(behind.saturating_sub(1))?, nodes.get(behind)?);
+        let room = b.arc - a.arc;
+        let t = if room > 0.0 { (wanted - a.arc) / room } else { 1.0 };
+        let tension = a.effective + t * (b.effective - a.effective);
+        let meeting = sections.get(segments_at(sections, last - wanted)).unwrap_or_default();
+        shape.points.push(std::array::from_fn(|i| a.position[i] + t * (b.position[i] - a.position[i])));
+        shape.tensions.push(tension);
+        shape.shares.push(most_used(meeting, tension, None).unwrap_or(f64::NAN));
+    }
+    let over = nodes.iter().find(|node| node.clearance.is_finite());
+    shape.bottom = over.map(|node| node.position[2] - node.clearance);
+    Some(shape)
 }
 
 /// A mooring line as it hangs between its ends; `None` of one that is straight.

@@ -1,7 +1,7 @@
 //! A run as a film: bodies, and lines in the shape they hang in, at a number of instants.
 //!
-//! Shapes are solved exactly between the ends at the instant, whatever the forces of the run came from, as those of a
-//! [`Scene`](super::scene::Scene) are.
+//! A line that moves by itself is where its nodes were, which the run kept. The shapes of others are solved exactly between the ends at the
+//! instant, whatever the forces of the run came from, as those of a [`Scene`](super::scene::Scene) are.
 
 mod between;
 mod lines;
@@ -231,6 +231,12 @@ impl Film {
             let count = strand.states.iter().filter(|s| **s == State::Unsolved).count();
             if let (Some(error), 1..) = (&strand.error, count) {
                 self.notes.push(format!("{} is straight at {count} instants: {error}", strand.name));
+            }
+            if strand.nodeless {
+                self.notes.push(format!(
+                    "{} is not shown as it moved: the run kept none of its nodes (TDOM -ALONG 1 keeps all)",
+                    strand.name
+                ));
             }
         }
     }

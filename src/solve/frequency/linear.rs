@@ -7,7 +7,7 @@ use crate::language::units::Dim;
 use crate::model::{Amplitudes, AttachedDatabase, ClassError, DriftMethod, DriftTable, Model, Pose, Qtf, Six};
 use crate::solve::modes::held;
 use crate::solve::system::{FREEDOMS, SolveError, State, System, mass_block};
-use crate::solve::time::{Forces, Memory, Motion};
+use crate::solve::time::{Duties, Forces, Memory, Motion};
 use nalgebra::{Complex, DMatrix, DVector, Matrix6};
 use std::f64::consts::TAU;
 
@@ -304,7 +304,7 @@ fn calm(model: &Model) -> Result<System, SolveError> {
     let mut calm = model.clone();
     calm.bodies.values_mut().for_each(|b| b.database = None);
     calm.environment.gusts = None;
-    System::under_way(&calm, None)
+    System::under_way(&calm, None, Duties::default())
 }
 
 /// What resists velocities, six a body.

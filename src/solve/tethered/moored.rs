@@ -5,6 +5,7 @@ use crate::model::{Body, ClassError, Model, Pose, Six};
 use crate::model::{End, Response, Situation, Surroundings, TimeStep};
 use crate::solve::link::{Attachment, Link, link, pose_of};
 use crate::solve::system::SolveError;
+use crate::solve::time::Duties;
 use crate::tether::structure::flow::FlowAt;
 use crate::tether::structure::{Forces, Structure};
 use nalgebra::Vector3;
@@ -42,7 +43,7 @@ impl Moored {
             if !super::case::sections(model, connector).is_empty() {
                 continue;
             }
-            let made = link((model, &ambient), connector, &mut states)?;
+            let made = link((model, &ambient, &Duties::default()), connector, &mut states)?;
             if made.element.moves() {
                 let error = ClassError::new("a line that moves by itself cannot run beside tethers").at(connector.span);
                 let error = error.help("release it, or give a class without dynamics of its own");

@@ -126,7 +126,7 @@ pub struct Forces {
     pub stiffness: DMatrix<f64>,
     /// -d(sum)/d(velocity of the bodies).
     pub damping: DMatrix<f64>,
-    /// -d(sum)/d(acceleration of the bodies): of connectors with inertia of their own.
+    /// -d(sum)/d(acceleration of the bodies): of connectors with inertia of their own, and of loads.
     pub inertia: DMatrix<f64>,
     /// Largest force of a connector on each body (N).
     pub pull: Vec<f64>,
@@ -141,6 +141,8 @@ pub struct Forces {
     foretelling: Foretelling,
     /// Whether a connector has inertia of its own.
     pub(super) moving: bool,
+    /// Whether a load adds to the inertia of its body.
+    carried: bool,
     /// Those of them, evaluated side by side.
     pub(super) alone: Vec<Alone>,
     made: MovingLoad,
@@ -172,6 +174,7 @@ impl Forces {
         self.categories.clear();
         self.categories.resize(system.nodes.len(), [Six::zeros(); CATEGORIES]);
         self.wrenches.clear();
+        self.carried = false;
         self.moving = system.links.iter().any(|l| l.element.moves());
         self.guesses.resize_with(system.links.len(), || None);
         self.trial.clear();
@@ -185,7 +188,7 @@ impl Forces {
 
     /// They are those of the end of a step of a length (s).
     pub(super) fn settle(&mut self, dt: f64) {
-        if self.moving {
+        if self.moving || self.carried {
             self.foretelling.take_inertia(dt, &self.inertia);
         }
         self.foretelling.take(dt, &self.stiffness, &self.damping);
@@ -201,8 +204,16 @@ impl Forces {
         if self.moving {
             self.foretelling.begin(&self.sum);
         }
-        self.foretelling.add(dt, motions, &mut self.sum)
-            && (!self.moving || self.foretelling.add_moving((motions.0, motions.1), &mut self.sum))
+        if !self.foretelling.add(dt, motions, &mut self.sum) {
+            return false;
+        }
+        if self.moving {
+            return self.foretelling.add_moving((motions.0, motions.1), &mut self.sum);
+        }
+        if self.carried {
+            self.foretelling.add_inertia((motions.0, motions.1), &mut self.sum);
+        }
+        true
     }
 
     /// They are those of a trial that holds, of a step of a length (s): what foretells the next learns by it.
@@ -234,6 +245,12 @@ impl Forces {
                 load.add(&at, state, &mut self.made).map_err(SolveError::of(&node.name))?;
                 let wrench = self.made.load.wrench;
                 self.add(body, place_of(load.category()), &wrench);
+                if let Some(inertia) = load.inertia(state) {
+                    self.add(body, place_of(load.category()), &-(inertia * motion.acceleration));
+                    let mut block = self.inertia.fixed_view_mut::<6, 6>(6 * body, 6 * body);
+                    block += inertia;
+                    self.carried = true;
+                }
                 if let Some((other, part)) = load.apart(&at, state) {
                     self.count_as(body, (place_of(load.category()), place_of(other)), &part);
                 }

@@ -103,7 +103,11 @@ impl Foretelling {
         true
     }
 
-    fn add_inertia(&self, (trial, start): (&[Motion], &[Motion]), sum: &mut DVector<f64>) {
+    /// Adds to the forces of the start of a step what accelerations make of them over it.
+    pub(super) fn add_inertia(&self, (trial, start): (&[Motion], &[Motion]), sum: &mut DVector<f64>) {
+        if self.inertia.mean.nrows() != sum.len() {
+            return;
+        }
         for (body, (trial, start)) in trial.iter().zip(start).enumerate() {
             let harder = trial.acceleration - start.acceleration;
             sum.gemv(-1.0, &self.inertia.mean.fixed_columns::<6>(6 * body), &harder, 1.0);

@@ -1,11 +1,15 @@
 //! What happens on the way of a run: conditions are looked at behind every step, which is cut where one comes true, connectors come and go, lengths change.
 
-use super::action::{Action, Watched, What, When, point_in_body};
+use super::action::{Watched, What, When, point_in_body};
 use super::run::Run;
 use crate::hydro::sea::Sea;
+use crate::language::units::Dim;
 use crate::model::{ClassError, Model, Position};
 use crate::solve::system::SolveError;
 use std::sync::Arc;
+
+/// Most parts of a step that is divided for what is wound in it.
+const MOST_PARTS: f64 = 1000.0;
 
 /// What is winched, and how long it was.
 #[derive(Debug, Default)]
@@ -25,22 +29,30 @@ impl Run {
         Ok(())
     }
 
-    /// Tells lines that move by themselves how long their winches make them.
-    pub(super) fn foresee_winches(model: &mut Model, actions: &[Action], observed: f64) {
-        for action in actions {
-            let What::Winch(names, rate, to) = &action.what else { continue };
-            for name in names {
-                let key = Model::key(name);
-                let Some(now) = model.connectors.get(&key).and_then(|c| model.first_length(c)) else { continue };
-                let paid = to.unwrap_or(now + rate.max(0.0) * observed);
-                if let Some(connector) = model.connectors.get_mut(&key) {
-                    let before = connector.longest.unwrap_or(now);
-                    // winches that follow one another add up
-                    let longest = if to.is_some() { before.max(paid) } else { before + (paid - now).max(0.0) };
-                    connector.longest = Some(longest);
-                }
-            }
+    /// In how many parts a step of the run is taken while a line is wound at a rate (m/s): its elements appear and go one by one.
+    fn parts_to_wind(&self, name: &str, rate: f64) -> Result<f64, SolveError> {
+        let Some(link) = self.system.links.iter().find(|l| l.name.eq_ignore_ascii_case(name)) else { return Ok(1.0) };
+        let Some(most) = link.element.most_wound() else { return Ok(1.0) };
+        let parts = (rate.abs() * self.settings.dt / most).ceil().max(1.0);
+        if parts <= MOST_PARTS {
+            return Ok(parts);
         }
+        let text = format!(
+            "its winch takes {{}} in a step of {{}}, which would need {parts:.0} parts of the step for elements of {{}} each; at most {MOST_PARTS} are taken"
+        );
+        let values =
+            [(rate.abs() * self.settings.dt, Dim::Length), (self.settings.dt, Dim::Time), (2.0 * most, Dim::Length)];
+        let error = ClassError::of(text, &values).help("a lower rate, a shorter step of -TIME of &ENV, or fewer elements by -REFINE");
+        Err(SolveError { who: Some(link.name.clone()), error })
+    }
+
+    /// The longest part of a step (s) that lines under a winch allow.
+    pub(super) fn part_to_wind(&self) -> Result<f64, SolveError> {
+        let mut most: f64 = 1.0;
+        for (name, rate, _) in &self.winches {
+            most = most.max(self.parts_to_wind(name, *rate)?);
+        }
+        Ok(self.settings.dt / most)
     }
 
     pub(super) fn check_actions(&self) -> Result<(), SolveError> {
@@ -49,8 +61,9 @@ impl Run {
             if let When::Above(Watched::Height(point), _) | When::Below(Watched::Height(point), _) = &action.when {
                 point_in_body(&self.model, point).map_err(wrong)?;
             }
-            if let What::Winch(names, ..) = &action.what {
+            if let What::Winch(names, rate, _) = &action.what {
                 for name in names {
+                    self.parts_to_wind(name, *rate)?;
                     let connector = self.model.connectors.get(&Model::key(name));
                     if connector.is_none_or(|c| self.model.first_length(c).is_none()) {
                         return Err(wrong(ClassError::new(format!("connector {name} has no length to change"))));
@@ -203,9 +216,10 @@ impl Run {
                     // a line that moves by itself is let go at its first end, and falls
                     let falls = self.system.moves(name);
                     if let Some(connector) = self.model.connectors.get_mut(&Model::key(name)) {
-                        (connector.active, connector.freed) = (falls, falls);
+                        connector.active = falls;
                     }
                     if falls {
+                        self.system.duties.let_go(name, true);
                         self.system.make_anew(&self.model, name)?;
                     } else {
                         self.system.leave_out(name);
@@ -215,11 +229,11 @@ impl Run {
             What::Activate(names) => {
                 for name in names {
                     if let Some(connector) = self.model.connectors.get_mut(&Model::key(name)) {
-                        if connector.freed {
-                            // what has fallen is brought back as it first hung
-                            self.system.leave_out(name);
-                        }
-                        (connector.active, connector.freed) = (true, false);
+                        connector.active = true;
+                    }
+                    if self.system.duties.let_go(name, false) {
+                        // what has fallen is brought back as it first hung
+                        self.system.leave_out(name);
                     }
                     self.system.take_in(&self.model, name)?;
                 }

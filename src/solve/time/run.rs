@@ -3,6 +3,7 @@
 use super::action::Action;
 use super::along::AlongEnvelope;
 use super::course::{Counts, Ending, Settings, Watcher};
+use super::duties::Duties;
 use super::forces::{Memory, Motion};
 use super::history::{History, Layout, Told};
 use super::inertia::gyroscopic;
@@ -82,11 +83,10 @@ impl Run {
     /// # Errors
     /// The body or connector that makes no part of it; an action on what is not there.
     pub fn new(model: &Model, settings: Settings, actions: Vec<Action>) -> Result<Self, SolveError> {
-        let (origin, mut model) = (model.clone(), model.clone());
-        Run::foresee_winches(&mut model, &actions, settings.observed);
-        model.connectors.values_mut().for_each(|c| c.books = settings.books);
+        let (origin, model) = (model.clone(), model.clone());
         let sea = Sea::of(&model, &model.environment).map_err(SolveError::new)?.map(Arc::new);
-        let system = System::under_way(&model, sea.as_ref())?;
+        let duties = Duties::foreseen(&model, &actions, settings.observed, settings.books);
+        let system = System::under_way(&model, sea.as_ref(), duties)?;
         let mut links = system.link_ends();
         for name in actions.iter().flat_map(|a| a.connectors()) {
             if !links.iter().any(|l| l.name.eq_ignore_ascii_case(name)) {
@@ -231,6 +231,9 @@ impl Run {
                 return Ok(None);
             }
             let mut part = (self.settings.dt / f64::from(1u32 << (level + sought).min(HALVINGS))).min(left);
+            if !self.winches.is_empty() {
+                part = part.min(self.part_to_wind()?);
+            }
             // an action at a time ends a step there
             if let Some(at) = self.next_action(end)
                 && at > self.now.time + 1e-9 * self.settings.dt

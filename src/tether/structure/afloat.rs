@@ -72,9 +72,13 @@ impl Structure for Afloat {
             moves[i] -= turning[i];
         }
         let own = Underway { pose: &origin, velocity: &moves, ..*at };
+        out.inertia = in_pose(&self.inertia, at.pose);
         for (load, state) in self.loads.iter().zip(&mut self.states) {
             load.begin(&own, state)?;
             let wrench = carried(&load.moving(&own, state)?.load.wrench, -arm);
+            if let Some(more) = load.inertia(state) {
+                out.inertia += transferred(&more, -arm, -arm);
+            }
             match load.category() {
                 Category::Weight => out.gravity += wrench,
                 Category::Buoyancy => out.hydrostatic += wrench,
@@ -89,7 +93,6 @@ impl Structure for Afloat {
         let turned: Vector3<f64> = axes * self.turning * axes.transpose() * spin;
         let gyroscopic = -spin.cross(&turned);
         out.gyroscopic = Six::new(0.0, 0.0, 0.0, gyroscopic.x, gyroscopic.y, gyroscopic.z);
-        out.inertia = in_pose(&self.inertia, at.pose);
         Ok(())
     }
 }

@@ -13,7 +13,7 @@ use crate::table::{Cell, Digits, Table};
 ///
 /// # Errors
 /// What telling comes to.
-pub(super) fn standing(
+pub(in crate::solve) fn standing(
     model: &Model,
     fits: &dyn Fn(&str) -> bool,
     mut tell: impl FnMut(&Connector, &dyn Element, &Situation, &[f64]) -> Result<(), SolveError>,

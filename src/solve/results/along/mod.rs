@@ -12,6 +12,7 @@ mod shape;
 mod touchdown;
 
 pub use at_rest::lines_at_rest;
+pub(in crate::solve) use at_rest::standing;
 pub use check::{Code, check};
 pub use envelope::envelope;
 pub use fatigue::along as fatigue_along;
@@ -32,7 +33,7 @@ pub(super) const CLEARANCE: Digits = Digits::Decimals(3);
 
 /// A segment of the line.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Section {
+pub(in crate::solve) struct Section {
     /// What fatigue and break go by.
     pub segment: FatigueSegment,
     /// Its tube, where it has a wall.
@@ -54,7 +55,7 @@ impl Section {
     }
 
     /// The share of the yield stress that its tube uses, or tension over break of another section.
-    pub(super) fn used(&self, tension: f64, yields: Option<f64>) -> f64 {
+    pub(in crate::solve) fn used(&self, tension: f64, yields: Option<f64>) -> f64 {
         match (&self.tube, yields) {
             (Some(_), Some(share)) => share,
             _ => (tension / self.segment.breaking).max(0.0),
@@ -63,12 +64,12 @@ impl Section {
 }
 
 /// The most that sections which meet at a node use; none without sections.
-pub(super) fn most_used(sections: &[Section], tension: f64, yields: Option<f64>) -> Option<f64> {
+pub(in crate::solve) fn most_used(sections: &[Section], tension: f64, yields: Option<f64>) -> Option<f64> {
     sections.iter().map(|s| s.used(tension, yields)).reduce(f64::max)
 }
 
 /// The segments of the class of a connector, from its first end.
-pub(super) fn sections(model: &Model, name: &str) -> Vec<Section> {
+pub(in crate::solve) fn sections(model: &Model, name: &str) -> Vec<Section> {
     let connector = model.connectors.get(&Model::key(name));
     let Some(class) = connector.and_then(|c| model.classes.get(&Model::key(&c.class))) else { return Vec::new() };
     // a bar that does not bend is a chain or rope
@@ -90,7 +91,7 @@ pub(super) fn sections(model: &Model, name: &str) -> Vec<Section> {
 
 /// The numbers of the segments (from 0) that a place is in, by its unstretched distance from the second end (m): where two meet both,
 /// that toward the second end last. The first segment is as long as a winch has made it.
-pub(super) fn segments_at(sections: &[Section], from_second: f64) -> RangeInclusive<usize> {
+pub(in crate::solve) fn segments_at(sections: &[Section], from_second: f64) -> RangeInclusive<usize> {
     // a length added up of those of elements has their rounding
     let within = |slack: f64| {
         let mut left = from_second;

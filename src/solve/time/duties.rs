@@ -1,0 +1,47 @@
+//! What a run asks of its lines that move by themselves: they are made for it.
+
+use super::action::{Action, What};
+use crate::model::{LineDuty, Model};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// What a run asks, by the keys of connectors; nothing where there is no run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Duties {
+    /// Whether books of energy and momentum are kept.
+    books: bool,
+    /// The longest that winches make first segments (m).
+    longest: BTreeMap<String, f64>,
+    /// Those whose first end is let go.
+    freed: BTreeSet<String>,
+}
+
+impl Duties {
+    /// Those of a run over a time (s) at its start.
+    pub fn foreseen(model: &Model, actions: &[Action], observed: f64, books: bool) -> Self {
+        let mut longest: BTreeMap<String, f64> = BTreeMap::new();
+        for action in actions {
+            let What::Winch(names, rate, to) = &action.what else { continue };
+            for name in names {
+                let key = Model::key(name);
+                let Some(now) = model.connectors.get(&key).and_then(|c| model.first_length(c)) else { continue };
+                let paid = to.unwrap_or(now + rate.max(0.0) * observed);
+                let most = longest.entry(key).or_insert(now);
+                // winches that follow one another add up
+                *most = if to.is_some() { most.max(paid) } else { *most + (paid - now).max(0.0) };
+            }
+        }
+        Duties { books, longest, freed: BTreeSet::new() }
+    }
+
+    /// Lets the first end of a line go, or holds it again; whether that is other than it was.
+    pub fn let_go(&mut self, name: &str, free: bool) -> bool {
+        let key = Model::key(name);
+        if free { self.freed.insert(key) } else { self.freed.remove(&key) }
+    }
+
+    /// What is asked of a connector.
+    pub fn of(&self, name: &str) -> LineDuty {
+        let key = Model::key(name);
+        LineDuty { longest: self.longest.get(&key).copied(), books: self.books, freed: self.freed.contains(&key) }
+    }
+}
