@@ -45,6 +45,10 @@ impl FluidField for Water<'_> {
     fn uniform(&self) -> bool {
         self.ambient.is_none()
     }
+
+    fn interrupted(&self) -> bool {
+        self.ambient.is_some_and(|a| a.interrupted())
+    }
 }
 
 impl Water<'_> {

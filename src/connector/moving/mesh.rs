@@ -14,7 +14,7 @@ pub(super) const SHORT: f64 = 0.5;
 /// An error of a rod for the user, who is told its name elsewhere.
 pub(super) fn told(error: RodError) -> ClassError {
     // what a winch does to a line within a step it may do in two
-    let lasting = matches!(error, RodError::Property { .. } | RodError::TooLarge { .. });
+    let lasting = matches!(error, RodError::Property { .. } | RodError::TooLarge { .. } | RodError::Interrupted { .. });
     let made = ClassError::new(match error {
         RodError::Property { segment, what, value, expected, .. } => {
             format!("in segment {segment} {what} is {value}; {expected}")
@@ -28,6 +28,7 @@ pub(super) fn told(error: RodError) -> ClassError {
                 "its rod has no solution at {time} s by steps down to {step:.1e} s; worst at element {element}: {why}"
             )
         }
+        RodError::Interrupted { .. } => "interrupted".to_string(),
         RodError::Statics { iterations, residual, element, .. } => {
             format!("its rod finds no rest in {iterations} iterations: {residual:.2e} N is left at element {element}")
         }
