@@ -47,35 +47,57 @@ pub(super) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<
     Ok(())
 }
 
-/// Whether a connector lies on a plane bottom whatever the bottom of the environment is.
-fn on_plane(model: &Model, connector: &Connector) -> bool {
-    let class = model.classes.get(&Model::key(&connector.class));
-    connector.points.len() < 2 && connector.dynamics.is_none() && class.is_some_and(|c| c.object.lies_on_plane())
+/// A plane bottom that a line lies on whatever the environment says.
+#[derive(Clone, Copy, PartialEq)]
+enum Plane {
+    /// Through the anchor, of a line that does not move by itself.
+    Anchor,
+    /// As -SLOPE of the class says, of one that does.
+    Slope,
+}
+
+/// The plane of its own that a line lies on, if any.
+fn plane_of(model: &Model, connector: &Connector) -> Option<Plane> {
+    let class = &model.classes.get(&Model::key(&connector.class))?.object;
+    if model.moves(connector) {
+        return class.slopes().then_some(Plane::Slope);
+    }
+    (connector.points.len() < 2 && class.lies_on_plane()).then_some(Plane::Anchor)
 }
 
 /// Says of lines on a plane bottom of their own that the bottom just put in force is none.
 pub(super) fn planes(job: &mut Job, given: Option<&Given>) {
     let (Some(given), Some(named)) = (given, &job.model.environment.bathymetry) else { return };
-    let lines: Vec<&str> =
-        job.model.connectors.values().filter(|c| on_plane(&job.model, c)).map(|c| c.name.as_str()).collect();
-    let few = match lines.as_slice() {
-        [] => return,
-        [first, second, third, others @ ..] if others.len() > 1 => {
-            format!("{first}, {second}, {third} and {} more lie", others.len())
-        }
-        [one] => format!("{one} lies"),
-        all => format!("{} lie", all.join(", ")),
-    };
-    let text = format!("{few} on the plane bottom through the anchor, not on bathymetry {}", named.kind);
-    job.remark(text, given.span);
+    let grid = named.kind.clone();
+    for which in [Plane::Anchor, Plane::Slope] {
+        let lies = |c: &&Connector| plane_of(&job.model, c) == Some(which);
+        let lines: Vec<&str> = job.model.connectors.values().filter(lies).map(|c| c.name.as_str()).collect();
+        let few = match lines.as_slice() {
+            [] => continue,
+            [first, second, third, others @ ..] if others.len() > 1 => {
+                format!("{first}, {second}, {third} and {} more lie", others.len())
+            }
+            [one] => format!("{one} lies"),
+            all => format!("{} lie", all.join(", ")),
+        };
+        let text = match which {
+            Plane::Anchor => format!("{few} on the plane bottom through the anchor, not on bathymetry {grid}"),
+            Plane::Slope => format!("{few} on the plane bottom of -SLOPE, not on bathymetry {grid}"),
+        };
+        job.remark(text, given.span);
+    }
 }
 
 /// The same of a connector just defined, where a bottom over a grid is in force.
 pub(super) fn plane(job: &mut Job, connector: &str, span: Span) {
     let model = &job.model;
-    let found = model.connectors.get(&Model::key(connector)).is_some_and(|c| on_plane(model, c));
-    if let Some(named) = model.environment.bathymetry.as_ref().filter(|_| found) {
-        let text = format!("{connector} lies on the plane bottom through its anchor, not on bathymetry {}", named.kind);
-        job.remark(text, span);
-    }
+    let found = model.connectors.get(&Model::key(connector)).and_then(|c| plane_of(model, c));
+    let (Some(which), Some(named)) = (found, &model.environment.bathymetry) else { return };
+    let text = match which {
+        Plane::Anchor => {
+            format!("{connector} lies on the plane bottom through its anchor, not on bathymetry {}", named.kind)
+        }
+        Plane::Slope => format!("{connector} lies on the plane bottom of its -SLOPE, not on bathymetry {}", named.kind),
+    };
+    job.remark(text, span);
 }

@@ -211,6 +211,20 @@ fn refuse_what_does_not_go(args: &Args, what: &str) -> Outcome<()> {
             return Err(Diagnostic::error(format!("{name} goes with {of}, not with {what}"), given.span));
         }
     }
+    let code = args.option("-CODE").and_then(|g| g.word(0)).unwrap_or("F201");
+    const BY: [(&str, &[&str]); 5] = [
+        ("-SAFETY", &["F201"]),
+        ("-FACTORS", &["F201"]),
+        ("-PIPE", &["F201"]),
+        ("-CASE", &["2RD"]),
+        ("-CORROSION", &["F201", "2RD"]),
+    ];
+    for (name, codes) in BY {
+        if let Some(given) = args.option(name).filter(|_| !codes.contains(&code)) {
+            let text = format!("{name} goes with -CODE {}, not with {code}", codes.join(" and "));
+            return Err(Diagnostic::error(text, given.span));
+        }
+    }
     if args.data.len() > 2 && !["AT", "NODE"].contains(&what) {
         return Err(Diagnostic::error(format!("{what} takes no numbers"), args.place(2)));
     }

@@ -96,7 +96,8 @@ static CATENARY_SPEC: CommandSpec = CommandSpec {
             .default("depth of &ENV"),
     ],
     detail: "An AQWA catenary section, in kg, m and N in every unit system; one record a section, fairlead first. Buoys \
-             always have the same buoyancy and do not know where the surface is.",
+             always have the same buoyancy and do not know where the surface is; those of a line that &CONNECTOR -DYNAMICS lets move by itself \
+             lose it as they come out of the water.",
     example: "MEDIT\n~CHAIN CATENARY 170 0.0217 -LEN 600 -EA 7.0E8 -CLUMP 20000 2500\n~CHAIN CATENARY 170 0.0217 -LEN 300\nEND\n\
               &STATUS CLASS ~CHAIN",
     ..CommandSpec::new("CATENARY", "AQWA catenary section with its joint")
@@ -313,6 +314,16 @@ impl ConnectorClass for CatenaryClass {
         if let Some(dry) = self.sections.iter().find(|s| s.area == 0.0) {
             return Err(ClassError::new("cable dynamics needs a section with an area").at(dry.span).help("give AREA"));
         }
+        for s in &self.sections {
+            let [mass, displaced, added, _] = s.joint_mass.unwrap_or_default();
+            let named = [("structural mass", mass), ("mass of water displaced", displaced), ("added mass", added)];
+            if let Some((what, value)) = named.into_iter().find(|(_, value)| *value < 0.0) {
+                let text = format!("cable dynamics needs a joint without negative masses: the {what} is {{}}");
+                return Err(ClassError::of(text, &[(value, Dim::Mass)])
+                    .at(s.joint_span)
+                    .help("a net weight is a structural mass, a net lift a mass of water displaced"));
+            }
+        }
         let whole: f64 = self.sections.iter().map(|s| s.length).sum();
         let part = |s: &CatenarySection| Part {
             segment: rod::Segment {
@@ -335,7 +346,7 @@ impl ConnectorClass for CatenaryClass {
                     (s.area / FRAC_PI_4).sqrt(),
                 )
             },
-            strength: Strength { breaking: s.largest, yields: None },
+            strength: Strength { breaking: s.largest },
             joint: s.joint_mass.map(|[mass, displaced, added, drag]| JointMass {
                 mass,
                 volume: displaced / density,

@@ -225,6 +225,10 @@ impl ConnectorClass for Catenary {
         true
     }
 
+    fn slopes(&self) -> bool {
+        self.seabed.slopes()
+    }
+
     fn series_curve(&self) -> Option<(&str, Span)> {
         self.devices.convolution.as_ref().map(|(name, span)| (name.as_str(), *span))
     }

@@ -149,6 +149,10 @@ impl ConnectorClass for Rod {
         self.seabed.depth.or(surroundings.depth)
     }
 
+    fn slopes(&self) -> bool {
+        self.seabed.slopes()
+    }
+
     fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
         Ok(Box::new(MovingLine::made(self.description(connection.surroundings), connection)?))
     }

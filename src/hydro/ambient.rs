@@ -6,6 +6,7 @@ use super::steady::{Medium, Steady};
 use crate::model::{Ambient, Bathymetry, ClassError, Contents, Flow, Model};
 use nalgebra::Vector3;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Water, wind and bottom of the environment in force.
 #[derive(Debug)]
@@ -16,6 +17,7 @@ struct Around {
     /// The bottom, where it is not flat.
     bottom: Option<Arc<Bathymetry>>,
     contents: Option<Contents>,
+    interrupt: Arc<AtomicBool>,
 }
 
 /// Water, wind and bottom of the environment in force, with the waves of a sea.
@@ -43,7 +45,8 @@ pub fn ambient(model: &Model, sea: Option<&Arc<Sea>>) -> Result<Arc<dyn Ambient>
             }
         },
     };
-    Ok(Arc::new(Around { steady, sea: sea.cloned(), growth: Growth::of(model, env)?, bottom, contents }))
+    let interrupt = Arc::clone(&model.interrupt);
+    Ok(Arc::new(Around { steady, sea: sea.cloned(), growth: Growth::of(model, env)?, bottom, contents, interrupt }))
 }
 
 impl Ambient for Around {
@@ -91,6 +94,10 @@ impl Ambient for Around {
 
     fn charted(&self) -> bool {
         self.bottom.is_some()
+    }
+
+    fn interrupted(&self) -> bool {
+        self.interrupt.load(Ordering::Relaxed)
     }
 
     fn contents(&self) -> Option<Contents> {

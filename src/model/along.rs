@@ -13,6 +13,8 @@ pub struct LineStress {
     pub hoop: f64,
     /// Largest von Mises stress over both surfaces and both sides of the bend.
     pub von_mises: f64,
+    /// Its share of the yield stress.
+    pub used: f64,
 }
 
 /// The books of energy and momentum of a line that moves by itself, since its run began.
@@ -43,7 +45,8 @@ pub struct LineNode {
     pub velocity: Vector3<f64>,
     /// Effective tension (N): what balances the submerged weight.
     pub effective: f64,
-    /// Tension in the wall (N): effective tension less outer pressure times outer area plus inner pressure times inner area.
+    /// Tension in the wall (N): effective tension less outer pressure times outer area plus inner pressure times inner area; of two tubes
+    /// that meet in the one behind.
     pub wall: f64,
     /// Shear force (N).
     pub shear: f64,
@@ -61,7 +64,7 @@ pub struct LineNode {
     pub clearance: f64,
     /// Pressure outside and inside above the atmosphere's (Pa), for a tube.
     pub pressures: [f64; 2],
-    /// Stresses, for a tube.
+    /// Stresses, for a tube; of two that meet those of the one that uses more of its yield stress.
     pub stress: Option<LineStress>,
 }
 

@@ -72,6 +72,11 @@ pub trait Ambient: Debug + Send + Sync {
         false
     }
 
+    /// Whether who asks is to give up.
+    fn interrupted(&self) -> bool {
+        false
+    }
+
     /// What pipes hold, where the environment says so.
     fn contents(&self) -> Option<Contents> {
         None

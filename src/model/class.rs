@@ -97,6 +97,8 @@ pub struct ClassError {
     pub span: Option<Span>,
     /// What to change.
     pub help: Vec<String>,
+    /// Whether a run meets it again with any smaller step.
+    pub lasting: bool,
 }
 
 impl std::fmt::Display for ClassError {
@@ -112,7 +114,7 @@ impl std::error::Error for ClassError {}
 impl ClassError {
     /// An error with a message alone.
     pub fn new(message: impl Into<String>) -> Self {
-        ClassError { message: message.into(), values: Vec::new(), span: None, help: Vec::new() }
+        ClassError { message: message.into(), values: Vec::new(), span: None, help: Vec::new(), lasting: false }
     }
 
     /// An error that names values: `{}` in the message stands for each.
@@ -137,6 +139,11 @@ impl ClassError {
     pub fn help(mut self, text: impl Into<String>) -> Self {
         self.help.push(text.into());
         self
+    }
+
+    /// The same as one that no smaller step of a run gets round.
+    pub fn lasting(self) -> Self {
+        ClassError { lasting: true, ..self }
     }
 
     /// The message for the user; it points at `fallback` when the error has no place of its own.
@@ -196,6 +203,11 @@ pub trait ConnectorClass: Debug + Send + Sync {
 
     /// Whether its lines lie on a plane bottom through their own anchor.
     fn lies_on_plane(&self) -> bool {
+        false
+    }
+
+    /// Whether its lines that move by themselves lie on a plane bottom that the class slopes.
+    fn slopes(&self) -> bool {
         false
     }
 

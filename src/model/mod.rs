@@ -58,6 +58,7 @@ use crate::language::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use crate::language::source::Span;
 use indexmap::IndexMap;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The whole database. Keys are names in upper case, with their marker (`~`, `*`, `:`).
 #[derive(Clone, Debug, Default)]
@@ -100,12 +101,19 @@ pub struct Model {
     pub current_part: Option<String>,
     /// The piece that panels now being given belong to.
     pub current_piece: Option<String>,
+    /// Set by Ctrl-C: an engine that takes long gives up.
+    pub interrupt: Arc<AtomicBool>,
 }
 
 impl Model {
     /// The key of a name.
     pub fn key(name: &str) -> String {
         name.to_ascii_uppercase()
+    }
+
+    /// Whether Ctrl-C has been pressed since the record began.
+    pub fn interrupted(&self) -> bool {
+        self.interrupt.load(Ordering::Relaxed)
     }
 
     /// What every line and body is surrounded by, from the environment in force and the defaults.

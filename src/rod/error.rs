@@ -53,6 +53,12 @@ pub enum RodError {
         /// What went wrong there.
         why: String,
     },
+    /// The fluid said to give up.
+    #[error("{rod}: interrupted")]
+    Interrupted {
+        /// The rod's name.
+        rod: String,
+    },
     /// No position of rest was found.
     #[error("{rod}: no equilibrium after {iterations} iterations; {residual:.3e} N is left at element {element}")]
     Statics {

@@ -107,6 +107,9 @@ impl Solver {
         let mut found = vec![0.0; space];
         let (mut least, mut stale) = (f64::INFINITY, 0);
         for _ in 0..MOST_ROUNDS {
+            if world.fluid.interrupted() {
+                return Err(RodError::Interrupted { rod: rod.name.clone() });
+            }
             for vector in &mut vectors {
                 *vector = times(&mass, vector);
                 shifted.solve(vector);

@@ -3,6 +3,7 @@
 use super::bend::hinge;
 use super::ends::End;
 use super::hinges::{HingeAt, hinge_sides};
+use super::immersed::wet_share;
 use super::mesh::Rod;
 use super::rope::Memory;
 use super::spatial::{transport, twist};
@@ -15,8 +16,8 @@ use nalgebra::Vector3;
 impl Rod {
     /// Results at every node of a state.
     ///
-    /// Tension of a node is the mean of its two elements; at an end it is that of the nearest two carried on. Shear
-    /// is the change of the moment over the elements beside a node.
+    /// Tension of a node is the mean of its two elements; at an end it is that of its element with the weight of the half
+    /// beside the end. Shear is the change of the moment over the elements beside a node.
     pub fn results(&self, state: &State, world: &World, ends: &[End; 2]) -> Vec<LineNode> {
         let last = self.elements.len();
         let (x, v) = (&state.position, &state.velocity);
@@ -75,8 +76,8 @@ impl Rod {
                 let inner = i > 0 && i < last;
                 let effective = match (inner, i) {
                     (true, _) => 0.5 * (pulls[i - 1] + pulls[i]),
-                    (false, 0) => carried_on(pulls[0], pulls.get(1).copied()),
-                    (false, _) => carried_on(pulls[last - 1], last.checked_sub(2).map(|j| pulls[j])),
+                    (false, 0) => self.at_end(0, pulls[0], state, world),
+                    (false, _) => self.at_end(last, pulls[last - 1], state, world),
                 };
                 let shear = match (inner, i) {
                     (true, _) => 0.5 * (shears[i - 1] + shears[i]).norm(),
@@ -104,13 +105,22 @@ impl Rod {
                     pressures: [0.0; 2],
                     stress: None,
                 };
-                if let Some(tube) = &self.segments[element.segment].tube {
+                let outer = fluids[i].density * world.gravity * (fluids[i].surface - x[i].z).max(0.0);
+                // from the tube behind, where two meet
+                let before = i.checked_sub(1).filter(|j| i == last || self.elements[*j].segment != element.segment);
+                for beside in [(i < last).then_some(i), before].into_iter().flatten() {
+                    let Some(tube) = &self.segments[self.elements[beside].segment].tube else { continue };
                     let [outside, inside] = tube.areas();
-                    let outer = fluids[i].density * world.gravity * (fluids[i].surface - x[i].z).max(0.0);
                     let inner = tube.pressure + tube.contents * world.gravity * (tube.at - x[i].z);
-                    made.pressures = [outer, inner];
-                    made.wall = effective - outer * outside + inner * inside;
-                    made.stress = Some(stress(made.wall, moment, made.pressures, tube));
+                    let wall = effective - outer * outside + inner * inside;
+                    let found = stress(wall, moment, [outer, inner], tube);
+                    let uses = |s: &LineStress| (s.used, s.von_mises);
+                    if made.stress.is_none() {
+                        (made.pressures, made.wall) = ([outer, inner], wall);
+                    }
+                    if made.stress.is_none_or(|worst| uses(&found) > uses(&worst)) {
+                        made.stress = Some(found);
+                    }
                 }
                 arc += if i < last { element.rest } else { 0.0 };
                 made
@@ -120,6 +130,20 @@ impl Rod {
 }
 
 impl Rod {
+    /// Effective tension (N) at an end, of the `pull` of its element and the submerged weight of the half beside it.
+    fn at_end(&self, node: usize, pull: f64, state: &State, world: &World) -> f64 {
+        let (element, other) = if node == 0 { (&self.elements[0], 1) } else { (&self.elements[node - 1], node - 1) };
+        let (end, middle) = (state.position[node], 0.5 * (state.position[node] + state.position[other]));
+        let mut fluid = [UniformFluid::none().0];
+        world.fluid.fill_levels(&[end], state.time, &mut fluid);
+        let [fluid] = fluid;
+        let (wet, ..) = wet_share(fluid.surface - end.z, fluid.surface - middle.z, element.diameter);
+        let weight = (element.mass - fluid.density * wet * element.volume) * world.gravity;
+        let length = (end - middle).norm().max(f64::MIN_POSITIVE);
+        let found = pull + weight * (end.z - middle.z) / length;
+        if element.compression { found } else { found.max(0.0) }
+    }
+
     /// Moment vector of each node of a rod with torsion, with the length it is spread over, and its torque.
     fn spatial_moments(&self, state: &State, ends: &[End; 2]) -> (Vec<(Vector3<f64>, f64)>, Vec<f64>) {
         let last = self.elements.len();
@@ -165,11 +189,6 @@ fn carried(edges: &[(Vector3<f64>, f64)], end: &End) -> Vec<Vector3<f64>> {
     edges.iter().map(on).collect()
 }
 
-/// A value at the end of a row of middles.
-fn carried_on(near: f64, far: Option<f64>) -> f64 {
-    far.map_or(near, |far| near + 0.5 * (near - far))
-}
-
 /// A vector at the end of a row of middles.
 fn toward_end(row: &[Vector3<f64>], near: usize, far: usize) -> Vector3<f64> {
     row.get(far).map_or(row[near], |far| row[near] + (row[near] - far) * 0.5)
@@ -211,5 +230,5 @@ fn stress(wall: f64, moment: f64, [outer, inner]: [f64; 2], tube: &super::sectio
             worst = worst.max((0.5 * sum).sqrt());
         }
     }
-    LineStress { axial, bending, hoop: hoop_inside, von_mises: worst }
+    LineStress { axial, bending, hoop: hoop_inside, von_mises: worst, used: worst / tube.yields }
 }

@@ -44,7 +44,7 @@ impl Solver {
     /// element length.
     ///
     /// # Errors
-    /// [`RodError::Statics`] when no equilibrium is reached, [`RodError::Shape`] for a state of another rod; the
+    /// [`RodError::Statics`] when no equilibrium is reached, [`RodError::Interrupted`], [`RodError::Shape`] for a state of another rod; the
     /// state is then as before.
     pub fn statics(
         &mut self,
@@ -91,6 +91,10 @@ impl Solver {
         let mut longest = 1e6;
         let (mut done, mut worst) = (0, (0, f64::INFINITY));
         while done < MOST_ITERATIONS && pseudo > 1e-9 {
+            if world.fluid.interrupted() {
+                (self.trial.loose, self.trial.ease) = (false, 1.0);
+                return Err(RodError::Interrupted { rod: rod.name.clone() });
+            }
             let mut before = f64::INFINITY;
             let mut settled = None;
             for inner in 1..=MOST_INNER {

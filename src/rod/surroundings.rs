@@ -42,6 +42,11 @@ pub trait FluidField {
     fn uniform(&self) -> bool {
         false
     }
+
+    /// Whether a search that takes long is to give up.
+    fn interrupted(&self) -> bool {
+        false
+    }
 }
 
 /// Water and air that move at one velocity each everywhere.

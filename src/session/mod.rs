@@ -55,8 +55,10 @@ impl Session {
     /// A session writing to these channels.
     pub fn new(output: Output) -> Self {
         let interpreter = Interpreter::new(command::internal_names());
+        let mut job = Job { interrupt: Arc::clone(&interpreter.interrupt), ..Job::new(output) };
+        job.model.interrupt = Arc::clone(&interpreter.interrupt);
         Session {
-            job: Job { interrupt: Arc::clone(&interpreter.interrupt), ..Job::new(output) },
+            job,
             interpreter,
             errors: 0,
             interactive: false,

@@ -7,10 +7,19 @@ use crate::model::{ClassError, Condition, Connector, End, Model, Situation};
 
 /// Steps from the present length to one beyond the force, each half as long again as the one before.
 const STEPS: usize = 60;
-/// Halvings between the two.
-const HALVINGS: usize = 60;
+/// Steps of the search between the two.
+const SOUGHT: usize = 60;
 /// Share of the force within which it is met. The mesh changes with the length: an element more or less moves the force by less.
 const PROOF: f64 = 1e-3;
+/// A force that falls by less than this share of itself in a step falls no longer: what is added lies on the bottom.
+const FALLS: f64 = 1e-4;
+/// Steps in a row in which it does not fall until the search gives up; one of them may have a coarser mesh.
+const STALE: usize = 3;
+/// Steps shorter than this share of the first segment say nothing of that.
+const TELLING: f64 = 0.02;
+/// The longest line that is tried, in ways from end to end with a way to the surface and back from each: a heavy line pulls least where
+/// it is little longer than that way down.
+const LONGEST: f64 = 4.0;
 
 /// The length (m) with which the force at the first end is as wanted between the ends as they are, in the mean current.
 ///
@@ -35,41 +44,66 @@ pub fn first_length(model: &Model, connector: &Connector, wanted: Condition) -> 
         let pull = wrenches.first().map_or(0.0, |w| if level { w[0].hypot(w[1]) } else { w.fixed_rows::<3>(0).norm() });
         Ok::<f64, ClassError>(pull)
     };
+    let ask = |length: f64| match model.interrupted() {
+        true => Err(wrong(ClassError::new("interrupted"))),
+        false => force(length).map_err(&wrong),
+    };
     let start = model.first_length(connector).unwrap_or(0.0);
-    let mut near = (start, force(start).map_err(&wrong)?);
+    let mut near = (start, ask(start)?);
     // a shorter line pulls harder
     let side = if near.1 < target { -1.0 } else { 1.0 };
+    let [from, to] = ends.map(|e| e.pose.origin);
+    let longest = LONGEST * ((to - from).norm() + from.z.abs() + to.z.abs()).max(start);
     let mut step = 1e-3 * start;
-    let mut far = near;
+    let (mut far, mut least, mut stale) = (near, near.1, 0);
     for _ in 0..STEPS {
         let length = near.0 + side * step;
-        if length <= 0.0 {
+        if !(0.0..=longest).contains(&length) || length == 0.0 {
             break;
         }
-        far = (length, force(length).map_err(&wrong)?);
+        far = (length, ask(length)?);
         if (far.1 - target) * side <= 0.0 {
             break;
         }
-        // the tension of what hangs rises again with its weight: no length beyond gives less
-        if side > 0.0 && far.1 > near.1 * 1.001 {
-            break;
+        // the tension of what hangs rises again with its weight, and does not fall with what lies: no length beyond gives less
+        if side > 0.0 && step > TELLING * start {
+            stale = if far.1 > least * (1.0 - FALLS) { stale + 1 } else { 0 };
+            if stale >= STALE || far.1 > least * (1.0 + PROOF) {
+                break;
+            }
+            least = least.min(far.1);
         }
         near = far;
         step *= 1.5;
     }
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (near.0 + far.0);
-        let found = (middle, force(middle).map_err(&wrong)?);
+    let nothing = |found: f64| {
+        let text = "no length of the first segment gives {}; the nearest is {}";
+        Err(wrong(ClassError::of(text, &[(target, Dim::Force), (found, Dim::Force)])))
+    };
+    if (far.1 - target) * side > 0.0 {
+        return if (near.1 - target).abs() <= PROOF * target { Ok(near.0) } else { nothing(near.1.min(far.1)) };
+    }
+    // the secant with halved weights of the end that stays (Dowell and Jarratt, BIT 11, 1971, 168-174), and a halving now and then:
+    // where the mesh changes the force jumps
+    let mut weights = [near.1 - target, far.1 - target];
+    for turn in 0..SOUGHT {
+        let [a, b] = weights;
+        let share = if turn % 3 == 2 || a == b { 0.5 } else { (a / (a - b)).clamp(1e-3, 1.0 - 1e-3) };
+        let length = near.0 + share * (far.0 - near.0);
+        let found = (length, ask(length)?);
         if (found.1 - target).abs() <= 1e-9 * target || (near.0 - far.0).abs() <= 1e-12 * start {
             near = found;
             break;
         }
-        if (found.1 - target) * side > 0.0 { near = found } else { far = found }
+        if (found.1 - target) * side > 0.0 {
+            (near, weights) = (found, [found.1 - target, 0.5 * b]);
+        } else {
+            (far, weights) = (found, [0.5 * a, found.1 - target]);
+        }
     }
     let (length, found) = if (near.1 - target).abs() < (far.1 - target).abs() { near } else { far };
     if (found - target).abs() > PROOF * target {
-        let text = "no length of the first segment gives {}; the nearest is {}";
-        return Err(wrong(ClassError::of(text, &[(target, Dim::Force), (found, Dim::Force)])));
+        return nothing(found);
     }
     Ok(length)
 }

@@ -9,6 +9,8 @@ use std::cell::RefCell;
 /// How far a line presses itself into the bottom by its own weight, as a share of its diameter: what the bottom's stiffness follows
 /// from where none is given.
 const PRESSED: f64 = 0.02;
+/// Weight by which a line that water carries meets the bottom, as a share of its weight in air: it comes there by its ends or a current.
+const LIGHT: f64 = 0.1;
 /// Damping of the bottom against what is critical for the line on it, where none is given.
 const DAMPED: f64 = 0.5;
 /// Speed below which friction gives way (m/s).
@@ -42,6 +44,10 @@ impl FluidField for Water<'_> {
 
     fn uniform(&self) -> bool {
         self.ambient.is_none()
+    }
+
+    fn interrupted(&self) -> bool {
+        self.ambient.is_some_and(|a| a.interrupted())
     }
 }
 
@@ -86,9 +92,9 @@ impl Bottom for Floor<'_> {
 /// How the bottom answers a line of these segments.
 pub(super) fn ground(seabed: &Seabed, segments: &[Segment], around: &Surroundings) -> Ground {
     // by the heaviest segment, so that none presses itself in deeper
-    let weight = |s: &Segment| (s.mass - around.water_density * s.displaced) * around.gravity;
-    let press = |s: &Segment| weight(s).max(0.0) / (PRESSED * s.contact_diameter * s.contact_diameter);
-    let stiffest = segments.iter().map(press).filter(|k| k.is_finite()).fold(1e4, f64::max);
+    let weight = |s: &Segment| (s.mass - around.water_density * s.displaced).max(LIGHT * s.mass) * around.gravity;
+    let press = |s: &Segment| weight(s) / (PRESSED * s.contact_diameter * s.contact_diameter);
+    let stiffest = segments.iter().map(press).filter(|k| k.is_finite()).fold(0.0, f64::max);
     let stiffness = seabed.stiffness.unwrap_or(stiffest);
     let heavy = segments.iter().map(|s| s.mass / s.contact_diameter).filter(|m| m.is_finite()).fold(0.0, f64::max);
     Ground {
@@ -98,5 +104,23 @@ pub(super) fn ground(seabed: &Seabed, segments: &[Segment], around: &Surrounding
         friction_along: seabed.along,
         friction_across: seabed.across.unwrap_or(seabed.along),
         friction_speed: CREEP,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_sinks_into_the_bottom_by_a_share_of_its_diameter() {
+        let around =
+            Surroundings { water_density: 1000.0, air_density: 1.2, gravity: 10.0, depth: Some(50.0), tide: 0.0 };
+        let segment = |mass: f64| Segment { displaced: 0.01, ..Segment::line(10.0, 1, mass, 1e6, 0.1) };
+        let stiffness = |mass: f64| ground(&Seabed::default(), &[segment(mass), segment(5.0)], &around).stiffness;
+        // 100 N/m on a shadow of 0.1 m sink in by 2 mm
+        assert!((stiffness(20.0) - 100.0 / (0.1 * 0.002)).abs() < 1e-6);
+        // a rope of 0.1 kg/m more than water, which a floor of the stiffness would carry within less than a micrometre
+        assert!((stiffness(10.01) - 0.1 * 100.1 / (0.1 * 0.002)).abs() < 1e-6);
+        assert!(stiffness(5.0) > 0.0);
     }
 }

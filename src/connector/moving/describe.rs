@@ -24,8 +24,6 @@ pub struct JointMass {
 pub struct Strength {
     /// Breaking tension (N).
     pub breaking: f64,
-    /// Yield stress (Pa), of a tube.
-    pub yields: Option<f64>,
 }
 
 /// A part of a line: one record of its class.
@@ -54,6 +52,13 @@ pub struct Seabed {
     pub slope: Option<f64>,
     /// Depth of the bottom at the second end below z = 0 (m), where the class says it.
     pub depth: Option<f64>,
+}
+
+impl Seabed {
+    /// Whether it is a plane of the line's own.
+    pub fn slopes(&self) -> bool {
+        self.slope.is_some_and(|s| s != 0.0)
+    }
 }
 
 /// How an end is held in its direction.
@@ -90,14 +95,15 @@ impl Part {
         let Some(ambient) = ambient else { return made };
         let (thickness, density) = ambient.growth(z);
         if thickness > 0.0 {
-            let more = |area: f64| {
-                let diameter = (area / FRAC_PI_4).sqrt();
-                FRAC_PI_4 * (diameter + 2.0 * thickness).powi(2) - area
-            };
-            made.mass += density * more(made.displaced);
-            made.displaced += more(made.displaced);
-            made.added_area += more(made.added_area);
-            made.drag_diameter += 2.0 * thickness;
+            // it grows on the outside, however large the line is taken for buoyancy, drag or added mass
+            let ring = |diameter: f64| FRAC_PI_4 * ((diameter + 2.0 * thickness).powi(2) - diameter * diameter);
+            let own = ring(made.contact_diameter);
+            made.mass += density * own;
+            made.displaced += own;
+            made.added_area += ring((made.added_area / FRAC_PI_4).sqrt());
+            for diameter in [&mut made.drag_diameter, &mut made.contact_diameter, &mut made.wind_diameter] {
+                *diameter += 2.0 * thickness;
+            }
         }
         if let (Some(tube), Some(Contents { warmer, pressure, at, density })) = (&mut made.tube, ambient.contents()) {
             (tube.warmer, tube.pressure, tube.at, tube.contents) = (warmer, pressure, at, density);
@@ -116,6 +122,46 @@ impl Part {
         match &self.segment.axial {
             Axial::Linear(ea) => *ea,
             other => other.at(0.0).1,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::Flow;
+    use nalgebra::Vector3;
+
+    /// 50 mm of growth of 1400 kg/m3 everywhere.
+    #[derive(Debug)]
+    struct Foul;
+
+    impl Ambient for Foul {
+        fn flow(&self, _: f64, _: &[Vector3<f64>], _: &mut [Flow]) {}
+
+        fn mean(&self, _: &[Vector3<f64>], _: &mut [Flow]) {}
+
+        fn bottom(&self, _: f64, _: f64) -> Option<(f64, [f64; 2])> {
+            None
+        }
+
+        fn growth(&self, _: f64) -> (f64, f64) {
+            (0.05, 1400.0)
+        }
+    }
+
+    #[test]
+    fn growth_sits_on_the_outside_of_a_line_whatever_it_displaces() {
+        let bare = Segment { displaced: 0.0, ..Segment::line(10.0, 1, 100.0, 1e6, 0.3) };
+        let strength = Strength { breaking: 1.0 };
+        let grown = Part { segment: bare.clone(), strength, joint: None }.grown(Some(&Foul), -10.0);
+        // a ring from 0.3 to 0.4 m
+        let ring = FRAC_PI_4 * 0.07;
+        assert!((grown.mass - 100.0 - 1400.0 * ring).abs() < 1e-9);
+        assert!((grown.displaced - ring).abs() < 1e-12);
+        assert!((grown.added_area - FRAC_PI_4 * 0.16).abs() < 1e-12);
+        for diameter in [grown.drag_diameter, grown.contact_diameter, grown.wind_diameter] {
+            assert!((diameter - 0.4).abs() < 1e-12);
         }
     }
 }

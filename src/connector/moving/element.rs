@@ -6,7 +6,7 @@ use super::kept::{Kept, Layout};
 use super::laid::Felt;
 use super::mesh::{most_wound, told, wind};
 use super::start;
-use super::warm::{Base, Held, Warm, solver_of};
+use super::warm::{Base, Held, Warm};
 use crate::language::units::Dim;
 use crate::model::{
     ClassError, Element, End, Flow, Guess, LineBooks, LineMode, LineNode, Response, Situation, Six, Summary,
@@ -60,8 +60,8 @@ impl MovingLine {
         let around = at.surroundings;
         let ambient = self.base.ambient.as_deref();
         let water = Water { ambient, around, mean, flows: RefCell::new(std::mem::take(flows)) };
-        let floor = Floor { plane: self.base.plane, ambient, flat: self.base.flat.unwrap_or(0.0) };
-        let known = self.base.plane.is_some() || self.base.flat.is_some();
+        let floor = Floor { plane: self.base.plane, ambient, flat: self.base.flat.unwrap_or(f64::NEG_INFINITY) };
+        let known = self.base.plane.is_some() || self.base.flat.is_some() || ambient.is_some_and(|a| a.charted());
         let bottom: Option<(&dyn rod::Bottom, Ground)> = known.then_some((&floor, self.base.ground));
         let felt = self.base.laid.as_ref().map(|laid| laid.felt(at.ends, around)).unwrap_or_default();
         let supports: Vec<_> = felt.iter().map(Felt::support).collect();
@@ -76,7 +76,7 @@ impl MovingLine {
         if let Some(laid) = &self.base.laid {
             return Ok([rod::End::FREE, rod::End::pinned(laid.anchor)]);
         }
-        let [first, second] = ends else { return Err(ClassError::new("a line has two ends")) };
+        let [first, second] = ends else { return Err(ClassError::new("a line has two ends").lasting()) };
         let made = |end: &End, hold: &Option<Held>| {
             let three = |six: &Six| Vector3::new(six[0], six[1], six[2]);
             let mut motion = Motion::still(end.pose.origin);
@@ -100,8 +100,9 @@ impl MovingLine {
     pub(super) fn rest(&self, at: &Situation, warm: &mut Warm) -> Result<Rest, ClassError> {
         let ends = self.held(at.ends, true)?;
         if warm.rod != self.base.rod {
-            warm.take(self.base.rod.clone());
+            warm.rod = self.base.rod.clone();
         }
+        warm.fit();
         let places = [0, 1].map(|i| at.ends.get(i).map_or_else(Vector3::zeros, |e| e.pose.origin));
         let Warm { rod, solver, rest, flows, .. } = warm;
         self.within((at, true), flows, |world| {
@@ -190,18 +191,16 @@ impl MovingLine {
     ) -> Result<(), ClassError> {
         let ends = self.held(at.ends, false)?;
         if let Some(rod) = self.meshed(kept, &warm.rod)? {
-            warm.take(rod);
+            warm.rod = rod;
         }
-        let Warm { rod, solver, state, room, flows, .. } = warm;
+        let Warm { rod, state, .. } = &mut *warm;
         state.become_unpacked(rod, kept.motion).map_err(told)?;
+        state.time = time - dt;
         if dt > 0.0 {
-            if wind(rod, state, (self.first, self.nominal, dt), &self.base.bands)? {
-                *solver = solver_of(rod);
-            }
-            state.time = time - dt;
-        } else {
-            state.time = time;
+            wind(rod, state, (self.first, self.nominal, dt), &self.base.bands)?;
         }
+        warm.fit();
+        let Warm { rod, solver, state, room, flows, .. } = warm;
         let (forces, felt) = self.within((at, false), flows, |world| {
             if dt > 0.0 {
                 let forces = solver.trial(rod, state, world, time, ends).map_err(told)?;
@@ -269,7 +268,7 @@ impl Element for MovingLine {
     }
 
     fn bends(&self) -> bool {
-        self.base.rod.segments().iter().any(|s| s.bending > 0.0)
+        self.base.rod.segments().iter().any(|s| s.bending > 0.0 || s.tube.is_some())
     }
 
     fn evaluate(
@@ -281,7 +280,7 @@ impl Element for MovingLine {
         out: &mut Response,
     ) -> Result<(), ClassError> {
         let kept = self.layout.read(committed)?;
-        let Some(warm) = self.warm(guess) else { return Err(ClassError::new(NO_MEMORY)) };
+        let Some(warm) = self.warm(guess) else { return Err(ClassError::new(NO_MEMORY).lasting()) };
         if let (Some(step), Some(kept)) = (at.step, &kept) {
             return self.step(at, (step.time, step.dt), kept, trial, warm, out);
         }

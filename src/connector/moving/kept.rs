@@ -85,7 +85,7 @@ impl Layout {
         room: &mut Vec<f64>,
         out: &mut [f64],
     ) -> Result<(), ClassError> {
-        let wrong = || ClassError::new("the line has grown beyond what its winch was to pay out");
+        let wrong = || ClassError::new("the line has grown beyond what its winch was to pay out").lasting();
         let mesh = rod.each_of_mesh();
         room.clear();
         state.pack(room);
@@ -108,7 +108,7 @@ impl Layout {
 
     /// Reads a state; none of one that has not begun.
     pub fn read<'a>(&self, state: &'a [f64]) -> Result<Option<Kept<'a>>, ClassError> {
-        let wrong = || ClassError::new("the state of the line is not one of its own");
+        let wrong = || ClassError::new("the state of the line is not one of its own").lasting();
         let (head, rest) = state.split_at_checked(HEAD).ok_or_else(wrong)?;
         let [begun, elements, motion] = head else { return Err(wrong()) };
         if *begun == 0.0 {

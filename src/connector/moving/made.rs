@@ -4,7 +4,7 @@ use super::around::ground;
 use super::describe::{Description, Part};
 use super::element::MovingLine;
 use super::kept::Layout;
-use super::mesh::{Cut, SHORT, attachments, mesh, told};
+use super::mesh::{Cut, SHORT, attachments, few, mesh, told};
 use super::start;
 use super::warm::{Base, Held};
 use crate::model::{ClassError, Connection};
@@ -28,6 +28,7 @@ impl MovingLine {
         if let Some(length) = lengths.first_mut() {
             *length = first;
         }
+        few(&description.parts, first)?;
         let far = ends[1];
         let plane = description.seabed.slope.filter(|s| *s != 0.0).map(|slope| {
             // it rises from the second end toward the first
@@ -54,7 +55,8 @@ impl MovingLine {
         // the same however much is wound: an element at the winch is never shorter than half of those of the class
         let of_first = counts.first().copied().unwrap_or(0);
         let wound = connection.duty.longest.map(|l| (l / (SHORT * nominal)).ceil() as usize);
-        let capacity = rod.nodes() - 1 - of_first + wound.map_or(of_first + 1, |most| most + 2);
+        let capacity =
+            (rod.nodes() - 1 - of_first).saturating_add(wound.map_or(of_first + 1, |most| most.saturating_add(2)));
         if capacity > rod::MOST_ELEMENTS {
             return Err(ClassError::new(format!(
                 "its winch would make more than {} elements of it",

@@ -1,9 +1,10 @@
 //! Elements of a line, and those that a winch lets out or takes in.
 
-use super::describe::Part;
+use super::describe::{JointMass, Part};
 use crate::model::{Ambient, ClassError};
-use crate::rod::{Attachment, Rod, RodError, Segment, State};
+use crate::rod::{self, Attachment, Rod, RodError, Segment, State};
 use nalgebra::Vector3;
+use std::f64::consts::PI;
 
 /// An element at the winch is divided when it is longer than this share of those of its part as the class has them.
 const LONG: f64 = 1.5;
@@ -12,7 +13,9 @@ pub(super) const SHORT: f64 = 0.5;
 
 /// An error of a rod for the user, who is told its name elsewhere.
 pub(super) fn told(error: RodError) -> ClassError {
-    ClassError::new(match error {
+    // what a winch does to a line within a step it may do in two
+    let lasting = matches!(error, RodError::Property { .. } | RodError::TooLarge { .. } | RodError::Interrupted { .. });
+    let made = ClassError::new(match error {
         RodError::Property { segment, what, value, expected, .. } => {
             format!("in segment {segment} {what} is {value}; {expected}")
         }
@@ -25,10 +28,35 @@ pub(super) fn told(error: RodError) -> ClassError {
                 "its rod has no solution at {time} s by steps down to {step:.1e} s; worst at element {element}: {why}"
             )
         }
+        RodError::Interrupted { .. } => "interrupted".to_string(),
         RodError::Statics { iterations, residual, element, .. } => {
             format!("its rod finds no rest in {iterations} iterations: {residual:.2e} N is left at element {element}")
         }
-    })
+    });
+    ClassError { lasting, ..made }
+}
+
+/// Elements of a part as it is wound to a length (m) other than that of its class.
+fn wound(part: &Part, length: f64) -> f64 {
+    (length / part.segment.length * part.segment.elements as f64).round().max(1.0)
+}
+
+/// Refuses more elements than a rod may have before any of them takes memory: those of the class, and those of a first part with a
+/// length (m).
+pub(super) fn few(parts: &[Part], first: f64) -> Result<(), ClassError> {
+    let own = |part: &Part| part.segment.elements as f64;
+    let whole: f64 = parts.iter().map(own).sum();
+    let longer = parts.first().map_or(0.0, |part| wound(part, first) - own(part));
+    let most = whole.max(whole + longer);
+    if most <= rod::MOST_ELEMENTS as f64 {
+        return Ok(());
+    }
+    Err(told(RodError::TooLarge {
+        rod: String::new(),
+        elements: most as usize,
+        megabytes: most * rod::BYTES_PER_ELEMENT / 1e6,
+        most: rod::MOST_ELEMENTS,
+    }))
 }
 
 /// Segments of a line: one a part, or one an element of the class where properties change along a part.
@@ -112,7 +140,7 @@ pub(super) fn mesh(parts: &[Part], first: f64) -> Vec<(f64, f64, usize)> {
     for (index, part) in parts.iter().enumerate() {
         let (mut length, mut count) = (part.segment.length, part.segment.elements);
         if index == 0 && first != length {
-            count = ((first / length * count as f64).round() as usize).max(1);
+            count = wound(part, first) as usize;
             length = first;
         }
         made.extend((0..count).map(|_| (length / count as f64, 0.0, index)));
@@ -134,6 +162,29 @@ fn elevation(shape: &[Vector3<f64>], share: f64) -> f64 {
     shape.last().map_or(0.0, |p| p.z)
 }
 
+/// Water that what displaces nothing is taken to displace, as a share of its added mass, so that a coefficient on it makes that: it
+/// lifts by as small a share of the weight of the added mass.
+const NEXT_TO_NOTHING: f64 = 1e-9;
+/// Height over which what has neither volume nor drag nor added mass meets the surface (m): nothing asks for it.
+const NO_HEIGHT: f64 = 1.0;
+/// Drag coefficient of a sphere below the critical Reynolds number (DNV-RP-C205, appendix E).
+const SPHERE_CD: f64 = 0.5;
+/// Added mass of a sphere as a share of what it displaces (Lamb, Hydrodynamics, section 92).
+const SPHERE_CA: f64 = 0.5;
+
+/// Height over which a joint meets the surface (m): that of a sphere that displaces as much; of what is told to displace nothing that of
+/// the larger of two spheres, with its drag and with its added mass.
+fn height(joint: &JointMass, density: f64) -> f64 {
+    let of_volume = |volume: f64| (6.0 * volume / PI).cbrt();
+    if joint.volume > 0.0 {
+        return of_volume(joint.volume);
+    }
+    let by_drag = (4.0 * joint.drag / (PI * SPHERE_CD)).sqrt();
+    let by_added = if density > 0.0 { of_volume(joint.added / (SPHERE_CA * density)) } else { 0.0 };
+    let most = by_drag.max(by_added);
+    if most > 0.0 { most } else { NO_HEIGHT }
+}
+
 /// What is attached at the ends of parts, on a mesh.
 pub(super) fn attachments(parts: &[Part], counts: &[usize], density: f64) -> Vec<Attachment> {
     let mut node = 0;
@@ -141,10 +192,12 @@ pub(super) fn attachments(parts: &[Part], counts: &[usize], density: f64) -> Vec
     for (part, count) in parts.iter().zip(counts) {
         node += count;
         let Some(joint) = part.joint else { continue };
-        // a mass that displaces nothing has its added mass on next to nothing
-        let volume = if joint.volume == 0.0 && joint.added > 0.0 { 1e-9 } else { joint.volume };
-        let added = if joint.volume > 0.0 { joint.added } else { joint.added / (density * volume.max(1e-9)) };
-        let height = (6.0 * volume / std::f64::consts::PI).cbrt().max(1e-3);
+        let (volume, added) = if joint.volume > 0.0 || density <= 0.0 {
+            (joint.volume, joint.added)
+        } else {
+            (NEXT_TO_NOTHING * joint.added / density, 1.0 / NEXT_TO_NOTHING)
+        };
+        let height = height(&joint, density);
         made.push(Attachment {
             node,
             mass: joint.mass,
@@ -159,24 +212,23 @@ pub(super) fn attachments(parts: &[Part], counts: &[usize], density: f64) -> Vec
 }
 
 /// Takes the first part of a line to another length (m) over a step (s): elements appear at its first end or go. Of a change by more than
-/// [`most_wound`] the element there stays longer than it should. Whether the rod has other elements than before.
+/// [`most_wound`] the element there stays longer than it should.
 pub(super) fn wind(
     rod: &mut Rod,
     state: &mut State,
     (first, nominal, dt): (f64, f64, f64),
     bands: &Bands,
-) -> Result<bool, ClassError> {
+) -> Result<(), ClassError> {
     let own = rod.each_of_mesh().take_while(|e| bands.part_of(e.2) == 0);
     let (count, now) = own.fold((0, 0.0), |(count, sum), e| (count + 1, sum + e.0));
     let change = first - now;
-    let Some((mut rest, rate, _)) = rod.each_of_mesh().next() else { return Ok(false) };
+    let Some((mut rest, rate, _)) = rod.each_of_mesh().next() else { return Ok(()) };
     if change.abs() <= 1e-12 * now {
         if rate != 0.0 {
             rod.set_length(0, rest, 0.0).map_err(told)?;
         }
-        return Ok(false);
+        return Ok(());
     }
-    let nodes = rod.nodes();
     if change > 0.0 && rest + change > LONG * nominal {
         rod.divide(0, state).map_err(told)?;
         rest *= 0.5;
@@ -187,7 +239,6 @@ pub(super) fn wind(
         rest += next;
     }
     rod.set_length(0, rest + change, change / dt).map_err(told)?;
-    let mut other = rod.nodes() != nodes;
     if bands.several() {
         // what is wound may lie in another band than it did
         let mut mesh: Vec<_> = rod.each_of_mesh().map(|(rest, rate, at)| (rest, rate, bands.part_of(at))).collect();
@@ -195,14 +246,42 @@ pub(super) fn wind(
         if !rod.each_of_mesh().eq(mesh.iter().copied()) {
             let attached = rod.attachments().to_vec();
             *rod = Rod::with_mesh(rod.name(), rod.segments().to_vec(), attached, &mesh).map_err(told)?;
-            other = true;
         }
     }
-    Ok(other)
+    Ok(())
 }
 
 /// The most by which a winch may change a line in one step (m): an element at the winch is divided or taken in once, and is then as long as
 /// [`LONG`] and [`SHORT`] say.
 pub(super) fn most_wound(nominal: f64) -> f64 {
     SHORT * nominal
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_weight_meets_the_surface_over_the_height_of_a_sphere_with_its_drag_or_its_added_mass() {
+        let joint = JointMass { mass: 5000.0, ..JointMass::default() };
+        // a sphere of 2 m: volume 4/3 pi, drag area pi/2 at 0.5, added mass of half of what it displaces
+        let volume = 4.0 / 3.0 * PI;
+        for sphere in [
+            JointMass { volume, ..joint },
+            JointMass { drag: 0.5 * PI, ..joint },
+            JointMass { added: 0.5 * 1025.0 * volume, drag: 0.1, ..joint },
+        ] {
+            assert!((height(&sphere, 1025.0) - 2.0).abs() < 1e-12, "{sphere:?}");
+        }
+        assert_eq!(height(&joint, 1025.0), NO_HEIGHT);
+    }
+
+    #[test]
+    fn an_error_that_no_smaller_step_gets_round_says_so() {
+        let rod = || "R".to_string();
+        let step = RodError::Step { rod: rod(), time: 1.0, step: 0.1, element: 1, why: String::new() };
+        let large = RodError::TooLarge { rod: rod(), elements: 1, megabytes: 1.0, most: 1 };
+        assert!(!told(step).lasting && told(large).lasting);
+        assert!(!told(RodError::Shape { rod: rod(), why: String::new() }).lasting);
+    }
 }

@@ -2,11 +2,13 @@
 
 use super::mesh::told;
 use crate::model::{ClassError, LineMode};
-use crate::rod::{End, Mode, Rod, Solver, State, World};
+use crate::rod::{End, Mode, Rod, RodError, Solver, State, World};
 use nalgebra::{Matrix2, SymmetricEigen, Vector2, Vector3};
 
 /// Most modes that are found: the cost grows with the square of their number, and no one reads as many.
 const MOST: usize = 200;
+/// Most memory that finding modes may take (bytes).
+const MEMORY: f64 = 1e9;
 /// Two modes swing alike if their frequencies differ by no more than this share.
 const ALIKE: f64 = 1e-6;
 
@@ -25,9 +27,21 @@ pub(super) fn of(
     if number > MOST {
         return Err(ClassError::new(format!("{number} modes of a line are not found: at most {MOST}")));
     }
+    // vectors of all nodes, with their loads and what they are made of; twice as many as are asked, and the last told apart
+    let bytes = 8.0 * 3.0 * rod.nodes() as f64 * 4.0 * (2.0 * (number as f64 + 1.0) + 8.0);
+    if bytes > MEMORY {
+        let text = format!(
+            "{number} modes of {} elements would take about {:.1} GB of memory: more than {:.0} GB",
+            rod.nodes() - 1,
+            bytes / 1e9,
+            MEMORY / 1e9
+        );
+        return Err(ClassError::new(text).help("fewer modes, or fewer elements by -REFINE"));
+    }
     // one more than asked, so that the last is told apart from its like
     let mut found = match solver.modes(rod, state, world, ends, number + 1) {
         Ok(found) => found,
+        Err(stop @ RodError::Interrupted { .. }) => return Err(told(stop)),
         Err(_) => solver.modes(rod, state, world, ends, number).map_err(told)?,
     };
     let (first, last) = (state.position.first(), state.position.last());

@@ -142,7 +142,7 @@ pub const SEABED: OptionSpec = ours(
     ],
     "how the bottom answers the line",
 )
-.default("the heaviest segment sinks in by 2% of its diameter");
+.default("the heaviest segment sinks in by 2% of its diameter, under a tenth of its weight in air at least");
 
 /// What a record says beyond its section.
 #[derive(Clone, Debug, PartialEq)]
@@ -155,9 +155,9 @@ pub struct Flexure {
     ca: [f64; 2],
     axial: Axial,
     damping: f64,
-    /// Bending stiffness, Poisson's ratio, thermal expansion of a tube.
+    bending: f64,
+    /// Poisson's ratio, thermal expansion and yield stress of a tube.
     tube: Option<[f64; 3]>,
-    yields: f64,
     /// Drag area (m2) and weight of the added mass (N) of what is attached, where given.
     clump: [Option<f64>; 2],
 }
@@ -187,7 +187,8 @@ impl Flexure {
         // EI of the tube from its EA: I/A is (D2 + d2)/16
         let bending = inner.map(|d| section.ea * (section.od * section.od + d * d) / 16.0);
         let bending = option("-EI").or(bending).unwrap_or(0.0);
-        let yields = option("-FYIELD").unwrap_or(material.yield_stress);
+        // a bar that does not bend is a chain or rope: there is nothing in it, and no wall
+        let tube = inner.is_some_and(|d| d > 0.0) || bending > 0.0;
         Ok(Flexure {
             drag: option("-DRAGDIAMETER").or(typed.map(|t| t.drag)).unwrap_or(section.od),
             wind: option("-WINDDIAMETER").or(typed.map(|t| t.wind)).unwrap_or(section.od),
@@ -196,11 +197,14 @@ impl Flexure {
             ca: given_or(args, "-CA", [AQWA_CA, 0.0]),
             axial: rope(args, law(args, section.ea)?)?,
             damping: option("-AX_DAMPING").unwrap_or(0.0),
-            tube: (bending > 0.0).then(|| {
-                let poisson = option("-POI_RAT").unwrap_or(material.poisson);
-                [bending, poisson, option("-ALPHA").unwrap_or(material.expansion)]
+            bending,
+            tube: tube.then(|| {
+                [
+                    option("-POI_RAT").unwrap_or(material.poisson),
+                    option("-ALPHA").unwrap_or(material.expansion),
+                    option("-FYIELD").unwrap_or(material.yield_stress),
+                ]
             }),
-            yields,
             clump: [0, 1].map(|i| args.option("-CLUMP_DRAG").and_then(|g| g.number(i))),
         })
     }
@@ -224,16 +228,17 @@ impl Flexure {
         let area = |d: f64| FRAC_PI_4 * d * d;
         let displaced = area(section.buoyancy_diameter) + section.displacement / around.water_weight();
         let inner = section.thickness.map_or(0.0, |t| section.od - 2.0 * t);
-        let tube = self.tube.map(|[_, poisson, expansion]| Tube {
+        let tube = self.tube.map(|[poisson, expansion, yields]| Tube {
             poisson,
             expansion,
+            yields,
             ..Tube::empty(section.od, inner.max(0.0))
         });
         let segment = Segment {
             axial: self.axial.clone(),
             axial_damping: self.damping,
-            compression: self.tube.is_some(),
-            bending: self.tube.map_or(0.0, |[bending, ..]| bending),
+            compression: self.bending > 0.0,
+            bending: self.bending,
             displaced,
             drag_diameter: self.drag,
             drag_normal: self.cd[0],
@@ -246,7 +251,7 @@ impl Flexure {
             tube,
             ..Segment::line(section.length, elements, section.weight / around.gravity, section.ea, section.od)
         };
-        let strength = Strength { breaking: section.breaking, yields: self.tube.map(|_| self.yields) };
+        let strength = Strength { breaking: section.breaking };
         Part { segment, strength, joint: self.joint(section, around) }
     }
 }

@@ -41,7 +41,10 @@ pub(super) struct Base {
 pub(super) struct Warm {
     pub base: Arc<Base>,
     pub rod: Rod,
+    /// What solves it, as long as [`Warm::fit`] is asked when the rod has become another.
     pub solver: Solver,
+    /// Nodes that the solver has memory for.
+    nodes: usize,
     /// Where it last hung at rest.
     pub rest: Option<State>,
     /// Room for its state on the way, for that as numbers, and for the water at its nodes.
@@ -54,17 +57,65 @@ impl Warm {
     pub fn of(base: &Arc<Base>) -> Self {
         let rod = base.rod.clone();
         let (state, room, flows) = (State::default(), Vec::new(), Vec::new());
-        Warm { base: base.clone(), solver: solver_of(&rod), rod, rest: None, state, room, flows }
+        let nodes = rod.nodes();
+        Warm { base: base.clone(), solver: solver_of(&rod), nodes, rod, rest: None, state, room, flows }
     }
 
-    /// Becomes that of another rod.
-    pub fn take(&mut self, rod: Rod) {
-        self.solver = solver_of(&rod);
-        self.rod = rod;
+    /// Gives the rod another solver, if a winch has given it more nodes or fewer: of other lengths alone the solver remembers where it was.
+    pub fn fit(&mut self) {
+        if self.rod.nodes() != self.nodes {
+            self.nodes = self.rod.nodes();
+            self.solver = solver_of(&self.rod);
+        }
     }
 }
 
 /// A solver of a rod.
-pub(super) fn solver_of(rod: &Rod) -> Solver {
+fn solver_of(rod: &Rod) -> Solver {
     Solver::new(rod, Settings { halvings: HALVINGS, ..Settings::default() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::connector::moving::{Seabed, description};
+    use crate::rod::{End, Segment, UniformFluid, World};
+
+    #[test]
+    fn a_solver_lasts_while_a_winch_changes_lengths_alone() {
+        let rod = Rod::new("R", vec![Segment::line(10.0, 5, 10.0, 1e6, 0.1)], vec![]).unwrap();
+        let ground = Ground {
+            stiffness: 0.0,
+            damping: 0.0,
+            soft: 0.0,
+            friction_along: 0.0,
+            friction_across: 0.0,
+            friction_speed: 1.0,
+        };
+        let base = Base {
+            description: description("ROD", vec![], Seabed::default(), [None, None]),
+            rod: rod.clone(),
+            attached: vec![],
+            bands: Bands::default(),
+            ambient: None,
+            plane: None,
+            flat: None,
+            ground,
+            holds: [None, None],
+            freed: false,
+            felt: [true; 2],
+        };
+        let mut warm = Warm::of(&Arc::new(base));
+        let fluid = UniformFluid::none();
+        let world = World::new(&fluid, 9.81);
+        let ends = [Vector3::zeros(), Vector3::new(8.0, 0.0, 0.0)];
+        let mut state = State::along(&rod, &ends).unwrap();
+        warm.solver.statics(&rod, &mut state, &world, ends.map(End::pinned)).unwrap();
+        warm.rod.set_length(0, 2.5, 0.5).unwrap();
+        warm.fit();
+        assert!(warm.solver.end_tangent(&rod, &world).is_some());
+        warm.rod.divide(0, &mut state).unwrap();
+        warm.fit();
+        assert!(warm.solver.end_tangent(&warm.rod, &world).is_none());
+    }
 }

@@ -10,9 +10,9 @@ use crate::post::line::envelope::{Envelope, Seen};
 /// Numbers of every node: unstretched distance from the first end, x, y, z, clearance of the bottom (m; none: not a number), effective
 /// tension (N).
 const OF_NODE: usize = 6;
-/// Numbers of a node of a line that bends: also tension in the wall (N), shear (N), moments about two directions (N m), von Mises
-/// stress (Pa; 0 without a wall).
-const OF_BENT: usize = OF_NODE + 5;
+/// Numbers of a node of a line that bends or has a wall: also tension in the wall (N), shear (N), moments about two directions (N m),
+/// von Mises stress (Pa; 0 without a wall) and its share of the yield stress.
+const OF_BENT: usize = OF_NODE + 6;
 
 /// Which numbers of a row are those of the nodes of a line.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,6 +53,8 @@ pub struct BentRow {
     pub bends: [f64; 2],
     /// Largest von Mises stress (Pa); 0 without a wall.
     pub von_mises: f64,
+    /// Its share of the yield stress.
+    pub used: f64,
 }
 
 impl BentRow {
@@ -60,6 +62,11 @@ impl BentRow {
     pub fn moment(&self) -> f64 {
         let [one, other] = self.bends;
         one.hypot(other)
+    }
+
+    /// The share of the yield stress that a wall uses, where there is one.
+    pub fn yields(&self) -> Option<f64> {
+        (self.von_mises > 0.0).then_some(self.used)
     }
 }
 
@@ -105,8 +112,8 @@ impl AlongColumns {
             let bends = if node.bends == [0.0; 2] { [*moment, 0.0] } else { node.bends };
             let clearance = if clearance.is_finite() { *clearance } else { f64::NAN };
             let told = [*arc, position.x, position.y, position.z, clearance, *effective];
-            let mises = stress.map_or(0.0, |s| s.von_mises);
-            let bent = [*wall, *shear, bends[0], bends[1], mises];
+            let [mises, used] = stress.map_or([0.0; 2], |s| [s.von_mises, s.used]);
+            let bent = [*wall, *shear, bends[0], bends[1], mises, used];
             if told.iter().enumerate().any(|(i, v)| i != 4 && !v.is_finite())
                 || (self.bends && bent.iter().any(|v| !v.is_finite()))
             {
@@ -125,8 +132,8 @@ impl AlongColumns {
         let numbers = row.get(from..from + self.stride()).filter(|_| place < self.numbers.len())?;
         let [arc, x, y, z, clearance, effective, rest @ ..] = numbers else { return None };
         let bent = match rest {
-            [wall, shear, one, other, von_mises] => {
-                Some(BentRow { wall: *wall, shear: *shear, bends: [*one, *other], von_mises: *von_mises })
+            [wall, shear, one, other, von_mises, used] => {
+                Some(BentRow { wall: *wall, shear: *shear, bends: [*one, *other], von_mises: *von_mises, used: *used })
             }
             _ => None,
         };
@@ -157,10 +164,12 @@ pub enum Quantity {
     Moment,
     /// Von Mises stress (Pa).
     VonMises,
+    /// Its share of the yield stress.
+    Used,
 }
 
 impl Quantity {
-    const ALL: [Quantity; 7] = [
+    const ALL: [Quantity; 8] = [
         Quantity::Arc,
         Quantity::Clearance,
         Quantity::Effective,
@@ -168,6 +177,7 @@ impl Quantity {
         Quantity::Shear,
         Quantity::Moment,
         Quantity::VonMises,
+        Quantity::Used,
     ];
 
     /// Its value; not a number of a node that has none.
@@ -181,6 +191,7 @@ impl Quantity {
             Quantity::Shear => bent(|b| b.shear),
             Quantity::Moment => bent(BentRow::moment),
             Quantity::VonMises => bent(|b| b.von_mises),
+            Quantity::Used => node.bent.and_then(|b| b.yields()).unwrap_or(f64::NAN),
         }
     }
 }

@@ -277,7 +277,7 @@ impl Run {
                         }
                     }
                 }
-                Err(error) if level >= HALVINGS => return Err(error),
+                Err(error) if level >= HALVINGS || error.error.lasting => return Err(error),
                 Err(_) => {
                     self.unwind(winches);
                     self.counts.cut += 1;

@@ -266,7 +266,6 @@ impl Stepper {
             self.correct_trial(system, &now.motions, dt, (gain, by_place, by_velocity));
             self.weigh_again(system);
         }
-        let mut last = f64::INFINITY;
         loop {
             now.forces.evaluate(system, &now.memory, &self.trial, (time, dt))?;
             effort.evaluations += 1;
@@ -274,7 +273,7 @@ impl Stepper {
             if !left.is_finite() {
                 return Err(not_finite(system, &now.forces.sum, time));
             }
-            if left <= wanted.tolerance * system.gravity || (left >= last && left <= wanted.tolerance) {
+            if left <= wanted.tolerance * system.gravity {
                 // what is foretold is near, not balanced: with the matrix at hand what is left goes, too
                 if foretold && effort.evaluations == 1 && !now.forces.moving && self.solve_again() {
                     self.correct_trial(system, &now.motions, dt, (gain, by_place, by_velocity));
@@ -284,7 +283,6 @@ impl Stepper {
             if effort.iterations >= wanted.most {
                 return Err(self.unsolved(system, left, time, dt));
             }
-            last = left;
             effort.iterations += 1;
             self.turn(system);
             self.jacobian(&now.forces, dt, by_place, by_velocity);

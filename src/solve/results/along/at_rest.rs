@@ -1,6 +1,6 @@
 //! A line at rest between its ends where they stand.
 
-use super::{CLEARANCE, sections, segment_at};
+use super::{CLEARANCE, most_used, sections, segments_at};
 use crate::hydro::ambient;
 use crate::language::units::Dim;
 use crate::model::{Connector, Element, End, Model, Situation};
@@ -83,8 +83,8 @@ pub fn lines_at_rest(model: &Model, fits: &dyn Fn(&str) -> bool) -> Result<Vec<T
                 let stress = node.stress.map(|s| [s.axial, s.bending, s.hoop, s.von_mises]);
                 cells.extend((0..4).map(|i| Cell::from(stress.and_then(|s| s.get(i).copied()))));
             }
-            let section = sections.get(segment_at(&sections, length - node.arc));
-            cells.push(section.map(|s| s.used(node.effective, node.stress.map(|s| s.von_mises))).into());
+            let meeting = sections.get(segments_at(&sections, length - node.arc)).unwrap_or_default();
+            cells.push(most_used(meeting, node.effective, node.stress.map(|s| s.used)).into());
             let text = |e: crate::table::TableError| SolveError::new(crate::model::ClassError::new(e.to_string()));
             table.push(cells).map_err(text)?;
         }

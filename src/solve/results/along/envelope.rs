@@ -1,6 +1,6 @@
 //! The least, mean and most at each node.
 
-use super::{CLEARANCE, Line};
+use super::{CLEARANCE, Line, most_used, segments_at};
 use crate::language::units::Dim;
 use crate::post::line::envelope::Seen;
 use crate::solve::results::Event;
@@ -70,10 +70,10 @@ pub fn envelope(line: &Line, events: &[Event]) -> Result<Table, SolveError> {
                 found.map(|s| s.most.value).into(),
             ]);
         }
-        let section = arc.and_then(|arc| line.sections.get(super::segment_at(&line.sections, length - arc)));
-        let used = section
-            .zip(of(Quantity::Effective))
-            .map(|(section, tension)| section.used(tension.most.value, of(Quantity::VonMises).map(|s| s.most.value)));
+        let meeting = arc.and_then(|arc| line.sections.get(segments_at(&line.sections, length - arc)));
+        let most = |quantity: Quantity| of(quantity).map(|s| s.most.value);
+        let used = most(Quantity::Effective)
+            .and_then(|tension| most_used(meeting.unwrap_or_default(), tension, most(Quantity::Used)));
         if let Some(used) = used
             && worst.is_none_or(|(most, _)| used > most)
         {

@@ -1,6 +1,6 @@
 //! Where a line is at an instant, with its forces there; and its nodes over time.
 
-use super::{CLEARANCE, Line};
+use super::{CLEARANCE, Line, most_used};
 use crate::language::units::Dim;
 use crate::model::ClassError;
 use crate::solve::results::{Event, columns, filled, timed};
@@ -38,7 +38,7 @@ fn told(node: Option<&NodeRow>, bends: bool, out: &mut Vec<f64>) {
     out.extend(node.position);
     out.extend([node.clearance, node.effective]);
     if let Some(bent) = &node.bent {
-        let BentRow { wall, shear, bends: [one, other], von_mises } = *bent;
+        let BentRow { wall, shear, bends: [one, other], von_mises, .. } = *bent;
         out.extend([wall, shear, bent.moment(), one, other, von_mises]);
     }
 }
@@ -66,8 +66,8 @@ pub fn shape(line: &Line, event: &Event) -> Result<Table, SolveError> {
         numbers.clear();
         told(Some(&node), bends, &mut numbers);
         cells.extend(numbers.iter().map(|v| if v.is_finite() { Cell::Number(v + 0.0) } else { Cell::Missing }));
-        let section = line.section(&node, &row);
-        cells.push(section.map(|(_, s)| s.used(node.effective, node.bent.map(|b| b.von_mises))).into());
+        let yields = node.bent.and_then(|b| b.yields());
+        cells.push(most_used(line.sections_at(&node, &row), node.effective, yields).into());
         table.push(cells).map_err(|e| line.wrong(e.to_string()))?;
     }
     if table.rows() == 0 {
@@ -153,6 +153,7 @@ fn between(from: &NodeRow, to: &NodeRow, share: f64) -> NodeRow {
         shear: mix(a.shear, b.shear),
         bends: [mix(a.bends[0], b.bends[0]), mix(a.bends[1], b.bends[1])],
         von_mises: mix(a.von_mises, b.von_mises),
+        used: mix(a.used, b.used),
     });
     NodeRow {
         arc: mix(from.arc, to.arc),
