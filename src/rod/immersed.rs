@@ -234,6 +234,7 @@ mod tests {
             velocity: Vector3::new(1.0, -0.3, 0.2),
             acceleration: Vector3::new(0.4, 0.1, -0.5),
             surface: 0.0,
+            head: 0.0,
             density: 1025.0,
             wind: Vector3::new(9.0, 4.0, -2.0),
             air_density: 1.226,

@@ -23,7 +23,7 @@ impl Rod {
         let mut fluids = vec![UniformFluid::none().0; x.len()];
         // tubes feel the pressure outside, nothing else is asked of it here
         if self.segments.iter().any(|s| s.tube.is_some()) {
-            world.fluid.fill_levels(x, state.time, &mut fluids);
+            world.fluid.fill(x, state.time, &mut fluids);
         }
         let edges: Vec<(Vector3<f64>, f64)> = x
             .windows(2)
@@ -106,7 +106,7 @@ impl Rod {
                 };
                 if let Some(tube) = &self.segments[element.segment].tube {
                     let [outside, inside] = tube.areas();
-                    let outer = fluids[i].density * world.gravity * (fluids[i].surface - x[i].z).max(0.0);
+                    let (outer, _) = fluids[i].pressure(x[i].z, world.gravity);
                     let inner = tube.pressure + tube.contents * world.gravity * (tube.at - x[i].z);
                     made.pressures = [outer, inner];
                     made.wall = effective - outer * outside + inner * inside;

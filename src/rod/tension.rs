@@ -68,11 +68,10 @@ pub(super) fn tension(
     if let Some(tube) = &segment.tube {
         let share = 1.0 - 2.0 * tube.poisson;
         let [outside, inside] = tube.areas();
-        let outer = fluid.density * gravity * (fluid.surface - stretch.height).max(0.0);
+        let (outer, by_height) = fluid.pressure(stretch.height, gravity);
         let inner = tube.pressure + tube.contents * gravity * (tube.at - stretch.height);
         made.value += share * (outer * outside - inner * inside);
-        let wet = if stretch.height < fluid.surface { fluid.density } else { 0.0 };
-        made.by_height = share * gravity * (tube.contents * inside - wet * outside);
+        made.by_height = share * (tube.contents * gravity * inside + by_height * outside);
     }
     made
 }
