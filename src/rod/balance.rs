@@ -177,7 +177,8 @@ fn look(rod: &Rod, state: &State, world: &World, solver: &Solver, made: &EndForc
         let memory = state.yielded.get(i).map(|yielded| Memory::at_once(*yielded));
         let pull = |rate| {
             let stretched = Stretch { strain, rate, height };
-            tension(rod, element, taken, &stretched, memory.as_ref(), &trial.fluid[i], world.gravity).value
+            let fluids = [&trial.fluid[i], &trial.fluid[i + 1]];
+            tension(rod, element, taken, &stretched, memory.as_ref(), fluids, world.gravity).value
         };
         let (whole, rateless) = (pull(rate), pull(0.0));
         let segment = &rod.segments[element.segment];

@@ -41,7 +41,8 @@ impl Rod {
                 let stretched = Stretch { strain: stretch - 1.0, rate, height: 0.5 * (x[i].z + x[i + 1].z) };
                 let taken = Taken { compression: element.compression, ease: 1.0 };
                 let memory = state.yielded.get(i).map(|yielded| Memory::at_once(*yielded));
-                tension(self, element, taken, &stretched, memory.as_ref(), &fluids[i], world.gravity).value
+                let beside = [&fluids[i], &fluids[i + 1]];
+                tension(self, element, taken, &stretched, memory.as_ref(), beside, world.gravity).value
             })
             .collect();
         // moment vector at each node, and the length it is spread over

@@ -32,7 +32,7 @@ pub(super) struct Taken {
 
 /// Effective tension: the law of the segment at the mechanical strain, internal damping, and what pressure does
 /// through Poisson's ratio, (1 - 2 nu)(p_e A_e - p_i A_i) (Sparks, Fundamentals of Marine Riser Mechanics, 2007,
-/// section 2.4). A viscoelastic rope with a `memory` adds its Maxwell element, but never pushes.
+/// section 2.4), the pressure outside being the mean of what the fluids at its two nodes make it at its middle. A viscoelastic rope with a `memory` adds its Maxwell element, but never pushes.
 #[inline(always)]
 pub(super) fn tension(
     rod: &Rod,
@@ -40,7 +40,7 @@ pub(super) fn tension(
     taken: Taken,
     stretch: &Stretch,
     memory: Option<&Memory>,
-    fluid: &Fluid,
+    fluids: [&Fluid; 2],
     gravity: f64,
 ) -> Tension {
     let segment = &rod.segments[element.segment];
@@ -68,7 +68,8 @@ pub(super) fn tension(
     if let Some(tube) = &segment.tube {
         let share = 1.0 - 2.0 * tube.poisson;
         let [outside, inside] = tube.areas();
-        let (outer, by_height) = fluid.pressure(stretch.height, gravity);
+        let [a, b] = fluids.map(|fluid| fluid.pressure(stretch.height, gravity));
+        let (outer, by_height) = (0.5 * (a.0 + b.0), 0.5 * (a.1 + b.1));
         let inner = tube.pressure + tube.contents * gravity * (tube.at - stretch.height);
         made.value += share * (outer * outside - inner * inside);
         made.by_height = share * (tube.contents * gravity * inside + by_height * outside);
