@@ -195,7 +195,7 @@ fn look(rod: &Rod, state: &State, world: &World, solver: &Solver, made: &EndForc
             (0.0, 0.0)
         };
         found.energy.elastic += energy * element.rest;
-        if held {
+        if held || segment.tube.is_some() {
             // what pressure and damping do beside the law's own energy
             found.power.damping -= (whole - rateless) * rate * element.rest;
             found.power.fluid -= (rateless - law) * rate * element.rest;

@@ -84,9 +84,7 @@ fn outer_pressure_of_a_deep_pipe_is_that_of_the_wave_at_its_depth() {
     for depth in [2.0, 20.0, 300.0] {
         let (a, b) = (Vector3::new(0.0, 0.0, -depth), Vector3::new(20.0, 0.0, -depth));
         let ends = [End::pinned(a), End::pinned(b)];
-        let pressure = |x: f64, time: f64| {
-            1025.0 * G * (depth + waves.elevation(x, time) * (-number * depth).exp())
-        };
+        let pressure = |x: f64, time: f64| 1025.0 * G * (depth + waves.elevation(x, time) * (-number * depth).exp());
         for time in [0.0, 2.0, 4.0] {
             let state = State { time, ..State::along(&rod, &[a, b]).unwrap() };
             let found = rod.results(&state, &world, &ends);
@@ -94,17 +92,50 @@ fn outer_pressure_of_a_deep_pipe_is_that_of_the_wave_at_its_depth() {
                 // at a trough of 5 m the first depth lies above the surface
                 let wet = waves.elevation(node.position.x, time) > -depth;
                 let exact = if wet { pressure(node.position.x, time) } else { 0.0 };
-                assert!((node.pressures[0] - exact).abs() <= 1e-9 * exact, "{depth} {time} {i}: {:?} {exact}", node.pressures);
+                assert!(
+                    (node.pressures[0] - exact).abs() <= 1e-9 * exact,
+                    "{depth} {time} {i}: {:?} {exact}",
+                    node.pressures
+                );
                 if !wet || depth < 10.0 || i == 0 || i == 10 {
                     continue;
                 }
                 // Poisson's ratio alone stretches a pipe that is held: T = (1 - 2 nu) p A; the mean of three nodes has
                 // the bend of the wave over 2 m in it; strains are rounded to 1e-15 of EA
-                let mean = 0.25 * (pressure(node.position.x - 2.0, time) + 2.0 * exact + pressure(node.position.x + 2.0, time));
-                assert!((node.effective / (0.4 * mean * outside) - 1.0).abs() < 1e-8, "{depth} {time} {i}: {}", node.effective);
+                let mean = 0.25
+                    * (pressure(node.position.x - 2.0, time) + 2.0 * exact + pressure(node.position.x + 2.0, time));
+                assert!(
+                    (node.effective / (0.4 * mean * outside) - 1.0).abs() < 1e-8,
+                    "{depth} {time} {i}: {}",
+                    node.effective
+                );
                 assert!((node.wall - (node.effective - exact * outside)).abs() < 1e-9 * exact * outside);
             }
         }
+    }
+}
+
+#[test]
+fn a_tube_that_does_not_resist_shortening_is_held_taut_by_pressure_and_never_pushes() {
+    let fluid = UniformFluid::still(1025.0);
+    let world = World::new(&fluid, G);
+    let depth = 1000.0;
+    let pull = |pressure: f64, compression: bool, stretch: f64| {
+        let tube = Tube { pressure, ..Tube::empty(0.3, 0.28) };
+        let [outside, inside] = tube.areas();
+        let segment = Segment { compression, tube: Some(tube), ..Segment::line(20.0, 10, 100.0, 1e9, 0.3) };
+        let rod = Rod::new("hose", vec![segment], vec![]).unwrap();
+        let (a, b) = (Vector3::new(0.0, 0.0, -depth), Vector3::new(20.0 * (1.0 + stretch), 0.0, -depth));
+        let state = State::along(&rod, &[a, b]).unwrap();
+        let found = rod.results(&state, &world, &[End::pinned(a), End::pinned(b)])[5].effective;
+        (found, 1e9 * stretch + 0.4 * (1025.0 * G * depth * outside - pressure * inside))
+    };
+    for (pressure, stretch) in [(0.0, 0.0), (0.0, -1e-4), (0.0, -1e-3), (3e7, 1e-3), (3e7, 1e-4), (1e7, 0.0)] {
+        // strains are rounded to 1e-15 of EA
+        let (found, exact) = pull(pressure, true, stretch);
+        assert!((found - exact).abs() < 1e-3, "{pressure} {stretch}: {found} {exact}");
+        let (found, exact) = pull(pressure, false, stretch);
+        assert!((found - exact.max(0.0)).abs() < 1e-3, "{pressure} {stretch}: {found} {exact}");
     }
 }
 
