@@ -3,7 +3,7 @@
 use super::bend::hinge;
 use super::contact::{self, contact};
 use super::hinges::{HingeAt, hinge_sides};
-use super::immersed::{entry, half_load, slam_load, wet_prism, wet_share, wind_load};
+use super::immersed::{Node, on_half, wet_prism};
 use super::mesh::Rod;
 use super::rollers::{cradled, crossing};
 use super::rope::Memory;
@@ -200,24 +200,15 @@ fn look(rod: &Rod, state: &State, world: &World, solver: &Solver, made: &EndForc
             found.power.damping -= (whole - rateless) * rate * element.rest;
             found.power.fluid -= (rateless - law) * rate * element.rest;
         }
-        let middle = 0.5 * (trial.fluid[i].surface - x[i].z + trial.fluid[i + 1].surface - x[i + 1].z);
-        let rising = [i, i + 1].map(|node| v[node].z - trial.fluid[node].velocity.z);
-        for (node, rising) in [(i, rising), (i + 1, [rising[1], rising[0]])] {
+        let at = |node: usize| Node {
+            position: &x[node],
+            velocity: &v[node],
+            acceleration: &a[node],
+            fluid: &trial.fluid[node],
+        };
+        for (node, other) in [(i, i + 1), (i + 1, i)] {
             lump(&mut found, node, element.mass);
-            let fluid = &trial.fluid[node];
-            let own = fluid.surface - x[node].z;
-            let share = wet_share(own, middle, element.diameter).0;
-            let mut force = Vector3::zeros();
-            if share > 0.0 && fluid.density > 0.0 {
-                force -= half_load(element, &t, fluid, &v[node], &a[node], world.gravity).force * share;
-                if world.slam
-                    && share < 1.0
-                    && let Some(entry) = entry(own, middle, element.diameter, rising)
-                {
-                    force -= slam_load(element, &t, fluid, &v[node], entry.rate).force;
-                }
-            }
-            force -= wind_load(element, &t, fluid, &v[node]).force * (1.0 - share);
+            let force = on_half(element, &t, world, [at(node), at(other)]);
             found.power.fluid += force.dot(&v[node]);
             found.force += force;
         }

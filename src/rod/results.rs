@@ -3,11 +3,12 @@
 use super::bend::hinge;
 use super::ends::End;
 use super::hinges::{HingeAt, hinge_sides};
+use super::immersed::{Node, on_half};
 use super::mesh::Rod;
 use super::rope::Memory;
 use super::spatial::{transport, twist};
 use super::state::State;
-use super::surroundings::{UniformFluid, World};
+use super::surroundings::{Fluid, UniformFluid, World};
 use super::tension::{Stretch, Taken, tension};
 use crate::model::{LineNode, LineStress};
 use nalgebra::Vector3;
@@ -15,15 +16,23 @@ use nalgebra::Vector3;
 impl Rod {
     /// Results at every node of a state.
     ///
-    /// Tension of a node is the mean of its two elements; at an end it is that of the nearest two carried on. Shear
-    /// is the change of the moment over the elements beside a node.
+    /// Tension of a node is the mean of its two elements; at an end it is what is left of that of the last element when
+    /// the half of it beyond has been moved, carried and dragged along itself: all that the holder takes along the rod.
+    /// Shear is the change of the moment over the elements beside a node.
     pub fn results(&self, state: &State, world: &World, ends: &[End; 2]) -> Vec<LineNode> {
         let last = self.elements.len();
         let (x, v) = (&state.position, &state.velocity);
         let mut fluids = vec![UniformFluid::none().0; x.len()];
-        // tubes feel the pressure outside, nothing else is asked of it here
+        // tubes feel the pressure outside; beside that it loads the elements at the ends
         if self.segments.iter().any(|s| s.tube.is_some()) {
             world.fluid.fill(x, state.time, &mut fluids);
+        } else {
+            let nodes = [0, 1, last - 1, last];
+            let mut beside = [UniformFluid::none().0; 4];
+            world.fluid.fill(&nodes.map(|node| x[node]), state.time, &mut beside);
+            for (node, fluid) in nodes.into_iter().zip(beside) {
+                fluids[node] = fluid;
+            }
         }
         let edges: Vec<(Vector3<f64>, f64)> = x
             .windows(2)
@@ -76,8 +85,8 @@ impl Rod {
                 let inner = i > 0 && i < last;
                 let effective = match (inner, i) {
                     (true, _) => 0.5 * (pulls[i - 1] + pulls[i]),
-                    (false, 0) => carried_on(pulls[0], pulls.get(1).copied()),
-                    (false, _) => carried_on(pulls[last - 1], last.checked_sub(2).map(|j| pulls[j])),
+                    (false, 0) => self.pull_at_end(0, state, world, &fluids, (&edges[0].0, pulls[0])),
+                    (false, _) => self.pull_at_end(1, state, world, &fluids, (&edges[last - 1].0, pulls[last - 1])),
                 };
                 let shear = match (inner, i) {
                     (true, _) => 0.5 * (shears[i - 1] + shears[i]).norm(),
@@ -121,6 +130,33 @@ impl Rod {
 }
 
 impl Rod {
+    /// Tension (N) at end A (0) or end B (1), of whose element the direction and the tension are known.
+    fn pull_at_end(
+        &self,
+        side: usize,
+        state: &State,
+        world: &World,
+        fluids: &[Fluid],
+        (t, pull): (&Vector3<f64>, f64),
+    ) -> f64 {
+        let last = self.elements.len();
+        let (node, other, element) = if side == 0 { (0, 1, 0) } else { (last, last - 1, last - 1) };
+        let element = &self.elements[element];
+        let at = |node: usize| Node {
+            position: &state.position[node],
+            velocity: &state.velocity[node],
+            acceleration: &state.acceleration[node],
+            fluid: &fluids[node],
+        };
+        let weight = Vector3::z() * world.gravity;
+        let moved =
+            (state.acceleration[node] + weight) * element.mass - on_half(element, t, world, [at(node), at(other)]);
+        let along = moved.dot(t);
+        let found = if side == 0 { pull - along } else { pull + along };
+        // half a slack element that is carried along may push its holder, but not the rod
+        if element.compression { found } else { found.max(0.0) }
+    }
+
     /// Moment vector of each node of a rod with torsion, with the length it is spread over, and its torque.
     fn spatial_moments(&self, state: &State, ends: &[End; 2]) -> (Vec<(Vector3<f64>, f64)>, Vec<f64>) {
         let last = self.elements.len();
@@ -164,11 +200,6 @@ fn carried(edges: &[(Vector3<f64>, f64)], end: &End) -> Vec<Vector3<f64>> {
         before.1
     };
     edges.iter().map(on).collect()
-}
-
-/// A value at the end of a row of middles.
-fn carried_on(near: f64, far: Option<f64>) -> f64 {
-    far.map_or(near, |far| near + 0.5 * (near - far))
 }
 
 /// A vector at the end of a row of middles.
