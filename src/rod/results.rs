@@ -10,7 +10,7 @@ use super::spatial::{transport, twist};
 use super::state::State;
 use super::surroundings::{Fluid, UniformFluid, World};
 use super::tension::{Stretch, Taken, tension};
-use crate::model::{LineNode, LineStress};
+use crate::model::{LineNode, LineSide, LineStress};
 use nalgebra::Vector3;
 
 impl Rod {
@@ -98,30 +98,38 @@ impl Rod {
                 let element = &self.elements[beside];
                 let moment = bending.norm();
                 let (director, direction) = (across[beside], edges[beside].0);
-                let mut made = LineNode {
+                // the softer of two segments bends more
+                let softest = if inner { element.bending.min(self.elements[i - 1].bending) } else { element.bending };
+                let first = if inner { self.elements[i - 1].segment } else { element.segment };
+                let tube = |segment: usize| self.segments[segment].tube.as_ref();
+                let pressures = tube(element.segment).or(tube(first)).map_or([0.0; 2], |tube| {
+                    let (outer, _) = fluids[i].pressure(x[i].z, world.gravity);
+                    [outer, tube.pressure + tube.contents * world.gravity * (tube.at - x[i].z)]
+                });
+                let side = |segment: usize| {
+                    let Some(tube) = tube(segment) else { return LineSide { segment, wall: effective, stress: None } };
+                    let ([outer, inner], [outside, inside]) = (pressures, tube.areas());
+                    let wall = effective - outer * outside + inner * inside;
+                    LineSide { segment, wall, stress: Some(stress(wall, moment, pressures, tube)) }
+                };
+                let behind = side(element.segment);
+                let made = LineNode {
                     arc,
-                    segment: element.segment,
+                    segment: behind.segment,
                     position: x[i],
                     velocity: v[i],
                     effective,
-                    wall: effective,
+                    wall: behind.wall,
                     shear,
                     moment,
                     bends: [bending.dot(&director), bending.dot(&direction.cross(&director))],
                     torque: torques.get(i).copied().unwrap_or(0.0),
-                    curvature: if element.bending > 0.0 { moment / element.bending } else { bend(&edges, &moments, i) },
+                    curvature: if softest > 0.0 { moment / softest } else { bend(&edges, &moments, i) },
                     clearance: clearance(world, &x[i]),
-                    pressures: [0.0; 2],
-                    stress: None,
+                    pressures,
+                    stress: behind.stress,
+                    before: (first != element.segment).then(|| side(first)),
                 };
-                if let Some(tube) = &self.segments[element.segment].tube {
-                    let [outside, inside] = tube.areas();
-                    let (outer, _) = fluids[i].pressure(x[i].z, world.gravity);
-                    let inner = tube.pressure + tube.contents * world.gravity * (tube.at - x[i].z);
-                    made.pressures = [outer, inner];
-                    made.wall = effective - outer * outside + inner * inside;
-                    made.stress = Some(stress(made.wall, moment, made.pressures, tube));
-                }
                 arc += if i < last { element.rest } else { 0.0 };
                 made
             })

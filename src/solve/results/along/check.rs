@@ -6,7 +6,7 @@ use crate::model::ClassError;
 use crate::post::SeriesError;
 use crate::post::line::lrfd::{Factors, Resistance};
 use crate::post::line::working_stress::{self, DesignCase};
-use crate::post::line::{Acting, Tube, inside_pressure, over_break};
+use crate::post::line::{Acting, Tube, over_break};
 use crate::solve::results::Event;
 use crate::solve::system::SolveError;
 use crate::solve::time::NodeRow;
@@ -84,7 +84,7 @@ struct Worst {
     acting: Acting,
 }
 
-/// The largest use of what each node resists over some events, and when. What acts at the first stored instant, at rest, is functional
+/// The largest use of what each node resists over some events, and when; where two segments meet, of the one that uses more. What acts at the first stored instant, at rest, is functional
 /// load; what is more or less later is of the environment.
 ///
 /// # Errors
@@ -98,8 +98,6 @@ pub fn check(line: &Line, code: &Code, events: &[Event]) -> Result<Table, SolveE
         .map(|section| Checked::of(section, code, columns.bends))
         .collect::<Result<_, ClassError>>()
         .map_err(|error| SolveError { who: Some(line.name.to_string()), error })?;
-    let around = run.model.surroundings();
-    let outside = |z: f64| around.water_weight() * (around.tide - z).max(0.0);
     let first = run.history.rows().next().unwrap_or_default();
     let rest: Vec<Option<NodeRow>> = line.places.iter().map(|p| columns.node(*p, first)).collect();
     let mut worst: Vec<Option<Worst>> = vec![None; line.places.len()];
@@ -109,22 +107,23 @@ pub fn check(line: &Line, code: &Code, events: &[Event]) -> Result<Table, SolveE
         let time = row.first().copied().unwrap_or(f64::NAN);
         for ((place, rest), worst) in line.places.iter().zip(&rest).zip(&mut worst) {
             let Some(node) = columns.node(*place, &row) else { continue };
-            let Some((segment, section)) = line.section(&node, &row) else { continue };
-            let Some(how) = checked.get(segment) else { continue };
-            let acting = acting(&node, section, outside(node.position[2]));
-            let used = match how {
-                Checked::Lrfd(resistance) => {
-                    let at_rest = rest.as_ref().unwrap_or(&node);
-                    resistance.used_now(design(at_rest), design(&node), [acting.inside, acting.outside])
+            for (_, segment, section) in line.sides(&node, &row) {
+                let Some(how) = checked.get(segment) else { continue };
+                let acting = acting(&node, section);
+                let used = match how {
+                    Checked::Lrfd(resistance) => {
+                        let at_rest = rest.as_ref().unwrap_or(&node);
+                        resistance.used_now(design(at_rest), design(&node), [acting.inside, acting.outside])
+                    }
+                    Checked::WorkingStress(tube, case) => working_stress::used(tube, &acting, *case).map_err(wrong)?,
+                    Checked::Break(breaking) => over_break(node.effective, *breaking).map_err(wrong)?,
+                };
+                if !used.is_finite() {
+                    return Err(line.wrong(format!("its check at {time} s is no number")));
                 }
-                Checked::WorkingStress(tube, case) => working_stress::used(tube, &acting, *case).map_err(wrong)?,
-                Checked::Break(breaking) => over_break(node.effective, *breaking).map_err(wrong)?,
-            };
-            if !used.is_finite() {
-                return Err(line.wrong(format!("its check at {time} s is no number")));
-            }
-            if worst.is_none_or(|w| used > w.used) {
-                *worst = Some(Worst { used, time, arc: node.arc, segment, acting });
+                if worst.is_none_or(|w| used > w.used) {
+                    *worst = Some(Worst { used, time, arc: node.arc, segment, acting });
+                }
             }
         }
     }
@@ -137,10 +136,10 @@ fn design(node: &NodeRow) -> [f64; 3] {
     [one, other, node.effective]
 }
 
-fn acting(node: &NodeRow, section: &Section, outside: f64) -> Acting {
+fn acting(node: &NodeRow, section: &Section) -> Acting {
     let Some(bent) = &node.bent else { return Acting { effective: node.effective, ..Acting::default() } };
-    let inside = section.tube.and_then(|tube| inside_pressure(&tube, (node.effective, bent.wall), outside));
-    Acting { moment: bent.moment(), effective: node.effective, wall: bent.wall, inside: inside.unwrap_or(0.0), outside }
+    let [outside, inside] = bent.pressures;
+    Acting { moment: bent.moment(), effective: node.effective, wall: section.pulled(node), inside, outside }
 }
 
 fn told(line: &Line, code: &Code, checked: &[Checked], worst: &[Option<Worst>]) -> Result<Table, SolveError> {

@@ -5,13 +5,13 @@ use crate::language::units::Dim;
 use crate::model::{ClassError, FatigueKind, FatigueSelection};
 use crate::post::SeriesError;
 use crate::post::fatigue::{Curve, find, life};
-use crate::post::line::fatigue::{NodeRecord, Round, node_damage};
+use crate::post::line::fatigue::{NodeDamage, NodeRecord, Round, node_damage};
 use crate::solve::results::Event;
 use crate::solve::system::SolveError;
 use crate::table::{Cell, Digits, Table};
 
 /// Damage of each node over the stored instants of some events, round a tube at some points, and the life in years that it leaves
-/// when the record comes again for ever, with a design fatigue factor. Each segment goes by its curve as for [`super::super::line_damages`].
+/// when the record comes again for ever, with a design fatigue factor; where two segments meet that of the side that fails first. Each segment goes by its curve as for [`super::super::line_damages`].
 ///
 /// # Errors
 /// A segment without a curve, a record without length, what [`node_damage`] says.
@@ -34,24 +34,26 @@ pub fn along(
         curves.push(named.and_then(|c| find(c, selection)).ok_or_else(missing)?);
     }
     let mut row = Vec::new();
-    let mut records: Vec<Record> = line.places.iter().map(|_| Record::default()).collect();
+    // one for each side: where two segments meet they go by curves and stresses of their own
+    let mut records: Vec<[Record; 2]> = line.places.iter().map(|_| Default::default()).collect();
     for event in events {
         line.row(event, &mut row);
         let time = row.first().copied().unwrap_or(f64::NAN);
-        for (record, place) in records.iter_mut().zip(&line.places) {
+        for (records, place) in records.iter_mut().zip(&line.places) {
             let Some(node) = line.columns.node(*place, &row) else { continue };
-            let Some((segment, section)) = line.section(&node, &row) else { continue };
-            record.take((time, node.arc, segment));
-            let pulled = node.bent.filter(|_| section.tube.is_some()).map_or(node.effective, |b| b.wall);
-            record.tension.push(pulled);
-            for (moments, value) in record.bends.iter_mut().zip(node.bent.map(|b| b.bends).unwrap_or_default()) {
-                moments.push(value);
+            for (side, segment, section) in line.sides(&node, &row) {
+                let Some(record) = records.get_mut(side) else { continue };
+                record.take((time, node.arc, segment));
+                record.tension.push(section.pulled(&node));
+                for (moments, value) in record.bends.iter_mut().zip(node.bent.map(|b| b.bends).unwrap_or_default()) {
+                    moments.push(value);
+                }
             }
         }
     }
     let mut table = Table::new("Fatigue Along a Line")
         .fact("Line", line.name, Dim::None)
-        .fact("Record", records.iter().map(Record::length).fold(0.0, f64::max), Dim::Time)
+        .fact("Record", records.iter().flatten().map(Record::length).fold(0.0, f64::max), Dim::Time)
         .fact("Design Fatigue Factor", factor, Dim::None);
     let by = |kind: FatigueKind| curves.iter().any(|c| c.kind == kind);
     let round_tubes = line.columns.bends && by(FatigueKind::Stress) && line.sections.iter().any(|s| s.tube.is_some());
@@ -84,17 +86,21 @@ pub fn along(
         Digits::Scientific(4),
     );
     let mut worst: Option<(f64, usize)> = None;
-    for (index, record) in records.iter().enumerate() {
-        let (Some(section), Some(curve)) = (line.sections.get(record.segment), curves.get(record.segment)) else {
-            continue;
-        };
-        if record.tension.len() < 2 {
-            continue;
+    for (index, sides) in records.iter().enumerate() {
+        let mut most = None;
+        for record in sides.iter().filter(|r| r.tension.len() > 1) {
+            let (Some(section), Some(curve)) = (line.sections.get(record.segment), curves.get(record.segment)) else {
+                continue;
+            };
+            let [one, other] = &record.bends;
+            let bends = line.columns.bends.then_some([one.as_slice(), other.as_slice()]);
+            let node = NodeRecord { segment: &section.segment, curve, tension: &record.tension, bends };
+            let made = node_damage(&node, selection.thickness.as_ref(), round).map_err(refused)?;
+            if most.as_ref().is_none_or(|(_, _, found): &(_, _, NodeDamage)| made.damage >= found.damage) {
+                most = Some((record, curve, made));
+            }
         }
-        let [one, other] = &record.bends;
-        let bends = line.columns.bends.then_some([one.as_slice(), other.as_slice()]);
-        let node = NodeRecord { segment: &section.segment, curve, tension: &record.tension, bends };
-        let found = node_damage(&node, selection.thickness.as_ref(), round).map_err(refused)?;
+        let Some((record, curve, found)) = most else { continue };
         let years = life(found.damage, record.length(), factor).map_err(refused)?;
         if worst.is_none_or(|(most, _)| found.damage > most) {
             worst = Some((found.damage, index + 1));

@@ -46,6 +46,13 @@ impl Section {
             _ => (tension / self.segment.breaking).max(0.0),
         }
     }
+
+    /// Tension (N) by which its stress goes: in the wall of a tube, effective of another section.
+    pub(super) fn pulled(&self, node: &NodeRow) -> f64 {
+        let (Some(tube), Some(bent)) = (&self.tube, &node.bent) else { return node.effective };
+        let ([outer, bore], [outside, inside]) = (tube.areas(), bent.pressures);
+        node.effective - outside * outer + inside * bore
+    }
 }
 
 /// The segments of the class of a connector, from its first end.
@@ -67,18 +74,29 @@ pub(super) fn sections(model: &Model, name: &str) -> Vec<Section> {
     made.map(of).collect()
 }
 
-/// The number of the segment (from 0) that a place is in, by its unstretched distance from the second end (m); where two meet, that
-/// toward the second end. The first segment is as long as a winch has made it.
-pub(super) fn segment_at(sections: &[Section], from_second: f64) -> usize {
+/// The numbers of the segments (from 0) that a place is in, by its unstretched distance from the second end (m): toward the first end
+/// and toward the second, which differ where two meet. The first segment is as long as a winch has made it.
+pub(super) fn segments_at(sections: &[Section], from_second: f64) -> [usize; 2] {
     let mut left = from_second;
     for (index, section) in sections.iter().enumerate().skip(1).rev() {
         left -= section.segment.length;
         // a length added up of those of elements has their rounding
-        if left <= 1e-6 * section.segment.length {
-            return index;
+        let near = 1e-6 * section.segment.length;
+        if left <= near {
+            return [if left >= -near { index - 1 } else { index }, index];
         }
     }
-    0
+    [0; 2]
+}
+
+/// The sides of such a place, from the first end: 0 toward the first end, only where two segments meet, and 1 toward the second, with
+/// the number of the segment and the segment.
+pub(super) fn sides(
+    sections: &[Section],
+    [before, behind]: [usize; 2],
+) -> impl Iterator<Item = (usize, usize, &Section)> {
+    let both = [(before != behind).then_some((0, before)), Some((1, behind))];
+    both.into_iter().flatten().filter_map(|(side, index)| Some((side, index, sections.get(index)?)))
 }
 
 /// A line of a run.
@@ -157,10 +175,18 @@ impl<'a> Line<'a> {
         self.columns.node(last, row).map_or(f64::NAN, |n| n.arc)
     }
 
-    /// The section of a node in a row, by its number from 0.
-    fn section(&self, node: &NodeRow, row: &[f64]) -> Option<(usize, &Section)> {
-        let index = segment_at(&self.sections, self.length(row) - node.arc);
-        Some((index, self.sections.get(index)?))
+    /// The sides of a node in a row on which it is judged: see [`sides`].
+    fn sides(&self, node: &NodeRow, row: &[f64]) -> impl Iterator<Item = (usize, usize, &Section)> {
+        sides(&self.sections, segments_at(&self.sections, self.length(row) - node.arc))
+    }
+
+    /// The most a node uses in a row, of its sides.
+    fn used(&self, node: &NodeRow, row: &[f64]) -> Option<f64> {
+        let used = |(side, _, section): (usize, usize, &Section)| {
+            let stress = node.bent.and_then(|b| b.von_mises.get(side).copied());
+            section.used(node.effective, stress)
+        };
+        self.sides(node, row).map(used).reduce(f64::max)
     }
 
     fn wrong(&self, text: impl Into<String>) -> SolveError {
@@ -180,10 +206,21 @@ mod tests {
         };
         let all = [100.0, 50.0, 20.0].map(segment);
         // the last node, one in the last, where two meet, in the first, beyond what the class says of it
-        for (from_second, want) in [(0.0, 2), (10.0, 2), (20.0, 2), (20.5, 1), (70.0, 1), (71.0, 0), (500.0, 0)] {
-            assert_eq!(segment_at(&all, from_second), want, "{from_second}");
+        for (from_second, want) in [
+            (0.0, [2, 2]),
+            (10.0, [2, 2]),
+            (20.0, [1, 2]),
+            (20.5, [1, 1]),
+            (70.0, [0, 1]),
+            (71.0, [0, 0]),
+            (500.0, [0, 0]),
+        ] {
+            assert_eq!(segments_at(&all, from_second), want, "{from_second}");
         }
-        assert_eq!(segment_at(&[], 3.0), 0);
+        assert_eq!(segments_at(&[], 3.0), [0, 0]);
+        let judged: Vec<_> = sides(&all, [1, 2]).map(|(side, index, _)| (side, index)).collect();
+        assert_eq!(judged, [(0, 1), (1, 2)]);
+        assert_eq!(sides(&all, [1, 1]).count(), 1);
         assert_eq!(all[0].used(-5.0, None), 0.0);
     }
 }

@@ -38,8 +38,8 @@ fn told(node: Option<&NodeRow>, bends: bool, out: &mut Vec<f64>) {
     out.extend(node.position);
     out.extend([node.clearance, node.effective]);
     if let Some(bent) = &node.bent {
-        let BentRow { wall, shear, bends: [one, other], von_mises } = *bent;
-        out.extend([wall, shear, bent.moment(), one, other, von_mises]);
+        let BentRow { wall, shear, bends: [one, other], .. } = *bent;
+        out.extend([wall, shear, bent.moment(), one, other, bent.worse()]);
     }
 }
 
@@ -66,8 +66,7 @@ pub fn shape(line: &Line, event: &Event) -> Result<Table, SolveError> {
         numbers.clear();
         told(Some(&node), bends, &mut numbers);
         cells.extend(numbers.iter().map(|v| if v.is_finite() { Cell::Number(v + 0.0) } else { Cell::Missing }));
-        let section = line.section(&node, &row);
-        cells.push(section.map(|(_, s)| s.used(node.effective, node.bent.map(|b| b.von_mises))).into());
+        cells.push(line.used(&node, &row).into());
         table.push(cells).map_err(|e| line.wrong(e.to_string()))?;
     }
     if table.rows() == 0 {
@@ -126,7 +125,7 @@ pub fn histories(line: &Line, wanted: &[Where], events: &[Event]) -> Result<Tabl
 
 impl Line<'_> {
     /// The line at an unstretched distance from its first end (m) in a row; none beyond its ends.
-    fn at_arc(&self, arc: f64, row: &[f64]) -> Option<NodeRow> {
+    pub(super) fn at_arc(&self, arc: f64, row: &[f64]) -> Option<NodeRow> {
         let mut before: Option<NodeRow> = None;
         let near = 1e-9 * self.length(row).abs();
         for (_, node) in self.columns.nodes(row) {
@@ -152,7 +151,9 @@ fn between(from: &NodeRow, to: &NodeRow, share: f64) -> NodeRow {
         wall: mix(a.wall, b.wall),
         shear: mix(a.shear, b.shear),
         bends: [mix(a.bends[0], b.bends[0]), mix(a.bends[1], b.bends[1])],
-        von_mises: mix(a.von_mises, b.von_mises),
+        // what lies between is behind the one and before the other
+        von_mises: [mix(a.von_mises[1], b.von_mises[0]); 2],
+        pressures: [mix(a.pressures[0], b.pressures[0]), mix(a.pressures[1], b.pressures[1])],
     });
     NodeRow {
         arc: mix(from.arc, to.arc),
