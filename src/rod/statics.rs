@@ -9,7 +9,7 @@ use super::state::State;
 use super::step::{At, EndForces, Solver};
 use super::surroundings::World;
 use super::system::Weights;
-use super::trial::{lay, sample, soften, turn};
+use super::trial::{largest, lay, sample, soften, turn};
 use nalgebra::Vector3;
 
 /// Newton iterations after which statics gives up.
@@ -240,18 +240,16 @@ impl Solver {
             (_, false) => return Fall::Lost,
         }
         self.work.newton(&mut self.change);
-        let size =
-            self.change.iter().fold(0.0, |most: f64, c| if c.is_nan() { f64::INFINITY } else { most.max(c.abs()) });
+        let (stride, shortest) = (self.work.stride(), rod.shortest());
+        let size = largest(&self.change, stride, shortest);
         if size > 2.0 * rod.length() {
             return Fall::Lost;
         }
-        let stride = self.work.stride();
         turn(&mut self.trial.director, &self.trial.x, &self.change, stride, known);
         for i in 0..=last {
             let d = &self.change[stride * i..stride * i + 3];
             self.trial.x[i] += Vector3::new(d[0], d[1], d[2]);
         }
-        let shortest = rod.elements.iter().map(|e| e.rest).fold(f64::INFINITY, f64::min);
         Fall::Moved { share: size / shortest, worst }
     }
 

@@ -65,6 +65,17 @@ pub(super) fn turn(
     }
 }
 
+/// Largest change of the unknowns (m), of which there are `stride` a node: a turn of an element counts by the way of what
+/// stands off it by `arm` (m). Infinite where one is no number.
+pub(super) fn largest(change: &[f64], stride: usize, arm: f64) -> f64 {
+    let larger = |most: f64, size: f64| if size.is_nan() { f64::INFINITY } else { most.max(size) };
+    change.chunks_exact(stride).fold(0.0, |most, node| {
+        let (moves, turns) = node.split_at(3.min(node.len()));
+        let most = moves.iter().fold(most, |most, c| larger(most, c.abs()));
+        turns.iter().fold(most, |most, c| larger(most, arm * c.abs()))
+    })
+}
+
 /// How far a node may be from where the fluid was asked, as a share of the shortest element, until it is asked again.
 ///
 /// Over a thousandth of an element the water changes by a thousandth of what it changes over the element, and an element takes it for
