@@ -290,8 +290,7 @@ impl Solver {
             let close = iteration == 1 && moved.is_some();
             match iteration {
                 1 if !close => sample(world, time, &mut self.trial),
-                1 | 2 => sample_again(world, &mut self.trial, shortest),
-                _ => {}
+                _ => sample_again(world, &mut self.trial, shortest),
             }
             // while the moves shrink fast the factors of the iteration before do as well
             let fresh = !close && (iteration == 1 || last_move > 1e-3 * shortest || last_move > 0.2 * before);
