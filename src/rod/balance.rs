@@ -39,7 +39,7 @@ impl Energy {
 /// Work done on a rod since the books were opened (J).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Work {
-    /// By the holders of end A and end B.
+    /// By the holders of end A and end B, by force and moment.
     pub ends: [f64; 2],
     /// By the water and the air: buoyancy, drag, inertia, slam.
     pub fluid: f64,
@@ -281,8 +281,9 @@ fn look(rod: &Rod, state: &State, world: &World, solver: &Solver, made: &EndForc
         found.force += force;
     }
     for (side, node) in [(0, 0), (1, last)] {
+        found.power.ends[side] = -made.moment[side].dot(&trial.ends[side].turning);
         if trial.ends[side].motion.is_some() {
-            found.power.ends[side] = -made.force[side].dot(&v[node]);
+            found.power.ends[side] -= made.force[side].dot(&v[node]);
             found.force -= made.force[side];
         }
     }
