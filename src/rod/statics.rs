@@ -9,6 +9,7 @@ use super::state::State;
 use super::step::{At, EndForces, Solver};
 use super::surroundings::World;
 use super::system::Weights;
+use super::tension::{Stretch, Taken, tension};
 use super::trial::{largest, lay, sample, soften, turn};
 use nalgebra::Vector3;
 
@@ -253,6 +254,17 @@ impl Solver {
         Fall::Moved { share: size / shortest, worst }
     }
 
+    /// Tension (N) of an element of the trial, at rest, with what heat and pressure do to it.
+    fn pull(&self, rod: &Rod, world: &World, i: usize) -> f64 {
+        let (element, trial) = (&rod.elements[i], &self.trial);
+        let (a, b) = (&trial.x[i], &trial.x[i + 1]);
+        let strain = (b - a).norm() / element.rest - 1.0;
+        let stretched = Stretch { strain, rate: 0.0, height: 0.5 * (a.z + b.z) };
+        let taken = Taken { compression: element.compression, ease: 1.0 };
+        let fluids = [&trial.fluid[i], &trial.fluid[i + 1]];
+        tension(rod, element, taken, &stretched, trial.memory.get(i), fluids, world.gravity).value
+    }
+
     /// Sets how softly each node meets the bottom: see [`Solver::statics`].
     fn bed(&self, rod: &Rod, world: &World, state: &mut State) {
         let last = rod.elements.len();
@@ -260,8 +272,7 @@ impl Solver {
             let element = &rod.elements[i];
             let fluid = &self.trial.fluid[i];
             let weight = (element.mass - fluid.density * element.volume) * world.gravity / element.rest * 2.0;
-            let strain = (state.position[i + 1] - state.position[i]).norm() / element.rest - 1.0;
-            let tension = rod.segments[element.segment].axial.at(strain).0;
+            let tension = self.pull(rod, world, i);
             let most = 0.02 * element.rest;
             if tension > 0.0 { (weight.abs() * element.rest * element.rest / (8.0 * tension)).min(most) } else { most }
         };
@@ -277,12 +288,11 @@ impl Solver {
         let weight = mass.iter().sum::<f64>() * world.gravity.abs();
         let place = self.trial.x.iter().fold(0.0, |most: f64, x| most.max(x.amax()));
         let mut told = PROOF * weight;
-        for (element, x) in rod.elements.iter().zip(self.trial.x.windows(2)) {
+        for (i, (element, x)) in rod.elements.iter().zip(self.trial.x.windows(2)).enumerate() {
+            told = told.max(PROOF * self.pull(rod, world, i).abs());
+            // also one that is slack gets taut by the rounding of a position
             let strain = (x[1] - x[0]).norm() / element.rest - 1.0;
-            let (force, slope) = rod.segments[element.segment].axial.at(strain);
-            if strain > 0.0 || element.compression {
-                told = told.max(PROOF * force.abs());
-            }
+            let slope = rod.segments[element.segment].axial.at(strain).1;
             let stiffness = slope / element.rest + 10.0 * element.bending / element.rest.powi(3);
             told = told.max(32.0 * f64::EPSILON * place * stiffness);
         }

@@ -116,6 +116,25 @@ fn outer_pressure_of_a_deep_pipe_is_that_of_the_wave_at_its_depth() {
 }
 
 #[test]
+fn a_pipe_that_cools_between_fixed_ends_meets_the_bottom_as_softly_as_its_tension_says() {
+    // sag w l^2 / (8 T) of an element, T by Poisson's ratio and what cooling by 50 K pulls: EA alpha dT, 1.5 MN
+    let tube = Tube { expansion: 1.17e-5, warmer: -50.0, ..Tube::empty(0.3239, 0.2985) };
+    let rod = pipe(tube);
+    let [outside, inside] = tube.areas();
+    let fluid = UniformFluid::still(1025.0);
+    let world = World::new(&fluid, G);
+    let (a, b) = (Vector3::new(0.0, 0.0, -100.0), Vector3::new(20.0, 0.0, -100.0));
+    let mut state = State::along(&rod, &[a, b]).unwrap();
+    Solver::new(&rod, Settings::default()).statics(&rod, &mut state, &world, [End::pinned(a), End::pinned(b)]).unwrap();
+    let pull = E * (outside - inside) * 1.17e-5 * 50.0 + 0.4 * 1025.0 * G * 100.0 * outside;
+    let sag = (100.0 - 1025.0 * outside) * G * 4.0 / (8.0 * pull);
+    for bedding in &state.bedding {
+        // it sags by 5 mm, which stretches it by 1e-7 of what the cold does by 6e-4
+        assert!((bedding / sag - 1.0).abs() < 1e-3, "{bedding} {sag}");
+    }
+}
+
+#[test]
 fn a_tube_that_does_not_resist_shortening_is_held_taut_by_pressure_and_never_pushes() {
     let fluid = UniformFluid::still(1025.0);
     let world = World::new(&fluid, G);
