@@ -54,6 +54,7 @@ impl Ambient for Around {
         let streams = self.steady.at(time);
         let sea = self.sea.as_ref().map(|sea| sea.at(time));
         let level = self.steady.around.tide;
+        let weight = self.sea.as_ref().map_or(1.0, |sea| (sea.density * sea.gravity).max(f64::MIN_POSITIVE));
         for (place, out) in places.iter().zip(out) {
             *out = Flow::still(level);
             if !self.steady.still(Medium::Water) {
@@ -65,14 +66,8 @@ impl Ambient for Around {
                 out.velocity += found.velocity;
                 out.acceleration += found.acceleration;
                 out.surface += found.elevation;
+                out.head = found.pressure / weight - found.elevation;
             }
-        }
-    }
-
-    fn level(&self, time: f64, places: &[Vector3<f64>], out: &mut [Flow]) {
-        let sea = self.sea.as_ref().map(|sea| sea.at(time));
-        for (place, out) in places.iter().zip(out) {
-            out.surface = self.steady.around.tide + sea.as_ref().map_or(0.0, |sea| sea.elevation(place.x, place.y));
         }
     }
 

@@ -13,8 +13,6 @@ pub struct LineStress {
     pub hoop: f64,
     /// Largest von Mises stress over both surfaces and both sides of the bend.
     pub von_mises: f64,
-    /// Its share of the yield stress.
-    pub used: f64,
 }
 
 /// The books of energy and momentum of a line that moves by itself, since its run began.
@@ -32,6 +30,24 @@ pub struct LineBooks {
     pub momentum_error: Vector3<f64>,
 }
 
+/// A side of a node of a line where two segments meet.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LineSide {
+    /// Segment, from 0.
+    pub segment: usize,
+    /// Tension in the wall (N).
+    pub wall: f64,
+    /// Stresses, for a tube.
+    pub stress: Option<LineStress>,
+}
+
+impl LineSide {
+    /// Largest von Mises stress (Pa); 0 without a wall.
+    pub fn von_mises(&self) -> f64 {
+        self.stress.map_or(0.0, |s| s.von_mises)
+    }
+}
+
 /// A node of a line, numbered from its first end.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LineNode {
@@ -45,8 +61,7 @@ pub struct LineNode {
     pub velocity: Vector3<f64>,
     /// Effective tension (N): what balances the submerged weight.
     pub effective: f64,
-    /// Tension in the wall (N): effective tension less outer pressure times outer area plus inner pressure times inner area; of two tubes
-    /// that meet in the one behind.
+    /// Tension in the wall (N): effective tension less outer pressure times outer area plus inner pressure times inner area.
     pub wall: f64,
     /// Shear force (N).
     pub shear: f64,
@@ -64,8 +79,28 @@ pub struct LineNode {
     pub clearance: f64,
     /// Pressure outside and inside above the atmosphere's (Pa), for a tube.
     pub pressures: [f64; 2],
-    /// Stresses, for a tube; of two that meet those of the one that uses more of its yield stress.
+    /// Stresses, for a tube.
     pub stress: Option<LineStress>,
+    /// The side toward the first end, where another segment ends there; `segment`, `wall` and `stress` are of the other side.
+    pub before: Option<LineSide>,
+}
+
+impl LineNode {
+    /// The side toward the second end; where two segments do not meet it is the only one.
+    pub fn behind(&self) -> LineSide {
+        LineSide { segment: self.segment, wall: self.wall, stress: self.stress }
+    }
+
+    /// The sides on which it is judged, from the first end: two where two segments meet.
+    pub fn sides(&self) -> impl Iterator<Item = LineSide> {
+        self.before.into_iter().chain([self.behind()])
+    }
+
+    /// The side with the larger von Mises stress.
+    pub fn worse(&self) -> LineSide {
+        let behind = self.behind();
+        self.before.filter(|b| b.von_mises() > behind.von_mises()).unwrap_or(behind)
+    }
 }
 
 /// A natural mode of a line between ends that stand still.

@@ -16,6 +16,9 @@ pub struct Flow {
     pub acceleration: Vector3<f64>,
     /// Elevation of the surface above or below the place (m, global z).
     pub surface: f64,
+    /// What the pressure at the place is more than that of still water up to the surface, as a height of water (m): nothing where the
+    /// water is still and at the surface; less than nothing deep under a crest and more under a trough, whose weight does not reach down.
+    pub head: f64,
     /// Velocity of the air (m/s, global).
     pub wind: Vector3<f64>,
 }
@@ -23,7 +26,8 @@ pub struct Flow {
 impl Flow {
     /// Still water with its surface at an elevation (m, global z), and still air.
     pub fn still(surface: f64) -> Self {
-        Flow { velocity: Vector3::zeros(), acceleration: Vector3::zeros(), surface, wind: Vector3::zeros() }
+        let zero = Vector3::zeros();
+        Flow { velocity: zero, acceleration: zero, surface, head: 0.0, wind: zero }
     }
 }
 
@@ -55,11 +59,6 @@ pub struct Filling {
 pub trait Ambient: Debug + Send + Sync {
     /// Water and air at places (m, global) at a time (s) of a run, with waves; `out` is as long as `places`.
     fn flow(&self, time: f64, places: &[Vector3<f64>], out: &mut [Flow]);
-
-    /// The surface alone: of [`Ambient::flow`] what is asked of it most cheaply; the rest of `out` may be left as it is.
-    fn level(&self, time: f64, places: &[Vector3<f64>], out: &mut [Flow]) {
-        self.flow(time, places, out);
-    }
 
     /// The same at rest: mean current and wind, without waves.
     fn mean(&self, places: &[Vector3<f64>], out: &mut [Flow]);

@@ -26,7 +26,7 @@ mod prescribed;
 mod selector;
 mod tether;
 
-pub use along::{LineBooks, LineMode, LineNode, LineStress};
+pub use along::{LineBooks, LineMode, LineNode, LineSide, LineStress};
 pub use ambient::{Ambient, Contents, Filling, Flow};
 pub use assembly::{Assemblies, Assembly, AssemblyKind, LaidPipe, PIPE, PipeLayout};
 pub use bathymetry::Bathymetry;

@@ -6,7 +6,7 @@ use super::scheme::Scheme;
 use super::state::State;
 use super::step::{At, Solver};
 use super::surroundings::World;
-use super::trial::turn;
+use super::trial::{largest, turn};
 use nalgebra::Vector3;
 
 /// Largest move of a node, as a share of the shortest element, that is foretold from the trial before.
@@ -60,8 +60,7 @@ impl Solver {
             self.change[place..place + 3].copy_from_slice(moved.as_slice());
         }
         self.work.solve(&mut self.change);
-        let most =
-            self.change.iter().fold(0.0, |most: f64, c| if c.is_nan() { f64::INFINITY } else { most.max(c.abs()) });
+        let most = largest(&self.change, stride, rod.shortest());
         let share = most / rod.shortest();
         if share > NEAR {
             return None;

@@ -103,7 +103,7 @@ fn axial(
     let stretched = Stretch { strain: stretch - 1.0, rate, height: 0.5 * (xa.z + xb.z) };
     let memory = trial.memory.get(*i);
     let Tension { value, by_strain, by_rate, by_height } =
-        tension(rod, element, taken, &stretched, memory, &trial.fluid[*i], gravity);
+        tension(rod, element, taken, &stretched, memory, [*i, i + 1].map(|node| &trial.fluid[node]), gravity);
     let force = t * value;
     let geometric = k * value * inverse;
     let damped = by_rate * inverse_rest;

@@ -3,7 +3,7 @@
 use super::bend::hinge;
 use super::contact::{self, contact};
 use super::hinges::{HingeAt, hinge_sides};
-use super::immersed::{entry, half_load, slam_load, wet_prism, wet_share, wind_load};
+use super::immersed::{Node, on_half, wet_prism};
 use super::mesh::Rod;
 use super::rope::Memory;
 use super::spatial;
@@ -39,7 +39,7 @@ impl Energy {
 /// Work done on a rod since the books were opened (J).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Work {
-    /// By the holders of end A and end B.
+    /// By the holders of end A and end B, by force and moment.
     pub ends: [f64; 2],
     /// By the water and the air: buoyancy, drag, inertia, slam.
     pub fluid: f64,
@@ -177,7 +177,8 @@ fn look(rod: &Rod, state: &State, world: &World, solver: &Solver, made: &EndForc
         let memory = state.yielded.get(i).map(|yielded| Memory::at_once(*yielded));
         let pull = |rate| {
             let stretched = Stretch { strain, rate, height };
-            tension(rod, element, taken, &stretched, memory.as_ref(), &trial.fluid[i], world.gravity).value
+            let fluids = [&trial.fluid[i], &trial.fluid[i + 1]];
+            tension(rod, element, taken, &stretched, memory.as_ref(), fluids, world.gravity).value
         };
         let (whole, rateless) = (pull(rate), pull(0.0));
         let segment = &rod.segments[element.segment];
@@ -194,29 +195,20 @@ fn look(rod: &Rod, state: &State, world: &World, solver: &Solver, made: &EndForc
             (0.0, 0.0)
         };
         found.energy.elastic += energy * element.rest;
-        if held {
+        if held || segment.tube.is_some() {
             // what pressure and damping do beside the law's own energy
             found.power.damping -= (whole - rateless) * rate * element.rest;
             found.power.fluid -= (rateless - law) * rate * element.rest;
         }
-        let middle = 0.5 * (trial.fluid[i].surface - x[i].z + trial.fluid[i + 1].surface - x[i + 1].z);
-        let rising = [i, i + 1].map(|node| v[node].z - trial.fluid[node].velocity.z);
-        for (node, rising) in [(i, rising), (i + 1, [rising[1], rising[0]])] {
+        let at = |node: usize| Node {
+            position: &x[node],
+            velocity: &v[node],
+            acceleration: &a[node],
+            fluid: &trial.fluid[node],
+        };
+        for (node, other) in [(i, i + 1), (i + 1, i)] {
             lump(&mut found, node, element.mass);
-            let fluid = &trial.fluid[node];
-            let own = fluid.surface - x[node].z;
-            let share = wet_share(own, middle, element.diameter).0;
-            let mut force = Vector3::zeros();
-            if share > 0.0 && fluid.density > 0.0 {
-                force -= half_load(element, &t, fluid, &v[node], &a[node], world.gravity).force * share;
-                if world.slam
-                    && share < 1.0
-                    && let Some(entry) = entry(own, middle, element.diameter, rising)
-                {
-                    force -= slam_load(element, &t, fluid, &v[node], entry.rate).force;
-                }
-            }
-            force -= wind_load(element, &t, fluid, &v[node]).force * (1.0 - share);
+            let force = on_half(element, &t, world, [at(node), at(other)]);
             found.power.fluid += force.dot(&v[node]);
             found.force += force;
         }
@@ -288,8 +280,9 @@ fn look(rod: &Rod, state: &State, world: &World, solver: &Solver, made: &EndForc
         found.force += force;
     }
     for (side, node) in [(0, 0), (1, last)] {
+        found.power.ends[side] = -made.moment[side].dot(&trial.ends[side].turning);
         if trial.ends[side].motion.is_some() {
-            found.power.ends[side] = -made.force[side].dot(&v[node]);
+            found.power.ends[side] -= made.force[side].dot(&v[node]);
             found.force -= made.force[side];
         }
     }

@@ -34,11 +34,15 @@ pub struct End {
     /// A direction across the rod that turns with the holder and holds the rod's twist; none leaves it free to twist.
     /// It acts on rods with torsional stiffness.
     pub side: Option<Vector3<f64>>,
+    /// Rotation rate of the holder (rad/s, global), with which direction and side turn: where a step must be cut in
+    /// parts they are turned back by it, and by it the books know the work of the moment.
+    pub turning: Vector3<f64>,
 }
 
 impl End {
     /// A free end.
-    pub const FREE: End = End { motion: None, direction: None, rotation: None, side: None };
+    pub const FREE: End =
+        End { motion: None, direction: None, rotation: None, side: None, turning: Vector3::new(0.0, 0.0, 0.0) };
 
     /// Held in place, free to turn.
     pub fn pinned(position: Vector3<f64>) -> Self {
@@ -58,6 +62,11 @@ impl End {
     /// The same with its twist held by a direction across.
     pub fn with_side(self, side: Vector3<f64>) -> Self {
         End { side: Some(side), ..self }
+    }
+
+    /// The same with a holder that turns at a rate (rad/s, global).
+    pub fn turning(self, turning: Vector3<f64>) -> Self {
+        End { turning, ..self }
     }
 
     /// Stiffness of the hinge (N m) between the holder and the half element beside it, and the direction held.

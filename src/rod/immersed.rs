@@ -1,7 +1,7 @@
 //! What the fluid does to half an element, and how much of it is under water.
 
 use super::mesh::Element;
-use super::surroundings::Fluid;
+use super::surroundings::{Fluid, World};
 use nalgebra::{Matrix3, Vector3};
 
 /// Force of the fluid on half an element if all of it were wet, as a load to be overcome (N), with its derivatives.
@@ -86,6 +86,36 @@ pub(super) fn wind_load(half: &Element, t: &Vector3<f64>, fluid: &Fluid, velocit
         by_acceleration: Matrix3::zeros(),
         by_direction: t * u.transpose() * -factor - crosswise * along - Matrix3::identity() * (factor * along),
     }
+}
+
+/// A node and the fluid there.
+#[derive(Clone, Copy)]
+pub(super) struct Node<'a> {
+    pub position: &'a Vector3<f64>,
+    pub velocity: &'a Vector3<f64>,
+    pub acceleration: &'a Vector3<f64>,
+    pub fluid: &'a Fluid,
+}
+
+/// Force of water and wind (N) on the half element of direction `t` beside the first of its two nodes, the sum that
+/// assembly makes with its tangent.
+pub(super) fn on_half(half: &Element, t: &Vector3<f64>, world: &World, [node, other]: [Node; 2]) -> Vector3<f64> {
+    let [own, far] = [node, other].map(|n| n.fluid.surface - n.position.z);
+    let middle = 0.5 * (own + far);
+    let Node { velocity, acceleration, fluid, .. } = node;
+    let share = wet_share(own, middle, half.diameter).0;
+    let mut force = wind_load(half, t, fluid, velocity).force * (share - 1.0);
+    if share > 0.0 && fluid.density > 0.0 {
+        force -= half_load(half, t, fluid, velocity, acceleration, world.gravity).force * share;
+        let rising = [node, other].map(|n| n.velocity.z - n.fluid.velocity.z);
+        if world.slam
+            && share < 1.0
+            && let Some(entry) = entry(own, middle, half.diameter, rising)
+        {
+            force -= slam_load(half, t, fluid, velocity, entry.rate).force;
+        }
+    }
+    force
 }
 
 /// How fast half an element gets wet: the rate of its wet share (1/s), which is none while it comes out, and its
@@ -234,6 +264,7 @@ mod tests {
             velocity: Vector3::new(1.0, -0.3, 0.2),
             acceleration: Vector3::new(0.4, 0.1, -0.5),
             surface: 0.0,
+            head: 0.0,
             density: 1025.0,
             wind: Vector3::new(9.0, 4.0, -2.0),
             air_density: 1.226,

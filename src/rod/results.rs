@@ -3,28 +3,36 @@
 use super::bend::hinge;
 use super::ends::End;
 use super::hinges::{HingeAt, hinge_sides};
-use super::immersed::wet_share;
+use super::immersed::{Node, on_half};
 use super::mesh::Rod;
 use super::rope::Memory;
 use super::spatial::{transport, twist};
 use super::state::State;
-use super::surroundings::{UniformFluid, World};
+use super::surroundings::{Fluid, UniformFluid, World};
 use super::tension::{Stretch, Taken, tension};
-use crate::model::{LineNode, LineStress};
+use crate::model::{LineNode, LineSide, LineStress};
 use nalgebra::Vector3;
 
 impl Rod {
     /// Results at every node of a state.
     ///
-    /// Tension of a node is the mean of its two elements; at an end it is that of its element with the weight of the half
-    /// beside the end. Shear is the change of the moment over the elements beside a node.
+    /// Tension of a node is the mean of its two elements; at an end it is what is left of that of the last element when
+    /// the half of it beyond has been moved, carried and dragged along itself: all that the holder takes along the rod.
+    /// Shear is the change of the moment over the elements beside a node.
     pub fn results(&self, state: &State, world: &World, ends: &[End; 2]) -> Vec<LineNode> {
         let last = self.elements.len();
         let (x, v) = (&state.position, &state.velocity);
         let mut fluids = vec![UniformFluid::none().0; x.len()];
-        // tubes feel the pressure outside, nothing else is asked of it here
+        // tubes feel the pressure outside; beside that it loads the elements at the ends
         if self.segments.iter().any(|s| s.tube.is_some()) {
-            world.fluid.fill_levels(x, state.time, &mut fluids);
+            world.fluid.fill(x, state.time, &mut fluids);
+        } else {
+            let nodes = [0, 1, last - 1, last];
+            let mut beside = [UniformFluid::none().0; 4];
+            world.fluid.fill(&nodes.map(|node| x[node]), state.time, &mut beside);
+            for (node, fluid) in nodes.into_iter().zip(beside) {
+                fluids[node] = fluid;
+            }
         }
         let edges: Vec<(Vector3<f64>, f64)> = x
             .windows(2)
@@ -42,7 +50,8 @@ impl Rod {
                 let stretched = Stretch { strain: stretch - 1.0, rate, height: 0.5 * (x[i].z + x[i + 1].z) };
                 let taken = Taken { compression: element.compression, ease: 1.0 };
                 let memory = state.yielded.get(i).map(|yielded| Memory::at_once(*yielded));
-                tension(self, element, taken, &stretched, memory.as_ref(), &fluids[i], world.gravity).value
+                let beside = [&fluids[i], &fluids[i + 1]];
+                tension(self, element, taken, &stretched, memory.as_ref(), beside, world.gravity).value
             })
             .collect();
         // moment vector at each node, and the length it is spread over
@@ -76,8 +85,8 @@ impl Rod {
                 let inner = i > 0 && i < last;
                 let effective = match (inner, i) {
                     (true, _) => 0.5 * (pulls[i - 1] + pulls[i]),
-                    (false, 0) => self.at_end(0, pulls[0], state, world),
-                    (false, _) => self.at_end(last, pulls[last - 1], state, world),
+                    (false, 0) => self.pull_at_end(0, state, world, &fluids, (&edges[0].0, pulls[0])),
+                    (false, _) => self.pull_at_end(1, state, world, &fluids, (&edges[last - 1].0, pulls[last - 1])),
                 };
                 let shear = match (inner, i) {
                     (true, _) => 0.5 * (shears[i - 1] + shears[i]).norm(),
@@ -89,39 +98,38 @@ impl Rod {
                 let element = &self.elements[beside];
                 let moment = bending.norm();
                 let (director, direction) = (across[beside], edges[beside].0);
-                let mut made = LineNode {
+                // the softer of two segments bends more
+                let softest = if inner { element.bending.min(self.elements[i - 1].bending) } else { element.bending };
+                let first = if inner { self.elements[i - 1].segment } else { element.segment };
+                let tube = |segment: usize| self.segments[segment].tube.as_ref();
+                let pressures = tube(element.segment).or(tube(first)).map_or([0.0; 2], |tube| {
+                    let (outer, _) = fluids[i].pressure(x[i].z, world.gravity);
+                    [outer, tube.pressure + tube.contents * world.gravity * (tube.at - x[i].z)]
+                });
+                let side = |segment: usize| {
+                    let Some(tube) = tube(segment) else { return LineSide { segment, wall: effective, stress: None } };
+                    let ([outer, inner], [outside, inside]) = (pressures, tube.areas());
+                    let wall = effective - outer * outside + inner * inside;
+                    LineSide { segment, wall, stress: Some(stress(wall, moment, pressures, tube)) }
+                };
+                let behind = side(element.segment);
+                let made = LineNode {
                     arc,
-                    segment: element.segment,
+                    segment: behind.segment,
                     position: x[i],
                     velocity: v[i],
                     effective,
-                    wall: effective,
+                    wall: behind.wall,
                     shear,
                     moment,
                     bends: [bending.dot(&director), bending.dot(&direction.cross(&director))],
                     torque: torques.get(i).copied().unwrap_or(0.0),
-                    curvature: if element.bending > 0.0 { moment / element.bending } else { bend(&edges, &moments, i) },
+                    curvature: if softest > 0.0 { moment / softest } else { bend(&edges, &moments, i) },
                     clearance: clearance(world, &x[i]),
-                    pressures: [0.0; 2],
-                    stress: None,
+                    pressures,
+                    stress: behind.stress,
+                    before: (first != element.segment).then(|| side(first)),
                 };
-                let outer = fluids[i].density * world.gravity * (fluids[i].surface - x[i].z).max(0.0);
-                // from the tube behind, where two meet
-                let before = i.checked_sub(1).filter(|j| i == last || self.elements[*j].segment != element.segment);
-                for beside in [(i < last).then_some(i), before].into_iter().flatten() {
-                    let Some(tube) = &self.segments[self.elements[beside].segment].tube else { continue };
-                    let [outside, inside] = tube.areas();
-                    let inner = tube.pressure + tube.contents * world.gravity * (tube.at - x[i].z);
-                    let wall = effective - outer * outside + inner * inside;
-                    let found = stress(wall, moment, [outer, inner], tube);
-                    let uses = |s: &LineStress| (s.used, s.von_mises);
-                    if made.stress.is_none() {
-                        (made.pressures, made.wall) = ([outer, inner], wall);
-                    }
-                    if made.stress.is_none_or(|worst| uses(&found) > uses(&worst)) {
-                        made.stress = Some(found);
-                    }
-                }
                 arc += if i < last { element.rest } else { 0.0 };
                 made
             })
@@ -130,17 +138,30 @@ impl Rod {
 }
 
 impl Rod {
-    /// Effective tension (N) at an end, of the `pull` of its element and the submerged weight of the half beside it.
-    fn at_end(&self, node: usize, pull: f64, state: &State, world: &World) -> f64 {
-        let (element, other) = if node == 0 { (&self.elements[0], 1) } else { (&self.elements[node - 1], node - 1) };
-        let (end, middle) = (state.position[node], 0.5 * (state.position[node] + state.position[other]));
-        let mut fluid = [UniformFluid::none().0];
-        world.fluid.fill_levels(&[end], state.time, &mut fluid);
-        let [fluid] = fluid;
-        let (wet, ..) = wet_share(fluid.surface - end.z, fluid.surface - middle.z, element.diameter);
-        let weight = (element.mass - fluid.density * wet * element.volume) * world.gravity;
-        let length = (end - middle).norm().max(f64::MIN_POSITIVE);
-        let found = pull + weight * (end.z - middle.z) / length;
+    /// Tension (N) at end A (0) or end B (1), of whose element the direction and the tension are known.
+    fn pull_at_end(
+        &self,
+        side: usize,
+        state: &State,
+        world: &World,
+        fluids: &[Fluid],
+        (t, pull): (&Vector3<f64>, f64),
+    ) -> f64 {
+        let last = self.elements.len();
+        let (node, other, element) = if side == 0 { (0, 1, 0) } else { (last, last - 1, last - 1) };
+        let element = &self.elements[element];
+        let at = |node: usize| Node {
+            position: &state.position[node],
+            velocity: &state.velocity[node],
+            acceleration: &state.acceleration[node],
+            fluid: &fluids[node],
+        };
+        let weight = Vector3::z() * world.gravity;
+        let moved =
+            (state.acceleration[node] + weight) * element.mass - on_half(element, t, world, [at(node), at(other)]);
+        let along = moved.dot(t);
+        let found = if side == 0 { pull - along } else { pull + along };
+        // half a slack element that is carried along may push its holder, but not the rod
         if element.compression { found } else { found.max(0.0) }
     }
 
@@ -230,5 +251,5 @@ fn stress(wall: f64, moment: f64, [outer, inner]: [f64; 2], tube: &super::sectio
             worst = worst.max((0.5 * sum).sqrt());
         }
     }
-    LineStress { axial, bending, hoop: hoop_inside, von_mises: worst, used: worst / tube.yields }
+    LineStress { axial, bending, hoop: hoop_inside, von_mises: worst }
 }

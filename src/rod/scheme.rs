@@ -11,7 +11,7 @@ pub struct Settings {
     /// cannot follow.
     pub rho_inf: f64,
     /// An iteration has converged when no node moves by more than this share of the shortest element, or none would
-    /// from then on if its moves went on shrinking as they do.
+    /// from then on if its moves went on shrinking as they do. A turn counts as the move on an arm of that length.
     pub tolerance: f64,
     /// Iterations after which a step is cut.
     pub iterations: usize,

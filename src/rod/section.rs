@@ -114,15 +114,12 @@ pub struct Tube {
     pub at: f64,
     /// Density of the contents (kg/m3); their mass is part of the segment's `mass`.
     pub contents: f64,
-    /// Yield stress (Pa), by which stresses are judged.
-    pub yields: f64,
 }
 
 impl Tube {
-    /// A tube without contents, pressure or temperature, which never yields.
+    /// A tube without contents, pressure or temperature.
     pub fn empty(outer: f64, inner: f64) -> Self {
-        let yields = f64::INFINITY;
-        Tube { outer, inner, poisson: 0.3, expansion: 0.0, warmer: 0.0, pressure: 0.0, at: 0.0, contents: 0.0, yields }
+        Tube { outer, inner, poisson: 0.3, expansion: 0.0, warmer: 0.0, pressure: 0.0, at: 0.0, contents: 0.0 }
     }
 
     /// Outer and inner cross-section (m2).
@@ -254,9 +251,6 @@ impl Segment {
                     tube.inner,
                     "the wall must be thinner than the radius and not nothing",
                 );
-            }
-            if !(tube.yields > 0.0) {
-                return refuse("the yield stress", tube.yields, "it must be positive");
             }
             let others = [tube.poisson, tube.expansion, tube.warmer, tube.pressure, tube.at, tube.contents];
             if let Some(value) = others.into_iter().find(|v| !v.is_finite()) {

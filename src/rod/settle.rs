@@ -6,7 +6,7 @@ use super::state::State;
 use super::statics::{Fall, first_fall};
 use super::step::Solver;
 use super::surroundings::World;
-use super::trial::{sample, turn};
+use super::trial::{largest, sample, turn};
 use nalgebra::Vector3;
 
 /// Newton iterations after which it is looked for another way.
@@ -82,9 +82,7 @@ impl Solver {
             return None;
         }
         self.work.newton(&mut self.change);
-        let most =
-            self.change.iter().fold(0.0, |most: f64, c| if c.is_nan() { f64::INFINITY } else { most.max(c.abs()) });
-        if most > NEAR * rod.shortest() {
+        if largest(&self.change, stride, rod.shortest()) > NEAR * rod.shortest() {
             return None;
         }
         turn(&mut self.trial.director, &self.trial.x, &self.change, stride, [false; 2]);

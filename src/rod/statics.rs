@@ -9,7 +9,8 @@ use super::state::State;
 use super::step::{At, EndForces, Solver};
 use super::surroundings::World;
 use super::system::Weights;
-use super::trial::{lay, sample, soften, turn};
+use super::tension::{Stretch, Taken, tension};
+use super::trial::{largest, lay, sample, soften, turn};
 use nalgebra::Vector3;
 
 /// Newton iterations after which statics gives up.
@@ -244,19 +245,28 @@ impl Solver {
             (_, false) => return Fall::Lost,
         }
         self.work.newton(&mut self.change);
-        let size =
-            self.change.iter().fold(0.0, |most: f64, c| if c.is_nan() { f64::INFINITY } else { most.max(c.abs()) });
+        let (stride, shortest) = (self.work.stride(), rod.shortest());
+        let size = largest(&self.change, stride, shortest);
         if size > 2.0 * rod.length() {
             return Fall::Lost;
         }
-        let stride = self.work.stride();
         turn(&mut self.trial.director, &self.trial.x, &self.change, stride, known);
         for i in 0..=last {
             let d = &self.change[stride * i..stride * i + 3];
             self.trial.x[i] += Vector3::new(d[0], d[1], d[2]);
         }
-        let shortest = rod.elements.iter().map(|e| e.rest).fold(f64::INFINITY, f64::min);
         Fall::Moved { share: size / shortest, worst }
+    }
+
+    /// Tension (N) of an element of the trial, at rest, with what heat and pressure do to it.
+    fn pull(&self, rod: &Rod, world: &World, i: usize) -> f64 {
+        let (element, trial) = (&rod.elements[i], &self.trial);
+        let (a, b) = (&trial.x[i], &trial.x[i + 1]);
+        let strain = (b - a).norm() / element.rest - 1.0;
+        let stretched = Stretch { strain, rate: 0.0, height: 0.5 * (a.z + b.z) };
+        let taken = Taken { compression: element.compression, ease: 1.0 };
+        let fluids = [&trial.fluid[i], &trial.fluid[i + 1]];
+        tension(rod, element, taken, &stretched, trial.memory.get(i), fluids, world.gravity).value
     }
 
     /// Sets how softly each node meets the bottom: see [`Solver::statics`].
@@ -266,8 +276,7 @@ impl Solver {
             let element = &rod.elements[i];
             let fluid = &self.trial.fluid[i];
             let weight = (element.mass - fluid.density * element.volume) * world.gravity / element.rest * 2.0;
-            let strain = (state.position[i + 1] - state.position[i]).norm() / element.rest - 1.0;
-            let tension = rod.segments[element.segment].axial.at(strain).0;
+            let tension = self.pull(rod, world, i);
             let most = 0.02 * element.rest;
             if tension > 0.0 { (weight.abs() * element.rest * element.rest / (8.0 * tension)).min(most) } else { most }
         };
@@ -283,12 +292,11 @@ impl Solver {
         let weight = mass.iter().sum::<f64>() * world.gravity.abs();
         let place = self.trial.x.iter().fold(0.0, |most: f64, x| most.max(x.amax()));
         let mut told = PROOF * weight;
-        for (element, x) in rod.elements.iter().zip(self.trial.x.windows(2)) {
+        for (i, (element, x)) in rod.elements.iter().zip(self.trial.x.windows(2)).enumerate() {
+            told = told.max(PROOF * self.pull(rod, world, i).abs());
+            // also one that is slack gets taut by the rounding of a position
             let strain = (x[1] - x[0]).norm() / element.rest - 1.0;
-            let (force, slope) = rod.segments[element.segment].axial.at(strain);
-            if strain > 0.0 || element.compression {
-                told = told.max(PROOF * force.abs());
-            }
+            let slope = rod.segments[element.segment].axial.at(strain).1;
             let stiffness = slope / element.rest + 10.0 * element.bending / element.rest.powi(3);
             told = told.max(32.0 * f64::EPSILON * place * stiffness);
         }

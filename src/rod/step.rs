@@ -10,7 +10,7 @@ use super::scheme::{Scheme, Settings};
 use super::state::State;
 use super::surroundings::{UniformFluid, World};
 use super::system::Weights;
-use super::trial::{Trial, carry, interpolate, lay, sample, sample_again, soften, turn};
+use super::trial::{Trial, carry, interpolate, largest, lay, sample, sample_again, soften, turn};
 use super::workspace::Workspace;
 use nalgebra::Vector3;
 
@@ -292,8 +292,7 @@ impl Solver {
             let close = iteration == 1 && moved.is_some();
             match iteration {
                 1 if !close => sample(world, time, &mut self.trial),
-                1 | 2 => sample_again(world, &mut self.trial, shortest),
-                _ => {}
+                _ => sample_again(world, &mut self.trial, shortest),
             }
             // while the moves shrink fast the factors of the iteration before do as well
             let fresh = !close && (iteration == 1 || last_move > 1e-3 * shortest || last_move > 0.2 * before);
@@ -355,7 +354,7 @@ impl Solver {
     }
 
     /// One Newton iteration at the trial, with a fresh tangent or the factors at hand: largest change of a coordinate
-    /// (m). The forces of the ends are kept, taken on to the changed positions by their tangent.
+    /// (m), a turn taken on an arm of the shortest element. The forces of the ends are kept, taken on to the changed positions by their tangent.
     fn iterate(&mut self, rod: &Rod, world: &World, known: [bool; 2], fresh: bool) -> Result<f64, Failure> {
         let last = rod.elements.len();
         if fresh {
@@ -385,7 +384,7 @@ impl Solver {
         if !sum.is_finite() {
             return Err(Failure { node: self.work.worst(known).0, why: "a force is no number" });
         }
-        Ok(self.change.iter().fold(0.0, |most: f64, c| most.max(c.abs())))
+        Ok(largest(&self.change, self.work.stride(), rod.shortest()))
     }
 
     /// Takes the end of the last trial as the trial's motion.

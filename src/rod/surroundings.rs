@@ -11,12 +11,31 @@ pub struct Fluid {
     pub acceleration: Vector3<f64>,
     /// Elevation of the free surface above this place's x and y (m, global z).
     pub surface: f64,
+    /// What the pressure here is more than that of fluid at rest up to the surface, as a height of fluid (m): see
+    /// [`Fluid::pressure`]. Zero but under waves.
+    pub head: f64,
     /// Density (kg/m3).
     pub density: f64,
     /// Velocity of the air (m/s).
     pub wind: Vector3<f64>,
     /// Density of the air (kg/m3); zero where there is no wind to speak of.
     pub air_density: f64,
+}
+
+impl Fluid {
+    /// Pressure (Pa, above the atmosphere's) at an elevation near the place, and its slope by the elevation (Pa/m).
+    ///
+    /// It is rho g (surface + head - z), and nothing from the surface on. Linear waves leave some pressure at the
+    /// surface in a trough; but fluid that is not thrown up by more than gravity, as no wave does before it breaks,
+    /// has no more pressure at a depth than twice that at rest, dp/dz = -rho (g + dw/dt). With this bound it goes to
+    /// zero without a jump.
+    #[inline(always)]
+    pub fn pressure(&self, z: f64, gravity: f64) -> (f64, f64) {
+        let weight = self.density * gravity;
+        let depth = self.surface - z;
+        let (height, share) = if self.head < depth { (depth + self.head, 1.0) } else { (2.0 * depth, 2.0) };
+        if height > 0.0 { (weight * height, -weight * share) } else { (0.0, 0.0) }
+    }
 }
 
 /// Kinematics of the fluid around a rod. It is asked at the actual positions of the nodes.
@@ -31,11 +50,6 @@ pub trait FluidField {
         for (fluid, position) in out.iter_mut().zip(positions) {
             *fluid = self.at(position, time);
         }
-    }
-
-    /// The same of which only surface and density are wanted; the rest may be left as it is.
-    fn fill_levels(&self, positions: &[Vector3<f64>], time: f64, out: &mut [Fluid]) {
-        self.fill(positions, time, out);
     }
 
     /// Whether the answer is the same everywhere at one time: it is then asked for one node only.
@@ -57,7 +71,8 @@ impl UniformFluid {
     /// Still water with its surface at z = 0.
     pub fn still(density: f64) -> Self {
         let zero = Vector3::zeros();
-        UniformFluid(Fluid { velocity: zero, acceleration: zero, surface: 0.0, density, wind: zero, air_density: 0.0 })
+        let (velocity, acceleration, wind) = (zero, zero, zero);
+        UniformFluid(Fluid { velocity, acceleration, surface: 0.0, head: 0.0, density, wind, air_density: 0.0 })
     }
 
     /// The same water with a velocity (m/s).

@@ -30,9 +30,17 @@ pub(super) struct Taken {
     pub ease: f64,
 }
 
+impl Tension {
+    const NONE: Tension = Tension { value: 0.0, by_strain: 0.0, by_rate: 0.0, by_height: 0.0 };
+}
+
 /// Effective tension: the law of the segment at the mechanical strain, internal damping, and what pressure does
 /// through Poisson's ratio, (1 - 2 nu)(p_e A_e - p_i A_i) (Sparks, Fundamentals of Marine Riser Mechanics, 2007,
-/// section 2.4). A viscoelastic rope with a `memory` adds its Maxwell element, but never pushes.
+/// section 2.4), the pressure outside being the mean of what the fluids at its two nodes make it at its middle. A
+/// viscoelastic rope with a `memory` adds its Maxwell element.
+///
+/// What does not resist being shortened never pushes, neither by its stiffness nor by its damper; and its damper does
+/// not pull while it is slack.
 #[inline(always)]
 pub(super) fn tension(
     rod: &Rod,
@@ -40,39 +48,46 @@ pub(super) fn tension(
     taken: Taken,
     stretch: &Stretch,
     memory: Option<&Memory>,
-    fluid: &Fluid,
+    fluids: [&Fluid; 2],
     gravity: f64,
 ) -> Tension {
     let segment = &rod.segments[element.segment];
     let free = segment.tube.as_ref().map_or(0.0, |t| t.expansion * t.warmer);
     let mechanical = stretch.strain - free;
-    if mechanical < 0.0 && !taken.compression {
-        return Tension { value: 0.0, by_strain: 0.0, by_rate: 0.0, by_height: 0.0 };
+    let shortened = mechanical < 0.0 && !taken.compression;
+    if shortened && segment.tube.is_none() {
+        return Tension::NONE;
     }
-    let (value, by_strain) =
-        if element.ea > 0.0 { (element.ea * mechanical, element.ea) } else { segment.axial.at(mechanical) };
+    let (value, by_strain) = if element.ea > 0.0 {
+        (element.ea * mechanical, element.ea)
+    } else if shortened {
+        // pressure on its walls may still hold it taut; its law begins with its slope at zero
+        let (_, slope) = segment.axial.at(0.0);
+        (slope * mechanical, slope)
+    } else {
+        segment.axial.at(mechanical)
+    };
     let mut made = Tension {
-        value: value * taken.ease + element.damping * stretch.rate,
+        value: value * taken.ease,
         by_strain: by_strain * taken.ease,
         by_rate: element.damping,
         by_height: 0.0,
     };
     if let (Some(memory), Some(rope)) = (memory, rod.rope(element)) {
         let (beside, slope) = rope.beside(mechanical, memory);
-        if value + beside < 0.0 && !taken.compression {
-            return Tension { value: 0.0, by_strain: 0.0, by_rate: 0.0, by_height: 0.0 };
-        }
         made.value += beside;
         made.by_strain += slope;
     }
     if let Some(tube) = &segment.tube {
         let share = 1.0 - 2.0 * tube.poisson;
         let [outside, inside] = tube.areas();
-        let outer = fluid.density * gravity * (fluid.surface - stretch.height).max(0.0);
+        let [a, b] = fluids.map(|fluid| fluid.pressure(stretch.height, gravity));
+        let (outer, by_height) = (0.5 * (a.0 + b.0), 0.5 * (a.1 + b.1));
         let inner = tube.pressure + tube.contents * gravity * (tube.at - stretch.height);
         made.value += share * (outer * outside - inner * inside);
-        let wet = if stretch.height < fluid.surface { fluid.density } else { 0.0 };
-        made.by_height = share * gravity * (tube.contents * inside - wet * outside);
+        made.by_height = share * (tube.contents * gravity * inside + by_height * outside);
     }
-    made
+    let still = made.value;
+    made.value += element.damping * stretch.rate;
+    if !taken.compression && still.min(made.value) < 0.0 { Tension::NONE } else { made }
 }

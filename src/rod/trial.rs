@@ -6,7 +6,7 @@ use super::rope::Memory;
 use super::spatial::{transport, turned};
 use super::state::State;
 use super::surroundings::{Fluid, World};
-use nalgebra::Vector3;
+use nalgebra::{Rotation3, Vector3};
 
 /// A trial motion of all nodes at one time, with what surrounds them.
 #[derive(Clone, Debug)]
@@ -65,6 +65,17 @@ pub(super) fn turn(
     }
 }
 
+/// Largest change of the unknowns (m), of which there are `stride` a node: a turn of an element counts by the way of what
+/// stands off it by `arm` (m). Infinite where one is no number.
+pub(super) fn largest(change: &[f64], stride: usize, arm: f64) -> f64 {
+    let larger = |most: f64, size: f64| if size.is_nan() { f64::INFINITY } else { most.max(size) };
+    change.chunks_exact(stride).fold(0.0, |most, node| {
+        let (moves, turns) = node.split_at(3.min(node.len()));
+        let most = moves.iter().fold(most, |most, c| larger(most, c.abs()));
+        turns.iter().fold(most, |most, c| larger(most, arm * c.abs()))
+    })
+}
+
 /// How far a node may be from where the fluid was asked, as a share of the shortest element, until it is asked again.
 ///
 /// Over a thousandth of an element the water changes by a thousandth of what it changes over the element, and an element takes it for
@@ -112,9 +123,16 @@ pub(super) fn soften(state: &State, world: &World, soft: &mut [f64]) {
     }
 }
 
-/// An end part of the way through a step: a cubic through position and velocity at both ends of it.
+/// An end part of the way through a step: a cubic through position and velocity at both ends of it, its direction and
+/// side turned back as the holder turns at the end of the step.
 pub(super) fn interpolate(state: &State, node: usize, end: &End, whole: f64, share: f64) -> End {
-    let Some(to) = end.motion.filter(|_| share < 1.0) else { return *end };
+    if share >= 1.0 {
+        return *end;
+    }
+    let back = Rotation3::new(end.turning * ((share - 1.0) * whole));
+    let turned = |across: Option<Vector3<f64>>| across.map(|v| back * v);
+    let end = End { direction: turned(end.direction), side: turned(end.side), ..*end };
+    let Some(to) = end.motion else { return end };
     let (x0, v0) = (state.position[node], state.velocity[node] * whole);
     let (x1, v1) = (to.position, to.velocity * whole);
     let (s, d) = (share, x1 - x0);
@@ -124,5 +142,5 @@ pub(super) fn interpolate(state: &State, node: usize, end: &End, whole: f64, sha
         velocity: (v0 + b * (2.0 * s) + c * (3.0 * s * s)) / whole,
         acceleration: (b * 2.0 + c * (6.0 * s)) / (whole * whole),
     };
-    End { motion: Some(motion), ..*end }
+    End { motion: Some(motion), ..end }
 }

@@ -35,11 +35,18 @@ impl FluidField for Water<'_> {
     }
 
     fn fill(&self, positions: &[Vector3<f64>], time: f64, out: &mut [Fluid]) {
-        self.asked(positions, out, |ambient, flows| ambient.flow(time, positions, flows));
-    }
-
-    fn fill_levels(&self, positions: &[Vector3<f64>], time: f64, out: &mut [Fluid]) {
-        self.asked(positions, out, |ambient, flows| ambient.level(time, positions, flows));
+        let mut flows = self.flows.borrow_mut();
+        flows.clear();
+        flows.resize(positions.len(), Flow::still(self.around.tide));
+        match self.ambient {
+            Some(ambient) if self.mean => ambient.mean(positions, &mut flows),
+            Some(ambient) => ambient.flow(time, positions, &mut flows),
+            None => {}
+        }
+        let (density, air_density) = (self.around.water_density, self.around.air_density);
+        for (out, Flow { velocity, acceleration, surface, head, wind }) in out.iter_mut().zip(flows.iter().copied()) {
+            *out = Fluid { velocity, acceleration, surface, head, density, wind, air_density };
+        }
     }
 
     fn uniform(&self) -> bool {
@@ -48,24 +55,6 @@ impl FluidField for Water<'_> {
 
     fn interrupted(&self) -> bool {
         self.ambient.is_some_and(|a| a.interrupted())
-    }
-}
-
-impl Water<'_> {
-    /// The fluid at positions: of the water at rest, or as `moving` asks an environment under way.
-    fn asked(&self, positions: &[Vector3<f64>], out: &mut [Fluid], moving: impl Fn(&dyn Ambient, &mut [Flow])) {
-        let mut flows = self.flows.borrow_mut();
-        flows.clear();
-        flows.resize(positions.len(), Flow::still(self.around.tide));
-        match self.ambient {
-            Some(ambient) if self.mean => ambient.mean(positions, &mut flows),
-            Some(ambient) => moving(ambient, &mut flows),
-            None => {}
-        }
-        let (density, air_density) = (self.around.water_density, self.around.air_density);
-        for (out, Flow { velocity, acceleration, surface, wind }) in out.iter_mut().zip(flows.iter().copied()) {
-            *out = Fluid { velocity, acceleration, surface, density, wind, air_density };
-        }
     }
 }
 

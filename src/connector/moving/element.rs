@@ -80,10 +80,12 @@ impl MovingLine {
         let made = |end: &End, hold: &Option<Held>| {
             let three = |six: &Six| Vector3::new(six[0], six[1], six[2]);
             let mut motion = Motion::still(end.pose.origin);
+            let mut turning = Vector3::zeros();
             if !still {
                 (motion.velocity, motion.acceleration) = (three(&end.velocity), three(&end.acceleration));
+                turning = end.velocity.fixed_rows::<3>(3).into_owned();
             }
-            let moved = rod::End::moved(motion);
+            let moved = rod::End::moved(motion).turning(turning);
             match hold {
                 Some((direction, stiffness)) => {
                     rod::End { rotation: *stiffness, ..moved.clamped(end.pose.axes * direction) }

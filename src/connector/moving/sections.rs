@@ -156,8 +156,8 @@ pub struct Flexure {
     axial: Axial,
     damping: f64,
     bending: f64,
-    /// Poisson's ratio, thermal expansion and yield stress of a tube.
-    tube: Option<[f64; 3]>,
+    /// Poisson's ratio and thermal expansion of a tube.
+    tube: Option<[f64; 2]>,
     /// Drag area (m2) and weight of the added mass (N) of what is attached, where given.
     clump: [Option<f64>; 2],
 }
@@ -199,11 +199,7 @@ impl Flexure {
             damping: option("-AX_DAMPING").unwrap_or(0.0),
             bending,
             tube: tube.then(|| {
-                [
-                    option("-POI_RAT").unwrap_or(material.poisson),
-                    option("-ALPHA").unwrap_or(material.expansion),
-                    option("-FYIELD").unwrap_or(material.yield_stress),
-                ]
+                [option("-POI_RAT").unwrap_or(material.poisson), option("-ALPHA").unwrap_or(material.expansion)]
             }),
             clump: [0, 1].map(|i| args.option("-CLUMP_DRAG").and_then(|g| g.number(i))),
         })
@@ -228,10 +224,9 @@ impl Flexure {
         let area = |d: f64| FRAC_PI_4 * d * d;
         let displaced = area(section.buoyancy_diameter) + section.displacement / around.water_weight();
         let inner = section.thickness.map_or(0.0, |t| section.od - 2.0 * t);
-        let tube = self.tube.map(|[poisson, expansion, yields]| Tube {
+        let tube = self.tube.map(|[poisson, expansion]| Tube {
             poisson,
             expansion,
-            yields,
             ..Tube::empty(section.od, inner.max(0.0))
         });
         let segment = Segment {

@@ -2,7 +2,7 @@
 
 use super::element::MovingLine;
 use super::modes;
-use crate::model::{ClassError, LineBooks, LineMode, LineNode, Situation, Summary};
+use crate::model::{ClassError, LineBooks, LineMode, LineNode, LineSide, Situation, Summary};
 use crate::rod::{Settings, Solver};
 
 impl MovingLine {
@@ -26,8 +26,12 @@ impl MovingLine {
         let found = self.within((at, still), &mut Vec::new(), |world| rod.results(&state, world, &ends));
         // the class speaks of its records, of which a rod may have several segments, and a pipe all of the first
         let record = |segment| if self.base.laid.is_some() { 0 } else { self.base.bands.part_of(segment) };
-        let part = |n: LineNode| LineNode { segment: record(n.segment), ..n };
-        out.extend(found.into_iter().map(part));
+        out.extend(found.into_iter().map(|n| {
+            let segment = record(n.segment);
+            let before =
+                n.before.map(|b| LineSide { segment: record(b.segment), ..b }).filter(|b| b.segment != segment);
+            LineNode { segment, before, ..n }
+        }));
         Ok(())
     }
 
@@ -44,8 +48,9 @@ impl MovingLine {
         self.tell_along(at, committed, &mut nodes)?;
         let mut told = Summary { solution: "rod", notes: self.base.description.notes.clone(), ..Summary::default() };
         told.tension = nodes.first().map(|n| n.effective);
-        let breaks = |n: &LineNode| self.base.description.parts.get(n.segment).map(|p| p.strength.breaking);
-        let ratios = nodes.iter().filter_map(|n| breaks(n).map(|b| (n.effective / b, n.segment + 1)));
+        let breaks = |segment: usize| self.base.description.parts.get(segment).map(|p| p.strength.breaking);
+        let sides = nodes.iter().flat_map(|n| n.sides().map(move |s| (n.effective, s.segment)));
+        let ratios = sides.filter_map(|(pull, segment)| breaks(segment).map(|b| (pull / b, segment + 1)));
         if let Some((ratio, segment)) = ratios.max_by(|a, b| a.0.total_cmp(&b.0)) {
             (told.ratio, told.critical) = (Some(ratio), Some(segment));
             if ratio > 1.0 {

@@ -57,6 +57,8 @@ fn a_regular_wave_is_that_of_the_closed_form_on_the_tide() {
         // wave numbers are solved to 1e-12
         assert!((found.surface - 1.5 - a * cos).abs() < 1e-9, "{x}");
         assert!((found.velocity - velocity).norm() < 1e-9 && (found.acceleration - acceleration).norm() < 1e-9, "{x}");
+        // p = rho g a exp(k z) cos beside that of the water up to the mean level
+        assert!((found.surface + found.head - 1.5 - a * decay * cos).abs() < 1e-9, "{x}");
     }
 }
 
@@ -95,6 +97,37 @@ fn below_the_surface_it_is_the_sea_and_above_it_the_water_at_the_surface() {
             assert!((found.acceleration - want.acceleration).norm() < near, "{stretching:?} {i}");
         }
         assert!(over > 5 && under > 20, "{over} {under}");
+    }
+}
+
+#[test]
+fn pressure_is_that_of_the_wave_at_depth_and_nothing_at_the_surface() {
+    for stretching in [Stretching::Linear, Stretching::Wheeler, Stretching::Delta, Stretching::Exponential] {
+        let env = Environment {
+            sea: sea("REGULAR", 10.0, 8.0),
+            tide: Some(1.0),
+            stretching: Some(stretching),
+            ..Environment::default()
+        };
+        let (around, _) = of(&model(env));
+        // a crest and a trough of 5 m at x = y = 0
+        for (time, amplitude) in [(0.0, 5.0), (4.0, -5.0)] {
+            let head = |depth: f64| {
+                let found = flow(&around, time, [0.0, 0.0, 1.0 + amplitude - depth]);
+                assert!((found.surface - 1.0 - amplitude).abs() < 1e-9);
+                found.head
+            };
+            // exp(-k 500) is 2e-14: nothing of the wave is left, and the water weighs as that up to the mean level
+            assert!((head(500.0) + amplitude).abs() < 1e-9, "{stretching:?}");
+            // at the surface linear theory is off by no more than a share exp(k a) - 1 of the wave, and stretched to the surface by nothing
+            let k = (TAU / 8.0).powi(2) / GRAVITY;
+            let most = if stretching == Stretching::Wheeler { 1e-9 } else { 5.0 * ((k * 5.0).exp() - 1.0) };
+            assert!(head(0.0).abs() <= most, "{stretching:?} {}", head(0.0));
+        }
+        // above the mean level the water is taken as still up to the crest
+        if stretching == Stretching::Linear {
+            assert!([0.1, 2.5, 4.9].iter().all(|z| flow(&around, 0.0, [0.0, 0.0, 1.0 + z]).head.abs() < 1e-9));
+        }
     }
 }
 

@@ -310,6 +310,39 @@ fn a_rod_as_light_as_its_water_goes_with_it() {
     assert!(worst < 5e-4, "{worst}");
 }
 
+/// Water whose speed grows with depth.
+struct Shear;
+
+impl FluidField for Shear {
+    fn at(&self, at: &Vector3<f64>, _: f64) -> Fluid {
+        Fluid { velocity: Vector3::x() * (-0.3 * at.z), ..UniformFluid::still(1025.0).0 }
+    }
+}
+
+#[test]
+fn the_water_of_a_step_is_that_where_its_nodes_come_to_be() {
+    // a slack rope thrown down through a sheared current in long steps, which take many iterations
+    let segment = Segment { drag_normal: 1.2, added_normal: 1.0, ..Segment::line(60.0, 12, 60.0, 1e8, 0.2) };
+    let rod = Rod::new("rope", vec![segment], vec![]).unwrap();
+    let world = World::new(&Shear, 9.81);
+    let (a, b) = (Vector3::new(0.0, 0.0, -5.0), Vector3::new(40.0, 0.0, -5.0));
+    let mut state = State::along(&rod, &[a, b]).unwrap();
+    state.velocity.fill(Vector3::z() * -3.0);
+    let mut solver = Solver::new(&rod, Settings { halvings: 0, iterations: 60, ..Settings::default() });
+    let mut most = 0;
+    for i in 1..=8 {
+        let made = solver.step(&rod, &mut state, &world, f64::from(i) * 0.5, [End::pinned(a), End::FREE]);
+        let Ok(made) = made else { continue };
+        most = most.max(made.iterations);
+        for (node, asked) in solver.trial.asked.iter().enumerate() {
+            // a thousandth of an element, and the last change
+            let off = (state.position[node] - asked).norm();
+            assert!(off < 1.1e-3 * 5.0, "{i}: {node} {off} {}", made.iterations);
+        }
+    }
+    assert!(most > 4, "{most}");
+}
+
 #[test]
 fn a_chain_on_a_slope_slides_when_friction_is_less_than_the_slope() {
     // a straight chain along the fall line: a = g (sin - mu cos) once it slides faster than the regularising speed

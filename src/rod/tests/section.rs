@@ -50,6 +50,138 @@ fn a_heated_pipe_under_pressure_between_fixed_ends_is_pressed_as_the_closed_form
     assert!((stress.von_mises / mises - 1.0).abs() < 1e-9);
 }
 
+/// Linear waves in deep water along x, on still water (Airy).
+struct Waves {
+    amplitude: f64,
+    number: f64,
+}
+
+impl Waves {
+    /// Elevation of the surface over the mean level (m).
+    fn elevation(&self, x: f64, time: f64) -> f64 {
+        self.amplitude * (self.number * x - (self.number * G).sqrt() * time).cos()
+    }
+}
+
+const G: f64 = 9.80665;
+
+impl FluidField for Waves {
+    fn at(&self, at: &Vector3<f64>, time: f64) -> Fluid {
+        let surface = self.elevation(at.x, time);
+        Fluid { surface, head: surface * ((self.number * at.z.min(0.0)).exp() - 1.0), ..UniformFluid::still(1025.0).0 }
+    }
+}
+
+#[test]
+fn outer_pressure_of_a_deep_pipe_is_that_of_the_wave_at_its_depth() {
+    // a wave of 10 m and 8 s over a pipe between fixed ends
+    let number = (std::f64::consts::TAU / 8.0).powi(2) / G;
+    let waves = Waves { amplitude: 5.0, number };
+    let world = World::new(&waves, G);
+    let tube = Tube::empty(0.5, 0.46);
+    let rod = pipe(tube);
+    let [outside, _] = tube.areas();
+    for depth in [2.0, 20.0, 300.0] {
+        let (a, b) = (Vector3::new(0.0, 0.0, -depth), Vector3::new(20.0, 0.0, -depth));
+        let ends = [End::pinned(a), End::pinned(b)];
+        let pressure = |x: f64, time: f64| 1025.0 * G * (depth + waves.elevation(x, time) * (-number * depth).exp());
+        for time in [0.0, 2.0, 4.0] {
+            let state = State { time, ..State::along(&rod, &[a, b]).unwrap() };
+            let found = rod.results(&state, &world, &ends);
+            for (i, node) in found.iter().enumerate() {
+                // at a trough of 5 m the first depth lies above the surface
+                let wet = waves.elevation(node.position.x, time) > -depth;
+                let exact = if wet { pressure(node.position.x, time) } else { 0.0 };
+                assert!(
+                    (node.pressures[0] - exact).abs() <= 1e-9 * exact,
+                    "{depth} {time} {i}: {:?} {exact}",
+                    node.pressures
+                );
+                if !wet || depth < 10.0 || i == 0 || i == 10 {
+                    continue;
+                }
+                // Poisson's ratio alone stretches a pipe that is held: T = (1 - 2 nu) p A; the mean of three nodes has
+                // the bend of the wave over 2 m in it; strains are rounded to 1e-15 of EA
+                let mean = 0.25
+                    * (pressure(node.position.x - 2.0, time) + 2.0 * exact + pressure(node.position.x + 2.0, time));
+                assert!(
+                    (node.effective / (0.4 * mean * outside) - 1.0).abs() < 1e-8,
+                    "{depth} {time} {i}: {}",
+                    node.effective
+                );
+                assert!((node.wall - (node.effective - exact * outside)).abs() < 1e-9 * exact * outside);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_pipe_that_cools_between_fixed_ends_meets_the_bottom_as_softly_as_its_tension_says() {
+    // sag w l^2 / (8 T) of an element, T by Poisson's ratio and what cooling by 50 K pulls: EA alpha dT, 1.5 MN
+    let tube = Tube { expansion: 1.17e-5, warmer: -50.0, ..Tube::empty(0.3239, 0.2985) };
+    let rod = pipe(tube);
+    let [outside, inside] = tube.areas();
+    let fluid = UniformFluid::still(1025.0);
+    let world = World::new(&fluid, G);
+    let (a, b) = (Vector3::new(0.0, 0.0, -100.0), Vector3::new(20.0, 0.0, -100.0));
+    let mut state = State::along(&rod, &[a, b]).unwrap();
+    Solver::new(&rod, Settings::default()).statics(&rod, &mut state, &world, [End::pinned(a), End::pinned(b)]).unwrap();
+    let pull = E * (outside - inside) * 1.17e-5 * 50.0 + 0.4 * 1025.0 * G * 100.0 * outside;
+    let sag = (100.0 - 1025.0 * outside) * G * 4.0 / (8.0 * pull);
+    for bedding in &state.bedding {
+        // it sags by 5 mm, which stretches it by 1e-7 of what the cold does by 6e-4
+        assert!((bedding / sag - 1.0).abs() < 1e-3, "{bedding} {sag}");
+    }
+}
+
+#[test]
+fn a_tube_that_does_not_resist_shortening_is_held_taut_by_pressure_and_never_pushes() {
+    let fluid = UniformFluid::still(1025.0);
+    let world = World::new(&fluid, G);
+    let depth = 1000.0;
+    let pull = |pressure: f64, compression: bool, stretch: f64| {
+        let tube = Tube { pressure, ..Tube::empty(0.3, 0.28) };
+        let [outside, inside] = tube.areas();
+        let segment = Segment { compression, tube: Some(tube), ..Segment::line(20.0, 10, 100.0, 1e9, 0.3) };
+        let rod = Rod::new("hose", vec![segment], vec![]).unwrap();
+        let (a, b) = (Vector3::new(0.0, 0.0, -depth), Vector3::new(20.0 * (1.0 + stretch), 0.0, -depth));
+        let state = State::along(&rod, &[a, b]).unwrap();
+        let found = rod.results(&state, &world, &[End::pinned(a), End::pinned(b)])[5].effective;
+        (found, 1e9 * stretch + 0.4 * (1025.0 * G * depth * outside - pressure * inside))
+    };
+    for (pressure, stretch) in [(0.0, 0.0), (0.0, -1e-4), (0.0, -1e-3), (3e7, 1e-3), (3e7, 1e-4), (1e7, 0.0)] {
+        // strains are rounded to 1e-15 of EA
+        let (found, exact) = pull(pressure, true, stretch);
+        assert!((found - exact).abs() < 1e-3, "{pressure} {stretch}: {found} {exact}");
+        let (found, exact) = pull(pressure, false, stretch);
+        assert!((found - exact.max(0.0)).abs() < 1e-3, "{pressure} {stretch}: {found} {exact}");
+    }
+}
+
+#[test]
+fn pressure_goes_to_nothing_at_the_surface_without_a_jump_and_has_its_slope() {
+    let waves = Waves { amplitude: 5.0, number: 0.063 };
+    for time in [0.0, 1.1, 4.0] {
+        let surface = waves.elevation(0.0, time);
+        let at = |depth: f64| {
+            let z = surface - depth;
+            let fluid = waves.at(&Vector3::new(0.0, 0.0, z), time);
+            (fluid.pressure(z, G), fluid)
+        };
+        assert_eq!(at(-0.5).0, (0.0, 0.0));
+        // a hand under the surface it is no more than twice that at rest
+        assert!((0.0..=2.0 * 1025.0 * G * 0.1 * 1.000_001).contains(&at(0.1).0.0));
+        for depth in [0.03, 1.0, 40.0] {
+            let ((_, slope), fluid) = at(depth);
+            let z = surface - depth;
+            let h = 1e-5;
+            let difference = (fluid.pressure(z + h, G).0 - fluid.pressure(z - h, G).0) / (2.0 * h);
+            // rounding of 1e5 Pa over 1e-5 m
+            assert!((slope - difference).abs() < 1e-4 * slope.abs(), "{time} {depth}: {slope} {difference}");
+        }
+    }
+}
+
 #[test]
 fn what_makes_no_rod_is_refused_with_its_reason() {
     let good = Segment::line(10.0, 5, 10.0, 1e6, 0.1);

@@ -163,3 +163,63 @@ fn rest_beside_a_position_of_rest_takes_a_few_iterations() {
         assert!((made.force[1] - other.force[1]).norm() < 1e-7 * other.force[1].norm());
     }
 }
+
+#[test]
+fn tension_at_the_ends_of_a_hanging_rope_is_its_weight_and_nothing() {
+    let fluid = UniformFluid::still(1025.0);
+    let world = World::new(&fluid, 9.81);
+    let (diameter, mass): (f64, f64) = (0.1, 40.0);
+    let area = std::f64::consts::FRAC_PI_4 * diameter * diameter;
+    // in air, and from 15 m above to 25 m below the surface
+    for (top, wet) in [(100.0, 0.0), (15.0, 25.0)] {
+        let rod = Rod::new("rope", vec![Segment::line(40.0, 8, mass, 1e12, diameter)], vec![]).unwrap();
+        let ends = [End::pinned(Vector3::z() * top), End::FREE];
+        let mut state = State::along(&rod, &[Vector3::z() * top, Vector3::z() * (top - 40.0)]).unwrap();
+        Solver::new(&rod, Settings::default()).statics(&rod, &mut state, &world, ends).unwrap();
+        let found = rod.results(&state, &world, &ends);
+        let exact = 9.81 * (40.0 * mass - 1025.0 * area * wet);
+        // stretch of 1e-8, and the residual of statics, 1e-9 of the weight
+        assert!((found[0].effective / exact - 1.0).abs() < 1e-7, "{} {exact}", found[0].effective);
+        assert!(found[8].effective.abs() < 1e-7 * exact, "{}", found[8].effective);
+    }
+}
+
+#[test]
+fn tension_at_the_end_of_a_rope_is_never_below_nothing_and_that_of_its_holder_while_it_moves() {
+    // a rope of few elements that is shaken at its top while its foot lies on the bottom: carried on from the middles of
+    // its elements the tension of the foot would be less than nothing
+    let fluid = UniformFluid::moving(1025.0, Vector3::new(0.5, 0.2, 0.1));
+    let bottom = PlaneBottom { height: -60.0, slope: [0.0; 2] };
+    let world = World { bottom: Some((&bottom, Ground::elastic(1e5))), ..World::new(&fluid, 9.81) };
+    let segment = Segment {
+        drag_normal: 1.2,
+        drag_tangential: 0.1,
+        added_normal: 1.0,
+        added_tangential: 0.2,
+        ..Segment::line(185.0, 12, 150.0, 1e8, 0.3)
+    };
+    let rod = Rod::new("rope", vec![segment], vec![]).unwrap();
+    let (a, b) = (Vector3::new(0.0, 0.0, -5.0), Vector3::new(150.0, 0.0, -60.0));
+    let mut state = State::along(&rod, &[a, b]).unwrap();
+    let mut solver = Solver::new(&rod, Settings::default());
+    let mut ends = [End::pinned(a), End::pinned(b)];
+    solver.statics(&rod, &mut state, &world, ends).unwrap();
+    for i in 0..=100 {
+        let told = rod.results(&state, &world, &ends);
+        assert!(told.iter().all(|n| n.effective >= 0.0), "{i}: {told:?}");
+        let t = f64::from(i + 1) * 0.05;
+        let (s, c) = t.sin_cos();
+        ends[0] = End::moved(Motion {
+            position: a + Vector3::z() * (1.0 - c),
+            velocity: Vector3::z() * s,
+            acceleration: Vector3::z() * c,
+        });
+        let made = solver.step(&rod, &mut state, &world, t, ends).unwrap();
+        let told = rod.results(&state, &world, &ends);
+        let d = (state.position[1] - state.position[0]).normalize();
+        let along = made.force[0].dot(&d);
+        // the rod's pull on its holder along its first element, but for the tolerance of a step: 1e-5 of an element by the
+        // stiffness of one is far more than what its last change leaves
+        assert!((told[0].effective - along).abs() < 1e-4 * along.abs().max(1e4), "{i}: {} {along}", told[0].effective);
+    }
+}

@@ -39,6 +39,7 @@ fn tangent_of_the_whole_rod_is_the_difference_of_its_residual() {
         velocity: Vector3::new(0.7, -0.2, 0.1),
         acceleration: Vector3::new(0.1, 0.3, -0.2),
         surface: 0.3,
+        head: -0.1,
         density: 1025.0,
         wind: Vector3::new(12.0, -5.0, 1.0),
         air_density: 1.226,

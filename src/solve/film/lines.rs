@@ -1,7 +1,7 @@
 //! Connectors of a film: their shape at every instant.
 
 use crate::model::{ClassError, Condition, Connector, Model, Placement, Position};
-use crate::solve::results::along::{Section, most_used, sections, segments_at};
+use crate::solve::results::along::{Section, sections, segments_at, sides};
 use crate::solve::scene::{CORNER, cubic};
 use crate::solve::time::{AlongColumns, Layout, LinkColumns};
 use crate::table::{Cell, Table};
@@ -164,10 +164,10 @@ fn moved(along: &AlongColumns, row: &[f64], sections: &[Section], count: usize) 
         let room = b.arc - a.arc;
         let t = if room > 0.0 { (wanted - a.arc) / room } else { 1.0 };
         let tension = a.effective + t * (b.effective - a.effective);
-        let meeting = sections.get(segments_at(sections, last - wanted)).unwrap_or_default();
+        let meeting = sides(sections, segments_at(sections, last - wanted));
         shape.points.push(std::array::from_fn(|i| a.position[i] + t * (b.position[i] - a.position[i])));
         shape.tensions.push(tension);
-        shape.shares.push(most_used(meeting, tension, None).unwrap_or(f64::NAN));
+        shape.shares.push(meeting.map(|(.., section)| section.used(tension, None)).fold(f64::NAN, f64::max));
     }
     let over = nodes.iter().find(|node| node.clearance.is_finite());
     shape.bottom = over.map(|node| node.position[2] - node.clearance);

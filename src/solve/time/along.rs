@@ -10,9 +10,9 @@ use crate::post::line::envelope::{Envelope, Seen};
 /// Numbers of every node: unstretched distance from the first end, x, y, z, clearance of the bottom (m; none: not a number), effective
 /// tension (N).
 const OF_NODE: usize = 6;
-/// Numbers of a node of a line that bends or has a wall: also tension in the wall (N), shear (N), moments about two directions (N m),
-/// von Mises stress (Pa; 0 without a wall) and its share of the yield stress.
-const OF_BENT: usize = OF_NODE + 6;
+/// Numbers of a node of a line that bends: also tension in the wall (N), shear (N), moments about two directions (N m), von Mises
+/// stress on both sides (Pa; 0 without a wall), pressures outside and inside (Pa).
+const OF_BENT: usize = OF_NODE + 8;
 
 /// Which numbers of a row are those of the nodes of a line.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,16 +45,17 @@ pub struct NodeRow {
 /// What a node of a line that bends has more.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BentRow {
-    /// Tension in the wall (N).
+    /// Tension in the wall (N); where two segments meet that of the side with the larger von Mises stress.
     pub wall: f64,
     /// Shear force (N).
     pub shear: f64,
     /// Moments about two directions across the line, carried along it without twist (N m).
     pub bends: [f64; 2],
-    /// Largest von Mises stress (Pa); 0 without a wall.
-    pub von_mises: f64,
-    /// Its share of the yield stress.
-    pub used: f64,
+    /// Largest von Mises stress on the side toward the first end and toward the second (Pa), which differ where two segments meet; 0
+    /// without a wall.
+    pub von_mises: [f64; 2],
+    /// Pressure outside and inside above the atmosphere's (Pa), for a tube.
+    pub pressures: [f64; 2],
 }
 
 impl BentRow {
@@ -64,9 +65,10 @@ impl BentRow {
         one.hypot(other)
     }
 
-    /// The share of the yield stress that a wall uses, where there is one.
-    pub fn yields(&self) -> Option<f64> {
-        (self.von_mises > 0.0).then_some(self.used)
+    /// Largest von Mises stress of both sides (Pa).
+    pub fn worse(&self) -> f64 {
+        let [before, behind] = self.von_mises;
+        before.max(behind)
     }
 }
 
@@ -107,13 +109,15 @@ impl AlongColumns {
                 _ => nodes.len().checked_sub(self.most - number + 1).filter(|i| *i > 0).and_then(|i| nodes.get(i)),
             };
             let Some(node) = found else { continue };
-            let LineNode { arc, position, effective, wall, shear, moment, clearance, stress, .. } = node;
+            let LineNode { arc, position, effective, shear, moment, clearance, pressures, .. } = node;
             // of a line that tells its moment alone, all of it is about one direction
             let bends = if node.bends == [0.0; 2] { [*moment, 0.0] } else { node.bends };
             let clearance = if clearance.is_finite() { *clearance } else { f64::NAN };
             let told = [*arc, position.x, position.y, position.z, clearance, *effective];
-            let [mises, used] = stress.map_or([0.0; 2], |s| [s.von_mises, s.used]);
-            let bent = [*wall, *shear, bends[0], bends[1], mises, used];
+            let behind = node.behind();
+            let mises = [node.before.unwrap_or(behind), behind].map(|side| side.von_mises());
+            let wall = node.worse().wall;
+            let bent = [wall, *shear, bends[0], bends[1], mises[0], mises[1], pressures[0], pressures[1]];
             if told.iter().enumerate().any(|(i, v)| i != 4 && !v.is_finite())
                 || (self.bends && bent.iter().any(|v| !v.is_finite()))
             {
@@ -132,9 +136,13 @@ impl AlongColumns {
         let numbers = row.get(from..from + self.stride()).filter(|_| place < self.numbers.len())?;
         let [arc, x, y, z, clearance, effective, rest @ ..] = numbers else { return None };
         let bent = match rest {
-            [wall, shear, one, other, von_mises, used] => {
-                Some(BentRow { wall: *wall, shear: *shear, bends: [*one, *other], von_mises: *von_mises, used: *used })
-            }
+            [wall, shear, one, other, before, behind, outside, inside] => Some(BentRow {
+                wall: *wall,
+                shear: *shear,
+                bends: [*one, *other],
+                von_mises: [*before, *behind],
+                pressures: [*outside, *inside],
+            }),
             _ => None,
         };
         let node = NodeRow { arc: *arc, position: [*x, *y, *z], clearance: *clearance, effective: *effective, bent };
@@ -162,14 +170,16 @@ pub enum Quantity {
     Shear,
     /// Bending moment (N m).
     Moment,
-    /// Von Mises stress (Pa).
+    /// The larger von Mises stress of both sides (Pa).
     VonMises,
-    /// Its share of the yield stress.
-    Used,
+    /// Von Mises stress of the side toward the first end (Pa).
+    VonMisesBefore,
+    /// Von Mises stress of the side toward the second end (Pa).
+    VonMisesBehind,
 }
 
 impl Quantity {
-    const ALL: [Quantity; 8] = [
+    const ALL: [Quantity; 9] = [
         Quantity::Arc,
         Quantity::Clearance,
         Quantity::Effective,
@@ -177,7 +187,8 @@ impl Quantity {
         Quantity::Shear,
         Quantity::Moment,
         Quantity::VonMises,
-        Quantity::Used,
+        Quantity::VonMisesBefore,
+        Quantity::VonMisesBehind,
     ];
 
     /// Its value; not a number of a node that has none.
@@ -190,8 +201,9 @@ impl Quantity {
             Quantity::Wall => bent(|b| b.wall),
             Quantity::Shear => bent(|b| b.shear),
             Quantity::Moment => bent(BentRow::moment),
-            Quantity::VonMises => bent(|b| b.von_mises),
-            Quantity::Used => node.bent.and_then(|b| b.yields()).unwrap_or(f64::NAN),
+            Quantity::VonMises => bent(BentRow::worse),
+            Quantity::VonMisesBefore => bent(|b| b.von_mises[0]),
+            Quantity::VonMisesBehind => bent(|b| b.von_mises[1]),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! A line at rest between its ends where they stand.
 
-use super::{CLEARANCE, most_used, sections, segments_at};
+use super::{CLEARANCE, sections};
 use crate::hydro::ambient;
 use crate::language::units::Dim;
 use crate::model::{Connector, Element, End, Model, Situation};
@@ -70,7 +70,6 @@ pub fn lines_at_rest(model: &Model, fits: &dyn Fn(&str) -> bool) -> Result<Vec<T
             }
         }
         let mut table = table.column("", "Used", Dim::None, Digits::Decimals(3));
-        let length = nodes.last().map_or(f64::NAN, |n| n.arc);
         for (index, node) in nodes.iter().enumerate() {
             let mut cells: Vec<Cell> = vec![(index + 1).into()];
             let place = [node.arc, node.position.x, node.position.y, node.position.z, node.clearance, node.effective];
@@ -79,12 +78,16 @@ pub fn lines_at_rest(model: &Model, fits: &dyn Fn(&str) -> bool) -> Result<Vec<T
                 cells.extend([node.shear, node.moment, node.curvature].map(Cell::from));
             }
             if tube {
-                cells.push(node.wall.into());
-                let stress = node.stress.map(|s| [s.axial, s.bending, s.hoop, s.von_mises]);
+                let worse = node.worse();
+                cells.push(worse.wall.into());
+                let stress = worse.stress.map(|s| [s.axial, s.bending, s.hoop, s.von_mises]);
                 cells.extend((0..4).map(|i| Cell::from(stress.and_then(|s| s.get(i).copied()))));
             }
-            let meeting = sections.get(segments_at(&sections, length - node.arc)).unwrap_or_default();
-            cells.push(most_used(meeting, node.effective, node.stress.map(|s| s.used)).into());
+            let used = node.sides().filter_map(|side| {
+                let stress = side.stress.map(|s| s.von_mises);
+                Some(sections.get(side.segment)?.used(node.effective, stress))
+            });
+            cells.push(used.reduce(f64::max).into());
             let text = |e: crate::table::TableError| SolveError::new(crate::model::ClassError::new(e.to_string()));
             table.push(cells).map_err(text)?;
         }

@@ -84,8 +84,9 @@ struct Worst {
     acting: Acting,
 }
 
-/// The largest use of what each node resists over some events, and when. What acts at the first stored instant, at rest, is functional
-/// load; what is more or less later is of the environment.
+/// The largest use of what each node resists over some events, and when; where two segments meet, of the one that uses more. What acts at the first stored instant, at rest, is functional
+/// load, of a node that a winch made later what acted there at the same distance from the first end; what is more or less later is of the
+/// environment.
 ///
 /// # Errors
 /// A section that is no tube, a factor out of range.
@@ -100,6 +101,8 @@ pub fn check(line: &Line, code: &Code, events: &[Event]) -> Result<Table, SolveE
         .map_err(|error| SolveError { who: Some(line.name.to_string()), error })?;
     let first = run.history.rows().next().unwrap_or_default();
     let rest: Vec<Option<NodeRow>> = line.places.iter().map(|p| columns.node(*p, first)).collect();
+    let length = line.length(first);
+    let lrfd = checked.iter().any(|c| matches!(c, Checked::Lrfd(_)));
     let mut worst: Vec<Option<Worst>> = vec![None; line.places.len()];
     let mut row = Vec::new();
     for event in events {
@@ -107,16 +110,15 @@ pub fn check(line: &Line, code: &Code, events: &[Event]) -> Result<Table, SolveE
         let time = row.first().copied().unwrap_or(f64::NAN);
         for ((place, rest), worst) in line.places.iter().zip(&rest).zip(&mut worst) {
             let Some(node) = columns.node(*place, &row) else { continue };
-            let numbers = line.numbers_at(&node, &row);
-            let meeting = line.sections_at(&node, &row);
-            let pressures = line.pressures(&node, meeting);
-            for ((segment, section), how) in numbers.clone().zip(meeting).zip(checked.get(numbers).unwrap_or_default())
-            {
-                let acting = acting(&node, section, meeting, pressures);
+            for (_, segment, section) in line.sides(&node, &row) {
+                let Some(how) = checked.get(segment) else { continue };
+                let acting = acting(&node, section);
                 let used = match how {
                     Checked::Lrfd(resistance) => {
-                        let at_rest = rest.as_ref().unwrap_or(&node);
-                        resistance.used_now(design(at_rest), design(&node), [acting.inside, acting.outside])
+                        // what a winch has made since hangs where something else hung at rest
+                        let there = || line.at_arc(node.arc.min(length), first);
+                        let at_rest = rest.or_else(there).unwrap_or(node);
+                        resistance.used_now(design(&at_rest), design(&node), [acting.inside, acting.outside])
                     }
                     Checked::WorkingStress(tube, case) => working_stress::used(tube, &acting, *case).map_err(wrong)?,
                     Checked::Break(breaking) => over_break(node.effective, *breaking).map_err(wrong)?,
@@ -130,7 +132,16 @@ pub fn check(line: &Line, code: &Code, events: &[Event]) -> Result<Table, SolveE
             }
         }
     }
-    told(line, code, &checked, &worst)
+    let mut table = told(line, code, &checked, &worst)?;
+    if lrfd && rest.iter().any(Option::is_none) {
+        table.note(match length.is_finite() {
+            true => {
+                "what a winch made later has as functional load what was at its distance from the first end at rest"
+            }
+            false => "it did not act at rest: all of its load is functional",
+        });
+    }
+    Ok(table)
 }
 
 /// Moments about two directions and effective tension.
@@ -139,11 +150,10 @@ fn design(node: &NodeRow) -> [f64; 3] {
     [one, other, node.effective]
 }
 
-fn acting(node: &NodeRow, section: &Section, meeting: &[Section], [outside, inside]: [f64; 2]) -> Acting {
+fn acting(node: &NodeRow, section: &Section) -> Acting {
     let Some(bent) = &node.bent else { return Acting { effective: node.effective, ..Acting::default() } };
-    let inside = section.tube.map_or(0.0, |_| inside);
-    let wall = section.wall(node, meeting, [outside, inside]);
-    Acting { moment: bent.moment(), effective: node.effective, wall, inside, outside }
+    let [outside, inside] = bent.pressures;
+    Acting { moment: bent.moment(), effective: node.effective, wall: section.pulled(node), inside, outside }
 }
 
 fn told(line: &Line, code: &Code, checked: &[Checked], worst: &[Option<Worst>]) -> Result<Table, SolveError> {

@@ -1,6 +1,6 @@
 //! The least, mean and most at each node.
 
-use super::{CLEARANCE, Line, most_used, segments_at};
+use super::{CLEARANCE, Line, segments_at, sides};
 use crate::language::units::Dim;
 use crate::post::line::envelope::Seen;
 use crate::solve::results::Event;
@@ -70,10 +70,14 @@ pub fn envelope(line: &Line, events: &[Event]) -> Result<Table, SolveError> {
                 found.map(|s| s.most.value).into(),
             ]);
         }
-        let meeting = arc.and_then(|arc| line.sections.get(segments_at(&line.sections, length - arc)));
-        let most = |quantity: Quantity| of(quantity).map(|s| s.most.value);
-        let used = most(Quantity::Effective)
-            .and_then(|tension| most_used(meeting.unwrap_or_default(), tension, most(Quantity::Used)));
+        let used = arc.zip(of(Quantity::Effective)).and_then(|(arc, tension)| {
+            let stress = [Quantity::VonMisesBefore, Quantity::VonMisesBehind].map(of);
+            let sides = sides(&line.sections, segments_at(&line.sections, length - arc));
+            let used = sides.map(|(side, _, section)| {
+                section.used(tension.most.value, stress.get(side).and_then(|s| Some(s.as_ref()?.most.value)))
+            });
+            used.reduce(f64::max)
+        });
         if let Some(used) = used
             && worst.is_none_or(|(most, _)| used > most)
         {

@@ -11,7 +11,7 @@ use crate::solve::system::SolveError;
 use crate::table::{Cell, Digits, Table};
 
 /// Damage of each node over the stored instants of some events, round a tube at some points, and the life in years that it leaves
-/// when the record comes again for ever, with a design fatigue factor. Each segment goes by its curve as for [`super::super::line_damages`].
+/// when the record comes again for ever, with a design fatigue factor; where two segments meet that of the side that fails first. Each segment goes by its curve as for [`super::super::line_damages`].
 ///
 /// # Errors
 /// A segment without a curve, a record without length, what [`node_damage`] says.
@@ -34,18 +34,17 @@ pub fn along(
         curves.push(named.and_then(|c| find(c, selection)).ok_or_else(missing)?);
     }
     let mut row = Vec::new();
-    // of a junction both sides: the first of two is that toward the first end
+    // one for each side: where two segments meet they go by curves and stresses of their own
     let mut records: Vec<[Record; 2]> = line.places.iter().map(|_| Default::default()).collect();
     for event in events {
         line.row(event, &mut row);
         let time = row.first().copied().unwrap_or(f64::NAN);
-        for (sides, place) in records.iter_mut().zip(&line.places) {
+        for (records, place) in records.iter_mut().zip(&line.places) {
             let Some(node) = line.columns.node(*place, &row) else { continue };
-            let meeting = line.sections_at(&node, &row);
-            let pressures = line.pressures(&node, meeting);
-            for ((record, segment), section) in sides.iter_mut().zip(line.numbers_at(&node, &row)).zip(meeting) {
+            for (side, segment, section) in line.sides(&node, &row) {
+                let Some(record) = records.get_mut(side) else { continue };
                 record.take((time, node.arc, segment));
-                record.tension.push(section.wall(&node, meeting, pressures));
+                record.tension.push(section.pulled(&node));
                 for (moments, value) in record.bends.iter_mut().zip(node.bent.map(|b| b.bends).unwrap_or_default()) {
                     moments.push(value);
                 }
@@ -88,7 +87,7 @@ pub fn along(
     );
     let mut worst: Option<(f64, usize)> = None;
     for (index, sides) in records.iter().enumerate() {
-        let mut most: Option<((&Record, &Curve), NodeDamage)> = None;
+        let mut most = None;
         for record in sides.iter().filter(|r| r.tension.len() > 1) {
             let (Some(section), Some(curve)) = (line.sections.get(record.segment), curves.get(record.segment)) else {
                 continue;
@@ -96,12 +95,12 @@ pub fn along(
             let [one, other] = &record.bends;
             let bends = line.columns.bends.then_some([one.as_slice(), other.as_slice()]);
             let node = NodeRecord { segment: &section.segment, curve, tension: &record.tension, bends };
-            let found = node_damage(&node, selection.thickness.as_ref(), round).map_err(refused)?;
-            if most.as_ref().is_none_or(|(_, m)| found.damage > m.damage) {
-                most = Some(((record, curve), found));
+            let made = node_damage(&node, selection.thickness.as_ref(), round).map_err(refused)?;
+            if most.as_ref().is_none_or(|(_, _, found): &(_, _, NodeDamage)| made.damage >= found.damage) {
+                most = Some((record, curve, made));
             }
         }
-        let Some(((record, curve), found)) = most else { continue };
+        let Some((record, curve, found)) = most else { continue };
         let years = life(found.damage, record.length(), factor).map_err(refused)?;
         if worst.is_none_or(|(most, _)| found.damage > most) {
             worst = Some((found.damage, index + 1));

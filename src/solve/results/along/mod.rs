@@ -24,9 +24,8 @@ use super::super::system::SolveError;
 use super::super::time::{AlongColumns, NodeRow, Quantity, Run};
 use super::Event;
 use crate::model::{ClassError, FatigueSegment, Model};
-use crate::post::line::{Tube, inside_pressure};
+use crate::post::line::Tube;
 use crate::table::Digits;
-use std::ops::RangeInclusive;
 
 /// Digits of the height over the bottom, into which a line that lies presses itself by millimetres.
 pub(super) const CLEARANCE: Digits = Digits::Decimals(3);
@@ -41,42 +40,29 @@ pub(in crate::solve) struct Section {
 }
 
 impl Section {
-    /// Tension in the wall of its tube (N) at a node where these meet, with pressures outside and inside (Pa); of another section the
-    /// effective tension itself.
-    pub(super) fn wall(&self, node: &NodeRow, meeting: &[Section], [outside, inside]: [f64; 2]) -> f64 {
-        match (&self.tube, node.bent, meeting) {
-            (Some(_), Some(bent), [_]) => bent.wall,
-            (Some(tube), Some(_), _) => {
-                let [outer, bore] = tube.areas();
-                node.effective - outside * outer + inside * bore
-            }
-            _ => node.effective,
-        }
-    }
-
-    /// The share of the yield stress that its tube uses, or tension over break of another section.
-    pub(in crate::solve) fn used(&self, tension: f64, yields: Option<f64>) -> f64 {
-        match (&self.tube, yields) {
-            (Some(_), Some(share)) => share,
+    /// Largest von Mises stress of a tube over yield, or tension over break of another section.
+    pub(in crate::solve) fn used(&self, tension: f64, von_mises: Option<f64>) -> f64 {
+        match (&self.tube, von_mises) {
+            (Some(tube), Some(stress)) => stress / tube.yield_stress,
             _ => (tension / self.segment.breaking).max(0.0),
         }
     }
-}
 
-/// The most that sections which meet at a node use; none without sections.
-pub(in crate::solve) fn most_used(sections: &[Section], tension: f64, yields: Option<f64>) -> Option<f64> {
-    sections.iter().map(|s| s.used(tension, yields)).reduce(f64::max)
+    /// Tension (N) by which its stress goes: in the wall of a tube, effective of another section.
+    pub(super) fn pulled(&self, node: &NodeRow) -> f64 {
+        let (Some(tube), Some(bent)) = (&self.tube, &node.bent) else { return node.effective };
+        let ([outer, bore], [outside, inside]) = (tube.areas(), bent.pressures);
+        node.effective - outside * outer + inside * bore
+    }
 }
 
 /// The segments of the class of a connector, from its first end.
 pub(in crate::solve) fn sections(model: &Model, name: &str) -> Vec<Section> {
     let connector = model.connectors.get(&Model::key(name));
     let Some(class) = connector.and_then(|c| model.classes.get(&Model::key(&c.class))) else { return Vec::new() };
-    // a bar that does not bend is a chain or rope
-    let walled = class.records.iter().map(|record| record.args.option_number("-EI") != Some(0.0));
-    let made = class.fatigue_segments().into_iter().zip(class.wall_materials()).zip(walled);
-    let of = |((segment, material), bends): ((FatigueSegment, crate::model::WallMaterial), bool)| {
-        let tube = segment.thickness.filter(|wall| bends || 2.0 * wall < segment.od).map(|wall| Tube {
+    let made = class.fatigue_segments().into_iter().zip(class.wall_materials());
+    let of = |(segment, material): (FatigueSegment, crate::model::WallMaterial)| {
+        let tube = segment.thickness.map(|wall| Tube {
             diameter: segment.od,
             wall,
             yield_stress: material.yield_stress,
@@ -89,21 +75,29 @@ pub(in crate::solve) fn sections(model: &Model, name: &str) -> Vec<Section> {
     made.map(of).collect()
 }
 
-/// The numbers of the segments (from 0) that a place is in, by its unstretched distance from the second end (m): where two meet both,
-/// that toward the second end last. The first segment is as long as a winch has made it.
-pub(in crate::solve) fn segments_at(sections: &[Section], from_second: f64) -> RangeInclusive<usize> {
-    // a length added up of those of elements has their rounding
-    let within = |slack: f64| {
-        let mut left = from_second;
-        for (index, section) in sections.iter().enumerate().skip(1).rev() {
-            left -= section.segment.length;
-            if left <= slack * section.segment.length {
-                return index;
-            }
+/// The numbers of the segments (from 0) that a place is in, by its unstretched distance from the second end (m): toward the first end
+/// and toward the second, which differ where two meet. The first segment is as long as a winch has made it.
+pub(in crate::solve) fn segments_at(sections: &[Section], from_second: f64) -> [usize; 2] {
+    let mut left = from_second;
+    for (index, section) in sections.iter().enumerate().skip(1).rev() {
+        left -= section.segment.length;
+        // a length added up of those of elements has their rounding
+        let near = 1e-6 * section.segment.length;
+        if left <= near {
+            return [if left >= -near { index - 1 } else { index }, index];
         }
-        0
-    };
-    within(-1e-6)..=within(1e-6)
+    }
+    [0; 2]
+}
+
+/// The sides of such a place, from the first end: 0 toward the first end, only where two segments meet, and 1 toward the second, with
+/// the number of the segment and the segment.
+pub(in crate::solve) fn sides(
+    sections: &[Section],
+    [before, behind]: [usize; 2],
+) -> impl Iterator<Item = (usize, usize, &Section)> {
+    let both = [(before != behind).then_some((0, before)), Some((1, behind))];
+    both.into_iter().flatten().filter_map(|(side, index)| Some((side, index, sections.get(index)?)))
 }
 
 /// A line of a run.
@@ -182,25 +176,18 @@ impl<'a> Line<'a> {
         self.columns.node(last, row).map_or(f64::NAN, |n| n.arc)
     }
 
-    /// The numbers of the sections of a node in a row, from 0: of a junction both, that toward the second end last.
-    fn numbers_at(&self, node: &NodeRow, row: &[f64]) -> RangeInclusive<usize> {
-        segments_at(&self.sections, self.length(row) - node.arc)
+    /// The sides of a node in a row on which it is judged: see [`sides`].
+    fn sides(&self, node: &NodeRow, row: &[f64]) -> impl Iterator<Item = (usize, usize, &Section)> {
+        sides(&self.sections, segments_at(&self.sections, self.length(row) - node.arc))
     }
 
-    /// The sections of a node in a row.
-    fn sections_at(&self, node: &NodeRow, row: &[f64]) -> &[Section] {
-        self.sections.get(self.numbers_at(node, row)).unwrap_or_default()
-    }
-
-    /// Pressures outside and inside (Pa) at a node, of whose sections the last with a tube is the one whose wall it tells. Outside is that
-    /// of water at rest.
-    fn pressures(&self, node: &NodeRow, meeting: &[Section]) -> [f64; 2] {
-        let around = self.run.model.surroundings();
-        let [.., z] = node.position;
-        let outside = around.water_weight() * (around.tide - z).max(0.0);
-        let tube = meeting.iter().rev().find_map(|s| s.tube.as_ref());
-        let inside = tube.zip(node.bent).and_then(|(t, bent)| inside_pressure(t, (node.effective, bent.wall), outside));
-        [outside, inside.unwrap_or(0.0)]
+    /// The most a node uses in a row, of its sides.
+    fn used(&self, node: &NodeRow, row: &[f64]) -> Option<f64> {
+        let used = |(side, _, section): (usize, usize, &Section)| {
+            let stress = node.bent.and_then(|b| b.von_mises.get(side).copied());
+            section.used(node.effective, stress)
+        };
+        self.sides(node, row).map(used).reduce(f64::max)
     }
 
     fn wrong(&self, text: impl Into<String>) -> SolveError {
@@ -219,24 +206,22 @@ mod tests {
             tube: None,
         };
         let all = [100.0, 50.0, 20.0].map(segment);
-        let mut weaker = segment(1.0);
-        weaker.segment.breaking = 0.1;
         // the last node, one in the last, where two meet, in the first, beyond what the class says of it
         for (from_second, want) in [
-            (0.0, 2..=2),
-            (10.0, 2..=2),
-            (20.0, 1..=2),
-            (20.0 + 1e-9, 1..=2),
-            (20.5, 1..=1),
-            (70.0, 0..=1),
-            (71.0, 0..=0),
-            (500.0, 0..=0),
+            (0.0, [2, 2]),
+            (10.0, [2, 2]),
+            (20.0, [1, 2]),
+            (20.5, [1, 1]),
+            (70.0, [0, 1]),
+            (71.0, [0, 0]),
+            (500.0, [0, 0]),
         ] {
             assert_eq!(segments_at(&all, from_second), want, "{from_second}");
         }
-        assert_eq!(segments_at(&[], 3.0), 0..=0);
-        assert_eq!(most_used(&[], 1.0, None), None);
-        assert_eq!(most_used(&[all[0].clone(), weaker], 0.5, None), Some(5.0));
+        assert_eq!(segments_at(&[], 3.0), [0, 0]);
+        let judged: Vec<_> = sides(&all, [1, 2]).map(|(side, index, _)| (side, index)).collect();
+        assert_eq!(judged, [(0, 1), (1, 2)]);
+        assert_eq!(sides(&all, [1, 1]).count(), 1);
         assert_eq!(all[0].used(-5.0, None), 0.0);
     }
 }

@@ -1,6 +1,6 @@
 //! Where a line is at an instant, with its forces there; and its nodes over time.
 
-use super::{CLEARANCE, Line, most_used};
+use super::{CLEARANCE, Line};
 use crate::language::units::Dim;
 use crate::model::ClassError;
 use crate::solve::results::{Event, columns, filled, timed};
@@ -38,8 +38,8 @@ fn told(node: Option<&NodeRow>, bends: bool, out: &mut Vec<f64>) {
     out.extend(node.position);
     out.extend([node.clearance, node.effective]);
     if let Some(bent) = &node.bent {
-        let BentRow { wall, shear, bends: [one, other], von_mises, .. } = *bent;
-        out.extend([wall, shear, bent.moment(), one, other, von_mises]);
+        let BentRow { wall, shear, bends: [one, other], .. } = *bent;
+        out.extend([wall, shear, bent.moment(), one, other, bent.worse()]);
     }
 }
 
@@ -66,8 +66,7 @@ pub fn shape(line: &Line, event: &Event) -> Result<Table, SolveError> {
         numbers.clear();
         told(Some(&node), bends, &mut numbers);
         cells.extend(numbers.iter().map(|v| if v.is_finite() { Cell::Number(v + 0.0) } else { Cell::Missing }));
-        let yields = node.bent.and_then(|b| b.yields());
-        cells.push(most_used(line.sections_at(&node, &row), node.effective, yields).into());
+        cells.push(line.used(&node, &row).into());
         table.push(cells).map_err(|e| line.wrong(e.to_string()))?;
     }
     if table.rows() == 0 {
@@ -126,7 +125,7 @@ pub fn histories(line: &Line, wanted: &[Where], events: &[Event]) -> Result<Tabl
 
 impl Line<'_> {
     /// The line at an unstretched distance from its first end (m) in a row; none beyond its ends.
-    fn at_arc(&self, arc: f64, row: &[f64]) -> Option<NodeRow> {
+    pub(super) fn at_arc(&self, arc: f64, row: &[f64]) -> Option<NodeRow> {
         let mut before: Option<NodeRow> = None;
         let near = 1e-9 * self.length(row).abs();
         for (_, node) in self.columns.nodes(row) {
@@ -152,8 +151,9 @@ fn between(from: &NodeRow, to: &NodeRow, share: f64) -> NodeRow {
         wall: mix(a.wall, b.wall),
         shear: mix(a.shear, b.shear),
         bends: [mix(a.bends[0], b.bends[0]), mix(a.bends[1], b.bends[1])],
-        von_mises: mix(a.von_mises, b.von_mises),
-        used: mix(a.used, b.used),
+        // what lies between is behind the one and before the other
+        von_mises: [mix(a.von_mises[1], b.von_mises[0]); 2],
+        pressures: [mix(a.pressures[0], b.pressures[0]), mix(a.pressures[1], b.pressures[1])],
     });
     NodeRow {
         arc: mix(from.arc, to.arc),
