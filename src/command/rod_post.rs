@@ -42,7 +42,7 @@ static SPEC: CommandSpec = CommandSpec {
     menus: &["PRCPOST"],
     opens: Opens::WithOption("DISPOSITION", "-DISPOSE"),
     data: &[
-        ValueSpec::new("NAME", Kind::Name(Noun::Connector), "a line of the run"),
+        ValueSpec::new("NAME", Kind::Name(Noun::Line), "a line of the run; &PIPE that of a pipe assembly"),
         ValueSpec::new("WHAT", Kind::Choice(WHAT), "what to tell of").or("ENVELOPE"),
         plain("N", "times of AT (s), numbers of NODE").or("the last instant; node 1"),
     ],

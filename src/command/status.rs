@@ -216,9 +216,8 @@ fn things(kind: &str) -> &'static [Thing] {
         "PIECES" => &[Thing::Piece, Thing::Body, Thing::Part],
         "ASSEMBLIES" => &[Thing::Assembly],
         "CL_FLEX" | "CLASSES" | "SN" => &[Thing::Class],
-        "G_CONNECTOR" | "F_CONNECTOR" | "FOUNDATION" | "ROD" | "ROD_MODES" | "TETHERS" | "TETHER_MODES" => {
-            &[Thing::Connector]
-        }
+        "G_CONNECTOR" | "F_CONNECTOR" | "FOUNDATION" | "TETHERS" | "TETHER_MODES" => &[Thing::Connector],
+        "ROD" | "ROD_MODES" => &[Thing::Connector, Thing::Assembly],
         "CURVES" => &[Thing::Curve],
         "BATHYMETRY" => &[Thing::Bathymetry],
         "T_PRESSURE" => &[Thing::Filling],

@@ -17,6 +17,8 @@ pub enum Noun {
     Part,
     /// A connector.
     Connector,
+    /// A connector, or a pipe, `&PIPE`.
+    Line,
     /// A curve.
     Curve,
     /// An environment.
@@ -337,6 +339,7 @@ pub fn expected(kind: Kind, units: UnitSystem) -> String {
             Noun::Body => "a body",
             Noun::Part => "a part",
             Noun::Connector => "a connector",
+            Noun::Line => "a connector or &PIPE",
             Noun::Curve => "a curve",
             Noun::Environment => "an environment",
             Noun::Selector => "a name or selector",

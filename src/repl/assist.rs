@@ -9,6 +9,7 @@ use crate::language::functions;
 use crate::language::select::{Choice, keyword};
 use crate::language::spec::{CommandSpec, Kind as ValueKind, Noun, ValueSpec};
 use crate::language::token::{self, Kind, Token};
+use crate::model::PIPE;
 use crate::session::Session;
 use rustyline::completion::{Completer, FilenameCompleter, Pair};
 use rustyline::highlight::{CmdKind, Highlighter};
@@ -28,6 +29,7 @@ pub struct Known {
     points: Vec<String>,
     classes: Vec<String>,
     connectors: Vec<String>,
+    pipes: Vec<String>,
     curves: Vec<String>,
     bathymetries: Vec<String>,
     fillings: Vec<String>,
@@ -51,6 +53,7 @@ impl Known {
             points: model.points.values().map(|p| p.name.clone()).collect(),
             classes: model.classes.values().map(|c| c.name.clone()).collect(),
             connectors: model.connectors.values().map(|c| c.name.clone()).collect(),
+            pipes: model.assemblies.values().map(|a| a.name.clone()).filter(|name| name == PIPE).collect(),
             bathymetries: model.bathymetries.values().map(|b| b.name.clone()).collect(),
             fillings: model.fillings.values().map(|f| f.name.clone()).collect(),
             curves: model.curves.values().map(|c| c.name.clone()).collect(),
@@ -72,6 +75,7 @@ impl Known {
             Noun::Body => self.bodies.clone(),
             Noun::Part => self.parts.clone(),
             Noun::Connector => self.connectors.clone(),
+            Noun::Line => self.connectors.iter().chain(&self.pipes).cloned().collect(),
             Noun::Curve => self.curves.clone(),
             Noun::Bathymetry => self.bathymetries.clone(),
             Noun::Filling => self.fillings.clone(),

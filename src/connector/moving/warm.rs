@@ -104,6 +104,7 @@ mod tests {
             holds: [None, None],
             freed: false,
             felt: [true; 2],
+            laid: None,
         };
         let mut warm = Warm::of(&Arc::new(base));
         let fluid = UniformFluid::none();

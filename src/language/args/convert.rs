@@ -181,6 +181,7 @@ fn noun_fits(spec: &ValueSpec, noun: Noun, word: &Word, owner: &str, units: Unit
         Noun::Class => word.kind == Lex::Class && word.text.len() > 1,
         Noun::Point => word.kind == Lex::Point && word.text.len() > 1,
         Noun::Selector => true,
+        Noun::Line => matches!(word.kind, Lex::Word | Lex::Quoted | Lex::Number | Lex::Internal),
         _ => matches!(word.kind, Lex::Word | Lex::Quoted | Lex::Number),
     };
     if !fitting {

@@ -3,35 +3,44 @@
 use super::{CLEARANCE, sections};
 use crate::hydro::ambient;
 use crate::language::units::Dim;
-use crate::model::{Connector, Element, End, Model, Situation};
-use crate::solve::link::{connected, pose_of};
+use crate::model::{Element, End, Model, Situation};
+use crate::solve::link::{Attachment, connected, laid, pose_of};
 use crate::solve::system::SolveError;
+use crate::solve::time::Duties;
 use crate::table::{Cell, Digits, Table};
 
-/// Tells of each line that moves by itself and whose name fits, between its ends where they stand: the connector, its element, how its
-/// ends stand, and its state before anything has happened.
+/// Tells of each line that moves by itself and whose name fits, between its ends where they stand: its name, its element, how its ends
+/// stand, and its state before anything has happened.
 ///
 /// # Errors
 /// What telling comes to.
 pub(in crate::solve) fn standing(
     model: &Model,
     fits: &dyn Fn(&str) -> bool,
-    mut tell: impl FnMut(&Connector, &dyn Element, &Situation, &[f64]) -> Result<(), SolveError>,
+    mut tell: impl FnMut(&str, &dyn Element, &Situation, &[f64]) -> Result<(), SolveError>,
 ) -> Result<(), SolveError> {
     let around = ambient(model, None).map_err(SolveError::new)?;
     let poses: Vec<_> = model.bodies.values().map(|b| crate::model::Pose::of(&b.place)).collect();
     let surroundings = model.surroundings();
-    for connector in model.connectors.values().filter(|c| c.active && fits(&c.name)) {
-        // what makes no element here tells of no nodes; who needs its force says why
-        let Ok(element) = model.element_in(connector, Some(&around)) else { continue };
+    let mut told = |name: &str, element: &dyn Element, ends: &[Attachment]| {
         if element.nodes() == 0 {
-            continue;
+            return Ok(());
         }
-        let ends: Vec<End> = connected(model, connector).iter().map(|end| End::still(pose_of(end, &poses))).collect();
+        let ends: Vec<End> = ends.iter().map(|end| End::still(pose_of(end, &poses))).collect();
         let at = Situation { ends: &ends, step: None, surroundings: &surroundings };
         let mut state = vec![0.0; element.states()];
         element.start(&mut state);
-        tell(connector, element.as_ref(), &at, &state)?;
+        tell(name, element, &at, &state)
+    };
+    for connector in model.connectors.values().filter(|c| c.active && fits(&c.name) && !model.holds_pipe(&c.name)) {
+        // what makes no element here tells of no nodes; who needs its force says why
+        let Ok(element) = model.element_in(connector, Some(&around)) else { continue };
+        told(&connector.name, element.as_ref(), &connected(model, connector))?;
+    }
+    for assembly in model.assemblies.values().filter(|a| fits(&a.name)) {
+        if let Some((element, ends)) = laid((model, &around, &Duties::default()), assembly)? {
+            told(&assembly.name, element.as_ref(), &ends)?;
+        }
     }
     Ok(())
 }
@@ -42,18 +51,18 @@ pub(in crate::solve) fn standing(
 /// A line that has no answer there.
 pub fn lines_at_rest(model: &Model, fits: &dyn Fn(&str) -> bool) -> Result<Vec<Table>, SolveError> {
     let mut tables = Vec::new();
-    standing(model, fits, |connector, element, at, state| {
+    standing(model, fits, |name, element, at, state| {
         let mut nodes = Vec::new();
-        element.along(at, state, &mut nodes).map_err(SolveError::of(&connector.name))?;
-        let sections = sections(model, &connector.name);
+        element.along(at, state, &mut nodes).map_err(SolveError::of(name))?;
+        let sections = sections(model, name);
         let tube = sections.iter().any(|s| s.tube.is_some());
         let bends = element.bends();
         let mut table = Table::new("Line at Rest")
-            .fact("Line", connector.name.as_str(), Dim::None)
+            .fact("Line", name, Dim::None)
             .column("", "Node", Dim::None, Digits::Usual)
             .column("", "Arc", Dim::Length, Digits::Usual);
-        for name in ["X", "Y", "Z"] {
-            table = table.column("", name, Dim::Length, Digits::Usual);
+        for axis in ["X", "Y", "Z"] {
+            table = table.column("", axis, Dim::Length, Digits::Usual);
         }
         table = table.column("", "Clearance", Dim::Length, CLEARANCE);
         table = table.column("", "Tension", Dim::Force, Digits::Usual);
@@ -65,8 +74,8 @@ pub fn lines_at_rest(model: &Model, fits: &dyn Fn(&str) -> bool) -> Result<Vec<T
         }
         if tube {
             table = table.column("", "Wall", Dim::Force, Digits::Usual);
-            for name in ["Axial", "Bending", "Hoop", "Von Mises"] {
-                table = table.column("Stress", name, Dim::Stress, Digits::Usual);
+            for kind in ["Axial", "Bending", "Hoop", "Von Mises"] {
+                table = table.column("Stress", kind, Dim::Stress, Digits::Usual);
             }
         }
         let mut table = table.column("", "Used", Dim::None, Digits::Decimals(3));

@@ -23,12 +23,15 @@ pub use touchdown::touchdown;
 use super::super::system::SolveError;
 use super::super::time::{AlongColumns, NodeRow, Quantity, Run};
 use super::Event;
-use crate::model::{ClassError, FatigueSegment, Model};
+use crate::model::{AssemblyKind, ClassError, FatigueSegment, Model, PIPE};
 use crate::post::line::Tube;
 use crate::table::Digits;
 
 /// Digits of the height over the bottom, into which a line that lies presses itself by millimetres.
 pub(super) const CLEARANCE: Digits = Digits::Decimals(3);
+
+/// What a pipe assembly is called for short (the MOSES manual, conn_pipe).
+const SHORT: &str = "&PIPE";
 
 /// A segment of the line.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,10 +59,15 @@ impl Section {
     }
 }
 
-/// The segments of the class of a connector, from its first end.
+/// The segments of the class of a line, from its first end; of a pipe the one it is made of.
 pub(in crate::solve) fn sections(model: &Model, name: &str) -> Vec<Section> {
-    let connector = model.connectors.get(&Model::key(name));
-    let Some(class) = connector.and_then(|c| model.classes.get(&Model::key(&c.class))) else { return Vec::new() };
+    let connector = model.connectors.get(&Model::key(name)).map(|c| (&c.class, usize::MAX));
+    let pipe = model.assemblies.get(&Model::key(name)).and_then(|a| match &a.kind {
+        AssemblyKind::Pipe { class, .. } => Some((class, 1)),
+        AssemblyKind::TipHook { .. } => None,
+    });
+    let class = connector.or(pipe).and_then(|(class, few)| Some((model.classes.get(&Model::key(class))?, few)));
+    let Some((class, few)) = class else { return Vec::new() };
     let made = class.fatigue_segments().into_iter().zip(class.wall_materials());
     let of = |(segment, material): (FatigueSegment, crate::model::WallMaterial)| {
         let tube = segment.thickness.map(|wall| Tube {
@@ -72,7 +80,7 @@ pub(in crate::solve) fn sections(model: &Model, name: &str) -> Vec<Section> {
         });
         Section { segment, tube }
     };
-    made.map(of).collect()
+    made.map(of).take(few).collect()
 }
 
 /// The numbers of the segments (from 0) that a place is in, by its unstretched distance from the second end (m): toward the first end
@@ -120,6 +128,7 @@ impl<'a> Line<'a> {
     /// No such connector in the run, one that tells of no nodes, or whose nodes the run did not keep.
     pub fn of(run: &'a Run, name: &str) -> Result<Self, ClassError> {
         let layout = &run.history.layout;
+        let name = if name.eq_ignore_ascii_case(SHORT) { PIPE } else { name };
         let kept = || layout.links.iter().filter(|l| l.along.is_some()).map(|l| l.name.as_str());
         let Some((link, found)) = layout.links.iter().enumerate().find(|(_, l)| l.name.eq_ignore_ascii_case(name))
         else {

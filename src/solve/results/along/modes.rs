@@ -19,15 +19,15 @@ pub fn natural_modes(
     shapes: bool,
 ) -> Result<Vec<Table>, SolveError> {
     let mut tables = Vec::new();
-    standing(model, fits, |connector, element, at, state| {
-        let wrong = SolveError::of(&connector.name);
+    standing(model, fits, |name, element, at, state| {
+        let wrong = SolveError::of(name);
         let mut nodes = Vec::new();
         element.along(at, state, &mut nodes).map_err(&wrong)?;
         let modes = element.swings(at, state, number).map_err(&wrong)?;
-        tables.push(periods(&connector.name, &nodes, &modes)?);
+        tables.push(periods(name, &nodes, &modes)?);
         if shapes {
             for (index, mode) in modes.iter().enumerate() {
-                tables.push(shape(&connector.name, index + 1, &nodes, mode)?);
+                tables.push(shape(name, index + 1, &nodes, mode)?);
             }
         }
         Ok(())
