@@ -327,8 +327,8 @@ pub(super) enum Fall {
     Moved { share: f64, worst: (usize, f64) },
 }
 
-/// Mass of each node (kg), by which falls are paced; the water that moves along is left out, as they are shorter or longer
-/// in the end by how easily they are found.
+/// Mass of each node (kg), by which falls are paced. The water it displaces is left out: falls get as long as they are
+/// easily found, and a rope that floats up comes to rest in no more of them than one that sinks.
 fn masses(rod: &Rod) -> Vec<f64> {
     let mut mass = vec![0.0; rod.nodes()];
     for (i, element) in rod.elements.iter().enumerate() {
