@@ -135,7 +135,9 @@ pub fn check(line: &Line, code: &Code, events: &[Event]) -> Result<Table, SolveE
     let mut table = told(line, code, &checked, &worst)?;
     if lrfd && rest.iter().any(Option::is_none) {
         table.note(match length.is_finite() {
-            true => "what a winch made later has as functional load what was at its distance from the first end at rest",
+            true => {
+                "what a winch made later has as functional load what was at its distance from the first end at rest"
+            }
             false => "it did not act at rest: all of its load is functional",
         });
     }
