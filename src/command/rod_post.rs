@@ -129,8 +129,9 @@ static SPEC: CommandSpec = CommandSpec {
              between it and the one before the line comes down. FATIGUE counts rainflow cycles: of a tube with a curve of stress, by the stress at \
              -POINTS round it, else of tension; the curve is that of -C_SN of the class or the last of &REP_SELECT -SN. CHECK has the largest use of \
              each node and when. Its F201 is combined loading of DNV-ST-F201 (of 2018, as others publish it), ultimate limit state: the \
-             first stored instant is functional load; with more pressure outside the root of the criterion is told. M1 and M2 are the parts of the moment about \
-             two directions across the line.",
+             first stored instant is functional load, of a node that a winch made later what was then at its distance from the first end; with more \
+             pressure outside the root of the criterion is told. Where two segments meet both are judged, and the one that comes off worse is told. \
+             Pressure outside is that of the waves at the depth. M1 and M2 are the parts of the moment about two directions across the line.",
     example: EXAMPLE,
     ..CommandSpec::new("ROD", "results along a line that moves by itself")
 };

@@ -169,9 +169,13 @@ pub(super) fn slam_load(
     }
 }
 
+/// Least height over which anything comes out of the water (m): far thinner than a line, and thick enough that a slope
+/// over it is a number.
+const THINNEST: f64 = 1e-6;
+
 /// Wet share of a prism of a `height` whose middle lies `depth` below the surface (m), and its slope.
 pub(super) fn wet_prism(depth: f64, height: f64) -> (f64, f64) {
-    let height = height.max(1e-6);
+    let height = height.max(THINNEST);
     let share = depth / height + 0.5;
     if (0.0..1.0).contains(&share) { (share, 1.0 / height) } else { (share.clamp(0.0, 1.0), 0.0) }
 }
@@ -213,7 +217,7 @@ pub(super) fn wet_share(a: f64, b: f64, diameter: f64) -> (f64, f64, f64) {
 /// The same where the length is neither wet nor dry all along.
 #[inline(never)]
 fn in_surface(a: f64, b: f64, diameter: f64) -> (f64, f64, f64) {
-    let width = diameter.max(1e-6);
+    let width = diameter.max(THINNEST);
     if (a - b).abs() < LEVEL * width {
         return GAUSS.iter().fold((0.0, 0.0, 0.0), |(share, by_a, by_b), g| {
             let at = wet_section(b + (a - b) * g, width);
@@ -227,7 +231,7 @@ fn in_surface(a: f64, b: f64, diameter: f64) -> (f64, f64, f64) {
 
 /// Second derivatives of [`wet_share`]: by a twice, by a and b, by b twice.
 fn wet_curvature(a: f64, b: f64, diameter: f64) -> [f64; 3] {
-    let width = diameter.max(1e-6);
+    let width = diameter.max(THINNEST);
     if (a - b).abs() < LEVEL * width {
         return GAUSS.iter().fold([0.0; 3], |sum, g| {
             let bend = 0.5 * wet_section(b + (a - b) * g, width)[2] / (width * width);

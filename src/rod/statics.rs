@@ -23,6 +23,15 @@ const MOST_LOOSE: usize = 3000;
 const EASY: f64 = 0.01;
 /// How much stiffer it is taken each time it has come to rest.
 const STIFFER: f64 = 30.0;
+/// Longest fall, in first falls: Newton's iteration on the forces alone is left, as what the masses add is a
+/// million-millionth of what they are in the first one.
+const LONGEST: f64 = 1e6;
+/// Shortest fall, in first falls: a node moves by a million-million-millionth of what it does in the first one, which is
+/// rounding.
+const SHORTEST: f64 = 1e-9;
+/// Acceleration that falls are paced by where there is next to no weight (m/s2): some number that is not zero, as nothing
+/// else than how soon the falls have the right length goes by it.
+const LIGHT: f64 = 1.0;
 /// Strain below which a start is too short.
 const SHORT: f64 = -0.01;
 /// Largest residual of a node as a share of the largest force in the rod.
@@ -89,9 +98,10 @@ impl Solver {
         let mut director = self.trial.director.clone();
         let mut pseudo = first_fall(rod, world);
         // the longest fall that is worth a try
-        let mut longest = 1e6;
+        let (most, least) = (LONGEST * pseudo, SHORTEST * pseudo);
+        let mut longest = most;
         let (mut done, mut worst) = (0, (0, f64::INFINITY));
-        while done < MOST_ITERATIONS && pseudo > 1e-9 {
+        while done < MOST_ITERATIONS && pseudo > least {
             if world.fluid.interrupted() {
                 (self.trial.loose, self.trial.ease) = (false, 1.0);
                 return Err(RodError::Interrupted { rod: rod.name.clone() });
@@ -146,7 +156,7 @@ impl Solver {
                 Some(inner) => {
                     from.copy_from_slice(&self.trial.x);
                     director.copy_from_slice(&self.trial.director);
-                    longest = (longest * 1.3f64).min(1e6);
+                    longest = (longest * 1.3f64).min(most);
                     pseudo = (pseudo
                         * if inner <= 3 {
                             4.0
@@ -306,7 +316,7 @@ impl Solver {
 
 /// Pseudo-time of the first fall (s): that in which a stone falls some thousandths of the length.
 pub(super) fn first_fall(rod: &Rod, world: &World) -> f64 {
-    (0.01 * rod.length() / world.gravity.abs().max(1.0)).sqrt()
+    (0.01 * rod.length() / world.gravity.abs().max(LIGHT)).sqrt()
 }
 
 /// What an iteration of a fall came to.
@@ -321,7 +331,8 @@ pub(super) enum Fall {
     Moved { share: f64, worst: (usize, f64) },
 }
 
-/// Mass of each node with the water it displaces, so that a buoyant rod settles as a heavy one does (kg).
+/// Mass of each node (kg), by which falls are paced. The water it displaces is left out: falls get as long as they are
+/// easily found, and a rope that floats up comes to rest in no more of them than one that sinks.
 fn masses(rod: &Rod) -> Vec<f64> {
     let mut mass = vec![0.0; rod.nodes()];
     for (i, element) in rod.elements.iter().enumerate() {

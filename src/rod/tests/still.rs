@@ -223,3 +223,24 @@ fn tension_at_the_end_of_a_rope_is_never_below_nothing_and_that_of_its_holder_wh
         assert!((told[0].effective - along).abs() < 1e-4 * along.abs().max(1e4), "{i}: {} {along}", told[0].effective);
     }
 }
+
+#[test]
+fn a_rope_that_floats_up_comes_to_rest_as_its_mirror_image_that_sinks_and_as_soon() {
+    let fluid = UniformFluid::still(1025.0);
+    let world = World::new(&fluid, 9.81);
+    let water = 1025.0 * std::f64::consts::FRAC_PI_4 * 0.09;
+    let rest = |mass: f64, up: f64| {
+        let rod = Rod::new("rope", vec![Segment::line(100.0, 40, mass, 1e8, 0.3)], vec![]).unwrap();
+        let (a, b) = (Vector3::new(0.0, 0.0, -300.0), Vector3::new(60.0, 0.0, -300.0 + up));
+        let mut state = State::along(&rod, &[a, b]).unwrap();
+        let ends = [End::pinned(a), End::pinned(b)];
+        let made = Solver::new(&rod, Settings::default()).statics(&rod, &mut state, &world, ends).unwrap();
+        (state.position, made.iterations)
+    };
+    let ((light, few), (heavy, many)) = (rest(0.2, 10.0), rest(2.0 * water - 0.2, -10.0));
+    for (a, b) in light.iter().zip(&heavy) {
+        // 1e-9 of the weight, by the stiffness of its hanging shape
+        assert!((a.x - b.x).abs() < 1e-5 && (a.z + 300.0 + b.z + 300.0).abs() < 1e-5, "{a} {b}");
+    }
+    assert!(few <= many, "{few} {many}");
+}
