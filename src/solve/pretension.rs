@@ -81,11 +81,12 @@ pub fn first_length(model: &Model, connector: &Connector, wanted: Condition) -> 
         Err(wrong(ClassError::of(text, &[(target, Dim::Force), (found, Dim::Force)])))
     };
     if (far.1 - target) * side > 0.0 {
-        return if (near.1 - target).abs() <= PROOF * target { Ok(near.0) } else { nothing(near.1.min(far.1)) };
+        let (length, found) = if (near.1 - target).abs() < (far.1 - target).abs() { near } else { far };
+        return if (found - target).abs() <= PROOF * target { Ok(length) } else { nothing(found) };
     }
     // the secant with halved weights of the end that stays (Dowell and Jarratt, BIT 11, 1971, 168-174), and a halving now and then:
     // where the mesh changes the force jumps
-    let mut weights = [near.1 - target, far.1 - target];
+    let (mut weights, mut stayed) = ([near.1 - target, far.1 - target], [false; 2]);
     for turn in 0..SOUGHT {
         let [a, b] = weights;
         let share = if turn % 3 == 2 || a == b { 0.5 } else { (a / (a - b)).clamp(1e-3, 1.0 - 1e-3) };
@@ -96,9 +97,11 @@ pub fn first_length(model: &Model, connector: &Connector, wanted: Condition) -> 
             break;
         }
         if (found.1 - target) * side > 0.0 {
-            (near, weights) = (found, [found.1 - target, 0.5 * b]);
+            (near, weights) = (found, [found.1 - target, if stayed[1] { 0.5 * b } else { b }]);
+            stayed = [false, true];
         } else {
-            (far, weights) = (found, [0.5 * a, found.1 - target]);
+            (far, weights) = (found, [if stayed[0] { 0.5 * a } else { a }, found.1 - target]);
+            stayed = [true, false];
         }
     }
     let (length, found) = if (near.1 - target).abs() < (far.1 - target).abs() { near } else { far };
