@@ -187,7 +187,7 @@ fn a_bottom_over_a_grid_alone_carries_a_line_as_a_flat_one_does() {
             assert!((a - b).abs() < 1e-4 * (1.0 + a.abs()), "{name}: {a} {b}");
         }
     }
-    assert!(column(&charted, "Clearance").iter().all(|c| *c > -0.01));
+    assert!(column(&charted, "Clearance").iter().any(|c| *c < 0.0));
 }
 
 #[test]
