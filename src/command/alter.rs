@@ -270,6 +270,10 @@ fn change(model: &Model, made: &mut Connector, given: &Given, said: &mut Said) -
         }
         _ => {}
     }
+    if model.moves(made) && matches!(option, "-LENGTH" | "-L_DELTA") {
+        // what makes no such line is refused here, not in a run
+        model.element(made)?;
+    }
     let placed_anew = option == "-ANCHOR" && old.1.is_some();
     if adjustable(model, made)
         && (placed_anew || matches!(option, "-LENGTH" | "-L_DELTA" | "-L_HORIZONTAL" | "-L_TENSION"))

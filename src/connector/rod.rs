@@ -58,7 +58,7 @@ static ROD_SPEC: CommandSpec = CommandSpec {
     detail: "Large-deflection tubular elements with inertia, first record at the first end. -REFINE cuts a segment into elements; \
              the seed's 300 over all segments were MOSES' limit, here it is memory. The rod feels waves, current, wind, growth and bottom along itself, at rest without \
              the waves. Its weight is that of -WTPLEN or of the wall, empty; what is in it comes by -T_PRESSURE of &ENV. -EI 0 makes a chain or rope, which \
-             neither pushes nor bends. -CLUMP is a weight in water, taken as a mass without volume; negative: a buoy without mass, CLEN above the line. -ROPE: a standard linear solid. Its ends turn freely but for -CLAMP. \
+             neither pushes nor bends; with a bore it keeps its wall: contents, heat and pressure act. -CLUMP is a weight in water, taken as a mass without volume; negative: a buoy without mass, CLEN above the line. -ROPE: a standard linear solid. Its ends turn freely but for -CLAMP. \
              Per line, on any record: -FRICTION, -SLOPE, -DEPANCHOR, -SEABED, -CLAMP. No convolution.",
     example: "MEDIT\n~PIPE ROD 12.75 0.5 -LEN 1000 -REFINE 50\nEND\n&STATUS CLASS ~PIPE",
     ..CommandSpec::new("ROD", "line with bending stiffness and its own dynamics")

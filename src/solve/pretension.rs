@@ -11,15 +11,14 @@ const STEPS: usize = 60;
 const SOUGHT: usize = 60;
 /// Share of the force within which it is met. The mesh changes with the length: an element more or less moves the force by less.
 const PROOF: f64 = 1e-3;
-/// A force that falls by less than this share of itself in a step falls no longer: what is added lies on the bottom.
-const FALLS: f64 = 1e-4;
-/// Steps in a row in which it does not fall until the search gives up; one of them may have a coarser mesh.
-const STALE: usize = 3;
+/// Steps in a row in which the force falls by less than that until the search gives up: what is added lies on the bottom. One of them may
+/// have a coarser mesh.
+const STALE: usize = 2;
 /// Steps shorter than this share of the first segment say nothing of that.
 const TELLING: f64 = 0.02;
 /// The longest line that is tried, in ways from end to end with a way to the surface and back from each: a heavy line pulls least where
 /// it is little longer than that way down.
-const LONGEST: f64 = 4.0;
+const LONGEST: f64 = 2.0;
 
 /// The length (m) with which the force at the first end is as wanted between the ends as they are, in the mean current.
 ///
@@ -67,7 +66,7 @@ pub fn first_length(model: &Model, connector: &Connector, wanted: Condition) -> 
         }
         // the tension of what hangs rises again with its weight, and does not fall with what lies: no length beyond gives less
         if side > 0.0 && step > TELLING * start {
-            stale = if far.1 > least * (1.0 - FALLS) { stale + 1 } else { 0 };
+            stale = if far.1 > least * (1.0 - PROOF) { stale + 1 } else { 0 };
             if stale >= STALE || far.1 > least * (1.0 + PROOF) {
                 break;
             }
@@ -81,11 +80,12 @@ pub fn first_length(model: &Model, connector: &Connector, wanted: Condition) -> 
         Err(wrong(ClassError::of(text, &[(target, Dim::Force), (found, Dim::Force)])))
     };
     if (far.1 - target) * side > 0.0 {
-        return if (near.1 - target).abs() <= PROOF * target { Ok(near.0) } else { nothing(near.1.min(far.1)) };
+        let (length, found) = if (near.1 - target).abs() < (far.1 - target).abs() { near } else { far };
+        return if (found - target).abs() <= PROOF * target { Ok(length) } else { nothing(found) };
     }
     // the secant with halved weights of the end that stays (Dowell and Jarratt, BIT 11, 1971, 168-174), and a halving now and then:
     // where the mesh changes the force jumps
-    let mut weights = [near.1 - target, far.1 - target];
+    let (mut weights, mut stayed) = ([near.1 - target, far.1 - target], [false; 2]);
     for turn in 0..SOUGHT {
         let [a, b] = weights;
         let share = if turn % 3 == 2 || a == b { 0.5 } else { (a / (a - b)).clamp(1e-3, 1.0 - 1e-3) };
@@ -96,9 +96,11 @@ pub fn first_length(model: &Model, connector: &Connector, wanted: Condition) -> 
             break;
         }
         if (found.1 - target) * side > 0.0 {
-            (near, weights) = (found, [found.1 - target, 0.5 * b]);
+            (near, weights) = (found, [found.1 - target, if stayed[1] { 0.5 * b } else { b }]);
+            stayed = [false, true];
         } else {
-            (far, weights) = (found, [0.5 * a, found.1 - target]);
+            (far, weights) = (found, [if stayed[0] { 0.5 * a } else { a }, found.1 - target]);
+            stayed = [true, false];
         }
     }
     let (length, found) = if (near.1 - target).abs() < (far.1 - target).abs() { near } else { far };

@@ -12,6 +12,28 @@ const MEMORY: f64 = 1e9;
 /// Two modes swing alike if their frequencies differ by no more than this share.
 const ALIKE: f64 = 1e-6;
 
+/// Refuses more modes of a line of so many nodes than are worth their memory.
+///
+/// # Errors
+/// Their number, or what memory they would take.
+pub(super) fn few(nodes: usize, number: usize) -> Result<(), ClassError> {
+    if number > MOST {
+        return Err(ClassError::new(format!("{number} modes of a line are not found: at most {MOST}")));
+    }
+    // vectors of all nodes, with their loads and what they are made of; twice as many as are asked, and the last told apart
+    let bytes = 8.0 * 3.0 * nodes as f64 * 4.0 * (2.0 * (number as f64 + 1.0) + 8.0);
+    if bytes > MEMORY {
+        let text = format!(
+            "{number} modes of {} elements would take about {:.1} GB of memory: more than {:.0} GB",
+            nodes.saturating_sub(1),
+            bytes / 1e9,
+            MEMORY / 1e9
+        );
+        return Err(ClassError::new(text).help("fewer modes, or fewer elements by -REFINE"));
+    }
+    Ok(())
+}
+
 /// The slowest modes about a state of rest, with added mass and the bottom's stiffness, slowest first.
 ///
 /// A round line that hangs straight down swings alike in all directions, and any mix of two such modes is a mode: one is
@@ -24,20 +46,6 @@ pub(super) fn of(
     ends: [End; 2],
     number: usize,
 ) -> Result<Vec<LineMode>, ClassError> {
-    if number > MOST {
-        return Err(ClassError::new(format!("{number} modes of a line are not found: at most {MOST}")));
-    }
-    // vectors of all nodes, with their loads and what they are made of; twice as many as are asked, and the last told apart
-    let bytes = 8.0 * 3.0 * rod.nodes() as f64 * 4.0 * (2.0 * (number as f64 + 1.0) + 8.0);
-    if bytes > MEMORY {
-        let text = format!(
-            "{number} modes of {} elements would take about {:.1} GB of memory: more than {:.0} GB",
-            rod.nodes() - 1,
-            bytes / 1e9,
-            MEMORY / 1e9
-        );
-        return Err(ClassError::new(text).help("fewer modes, or fewer elements by -REFINE"));
-    }
     // one more than asked, so that the last is told apart from its like
     let mut found = match solver.modes(rod, state, world, ends, number + 1) {
         Ok(found) => found,

@@ -36,6 +36,7 @@ impl MovingLine {
     }
 
     pub(super) fn tell_modes(&self, at: &Situation, state: &[f64], number: usize) -> Result<Vec<LineMode>, ClassError> {
+        modes::few(self.base.rod.nodes(), number)?;
         let (other, state, _) = self.where_it_is(at, state)?;
         let rod = other.as_ref().unwrap_or(&self.base.rod);
         let ends = self.held(at.ends, true)?;

@@ -23,7 +23,7 @@ pub use touchdown::touchdown;
 use super::super::system::SolveError;
 use super::super::time::{AlongColumns, NodeRow, Quantity, Run};
 use super::Event;
-use crate::model::{AssemblyKind, ClassError, FatigueSegment, Model, PIPE};
+use crate::model::{AssemblyKind, ClassError, FatigueSegment, Model, PIPE, WallMaterial};
 use crate::post::line::Tube;
 use crate::table::Digits;
 
@@ -68,9 +68,11 @@ pub(in crate::solve) fn sections(model: &Model, name: &str) -> Vec<Section> {
     });
     let class = connector.or(pipe).and_then(|(class, few)| Some((model.classes.get(&Model::key(class))?, few)));
     let Some((class, few)) = class else { return Vec::new() };
-    let made = class.fatigue_segments().into_iter().zip(class.wall_materials());
-    let of = |(segment, material): (FatigueSegment, crate::model::WallMaterial)| {
-        let tube = segment.thickness.map(|wall| Tube {
+    let bends = class.records.iter().map(|record| record.args.option_number("-EI") != Some(0.0));
+    let made = class.fatigue_segments().into_iter().zip(class.wall_materials()).zip(bends);
+    let of = |((segment, material), bends): ((FatigueSegment, WallMaterial), bool)| {
+        // a bar that does not bend is a chain or rope
+        let tube = segment.thickness.filter(|wall| bends || 2.0 * wall < segment.od).map(|wall| Tube {
             diameter: segment.od,
             wall,
             yield_stress: material.yield_stress,
