@@ -51,6 +51,8 @@ pub(super) struct Near {
     pub together: [Columns; 2],
     /// Whether the columns are there.
     pub ready: bool,
+    /// The tangent by them of the ends that were felt, of a rod that nothing clamps.
+    pub condensed: Option<([bool; 2], EndTangent)>,
     /// How far a node may have moved since the matrix was factored (m).
     pub moved: f64,
 }
@@ -64,7 +66,7 @@ const CLOSE: f64 = 1e-3;
 impl Near {
     pub fn new() -> Self {
         let none = [[[0.0; WIDEST]; 3]; 2];
-        Near { columns: [none; 3], together: none, ready: false, moved: f64::INFINITY }
+        Near { columns: [none; 3], together: none, ready: false, condensed: None, moved: f64::INFINITY }
     }
 }
 
@@ -96,6 +98,10 @@ impl Solver {
     /// Condenses the matrix at hand to the ends that are asked about.
     fn condense(&mut self, rod: &Rod, felt: [bool; 2]) -> EndTangent {
         let clamps = [0, 1].map(|side| clamp(rod, &self.trial, side));
+        let pinned = clamps.iter().all(Option::is_none);
+        if let (true, Some((_, made))) = (pinned, self.near.condensed.filter(|(ends, _)| *ends == felt)) {
+            return made;
+        }
         let mut made = [Twelve::zeros(); 3];
         for side in (0..2).filter(|side| felt[*side]) {
             let held = self.trial.ends[side].motion.is_some();
@@ -106,7 +112,9 @@ impl Solver {
             }
         }
         let [position, velocity, acceleration] = made;
-        EndTangent { position, velocity, acceleration }
+        let made = EndTangent { position, velocity, acceleration };
+        self.near.condensed = pinned.then_some((felt, made));
+        made
     }
 
     /// Sees to factors of the matrix where the last trial ended, or unless `exact` near enough, and to the columns of
@@ -167,13 +175,13 @@ impl Solver {
                 }
             }
         }
-        self.near.ready = true;
+        (self.near.ready, self.near.condensed) = (true, None);
         Some(())
     }
 
     /// Keeps of a matrix that has just been assembled what is asked of it later: the rows and columns of the ends.
     pub(super) fn keep_matrix(&mut self) {
-        self.near.ready = false;
+        (self.near.ready, self.near.condensed) = (false, None);
         self.work.keep_rows();
         let place = [0, self.change.len() - self.work.stride()];
         for (columns, place) in self.near.together.iter_mut().zip(place) {

@@ -7,7 +7,7 @@ use super::mesh::Rod;
 use super::rope::Memory;
 use super::spatial::{transport, twist};
 use super::state::State;
-use super::surroundings::{UniformFluid, World};
+use super::surroundings::{Fluid, UniformFluid, World};
 use super::tension::{Stretch, Taken, tension};
 use crate::model::{LineNode, LineStress};
 use nalgebra::Vector3;
@@ -25,25 +25,8 @@ impl Rod {
         if self.segments.iter().any(|s| s.tube.is_some()) {
             world.fluid.fill_levels(x, state.time, &mut fluids);
         }
-        let edges: Vec<(Vector3<f64>, f64)> = x
-            .windows(2)
-            .map(|p| (p[1] - p[0], (p[1] - p[0]).norm().max(f64::MIN_POSITIVE)))
-            .map(|(d, l)| (d / l, l))
-            .collect();
-        let pulls: Vec<f64> = self
-            .elements
-            .iter()
-            .enumerate()
-            .map(|(i, element)| {
-                let (t, length) = edges[i];
-                let stretch = length / element.rest;
-                let rate = (t.dot(&(v[i + 1] - v[i])) - stretch * element.rate) / element.rest;
-                let stretched = Stretch { strain: stretch - 1.0, rate, height: 0.5 * (x[i].z + x[i + 1].z) };
-                let taken = Taken { compression: element.compression, ease: 1.0 };
-                let memory = state.yielded.get(i).map(|yielded| Memory::at_once(*yielded));
-                tension(self, element, taken, &stretched, memory.as_ref(), &fluids[i], world.gravity).value
-            })
-            .collect();
+        let (edges, pulls): (Vec<(Vector3<f64>, f64)>, Vec<f64>) =
+            (0..last).map(|i| self.pull(i, state, &fluids[i], world.gravity)).unzip();
         // moment vector at each node, and the length it is spread over
         let moments: Vec<(Vector3<f64>, f64)> = (0..=last)
             .map(|i| {
@@ -120,6 +103,51 @@ impl Rod {
 }
 
 impl Rod {
+    /// What a run keeps of the nodes of a state: [`Rod::results`], in memory that is there. Of a rod that neither bends nor has a
+    /// tube velocity and curvature are left out, which takes most of the time.
+    pub fn row(&self, state: &State, world: &World, ends: &[End; 2], out: &mut Vec<LineNode>) {
+        out.clear();
+        let plain = self.elements.iter().all(|e| e.bending == 0.0) && self.segments.iter().all(|s| s.tube.is_none());
+        if !plain {
+            out.extend(self.results(state, world, ends));
+            return;
+        }
+        let (last, fluid) = (self.elements.len(), UniformFluid::none().0);
+        let (mut arc, mut before) = (0.0, 0.0);
+        for (i, x) in state.position.iter().enumerate() {
+            let beside = i.min(last - 1);
+            let element = &self.elements[beside];
+            let pull = if i < last { self.pull(i, state, &fluid, world.gravity).1 } else { before };
+            let effective = if i > 0 { 0.5 * (before + pull) } else { pull };
+            let mut made = LineNode { arc, segment: element.segment, position: *x, effective, ..LineNode::default() };
+            (made.wall, made.clearance) = (effective, clearance(world, x));
+            out.push(made);
+            (arc, before) = (arc + if i < last { element.rest } else { 0.0 }, pull);
+        }
+        // the ends from the two elements beside each
+        let near = [(0, 1), (last - 1, last.wrapping_sub(2))];
+        for ((first, second), node) in near.into_iter().zip([0, last]) {
+            let pull = |i: usize| (i < last).then(|| self.pull(i, state, &fluid, world.gravity).1);
+            let effective = carried_on(pull(first).unwrap_or_default(), pull(second));
+            (out[node].effective, out[node].wall) = (effective, effective);
+        }
+    }
+
+    /// Direction and length of an element in a state, and its tension.
+    #[inline]
+    fn pull(&self, i: usize, state: &State, fluid: &Fluid, gravity: f64) -> ((Vector3<f64>, f64), f64) {
+        let (element, x, v) = (&self.elements[i], &state.position, &state.velocity);
+        let d = x[i + 1] - x[i];
+        let length = d.norm().max(f64::MIN_POSITIVE);
+        let t = d / length;
+        let stretch = length / element.rest;
+        let rate = (t.dot(&(v[i + 1] - v[i])) - stretch * element.rate) / element.rest;
+        let stretched = Stretch { strain: stretch - 1.0, rate, height: 0.5 * (x[i].z + x[i + 1].z) };
+        let taken = Taken { compression: element.compression, ease: 1.0 };
+        let memory = state.yielded.get(i).map(|yielded| Memory::at_once(*yielded));
+        ((t, length), tension(self, element, taken, &stretched, memory.as_ref(), fluid, gravity).value)
+    }
+
     /// Moment vector of each node of a rod with torsion, with the length it is spread over, and its torque.
     fn spatial_moments(&self, state: &State, ends: &[End; 2]) -> (Vec<(Vector3<f64>, f64)>, Vec<f64>) {
         let last = self.elements.len();

@@ -1,5 +1,6 @@
 //! One implicit step in time.
 
+use super::again::Moved;
 use super::condense::Near;
 use super::ends::End;
 use super::error::RodError;
@@ -272,11 +273,18 @@ impl Solver {
         let moved = if near { self.again(rod, from, world, &scheme, &ends) } else { None };
         self.trial.time = time;
         self.trial.ends = ends;
-        lay(rod, from, world, &mut self.trial.lay);
-        soften(from, world, &mut self.trial.soft);
-        remember(rod, from, scheme.h, &mut self.trial.memory);
-        if moved.is_none() {
-            self.foretell(from, &scheme, time, &ends);
+        match moved {
+            None => {
+                lay(rod, from, world, &mut self.trial.lay);
+                soften(from, world, &mut self.trial.soft);
+                remember(rod, from, scheme.h, &mut self.trial.memory);
+                self.foretell(from, &scheme, time, &ends);
+            }
+            Some(Moved::Near) => {}
+            Some(Moved::Slightly) => {
+                settle(rod, &self.trial.memory, &mut self.next);
+                return Ok(0);
+            }
         }
         let stride = self.work.stride();
         let known = [ends[0].motion.is_some(), ends[1].motion.is_some()];

@@ -129,6 +129,13 @@ impl Workspace {
         each!(self, system => system.carry_ends(change));
     }
 
+    /// Adds to the kept residuals of the ends.
+    pub fn add_to_ends(&mut self, by: &[Vector3<f64>; 2]) {
+        each!(self, system => for (end, by) in system.ends.iter_mut().zip(by) {
+            *end += by;
+        });
+    }
+
     /// Forces of the rod on its holders (N): the kept residuals, turned around.
     pub fn end_forces(&self) -> [Vector3<f64>; 2] {
         each!(self, system => system.ends.map(|force| -force))

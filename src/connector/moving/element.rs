@@ -39,7 +39,7 @@ struct Rest {
 }
 
 impl MovingLine {
-    fn warm<'a>(&self, guess: &'a mut Guess) -> Option<&'a mut Warm> {
+    pub(super) fn warm<'a>(&self, guess: &'a mut Guess) -> Option<&'a mut Warm> {
         let fits = |g: &Box<dyn std::any::Any + Send>| {
             g.downcast_ref::<Warm>().is_some_and(|w| Arc::ptr_eq(&w.base, &self.base))
         };
@@ -135,7 +135,7 @@ impl MovingLine {
     }
 
     /// The rod of a mesh other than that of `rod`.
-    fn meshed(&self, kept: &Kept, rod: &Rod) -> Result<Option<Rod>, ClassError> {
+    pub(super) fn meshed(&self, kept: &Kept, rod: &Rod) -> Result<Option<Rod>, ClassError> {
         if kept.mesh().eq(rod.each_of_mesh()) {
             return Ok(None);
         }
@@ -283,6 +283,10 @@ impl Element for MovingLine {
 
     fn along(&self, at: &Situation, state: &[f64], out: &mut Vec<LineNode>) -> Result<(), ClassError> {
         self.tell_along(at, state, out)
+    }
+
+    fn row(&self, at: &Situation, state: &[f64], guess: &mut Guess, out: &mut Vec<LineNode>) -> Result<(), ClassError> {
+        self.tell_row(at, state, guess, out)
     }
 
     fn swings(&self, at: &Situation, state: &[f64], number: usize) -> Result<Vec<LineMode>, ClassError> {

@@ -1,8 +1,10 @@
 //! What a line that moves by itself tells of itself: its nodes, modes and books.
 
 use super::element::MovingLine;
+use super::mesh::told;
 use super::modes;
-use crate::model::{ClassError, LineBooks, LineMode, LineNode, Situation, Summary};
+use super::warm::Warm;
+use crate::model::{ClassError, Guess, LineBooks, LineMode, LineNode, Situation, Summary};
 use crate::rod::{Settings, Solver};
 
 impl MovingLine {
@@ -22,11 +24,32 @@ impl MovingLine {
         let (other, state, still) = self.where_it_is(at, state)?;
         let rod = other.as_ref().unwrap_or(&self.base.rod);
         let ends = self.held(at.ends, still)?;
-        out.clear();
-        let found = self.within((at.surroundings, still), &mut Vec::new(), |world| rod.results(&state, world, &ends));
+        *out = self.within((at.surroundings, still), &mut Vec::new(), |world| rod.results(&state, world, &ends));
         // the class speaks of its parts, of which a rod may have several segments
-        let part = |n: LineNode| LineNode { segment: self.base.part.get(n.segment).copied().unwrap_or(0), ..n };
-        out.extend(found.into_iter().map(part));
+        for node in out {
+            node.segment = self.base.part.get(node.segment).copied().unwrap_or(0);
+        }
+        Ok(())
+    }
+
+    /// What a row of a run keeps of its nodes, in the room of its memory; segments are not told.
+    pub(super) fn tell_row(
+        &self,
+        at: &Situation,
+        state: &[f64],
+        guess: &mut Guess,
+        out: &mut Vec<LineNode>,
+    ) -> Result<(), ClassError> {
+        let (Some(kept), Some(warm)) = (self.layout.read(state)?, self.warm(guess)) else {
+            return self.tell_along(at, state, out);
+        };
+        if self.meshed(&kept, &warm.rod)?.is_some() {
+            return self.tell_along(at, state, out);
+        }
+        let ends = self.held(at.ends, at.step.is_none())?;
+        let Warm { rod, state, flows, .. } = warm;
+        state.become_unpacked(rod, kept.motion).map_err(told)?;
+        self.within((at.surroundings, at.step.is_none()), flows, |world| rod.row(state, world, &ends, out));
         Ok(())
     }
 
