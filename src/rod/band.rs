@@ -46,6 +46,15 @@ impl<const H: usize, const S: usize> Band<H, S> {
         }
     }
 
+    /// Adds three entries of a row, side by side.
+    #[inline(always)]
+    pub fn add_three(&mut self, row: usize, column: usize, values: [f64; 3]) {
+        let start = column + H - row;
+        for (place, value) in self.rows[row][start..start + 3].iter_mut().zip(values) {
+            *place += value;
+        }
+    }
+
     /// An entry; zero outside the band.
     pub fn get(&self, row: usize, column: usize) -> f64 {
         if row.abs_diff(column) > H { 0.0 } else { self.rows[row][column + H - row] }
