@@ -46,7 +46,8 @@ impl Solver {
         scheme: &Scheme,
         ends: &[End; 2],
     ) -> Option<Moved> {
-        self.linearise(rod, world, false)?;
+        let elsewhere = [0, 1].map(|side: usize| self.trial.ends[side].motion != ends[side].motion);
+        self.linearise(rod, world, false, elsewhere)?;
         let (stride, last) = (self.work.stride(), rod.elements.len());
         let size = self.change.len();
         let known = ends.map(|e| e.motion.is_some());
@@ -56,14 +57,20 @@ impl Solver {
         };
         // what the ends themselves feel of velocities and accelerations the scheme does not make
         let mut felt = [Vector3::zeros(); 2];
+        // and the moves with which the scheme would make them
+        let mut aside: f64 = 0.0;
         self.change.fill(0.0);
         for (side, node) in [(0, 0), (1, last)] {
             let (Some(old), Some(new)) = (self.trial.ends[side].motion, ends[side].motion) else { continue };
+            if !elsewhere[side] {
+                continue;
+            }
             let place = stride * node;
             let moved = new.position - old.position;
             // the matrix has the columns of the ends, with velocity and acceleration as the scheme makes them follow
             let faster = new.velocity - old.velocity - moved * self.weights.c;
             let harder = new.acceleration - old.acceleration - moved * self.weights.m;
+            aside = aside.max(faster.amax() / self.weights.c).max(harder.amax() / self.weights.m);
             for axis in 0..3 {
                 let by = [&self.near.columns[1][side][axis], &self.near.columns[2][side][axis]];
                 for (i, (c, m)) in by[0].iter().zip(by[1]).enumerate() {
@@ -104,7 +111,8 @@ impl Solver {
             let (old, new) = (&self.trial.ends[side], &ends[side]);
             old.direction != new.direction || old.side != new.side || old.rotation != new.rotation
         };
-        if share > SLIGHT * self.settings.tolerance || turned(0) || turned(1) {
+        let all = share.max(aside / rod.shortest());
+        if !(all <= SLIGHT * self.settings.tolerance) || turned(0) || turned(1) {
             return Some(Moved::Near);
         }
         self.work.carry_ends(&self.change);

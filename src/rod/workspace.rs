@@ -196,8 +196,8 @@ impl Workspace {
     }
 
     /// Solves with the transpose by the factors: see [`Band::solve_transposed`](super::band::Band::solve_transposed).
-    pub fn solve_transposed<const N: usize>(&self, right: &mut [[f64; N]], first: usize) {
-        each!(self, system => system.band.solve_transposed(right, first));
+    pub fn solve_transposed<const N: usize>(&self, right: &mut [[f64; N]], reach: (usize, usize)) {
+        each!(self, system => system.band.solve_transposed(right, reach));
     }
 
     /// Node with the largest residual (N), of those without an end's motion; a residual that is no number comes first.

@@ -177,7 +177,7 @@ impl MovingLine {
         if let Some(rod) = self.meshed(kept, &warm.rod)? {
             warm.take(rod);
         }
-        let Warm { rod, solver, state, room, flows, .. } = warm;
+        let Warm { rod, solver, state, flows, .. } = warm;
         state.become_unpacked(rod, kept.motion).map_err(told)?;
         if dt > 0.0 {
             let of_first = |segment: usize| self.base.part.get(segment) == Some(&0);
@@ -193,7 +193,6 @@ impl MovingLine {
         let (forces, tangent) = self.within((at.surroundings, false), flows, |world| {
             if dt > 0.0 {
                 let forces = solver.trial(rod, state, world, time, ends).map_err(told)?;
-                solver.reached(state);
                 Ok::<_, ClassError>((forces, solver.end_tangent_felt(rod, world, self.base.felt)))
             } else {
                 // what a broken line springs back with lasts for a wave along an element, not for a step: it goes on as it moved
@@ -212,6 +211,7 @@ impl MovingLine {
         let books = self.layout.has_books().then(|| {
             self.within((at.surroundings, false), flows, |world| match kept.balance {
                 Some(mut balance) if dt > 0.0 => {
+                    solver.reached(state);
                     balance.enter(rod, state, world, solver, &forces);
                     balance
                 }
@@ -219,7 +219,8 @@ impl MovingLine {
                 None => Balance::open(rod, state, world, solver, &forces),
             })
         });
-        self.layout.write(rod, state, room, trial)?;
+        let end = if dt > 0.0 { solver.end() } else { state };
+        self.layout.write(rod, end, trial)?;
         if let Some(balance) = books {
             self.layout.keep_books(&balance, trial);
         }
@@ -258,15 +259,15 @@ impl Element for MovingLine {
             return self.step(at, (step.time, step.dt), kept, trial, warm, out);
         }
         let found = self.rest(at, warm)?;
-        let Warm { rod, solver, room, flows, .. } = &mut *warm;
+        let Warm { rod, solver, flows, .. } = &mut *warm;
         let tangent = self.within((at.surroundings, true), flows, |world| solver.end_tangent(rod, world));
         answer(out, &found.forces, tangent.as_ref(), false)?;
-        self.layout.write(rod, &found.state, room, trial)?;
+        self.layout.write(rod, &found.state, trial)?;
         if let Some(step) = at.step {
             // a run begins here
             let mut state = found.state;
             state.time = step.time;
-            self.layout.write(rod, &state, room, trial)?;
+            self.layout.write(rod, &state, trial)?;
             let begun = trial.to_vec();
             if let Some(kept) = self.layout.read(&begun)? {
                 // its books are not open yet

@@ -40,17 +40,16 @@ pub(super) struct Warm {
     pub solver: Solver,
     /// Where it last hung at rest.
     pub rest: Option<State>,
-    /// Room for its state on the way, for that as numbers, and for the water at its nodes.
+    /// Room for its state on the way, and for the water at its nodes.
     pub state: State,
-    pub room: Vec<f64>,
     pub flows: Vec<Flow>,
 }
 
 impl Warm {
     pub fn of(base: &Arc<Base>) -> Self {
         let rod = base.rod.clone();
-        let (state, room, flows) = (State::default(), Vec::new(), Vec::new());
-        Warm { base: base.clone(), solver: solver_of(&rod), rod, rest: None, state, room, flows }
+        let (state, flows) = (State::default(), Vec::new());
+        Warm { base: base.clone(), solver: solver_of(&rod), rod, rest: None, state, flows }
     }
 
     /// Becomes that of another rod.
