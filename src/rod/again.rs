@@ -112,7 +112,7 @@ impl Solver {
             old.direction != new.direction || old.side != new.side || old.rotation != new.rotation
         };
         let all = share.max(aside / rod.shortest());
-        if !(all <= SLIGHT * self.settings.tolerance) || turned(0) || turned(1) {
+        if all > SLIGHT * self.settings.tolerance || turned(0) || turned(1) {
             return Some(Moved::Near);
         }
         self.work.carry_ends(&self.change);
