@@ -26,6 +26,14 @@ pub(super) enum Moved {
 }
 
 impl Solver {
+    /// Takes the end of the last trial as the trial's motion.
+    pub(super) fn follow_next(&mut self) {
+        self.trial.x.copy_from_slice(&self.next.position);
+        self.trial.v.copy_from_slice(&self.next.velocity);
+        self.trial.a.copy_from_slice(&self.next.acceleration);
+        self.trial.director.copy_from_slice(&self.next.director);
+    }
+
     /// Whether the last trial was one of the same step, made in one part.
     pub(super) fn follows(&self, state: &State, time: f64, ends: &[End; 2]) -> bool {
         let held = |ends: &[End; 2]| ends.map(|e| e.motion.is_some());

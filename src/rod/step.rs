@@ -394,14 +394,6 @@ impl Solver {
         Ok(self.change.iter().fold(0.0, |most: f64, c| most.max(c.abs())))
     }
 
-    /// Takes the end of the last trial as the trial's motion.
-    pub(super) fn follow_next(&mut self) {
-        self.trial.x.copy_from_slice(&self.next.position);
-        self.trial.v.copy_from_slice(&self.next.velocity);
-        self.trial.a.copy_from_slice(&self.next.acceleration);
-        self.trial.director.copy_from_slice(&self.next.director);
-    }
-
     fn end_forces(&self, rod: &Rod, iterations: usize, parts: usize) -> EndForces {
         let moment = [0, 1].map(|side| end_moment(rod, &self.next, &self.trial.ends[side], side));
         EndForces { force: self.work.end_forces(), moment, iterations, parts }
