@@ -221,6 +221,21 @@ pub trait Element: Debug + Send + Sync {
         Ok(())
     }
 
+    /// The same with what a row of a run keeps of them, as quickly as may be: velocities and curvatures may be left out, of one that
+    /// does not bend all beside effective tension and clearance. What the solver remembers is a place to work in.
+    ///
+    /// # Errors
+    /// As [`Element::along`].
+    fn row(
+        &self,
+        at: &Situation,
+        state: &[f64],
+        _guess: &mut Guess,
+        out: &mut Vec<LineNode>,
+    ) -> Result<(), ClassError> {
+        self.along(at, state, out)
+    }
+
     /// Its slowest natural modes in a state, slowest first, with its ends held where they are; none of an element that is
     /// nothing between its ends.
     ///

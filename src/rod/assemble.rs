@@ -1,5 +1,6 @@
 //! One pass over the elements of a rod.
 
+use super::abreast::plain;
 use super::bend::hinge;
 use super::hinges::spatial_hinges;
 use super::immersed::{entry, half_load, slam_load, wet_share, wind_load};
@@ -21,6 +22,16 @@ struct Edge {
     /// Its length (m) and the inverse.
     length: f64,
     inverse: f64,
+}
+
+impl Edge {
+    #[inline(always)]
+    fn of(rod: &Rod, trial: &Trial, i: usize) -> Self {
+        let d = trial.x[i + 1] - trial.x[i];
+        // nodes of a slack heap may meet: their element then has no direction, and no tension to need one
+        let length = d.norm().max(1e-9 * rod.elements[i].rest);
+        Edge { i, t: d / length, length, inverse: 1.0 / length }
+    }
 }
 
 /// Residual of an element on its two nodes, and its tangent: first or second node by first or second.
@@ -45,13 +56,16 @@ pub(super) fn assemble<const TANGENT: bool, const W: usize, const H: usize, cons
     system: &mut System<W, H, S>,
 ) {
     let gravity = world.gravity;
-    let mut before: Option<(Vector3<f64>, f64)> = None;
-    for i in range.clone() {
-        let element = &rod.elements[i];
-        let d = trial.x[i + 1] - trial.x[i];
-        // nodes of a slack heap may meet: their element then has no direction, and no tension to need one
-        let length = d.norm().max(1e-9 * element.rest);
-        let edge = Edge { i, t: d / length, length, inverse: 1.0 / length };
+    let mut i = range.start;
+    while i < range.end {
+        let count = plain(rod, trial, i..range.end);
+        if count > 0 {
+            system.abreast.take::<TANGENT>(rod, trial, (weights, gravity), (i, count));
+            system.shares::<TANGENT>(i, count);
+            i += count;
+            continue;
+        }
+        let (element, edge) = (&rod.elements[i], Edge::of(rod, trial, i));
         let mut share = axial(rod, element, trial, weights, &edge, gravity);
         immersed::<TANGENT>(element, trial, weights, &edge, world, &mut share);
         system.push(i, &share.fa);
@@ -60,16 +74,23 @@ pub(super) fn assemble<const TANGENT: bool, const W: usize, const H: usize, cons
         system.block::<TANGENT>(i, i + 1, &share.ab);
         system.block::<TANGENT>(i + 1, i, &share.ba);
         system.block::<TANGENT>(i + 1, i + 1, &share.bb);
-        if element.bending > 0.0 && !trial.loose {
-            if W == 4 {
-                for (sides, gradient, matrix) in spatial_hinges(rod, trial, i) {
-                    system.hinge::<TANGENT>(sides, weights.k, &gradient, &matrix);
+        i += 1;
+    }
+    if !trial.loose && rod.elements[range.clone()].iter().any(|e| e.bending > 0.0) {
+        let mut before: Option<(Vector3<f64>, f64)> = None;
+        for i in range.clone() {
+            let edge = Edge::of(rod, trial, i);
+            if rod.elements[i].bending > 0.0 {
+                if W == 4 {
+                    for (sides, gradient, matrix) in spatial_hinges(rod, trial, i) {
+                        system.hinge::<TANGENT>(sides, weights.k, &gradient, &matrix);
+                    }
+                } else {
+                    bending::<TANGENT, W, H, S>(rod, trial, weights.k, &edge, before, system);
                 }
-            } else {
-                bending::<TANGENT, W, H, S>(rod, trial, weights.k, &edge, before, system);
             }
+            before = Some((edge.t, edge.length));
         }
-        before = Some((edge.t, length));
     }
     if W == 4 && TANGENT {
         for i in range.start..=range.end {

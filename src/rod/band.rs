@@ -46,6 +46,15 @@ impl<const H: usize, const S: usize> Band<H, S> {
         }
     }
 
+    /// Adds three entries of a row, side by side.
+    #[inline(always)]
+    pub fn add_three(&mut self, row: usize, column: usize, values: [f64; 3]) {
+        let start = column + H - row;
+        for (place, value) in self.rows[row][start..start + 3].iter_mut().zip(values) {
+            *place += value;
+        }
+    }
+
     /// An entry; zero outside the band.
     pub fn get(&self, row: usize, column: usize) -> f64 {
         if row.abs_diff(column) > H { 0.0 } else { self.rows[row][column + H - row] }
@@ -76,14 +85,14 @@ impl<const H: usize, const S: usize> Band<H, S> {
         }
     }
 
-    /// Factors the matrix in place into L U: how many pivots are negative, which for a symmetric matrix is the number of its
+    /// Factors the matrix in place into U L, from its last row to its first, so that what an end A feels of itself, with all else
+    /// condensed to it, stands in the first rows alone: how many pivots are negative, which for a symmetric matrix is the number of its
     /// negative eigenvalues; the row whose pivot vanished or is no number otherwise.
     pub fn factor(&mut self) -> Result<usize, usize> {
-        let size = self.rows.len();
         let mut negative = 0;
-        for k in 0..size {
-            let (head, tail) = self.rows.split_at_mut(k + 1);
-            let pivot_row = &mut head[k];
+        for k in (0..self.rows.len()).rev() {
+            let (head, tail) = self.rows.split_at_mut(k);
+            let pivot_row = &mut tail[0];
             let pivot = pivot_row[H];
             if !(pivot.abs() > f64::MIN_POSITIVE && pivot.is_finite()) {
                 return Err(k);
@@ -91,12 +100,12 @@ impl<const H: usize, const S: usize> Band<H, S> {
             negative += usize::from(pivot < 0.0);
             let inverse = 1.0 / pivot;
             pivot_row[H] = inverse;
-            if tail.len() >= H {
+            if let Some((_, near)) = head.split_last_chunk_mut::<H>() {
                 for d in 1..=H {
-                    eliminate::<H, S>(pivot_row, &mut tail[d - 1], d, inverse);
+                    eliminate::<H, S>(pivot_row, &mut near[H - d], d, inverse);
                 }
             } else {
-                for (d, row) in tail.iter_mut().enumerate() {
+                for (d, row) in head.iter_mut().rev().enumerate() {
                     eliminate::<H, S>(pivot_row, row, d + 1, inverse);
                 }
             }
@@ -110,10 +119,10 @@ impl<const H: usize, const S: usize> Band<H, S> {
     /// comes last in each sum, so that the others do not wait for it. Beyond either end they are zero, as the entries are.
     pub fn solve(&self, right: &mut [f64]) {
         let mut near = [0.0; H];
-        for (row, value) in self.rows.iter().zip(right.iter_mut()) {
+        for (row, value) in self.rows.iter().zip(right.iter_mut()).rev() {
             let mut sum = *value;
             for j in (0..H).rev() {
-                sum -= row[H - 1 - j] * near[j];
+                sum -= row[H + 1 + j] * near[j];
             }
             for j in (1..H).rev() {
                 near[j] = near[j - 1];
@@ -122,10 +131,10 @@ impl<const H: usize, const S: usize> Band<H, S> {
             *value = sum;
         }
         near = [0.0; H];
-        for (row, value) in self.rows.iter().zip(right.iter_mut()).rev() {
+        for (row, value) in self.rows.iter().zip(right.iter_mut()) {
             let mut sum = *value;
             for j in (0..H).rev() {
-                sum -= row[H + 1 + j] * near[j];
+                sum -= row[H - 1 - j] * near[j];
             }
             for j in (1..H).rev() {
                 near[j] = near[j - 1];
@@ -135,27 +144,27 @@ impl<const H: usize, const S: usize> Band<H, S> {
         }
     }
 
-    /// Solves with the transpose of the matrix, for `N` right-hand sides at once, all zero before row `first`.
-    pub fn solve_transposed<const N: usize>(&self, right: &mut [[f64; N]], first: usize) {
-        let size = self.rows.len();
-        for k in first..size {
+    /// Solves with the transpose of the matrix, for `N` right-hand sides at once that are zero from row `filled` on; what is found is
+    /// right before row `wanted`, which is not less.
+    pub fn solve_transposed<const N: usize>(&self, right: &mut [[f64; N]], (filled, wanted): (usize, usize)) {
+        for k in (0..filled.min(self.rows.len())).rev() {
             let row = &self.rows[k];
-            let (head, tail) = right.split_at_mut(k + 1);
-            let solved = &mut head[k];
+            let (head, tail) = right.split_at_mut(k);
+            let solved = &mut tail[0];
             for value in solved.iter_mut() {
                 *value *= row[H];
             }
-            for (other, factor) in tail.iter_mut().zip(&row[H + 1..]) {
+            for (other, factor) in head[k.saturating_sub(H)..].iter_mut().zip(&row[H - k.min(H)..H]) {
                 for (o, value) in other.iter_mut().zip(solved.iter()) {
                     *o -= factor * value;
                 }
             }
         }
-        for i in (0..size).rev() {
+        for i in 0..wanted.min(self.rows.len()) {
             let row = &self.rows[i];
-            let (head, tail) = right.split_at_mut(i);
-            for (other, factor) in head[i.saturating_sub(H)..].iter_mut().zip(&row[H - i.min(H)..H]) {
-                for (o, value) in other.iter_mut().zip(tail[0].iter()) {
+            let (head, tail) = right.split_at_mut(i + 1);
+            for (other, factor) in tail.iter_mut().zip(&row[H + 1..]) {
+                for (o, value) in other.iter_mut().zip(head[i].iter()) {
                     *o -= factor * value;
                 }
             }
@@ -163,13 +172,13 @@ impl<const H: usize, const S: usize> Band<H, S> {
     }
 }
 
-/// Takes the pivot row out of the row `d` below it.
+/// Takes the pivot row out of the row `d` above it.
 #[inline(always)]
 fn eliminate<const H: usize, const S: usize>(pivot_row: &[f64; S], row: &mut [f64; S], d: usize, inverse: f64) {
-    let factor = row[H - d] * inverse;
-    row[H - d] = factor;
-    for j in 1..=H {
-        row[H - d + j] -= factor * pivot_row[H + j];
+    let factor = row[H + d] * inverse;
+    row[H + d] = factor;
+    for j in 0..H {
+        row[d + j] -= factor * pivot_row[j];
     }
 }
 
@@ -199,7 +208,7 @@ mod tests {
 
     #[test]
     fn the_transpose_gives_the_same_product_from_the_other_side() {
-        let (size, first) = (23, 9);
+        let (size, filled, wanted) = (23, 9, 14);
         let mut band = Band::<5, 11>::new(size);
         for i in 0..size {
             for j in i.saturating_sub(5)..(i + 6).min(size) {
@@ -209,10 +218,13 @@ mod tests {
         band.factor().unwrap();
         let right: Vec<f64> = (0..size).map(|i| (i as f64).sin()).collect();
         let asked: Vec<[f64; 2]> =
-            (0..size).map(|i| if i < first { [0.0; 2] } else { [(i as f64).cos(), 1.0] }).collect();
+            (0..size).map(|i| if i >= filled { [0.0; 2] } else { [(i as f64).cos(), 1.0] }).collect();
         let (mut solved, mut across) = (right.clone(), asked.clone());
         band.solve(&mut solved);
-        band.solve_transposed(&mut across, first);
+        let mut part = across.clone();
+        band.solve_transposed(&mut across, (filled, size));
+        band.solve_transposed(&mut part, (filled, wanted));
+        assert_eq!(part[..wanted], across[..wanted]);
         for k in 0..2 {
             // f' (A^-1 b) = (A^-T f)' b
             let one: f64 = asked.iter().zip(&solved).map(|(f, x)| f[k] * x).sum();

@@ -49,8 +49,10 @@ pub(super) struct Near {
     pub columns: [[Columns; 2]; 3],
     /// The same by all three together, as the scheme makes them follow each other.
     pub together: [Columns; 2],
-    /// Whether the columns are there.
-    pub ready: bool,
+    /// Whether the columns of each end are there.
+    pub ready: [bool; 2],
+    /// The tangent by them of the ends that were felt, of a rod that nothing clamps.
+    pub condensed: Option<([bool; 2], EndTangent)>,
     /// How far a node may have moved since the matrix was factored (m).
     pub moved: f64,
 }
@@ -64,7 +66,7 @@ const CLOSE: f64 = 1e-3;
 impl Near {
     pub fn new() -> Self {
         let none = [[[0.0; WIDEST]; 3]; 2];
-        Near { columns: [none; 3], together: none, ready: false, moved: f64::INFINITY }
+        Near { columns: [none; 3], together: none, ready: [false; 2], condensed: None, moved: f64::INFINITY }
     }
 }
 
@@ -75,7 +77,7 @@ impl Solver {
     ///
     /// None where there is no trial, or the system cannot be solved, as it could in the trial.
     pub fn end_tangent(&mut self, rod: &Rod, world: &World) -> Option<EndTangent> {
-        self.linearise(rod, world, true)?;
+        self.linearise(rod, world, true, [true; 2])?;
         Some(self.condense(rod, [true; 2]))
     }
 
@@ -86,32 +88,38 @@ impl Solver {
         self.end_tangent_felt(rod, world, [true; 2])
     }
 
-    /// The same, of which only the rows of some ends are asked for, A and B: an end in the ground feels nothing. The other
-    /// rows are zero.
+    /// The same, of which only the rows and columns of some ends are asked for, A and B: an end in the ground feels nothing and
+    /// does not move. The others are zero. That of end A alone costs next to nothing.
     pub fn end_tangent_felt(&mut self, rod: &Rod, world: &World, felt: [bool; 2]) -> Option<EndTangent> {
-        self.linearise(rod, world, false)?;
+        self.linearise(rod, world, false, felt)?;
         Some(self.condense(rod, felt))
     }
 
     /// Condenses the matrix at hand to the ends that are asked about.
     fn condense(&mut self, rod: &Rod, felt: [bool; 2]) -> EndTangent {
         let clamps = [0, 1].map(|side| clamp(rod, &self.trial, side));
+        let pinned = clamps.iter().all(Option::is_none);
+        if let (true, Some((_, made))) = (pinned, self.near.condensed.filter(|(ends, _)| *ends == felt)) {
+            return made;
+        }
         let mut made = [Twelve::zeros(); 3];
         for side in (0..2).filter(|side| felt[*side]) {
             let held = self.trial.ends[side].motion.is_some();
             match &clamps[side] {
-                Some(_) => self.feel::<6>(side, &clamps, &mut made),
-                None if held => self.feel::<3>(side, &clamps, &mut made),
+                Some(_) => self.feel::<6>((side, felt), &clamps, &mut made),
+                None if held => self.feel::<3>((side, felt), &clamps, &mut made),
                 None => {}
             }
         }
         let [position, velocity, acceleration] = made;
-        EndTangent { position, velocity, acceleration }
+        let made = EndTangent { position, velocity, acceleration };
+        self.near.condensed = pinned.then_some((felt, made));
+        made
     }
 
     /// Sees to factors of the matrix where the last trial ended, or unless `exact` near enough, and to the columns of
-    /// the ends.
-    pub(super) fn linearise(&mut self, rod: &Rod, world: &World, exact: bool) -> Option<()> {
+    /// the ends that are asked about.
+    pub(super) fn linearise(&mut self, rod: &Rod, world: &World, exact: bool, asked: [bool; 2]) -> Option<()> {
         match self.at {
             At::Nowhere => return None,
             // the trial's own positions are at hand in the state that follows it
@@ -120,9 +128,9 @@ impl Solver {
         }
         let at_rest = self.at == At::Rest;
         let close = !exact && !at_rest && self.near.moved <= CLOSE * rod.shortest();
-        if !(close && self.near.ready) {
+        if !(close && (0..2).all(|side| self.near.ready[side] || !asked[side])) {
             (self.trial.exact, self.trial.still) = (!close, at_rest);
-            let made = self.columns(rod, world, close, at_rest);
+            let made = self.columns(rod, world, (close, at_rest), asked);
             (self.trial.exact, self.trial.still) = (false, false);
             made?;
         }
@@ -130,7 +138,7 @@ impl Solver {
     }
 
     /// Factors the matrix where the trial is unless those at hand are `close`, and finds the columns of the ends.
-    fn columns(&mut self, rod: &Rod, world: &World, close: bool, at_rest: bool) -> Option<()> {
+    fn columns(&mut self, rod: &Rod, world: &World, (close, at_rest): (bool, bool), asked: [bool; 2]) -> Option<()> {
         let last = rod.elements.len();
         let known = self.trial.ends.map(|e| e.motion.is_some());
         if !close {
@@ -150,8 +158,11 @@ impl Solver {
         let single = [Weights { k: 0.0, c: 1.0, m: 0.0 }, Weights { k: 0.0, c: 0.0, m: 1.0 }];
         let shares = [self.weights.c, self.weights.m];
         let [by_position, others @ ..] = &mut self.near.columns;
-        *by_position = self.near.together;
         for (side, range) in [(0, 0..reach), (1, last - reach..last)] {
+            if !asked[side] || self.near.ready[side] {
+                continue;
+            }
+            by_position[side] = self.near.together[side];
             for ((kind, weights), share) in others.iter_mut().zip(single).zip(shares) {
                 kind[side] = [[0.0; WIDEST]; 3];
                 if !known[side] || at_rest {
@@ -167,13 +178,13 @@ impl Solver {
                 }
             }
         }
-        self.near.ready = true;
+        self.near.ready = [0, 1].map(|side| self.near.ready[side] || asked[side]);
         Some(())
     }
 
     /// Keeps of a matrix that has just been assembled what is asked of it later: the rows and columns of the ends.
     pub(super) fn keep_matrix(&mut self) {
-        self.near.ready = false;
+        (self.near.ready, self.near.condensed) = ([false; 2], None);
         self.work.keep_rows();
         let place = [0, self.change.len() - self.work.stride()];
         for (columns, place) in self.near.together.iter_mut().zip(place) {
@@ -187,7 +198,12 @@ impl Solver {
     ///
     /// With outputs F(u, p) and balance R(u, p) = 0 of unknowns u and motions p, dF/dp = F_p - L R_p where L R_u =
     /// F_u: a row of the tangent is one solution with the transpose, whatever the number of motions.
-    fn feel<const N: usize>(&mut self, side: usize, clamps: &[Option<Clamp>; 2], made: &mut [Twelve; 3]) {
+    fn feel<const N: usize>(
+        &mut self,
+        (side, felt): (usize, [bool; 2]),
+        clamps: &[Option<Clamp>; 2],
+        made: &mut [Twelve; 3],
+    ) {
         let stride = self.work.stride();
         let size = self.change.len();
         let place = [0, size - stride];
@@ -215,8 +231,10 @@ impl Solver {
         }
         // the moment feels the place of a held end itself
         let own = place.map(|first| [0, 1, 2].map(|axis| right[first + axis]));
-        let first = if side == 0 { 0 } else { size.saturating_sub(stride + WIDEST / 2) };
-        self.work.solve_transposed(right, first);
+        // rows beside end A, where nothing is asked or answered beyond them
+        let beside = 2 * stride + WIDEST / 2;
+        let wanted = if felt[1] { size } else { beside };
+        self.work.solve_transposed(right, (if side == 0 { beside } else { size }, wanted));
         // what an entry of R_p does: on an inner row through the solution, on a row of this end as its own force
         let add = |column: &mut [f64; N], row: usize, entry: f64| match end_of(row) {
             None => {
@@ -227,7 +245,7 @@ impl Solver {
             Some(end) if end == side => column[row - place[side]] -= entry,
             Some(_) => {}
         };
-        for other in 0..2 {
+        for other in (0..2).filter(|other| felt[*other]) {
             for (kind, matrix) in made.iter_mut().enumerate().filter(|_| known[other]) {
                 for axis in 0..3 {
                     let mut column = [0.0; N];

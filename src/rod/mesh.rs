@@ -24,6 +24,8 @@ pub(super) struct Element {
     pub ea: f64,
     /// Axial damping (N s).
     pub damping: f64,
+    /// Whether its tension is that of a constant EA and of damping alone: nothing else is to be asked.
+    pub plain: bool,
     /// Whether it resists being shortened.
     pub compression: bool,
     /// Bending stiffness (N m2).
@@ -49,11 +51,13 @@ pub(super) struct Element {
 impl Element {
     pub fn new(segment: &Segment, index: usize, rest: f64) -> Self {
         let half = 0.5 * rest;
+        let ea = if let super::section::Axial::Linear(ea) = segment.axial { ea } else { 0.0 };
         Element {
             rest,
             rate: 0.0,
             segment: index,
-            ea: if let super::section::Axial::Linear(ea) = segment.axial { ea } else { 0.0 },
+            ea,
+            plain: ea > 0.0 && segment.tube.is_none(),
             damping: segment.axial_damping,
             compression: segment.compression,
             bending: segment.bending,

@@ -10,6 +10,7 @@
 //! SI units (m, kg, s, N, rad), global axes with z up. End A is the first node. Nothing is allocated in a step, and a
 //! step costs as much as its elements: one pass over them, and a band to factor.
 
+mod abreast;
 mod again;
 mod assemble;
 mod balance;

@@ -23,37 +23,13 @@ impl Rod {
         let last = self.elements.len();
         let (x, v) = (&state.position, &state.velocity);
         let mut fluids = vec![UniformFluid::none().0; x.len()];
-        // tubes feel the pressure outside; beside that it loads the elements at the ends
+        // tubes feel the pressure outside
         if self.segments.iter().any(|s| s.tube.is_some()) {
             world.fluid.fill(x, state.time, &mut fluids);
-        } else {
-            let nodes = [0, 1, last - 1, last];
-            let mut beside = [UniformFluid::none().0; 4];
-            world.fluid.fill(&nodes.map(|node| x[node]), state.time, &mut beside);
-            for (node, fluid) in nodes.into_iter().zip(beside) {
-                fluids[node] = fluid;
-            }
         }
-        let edges: Vec<(Vector3<f64>, f64)> = x
-            .windows(2)
-            .map(|p| (p[1] - p[0], (p[1] - p[0]).norm().max(f64::MIN_POSITIVE)))
-            .map(|(d, l)| (d / l, l))
-            .collect();
-        let pulls: Vec<f64> = self
-            .elements
-            .iter()
-            .enumerate()
-            .map(|(i, element)| {
-                let (t, length) = edges[i];
-                let stretch = length / element.rest;
-                let rate = (t.dot(&(v[i + 1] - v[i])) - stretch * element.rate) / element.rest;
-                let stretched = Stretch { strain: stretch - 1.0, rate, height: 0.5 * (x[i].z + x[i + 1].z) };
-                let taken = Taken { compression: element.compression, ease: 1.0 };
-                let memory = state.yielded.get(i).map(|yielded| Memory::at_once(*yielded));
-                let beside = [&fluids[i], &fluids[i + 1]];
-                tension(self, element, taken, &stretched, memory.as_ref(), beside, world.gravity).value
-            })
-            .collect();
+        let beside = self.beside_ends(state, world);
+        let (edges, pulls): (Vec<(Vector3<f64>, f64)>, Vec<f64>) =
+            (0..last).map(|i| self.pull(i, state, [&fluids[i], &fluids[i + 1]], world.gravity)).unzip();
         // moment vector at each node, and the length it is spread over
         let moments: Vec<(Vector3<f64>, f64)> = (0..=last)
             .map(|i| {
@@ -85,8 +61,8 @@ impl Rod {
                 let inner = i > 0 && i < last;
                 let effective = match (inner, i) {
                     (true, _) => 0.5 * (pulls[i - 1] + pulls[i]),
-                    (false, 0) => self.pull_at_end(0, state, world, &fluids, (&edges[0].0, pulls[0])),
-                    (false, _) => self.pull_at_end(1, state, world, &fluids, (&edges[last - 1].0, pulls[last - 1])),
+                    (false, 0) => self.pull_at_end(0, state, world, &beside, (&edges[0].0, pulls[0])),
+                    (false, _) => self.pull_at_end(1, state, world, &beside, (&edges[last - 1].0, pulls[last - 1])),
                 };
                 let shear = match (inner, i) {
                     (true, _) => 0.5 * (shears[i - 1] + shears[i]).norm(),
@@ -138,27 +114,82 @@ impl Rod {
 }
 
 impl Rod {
-    /// Tension (N) at end A (0) or end B (1), of whose element the direction and the tension are known.
+    /// What a run keeps of the nodes of a state: [`Rod::results`], in memory that is there. Of a rod that neither bends nor has a
+    /// tube velocity and curvature are left out, which takes most of the time.
+    pub fn row(&self, state: &State, world: &World, ends: &[End; 2], out: &mut Vec<LineNode>) {
+        out.clear();
+        let plain = self.elements.iter().all(|e| e.bending == 0.0) && self.segments.iter().all(|s| s.tube.is_none());
+        if !plain {
+            out.extend(self.results(state, world, ends));
+            return;
+        }
+        let (last, fluid) = (self.elements.len(), UniformFluid::none().0);
+        let (mut arc, mut before) = (0.0, 0.0);
+        for (i, x) in state.position.iter().enumerate() {
+            let beside = i.min(last - 1);
+            let element = &self.elements[beside];
+            let pull = if i < last { self.pull(i, state, [&fluid; 2], world.gravity).1 } else { before };
+            let effective = if i > 0 { 0.5 * (before + pull) } else { pull };
+            let mut made = LineNode { arc, segment: element.segment, position: *x, effective, ..LineNode::default() };
+            (made.wall, made.clearance) = (effective, clearance(world, x));
+            out.push(made);
+            (arc, before) = (arc + if i < last { element.rest } else { 0.0 }, pull);
+        }
+        let beside = self.beside_ends(state, world);
+        for (side, node, element) in [(0, 0, 0), (1, last, last - 1)] {
+            let ((t, _), pull) = self.pull(element, state, [&fluid; 2], world.gravity);
+            let effective = self.pull_at_end(side, state, world, &beside, (&t, pull));
+            (out[node].effective, out[node].wall) = (effective, effective);
+        }
+    }
+
+    /// The fluid at the two nodes beside end A, and at the two beside end B: each end first.
+    fn beside_ends(&self, state: &State, world: &World) -> [[Fluid; 2]; 2] {
+        let last = self.elements.len();
+        let mut found = [UniformFluid::none().0; 4];
+        let places = [0, 1, last, last - 1].map(|node| state.position[node]);
+        world.fluid.fill(&places, state.time, &mut found);
+        let [a, b, c, d] = found;
+        [[a, b], [c, d]]
+    }
+
+    /// Direction and length of an element in a state, and its tension, by the fluid at its two nodes.
+    #[inline]
+    fn pull(&self, i: usize, state: &State, beside: [&Fluid; 2], gravity: f64) -> ((Vector3<f64>, f64), f64) {
+        let (element, x, v) = (&self.elements[i], &state.position, &state.velocity);
+        let d = x[i + 1] - x[i];
+        let length = d.norm().max(f64::MIN_POSITIVE);
+        let t = d / length;
+        let stretch = length / element.rest;
+        let rate = (t.dot(&(v[i + 1] - v[i])) - stretch * element.rate) / element.rest;
+        let stretched = Stretch { strain: stretch - 1.0, rate, height: 0.5 * (x[i].z + x[i + 1].z) };
+        let taken = Taken { compression: element.compression, ease: 1.0 };
+        let memory = state.yielded.get(i).map(|yielded| Memory::at_once(*yielded));
+        ((t, length), tension(self, element, taken, &stretched, memory.as_ref(), beside, gravity).value)
+    }
+
+    /// Tension (N) at end A (0) or end B (1), of whose element the direction and the tension are known, by the fluid
+    /// [`Rod::beside_ends`].
     fn pull_at_end(
         &self,
         side: usize,
         state: &State,
         world: &World,
-        fluids: &[Fluid],
+        beside: &[[Fluid; 2]; 2],
         (t, pull): (&Vector3<f64>, f64),
     ) -> f64 {
         let last = self.elements.len();
         let (node, other, element) = if side == 0 { (0, 1, 0) } else { (last, last - 1, last - 1) };
         let element = &self.elements[element];
-        let at = |node: usize| Node {
+        let at = |node: usize, place: usize| Node {
             position: &state.position[node],
             velocity: &state.velocity[node],
             acceleration: &state.acceleration[node],
-            fluid: &fluids[node],
+            fluid: &beside[side][place],
         };
         let weight = Vector3::z() * world.gravity;
-        let moved =
-            (state.acceleration[node] + weight) * element.mass - on_half(element, t, world, [at(node), at(other)]);
+        let moved = (state.acceleration[node] + weight) * element.mass
+            - on_half(element, t, world, [at(node, 0), at(other, 1)]);
         let along = moved.dot(t);
         let found = if side == 0 { pull - along } else { pull + along };
         // half a slack element that is carried along may push its holder, but not the rod

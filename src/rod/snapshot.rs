@@ -55,18 +55,29 @@ impl State {
     /// bedding of each node; the director of each element of a rod with torsion; the strain to which each element of
     /// one with viscoelastic rope has yielded.
     pub fn pack(&self, out: &mut Vec<f64>) {
-        out.reserve(1 + PER_NODE * self.position.len() + 3 * self.director.len() + self.yielded.len());
-        out.push(self.time);
-        for (i, position) in self.position.iter().enumerate() {
-            for vector in [position, &self.velocity[i], &self.acceleration[i], &self.averaged[i]] {
-                out.extend_from_slice(vector.as_slice());
-            }
-            out.push(self.bedding[i]);
+        let count = 1 + PER_NODE * self.position.len() + 3 * self.director.len() + self.yielded.len();
+        let from = out.len();
+        out.resize(from + count, 0.0);
+        self.pack_into(&mut out[from..]);
+    }
+
+    /// The same into the beginning of a list: how many numbers they are; none where the list is too short.
+    pub fn pack_into(&self, out: &mut [f64]) -> Option<usize> {
+        let count = 1 + PER_NODE * self.position.len() + 3 * self.director.len() + self.yielded.len();
+        let (time, rest) = out.get_mut(..count)?.split_first_mut()?;
+        *time = self.time;
+        let (nodes, rest) = rest.split_at_mut(PER_NODE * self.position.len());
+        let motions = self.position.iter().zip(&self.velocity).zip(&self.acceleration).zip(&self.averaged);
+        let (nodes, _) = nodes.as_chunks_mut::<PER_NODE>();
+        for (place, ((((x, v), a), averaged), bedding)) in nodes.iter_mut().zip(motions.zip(&self.bedding)) {
+            *place = [x.x, x.y, x.z, v.x, v.y, v.z, a.x, a.y, a.z, averaged.x, averaged.y, averaged.z, *bedding];
         }
-        for director in &self.director {
-            out.extend_from_slice(director.as_slice());
+        let (directors, yielded) = rest.split_at_mut(3 * self.director.len());
+        for (place, director) in directors.chunks_exact_mut(3).zip(&self.director) {
+            place.copy_from_slice(director.as_slice());
         }
-        out.extend_from_slice(&self.yielded);
+        yielded.copy_from_slice(&self.yielded);
+        Some(count)
     }
 
     /// How many numbers [`State::pack`] makes of a state of a rod.
@@ -97,7 +108,10 @@ impl State {
         if from.len() != wanted {
             return Err(refuse(format!("its state is {wanted} numbers, not {}", from.len())));
         }
-        if let Some(place) = from.iter().position(|v| !v.is_finite()) {
+        // without a way out of the loop it goes many at a time
+        let whole = from.iter().fold(true, |whole, v| whole & v.is_finite());
+        if !whole {
+            let place = from.iter().position(|v| !v.is_finite()).unwrap_or(0);
             return Err(refuse(format!("number {} of its state is {}", place + 1, from[place])));
         }
         let (nodes, elements) = from[1..].split_at(PER_NODE * rod.nodes());

@@ -18,6 +18,11 @@ impl Solver {
         state.copy_from(&self.next);
     }
 
+    /// Where the last trial ended.
+    pub fn end(&self) -> &State {
+        &self.next
+    }
+
     /// What each holder feels of inertia at the instant of the last [`Solver::start`]: d(force the holder needs)/d(its
     /// acceleration) (kg), zero of a free end. At one instant the nodes beside an end do not follow it yet.
     pub fn end_masses(&self) -> [Matrix3<f64>; 2] {

@@ -1,5 +1,6 @@
 //! One implicit step in time.
 
+use super::again::Moved;
 use super::condense::Near;
 use super::ends::End;
 use super::error::RodError;
@@ -274,11 +275,18 @@ impl Solver {
         let moved = if near { self.again(rod, from, world, &scheme, &ends) } else { None };
         self.trial.time = time;
         self.trial.ends = ends;
-        lay(rod, from, world, &mut self.trial.lay);
-        soften(from, world, &mut self.trial.soft);
-        remember(rod, from, scheme.h, &mut self.trial.memory);
-        if moved.is_none() {
-            self.foretell(from, &scheme, time, &ends);
+        match moved {
+            None => {
+                lay(rod, from, world, &mut self.trial.lay);
+                soften(from, world, &mut self.trial.soft);
+                remember(rod, from, scheme.h, &mut self.trial.memory);
+                self.foretell(from, &scheme, time, &ends);
+            }
+            Some(Moved::Near) => {}
+            Some(Moved::Slightly) => {
+                settle(rod, &self.trial.memory, &mut self.next);
+                return Ok(0);
+            }
         }
         let stride = self.work.stride();
         let known = [ends[0].motion.is_some(), ends[1].motion.is_some()];
@@ -385,14 +393,6 @@ impl Solver {
             return Err(Failure { node: self.work.worst(known).0, why: "a force is no number" });
         }
         Ok(largest(&self.change, self.work.stride(), rod.shortest()))
-    }
-
-    /// Takes the end of the last trial as the trial's motion.
-    pub(super) fn follow_next(&mut self) {
-        self.trial.x.copy_from_slice(&self.next.position);
-        self.trial.v.copy_from_slice(&self.next.velocity);
-        self.trial.a.copy_from_slice(&self.next.acceleration);
-        self.trial.director.copy_from_slice(&self.next.director);
     }
 
     fn end_forces(&self, rod: &Rod, iterations: usize, parts: usize) -> EndForces {

@@ -299,7 +299,7 @@ impl Solver {
     ///
     /// None where there is no trial, or the system cannot be solved, as it could in the trial.
     pub fn support_tangent(&mut self, rod: &Rod, world: &World) -> Option<SupportTangent> {
-        self.linearise(rod, world, true)?;
+        self.linearise(rod, world, true, [false; 2])?;
         let count = world.supports.len();
         let (x, v) = (&self.trial.x, &self.trial.v);
         let smooth = rod.smooth();

@@ -1,5 +1,6 @@
 //! The residual of a rod and its tangent, with what adds to them by nodes.
 
+use super::abreast::{ABREAST, Abreast, Shares};
 use super::band::Band;
 use super::spatial::Eight;
 use nalgebra::{Matrix3, SMatrix, Vector3};
@@ -17,6 +18,8 @@ pub(super) struct Weights {
 pub(super) struct System<const W: usize, const H: usize, const S: usize> {
     pub band: Band<H, S>,
     pub residual: Vec<f64>,
+    /// Room for elements taken at once.
+    pub abreast: Abreast,
     /// Residual of the two end nodes.
     pub ends: [Vector3<f64>; 2],
     /// Rows of the two end nodes.
@@ -28,6 +31,7 @@ impl<const W: usize, const H: usize, const S: usize> System<W, H, S> {
         System {
             band: Band::new(W * nodes),
             residual: vec![0.0; W * nodes],
+            abreast: Abreast::default(),
             ends: [Vector3::zeros(); 2],
             rows: [[[0.0; S]; 3]; 2],
         }
@@ -56,6 +60,14 @@ impl<const W: usize, const H: usize, const S: usize> System<W, H, S> {
     pub fn block<const TANGENT: bool>(&mut self, row: usize, column: usize, block: &Matrix3<f64>) {
         if TANGENT {
             self.band.add_block(W * row, W * column, block);
+        }
+    }
+
+    /// Adds so many elements that were taken at once, from the first on.
+    pub fn shares<const TANGENT: bool>(&mut self, first: usize, count: usize) {
+        let Abreast { shares, .. } = &self.abreast;
+        for n in 0..count.min(ABREAST) {
+            add_share::<TANGENT, W, H, S>((&mut self.band, &mut self.residual), (first + n, n), shares);
         }
     }
 
@@ -148,5 +160,27 @@ impl<const W: usize, const H: usize, const S: usize> System<W, H, S> {
     #[cfg(test)]
     pub fn block_at(&self, row: usize, column: usize) -> Matrix3<f64> {
         Matrix3::from_fn(|i, j| self.band.get(W * row + i, W * column + j))
+    }
+}
+
+/// Adds an element of a number, one of those taken at once.
+#[inline(always)]
+fn add_share<const TANGENT: bool, const W: usize, const H: usize, const S: usize>(
+    (band, residual): (&mut Band<H, S>, &mut [f64]),
+    (element, n): (usize, usize),
+    shares: &Shares,
+) {
+    let three = |of: &[[f64; ABREAST]; 3]| [of[0][n], of[1][n], of[2][n]];
+    for (second, force) in shares.force.iter().enumerate() {
+        let (node, other) = if second == 0 { (element, element + 1) } else { (element + 1, element) };
+        for (residual, by) in residual[W * node..W * node + 3].iter_mut().zip(three(force)) {
+            *residual += by;
+        }
+        if TANGENT {
+            for i in 0..3 {
+                band.add_three(W * node + i, W * node, three(&shares.itself[second][i]));
+                band.add_three(W * node + i, W * other, three(&shares.other[second][i]));
+            }
+        }
     }
 }

@@ -129,6 +129,13 @@ impl Workspace {
         each!(self, system => system.carry_ends(change));
     }
 
+    /// Adds to the kept residuals of the ends.
+    pub fn add_to_ends(&mut self, by: &[Vector3<f64>; 2]) {
+        each!(self, system => for (end, by) in system.ends.iter_mut().zip(by) {
+            *end += by;
+        });
+    }
+
     /// Forces of the rod on its holders (N): the kept residuals, turned around.
     pub fn end_forces(&self) -> [Vector3<f64>; 2] {
         each!(self, system => system.ends.map(|force| -force))
@@ -189,8 +196,8 @@ impl Workspace {
     }
 
     /// Solves with the transpose by the factors: see [`Band::solve_transposed`](super::band::Band::solve_transposed).
-    pub fn solve_transposed<const N: usize>(&self, right: &mut [[f64; N]], first: usize) {
-        each!(self, system => system.band.solve_transposed(right, first));
+    pub fn solve_transposed<const N: usize>(&self, right: &mut [[f64; N]], reach: (usize, usize)) {
+        each!(self, system => system.band.solve_transposed(right, reach));
     }
 
     /// Node with the largest residual (N), of those without an end's motion; a residual that is no number comes first.

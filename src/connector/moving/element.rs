@@ -40,7 +40,7 @@ pub(super) struct Rest {
 }
 
 impl MovingLine {
-    fn warm<'a>(&self, guess: &'a mut Guess) -> Option<&'a mut Warm> {
+    pub(super) fn warm<'a>(&self, guess: &'a mut Guess) -> Option<&'a mut Warm> {
         let fits = |g: &Box<dyn std::any::Any + Send>| {
             g.downcast_ref::<Warm>().is_some_and(|w| Arc::ptr_eq(&w.base, &self.base))
         };
@@ -151,7 +151,7 @@ impl MovingLine {
     }
 
     /// The rod of a mesh other than that of `rod`.
-    fn meshed(&self, kept: &Kept, rod: &Rod) -> Result<Option<Rod>, ClassError> {
+    pub(super) fn meshed(&self, kept: &Kept, rod: &Rod) -> Result<Option<Rod>, ClassError> {
         let bands = &self.base.bands;
         if kept.mesh().eq(rod.each_of_mesh().map(|(rest, rate, segment)| (rest, rate, bands.part_of(segment)))) {
             return Ok(None);
@@ -202,13 +202,15 @@ impl MovingLine {
             wind(rod, state, (self.first, self.nominal, dt), &self.base.bands)?;
         }
         warm.fit();
-        let Warm { rod, solver, state, room, flows, .. } = warm;
+        let Warm { rod, solver, state, flows, .. } = warm;
         let (forces, felt) = self.within((at, false), flows, |world| {
             if dt > 0.0 {
                 let forces = solver.trial(rod, state, world, time, ends).map_err(told)?;
-                solver.reached(state);
                 let felt = match self.base.laid {
-                    Some(_) => On::Supports(rod.on_supports(state, world), solver.support_tangent(rod, world)),
+                    Some(_) => {
+                        solver.reached(state);
+                        On::Supports(rod.on_supports(state, world), solver.support_tangent(rod, world))
+                    }
                     None => On::Ends(forces, solver.end_tangent_felt(rod, world, self.base.felt)),
                 };
                 Ok::<_, ClassError>((forces, felt))
@@ -233,6 +235,7 @@ impl MovingLine {
         let books = self.layout.has_books().then(|| {
             self.within((at, false), flows, |world| match kept.balance {
                 Some(mut balance) if dt > 0.0 => {
+                    solver.reached(state);
                     balance.enter(rod, state, world, solver, &forces);
                     balance
                 }
@@ -240,7 +243,8 @@ impl MovingLine {
                 None => Balance::open(rod, state, world, solver, &forces),
             })
         });
-        self.layout.write((rod, &self.base.bands), state, room, trial)?;
+        let end = if dt > 0.0 { solver.end() } else { state };
+        self.layout.write((rod, &self.base.bands), end, trial)?;
         if let Some(balance) = books {
             self.layout.keep_books(&balance, trial);
         }
@@ -287,7 +291,7 @@ impl Element for MovingLine {
             return self.step(at, (step.time, step.dt), kept, trial, warm, out);
         }
         let found = self.rest(at, warm)?;
-        let Warm { rod, solver, room, flows, .. } = &mut *warm;
+        let Warm { rod, solver, flows, .. } = &mut *warm;
         let felt = self.within((at, true), flows, |world| match self.base.laid {
             Some(_) => On::Supports(rod.on_supports(&found.state, world), solver.support_tangent(rod, world)),
             None => On::Ends(found.forces, solver.end_tangent(rod, world)),
@@ -295,7 +299,7 @@ impl Element for MovingLine {
         answer(out, &felt, false)?;
         let mut state = found.state;
         state.time = at.step.map_or(0.0, |step| step.time);
-        self.layout.write((rod, &self.base.bands), &state, room, trial)?;
+        self.layout.write((rod, &self.base.bands), &state, trial)?;
         if let Some(step) = at.step {
             // a run begins here
             let begun = trial.to_vec();
@@ -314,6 +318,10 @@ impl Element for MovingLine {
 
     fn along(&self, at: &Situation, state: &[f64], out: &mut Vec<LineNode>) -> Result<(), ClassError> {
         self.tell_along(at, state, out)
+    }
+
+    fn row(&self, at: &Situation, state: &[f64], guess: &mut Guess, out: &mut Vec<LineNode>) -> Result<(), ClassError> {
+        self.tell_row(at, state, guess, out)
     }
 
     fn swings(&self, at: &Situation, state: &[f64], number: usize) -> Result<Vec<LineMode>, ClassError> {

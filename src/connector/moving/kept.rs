@@ -77,32 +77,23 @@ impl Layout {
         }
     }
 
-    /// Writes a state that has begun; `room` is for its motion.
-    pub fn write(
-        &self,
-        (rod, bands): (&Rod, &Bands),
-        state: &State,
-        room: &mut Vec<f64>,
-        out: &mut [f64],
-    ) -> Result<(), ClassError> {
+    /// Writes a state that has begun.
+    pub fn write(&self, (rod, bands): (&Rod, &Bands), state: &State, out: &mut [f64]) -> Result<(), ClassError> {
         let wrong = || ClassError::new("the line has grown beyond what its winch was to pay out").lasting();
         let mesh = rod.each_of_mesh();
-        room.clear();
-        state.pack(room);
-        if out.len() != self.size() || mesh.len() > self.elements || room.len() > self.motion {
+        if out.len() != self.size() || mesh.len() > self.elements {
             return Err(wrong());
         }
         let (head, rest) = out.split_first_chunk_mut::<HEAD>().ok_or_else(wrong)?;
-        *head = [1.0, mesh.len() as f64, room.len() as f64];
         let (elements, motion) = rest.split_at_mut_checked(EACH * self.elements).ok_or_else(wrong)?;
+        let count = state.pack_into(motion.get_mut(..self.motion).ok_or_else(wrong)?).ok_or_else(wrong)?;
+        *head = [1.0, mesh.len() as f64, count as f64];
         let (own, free) = elements.split_at_mut_checked(EACH * mesh.len()).ok_or_else(wrong)?;
         for (place, (rest, rate, segment)) in own.as_chunks_mut::<EACH>().0.iter_mut().zip(mesh) {
             *place = [rest, rate, bands.part_of(segment) as f64];
         }
         free.fill(0.0);
-        let (own, free) = motion.split_at_mut_checked(room.len()).ok_or_else(wrong)?;
-        own.copy_from_slice(room);
-        free.fill(0.0);
+        motion.get_mut(count..).ok_or_else(wrong)?.fill(0.0);
         Ok(())
     }
 

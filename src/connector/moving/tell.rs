@@ -1,8 +1,10 @@
 //! What a line that moves by itself tells of itself: its nodes, modes and books.
 
 use super::element::MovingLine;
+use super::mesh::told;
 use super::modes;
-use crate::model::{ClassError, LineBooks, LineMode, LineNode, LineSide, Situation, Summary};
+use super::warm::Warm;
+use crate::model::{ClassError, Guess, LineBooks, LineMode, LineNode, LineSide, Situation, Summary};
 use crate::rod::{Settings, Solver};
 
 impl MovingLine {
@@ -22,16 +24,35 @@ impl MovingLine {
         let (other, state, still) = self.where_it_is(at, state)?;
         let rod = other.as_ref().unwrap_or(&self.base.rod);
         let ends = self.held(at.ends, still)?;
-        out.clear();
-        let found = self.within((at, still), &mut Vec::new(), |world| rod.results(&state, world, &ends));
+        *out = self.within((at, still), &mut Vec::new(), |world| rod.results(&state, world, &ends));
         // the class speaks of its records, of which a rod may have several segments, and a pipe all of the first
         let record = |segment| if self.base.laid.is_some() { 0 } else { self.base.bands.part_of(segment) };
-        out.extend(found.into_iter().map(|n| {
-            let segment = record(n.segment);
-            let before =
-                n.before.map(|b| LineSide { segment: record(b.segment), ..b }).filter(|b| b.segment != segment);
-            LineNode { segment, before, ..n }
-        }));
+        for node in out {
+            node.segment = record(node.segment);
+            let before = node.before.map(|b| LineSide { segment: record(b.segment), ..b });
+            node.before = before.filter(|b| b.segment != node.segment);
+        }
+        Ok(())
+    }
+
+    /// What a row of a run keeps of its nodes, in the room of its memory; segments are not told.
+    pub(super) fn tell_row(
+        &self,
+        at: &Situation,
+        state: &[f64],
+        guess: &mut Guess,
+        out: &mut Vec<LineNode>,
+    ) -> Result<(), ClassError> {
+        let (Some(kept), Some(warm)) = (self.layout.read(state)?, self.warm(guess)) else {
+            return self.tell_along(at, state, out);
+        };
+        if self.meshed(&kept, &warm.rod)?.is_some() {
+            return self.tell_along(at, state, out);
+        }
+        let ends = self.held(at.ends, at.step.is_none())?;
+        let Warm { rod, state, flows, .. } = warm;
+        state.become_unpacked(rod, kept.motion).map_err(told)?;
+        self.within((at, at.step.is_none()), flows, |world| rod.row(state, world, &ends, out));
         Ok(())
     }
 

@@ -47,18 +47,17 @@ pub(super) struct Warm {
     nodes: usize,
     /// Where it last hung at rest.
     pub rest: Option<State>,
-    /// Room for its state on the way, for that as numbers, and for the water at its nodes.
+    /// Room for its state on the way, and for the water at its nodes.
     pub state: State,
-    pub room: Vec<f64>,
     pub flows: Vec<Flow>,
 }
 
 impl Warm {
     pub fn of(base: &Arc<Base>) -> Self {
         let rod = base.rod.clone();
-        let (state, room, flows) = (State::default(), Vec::new(), Vec::new());
+        let (state, flows) = (State::default(), Vec::new());
         let nodes = rod.nodes();
-        Warm { base: base.clone(), solver: solver_of(&rod), nodes, rod, rest: None, state, room, flows }
+        Warm { base: base.clone(), solver: solver_of(&rod), nodes, rod, rest: None, state, flows }
     }
 
     /// Gives the rod another solver, if a winch has given it more nodes or fewer: of other lengths alone the solver remembers where it was.

@@ -104,3 +104,61 @@ fn forces_at_a_start_are_what_momentum_wants() {
     assert!((change - outer).norm() < 1e-9 * outer.norm().max(made.force[1].norm()), "{change} {outer}");
     assert!(parted.force[1].norm() < 1e-6 * made.force[1].norm());
 }
+
+#[test]
+fn a_trial_moved_slightly_needs_no_iteration_and_has_the_forces_of_one_made_anew() {
+    let fluid = UniformFluid::moving(1025.0, Vector3::new(0.2, 0.5, 0.0));
+    let bottom = PlaneBottom { height: -300.0, slope: [0.0, 0.0] };
+    let ground = Ground { damping: 3e5, friction_along: 0.5, friction_across: 0.5, ..Ground::elastic(3e6) };
+    let world = World { bottom: Some((&bottom, ground)), ..World::new(&fluid, 9.80665) };
+    for bending in [0.0, 1e5] {
+        let (rod, mut state) = chain(bending);
+        // so that what is left of the first trial is less than what the move makes
+        let settings = Settings { tolerance: 1e-6, ..Settings::default() };
+        let (mut solver, mut alone) = (Solver::new(&rod, settings), Solver::new(&rod, settings));
+        solver.statics(&rod, &mut state, &world, [End::pinned(A), End::pinned(surge(0.0).position)]).unwrap();
+        for i in 1..=50 {
+            let t = 0.1 * i as f64;
+            let at = |by: f64| {
+                let (to, off) = (surge(t), Vector3::new(0.6, -0.3, 0.8) * by);
+                let moved = Motion {
+                    position: to.position + off,
+                    velocity: to.velocity + off * 20.0,
+                    acceleration: to.acceleration + off * 400.0,
+                };
+                [End::pinned(A), End::moved(moved)]
+            };
+            solver.trial(&rod, &state, &world, t, at(0.0)).unwrap();
+            let first = solver.trial(&rod, &state, &world, t, at(0.0)).unwrap();
+            let made = solver.trial(&rod, &state, &world, t, at(1e-8)).unwrap();
+            assert_eq!((first.iterations, made.iterations), (0, 0));
+            let start = alone.trial(&rod, &state, &world, t, at(0.0)).unwrap();
+            alone = Solver::new(&rod, settings);
+            let wanted = alone.trial(&rod, &state, &world, t, at(1e-8)).unwrap();
+            for side in [0, 1] {
+                let away = (made.force[side] - wanted.force[side] - (first.force[side] - start.force[side])).norm();
+                let change = (wanted.force[side] - start.force[side]).norm();
+                // the factors at hand are those of a place a thousandth of an element away at most
+                assert!(away < 0.02 * change + 1e-4, "{bending} {i} {side}: {away} of {change}");
+            }
+            solver.accept(&mut state);
+            alone = Solver::new(&rod, settings);
+        }
+    }
+}
+
+#[test]
+fn an_end_that_goes_on_with_another_velocity_alone_is_not_moved_slightly() {
+    let (rod, mut state) = chain(0.0);
+    let fluid = UniformFluid::still(1025.0);
+    let world = World::new(&fluid, 9.80665);
+    let mut solver = Solver::new(&rod, Settings::default());
+    let end = |velocity: f64| {
+        let still = Motion::still(B);
+        [End::pinned(A), End::moved(Motion { velocity: Vector3::y() * velocity, ..still })]
+    };
+    solver.statics(&rod, &mut state, &world, end(0.0)).unwrap();
+    solver.trial(&rod, &state, &world, 0.1, end(0.0)).unwrap();
+    // drag goes by the square of the velocity
+    assert!(solver.trial(&rod, &state, &world, 0.1, end(0.5)).unwrap().iterations > 0);
+}

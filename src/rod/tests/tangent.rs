@@ -97,3 +97,65 @@ pub(super) fn compare(rod: &Rod, state: &State, world: &World, solver: &mut Solv
         }
     }
 }
+
+#[test]
+fn elements_taken_at_once_are_what_each_is_alone() {
+    let fluid = UniformFluid(Fluid {
+        velocity: Vector3::new(0.7, -0.2, 0.1),
+        acceleration: Vector3::new(0.1, 0.3, -0.2),
+        ..UniformFluid::still(1025.0).0
+    });
+    let world = World::new(&fluid, 9.81);
+    for (bending, compression) in [(0.0, false), (0.0, true), (4e5, true)] {
+        let segment = Segment {
+            axial_damping: 2e4,
+            compression,
+            bending,
+            drag_normal: 1.2,
+            drag_tangential: 0.1,
+            added_normal: 1.0,
+            added_tangential: 0.3,
+            ..Segment::line(95.0, 19, 80.0, 1e6, 0.4)
+        };
+        let mut rod = Rod::new("plain", vec![segment], vec![]).unwrap();
+        // the top comes out of the water, some elements are slack, one is wound, one node stands still in the water
+        let mut state = State::along(&rod, &[Vector3::new(0.0, 0.0, -90.0), Vector3::new(30.0, 5.0, 6.0)]).unwrap();
+        for i in 0..rod.nodes() {
+            let s = i as f64;
+            state.position[i] += Vector3::new((s * 1.3).sin(), (s * 2.1).cos(), (s * 0.7).sin() * 1.5);
+            state.velocity[i] = Vector3::new((s * 0.9).cos(), (s * 1.7).sin(), 0.5 * (s * 2.3).cos());
+            state.acceleration[i] = Vector3::new((s * 1.9).cos(), (s * 0.4).sin(), (s * 1.3).cos());
+        }
+        state.velocity[4] = fluid.0.velocity;
+        rod.elements[2].rate = 0.3;
+        let weights = Weights { k: 1.0, c: 30.0, m: 900.0 };
+        let mut made = [true, false].map(|plain| {
+            rod.elements.iter_mut().for_each(|e| e.plain = plain);
+            let mut solver = Solver::new(&rod, Settings::default());
+            solver.trial.x.copy_from_slice(&state.position);
+            solver.trial.v.copy_from_slice(&state.velocity);
+            solver.trial.a.copy_from_slice(&state.acceleration);
+            trial::sample(&world, 0.0, &mut solver.trial);
+            assert_eq!(super::super::abreast::plain(&rod, &solver.trial, 0..19), if plain { 8 } else { 0 });
+            solver.work.assemble(&rod, &world, &solver.trial, weights, 0..19);
+            solver
+        });
+        let [at_once, alone] = &made;
+        for row in 0..rod.nodes() {
+            // forces of 1e6 N, and stiffnesses of 1e7 N/m, to rounding
+            assert!((at_once.work.residual(row) - alone.work.residual(row)).norm() < 1e-8, "{bending} {row}");
+            for column in 0..rod.nodes() {
+                let away = (at_once.work.block(row, column) - alone.work.block(row, column)).norm();
+                assert!(away < 1e-7, "{bending} {row} {column}: {away}");
+            }
+        }
+        for (solver, plain) in made.iter_mut().zip([true, false]) {
+            rod.elements.iter_mut().for_each(|e| e.plain = plain);
+            solver.work.forces(&rod, &world, &solver.trial);
+        }
+        let [at_once, alone] = &made;
+        for row in 0..rod.nodes() {
+            assert!((at_once.work.residual(row) - alone.work.residual(row)).norm() < 1e-8);
+        }
+    }
+}

@@ -7,7 +7,7 @@ use super::along::AlongColumns;
 use super::ends::end_of;
 use super::forces::{CATEGORIES, Forces, Motion, place_of};
 use crate::hydro::Category;
-use crate::model::{ClassError, LineNode, Place, Situation, Six, TimeStep};
+use crate::model::{ClassError, Guess, LineNode, Place, Situation, Six, TimeStep};
 use crate::solve::link::{Attachment, Link};
 use crate::solve::system::{SolveError, System};
 
@@ -163,7 +163,7 @@ impl Layout {
     pub fn write(
         &self,
         (system, time): (&System, f64),
-        (motions, forces, told): (&[Motion], &Forces, &mut Told),
+        (motions, forces, told): (&[Motion], &mut Forces, &mut Told),
         near: &mut [Place],
         row: &mut Vec<f64>,
     ) -> Result<(), SolveError> {
@@ -204,7 +204,9 @@ impl Layout {
                     }
                 }
                 if let Some(along) = &columns.along {
-                    nodes_of((system, link), (time, motions), &mut told.nodes)
+                    let mut none = None;
+                    let guess = forces.guesses.get_mut(index).unwrap_or(&mut none);
+                    nodes_of((system, link, guess), (time, motions), &mut told.nodes)
                         .and_then(|()| along.write(&told.nodes, row))
                         .map_err(|e| SolveError::of(&link.name)(at_time(e, time)))?;
                 }
@@ -234,14 +236,14 @@ impl Layout {
 
 /// The nodes of a line at an instant.
 fn nodes_of(
-    (system, link): (&System, &Link),
+    (system, link, guess): (&System, &Link, &mut Guess),
     (time, motions): (f64, &[Motion]),
     nodes: &mut Vec<LineNode>,
 ) -> Result<(), ClassError> {
     let ends: Vec<_> = link.ends.iter().map(|end| end_of(end, motions, true).0).collect();
     let step = Some(TimeStep { time, dt: 0.0 });
     let at = Situation { ends: &ends, step, surroundings: &system.surroundings };
-    link.element.along(&at, system.states.get(link.states.clone()).unwrap_or_default(), nodes)
+    link.element.row(&at, system.states.get(link.states.clone()).unwrap_or_default(), guess, nodes)
 }
 
 fn at_time(error: ClassError, time: f64) -> ClassError {

@@ -346,8 +346,8 @@ impl Run {
             told.lengths.extend(self.history.layout.links.iter().map(|l| length(&l.name)));
             self.wound = false;
         }
-        let (layout, now) = (&self.history.layout, &self.now);
-        let parts = (now.motions.as_slice(), &now.forces, &mut told);
+        let (layout, now) = (&self.history.layout, &mut self.now);
+        let parts = (now.motions.as_slice(), &mut now.forces, &mut told);
         layout.write((&self.system, now.time), parts, &mut self.near, &mut self.row)?;
         self.told = told;
         let wrong = |e: SeriesError| SolveError::new(ClassError::new(e.to_string()));

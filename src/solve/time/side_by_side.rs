@@ -37,8 +37,8 @@ impl Forces {
             self.place_ends(link, motions);
             one.link = index;
             one.ends.clone_from(&self.ends);
-            one.trial.clear();
-            one.trial.extend_from_slice(self.trial.get(link.states.clone()).unwrap_or_default());
+            // all of it is written
+            one.trial.resize(link.states.len(), 0.0);
             one.guess = self.guesses.get_mut(index).and_then(Option::take);
         }
         evaluate(system, &mut alone, Some(TimeStep { time, dt }));

@@ -1,0 +1,264 @@
+//! Elements of a plain rod under water, eight at once: what [`assemble`](super::assemble) makes of each.
+//!
+//! The loops over them run in the widest vectors the machine has (multiversion); no product is contracted with its sum, so that every
+//! machine comes to the same digits.
+
+use super::mesh::Rod;
+use super::system::Weights;
+use super::trial::Trial;
+use multiversion::multiversion;
+use std::ops::Range;
+
+/// Elements that are taken at once.
+pub(super) const ABREAST: usize = 8;
+/// Their nodes.
+const NODES: usize = ABREAST + 1;
+
+/// A speed (m/s) that is none: A is its square.
+const STILL: f64 = 1e-12;
+
+/// A number of each element.
+type Each = [f64; ABREAST];
+/// A vector of each node, by components.
+type Vectors = [[f64; NODES]; 3];
+
+/// What elements and nodes beside each other are asked, as the processor likes to read it.
+#[derive(Clone, Debug, Default)]
+struct Asked {
+    x: Vectors,
+    v: Vectors,
+    a: Vectors,
+    /// Velocity and acceleration of the water.
+    flow: Vectors,
+    water: Vectors,
+    density: [f64; NODES],
+    rest: Each,
+    rate: Each,
+    ea: Each,
+    damping: Each,
+    /// One of an element that resists being shortened, else zero.
+    pushes: Each,
+    mass: Each,
+    volume: Each,
+    added: [Each; 2],
+    drag: [Each; 2],
+}
+
+/// Residual of the elements on their first and second nodes, and its tangent by rows: of a node by itself, then by the other node.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Shares {
+    pub force: [[Each; 3]; 2],
+    pub itself: [[[Each; 3]; 3]; 2],
+    pub other: [[[Each; 3]; 3]; 2],
+}
+
+/// Elements beside each other.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Abreast {
+    asked: Asked,
+    pub shares: Shares,
+}
+
+/// How many elements from the first of a range on can be taken at once, [`ABREAST`] at most: of one law, without a wall, all under water.
+pub(super) fn plain(rod: &Rod, trial: &Trial, range: Range<usize>) -> usize {
+    let most = range.len().min(ABREAST);
+    let wet = |node: usize, diameter: f64| {
+        let fluid = &trial.fluid[node];
+        fluid.density > 0.0 && fluid.surface - trial.x[node].z >= 0.5 * diameter
+    };
+    let elements = &rod.elements[range.start..range.start + most];
+    let plain = elements
+        .iter()
+        .zip(range.start..)
+        .take_while(|(e, i)| e.plain && wet(*i, e.diameter) && wet(i + 1, e.diameter));
+    plain.count()
+}
+
+impl Abreast {
+    /// Residual of so many elements from the first on, and its tangent where it is wanted.
+    ///
+    /// What stands in `assemble` and `immersed` element by element, with the tangent brought together: with t the direction, T its
+    /// product with itself and A that of the velocity across, all of it is shares of t w', T, A and the unit matrix.
+    pub fn take<const TANGENT: bool>(
+        &mut self,
+        rod: &Rod,
+        trial: &Trial,
+        (weights, gravity): (Weights, f64),
+        (first, count): (usize, usize),
+    ) {
+        self.ask(rod, trial, (first, count));
+        let Abreast { asked, shares } = self;
+        if TANGENT {
+            tangents(asked, (weights, gravity, trial.ease), shares);
+        } else {
+            forces(asked, (weights, gravity, trial.ease), shares);
+        }
+    }
+
+    /// Brings together what is asked; what lies beyond the last element stays as it was and is of no account.
+    fn ask(&mut self, rod: &Rod, trial: &Trial, (first, count): (usize, usize)) {
+        let asked = &mut self.asked;
+        for (n, element) in rod.elements[first..first + count].iter().enumerate().take(ABREAST) {
+            asked.rest[n] = element.rest;
+            asked.rate[n] = if trial.still { 0.0 } else { element.rate };
+            asked.ea[n] = element.ea;
+            asked.damping[n] = element.damping;
+            asked.pushes[n] = f64::from(u8::from(element.compression && !trial.loose));
+            asked.mass[n] = element.mass;
+            asked.volume[n] = element.volume;
+            for side in 0..2 {
+                asked.added[side][n] = element.added[side];
+                asked.drag[side][n] = element.drag[side];
+            }
+        }
+        let nodes = first..first + count + 1;
+        let motions = trial.x[nodes.clone()].iter().zip(&trial.v[nodes.clone()]).zip(&trial.a[nodes.clone()]);
+        for (n, (((x, v), a), fluid)) in motions.zip(&trial.fluid[nodes]).enumerate().take(NODES) {
+            for i in 0..3 {
+                asked.x[i][n] = x[i];
+                asked.v[i][n] = v[i];
+                asked.a[i][n] = a[i];
+                asked.flow[i][n] = fluid.velocity[i];
+                asked.water[i][n] = fluid.acceleration[i];
+            }
+            asked.density[n] = fluid.density;
+        }
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn tangents(asked: &Asked, (weights, gravity, ease): (Weights, f64, f64), shares: &mut Shares) {
+    for n in 0..ABREAST {
+        one::<true>(asked, n, (weights, gravity, ease), shares);
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn forces(asked: &Asked, (weights, gravity, ease): (Weights, f64, f64), shares: &mut Shares) {
+    for n in 0..ABREAST {
+        one::<false>(asked, n, (weights, gravity, ease), shares);
+    }
+}
+
+#[inline(always)]
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+#[inline(always)]
+fn each(of: impl Fn(usize) -> f64) -> [f64; 3] {
+    [of(0), of(1), of(2)]
+}
+
+/// The element of a number: without a branch, so that all of them go side by side.
+#[inline(always)]
+fn one<const TANGENT: bool>(
+    asked: &Asked,
+    n: usize,
+    (Weights { k, c, m }, gravity, ease): (Weights, f64, f64),
+    shares: &mut Shares,
+) {
+    let d = each(|i| asked.x[i][n + 1] - asked.x[i][n]);
+    let dv = each(|i| asked.v[i][n + 1] - asked.v[i][n]);
+    let rest = asked.rest[n];
+    // nodes of a slack heap may meet: their element then has no direction, and no tension to need one
+    let (length, least) = (dot(d, d).sqrt(), 1e-9 * rest);
+    let length = if length > least { length } else { least };
+    let inverse = 1.0 / length;
+    let t = each(|i| d[i] * inverse);
+    let inverse_rest = 1.0 / rest;
+    let (stretch, let_out) = (length * inverse_rest, asked.rate[n]);
+    let faster = dot(t, dv);
+    let rate = (faster - stretch * let_out) * inverse_rest;
+    let strain = stretch - 1.0;
+    // a line that does not resist being shortened has neither stiffness nor damping while it is
+    let there = if strain < 0.0 { asked.pushes[n] } else { 1.0 };
+    let (by_strain, by_rate) = (asked.ea[n] * ease * there, asked.damping[n] * there);
+    let value = by_strain * strain + by_rate * rate;
+    let geometric = k * value * inverse;
+    let damped = by_rate * inverse_rest;
+    let along = k * (by_strain - by_rate * let_out * inverse_rest) * inverse_rest - geometric + c * damped;
+    let swung = k * damped * inverse;
+    let stiff = each(|i| t[i] * along + (dv[i] - t[i] * faster) * swung);
+
+    let made = Drawn { t, inverse, value, geometric, stiff };
+    half::<TANGENT, 0>(asked, n, (Weights { k, c, m }, gravity), &made, shares);
+    half::<TANGENT, 1>(asked, n, (Weights { k, c, m }, gravity), &made, shares);
+}
+
+/// How an element is drawn: direction and inverse of its length, tension, that over the length, and its stiffness by the other node.
+struct Drawn {
+    t: [f64; 3],
+    inverse: f64,
+    value: f64,
+    geometric: f64,
+    stiff: [f64; 3],
+}
+
+/// One half of it, with its inertia, weight and water. A loop over both would keep the elements from going side by side.
+#[inline(always)]
+fn half<const TANGENT: bool, const SECOND: usize>(
+    asked: &Asked,
+    n: usize,
+    (Weights { k, c, m }, gravity): (Weights, f64),
+    &Drawn { t, inverse, value, geometric, stiff }: &Drawn,
+    shares: &mut Shares,
+) {
+    let (node, mass, volume) = (n + SECOND, asked.mass[n], asked.volume[n]);
+    let sign = if SECOND == 0 { 1.0 } else { -1.0 };
+    let density = asked.density[node];
+    let u = each(|i| asked.v[i][node] - asked.flow[i][node]);
+    let q = each(|i| asked.a[i][node] - asked.water[i][node]);
+    let flow = dot(u, t);
+    let across = each(|i| u[i] - t[i] * flow);
+    let speed = dot(across, across).sqrt();
+    let per_speed = density * asked.drag[0][n];
+    let (normal, tangential) = (per_speed * speed, density * asked.drag[1][n] * flow.abs());
+    let (own, more) = (density * asked.added[0][n], density * (asked.added[1][n] - asked.added[0][n]));
+    let displaced = density * volume;
+    let q_along = dot(q, t);
+    let pulled = tangential * flow + more * q_along;
+    let weight = [0.0, 0.0, (mass - displaced) * gravity];
+    let by_t = pulled - sign * value;
+    for i in 0..3 {
+        let inert = asked.a[i][node] * mass - asked.water[i][node] * displaced;
+        shares.force[SECOND][i][n] = across[i] * normal + t[i] * by_t + q[i] * own + inert + weight[i];
+    }
+    if TANGENT {
+        let along_stiff = 2.0 * tangential - normal;
+        // (I - T) |un| + A / |un|, the last of which is none at rest
+        let curved = per_speed / (speed + STILL);
+        // d(across)/dt = -(t u' + (u.t) I); d|across| = -(u.t) across.dt / |across|
+        let unit = pulled - normal * flow;
+        let turned = sign * k * inverse;
+        let by_turn = |i: usize| across[i] * along_stiff + (q[i] - t[i] * q_along) * more - t[i] * unit;
+        let w = each(|i| by_turn(i) * turned - stiff[i]);
+        let (other, both) = (&mut shares.other[SECOND], &mut shares.itself[SECOND]);
+        let (other_a, other_unit) = (-(curved * flow * turned), unit * turned - geometric);
+        let (both_t, both_a) = (c * along_stiff + m * more, c * curved);
+        let both_unit = c * normal + m * (own + mass);
+        row::<0>((other, both), n, (t, w, other_a, other_unit), (across, both_t, both_a, both_unit));
+        row::<1>((other, both), n, (t, w, other_a, other_unit), (across, both_t, both_a, both_unit));
+        row::<2>((other, both), n, (t, w, other_a, other_unit), (across, both_t, both_a, both_unit));
+    }
+}
+
+/// A row of the tangent: `t w'` and shares of A and of the unit matrix by the other node; shares of T, A and the unit matrix by both.
+#[inline(always)]
+fn row<const I: usize>(
+    (by_other, itself): (&mut [[Each; 3]; 3], &mut [[Each; 3]; 3]),
+    n: usize,
+    (t, w, other_a, other_unit): ([f64; 3], [f64; 3], f64, f64),
+    (across, both_t, both_a, both_unit): ([f64; 3], f64, f64, f64),
+) {
+    let (by_t, by_across, other_across) = (t[I] * both_t, across[I] * both_a, across[I] * other_a);
+    let mut other = each(|j| t[I] * w[j] + across[j] * other_across);
+    let mut both = each(|j| by_t * t[j] + by_across * across[j]);
+    (other[I], both[I]) = (other[I] + other_unit, both[I] + both_unit);
+    by_other[I][0][n] = other[0];
+    by_other[I][1][n] = other[1];
+    by_other[I][2][n] = other[2];
+    itself[I][0][n] = both[0] - other[0];
+    itself[I][1][n] = both[1] - other[1];
+    itself[I][2][n] = both[2] - other[2];
+}
