@@ -31,6 +31,7 @@ mod rope;
 mod scheme;
 mod section;
 mod settle;
+mod snap;
 mod snapshot;
 mod spatial;
 mod start;

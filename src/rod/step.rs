@@ -45,6 +45,8 @@ pub struct Solver {
     pub(super) next: State,
     /// Where the part before it ended, when a step is cut.
     part: State,
+    /// Whether the step at hand is made by implicit Euler: see [`super::snap`].
+    pub(super) snaps: bool,
     pub(super) weights: Weights,
     /// What is at hand: see [`At`].
     pub(super) at: At,
@@ -112,6 +114,7 @@ impl Solver {
             work,
             trial,
             part: state.clone(),
+            snaps: false,
             began: state.clone(),
             next: state,
             weights: Weights { k: 1.0, c: 0.0, m: 0.0 },
@@ -255,7 +258,7 @@ impl Solver {
     }
 
     /// Newton's iterations of one step, from where the last trial ended if that is `near`: the iterations it took.
-    fn attempt(
+    pub(super) fn converge(
         &mut self,
         rod: &Rod,
         from: &State,
@@ -264,7 +267,8 @@ impl Solver {
         ends: [End; 2],
         near: bool,
     ) -> Result<usize, Failure> {
-        let scheme = Scheme::new(time - from.time, self.settings.rho_inf.clamp(0.0, 1.0));
+        let h = time - from.time;
+        let scheme = if self.snaps { Scheme::euler(h) } else { Scheme::new(h, self.settings.rho_inf.clamp(0.0, 1.0)) };
         let last = rod.elements.len();
         self.weights = scheme.weights();
         let shortest = rod.shortest();

@@ -8,6 +8,7 @@ mod motion;
 mod rollers;
 mod rope;
 mod section;
+mod snap;
 mod snapshot;
 mod still;
 mod surface;
