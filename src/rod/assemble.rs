@@ -1,6 +1,7 @@
 //! One pass over the elements of a rod.
 
 use super::bend::hinge;
+use super::drawn::{Rub, rub};
 use super::hinges::spatial_hinges;
 use super::immersed::{entry, half_load, slam_load, wet_share, wind_load};
 use super::mesh::{Element, Rod};
@@ -53,6 +54,12 @@ pub(super) fn assemble<const TANGENT: bool, const W: usize, const H: usize, cons
         let length = d.norm().max(1e-9 * element.rest);
         let edge = Edge { i, t: d / length, length, inverse: 1.0 / length };
         let mut share = axial(rod, element, trial, weights, &edge, gravity);
+        if let Some(Rub { node, force, by, .. }) = trial.drawn.and_then(|side| rub(rod, world, trial, i, side)) {
+            let (own, other) = (node, if node == i { i + 1 } else { i });
+            system.push(own, &-force);
+            system.block::<TANGENT>(own, own, &(by[0] * -weights.k));
+            system.block::<TANGENT>(own, other, &(by[1] * -weights.k));
+        }
         immersed::<TANGENT>(element, trial, weights, &edge, world, &mut share);
         system.push(i, &share.fa);
         system.push(i + 1, &share.fb);
@@ -99,7 +106,7 @@ fn axial(
     let dv = trial.v[i + 1] - trial.v[*i];
     let let_out = if trial.still { 0.0 } else { element.rate };
     let rate = (t.dot(&dv) - stretch * let_out) * inverse_rest;
-    let taken = Taken { compression: element.compression && !trial.loose, ease: trial.ease };
+    let taken = Taken { compression: (element.compression || trial.drawn.is_some()) && !trial.loose, ease: trial.ease };
     let stretched = Stretch { strain: stretch - 1.0, rate, height: 0.5 * (xa.z + xb.z) };
     let memory = trial.memory.get(*i);
     let Tension { value, by_strain, by_rate, by_height } =

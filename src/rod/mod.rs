@@ -18,6 +18,7 @@ mod bend;
 mod books;
 mod condense;
 mod contact;
+mod drawn;
 mod ends;
 mod error;
 mod hinges;

@@ -10,7 +10,7 @@ use super::scheme::{Scheme, Settings};
 use super::state::State;
 use super::surroundings::{UniformFluid, World};
 use super::system::Weights;
-use super::trial::{Trial, carry, interpolate, lay, sample, sample_again, soften, turn};
+use super::trial::{Trial, carry, interpolate, lay, sample, sample_again, soften, stick, turn};
 use super::workspace::Workspace;
 use nalgebra::Vector3;
 
@@ -85,6 +85,7 @@ impl Solver {
             averaged: zero.clone(),
             director: if rod.twists() { vec![Vector3::x(); nodes - 1] } else { Vec::new() },
             bedding: vec![0.0; nodes],
+            stuck: zero.clone(),
             yielded: rod.yielded(&zero),
         };
         let still = UniformFluid::none().0;
@@ -95,13 +96,15 @@ impl Solver {
             a: zero.clone(),
             fluid: vec![still; nodes],
             asked: zero.clone(),
-            lay: zero,
+            lay: zero.clone(),
+            stuck: zero,
             soft: vec![0.0; nodes],
             ends: [End::FREE; 2],
             loose: false,
             ease: 1.0,
             exact: false,
             still: false,
+            drawn: None,
             director: state.director.clone(),
             memory: vec![Memory::default(); state.yielded.len()],
         };
@@ -276,6 +279,8 @@ impl Solver {
         let moved = if near { self.again(rod, from, world, &scheme, &ends) } else { None };
         self.trial.time = time;
         self.trial.ends = ends;
+        self.trial.drawn = None;
+        self.trial.stuck.copy_from_slice(&from.stuck);
         lay(rod, from, world, &mut self.trial.lay);
         soften(from, world, &mut self.trial.soft);
         remember(rod, from, scheme.h, &mut self.trial.memory);
@@ -325,6 +330,7 @@ impl Solver {
             let missing = if iteration == 1 { size } else { size * size / (last_move - size).max(0.0) };
             if size.min(missing) <= tolerance {
                 settle(rod, &self.trial.memory, next);
+                stick(world, from, next);
                 return Ok(iteration);
             }
             if iteration > 6 && size > last_move {

@@ -3,6 +3,7 @@
 mod again;
 mod beam;
 mod end_tangent;
+mod friction;
 mod lowering;
 mod motion;
 mod rollers;
