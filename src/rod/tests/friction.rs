@@ -8,7 +8,7 @@ const GRAVITY: f64 = 9.81;
 const MASS: f64 = 100.0;
 
 fn chain(length: f64, elements: usize) -> Rod {
-    let segment = Segment { axial_damping: 1e5, ..Segment::line(length, elements, MASS, 1e8, 0.1) };
+    let segment = Segment { axial_damping: 1e6, ..Segment::line(length, elements, MASS, 1e8, 0.1) };
     Rod::new("chain", vec![segment], vec![]).unwrap()
 }
 
@@ -33,6 +33,8 @@ fn a_line_at_rest_by_friction_stays_as_it_is_and_its_anchor_feels_nothing() {
         let ends = [End::pinned(points[0]), End::pinned(points[2])];
         let mut state = State::along(&rod, &points).unwrap();
         let mut solver = Solver::new(&rod, Settings::default());
+        // once for how softly nodes meet the bottom from then on
+        solver.statics(&rod, &mut state, &world, ends).unwrap();
         let rested = solver.statics(&rod, &mut state, &world, ends).unwrap();
         let held = rested.force[1 - side].x.abs();
         // 1 % of the friction of a node, 3900 N, is left to hold the nodes in line
@@ -71,7 +73,7 @@ fn a_line_that_is_dragged_is_pulled_by_its_friction_and_stays_where_it_is_left()
     let made = solver.start(&rod, &mut state, &world, at(0.0, 0.0, 0.0)).unwrap();
     let mut books = Balance::open(&rod, &state, &world, &solver, &made);
     let (h, mut pull) = (0.02, 0.0);
-    let whole = friction * MASS * GRAVITY * (length - 0.5 * 5.0);
+    let whole = friction * MASS * GRAVITY * length;
     for i in 1..=3000 {
         let t = i as f64 * h;
         // to 0.2 m/s in 4 s, on for 16 s, to a stand in 4 s
@@ -83,15 +85,12 @@ fn a_line_that_is_dragged_is_pulled_by_its_friction_and_stays_where_it_is_left()
         };
         let made = solver.step(&rod, &mut state, &world, t, at(x, v, a)).unwrap();
         books.enter(&rod, &state, &world, &solver, &made);
-        if i == 900 {
-            pull = -made.force[1].x;
-        }
-        if t > 24.0 && i % 500 == 0 {
-            println!("{t} {} {:?}", made.force[1].x, state.position[0]);
+        // the mean of waves along it that only its own damping ends while all of it slides
+        if (800..1000).contains(&i) {
+            pull -= made.force[1].x / 200.0;
         }
     }
     println!("{pull} {whole} {:?}", books);
-    // the last half element is borne by what drags it
     assert!((pull / whole - 1.0).abs() < 1e-3, "{pull} {whole}");
     assert!(books.energy_error().abs() < 2e-3 * books.turnover, "{books:?}");
     let left = state.position[0].x;
