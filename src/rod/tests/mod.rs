@@ -6,6 +6,7 @@ mod end_tangent;
 mod friction;
 mod lowering;
 mod motion;
+mod released;
 mod rollers;
 mod rope;
 mod section;
