@@ -107,3 +107,31 @@ fn a_line_that_is_dragged_is_pulled_by_its_friction_and_stays_where_it_is_left()
     println!("{} {} {}", left, places[499], places[999]);
     assert!((places[999] - places[499]).abs() < 1e-6, "{left} {} {}", places[499], places[999]);
 }
+
+#[test]
+fn stiffness_at_rest_by_friction_is_the_difference_of_the_force() {
+    let rod = chain(400.0, 80);
+    let fluid = UniformFluid::none();
+    let bottom = PlaneBottom { height: 0.0, slope: [0.0, 0.0] };
+    let world = World { bottom: Some((&bottom, rough(0.4))), ..World::new(&fluid, GRAVITY) };
+    let (near, far) = (Vector3::zeros(), Vector3::new(360.0, 0.0, 100.0));
+    let mut state = State::along(&rod, &[near, Vector3::new(280.0, 0.0, 0.0), far]).unwrap();
+    let mut solver = Solver::new(&rod, Settings::default());
+    let mut rest = |by: Vector3<f64>| {
+        let ends = [End::pinned(near), End::pinned(far + by)];
+        let made = solver.statics(&rod, &mut state, &world, ends).unwrap();
+        (made.force[1], solver.end_tangent(&rod, &world).unwrap().position)
+    };
+    rest(Vector3::zeros());
+    let told = rest(Vector3::zeros()).1;
+    for axis in 0..3 {
+        let mut by = Vector3::zeros();
+        by[axis] = 1e-4;
+        let [plus, minus] = [by, -by].map(|by| rest(by).0);
+        let found = (plus - minus) / 2e-4;
+        let column = Vector3::from_column_slice(told.fixed_view::<3, 1>(6, 6 + axis).as_slice());
+        println!("{axis}: {found:?} {column:?}");
+        // a touchdown that moves by a tenth of a millimetre takes its softness along
+        assert!((found - column).norm() < 1e-3 * told.norm(), "{axis}: {found} {column}");
+    }
+}
