@@ -100,20 +100,19 @@ fn a_winch_lowers_and_hauls_a_load_to_the_length_it_is_told_and_holds_its_weight
 #[test]
 fn a_load_that_falls_into_a_stiff_line_never_comes_higher_than_it_was() {
     // 10 t let go where its line is slack: bounces of a tenth of a second and less, in steps that do not follow them
-    for (step, start, rho) in [0.2, 0.9].into_iter().flat_map(|rho| {
+    for (step, start) in
         [(0.05, "0 0 110.2"), (0.1, "0 0 110.2"), (0.25, "0 0 110.2"), (0.5, "0 0 112"), (0.25, "60 0 150")]
-            .map(|(step, start)| (step, start, rho))
-    }) {
+    {
         let session = after(&format!(
             "&ENV -DEPTH 1000 -TIME 60 {step}\nMEDIT\n&DESCRIBE BODY SHIP -IGNORE X Y Z RX RY RZ\n*H 0 0 210\n\
              &DESCRIBE BODY LOAD -IGNORE Y RX RY RZ\n*P 0 0 0\n#WEIGHT *P 1E5 1 1 1\n\
-             ~R ROD 60 30 -LEN 100 -REFINE 8 -EI 0\nCONNECTOR R ~R *H *P\nEND\n&INSTATE -LOCATE LOAD {start}\nTDOM -RHO {rho}\n"
+             ~R ROD 60 30 -LEN 100 -REFINE 8 -EI 0\nCONNECTOR R ~R *H *P\nEND\n&INSTATE -LOCATE LOAD {start}\nTDOM\n"
         ));
         let history = &session.job.run.as_ref().unwrap().history;
         let z = history.series(history.layout.body(1) + 2);
         let highest = z.iter().fold(f64::MIN, |m, v| m.max(*v));
         // what the line weighs, 2 % of the load, falls as well
-        assert!(highest <= z[0] + 0.02 * (210.0 - z[0]), "{rho} {step} {start}: {highest}");
+        assert!(highest <= z[0] + 0.02 * (210.0 - z[0]), "{step} {start}: {highest}");
     }
 }
 

@@ -63,13 +63,6 @@ impl Scheme {
         Scheme { alpha_m, alpha_f, beta: 0.25 * (gamma + 0.5) * (gamma + 0.5), gamma }
     }
 
-    /// The scheme of a step in which a stiff line snaps taut or goes slack. It knows of the past the speed alone, and its work on a
-    /// mass is exactly that of the force at the end of the step: `v1 = v0 + h a1`, `q1 = q0 + h (v0 + v1)/2`. A force that grows with the
-    /// stretch, as any line's, so gives back no more than was put in, however long the step.
-    pub fn of_snaps() -> Self {
-        Scheme::newmark(0.5, 1.0)
-    }
-
     /// Newmark's scheme; 0.25 and 0.5 make the trapezoidal rule.
     pub fn newmark(beta: f64, gamma: f64) -> Self {
         Scheme { alpha_m: 0.0, alpha_f: 0.0, beta, gamma }

@@ -57,9 +57,6 @@ pub(super) struct Row {
     pub(super) heavy: bool,
 }
 
-/// Change of speed by a changed acceleration, as a share of the speed, from which on a step does not follow the motion.
-const SNAP: f64 = 0.3;
-
 /// Solves steps of a system.
 #[derive(Debug, Default)]
 pub struct Stepper {
@@ -223,37 +220,6 @@ impl Stepper {
         dt: f64,
         (scheme, wanted): (&Scheme, &Convergence),
     ) -> Result<Effort, SolveError> {
-        let mut effort = self.balanced(system, now, dt, (scheme, wanted))?;
-        if now.forces.moving && self.snaps(system, &now.motions, dt) {
-            let more = self.balanced(system, now, dt, (&Scheme::of_snaps(), wanted))?;
-            effort.iterations += more.iterations;
-            effort.evaluations += more.evaluations;
-        }
-        now.forces.learn(dt, (&self.trial, &now.motions, &self.over));
-        self.accept(system, now, (now.time + dt, dt));
-        Ok(effort)
-    }
-
-    /// Whether a line that moves by itself has snapped taut or gone slack in the trial: whether the acceleration of a body has changed by
-    /// more than gravity and by more than the step follows. A line that snaps is judged by the same (see `rod`).
-    fn snaps(&self, system: &System, start: &[Motion], dt: f64) -> bool {
-        let first = |six: &Six| six.fixed_rows::<3>(0).norm();
-        self.trial.iter().zip(start).zip(&system.nodes).any(|((trial, old), node)| {
-            let jump =
-                first(&(trial.acceleration - old.acceleration)).max(first(&(trial.acceleration - old.auxiliary)));
-            let moving = first(&old.velocity).max(first(&trial.velocity)).max(first(&old.acceleration) * dt);
-            node.prescribed.is_none() && jump > system.gravity && jump * dt > SNAP * moving
-        })
-    }
-
-    /// The trial that is in balance at the end of a step.
-    fn balanced(
-        &mut self,
-        system: &System,
-        now: &mut Instant,
-        dt: f64,
-        (scheme, wanted): (&Scheme, &Convergence),
-    ) -> Result<Effort, SolveError> {
         let (time, mut effort) = (now.time + dt, Effort::default());
         self.trial.clear();
         self.trial.extend_from_slice(&now.motions);
@@ -328,6 +294,8 @@ impl Stepper {
             self.correct_trial(system, &now.motions, dt, (gain, by_place, by_velocity));
             self.weigh_again(system);
         }
+        now.forces.learn(dt, (&self.trial, &now.motions, &self.over));
+        self.accept(system, now, (time, dt));
         Ok(effort)
     }
 
