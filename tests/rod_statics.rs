@@ -18,6 +18,7 @@ struct Case {
     ea: f64,
     weight: f64,
     grounded: bool,
+    friction: f64,
 }
 
 /// Pull of the rod on its fairlead: toward the anchor, and downward; and the iterations it took. On the bottom it
@@ -32,7 +33,7 @@ fn rest(case: &Case, elements: usize, sinks: f64) -> ([f64; 2], usize) {
     let rod = Rod::new("line", vec![segment], vec![]).unwrap();
     let fluid = UniformFluid(Fluid { surface: 1e5, ..UniformFluid::still(WATER).0 });
     let bottom = PlaneBottom { height: 0.0, slope: [0.0, 0.0] };
-    let ground = Ground::elastic(weight.abs() / (sinks * case.length));
+    let ground = Ground { friction_along: case.friction, ..Ground::elastic(weight.abs() / (sinks * case.length)) };
     let bottom = case.grounded.then_some((&bottom as &dyn Bottom, ground));
     let world = World { bottom, ..World::new(&fluid, GRAVITY) };
     let (a, b) = (Vector3::zeros(), Vector3::new(case.x, 0.0, case.z));
@@ -50,7 +51,7 @@ fn away(found: [f64; 2], wanted: [f64; 2]) -> f64 {
 
 #[test]
 fn a_rod_at_rest_tends_to_the_catenary_with_the_square_of_its_elements() {
-    let line = |x, z, grounded| Case { x, z, length: 900.0, ea: 8.54e8, weight: 1695.0, grounded };
+    let line = |x, z, grounded| Case { x, z, length: 900.0, ea: 8.54e8, weight: 1695.0, grounded, friction: 0.0 };
     // suspended, taut; with a touchdown; the same slack
     for case in [line(700.0, 500.0, false), line(800.0, 290.0, true), line(700.0, 290.0, true)] {
         let segment = catenary::Segment { length: case.length, weight: case.weight, ea: case.ea };
@@ -65,6 +66,22 @@ fn a_rod_at_rest_tends_to_the_catenary_with_the_square_of_its_elements() {
 }
 
 #[test]
+fn a_rod_that_is_drawn_over_a_rough_bottom_tends_to_the_catenary_with_friction() {
+    // the anchor holds some; friction takes all of it; nearly slack; taut
+    for (x, z, friction) in
+        [(800.0, 290.0, 0.3), (800.0, 290.0, 0.9), (850.0, 200.0, 0.5), (750.0, 290.0, 1.0), (879.0, 100.0, 0.8)]
+    {
+        let case = Case { x, z, length: 900.0, ea: 8.54e8, weight: 1695.0, grounded: true, friction };
+        let segment = catenary::Segment { length: case.length, weight: case.weight, ea: case.ea };
+        let wanted = segment.between(case.x, case.z, Some(catenary::Bottom { friction })).unwrap();
+        let errors = [50, 100, 200, 400, 800].map(|n| away(rest(&case, n, 1e-8).0, wanted.fairlead));
+        assert!(errors[4] < 1e-5, "{friction}: {errors:?}");
+        let order = (errors[0] / errors[4]).log2() / 4.0;
+        assert!(order > 1.5, "{friction}: {errors:?} order {order}");
+    }
+}
+
+#[test]
 fn random_lines_come_to_rest_at_their_catenaries() {
     let text = std::fs::read_to_string("tests/data/catenary_2000.csv").unwrap();
     let mut solved = 0;
@@ -72,10 +89,17 @@ fn random_lines_come_to_rest_at_their_catenaries() {
     for line in text.lines().skip(1).step_by(8) {
         let columns: Vec<&str> = line.split(',').collect();
         let v = |i: usize| columns[i].parse::<f64>().unwrap();
-        let case = Case { x: v(2), z: v(3), length: v(4), ea: v(5), weight: v(6), grounded: columns[8] == "0" };
-        // friction is the catenary's own; a line that lies on the bottom with its fairlead gives it half an element's
-        // weight to bear
-        if case.grounded && (v(7) > 0.0 || v(3) == 0.0) {
+        let case = Case {
+            x: v(2),
+            z: v(3),
+            length: v(4),
+            ea: v(5),
+            weight: v(6),
+            grounded: columns[8] == "0",
+            friction: v(7),
+        };
+        // a line that lies on the bottom with its fairlead gives it half an element's weight to bear
+        if case.grounded && v(3) == 0.0 {
             continue;
         }
         let elements = 60;

@@ -171,8 +171,9 @@ fn one<const TANGENT: bool>(
     let faster = dot(t, dv);
     let rate = (faster - stretch * let_out) * inverse_rest;
     let strain = stretch - 1.0;
-    // a line that does not resist being shortened has neither stiffness nor damping while it is
-    let there = if strain < 0.0 { asked.pushes[n] } else { 1.0 };
+    // a line that does not resist being shortened has neither stiffness nor damping while it is, and its damper does not push
+    let whole = asked.ea[n] * ease * strain + asked.damping[n] * rate;
+    let there = if strain < 0.0 || whole < 0.0 { asked.pushes[n] } else { 1.0 };
     let (by_strain, by_rate) = (asked.ea[n] * ease * there, asked.damping[n] * there);
     let value = by_strain * strain + by_rate * rate;
     let geometric = k * value * inverse;

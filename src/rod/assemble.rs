@@ -2,6 +2,7 @@
 
 use super::abreast::plain;
 use super::bend::hinge;
+use super::drawn::{Rub, rub};
 use super::hinges::spatial_hinges;
 use super::immersed::{entry, half_load, slam_load, wet_share, wind_load};
 use super::mesh::{Element, Rod};
@@ -76,6 +77,15 @@ pub(super) fn assemble<const TANGENT: bool, const W: usize, const H: usize, cons
         system.block::<TANGENT>(i + 1, i + 1, &share.bb);
         i += 1;
     }
+    if let Some(side) = trial.drawn {
+        for i in range.clone() {
+            let Some(Rub { node, force, by, .. }) = rub(rod, world, trial, i, side) else { continue };
+            let (own, other) = (node, if node == i { i + 1 } else { i });
+            system.push(own, &-force);
+            system.block::<TANGENT>(own, own, &(by[0] * -weights.k));
+            system.block::<TANGENT>(own, other, &(by[1] * -weights.k));
+        }
+    }
     if !trial.loose && rod.elements[range.clone()].iter().any(|e| e.bending > 0.0) {
         let mut before: Option<(Vector3<f64>, f64)> = None;
         for i in range.clone() {
@@ -120,7 +130,7 @@ fn axial(
     let dv = trial.v[i + 1] - trial.v[*i];
     let let_out = if trial.still { 0.0 } else { element.rate };
     let rate = (t.dot(&dv) - stretch * let_out) * inverse_rest;
-    let taken = Taken { compression: element.compression && !trial.loose, ease: trial.ease };
+    let taken = Taken { compression: (element.compression || trial.drawn.is_some()) && !trial.loose, ease: trial.ease };
     let stretched = Stretch { strain: stretch - 1.0, rate, height: 0.5 * (xa.z + xb.z) };
     let memory = trial.memory.get(*i);
     let Tension { value, by_strain, by_rate, by_height } =

@@ -257,8 +257,19 @@ fn look(rod: &Rod, state: &State, world: &World, solver: &Solver, made: &EndForc
             let area = left + rod.elements.get(node).map_or(0.0, |e| e.contact);
             let soft = trial.soft[node];
             found.energy.bottom += contact::energy(*bottom, ground, soft, area, &x[node]);
-            let acts = contact(*bottom, ground, soft, area, &x[node], &v[node], &trial.lay[node], true);
-            let still = contact(*bottom, ground, soft, area, &x[node], &Vector3::zeros(), &trial.lay[node], true);
+            let acts =
+                contact(*bottom, ground, soft, area, &x[node], &v[node], &trial.lay[node], &trial.stuck[node], true);
+            let still = contact(
+                *bottom,
+                ground,
+                soft,
+                area,
+                &x[node],
+                &Vector3::zeros(),
+                &trial.lay[node],
+                &trial.stuck[node],
+                true,
+            );
             let acts = acts.map_or_else(Vector3::zeros, |c| c.force[0] + c.force[1]);
             let still = still.map_or_else(Vector3::zeros, |c| c.force[0]);
             found.power.bottom += (acts - still).dot(&v[node]);

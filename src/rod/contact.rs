@@ -26,12 +26,57 @@ pub(super) fn energy(bottom: &dyn Bottom, ground: &Ground, soft: f64, area: f64,
     }
 }
 
+/// A vector no longer than one, and its derivative by the vector or, unless `exact`, the secant.
+fn capped(u: &Vector3<f64>, exact: bool) -> (Vector3<f64>, Matrix3<f64>) {
+    let size = u.norm();
+    if size <= 1.0 {
+        return (*u, Matrix3::identity());
+    }
+    let made = u / size;
+    let turned = if exact { made * made.transpose() } else { Matrix3::zeros() };
+    (made, (Matrix3::identity() - turned) / size)
+}
+
+/// Where a node sticks from then on that has stuck at a place and is now at `x`.
+pub(super) fn sticks(bottom: &dyn Bottom, ground: &Ground, x: &Vector3<f64>, stuck: &Vector3<f64>) -> Vector3<f64> {
+    let (height, slope) = bottom.height(x.x, x.y);
+    if x.z >= height {
+        return *x;
+    }
+    let normal = Vector3::new(-slope[0], -slope[1], 1.0).normalize();
+    let way = x - stuck;
+    let (held, _) = capped(&((way - normal * way.dot(&normal)) / ground.friction_travel), true);
+    x - held * ground.friction_travel
+}
+
+/// A node that the bottom bears at rest.
+pub(super) struct Borne {
+    /// Force (N), normal to the bottom, with the normal.
+    pub force: f64,
+    pub normal: Vector3<f64>,
+    /// Derivative of the force by the penetration (N/m).
+    pub by_depth: f64,
+}
+
+/// What bears a node that rests; `soft` and `area` as in [`contact`].
+pub(super) fn borne(bottom: &dyn Bottom, ground: &Ground, soft: f64, area: f64, x: &Vector3<f64>) -> Option<Borne> {
+    let (height, slope) = bottom.height(x.x, x.y);
+    if x.z >= height {
+        return None;
+    }
+    let normal = Vector3::new(-slope[0], -slope[1], 1.0).normalize();
+    let depth = (height - x.z) * normal.z;
+    let (penetration, share) =
+        if depth < soft { (0.5 * depth * depth / soft, depth / soft) } else { (depth - 0.5 * soft, 1.0) };
+    let k = ground.stiffness * area;
+    Some(Borne { force: k * penetration, normal, by_depth: k * share })
+}
+
 /// What the bottom does to a node with a shadow of `area` (m2) whose rod runs in direction `lay`; none when it is
 /// clear of it. Its stiffness is whole from a penetration `soft` on (m).
 ///
-/// Friction grows ever more slowly with speed, so Newton's tangent of it overshoots a stop. Unless `exact`, its
-/// derivative by the velocity is the secant, the slope from standing still, which bounds the force from above and
-/// cannot.
+/// Friction that is whole grows no more, so Newton's tangent of it overshoots a stop. Unless `exact`, its derivatives
+/// are by the secant, the slope from sticking, which bounds the force from above and cannot.
 ///
 /// The curvature of the bottom within the penetration is left out of the derivatives.
 #[inline]
@@ -44,6 +89,7 @@ pub(super) fn contact(
     x: &Vector3<f64>,
     v: &Vector3<f64>,
     lay: &Vector3<f64>,
+    stuck: &Vector3<f64>,
     exact: bool,
 ) -> Option<Contact> {
     let (height, slope) = bottom.height(x.x, x.y);
@@ -75,15 +121,12 @@ pub(super) fn contact(
         let (aa, flat) = (along * along.transpose(), Matrix3::identity() - outer);
         let (mu_a, mu_c) = (ground.friction_along, ground.friction_across);
         let mu = if along == Vector3::zeros() { flat * mu_a.max(mu_c) } else { aa * mu_a + (flat - aa) * mu_c };
-        let sliding = flat * v;
-        let speed = (sliding.norm_squared() + ground.friction_speed * ground.friction_speed).sqrt();
-        let pull = -(mu * v) / speed;
+        let (held, by_way) = capped(&(flat * (x - stuck) / ground.friction_travel), exact);
+        let (rubbed, by_both) = capped(&(held + flat * v / ground.friction_speed), exact);
+        let (pull, stiff) = (-(mu * rubbed), mu * by_both * -support);
         made.force[1] = pull * support;
-        made.by_position -= pull * normal.transpose() * by_depth;
-        made.by_velocity += mu * (-support / speed) - pull * normal.transpose() * by_sinking;
-        if exact {
-            made.by_velocity -= pull * sliding.transpose() * (support / (speed * speed));
-        }
+        made.by_position += stiff * by_way * flat / ground.friction_travel - pull * normal.transpose() * by_depth;
+        made.by_velocity += stiff * flat / ground.friction_speed - pull * normal.transpose() * by_sinking;
     }
     Some(made)
 }
@@ -103,10 +146,12 @@ mod tests {
             friction_along: 0.4,
             friction_across: 0.9,
             friction_speed: 0.05,
+            friction_travel: 0.02,
         };
         let lay = Vector3::new(1.0, 0.3, 0.1);
+        let stuck = Vector3::new(1.01, 2.02, -3.0);
         let whole = |x: Vector3<f64>, v: Vector3<f64>| {
-            let made = contact(&bottom, &ground, 0.02, 0.7, &x, &v, &lay, true).unwrap();
+            let made = contact(&bottom, &ground, 0.02, 0.7, &x, &v, &lay, &stuck, true).unwrap();
             (made.force[0] + made.force[1], made)
         };
         let h = 1e-7;
@@ -129,8 +174,8 @@ mod tests {
     fn friction_of_a_fast_slide_is_mu_times_the_normal_force() {
         let bottom = PlaneBottom { height: 0.0, slope: [0.0, 0.0] };
         let ground = Ground { friction_along: 0.4, friction_across: 0.9, friction_speed: 1e-6, ..Ground::elastic(1e5) };
-        let at =
-            |v| contact(&bottom, &ground, 0.0, 1.0, &Vector3::new(0.0, 0.0, -0.01), &v, &Vector3::x(), true).unwrap();
+        let x = Vector3::new(0.0, 0.0, -0.01);
+        let at = |v| contact(&bottom, &ground, 0.0, 1.0, &x, &v, &Vector3::x(), &x, true).unwrap();
         // 1e5 * 0.01 = 1000 N normal; v0 / v squared is 1e-12
         assert!((at(Vector3::new(1.0, 0.0, 0.0)).force[1].x + 400.0).abs() < 1e-6);
         assert!((at(Vector3::new(0.0, 1.0, 0.0)).force[1].y + 900.0).abs() < 1e-6);

@@ -63,6 +63,8 @@ impl Solver {
         self.trial.director.copy_from_slice(&state.director);
         self.trial.v.fill(Vector3::zeros());
         self.trial.a.fill(Vector3::zeros());
+        self.trial.drawn = None;
+        self.trial.stuck.copy_from_slice(&state.stuck);
         lay(rod, state, world, &mut self.trial.lay);
         soften(state, world, &mut self.trial.soft);
         remember(rod, state, 0.0, &mut self.trial.memory);

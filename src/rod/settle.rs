@@ -43,7 +43,7 @@ impl Solver {
         while done < MOST_SETTLING {
             done += 1;
             match self.fall(rod, world, mass, &from, pseudo) {
-                Fall::Rest => return Some(done),
+                Fall::Rest => return Some(done).filter(|_| !self.pushes(rod)),
                 // nodes that meet the bottom anew or leave it take some iterations before their moves shrink
                 Fall::Moved { share, .. } if share < SMALL || (share < NEAR && share < 0.5 * before) => before = share,
                 _ => return None,

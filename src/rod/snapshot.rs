@@ -6,8 +6,8 @@ use super::section::{Attachment, Segment};
 use super::state::State;
 use nalgebra::Vector3;
 
-/// Numbers of a node: position, velocity, acceleration, averaged acceleration, bedding.
-const PER_NODE: usize = 13;
+/// Numbers of a node: position, velocity, acceleration, averaged acceleration, where it sticks, bedding.
+const PER_NODE: usize = 16;
 
 impl Rod {
     /// Its elements from end A, as winches have made them: unstretched length (m), rate at which it grows (m/s), and
@@ -51,8 +51,8 @@ impl Rod {
 }
 
 impl State {
-    /// Appends all of it to a row of numbers: the time; position, velocity, acceleration, averaged acceleration and
-    /// bedding of each node; the director of each element of a rod with torsion; the strain to which each element of
+    /// Appends all of it to a row of numbers: the time; position, velocity, acceleration, averaged acceleration,
+    /// place where it sticks and bedding of each node; the director of each element of a rod with torsion; the strain to which each element of
     /// one with viscoelastic rope has yielded.
     pub fn pack(&self, out: &mut Vec<f64>) {
         let count = 1 + PER_NODE * self.position.len() + 3 * self.director.len() + self.yielded.len();
@@ -69,8 +69,13 @@ impl State {
         let (nodes, rest) = rest.split_at_mut(PER_NODE * self.position.len());
         let motions = self.position.iter().zip(&self.velocity).zip(&self.acceleration).zip(&self.averaged);
         let (nodes, _) = nodes.as_chunks_mut::<PER_NODE>();
-        for (place, ((((x, v), a), averaged), bedding)) in nodes.iter_mut().zip(motions.zip(&self.bedding)) {
-            *place = [x.x, x.y, x.z, v.x, v.y, v.z, a.x, a.y, a.z, averaged.x, averaged.y, averaged.z, *bedding];
+        for (place, (((((x, v), a), averaged), s), bedding)) in
+            nodes.iter_mut().zip(motions.zip(&self.stuck).zip(&self.bedding))
+        {
+            *place = [
+                x.x, x.y, x.z, v.x, v.y, v.z, a.x, a.y, a.z, averaged.x, averaged.y, averaged.z, s.x, s.y, s.z,
+                *bedding,
+            ];
         }
         let (directors, yielded) = rest.split_at_mut(3 * self.director.len());
         for (place, director) in directors.chunks_exact_mut(3).zip(&self.director) {
@@ -117,9 +122,9 @@ impl State {
         let (nodes, elements) = from[1..].split_at(PER_NODE * rod.nodes());
         let (directors, yielded) = elements.split_at(if rod.twists() { 3 * rod.elements.len() } else { 0 });
         self.time = from[0];
-        for (first, list) in
-            [&mut self.position, &mut self.velocity, &mut self.acceleration, &mut self.averaged].into_iter().enumerate()
-        {
+        let lists =
+            [&mut self.position, &mut self.velocity, &mut self.acceleration, &mut self.averaged, &mut self.stuck];
+        for (first, list) in lists.into_iter().enumerate() {
             let three = |n: &[f64]| Vector3::from_column_slice(&n[3 * first..3 * first + 3]);
             list.clear();
             list.extend(nodes.chunks_exact(PER_NODE).map(three));

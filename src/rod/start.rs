@@ -60,6 +60,8 @@ impl Solver {
         let known = ends.map(|e| e.motion.is_some());
         self.trial.time = state.time;
         self.trial.ends = ends;
+        self.trial.drawn = None;
+        self.trial.stuck.copy_from_slice(&state.stuck);
         self.trial.x.copy_from_slice(&state.position);
         self.trial.v.copy_from_slice(&state.velocity);
         self.trial.a.fill(Vector3::zeros());

@@ -24,6 +24,8 @@ pub struct State {
     /// Least penetration over which the bottom's stiffness grows at each node (m): see
     /// [`Solver::statics`](super::Solver::statics).
     pub(super) bedding: Vec<f64>,
+    /// Where each node sticks to the bottom by friction (m): see [`Ground`](super::Ground).
+    pub(super) stuck: Vec<Vector3<f64>>,
     /// Strain to which each element has yielded; empty for a rod without viscoelastic rope.
     pub(super) yielded: Vec<f64>,
 }
@@ -84,6 +86,7 @@ impl State {
         let yielded = rod.yielded(&position);
         Ok(State {
             time: 0.0,
+            stuck: position.clone(),
             position,
             velocity: rest.clone(),
             acceleration: rest.clone(),
@@ -103,13 +106,14 @@ impl State {
         self.averaged.copy_from_slice(&other.averaged);
         self.director.copy_from_slice(&other.director);
         self.bedding.copy_from_slice(&other.bedding);
+        self.stuck.copy_from_slice(&other.stuck);
         self.yielded.copy_from_slice(&other.yielded);
     }
 
     /// Whether it is a state of a rod, by the length of all its lists.
     pub(super) fn fits(&self, rod: &Rod) -> bool {
         let (nodes, elements) = (rod.nodes(), rod.elements.len());
-        let lists = [&self.position, &self.velocity, &self.acceleration, &self.averaged];
+        let lists = [&self.position, &self.velocity, &self.acceleration, &self.averaged, &self.stuck];
         lists.iter().all(|l| l.len() == nodes)
             && self.bedding.len() == nodes
             && self.director.len() == if rod.twists() { elements } else { 0 }

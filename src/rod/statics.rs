@@ -1,5 +1,6 @@
 //! The position of rest of a rod.
 
+use super::drawn::drawn;
 use super::ends::End;
 use super::error::RodError;
 use super::hinges::end_moment;
@@ -79,10 +80,14 @@ impl Solver {
         let last = rod.elements.len();
         let mass = masses(rod);
         self.lie(rod, state, world, &ends);
+        let mut drawn = drawn(rod, world, &ends);
+        self.trial.drawn = drawn;
         if let Some(done) = self.settle(rod, state, world, &mass, &ends) {
             return Ok(self.rested(rod, state, world, &ends, done));
         }
         self.lie(rod, state, world, &ends);
+        // friction comes last
+        self.trial.drawn = None;
         // a start that is much too short would buckle in all its elements at once: it first falls as a chain does
         let strains =
             rod.elements.iter().zip(self.trial.x.windows(2)).map(|(e, x)| (x[1] - x[0]).norm() / e.rest - 1.0);
@@ -114,6 +119,17 @@ impl Solver {
                     Fall::Rest | Fall::Unstable if self.trial.loose || self.trial.ease < 1.0 => {
                         self.trial.loose = false;
                         self.trial.ease = (self.trial.ease * STIFFER).min(1.0);
+                        from.copy_from_slice(&self.trial.x);
+                        director.copy_from_slice(&self.trial.director);
+                        pseudo = first_fall(rod, world);
+                        break;
+                    }
+                    Fall::Rest if self.rubs(rod, world, drawn) || self.pushes(rod) => {
+                        // with friction at last, or once more without what has shown to be no pull at all
+                        if self.trial.drawn.is_some() {
+                            drawn = None;
+                        }
+                        self.trial.drawn = drawn;
                         from.copy_from_slice(&self.trial.x);
                         director.copy_from_slice(&self.trial.director);
                         pseudo = first_fall(rod, world);
@@ -214,6 +230,7 @@ impl Solver {
         }
         state.yielded = rod.yielded(&state.position);
         self.bed(rod, world, state);
+        self.stick(rod, world, state);
         let moment = [0, 1].map(|side| end_moment(rod, state, &ends[side], side));
         EndForces { force: self.work.end_forces(), moment, iterations: done, parts: 1 }
     }

@@ -11,7 +11,7 @@ use super::scheme::{Scheme, Settings};
 use super::state::State;
 use super::surroundings::{UniformFluid, World};
 use super::system::Weights;
-use super::trial::{Trial, carry, interpolate, largest, lay, sample, sample_again, soften, turn};
+use super::trial::{Trial, carry, interpolate, largest, lay, sample, sample_again, soften, stick, turn};
 use super::workspace::Workspace;
 use nalgebra::Vector3;
 
@@ -46,6 +46,8 @@ pub struct Solver {
     pub(super) next: State,
     /// Where the part before it ended, when a step is cut.
     part: State,
+    /// Whether the step at hand is made by implicit Euler: see [`super::snap`].
+    pub(super) snaps: bool,
     pub(super) weights: Weights,
     /// What is at hand: see [`At`].
     pub(super) at: At,
@@ -84,6 +86,7 @@ impl Solver {
             averaged: zero.clone(),
             director: if rod.twists() { vec![Vector3::x(); nodes - 1] } else { Vec::new() },
             bedding: vec![0.0; nodes],
+            stuck: zero.clone(),
             yielded: rod.yielded(&zero),
         };
         let still = UniformFluid::none().0;
@@ -94,13 +97,15 @@ impl Solver {
             a: zero.clone(),
             fluid: vec![still; nodes],
             asked: zero.clone(),
-            lay: zero,
+            lay: zero.clone(),
+            stuck: zero,
             soft: vec![0.0; nodes],
             ends: [End::FREE; 2],
             loose: false,
             ease: 1.0,
             exact: false,
             still: false,
+            drawn: None,
             director: state.director.clone(),
             memory: vec![Memory::default(); state.yielded.len()],
         };
@@ -113,6 +118,7 @@ impl Solver {
             work,
             trial,
             part: state.clone(),
+            snaps: false,
             began: state.clone(),
             next: state,
             weights: Weights { k: 1.0, c: 0.0, m: 0.0 },
@@ -258,7 +264,7 @@ impl Solver {
     }
 
     /// Newton's iterations of one step, from where the last trial ended if that is `near`: the iterations it took.
-    fn attempt(
+    pub(super) fn converge(
         &mut self,
         rod: &Rod,
         from: &State,
@@ -267,7 +273,8 @@ impl Solver {
         ends: [End; 2],
         near: bool,
     ) -> Result<usize, Failure> {
-        let scheme = Scheme::new(time - from.time, self.settings.rho_inf.clamp(0.0, 1.0));
+        let h = time - from.time;
+        let scheme = if self.snaps { Scheme::euler(h) } else { Scheme::new(h, self.settings.rho_inf.clamp(0.0, 1.0)) };
         let last = rod.elements.len();
         self.weights = scheme.weights();
         let shortest = rod.shortest();
@@ -277,6 +284,8 @@ impl Solver {
         self.trial.ends = ends;
         match moved {
             None => {
+                self.trial.drawn = None;
+                self.trial.stuck.copy_from_slice(&from.stuck);
                 lay(rod, from, world, &mut self.trial.lay);
                 soften(from, world, &mut self.trial.soft);
                 remember(rod, from, scheme.h, &mut self.trial.memory);
@@ -285,6 +294,7 @@ impl Solver {
             Some(Moved::Near) => {}
             Some(Moved::Slightly) => {
                 settle(rod, &self.trial.memory, &mut self.next);
+                stick(world, from, &mut self.next);
                 return Ok(0);
             }
         }
@@ -330,6 +340,7 @@ impl Solver {
             let missing = if iteration == 1 { size } else { size * size / (last_move - size).max(0.0) };
             if size.min(missing) <= tolerance {
                 settle(rod, &self.trial.memory, next);
+                stick(world, from, next);
                 return Ok(iteration);
             }
             if iteration > 6 && size > last_move {

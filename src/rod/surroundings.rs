@@ -123,8 +123,10 @@ impl Bottom for PlaneBottom {
 /// plus damping times the rate of penetration, never a pull. Over the first `soft` of penetration the stiffness grows
 /// from zero, so that the force has no kink.
 ///
-/// Along it Coulomb friction, regularised by speed: N mu v / sqrt(v^2 + v0^2), with its own coefficient along and
-/// across the rod. A rod that is pulled by less than mu N therefore creeps, at a speed below v0.
+/// Along it Coulomb friction, with its own coefficient along and across the rod: N mu e opposite to e = d/d0 + v/v0, no
+/// larger than one, where d is the way from the place at which the node sticks. That place stays where it is while the
+/// way is less than d0, and is drawn along behind the node beyond. A rod that is pulled by less than mu N therefore
+/// gives way by less than d0, slowly by v0, and stays there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ground {
     /// Normal stiffness per area (N/m3).
@@ -137,14 +139,29 @@ pub struct Ground {
     pub friction_along: f64,
     /// Friction coefficient across the rod.
     pub friction_across: f64,
-    /// Speed v0 of the regularised friction (m/s).
+    /// Speed v0 at which friction is whole (m/s).
     pub friction_speed: f64,
+    /// Way d0 within which it comes to be whole (m).
+    pub friction_travel: f64,
 }
 
 impl Ground {
+    /// The same without friction.
+    pub(super) fn smooth(&self) -> Self {
+        Ground { friction_along: 0.0, friction_across: 0.0, ..*self }
+    }
+
     /// A bottom without friction and damping.
     pub fn elastic(stiffness: f64) -> Self {
-        Ground { stiffness, damping: 0.0, soft: 0.0, friction_along: 0.0, friction_across: 0.0, friction_speed: 0.01 }
+        Ground {
+            stiffness,
+            damping: 0.0,
+            soft: 0.0,
+            friction_along: 0.0,
+            friction_across: 0.0,
+            friction_speed: 0.01,
+            friction_travel: 0.005,
+        }
     }
 }
 

@@ -1,5 +1,6 @@
 //! A trial motion of a rod, and what is asked at it.
 
+use super::contact::sticks;
 use super::ends::{End, Motion};
 use super::mesh::Rod;
 use super::rope::Memory;
@@ -20,6 +21,8 @@ pub(super) struct Trial {
     pub asked: Vec<Vector3<f64>>,
     /// Direction of the rod at each node at the start of the step, for friction.
     pub lay: Vec<Vector3<f64>>,
+    /// Where each node sticks to the bottom at the start of the step.
+    pub stuck: Vec<Vector3<f64>>,
     /// Penetration over which the bottom's stiffness grows at each node (m).
     pub soft: Vec<f64>,
     pub ends: [End; 2],
@@ -31,6 +34,9 @@ pub(super) struct Trial {
     pub exact: bool,
     /// Whether winches stand still, as they do when the rod is brought to rest.
     pub still: bool,
+    /// Which node of an element is toward the end that a rod at rest has been drawn to, if it lies on a bottom with
+    /// friction: see [`super::drawn`].
+    pub drawn: Option<usize>,
     /// Directors of the elements of a rod with torsion.
     pub director: Vec<Vector3<f64>>,
     /// How each element of a rod with viscoelastic rope follows its strain.
@@ -110,6 +116,16 @@ pub(super) fn lay(rod: &Rod, state: &State, world: &World, lay: &mut [Vector3<f6
         for (i, direction) in lay.iter_mut().enumerate() {
             let d = state.position[(i + 1).min(last)] - state.position[i.saturating_sub(1)];
             *direction = d.try_normalize(1e-12).unwrap_or_else(Vector3::zeros);
+        }
+    }
+}
+
+/// Where the nodes stick at the end of a step.
+pub(super) fn stick(world: &World, from: &State, next: &mut State) {
+    next.stuck.copy_from_slice(&next.position);
+    if let Some((bottom, ground)) = world.bottom.filter(|(_, g)| g.friction_along > 0.0 || g.friction_across > 0.0) {
+        for ((stuck, x), before) in next.stuck.iter_mut().zip(&next.position).zip(&from.stuck) {
+            *stuck = sticks(bottom, &ground, x, before);
         }
     }
 }

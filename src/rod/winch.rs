@@ -62,6 +62,7 @@ impl Rod {
             };
             list.insert(element + 1, made);
         }
+        state.stuck.insert(element + 1, 0.5 * (state.stuck[element] + state.stuck[element + 1]));
         state.bedding.insert(element + 1, 0.5 * (state.bedding[element] + state.bedding[element + 1]));
         for attachment in self.attachments.iter_mut().filter(|a| a.node > element) {
             attachment.node += 1;
@@ -87,6 +88,7 @@ impl Rod {
         for list in [&mut state.position, &mut state.velocity, &mut state.acceleration, &mut state.averaged] {
             list.remove(element + 1);
         }
+        state.stuck.remove(element + 1);
         state.bedding.remove(element + 1);
         if let [a, b] = [element, element + 1].map(|i| state.yielded.get(i).copied())
             && let (Some(a), Some(b)) = (a, b)

@@ -13,7 +13,9 @@ const PRESSED: f64 = 0.02;
 const LIGHT: f64 = 0.1;
 /// Damping of the bottom against what is critical for the line on it, where none is given.
 const DAMPED: f64 = 0.5;
-/// Speed below which friction gives way (m/s).
+/// Way within which friction comes to be whole (m).
+const GIVES: f64 = 0.005;
+/// Speed at which it is whole (m/s).
 const CREEP: f64 = 0.01;
 
 /// The water of an environment.
@@ -93,6 +95,7 @@ pub(super) fn ground(seabed: &Seabed, segments: &[Segment], around: &Surrounding
         friction_along: seabed.along,
         friction_across: seabed.across.unwrap_or(seabed.along),
         friction_speed: CREEP,
+        friction_travel: GIVES,
     }
 }
 

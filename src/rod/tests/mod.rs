@@ -3,10 +3,13 @@
 mod again;
 mod beam;
 mod end_tangent;
+mod friction;
 mod lowering;
 mod motion;
+mod released;
 mod rope;
 mod section;
+mod snap;
 mod snapshot;
 mod still;
 mod supports;

@@ -54,6 +54,10 @@ fn tangent_of_the_whole_rod_is_the_difference_of_its_residual() {
         solver.trial.ends[0] = End::FREE.clamped(Vector3::new(0.8, 0.3, 0.5));
         solver.trial.ends[1] = End { rotation: Some(2e5), ..End::FREE.clamped(Vector3::new(0.5, -0.3, 0.5)) };
         compare(&rod, &state, &world, &mut solver);
+        for side in [0, 1] {
+            solver.trial.drawn = Some(side);
+            compare(&rod, &state, &world, &mut solver);
+        }
     }
 }
 

@@ -99,8 +99,8 @@ fn lines_that_snap_part_and_fall_neither_stop_nor_gain_energy() {
         // by the trapezoidal rule of the books at a tenth of a second, through snaps that last less; a blow-up gains
         // without bound
         assert!(gained < 0.02, "case {i}: {gained}");
-        // and damps what a line that parts had stored, which rings faster than the step follows
-        assert!(lost < 0.01, "case {i}: {lost}");
+        // and damps what a line that snaps or parts had stored, which rings faster than the step follows
+        assert!(lost < 0.02, "case {i}: {lost}");
         assert!(speed < 20.0, "case {i}: {speed}");
     }
 }
