@@ -41,13 +41,15 @@ static SPEC: CommandSpec = CommandSpec {
     detail: "The supports are single-node connectors with their nodes above the global X axis (Y = 0) when PIPE is read, in order along it. The \
              pipe leaves beyond the first, away from the last, and lies on the bottom of &ENV -DEPTH; a vessel that lays toward -X has its first \
              roller farthest aft. There is one: &PIPE/ASSEMBLY. It starts as a catenary with the weight in water of OD, T and the options of the \
-             class, above the water in air, and is then solved in the vertical plane as an elastic beam of large displacement (EI of the tube of \
-             the first segment; -LEN and -REFINE of the class say nothing: the pipe is as long as it needs to be), the bottom as a stiff \
-             foundation without friction. The last roller is the tensioner: laid at the mean of TLOWER and \
-             TUPPER, the pipe is held along X of its body while its tension stays between them, and is paid out or hauled in beyond them, as our \
-             reading: a pipe that bends hangs lighter than its catenary, so that its tension often stands at TLOWER. &EQUI lays the pipe anew where the vessel comes to rest. To \
-             either side the pipe goes with its supports: their sway, roll and yaw do nothing. A single roller, which makes a vertical riser, is not \
-             solved yet. &STATUS ASSEMBLIES tells what it exerts on its supports.",
+             class, above the water in air, and is then brought to rest as a ROD of the first segment of its class: it feels water, wind and \
+             bottom all along, and in TDOM it moves by itself. It is as long as it needs to be; its elements are as long as -LEN over -REFINE, \
+             or without -REFINE an eighth of a span on the supports and a quarter of sqrt(EI/H) beyond. It rolls through its rollers, which push it at \
+             right angles and take nothing along it, and hangs by its davits from nodes of its own. The last roller is the tensioner and holds \
+             the end of the pipe: laid at the mean of TLOWER and TUPPER, the end is held along X of its body while its tension stays between \
+             them, and is paid out or hauled in beyond them, as our reading. &EQUI lays the pipe anew where the vessel comes to rest; in TDOM its far \
+             end stays where it was when the run began. A single roller makes a vertical riser, pulled up by TUPPER as it is laid and pinned on \
+             the bottom below; X of its roller then runs down the pipe and Z along X of the body, and -Y_ROLLER 0 0 -Z_ROLLER 0 0 hold it all around. Springs of the ROLLER in X, RX, RY and RZ do nothing to it. &STATUS ASSEMBLIES tells what it exerts on its supports; \
+             &STATUS ROD, ROD_MODES and ROD of PRCPOST what is along it, by its name or &PIPE.",
     example: "&DIMEN -DIMEN METERS K-NTS\n&ENV -DEPTH 50\nMEDIT\n*R1 40 0 2\n*R2 30 0 3.2\n*R3 20 0 4\n~ROLL ROLLER COMPRESSION Z 5000\n\
               ~PIPE ROD 323.9 15.9 -LEN 12\nCONNECTOR R1 ~ROLL *R1\nCONNECTOR R2 ~ROLL *R2\nCONNECTOR R3 ~ROLL *R3\n\
               PIPE ~PIPE R1 R2 R3 -PIPE_TENSION 180 220\nEND\n&STATUS ASSEMBLIES",
@@ -110,9 +112,9 @@ fn build(model: &mut Model, args: &Args) -> Outcome<()> {
         supports.push(connector.name.clone());
         places.push(x);
     }
-    if supports.len() < 2 {
-        let text = "a pipe with a single support is a vertical riser, which is not solved yet";
-        return Err(Diagnostic::error(text, args.place(1)).help("give two or more rollers or davits"));
+    if supports.len() < 2 && first == "DAVIT" {
+        let text = "a pipe hangs from two davits or more";
+        return Err(Diagnostic::error(text, args.place(1)).help("a single roller makes a vertical riser of it"));
     }
     let Some(given) = args.option("-PIPE_TENSION") else {
         return Err(Diagnostic::error("PIPE lacks -PIPE_TENSION", args.span).help("form: -PIPE_TENSION TLOWER TUPPER"));

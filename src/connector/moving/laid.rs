@@ -13,7 +13,7 @@ use super::warm::{Base, Warm};
 use crate::language::units::Dim;
 use crate::model::{ClassError, Element, End, PipeLayout, Pose, Response, Situation, Surroundings};
 use crate::rod::{self, Grip, Gripped, Holds, Rod, State, Support};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use std::cell::RefCell;
 use std::sync::Arc;
 
@@ -39,6 +39,8 @@ pub(super) struct Laid {
     supports: Arc<[Box<dyn Element>]>,
     holds: Vec<Held>,
     tensioner: Option<Tensioner>,
+    /// Axes of the pipe at a support in those of its node.
+    turn: Matrix3<f64>,
     /// Where the far end is held on the bottom (m).
     pub anchor: Vector3<f64>,
     /// Nodes from which it comes to rest (m).
@@ -49,14 +51,14 @@ pub(super) struct Laid {
 #[derive(Clone, Copy, Debug)]
 enum Held {
     Node(usize),
-    /// What crosses the plane through its node at right angles to this, in the axes of the node.
+    /// What crosses the plane through its node at right angles to this, in the axes of the pipe.
     Crossing(Vector3<f64>),
 }
 
 /// What pulls the end of a pipe back.
 #[derive(Clone, Copy, Debug)]
 struct Tensioner {
-    /// Way of the pipe from it, in the axes of its node.
+    /// Way of the pipe from it, in the axes of the pipe.
     along: Vector3<f64>,
     /// How far along the end is from its node as laid (m).
     at: f64,
@@ -82,15 +84,17 @@ pub(super) struct Felt<'a> {
     law: &'a dyn Element,
     tensioner: Option<&'a Tensioner>,
     holds: Held,
-    end: &'a End,
+    /// The node, and the axes of the pipe there.
+    pose: Pose,
+    velocity: Vector3<f64>,
     around: &'a Surroundings,
     room: RefCell<Response>,
 }
 
 impl Grip for Felt<'_> {
     fn answer(&self, at: &Vector3<f64>, _: &Vector3<f64>) -> Option<Gripped> {
-        let Pose { origin, axes } = self.end.pose;
-        let ends = [End::still(self.end.pose), End::still(Pose { origin: origin + at, axes })];
+        let Pose { origin, axes } = self.pose;
+        let ends = [End::still(self.pose), End::still(Pose { origin: origin + at, axes })];
         let situation = Situation { ends: &ends, step: None, surroundings: self.around };
         let mut out = self.room.borrow_mut();
         let found = self.law.evaluate(&situation, &[], &mut [], &mut None, &mut out);
@@ -115,12 +119,12 @@ impl Grip for Felt<'_> {
 
 impl Felt<'_> {
     pub fn support(&self) -> Support<'_> {
-        let Pose { origin, axes } = self.end.pose;
+        let Pose { origin, axes } = self.pose;
         let holds = match self.holds {
             Held::Node(node) => Holds::Node(node),
             Held::Crossing(along) => Holds::Crossing(axes * along),
         };
-        Support { place: origin, velocity: self.end.velocity.fixed_rows::<3>(0).into_owned(), holds, grip: self }
+        Support { place: origin, velocity: self.velocity, holds, grip: self }
     }
 }
 
@@ -132,7 +136,8 @@ impl Laid {
             law: law.as_ref(),
             tensioner: self.tensioner.as_ref().filter(|_| i == last),
             holds: *holds,
-            end,
+            pose: Pose { axes: end.pose.axes * self.turn, ..end.pose },
+            velocity: end.velocity.fixed_rows::<3>(0).into_owned(),
             around,
             room: RefCell::default(),
         };
@@ -262,6 +267,9 @@ impl MovingLine {
         let mut course = Course::of(part, &layout, -depth)?;
         let mut tensioner = tensioner(&layout, course.pulled)?;
         let holds = holds(&layout, &course)?;
+        // a riser goes down from its roller
+        let down = Matrix3::new(0.0, 0.0, 1.0, 0.0, 1.0, 0.0, -1.0, 0.0, 0.0);
+        let turn = if layout.nodes.len() < 2 { down } else { Matrix3::identity() };
         let supports: Arc<[Box<dyn Element>]> = layout.supports.into();
         let ends: Vec<End> = layout.nodes.iter().map(|n| End::still(*n)).collect();
         let at = Situation { ends: &ends, step: None, surroundings: around };
@@ -285,6 +293,7 @@ impl MovingLine {
                 supports: supports.clone(),
                 holds: holds.clone(),
                 tensioner,
+                turn,
                 anchor: course.points.last().copied().unwrap_or_default(),
                 shape: course.points.clone(),
             };
@@ -315,7 +324,8 @@ impl MovingLine {
             // it is cut where the tensioner holds it as laid
             let rest = line.rest(&at, &mut Warm::of(&line.base))?.state;
             let end = ends.last().zip(rest.position.first());
-            let short = end.map_or(0.0, |(end, x)| (end.pose.axes * tensioner.along).dot(&(x - end.pose.origin)));
+            let short =
+                end.map_or(0.0, |(end, x)| (end.pose.axes * turn * tensioner.along).dot(&(x - end.pose.origin)));
             course.points = rest.position;
             match course.spans.first_mut() {
                 Some((_, length)) if short.abs() > SHORT && cut < CUTS && *length + short > 0.0 => *length += short,
@@ -331,7 +341,7 @@ fn tensioner(layout: &PipeLayout, pulled: f64) -> Result<Option<Tensioner>, Clas
     let (Some(upper), [.., last]) = (layout.upper, layout.nodes.as_slice()) else { return Ok(None) };
     let along = match layout.nodes.as_slice() {
         [first, .., _] => along(last, &first.origin)?,
-        _ => -(last.axes.transpose() * Vector3::z()),
+        _ => Vector3::x(),
     };
     Ok(Some(Tensioner { along, at: 0.0, tension: [pulled, layout.lower, upper], stiffness: 0.0 }))
 }

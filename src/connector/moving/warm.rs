@@ -83,14 +83,7 @@ mod tests {
     #[test]
     fn a_solver_lasts_while_a_winch_changes_lengths_alone() {
         let rod = Rod::new("R", vec![Segment::line(10.0, 5, 10.0, 1e6, 0.1)], vec![]).unwrap();
-        let ground = Ground {
-            stiffness: 0.0,
-            damping: 0.0,
-            soft: 0.0,
-            friction_along: 0.0,
-            friction_across: 0.0,
-            friction_speed: 1.0,
-        };
+        let ground = Ground::elastic(0.0);
         let base = Base {
             description: description("ROD", vec![], Seabed::default(), [None, None]),
             rod: rod.clone(),
