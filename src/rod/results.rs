@@ -1,6 +1,7 @@
 //! What is wanted of a rod at one time: tensions, moments, stresses along it.
 
 use super::bend::hinge;
+use super::contact::contact;
 use super::ends::End;
 use super::hinges::{HingeAt, hinge_sides};
 use super::immersed::{Node, on_half};
@@ -17,7 +18,7 @@ impl Rod {
     /// Results at every node of a state.
     ///
     /// Tension of a node is the mean of its two elements; at an end it is what is left of that of the last element when
-    /// the half of it beyond has been moved, carried and dragged along itself: all that the holder takes along the rod.
+    /// the half of it beyond has been moved, borne and dragged along itself: all that the holder takes along the rod.
     /// Shear is the change of the moment over the elements beside a node.
     pub fn results(&self, state: &State, world: &World, ends: &[End; 2]) -> Vec<LineNode> {
         let last = self.elements.len();
@@ -190,7 +191,12 @@ impl Rod {
         let weight = Vector3::z() * world.gravity;
         let moved = (state.acceleration[node] + weight) * element.mass
             - on_half(element, t, world, [at(node, 0), at(other, 1)]);
-        let along = moved.dot(t);
+        let borne = world.bottom.and_then(|(bottom, ground)| {
+            let soft = state.bedding[node].max(ground.soft);
+            let (x, v) = (&state.position[node], &state.velocity[node]);
+            contact(bottom, &ground, soft, element.contact, x, v, t, &state.stuck[node], true)
+        });
+        let along = (moved - borne.map_or_else(Vector3::zeros, |b| b.force[0] + b.force[1])).dot(t);
         let found = if side == 0 { pull - along } else { pull + along };
         // half a slack element that is carried along may push its holder, but not the rod
         if element.compression { found } else { found.max(0.0) }
