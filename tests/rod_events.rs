@@ -143,8 +143,8 @@ fn a_line_that_is_let_go_comes_to_rest_on_the_bottom() {
     for (node, earlier) in last.iter().zip(before) {
         // sunk in by 2 % of 120 mm where it lies once; where it lies on itself no node holds another up
         assert!(node.clearance.abs() < 0.02, "{}", node.clearance);
-        // friction could hold 0.8 of the 3.8 kN that an element weighs; a tension that is locked in is far less
-        assert!((0.0..15.0).contains(&node.effective), "{}", node.effective);
+        // a node sticks where friction holds it, with what tension it came there: at most 0.8 of the 3.8 kN that an element weighs
+        assert!((0.0..0.8 * 3.8e3).contains(&node.effective), "{}", node.effective);
         assert!((0..3).all(|i| (node.position[i] - earlier.position[i]).abs() < 1e-3));
     }
 }

@@ -31,7 +31,7 @@ pub struct PipeLayout<'a> {
     /// Its name.
     pub name: &'a str,
     /// The law of each support, between its node and a point of the pipe.
-    pub supports: Vec<Box<dyn Element>>,
+    pub supports: Arc<[Box<dyn Element>]>,
     /// Their nodes.
     pub nodes: Vec<Pose>,
     /// How far below its node each holds the pipe (m): the length of a davit.
@@ -141,7 +141,7 @@ impl Model {
         let (lower, upper) = (*lower, *upper);
         let layout = PipeLayout {
             name: &assembly.name,
-            supports: laws,
+            supports: laws.into(),
             nodes,
             hang,
             lower,

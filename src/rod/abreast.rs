@@ -103,7 +103,8 @@ impl Abreast {
             asked.rate[n] = if trial.still { 0.0 } else { element.rate };
             asked.ea[n] = element.ea;
             asked.damping[n] = element.damping;
-            asked.pushes[n] = f64::from(u8::from(element.compression && !trial.loose));
+            let pushes = (element.compression || trial.drawn.is_some()) && !trial.loose;
+            asked.pushes[n] = f64::from(u8::from(pushes));
             asked.mass[n] = element.mass;
             asked.volume[n] = element.volume;
             for side in 0..2 {

@@ -339,6 +339,9 @@ impl Solver {
             // what is still missing if the moves go on shrinking as they do
             let missing = if iteration == 1 { size } else { size * size / (last_move - size).max(0.0) };
             if size.min(missing) <= tolerance {
+                if let Some(element) = rod.overstretched(&next.position) {
+                    return Err(Failure { node: element + 1, why: "it is stretched beyond the most that it bears" });
+                }
                 settle(rod, &self.trial.memory, next);
                 stick(world, from, next);
                 return Ok(iteration);

@@ -2,7 +2,9 @@
 
 use super::mesh::{Element, Rod};
 use super::rope::Memory;
+use super::section::{Axial, Segment};
 use super::surroundings::Fluid;
+use nalgebra::Vector3;
 
 /// Tension of an element (N) with its derivatives by strain, by strain rate and by the height of its middle.
 pub(super) struct Tension {
@@ -90,4 +92,22 @@ pub(super) fn tension(
     let still = made.value;
     made.value += element.damping * stretch.rate;
     if !taken.compression && still.min(made.value) < 0.0 { Tension::NONE } else { made }
+}
+
+impl Rod {
+    /// The first element that is stretched beyond the most that its law bears, where that falls again with more strain:
+    /// nothing would hold it there.
+    pub(super) fn overstretched(&self, x: &[Vector3<f64>]) -> Option<usize> {
+        let falls = |segment: &Segment| matches!(segment.axial, Axial::Polynomial(_));
+        if !self.segments.iter().any(falls) {
+            return None;
+        }
+        let beyond = |(element, x): (&Element, &[Vector3<f64>])| {
+            let segment = &self.segments[element.segment];
+            let free = segment.tube.as_ref().map_or(0.0, |t| t.expansion * t.warmer);
+            let strain = (x[1] - x[0]).norm() / element.rest - 1.0 - free;
+            falls(segment) && strain > 0.0 && segment.axial.at(strain).1 <= 0.0
+        };
+        self.elements.iter().zip(x.windows(2)).position(beyond)
+    }
 }

@@ -4,43 +4,21 @@
 //! (conn_pipe). The pipe runs from the last support, the tensioner, over the first and down to the bottom, where it is held far beyond
 //! the touchdown. It rolls through rollers, and hangs by davits from its own nodes.
 
-use super::around::ground;
-use super::describe::{Description, Part};
-use super::element::MovingLine;
-use super::kept::Layout;
-use super::mesh::{Cut, mesh, told};
-use super::warm::{Base, Warm};
-use crate::language::units::Dim;
-use crate::model::{ClassError, Element, End, PipeLayout, Pose, Response, Situation, Surroundings};
-use crate::rod::{self, Grip, Gripped, Holds, Rod, State, Support};
+use crate::model::{Element, End, Pose, Response, Situation, Surroundings};
+use crate::rod::{Grip, Gripped, Holds, Support};
 use nalgebra::{Matrix3, Vector3};
 use std::cell::RefCell;
 use std::sync::Arc;
-
-/// Elements between two supports, where -REFINE does not say.
-const BETWEEN: usize = 8;
-/// Elements over a length sqrt(EI/H), in which the bend at an end decays, where -REFINE does not say.
-const PER_LAYER: f64 = 4.0;
-/// Fewest and most elements from the first support on, where -REFINE does not say.
-const FREE: [f64; 2] = [60.0, 3000.0];
-/// Length over which the brake of the tensioner yields as the pipe does (m).
-const BRAKE: f64 = 10.0;
-/// How often it is cut at the tensioner until it ends there.
-const CUTS: usize = 4;
-/// How far from the tensioner it may end (m).
-const SHORT: f64 = 1e-3;
-/// Least cosine of the angle between the X axis of a support and the way of the pipe.
-const MOST_ASIDE: f64 = 0.5;
 
 /// What a pipe lies on.
 #[derive(Debug)]
 pub(super) struct Laid {
     /// The law of each support, between its node and a point of the pipe.
-    supports: Arc<[Box<dyn Element>]>,
-    holds: Vec<Held>,
-    tensioner: Option<Tensioner>,
+    pub supports: Arc<[Box<dyn Element>]>,
+    pub holds: Vec<Held>,
+    pub tensioner: Option<Tensioner>,
     /// Axes of the pipe at a support in those of its node.
-    turn: Matrix3<f64>,
+    pub turn: Matrix3<f64>,
     /// Where the far end is held on the bottom (m).
     pub anchor: Vector3<f64>,
     /// Nodes from which it comes to rest (m).
@@ -49,7 +27,7 @@ pub(super) struct Laid {
 
 /// What of the pipe a support holds.
 #[derive(Clone, Copy, Debug)]
-enum Held {
+pub(super) enum Held {
     Node(usize),
     /// What crosses the plane through its node at right angles to this, in the axes of the pipe.
     Crossing(Vector3<f64>),
@@ -57,15 +35,15 @@ enum Held {
 
 /// What pulls the end of a pipe back.
 #[derive(Clone, Copy, Debug)]
-struct Tensioner {
+pub(super) struct Tensioner {
     /// Way of the pipe from it, in the axes of the pipe.
-    along: Vector3<f64>,
+    pub along: Vector3<f64>,
     /// How far along the end is from its node as laid (m).
-    at: f64,
+    pub at: f64,
     /// As laid, least and largest (N).
-    tension: [f64; 3],
+    pub tension: [f64; 3],
     /// N/m.
-    stiffness: f64,
+    pub stiffness: f64,
 }
 
 impl Tensioner {
@@ -143,216 +121,4 @@ impl Laid {
         };
         self.supports.iter().zip(&self.holds).zip(ends).enumerate().map(of).collect()
     }
-}
-
-/// Where a pipe goes before it comes to rest.
-struct Course {
-    /// Corners, from the tensioner (m).
-    points: Vec<Vector3<f64>>,
-    /// Point of each support, from the first to the tensioner.
-    at: Vec<usize>,
-    /// Elements and length (m) of each span, from the tensioner, and of what is beyond the first support.
-    spans: Vec<(usize, f64)>,
-    /// Tension at the tensioner (N).
-    pulled: f64,
-}
-
-impl Course {
-    /// Straight from support to support; a catenary from the first to the bottom, and as much again on it.
-    fn of(part: &Part, layout: &PipeLayout, bottom: f64) -> Result<Course, ClassError> {
-        let around = layout.surroundings;
-        let segment = part.grown(layout.ambient.map(|a| a.as_ref()), 0.5 * bottom);
-        let weight = |density: f64| (segment.mass - density * segment.displaced) * around.gravity;
-        let (in_air, in_water) = (weight(0.0), weight(around.water_density));
-        let hung = |(node, hang): (&Pose, &f64)| node.origin - Vector3::z() * *hang;
-        let stations: Vec<_> = layout.nodes.iter().zip(&layout.hang).map(hung).collect();
-        let (Some(first), Some(last)) = (stations.first(), stations.last()) else {
-            return Err(ClassError::new("a pipe needs a support"));
-        };
-        let single = stations.len() < 2;
-        let height = first.z - bottom;
-        let risen = in_air * (last.z - first.z);
-        // TLOW is the tension at the first davit; on rollers the tensioner begins between its limits
-        let pulled = match layout.upper {
-            Some(upper) if single => upper,
-            Some(upper) => 0.5 * (layout.lower + upper),
-            None => layout.lower + risen,
-        };
-        // by weight from the tensioner down to the first support, and from there to the bottom
-        let dry = (first.z - around.tide).clamp(0.0, height.max(0.0));
-        let horizontal = pulled - risen - in_air * dry - in_water * (height - dry);
-        if height <= 0.0 || in_water <= 0.0 || horizontal <= 0.0 {
-            let text = "its tension of {} does not carry it to the bottom, {} below the first support, at {} in water";
-            let values = [(pulled, Dim::Force), (height, Dim::Length), (in_water, Dim::ForcePerLength)];
-            return Err(ClassError::of(text, &values).help("-PIPE_TENSION needs more than weight times height"));
-        }
-        let elements = |length: f64, own: f64| {
-            let counted = segment.length / segment.elements as f64;
-            let wanted = if segment.elements > 1 { (length / counted).ceil() } else { own };
-            wanted.clamp(1.0, rod::MOST_ELEMENTS as f64) as usize
-        };
-        let mut made = Course { points: vec![*last], at: Vec::new(), spans: Vec::new(), pulled };
-        made.at.push(0);
-        for pair in stations.windows(2).rev() {
-            let [near, far] = pair else { continue };
-            made.to(elements((near - far).norm(), BETWEEN as f64), |s| far + (near - far) * s);
-            made.at.insert(0, made.points.len() - 1);
-        }
-        let layer = (segment.bending / horizontal).sqrt();
-        if single {
-            let own = (height / layer * PER_LAYER).clamp(FREE[0], FREE[1]).ceil();
-            made.to(elements(height, own), |s| first - Vector3::z() * (height * s));
-            return Ok(made);
-        }
-        let across = Vector3::new(first.x - last.x, first.y - last.y, 0.0);
-        let Some(toward) = across.try_normalize(1e-9) else {
-            return Err(ClassError::new("its first and last support stand above each other, so that it goes nowhere"));
-        };
-        let a = horizontal / in_water;
-        let arc = (height * height + 2.0 * height * a).sqrt();
-        let whole = arc + arc.max(20.0 * layer);
-        let own = (whole / layer * PER_LAYER).clamp(FREE[0], FREE[1]).ceil();
-        let landed = a * (arc / a).asinh();
-        made.to(elements(whole, own), |s| {
-            let up = arc - whole * s;
-            let (along, z) =
-                if up > 0.0 { (landed - a * (up / a).asinh(), a.hypot(up) - a) } else { (landed - up, 0.0) };
-            Vector3::new(first.x, first.y, bottom + z) + toward * along
-        });
-        Ok(made)
-    }
-
-    /// Goes on by a span of so many elements to the points at shares of it.
-    fn to(&mut self, elements: usize, at: impl Fn(f64) -> Vector3<f64>) {
-        let mut length = 0.0;
-        for n in 1..=elements {
-            let point = at(n as f64 / elements as f64);
-            length += self.points.last().map_or(0.0, |before| (point - before).norm());
-            self.points.push(point);
-        }
-        self.spans.push((elements, length));
-    }
-}
-
-/// The way of a pipe through a support, in the axes of its node: along its X axis, toward a place.
-fn along(node: &Pose, place: &Vector3<f64>) -> Result<Vector3<f64>, ClassError> {
-    let x = node.axes.column(0).into_owned();
-    let way = (place - node.origin).try_normalize(1e-9).map_or(0.0, |way| way.dot(&x));
-    if way.abs() < MOST_ASIDE {
-        let error = ClassError::new("a pipe runs along the X axes of its supports, and these lie across it");
-        return Err(error.help("-EULER of the CONNECTOR turns the axes of a roller"));
-    }
-    Ok(Vector3::x() * way.signum())
-}
-
-impl MovingLine {
-    /// A pipe laid over its supports: its first part's section, as long as it needs to be.
-    ///
-    /// # Errors
-    /// No depth, a support below the bottom, a tension too small to reach the bottom, supports along which it cannot run, no rest.
-    pub fn laid(description: Description, layout: PipeLayout) -> Result<Self, ClassError> {
-        let around = layout.surroundings;
-        let depth = description.seabed.depth.or(around.depth).ok_or_else(|| {
-            ClassError::new("a pipe is laid on the bottom, and there is no depth").help("&ENV -DEPTH gives one")
-        })?;
-        if description.seabed.slope.is_some_and(|s| s != 0.0) {
-            let error = ClassError::new("a pipe is laid on the bottom of the environment, and its class has a -SLOPE");
-            return Err(error.help("&BATHYMETRY and &ENV -BATHYMETRY make a bottom that slopes"));
-        }
-        if layout.upper.is_none() && layout.nodes.len() < 2 {
-            let error = ClassError::new("a pipe hangs from two davits or more");
-            return Err(error.help("a single roller makes a vertical riser of it"));
-        }
-        let part = description.parts.first().ok_or_else(|| ClassError::new("the class has no record"))?;
-        let mut course = Course::of(part, &layout, -depth)?;
-        let mut tensioner = tensioner(&layout, course.pulled)?;
-        let holds = holds(&layout, &course)?;
-        // a riser goes down from its roller
-        let down = Matrix3::new(0.0, 0.0, 1.0, 0.0, 1.0, 0.0, -1.0, 0.0, 0.0);
-        let turn = if layout.nodes.len() < 2 { down } else { Matrix3::identity() };
-        let supports: Arc<[Box<dyn Element>]> = layout.supports.into();
-        let ends: Vec<End> = layout.nodes.iter().map(|n| End::still(*n)).collect();
-        let at = Situation { ends: &ends, step: None, surroundings: around };
-        let stretched = 1.0 + course.pulled / part.ea();
-        course.spans.iter_mut().for_each(|(_, length)| *length /= stretched);
-        for cut in 0.. {
-            let sized = |(elements, length): &(usize, f64)| {
-                let mut made = part.clone();
-                (made.segment.length, made.segment.elements) = (*length, *elements);
-                made
-            };
-            let parts: Vec<Part> = course.spans.iter().map(sized).collect();
-            let lengths: Vec<f64> = course.spans.iter().map(|(_, length)| *length).collect();
-            let grows = layout.ambient.is_some_and(|a| a.grows());
-            let grown = if grows { course.points.clone() } else { Vec::new() };
-            let made = Cut::of(&parts, &lengths, layout.ambient.map(|a| a.as_ref()), &grown);
-            let mut mesh = mesh(&parts, lengths.first().copied().unwrap_or(0.0));
-            made.bands.lay(&mut mesh);
-            let rod = Rod::with_mesh(layout.name, made.segments, Vec::new(), &mesh).map_err(told)?;
-            let laid = Laid {
-                supports: supports.clone(),
-                holds: holds.clone(),
-                tensioner,
-                turn,
-                anchor: course.points.last().copied().unwrap_or_default(),
-                shape: course.points.clone(),
-            };
-            let (elements, first) = course.spans.first().copied().unwrap_or((1, 0.0));
-            let line = MovingLine {
-                layout: Layout::new(rod.nodes() - 1, State::packed(&rod) + 2, layout.books),
-                first,
-                nominal: first / elements as f64,
-                base: Arc::new(Base {
-                    description: description.clone(),
-                    attached: Vec::new(),
-                    bands: made.bands,
-                    ground: ground(&description.seabed, rod.segments(), around),
-                    rod,
-                    ambient: layout.ambient.cloned(),
-                    plane: None,
-                    flat: Some(-depth),
-                    holds: [None, None],
-                    freed: false,
-                    felt: [false, false],
-                    laid: Some(laid),
-                }),
-            };
-            let Some(tensioner) = &mut tensioner else { return Ok(line) };
-            if tensioner.stiffness > 0.0 {
-                return Ok(line);
-            }
-            // it is cut where the tensioner holds it as laid
-            let rest = line.rest(&at, &mut Warm::of(&line.base))?.state;
-            let end = ends.last().zip(rest.position.first());
-            let short =
-                end.map_or(0.0, |(end, x)| (end.pose.axes * turn * tensioner.along).dot(&(x - end.pose.origin)));
-            course.points = rest.position;
-            match course.spans.first_mut() {
-                Some((_, length)) if short.abs() > SHORT && cut < CUTS && *length + short > 0.0 => *length += short,
-                _ => (tensioner.at, tensioner.stiffness) = (short, part.ea() / BRAKE),
-            }
-        }
-        Err(ClassError::new("it does not end at its tensioner"))
-    }
-}
-
-/// The tensioner of a pipe on rollers, which pulls as it does when it is laid however far its end is.
-fn tensioner(layout: &PipeLayout, pulled: f64) -> Result<Option<Tensioner>, ClassError> {
-    let (Some(upper), [.., last]) = (layout.upper, layout.nodes.as_slice()) else { return Ok(None) };
-    let along = match layout.nodes.as_slice() {
-        [first, .., _] => along(last, &first.origin)?,
-        _ => Vector3::x(),
-    };
-    Ok(Some(Tensioner { along, at: 0.0, tension: [pulled, layout.lower, upper], stiffness: 0.0 }))
-}
-
-/// What each support holds: davits the nodes below them, rollers what crosses them, and the last of them the end.
-fn holds(layout: &PipeLayout, course: &Course) -> Result<Vec<Held>, ClassError> {
-    let last = layout.nodes.len().saturating_sub(1);
-    let of =
-        |(i, (node, at)): (usize, (&Pose, &usize))| match layout.nodes.get(i + 1).filter(|_| layout.upper.is_some()) {
-            Some(next) if i < last => Ok(Held::Crossing(-along(node, &next.origin)?)),
-            _ => Ok(Held::Node(*at)),
-        };
-    layout.nodes.iter().zip(&course.at).enumerate().map(of).collect()
 }

@@ -9,6 +9,7 @@ mod describe;
 mod element;
 mod kept;
 mod laid;
+mod laying;
 mod made;
 mod mesh;
 mod modes;

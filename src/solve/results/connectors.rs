@@ -11,11 +11,11 @@ use crate::model::{ClassError, Place, Pose};
 use crate::table::{Digits, Table};
 use nalgebra::Vector3;
 
-/// The force on the first end of a connector that is on a body, global axes (N); none while the connector does not act.
+/// The force of a connector by which its pull is told ([`Layout::pull`]), global axes (N); none while the connector does not act.
 pub(super) fn force(layout: &Layout, link: usize, row: &[f64]) -> Option<Vector3<f64>> {
     let columns = layout.links.get(link)?;
     let acts = row.get(columns.active).is_some_and(|a| *a > 0.0);
-    let at = (0..columns.ends.len()).find_map(|end| layout.wrench(link, end)).filter(|_| acts)?;
+    let at = layout.pull(link).filter(|_| acts)?;
     row.get(at..at + 3).map(Vector3::from_column_slice)
 }
 

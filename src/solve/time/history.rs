@@ -95,6 +95,14 @@ impl Layout {
         Some(self.forces + 6 * (body * self.categories.len() + at))
     }
 
+    /// Where the wrench stands by which the pull of a connector is told: on the first of its ends that is on a body, and of a pipe on
+    /// the last, its tensioner; `None` where all are in the ground.
+    pub fn pull(&self, link: usize) -> Option<usize> {
+        let ends = self.links.get(link)?.ends.len();
+        let of = |end: usize| self.wrench(link, end);
+        if ends > 2 { (0..ends).rev().find_map(of) } else { (0..ends).find_map(of) }
+    }
+
     /// Where the wrench on an end of a connector begins; none of an end in the ground.
     pub fn wrench(&self, link: usize, end: usize) -> Option<usize> {
         let columns = self.links.get(link)?;

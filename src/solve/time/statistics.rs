@@ -40,8 +40,7 @@ pub fn results(layout: &Layout) -> Vec<Series> {
         }
     }
     for (link, columns) in layout.links.iter().enumerate() {
-        let first = (0..columns.ends.len()).find_map(|end| layout.wrench(link, end));
-        if let Some(at) = first {
+        if let Some(at) = layout.pull(link) {
             list.push(Series { name: format!("{} Tension", columns.name), dim: Dim::Force, columns: at..at + 3 });
         }
     }
