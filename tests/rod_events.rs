@@ -141,8 +141,9 @@ fn a_line_that_is_let_go_comes_to_rest_on_the_bottom() {
     let rows = let_go(120.0, 0.1, "-FRICTION 0.8");
     let (last, before) = (&rows[rows.len() - 1].1, &rows[rows.len() - 101].1);
     for (node, earlier) in last.iter().zip(before) {
-        // sunk in by 2 % of 120 mm where it lies once; where it lies on itself no node holds another up
-        assert!(node.clearance.abs() < 0.02, "{}", node.clearance);
+        // by its weight it sinks in by d = 2 % of 120 mm, and where it hung slack on a bottom that grows stiff over s = 2 % of an
+        // element of 5 m, by sqrt(2 s d) = 22 mm; where it lies on itself no node holds another up
+        assert!(node.clearance.abs() < 0.022, "{}", node.clearance);
         // a node sticks where friction holds it, with what tension it came there: at most 0.8 of the 3.8 kN that an element weighs
         assert!((0.0..0.8 * 3.8e3).contains(&node.effective), "{}", node.effective);
         assert!((0..3).all(|i| (node.position[i] - earlier.position[i]).abs() < 1e-3));

@@ -24,6 +24,7 @@ mod ends;
 mod error;
 mod hinges;
 mod immersed;
+mod iterate;
 mod mesh;
 mod modes;
 mod on_nodes;

@@ -1,0 +1,65 @@
+//! Where a step is begun, and one iteration of it.
+
+use super::ends::End;
+use super::mesh::Rod;
+use super::scheme::Scheme;
+use super::state::State;
+use super::step::{Failure, Solver};
+use super::surroundings::World;
+use super::trial::{carry, largest};
+
+impl Solver {
+    /// Where a step ends if its averaged accelerations stay.
+    pub(super) fn foretell(&mut self, from: &State, scheme: &Scheme, time: f64, ends: &[End; 2]) {
+        let next = &mut self.next;
+        next.bedding.copy_from_slice(&from.bedding);
+        next.time = time;
+        let last = from.position.len() - 1;
+        for i in 0..=last {
+            let u = (from.velocity[i] + from.averaged[i] * (0.5 * scheme.h)) * scheme.h;
+            next.position[i] = from.position[i] + u;
+            [next.averaged[i], next.velocity[i], next.acceleration[i]] = scheme.follow(from, i, u);
+        }
+        for (side, node) in [(0, 0), (1, last)] {
+            if let Some(motion) = ends[side].motion {
+                next.hold(node, &motion);
+            }
+        }
+        next.director.copy_from_slice(&from.director);
+        carry(&mut next.director, &from.position, &next.position);
+    }
+
+    /// One Newton iteration at the trial, with a fresh tangent or the factors at hand: largest change of a coordinate
+    /// (m), a turn taken on an arm of the shortest element. The forces of the ends are kept, taken on to the changed positions by their tangent.
+    pub(super) fn iterate(&mut self, rod: &Rod, world: &World, known: [bool; 2], fresh: bool) -> Result<f64, Failure> {
+        let last = rod.elements.len();
+        if fresh {
+            self.near.moved = f64::INFINITY;
+            self.work.assemble(rod, world, &self.trial, self.weights, 0..last);
+            self.keep_matrix();
+        } else {
+            self.work.forces(rod, world, &self.trial);
+        }
+        self.work.keep_ends();
+        for (side, node) in [(0, 0), (1, last)] {
+            if known[side] {
+                self.work.drop_residual(node);
+                if fresh {
+                    self.work.fix(node);
+                }
+            }
+        }
+        if fresh {
+            self.work.factor().map_err(|node| Failure { node, why: "its stiffness vanishes" })?;
+            self.near.moved = 0.0;
+        }
+        self.work.newton(&mut self.change);
+        self.work.carry_ends(&self.change);
+        // a maximum would pass over a value that is no number
+        let sum: f64 = self.change.iter().sum();
+        if !sum.is_finite() {
+            return Err(Failure { node: self.work.worst(known).0, why: "a force is no number" });
+        }
+        Ok(largest(&self.change, self.work.stride(), rod.shortest()))
+    }
+}
