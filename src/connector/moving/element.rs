@@ -1,6 +1,6 @@
 //! A line that moves by itself as an engine sees it.
 
-use super::answer::{On, answer};
+use super::answer::{on_ends, on_supports};
 use super::around::{Floor, Water};
 use super::kept::{Kept, Layout};
 use super::laid::Felt;
@@ -203,17 +203,16 @@ impl MovingLine {
         }
         warm.fit();
         let Warm { rod, solver, state, flows, .. } = warm;
-        let (forces, felt) = self.within((at, false), flows, |world| {
+        let forces = self.within((at, false), flows, |world| {
             if dt > 0.0 {
                 let forces = solver.trial(rod, state, world, time, ends).map_err(told)?;
-                let felt = match self.base.laid {
-                    Some(_) => {
-                        solver.reached(state);
-                        On::Supports(rod.on_supports(state, world), solver.support_tangent(rod, world))
-                    }
-                    None => On::Ends(forces, solver.end_tangent_felt(rod, world, self.base.felt)),
-                };
-                Ok::<_, ClassError>((forces, felt))
+                if self.base.laid.is_some() {
+                    solver.reached(state);
+                    on_supports(out, &rod.on_supports(state, world), solver.support_tangent(rod, world).as_ref())?;
+                } else {
+                    on_ends(out, &forces, solver.end_tangent_felt(rod, world, self.base.felt).as_ref(), true)?;
+                }
+                Ok::<_, ClassError>(forces)
             } else {
                 // what a broken line springs back with lasts for a wave along an element, not for a step: it goes on as it moved
                 let before = self.base.freed.then(|| state.clone());
@@ -223,13 +222,15 @@ impl MovingLine {
                 }
                 if self.base.laid.is_some() {
                     // what its supports feel does not follow their accelerations
-                    return Ok((forces, On::Supports(rod.on_supports(state, world), None)));
+                    on_supports(out, &rod.on_supports(state, world), None)?;
+                    return Ok(forces);
                 }
                 let mut tangent = EndTangent::default();
                 for (side, mass) in solver.end_masses().iter().enumerate() {
                     tangent.acceleration.fixed_view_mut::<3, 3>(6 * side, 6 * side).copy_from(&-mass);
                 }
-                Ok((forces, On::Ends(forces, Some(tangent))))
+                on_ends(out, &forces, Some(&tangent), true)?;
+                Ok(forces)
             }
         })?;
         let books = self.layout.has_books().then(|| {
@@ -248,7 +249,7 @@ impl MovingLine {
         if let Some(balance) = books {
             self.layout.keep_books(&balance, trial);
         }
-        answer(out, &felt, true)
+        Ok(())
     }
 }
 
@@ -292,11 +293,13 @@ impl Element for MovingLine {
         }
         let found = self.rest(at, warm)?;
         let Warm { rod, solver, flows, .. } = &mut *warm;
-        let felt = self.within((at, true), flows, |world| match self.base.laid {
-            Some(_) => On::Supports(rod.on_supports(&found.state, world), solver.support_tangent(rod, world)),
-            None => On::Ends(found.forces, solver.end_tangent(rod, world)),
-        });
-        answer(out, &felt, false)?;
+        self.within((at, true), flows, |world| match self.base.laid {
+            Some(_) => {
+                let loads = rod.on_supports(&found.state, world);
+                on_supports(out, &loads, solver.support_tangent(rod, world).as_ref())
+            }
+            None => on_ends(out, &found.forces, solver.end_tangent(rod, world).as_ref(), false),
+        })?;
         let mut state = found.state;
         state.time = at.step.map_or(0.0, |step| step.time);
         self.layout.write((rod, &self.base.bands), &state, trial)?;

@@ -110,15 +110,17 @@ impl Laid {
     /// The supports where their ends are.
     pub fn felt<'a>(&'a self, ends: &'a [End], around: &'a Surroundings) -> Vec<Felt<'a>> {
         let last = self.supports.len().saturating_sub(1);
-        let of = |(i, ((law, holds), end)): (usize, ((&'a Box<dyn Element>, &Held), &'a End))| Felt {
-            law: law.as_ref(),
-            tensioner: self.tensioner.as_ref().filter(|_| i == last),
-            holds: *holds,
-            pose: Pose { axes: end.pose.axes * self.turn, ..end.pose },
-            velocity: end.velocity.fixed_rows::<3>(0).into_owned(),
-            around,
-            room: RefCell::default(),
-        };
-        self.supports.iter().zip(&self.holds).zip(ends).enumerate().map(of).collect()
+        let laws = self.supports.iter().zip(&self.holds).enumerate();
+        laws.zip(ends)
+            .map(|((i, (law, holds)), end)| Felt {
+                law: law.as_ref(),
+                tensioner: self.tensioner.as_ref().filter(|_| i == last),
+                holds: *holds,
+                pose: Pose { axes: end.pose.axes * self.turn, ..end.pose },
+                velocity: end.velocity.fixed_rows::<3>(0).into_owned(),
+                around,
+                room: RefCell::default(),
+            })
+            .collect()
     }
 }
