@@ -115,4 +115,12 @@ fn a_davit_hangs_toward_the_pipe_that_pulls_it() {
     let sum = out.wrench.iter().fold(Six::zeros(), |sum, w| sum + w);
     // the pull of the bottom along, toward +X, and weight downward
     assert!(sum[0] > 0.0 && sum[2] < 0.0, "{sum}");
+    // nothing but the davits holds it: they bear the tension of what lies, and lean by the ratio of that to the weight
+    let surroundings = model.surroundings();
+    let (state, mut nodes) = (vec![0.0; element.states()], Vec::new());
+    let at = Situation { ends: &ends, step: None, surroundings: &surroundings };
+    element.along(&at, &state, &mut nodes).unwrap();
+    let lies = nodes.last().unwrap().effective;
+    assert!((sum[0] / lies - 1.0).abs() < 1e-3, "{sum} {lies}");
+    assert!(sum[0] < 1e5 && nodes[0].effective.abs() < 1.0, "{sum} {}", nodes[0].effective);
 }

@@ -5,25 +5,44 @@
 #[allow(dead_code)]
 mod common;
 
+use std::fs;
+use tempfile::TempDir;
+use windlass::hydro::Category;
 use windlass::language::diagnostic::Severity;
 use windlass::model::PIPE;
 use windlass::session::Session;
+use windlass::solve::results::along::{self, Line};
+use windlass::solve::results::{self, Magnitude};
 use windlass::solve::time::Run;
+use windlass::table::Cell;
 
-/// A run of a pipe over five rollers of a barge that moves as it is told, in metres and newtons.
-fn laid(limits: [f64; 2], motion: &str, tdom: &str) -> Session {
-    let records = format!(
+/// Records of a pipe over five rollers of a barge that moves as it is told, in metres and newtons, up to its TDOM.
+fn records(limits: [f64; 2], motion: &str) -> String {
+    format!(
         "&DIMEN -DIMEN METERS N\n&ENV -DEPTH 50 -TIME 40 0.1\nMEDIT\n&DESCRIBE BODY BARGE\n*R1 35.65 0 1.70\n*R2 26.82 0 3.58\n\
          *R3 17.97 0 4.92\n*R4 9 0 5.73\n*R5 0 0 6\n~ROLL ROLLER COMPRESSION Z 2E7\n~PIPE ROD 323.9 15.9 -LEN 12 -WTPLEN 1200\n\
          CONNECTOR R1 ~ROLL *R1\nCONNECTOR R2 ~ROLL *R2\nCONNECTOR R3 ~ROLL *R3\nCONNECTOR R4 ~ROLL *R4\nCONNECTOR R5 ~ROLL *R5\n\
-         PIPE ~PIPE R1 R2 R3 R4 R5 -PIPE_TENSION {} {}\nPRESCRIBE BARGE {motion}\nEND\nTDOM -ALONG 1 {tdom}\n",
+         PIPE ~PIPE R1 R2 R3 R4 R5 -PIPE_TENSION {} {}\nPRESCRIBE BARGE {motion}\nEND\n",
         limits[0], limits[1]
-    );
-    let (mut session, screen, _folder): (Session, _, _) = common::session();
+    )
+}
+
+/// A session after records, none of them refused, with the folder of its answers.
+fn after(records: String, earlier: Option<&[u8]>) -> (Session, TempDir) {
+    let (mut session, screen, folder) = common::session();
+    if let Some(bytes) = earlier {
+        fs::create_dir_all(folder.path().join("job.ans")).unwrap();
+        fs::write(folder.path().join("job.ans/TDOM.run"), bytes).unwrap();
+    }
     session.open("records", records);
     session.run();
     assert!(session.reports.iter().all(|r| r.severity != Severity::Error), "{}", screen.text());
-    session
+    (session, folder)
+}
+
+/// A run of it.
+fn laid(limits: [f64; 2], motion: &str, tdom: &str) -> Session {
+    after(format!("{}TDOM -ALONG 1 {tdom}\n", records(limits, motion)), None).0
 }
 
 /// Time, tension at the tensioner, and the wrench on each support from the first, of each stored instant.
@@ -99,4 +118,78 @@ fn a_riser_on_one_roller_bears_its_weight_below_the_pull_of_its_tensioner() {
     let tops: Vec<f64> = run.history.rows().map(|row| along.node(0, row).unwrap().effective).collect();
     let (low, high) = tops.iter().fold((f64::INFINITY, 0.0f64), |(l, h), t| (l.min(*t), h.max(*t)));
     assert!(low > 1.98e5 && high < 3.03e5 && low < 2.05e5, "{low} {high}");
+}
+
+/// A barge that surges, pitches and sways.
+const MOVES: &str = "-SINUSOID X 0.3 9 -SINUSOID Y 0.3 11 -SINUSOID RY 1.0 9 -RAMP 5";
+
+#[test]
+fn a_run_with_a_pipe_goes_on_from_its_file_with_the_digits_of_an_unbroken_one() {
+    let bits =
+        |s: &Session| -> Vec<u64> { s.job.run.as_ref().unwrap().history.values.iter().map(|v| v.to_bits()).collect() };
+    let records = records([4.3e5, 4.7e5], MOVES);
+    let (whole, folder) = after(format!("{records}TDOM -ALONG 5\n"), None);
+    let bytes = fs::read(folder.path().join("job.ans/TDOM.run")).unwrap();
+    for share in [0.4, 0.9] {
+        let cut = &bytes[..(bytes.len() as f64 * share) as usize];
+        let (again, _folder) = after(format!("{records}TDOM -ALONG 5 -RESTART\n"), Some(cut));
+        assert!(again.reports.iter().any(|r| r.message.starts_with("goes on from ")));
+        assert!(bits(&again) == bits(&whole), "{share}");
+    }
+}
+
+#[test]
+fn a_sea_that_comes_during_a_run_finds_the_pipe_on_its_supports() {
+    let limits = [4.3e5, 4.7e5];
+    let sea = "&ENV SEA -DEPTH 50 -SEA REGULAR 180 3 8 -TIME 40 0.1\n&ENV CALM -DEPTH 50 -TIME 40 0.1\n";
+    let run = |action: &str| {
+        let still = records(limits, "-SINUSOID X 0 10");
+        after(format!("{still}{sea}&ENV CALM\n{action}TDOM -ALONG 1\n"), None).0
+    };
+    let [calm, rough] = ["", "&ACTION STORM -AT 20 -ENVIRONMENT SEA\n"].map(|action| {
+        let session = run(action);
+        let run = session.job.run.as_ref().unwrap();
+        let along = run.history.layout.links[0].along.as_ref().unwrap();
+        // a node between the stinger and the bottom: least and most elevation before and after the sea comes
+        let mut seen = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
+        for row in run.history.rows() {
+            let z = along.node(45, row).unwrap().position[2];
+            let [low, high] = &mut seen[usize::from(row[0] > 20.0)];
+            (*low, *high) = (low.min(z), high.max(z));
+        }
+        seen.map(|[low, high]| high - low)
+    });
+    assert!(calm[0] < 1e-3 && calm[1] < 1e-3 && rough[0] == calm[0], "{calm:?} {rough:?}");
+    assert!(rough[1] > 0.02, "{rough:?}");
+}
+
+#[test]
+fn the_forces_on_supports_add_up_to_what_the_barge_feels() {
+    let session = laid([4.3e5, 4.7e5], MOVES, "");
+    let run = session.job.run.as_ref().unwrap();
+    let line = Line::of(run, PIPE).unwrap();
+    let events = results::events(&run.history, None).unwrap();
+    let table = along::supports(&line, Magnitude::default(), &events).unwrap();
+    let number = |column: usize, row: usize| match table.columns[column].cells[row] {
+        Cell::Number(value) => value,
+        ref other => panic!("{other:?}"),
+    };
+    let felt = run.history.layout.category(0, Category::FlexConnectors).unwrap();
+    for (row, values) in run.history.rows().enumerate() {
+        for axis in 0..3 {
+            let sum: f64 = (0..5).map(|support| number(1 + 4 * support + axis, row)).sum();
+            assert!((sum - values[felt + axis]).abs() < 1e-3, "{row} {axis}: {sum} {}", values[felt + axis]);
+        }
+    }
+}
+
+#[test]
+fn an_action_on_a_support_of_a_pipe_is_refused() {
+    for action in ["-AT 5 -RELEASE R2", "-TENSION R2 1E5 -STOP"] {
+        let (mut session, _, _folder) = common::session();
+        session.open("records", format!("{}&ACTION OFF {action}\nTDOM\n", records([4e5, 5e5], "-SINUSOID X 0 10")));
+        session.run();
+        let told = format!("{:?}", session.reports);
+        assert!(session.errors == 1 && told.contains("R2: a pipe lies on it"), "{told}");
+    }
 }

@@ -44,7 +44,8 @@ static SPEC: CommandSpec = CommandSpec {
              class, above the water in air, and is then brought to rest as a ROD of the first segment of its class: it feels water, wind and \
              bottom all along, and in TDOM it moves by itself. It is as long as it needs to be; its elements are as long as -LEN over -REFINE, \
              or without -REFINE an eighth of a span on the supports and a quarter of sqrt(EI/H) beyond. It rolls through its rollers, which push it at \
-             right angles and take nothing along it, and hangs by its davits from nodes of its own. The last roller is the tensioner and holds \
+             right angles and take nothing along it, and hangs by its davits from nodes of its own; as these lean toward what pulls them, less than \
+             TLOWER is left at rest. The bottom has no friction on it at rest. The last roller is the tensioner and holds \
              the end of the pipe: laid at the mean of TLOWER and TUPPER, the end is held along X of its body while its tension stays between \
              them, and is paid out or hauled in beyond them, as our reading. &EQUI lays the pipe anew where the vessel comes to rest; in TDOM its far \
              end stays where it was when the run began. A single roller makes a vertical riser, pulled up by TUPPER as it is laid and pinned on \

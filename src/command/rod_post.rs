@@ -17,13 +17,13 @@ use crate::post::line::working_stress::DesignCase;
 use crate::report::disposition::Disposition;
 use crate::report::page;
 use crate::solve::results::along::{self, Code, Line, Where};
-use crate::solve::results::{self, Event, Window};
+use crate::solve::results::{self, Event, Magnitude, Window};
 use crate::table::Table;
 
 /// ROD.
 pub static ROD: Command = Command { spec: &SPEC, edits: false, run };
 
-const WHAT: &[&str] = &["ENVELOPE", "AT", "NODE", "TOUCHDOWN", "FATIGUE", "CHECK"];
+const WHAT: &[&str] = &["ENVELOPE", "AT", "NODE", "TOUCHDOWN", "SUPPORTS", "FATIGUE", "CHECK"];
 const CODES: &[&str] = &["F201", "2RD", "BREAK"];
 const SAFETY: &[&str] = &["LOW", "NORMAL", "HIGH"];
 const CASES: &[&str] = &["OPERATING", "EXTREME", "SURVIVAL"];
@@ -126,7 +126,7 @@ static SPEC: CommandSpec = CommandSpec {
     detail: "Of a ROD, or a line that &CONNECTOR -DYNAMICS lets move by itself, in the last TDOM. Nodes count from 1 at the first end, those that \
              TDOM -ALONG has kept. ENVELOPE has for each node the least, mean and most of the run; of a run with -STATISTICS it alone is told. AT is \
              the line at instants with its forces, NODE its nodes over time, with -ARC any place. TOUCHDOWN is the first node on the bottom and where \
-             between it and the one before the line comes down. FATIGUE counts rainflow cycles: of a tube with a curve of stress, by the stress at \
+             between it and the one before the line comes down. SUPPORTS has the forces of a pipe on each of its rollers or davits. FATIGUE counts rainflow cycles: of a tube with a curve of stress, by the stress at \
              -POINTS round it, else of tension; the curve is that of -C_SN of the class or the last of &REP_SELECT -SN. CHECK has the largest use of \
              each node and when. Its F201 is combined loading of DNV-ST-F201 (of 2018, as others publish it), ultimate limit state: the \
              first stored instant is functional load, of a node that a winch made later what was then at its distance from the first end; with more \
@@ -178,6 +178,7 @@ fn tables(job: &Job, args: &Args) -> Outcome<Vec<Table>> {
         "ENVELOPE" => along::envelope(&line, &events),
         "NODE" => along::histories(&line, &places(args, &line)?, &events),
         "TOUCHDOWN" => along::touchdown(&line, &events),
+        "SUPPORTS" => along::supports(&line, Magnitude::default(), &events),
         "FATIGUE" => {
             let points = args.option("-POINTS").and_then(|g| g.values.first()).and_then(|v| v.integer());
             let usual = Round::default();

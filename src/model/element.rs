@@ -180,6 +180,11 @@ pub trait Element: Debug + Send + Sync {
     /// As [`Element::evaluate`].
     fn summary(&self, at: &Situation, committed: &[f64]) -> Result<Summary, ClassError>;
 
+    /// The end by whose force its pull is told.
+    fn pulling_end(&self) -> usize {
+        0
+    }
+
     /// Whether its parameters depend on where its ends were when it was made, so that a solver makes it anew where they
     /// come to rest.
     fn made_for_place(&self) -> bool {

@@ -13,17 +13,37 @@ pub(super) struct Contact {
     pub by_velocity: Matrix3<f64>,
 }
 
+/// A place in the bottom: the normal of that, and how deep the place lies along it (m).
+fn sunk(bottom: &dyn Bottom, x: &Vector3<f64>) -> Option<(Vector3<f64>, f64)> {
+    let (height, slope) = bottom.height(x.x, x.y);
+    if x.z >= height {
+        return None;
+    }
+    let normal = Vector3::new(-slope[0], -slope[1], 1.0).normalize();
+    Some((normal, (height - x.z) * normal.z))
+}
+
+/// A spring that is whole from a depth `soft` on (m), at a depth: its force over its stiffness, with two derivatives by
+/// the depth, and its energy over its stiffness.
+struct Pressed {
+    depth: f64,
+    share: f64,
+    bend: f64,
+    energy: f64,
+}
+
+fn pressed(depth: f64, soft: f64) -> Pressed {
+    if depth < soft {
+        let energy = depth.powi(3) / (6.0 * soft);
+        return Pressed { depth: 0.5 * depth * depth / soft, share: depth / soft, bend: 1.0 / soft, energy };
+    }
+    let energy = 0.5 * depth * depth - 0.5 * soft * depth + soft * soft / 6.0;
+    Pressed { depth: depth - 0.5 * soft, share: 1.0, bend: 0.0, energy }
+}
+
 /// Elastic energy of the bottom under a node (J); `soft` as in [`contact`].
 pub(super) fn energy(bottom: &dyn Bottom, ground: &Ground, soft: f64, area: f64, x: &Vector3<f64>) -> f64 {
-    let (height, slope) = bottom.height(x.x, x.y);
-    let depth = (height - x.z) / (1.0 + slope[0] * slope[0] + slope[1] * slope[1]).sqrt();
-    if depth <= 0.0 {
-        0.0
-    } else if depth < soft {
-        ground.stiffness * area * depth.powi(3) / (6.0 * soft)
-    } else {
-        ground.stiffness * area * (0.5 * depth * depth - 0.5 * soft * depth + soft * soft / 6.0)
-    }
+    sunk(bottom, x).map_or(0.0, |(_, depth)| ground.stiffness * area * pressed(depth, soft).energy)
 }
 
 /// A vector no longer than one, and its derivative by the vector or, unless `exact`, the secant.
@@ -39,11 +59,7 @@ fn capped(u: &Vector3<f64>, exact: bool) -> (Vector3<f64>, Matrix3<f64>) {
 
 /// Where a node sticks from then on that has stuck at a place and is now at `x`.
 pub(super) fn sticks(bottom: &dyn Bottom, ground: &Ground, x: &Vector3<f64>, stuck: &Vector3<f64>) -> Vector3<f64> {
-    let (height, slope) = bottom.height(x.x, x.y);
-    if x.z >= height {
-        return *x;
-    }
-    let normal = Vector3::new(-slope[0], -slope[1], 1.0).normalize();
+    let Some((normal, _)) = sunk(bottom, x) else { return *x };
     let way = x - stuck;
     let (held, _) = capped(&((way - normal * way.dot(&normal)) / ground.friction_travel), true);
     x - held * ground.friction_travel
@@ -60,16 +76,9 @@ pub(super) struct Borne {
 
 /// What bears a node that rests; `soft` and `area` as in [`contact`].
 pub(super) fn borne(bottom: &dyn Bottom, ground: &Ground, soft: f64, area: f64, x: &Vector3<f64>) -> Option<Borne> {
-    let (height, slope) = bottom.height(x.x, x.y);
-    if x.z >= height {
-        return None;
-    }
-    let normal = Vector3::new(-slope[0], -slope[1], 1.0).normalize();
-    let depth = (height - x.z) * normal.z;
-    let (penetration, share) =
-        if depth < soft { (0.5 * depth * depth / soft, depth / soft) } else { (depth - 0.5 * soft, 1.0) };
-    let k = ground.stiffness * area;
-    Some(Borne { force: k * penetration, normal, by_depth: k * share })
+    let (normal, depth) = sunk(bottom, x)?;
+    let (spring, k) = (pressed(depth, soft), ground.stiffness * area);
+    Some(Borne { force: k * spring.depth, normal, by_depth: k * spring.share })
 }
 
 /// What the bottom does to a node with a shadow of `area` (m2) whose rod runs in direction `lay`; none when it is
@@ -92,17 +101,8 @@ pub(super) fn contact(
     stuck: &Vector3<f64>,
     exact: bool,
 ) -> Option<Contact> {
-    let (height, slope) = bottom.height(x.x, x.y);
-    if x.z >= height {
-        return None;
-    }
-    let normal = Vector3::new(-slope[0], -slope[1], 1.0).normalize();
-    let depth = (height - x.z) * normal.z;
-    let (penetration, share, bend) = if depth < soft {
-        (0.5 * depth * depth / soft, depth / soft, 1.0 / soft)
-    } else {
-        (depth - 0.5 * soft, 1.0, 0.0)
-    };
+    let (normal, depth) = sunk(bottom, x)?;
+    let Pressed { depth: penetration, share, bend, .. } = pressed(depth, soft);
     let sinking = -v.dot(&normal);
     let (k, c) = (ground.stiffness * area, ground.damping * area);
     let support = k * penetration + c * share * sinking;

@@ -8,6 +8,9 @@ use crate::hydro::sea::Sea;
 use crate::model::{ClassError, Connector, Element, GivenMotion, Model};
 use std::sync::Arc;
 
+/// What is said of a connector that an action is about though a pipe lies on it.
+const HOLDS_PIPE: &str = "a pipe lies on it, which acts in its place: actions do nothing to the supports of a pipe";
+
 /// A connector of a model.
 fn connector<'a>(model: &'a Model, name: &str) -> Result<&'a Connector, SolveError> {
     model.connectors.get(&Model::key(name)).ok_or_else(|| {
@@ -29,20 +32,28 @@ fn nodes(element: &dyn Element) -> (usize, bool) {
 impl System {
     /// Its connectors, as a layout is made of them.
     pub fn link_ends(&self) -> Vec<LinkEnds> {
-        let of = |l: &Link| LinkEnds { name: l.name.clone(), ends: bodies(&l.ends), nodes: nodes(l.element.as_ref()) };
+        let of = |l: &Link| LinkEnds {
+            name: l.name.clone(),
+            ends: bodies(&l.ends),
+            pulling: l.element.pulling_end(),
+            nodes: nodes(l.element.as_ref()),
+        };
         self.links.iter().map(of).collect()
     }
 
     /// A connector of a model, which need not act, as a layout is made of it.
     ///
     /// # Errors
-    /// There is no such connector.
+    /// There is no such connector, or a pipe lies on it.
     pub fn ends_of(&self, model: &Model, name: &str) -> Result<LinkEnds, SolveError> {
         let found = connector(model, name)?;
+        if model.holds_pipe(name) {
+            return Err(SolveError::of(name)(ClassError::new(HOLDS_PIPE)));
+        }
         // one that cannot be made says so when it is to act
         let element = self.element(model, found).ok();
         let nodes = element.map_or((0, false), |e| nodes(e.as_ref()));
-        Ok(LinkEnds { name: found.name.clone(), ends: bodies(&connected(model, found)), nodes })
+        Ok(LinkEnds { name: found.name.clone(), ends: bodies(&connected(model, found)), pulling: 0, nodes })
     }
 
     /// Whether a connector of this name moves by itself.

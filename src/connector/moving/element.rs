@@ -3,7 +3,7 @@
 use super::answer::{on_ends, on_supports};
 use super::around::{Floor, Water};
 use super::kept::{Kept, Layout};
-use super::laid::Felt;
+use super::laid::{Felt, Laid};
 use super::mesh::{most_wound, told, wind};
 use super::start;
 use super::warm::{Base, Held, Warm};
@@ -264,6 +264,10 @@ impl Element for MovingLine {
 
     fn made_for_place(&self) -> bool {
         self.base.laid.is_some()
+    }
+
+    fn pulling_end(&self) -> usize {
+        self.base.laid.as_ref().and_then(Laid::tensioner).unwrap_or(0)
     }
 
     fn nodes(&self) -> usize {

@@ -107,6 +107,11 @@ impl Felt<'_> {
 }
 
 impl Laid {
+    /// The support that is a tensioner.
+    pub fn tensioner(&self) -> Option<usize> {
+        self.tensioner.and_then(|_| self.supports.len().checked_sub(1))
+    }
+
     /// The supports where their ends are.
     pub fn felt<'a>(&'a self, ends: &'a [End], around: &'a Surroundings) -> Vec<Felt<'a>> {
         let last = self.supports.len().saturating_sub(1);

@@ -22,6 +22,13 @@ fn chain(bending: f64) -> (Rod, State) {
     (rod, state)
 }
 
+/// A current over a rough bottom.
+fn sea() -> (UniformFluid, PlaneBottom, Ground) {
+    let ground = Ground { damping: 3e5, friction_along: 0.5, friction_across: 0.5, ..Ground::elastic(3e6) };
+    let bottom = PlaneBottom { height: -300.0, slope: [0.0, 0.0] };
+    (UniformFluid::moving(1025.0, Vector3::new(0.2, 0.5, 0.0)), bottom, ground)
+}
+
 fn surge(t: f64) -> Motion {
     let (s, c) = (0.6 * t).sin_cos();
     Motion {
@@ -33,9 +40,7 @@ fn surge(t: f64) -> Motion {
 
 #[test]
 fn a_second_trial_of_a_step_takes_an_iteration_and_ends_where_the_first_would() {
-    let fluid = UniformFluid::moving(1025.0, Vector3::new(0.2, 0.5, 0.0));
-    let bottom = PlaneBottom { height: -300.0, slope: [0.0, 0.0] };
-    let ground = Ground { damping: 3e5, friction_along: 0.5, friction_across: 0.5, ..Ground::elastic(3e6) };
+    let (fluid, bottom, ground) = sea();
     let world = World { bottom: Some((&bottom, ground)), ..World::new(&fluid, 9.80665) };
     for bending in [0.0, 1e5] {
         let (rod, mut state) = chain(bending);
@@ -107,9 +112,7 @@ fn forces_at_a_start_are_what_momentum_wants() {
 
 #[test]
 fn a_trial_moved_slightly_needs_no_iteration_and_has_the_forces_of_one_made_anew() {
-    let fluid = UniformFluid::moving(1025.0, Vector3::new(0.2, 0.5, 0.0));
-    let bottom = PlaneBottom { height: -300.0, slope: [0.0, 0.0] };
-    let ground = Ground { damping: 3e5, friction_along: 0.5, friction_across: 0.5, ..Ground::elastic(3e6) };
+    let (fluid, bottom, ground) = sea();
     let world = World { bottom: Some((&bottom, ground)), ..World::new(&fluid, 9.80665) };
     for bending in [0.0, 1e5] {
         let (rod, mut state) = chain(bending);

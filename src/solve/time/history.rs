@@ -21,6 +21,8 @@ pub struct LinkColumns {
     pub name: String,
     /// The body at each end; none in the ground.
     pub ends: Vec<Option<usize>>,
+    /// The end by whose force its pull is told, where that is on a body.
+    pub pulling: usize,
     /// Where the wrenches on its ends on bodies begin, six each, in the order of the ends.
     pub wrench: usize,
     /// Where it says whether it acts, 1 or 0, and the length of its first segment (m; not a number without one).
@@ -36,6 +38,8 @@ pub struct LinkEnds {
     pub name: String,
     /// The body at each end; none in the ground.
     pub ends: Vec<Option<usize>>,
+    /// The end by whose force its pull is told, where that is on a body.
+    pub pulling: usize,
     /// How many nodes it tells of at most, and whether they bend.
     pub nodes: (usize, bool),
 }
@@ -63,12 +67,12 @@ impl Layout {
         let moves = system.nodes.iter().map(|n| n.free.map(|free| free || n.prescribed.is_some())).collect();
         let mut at = 1 + OF_BODY * bodies.len();
         let mut columns = Vec::new();
-        for LinkEnds { name, ends, nodes } in links {
+        for LinkEnds { name, ends, pulling, nodes } in links {
             let (active, wrench) = (at, at + 2);
             at = wrench + 6 * ends.iter().flatten().count();
             let along = AlongColumns::new(at, nodes, every);
             at += along.as_ref().map_or(0, AlongColumns::width);
-            columns.push(LinkColumns { name, ends, wrench, active, along });
+            columns.push(LinkColumns { name, ends, pulling, wrench, active, along });
         }
         let mut categories = vec![Category::Inertia, Category::Coriolis];
         let loads = system.nodes.iter().flat_map(|n| &n.floating.loads).map(|l| l.category());
@@ -95,12 +99,12 @@ impl Layout {
         Some(self.forces + 6 * (body * self.categories.len() + at))
     }
 
-    /// Where the wrench stands by which the pull of a connector is told: on the first of its ends that is on a body, and of a pipe on
-    /// the last, its tensioner; `None` where all are in the ground.
+    /// Where the wrench stands by which the pull of a connector is told: on the end that its element says, or else the first of its ends
+    /// that is on a body; `None` where all are in the ground.
     pub fn pull(&self, link: usize) -> Option<usize> {
-        let ends = self.links.get(link)?.ends.len();
+        let columns = self.links.get(link)?;
         let of = |end: usize| self.wrench(link, end);
-        if ends > 2 { (0..ends).rev().find_map(of) } else { (0..ends).find_map(of) }
+        of(columns.pulling).or_else(|| (0..columns.ends.len()).find_map(of))
     }
 
     /// Where the wrench on an end of a connector begins; none of an end in the ground.

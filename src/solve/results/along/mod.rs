@@ -9,6 +9,7 @@ mod envelope;
 mod fatigue;
 mod modes;
 mod shape;
+mod supports;
 mod touchdown;
 
 pub use at_rest::lines_at_rest;
@@ -18,6 +19,7 @@ pub use envelope::envelope;
 pub use fatigue::along as fatigue_along;
 pub use modes::natural_modes;
 pub use shape::{Where, histories, shape};
+pub use supports::supports;
 pub use touchdown::touchdown;
 
 use super::super::system::SolveError;
