@@ -193,3 +193,15 @@ fn an_action_on_a_support_of_a_pipe_is_refused() {
         assert!(session.errors == 1 && told.contains("R2: a pipe lies on it"), "{told}");
     }
 }
+
+#[test]
+fn a_run_ends_when_the_pull_on_a_pipe_is_above_a_limit() {
+    let records = records([4.3e5, 4.7e5], MOVES);
+    let (session, _folder) = after(format!("{records}&ACTION OFF -TENSION &PIPE 4.6E5 -STOP\nTDOM\n"), None);
+    let run = session.job.run.as_ref().unwrap();
+    let at = run.history.layout.pull(0).unwrap();
+    let pulls: Vec<f64> =
+        run.history.rows().map(|row| row[at..at + 3].iter().map(|f| f * f).sum::<f64>().sqrt()).collect();
+    let (last, before) = pulls.split_last().unwrap();
+    assert!(*last > 4.6e5 && before.iter().all(|p| *p <= 4.6e5) && before.len() < 400, "{last} {}", before.len());
+}

@@ -8,16 +8,17 @@ use crate::language::name as rule;
 use crate::language::select::Owner;
 use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
 use crate::language::units::{Dim, UnitSystem};
-use crate::model::{Model, find};
+use crate::model::{Model, PIPE, find, line_name};
 use crate::solve::FREEDOMS;
 use crate::solve::time::{Action, Watched, What, When};
 
 /// &ACTION.
 pub static ACTION: Command = Command { spec: &SPEC, edits: false, run };
 
-const LINE: ValueSpec = ValueSpec::new("LINE", Kind::Name(Noun::Connector), "connector");
+const LINE: ValueSpec = ValueSpec::new("LINE", Kind::Name(Noun::Line), "connector, or &PIPE");
 const FORCE: ValueSpec =
-    ValueSpec::new("F", Kind::Number(Dim::Force), "size of the force at its first end").not_negative();
+    ValueSpec::new("F", Kind::Number(Dim::Force), "size of the force at its first end, of a pipe at its tensioner")
+        .not_negative();
 const BODY: ValueSpec = ValueSpec::new("BODY", Kind::Name(Noun::Body), "body");
 const DOF: ValueSpec =
     ValueSpec::new("DOF", Kind::Choice(&FREEDOMS), "freedom of its origin, roll, pitch and yaw as RX RY RZ");
@@ -122,7 +123,10 @@ fn when(model: &Model, given: &Given, units: UnitSystem) -> Outcome<When> {
     let place = given.values.first().map_or(given.span, |v| v.span);
     let name = given.word(0).unwrap_or_default();
     let number = |i: usize| given.number(i).unwrap_or(0.0);
-    let line = || find(&model.connectors, name, "connector", place).map(|c| Watched::Tension(c.name.clone()));
+    let line = || match model.assemblies.get(&Model::key(line_name(name))) {
+        Some(pipe) if pipe.name == PIPE => Ok(Watched::Tension(pipe.name.clone())),
+        _ => find(&model.connectors, name, "connector", place).map(|c| Watched::Tension(c.name.clone())),
+    };
     let freedom = || -> Outcome<(Watched, f64)> {
         let body = find(&model.bodies, name, "body", place)?;
         let freedom = FREEDOMS.iter().position(|f| Some(*f) == given.word(1)).unwrap_or(0);

@@ -329,7 +329,7 @@ impl ConnectorClass for CatenaryClass {
             segment: rod::Segment {
                 axial: s
                     .coefficients
-                    .map_or(Axial::Linear(s.ea), |[k1, k2, k3]| Axial::Polynomial(vec![s.ea, k1, k2, k3])),
+                    .map_or(Axial::Linear(s.ea), |[k1, k2, k3]| Axial::of_powers(vec![s.ea, k1, k2, k3])),
                 bending: s.ei,
                 compression: s.ei > 0.0,
                 displaced: s.area,

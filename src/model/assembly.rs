@@ -58,6 +58,13 @@ pub struct LaidPipe<'a> {
 
 /// Name of the one pipe assembly (the MOSES manual, conn_pipe).
 pub const PIPE: &str = "&PIPE/ASSEMBLY";
+/// What it is called for short (as PIPE).
+const PIPE_SHORT: &str = "&PIPE";
+
+/// The whole name of a line of that name: that of the pipe assembly where it is called for short.
+pub fn line_name(name: &str) -> &str {
+    if name.eq_ignore_ascii_case(PIPE_SHORT) { PIPE } else { name }
+}
 
 /// An assembly. The hook of a tip-hook set is a junction of its name, and the second point of its connectors.
 #[derive(Clone, Debug, PartialEq)]

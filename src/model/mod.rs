@@ -28,7 +28,7 @@ mod tether;
 
 pub use along::{LineBooks, LineMode, LineNode, LineSide, LineStress};
 pub use ambient::{Ambient, Contents, Filling, Flow};
-pub use assembly::{Assemblies, Assembly, AssemblyKind, LaidPipe, PIPE, PipeLayout};
+pub use assembly::{Assemblies, Assembly, AssemblyKind, LaidPipe, PIPE, PipeLayout, line_name};
 pub use bathymetry::Bathymetry;
 pub use body::{Body, GROUND, Junction, Mass, Part, Point, Weight};
 pub use class::{Class, ClassError, ClassRecord, ConnectorClass, WallMaterial};

@@ -1,10 +1,11 @@
-//! Elements of a plain rod under water, eight at once: what [`assemble`](super::assemble) makes of each.
+//! Elements of constant EA under water, eight at once: what [`assemble`](super::assemble) makes of each.
 //!
 //! The loops over them run in the widest vectors the machine has (multiversion); no product is contracted with its sum, so that every
 //! machine comes to the same digits.
 
 use super::mesh::Rod;
 use super::system::Weights;
+use super::tension::Walls;
 use super::trial::Trial;
 use multiversion::multiversion;
 use std::ops::Range;
@@ -32,9 +33,17 @@ struct Asked {
     flow: Vectors,
     water: Vectors,
     density: [f64; NODES],
+    surface: [f64; NODES],
+    head: [f64; NODES],
     rest: Each,
     rate: Each,
     ea: Each,
+    /// Strain by warmth, free of tension.
+    free: Each,
+    /// What tension has of the pressure outside (m2), and of that inside at z = 0 (N) and by the way down (N/m): none but of tubes.
+    outside: Each,
+    inside: Each,
+    contents: Each,
     damping: Each,
     /// One of an element that resists being shortened, else zero.
     pushes: Each,
@@ -59,7 +68,7 @@ pub(super) struct Abreast {
     pub shares: Shares,
 }
 
-/// How many elements from the first of a range on can be taken at once, [`ABREAST`] at most: of one law, without a wall, all under water.
+/// How many elements from the first of a range on can be taken at once, [`ABREAST`] at most: of a constant EA, all under water.
 pub(super) fn plain(rod: &Rod, trial: &Trial, range: Range<usize>) -> usize {
     let most = range.len().min(ABREAST);
     let wet = |node: usize, diameter: f64| {
@@ -86,7 +95,7 @@ impl Abreast {
         (weights, gravity): (Weights, f64),
         (first, count): (usize, usize),
     ) {
-        self.ask(rod, trial, (first, count));
+        self.ask(rod, trial, gravity, (first, count));
         let Abreast { asked, shares } = self;
         if TANGENT {
             tangents(asked, (weights, gravity, trial.ease), shares);
@@ -96,12 +105,16 @@ impl Abreast {
     }
 
     /// Brings together what is asked; what lies beyond the last element stays as it was and is of no account.
-    fn ask(&mut self, rod: &Rod, trial: &Trial, (first, count): (usize, usize)) {
+    fn ask(&mut self, rod: &Rod, trial: &Trial, gravity: f64, (first, count): (usize, usize)) {
         let asked = &mut self.asked;
         for (n, element) in rod.elements[first..first + count].iter().enumerate().take(ABREAST) {
             asked.rest[n] = element.rest;
             asked.rate[n] = if trial.still { 0.0 } else { element.rate };
             asked.ea[n] = element.ea;
+            let tube = rod.segments[element.segment].tube.as_ref();
+            let Walls { free, outside, inside, contents } = tube.map_or(Walls::default(), |t| Walls::of(t, gravity));
+            (asked.free[n], asked.outside[n]) = (free, outside);
+            (asked.inside[n], asked.contents[n]) = (inside, contents);
             asked.damping[n] = element.damping;
             let pushes = (element.compression || trial.drawn.is_some()) && !trial.loose;
             asked.pushes[n] = f64::from(u8::from(pushes));
@@ -123,6 +136,8 @@ impl Abreast {
                 asked.water[i][n] = fluid.acceleration[i];
             }
             asked.density[n] = fluid.density;
+            asked.surface[n] = fluid.surface;
+            asked.head[n] = fluid.head;
         }
     }
 }
@@ -171,30 +186,47 @@ fn one<const TANGENT: bool>(
     let (stretch, let_out) = (length * inverse_rest, asked.rate[n]);
     let faster = dot(t, dv);
     let rate = (faster - stretch * let_out) * inverse_rest;
-    let strain = stretch - 1.0;
+    let strain = stretch - 1.0 - asked.free[n];
+    let height = 0.5 * (asked.x[2][n] + asked.x[2][n + 1]);
+    let [first, second] = [pressure(asked, n, height, gravity), pressure(asked, n + 1, height, gravity)];
+    let pressed = 0.5 * (first.0 + second.0) * asked.outside[n] - (asked.inside[n] - asked.contents[n] * height);
+    let by_height = 0.5 * (first.1 + second.1) * asked.outside[n] + asked.contents[n];
     // a line that does not resist being shortened has neither stiffness nor damping while it is, and its damper does not push
-    let whole = asked.ea[n] * ease * strain + asked.damping[n] * rate;
-    let there = if strain < 0.0 || whole < 0.0 { asked.pushes[n] } else { 1.0 };
+    let still = asked.ea[n] * ease * strain + pressed;
+    let whole = still + asked.damping[n] * rate;
+    let there = if still < 0.0 || whole < 0.0 { asked.pushes[n] } else { 1.0 };
     let (by_strain, by_rate) = (asked.ea[n] * ease * there, asked.damping[n] * there);
-    let value = by_strain * strain + by_rate * rate;
+    let value = whole * there;
+    let lifted = 0.5 * k * by_height * there;
     let geometric = k * value * inverse;
     let damped = by_rate * inverse_rest;
     let along = k * (by_strain - by_rate * let_out * inverse_rest) * inverse_rest - geometric + c * damped;
     let swung = k * damped * inverse;
     let stiff = each(|i| t[i] * along + (dv[i] - t[i] * faster) * swung);
 
-    let made = Drawn { t, inverse, value, geometric, stiff };
+    let made = Drawn { t, inverse, value, geometric, stiff, lifted };
     half::<TANGENT, 0>(asked, n, (Weights { k, c, m }, gravity), &made, shares);
     half::<TANGENT, 1>(asked, n, (Weights { k, c, m }, gravity), &made, shares);
 }
 
-/// How an element is drawn: direction and inverse of its length, tension, that over the length, and its stiffness by the other node.
+/// Pressure (Pa) in the water about a node at a height, and its slope: as [`Fluid::pressure`](super::surroundings::Fluid::pressure).
+#[inline(always)]
+fn pressure(asked: &Asked, node: usize, height: f64, gravity: f64) -> (f64, f64) {
+    let (weight, head) = (asked.density[node] * gravity, asked.head[node]);
+    let depth = asked.surface[node] - height;
+    let (column, share) = if head < depth { (depth + head, 1.0) } else { (2.0 * depth, 2.0) };
+    if column > 0.0 { (weight * column, -weight * share) } else { (0.0, 0.0) }
+}
+
+/// How an element is drawn: direction and inverse of its length, tension, that over the length, and its stiffness by the other node
+/// and by the height of one.
 struct Drawn {
     t: [f64; 3],
     inverse: f64,
     value: f64,
     geometric: f64,
     stiff: [f64; 3],
+    lifted: f64,
 }
 
 /// One half of it, with its inertia, weight and water. A loop over both would keep the elements from going side by side.
@@ -203,7 +235,7 @@ fn half<const TANGENT: bool, const SECOND: usize>(
     asked: &Asked,
     n: usize,
     (Weights { k, c, m }, gravity): (Weights, f64),
-    &Drawn { t, inverse, value, geometric, stiff }: &Drawn,
+    &Drawn { t, inverse, value, geometric, stiff, lifted }: &Drawn,
     shares: &mut Shares,
 ) {
     let (node, mass, volume) = (n + SECOND, asked.mass[n], asked.volume[n]);
@@ -234,29 +266,33 @@ fn half<const TANGENT: bool, const SECOND: usize>(
         let unit = pulled - normal * flow;
         let turned = sign * k * inverse;
         let by_turn = |i: usize| across[i] * along_stiff + (q[i] - t[i] * q_along) * more - t[i] * unit;
-        let w = each(|i| by_turn(i) * turned - stiff[i]);
+        // of the height of either node it has as much
+        let rise = sign * lifted;
+        let w = each(|i| by_turn(i) * turned - stiff[i] - if i == 2 { rise } else { 0.0 });
         let (other, both) = (&mut shares.other[SECOND], &mut shares.itself[SECOND]);
         let (other_a, other_unit) = (-(curved * flow * turned), unit * turned - geometric);
         let (both_t, both_a) = (c * along_stiff + m * more, c * curved);
         let both_unit = c * normal + m * (own + mass);
-        row::<0>((other, both), n, (t, w, other_a, other_unit), (across, both_t, both_a, both_unit));
-        row::<1>((other, both), n, (t, w, other_a, other_unit), (across, both_t, both_a, both_unit));
-        row::<2>((other, both), n, (t, w, other_a, other_unit), (across, both_t, both_a, both_unit));
+        row::<0>((other, both), n, (t, w, other_a, other_unit), (across, both_t, both_a, both_unit, -2.0 * rise));
+        row::<1>((other, both), n, (t, w, other_a, other_unit), (across, both_t, both_a, both_unit, -2.0 * rise));
+        row::<2>((other, both), n, (t, w, other_a, other_unit), (across, both_t, both_a, both_unit, -2.0 * rise));
     }
 }
 
-/// A row of the tangent: `t w'` and shares of A and of the unit matrix by the other node; shares of T, A and the unit matrix by both.
+/// A row of the tangent: `t w'` and shares of A and of the unit matrix by the other node; shares of T, A, the unit matrix and `t z'` by
+/// both.
 #[inline(always)]
 fn row<const I: usize>(
     (by_other, itself): (&mut [[Each; 3]; 3], &mut [[Each; 3]; 3]),
     n: usize,
     (t, w, other_a, other_unit): ([f64; 3], [f64; 3], f64, f64),
-    (across, both_t, both_a, both_unit): ([f64; 3], f64, f64, f64),
+    (across, both_t, both_a, both_unit, both_up): ([f64; 3], f64, f64, f64, f64),
 ) {
     let (by_t, by_across, other_across) = (t[I] * both_t, across[I] * both_a, across[I] * other_a);
     let mut other = each(|j| t[I] * w[j] + across[j] * other_across);
     let mut both = each(|j| by_t * t[j] + by_across * across[j]);
     (other[I], both[I]) = (other[I] + other_unit, both[I] + both_unit);
+    both[2] += t[I] * both_up;
     by_other[I][0][n] = other[0];
     by_other[I][1][n] = other[1];
     by_other[I][2][n] = other[2];

@@ -4,7 +4,7 @@ use super::bend::hinge;
 use super::contact::{self, contact};
 use super::hinges::{HingeAt, hinge_sides};
 use super::immersed::{Node, on_half, wet_prism};
-use super::mesh::Rod;
+use super::mesh::{Element, Rod};
 use super::rope::Memory;
 use super::spatial;
 use super::state::State;
@@ -12,6 +12,7 @@ use super::step::{EndForces, Solver};
 use super::supports::{meeting, supported};
 use super::surroundings::World;
 use super::tension::{Stretch, Taken, tension};
+use super::trial::Trial;
 use nalgebra::Vector3;
 
 /// Energy a rod holds at one time (J).
@@ -92,6 +93,7 @@ pub struct Balance {
 }
 
 /// What one pass over a rod finds.
+#[derive(Default)]
 struct Look {
     energy: Energy,
     power: Work,
@@ -153,23 +155,55 @@ impl Balance {
     }
 }
 
+/// A rod at the end of a step, as its books look at it.
+struct At<'a> {
+    rod: &'a Rod,
+    state: &'a State,
+    world: &'a World<'a>,
+    trial: &'a Trial,
+}
+
 fn look(rod: &Rod, state: &State, world: &World, solver: &Solver, made: &EndForces) -> Look {
-    let (x, v, a) = (&state.position, &state.velocity, &state.acceleration);
     let trial = &solver.trial;
+    let at = At { rod, state, world, trial };
+    let mut found = Look::default();
+    for i in 0..rod.elements.len() {
+        found.stretch(&at, i);
+        found.halves(&at, i);
+    }
+    found.bending(&at);
+    found.attachments(&at);
+    found.bottom(&at);
+    found.supports(&at);
     let last = rod.elements.len();
-    let mut found =
-        Look { energy: Energy::default(), power: Work::default(), momentum: Vector3::zeros(), force: Vector3::zeros() };
-    let lump = |found: &mut Look, node: usize, mass: f64| {
-        found.energy.kinetic += 0.5 * mass * v[node].norm_squared();
-        found.energy.gravity += mass * world.gravity * x[node].z;
-        found.momentum += v[node] * mass;
-        found.force.z -= mass * world.gravity;
-    };
-    let mut before: Option<(Vector3<f64>, f64)> = None;
-    for (i, element) in rod.elements.iter().enumerate() {
-        let d = x[i + 1] - x[i];
-        let length = d.norm().max(1e-9 * element.rest);
-        let t = d / length;
+    for (node, force) in world.forces.iter().filter(|f| f.0 <= last) {
+        found.power.given += force.dot(&state.velocity[*node]);
+        found.force += force;
+    }
+    for (side, node) in [(0, 0), (1, last)] {
+        found.power.ends[side] = -made.moment[side].dot(&trial.ends[side].turning);
+        if trial.ends[side].motion.is_some() {
+            found.power.ends[side] -= made.force[side].dot(&state.velocity[node]);
+            found.force -= made.force[side];
+        }
+    }
+    found
+}
+
+impl Look {
+    /// A mass at a node.
+    fn lump(&mut self, At { state, world, .. }: &At, node: usize, mass: f64) {
+        let (x, v) = (&state.position[node], &state.velocity[node]);
+        self.energy.kinetic += 0.5 * mass * v.norm_squared();
+        self.energy.gravity += mass * world.gravity * x.z;
+        self.momentum += v * mass;
+        self.force.z -= mass * world.gravity;
+    }
+
+    /// What an element's stretch stores and its damper takes.
+    fn stretch(&mut self, At { rod, state, world, trial }: &At, i: usize) {
+        let (x, v, element) = (&state.position, &state.velocity, &rod.elements[i]);
+        let (t, length) = direction(x, element, i);
         let strain = length / element.rest - 1.0;
         let rate = (t.dot(&(v[i + 1] - v[i])) - length / element.rest * element.rate) / element.rest;
         let height = 0.5 * (x[i].z + x[i + 1].z);
@@ -187,115 +221,127 @@ fn look(rod: &Rod, state: &State, world: &World, solver: &Solver, made: &EndForc
         let (law, energy) = if let (Some(rope), Some(memory)) = (rod.rope(element), &memory) {
             let pulled = rod.pulled(element, rope, [&x[i], &x[i + 1]], memory);
             let (energy, lost) = rope.books(pulled, -memory.kept);
-            found.power.damping -= lost * element.rest;
+            self.power.damping -= lost * element.rest;
             (rope.slow.at(pulled).0 + rope.beside(pulled, memory).0, energy)
         } else if held {
             (segment.axial.at(mechanical).0, segment.axial.energy(mechanical))
         } else {
             (0.0, 0.0)
         };
-        found.energy.elastic += energy * element.rest;
+        self.energy.elastic += energy * element.rest;
         if held || segment.tube.is_some() {
             // what pressure and damping do beside the law's own energy
-            found.power.damping -= (whole - rateless) * rate * element.rest;
-            found.power.fluid -= (rateless - law) * rate * element.rest;
+            self.power.damping -= (whole - rateless) * rate * element.rest;
+            self.power.fluid -= (rateless - law) * rate * element.rest;
         }
-        let at = |node: usize| Node {
+    }
+
+    /// The masses of the halves of an element, and the water and the wind on them.
+    fn halves(&mut self, at: &At, i: usize) {
+        let At { rod, state: State { position: x, velocity: v, acceleration: a, .. }, world, trial } = at;
+        let element = &rod.elements[i];
+        let (t, _) = direction(x, element, i);
+        let half = |node: usize| Node {
             position: &x[node],
             velocity: &v[node],
             acceleration: &a[node],
             fluid: &trial.fluid[node],
         };
         for (node, other) in [(i, i + 1), (i + 1, i)] {
-            lump(&mut found, node, element.mass);
-            let force = on_half(element, &t, world, [at(node), at(other)]);
-            found.power.fluid += force.dot(&v[node]);
-            found.force += force;
+            self.lump(at, node, element.mass);
+            let force = on_half(element, &t, world, [half(node), half(other)]);
+            self.power.fluid += force.dot(&v[node]);
+            self.force += force;
         }
-        if element.bending > 0.0 {
+    }
+
+    /// What the hinges of elements that bend store, and those of the ends.
+    fn bending(&mut self, At { rod, state, trial, .. }: &At) {
+        let (x, last) = (&state.position, rod.elements.len());
+        for (i, element) in rod.elements.iter().enumerate().filter(|(_, e)| e.bending > 0.0) {
             if rod.twists() {
                 let first = (i == 0).then_some(HingeAt::A);
                 let inner = (i > 0).then_some(HingeAt::Inner(i));
                 let end = (i + 1 == last).then_some(HingeAt::B);
                 for at in [first, inner, end].into_iter().flatten() {
                     if let Some((k, kt, e, f)) = hinge_sides(rod, x, &state.director, &trial.ends, at) {
-                        found.energy.elastic += spatial::energy(k, kt, &e, &f);
+                        self.energy.elastic += spatial::energy(k, kt, &e, &f);
                     }
                 }
-            } else if let Some((e, le)) = before {
+                continue;
+            }
+            let (t, length) = direction(x, element, i);
+            if let Some(before) = i.checked_sub(1) {
+                let (e, le) = direction(x, &rod.elements[before], before);
                 let k = rod.hinge(i);
-                found.energy.elastic += 0.5 * k * hinge(k, &e, le, &t, length).angle.powi(2);
+                self.energy.elastic += 0.5 * k * hinge(k, &e, le, &t, length).angle.powi(2);
             }
             for (side, at) in [(0, 0), (1, last - 1)] {
-                if !rod.twists()
-                    && i == at
+                if i == at
                     && let Some((k, direction)) = trial.ends[side].hinge(element)
                 {
-                    found.energy.elastic += 0.5 * k * hinge(k, &direction, 1.0, &t, length).angle.powi(2);
+                    self.energy.elastic += 0.5 * k * hinge(k, &direction, 1.0, &t, length).angle.powi(2);
                 }
             }
         }
-        before = Some((t, length));
     }
-    for held in &rod.attachments {
-        let node = held.node;
-        lump(&mut found, node, held.mass);
-        let fluid = &trial.fluid[node];
-        let depth = fluid.surface - x[node].z - held.pendant;
-        let share = wet_prism(depth, held.height).0;
-        let (u, q) = (v[node] - fluid.velocity, a[node] - fluid.acceleration);
-        let water = fluid.density * held.volume;
-        let mut force =
-            u * (-0.5 * fluid.density * held.drag * u.norm()) - q * (water * held.added) + fluid.acceleration * water;
-        force.z += water * world.gravity;
-        found.power.fluid += force.dot(&v[node]) * share;
-        found.force += force * share;
+
+    /// What is attached between elements, with its water.
+    fn attachments(&mut self, at: &At) {
+        let At { rod, state: State { position: x, velocity: v, acceleration: a, .. }, world, trial } = at;
+        for held in &rod.attachments {
+            let node = held.node;
+            self.lump(at, node, held.mass);
+            let fluid = &trial.fluid[node];
+            let depth = fluid.surface - x[node].z - held.pendant;
+            let share = wet_prism(depth, held.height).0;
+            let (u, q) = (v[node] - fluid.velocity, a[node] - fluid.acceleration);
+            let water = fluid.density * held.volume;
+            let mut force = u * (-0.5 * fluid.density * held.drag * u.norm()) - q * (water * held.added)
+                + fluid.acceleration * water;
+            force.z += water * world.gravity;
+            self.power.fluid += force.dot(&v[node]) * share;
+            self.force += force * share;
+        }
     }
-    if let Some((bottom, ground)) = &world.bottom {
-        for node in 0..=last {
+
+    /// What the bottom stores, and takes by damping and friction.
+    fn bottom(&mut self, At { rod, state, world, trial }: &At) {
+        let Some((bottom, ground)) = &world.bottom else { return };
+        for (node, (x, v)) in state.position.iter().zip(&state.velocity).enumerate() {
             let left = if node > 0 { rod.elements[node - 1].contact } else { 0.0 };
             let area = left + rod.elements.get(node).map_or(0.0, |e| e.contact);
             let soft = trial.soft[node];
-            found.energy.bottom += contact::energy(*bottom, ground, soft, area, &x[node]);
-            let acts =
-                contact(*bottom, ground, soft, area, &x[node], &v[node], &trial.lay[node], &trial.stuck[node], true);
-            let still = contact(
-                *bottom,
-                ground,
-                soft,
-                area,
-                &x[node],
-                &Vector3::zeros(),
-                &trial.lay[node],
-                &trial.stuck[node],
-                true,
-            );
-            let acts = acts.map_or_else(Vector3::zeros, |c| c.force[0] + c.force[1]);
-            let still = still.map_or_else(Vector3::zeros, |c| c.force[0]);
-            found.power.bottom += (acts - still).dot(&v[node]);
-            found.force += acts;
+            self.energy.bottom += contact::energy(*bottom, ground, soft, area, x);
+            let at = |v: &Vector3<f64>| {
+                contact(*bottom, ground, soft, area, x, v, &trial.lay[node], &trial.stuck[node], true)
+            };
+            let acts = at(v).map_or_else(Vector3::zeros, |c| c.force[0] + c.force[1]);
+            let still = at(&Vector3::zeros()).map_or_else(Vector3::zeros, |c| c.force[0]);
+            self.power.bottom += (acts - still).dot(v);
+            self.force += acts;
         }
     }
-    for support in world.supports {
-        let Some(over) = meeting(rod.smooth(), support, x) else { continue };
-        if let Some(made) = supported(support, &over, v) {
-            found.energy.supports += made.energy;
-            // the springs give back what they take but for the motion of the support itself
-            let power = (made.force - made.elastic).dot(&over.at_point(v)) + made.elastic.dot(&support.velocity);
-            found.power.supports -= power;
-            found.force -= made.force;
+
+    /// What supports store, and do by damping and their own motion.
+    fn supports(&mut self, At { rod, state, world, .. }: &At) {
+        let (x, v) = (&state.position, &state.velocity);
+        for support in world.supports {
+            let Some(over) = meeting(rod.smooth(), support, x) else { continue };
+            if let Some(made) = supported(support, &over, v) {
+                self.energy.supports += made.energy;
+                // the springs give back what they take but for the motion of the support itself
+                let power = (made.force - made.elastic).dot(&over.at_point(v)) + made.elastic.dot(&support.velocity);
+                self.power.supports -= power;
+                self.force -= made.force;
+            }
         }
     }
-    for (node, force) in world.forces.iter().filter(|f| f.0 <= last) {
-        found.power.given += force.dot(&v[*node]);
-        found.force += force;
-    }
-    for (side, node) in [(0, 0), (1, last)] {
-        found.power.ends[side] = -made.moment[side].dot(&trial.ends[side].turning);
-        if trial.ends[side].motion.is_some() {
-            found.power.ends[side] -= made.force[side].dot(&v[node]);
-            found.force -= made.force[side];
-        }
-    }
-    found
+}
+
+/// Direction of an element, and its length (m).
+fn direction(x: &[Vector3<f64>], element: &Element, i: usize) -> (Vector3<f64>, f64) {
+    let d = x[i + 1] - x[i];
+    let length = d.norm().max(1e-9 * element.rest);
+    (d / length, length)
 }

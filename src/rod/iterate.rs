@@ -8,6 +8,41 @@ use super::step::{Failure, Solver};
 use super::surroundings::World;
 use super::trial::{carry, largest};
 
+/// The change that an iteration has made, and the work of what was out of balance on the way of it (J).
+#[derive(Clone, Debug)]
+pub(super) struct Made {
+    pub change: Vec<f64>,
+    pub work: f64,
+}
+
+impl Made {
+    pub fn new(size: usize) -> Self {
+        Made { change: vec![0.0; size], work: 0.0 }
+    }
+
+    pub fn forget(&mut self) {
+        self.change.fill(0.0);
+    }
+
+    /// Cuts a change short that takes back the one before by half or more, as if there were no end to that: between elements that are
+    /// slack at one of the two places and taut at the other. It ends where what is out of balance does no work on the way from one to the
+    /// other, were its work a line in between: the least of the energy there.
+    fn settle(&mut self, residual: &[f64], change: &mut [f64]) {
+        let along = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        if along(change, &self.change) < -0.5 * along(&self.change, &self.change) {
+            let here = along(residual, &self.change);
+            let share = here / (here - self.work);
+            let share = if share > LEAST && share < 1.0 - LEAST { share } else { 0.5 };
+            change.iter_mut().for_each(|c| *c *= share);
+        }
+        self.change.copy_from_slice(change);
+        self.work = along(residual, change);
+    }
+}
+
+/// Least share of a change, and of the way back, that is left.
+const LEAST: f64 = 0.1;
+
 impl Solver {
     /// Where a step ends if its averaged accelerations stay.
     pub(super) fn foretell(&mut self, from: &State, scheme: &Scheme, time: f64, ends: &[End; 2]) {
@@ -54,12 +89,15 @@ impl Solver {
             self.near.moved = 0.0;
         }
         self.work.newton(&mut self.change);
+        // what is still to move counts, also where less of it is made
+        let size = largest(&self.change, self.work.stride(), rod.shortest());
+        self.made.settle(self.work.residuals(), &mut self.change);
         self.work.carry_ends(&self.change);
         // a maximum would pass over a value that is no number
         let sum: f64 = self.change.iter().sum();
         if !sum.is_finite() {
             return Err(Failure { node: self.work.worst(known).0, why: "a force is no number" });
         }
-        Ok(largest(&self.change, self.work.stride(), rod.shortest()))
+        Ok(size)
     }
 }

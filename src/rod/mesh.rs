@@ -24,7 +24,7 @@ pub(super) struct Element {
     pub ea: f64,
     /// Axial damping (N s).
     pub damping: f64,
-    /// Whether its tension is that of a constant EA and of damping alone: nothing else is to be asked.
+    /// Whether its tension is that of a constant EA, damping and pressure: such elements are taken several at once.
     pub plain: bool,
     /// Whether it resists being shortened.
     pub compression: bool,
@@ -57,7 +57,7 @@ impl Element {
             rate: 0.0,
             segment: index,
             ea,
-            plain: ea > 0.0 && segment.tube.is_none(),
+            plain: ea > 0.0,
             damping: segment.axial_damping,
             compression: segment.compression,
             bending: segment.bending,

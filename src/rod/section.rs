@@ -17,6 +17,15 @@ pub enum Axial {
 }
 
 impl Axial {
+    /// The law of coefficients as of [`Axial::Polynomial`], those of the highest powers left out that are zero: a line of one alone is
+    /// linear, and quicker.
+    pub fn of_powers(mut coefficients: Vec<f64>) -> Self {
+        while coefficients.len() > 1 && coefficients.last() == Some(&0.0) {
+            coefficients.pop();
+        }
+        if let [ea] = coefficients[..] { Axial::Linear(ea) } else { Axial::Polynomial(coefficients) }
+    }
+
     /// Tension (N) and its slope d(tension)/d(strain) (N) at a strain.
     pub fn at(&self, strain: f64) -> (f64, f64) {
         match self {
@@ -303,5 +312,11 @@ mod tests {
                 assert!((bend - law.bend(strain)).abs() < 1e-7, "{law:?} {strain}");
             }
         }
+    }
+    #[test]
+    fn a_law_of_its_first_power_alone_is_linear() {
+        assert_eq!(Axial::of_powers(vec![3.0, 0.0, 0.0]), Axial::Linear(3.0));
+        assert_eq!(Axial::of_powers(vec![3.0, 0.0, 5.0, 0.0]), Axial::Polynomial(vec![3.0, 0.0, 5.0]));
+        assert_eq!(Axial::of_powers(vec![]), Axial::Polynomial(vec![]));
     }
 }

@@ -5,6 +5,7 @@ use super::condense::Near;
 use super::ends::End;
 use super::error::RodError;
 use super::hinges::end_moment;
+use super::iterate::Made;
 use super::mesh::Rod;
 use super::rope::{Memory, remember, settle};
 use super::scheme::{Scheme, Settings};
@@ -42,6 +43,7 @@ pub struct Solver {
     pub(super) work: Workspace,
     pub(super) trial: Trial,
     pub(super) change: Vec<f64>,
+    pub(super) made: Made,
     /// Where the last trial ended.
     pub(super) next: State,
     /// Where the part before it ended, when a step is cut.
@@ -113,6 +115,7 @@ impl Solver {
         Solver {
             settings,
             change: vec![0.0; work.stride() * nodes],
+            made: Made::new(work.stride() * nodes),
             beside: work.clone(),
             adjoint: vec![0.0; 6 * work.stride() * nodes],
             work,
@@ -301,6 +304,7 @@ impl Solver {
         let stride = self.work.stride();
         let known = [ends[0].motion.is_some(), ends[1].motion.is_some()];
         let (mut before, mut last_move) = (f64::INFINITY, f64::INFINITY);
+        self.made.forget();
         for iteration in 1..=self.settings.iterations {
             std::mem::swap(&mut self.trial.x, &mut self.next.position);
             std::mem::swap(&mut self.trial.v, &mut self.next.velocity);
@@ -313,7 +317,8 @@ impl Solver {
                 _ => sample_again(world, &mut self.trial, shortest),
             }
             // while the moves shrink fast the factors of the iteration before do as well
-            let fresh = !close && (iteration == 1 || last_move > 1e-3 * shortest || last_move > 0.2 * before);
+            let shrinks = last_move <= 1e-3 * shortest && last_move <= 0.2 * before;
+            let fresh = !close && (iteration == 1 || !shrinks);
             let size = self.iterate(rod, world, known, fresh);
             std::mem::swap(&mut self.trial.x, &mut self.next.position);
             std::mem::swap(&mut self.trial.v, &mut self.next.velocity);
@@ -322,6 +327,12 @@ impl Solver {
             let size = size?;
             if !(size.is_finite() && size < wild) {
                 return Err(Failure { node: self.work.worst(known).0, why: "the iteration runs away" });
+            }
+            if !fresh && !close && size > last_move {
+                // they do no more, as when an element comes to be slack: the move is not made
+                before = last_move;
+                self.made.forget();
+                continue;
             }
             self.near.moved += size;
             let next = &mut self.next;

@@ -2,7 +2,7 @@
 
 use super::mesh::{Element, Rod};
 use super::rope::Memory;
-use super::section::{Axial, Segment};
+use super::section::{Axial, Segment, Tube};
 use super::surroundings::Fluid;
 use nalgebra::Vector3;
 
@@ -32,14 +32,37 @@ pub(super) struct Taken {
     pub ease: f64,
 }
 
+/// What the tension of a tube has of warmth and pressure.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Walls {
+    /// Strain free of tension.
+    pub free: f64,
+    /// Tension by the pressure outside (m2).
+    pub outside: f64,
+    /// Tension that the contents take away at z = 0 (N), and give back by the way up from there (N/m).
+    pub inside: f64,
+    pub contents: f64,
+}
+
+impl Walls {
+    /// Of a tube: (1 - 2 nu)(p_e A_e - p_i A_i) (Sparks, Fundamentals of Marine Riser Mechanics, 2007, section 2.4).
+    #[inline(always)]
+    pub fn of(tube: &Tube, gravity: f64) -> Self {
+        let share = 1.0 - 2.0 * tube.poisson;
+        let [outside, inside] = tube.areas().map(|area| share * area);
+        let contents = tube.contents * gravity * inside;
+        let free = tube.expansion * tube.warmer;
+        Walls { free, outside, inside: tube.pressure * inside + contents * tube.at, contents }
+    }
+}
+
 impl Tension {
     const NONE: Tension = Tension { value: 0.0, by_strain: 0.0, by_rate: 0.0, by_height: 0.0 };
 }
 
 /// Effective tension: the law of the segment at the mechanical strain, internal damping, and what pressure does
-/// through Poisson's ratio, (1 - 2 nu)(p_e A_e - p_i A_i) (Sparks, Fundamentals of Marine Riser Mechanics, 2007,
-/// section 2.4), the pressure outside being the mean of what the fluids at its two nodes make it at its middle. A
-/// viscoelastic rope with a `memory` adds its Maxwell element.
+/// through Poisson's ratio ([`Walls`]), the pressure outside being the mean of what the fluids at its two nodes make it at its
+/// middle. A viscoelastic rope with a `memory` adds its Maxwell element.
 ///
 /// What does not resist being shortened never pushes, neither by its stiffness nor by its damper; and its damper does
 /// not pull while it is slack.
@@ -81,13 +104,11 @@ pub(super) fn tension(
         made.by_strain += slope;
     }
     if let Some(tube) = &segment.tube {
-        let share = 1.0 - 2.0 * tube.poisson;
-        let [outside, inside] = tube.areas();
+        let Walls { outside, inside, contents, .. } = Walls::of(tube, gravity);
         let [a, b] = fluids.map(|fluid| fluid.pressure(stretch.height, gravity));
         let (outer, by_height) = (0.5 * (a.0 + b.0), 0.5 * (a.1 + b.1));
-        let inner = tube.pressure + tube.contents * gravity * (tube.at - stretch.height);
-        made.value += share * (outer * outside - inner * inside);
-        made.by_height = share * (tube.contents * gravity * inside + by_height * outside);
+        made.value += outer * outside - (inside - contents * stretch.height);
+        made.by_height = contents + by_height * outside;
     }
     let still = made.value;
     made.value += element.damping * stretch.rate;

@@ -81,6 +81,11 @@ impl Workspace {
         });
     }
 
+    /// What all unknowns need from outside (N, N m).
+    pub fn residuals(&self) -> &[f64] {
+        each!(self, system => &system.residual)
+    }
+
     /// Force a node needs from outside (N).
     #[cfg(test)]
     pub fn residual(&self, node: usize) -> Vector3<f64> {

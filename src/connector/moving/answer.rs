@@ -21,7 +21,9 @@ pub(super) fn on_ends(
     }
     let fill = |blocks: &mut Vec<Matrix6<f64>>, whole: &Twelve| {
         blocks.clear();
-        blocks.extend((0..4).map(|index| -whole.fixed_view::<6, 6>(6 * (index / 2), 6 * (index % 2))));
+        // nalgebra goes through a view value by value, with its strides
+        let block = |index: usize| Matrix6::from_fn(|i, j| -whole[(6 * (index / 2) + i, 6 * (index % 2) + j)]);
+        blocks.extend((0..4).map(block));
     };
     if let Some(tangent) = tangent {
         fill(&mut out.stiffness, &tangent.position);

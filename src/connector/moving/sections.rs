@@ -270,7 +270,7 @@ fn law(args: &Args, ea: f64) -> Outcome<Axial> {
         (Some(given), Some(other)) => {
             Err(Diagnostic::error("tension by strain is given twice", other.span).other(given.span, "and here"))
         }
-        (Some(given), None) => Ok(Axial::Polynomial([0, 1, 2].map(|i| given.number(i).unwrap_or(0.0)).to_vec())),
+        (Some(given), None) => Ok(Axial::of_powers([0, 1, 2].map(|i| given.number(i).unwrap_or(0.0)).to_vec())),
         (None, Some(given)) => {
             let mut points = vec![(0.0, 0.0)];
             for pair in given.values.chunks_exact(2) {

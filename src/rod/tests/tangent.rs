@@ -107,14 +107,19 @@ fn elements_taken_at_once_are_what_each_is_alone() {
     let fluid = UniformFluid(Fluid {
         velocity: Vector3::new(0.7, -0.2, 0.1),
         acceleration: Vector3::new(0.1, 0.3, -0.2),
+        head: 0.4,
         ..UniformFluid::still(1025.0).0
     });
     let world = World::new(&fluid, 9.81);
-    for (bending, compression) in [(0.0, false), (0.0, true), (4e5, true)] {
+    let full = Tube { expansion: 1e-5, warmer: 40.0, pressure: 2e6, contents: 800.0, ..Tube::empty(0.4, 0.36) };
+    for (bending, compression, tube) in
+        [(0.0, false, None), (0.0, true, None), (4e5, true, None), (0.0, false, Some(full)), (4e5, true, Some(full))]
+    {
         let segment = Segment {
             axial_damping: 2e4,
             compression,
             bending,
+            tube,
             drag_normal: 1.2,
             drag_tangential: 0.1,
             added_normal: 1.0,

@@ -5,7 +5,7 @@ use crate::model::{Body, ClassError, Model, Position};
 /// What a condition watches.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Watched {
-    /// The tension of a connector: the size of the force at its first end (N).
+    /// The tension of a connector: the size of the force at the end that pulls, its first one but of a pipe (N).
     Tension(String),
     /// A freedom of a body's origin (m; roll, pitch and yaw in rad).
     Freedom(String, usize),
@@ -49,6 +49,16 @@ pub struct Action {
     pub when: When,
     /// What.
     pub what: What,
+}
+
+impl When {
+    /// The connector whose tension is watched.
+    pub fn connector(&self) -> Option<&String> {
+        match self {
+            When::Above(Watched::Tension(name), _) | When::Below(Watched::Tension(name), _) => Some(name),
+            _ => None,
+        }
+    }
 }
 
 impl Action {

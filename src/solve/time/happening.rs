@@ -154,7 +154,8 @@ impl Run {
                 let mut first = 0;
                 for link in &self.system.links {
                     if link.name.eq_ignore_ascii_case(name) {
-                        return self.now.forces.wrenches.get(first).map(|w| w.fixed_rows::<3>(0).norm());
+                        let pulls = first + link.element.pulling_end();
+                        return self.now.forces.wrenches.get(pulls).map(|w| w.fixed_rows::<3>(0).norm());
                     }
                     first += link.ends.len();
                 }

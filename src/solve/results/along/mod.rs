@@ -25,15 +25,12 @@ pub use touchdown::touchdown;
 use super::super::system::SolveError;
 use super::super::time::{AlongColumns, NodeRow, Quantity, Run};
 use super::Event;
-use crate::model::{AssemblyKind, ClassError, FatigueSegment, Model, PIPE, WallMaterial};
+use crate::model::{AssemblyKind, ClassError, FatigueSegment, Model, WallMaterial, line_name};
 use crate::post::line::Tube;
 use crate::table::Digits;
 
 /// Digits of the height over the bottom, into which a line that lies presses itself by millimetres.
 pub(super) const CLEARANCE: Digits = Digits::Decimals(3);
-
-/// What a pipe assembly is called for short (the MOSES manual, conn_pipe).
-const SHORT: &str = "&PIPE";
 
 /// A segment of the line.
 #[derive(Clone, Debug, PartialEq)]
@@ -132,7 +129,7 @@ impl<'a> Line<'a> {
     /// No such connector in the run, one that tells of no nodes, or whose nodes the run did not keep.
     pub fn of(run: &'a Run, name: &str) -> Result<Self, ClassError> {
         let layout = &run.history.layout;
-        let name = if name.eq_ignore_ascii_case(SHORT) { PIPE } else { name };
+        let name = line_name(name);
         let kept = || layout.links.iter().filter(|l| l.along.is_some()).map(|l| l.name.as_str());
         let Some((link, found)) = layout.links.iter().enumerate().find(|(_, l)| l.name.eq_ignore_ascii_case(name))
         else {
