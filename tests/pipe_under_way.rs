@@ -205,3 +205,42 @@ fn a_run_ends_when_the_pull_on_a_pipe_is_above_a_limit() {
     let (last, before) = pulls.split_last().unwrap();
     assert!(*last > 4.6e5 && before.iter().all(|p| *p <= 4.6e5) && before.len() < 400, "{last} {}", before.len());
 }
+
+#[test]
+fn a_tensioner_takes_hold_where_it_has_come_to() {
+    // surge of half a metre turns at 10 s and 30 s; from then on it is held until the pipe itself pulls by the other limit
+    let session = laid([5.8e5, 6.2e5], "-SINUSOID X 0.5 40", "");
+    let run = session.job.run.as_ref().unwrap();
+    let at = run.history.layout.pull(0).unwrap();
+    for row in run.history.rows() {
+        let pull = row[at..at + 3].iter().map(|f| f * f).sum::<f64>().sqrt();
+        let wanted = match row[0] {
+            t if (1.0..10.0).contains(&t) || (34.0..40.0).contains(&t) => 5.8e5,
+            t if (15.0..29.0).contains(&t) => 6.2e5,
+            _ => continue,
+        };
+        // the roller under it takes what is across
+        assert!((pull / wanted - 1.0).abs() < 2e-3, "{}: {pull}", row[0]);
+    }
+}
+
+#[test]
+fn a_current_that_comes_during_a_run_leaves_a_pipe_as_long_as_it_was_laid() {
+    let still = records([4e5, 8e5], "-SINUSOID X 0 10");
+    let streams = "&ENV STREAM -DEPTH 50 -CURRENT 1.0 90 -TIME 40 0.1\n&ENV CALM -DEPTH 50 -TIME 40 0.1\n";
+    let (session, _folder) =
+        after(format!("{still}{streams}&ENV CALM\n&ACTION SW -AT 5 -ENVIRONMENT STREAM\nTDOM -ALONG 1\n"), None);
+    let run = session.job.run.as_ref().unwrap();
+    let (at, along) = (run.history.layout.pull(0).unwrap(), run.history.layout.links[0].along.as_ref().unwrap());
+    let seen = |row: &[f64]| {
+        let end = along.nodes(row).last().unwrap().1.arc;
+        (row[at..at + 3].iter().map(|f| f * f).sum::<f64>().sqrt(), end)
+    };
+    let rows: Vec<_> = run.history.rows().map(|row| (row[0], seen(row))).collect();
+    for pair in rows.windows(2) {
+        let ((time, (pull, end)), (_, (next, other))) = (pair[0], pair[1]);
+        assert_eq!(end, other, "{time}");
+        // what comes by the drag alone
+        assert!((next - pull).abs() < 2e4, "{time}: {pull} {next}");
+    }
+}

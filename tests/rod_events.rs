@@ -412,3 +412,24 @@ fn a_winch_so_fast_that_a_step_would_need_thousands_of_elements_is_told_before_t
     assert!(told.contains("ROPE") && told.contains("4000 parts of the step"), "{told}");
     assert!(session.job.run.is_none());
 }
+
+#[test]
+fn a_winch_that_never_comes_to_its_length_ends_the_run_where_it_begins() {
+    for (action, told) in [("0.5 20", "30 m"), ("-0.5 40", "30 m")] {
+        let (mut session, _, _folder) = common::session();
+        session.open("test", format!("&DIMEN -DIMEN METERS N\n{}", fine_winch(action)));
+        session.run();
+        let reports = format!("{:?}", session.reports);
+        assert!(session.errors == 1 && reports.contains(told) && reports.contains("never comes to"), "{reports}");
+    }
+}
+
+#[test]
+fn a_line_that_is_let_go_is_wound_no_more() {
+    let records = fine_winch("0.5 60").replace("TDOM", "&ACTION OFF -AT 15 -RELEASE ROPE\nTDOM");
+    let session = after(&records);
+    for (time, row) in nodes(session.job.run.as_ref().unwrap()).iter().filter(|r| r.0 > 5.0) {
+        let long = row.last().unwrap().arc;
+        assert!((long - (30.0 + 0.5 * (time.min(15.0) - 5.0))).abs() < 1e-6, "{time}: {long}");
+    }
+}

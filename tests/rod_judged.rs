@@ -11,6 +11,7 @@ mod runs;
 use runs::{model, run, settings};
 use std::f64::consts::FRAC_PI_4;
 use windlass::post::line::lrfd::Factors;
+use windlass::post::line::working_stress::DesignCase;
 use windlass::solve::results::along::{Code, Line, check, lines_at_rest};
 use windlass::solve::results::events;
 use windlass::solve::time::Run;
@@ -152,5 +153,30 @@ fn a_pipe_that_a_winch_pays_out_is_checked_by_what_was_at_rest_where_it_hangs() 
         let want = share * design(arcs[i], tension[i]).powi(2);
         // what is left of its swing, and the load at its second end
         assert!((used[i] / want - 1.0).abs() < 5e-3, "{}: {} {want}", arcs[i], used[i]);
+    }
+}
+
+#[test]
+fn corrosion_thins_the_wall_that_bears_the_tension_and_the_pressure_inside() {
+    // sea water inside and outside: the stress is that of effective tension in what is left of the wall, less the pressure
+    let records = "INMODEL\nT_PRESSURE SEA 0 0 -DENSITY 1025\nEND\n&ENV -DEPTH 3000 -T_PRESSURE SEA\nMEDIT\n&DESCRIBE BODY S -IGNORE X Y Z RX RY RZ\n\
+                   *F 0 0 -2990\n*E 0 0 -3000\n#WEIGHT *F 1E6 5 5 5\n\
+                   ~R ROD 300 20 -LEN 9.999 -REFINE 10 -FYIELD 450 -WTPLEN 20\nCONNECTOR A ~R *F *E\nEND\n";
+    let made = run(&model(records), settings(0.2, 0.1), vec![]);
+    let line = Line::of(&made, "A").unwrap();
+    let all = events(&made.history, None).unwrap();
+    let columns = made.history.layout.links[0].along.as_ref().unwrap();
+    let node = columns.node(0, made.history.rows().next().unwrap()).unwrap();
+    for corroded in [0.0, 0.008] {
+        let table = check(&line, &Code::WorkingStress(DesignCase::Operating, corroded), &all).unwrap();
+        let wall = 0.02 - corroded;
+        let area = FRAC_PI_4 * (0.3f64.powi(2) - (0.3 - 2.0 * wall).powi(2));
+        // two thirds of yield stress
+        let wanted = node.effective / area / 3e8;
+        assert!(
+            (column(&table, "Used")[0] / wanted - 1.0).abs() < 5e-3,
+            "{corroded}: {} {wanted}",
+            column(&table, "Used")[0]
+        );
     }
 }

@@ -198,3 +198,53 @@ fn a_search_for_a_position_of_rest_may_be_interrupted() {
     assert_eq!(told.error.message, "interrupted");
     assert!(told.error.lasting);
 }
+
+#[test]
+fn what_lies_on_the_bottom_feels_the_current_as_it_does_over_a_chart_of_it() {
+    let bow = |chart: &str| {
+        let environment = format!(
+            "&BATHYMETRY FLAT\nX -1000 0 1000\nY -1000 -50 -50 -50\nY 0 -50 -50 -50\nY 1000 -50 -50 -50\nEND\n\
+             &ENV -DEPTH 50 -CURRENT 1.0 90 {chart}"
+        );
+        let rope = "ROD 100 10 -LEN 100 -REFINE 20 -EI 0 -WTPLEN 100 -CD 1.2 0";
+        let table = at_rest(&model(&between(&environment, &[rope], ["0 0 -49.9", "99 0 -49.9"])));
+        column(&table, "Y")
+    };
+    let (flat, charted) = (bow(""), bow("-BATHYMETRY FLAT"));
+    // a rope of 100 m over 99 m bows by about 0.61 of the root of its slack times its length, toward -Y
+    assert!((flat[10] / -(3.0f64 / 8.0 * 99.0).sqrt() - 1.0).abs() < 0.02, "{}", flat[10]);
+    for (a, b) in flat.iter().zip(&charted) {
+        assert!((a - b).abs() < 1e-6, "{a} {b}");
+    }
+}
+
+#[test]
+fn the_bottom_goes_with_the_anchor_of_a_line_that_moves_by_itself_as_with_that_of_one_that_does_not() {
+    for depth in [80.0, 120.0] {
+        let at = |dynamics: &str| {
+            let records = format!(
+                "&ENV -DEPTH 100\nMEDIT\n&DESCRIBE BODY S -IGNORE X Y Z RX RY RZ\n*F 0 0 0\n#WEIGHT *F 1E7 5 5 5\n\
+                 ~C B_CAT 76 EXACT -LEN 250 -DEPANCHOR 100\nCONNECTOR A -ANC 180 210 ~C *F\n&CONNECTOR A -ANCHOR -210 0 {} {dynamics}\nEND\n",
+                -depth
+            );
+            pulls(&model(&records)).remove(0)
+        };
+        let (still, moving) = (at(""), at("-DYNAMICS 200"));
+        // elements of 1.25 m, and a bottom into which it presses itself
+        assert!((size(&moving) / size(&still) - 1.0).abs() < 2e-3, "{depth}: {moving:?} {still:?}");
+    }
+}
+
+#[test]
+fn what_holds_nothing_is_refused() {
+    for (class, told) in [
+        ("ROD 100 10 -LEN 100 -REFINE 20 -EI 0 -CLAMP FIRST 90", "its segment does not bend"),
+        ("ROD 100 10 -LEN 100 -REFINE 20 -CLUMP_DRAG 5 10", "no clump or buoy"),
+    ] {
+        let (mut session, _, _folder) = common::session();
+        session.open("records", format!("&DIMEN -DIMEN METERS N\nMEDIT\n~L {class}\nEND\n"));
+        session.run();
+        let reports = format!("{:?}", session.reports);
+        assert!(session.errors == 1 && reports.contains(told), "{reports}");
+    }
+}

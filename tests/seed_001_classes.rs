@@ -65,7 +65,8 @@ fn every_option_of_every_class_type_is_read_and_listed_back() {
             }
             let needs_length = spec.options.iter().any(|o| o.name == "-LEN") && option.name != "-LEN";
             let length = if needs_length { "-LEN 10" } else { "" };
-            let record = format!("~C {} {} {length} {} {text}", spec.name, data.join(" "), option.name);
+            let clump = if option.name == "-CLUMP_DRAG" { "-CLUMP 100" } else { "" };
+            let record = format!("~C {} {} {length} {clump} {} {text}", spec.name, data.join(" "), option.name);
             let (out, messages) = run(&format!("{curve}MEDIT\n{record}\nEND\n&STATUS CL_FLEX\n"));
             assert!(messages.is_empty(), "{record}: {messages:?}");
             let listed = format!("{} {text}", option.name);

@@ -16,9 +16,12 @@ use crate::solve::time::{Action, Watched, What, When};
 pub static ACTION: Command = Command { spec: &SPEC, edits: false, run };
 
 const LINE: ValueSpec = ValueSpec::new("LINE", Kind::Name(Noun::Line), "connector, or &PIPE");
-const FORCE: ValueSpec =
-    ValueSpec::new("F", Kind::Number(Dim::Force), "size of the force at its first end, of a pipe at its tensioner")
-        .not_negative();
+const FORCE: ValueSpec = ValueSpec::new(
+    "F",
+    Kind::Number(Dim::Force),
+    "size of the force at its first end, of a pipe at its tensioner or first davit",
+)
+.not_negative();
 const BODY: ValueSpec = ValueSpec::new("BODY", Kind::Name(Noun::Body), "body");
 const DOF: ValueSpec =
     ValueSpec::new("DOF", Kind::Choice(&FREEDOMS), "freedom of its origin, roll, pitch and yaw as RX RY RZ");

@@ -47,7 +47,7 @@ static SPEC: CommandSpec = CommandSpec {
              right angles and take nothing along it, and hangs by its davits from nodes of its own; as these lean toward what pulls them, less than \
              TLOWER is left at rest. The bottom has no friction on it at rest. The last roller is the tensioner and holds \
              the end of the pipe: laid at the mean of TLOWER and TUPPER, the end is held along X of its body while its tension stays between \
-             them, and is paid out or hauled in beyond them, as our reading. &EQUI lays the pipe anew where the vessel comes to rest; in TDOM its far \
+             them, is paid out or hauled in beyond them, and is held anew where it then is, as our reading. &EQUI lays the pipe anew where the vessel comes to rest; in TDOM its far \
              end stays where it was when the run began. A single roller makes a vertical riser, pulled up by TUPPER as it is laid and pinned on \
              the bottom below; X of its roller then runs down the pipe and Z along X of the body, and -Y_ROLLER 0 0 -Z_ROLLER 0 0 hold it all around. Springs of the ROLLER in X, RX, RY and RZ do nothing to it. &STATUS ASSEMBLIES tells what it exerts on its supports; \
              &STATUS ROD, ROD_MODES and ROD of PRCPOST what is along it, by its name or &PIPE.",

@@ -227,7 +227,9 @@ fn begun(job: &mut Job, args: &Args, settings: Settings) -> Outcome<(Run, Option
     let kept = kept.map_err(|e| refused(format!("{}: {e}", path.display())))?;
     if kept.fingerprint != made.fingerprint() || kept.width != made.history.layout.width {
         let text = format!("the run kept in {} is of another model, environment, step or scheme", path.display());
-        return Err(refused(text).help("all must be as they were, but for the time observed"));
+        return Err(refused(text).help(
+            "all must be as they were, but for the time observed; a winch without a LENGTH has room for as much as it winds in that time",
+        ));
     }
     let log = RunLog::go_on(file, path, &kept).map_err(|e| refused(e.to_string()))?;
     made.take_up(&kept.snapshot, kept.rows).map_err(|e| wrong(e, job))?;

@@ -355,7 +355,7 @@ impl ConnectorClass for CatenaryClass {
                 pendant: 0.0,
             }),
         };
-        let seabed = Seabed { depth: self.depth, ..Seabed::default() };
+        let seabed = Seabed { depth: self.depth, with_anchor: true, ..Seabed::default() };
         let parts = self.sections.iter().map(part).collect();
         let made = description("CATENARY", parts, seabed, [None, None]);
         Ok(Box::new(MovingLine::made(made, connection)?))

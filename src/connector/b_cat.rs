@@ -247,7 +247,8 @@ impl ConnectorClass for Catenary {
     fn moving(&self, connection: &Connection, elements: usize) -> Result<Box<dyn Element>, ClassError> {
         let plain = self.devices.is_none() && self.springs.iter().all(Option::is_none);
         let made = (self.sections.as_slice(), self.flexures.as_slice());
-        let made = m::chain(("B_CAT", plain), made, self.seabed, elements, connection.surroundings)?;
+        let seabed = Seabed { with_anchor: true, ..self.seabed };
+        let made = m::chain(("B_CAT", plain), made, seabed, elements, connection.surroundings)?;
         Ok(Box::new(MovingLine::made(made, connection)?))
     }
 

@@ -98,11 +98,12 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
             .label(format!("with this segment it has {elements}, which would take about {megabytes:.0} MB")));
     }
     let flexures = records.iter().zip(&sections).map(|(r, s)| Flexure::read(r, s)).collect::<Outcome<Vec<_>>>()?;
+    let holds = m::holds(records, &flexures)?;
     Ok(Arc::new(Rod {
         sections,
         flexures,
         seabed: m::seabed(records)?,
-        holds: m::holds(records)?,
+        holds,
         slam: records.iter().any(|r| r.args.has("-SLAM")),
     }))
 }

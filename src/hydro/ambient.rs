@@ -31,10 +31,8 @@ pub fn ambient(model: &Model, sea: Option<&Arc<Sea>>) -> Result<Arc<dyn Ambient>
     if let (Some(named), None) = (&env.bathymetry, &bottom) {
         return Err(ClassError::new(format!("there is no bathymetry {}", named.kind)).at(named.span));
     }
-    if bottom.is_some() {
-        // the current goes on to the bottom, where that lies deeper than -DEPTH
-        steady.current = steady.current.bottomless();
-    }
+    // what lies is a little below -DEPTH, as it presses itself in, and a bottom of its own may be deeper: the current goes on there
+    steady.current = steady.current.bottomless();
     let contents = match &env.filling {
         None => None,
         Some(named) => match model.fillings.get(&Model::key(&named.kind)) {

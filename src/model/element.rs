@@ -180,6 +180,11 @@ pub trait Element: Debug + Send + Sync {
     /// As [`Element::evaluate`].
     fn summary(&self, at: &Situation, committed: &[f64]) -> Result<Summary, ClassError>;
 
+    /// The same in other surroundings along it, made no otherwise for them; none of what is to be made anew for them.
+    fn under(&self, _ambient: &Arc<dyn Ambient>) -> Option<Box<dyn Element>> {
+        None
+    }
+
     /// The end by whose force its pull is told.
     fn pulling_end(&self) -> usize {
         0

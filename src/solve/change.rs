@@ -1,6 +1,6 @@
 //! Changes of a system under way: connectors that come and go or change their length, loads of another environment.
 
-use super::link::{Attachment, Link, connected, laid, link};
+use super::link::{Attachment, Link, connected, link};
 use super::system::{SolveError, System, moving_nodes};
 use super::time::{LinkEnds, Memory};
 use crate::hydro::ambient;
@@ -90,13 +90,9 @@ impl System {
     /// A connector that makes no element.
     pub fn make_anew(&mut self, model: &Model, name: &str) -> Result<(), SolveError> {
         let Some(at) = self.links.iter().position(|l| l.name.eq_ignore_ascii_case(name)) else { return Ok(()) };
-        let made = match model.assemblies.get(&Model::key(name)) {
-            Some(assembly) => laid((model, &self.ambient, &self.duties), assembly)?.map(|(element, _)| element),
-            None => Some(self.element(model, connector(model, name)?).map_err(SolveError::of(name))?),
-        };
-        let gone = || SolveError::of(name)(ClassError::new("nothing holds it any more"));
+        let made = self.element(model, connector(model, name)?).map_err(SolveError::of(name))?;
         if let Some(link) = self.links.get_mut(at) {
-            link.element = made.ok_or_else(gone)?;
+            link.element = made;
         }
         Ok(())
     }
@@ -119,7 +115,14 @@ impl System {
         }
         let mut nodes = moving_nodes(model, sea)?;
         self.ambient = ambient(model, sea).map_err(SolveError::new)?;
-        let moving: Vec<String> = self.links.iter().filter(|l| l.element.moves()).map(|l| l.name.clone()).collect();
+        // a pipe stays as it was laid, with what grows on it and is in it
+        for link in &mut self.links {
+            if let Some(element) = link.element.under(&self.ambient) {
+                link.element = element;
+            }
+        }
+        let again = |l: &&Link| l.element.moves() && !l.element.made_for_place();
+        let moving: Vec<String> = self.links.iter().filter(again).map(|l| l.name.clone()).collect();
         for name in &moving {
             self.make_anew(model, name)?;
         }

@@ -52,6 +52,8 @@ pub struct Seabed {
     pub slope: Option<f64>,
     /// Depth of the bottom at the second end below z = 0 (m), where the class says it.
     pub depth: Option<f64>,
+    /// Whether it goes with an anchor, wherever that is put, as under lines that rest by a closed form.
+    pub with_anchor: bool,
 }
 
 impl Seabed {

@@ -9,7 +9,7 @@ use super::start;
 use super::warm::{Base, Held, Warm};
 use crate::language::units::Dim;
 use crate::model::{
-    ClassError, Element, End, Flow, Guess, LineBooks, LineMode, LineNode, Response, Situation, Six, Summary,
+    Ambient, ClassError, Element, End, Flow, Guess, LineBooks, LineMode, LineNode, Response, Situation, Six, Summary,
     Surroundings,
 };
 use crate::rod::{self, Balance, EndForces, EndTangent, Ground, Motion, Rod, State, World};
@@ -50,10 +50,11 @@ impl MovingLine {
         guess.as_mut()?.downcast_mut::<Warm>()
     }
 
-    /// The line's surroundings, at rest or under way, for what needs them; `flows` is room for what is asked of the water.
+    /// The line's surroundings, at rest or under way, for what needs them, its tensioner having paid out so much (m); `flows` is room
+    /// for what is asked of the water.
     pub(super) fn within<T>(
         &self,
-        (at, mean): (&Situation, bool),
+        (at, mean, paid): (&Situation, bool, f64),
         flows: &mut Vec<Flow>,
         act: impl FnOnce(&World) -> T,
     ) -> T {
@@ -63,7 +64,7 @@ impl MovingLine {
         let floor = Floor { plane: self.base.plane, ambient, flat: self.base.flat.unwrap_or(f64::NEG_INFINITY) };
         let known = self.base.plane.is_some() || self.base.flat.is_some() || ambient.is_some_and(|a| a.charted());
         let bottom: Option<(&dyn rod::Bottom, Ground)> = known.then_some((&floor, self.base.ground));
-        let felt = self.base.laid.as_ref().map(|laid| laid.felt(at.ends, around)).unwrap_or_default();
+        let felt = self.base.laid.as_ref().map(|laid| laid.felt(at.ends, around, paid)).unwrap_or_default();
         let supports: Vec<_> = felt.iter().map(Felt::support).collect();
         let slam = self.base.description.slam;
         let made = act(&World { bottom, slam, supports: &supports, ..World::new(&water, around.gravity) });
@@ -107,7 +108,7 @@ impl MovingLine {
         warm.fit();
         let places = [0, 1].map(|i| at.ends.get(i).map_or_else(Vector3::zeros, |e| e.pose.origin));
         let Warm { rod, solver, rest, flows, .. } = warm;
-        self.within((at, true), flows, |world| {
+        self.within((at, true, 0.0), flows, |world| {
             if let Some((bottom, _)) = &world.bottom.filter(|_| self.base.laid.is_none()) {
                 for (place, name) in places.iter().zip(["first", "second"]) {
                     let below = bottom.height(place.x, place.y).0 - place.z;
@@ -203,7 +204,7 @@ impl MovingLine {
         }
         warm.fit();
         let Warm { rod, solver, state, flows, .. } = warm;
-        let forces = self.within((at, false), flows, |world| {
+        let forces = self.within((at, false, kept.paid), flows, |world| {
             if dt > 0.0 {
                 let forces = solver.trial(rod, state, world, time, ends).map_err(told)?;
                 if self.base.laid.is_some() {
@@ -234,7 +235,7 @@ impl MovingLine {
             }
         })?;
         let books = self.layout.has_books().then(|| {
-            self.within((at, false), flows, |world| match kept.balance {
+            self.within((at, false, kept.paid), flows, |world| match kept.balance {
                 Some(mut balance) if dt > 0.0 => {
                     solver.reached(state);
                     balance.enter(rod, state, world, solver, &forces);
@@ -245,7 +246,11 @@ impl MovingLine {
             })
         });
         let end = if dt > 0.0 { solver.end() } else { state };
-        self.layout.write((rod, &self.base.bands), end, trial)?;
+        let paid = match (&self.base.laid, end.position.first()) {
+            (Some(laid), Some(place)) if dt > 0.0 => laid.paid(at.ends, place, kept.paid),
+            _ => kept.paid,
+        };
+        self.layout.write((rod, &self.base.bands), (end, paid), trial)?;
         if let Some(balance) = books {
             self.layout.keep_books(&balance, trial);
         }
@@ -264,6 +269,12 @@ impl Element for MovingLine {
 
     fn made_for_place(&self) -> bool {
         self.base.laid.is_some()
+    }
+
+    fn under(&self, ambient: &Arc<dyn Ambient>) -> Option<Box<dyn Element>> {
+        self.base.laid.as_ref()?;
+        let base = Arc::new(Base { ambient: Some(ambient.clone()), ..Base::clone(&self.base) });
+        Some(Box::new(MovingLine { base, ..*self }))
     }
 
     fn pulling_end(&self) -> usize {
@@ -297,7 +308,7 @@ impl Element for MovingLine {
         }
         let found = self.rest(at, warm)?;
         let Warm { rod, solver, flows, .. } = &mut *warm;
-        self.within((at, true), flows, |world| match self.base.laid {
+        self.within((at, true, 0.0), flows, |world| match self.base.laid {
             Some(_) => {
                 let loads = rod.on_supports(&found.state, world);
                 on_supports(out, &loads, solver.support_tangent(rod, world).as_ref())
@@ -306,7 +317,7 @@ impl Element for MovingLine {
         })?;
         let mut state = found.state;
         state.time = at.step.map_or(0.0, |step| step.time);
-        self.layout.write((rod, &self.base.bands), &state, trial)?;
+        self.layout.write((rod, &self.base.bands), (&state, 0.0), trial)?;
         if let Some(step) = at.step {
             // a run begins here
             let begun = trial.to_vec();

@@ -23,6 +23,8 @@ pub(super) struct Kept<'a> {
     mesh: &'a [f64],
     /// What [`State::pack`] made of the motion.
     pub motion: &'a [f64],
+    /// How much pipe the tensioner has paid out since the pipe was laid (m).
+    pub paid: f64,
     /// Its books, where they are kept and open.
     pub balance: Option<Balance>,
 }
@@ -41,8 +43,8 @@ impl Kept<'_> {
     }
 }
 
-/// Flag, and the counts of elements and of values of the motion.
-const HEAD: usize = 3;
+/// Flag, the counts of elements and of values of the motion, and what a tensioner has paid out.
+const HEAD: usize = 4;
 /// Values of an element of the mesh.
 const EACH: usize = 3;
 
@@ -77,8 +79,18 @@ impl Layout {
         }
     }
 
-    /// Writes a state that has begun.
-    pub fn write(&self, (rod, bands): (&Rod, &Bands), state: &State, out: &mut [f64]) -> Result<(), ClassError> {
+    /// How much pipe the tensioner of a state has paid out (m).
+    pub fn paid(&self, state: &[f64]) -> f64 {
+        state.get(HEAD - 1).copied().unwrap_or(0.0)
+    }
+
+    /// Writes a state that has begun, and what its tensioner has paid out.
+    pub fn write(
+        &self,
+        (rod, bands): (&Rod, &Bands),
+        (state, paid): (&State, f64),
+        out: &mut [f64],
+    ) -> Result<(), ClassError> {
         let wrong = || ClassError::new("the line has grown beyond what its winch was to pay out").lasting();
         let mesh = rod.each_of_mesh();
         if out.len() != self.size() || mesh.len() > self.elements {
@@ -87,7 +99,7 @@ impl Layout {
         let (head, rest) = out.split_first_chunk_mut::<HEAD>().ok_or_else(wrong)?;
         let (elements, motion) = rest.split_at_mut_checked(EACH * self.elements).ok_or_else(wrong)?;
         let count = state.pack_into(motion.get_mut(..self.motion).ok_or_else(wrong)?).ok_or_else(wrong)?;
-        *head = [1.0, mesh.len() as f64, count as f64];
+        *head = [1.0, mesh.len() as f64, count as f64, paid];
         let (own, free) = elements.split_at_mut_checked(EACH * mesh.len()).ok_or_else(wrong)?;
         for (place, (rest, rate, segment)) in own.as_chunks_mut::<EACH>().0.iter_mut().zip(mesh) {
             *place = [rest, rate, bands.part_of(segment) as f64];
@@ -101,13 +113,14 @@ impl Layout {
     pub fn read<'a>(&self, state: &'a [f64]) -> Result<Option<Kept<'a>>, ClassError> {
         let wrong = || ClassError::new("the state of the line is not one of its own").lasting();
         let (head, rest) = state.split_at_checked(HEAD).ok_or_else(wrong)?;
-        let [begun, elements, motion] = head else { return Err(wrong()) };
+        let [begun, elements, motion, paid] = head else { return Err(wrong()) };
         if *begun == 0.0 {
             return Ok(None);
         }
         let (mesh, all) = rest.split_at_checked(EACH * self.elements).ok_or_else(wrong)?;
         let (elements, motion) = (*elements as usize, *motion as usize);
         let mesh = mesh.get(..EACH.saturating_mul(elements)).ok_or_else(wrong)?;
-        Ok(Some(Kept { mesh, motion: all.get(..motion).ok_or_else(wrong)?, balance: self.balance(state) }))
+        let motion = all.get(..motion).ok_or_else(wrong)?;
+        Ok(Some(Kept { mesh, motion, paid: *paid, balance: self.balance(state) }))
     }
 }

@@ -11,7 +11,7 @@ use std::cell::RefCell;
 use std::sync::Arc;
 
 /// What a pipe lies on.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Laid {
     /// The law of each support, between its node and a point of the pipe.
     pub supports: Arc<[Box<dyn Element>]>,
@@ -47,12 +47,23 @@ pub(super) struct Tensioner {
 }
 
 impl Tensioner {
-    /// Tension (N), by how far along the end is from its node (m), and its slope (N/m).
-    fn tension(&self, along: f64) -> (f64, f64) {
-        let [laid, least, most] = self.tension;
-        let free = laid + self.stiffness * (along - self.at);
+    /// Tension (N), by how far along the end is from its node (m), and its slope (N/m), after it has paid out so much (m).
+    fn tension(&self, along: f64, paid: f64) -> (f64, f64) {
+        let [_, least, most] = self.tension;
+        let free = self.braked(along, paid);
         let tension = free.clamp(least, most);
         (tension, if tension == free { self.stiffness } else { 0.0 })
+    }
+
+    /// Tension (N) if its brake held.
+    fn braked(&self, along: f64, paid: f64) -> f64 {
+        self.tension[0] + self.stiffness * (along - self.at - paid)
+    }
+
+    /// What it has paid out (m) at the end of a step in which the end has come there along: it takes hold anew where it is.
+    fn pays(&self, along: f64, paid: f64) -> f64 {
+        let beyond = self.braked(along, paid) - self.tension(along, paid).0;
+        if beyond == 0.0 { paid } else { paid + beyond / self.stiffness }
     }
 }
 
@@ -60,7 +71,8 @@ impl Tensioner {
 #[derive(Debug)]
 pub(super) struct Felt<'a> {
     law: &'a dyn Element,
-    tensioner: Option<&'a Tensioner>,
+    /// With what it has paid out (m).
+    tensioner: Option<(&'a Tensioner, f64)>,
     holds: Held,
     /// The node, and the axes of the pipe there.
     pose: Pose,
@@ -85,9 +97,9 @@ impl Grip for Felt<'_> {
             // a force that is no number makes the solver say that there is no answer
             _ => made.force = Vector3::repeat(f64::NAN),
         }
-        if let Some(tensioner) = self.tensioner {
+        if let Some((tensioner, paid)) = self.tensioner {
             let along = axes * tensioner.along;
-            let (tension, slope) = tensioner.tension(along.dot(at));
+            let (tension, slope) = tensioner.tension(along.dot(at), paid);
             made.force -= along * tension;
             made.by_position += along * along.transpose() * slope;
         }
@@ -112,14 +124,21 @@ impl Laid {
         self.tensioner.and_then(|_| self.supports.len().checked_sub(1))
     }
 
-    /// The supports where their ends are.
-    pub fn felt<'a>(&'a self, ends: &'a [End], around: &'a Surroundings) -> Vec<Felt<'a>> {
+    /// What its tensioner has paid out (m) at the end of a step in which the end of the pipe has come to a place.
+    pub fn paid(&self, ends: &[End], end: &Vector3<f64>, paid: f64) -> f64 {
+        let (Some(tensioner), Some(held)) = (&self.tensioner, ends.last()) else { return paid };
+        let along = held.pose.axes * self.turn * tensioner.along;
+        tensioner.pays(along.dot(&(end - held.pose.origin)), paid)
+    }
+
+    /// The supports where their ends are, its tensioner having paid out so much (m).
+    pub fn felt<'a>(&'a self, ends: &'a [End], around: &'a Surroundings, paid: f64) -> Vec<Felt<'a>> {
         let last = self.supports.len().saturating_sub(1);
         let laws = self.supports.iter().zip(&self.holds).enumerate();
         laws.zip(ends)
             .map(|((i, (law, holds)), end)| Felt {
                 law: law.as_ref(),
-                tensioner: self.tensioner.as_ref().filter(|_| i == last),
+                tensioner: self.tensioner.as_ref().filter(|_| i == last).map(|t| (t, paid)),
                 holds: *holds,
                 pose: Pose { axes: end.pose.axes * self.turn, ..end.pose },
                 velocity: end.velocity.fixed_rows::<3>(0).into_owned(),

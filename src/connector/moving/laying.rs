@@ -273,7 +273,9 @@ fn along(node: &Pose, place: &Vector3<f64>) -> Result<Vector3<f64>, ClassError> 
     let way = (place - node.origin).try_normalize(1e-9).map_or(0.0, |way| way.dot(&x));
     if way.abs() < MOST_ASIDE {
         let error = ClassError::new("a pipe runs along the X axes of its supports, and these lie across it");
-        return Err(error.help("-EULER of the CONNECTOR turns the axes of a roller"));
+        let help =
+            "a pipe runs along X of the body under them: -EULER of a CONNECTOR turns a roller, not the way of the pipe";
+        return Err(error.help(help));
     }
     Ok(Vector3::x() * way.signum())
 }

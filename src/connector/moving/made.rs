@@ -30,15 +30,17 @@ impl MovingLine {
         }
         few(&description.parts, first)?;
         let far = ends[1];
+        let anchored = description.seabed.with_anchor && connection.to_ground;
+        let depth = if anchored { Some(-far.z) } else { description.seabed.depth };
         let plane = description.seabed.slope.filter(|s| *s != 0.0).map(|slope| {
             // it rises from the second end toward the first
             let across = Vector3::new(ends[0].x - far.x, ends[0].y - far.y, 0.0);
             let toward = across.try_normalize(1e-9).unwrap_or_else(Vector3::x);
-            let height = description.seabed.depth.map_or(far.z, |d| -d);
+            let height = depth.map_or(far.z, |d| -d);
             let rise = [toward.x * slope, toward.y * slope];
             PlaneBottom { height: height - rise[0] * far.x - rise[1] * far.y, slope: rise }
         });
-        let flat = description.seabed.depth.or(around.depth).map(|d| -d);
+        let flat = depth.or(around.depth).map(|d| -d);
         let floor = if plane.is_some() { None } else { flat };
         let shape = match &ambient {
             Some(a) if a.grows() => start::points(&description.parts, &lengths, ends, floor, around),

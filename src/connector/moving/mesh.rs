@@ -100,7 +100,7 @@ struct Band {
 }
 
 /// The segments of each part. How many there are is up to the environment; a mesh is one of parts, the same in all of them.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Bands {
     each: Vec<Band>,
     /// Part of each segment.

@@ -183,6 +183,10 @@ impl Flexure {
         let material = &record.defaults.material;
         let option = |name: &str| args.option_number(name);
         let typed = section.of_type.as_ref();
+        if let (Some(given), 0.0) = (args.option("-CLUMP_DRAG"), section.clump) {
+            return Err(Diagnostic::error("there is no clump or buoy whose drag this could be", given.span)
+                .help("-CLUMP of the same record has its weight"));
+        }
         let inner = section.thickness.map(|t| section.od - 2.0 * t);
         // EI of the tube from its EA: I/A is (D2 + d2)/16
         let bending = inner.map(|d| section.ea * (section.od * section.od + d * d) / 16.0);
@@ -306,20 +310,29 @@ pub fn seabed(records: &[ClassRecord]) -> Outcome<Seabed> {
         // -SLOPE is positive where the depth increases toward the anchor
         slope: number("-SLOPE")?,
         depth: number("-DEPANCHOR")?,
+        with_anchor: false,
     })
 }
 
 /// How the ends are held, of the records of a ROD.
 ///
 /// # Errors
-/// An end held twice.
-pub fn holds(records: &[ClassRecord]) -> Outcome<[Option<Hold>; 2]> {
+/// An end held twice, or one that does not bend.
+pub fn holds(records: &[ClassRecord], flexures: &[Flexure]) -> Outcome<[Option<Hold>; 2]> {
     let mut made = [None, None];
+    let bends = [flexures.first(), flexures.last()].map(|f| f.is_some_and(|f| f.bending > 0.0));
     for given in records.iter().flat_map(|r| r.args.options.iter()).filter(|g| g.spec.name == "-CLAMP") {
         let word = given.word(0).unwrap_or_default();
         let hold = Hold { declination: given.number(1), stiffness: given.number(2) };
-        for (place, name) in made.iter_mut().zip(["FIRST", "SECOND"]) {
+        for ((place, name), bends) in made.iter_mut().zip(["FIRST", "SECOND"]).zip(bends) {
             if word == name || word == "BOTH" {
+                if !bends {
+                    let text = format!(
+                        "nothing holds the {} end in its direction: its segment does not bend",
+                        name.to_lowercase()
+                    );
+                    return Err(Diagnostic::error(text, given.span).help("-EI above zero, or no -CLAMP"));
+                }
                 if place.is_some() {
                     let text = format!("the {} end is held twice", name.to_lowercase());
                     return Err(Diagnostic::error(text, given.span));

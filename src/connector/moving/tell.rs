@@ -21,10 +21,11 @@ impl MovingLine {
     }
 
     pub(super) fn tell_along(&self, at: &Situation, state: &[f64], out: &mut Vec<LineNode>) -> Result<(), ClassError> {
+        let paid = self.layout.paid(state);
         let (other, state, still) = self.where_it_is(at, state)?;
         let rod = other.as_ref().unwrap_or(&self.base.rod);
         let ends = self.held(at.ends, still)?;
-        *out = self.within((at, still), &mut Vec::new(), |world| rod.results(&state, world, &ends));
+        *out = self.within((at, still, paid), &mut Vec::new(), |world| rod.results(&state, world, &ends));
         // the class speaks of its records, of which a rod may have several segments, and a pipe all of the first
         let record = |segment| if self.base.laid.is_some() { 0 } else { self.base.bands.part_of(segment) };
         for node in out {
@@ -52,17 +53,18 @@ impl MovingLine {
         let ends = self.held(at.ends, at.step.is_none())?;
         let Warm { rod, state, flows, .. } = warm;
         state.become_unpacked(rod, kept.motion).map_err(told)?;
-        self.within((at, at.step.is_none()), flows, |world| rod.row(state, world, &ends, out));
+        self.within((at, at.step.is_none(), kept.paid), flows, |world| rod.row(state, world, &ends, out));
         Ok(())
     }
 
     pub(super) fn tell_modes(&self, at: &Situation, state: &[f64], number: usize) -> Result<Vec<LineMode>, ClassError> {
         modes::few(self.base.rod.nodes(), number)?;
+        let paid = self.layout.paid(state);
         let (other, state, _) = self.where_it_is(at, state)?;
         let rod = other.as_ref().unwrap_or(&self.base.rod);
         let ends = self.held(at.ends, true)?;
         let mut solver = Solver::new(rod, Settings::default());
-        self.within((at, true), &mut Vec::new(), |world| modes::of(rod, &mut solver, &state, world, ends, number))
+        self.within((at, true, paid), &mut Vec::new(), |world| modes::of(rod, &mut solver, &state, world, ends, number))
     }
 
     pub(super) fn tell_summary(&self, at: &Situation, committed: &[f64]) -> Result<Summary, ClassError> {

@@ -15,7 +15,7 @@ const HALVINGS: u32 = 8;
 pub(super) type Held = (Vector3<f64>, Option<f64>);
 
 /// What does not change while it is wound.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Base {
     pub description: Description,
     pub rod: Rod,

@@ -194,6 +194,7 @@ impl Run {
                 What::Stop => stop = Some(action.name.clone()),
                 What::Winch(names, rate, to) => {
                     for name in names {
+                        self.winds(&action.name, name, *rate, *to)?;
                         self.winches.retain(|(n, ..)| !n.eq_ignore_ascii_case(name));
                         if *rate != 0.0 {
                             self.winches.push((name.clone(), *rate, *to));
@@ -211,10 +212,30 @@ impl Run {
         Ok(stop)
     }
 
+    /// Refuses to begin to wind what a winch no longer holds, or away from the length that is asked for.
+    fn winds(&self, action: &str, name: &str, rate: f64, to: Option<f64>) -> Result<(), SolveError> {
+        let wrong = |error: ClassError| SolveError { who: Some(action.to_string()), error };
+        if self.system.duties.of(name).freed {
+            return Err(wrong(ClassError::new(format!("connector {name} has been let go, and no winch holds it"))));
+        }
+        let connector = self.model.connectors.get(&Model::key(name));
+        let now = connector.and_then(|c| self.model.first_length(c));
+        if let (Some(now), Some(to)) = (now, to)
+            && (to - now) * rate < 0.0
+        {
+            let text =
+                format!("the first segment of {name} is {{}} long by then, and at {{}} a second never comes to {{}}");
+            let values = [(now, Dim::Length), (rate, Dim::Length), (to, Dim::Length)];
+            return Err(wrong(ClassError::of(text, &values).help("a positive rate pays out, a negative one hauls in")));
+        }
+        Ok(())
+    }
+
     pub(super) fn change(&mut self, what: &What) -> Result<(), SolveError> {
         match what {
             What::Release(names) => {
                 for name in names {
+                    self.winches.retain(|(n, ..)| !n.eq_ignore_ascii_case(name));
                     // a line that moves by itself is let go at its first end, and falls
                     let falls = self.system.moves(name);
                     if let Some(connector) = self.model.connectors.get_mut(&Model::key(name)) {

@@ -11,7 +11,7 @@ use super::scheme::Method;
 use super::statistics::Statistics;
 use super::step::{Effort, Instant, Stepper};
 use crate::hydro::sea::Sea;
-use crate::model::{ClassError, Model, PIPE, Place, Six};
+use crate::model::{ClassError, Model, Place, Six};
 use crate::post::SeriesError;
 use crate::solve::system::{SolveError, System, mass_block};
 use std::sync::Arc;
@@ -88,8 +88,10 @@ impl Run {
         let duties = Duties::foreseen(&model, &actions, settings.observed, settings.books);
         let system = System::under_way(&model, sea.as_ref(), duties)?;
         let mut links = system.link_ends();
-        for name in actions.iter().filter_map(|a| a.when.connector()).filter(|name| *name != PIPE) {
-            system.ends_of(&model, name)?;
+        for name in actions.iter().filter_map(|a| a.when.connector()) {
+            if !links.iter().any(|l| l.name.eq_ignore_ascii_case(name)) {
+                system.ends_of(&model, name)?;
+            }
         }
         for name in actions.iter().flat_map(|a| a.connectors()) {
             if !links.iter().any(|l| l.name.eq_ignore_ascii_case(name)) {

@@ -33,8 +33,12 @@ pub(in crate::solve) fn standing(
         tell(name, element, &at, &state)
     };
     for connector in model.connectors.values().filter(|c| c.active && fits(&c.name) && !model.holds_pipe(&c.name)) {
-        // what makes no element here tells of no nodes; who needs its force says why
-        let Ok(element) = model.element_in(connector, Some(&around)) else { continue };
+        let element = match model.element_in(connector, Some(&around)) {
+            Ok(element) => element,
+            Err(error) if model.moves(connector) => return Err(SolveError::of(&connector.name)(error)),
+            // what makes no element here tells of no nodes; who needs its force says why
+            Err(_) => continue,
+        };
         told(&connector.name, element.as_ref(), &connected(model, connector))?;
     }
     for assembly in model.assemblies.values().filter(|a| fits(&a.name)) {

@@ -1,6 +1,6 @@
 //! Unity checks along a line.
 
-use super::{Line, Section};
+use super::{Line, Section, wall_tension};
 use crate::language::units::Dim;
 use crate::model::ClassError;
 use crate::post::SeriesError;
@@ -120,7 +120,11 @@ pub fn check(line: &Line, code: &Code, events: &[Event]) -> Result<Table, SolveE
                         let at_rest = rest.or_else(there).unwrap_or(node);
                         resistance.used_now(design(&at_rest), design(&node), [acting.inside, acting.outside])
                     }
-                    Checked::WorkingStress(tube, case) => working_stress::used(tube, &acting, *case).map_err(wrong)?,
+                    Checked::WorkingStress(tube, case) => {
+                        // of the wall that corrosion leaves
+                        let acting = Acting { wall: wall_tension(tube, &node), ..acting };
+                        working_stress::used(tube, &acting, *case).map_err(wrong)?
+                    }
                     Checked::Break(breaking) => over_break(node.effective, *breaking).map_err(wrong)?,
                 };
                 if !used.is_finite() {

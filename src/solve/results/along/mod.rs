@@ -52,10 +52,15 @@ impl Section {
 
     /// Tension (N) by which its stress goes: in the wall of a tube, effective of another section.
     pub(super) fn pulled(&self, node: &NodeRow) -> f64 {
-        let (Some(tube), Some(bent)) = (&self.tube, &node.bent) else { return node.effective };
-        let ([outer, bore], [outside, inside]) = (tube.areas(), bent.pressures);
-        node.effective - outside * outer + inside * bore
+        self.tube.as_ref().map_or(node.effective, |tube| wall_tension(tube, node))
     }
+}
+
+/// Tension in the wall of a tube at a node (N).
+pub(super) fn wall_tension(tube: &Tube, node: &NodeRow) -> f64 {
+    let Some(bent) = &node.bent else { return node.effective };
+    let ([outer, bore], [outside, inside]) = (tube.areas(), bent.pressures);
+    node.effective - outside * outer + inside * bore
 }
 
 /// The segments of the class of a line, from its first end; of a pipe the one it is made of.
