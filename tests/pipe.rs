@@ -9,10 +9,10 @@ use windlass::model::{Element, End, LineDuty, Model, PIPE, Pose, Response, Situa
 use windlass::session::Session;
 
 fn model(records: &str) -> Model {
-    let (mut session, screen, _folder): (Session, _, _) = common::session();
+    let (mut session, _screen, _folder): (Session, _, _) = common::session();
     session.open("records", format!("&DIMEN -DIMEN METERS N\n{records}\n"));
     session.run();
-    assert!(session.reports.iter().all(|r| r.severity != Severity::Error), "{}", screen.text());
+    assert!(session.reports.iter().all(|r| r.severity != Severity::Error), "{:?}", session.reports);
     session.job.model.clone()
 }
 
@@ -123,4 +123,29 @@ fn a_davit_hangs_toward_the_pipe_that_pulls_it() {
     let lies = nodes.last().unwrap().effective;
     assert!((sum[0] / lies - 1.0).abs() < 1e-3, "{sum} {lies}");
     assert!(sum[0] < 1e5 && nodes[0].effective.abs() < 1.0, "{sum} {}", nodes[0].effective);
+}
+
+#[test]
+fn rollers_that_are_turned_carry_a_pipe_across_their_body() {
+    let laid = |heading: f64, turned: &str| {
+        let at = [(35.65, 1.70), (26.82, 3.58), (17.97, 4.92), (9.0, 5.73), (0.0, 6.0)];
+        let (sin, cos) = heading.to_radians().sin_cos();
+        let points: String = (1..).zip(at).map(|(i, (r, z))| format!("*R{i} {} {} {z}\n", r * cos, -r * sin)).collect();
+        let supports: String = (1..=5).map(|i| format!("CONNECTOR R{i} {turned} ~ROLL *R{i}\n")).collect();
+        model(&format!(
+            "&ENV -DEPTH 50\nMEDIT\n&DESCRIBE BODY BARGE\n{points}#WEIGHT *R1 1E6 1 1 1\n&INSTATE -LOCATE BARGE 0 0 0 0 0 {heading}\n\
+             ~ROLL ROLLER COMPRESSION Z 2E7\n~PIPE ROD 323.9 15.9 -LEN 12 -WTPLEN 300 -BUOY 0\n{supports}\
+             PIPE ~PIPE R1 R2 R3 R4 R5 -PIPE_TENSION 4E5 5E5\nEND"
+        ))
+    };
+    let forces = |model: &Model| {
+        let (element, ends) = pipe(model);
+        answer(model, element.as_ref(), &ends).wrench
+    };
+    let along = forces(&laid(0.0, ""));
+    let across = forces(&laid(90.0, "-EULER 0 0 -90"));
+    for (a, b) in along.iter().zip(&across) {
+        // of 4.5e5 N, to what statics leave
+        assert!((a - b).fixed_rows::<3>(0).norm() < 1.0, "{a} {b}");
+    }
 }

@@ -1,8 +1,9 @@
 //! Assemblies: connectors of a single node whose other ends an assembly takes care of.
 
-use super::{Ambient, Body, ClassError, Connection, Connector, Element, LineDuty, Model, Pose, Surroundings};
+use super::{Ambient, Body, ClassError, Connection, Connector, Element, LineDuty, Model, Place, Pose, Surroundings};
 use crate::language::source::Span;
 use indexmap::IndexMap;
+use nalgebra::Vector3;
 use std::sync::Arc;
 
 /// What an assembly is made of.
@@ -34,6 +35,8 @@ pub struct PipeLayout<'a> {
     pub supports: Arc<[Box<dyn Element>]>,
     /// Their nodes.
     pub nodes: Vec<Pose>,
+    /// The way of the pipe through each, one way or the other, in the axes of its node: X as `-EULER` turns it.
+    pub ways: Vec<Vector3<f64>>,
     /// How far below its node each holds the pipe (m): the length of a davit.
     pub hang: Vec<f64>,
     /// TLOWER: the least tension of the tensioner, or the nominal one at the first davit (N).
@@ -126,7 +129,7 @@ impl Model {
         let found = self.classes.get(&Model::key(class)).map(|c| &c.object);
         let Some(found) = found.filter(|_| !held.is_empty()) else { return Ok(None) };
         let surroundings = self.surroundings();
-        let (mut laws, mut nodes, mut hang) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut laws, mut nodes, mut ways, mut hang) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         for connector in &held {
             let node = self.end_pose(connector, 0).unwrap_or_default();
             let placement = super::Placement { to_ground: false, ..self.placement(connector) };
@@ -144,12 +147,15 @@ impl Model {
             })?);
             hang.push(if upper.is_none() { self.first_length(connector).unwrap_or(0.0) } else { 0.0 });
             nodes.push(node);
+            let turned = Place { turn: connector.euler.unwrap_or_default(), ..Place::default() };
+            ways.push(turned.rotation().matrix().column(0).into_owned());
         }
         let (lower, upper) = (*lower, *upper);
         let layout = PipeLayout {
             name: &assembly.name,
             supports: laws.into(),
             nodes,
+            ways,
             hang,
             lower,
             upper,

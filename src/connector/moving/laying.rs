@@ -250,7 +250,7 @@ fn along_course(
 fn tensioner(layout: &PipeLayout, pulled: f64) -> Result<Option<Tensioner>, ClassError> {
     let (Some(upper), [.., last]) = (layout.upper, layout.nodes.as_slice()) else { return Ok(None) };
     let along = match layout.nodes.as_slice() {
-        [first, .., _] => along(last, &first.origin)?,
+        [first, .., _] => along(last, layout.ways.last(), &first.origin)?,
         _ => Vector3::x(),
     };
     Ok(Some(Tensioner { along, at: 0.0, tension: [pulled, layout.lower, upper], stiffness: 0.0 }))
@@ -261,21 +261,19 @@ fn holds(layout: &PipeLayout, course: &Course) -> Result<Vec<Held>, ClassError> 
     let last = layout.nodes.len().saturating_sub(1);
     let of =
         |(i, (node, at)): (usize, (&Pose, &usize))| match layout.nodes.get(i + 1).filter(|_| layout.upper.is_some()) {
-            Some(next) if i < last => Ok(Held::Crossing(-along(node, &next.origin)?)),
+            Some(next) if i < last => Ok(Held::Crossing(-along(node, layout.ways.get(i), &next.origin)?)),
             _ => Ok(Held::Node(*at)),
         };
     layout.nodes.iter().zip(&course.at).enumerate().map(of).collect()
 }
 
-/// The way of a pipe through a support, in the axes of its node: along its X axis, toward a place.
-fn along(node: &Pose, place: &Vector3<f64>) -> Result<Vector3<f64>, ClassError> {
-    let x = node.axes.column(0).into_owned();
-    let way = (place - node.origin).try_normalize(1e-9).map_or(0.0, |way| way.dot(&x));
+/// The way of a pipe through a support, in the axes of its node: along the X axis of its law, toward a place.
+fn along(node: &Pose, x: Option<&Vector3<f64>>, place: &Vector3<f64>) -> Result<Vector3<f64>, ClassError> {
+    let x = x.copied().unwrap_or_else(Vector3::x);
+    let way = (place - node.origin).try_normalize(1e-9).map_or(0.0, |way| way.dot(&(node.axes * x)));
     if way.abs() < MOST_ASIDE {
         let error = ClassError::new("a pipe runs along the X axes of its supports, and these lie across it");
-        let help =
-            "a pipe runs along X of the body under them: -EULER of a CONNECTOR turns a roller, not the way of the pipe";
-        return Err(error.help(help));
+        return Err(error.help("-EULER of the CONNECTOR turns the axes of a roller"));
     }
-    Ok(Vector3::x() * way.signum())
+    Ok(x * way.signum())
 }
