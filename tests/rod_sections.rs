@@ -240,11 +240,51 @@ fn what_holds_nothing_is_refused() {
     for (class, told) in [
         ("ROD 100 10 -LEN 100 -REFINE 20 -EI 0 -CLAMP FIRST 90", "its segment does not bend"),
         ("ROD 100 10 -LEN 100 -REFINE 20 -CLUMP_DRAG 5 10", "no clump or buoy"),
+        ("ROD 100 10 -LEN 100 -REFINE 20 -CLAMP FIRST 720", "straight down"),
+        ("ROD 100 10 -LEN 100 -REFINE 20 -DISPLEN -5", "less than zero"),
     ] {
         let (mut session, _, _folder) = common::session();
         session.open("records", format!("&DIMEN -DIMEN METERS N\nMEDIT\n~L {class}\nEND\n"));
         session.run();
         let reports = format!("{:?}", session.reports);
         assert!(session.errors == 1 && reports.contains(told), "{reports}");
+    }
+}
+
+#[test]
+fn a_node_with_a_clump_has_the_larger_of_the_tensions_beside_it() {
+    // 50 m of 200 N/m in water, 30 kN, and 50 m more, upright and taut
+    let weight = 200.0 + RHO * G * FRAC_PI_4 * 0.05 * 0.05;
+    let class = |end: &str| format!("ROD 50 25 -LEN 50 -REFINE 10 -EI 0 -WTPLEN {weight} {end}");
+    let records = between("&ENV -DEPTH 200", &[&class("-CLUMP 30000"), &class("")], ["0 0 -20", "0 0 -120.1"]);
+    let tension = column(&at_rest(&model(&records)), "Tension");
+    assert!((tension[0] - 200.0 * 50.0 - tension[10]).abs() < 1.0, "{} {}", tension[0], tension[10]);
+    // the mean of the two elements of 5 m below it is that of the node between
+    let below = tension[11] + 200.0 * 5.0;
+    assert!((tension[10] - below - 30000.0).abs() < 1.0, "{} {below}", tension[10]);
+}
+
+#[test]
+fn a_line_without_a_place_for_its_other_end_is_refused() {
+    let (mut session, _, _folder) = common::session();
+    let records = "&DIMEN -DIMEN METERS N\n&ENV -DEPTH 100\nMEDIT\n&DESCRIBE BODY S -IGNORE X Y Z RX RY RZ\n*F 0 0 0\n#WEIGHT *F 1E7 5 5 5\n\
+                   ~C ROD 100 10 -LEN 150 -REFINE 20\nCONNECTOR A ~C *F\nEND\n&STATUS ROD\n";
+    session.open("records", records.to_string());
+    session.run();
+    let reports = format!("{:?}", session.reports);
+    assert!(session.errors == 1 && reports.contains("has no place"), "{reports}");
+}
+
+#[test]
+fn a_class_shows_the_stiffness_that_its_lines_have() {
+    for (law, ea) in [("-EA 3E6", 3e6), ("-STRETCH 0 0 2E4 0.01 6E4 0.02", 2e6)] {
+        let (mut session, screen, _folder) = common::session();
+        session.open(
+            "records",
+            format!("&DIMEN -DIMEN METERS N\nMEDIT\n~L ROD 100 50 -LEN 100 -EI 0 {law}\nEND\n&STATUS CLASS ~L\n"),
+        );
+        session.run();
+        let shown = format!("{ea:.4E}").replace('E', "E+0");
+        assert!(session.errors == 0 && screen.text().contains(&shown), "{shown} {}", screen.text());
     }
 }

@@ -170,7 +170,7 @@ pub const WTPLEN: OptionSpec = OptionSpec::new(
 /// `-DISPLEN`.
 pub const DISPLEN: OptionSpec = OptionSpec::new(
     "-DISPLEN",
-    &[number("DPFT", Dim::ForcePerLength, "displacement per length")],
+    &[number("DPFT", Dim::ForcePerLength, "displacement per length").not_negative()],
     "displacement per length, taken off the weight",
 )
 .default("0");

@@ -131,7 +131,10 @@ impl ConnectorClass for Rod {
     }
 
     fn properties(&self, name: &str, surroundings: &Surroundings) -> Table {
-        properties(name, "ROD", &self.sections, surroundings)
+        // its law of stretch may be another than that of the tube
+        let shown = |(section, flexure): (&LineSection, &Flexure)| LineSection { ea: flexure.ea(), ..*section };
+        let sections: Vec<LineSection> = self.sections.iter().zip(&self.flexures).map(shown).collect();
+        properties(name, "ROD", &sections, surroundings)
     }
 
     fn first_length(&self) -> Option<f64> {

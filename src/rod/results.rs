@@ -17,7 +17,7 @@ use nalgebra::Vector3;
 impl Rod {
     /// Results at every node of a state.
     ///
-    /// Tension of a node is the mean of its two elements; at an end it is what is left of that of the last element when
+    /// Tension of a node is the mean of its two elements; where something is attached, the larger of those on its two sides; at an end it is what is left of that of the last element when
     /// the half of it beyond has been moved, borne and dragged along itself: all that the holder takes along the rod.
     /// Shear is the change of the moment over the elements beside a node.
     pub fn results(&self, state: &State, world: &World, ends: &[End; 2]) -> Vec<LineNode> {
@@ -29,6 +29,7 @@ impl Rod {
             world.fluid.fill(x, state.time, &mut fluids);
         }
         let beside = self.beside_ends(state, world);
+        let fluids_at = |node: usize| world.fluid.at(&x[node], state.time);
         let (edges, pulls): (Vec<(Vector3<f64>, f64)>, Vec<f64>) =
             (0..last).map(|i| self.pull(i, state, [&fluids[i], &fluids[i + 1]], world.gravity)).unzip();
         // moment vector at each node, and the length it is spread over
@@ -61,6 +62,16 @@ impl Rod {
             .map(|i| {
                 let inner = i > 0 && i < last;
                 let effective = match (inner, i) {
+                    (true, _) if self.bears(i) => {
+                        let near = [&fluids_at(i - 1), &fluids_at(i), &fluids_at(i + 1)];
+                        self.pull_beside(
+                            i,
+                            state,
+                            world,
+                            near,
+                            [(&edges[i - 1].0, pulls[i - 1]), (&edges[i].0, pulls[i])],
+                        )
+                    }
                     (true, _) => 0.5 * (pulls[i - 1] + pulls[i]),
                     (false, 0) => self.pull_at_end(0, state, world, &beside, (&edges[0].0, pulls[0])),
                     (false, _) => self.pull_at_end(1, state, world, &beside, (&edges[last - 1].0, pulls[last - 1])),
@@ -142,6 +153,33 @@ impl Rod {
             let effective = self.pull_at_end(side, state, world, &beside, (&t, pull));
             (out[node].effective, out[node].wall) = (effective, effective);
         }
+        for held in self.attachments.iter().filter(|a| a.node > 0 && a.node < last) {
+            let i = held.node;
+            let near = [i - 1, i, i + 1].map(|node| world.fluid.at(&state.position[node], state.time));
+            let [a, b] = [i - 1, i].map(|element| self.pull(element, state, [&fluid; 2], world.gravity));
+            let effective = self.pull_beside(i, state, world, near.each_ref(), [(&a.0.0, a.1), (&b.0.0, b.1)]);
+            (out[i].effective, out[i].wall) = (effective, effective);
+        }
+    }
+
+    /// Whether something is attached at a node.
+    fn bears(&self, node: usize) -> bool {
+        self.attachments.iter().any(|a| a.node == node)
+    }
+
+    /// The larger of the tensions (N) on the two sides of an inner node, by the fluid at it and the nodes beside it, and direction and
+    /// tension of its elements.
+    fn pull_beside(
+        &self,
+        i: usize,
+        state: &State,
+        world: &World,
+        near: [&Fluid; 3],
+        [before, behind]: [(&Vector3<f64>, f64); 2],
+    ) -> f64 {
+        let one = self.pull_at((i - 1, 1), state, world, [near[1], near[0]], before);
+        let other = self.pull_at((i, 0), state, world, [near[1], near[2]], behind);
+        one.max(other)
     }
 
     /// The fluid at the two nodes beside end A, and at the two beside end B: each end first.
@@ -179,14 +217,27 @@ impl Rod {
         beside: &[[Fluid; 2]; 2],
         (t, pull): (&Vector3<f64>, f64),
     ) -> f64 {
-        let last = self.elements.len();
-        let (node, other, element) = if side == 0 { (0, 1, 0) } else { (last, last - 1, last - 1) };
+        let element = if side == 0 { 0 } else { self.elements.len() - 1 };
+        self.pull_at((element, side), state, world, beside[side].each_ref(), (t, pull))
+    }
+
+    /// Tension (N) at the first (0) or second (1) node of an element, whose direction and tension are known, by the fluid at that node
+    /// and at the other.
+    fn pull_at(
+        &self,
+        (element, side): (usize, usize),
+        state: &State,
+        world: &World,
+        beside: [&Fluid; 2],
+        (t, pull): (&Vector3<f64>, f64),
+    ) -> f64 {
+        let (node, other) = (element + side, element + 1 - side);
         let element = &self.elements[element];
         let at = |node: usize, place: usize| Node {
             position: &state.position[node],
             velocity: &state.velocity[node],
             acceleration: &state.acceleration[node],
-            fluid: &beside[side][place],
+            fluid: beside[place],
         };
         let weight = Vector3::z() * world.gravity;
         let moved = (state.acceleration[node] + weight) * element.mass

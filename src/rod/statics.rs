@@ -38,6 +38,9 @@ const SHORT: f64 = -0.01;
 /// Largest residual of a node as a share of the largest force in the rod.
 const PROOF: f64 = 1e-9;
 
+/// Share of the weight of a rod that may be left of its balance where no fall comes any nearer to rest.
+const ALMOST: f64 = 1e-7;
+
 impl Solver {
     /// Moves the state to where it is at rest, from wherever it is: the ends at their motions' positions, all
     /// velocities zero.
@@ -66,6 +69,7 @@ impl Solver {
     ) -> Result<EndForces, RodError> {
         self.fits(rod, state)?;
         self.at = At::Nowhere;
+        self.slid = false;
         self.trial.still = true;
         let made = self.falls(rod, state, world, ends);
         self.trial.still = false;
@@ -73,6 +77,11 @@ impl Solver {
             self.at = At::Rest;
         }
         made
+    }
+
+    /// Whether the last position of rest is one without friction though the bottom has some: with it what lies would push.
+    pub fn slid(&self) -> bool {
+        self.slid
     }
 
     /// The row of falls.
@@ -128,6 +137,7 @@ impl Solver {
                         // with friction at last, or once more without what has shown to be no pull at all
                         if self.trial.drawn.is_some() {
                             drawn = None;
+                            self.slid = true;
                         }
                         self.trial.drawn = drawn;
                         from.copy_from_slice(&self.trial.x);
@@ -191,7 +201,15 @@ impl Solver {
                 }
             }
         }
+        let whole = !self.trial.loose && self.trial.ease == 1.0 && self.trial.drawn == drawn;
         (self.trial.loose, self.trial.ease) = (false, 1.0);
+        if whole && worst.1 <= ALMOST * weight {
+            return Ok(self.rested(rod, state, world, &ends, done));
+        }
+        if let Some(element) = rod.overstretched(&self.trial.x) {
+            let why = format!("element {} is stretched beyond the most that its law of tension bears", element + 1);
+            return Err(RodError::Shape { rod: rod.name.clone(), why });
+        }
         Err(RodError::Statics {
             rod: rod.name.clone(),
             iterations: done,

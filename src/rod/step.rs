@@ -51,6 +51,8 @@ pub struct Solver {
     /// Whether the step at hand is made by implicit Euler: see [`super::snap`].
     pub(super) snaps: bool,
     pub(super) weights: Weights,
+    /// See [`Solver::slid`].
+    pub(super) slid: bool,
     /// What is at hand: see [`At`].
     pub(super) at: At,
     /// Where the step of the last trial began, and whether it was made in one part.
@@ -125,6 +127,7 @@ impl Solver {
             began: state.clone(),
             next: state,
             weights: Weights { k: 1.0, c: 0.0, m: 0.0 },
+            slid: false,
             at: At::Nowhere,
             whole: false,
             near: Near::new(),

@@ -125,10 +125,18 @@ impl MovingLine {
                 (Some(state), Some(forces)) => (state, forces),
                 // from afar: how softly it meets the bottom is known where it rests first
                 _ => {
-                    let mut fallen = self.fallen(places, at.surroundings)?;
-                    solver.statics(rod, &mut fallen, world, ends).map_err(told)?;
-                    let forces = solver.statics(rod, &mut fallen, world, ends).map_err(told)?;
-                    (fallen, forces)
+                    let mut from = |aside: bool| {
+                        let mut fallen = self.fallen(places, at.surroundings, aside)?;
+                        solver.statics(rod, &mut fallen, world, ends).map_err(told)?;
+                        let forces = solver.statics(rod, &mut fallen, world, ends).map_err(told)?;
+                        Ok((fallen, forces))
+                    };
+                    // slack pipe would fold in the plane of its ends: it lies down sideways
+                    let bends = self.base.laid.is_none() && rod.segments().iter().any(|s| s.bending > 0.0);
+                    from(false).or_else(|error: ClassError| {
+                        let slack = bends && !error.lasting;
+                        if slack { from(true).map_err(|_| error) } else { Err(error) }
+                    })?
                 }
             };
             *rest = Some(state.clone());
@@ -136,8 +144,8 @@ impl MovingLine {
         })
     }
 
-    /// From where it falls.
-    fn fallen(&self, places: [Vector3<f64>; 2], around: &Surroundings) -> Result<State, ClassError> {
+    /// From where it falls: in the plane of its ends, or bowed aside from it.
+    fn fallen(&self, places: [Vector3<f64>; 2], around: &Surroundings, aside: bool) -> Result<State, ClassError> {
         if let Some(laid) = &self.base.laid {
             return State::along(&self.base.rod, &laid.shape).map_err(told);
         }
@@ -147,7 +155,10 @@ impl MovingLine {
             *length = self.first;
         }
         let floor = if self.base.plane.is_some() { None } else { self.base.flat };
-        let points = start::points(parts, &lengths, places, floor, around);
+        let mut points = start::points(parts, &lengths, places, floor, around);
+        if aside {
+            start::bow_aside(&mut points, places, lengths.iter().sum());
+        }
         State::along(&self.base.rod, &points).map_err(told)
     }
 

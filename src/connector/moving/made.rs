@@ -7,6 +7,7 @@ use super::kept::Layout;
 use super::mesh::{Cut, SHORT, attachments, few, mesh, told};
 use super::start;
 use super::warm::{Base, Held};
+use crate::connector::mooring::no_other_end;
 use crate::model::{ClassError, Connection};
 use crate::rod::{self, PlaneBottom, Rod, State};
 use nalgebra::Vector3;
@@ -19,6 +20,9 @@ impl MovingLine {
     /// Properties that make no rod, more elements than memory should hold, no direction for an end that is held.
     pub fn made(description: Description, connection: &Connection) -> Result<Self, ClassError> {
         let around = connection.surroundings;
+        if connection.placement.other.is_none() {
+            return Err(no_other_end());
+        }
         let ambient = connection.ambient.cloned();
         let ends = connection.ends.map(|p| p.origin);
         let known = |p: &Part| p.segment.length;
@@ -58,7 +62,7 @@ impl MovingLine {
         let of_first = counts.first().copied().unwrap_or(0);
         let wound = connection.duty.longest.map(|l| (l / (SHORT * nominal)).ceil() as usize);
         let capacity =
-            (rod.nodes() - 1 - of_first).saturating_add(wound.map_or(of_first + 1, |most| most.saturating_add(2)));
+            (rod.nodes() - 1 - of_first).saturating_add(wound.map_or(of_first, |most| most.saturating_add(2)));
         if capacity > rod::MOST_ELEMENTS {
             return Err(ClassError::new(format!(
                 "its winch would make more than {} elements of it",

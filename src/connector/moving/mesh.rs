@@ -1,6 +1,7 @@
 //! Elements of a line, and those that a winch lets out or takes in.
 
 use super::describe::{JointMass, Part};
+use crate::language::units::Dim;
 use crate::model::{Ambient, ClassError};
 use crate::rod::{self, Attachment, Rod, RodError, Segment, State};
 use nalgebra::Vector3;
@@ -29,8 +30,12 @@ pub(super) fn told(error: RodError) -> ClassError {
             )
         }
         RodError::Interrupted { .. } => "interrupted".to_string(),
+        RodError::Statics { element, residual, .. } if !residual.is_finite() => {
+            format!("its rod finds no rest: a force at element {element} is no number")
+        }
         RodError::Statics { iterations, residual, element, .. } => {
-            format!("its rod finds no rest in {iterations} iterations: {residual:.2e} N is left at element {element}")
+            let text = format!("its rod finds no rest in {iterations} iterations: {{}} is left at element {element}");
+            return ClassError::of(text, &[(residual, Dim::Force)]);
         }
     });
     ClassError { lasting, ..made }

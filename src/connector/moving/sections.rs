@@ -209,6 +209,11 @@ impl Flexure {
         })
     }
 
+    /// Tension over strain at no strain (N).
+    pub fn ea(&self) -> f64 {
+        self.axial.at(0.0).1
+    }
+
     /// What `-CLUMP` attaches: a weight in water without volume, or a buoy without mass on its pendant.
     fn joint(&self, section: &LineSection, around: &Surroundings) -> Option<JointMass> {
         let clump = section.clump;
@@ -280,6 +285,9 @@ fn law(args: &Args, ea: f64) -> Outcome<Axial> {
             for pair in given.values.chunks_exact(2) {
                 let [tension, strain] = pair else { continue };
                 let (Some(t), Some(e)) = (tension.number(), strain.number()) else { continue };
+                if (t, e) == (0.0, 0.0) && points.len() == 1 {
+                    continue;
+                }
                 if points.last().is_some_and(|(last, pull)| e <= *last || t <= *pull) {
                     return Err(Diagnostic::error(
                         "tension and strain must both grow from point to point",
@@ -324,6 +332,12 @@ pub fn holds(records: &[ClassRecord], flexures: &[Flexure]) -> Outcome<[Option<H
     for given in records.iter().flat_map(|r| r.args.options.iter()).filter(|g| g.spec.name == "-CLAMP") {
         let word = given.word(0).unwrap_or_default();
         let hold = Hold { declination: given.number(1), stiffness: given.number(2) };
+        if let (Some(value), true) = (given.values.get(1), hold.declination.is_some_and(|d| !(0.0..=PI).contains(&d))) {
+            return Err(Diagnostic::error(
+                "DEC of -CLAMP is 0 straight down and 180 straight up, and between",
+                value.span,
+            ));
+        }
         for ((place, name), bends) in made.iter_mut().zip(["FIRST", "SECOND"]).zip(bends) {
             if word == name || word == "BOTH" {
                 if !bends {

@@ -4,6 +4,7 @@ use super::describe::Part;
 use crate::connector::catenary::{Floor, Joint, Line, Segment};
 use crate::model::Surroundings;
 use nalgebra::Vector3;
+use std::f64::consts::PI;
 
 /// Points of each part between its ends.
 const BETWEEN: usize = 40;
@@ -20,6 +21,16 @@ pub(super) fn points(
 ) -> Vec<Vector3<f64>> {
     catenary(parts, lengths, ends, floor, around)
         .unwrap_or_else(|| bow(lengths.iter().sum(), ends, floor, parts, around))
+}
+
+/// Bows points aside from the vertical plane of the ends, as far as a circle of the length would reach.
+pub(super) fn bow_aside(points: &mut [Vector3<f64>], [from, to]: [Vector3<f64>; 2], length: f64) {
+    let chord = to - from;
+    let across = Vector3::new(-chord.y, chord.x, 0.0).try_normalize(1e-9).unwrap_or_else(Vector3::y);
+    let last = points.len().saturating_sub(1).max(1) as f64;
+    for (i, point) in points.iter_mut().enumerate() {
+        *point += across * (length / PI * (PI * i as f64 / last).sin());
+    }
 }
 
 fn catenary(

@@ -58,7 +58,9 @@ impl Run {
 
     pub(super) fn check_actions(&self) -> Result<(), SolveError> {
         for action in &self.actions {
-            let wrong = |error: ClassError| SolveError { who: Some(action.name.clone()), error };
+            let wrong = |error: ClassError| {
+                SolveError::new(ClassError { message: format!("action {}: {}", action.name, error.message), ..error })
+            };
             if let When::Above(Watched::Height(point), _) | When::Below(Watched::Height(point), _) = &action.when {
                 point_in_body(&self.model, point).map_err(wrong)?;
             }
@@ -214,9 +216,10 @@ impl Run {
 
     /// Refuses to begin to wind what a winch no longer holds, or away from the length that is asked for.
     fn winds(&self, action: &str, name: &str, rate: f64, to: Option<f64>) -> Result<(), SolveError> {
-        let wrong = |error: ClassError| SolveError { who: Some(action.to_string()), error };
+        let wrong = |error: ClassError| SolveError { who: Some(name.to_string()), error };
         if self.system.duties.of(name).freed {
-            return Err(wrong(ClassError::new(format!("connector {name} has been let go, and no winch holds it"))));
+            let text = format!("it has been let go by the time of action {action}, and no winch holds it");
+            return Err(wrong(ClassError::new(text)));
         }
         let connector = self.model.connectors.get(&Model::key(name));
         let now = connector.and_then(|c| self.model.first_length(c));
@@ -224,7 +227,7 @@ impl Run {
             && (to - now) * rate < 0.0
         {
             let text =
-                format!("the first segment of {name} is {{}} long by then, and at {{}} a second never comes to {{}}");
+                format!("its first segment is {{}} long at action {action}, and at {{}} a second never comes to {{}}");
             let values = [(now, Dim::Length), (rate, Dim::Length), (to, Dim::Length)];
             return Err(wrong(ClassError::of(text, &values).help("a positive rate pays out, a negative one hauls in")));
         }
