@@ -241,7 +241,7 @@ fn what_holds_nothing_is_refused() {
         ("ROD 100 10 -LEN 100 -REFINE 20 -EI 0 -CLAMP FIRST 90", "its segment does not bend"),
         ("ROD 100 10 -LEN 100 -REFINE 20 -CLUMP_DRAG 5 10", "no clump or buoy"),
         ("ROD 100 10 -LEN 100 -REFINE 20 -CLAMP FIRST 720", "straight down"),
-        ("ROD 100 10 -LEN 100 -REFINE 20 -DISPLEN -5", "less than zero"),
+        ("ROD 100 10 -LEN 100 -REFINE 20 -DISPLEN -5", "must be zero or more"),
     ] {
         let (mut session, _, _folder) = common::session();
         session.open("records", format!("&DIMEN -DIMEN METERS N\nMEDIT\n~L {class}\nEND\n"));
@@ -286,5 +286,22 @@ fn a_class_shows_the_stiffness_that_its_lines_have() {
         session.run();
         let shown = format!("{ea:.4E}").replace('E', "E+0");
         assert!(session.errors == 0 && screen.text().contains(&shown), "{shown} {}", screen.text());
+    }
+}
+
+#[test]
+fn slack_pipe_lies_down_sideways_where_it_would_fold_between_its_ends() {
+    for (bending, elements, length) in [(1e4, 50, 207.0), (1e5, 100, 248.0), (3.57e7, 40, 400.0)] {
+        let class = format!("ROD 300 20 -LEN {length} -REFINE {elements} -EI {bending} -EA 3E8 -WTPLEN 1200");
+        let table = at_rest(&model(&between("&ENV -DEPTH 100", &[&class], ["0 0 -5", "100 0 -100"])));
+        let [x, y, z] = ["X", "Y", "Z"].map(|axis| column(&table, axis));
+        let aside = y.iter().fold(0.0f64, |most, y| most.max(y.abs()));
+        assert!(aside > 10.0, "{bending} {aside}");
+        // as long as it is, and on the bottom but for what it presses itself in
+        let along: f64 = (1..x.len())
+            .map(|i| ((x[i] - x[i - 1]).powi(2) + (y[i] - y[i - 1]).powi(2) + (z[i] - z[i - 1]).powi(2)).sqrt())
+            .sum();
+        assert!((along / length - 1.0).abs() < 1e-3, "{bending} {along}");
+        assert!(z.iter().all(|z| *z > -100.2), "{bending} {z:?}");
     }
 }
