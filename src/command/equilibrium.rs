@@ -12,7 +12,9 @@ use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
 use crate::language::units::{Dim, UnitSystem};
 use crate::model::{Model, find};
 use crate::report::page;
+use crate::solve::results::along::cautions;
 use crate::solve::{FREEDOMS, Options, SolveError, settle, tables};
+use indexmap::IndexMap;
 
 /// &EQUI.
 pub static EQUI: Command = Command { spec: &SPEC, edits: true, run };
@@ -105,6 +107,17 @@ pub(super) fn told(wrong: SolveError, model: &Model, span: Span, units: UnitSyst
     error.diagnostic(span, units)
 }
 
+/// Warns of what is to be known of lines that move by themselves where they rest.
+pub(super) fn warn_of_lines(job: &mut Job, span: Span) {
+    let mut texts: IndexMap<&str, Vec<String>> = IndexMap::new();
+    for (name, text) in cautions(&job.model) {
+        texts.entry(text).or_default().push(name);
+    }
+    for (text, names) in texts {
+        job.warn(format!("{}: {text}", names.join(", ")), span);
+    }
+}
+
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let options = options(job, call)?;
     if job.model.bodies.is_empty() {
@@ -121,5 +134,6 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let text = list.iter().map(|t| page::render(t, job.units, &head)).collect::<Vec<_>>().join("\n");
     send(job, &call.args, &text)?;
     list.iter().for_each(|t| raise(job, t, call.args.span));
+    warn_of_lines(job, call.args.span);
     Ok(Effect::Done)
 }

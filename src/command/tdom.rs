@@ -2,7 +2,7 @@
 //!
 //! Source: reference/solve.md, "TDOM".
 
-use super::equilibrium::told;
+use super::equilibrium::{told, warn_of_lines};
 use super::{Call, Command, Effect, Job, tether_run};
 use crate::hydro::morison::unmoved;
 use crate::language::args::Args;
@@ -298,6 +298,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         );
     }
     warn_of_throwing(job, args);
+    warn_of_lines(job, span);
     let mut going = Going::new(job, &made, log);
     let ended = made.go(&mut going);
     drop(going);

@@ -190,6 +190,11 @@ pub trait Element: Debug + Send + Sync {
         0
     }
 
+    /// What is to be known of it at rest before anything goes by it; nothing where there is nothing to say.
+    fn caution(&self, _at: &Situation) -> Option<&'static str> {
+        None
+    }
+
     /// Whether its parameters depend on where its ends were when it was made, so that a solver makes it anew where they
     /// come to rest.
     fn made_for_place(&self) -> bool {

@@ -203,7 +203,7 @@ impl Solver {
         }
         let whole = !self.trial.loose && self.trial.ease == 1.0 && self.trial.drawn == drawn;
         (self.trial.loose, self.trial.ease) = (false, 1.0);
-        if whole && worst.1 <= ALMOST * weight {
+        if whole && self.left(rod, world) <= ALMOST * weight {
             return Ok(self.rested(rod, state, world, &ends, done));
         }
         if let Some(element) = rod.overstretched(&self.trial.x) {
@@ -216,6 +216,14 @@ impl Solver {
             residual: worst.1,
             element: worst.0.clamp(1, last),
         })
+    }
+
+    /// Largest force (N) that is out of balance where the trial is.
+    fn left(&mut self, rod: &Rod, world: &World) -> f64 {
+        sample(world, self.trial.time, &mut self.trial);
+        self.trial.fluid.iter_mut().for_each(|fluid| fluid.acceleration = Vector3::zeros());
+        self.work.forces(rod, world, &self.trial);
+        self.work.worst(self.trial.ends.map(|e| e.motion.is_some())).1
     }
 
     /// Takes the state as the trial, at rest with its ends where they are to be.

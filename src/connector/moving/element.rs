@@ -288,6 +288,10 @@ impl Element for MovingLine {
         Some(Box::new(MovingLine { base, ..*self }))
     }
 
+    fn caution(&self, at: &Situation) -> Option<&'static str> {
+        self.told_of_friction(at)
+    }
+
     fn pulling_end(&self) -> usize {
         self.base.laid.as_ref().and_then(Laid::tensioner).unwrap_or(0)
     }

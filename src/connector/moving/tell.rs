@@ -71,6 +71,16 @@ impl MovingLine {
         self.within((at, true, paid), &mut Vec::new(), |world| modes::of(rod, &mut solver, &state, world, ends, number))
     }
 
+    /// What is said where it rests without the friction that the bottom has.
+    pub(super) fn told_of_friction(&self, at: &Situation) -> Option<&'static str> {
+        if self.base.ground.friction_along <= 0.0 {
+            return None;
+        }
+        let mut warm = Warm::of(&self.base);
+        let slid = self.rest(at, &mut warm).is_ok() && warm.solver.slid();
+        slid.then_some("friction of the bottom at rest is left out: what lies slack on it would push")
+    }
+
     /// What is said of ends that are held where elements are too long for the bending there, which fades over sqrt(EI/T).
     fn coarse(&self, nodes: &[LineNode]) -> Vec<String> {
         let parts = &self.base.description.parts;
@@ -106,11 +116,8 @@ impl MovingLine {
             }
         }
         told.notes.extend(self.coarse(&nodes));
-        if at.step.is_none() && self.base.ground.friction_along > 0.0 {
-            let mut warm = Warm::of(&self.base);
-            if self.rest(at, &mut warm).is_ok() && warm.solver.slid() {
-                told.notes.push("warning: friction of the bottom is left out: what lies slack on it would push".into());
-            }
+        if at.step.is_none() {
+            told.notes.extend(self.told_of_friction(at).map(|text| format!("warning: {text}")));
         }
         let lies = |pair: &[LineNode]| pair.iter().all(|n| n.clearance <= 0.0);
         told.grounded = Some(nodes.windows(2).filter(|p| lies(p)).map(|p| p[1].arc - p[0].arc).sum());

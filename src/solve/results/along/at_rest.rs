@@ -49,6 +49,17 @@ pub(in crate::solve) fn standing(
     Ok(())
 }
 
+/// What is to be known of the lines that move by themselves where they rest between their ends as they stand: their names with the text.
+pub fn cautions(model: &Model) -> Vec<(String, &'static str)> {
+    let mut made = Vec::new();
+    let told = standing(model, &|_| true, |name, element, at, _| {
+        made.extend(element.caution(at).map(|text| (name.to_string(), text)));
+        Ok(())
+    });
+    // who solves says why a line cannot be made
+    told.map_or_else(|_| Vec::new(), |()| made)
+}
+
 /// The lines that move by themselves and whose names fit, at rest between their ends as they stand: a table each, a row a node.
 ///
 /// # Errors

@@ -12,8 +12,8 @@ mod shape;
 mod supports;
 mod touchdown;
 
-pub use at_rest::lines_at_rest;
 pub(in crate::solve) use at_rest::standing;
+pub use at_rest::{cautions, lines_at_rest};
 pub use check::{Code, check};
 pub use envelope::envelope;
 pub use fatigue::along as fatigue_along;
