@@ -8,6 +8,10 @@ use super::step::{Failure, Solver};
 use super::surroundings::World;
 use super::trial::{carry, largest};
 
+/// Least share of a change, and of the way back, that is left where a change is cut short: a line of work that ends nearer to either
+/// place than this says no more than that the work has a kink there.
+const LEAST: f64 = 0.1;
+
 /// The change that an iteration has made, and the work of what was out of balance on the way of it (J).
 #[derive(Clone, Debug)]
 pub(super) struct Made {
@@ -39,9 +43,6 @@ impl Made {
         self.work = along(residual, change);
     }
 }
-
-/// Least share of a change, and of the way back, that is left.
-const LEAST: f64 = 0.1;
 
 impl Solver {
     /// Where a step ends if its averaged accelerations stay.

@@ -17,8 +17,9 @@ use nalgebra::Vector3;
 impl Rod {
     /// Results at every node of a state.
     ///
-    /// Tension of a node is the mean of its two elements; where something is attached, the larger of those on its two sides; at an end it is what is left of that of the last element when
-    /// the half of it beyond has been moved, borne and dragged along itself: all that the holder takes along the rod.
+    /// Tension of a node is the mean of its two elements; where something is attached, the larger of those on its two
+    /// sides; at an end it is what is left of that of the last element when the half of it beyond has been moved, borne
+    /// and dragged along itself: all that the holder takes along the rod.
     /// Shear is the change of the moment over the elements beside a node.
     pub fn results(&self, state: &State, world: &World, ends: &[End; 2]) -> Vec<LineNode> {
         let last = self.elements.len();
@@ -29,7 +30,7 @@ impl Rod {
             world.fluid.fill(x, state.time, &mut fluids);
         }
         let beside = self.beside_ends(state, world);
-        let fluids_at = |node: usize| world.fluid.at(&x[node], state.time);
+        let fluid_at = |node: usize| world.fluid.at(&x[node], state.time);
         let (edges, pulls): (Vec<(Vector3<f64>, f64)>, Vec<f64>) =
             (0..last).map(|i| self.pull(i, state, [&fluids[i], &fluids[i + 1]], world.gravity)).unzip();
         // moment vector at each node, and the length it is spread over
@@ -63,7 +64,7 @@ impl Rod {
                 let inner = i > 0 && i < last;
                 let effective = match (inner, i) {
                     (true, _) if self.bears(i) => {
-                        let near = [&fluids_at(i - 1), &fluids_at(i), &fluids_at(i + 1)];
+                        let near = [&fluid_at(i - 1), &fluid_at(i), &fluid_at(i + 1)];
                         self.pull_beside(
                             i,
                             state,

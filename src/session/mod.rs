@@ -2,22 +2,26 @@
 //! error policy.
 
 mod deck;
+mod named;
+mod reading;
 mod refused;
 
+pub use reading::{read_all, read_text};
+
+use self::named::{in_menu, unknown};
 use crate::aqwa;
-use crate::command::{self, COMMANDS, Call, Command, Effect, INMODEL_FILE, Job, Menu, PLAIN, SCRIPT, offered};
+use crate::command::{self, Call, Command, Effect, INMODEL_FILE, Job, Menu, PLAIN, SCRIPT, offered};
 use crate::language::args::{self, Args};
-use crate::language::diagnostic::{Diagnostic, Outcome, Severity, did_you_mean};
+use crate::language::diagnostic::{Diagnostic, Outcome, Severity};
 use crate::language::flow::macros::{self, Macro};
 use crate::language::flow::specs::CONTROL;
 use crate::language::flow::{Interpreter, Step};
 use crate::language::record::{Record, Word};
 use crate::language::select::{Choice, keyword};
-use crate::language::source::{LARGEST_FILE, Span, Text};
+use crate::language::source::{Span, Text};
 use crate::language::spec::Form;
 use crate::language::token::Kind;
 use crate::report::output::Output;
-use std::io::Read;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::Arc;
@@ -367,69 +371,4 @@ impl Session {
 enum Meaning {
     Command(&'static Command),
     Macro(Arc<Macro>),
-}
-
-/// A description record's command, when the menu takes descriptions.
-fn in_menu(name: &str, menu: &Menu, first: &Word) -> Outcome<&'static Command> {
-    offered(menu.name()).find(|c| c.spec.name == name).ok_or_else(|| {
-        let (what, help) = match first.kind {
-            Kind::Selector => ("a selector", "&SELECT opens the menu of selectors; &SELECT :NAME .. defines one"),
-            _ => ("a description record", "descriptions belong to INMODEL or MEDIT: enter MEDIT first"),
-        };
-        Diagnostic::error(format!("`{}` has no place in menu {}", first.text, menu.name()), first.span)
-            .label(what)
-            .help(help)
-    })
-}
-
-/// The error for a word that names nothing here: where it would, or what is near.
-fn unknown<'a>(
-    first: &Word,
-    menu: &Menu,
-    names: impl Iterator<Item = &'static str>,
-    macros: impl Iterator<Item = &'a Arc<Macro>>,
-) -> Box<Diagnostic> {
-    let mut error = Diagnostic::error(format!("unknown command `{}` in menu {}", first.text, menu.name()), first.span);
-    let elsewhere = COMMANDS.iter().find(|c| {
-        !c.spec.menus.is_empty()
-            && c.spec.name.get(..first.text.len()).is_some_and(|h| h.eq_ignore_ascii_case(&first.text))
-    });
-    let candidates: Vec<String> = names
-        .map(str::to_string)
-        .chain(CONTROL.iter().map(|s| s.name.to_string()))
-        .chain(macros.map(|m| m.name.clone()))
-        .collect();
-    match elsewhere {
-        Some(command) => {
-            error.help.push(format!("{} belongs to menu {}", command.spec.name, command.spec.menus.join(" and ")));
-        }
-        None => error.help.extend(did_you_mean(&first.text, candidates.iter().map(String::as_str))),
-    }
-    if error.help.is_empty() {
-        error.help.push("&HELP lists what can be typed here".into());
-    }
-    error
-}
-
-/// The text of a file of records.
-///
-/// # Errors
-/// A file that is not there or too large, in one sentence.
-pub fn read_text(path: &Path) -> Result<Text, String> {
-    let shown = path.display();
-    let at = |e| format!("{shown}: {e}");
-    read_all(std::fs::File::open(path).map_err(at)?, &shown.to_string())
-}
-
-/// The text of a stream of records.
-///
-/// # Errors
-/// A stream that breaks or is too long, in one sentence.
-pub fn read_all(from: impl Read, name: &str) -> Result<Text, String> {
-    let mut bytes = Vec::new();
-    from.take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(|e| format!("{name}: {e}"))?;
-    if bytes.len() as u64 > LARGEST_FILE {
-        return Err(format!("{name} has more than {LARGEST_FILE} bytes"));
-    }
-    Ok(Text::from_bytes(bytes))
 }

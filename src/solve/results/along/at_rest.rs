@@ -52,7 +52,9 @@ pub(in crate::solve) fn standing(
 /// What is to be known of the lines that move by themselves where they rest between their ends as they stand: their names with the text.
 pub fn cautions(model: &Model) -> Vec<(String, &'static str)> {
     let mut made = Vec::new();
-    let told = standing(model, &|_| true, |name, element, at, _| {
+    // of others nothing is to be said, and making them may mean to tabulate them
+    let moves = |name: &str| model.connectors.get(&Model::key(name)).is_some_and(|c| model.moves(c));
+    let told = standing(model, &moves, |name, element, at, _| {
         made.extend(element.caution(at).map(|text| (name.to_string(), text)));
         Ok(())
     });

@@ -1,0 +1,51 @@
+//! What a word names in a menu, and what is said where it names nothing.
+
+use crate::command::{COMMANDS, Command, Menu, offered};
+use crate::language::diagnostic::{Diagnostic, Outcome, did_you_mean};
+use crate::language::flow::macros::Macro;
+use crate::language::flow::specs::CONTROL;
+use crate::language::record::Word;
+use crate::language::token::Kind;
+use std::sync::Arc;
+
+/// A description record's command, when the menu takes descriptions.
+pub(super) fn in_menu(name: &str, menu: &Menu, first: &Word) -> Outcome<&'static Command> {
+    offered(menu.name()).find(|c| c.spec.name == name).ok_or_else(|| {
+        let (what, help) = match first.kind {
+            Kind::Selector => ("a selector", "&SELECT opens the menu of selectors; &SELECT :NAME .. defines one"),
+            _ => ("a description record", "descriptions belong to INMODEL or MEDIT: enter MEDIT first"),
+        };
+        Diagnostic::error(format!("`{}` has no place in menu {}", first.text, menu.name()), first.span)
+            .label(what)
+            .help(help)
+    })
+}
+
+/// The error for a word that names nothing here: where it would, or what is near.
+pub(super) fn unknown<'a>(
+    first: &Word,
+    menu: &Menu,
+    names: impl Iterator<Item = &'static str>,
+    macros: impl Iterator<Item = &'a Arc<Macro>>,
+) -> Box<Diagnostic> {
+    let mut error = Diagnostic::error(format!("unknown command `{}` in menu {}", first.text, menu.name()), first.span);
+    let elsewhere = COMMANDS.iter().find(|c| {
+        !c.spec.menus.is_empty()
+            && c.spec.name.get(..first.text.len()).is_some_and(|h| h.eq_ignore_ascii_case(&first.text))
+    });
+    let candidates: Vec<String> = names
+        .map(str::to_string)
+        .chain(CONTROL.iter().map(|s| s.name.to_string()))
+        .chain(macros.map(|m| m.name.clone()))
+        .collect();
+    match elsewhere {
+        Some(command) => {
+            error.help.push(format!("{} belongs to menu {}", command.spec.name, command.spec.menus.join(" and ")));
+        }
+        None => error.help.extend(did_you_mean(&first.text, candidates.iter().map(String::as_str))),
+    }
+    if error.help.is_empty() {
+        error.help.push("&HELP lists what can be typed here".into());
+    }
+    error
+}
