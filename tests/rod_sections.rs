@@ -305,19 +305,3 @@ fn slack_pipe_lies_down_sideways_where_it_would_fold_between_its_ends() {
         assert!(z.iter().all(|z| *z > -100.2), "{bending} {z:?}");
     }
 }
-
-#[test]
-fn slack_on_a_slope_that_loses_its_friction_at_rest_is_warned_of() {
-    let warned = |slope: f64| {
-        let (mut session, _, _folder) = common::session();
-        let class = format!("ROD 100 50 -LEN 440 -REFINE 88 -EI 0 -EA 1E8 -WTPLEN 1000 -FRICTION 0.6 -SLOPE {slope}");
-        let records = format!(
-            "&DIMEN -DIMEN METERS N\n&ENV -DEPTH 100 -TIME 0.2 0.1\nMEDIT\n&DESCRIBE BODY RIG -IGNORE X Y Z RX RY RZ\n*R 0 0 -10\n\
-             #WEIGHT *R 1E6 1 1 1\n~C {class}\nCONNECTOR C -ANC 0 400 ~C *R\nEND\n&EQUI\nTDOM\n"
-        );
-        session.open("records", records);
-        session.run();
-        session.reports.iter().filter(|r| r.message.contains("C: friction of the bottom at rest is left out")).count()
-    };
-    assert_eq!([warned(0.1), warned(0.0)], [2, 0]);
-}

@@ -22,6 +22,7 @@ mod contact;
 mod drawn;
 mod ends;
 mod error;
+mod falls;
 mod hinges;
 mod immersed;
 mod iterate;

@@ -1,9 +1,9 @@
 //! A position of rest beside one that is known.
 
 use super::ends::End;
+use super::falls::{Fall, first_fall};
 use super::mesh::Rod;
 use super::state::State;
-use super::statics::{Fall, first_fall};
 use super::step::Solver;
 use super::surroundings::World;
 use super::trial::{largest, sample, turn};

@@ -6,9 +6,7 @@ use super::mesh::Rod;
 use super::surroundings::World;
 use super::system::{System, Weights};
 use super::trial::Trial;
-#[cfg(test)]
-use nalgebra::Matrix3;
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use std::ops::Range;
 
 /// The linear system of one iteration.
@@ -177,6 +175,17 @@ impl Workspace {
             let place = system.stride() * node + i;
             system.band.add(place, place, by);
             system.residual[place] += force[i];
+        });
+    }
+
+    /// Adds to the block of a node and to its residual.
+    pub fn hold(&mut self, node: usize, by: &Matrix3<f64>, force: &Vector3<f64>) {
+        each!(self, system => for i in 0..3 {
+            let place = system.stride() * node;
+            for j in 0..3 {
+                system.band.add(place + i, place + j, by[(i, j)]);
+            }
+            system.residual[place + i] += force[i];
         });
     }
 

@@ -5,12 +5,10 @@ use super::around::{Floor, Water};
 use super::kept::{Kept, Layout};
 use super::laid::{Felt, Laid};
 use super::mesh::{most_wound, told, wind};
-use super::start;
 use super::warm::{Base, Held, Warm};
 use crate::language::units::Dim;
 use crate::model::{
     Ambient, ClassError, Element, End, Flow, Guess, LineBooks, LineMode, LineNode, Response, Situation, Six, Summary,
-    Surroundings,
 };
 use crate::rod::{self, Balance, EndForces, EndTangent, Ground, Motion, Rod, State, World};
 use nalgebra::Vector3;
@@ -119,47 +117,23 @@ impl MovingLine {
                     }
                 }
             }
-            let mut beside = rest.take();
-            let near = beside.as_mut().and_then(|state| solver.statics(rod, state, world, ends).ok());
-            let (state, forces) = match (beside, near) {
-                (Some(state), Some(forces)) => (state, forces),
-                // from afar: how softly it meets the bottom is known where it rests first
-                _ => {
-                    let mut from = |aside: bool| {
-                        let mut fallen = self.fallen(places, at.surroundings, aside)?;
-                        solver.statics(rod, &mut fallen, world, ends).map_err(told)?;
-                        let forces = solver.statics(rod, &mut fallen, world, ends).map_err(told)?;
-                        Ok((fallen, forces))
-                    };
-                    // slack pipe would fold in the plane of its ends: it lies down sideways
-                    let bends = self.base.laid.is_none() && rod.segments().iter().any(|s| s.bending > 0.0);
-                    from(false).or_else(|error: ClassError| {
-                        let slack = bends && !error.lasting;
-                        if slack { from(true).map_err(|_| error) } else { Err(error) }
-                    })?
-                }
+            let beside = rest.take().and_then(|mut state| {
+                let forces = solver.statics(rod, &mut state, world, ends).ok()?;
+                Some((state, forces))
+            });
+            let (state, forces) = match beside {
+                Some(found) if !solver.slid() => found,
+                beside => match (self.afar((rod, solver), places, world, (at.surroundings, ends)), beside) {
+                    (Err(_), Some((mut state, _))) => {
+                        let forces = solver.statics(rod, &mut state, world, ends).map_err(told)?;
+                        (state, forces)
+                    }
+                    (afar, _) => afar?,
+                },
             };
             *rest = Some(state.clone());
             Ok(Rest { state, forces })
         })
-    }
-
-    /// From where it falls: in the plane of its ends, or bowed aside from it.
-    fn fallen(&self, places: [Vector3<f64>; 2], around: &Surroundings, aside: bool) -> Result<State, ClassError> {
-        if let Some(laid) = &self.base.laid {
-            return State::along(&self.base.rod, &laid.shape).map_err(told);
-        }
-        let parts = &self.base.description.parts;
-        let mut lengths: Vec<f64> = parts.iter().map(|p| p.segment.length).collect();
-        if let Some(length) = lengths.first_mut() {
-            *length = self.first;
-        }
-        let floor = if self.base.plane.is_some() { None } else { self.base.flat };
-        let mut points = start::points(parts, &lengths, places, floor, around);
-        if aside {
-            start::bow_aside(&mut points, places, lengths.iter().sum());
-        }
-        State::along(&self.base.rod, &points).map_err(told)
     }
 
     /// The rod of a mesh other than that of `rod`.

@@ -9,7 +9,7 @@ use super::start;
 use super::warm::{Base, Held};
 use crate::connector::mooring::no_other_end;
 use crate::model::{ClassError, Connection};
-use crate::rod::{self, PlaneBottom, Rod, State};
+use crate::rod::{self, Bottom, PlaneBottom, Rod, State};
 use nalgebra::Vector3;
 use std::sync::Arc;
 
@@ -45,9 +45,12 @@ impl MovingLine {
             PlaneBottom { height: height - rise[0] * far.x - rise[1] * far.y, slope: rise }
         });
         let flat = depth.or(around.depth).map(|d| -d);
-        let floor = if plane.is_some() { None } else { flat };
+        let bottom = plane.or(flat.map(|height| PlaneBottom { height, slope: [0.0; 2] }));
         let shape = match &ambient {
-            Some(a) if a.grows() => start::points(&description.parts, &lengths, ends, floor, around),
+            Some(a) if a.grows() => {
+                let floor = bottom.as_ref().map(|b| (b as &dyn Bottom, description.seabed.along));
+                start::points(&description.parts, &lengths, ends, floor, around)
+            }
             _ => Vec::new(),
         };
         let cut = Cut::of(&description.parts, &lengths, ambient.as_deref(), &shape);

@@ -3,6 +3,7 @@
 //! Source: seed 001 (ROD) and seed 002, 5.8.3 (cable dynamics of AQWA). A line is cut into elements, feels water, wind and bottom all
 //! along itself, and is held at its ends by bodies or the ground; what is between its ends is solved and condensed here.
 
+mod afar;
 mod answer;
 mod around;
 mod describe;

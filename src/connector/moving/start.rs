@@ -1,8 +1,9 @@
 //! From where a line falls into its first position of rest.
 
 use super::describe::Part;
-use crate::connector::catenary::{Floor, Joint, Line, Segment};
+use crate::connector::catenary::{self, Joint, Line, Segment};
 use crate::model::Surroundings;
+use crate::rod::{Bottom, PlaneBottom};
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 
@@ -11,12 +12,18 @@ const BETWEEN: usize = 40;
 /// Points of a shape that only has the right length.
 const ROUGH: usize = 60;
 
+/// How far from the bottom an end lies on it (m).
+const ON_BOTTOM: f64 = 0.1;
+
+/// What a line may lie on, and its friction.
+pub(super) type Floor<'a> = Option<(&'a dyn Bottom, f64)>;
+
 /// Points from the first end to the second: the catenary of the line, or, where that has no answer, a bow of its length.
 pub(super) fn points(
     parts: &[Part],
     lengths: &[f64],
     ends: [Vector3<f64>; 2],
-    floor: Option<f64>,
+    floor: Floor,
     around: &Surroundings,
 ) -> Vec<Vector3<f64>> {
     catenary(parts, lengths, ends, floor, around)
@@ -33,11 +40,23 @@ pub(super) fn bow_aside(points: &mut [Vector3<f64>], [from, to]: [Vector3<f64>; 
     }
 }
 
+/// The plane through the second of two ends, on a bottom, with the mean slope from there to half way to the first, and level across;
+/// none for an end that is not on the bottom.
+pub(super) fn plane([from, to]: [Vector3<f64>; 2], bottom: &dyn Bottom) -> Option<PlaneBottom> {
+    let half = 0.5 * Vector3::new(from.x - to.x, from.y - to.y, 0.0);
+    let height = |place: Vector3<f64>| bottom.height(place.x, place.y).0;
+    let on = (to.z - height(to)).abs() < ON_BOTTOM;
+    let rise = (height(to + half) - height(to)) / half.norm_squared();
+    let slope = if half.norm() > 0.0 { [half.x * rise, half.y * rise] } else { [0.0; 2] };
+    let height = to.z - slope[0] * to.x - slope[1] * to.y;
+    (on && height.is_finite()).then_some(PlaneBottom { height, slope })
+}
+
 fn catenary(
     parts: &[Part],
     lengths: &[f64],
     [from, to]: [Vector3<f64>; 2],
-    floor: Option<f64>,
+    floor: Floor,
     around: &Surroundings,
 ) -> Option<Vec<Vector3<f64>>> {
     let weight = |p: &Part| p.submerged(around.water_density, around.gravity);
@@ -47,16 +66,20 @@ fn catenary(
         p.joint.map_or(Joint::Free, |j| Joint::Weight((j.mass - around.water_density * j.volume) * around.gravity))
     };
     let joints = parts.iter().take(parts.len().saturating_sub(1)).map(joint).collect();
-    // the catenary engine knows a bottom at the elevation of the second end alone
-    let lies = floor.filter(|z| (to.z - z).abs() < 1e-6 * (1.0 + z.abs()));
-    if floor.is_some() && lies.is_none() {
-        return None;
-    }
-    let line = Line::new(segments, joints, to.z, around.tide).ok()?;
-    let line = line.over(lies.map(|elevation| Floor { elevation, slope: 0.0, friction: 0.0 })).ok()?;
     let across = Vector3::new(to.x - from.x, to.y - from.y, 0.0);
     let distance = across.norm();
     let toward = across.try_normalize(1e-12).unwrap_or_else(Vector3::x);
+    let line = Line::new(segments, joints, to.z, around.tide).ok()?;
+    // the catenary engine knows a plane bottom under the second end alone
+    let on_plane = |(bottom, friction): (&dyn Bottom, f64)| {
+        let plane = plane([from, to], bottom)?;
+        let slope = -Vector3::new(plane.slope[0], plane.slope[1], 0.0).dot(&toward);
+        Some(catenary::Floor { elevation: to.z, slope, friction })
+    };
+    let line = match floor {
+        Some(floor) => line.over(Some(on_plane(floor)?)).ok()?,
+        None => line.over(None).ok()?,
+    };
     let state = line.at_distance(distance, from.z).ok()?;
     let shape = line.shape(&state, BETWEEN);
     let points: Vec<_> = shape.iter().map(|p| Vector3::new(from.x, from.y, p.z) + toward * p.x).collect();
@@ -68,7 +91,7 @@ fn catenary(
 fn bow(
     length: f64,
     [from, to]: [Vector3<f64>; 2],
-    floor: Option<f64>,
+    floor: Floor,
     parts: &[Part],
     around: &Surroundings,
 ) -> Vec<Vector3<f64>> {
@@ -80,8 +103,8 @@ fn bow(
                 let s = i as f64 / ROUGH as f64;
                 let mut point = from + (to - from) * s;
                 point.z += side * 4.0 * sag * s * (1.0 - s);
-                if let Some(floor) = floor {
-                    point.z = point.z.max(floor);
+                if let Some((bottom, _)) = floor {
+                    point.z = point.z.max(bottom.height(point.x, point.y).0);
                 }
                 point
             })

@@ -9,6 +9,7 @@ mod motion;
 mod released;
 mod rope;
 mod section;
+mod slope;
 mod snap;
 mod snapshot;
 mod still;

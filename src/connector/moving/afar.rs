@@ -1,0 +1,118 @@
+//! Where a line rests that has not rested near there before.
+
+use super::element::MovingLine;
+use super::mesh::told;
+use super::start;
+use crate::model::{ClassError, Surroundings};
+use crate::rod::{Bottom, End, EndForces, PlaneBottom, Rod, Solver, State, World};
+use nalgebra::Vector3;
+
+/// First and least share by which a bottom goes over from a plane to what it is.
+const FIRST: f64 = 0.25;
+const LEAST: f64 = 0.02;
+
+/// A bottom on its way from a plane to another.
+struct Between<'a> {
+    plane: &'a PlaneBottom,
+    other: &'a dyn Bottom,
+    share: f64,
+}
+
+impl Bottom for Between<'_> {
+    fn height(&self, x: f64, y: f64) -> (f64, [f64; 2]) {
+        let ((from, before), (to, after)) = (self.plane.height(x, y), self.other.height(x, y));
+        let mean = |a: f64, b: f64| a + (b - a) * self.share;
+        (mean(from, to), [mean(before[0], after[0]), mean(before[1], after[1])])
+    }
+}
+
+impl MovingLine {
+    /// Where it comes to rest from its catenary, from a bow in the plane of its ends, or from one aside of that.
+    pub(super) fn afar(
+        &self,
+        (rod, solver): (&Rod, &mut Solver),
+        places: [Vector3<f64>; 2],
+        world: &World,
+        (around, ends): (&Surroundings, [End; 2]),
+    ) -> Result<(State, EndForces), ClassError> {
+        let mut from = |aside: bool| {
+            let laid = if aside { None } else { self.laid_down((rod, solver), places, world, (around, ends)) };
+            let mut state = match laid {
+                Some(laid) => laid,
+                None => {
+                    let mut state = self.fallen(places, world, around, aside)?;
+                    solver.statics(rod, &mut state, world, ends).map_err(told)?;
+                    state
+                }
+            };
+            // how softly it meets the bottom is known where it rests first
+            let forces = solver.statics(rod, &mut state, world, ends).map_err(told)?;
+            Ok((state, forces))
+        };
+        // slack pipe would fold in the plane of its ends: it lies down sideways
+        let bends = self.base.laid.is_none() && rod.segments().iter().any(|s| s.bending > 0.0);
+        from(false).or_else(|error: ClassError| {
+            let slack = bends && !error.lasting;
+            if slack { from(true).map_err(|_| error) } else { Err(error) }
+        })
+    }
+
+    /// From where it falls: in the plane of its ends, or bowed aside from it.
+    fn fallen(
+        &self,
+        places: [Vector3<f64>; 2],
+        world: &World,
+        around: &Surroundings,
+        aside: bool,
+    ) -> Result<State, ClassError> {
+        if let Some(laid) = &self.base.laid {
+            return State::along(&self.base.rod, &laid.shape).map_err(told);
+        }
+        let parts = &self.base.description.parts;
+        let mut lengths: Vec<f64> = parts.iter().map(|p| p.segment.length).collect();
+        if let Some(length) = lengths.first_mut() {
+            *length = self.first;
+        }
+        let floor = world.bottom.map(|(bottom, ground)| (bottom, ground.friction_along));
+        let mut points = start::points(parts, &lengths, places, floor, around);
+        if aside {
+            start::bow_aside(&mut points, places, lengths.iter().sum());
+        }
+        State::along(&self.base.rod, &points).map_err(told)
+    }
+
+    /// Where it rests by friction on a bottom over a grid: laid on a plane, where its catenary is known, which then takes the shape of the
+    /// bottom step by step.
+    fn laid_down(
+        &self,
+        (rod, solver): (&Rod, &mut Solver),
+        places: [Vector3<f64>; 2],
+        world: &World,
+        (around, ends): (&Surroundings, [End; 2]),
+    ) -> Option<State> {
+        let (other, ground) = world.bottom.filter(|(_, ground)| ground.friction_along > 0.0)?;
+        self.base.ambient.as_ref().filter(|a| a.charted() && self.base.plane.is_none() && self.base.laid.is_none())?;
+        let plane = start::plane(places, other)?;
+        let last = rod.nodes() - 1;
+        let mut state = self.fallen(places, &World { bottom: Some((&plane, ground)), ..*world }, around, false).ok()?;
+        let (mut share, mut step) = (0.0, FIRST);
+        let mut to = share;
+        while share < 1.0 {
+            let [before, bottom] = [share, to].map(|share| Between { plane: &plane, other, share });
+            let mut next = state.clone();
+            for x in next.position.iter_mut().take(last).skip(1) {
+                x.z += bottom.height(x.x, x.y).0 - before.height(x.x, x.y).0;
+            }
+            let world = World { bottom: Some((&bottom, ground)), ..*world };
+            if solver.statics_beside(rod, &mut next, &world, ends).ok()?.is_some() {
+                (state, share) = (next, to);
+            } else if step < LEAST || to == 0.0 {
+                return None;
+            } else {
+                step *= 0.5;
+            }
+            to = (share + step).min(1.0);
+        }
+        Some(state)
+    }
+}
