@@ -1,6 +1,7 @@
 //! Lengths that give a line a wanted force between given ends.
 
-use super::line::{Line, LineError};
+use super::line::Line;
+use super::refused::LineError;
 use super::search::{Point, rising_root};
 
 /// The force that is wanted at the fairlead.

@@ -9,7 +9,8 @@
 use super::chain::Chain;
 use super::element::{Element, Ground, Tilt, vertical_of_contact};
 use super::end_forces::{Bottom, EndForces, Regime};
-use super::line::{LARGEST, LineError, Segment};
+use super::line::{LARGEST, Segment};
+use super::refused::LineError;
 use super::search::{Point, rising_root};
 use super::segment::{Reach, hanging, lifted};
 

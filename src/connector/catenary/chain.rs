@@ -8,8 +8,8 @@
 //! bottom the height at which a pendant ends; both are brought in by repeating.
 
 use super::element::{Element, Ground, Part};
-use super::line::LineError;
 use super::policy::Policy;
+use super::refused::LineError;
 use super::settle::Problem;
 
 /// What pulls at a joint.

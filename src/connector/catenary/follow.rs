@@ -6,7 +6,8 @@
 
 use super::between::{PROOF, check, cold, in_contact, mapped, prove, prove_contact};
 use super::end_forces::{Bottom, EndForces, Regime};
-use super::line::{LineError, Segment};
+use super::line::Segment;
+use super::refused::LineError;
 use super::segment::{Reach, hanging};
 
 /// Evaluations of the line after which the cold search takes over.

@@ -4,6 +4,7 @@ use super::chain::{Chain, Pull};
 use super::element::{Element, Ground, Tilt};
 use super::end_forces::{Bottom, EndForces};
 use super::law::Law;
+use super::refused::LineError;
 
 /// A piece of line with the same properties all along.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,104 +63,6 @@ pub struct Line {
     pub(super) surface: f64,
     pub(super) floor: Option<Floor>,
     pub(super) chain: Chain,
-}
-
-/// Why a line has no answer.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum LineError {
-    /// A line without segments.
-    #[error("the line has no segments")]
-    Empty,
-    /// A joint belongs between each two segments.
-    #[error("a line of {segments} segments has {joints} joints, not one fewer")]
-    Joints {
-        /// Number of segments.
-        segments: usize,
-        /// Number of joints.
-        joints: usize,
-    },
-    /// A value that is not finite or has the wrong sign.
-    #[error("{what} of segment {segment} cannot be {}", told(*.value))]
-    Value {
-        /// Which quantity.
-        what: &'static str,
-        /// Which segment, from 1.
-        segment: usize,
-        /// The value (SI).
-        value: f64,
-    },
-    /// Breaking tensions that do not fit the segments.
-    #[error("a table needs one positive breaking tension a segment and a positive largest force")]
-    Breaks,
-    /// The fairlead lies below the bottom.
-    #[error("the fairlead lies {0:.3} m below the bottom")]
-    BelowBottom(f64),
-    /// The anchor lies below the bottom.
-    #[error("the anchor lies {0:.3} m below the bottom")]
-    AnchorBelow(f64),
-    /// A pendant longer than the water is deep would hold its joint below the bottom.
-    #[error("the pendant of segment {segment} is {by:.3} m longer than the water is deep there")]
-    Pendant {
-        /// Which segment, from 1.
-        segment: usize,
-        /// How much (m).
-        by: f64,
-    },
-    /// The line hanging straight down already pulls more.
-    #[error("no position has the {what} {wanted:.6e} N: the line hanging straight down has {least:.6e} N")]
-    Weight {
-        /// Which force at the fairlead.
-        what: &'static str,
-        /// The one asked for (N).
-        wanted: f64,
-        /// The smallest one (N).
-        least: f64,
-    },
-    /// No length of the first segment gives the force.
-    #[error("no length of the first segment gives {wanted:.6e} N; the nearest is {nearest:.6e} N")]
-    NoLength {
-        /// The force asked for (N).
-        wanted: f64,
-        /// The nearest one found (N).
-        nearest: f64,
-    },
-    /// A stretch law that does not grow.
-    #[error("the tension of segment {0} does not grow with its strain")]
-    Law(usize),
-    /// A weightless line with slack: any shape will do.
-    #[error("a weightless line longer than the distance between its ends has no definite shape")]
-    Undetermined,
-    /// A part without tension on a slope that friction does not hold.
-    #[error("a slack part of the line, or a clump, slides down the sloped bottom: friction does not hold it")]
-    Slides,
-    /// A slack line with buoys over a slope: where its heaps lie depends on how it was laid.
-    #[error("a slack line with buoyant parts over a sloped bottom has no definite shape")]
-    SlackSlope,
-    /// What is left of the distances between the ends is too large for an answer.
-    #[error("no configuration found between the ends: {residual:.3e} N remain of a tension of {tension:.6e} N")]
-    Unproven {
-        /// The distances left, mapped through the stiffness (N).
-        residual: f64,
-        /// Tension at the fairlead (N).
-        tension: f64,
-    },
-    /// The iteration ended without a proven answer.
-    #[error(
-        "no configuration found at a horizontal force of {force:.6e} N: {residual:.3e} m remain after {iterations} iterations"
-    )]
-    NotConverged {
-        /// Horizontal force (N).
-        force: f64,
-        /// Vertical distance left (m).
-        residual: f64,
-        /// Iterations done.
-        iterations: usize,
-    },
-}
-
-/// A value in as many digits as one reads.
-fn told(value: f64) -> String {
-    if value == 0.0 || (1e-4..1e9).contains(&value.abs()) { value.to_string() } else { format!("{value:.3e}") }
 }
 
 /// Lengths (m) and forces (N) from which on the squares that are formed of them have no room in a double.

@@ -2,7 +2,8 @@
 
 use super::chain::{Held, Rested, Stand};
 use super::element::{Element, Tilt, stretch};
-use super::line::{Joint, Line, LineError, Segment};
+use super::line::{Joint, Line, Segment};
+use super::refused::LineError;
 use super::segment::hanging;
 use super::solve::PROOF;
 use super::state::{Buoy, JointState, SegmentState, State};

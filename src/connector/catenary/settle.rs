@@ -2,8 +2,8 @@
 
 use super::chain::{Chain, Held, Rested, Stand};
 use super::element::{Element, Part};
-use super::line::LineError;
 use super::policy::{Policy, Section, first_policy};
+use super::refused::LineError;
 
 /// A chain to be rested at given tensions along the bottom.
 pub struct Problem<'a> {

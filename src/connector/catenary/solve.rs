@@ -2,7 +2,8 @@
 
 use super::chain::Rested;
 use super::element::{Element, Tilt};
-use super::line::{LARGEST, Line, LineError};
+use super::line::{LARGEST, Line};
+use super::refused::LineError;
 use super::search::{Point, rising_root};
 use super::state::State;
 
