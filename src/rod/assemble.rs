@@ -3,6 +3,7 @@
 use super::abreast::plain;
 use super::bend::hinge;
 use super::drawn::{Rub, rub};
+use super::held::{Hold, hold};
 use super::hinges::spatial_hinges;
 use super::immersed::{entry, half_load, slam_load, wet_share, wind_load};
 use super::mesh::{Element, Rod};
@@ -84,6 +85,13 @@ pub(super) fn assemble<const TANGENT: bool, const W: usize, const H: usize, cons
             system.push(own, &-force);
             system.block::<TANGENT>(own, own, &(by[0] * -weights.k));
             system.block::<TANGENT>(own, other, &(by[1] * -weights.k));
+        }
+    }
+    if trial.held {
+        for node in range.start..=range.end {
+            let Some(Hold { force, by, .. }) = hold(rod, world, trial, node) else { continue };
+            system.push(node, &-force);
+            system.block::<TANGENT>(node, node, &(by * -weights.k));
         }
     }
     if !trial.loose && rod.elements[range.clone()].iter().any(|e| e.bending > 0.0) {

@@ -116,7 +116,7 @@ pub(super) fn contact(
         by_position: outer * -by_depth,
         by_velocity: outer * -by_sinking,
     };
-    if ground.friction_along > 0.0 || ground.friction_across > 0.0 {
+    if ground.rough() {
         let along = (lay - normal * lay.dot(&normal)).try_normalize(1e-9).unwrap_or_else(Vector3::zeros);
         let (aa, flat) = (along * along.transpose(), Matrix3::identity() - outer);
         let (mu_a, mu_c) = (ground.friction_along, ground.friction_across);

@@ -11,8 +11,10 @@
 //! be drawn away at once. At rest every element of it has a tension. Where friction cannot do that, as in a line much longer than from
 //! its anchor to straight under its other end, it rests without any.
 
-use super::contact::borne;
+use super::contact::{Borne, borne};
 use super::ends::End;
+use super::held::hold;
+use super::immersed::{Node, on_half};
 use super::mesh::Rod;
 use super::state::State;
 use super::step::Solver;
@@ -24,15 +26,17 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 /// Friction on the node of an element that is toward the end the rod has been drawn to.
 pub(super) struct Rub {
     pub node: usize,
-    /// The force on it (N), and the most it can be along the rod.
+    /// The force on it (N).
     pub force: Vector3<f64>,
+    /// The most it can be along or across the rod (N).
     pub whole: f64,
     /// The force as a share of the most it can be along the rod and across.
     pub held: Vector3<f64>,
     /// Whether there is a tension that it takes some of.
     pub drawn: bool,
-    /// Normal of the bottom there.
+    /// Normal of the bottom there, and the direction across the rod on it.
     pub normal: Vector3<f64>,
+    pub aside: Vector3<f64>,
     /// Its derivative by the position of the node itself and of the other of the element (N/m).
     pub by: [Matrix3<f64>; 2],
 }
@@ -48,9 +52,12 @@ fn mobilised(tension: f64) -> (f64, f64) {
     if spare > 0.0 { (spare * (2.0 - spare), 2.0 * (1.0 - spare)) } else { (0.0, 0.0) }
 }
 
+/// The least share of its friction that a node has against being drawn, where a slope takes all of it.
+const SPARE: f64 = 1e-3;
+
 /// The end a rod has been drawn to: none without friction, or where its ends do not say.
 pub(super) fn drawn(rod: &Rod, world: &World, ends: &[End; 2]) -> Option<usize> {
-    let (bottom, _) = world.bottom.filter(|(_, ground)| ground.friction_along > 0.0)?;
+    let (bottom, _) = world.bottom.filter(|(_, ground)| ground.rough())?;
     let last = rod.elements.len() - 1;
     let lies = |side: usize| {
         let x = ends[side].motion?.position;
@@ -63,61 +70,102 @@ pub(super) fn drawn(rod: &Rod, world: &World, ends: &[End; 2]) -> Option<usize> 
     }
 }
 
+/// What weight, water and wind do to a node of a rod at rest (N).
+fn load(rod: &Rod, world: &World, trial: &Trial, node: usize) -> Vector3<f64> {
+    let mut sum = Vector3::zeros();
+    for (i, other) in [(node.checked_sub(1), node.wrapping_sub(1)), (Some(node), node + 1)] {
+        let Some((i, element)) = i.and_then(|i| Some((i, rod.elements.get(i)?))) else { continue };
+        sum.z -= element.mass * world.gravity;
+        let Some(t) = (trial.x[i + 1] - trial.x[i]).try_normalize(1e-9 * element.rest) else { continue };
+        let at = |node: usize| Node {
+            position: &trial.x[node],
+            velocity: &trial.v[node],
+            acceleration: &trial.a[node],
+            fluid: &trial.fluid[node],
+        };
+        sum += on_half(element, &t, world, [at(node), at(other)]);
+    }
+    sum
+}
+
+/// How steep the bottom is for a node: what pulls it along the bottom over what presses it on it, as a vector along the bottom against
+/// that pull. In still water it is the slope.
+fn steep(rod: &Rod, world: &World, trial: &Trial, node: usize, normal: &Vector3<f64>) -> Vector3<f64> {
+    let fluid = &trial.fluid[node];
+    let still = fluid.velocity == Vector3::zeros() && fluid.wind == Vector3::zeros();
+    let load = if still { -Vector3::z() } else { load(rod, world, trial, node) };
+    let pressed = -load.dot(normal);
+    if pressed > 0.0 { -(load + normal * pressed) / pressed } else { Vector3::zeros() }
+}
+
 /// Friction at element `i` of a rod at rest that has been drawn to an end.
 pub(super) fn rub(rod: &Rod, world: &World, trial: &Trial, i: usize, side: usize) -> Option<Rub> {
     let (bottom, ground) = world.bottom?;
     let (node, other) = (i + side, i + 1 - side);
     let before = node.checked_sub(1).map_or(0.0, |i| rod.elements[i].contact);
     let area = before + rod.elements.get(node).map_or(0.0, |e| e.contact);
-    let borne = borne(bottom, &ground, trial.soft[node], area, &trial.x[node])?;
-    let friction = ground.friction_along;
-    let whole = friction * borne.force;
+    let Borne { force: n, normal, by_depth } = borne(bottom, &ground, trial.soft[node], area, &trial.x[node])?;
+    let [mu, mu_across] = [ground.friction_along, ground.friction_across];
     let element = &rod.elements[i];
     let d = trial.x[other] - trial.x[node];
     let length = d.norm().max(1e-9 * element.rest);
     // away from the end it has been drawn to
     let t = d / length;
-    let normal = borne.normal;
     let flat = Matrix3::identity() - normal * normal.transpose();
     let level = (flat * t).norm();
-    if whole <= 0.0 || level < 1e-3 {
+    if n <= 0.0 || level < 1e-3 {
         return None;
     }
     let way = flat * t / level;
+    let aside = normal.cross(&way);
+    // how the way turns aside with the other node
+    let turns = (Matrix3::identity() - t * t.transpose()) * aside / (level * length);
+    let signs = [-1.0, 1.0];
+    // across it is held about where it was laid: by a share c, which leaves a share most along it
+    let off = trial.x[node] - trial.laid[node];
+    let u = if mu_across > 0.0 { off.dot(&aside) / ground.friction_travel } else { 0.0 };
+    let most = 1.0 / u.hypot(1.0);
+    let (c, cubed) = (-u * most, most.powi(3));
+    let du = signs.map(|sign| {
+        let own = if sign < 0.0 && mu_across > 0.0 { aside } else { Vector3::zeros() };
+        let turned = if mu_across > 0.0 { turns * (sign * -off.dot(&way)) } else { Vector3::zeros() };
+        (own + turned) / ground.friction_travel
+    });
+    // what keeps it from sliding along is there before it is drawn
+    let steep = steep(rod, world, trial, node, &normal);
+    let wanted = if mu > 0.0 { way.dot(&steep) / mu } else { 0.0 };
+    let kept = wanted.clamp(-most, most);
+    let spare = (most - kept).max(SPARE);
     let taken = Taken { compression: !trial.loose, ease: trial.ease };
     let height = 0.5 * (trial.x[node].z + trial.x[other].z);
     let stretch = Stretch { strain: length / element.rest - 1.0, rate: 0.0, height };
     let fluids = [&trial.fluid[i], &trial.fluid[i + 1]];
     let pull = tension(rod, element, taken, &stretch, trial.memory.get(i), fluids, world.gravity);
-    // what keeps it from sliding down a slope is there before it is drawn
-    let steep = flat.column(2) / normal.z;
-    let (along, across) = (way * way.dot(&steep), steep - way * way.dot(&steep));
-    let capped = |v: Vector3<f64>, most: f64| v * (most / v.norm().max(most));
-    let aside = capped(across, ground.friction_across.max(f64::MIN_POSITIVE));
-    let resting = capped(along, friction) + aside;
-    let kept = way.dot(&resting);
-    let spare = (friction - kept).max(1e-3 * friction);
-    let drawn = pull.value / (spare * borne.force);
+    let drawn = if mu > 0.0 { pull.value / (spare * mu * n) } else { 0.0 };
     let (share, slope) = mobilised(drawn);
-    let drag = spare * borne.force * share;
-    let by_kept = borne.force * (drawn * slope - share);
-    let turning: Matrix3<f64> =
-        (Matrix3::identity() - way * way.transpose()) * flat * (Matrix3::identity() - t * t.transpose())
-            / (level * length);
-    let turned: Matrix3<f64> = turning * drag + way * (resting.transpose() * turning) * by_kept;
-    let stretched = way * t.transpose() * (slope * pull.by_strain / element.rest);
-    let raised = way * Vector3::z().transpose() * (0.5 * slope * pull.by_height);
-    let pressed = (resting + way * (spare * (share - drawn * slope))) * normal.transpose() * borne.by_depth;
-    Some(Rub {
-        node,
-        force: resting * borne.force + way * drag,
-        held: way * (kept + spare * share) / friction + aside / ground.friction_across.max(friction * 1e-9),
-        whole,
-        drawn: share > 0.0,
-        normal,
-        by: [raised - turned - stretched - pressed, raised + turned + stretched],
-    })
+    let a = kept + spare * share;
+    let held = way * a + aside * c;
+    let force = (way * (mu * a) + aside * (mu_across * c)) * n;
+    let by = [0, 1].map(|j| {
+        let turned = turns * signs[j];
+        let pressed = if j == 0 { normal * -by_depth } else { Vector3::zeros() };
+        let by_most = du[j] * (-u * cubed);
+        let by_kept =
+            if kept == wanted && mu > 0.0 { turned * (aside.dot(&steep) / mu) } else { by_most * wanted.signum() };
+        let by_spare = if spare > SPARE { by_most - by_kept } else { Vector3::zeros() };
+        let pulled = t * (signs[j] * pull.by_strain / element.rest) + Vector3::z() * (0.5 * pull.by_height);
+        let by_drawn = if mu > 0.0 { pulled / (mu * n) - pressed * (drawn * spare / n) } else { Vector3::zeros() };
+        let by_a = by_kept + by_spare * (share - drawn * slope) + by_drawn * slope;
+        let by_c = du[j] * -cubed;
+        force * pressed.transpose() / n
+            + (way * by_a.transpose() + aside * turned.transpose() * a) * (mu * n)
+            + (aside * by_c.transpose() - way * turned.transpose() * c) * (mu_across * n)
+    });
+    Some(Rub { node, force, whole: mu.max(mu_across) * n, held, drawn: share > 0.0, normal, aside, by })
 }
+
+/// The largest share of friction across by which a node is taken to be held about where it was laid.
+const STUCK: f64 = 0.9999;
 
 /// How much stiffer than where it sticks a node on the bottom is held, in the first fall, about where the fall began.
 const CREEP: f64 = 10.0;
@@ -136,6 +184,32 @@ impl Solver {
                 self.work.hold(node, &held, &(held * (self.trial.x[node] - from[node])));
             }
         }
+    }
+
+    /// Lays nodes where they are: those on the bottom without the way along the rod that they have gone since they were laid, the others
+    /// as they hang.
+    pub(super) fn relay(&mut self, rod: &Rod, world: &World) {
+        self.lay_nodes(rod, world, |off| off);
+    }
+
+    /// Lays nodes where their friction across is what it was in a state with the same way from where they stuck.
+    pub(super) fn lay_as_stuck(&mut self, rod: &Rod, world: &World) {
+        let Some((_, ground)) = world.bottom else { return };
+        self.lay_nodes(rod, world, |off| {
+            let share = (off / ground.friction_travel).clamp(-STUCK, STUCK);
+            ground.friction_travel * share / (1.0 - share * share).sqrt()
+        });
+    }
+
+    fn lay_nodes(&mut self, rod: &Rod, world: &World, off: impl Fn(f64) -> f64) {
+        let Some(side) = self.trial.drawn else { return };
+        let mut laid = self.trial.x.clone();
+        for i in 0..rod.elements.len() {
+            if let Some(Rub { node, aside, .. }) = rub(rod, world, &self.trial, i, side) {
+                laid[node] -= aside * off(aside.dot(&(self.trial.x[node] - self.trial.laid[node])));
+            }
+        }
+        self.trial.laid = laid;
     }
 
     /// Takes the nodes along with an end that has moved: the line swings round about the one it is held by.
@@ -161,6 +235,7 @@ impl Solver {
             if i <= foot {
                 place.z += over(&was[at(i)]) - over(&place);
             }
+            self.trial.laid[at(i)] = place - turn * (was[at(i)] - self.trial.laid[at(i)]);
             x[at(i)] = place;
         }
         carry(&mut self.trial.director, was, x);
@@ -192,6 +267,13 @@ impl Solver {
             for i in 0..rod.elements.len() {
                 if let Some(rub) = rub(rod, world, &self.trial, i, side) {
                     state.stuck[rub.node] += rub.held * ground.friction_travel;
+                }
+            }
+        }
+        if let (true, Some((_, ground))) = (self.trial.held, world.bottom) {
+            for node in 0..rod.nodes() {
+                if let Some(hold) = hold(rod, world, &self.trial, node) {
+                    state.stuck[node] += hold.held * ground.friction_travel;
                 }
             }
         }

@@ -47,7 +47,7 @@ impl Solver {
     ) -> Result<(), RodError> {
         let last = rod.elements.len();
         let weight = mass.iter().sum::<f64>() * world.gravity.abs();
-        if self.trial.drawn.is_none() {
+        if self.trial.drawn.is_none() && !self.trial.held {
             // a start that is much too short would buckle in all its elements at once: it first falls as a chain does
             let strains =
                 rod.elements.iter().zip(self.trial.x.windows(2)).map(|(e, x)| (x[1] - x[0]).norm() / e.rest - 1.0);
@@ -117,6 +117,7 @@ impl Solver {
             }
             match settled {
                 Some(inner) => {
+                    self.relay(rod, world);
                     from.copy_from_slice(&self.trial.x);
                     director.copy_from_slice(&self.trial.director);
                     longest = (longest * 1.3f64).min(most);

@@ -23,6 +23,7 @@ mod drawn;
 mod ends;
 mod error;
 mod falls;
+mod held;
 mod hinges;
 mod immersed;
 mod iterate;

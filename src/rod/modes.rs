@@ -63,7 +63,7 @@ impl Solver {
         self.trial.director.copy_from_slice(&state.director);
         self.trial.v.fill(Vector3::zeros());
         self.trial.a.fill(Vector3::zeros());
-        self.trial.drawn = None;
+        (self.trial.drawn, self.trial.held) = (None, false);
         self.trial.stuck.copy_from_slice(&state.stuck);
         lay(rod, state, world, &mut self.trial.lay);
         soften(state, world, &mut self.trial.soft);

@@ -60,7 +60,7 @@ impl Solver {
         let known = ends.map(|e| e.motion.is_some());
         self.trial.time = state.time;
         self.trial.ends = ends;
-        self.trial.drawn = None;
+        (self.trial.drawn, self.trial.held) = (None, false);
         self.trial.stuck.copy_from_slice(&state.stuck);
         self.trial.x.copy_from_slice(&state.position);
         self.trial.v.copy_from_slice(&state.velocity);

@@ -4,6 +4,7 @@ use super::drawn::drawn;
 use super::ends::End;
 use super::error::RodError;
 use super::falls::{first_fall, masses};
+use super::held::Calm;
 use super::hinges::end_moment;
 use super::mesh::Rod;
 use super::rope::Memory;
@@ -11,7 +12,7 @@ use super::state::State;
 use super::step::{At, EndForces, Solver};
 use super::surroundings::World;
 use super::system::Weights;
-use super::trial::{lay, soften};
+use super::trial::{lay, sample, soften};
 use nalgebra::Vector3;
 
 /// Newton iterations after which statics gives up.
@@ -104,8 +105,13 @@ impl Solver {
             return Ok(made);
         }
         let drawn = drawn(rod, world, &ends);
+        if drawn.is_none()
+            && let Some(made) = self.rest_held(rod, state, world, ends, &mass, &mut done)?
+        {
+            return Ok(made);
+        }
         self.lie(rod, state, world, &ends);
-        self.trial.drawn = None;
+        (self.trial.drawn, self.trial.held) = (None, false);
         self.fall_to_rest(rod, world, &mass, &mut done, MOST_ITERATIONS)?;
         if self.rubs(rod, world, drawn) {
             let (x, director) = (self.trial.x.clone(), self.trial.director.clone());
@@ -134,17 +140,61 @@ impl Solver {
     ) -> Result<Option<EndForces>, RodError> {
         self.lie(rod, state, world, &ends);
         let drawn = drawn(rod, world, &ends);
-        self.trial.drawn = drawn;
+        if drawn.is_none() && self.is_moved(world) {
+            return Ok(None);
+        }
+        (self.trial.drawn, self.trial.held) = (drawn, false);
+        self.lay_as_stuck(rod, world);
         if let Some(done) = self.settle(rod, state, world, mass, &ends) {
             return Ok(Some(self.rested(rod, state, world, &ends, done)));
         }
         if drawn.is_some() {
             self.lie(rod, state, world, &ends);
             self.swing(rod, state, world);
+            self.lay_as_stuck(rod, world);
             if self.drawn_to_rest(rod, world, mass, done, MOST_DRAWN)? {
                 return Ok(Some(self.rested(rod, state, world, &ends, *done)));
             }
         }
+        Ok(None)
+    }
+
+    /// Whether water or air moves along a rod, the trial, that a bottom with friction may hold.
+    fn is_moved(&mut self, world: &World) -> bool {
+        if !world.bottom.is_some_and(|(_, ground)| ground.rough()) {
+            return false;
+        }
+        sample(world, self.trial.time, &mut self.trial);
+        self.trial.fluid.iter().any(|f| f.velocity != Vector3::zeros() || f.wind != Vector3::zeros())
+    }
+
+    /// Rest of a rod that has not been drawn to an end, in water or air that moves: see [`super::held`]. None where nothing moves, or no
+    /// rest is found.
+    fn rest_held(
+        &mut self,
+        rod: &Rod,
+        state: &mut State,
+        world: &World,
+        ends: [End; 2],
+        mass: &[f64],
+        done: &mut usize,
+    ) -> Result<Option<EndForces>, RodError> {
+        self.lie(rod, state, world, &ends);
+        if !self.is_moved(world) {
+            return Ok(None);
+        }
+        let calm = Calm(world.fluid);
+        let bottom = world.bottom.map(|(bottom, ground)| (bottom, ground.smooth()));
+        let mut laid = state.clone();
+        *done += self.come_to_rest(rod, &mut laid, &World { fluid: &calm, bottom, ..*world }, ends)?.iterations;
+        self.lie(rod, &laid, world, &ends);
+        self.trial.laid.copy_from_slice(&laid.position);
+        (self.trial.drawn, self.trial.held) = (None, true);
+        let most = *done + MOST_RUBBED;
+        if self.drawn_to_rest(rod, world, mass, done, most)? {
+            return Ok(Some(self.rested(rod, state, world, &ends, *done)));
+        }
+        self.slid = true;
         Ok(None)
     }
 
@@ -180,6 +230,7 @@ impl Solver {
         }
         lay(rod, state, world, &mut self.trial.lay);
         soften(state, world, &mut self.trial.soft);
+        self.trial.laid.copy_from_slice(&state.stuck);
         // at rest viscoelastic rope has let go of everything
         self.trial.memory.fill(Memory::default());
     }

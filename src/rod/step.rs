@@ -102,7 +102,8 @@ impl Solver {
             fluid: vec![still; nodes],
             asked: zero.clone(),
             lay: zero.clone(),
-            stuck: zero,
+            stuck: zero.clone(),
+            laid: zero,
             soft: vec![0.0; nodes],
             ends: [End::FREE; 2],
             loose: false,
@@ -110,6 +111,7 @@ impl Solver {
             exact: false,
             still: false,
             drawn: None,
+            held: false,
             director: state.director.clone(),
             memory: vec![Memory::default(); state.yielded.len()],
         };
@@ -290,7 +292,7 @@ impl Solver {
         self.trial.ends = ends;
         match moved {
             None => {
-                self.trial.drawn = None;
+                (self.trial.drawn, self.trial.held) = (None, false);
                 self.trial.stuck.copy_from_slice(&from.stuck);
                 lay(rod, from, world, &mut self.trial.lay);
                 soften(from, world, &mut self.trial.soft);

@@ -151,6 +151,11 @@ impl Ground {
         Ground { friction_along: 0.0, friction_across: 0.0, ..*self }
     }
 
+    /// Whether it has friction.
+    pub fn rough(&self) -> bool {
+        self.friction_along > 0.0 || self.friction_across > 0.0
+    }
+
     /// A bottom without friction and damping.
     pub fn elastic(stiffness: f64) -> Self {
         Ground {

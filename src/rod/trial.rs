@@ -23,6 +23,8 @@ pub(super) struct Trial {
     pub lay: Vec<Vector3<f64>>,
     /// Where each node sticks to the bottom at the start of the step.
     pub stuck: Vec<Vector3<f64>>,
+    /// Where each node was laid on the bottom, about which friction across holds a rod at rest.
+    pub laid: Vec<Vector3<f64>>,
     /// Penetration over which the bottom's stiffness grows at each node (m).
     pub soft: Vec<f64>,
     pub ends: [End; 2],
@@ -37,6 +39,8 @@ pub(super) struct Trial {
     /// Which node of an element is toward the end that a rod at rest has been drawn to, if it lies on a bottom with
     /// friction: see [`super::drawn`].
     pub drawn: Option<usize>,
+    /// Whether a rod at rest that has not been drawn to an end is held by friction where it was laid: see [`super::held`].
+    pub held: bool,
     /// Directors of the elements of a rod with torsion.
     pub director: Vec<Vector3<f64>>,
     /// How each element of a rod with viscoelastic rope follows its strain.
@@ -111,7 +115,7 @@ pub(super) fn sample(world: &World, time: f64, trial: &mut Trial) {
 
 /// Direction of the rod at each node, where friction needs it.
 pub(super) fn lay(rod: &Rod, state: &State, world: &World, lay: &mut [Vector3<f64>]) {
-    if world.bottom.is_some_and(|(_, g)| g.friction_along > 0.0 || g.friction_across > 0.0) {
+    if world.bottom.is_some_and(|(_, g)| g.rough()) {
         let last = rod.elements.len();
         for (i, direction) in lay.iter_mut().enumerate() {
             let d = state.position[(i + 1).min(last)] - state.position[i.saturating_sub(1)];
@@ -123,7 +127,7 @@ pub(super) fn lay(rod: &Rod, state: &State, world: &World, lay: &mut [Vector3<f6
 /// Where the nodes stick at the end of a step.
 pub(super) fn stick(world: &World, from: &State, next: &mut State) {
     next.stuck.copy_from_slice(&next.position);
-    if let Some((bottom, ground)) = world.bottom.filter(|(_, g)| g.friction_along > 0.0 || g.friction_across > 0.0) {
+    if let Some((bottom, ground)) = world.bottom.filter(|(_, g)| g.rough()) {
         for ((stuck, x), before) in next.stuck.iter_mut().zip(&next.position).zip(&from.stuck) {
             *stuck = sticks(bottom, &ground, x, before);
         }

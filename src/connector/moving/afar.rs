@@ -90,9 +90,9 @@ impl MovingLine {
         world: &World,
         (around, ends): (&Surroundings, [End; 2]),
     ) -> Option<State> {
-        let (other, ground) = world.bottom.filter(|(_, ground)| ground.friction_along > 0.0)?;
+        let (other, ground) = world.bottom.filter(|(_, ground)| ground.rough())?;
         self.base.ambient.as_ref().filter(|a| a.charted() && self.base.plane.is_none() && self.base.laid.is_none())?;
-        let plane = start::plane(places, other)?;
+        let (plane, _) = start::plane(places, other)?;
         let last = rod.nodes() - 1;
         let mut state = self.fallen(places, &World { bottom: Some((&plane, ground)), ..*world }, around, false).ok()?;
         let (mut share, mut step) = (0.0, FIRST);

@@ -7,8 +7,8 @@ use crate::rod::{Bottom, PlaneBottom};
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 
-/// Points of each part between its ends.
-const BETWEEN: usize = 40;
+/// Points of each part between its ends: so many that their chords follow a touchdown of a few metres' radius.
+const BETWEEN: usize = 400;
 /// Points of a shape that only has the right length.
 const ROUGH: usize = 60;
 
@@ -40,49 +40,60 @@ pub(super) fn bow_aside(points: &mut [Vector3<f64>], [from, to]: [Vector3<f64>; 
     }
 }
 
-/// The plane through the second of two ends, on a bottom, with the mean slope from there to half way to the first, and level across;
-/// none for an end that is not on the bottom.
-pub(super) fn plane([from, to]: [Vector3<f64>; 2], bottom: &dyn Bottom) -> Option<PlaneBottom> {
-    let half = 0.5 * Vector3::new(from.x - to.x, from.y - to.y, 0.0);
+/// The plane through that of two ends that is on a bottom, the second if both are, with the mean slope from there to half way to the other,
+/// and level across; with it whether it is the first. None where neither is.
+pub(super) fn plane([first, second]: [Vector3<f64>; 2], bottom: &dyn Bottom) -> Option<(PlaneBottom, bool)> {
     let height = |place: Vector3<f64>| bottom.height(place.x, place.y).0;
-    let on = (to.z - height(to)).abs() < ON_BOTTOM;
+    let on = |end: Vector3<f64>| (end.z - height(end)).abs() < ON_BOTTOM;
+    let turned = !on(second) && on(first);
+    let (from, to) = if turned { (second, first) } else { (first, second) };
+    let half = 0.5 * Vector3::new(from.x - to.x, from.y - to.y, 0.0);
     let rise = (height(to + half) - height(to)) / half.norm_squared();
     let slope = if half.norm() > 0.0 { [half.x * rise, half.y * rise] } else { [0.0; 2] };
     let height = to.z - slope[0] * to.x - slope[1] * to.y;
-    (on && height.is_finite()).then_some(PlaneBottom { height, slope })
+    (on(to) && height.is_finite()).then_some((PlaneBottom { height, slope }, turned))
 }
 
 fn catenary(
     parts: &[Part],
     lengths: &[f64],
-    [from, to]: [Vector3<f64>; 2],
+    ends: [Vector3<f64>; 2],
     floor: Floor,
     around: &Surroundings,
 ) -> Option<Vec<Vector3<f64>>> {
     let weight = |p: &Part| p.submerged(around.water_density, around.gravity);
-    let segments =
+    let mut segments: Vec<_> =
         parts.iter().zip(lengths).map(|(p, l)| Segment { length: *l, weight: weight(p), ea: p.ea() }).collect();
     let joint = |p: &Part| {
         p.joint.map_or(Joint::Free, |j| Joint::Weight((j.mass - around.water_density * j.volume) * around.gravity))
     };
-    let joints = parts.iter().take(parts.len().saturating_sub(1)).map(joint).collect();
+    let mut joints: Vec<_> = parts.iter().take(parts.len().saturating_sub(1)).map(joint).collect();
+    let floor = match floor {
+        Some((bottom, friction)) => Some((plane(ends, bottom)?, friction)),
+        None => None,
+    };
+    let turned = floor.is_some_and(|((_, turned), _)| turned);
+    let [mut from, mut to] = ends;
+    if turned {
+        (from, to) = (to, from);
+        segments.reverse();
+        joints.reverse();
+    }
     let across = Vector3::new(to.x - from.x, to.y - from.y, 0.0);
     let distance = across.norm();
     let toward = across.try_normalize(1e-12).unwrap_or_else(Vector3::x);
-    let line = Line::new(segments, joints, to.z, around.tide).ok()?;
     // the catenary engine knows a plane bottom under the second end alone
-    let on_plane = |(bottom, friction): (&dyn Bottom, f64)| {
-        let plane = plane([from, to], bottom)?;
+    let floor = floor.map(|((plane, _), friction)| {
         let slope = -Vector3::new(plane.slope[0], plane.slope[1], 0.0).dot(&toward);
-        Some(catenary::Floor { elevation: to.z, slope, friction })
-    };
-    let line = match floor {
-        Some(floor) => line.over(Some(on_plane(floor)?)).ok()?,
-        None => line.over(None).ok()?,
-    };
+        catenary::Floor { elevation: to.z, slope, friction }
+    });
+    let line = Line::new(segments, joints, to.z, around.tide).ok()?.over(floor).ok()?;
     let state = line.at_distance(distance, from.z).ok()?;
     let shape = line.shape(&state, BETWEEN);
-    let points: Vec<_> = shape.iter().map(|p| Vector3::new(from.x, from.y, p.z) + toward * p.x).collect();
+    let mut points: Vec<_> = shape.iter().map(|p| Vector3::new(from.x, from.y, p.z) + toward * p.x).collect();
+    if turned {
+        points.reverse();
+    }
     points.iter().all(|p| p.iter().all(|c| c.is_finite())).then_some(points)
 }
 

@@ -73,7 +73,7 @@ impl MovingLine {
 
     /// What is said where it rests without the friction that the bottom has.
     pub(super) fn told_of_friction(&self, at: &Situation) -> Option<&'static str> {
-        if self.base.ground.friction_along <= 0.0 {
+        if !self.base.ground.rough() {
             return None;
         }
         let mut warm = Warm::of(&self.base);

@@ -1,5 +1,6 @@
 //! Whole rods against closed forms and other programs.
 
+mod across;
 mod again;
 mod beam;
 mod end_tangent;

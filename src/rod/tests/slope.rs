@@ -17,10 +17,10 @@ fn rough() -> Ground {
     Ground { damping: 1e5, friction_along: FRICTION, friction_across: FRICTION, ..Ground::elastic(1e6) }
 }
 
-/// Horizontal force (N) of an inextensible chain, and points along it, that lies slack on a slope from its anchor at the origin to
+/// Horizontal force (N) of an inextensible chain of weight `unit` (N/m), and points along it, that lies slack on a slope from its anchor at the origin to
 /// where it leaves the slope along it, and hangs from there as a catenary to a fairlead at x, z.
-fn lying(slope: f64, length: f64, [x, z]: [f64; 2]) -> (f64, Vec<Vector3<f64>>) {
-    let (unit, steep, leaves) = (MASS * GRAVITY, (1.0 + slope * slope).sqrt(), slope.asinh());
+pub(super) fn lying(unit: f64, slope: f64, length: f64, [x, z]: [f64; 2]) -> (f64, Vec<Vector3<f64>>) {
+    let (steep, leaves) = ((1.0 + slope * slope).sqrt(), slope.asinh());
     let hung = |h: f64| {
         let a = h / unit;
         let rise = |span: f64| a * ((span / a + leaves).cosh() - leaves.cosh()) + slope * (x - span) - z;
@@ -62,7 +62,7 @@ fn rest(bottom: &PlaneBottom, length: f64, elements: usize, [x, z]: [f64; 2]) ->
     let rod = chain(length, elements);
     let fluid = UniformFluid::none();
     let world = World { bottom: Some((bottom, rough())), ..World::new(&fluid, GRAVITY) };
-    let (exact, points) = lying(bottom.slope[0], length, [x, z]);
+    let (exact, points) = lying(MASS * GRAVITY, bottom.slope[0], length, [x, z]);
     let ends = [End::pinned(Vector3::zeros()), End::pinned(Vector3::new(x, 0.0, z))];
     let mut state = State::along(&rod, &points).unwrap();
     let mut solver = Solver::new(&rod, Settings::default());
