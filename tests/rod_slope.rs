@@ -7,11 +7,16 @@ mod common;
 /// Lines of a body that is held, of classes ~C and ~B with their anchors toward X and Y, in an environment: warnings that friction of ~C
 /// is left out, and the horizontal force and the tension at the fairlead (N) of the lines of those classes.
 fn held(environment: &str, classes: &[String]) -> (usize, Vec<[f64; 2]>) {
+    held_at(environment, classes, 400.0)
+}
+
+/// The same with their anchors at a distance (m).
+fn held_at(environment: &str, classes: &[String], distance: f64) -> (usize, Vec<[f64; 2]>) {
     let (mut session, screen, _folder) = common::session();
     let names: Vec<_> = ["C", "B"].into_iter().zip([0, 90]).take(classes.len()).collect();
     let classes: String = names.iter().zip(classes).map(|((name, _), class)| format!("~{name} {class}\n")).collect();
     let lines: String =
-        names.iter().map(|(name, toward)| format!("CONNECTOR {name} -ANC {toward} 400 ~{name} *R\n")).collect();
+        names.iter().map(|(name, toward)| format!("CONNECTOR {name} -ANC {toward} {distance} ~{name} *R\n")).collect();
     session.open(
         "records",
         format!(
@@ -56,9 +61,35 @@ fn slack_on_a_slope_lies_as_the_catenary_has_it() {
 }
 
 #[test]
-fn a_chain_that_would_pile_up_and_loses_its_friction_at_rest_is_warned_of() {
-    // 454 m reach along the slope and straight up from there
-    assert_eq!(rod_and_catenary(520.0, 0.1).0, 3);
+fn a_chain_that_piles_up_on_a_slope_hangs_straight_down_as_the_catenary_has_it() {
+    for (length, slope) in [(520.0, 0.1), (470.0, 0.1), (500.0, 0.0)] {
+        let (warned, pulls) = rod_and_catenary(length, slope);
+        println!("{length} {slope}: {pulls:?}");
+        assert_eq!(warned, 0);
+        let [rod, catenary] = [pulls[0], pulls[1]];
+        // up to a whole element more hangs from the last node on the bottom
+        assert!(rod[0] < 0.02 * rod[1] && catenary[0] == 0.0, "{rod:?} {catenary:?}");
+        assert!((rod[1] - catenary[1]).abs() < 1000.0 * length / 88.0, "{rod:?} {catenary:?}");
+    }
+}
+
+#[test]
+fn friction_holds_what_lies_in_a_current_from_any_side() {
+    let chain = "ROD 100 50 -LEN 700 -REFINE 140 -EI 0 -EA 5E8 -WTPLEN 1000 -FRICTION 0.8 -CD 1.2";
+    let pull = |current: &str| {
+        let (warned, pulls) = held_at(&format!("&ENV -DEPTH 100 -TIME 0.2 0.1 {current}"), &[chain.to_string()], 660.0);
+        assert_eq!(warned, 0, "{current}");
+        pulls[0]
+    };
+    let still = pull("");
+    for (speed, heading) in [(0.05, 90.0), (0.05, 30.0), (0.5, 180.0), (0.5, 0.0), (1.0, 90.0)] {
+        let now = pull(&format!("-CURRENT {speed} {heading}"));
+        println!("{speed} {heading}: {now:?} {still:?}");
+        // by drag on what hangs, of a quarter of the length
+        for (now, still) in now.iter().zip(&still) {
+            assert!((now / still - 1.0).abs() < 1e-3 + 0.02 * speed * speed, "{now} {still}");
+        }
+    }
 }
 
 /// The environment of a bottom over a grid whose depth goes by X alone.

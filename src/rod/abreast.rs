@@ -116,7 +116,7 @@ impl Abreast {
             (asked.free[n], asked.outside[n]) = (free, outside);
             (asked.inside[n], asked.contents[n]) = (inside, contents);
             asked.damping[n] = element.damping;
-            let pushes = (element.compression || trial.drawn.is_some()) && !trial.loose;
+            let pushes = (element.compression || trial.stiff()) && !trial.loose;
             asked.pushes[n] = f64::from(u8::from(pushes));
             asked.mass[n] = element.mass;
             asked.volume[n] = element.volume;

@@ -138,7 +138,7 @@ fn axial(
     let dv = trial.v[i + 1] - trial.v[*i];
     let let_out = if trial.still { 0.0 } else { element.rate };
     let rate = (t.dot(&dv) - stretch * let_out) * inverse_rest;
-    let taken = Taken { compression: (element.compression || trial.drawn.is_some()) && !trial.loose, ease: trial.ease };
+    let taken = Taken { compression: (element.compression || trial.stiff()) && !trial.loose, ease: trial.ease };
     let stretched = Stretch { strain: stretch - 1.0, rate, height: 0.5 * (xa.z + xb.z) };
     let memory = trial.memory.get(*i);
     let Tension { value, by_strain, by_rate, by_height } =

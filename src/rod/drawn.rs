@@ -4,12 +4,15 @@
 //! catenary does, statics take it that a line that is held on the bottom at one end and leaves it toward the other has
 //! been drawn toward that other end (Jonkman, NREL/TP-500-41958, 2007, equations 2-36 to 2-38): every node on the bottom that it moved
 //! holds back with the whole of its friction. From the touchdown on the tension falls by mu w per length, down to
-//! nothing or to what the anchor holds; where there is no tension the line has not moved, and nothing holds back. On a slope what
-//! lies stays where it lies by as much friction as that takes, along it and across; only the rest is there against being drawn.
+//! nothing or to what the anchor holds; where there is no tension the line has not moved, and nothing holds back.
+//!
+//! Beside that what lies stays where it lies, on a slope and in a current, by as much friction as it takes: along it before it is drawn,
+//! across it about where it was laid. Both together are no more than the whole, as under way.
 //!
 //! On the way to rest the line also resists being shortened: a node that has lost its tension would lose its friction as well, and
-//! be drawn away at once. At rest every element of it has a tension. Where friction cannot do that, as in a line much longer than from
-//! its anchor to straight under its other end, it rests without any.
+//! be drawn away at once. At rest every element of it has a tension. What is longer than that, as a line that piles up straight under
+//! its upper end, is limp: no friction against being drawn, and no resistance to being shortened. Where there is a tension all the
+//! same that friction should have taken, [`Solver::slid`] tells.
 
 use super::contact::{Borne, borne};
 use super::ends::End;
@@ -32,8 +35,8 @@ pub(super) struct Rub {
     pub whole: f64,
     /// The force as a share of the most it can be along the rod and across.
     pub held: Vector3<f64>,
-    /// Whether there is a tension that it takes some of.
-    pub drawn: bool,
+    /// What friction against being drawn takes of the tension beyond the node, or would of a limp rod (N).
+    pub drag: f64,
     /// Normal of the bottom there, and the direction across the rod on it.
     pub normal: Vector3<f64>,
     pub aside: Vector3<f64>,
@@ -43,7 +46,7 @@ pub(super) struct Rub {
 
 /// Tension that friction leaves, as a share of what friction a node can bring up against being drawn: it holds the nodes in line that
 /// nothing else holds.
-const LEFT: f64 = 0.01;
+pub(super) const LEFT: f64 = 0.01;
 
 /// Share of that friction that acts on a node by the tension beyond it, as a share of the same, and its slope. So
 /// friction takes no more tension than there is.
@@ -136,13 +139,13 @@ pub(super) fn rub(rod: &Rod, world: &World, trial: &Trial, i: usize, side: usize
     let wanted = if mu > 0.0 { way.dot(&steep) / mu } else { 0.0 };
     let kept = wanted.clamp(-most, most);
     let spare = (most - kept).max(SPARE);
-    let taken = Taken { compression: !trial.loose, ease: trial.ease };
+    let taken = Taken { compression: (element.compression || !trial.limp) && !trial.loose, ease: trial.ease };
     let height = 0.5 * (trial.x[node].z + trial.x[other].z);
     let stretch = Stretch { strain: length / element.rest - 1.0, rate: 0.0, height };
     let fluids = [&trial.fluid[i], &trial.fluid[i + 1]];
     let pull = tension(rod, element, taken, &stretch, trial.memory.get(i), fluids, world.gravity);
     let drawn = if mu > 0.0 { pull.value / (spare * mu * n) } else { 0.0 };
-    let (share, slope) = mobilised(drawn);
+    let (share, slope) = if trial.limp { (0.0, 0.0) } else { mobilised(drawn) };
     let a = kept + spare * share;
     let held = way * a + aside * c;
     let force = (way * (mu * a) + aside * (mu_across * c)) * n;
@@ -161,7 +164,16 @@ pub(super) fn rub(rod: &Rod, world: &World, trial: &Trial, i: usize, side: usize
             + (way * by_a.transpose() + aside * turned.transpose() * a) * (mu * n)
             + (aside * by_c.transpose() - way * turned.transpose() * c) * (mu_across * n)
     });
-    Some(Rub { node, force, whole: mu.max(mu_across) * n, held, drawn: share > 0.0, normal, aside, by })
+    Some(Rub {
+        node,
+        force,
+        whole: mu.max(mu_across) * n,
+        held,
+        drag: spare * mu * n * mobilised(drawn).0,
+        normal,
+        aside,
+        by,
+    })
 }
 
 /// The largest share of friction across by which a node is taken to be held about where it was laid.
@@ -176,7 +188,9 @@ impl Solver {
     /// What lies slack has nothing else that resists as it is pushed: one fall from a start that is not quite at rest would fold it.
     /// So it creeps, as through mud; the longer the falls, the less that takes.
     pub(super) fn creep(&mut self, rod: &Rod, world: &World, from: &[Vector3<f64>], hasty: f64) {
-        let (Some(side), Some((_, ground))) = (self.trial.drawn, world.bottom) else { return };
+        let (Some(side), Some((_, ground))) = (self.trial.drawn.filter(|_| !self.trial.limp), world.bottom) else {
+            return;
+        };
         for i in 0..rod.elements.len() {
             if let Some(Rub { node, whole, normal, .. }) = rub(rod, world, &self.trial, i, side) {
                 let flat = Matrix3::identity() - normal * normal.transpose();
@@ -241,23 +255,26 @@ impl Solver {
         carry(&mut self.trial.director, was, x);
     }
 
-    /// Whether a rod that rests without friction has a tension on the bottom that friction would take some of.
-    pub(super) fn rubs(&self, rod: &Rod, world: &World, drawn: Option<usize>) -> bool {
-        let rubs = |side: usize| {
-            (0..rod.elements.len()).any(|i| rub(rod, world, &self.trial, i, side).is_some_and(|rub| rub.drawn))
-        };
-        self.trial.drawn.is_none() && drawn.is_some_and(rubs)
+    /// What friction against being drawn takes of the tension of a rod at rest in all, or would of a limp one, over the most that a
+    /// single node has.
+    pub(super) fn drags(&self, rod: &Rod, world: &World) -> f64 {
+        let Some(side) = self.trial.drawn else { return 0.0 };
+        let all = (0..rod.elements.len()).filter_map(|i| rub(rod, world, &self.trial, i, side));
+        let (sum, most) = all.fold((0.0, 0.0f64), |(sum, most), rub| (sum + rub.drag, most.max(rub.whole)));
+        if most > 0.0 { sum / most } else { 0.0 }
+    }
+
+    /// Least strain of the elements of the trial that bear no compression.
+    pub(super) fn slackest(&self, rod: &Rod) -> f64 {
+        let soft = rod.elements.iter().zip(self.trial.x.windows(2)).filter(|(element, _)| !element.compression);
+        soft.map(|(element, x)| (x[1] - x[0]).norm() / element.rest - 1.0).fold(0.0, f64::min)
     }
 
     /// Whether a rod that rests with friction does so by an element that pushes, which it cannot.
     pub(super) fn pushes(&self, rod: &Rod) -> bool {
-        let pushes = |(i, x): (usize, &[Vector3<f64>])| {
-            let element = &rod.elements[i];
-            // what rounding and the proof of rest leave
-            const NOTHING: f64 = -1e-9;
-            !element.compression && (x[1] - x[0]).norm() / element.rest - 1.0 < NOTHING
-        };
-        self.trial.drawn.is_some() && self.trial.x.windows(2).enumerate().any(pushes)
+        // what rounding and the proof of rest leave
+        const NOTHING: f64 = -1e-9;
+        self.trial.stiff() && self.slackest(rod) < NOTHING
     }
 
     /// Has every node of a state at rest stick where friction is what it is at rest.

@@ -47,7 +47,7 @@ impl Solver {
     ) -> Result<(), RodError> {
         let last = rod.elements.len();
         let weight = mass.iter().sum::<f64>() * world.gravity.abs();
-        if self.trial.drawn.is_none() && !self.trial.held {
+        if !self.trial.stiff() && !self.trial.held {
             // a start that is much too short would buckle in all its elements at once: it first falls as a chain does
             let strains =
                 rod.elements.iter().zip(self.trial.x.windows(2)).map(|(e, x)| (x[1] - x[0]).norm() / e.rest - 1.0);
@@ -157,7 +157,7 @@ impl Solver {
     }
 
     /// Largest force (N) that is out of balance where the trial is.
-    fn left(&mut self, rod: &Rod, world: &World) -> f64 {
+    pub(super) fn left(&mut self, rod: &Rod, world: &World) -> f64 {
         sample(world, self.trial.time, &mut self.trial);
         self.trial.fluid.iter_mut().for_each(|fluid| fluid.acceleration = Vector3::zeros());
         self.work.forces(rod, world, &self.trial);

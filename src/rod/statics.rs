@@ -1,9 +1,9 @@
 //! The position of rest of a rod.
 
-use super::drawn::drawn;
+use super::drawn::{LEFT, drawn};
 use super::ends::End;
 use super::error::RodError;
-use super::falls::{first_fall, masses};
+use super::falls::masses;
 use super::held::Calm;
 use super::hinges::end_moment;
 use super::mesh::Rod;
@@ -19,6 +19,10 @@ use nalgebra::Vector3;
 const MOST_ITERATIONS: usize = 20_000;
 /// Newton iterations after which it is looked for another way than with friction from the first fall on.
 const MOST_DRAWN: usize = 400;
+/// Newton iterations after which it is taken to find no rest with friction against sliding down alone.
+const MOST_LIMP: usize = 5_000;
+/// Strain of an element from which on a rod that bears no compression has piled up.
+const PILED: f64 = -1e-3;
 /// Newton iterations after which a rod that rests without friction is left without it.
 const MOST_RUBBED: usize = 1_500;
 
@@ -86,7 +90,8 @@ impl Solver {
         made
     }
 
-    /// Whether the last position of rest is one without friction though the bottom has some: with it what lies would push.
+    /// Whether the last position of rest is one without friction, but against sliding down a slope, though the bottom has some: no
+    /// rest was found with it.
     pub fn slid(&self) -> bool {
         self.slid
     }
@@ -110,19 +115,30 @@ impl Solver {
         {
             return Ok(made);
         }
+        // without what holds it back it falls where it may; but down a slope it does not slide
         self.lie(rod, state, world, &ends);
-        (self.trial.drawn, self.trial.held) = (None, false);
-        self.fall_to_rest(rod, world, &mass, &mut done, MOST_ITERATIONS)?;
-        if self.rubs(rod, world, drawn) {
-            let (x, director) = (self.trial.x.clone(), self.trial.director.clone());
-            self.trial.drawn = drawn;
+        (self.trial.drawn, self.trial.limp, self.trial.held) = (drawn, drawn.is_some(), false);
+        let most = if drawn.is_some() { done + MOST_LIMP } else { MOST_ITERATIONS };
+        match self.fall_to_rest(rod, world, &mass, &mut done, most) {
+            Err(RodError::Statics { .. }) if drawn.is_some() => {
+                self.lie(rod, state, world, &ends);
+                (self.trial.drawn, self.trial.limp) = (None, false);
+                self.fall_to_rest(rod, world, &mass, &mut done, MOST_ITERATIONS)?;
+                self.slid = true;
+            }
+            made => made?,
+        }
+        let drags = self.drags(rod, world);
+        if drags > LEFT {
+            let (x, director, laid) = (self.trial.x.clone(), self.trial.director.clone(), self.trial.laid.clone());
+            self.trial.limp = false;
             let most = done + MOST_RUBBED;
             if !self.drawn_to_rest(rod, world, &mass, &mut done, most)? {
-                self.trial.drawn = None;
-                self.slid = true;
-                self.trial.x.copy_from_slice(&x);
-                self.trial.director.copy_from_slice(&director);
-                self.fall(rod, world, &mass, &x, first_fall(rod, world));
+                // less than the friction of one node is less than the mesh knows
+                (self.trial.limp, self.slid) = (true, drags > 1.0);
+                (self.trial.x, self.trial.director, self.trial.laid) = (x, director, laid);
+                self.left(rod, world);
+                self.work.keep_ends();
             }
         }
         Ok(self.rested(rod, state, world, &ends, done))
@@ -144,10 +160,14 @@ impl Solver {
             return Ok(None);
         }
         (self.trial.drawn, self.trial.held) = (drawn, false);
+        self.trial.limp = drawn.is_some() && self.slackest(rod) < PILED;
         self.lay_as_stuck(rod, world);
-        if let Some(done) = self.settle(rod, state, world, mass, &ends) {
+        if let Some(done) = self.settle(rod, state, world, mass, &ends)
+            && !(self.trial.limp && self.drags(rod, world) > 1.0)
+        {
             return Ok(Some(self.rested(rod, state, world, &ends, done)));
         }
+        self.trial.limp = false;
         if drawn.is_some() {
             self.lie(rod, state, world, &ends);
             self.swing(rod, state, world);
@@ -189,7 +209,7 @@ impl Solver {
         *done += self.come_to_rest(rod, &mut laid, &World { fluid: &calm, bottom, ..*world }, ends)?.iterations;
         self.lie(rod, &laid, world, &ends);
         self.trial.laid.copy_from_slice(&laid.position);
-        (self.trial.drawn, self.trial.held) = (None, true);
+        (self.trial.drawn, self.trial.limp, self.trial.held) = (None, false, true);
         let most = *done + MOST_RUBBED;
         if self.drawn_to_rest(rod, world, mass, done, most)? {
             return Ok(Some(self.rested(rod, state, world, &ends, *done)));

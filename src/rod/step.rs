@@ -111,6 +111,7 @@ impl Solver {
             exact: false,
             still: false,
             drawn: None,
+            limp: false,
             held: false,
             director: state.director.clone(),
             memory: vec![Memory::default(); state.yielded.len()],

@@ -39,12 +39,21 @@ pub(super) struct Trial {
     /// Which node of an element is toward the end that a rod at rest has been drawn to, if it lies on a bottom with
     /// friction: see [`super::drawn`].
     pub drawn: Option<usize>,
+    /// Whether such a rod has friction against sliding down a slope alone, and none against being drawn.
+    pub limp: bool,
     /// Whether a rod at rest that has not been drawn to an end is held by friction where it was laid: see [`super::held`].
     pub held: bool,
     /// Directors of the elements of a rod with torsion.
     pub director: Vec<Vector3<f64>>,
     /// How each element of a rod with viscoelastic rope follows its strain.
     pub memory: Vec<Memory>,
+}
+
+impl Trial {
+    /// Whether elements that bear no compression resist it all the same: see [`super::drawn`].
+    pub fn stiff(&self) -> bool {
+        self.drawn.is_some() && !self.limp
+    }
 }
 
 /// Takes directors along from one position of the nodes to another.

@@ -78,7 +78,9 @@ impl MovingLine {
         }
         let mut warm = Warm::of(&self.base);
         let slid = self.rest(at, &mut warm).is_ok() && warm.solver.slid();
-        slid.then_some("friction of the bottom at rest is left out: what lies slack on it would push")
+        slid.then_some(
+            "friction of the bottom at rest is left out, but against sliding down a slope: no rest was found with it",
+        )
     }
 
     /// What is said of ends that are held where elements are too long for the bending there, which fades over sqrt(EI/T).

@@ -160,3 +160,45 @@ fn stiffness_on_a_slope_is_the_difference_of_the_force() {
         }
     }
 }
+
+#[test]
+fn a_chain_longer_than_from_its_anchor_to_straight_under_its_fairlead_hangs_straight_down_over_a_heap() {
+    let fluid = UniformFluid::none();
+    for (slope, length) in [(0.1, 520.0), (0.1, 480.0), (0.2, 440.0), (0.05, 500.0)] {
+        let bottom = sloping(slope);
+        let world = World { bottom: Some((&bottom, rough())), ..World::new(&fluid, GRAVITY) };
+        let rod = chain(length, 88);
+        let far = Vector3::new(FAIRLEAD[0], 0.0, FAIRLEAD[1]);
+        let points: Vec<_> = (0..=60)
+            .map(|i| {
+                let s = f64::from(i) / 60.0;
+                let sags = (FAIRLEAD[1] * s - 340.0 * s * (1.0 - s)).max(slope * FAIRLEAD[0] * s);
+                Vector3::new(FAIRLEAD[0] * s, 0.0, sags)
+            })
+            .collect();
+        let ends = [End::pinned(Vector3::zeros()), End::pinned(far)];
+        let mut state = State::along(&rod, &points).unwrap();
+        let mut solver = Solver::new(&rod, Settings::default());
+        let weight = MASS * GRAVITY * (FAIRLEAD[1] - slope * FAIRLEAD[0]);
+        for _ in 0..3 {
+            let made = solver.statics(&rod, &mut state, &world, ends).unwrap();
+            println!(
+                "{slope} {length}: {} {} slid {} its {}",
+                made.force[1].x,
+                made.force[1].z,
+                solver.slid(),
+                made.iterations
+            );
+            assert!(!solver.slid());
+            // within two elements of what hangs
+            let element = MASS * GRAVITY * length / 88.0;
+            assert!(made.force[1].x.abs() < 0.02 * weight && (made.force[1].z + weight).abs() < 2.0 * element);
+        }
+        let before = state.clone();
+        for i in 1..=100 {
+            solver.step(&rod, &mut state, &world, f64::from(i) * 0.1, ends).unwrap();
+        }
+        let moved = state.position.iter().zip(&before.position).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+        assert!(moved < 1e-2, "{moved}");
+    }
+}
