@@ -305,3 +305,33 @@ fn slack_pipe_lies_down_sideways_where_it_would_fold_between_its_ends() {
         assert!(z.iter().all(|z| *z > -100.2), "{bending} {z:?}");
     }
 }
+
+#[test]
+fn a_clump_on_the_bottom_sinks_no_deeper_as_the_mesh_refines() {
+    let line = |kind: &str, refine: [usize; 2]| {
+        let [first, second] = refine.map(|n| if n > 0 { format!(" -REFINE {n} -EI 0") } else { String::new() });
+        format!(
+            "{kind} -LEN 150 -WTPLEN 1000 -BUOY 0 -CLUMP 5E5{first}\n~L {kind} -LEN 100 -WTPLEN 1000 -BUOY 0{second}"
+        )
+    };
+    let pulls = [line("ROD 90 45", [15, 10]), line("ROD 90 45", [150, 100]), line("B_CAT 90 EXACT", [0, 0])].map(|class| {
+        let (mut session, screen, _folder) = common::session();
+        let records = format!(
+            "&DIMEN -DIMEN METERS N\n&ENV -DEPTH 100\nMEDIT\n&DESCRIBE BODY S -IGNORE X Y Z RX RY RZ\n*T 0 0 -5\n~L {class}\n\
+             CONNECTOR A -ANC 0 200 ~L *T\nEND\n&STATUS F_CONNECTOR\n"
+        );
+        session.open("records", records);
+        session.run();
+        assert_eq!(session.errors, 0, "{:?}", session.reports);
+        let text = screen.text();
+        let line = text.lines().rev().find(|l| l.contains("~L ")).unwrap();
+        let number = |at: usize| line.split_whitespace().nth(at).unwrap().parse::<f64>().unwrap();
+        [number(7), number(8)]
+    });
+    println!("{pulls:?}");
+    for (rod, within) in pulls[..2].iter().zip([1e-2, 5e-3]) {
+        for (rod, catenary) in rod.iter().zip(&pulls[2]) {
+            assert!((rod / catenary - 1.0).abs() < within, "{rod} {catenary}");
+        }
+    }
+}

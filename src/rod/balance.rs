@@ -309,8 +309,7 @@ impl Look {
     fn bottom(&mut self, At { rod, state, world, trial }: &At) {
         let Some((bottom, ground)) = &world.bottom else { return };
         for (node, (x, v)) in state.position.iter().zip(&state.velocity).enumerate() {
-            let left = if node > 0 { rod.elements[node - 1].contact } else { 0.0 };
-            let area = left + rod.elements.get(node).map_or(0.0, |e| e.contact);
+            let area = rod.bearing(node);
             let soft = trial.soft[node];
             self.energy.bottom += contact::energy(*bottom, ground, soft, area, x);
             let at = |v: &Vector3<f64>| {

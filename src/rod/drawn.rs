@@ -105,9 +105,8 @@ fn steep(rod: &Rod, world: &World, trial: &Trial, node: usize, normal: &Vector3<
 pub(super) fn rub(rod: &Rod, world: &World, trial: &Trial, i: usize, side: usize) -> Option<Rub> {
     let (bottom, ground) = world.bottom?;
     let (node, other) = (i + side, i + 1 - side);
-    let before = node.checked_sub(1).map_or(0.0, |i| rod.elements[i].contact);
-    let area = before + rod.elements.get(node).map_or(0.0, |e| e.contact);
-    let Borne { force: n, normal, by_depth } = borne(bottom, &ground, trial.soft[node], area, &trial.x[node])?;
+    let Borne { force: n, normal, by_depth } =
+        borne(bottom, &ground, trial.soft[node], rod.bearing(node), &trial.x[node])?;
     let [mu, mu_across] = [ground.friction_along, ground.friction_across];
     let element = &rod.elements[i];
     let d = trial.x[other] - trial.x[node];

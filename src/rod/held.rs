@@ -23,9 +23,8 @@ pub(super) struct Hold {
 /// [`Ground`](super::Ground).
 pub(super) fn hold(rod: &Rod, world: &World, trial: &Trial, node: usize) -> Option<Hold> {
     let (bottom, ground) = world.bottom?;
-    let before = node.checked_sub(1).map_or(0.0, |i| rod.elements[i].contact);
-    let area = before + rod.elements.get(node).map_or(0.0, |e| e.contact);
-    let Borne { force: n, normal, by_depth } = borne(bottom, &ground, trial.soft[node], area, &trial.x[node])?;
+    let Borne { force: n, normal, by_depth } =
+        borne(bottom, &ground, trial.soft[node], rod.bearing(node), &trial.x[node])?;
     let flat = Matrix3::identity() - normal * normal.transpose();
     let way = (flat * trial.lay[node]).try_normalize(1e-9).unwrap_or_else(Vector3::zeros);
     let along = way * way.transpose();

@@ -222,6 +222,13 @@ impl Rod {
         &self.segments
     }
 
+    /// Area by which a node lies on the bottom (m2).
+    pub(super) fn bearing(&self, node: usize) -> f64 {
+        let before = node.checked_sub(1).and_then(|i| self.elements.get(i));
+        let own: f64 = before.into_iter().chain(self.elements.get(node)).map(|e| e.contact).sum();
+        own + self.attachments.iter().filter(|a| a.node == node).map(|a| a.bearing).sum::<f64>()
+    }
+
     /// What is attached to its nodes, as winches have renumbered them.
     pub fn attachments(&self) -> &[Attachment] {
         &self.attachments

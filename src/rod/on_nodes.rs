@@ -24,14 +24,12 @@ pub(super) fn on_nodes<const TANGENT: bool, const W: usize, const H: usize, cons
         // at rest its friction is another: see `drawn`
         let ground = if trial.still { &ground.smooth() } else { ground };
         for node in range.start..=range.end {
-            let left = if node > 0 { rod.elements[node - 1].contact } else { 0.0 };
-            let right = rod.elements.get(node).map_or(0.0, |e| e.contact);
             let (x, v) = (&trial.x[node], &trial.v[node]);
             if let Some(made) = contact(
                 *bottom,
                 ground,
                 trial.soft[node],
-                left + right,
+                rod.bearing(node),
                 x,
                 v,
                 &trial.lay[node],

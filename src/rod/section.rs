@@ -287,6 +287,8 @@ pub struct Attachment {
     pub drag: f64,
     /// Added mass coefficient on the volume.
     pub added: f64,
+    /// Area by which it lies on the bottom (m2), beside what the rod has there.
+    pub bearing: f64,
 }
 
 #[cfg(test)]

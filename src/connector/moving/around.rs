@@ -10,7 +10,7 @@ use std::cell::RefCell;
 /// from where none is given.
 const PRESSED: f64 = 0.02;
 /// Weight by which a line that water carries meets the bottom, as a share of its weight in air: it comes there by its ends or a current.
-const LIGHT: f64 = 0.1;
+pub(super) const LIGHT: f64 = 0.1;
 /// Damping of the bottom against what is critical for the line on it, where none is given.
 const DAMPED: f64 = 0.5;
 /// Way within which friction comes to be whole (m).

@@ -1,5 +1,6 @@
 //! Elements of a line, and those that a winch lets out or takes in.
 
+use super::around::LIGHT;
 use super::describe::{JointMass, Part};
 use crate::language::units::Dim;
 use crate::model::{Ambient, ClassError};
@@ -203,6 +204,9 @@ pub(super) fn attachments(parts: &[Part], counts: &[usize], density: f64) -> Vec
             (NEXT_TO_NOTHING * joint.added / density, 1.0 / NEXT_TO_NOTHING)
         };
         let height = height(&joint, density);
+        // it presses itself in as deep as the line beside it, by whatever mesh
+        let beside = part.submerged(density, 1.0).max(LIGHT * part.segment.mass) / part.segment.contact_diameter;
+        let bearing = (joint.mass - density * joint.volume).max(0.0) / beside;
         made.push(Attachment {
             node,
             mass: joint.mass,
@@ -211,6 +215,7 @@ pub(super) fn attachments(parts: &[Part], counts: &[usize], density: f64) -> Vec
             pendant: joint.pendant,
             drag: joint.drag,
             added,
+            bearing: if bearing.is_finite() { bearing } else { 0.0 },
         });
     }
     made
