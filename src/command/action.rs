@@ -19,7 +19,7 @@ const LINE: ValueSpec = ValueSpec::new("LINE", Kind::Name(Noun::Line), "connecto
 const FORCE: ValueSpec = ValueSpec::new(
     "F",
     Kind::Number(Dim::Force),
-    "size of the force at its first end, of a pipe at its tensioner or first davit",
+    "tension at its first end, negative where it pushes; of a pipe at its tensioner or first davit",
 )
 .not_negative();
 const BODY: ValueSpec = ValueSpec::new("BODY", Kind::Name(Noun::Body), "body");

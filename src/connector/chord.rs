@@ -159,6 +159,10 @@ impl Extended for ChordElement {
             notes: self.chord.remarks(force, chord, chord - by.at(force), ratio),
         })
     }
+
+    fn pushes(&self) -> Option<f64> {
+        self.chord.pushes.then_some(0.0)
+    }
 }
 
 impl Element for ChordElement {
@@ -175,6 +179,10 @@ impl Element for ChordElement {
 
     fn summary(&self, at: &Situation, _committed: &[f64]) -> Result<Summary, ClassError> {
         self.told(at.ends, Extension::NONE)
+    }
+
+    fn pushes(&self) -> Option<f64> {
+        Extended::pushes(self)
     }
 }
 

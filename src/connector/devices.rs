@@ -250,6 +250,10 @@ impl Element for DeviceElement {
         Ok(summary)
     }
 
+    fn pushes(&self) -> Option<f64> {
+        self.line.pushes()
+    }
+
     fn made_for_place(&self) -> bool {
         self.line.made_for_place()
     }

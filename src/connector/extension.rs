@@ -47,6 +47,11 @@ pub trait Extended: Debug + Send + Sync {
     /// As [`Extended::pull`].
     fn told(&self, ends: &[End], by: Extension) -> Result<Summary, ClassError>;
 
+    /// See [`crate::model::Element::pushes`].
+    fn pushes(&self) -> Option<f64> {
+        None
+    }
+
     /// See [`crate::model::Element::made_for_place`].
     fn made_for_place(&self) -> bool {
         false

@@ -190,6 +190,12 @@ pub trait Element: Debug + Send + Sync {
         0
     }
 
+    /// Of an element that also pushes, the least distance of its ends (m) from which on a force on the one away from the other is a
+    /// push; none of one that only pulls.
+    fn pushes(&self) -> Option<f64> {
+        None
+    }
+
     /// What is to be known of it at rest before anything goes by it; nothing where there is nothing to say.
     fn caution(&self, _at: &Situation) -> Option<&'static str> {
         None

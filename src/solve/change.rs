@@ -2,7 +2,7 @@
 
 use super::link::{Attachment, Link, connected, link};
 use super::system::{SolveError, System, moving_nodes};
-use super::time::{LinkEnds, Memory};
+use super::time::{LinkEnds, Memory, Pushing};
 use crate::hydro::ambient;
 use crate::hydro::sea::Sea;
 use crate::model::{ClassError, Connector, Element, GivenMotion, Model};
@@ -29,6 +29,11 @@ fn nodes(element: &dyn Element) -> (usize, bool) {
     (element.nodes(), element.bends())
 }
 
+/// How rows tell that it pushes, of an element that may.
+fn pushing(element: &dyn Element, ends: &[Attachment]) -> Option<Pushing> {
+    Pushing::of(element.pushes()?, ends, element.pulling_end())
+}
+
 impl System {
     /// Its connectors, as a layout is made of them.
     pub fn link_ends(&self) -> Vec<LinkEnds> {
@@ -37,6 +42,7 @@ impl System {
             ends: bodies(&l.ends),
             pulling: l.element.pulling_end(),
             nodes: nodes(l.element.as_ref()),
+            pushing: pushing(l.element.as_ref(), &l.ends),
         };
         self.links.iter().map(of).collect()
     }
@@ -52,8 +58,14 @@ impl System {
         }
         // one that cannot be made says so when it is to act
         let element = self.element(model, found).ok();
-        let nodes = element.map_or((0, false), |e| nodes(e.as_ref()));
-        Ok(LinkEnds { name: found.name.clone(), ends: bodies(&connected(model, found)), pulling: 0, nodes })
+        let ends = connected(model, found);
+        Ok(LinkEnds {
+            name: found.name.clone(),
+            ends: bodies(&ends),
+            pulling: 0,
+            nodes: element.as_ref().map_or((0, false), |e| nodes(e.as_ref())),
+            pushing: element.and_then(|e| pushing(e.as_ref(), &ends)),
+        })
     }
 
     /// Whether a connector of this name moves by itself.

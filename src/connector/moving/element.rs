@@ -18,6 +18,10 @@ use std::sync::Arc;
 /// An end may lie this much below the bottom (m).
 const BELOW: f64 = 1e-3;
 
+/// Share of its unstretched length that the ends of a line are apart at least while it pushes: nearer together it hangs or bows, and
+/// its force on an end may be away from the other while it pulls.
+const STRAIGHT: f64 = 0.98;
+
 /// What is said of a line that was given memory not its own.
 const NO_MEMORY: &str = "the line has no memory";
 
@@ -268,6 +272,15 @@ impl Element for MovingLine {
 
     fn pulling_end(&self) -> usize {
         self.base.laid.as_ref().and_then(Laid::tensioner).unwrap_or(0)
+    }
+
+    fn pushes(&self) -> Option<f64> {
+        let rod = &self.base.rod;
+        // room for elements that it does not have is that of a winch, which changes its length
+        let wound = self.layout.elements + 1 > rod.nodes();
+        let stiff = rod.segments().iter().all(|s| s.bending > 0.0);
+        let length = || rod.each_of_mesh().map(|(rest, ..)| rest).sum::<f64>();
+        (stiff && !wound && self.base.laid.is_none()).then(|| STRAIGHT * length())
     }
 
     fn nodes(&self) -> usize {

@@ -84,7 +84,7 @@ fn tensions(
         || ClassError::new("it does not act at every event").help("-EVENTS BEG END chooses those at which it does");
     let top: Vec<f64> = events
         .iter()
-        .map(|e| force(layout, link, row(e)).map(|f| f.norm()).filter(|t| t.is_finite()))
+        .map(|e| force(layout, link, row(e)).and_then(|_| layout.tension(link, row(e))).filter(|t| t.is_finite()))
         .collect::<Option<_>>()
         .ok_or_else(idle)?;
     let mut all = vec![Vec::new(); segments];

@@ -5,7 +5,7 @@ use crate::model::{Body, ClassError, Model, Position};
 /// What a condition watches.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Watched {
-    /// The tension of a connector: the size of the force at the end that pulls, its first one but of a pipe (N).
+    /// The tension of a connector: the size of the force at the end that pulls, its first one but of a pipe (N); negative where it pushes.
     Tension(String),
     /// A freedom of a body's origin (m; roll, pitch and yaw in rad).
     Freedom(String, usize),

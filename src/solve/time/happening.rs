@@ -1,10 +1,13 @@
 //! What happens on the way of a run: conditions are looked at behind every step, which is cut where one comes true, connectors come and go, lengths change.
 
 use super::action::{Watched, What, When, point_in_body};
+use super::ends::end_of;
+use super::pushing::pull;
 use super::run::Run;
 use crate::hydro::sea::Sea;
 use crate::language::units::Dim;
 use crate::model::{ClassError, Model, Position};
+use crate::solve::link::Attachment;
 use crate::solve::system::SolveError;
 use std::sync::Arc;
 
@@ -156,8 +159,12 @@ impl Run {
                 let mut first = 0;
                 for link in &self.system.links {
                     if link.name.eq_ignore_ascii_case(name) {
-                        let pulls = first + link.element.pulling_end();
-                        return self.now.forces.wrenches.get(pulls).map(|w| w.fixed_rows::<3>(0).norm());
+                        let told = link.element.pulling_end();
+                        let force = self.now.forces.wrenches.get(first + told)?.fixed_rows::<3>(0).into_owned();
+                        let at = |end: &Attachment| end_of(end, &self.now.motions, false).0.pose.origin;
+                        let away =
+                            |from| Some(pull(&force, &(at(link.ends.get(1 - told)?) - at(link.ends.get(told)?)), from));
+                        return link.element.pushes().map_or_else(|| Some(force.norm()), away);
                     }
                     first += link.ends.len();
                 }

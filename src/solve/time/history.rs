@@ -6,10 +6,12 @@
 use super::along::AlongColumns;
 use super::ends::end_of;
 use super::forces::{CATEGORIES, Forces, Motion, place_of};
+use super::pushing::Pushing;
 use crate::hydro::Category;
 use crate::model::{ClassError, Guess, LineNode, Place, Situation, Six, TimeStep};
 use crate::solve::link::{Attachment, Link};
 use crate::solve::system::{SolveError, System};
+use nalgebra::Vector3;
 
 /// Values of a body in a row: place (m), roll, pitch, yaw (rad), velocity (m/s, rad/s), acceleration (m/s2, rad/s2), global.
 pub const OF_BODY: usize = 18;
@@ -29,6 +31,8 @@ pub struct LinkColumns {
     pub active: usize,
     /// Where its nodes stand, where it tells of them and they are kept.
     pub along: Option<AlongColumns>,
+    /// Of one that may push, where it does.
+    pub pushing: Option<Pushing>,
 }
 
 /// A connector as a layout is made of it.
@@ -42,6 +46,8 @@ pub struct LinkEnds {
     pub pulling: usize,
     /// How many nodes it tells of at most, and whether they bend.
     pub nodes: (usize, bool),
+    /// Of one that may push, where it does.
+    pub pushing: Option<Pushing>,
 }
 
 /// Which number of a row is what.
@@ -67,12 +73,12 @@ impl Layout {
         let moves = system.nodes.iter().map(|n| n.free.map(|free| free || n.prescribed.is_some())).collect();
         let mut at = 1 + OF_BODY * bodies.len();
         let mut columns = Vec::new();
-        for LinkEnds { name, ends, pulling, nodes } in links {
+        for LinkEnds { name, ends, pulling, nodes, pushing } in links {
             let (active, wrench) = (at, at + 2);
             at = wrench + 6 * ends.iter().flatten().count();
             let along = AlongColumns::new(at, nodes, every);
             at += along.as_ref().map_or(0, AlongColumns::width);
-            columns.push(LinkColumns { name, ends, pulling, wrench, active, along });
+            columns.push(LinkColumns { name, ends, pulling, wrench, active, along, pushing });
         }
         let mut categories = vec![Category::Inertia, Category::Coriolis];
         let loads = system.nodes.iter().flat_map(|n| &n.floating.loads).map(|l| l.category());
@@ -105,6 +111,14 @@ impl Layout {
         let columns = self.links.get(link)?;
         let of = |end: usize| self.wrench(link, end);
         of(columns.pulling).or_else(|| (0..columns.ends.len()).find_map(of))
+    }
+
+    /// The pull of a connector in a row (N), negative where it pushes; none of one whose ends are all in the ground.
+    pub fn tension(&self, link: usize, row: &[f64]) -> Option<f64> {
+        let at = self.pull(link)?;
+        let force = Vector3::from_column_slice(row.get(at..at + 3)?);
+        let pushing = self.links.get(link).and_then(|l| l.pushing.as_ref());
+        Some(pushing.map_or_else(|| force.norm(), |p| p.pull(&force, row)))
     }
 
     /// Where the wrench on an end of a connector begins; none of an end in the ground.

@@ -1,10 +1,12 @@
 //! The results a run is judged by, and their statistics as it goes, in flat memory.
 
 use super::history::Layout;
+use super::pushing::Pushing;
 use crate::language::units::Dim;
 use crate::post::SeriesError;
 use crate::post::running::Running;
 use crate::solve::system::FREEDOMS;
+use nalgebra::Vector3;
 
 /// A result against time.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,15 +17,18 @@ pub struct Series {
     pub dim: Dim,
     /// Its numbers in a row: one, or the components of a force whose size it is.
     pub columns: std::ops::Range<usize>,
+    /// Of the force of a connector that may push, where it does: its size is then negative.
+    pub pushing: Option<Pushing>,
 }
 
 impl Series {
     /// Its value in a row.
     pub fn value(&self, row: &[f64]) -> f64 {
-        match row.get(self.columns.clone()) {
-            Some([one]) => *one,
-            Some(several) => several.iter().map(|v| v * v).sum::<f64>().sqrt(),
-            None => f64::NAN,
+        match (row.get(self.columns.clone()), &self.pushing) {
+            (Some([one]), _) => *one,
+            (Some([x, y, z]), Some(pushing)) => pushing.pull(&Vector3::new(*x, *y, *z), row),
+            (Some(several), _) => several.iter().map(|v| v * v).sum::<f64>().sqrt(),
+            (None, _) => f64::NAN,
         }
     }
 }
@@ -36,12 +41,17 @@ pub fn results(layout: &Layout) -> Vec<Series> {
         let moves = layout.moves.get(body).copied().unwrap_or([true; 6]);
         for (i, freedom) in FREEDOMS.iter().enumerate().filter(|(i, _)| moves.get(*i) == Some(&true)) {
             let dim = if i < 3 { Dim::Length } else { Dim::Angle };
-            list.push(Series { name: format!("{name} {freedom}"), dim, columns: at + i..at + i + 1 });
+            list.push(Series { name: format!("{name} {freedom}"), dim, columns: at + i..at + i + 1, pushing: None });
         }
     }
     for (link, columns) in layout.links.iter().enumerate() {
         if let Some(at) = layout.pull(link) {
-            list.push(Series { name: format!("{} Tension", columns.name), dim: Dim::Force, columns: at..at + 3 });
+            list.push(Series {
+                name: format!("{} Tension", columns.name),
+                dim: Dim::Force,
+                columns: at..at + 3,
+                pushing: columns.pushing.clone(),
+            });
         }
     }
     list
