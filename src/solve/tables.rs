@@ -63,7 +63,8 @@ pub fn rest(model: &Model, settled: &Settled) -> Table {
         ));
     }
     for (body, freedom) in &settled.found.loose {
-        table.note(format!("warning: nothing holds {body} in {freedom}: its place there is where it was"));
+        table
+            .note(format!("warning: nothing holds {body} in {freedom} where it rests: other places there are as good"));
     }
     table
 }
