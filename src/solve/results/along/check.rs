@@ -202,6 +202,8 @@ fn told(line: &Line, code: &Code, checked: &[Checked], worst: &[Option<Worst>]) 
         table.push(cells).map_err(|e| line.wrong(e.to_string()))?;
     }
     if let Some((node, Worst { used, time, .. })) = most {
+        // sums of steps are off in their last digits
+        let time = (time * 1e6).round() / 1e6;
         let holds = if used > 1.0 { "warning: it does not hold; most" } else { "most" };
         table.note(format!("{holds} is used at node {node}: {used:.3} at {time} s"));
     }
