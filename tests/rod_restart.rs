@@ -108,3 +108,17 @@ fn a_pull_that_a_line_cannot_bear_names_time_line_and_element_and_is_met_again_b
     let from: f64 = from.message[13..].split(' ').next().unwrap().parse().unwrap();
     assert!(from >= time && from < failed, "{from}");
 }
+
+#[test]
+fn a_run_with_books_does_not_go_on_without_them_and_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = path(&folder, (0..=6).map(|n| (5.0 * f64::from(n), 0.1 * f64::from(n))));
+    for (begun, goes_on, text) in
+        [("-BALANCE", "-RESTART 10", "begun with -BALANCE"), ("", "-BALANCE -RESTART 10", "begun without")]
+    {
+        let (first, kept) = run(records(&file, "", begun), None);
+        assert_eq!(first.errors, 0, "{:?}", first.reports);
+        let (again, _kept) = run(records(&file, "", goes_on), Some(&kept));
+        assert!(error(&again).contains(text), "{}", error(&again));
+    }
+}

@@ -225,10 +225,19 @@ fn begun(job: &mut Job, args: &Args, settings: Settings) -> Outcome<(Run, Option
     let mut file = folder.reopen(FILE).map_err(|e| refused(e.to_string()))?;
     let kept = run_log::read(&mut file, again.number(0).unwrap_or(f64::INFINITY));
     let kept = kept.map_err(|e| refused(format!("{}: {e}", path.display())))?;
+    let books = made.settings.books;
+    if kept.fingerprint != made.fingerprint() && kept.fingerprint == made.fingerprint_with(!books) {
+        let [before, now] = if books { ["without", "with"] } else { ["with", "without"] };
+        return Err(refused(format!(
+            "the run kept in {} was begun {before} -BALANCE, and goes on {now}",
+            path.display()
+        ))
+        .help("-BALANCE must be as it was: the books are kept with the lines"));
+    }
     if kept.fingerprint != made.fingerprint() || kept.width != made.history.layout.width {
         let text = format!("the run kept in {} is of another model, environment, step or scheme", path.display());
         return Err(refused(text).help(
-            "all must be as they were, but for the time observed; a winch without a LENGTH has room for as much as it winds in that time",
+            "all must be as they were, -ALONG too, but for the time observed; a winch without a LENGTH has room for as much as it winds in that time",
         ));
     }
     let log = RunLog::go_on(file, path, &kept).map_err(|e| refused(e.to_string()))?;

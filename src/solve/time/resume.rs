@@ -28,6 +28,11 @@ impl Run {
     /// A number that another model, environment, step or scheme does not have: of names, of the forces and their changes at the
     /// start, of the waves, of what happens. Names and comments of the input do not count.
     pub fn fingerprint(&self) -> u64 {
+        self.fingerprint_with(self.settings.books)
+    }
+
+    /// The same as it is with or without books of its lines.
+    pub fn fingerprint_with(&self, books: bool) -> u64 {
         let mut made = Fingerprint(0xcbf2_9ce4_8422_2325);
         for (name, _) in &self.history.layout.bodies {
             made.bytes(name.to_ascii_uppercase().as_bytes());
@@ -49,6 +54,10 @@ impl Run {
         let Settings { dt, method, convergence, adaptive, .. } = &self.settings;
         made.numbers(&[*dt, convergence.tolerance, adaptive.unwrap_or(0.0)]);
         made.bytes(format!("{method:?} {:?}", self.actions).as_bytes());
+        // they stand in what lines remember
+        if books && self.system.links.iter().any(|l| l.element.moves()) {
+            made.bytes(b"books");
+        }
         made.0
     }
 
