@@ -1,4 +1,5 @@
-//! Runs with rods that fail: they say when, which line and where on it, keep what they have, and go on with what made them fail put right.
+//! Runs with rods that fail: they say when, which line and where on it or what by, keep what they have, and go on with what made them
+//! fail put right.
 
 #![allow(clippy::unwrap_used)]
 
@@ -120,5 +121,23 @@ fn a_run_with_books_does_not_go_on_without_them_and_says_so() {
         assert_eq!(first.errors, 0, "{:?}", first.reports);
         let (again, _kept) = run(records(&file, "", goes_on), Some(&kept));
         assert!(error(&again).contains(text), "{}", error(&again));
+    }
+}
+
+#[test]
+fn a_winch_that_hauls_in_to_the_end_stops_the_run_with_its_action_the_line_and_the_time() {
+    // 80 m at 2 m/s from 10 s on, and at a rate whose last step ends with a little left
+    for (step, rate, time) in [(0.05, "2", "50"), (0.05, "1.999", "50.02001"), (0.08, "3", "36.666")] {
+        let records = format!(
+            "&DIMEN -DIMEN METERS K-NTS\n&ENV -DEPTH 100 -TIME 60 {step}\nMEDIT\n&DESCRIBE BODY CRANE -IGNORE X Y Z RX RY RZ\n\
+             *TIP 0 0 20\n&DESCRIBE BODY LOAD -IGNORE RX RY RZ\n*CG 0 0 0\n#WEIGHT *CG 500 1 1 1\n\
+             ~WIRE ROD 60 30 -LEN 80 -REFINE 8 -EI 0 -AX_DAMPING 2000\nCONNECTOR HOIST ~WIRE *TIP *CG\nEND\n\
+             &INSTATE -LOCATE LOAD 0 0 -60\n&EQUI\n&ACTION PULL -AT 10 -WINCH HOIST -{rate}\nTDOM\n"
+        );
+        let (session, _kept) = run(records, None);
+        let told = error(&session);
+        for text in ["HOIST", "by action PULL", &format!("at {time}")] {
+            assert!(told.contains(text), "{step} {rate}: {told}");
+        }
     }
 }

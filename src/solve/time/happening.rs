@@ -107,9 +107,8 @@ impl Run {
                 (length, *rate) = (target, 0.0);
             }
             if length <= 0.0 {
-                let error =
-                    ClassError::new("its first segment has been taken in whole").help("end the winch at a length");
-                return Err(SolveError { who: Some(name.clone()), error });
+                let (name, left) = (name.clone(), old / rate.abs());
+                return Err(self.taken_in(&name, left));
             }
             if let Some(connector) = self.model.connectors.get_mut(&Model::key(name)) {
                 connector.first_length = Some(length);
@@ -118,6 +117,31 @@ impl Run {
         }
         self.winches.retain(|(_, rate, _)| *rate != 0.0);
         Ok(before)
+    }
+
+    /// The error of a winch that has nothing left to haul in so much later than now (s).
+    fn taken_in(&self, name: &str, left: f64) -> SolveError {
+        let winds = |what: &What| match what {
+            What::Winch(names, ..) => names.iter().any(|n| n.eq_ignore_ascii_case(name)),
+            _ => false,
+        };
+        let since = self.actions.iter().zip(&self.fired).filter(|(a, _)| winds(&a.what));
+        let last = since.filter_map(|(a, fired)| Some((a, (*fired)?))).max_by(|a, b| a.1.total_cmp(&b.1));
+        let by = last.map_or_else(String::new, |(action, _)| format!("by action {} ", action.name));
+        let text = format!("its first segment is hauled in {by}to the end: at {{}} nothing of it is left");
+        let error = ClassError::of(text, &[(self.now.time + left, Dim::Time)])
+            .help("a LENGTH of -WINCH, or a later action with a RATE of 0, ends the winch before");
+        SolveError { who: Some(name.to_string()), error }
+    }
+
+    /// The error of a winch that has less left than it hauls in within a step of the run: the shorter a line, the stiffer, and what
+    /// a last step finds no balance for is its end.
+    pub(super) fn nearly_taken_in(&self) -> Option<SolveError> {
+        self.winches.iter().filter(|(_, rate, _)| *rate < 0.0).find_map(|(name, rate, _)| {
+            let length = self.model.first_length(self.model.connectors.get(&Model::key(name))?)?;
+            let left = length / rate.abs();
+            (left <= self.settings.dt * (1.0 + 1e-9)).then(|| self.taken_in(name, left))
+        })
     }
 
     /// Puts lengths and winches back to what they were; elements follow when they are wound again.

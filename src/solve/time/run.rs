@@ -282,9 +282,11 @@ impl Run {
                         }
                     }
                 }
-                Err(error) if level >= HALVINGS || error.error.lasting => return Err(error),
-                Err(_) => {
+                Err(error) => {
                     self.unwind(winches);
+                    if level >= HALVINGS || error.error.lasting {
+                        return Err(self.nearly_taken_in().unwrap_or(error));
+                    }
                     self.counts.cut += 1;
                     level += 1;
                 }
