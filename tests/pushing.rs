@@ -23,6 +23,11 @@ fn after(records: &str) -> Session {
     session
 }
 
+/// The texts of a session's reports.
+fn reports(session: &Session) -> Vec<String> {
+    session.reports.iter().map(|r| format!("{r:?}")).collect()
+}
+
 /// A body that heaves by 0.05 m in 5 s, held by a class 80 m long over an end `apart` from it.
 fn tendon(class: &str, far: &str, rest: &str) -> String {
     format!(
@@ -104,4 +109,16 @@ fn damage_counts_the_whole_range_of_a_tension_that_changes_sign() {
     let by_hand = of_cycles(&[Cycle { range, mean: 0.0, count: periods }], &curve, 0.0).unwrap().sum;
     assert!((whole.damage / by_hand - 1.0).abs() < 0.05, "{whole:?} {by_hand}");
     assert!((along[0] / by_hand - 1.0).abs() < 0.05, "{along:?} {by_hand}");
+}
+
+#[test]
+fn elements_that_are_pushed_beyond_their_own_euler_load_are_told_of() {
+    // 12 MN by EA/L times 0.05 m; an element of 80 m bears 3.4 MN, one of 10 m 220 MN
+    for (elements, told) in [(1, true), (8, false)] {
+        let class = format!("ROD 1000 30 -LEN 80.05 -REF {elements}");
+        let session = after(&tendon(&class, BELOW, "&STATUS F_CONNECTOR"));
+        let found =
+            reports(&session).iter().any(|r| r.contains("elements of its segment 1 are pushed beyond Euler's load"));
+        assert_eq!(found, told, "{elements}: {:?}", session.reports);
+    }
 }

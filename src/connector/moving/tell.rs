@@ -7,6 +7,7 @@ use super::modes;
 use super::warm::Warm;
 use crate::model::{ClassError, Guess, LineBooks, LineMode, LineNode, LineSide, Situation, Summary};
 use crate::rod::{Settings, Solver};
+use std::f64::consts::PI;
 
 /// Longest elements at an end that is held, by sqrt(EI/T), of which nothing is said: moment there is then 3 % low.
 const COARSE: f64 = 0.5;
@@ -103,6 +104,25 @@ impl MovingLine {
         first.into_iter().chain(second).collect()
     }
 
+    /// What is said of segments with elements that are pushed harder than one with hinged ends bears: they are straight between their
+    /// nodes, and buckle at nodes alone.
+    fn stocky(&self, nodes: &[LineNode]) -> Vec<String> {
+        let beyond = |number: usize, part: &Part| {
+            let mut own = nodes.array_windows().filter(|[a, _]| a.segment == number);
+            let euler = |length: f64| PI.powi(2) * part.segment.bending / length.powi(2);
+            part.segment.bending > 0.0 && own.any(|[a, b]| -0.5 * (a.effective + b.effective) > euler(b.arc - a.arc))
+        };
+        let parts = self.base.description.parts.iter().enumerate();
+        let told = parts.filter(|(number, part)| beyond(*number, part)).map(|(number, _)| {
+            format!(
+                "warning: elements of its segment {} are pushed beyond Euler's load of their length: they cannot bend between \
+                 nodes; -REFINE makes them shorter",
+                number + 1
+            )
+        });
+        told.collect()
+    }
+
     pub(super) fn tell_summary(&self, at: &Situation, committed: &[f64]) -> Result<Summary, ClassError> {
         let mut nodes = Vec::new();
         self.tell_along(at, committed, &mut nodes)?;
@@ -118,6 +138,7 @@ impl MovingLine {
             }
         }
         told.notes.extend(self.coarse(&nodes));
+        told.notes.extend(self.stocky(&nodes));
         if at.step.is_none() {
             told.notes.extend(self.told_of_friction(at).map(|text| format!("warning: {text}")));
         }
