@@ -356,3 +356,15 @@ fn a_moored_hemisphere_in_small_waves_moves_in_time_as_in_the_frequency_domain()
         assert!((amplitude / own.norm() - 1.0).abs() < 5e-3, "L{n}: {amplitude} {}", own.norm());
     }
 }
+
+#[test]
+fn lines_that_move_by_themselves_are_said_to_follow_without_dynamics() {
+    let rod = "~R ROD 60 30 -LEN 90 -REFINE 8 -EI 0 -DEPANCHOR 60\nCONNECTOR ROD -ANC 0 60 ~R *C\n";
+    for (more, told) in [(rod, true), ("", false)] {
+        let mut model = model(more, "");
+        attach(&mut model, DriftMethod::None);
+        let linear = Linear::of(&model).unwrap();
+        let found = linear.notes.iter().any(|n| n.starts_with("ROD: ") && n.contains("without dynamics"));
+        assert_eq!(found, told, "{:?}", linear.notes);
+    }
+}

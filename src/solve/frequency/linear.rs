@@ -114,6 +114,7 @@ impl Linear {
         let mut made =
             Linear { system, moving, poses, stiffness, mass, damping, linearised, follow, heavy, floats, depth, notes };
         made.look(&state.residual);
+        made.look_at_lines(model);
         Ok(made)
     }
 
@@ -144,6 +145,19 @@ impl Linear {
             if least < -1e-9 * own.amax() {
                 self.notes.push(format!("warning: {} has a damping that is negative in some motion", node.name));
             }
+        }
+    }
+
+    /// A remark on the lines whose dynamics are left out.
+    fn look_at_lines(&mut self, model: &Model) {
+        let moves = |name: &&str| model.connectors.get(&Model::key(name)).is_some_and(|c| model.moves(c));
+        let moving: Vec<_> = self.connectors().filter(moves).collect();
+        if !moving.is_empty() {
+            let text = format!(
+                "{}: what moves by itself follows the bodies here as at rest, without dynamics of its own",
+                moving.join(", ")
+            );
+            self.notes.push(text);
         }
     }
 
