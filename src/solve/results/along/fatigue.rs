@@ -71,7 +71,7 @@ pub fn along(
         .column("", "Curve", Dim::None, Digits::Usual)
         .column("", "Cycles", Dim::None, Digits::Decimals(1));
     if by(FatigueKind::Stress) {
-        table = table.column("Largest Range", "Stress", Dim::Stress, Digits::Usual);
+        table = table.column("Largest Range", "Stress", Dim::Stress, Digits::Scientific(3));
     }
     if by(FatigueKind::Tension) {
         table = table.column("Largest Range", "T/TB", Dim::None, Digits::Decimals(4));
