@@ -156,7 +156,7 @@ impl Solver {
     ) -> Result<Option<EndForces>, RodError> {
         self.lie(rod, state, world, &ends);
         let drawn = drawn(rod, world, &ends);
-        if drawn.is_none() && self.is_moved(world) {
+        if drawn.is_none() && self.lies(rod, world) && self.is_moved(world) {
             return Ok(None);
         }
         (self.trial.drawn, self.trial.held) = (drawn, false);
@@ -179,7 +179,14 @@ impl Solver {
         Ok(None)
     }
 
-    /// Whether water or air moves along a rod, the trial, that a bottom with friction may hold.
+    /// Whether the trial lies somewhere on a bottom with friction, to a thousandth of an element.
+    fn lies(&self, rod: &Rod, world: &World) -> bool {
+        let near = 1e-3 * rod.shortest();
+        let rough = world.bottom.filter(|(_, ground)| ground.rough());
+        rough.is_some_and(|(bottom, _)| self.trial.x.iter().any(|x| x.z < bottom.height(x.x, x.y).0 + near))
+    }
+
+    /// Whether water or air moves along the trial, of a world whose bottom has friction.
     fn is_moved(&mut self, world: &World) -> bool {
         if !world.bottom.is_some_and(|(_, ground)| ground.rough()) {
             return false;
@@ -208,6 +215,9 @@ impl Solver {
         let mut laid = state.clone();
         *done += self.come_to_rest(rod, &mut laid, &World { fluid: &calm, bottom, ..*world }, ends)?.iterations;
         self.lie(rod, &laid, world, &ends);
+        if !self.lies(rod, world) {
+            return Ok(None);
+        }
         self.trial.laid.copy_from_slice(&laid.position);
         (self.trial.drawn, self.trial.limp, self.trial.held) = (None, false, true);
         let most = *done + MOST_RUBBED;

@@ -70,7 +70,8 @@ pub fn connector_forces(
     }
     if !remembering.is_empty() {
         table.note(format!(
-            "{}: its force does not follow from where its ends are; Mag./Break, bottom and anchor are left out",
+            "{}: its force does not follow from where its ends are; Mag./Break, bottom and anchor are left out (of a line that moves by \
+             itself ROD tells what is along it)",
             remembering.join(", ")
         ));
     }
