@@ -82,11 +82,15 @@ fn lines_that_hang_or_pull_alone_are_never_in_negative_tension() {
 #[test]
 fn an_action_sees_a_line_that_pushes_as_slack() {
     for class in [ROD, SPRING] {
-        let session = after(&tendon(class, BELOW, "&ACTION SL -SLACK T1 0 -STOP\nTDOM"));
-        let run = session.job.run.as_ref().unwrap();
-        let [Some(time)] = run.fired[..] else { panic!("{class}: {:?}", run.fired) };
+        let met = |force: &str| {
+            let session = after(&tendon(class, BELOW, &format!("&ACTION SL -SLACK T1 {force} -STOP\nTDOM")));
+            let run = session.job.run.as_ref().unwrap();
+            let [Some(time)] = run.fired[..] else { panic!("{class}: {:?}", run.fired) };
+            time
+        };
+        let (slack, pushed) = (met("0"), met("-20"));
         // the body goes down in the second half of the period at the latest
-        assert!(time > 0.0 && time < 5.0, "{class}: {time}");
+        assert!(slack > 0.0 && slack < pushed && pushed < 5.0, "{class}: {slack} {pushed}");
     }
 }
 

@@ -20,8 +20,7 @@ const FORCE: ValueSpec = ValueSpec::new(
     "F",
     Kind::Number(Dim::Force),
     "tension at its first end, negative where it pushes; of a pipe at its tensioner or first davit",
-)
-.not_negative();
+);
 const BODY: ValueSpec = ValueSpec::new("BODY", Kind::Name(Noun::Body), "body");
 const DOF: ValueSpec =
     ValueSpec::new("DOF", Kind::Choice(&FREEDOMS), "freedom of its origin, roll, pitch and yaw as RX RY RZ");
