@@ -263,6 +263,12 @@ pub trait ConnectorClass: Debug + Send + Sync {
     /// # Errors
     /// A class that is no mooring line, or values that make none here.
     fn line(&self, _: &Placement, _: &Surroundings) -> Result<Box<dyn LineModel>, ClassError> {
-        Err(ClassError::new(format!("a connector of class type {} is no mooring line", self.kind())))
+        let kind = self.kind();
+        if self.moves() {
+            let error =
+                ClassError::new(format!("a line of class type {kind} moves by itself: it has no table to go by"));
+            return Err(error.help("MOVE and &CONNECTOR -L_HORIZONTAL and -L_TENSION take it as it is"));
+        }
+        Err(ClassError::new(format!("a connector of class type {kind} is no mooring line")))
     }
 }
