@@ -63,6 +63,7 @@ mod prescribe;
 mod probability;
 mod rep_select;
 mod report_menu;
+mod restart;
 mod rigging;
 mod rod_post;
 mod rod_status;

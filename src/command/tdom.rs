@@ -3,6 +3,7 @@
 //! Source: reference/solve.md, "TDOM".
 
 use super::equilibrium::{told, warn_of_lines};
+use super::restart::go_on;
 use super::{Call, Command, Effect, Job, tether_run};
 use crate::hydro::morison::unmoved;
 use crate::language::args::Args;
@@ -13,7 +14,7 @@ use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
 use crate::model::{Model, Place, Six};
 use crate::report::page;
-use crate::report::run_log::{self, RunLog};
+use crate::report::run_log::RunLog;
 use crate::solve::time::{Convergence, Ending, Method, Run, Scheme, Settings, Snapshot, Watcher};
 use crate::solve::{SolveError, run_tables, settle, tethered};
 use crate::table::Table;
@@ -25,7 +26,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 pub static TDOM: Command = Command { spec: &SPEC, edits: true, run };
 
 /// The file of a run, in the job's folder.
-const FILE: &str = "TDOM.run";
+pub(super) const FILE: &str = "TDOM.run";
 
 const YES_NO: &[&str] = &["YES", "NO"];
 
@@ -221,28 +222,7 @@ fn begun(job: &mut Job, args: &Args, settings: Settings) -> Outcome<(Run, Option
         let log = RunLog::begin(file, path, made.fingerprint(), made.history.layout.width);
         return Ok((made, Some(log.map_err(|e| refused(e.to_string()))?)));
     };
-    let refused = |text: String| Diagnostic::error(text, again.span).help("TDOM without -RESTART begins a run");
-    let mut file = folder.reopen(FILE).map_err(|e| refused(e.to_string()))?;
-    let kept = run_log::read(&mut file, again.number(0).unwrap_or(f64::INFINITY));
-    let kept = kept.map_err(|e| refused(format!("{}: {e}", path.display())))?;
-    let books = made.settings.books;
-    if kept.fingerprint != made.fingerprint() && kept.fingerprint == made.fingerprint_with(!books) {
-        let [before, now] = if books { ["without", "with"] } else { ["with", "without"] };
-        return Err(refused(format!(
-            "the run kept in {} was begun {before} -BALANCE, and goes on {now}",
-            path.display()
-        ))
-        .help("-BALANCE must be as it was: the books are kept with the lines"));
-    }
-    if kept.fingerprint != made.fingerprint() || kept.width != made.history.layout.width {
-        let text = format!("the run kept in {} is of another model, environment, step or scheme", path.display());
-        return Err(refused(text).help(
-            "all must be as they were, -ALONG too, but for the time observed; a winch without a LENGTH has room for as much as it winds in that time",
-        ));
-    }
-    let log = RunLog::go_on(file, path, &kept).map_err(|e| refused(e.to_string()))?;
-    made.take_up(&kept.snapshot, kept.rows).map_err(|e| wrong(e, job))?;
-    job.remark(format!("goes on from {} s", kept.snapshot.time), again.span);
+    let log = go_on(job, &mut made, again, args.span)?;
     Ok((made, Some(log)))
 }
 

@@ -291,6 +291,13 @@ pub struct Attachment {
     pub bearing: f64,
 }
 
+impl Attachment {
+    /// A mass (kg) without size at a node.
+    pub fn mass(node: usize, mass: f64) -> Self {
+        Attachment { node, mass, volume: 0.0, height: 0.0, pendant: 0.0, drag: 0.0, added: 0.0, bearing: 0.0 }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -213,7 +213,14 @@ impl Solver {
         let calm = Calm(world.fluid);
         let bottom = world.bottom.map(|(bottom, ground)| (bottom, ground.smooth()));
         let mut laid = state.clone();
-        *done += self.come_to_rest(rod, &mut laid, &World { fluid: &calm, bottom, ..*world }, ends)?.iterations;
+        match self.come_to_rest(rod, &mut laid, &World { fluid: &calm, bottom, ..*world }, ends) {
+            Ok(made) => *done += made.iterations,
+            Err(RodError::Statics { .. }) => {
+                self.slid = true;
+                return Ok(None);
+            }
+            Err(error) => return Err(error),
+        }
         self.lie(rod, &laid, world, &ends);
         if !self.lies(rod, world) {
             return Ok(None);

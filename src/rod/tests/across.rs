@@ -65,9 +65,13 @@ fn a_current_across_pulls_at_what_hangs_and_moves_nothing_that_lies() {
                 "{slope} {length} {speed}: FX {} {} FY {} {drag} anchor {} aside {aside:.2e}",
                 made.force[1].x, still.made.force[1].x, made.force[1].y, made.force[0].x
             );
-            assert!(aside < 0.05 * speed, "{aside}");
+            // of a node that sticks the share of drag in friction, at most a ninth, of the 5 mm of its travel
+            assert!(aside < 1e-3 * speed.max(0.1), "{aside}");
+            // the fairlead has about half of the drag on what hangs, which the nodes lifting off and what lies under them share
             assert!((0.3..0.9).contains(&(made.force[1].y.abs() / drag)), "{} {drag}", made.force[1].y);
-            assert!((made.force[1].x / still.made.force[1].x - 1.0).abs() < 0.03 + 0.2 * speed * speed);
+            // drag across turns the pull aside by drag over pull, which raises it by the square of that
+            let turned = (drag / still.made.force[1].x).powi(2);
+            assert!((made.force[1].x / still.made.force[1].x - 1.0).abs() < 1e-4 + turned);
             // as it rests it stays
             let fluid = UniformFluid::moving(DENSITY, Vector3::y() * speed);
             let world = World { bottom: Some((&bottom, rough(FRICTION, FRICTION))), ..World::new(&fluid, GRAVITY) };

@@ -6,8 +6,7 @@ use nalgebra::Vector3;
 #[test]
 fn a_load_lowered_by_a_winch_hangs_by_its_weight_and_goes_down_at_the_rate() {
     let (mass, rate): (f64, f64) = (5000.0, 0.5);
-    let load =
-        Attachment { node: 10, mass, volume: 0.0, height: 0.0, pendant: 0.0, drag: 0.0, added: 0.0, bearing: 0.0 };
+    let load = Attachment::mass(10, mass);
     let segment = Segment { axial_damping: 1e6, ..Segment::line(50.0, 10, 5.0, 1e8, 0.05) };
     let mut rod = Rod::new("wire", vec![segment], vec![load]).unwrap();
     let fluid = UniformFluid::none();
@@ -37,8 +36,7 @@ fn a_load_lowered_by_a_winch_hangs_by_its_weight_and_goes_down_at_the_rate() {
 #[test]
 fn elements_that_appear_at_a_winch_leave_the_load_where_it_was() {
     let (mass, rate): (f64, f64) = (5000.0, 0.5);
-    let load =
-        Attachment { node: 5, mass, volume: 0.0, height: 0.0, pendant: 0.0, drag: 0.0, added: 0.0, bearing: 0.0 };
+    let load = Attachment::mass(5, mass);
     let segment = Segment { axial_damping: 1e6, ..Segment::line(25.0, 5, 5.0, 1e8, 0.05) };
     let mut rod = Rod::new("wire", vec![segment], vec![load]).unwrap();
     let fluid = UniformFluid::none();
@@ -83,8 +81,7 @@ fn elements_that_appear_at_a_winch_leave_the_load_where_it_was() {
 fn a_heave_of_the_top_swings_a_load_by_its_own_spring_at_any_mass() {
     // a light wire with a load of any mass below an end that heaves: amplitude over heave 1 / (1 - (w / wn)^2)
     for mass in [10.0, 1e4, 1e6] {
-        let load =
-            Attachment { node: 6, mass, volume: 0.0, height: 0.0, pendant: 0.0, drag: 0.0, added: 0.0, bearing: 0.0 };
+        let load = Attachment::mass(6, mass);
         let (length, frequency, heave): (f64, f64, f64) = (30.0, 1.0, 0.1);
         // the wire's stiffness is that of a natural frequency of three
         let ea = 9.0 * mass * length;

@@ -10,21 +10,8 @@ fn vacuum(fluid: &UniformFluid, gravity: f64) -> World<'_> {
 
 #[test]
 fn a_pendulum_let_go_level_takes_the_period_of_the_elliptic_integral() {
-    let rod = Rod::new(
-        "pendulum",
-        vec![Segment::line(2.0, 1, 0.01, 1e8, 0.01)],
-        vec![Attachment {
-            node: 1,
-            mass: 100.0,
-            volume: 0.0,
-            height: 0.0,
-            pendant: 0.0,
-            drag: 0.0,
-            added: 0.0,
-            bearing: 0.0,
-        }],
-    )
-    .unwrap();
+    let rod =
+        Rod::new("pendulum", vec![Segment::line(2.0, 1, 0.01, 1e8, 0.01)], vec![Attachment::mass(1, 100.0)]).unwrap();
     let fluid = UniformFluid::none();
     let world = vacuum(&fluid, 9.81);
     let mut state = State::along(&rod, &[Vector3::zeros(), Vector3::x() * 2.0]).unwrap();

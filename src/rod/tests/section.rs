@@ -196,8 +196,7 @@ fn what_makes_no_rod_is_refused_with_its_reason() {
     let huge = told(Segment { elements: usize::MAX, ..good.clone() });
     assert!(huge.contains("MB"), "{huge}");
     assert!(Rod::new("R", vec![], vec![]).is_err());
-    let attachment =
-        Attachment { node: 6, mass: 1.0, volume: 0.0, height: 0.0, pendant: 0.0, drag: 0.0, added: 0.0, bearing: 0.0 };
+    let attachment = Attachment::mass(6, 1.0);
     assert!(Rod::new("R", vec![good.clone()], vec![attachment]).unwrap_err().to_string().contains("from 0 to 5"));
     let rod = Rod::new("R", vec![good], vec![]).unwrap();
     assert!(State::along(&rod, &[Vector3::zeros(), Vector3::zeros()]).is_err());

@@ -11,16 +11,7 @@ const MASS: f64 = 100.0;
 /// share of the height, from where the rope is taut; it is let go `aside` (m) of where the rope hangs.
 fn rebound([elements, ea]: [f64; 2], [height, aside]: [f64; 2], rho_inf: f64, h: f64) -> f64 {
     let (length, elements) = (2.0, elements as usize);
-    let load = Attachment {
-        node: elements,
-        mass: MASS,
-        volume: 0.0,
-        height: 0.0,
-        pendant: 0.0,
-        drag: 0.0,
-        added: 0.0,
-        bearing: 0.0,
-    };
+    let load = Attachment::mass(elements, MASS);
     let rod = Rod::new("rope", vec![Segment::line(length, elements, 0.05, ea, 0.01)], vec![load]).unwrap();
     let fluid = UniformFluid::none();
     let world = World::new(&fluid, GRAVITY);
@@ -77,8 +68,7 @@ fn a_bounce_that_the_steps_follow_keeps_its_height_and_its_period_to_the_second_
     // from the first touch to the lowest point and back
     let hang = 2.0 * (std::f64::consts::PI - (speed / (w * sag)).atan()) / w;
     let period = 2.0 * speed / GRAVITY + hang;
-    let load =
-        Attachment { node: 1, mass: MASS, volume: 0.0, height: 0.0, pendant: 0.0, drag: 0.0, added: 0.0, bearing: 0.0 };
+    let load = Attachment::mass(1, MASS);
     let rod = Rod::new("rope", vec![Segment::line(length, 1, 1e-6, ea, 0.01)], vec![load]).unwrap();
     let fluid = UniformFluid::none();
     let world = World::new(&fluid, GRAVITY);

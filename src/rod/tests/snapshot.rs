@@ -11,16 +11,7 @@ fn a_rod_whose_winch_has_changed_it_goes_on_from_a_snapshot_to_the_last_bit() {
         added_normal: 1.0,
         ..Segment::line(100.0, elements, 80.0, 1e7, 0.2)
     };
-    let buoy = Attachment {
-        node: 6,
-        mass: 100.0,
-        volume: 0.5,
-        height: 0.8,
-        pendant: 0.0,
-        drag: 0.4,
-        added: 0.5,
-        bearing: 0.0,
-    };
+    let buoy = super::buoy(6);
     let rope = Viscoelastic { slow: Axial::Linear(1e7), fast: [2e7, 5.0], relaxation: 3.0 };
     let rope = Segment { axial: Axial::Viscoelastic(Box::new(rope)), ..segment(6) };
     let mut rod = Rod::new("line", vec![rope, segment(9)], vec![buoy]).unwrap();

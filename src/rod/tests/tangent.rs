@@ -21,16 +21,7 @@ fn everything(bending: f64) -> (Rod, State) {
     };
     let tube = Tube { warmer: 40.0, expansion: 1e-5, pressure: 2e5, contents: 800.0, ..Tube::empty(0.4, 0.3) };
     let segments = vec![segment(Axial::Linear(1e6), Some(tube)), segment(Axial::Polynomial(vec![1e6, 3e6]), None)];
-    let buoy = Attachment {
-        node: 7,
-        mass: 100.0,
-        volume: 0.5,
-        height: 0.8,
-        pendant: 0.0,
-        drag: 0.4,
-        added: 0.5,
-        bearing: 0.0,
-    };
+    let buoy = super::buoy(7);
     let rod = Rod::new("all", segments, vec![buoy]).unwrap();
     let mut state = State::along(&rod, &[Vector3::new(0.0, 0.0, -9.0), Vector3::new(30.0, 5.0, 8.0)]).unwrap();
     for i in 0..rod.nodes() {

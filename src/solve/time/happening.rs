@@ -186,8 +186,13 @@ impl Run {
                         let told = link.element.pulling_end();
                         let force = self.now.forces.wrenches.get(first + told)?.fixed_rows::<3>(0).into_owned();
                         let at = |end: &Attachment| end_of(end, &self.now.motions, false).0.pose.origin;
-                        let away =
-                            |from| Some(pull(&force, &(at(link.ends.get(1 - told)?) - at(link.ends.get(told)?)), from));
+                        let away = |from| {
+                            Some(pull(
+                                &force,
+                                &(at(link.ends.get(1usize.checked_sub(told)?)?) - at(link.ends.get(told)?)),
+                                from,
+                            ))
+                        };
                         return link.element.pushes().map_or_else(|| Some(force.norm()), away);
                     }
                     first += link.ends.len();

@@ -284,7 +284,10 @@ impl Run {
                 }
                 Err(error) => {
                     self.unwind(winches);
-                    if level >= HALVINGS || error.error.lasting {
+                    if error.error.lasting {
+                        return Err(error);
+                    }
+                    if level >= HALVINGS {
                         return Err(self.nearly_taken_in().unwrap_or(error));
                     }
                     self.counts.cut += 1;
