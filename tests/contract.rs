@@ -9,7 +9,7 @@ use windlass::connector::CLASSES;
 use windlass::language::flow::specs::CONTROL;
 use windlass::language::record;
 use windlass::language::select::{Choice, Owner, keyword};
-use windlass::language::source::SourceId;
+use windlass::language::span::SourceId;
 use windlass::language::spec::{CommandSpec, Opens};
 use windlass::report::files::JobFolder;
 use windlass::report::output::Output;

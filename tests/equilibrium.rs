@@ -4,7 +4,7 @@
 
 mod common;
 
-use windlass::language::source::Span;
+use windlass::language::span::Span;
 use windlass::model::{Model, Weight};
 use windlass::session::Session;
 use windlass::solve::{Options, SolveError, System, modes, settle};

@@ -6,7 +6,7 @@ mod common;
 
 use std::f64::consts::{FRAC_PI_4, TAU};
 use windlass::connector::catenary::{Line, Segment};
-use windlass::language::source::Span;
+use windlass::language::span::Span;
 use windlass::model::{Model, Pose, Six, Weight};
 use windlass::session::Session;
 use windlass::solve::excursion::{End, Path, Walk, resolved};

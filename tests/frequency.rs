@@ -9,7 +9,7 @@ use nalgebra::{Complex, Matrix6};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 use windlass::hydro::database::{Database, DriftTable};
-use windlass::language::source::Span;
+use windlass::language::span::Span;
 use windlass::model::{AttachedDatabase, DriftMethod, Model};
 use windlass::session::Session;
 use windlass::solve::frequency::{

@@ -11,7 +11,7 @@ use std::sync::Arc;
 use windlass::hydro::Floating;
 use windlass::hydro::database::Database;
 use windlass::hydro::sea::{Component, Sea, Water};
-use windlass::language::source::Span;
+use windlass::language::span::Span;
 use windlass::model::{
     AttachedDatabase, Body, DriftMethod, LinearHydrostatics, Model, Part, Place, Pose, Six, Stretching, Weight,
 };

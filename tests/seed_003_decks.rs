@@ -12,6 +12,7 @@ use windlass::aqwa::tethers::{Constraint, Fatigue};
 use windlass::aqwa::waves::{Form, Waves};
 use windlass::aqwa::{Deck, Reading, is_deck, read};
 use windlass::language::diagnostic::{Diagnostic, Severity};
+use windlass::language::render::render;
 use windlass::language::source::{Sources, Text};
 
 fn reading_of(bytes: Vec<u8>) -> (Reading, Sources) {
@@ -1031,7 +1032,7 @@ proptest! {
     fn no_bytes_make_the_reader_panic(bytes in prop::collection::vec(any::<u8>(), 0..2000)) {
         let (reading, sources) = reading_of(bytes);
         for message in &reading.messages {
-            prop_assert!(!message.render(&sources, false).is_empty());
+            prop_assert!(!render(&message, &sources, false).is_empty());
         }
     }
 
@@ -1048,7 +1049,7 @@ proptest! {
         let (reading, sources) = reading_of(format!("{}{piece}{}", &text[..from], &text[to..]).into_bytes());
         let _ = reading.deck.echo();
         for message in &reading.messages {
-            prop_assert!(!message.render(&sources, false).is_empty());
+            prop_assert!(!render(&message, &sources, false).is_empty());
         }
         for structure in &reading.deck.structures {
             prop_assert!(reading.deck.mass_properties(structure).mass.is_finite() || !reading.failed);

@@ -11,7 +11,7 @@ use super::remarks::Remarks;
 use super::tethers::Tether;
 use super::waves::Waves;
 use crate::language::diagnostic::Diagnostic;
-use crate::language::source::Span;
+use crate::language::span::Span;
 
 /// Checks a deck as a whole; decks that belong to stages before the first one are not asked for.
 pub fn check(deck: &Deck, remarks: &mut Remarks) {

@@ -10,7 +10,7 @@ use super::card::{integer, real};
 use super::layout::{Layout, Record};
 use super::remarks::Remarks;
 use crate::language::diagnostic::Diagnostic;
-use crate::language::source::Span;
+use crate::language::span::Span;
 
 /// Most elements of a deck.
 pub const MOST_ELEMENTS: usize = 60_000;

@@ -6,7 +6,7 @@ use super::card::Field;
 use super::remarks::Remarks;
 use super::tethers::Tether;
 use crate::language::diagnostic::Diagnostic;
-use crate::language::source::Span;
+use crate::language::span::Span;
 
 /// Stiffness of an end spring that is not given (A.2).
 pub const STIFF: f64 = 1.0e15;

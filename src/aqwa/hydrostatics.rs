@@ -7,7 +7,7 @@ use super::layout::{Layout, Record, Slot, int, num};
 use super::remarks::Remarks;
 use super::surroundings::Flow;
 use crate::language::diagnostic::Diagnostic;
-use crate::language::source::Span;
+use crate::language::span::Span;
 
 const DATABASE: &str = "coefficients over frequency are not read from a deck; \
                         take them from a hydrodynamic database of the model instead";

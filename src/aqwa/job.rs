@@ -6,7 +6,7 @@ use super::card::{Line, integer};
 use super::reader::Reader;
 use super::remarks::Remarks;
 use crate::language::diagnostic::{Diagnostic, did_you_mean};
-use crate::language::source::Span;
+use crate::language::span::Span;
 
 /// The program a deck is written for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]

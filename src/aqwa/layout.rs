@@ -2,7 +2,7 @@
 
 use super::card::{Face, Field, Line, WIDTH, integer, real};
 use crate::language::diagnostic::Diagnostic;
-use crate::language::source::Span;
+use crate::language::span::Span;
 
 /// What a field holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -9,7 +9,7 @@ use super::card::Field;
 use super::layout::Record;
 use super::remarks::Remarks;
 use crate::language::diagnostic::Diagnostic;
-use crate::language::source::Span;
+use crate::language::span::Span;
 
 /// Most sections of a composite line.
 const MOST_SECTIONS: i64 = 10;

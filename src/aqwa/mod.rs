@@ -54,7 +54,8 @@ pub mod units;
 pub mod waves;
 
 use crate::language::diagnostic::Diagnostic;
-use crate::language::source::{SourceId, Sources};
+use crate::language::source::Sources;
+use crate::language::span::SourceId;
 use elements::{Shape, Structure};
 use hydrostatics::Hydrostatics;
 use job::Job;

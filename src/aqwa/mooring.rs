@@ -9,7 +9,7 @@ use super::lines::{MooringLine, Property, Walk};
 use super::remarks::Remarks;
 use super::tethers::{Builder, Tether};
 use crate::language::diagnostic::Diagnostic;
-use crate::language::source::Span;
+use crate::language::span::Span;
 
 const ENDS: [Slot; 4] = [int("structure 1", 11), int("node 1", 16), int("structure 2", 21), int("node 2", 26)];
 const UNSEEN: &str = "this card is not read; give the line with the classes of the model";

@@ -9,7 +9,7 @@ use super::card::Field;
 use super::layout::{Layout, Record, int, num};
 use super::remarks::Remarks;
 use crate::language::diagnostic::Diagnostic;
-use crate::language::source::Span;
+use crate::language::span::Span;
 use indexmap::IndexMap;
 
 /// Most nodes of a deck, as of AQWA.

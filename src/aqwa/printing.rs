@@ -6,7 +6,7 @@ use super::card::Field;
 use super::layout::{Layout, Record, Slot, int};
 use super::remarks::Remarks;
 use crate::language::diagnostic::Diagnostic;
-use crate::language::source::Span;
+use crate::language::span::Span;
 
 const STEPS: &[Slot] = &[int("number of steps", 11)];
 const PARAMETER: &[Slot] = &[int("structure", 11), int("parameter", 16)];

@@ -7,7 +7,7 @@ use super::elements::Shape;
 use super::layout::{Layout, Record, Slot, int, num};
 use super::remarks::Remarks;
 use crate::language::diagnostic::Diagnostic;
-use crate::language::source::Span;
+use crate::language::span::Span;
 use indexmap::IndexMap;
 
 /// Drag coefficient of a TUBE without a CONT card (assumed: the manual's page speaks of defaults, its values were not

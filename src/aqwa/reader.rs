@@ -4,7 +4,8 @@ use super::card::{Face, Line, Lines};
 use super::layout::{How, Layout, Record, Standing};
 use super::remarks::Remarks;
 use crate::language::diagnostic::{Diagnostic, Severity, did_you_mean};
-use crate::language::source::{Source, SourceId, Span};
+use crate::language::source::Source;
+use crate::language::span::{SourceId, Span};
 use std::collections::BTreeSet;
 
 /// Most cards of a file.

@@ -11,7 +11,7 @@ use super::end_springs::{EndSpring, check, in_force};
 use super::layout::Record;
 use super::remarks::Remarks;
 use crate::language::diagnostic::Diagnostic;
-use crate::language::source::Span;
+use crate::language::span::Span;
 
 /// Most elements of a tether (AQWA of later years has 24).
 const MOST_ELEMENTS: usize = 1000;

@@ -12,7 +12,7 @@ use super::layout::{Layout, Record, Slot, int, num};
 use super::remarks::Remarks;
 use super::surroundings::Flow;
 use crate::language::diagnostic::Diagnostic;
-use crate::language::source::Span;
+use crate::language::span::Span;
 use std::f64::consts::PI;
 
 /// Most spectra of a deck.

@@ -2,12 +2,13 @@
 
 use super::alter::selected;
 use super::{Call, Command, Effect, Job};
-use crate::language::args::{Args, Given};
 use crate::language::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use crate::language::name as rule;
 use crate::language::select::Owner;
-use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
+use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::language::units::{Dim, UnitSystem};
+use crate::language::values::Noun;
+use crate::language::values::{Args, Given};
 use crate::model::{Model, PIPE, find, line_name};
 use crate::solve::FREEDOMS;
 use crate::solve::time::{Action, Watched, What, When};
@@ -110,11 +111,11 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
 
 /// The one option of a list that is given.
 fn only<'a>(args: &'a Args, names: &[&str], of: &str) -> Outcome<&'a Given> {
-    let mut given = args.options.iter().filter(|g| names.contains(&g.spec.name));
+    let mut given = args.options.iter().filter(|g| names.contains(&g.name));
     match (given.next(), given.next()) {
         (Some(one), None) => Ok(one),
         (Some(one), Some(other)) => {
-            let text = format!("{} and {} both say {of}", one.spec.name, other.spec.name);
+            let text = format!("{} and {} both say {of}", one.name, other.name);
             Err(Diagnostic::error(text, other.span).other(one.span, "first given here").help("give two actions"))
         }
         _ => Err(Diagnostic::error(format!("the action does not say {of}"), args.span).help(names.join(", "))),
@@ -142,7 +143,7 @@ fn when(model: &Model, given: &Given, units: UnitSystem) -> Outcome<When> {
             None => Err(Diagnostic::error(format!("point {name} belongs to no body"), place)),
         }
     };
-    Ok(match given.spec.name {
+    Ok(match given.name {
         "-AT" => When::At(number(0)),
         "-TENSION" => When::Above(line()?, number(1)),
         "-SLACK" => When::Below(line()?, number(1)),
@@ -158,7 +159,7 @@ fn what(model: &Model, given: &Given) -> Outcome<What> {
         let keys = selected(model, given.values.get(..count).unwrap_or(&given.values))?;
         Ok(keys.iter().filter_map(|k| model.connectors.get(k)).map(|c| c.name.clone()).collect())
     };
-    Ok(match given.spec.name {
+    Ok(match given.name {
         "-RELEASE" => What::Release(names(usize::MAX)?),
         "-ACTIVATE" => What::Activate(names(usize::MAX)?),
         "-WINCH" => What::Winch(names(1)?, given.number(1).unwrap_or(0.0), given.number(2)),

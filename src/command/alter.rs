@@ -4,12 +4,14 @@
 //! Source: reference/model.md, &CONNECTOR.
 
 use super::{Call, Command, Effect, Job};
-use crate::language::args::{Args, Given, Value};
 use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::select::{Owner, is_wild, matches};
-use crate::language::source::Span;
-use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
+use crate::language::select::Owner;
+use crate::language::span::Span;
+use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::language::units::{Dim, UnitSystem};
+use crate::language::values::Noun;
+use crate::language::values::{Args, Given, Value};
+use crate::language::wildcard::{is_wild, matches};
 use crate::model::{Anchor, ClassError, Condition, Connector, LineLoads, LineModel, Model, find, unit_vector};
 use crate::report::format::report;
 use crate::solve::pretension;
@@ -127,7 +129,7 @@ fn groups(args: &Args) -> Outcome<Vec<(&Given, &[Value])>> {
         }
         let names = args.data.get(from..to).unwrap_or_default();
         if names.is_empty() {
-            let text = format!("no connector is named before {}", given.spec.name);
+            let text = format!("no connector is named before {}", given.name);
             return Err(Diagnostic::error(text, given.span).help(FORM));
         }
         made.push((given, names));
@@ -194,7 +196,7 @@ impl Said {
 /// What an option asks for at the fairlead.
 fn aim(given: &Given) -> Option<Condition> {
     let force = given.number(0)?;
-    match given.spec.name {
+    match given.name {
         "-L_HORIZONTAL" | "-A_HORIZONTAL" => Some(Condition::Horizontal(force)),
         "-L_TENSION" | "-A_TENSION" => Some(Condition::Tension(force)),
         _ => None,
@@ -203,7 +205,7 @@ fn aim(given: &Given) -> Option<Condition> {
 
 /// Changes one connector by one option; what is said of it.
 fn change(model: &Model, made: &mut Connector, given: &Given, said: &mut Said) -> Result<String, ClassError> {
-    let option = given.spec.name;
+    let option = given.name;
     if let "-ACTIVE" | "-INACTIVE" = option {
         made.active = option == "-ACTIVE";
         return Ok(if made.active { "active" } else { "inactive" }.into());
@@ -335,7 +337,7 @@ fn move_anchor(model: &Model, connector: &mut Connector, at: [f64; 2]) {
 /// The new length or place beside the old one.
 fn told(made: &Connector, given: &Given, old: (Option<f64>, Option<Anchor>), said: &Said) -> String {
     let length = |l: f64| said.digits(l, Dim::Length);
-    match made.anchor.filter(|_| given.spec.name.starts_with("-A")) {
+    match made.anchor.filter(|_| given.name.starts_with("-A")) {
         Some(anchor) => {
             let [x, y] = anchor.at.map(length);
             let z = anchor.elevation.map_or(String::new(), |z| format!(" {}", length(z)));
@@ -361,7 +363,7 @@ fn forces(
 ) -> Result<String, ClassError> {
     let Some([_, _, anchor]) = model.placement(made).other else { return Ok(String::new()) };
     let aim = aim(given);
-    if let ("-ANCHOR", Some(depth)) = (given.spec.name, model.anchor_depth(made))
+    if let ("-ANCHOR", Some(depth)) = (given.name, model.anchor_depth(made))
         && (depth + anchor).abs() > 1e-3 * depth
     {
         let (own, other) = (said.measured(-anchor, Dim::Length), said.measured(depth, Dim::Length));

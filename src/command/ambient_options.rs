@@ -2,11 +2,12 @@
 
 use super::Job;
 use super::environment::formula;
-use crate::language::args::Given;
 use crate::language::diagnostic::Outcome;
 use crate::language::select::Owner;
-use crate::language::source::Span;
-use crate::language::spec::{Kind, Noun, OptionSpec, ValueSpec};
+use crate::language::span::Span;
+use crate::language::spec::{Kind, OptionSpec, ValueSpec};
+use crate::language::values::Given;
+use crate::language::values::Noun;
 use crate::model::{Connector, Environment, Model, find};
 
 /// -BATHYMETRY.
@@ -33,7 +34,7 @@ pub(super) const T_PRESSURE: OptionSpec = OptionSpec::new(
 pub(super) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<()> {
     let name = given.word(0).unwrap_or_default();
     let span = given.values.first().map_or(given.span, |v| v.span);
-    match given.spec.name {
+    match given.name {
         "-BATHYMETRY" => {
             find(&job.model.bathymetries, name, "bathymetry", span)?;
             env.bathymetry = Some(formula(given));

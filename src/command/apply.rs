@@ -4,8 +4,9 @@
 
 use super::{Call, Command, Effect};
 use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
+use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
+use crate::language::values::Noun;
 use crate::model::{Model, find};
 
 /// &APPLY.
@@ -47,7 +48,7 @@ fn run(job: &mut super::Job, call: &Call) -> Outcome<Effect> {
     let mut made = job.model.multipliers.clone();
     for given in &args.options {
         let (Some(name), Some(value)) = (given.word(0), given.number(1)) else { continue };
-        if given.spec.name == "-LOAD_GROUP" {
+        if given.name == "-LOAD_GROUP" {
             let span = given.values.first().map_or(given.span, |v| v.span);
             find(&job.model.parts, name, "part", span)?;
             made.parts.insert(Model::key(name), value * unit);

@@ -4,10 +4,11 @@
 
 use super::rigging::{self, Rigging};
 use super::{Call, Command, Effect, Job, Menu, junction};
-use crate::language::args::Args;
 use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::source::Span;
-use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
+use crate::language::span::Span;
+use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use crate::language::values::Args;
+use crate::language::values::Noun;
 use crate::model::{Assembly, AssemblyKind, Body, Connector, Model, find};
 
 /// ASSEMBLY.

@@ -3,13 +3,15 @@
 use super::number_rows::rows;
 use super::status::push;
 use super::{Call, Command, Effect, Job, Menu};
-use crate::language::args::{self, Value};
+use crate::language::args;
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::name as rule;
 use crate::language::select::Owner;
-use crate::language::source::Span;
-use crate::language::spec::{CommandSpec, Form, Kind, Noun, Opens, OptionSpec, ValueSpec};
+use crate::language::span::Span;
+use crate::language::spec::{CommandSpec, Form, Kind, Opens, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
+use crate::language::values::Noun;
+use crate::language::values::Value;
 use crate::model::bathymetry::{Bathymetry, MOST_POINTS, fits};
 use crate::model::{Model, Thing};
 use crate::table::{Digits, Table};

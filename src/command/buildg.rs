@@ -6,7 +6,7 @@ use super::device::readable;
 use super::{Call, Command, Effect, Job, Menu};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::record::Record;
-use crate::language::source::Span;
+use crate::language::span::Span;
 use crate::language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 use crate::report::disposition::Disposition;
 use crate::report::readback::{self, ReadError};
@@ -52,7 +52,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         return Err(Diagnostic::error("&BUILDG asks for -CSV or -BRIEF", args.span)
             .help("form: &BUILDG -CSV [FILE] or &BUILDG -BRIEF [FILE]"));
     };
-    let brief = given.spec.name == "-BRIEF";
+    let brief = given.name == "-BRIEF";
     let Some(file) = given.values.first() else {
         job.menus.push(Menu::Building(Box::new(Building { brief, text: String::new(), span: args.span })));
         return Ok(Effect::Done);

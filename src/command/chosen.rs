@@ -1,10 +1,10 @@
 //! The names a record gives to choose among what the model holds.
 
 use super::{Call, Job};
-use crate::language::args::Value;
 use crate::language::diagnostic::{Diagnostic, Outcome, did_you_mean};
-use crate::language::select::matches;
-use crate::language::source::Span;
+use crate::language::span::Span;
+use crate::language::values::Value;
+use crate::language::wildcard::matches;
 use crate::model::{Model, Thing};
 use crate::table::Table;
 use std::cell::Cell;

@@ -2,11 +2,13 @@
 
 use super::{Call, Command, Effect, Job, Menu};
 use crate::connector::{CLASSES, type_notices};
-use crate::language::args::{self, Args};
+use crate::language::args;
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::name;
 use crate::language::select::choose;
-use crate::language::spec::{CommandSpec, Form, Noun};
+use crate::language::spec::{CommandSpec, Form};
+use crate::language::values::Args;
+use crate::language::values::Noun;
 use crate::model::{Class, ClassRecord, Curve, CurveKind, Model, find};
 
 /// ~CLASS.

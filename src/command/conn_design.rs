@@ -3,12 +3,13 @@
 use super::chosen::{Chosen, raise};
 use super::disposition::{BOTH, HARD, send};
 use super::{Call, Command, Effect, Job, Menu, status, vary};
-use crate::language::args::Args;
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
-use crate::language::source::Span;
-use crate::language::spec::{CommandSpec, Kind, Noun, Opens, OptionSpec, ValueSpec};
+use crate::language::span::Span;
+use crate::language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
+use crate::language::values::Args;
+use crate::language::values::Noun;
 use crate::model::{Class, Condition, Connector, Thing, find};
 use crate::report::disposition::Disposition;
 use crate::report::page;
@@ -106,7 +107,7 @@ fn named<'a>(job: &'a Job, args: &Args) -> Outcome<(&'a Connector, &'a Class)> {
 fn condition(args: &Args) -> Outcome<Condition> {
     let mut given = args.options.iter().filter_map(|g| {
         let value = g.number(0)?;
-        let made = match g.spec.name {
+        let made = match g.name {
             "-HORIZONTAL" => Condition::Horizontal(value),
             "-TENSION" => Condition::Tension(value),
             "-VERTICAL" => Condition::Vertical(value),
@@ -117,7 +118,7 @@ fn condition(args: &Args) -> Outcome<Condition> {
     });
     match (given.next(), given.next()) {
         (Some((first, _)), Some((second, _))) => {
-            let text = format!("{} and {} cannot hold at once", first.spec.name, second.spec.name);
+            let text = format!("{} and {} cannot hold at once", first.name, second.name);
             Err(Diagnostic::error(text, second.span).other(first.span, "first given here"))
         }
         (Some((_, made)), None) => Ok(made),
@@ -145,7 +146,7 @@ fn table(job: &mut Job, call: &Call) -> Outcome<Effect> {
         return Ok(effect);
     }
     if let Some(option) = args.options.first() {
-        return Err(Diagnostic::error(format!("{} of TABLE goes with -VARY", option.spec.name), option.span)
+        return Err(Diagnostic::error(format!("{} of TABLE goes with -VARY", option.name), option.span)
             .help("GEOMETRY shows a line in one configuration"));
     }
     let line = class.object.line(&job.model.placement(connector), &job.model.surroundings());

@@ -2,11 +2,12 @@
 
 use super::tether_ends as tether;
 use super::{Call, Command, Effect, Job, Menu};
-use crate::language::args::Args;
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::name as rule;
-use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
+use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
+use crate::language::values::Args;
+use crate::language::values::Noun;
 use crate::model::{Anchor, Connector, Model, Point, Pose, Tug, find, unit_vector};
 
 /// CONNECTOR.

@@ -9,8 +9,9 @@ use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::name as rule;
 use crate::language::record::Word;
 use crate::language::select::{Owner, choose};
-use crate::language::source::Span;
-use crate::language::spec::{CommandSpec, Form, Kind, Noun, Opens, OptionSpec, ValueSpec};
+use crate::language::span::Span;
+use crate::language::spec::{CommandSpec, Form, Kind, Opens, OptionSpec, ValueSpec};
+use crate::language::values::Noun;
 use crate::model::{Curve, CurveKind, Model, Thing};
 
 /// &DATA.

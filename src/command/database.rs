@@ -5,12 +5,14 @@ use super::{Call, Command, Effect, Job};
 use crate::hydro::database::rao::RaoConvention;
 use crate::hydro::database::wamit::WamitScale;
 use crate::hydro::database::{Database, DatabaseError, SourceFile, capytaine, nemoh, rao, wamit};
-use crate::language::args::Args;
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
-use crate::language::source::{LARGEST_FILE, Span};
-use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
+use crate::language::source::LARGEST_FILE;
+use crate::language::span::Span;
+use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
+use crate::language::values::Args;
+use crate::language::values::Noun;
 use crate::model::{AttachedDatabase, DriftMethod, Mass, Model, find};
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
@@ -228,7 +230,7 @@ fn method(args: &Args, data: &Database) -> Outcome<DriftMethod> {
 /// Reads the source that is given, with its place.
 fn read(job: &Job, args: &Args) -> Outcome<(Span, Database)> {
     const SOURCES: [&str; 4] = ["-WAMIT", "-NEMOH", "-CAPYTAINE", "-RAO"];
-    let mut given = args.options.iter().filter(|g| SOURCES.contains(&g.spec.name));
+    let mut given = args.options.iter().filter(|g| SOURCES.contains(&g.name));
     let Some(source) = given.next() else {
         return Err(Diagnostic::error("DATABASE lacks its source", args.span)
             .help("form: DATABASE BODY -WAMIT ROOT | -NEMOH FOLDER | -CAPYTAINE FILE | -RAO FILE"));
@@ -245,7 +247,7 @@ fn read(job: &Job, args: &Args) -> Outcome<(Span, Database)> {
         .and_then(|n| usize::try_from(n).ok());
     let around = job.model.surroundings();
     let (density, gravity, depth) = (around.water_density, around.gravity, around.depth);
-    let made = match source.spec.name {
+    let made = match source.name {
         "-WAMIT" => {
             let files = files(job, WAMIT_ENDINGS.iter().map(|e| format!("{name}.{e}")), span)?;
             if files.is_empty() {

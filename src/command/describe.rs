@@ -5,8 +5,9 @@ use super::piece::{self, OPTIONS};
 use super::{Call, Command, Effect, Job};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::name as rule;
-use crate::language::spec::{CommandSpec, Form, Kind, Noun, OptionSpec, ValueSpec, joined};
+use crate::language::spec::{CommandSpec, Form, Kind, OptionSpec, ValueSpec, joined};
 use crate::language::units::Dim;
+use crate::language::values::Noun;
 use crate::model::{Body, Coordinates, GROUND, Model, Part, Place, Point, Position, Shape, Thing, find, unit_vector};
 
 /// &DESCRIBE.
@@ -120,9 +121,9 @@ fn describe(job: &mut Job, call: &Call) -> Outcome<Effect> {
         "-IGNORE" => "BODY",
         _ => "PIECE",
     };
-    if let Some(given) = args.options.iter().find(|g| of(g.spec.name) != kind) {
-        let whose = of(given.spec.name).to_ascii_lowercase();
-        let error = Diagnostic::error(format!("{} belongs to a {whose}", given.spec.name), given.span);
+    if let Some(given) = args.options.iter().find(|g| of(g.name) != kind) {
+        let whose = of(given.name).to_ascii_lowercase();
+        let error = Diagnostic::error(format!("{} belongs to a {whose}", given.name), given.span);
         return Err(if whose == "part" && kind == "BODY" {
             error.help("&INSTATE -LOCATE places a body")
         } else {
@@ -192,7 +193,7 @@ fn describe(job: &mut Job, call: &Call) -> Outcome<Effect> {
 fn interest(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     if let Some(given) = args.options.first() {
-        return Err(Diagnostic::error(format!("{} does not belong to INTEREST", given.spec.name), given.span));
+        return Err(Diagnostic::error(format!("{} does not belong to INTEREST", given.name), given.span));
     }
     let marked: Vec<(String, Position)> = {
         let (model, chosen) = (&job.model, Chosen::of(call, 1, &job.model));
@@ -209,7 +210,7 @@ fn interest(job: &mut Job, call: &Call) -> Outcome<Effect> {
     Ok(Effect::Done)
 }
 
-fn place_of(values: &[crate::language::args::Value]) -> Place {
+fn place_of(values: &[crate::language::values::Value]) -> Place {
     let numbers = values.iter().filter(|v| v.word().is_none()).map(|v| v.number().unwrap_or(0.0));
     let mut six = [0.0; 6];
     for (slot, value) in six.iter_mut().zip(numbers) {
@@ -266,7 +267,7 @@ fn instate(job: &mut Job, call: &Call) -> Outcome<Effect> {
             find(&model.bodies, name, "body", given.values.first().map_or(given.span, |v| v.span))
                 .map(|b| Model::key(&b.name))
         });
-        match given.spec.name {
+        match given.name {
             "-PREVIOUS" => {
                 for body in model.bodies.values_mut() {
                     std::mem::swap(&mut body.place, &mut body.previous);

@@ -3,7 +3,7 @@
 use super::{Call, Command, Effect, Job};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
-use crate::language::source::Span;
+use crate::language::span::Span;
 use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use std::path::{Path, PathBuf};
 
@@ -89,7 +89,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         let on = given.word(0).is_none_or(|w| w != "NO");
         let whole = given.values.first().and_then(|v| v.integer()).unwrap_or(0);
         let word = given.word(0).unwrap_or_default();
-        match given.spec.name {
+        match given.name {
             "-BATCH" => settings.batch = on,
             "-LIMERROR" => settings.error_limit = whole,
             "-SET_DATE" => settings.date = Some(word.to_string()),

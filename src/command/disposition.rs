@@ -3,11 +3,12 @@
 //! Source: reference/solve.md, "Disposition menu".
 
 use super::{Call, Command, Effect, Job, Menu};
-use crate::language::args::{Args, Given};
 use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::source::Span;
-use crate::language::spec::{CommandSpec, Kind, Noun, Opens, OptionSpec, ValueSpec};
+use crate::language::span::Span;
+use crate::language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
+use crate::language::values::Noun;
+use crate::language::values::{Args, Given};
 use crate::report::disposition::{Disposition, DispositionError, RowChoice};
 use crate::report::page;
 use crate::table::Table;

@@ -3,13 +3,14 @@
 //! Source: reference/model.md, "Environment".
 
 use super::{Call, Command, Effect, Job, ambient_options, probability, sea_options, wind_options};
-use crate::language::args::{Args, Given};
 use crate::language::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use crate::language::name as rule;
 use crate::language::select::Owner;
-use crate::language::source::Span;
-use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
+use crate::language::span::Span;
+use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
+use crate::language::values::Noun;
+use crate::language::values::{Args, Given};
 use crate::model::{Current, Curve, CurveKind, Environment, Formula, Model, Sea, Thing, TimeWindow, find};
 
 /// &ENV.
@@ -211,7 +212,7 @@ fn build(job: &Job, args: &Args) -> Outcome<Environment> {
     sea_options::one_phasing(args)?;
     for given in &args.options {
         apply(job, &mut env, given)?;
-        env.options.retain(|g| g.spec.name != given.spec.name);
+        env.options.retain(|g| g.name != given.name);
         env.options.push(given.clone());
     }
     leaves_water(job, args, &env)?;
@@ -236,7 +237,7 @@ fn leaves_water(job: &Job, args: &Args, env: &Environment) -> Outcome<()> {
 pub(super) fn periods(given: &Given) -> Outcome<()> {
     for (index, value) in given.values.iter().enumerate() {
         if let Some(first) = given.values.iter().take(index).find(|v| v.content == value.content) {
-            return Err(Diagnostic::error(format!("{} has the same period twice", given.spec.name), value.span)
+            return Err(Diagnostic::error(format!("{} has the same period twice", given.name), value.span)
                 .other(first.span, "first given here"));
         }
     }
@@ -253,7 +254,7 @@ fn place(given: &Given, index: usize) -> Span {
 /// An option that contradicts itself, or names what is not there.
 pub(super) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<()> {
     let at = |i: usize| given.number(i);
-    match given.spec.name {
+    match given.name {
         "-WATER" => env.water_density = at(0),
         "-SPGWATER" => env.water_density = at(0).map(|s| 1000.0 * s),
         "-DEPTH" => env.depth = at(0),

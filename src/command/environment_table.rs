@@ -133,10 +133,10 @@ fn environment(job: &Job, env: &Environment) -> Table {
 fn others(mut table: Table, env: &Environment, job: &Job) -> Table {
     const SHOWN: [&str; 11] =
         ["-WATER", "-SPGWATER", "-DEPTH", "-TIDE", "-RAMP", "-SEA", "-A_SEA", "-SPREAD", "-WIND", "-CURRENT", "-TIME"];
-    for given in env.options.iter().filter(|g| !SHOWN.contains(&g.spec.name)) {
+    for given in env.options.iter().filter(|g| !SHOWN.contains(&g.name)) {
         let text = option_as_written(given, job.units);
         let values = text.split_once(' ').map_or("", |(_, values)| values);
-        table = table.fact(given.spec.name, values, Dim::None);
+        table = table.fact(given.name, values, Dim::None);
     }
     table
 }

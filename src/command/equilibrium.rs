@@ -5,11 +5,12 @@
 use super::chosen::raise;
 use super::disposition::{BOTH, HARD, send};
 use super::{Call, Command, Effect, Job};
-use crate::language::args::Given;
 use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::source::Span;
-use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
+use crate::language::span::Span;
+use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::language::units::{Dim, UnitSystem};
+use crate::language::values::Given;
+use crate::language::values::Noun;
 use crate::model::{Model, find};
 use crate::report::page;
 use crate::solve::results::along::cautions;

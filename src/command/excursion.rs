@@ -5,11 +5,12 @@
 use super::chosen::raise;
 use super::equilibrium::told;
 use super::{Call, Command, Effect, Job, Menu};
-use crate::language::args::Args;
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
-use crate::language::spec::{CommandSpec, Kind, Noun, Opens, OptionSpec, ValueSpec};
+use crate::language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
+use crate::language::values::Args;
+use crate::language::values::Noun;
 use crate::model::{Body, Model, Pose, find};
 use crate::report::disposition::Disposition;
 use crate::report::format::number_in_full;

@@ -6,7 +6,7 @@ use super::{Call, Command, Effect, Job, PLAIN};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::record::Word;
 use crate::language::select::{Owner, choose};
-use crate::language::source::Span;
+use crate::language::span::Span;
 use crate::language::spec::{CommandSpec, Form, Kind, ValueSpec};
 use crate::report::files::{FileError, Place, Side, lies_in};
 

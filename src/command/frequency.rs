@@ -5,11 +5,12 @@
 use super::chosen::{WARNING, raise};
 use super::equilibrium::told;
 use super::{Call, Command, Effect, Job, Menu, probability};
-use crate::language::args::Args;
 use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::source::Span;
-use crate::language::spec::{CommandSpec, Kind, Noun, Opens, OptionSpec, ValueSpec};
+use crate::language::span::Span;
+use crate::language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
+use crate::language::values::Args;
+use crate::language::values::Noun;
 use crate::model::{Environment, Model, find};
 use crate::report::page;
 use crate::solve::frequency::{Asked, Extreme, Linear, Operators, Response, Trains, respond};
@@ -202,7 +203,7 @@ fn sresponse(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let mut linear = linear(job, &model, args.span)?;
     let mut frequencies = frequencies(args);
     if frequencies.is_empty() {
-        let of_env = model.environment.options.iter().find(|g| g.spec.name == "-E_PERIOD");
+        let of_env = model.environment.options.iter().find(|g| g.name == "-E_PERIOD");
         frequencies = of_env.map_or(Vec::new(), |g| g.numbers().iter().map(|t| TAU / t).collect());
     }
     frequencies.sort_by(f64::total_cmp);

@@ -7,12 +7,13 @@ use super::environment::{self, A_SEA_OPTION, SEA_OPTION, SP_TYPE_OPTION, SPREAD_
 use super::equilibrium::told;
 use super::frequency::{Found, found, heaving, seas};
 use super::{Call, Command, Effect, Job, Menu, probability};
-use crate::language::args::Args;
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
-use crate::language::source::Span;
-use crate::language::spec::{CommandSpec, Kind, Noun, Opens, OptionSpec, ValueSpec};
+use crate::language::span::Span;
+use crate::language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
+use crate::language::values::Args;
+use crate::language::values::Noun;
 use crate::model::{Environment, Model, Thing, find};
 use crate::report::disposition::Disposition;
 use crate::solve::frequency::tables::{Told, body_statistics, operators, spectra, statistics};
@@ -257,7 +258,7 @@ fn response(job: &Job, args: &Args) -> Outcome<(Arc<Linear>, Response)> {
     let given = ["-SEA", "-A_SEA", "-SPREAD", "-SP_TYPE"].iter().find_map(|name| args.option(name));
     match (found(job, args.span)?, given) {
         (Found::Spectral(..), Some(given)) => Err(Diagnostic::error(
-            format!("{} cannot follow SRESPONSE, whose sea is in its damping and drift", given.spec.name),
+            format!("{} cannot follow SRESPONSE, whose sea is in its damping and drift", given.name),
             given.span,
         )
         .help("SRESPONSE ENV takes another environment; a new sea may follow RAO")),
@@ -290,7 +291,7 @@ fn told_statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {
         }
         Some("TENSION") => {
             if let Some(given) = args.option("-VELOCITY").or(args.option("-ACCELERATION")) {
-                return Err(Diagnostic::error(format!("a tension has no {}", given.spec.name), given.span));
+                return Err(Diagnostic::error(format!("a tension has no {}", given.name), given.span));
             }
             let list = tensions(job, &linear, call, 1, false)?;
             statistics("Statistics: Forces of Connectors".into(), both, &list, how)

@@ -8,10 +8,11 @@ use crate::language::diagnostic::{Diagnostic, Outcome, Severity};
 use crate::language::logic;
 use crate::language::number;
 use crate::language::record::Word;
-use crate::language::select::{Owner, choose, matches};
-use crate::language::source::Span;
+use crate::language::select::{Owner, choose};
+use crate::language::span::Span;
 use crate::language::substitution::World;
 use crate::language::units::Dim;
+use crate::language::wildcard::matches;
 use crate::model::{Mass, Model, Point, Position};
 use crate::report::format::fifteen_figures;
 

@@ -5,8 +5,9 @@
 use super::{Call, Command, Effect, Job};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
-use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
+use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
+use crate::language::values::Noun;
 use crate::model::{LinearHydrostatics, Model, find};
 use nalgebra::{Matrix6, RowVector6};
 

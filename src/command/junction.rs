@@ -1,12 +1,14 @@
 //! `JUNCTION`: a point in the sea where lines meet.
 
 use super::{Call, Command, Effect, Job};
+use crate::language::diagnostic::with_article;
 use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::name::{self as rule, with_article};
+use crate::language::name as rule;
 use crate::language::select::Owner;
-use crate::language::source::Span;
-use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
+use crate::language::span::Span;
+use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
+use crate::language::values::Noun;
 use crate::model::{Body, Junction, Model, Part, Place, Point, Position, Weight};
 
 /// JUNCTION.

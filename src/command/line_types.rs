@@ -4,12 +4,12 @@ use super::Job;
 use super::help::wrap;
 use super::status::push;
 use crate::connector::line_types::{Formula, LineType, library};
-use crate::language::args::Value;
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::number;
-use crate::language::select::matches;
-use crate::language::source::Span;
+use crate::language::span::Span;
 use crate::language::units::Dim;
+use crate::language::values::Value;
+use crate::language::wildcard::matches;
 use crate::table::{Digits, Table};
 
 /// The tables for what follows LINE_TYPES: nothing, nominal diameters in the user's section unit, names or patterns.

@@ -5,13 +5,14 @@
 
 use super::{Call, Command, Effect, Job};
 use crate::hydro::heading::ByHeading;
-use crate::language::args::{Args, Given, Value};
 use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::functions::eight_figures;
 use crate::language::select::Owner;
-use crate::language::source::Span;
-use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
+use crate::language::span::Span;
+use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
+use crate::language::units::eight_figures;
+use crate::language::values::Noun;
+use crate::language::values::{Args, Given, Value};
 use crate::model::{Fluid, GROUND, LoadKind, Model, PartLoad, Position, find, unit_vector};
 use nalgebra::{Matrix6, Vector3};
 

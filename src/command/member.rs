@@ -1,11 +1,11 @@
 //! The options that make a TUBE a member in waves and current, and the table of members.
 
 use super::status::push;
-use crate::language::args::Args;
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
 use crate::language::spec::{Kind, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
+use crate::language::values::Args;
 use crate::model::{Member, Model, Shape, WaveAction};
 use crate::table::{Cell, Digits, Table};
 
@@ -53,13 +53,13 @@ pub fn coefficients(args: &Args, permeability: f64) -> Outcome<Member> {
     let own = OPTIONS.iter().find_map(|o| args.option(o.name).filter(|g| g.number(0).is_some_and(|c| c != 0.0)));
     if let Some(own) = own.filter(|_| permeability < 0.0) {
         return Err(Diagnostic::error(
-            format!("{} is of what stands in the water, and an interior does not", own.spec.name),
+            format!("{} is of what stands in the water, and an interior does not", own.name),
             own.span,
         ));
     }
     let areas = args.option("-CS_CURRENT");
     if let (Some(areas), Some(drag)) = (areas, args.option("-CD").or(args.option("-CDA"))) {
-        let text = format!("-CS_CURRENT and {} are both the drag of the tube", drag.spec.name);
+        let text = format!("-CS_CURRENT and {} are both the drag of the tube", drag.name);
         return Err(Diagnostic::error(text, drag.span)
             .other(areas.span, "given here too")
             .help("leave one of them out"));

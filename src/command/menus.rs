@@ -8,7 +8,7 @@ use super::{Call, Command, Effect, INMODEL_FILE, Job, Menu, bathymetry, buildg, 
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::record::Word;
 use crate::language::select::Owner;
-use crate::language::source::Span;
+use crate::language::span::Span;
 use crate::language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 use crate::language::token::Kind as Lex;
 use std::path::PathBuf;

@@ -95,11 +95,11 @@ pub use job::{Job, Menu, Settings};
 pub use menus::{finish, opened_by};
 pub use status::kinds as status_kinds;
 
-use crate::language::args::Args;
 use crate::language::diagnostic::Outcome;
 use crate::language::record::{Record, Word};
 use crate::language::select::Owner;
 use crate::language::spec::CommandSpec;
+use crate::language::values::Args;
 use std::path::PathBuf;
 
 /// A record on its way to a handler.

@@ -1,12 +1,14 @@
 //! `DELETE` and `RENAME`: of anything in the model that has a name.
 
 use super::{Call, Command, Effect, Job};
-use crate::language::args::Content;
 use crate::language::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use crate::language::name;
-use crate::language::select::{Owner, is_wild, matches};
-use crate::language::source::Span;
-use crate::language::spec::{CommandSpec, Kind, Noun, ValueSpec};
+use crate::language::select::Owner;
+use crate::language::span::Span;
+use crate::language::spec::{CommandSpec, Kind, ValueSpec};
+use crate::language::values::Content;
+use crate::language::values::Noun;
+use crate::language::wildcard::{is_wild, matches};
 use crate::model::{AssemblyKind, Model, Piece, Thing};
 use std::sync::Arc;
 

@@ -4,11 +4,12 @@
 
 use super::piece::{self, OPTIONS};
 use super::{Call, Command, Effect, Job, Menu};
-use crate::language::args::Value;
 use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::source::Span;
-use crate::language::spec::{CommandSpec, Kind, Noun, Opens, OptionSpec, ValueSpec};
+use crate::language::span::Span;
+use crate::language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
+use crate::language::values::Noun;
+use crate::language::values::Value;
 use crate::model::{Piece, Position, Shape};
 
 /// PGEN.
@@ -85,10 +86,7 @@ fn pgen(job: &mut Job, call: &Call) -> Outcome<Effect> {
                     .help("form: PGEN NAME -OPTIONS, or &DESCRIBE PIECE NAME -OPTIONS and then PGEN")
             })?;
             if let Some(given) = args.options.first() {
-                return Err(Diagnostic::error(
-                    format!("{} belongs to &DESCRIBE PIECE {name}", given.spec.name),
-                    given.span,
-                ));
+                return Err(Diagnostic::error(format!("{} belongs to &DESCRIBE PIECE {name}", given.name), given.span));
             }
             Err(name)
         }
@@ -114,7 +112,7 @@ fn plane(job: &mut Job, call: &Call) -> Outcome<Effect> {
         [one] => {
             let at = args.data.iter().filter_map(|v| Some((v.number()?, v.span))).collect();
             let given = one.numbers();
-            let outline = match (one.spec.name, given.as_slice()) {
+            let outline = match (one.name, given.as_slice()) {
                 ("-RECTANGLE", [bottom, top, beam]) if bottom < top => vec![[0.5 * beam, *bottom], [0.5 * beam, *top]],
                 ("-RECTANGLE", _) => return Err(Diagnostic::error("ZTOP must be greater than ZBOT", one.span)),
                 _ => pairs(&given),

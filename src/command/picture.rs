@@ -2,11 +2,12 @@
 
 use super::chosen::{Chosen, WARNING, gathered};
 use super::{Call, Command, Effect, Job};
-use crate::language::args::Args;
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
-use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
+use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
+use crate::language::values::Args;
+use crate::language::values::Noun;
 use crate::model::Thing;
 use crate::report::picture::{Picture, View};
 use crate::report::plot::PlotError;
@@ -142,7 +143,7 @@ fn file(job: &Job, args: &Args) -> Outcome<Option<(String, bool)>> {
         let other = ["-FILE", "-HARD"].iter().find_map(|name| args.option(name));
         return match (other, format) {
             (Some(other), Some(format)) => Err(Diagnostic::error(
-                format!("a picture for the terminal goes to no file: {}", other.spec.name),
+                format!("a picture for the terminal goes to no file: {}", other.name),
                 other.span,
             )
             .other(format.span, "the terminal is asked for here")),

@@ -5,13 +5,15 @@
 use super::written::option_as_written;
 use super::{Call, Command, Effect, Job, member};
 use crate::hydro;
-use crate::language::args::{self, Args, Value};
+use crate::language::args;
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::name as rule;
-use crate::language::source::Span;
-use crate::language::spec::{CommandSpec, Form, Kind, Noun, OptionSpec, ValueSpec};
+use crate::language::span::Span;
+use crate::language::spec::{CommandSpec, Form, Kind, OptionSpec, ValueSpec};
 use crate::language::token::Kind as Lex;
 use crate::language::units::Dim;
+use crate::language::values::Noun;
+use crate::language::values::{Args, Value};
 use crate::model::{Model, Part, Piece, Position, Shape, Thing, WaveAction, find};
 use nalgebra::Vector3;
 
@@ -202,14 +204,14 @@ pub fn begun(job: &mut Job, args: &Args, name: &str, span: Span, shape: Shape) -
             .help(format!("DELETE {} first, or use another name", old.name)));
     }
     model.free_name(name, &[Thing::Body, Thing::Part], span)?;
-    let own = args.options.iter().filter(|g| OPTIONS.iter().any(|o| o.name == g.spec.name));
+    let own = args.options.iter().filter(|g| OPTIONS.iter().any(|o| o.name == g.name));
     for value in own.clone().flat_map(|g| g.named(Noun::Curve)) {
         if let Some(word) = value.word() {
             find(&model.curves, word, "curve", value.span)?;
         }
     }
     let acting = ["-PERMEABILITY", "-CS_WIND", "-CS_CURRENT", "-DIFTYPE"];
-    let kept: Vec<_> = own.filter(|g| !acting.contains(&g.spec.name)).cloned().collect();
+    let kept: Vec<_> = own.filter(|g| !acting.contains(&g.name)).cloned().collect();
     if !kept.is_empty() {
         let list: Vec<String> = kept.iter().map(|g| option_as_written(g, job.units)).collect();
         job.remark(format!("kept, without effect yet: {}", list.join(" ")), span);

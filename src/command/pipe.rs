@@ -3,10 +3,11 @@
 //! Source: reference/model.md, Assemblies, and the public page on pipe assemblies of the MOSES manual (conn_pipe).
 
 use super::{Call, Command, Effect, Job, Menu};
-use crate::language::args::Args;
 use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
+use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
+use crate::language::values::Args;
+use crate::language::values::Noun;
 use crate::model::{Assembly, AssemblyKind, Model, PIPE, find};
 
 /// PIPE.

@@ -6,11 +6,12 @@
 use super::chosen::Chosen;
 use super::equilibrium::told;
 use super::{Call, Command, Effect, Job, Menu};
-use crate::language::args::{Args, Value};
 use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::source::Span;
-use crate::language::spec::{CommandSpec, Kind, Noun, Opens, OptionSpec, ValueSpec};
+use crate::language::span::Span;
+use crate::language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
+use crate::language::values::Noun;
+use crate::language::values::{Args, Value};
 use crate::model::{Model, Thing};
 use crate::report::disposition::Disposition;
 use crate::solve::SolveError;

@@ -4,11 +4,12 @@ mod input;
 
 use super::status::push;
 use super::{Call, Command, Effect, Job};
-use crate::language::args::{Args, Given};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
-use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
+use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
+use crate::language::values::Noun;
+use crate::language::values::{Args, Given};
 use crate::model::{ClassError, GivenMotion, Model, Place, Prescription, Sinusoid, find};
 use crate::solve::FREEDOMS;
 use crate::solve::time::prescribed;
@@ -81,12 +82,12 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let key = Model::key(&body.name);
     let kind = kind(args)?;
     for (name, of) in [("-RAMP", "-SINUSOID"), ("-SYMMETRIC", "-RAO")] {
-        if let Some(given) = args.option(name).filter(|_| kind.spec.name != of) {
+        if let Some(given) = args.option(name).filter(|_| kind.name != of) {
             return Err(Diagnostic::error(format!("{name} belongs to {of}"), given.span));
         }
     }
     let file = (kind.word(0).unwrap_or_default(), kind.values.first().map_or(kind.span, |v| v.span));
-    let motion = match kind.spec.name {
+    let motion = match kind.name {
         "-FREE" => None,
         "-RAO" => Some(GivenMotion::Responses(Arc::new(input::responses(job, file, args.has("-SYMMETRIC"))?))),
         "-FILE" => Some(GivenMotion::Path(Arc::new(input::path(job, file)?))),
@@ -108,13 +109,13 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
 
 /// The one option that says how the body moves; of several sinusoids the first.
 fn kind(args: &Args) -> Outcome<&Given> {
-    let mut given = args.options.iter().filter(|g| KINDS.contains(&g.spec.name));
+    let mut given = args.options.iter().filter(|g| KINDS.contains(&g.name));
     let Some(first) = given.next() else {
         return Err(Diagnostic::error("the record does not say how the body moves", args.span).help(KINDS.join(", ")));
     };
-    match given.find(|g| g.spec.name != first.spec.name) {
+    match given.find(|g| g.name != first.name) {
         Some(other) => {
-            let text = format!("{} and {} are two motions of one body", first.spec.name, other.spec.name);
+            let text = format!("{} and {} are two motions of one body", first.name, other.name);
             Err(Diagnostic::error(text, other.span).other(first.span, "first given here"))
         }
         None => Ok(first),
@@ -128,7 +129,7 @@ fn sinusoids(job: &Job, args: &Args) -> GivenMotion {
         let number = |i: usize| given.number(i).unwrap_or(0.0);
         Sinusoid { freedom, amplitude: dim.to_si(number(1), job.units), period: number(2), phase: number(3) }
     };
-    let list = args.options.iter().filter(|g| g.spec.name == "-SINUSOID").map(one).collect();
+    let list = args.options.iter().filter(|g| g.name == "-SINUSOID").map(one).collect();
     GivenMotion::Sinusoids { list, ramp: args.option_number("-RAMP").unwrap_or(0.0) }
 }
 

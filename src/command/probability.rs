@@ -1,9 +1,9 @@
 //! `-PROBABILITY` of `&ENV`: which extreme the statistics of FREQ_RESPONSE tell. What each word does is our reading.
 
-use crate::language::args::Given;
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::spec::{Kind, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
+use crate::language::values::Given;
 use crate::model::Environment;
 use crate::solve::frequency::Extreme;
 
@@ -50,5 +50,5 @@ pub(super) fn check(given: &Given) -> Outcome<()> {
 
 /// The extreme that an environment asks for.
 pub(super) fn extreme(env: &Environment) -> Option<Extreme> {
-    env.options.iter().rev().find(|g| g.spec.name == NAME).and_then(|given| read(given).ok())
+    env.options.iter().rev().find(|g| g.name == NAME).and_then(|given| read(given).ok())
 }

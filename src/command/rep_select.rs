@@ -3,11 +3,12 @@
 //! Source: reference/solve.md, "Fatigue of lines".
 
 use super::{Call, Command, Effect, Job};
-use crate::language::args::Given;
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::name as rule;
-use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
+use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
+use crate::language::values::Given;
+use crate::language::values::Noun;
 use crate::model::{FatigueCurve, FatigueKind, Model, ThicknessCorrection};
 use crate::post::fatigue::{Curve, find};
 

@@ -3,9 +3,9 @@
 use super::Job;
 use super::equilibrium::told;
 use super::tdom::FILE;
-use crate::language::args::Given;
 use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::source::Span;
+use crate::language::span::Span;
+use crate::language::values::Given;
 use crate::report::run_log::{self, RunLog};
 use crate::solve::time::Run;
 

@@ -2,7 +2,7 @@
 
 use crate::connector::hook::{Goal, Reach, hanging, hook};
 use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::source::Span;
+use crate::language::span::Span;
 use crate::language::units::{Dim, UnitSystem};
 use crate::model::{Connector, Mass, Model, Place, Pose};
 use crate::report::format::report;

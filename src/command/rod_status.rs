@@ -2,8 +2,8 @@
 
 use super::Job;
 use super::equilibrium::told;
-use crate::language::args::Args;
 use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::values::Args;
 use crate::solve::results::along::{lines_at_rest, natural_modes};
 use crate::table::Table;
 

@@ -1,10 +1,10 @@
 //! The options of `&ENV` that make wave components of its seas.
 
-use crate::language::args::{Args, Given};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
 use crate::language::spec::{Kind, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
+use crate::language::values::{Args, Given};
 use crate::model::{Components, Division, Environment, Phasing, Stretching};
 
 const BY_WIDTH: &str = "EQUAL_FREQUENCY";
@@ -67,7 +67,7 @@ pub(super) const STOKES: OptionSpec = OptionSpec::new(
 /// Takes one of these options, or one of MOSES's on the components.
 pub(super) fn apply(env: &mut Environment, given: &Given) -> Outcome<()> {
     let whole = |i: usize| given.values.get(i).and_then(|v| v.integer()).and_then(|n| u64::try_from(n).ok());
-    match given.spec.name {
+    match given.name {
         "-COMPONENTS" => env.components = Some(components(given)?),
         "-S_PERIOD" => env.sea_periods = given.numbers(),
         "-PHASES" => env.sea_phases = given.numbers(),
@@ -84,9 +84,9 @@ pub(super) fn apply(env: &mut Environment, given: &Given) -> Outcome<()> {
         }
         _ => return Ok(()),
     }
-    if PHASINGS.contains(&given.spec.name) {
-        env.options.retain(|g| !PHASINGS.contains(&g.spec.name));
-        if given.spec.name == "-PHASES" {
+    if PHASINGS.contains(&given.name) {
+        env.options.retain(|g| !PHASINGS.contains(&g.name));
+        if given.name == "-PHASES" {
             env.phasing = None;
         } else {
             env.sea_phases.clear();
@@ -100,7 +100,7 @@ pub(super) fn one_phasing(args: &Args) -> Outcome<()> {
     let mut given = PHASINGS.iter().filter_map(|name| args.option(name));
     match (given.next(), given.next()) {
         (Some(one), Some(other)) => {
-            let text = format!("phases come from {} or from {}, not from both", one.spec.name, other.spec.name);
+            let text = format!("phases come from {} or from {}, not from both", one.name, other.name);
             Err(Diagnostic::error(text, other.span).other(one.span, "the other one"))
         }
         _ => Ok(()),

@@ -4,7 +4,7 @@ use super::Job;
 use super::status::push;
 use crate::hydro::sea::{Sea, Train};
 use crate::language::diagnostic::Outcome;
-use crate::language::source::Span;
+use crate::language::span::Span;
 use crate::language::units::Dim;
 use crate::model::{Division, Environment, Stretching};
 use crate::table::{Digits, Table};

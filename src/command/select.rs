@@ -5,8 +5,9 @@
 use super::{Call, Command, Effect, Job, Menu};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::name as rule;
-use crate::language::source::Span;
-use crate::language::spec::{CommandSpec, Kind, Noun, Opens, OptionSpec, ValueSpec};
+use crate::language::span::Span;
+use crate::language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
+use crate::language::values::Noun;
 use crate::model::{Model, Selector, find};
 
 /// &SELECT.

@@ -4,11 +4,11 @@
 
 use super::disposition::{ANY_COLUMN, COLUMN, MAG_USE, MENU, RECORD, VALUES, chosen, here, refused, selectors};
 use super::{Call, Command, Effect, Job, Menu};
-use crate::language::args::Args;
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
 use crate::language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
+use crate::language::values::Args;
 use crate::post::SeriesError;
 use crate::post::tables::{self, Analysis, Extremes, Record};
 use crate::report::disposition::Disposition;

@@ -9,14 +9,15 @@ use super::forces::{forces, foundations};
 use super::loads_table::loads;
 use super::offsets::offsets;
 use super::prcpost::last_run;
-use super::written::{as_written, kind_data, option_as_written};
+use super::written::{as_written, option_as_written};
 use super::{
     Call, Command, Effect, Job, Menu, bathymetry, body_status, body_tables, database_table, fatigue_table, line_types,
     member, model_tables, prescribe, rod_status, sea_table, settings_table, t_pressure, tether_status, wind_table,
 };
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::{Owner, choose};
-use crate::language::spec::{CommandSpec, Kind, Noun, Opens, OptionSpec, ValueSpec};
+use crate::language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
+use crate::language::values::Noun;
 use crate::model::{Class, Thing};
 use crate::report::disposition::Disposition;
 use crate::report::page;
@@ -245,7 +246,7 @@ pub(super) fn classes(job: &Job, fits: &dyn Fn(&Class) -> bool) -> Vec<Table> {
         .map(|class| {
             let mut table = class.object.properties(&class.name, &surroundings);
             for (index, record) in class.records.iter().enumerate() {
-                let data = as_written(&record.args.data, kind_data(class.object.kind()), job.units);
+                let data = as_written(&record.args.data, job.units);
                 let options = record.args.options.iter().map(|g| option_as_written(g, job.units));
                 let words: Vec<String> = data.into_iter().chain(options).collect();
                 table.note(format!("record {}: {} {}", index + 1, class.object.kind(), words.join(" ")));

@@ -9,12 +9,14 @@ use super::member;
 use super::piece::{self, OPTIONS, READING};
 use super::{Call, Command, Effect, Job, Menu};
 use crate::hydro::hull::{MeshKind, read_mesh};
-use crate::language::args::Args;
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
-use crate::language::source::{LARGEST_FILE, Span};
-use crate::language::spec::{CommandSpec, Kind, Noun, Opens, OptionSpec, ValueSpec, joined};
+use crate::language::source::LARGEST_FILE;
+use crate::language::span::Span;
+use crate::language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec, joined};
 use crate::language::units::Dim;
+use crate::language::values::Args;
+use crate::language::values::Noun;
 use crate::model::{Piece, Place, Position, Shape};
 use crate::report::page;
 

@@ -7,8 +7,9 @@ use super::{Call, Command, Effect, Job};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::name as rule;
 use crate::language::select::Owner;
-use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
+use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
+use crate::language::values::Noun;
 use crate::model::{Contents, Filling, Model, Thing};
 use crate::table::{Digits, Table};
 

@@ -6,12 +6,12 @@ use super::equilibrium::{told, warn_of_lines};
 use super::restart::go_on;
 use super::{Call, Command, Effect, Job, tether_run};
 use crate::hydro::morison::unmoved;
-use crate::language::args::Args;
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
-use crate::language::source::Span;
+use crate::language::span::Span;
 use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
+use crate::language::values::Args;
 use crate::model::{Model, Place, Six};
 use crate::report::page;
 use crate::report::run_log::RunLog;
@@ -245,7 +245,7 @@ fn reset(job: &Job, model: &mut Model, time: f64) -> Option<Vec<(usize, Six)>> {
 /// Warns of a scheme that damps less than lines that move by themselves do.
 fn warn_of_throwing(job: &mut Job, args: &Args) {
     let Some(given) = args.option("-RHO").or(args.option("-NEWMARK")) else { return };
-    let damps = given.spec.name == "-RHO" && given.number(0).is_some_and(|r| r <= 0.2);
+    let damps = given.name == "-RHO" && given.number(0).is_some_and(|r| r <= 0.2);
     if !damps && usual(&job.model) == Method::with_moving_lines() {
         let text = "with lines that move by themselves a scheme that damps less than -RHO 0.2 can throw up what hangs on a stiff line that goes slack within a step";
         job.warn(text, given.span);
@@ -272,7 +272,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         return tether_run::run(job, args);
     }
     if let Some(given) = args.option("-SLAM").or(args.option("-TOW")) {
-        return Err(Diagnostic::error(format!("{} goes with -TETHERS", given.spec.name), given.span));
+        return Err(Diagnostic::error(format!("{} goes with -TETHERS", given.name), given.span));
     }
     let settings = settings(job, args)?;
     if job.model.bodies.is_empty() {

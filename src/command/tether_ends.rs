@@ -2,11 +2,11 @@
 //!
 //! Source: seed 003, Appendix A (cards TSPA, TSPV, TCAP, TIFL, TIMP, TLOW, TEGR, TLAC, TROC, TLAV, TROV).
 
-use crate::language::args::{Args, Given};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
 use crate::language::spec::{Kind, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
+use crate::language::values::{Args, Given};
 use crate::model::{TetherConstraint, TetherEnds, TetherHold, TetherUse};
 
 const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
@@ -119,7 +119,7 @@ fn first_of<'a>(args: &'a Args, names: &[&str]) -> Option<&'a Given> {
 pub fn read(args: &Args) -> Outcome<Option<TetherEnds>> {
     let (installed, towed) = (first_of(args, &OF_INSTALLED), first_of(args, &OF_TOWED));
     if let (Some(one), Some(other)) = (installed, towed) {
-        let text = format!("{} is of a towed tether, {} of an installed one", other.spec.name, one.spec.name);
+        let text = format!("{} is of a towed tether, {} of an installed one", other.name, one.name);
         return Err(Diagnostic::error(text, other.span).other(one.span, "given here"));
     }
     if installed.is_none() && towed.is_none() && !args.has("-GROUP") {

@@ -4,12 +4,13 @@
 
 use super::disposition::{BOTH, HARD, send};
 use super::{Call, Command, Effect, Job, Menu};
-use crate::language::args::{Args, Given};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::{Owner, choose};
-use crate::language::source::Span;
-use crate::language::spec::{CommandSpec, Kind, Noun, Opens, OptionSpec, ValueSpec};
+use crate::language::span::Span;
+use crate::language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
+use crate::language::values::Noun;
+use crate::language::values::{Args, Given};
 use crate::post::SeriesError;
 use crate::post::tether::fatigue::{Asked, Endurance};
 use crate::report::disposition::Disposition;

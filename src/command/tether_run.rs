@@ -4,11 +4,11 @@
 
 use super::equilibrium::told;
 use super::{Effect, Job};
-use crate::language::args::Args;
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
 use crate::language::spec::{Kind, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
+use crate::language::values::Args;
 use crate::model::unit_vector;
 use crate::report::page;
 use crate::solve::tethered::{self, Settings};
@@ -66,7 +66,7 @@ const NOT_TAKEN: [&str; 11] = [
 pub fn run(job: &mut Job, args: &Args) -> Outcome<Effect> {
     let span = args.span;
     if let Some(given) = NOT_TAKEN.iter().find_map(|name| args.option(name)) {
-        let text = format!("{} does not go with -TETHERS", given.spec.name);
+        let text = format!("{} does not go with -TETHERS", given.name);
         return Err(Diagnostic::error(text, given.span).help("tethers run by a scheme of two stages with fixed steps"));
     }
     let Some(window) = job.model.environment.time else {

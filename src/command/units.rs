@@ -37,7 +37,7 @@ fn dimen(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let mut units = job.units;
     let mut saved = job.saved_units.clone();
     for given in &call.args.options {
-        match given.spec.name {
+        match given.name {
             "-SAVE" => saved.push(units),
             "-REMEMBER" => {
                 units = saved.pop().ok_or_else(|| {
@@ -121,7 +121,7 @@ fn default(job: &mut Job, call: &Call) -> Outcome<Effect> {
     for given in &call.args.options {
         let value = given.number(0).unwrap_or(0.0);
         let material = &mut defaults.material;
-        match given.spec.name {
+        match given.name {
             "-SAVE" => saved.push(defaults),
             "-REMEMBER" => {
                 defaults = saved.pop().ok_or_else(|| {

@@ -3,12 +3,12 @@
 use super::Job;
 use super::chosen::gathered;
 use super::status::push;
-use crate::language::args::{Args, Given};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
-use crate::language::source::Span;
+use crate::language::span::Span;
 use crate::language::spec::{Kind, OptionSpec, ValueSpec};
 use crate::language::units::{Dim, UnitSystem};
+use crate::language::values::{Args, Given};
 use crate::model::{Class, ClassError, Condition, Configuration, Connector, LineChange, Placement};
 use crate::report::format::number_in_full;
 use crate::table::{Cell, Digits, Table};
@@ -139,9 +139,9 @@ pub fn tabulate(
     let (unit, around) = (parameter.dim().label(job.units), job.model.surroundings());
     let place = job.model.placement(connector);
     if parameter.is_condition()
-        && let Some(other) = args.options.iter().find(|g| !std::ptr::eq(g.spec, vary.spec))
+        && let Some(other) = args.options.iter().find(|g| g.name != vary.name)
     {
-        let text = format!("{} cannot hold while the {} is varied", other.spec.name, parameter.name().to_lowercase());
+        let text = format!("{} cannot hold while the {} is varied", other.name, parameter.name().to_lowercase());
         return Err(Diagnostic::error(text, other.span).other(vary.span, "varied here"));
     }
     let mut table = empty(parameter, class, connector, &place, held);

@@ -3,11 +3,12 @@
 //! Source: reference/model.md, "Weights and loads".
 
 use super::{Call, Command, Effect, Job};
-use crate::language::args::Given;
 use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::functions::eight_figures;
-use crate::language::spec::{CommandSpec, Kind, Noun, OptionSpec, ValueSpec};
+use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use crate::language::units::eight_figures;
 use crate::language::units::{Dim, UnitSystem};
+use crate::language::values::Given;
+use crate::language::values::Noun;
 use crate::model::{Mass, Model, Weight, find};
 use nalgebra::{Matrix3, Vector3};
 
@@ -123,7 +124,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     for given in &call.args.options {
         let place = given.values.first().map_or(given.span, |v| v.span);
         let body = find(&job.model.bodies, given.word(0).unwrap_or_default(), "body", place)?.clone();
-        match given.spec.name {
+        match given.name {
             "-TOTAL" => {
                 let made = missing(job, given, &Mass::of(job.model.parts_of(&body), job.model.defaults.gravity))?;
                 if let [Some(x), Some(y), Some(z)] = [5, 6, 7].map(|i| given.number(i))

@@ -2,11 +2,11 @@
 
 use super::Job;
 use super::environment::{PERIODS, curve, formula, known_curve, number, periods, spectrum, text};
-use crate::language::args::Given;
 use crate::language::diagnostic::Outcome;
 use crate::language::select::Owner;
 use crate::language::spec::{Kind, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
+use crate::language::values::Given;
 use crate::model::{CurveKind, Environment, Formula, GustParts, Wind};
 
 /// Codes and laws of the mean wind; reference/model.md names no types, so these are the field's usual ones.
@@ -81,7 +81,7 @@ pub(super) const CORRELATION: OptionSpec = OptionSpec::new(
 
 /// Takes one of these options.
 pub(super) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<()> {
-    match given.spec.name {
+    match given.name {
         "-WIND" => {
             env.wind = given.number(0).zip(given.number(1)).map(|(speed, direction)| Wind { speed, direction });
         }

@@ -5,7 +5,7 @@ use super::sea_table::{chosen_environments, turn};
 use super::status::push;
 use crate::hydro::gusts::{DENSITY, Gusts};
 use crate::language::diagnostic::Outcome;
-use crate::language::source::Span;
+use crate::language::span::Span;
 use crate::language::units::Dim;
 use crate::model::Environment;
 use crate::table::{Digits, Table};

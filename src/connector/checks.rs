@@ -1,7 +1,7 @@
 //! Checks that several classes share.
 
-use crate::language::args::{Args, Given};
 use crate::language::diagnostic::{Diagnostic, Outcome};
+use crate::language::values::{Args, Given};
 use crate::model::{ClassError, ClassRecord, Connection, Connector};
 
 /// A P-Y curve: points (force N, deflection m) growing in both, as the seed asks.
@@ -16,25 +16,22 @@ pub fn py_curve(given: &Given) -> Outcome<Vec<(f64, f64)>> {
         if let Some((last_force, last_deflection)) = points.last() {
             if force <= *last_force {
                 return Err(Diagnostic::error(
-                    format!("the forces of {} must grow from point to point", given.spec.name),
+                    format!("the forces of {} must grow from point to point", given.name),
                     p.span,
                 )
                 .label("not larger than the one before"));
             }
             if deflection <= *last_deflection {
                 return Err(Diagnostic::error(
-                    format!("the deflections of {} must grow with the force", given.spec.name),
+                    format!("the deflections of {} must grow with the force", given.name),
                     y.span,
                 )
                 .label("not larger than the one before"));
             }
         }
         if (force == 0.0) != (deflection == 0.0) {
-            return Err(Diagnostic::error(
-                format!("{} begins at zero force and zero deflection", given.spec.name),
-                p.span,
-            )
-            .label("one of the two is zero alone"));
+            return Err(Diagnostic::error(format!("{} begins at zero force and zero deflection", given.name), p.span)
+                .label("one of the two is zero alone"));
         }
         points.push((force, deflection));
     }

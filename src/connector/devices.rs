@@ -12,7 +12,7 @@ use super::piston::{Does, Piston};
 use super::spring_law::Dashpot;
 use super::viscous::{Affine, Viscoelastic};
 use crate::language::diagnostic::Outcome;
-use crate::language::source::Span;
+use crate::language::span::Span;
 use crate::model::{
     ClassError, ClassRecord, Connection, Element, End, Guess, Response, Situation, SpringState, Summary,
 };

@@ -8,7 +8,7 @@ use super::zero_law::{Contact, Sense};
 use super::zero_length::{ZeroLength, element_turns};
 use super::{ClassKind, checks, options as o};
 use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::source::Span;
+use crate::language::span::Span;
 use crate::language::spec::{CommandSpec, Kind, ValueSpec};
 use crate::language::units::Dim;
 use crate::model::{ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Surroundings};

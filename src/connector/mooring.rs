@@ -7,7 +7,7 @@ use super::line_element::LineElement;
 use super::mooring_table::{buoy_word, report};
 use super::section::LineSection;
 use crate::language::diagnostic::Outcome;
-use crate::language::source::Span;
+use crate::language::span::Span;
 use crate::language::units::Dim;
 use crate::model::{
     ClassError, ClassRecord, Condition, Configuration, Element, LineChange, LineLoads, LineModel, Placement,

@@ -3,8 +3,9 @@
 //! Source: seeds 000/001; sizes in inches or mm, lengths in feet or metres, `bforce` the user's force.
 
 use crate::language::select::Owner;
-use crate::language::spec::{Kind, Noun, OptionSpec, ValueSpec};
+use crate::language::spec::{Kind, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
+use crate::language::values::Noun;
 
 const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(dim), help)

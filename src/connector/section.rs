@@ -6,11 +6,11 @@
 
 use super::checks;
 use super::line_types::{LineType, library};
-use crate::language::args::{Args, Given};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::{Owner, choose};
-use crate::language::source::Span;
+use crate::language::span::Span;
 use crate::language::units::{Dim, UnitSystem};
+use crate::language::values::{Args, Given};
 use crate::model::{ClassRecord, FatigueSegment, Surroundings};
 use crate::table::{Cell, Digits, Table};
 use std::f64::consts::FRAC_PI_4;
@@ -124,7 +124,7 @@ pub fn type_notices(args: &Args, units: UnitSystem) -> Vec<Diagnostic> {
     }
     let given: Vec<(&Given, &str)> =
         OVERRIDE.iter().filter_map(|(name, what)| args.option(name).map(|g| (g, *what))).collect();
-    let listed: Vec<String> = given.iter().map(|(g, what)| format!("{} ({what})", g.spec.name)).collect();
+    let listed: Vec<String> = given.iter().map(|(g, what)| format!("{} ({what})", g.name)).collect();
     if let Some(first) = given.iter().map(|(g, _)| g.span).min_by_key(|s| s.start) {
         let verb = if given.len() == 1 { "overrides" } else { "override" };
         notices.push(*Diagnostic::remark(format!("{} {verb} what {} gives", listed.join(", "), line_type.name), first));

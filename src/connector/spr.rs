@@ -6,7 +6,7 @@ use super::restraint::Restraining;
 use super::spring::restraints;
 use super::{ClassKind, options as o};
 use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::source::Span;
+use crate::language::span::Span;
 use crate::language::spec::CommandSpec;
 use crate::model::{ClassRecord, ConnectorClass};
 use std::sync::Arc;

@@ -67,7 +67,7 @@ impl BodyLoad for LinearHydrostatics {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::language::source::Span;
+    use crate::language::span::Span;
     use crate::model::Place;
 
     fn linear(off_diagonal: f64) -> LinearHydrostatics {

@@ -8,9 +8,11 @@ use super::logic;
 use super::number;
 use super::record::{Record, Word};
 use super::select::{self, Owner};
-use super::source::Span;
+use super::span::Span;
 use super::token::Kind;
+use super::units::eight_figures;
 use super::variables::Variables;
+use super::wildcard::matches;
 
 /// The functions answered here, without `&`.
 pub const NAMES: &[&str] = &["NUMBER", "FORMAT", "STRING", "TOKEN", "LOGICAL", "V_EXIST"];
@@ -56,13 +58,6 @@ pub fn call(
         },
         _ => return None,
     })
-}
-
-/// A number with at most eight significant figures and no more digits than it needs.
-pub fn eight_figures(value: f64) -> String {
-    // adding zero turns -0 into 0
-    let rounded: f64 = format!("{value:.7e}").parse().unwrap_or(value) + 0.0;
-    if rounded != 0.0 && !(1e-5..1e15).contains(&rounded.abs()) { format!("{rounded:E}") } else { format!("{rounded}") }
 }
 
 fn list(values: &[f64]) -> String {
@@ -293,7 +288,7 @@ pub fn exponent(value: f64, decimals: usize) -> String {
 fn string_function(words: &[Word], span: Span) -> Outcome<String> {
     match words {
         [action, a, b] if "MATCH".starts_with(&action.text.to_ascii_uppercase()) => {
-            Ok(logic::word(select::matches(&a.text, &b.text) || select::matches(&b.text, &a.text)).to_string())
+            Ok(logic::word(matches(&a.text, &b.text) || matches(&b.text, &a.text)).to_string())
         }
         _ => Err(Diagnostic::error("&STRING has the form &STRING(MATCH a b)", span)),
     }

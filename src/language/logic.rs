@@ -7,7 +7,7 @@
 
 use super::diagnostic::{Diagnostic, Outcome};
 use super::number;
-use super::source::Span;
+use super::span::Span;
 
 /// Deepest nesting of parentheses and `.NOT.`.
 const DEEPEST: usize = 64;

@@ -2,8 +2,8 @@
 //!
 //! Source: reference/language.md sections 1 and 11; MOSES takes 8 characters, we take 64.
 
-use super::diagnostic::{Diagnostic, Outcome};
-use super::source::Span;
+use super::diagnostic::{Diagnostic, Outcome, with_article};
+use super::span::Span;
 
 /// Longest name taken (characters, the marker included).
 pub const LONGEST: usize = 64;
@@ -16,12 +16,6 @@ pub const RULE: &str = "A name has 1 to 64 characters, a marker (~ class, * poin
 /// The marker a name begins with: that of a class, a point or a selector.
 pub fn marker(name: &str) -> Option<char> {
     name.chars().next().filter(|c| "~*:".contains(*c))
-}
-
-/// A noun with its article: `a curve`, `an environment`.
-pub fn with_article(noun: &str) -> String {
-    let article = if noun.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
-    format!("{article} {noun}")
 }
 
 /// Sees that a new name follows the [`RULE`]; `what` is what it is to name, `mark` the marker that has to be there.

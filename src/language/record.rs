@@ -1,6 +1,6 @@
 //! Records: one logical line of text, joined over continuation lines, in which every byte still knows its place.
 
-use super::source::{SourceId, Span};
+use super::span::{SourceId, Span};
 use super::token::{self, Kind};
 use std::ops::Range;
 use std::sync::Arc;

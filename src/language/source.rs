@@ -1,36 +1,8 @@
-//! Texts the program reads, and places in them. Every token keeps its [`Span`] through continuation, substitution,
-//! macros and insertions, so that a message can always show the file, line and column it speaks of.
+//! Texts the program reads: where a [`Span`] finds its file, line and column.
 
+use super::span::{SourceId, Span};
 use std::ops::Range;
 use std::sync::Arc;
-
-/// Identifies one text: a file, a command-line record, a line typed at the terminal.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
-pub struct SourceId(u32);
-
-/// A byte range of one source.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub struct Span {
-    /// Which text.
-    pub source: SourceId,
-    /// First byte.
-    pub start: u32,
-    /// One past the last byte.
-    pub end: u32,
-}
-
-impl Span {
-    /// A span of a source; byte offsets past 4 GiB are pinned to the end.
-    pub fn new(source: SourceId, start: usize, end: usize) -> Self {
-        let pin = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
-        Span { source, start: pin(start), end: pin(end.max(start)) }
-    }
-
-    /// The span from the start of this one to the end of `other` (same source), else this one.
-    pub fn to(self, other: Span) -> Span {
-        if self.source == other.source && other.end >= self.start { Span { end: other.end, ..self } } else { self }
-    }
-}
 
 /// A text as it was read. A byte that has no place in records (NUL, or one that is not UTF-8) stands in it as NUL, so
 /// that every byte keeps its offset.
@@ -112,7 +84,7 @@ pub struct Sources {
 impl Sources {
     /// Registers a text.
     pub fn add(&mut self, name: impl Into<String>, text: impl Into<Text>, first_line: usize) -> SourceId {
-        let id = SourceId(u32::try_from(self.list.len()).unwrap_or(u32::MAX));
+        let id = SourceId::new(self.list.len());
         let Text { text, raw } = text.into();
         self.list.push(Source { name: name.into(), text, raw, first_line });
         id
@@ -120,7 +92,7 @@ impl Sources {
 
     /// The source of an id.
     pub fn get(&self, id: SourceId) -> Option<&Source> {
-        self.list.get(id.0 as usize)
+        self.list.get(id.index())
     }
 
     /// Line (from the source's first line) and column (from 1, in characters) of the start of a span.

@@ -3,39 +3,7 @@
 
 use super::select::Owner;
 use super::units::{Dim, UnitSystem};
-
-/// What a name refers to; drives completion and the wording of errors.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Noun {
-    /// A class, `~NAME`.
-    Class,
-    /// A point, `*NAME`.
-    Point,
-    /// A body.
-    Body,
-    /// A part.
-    Part,
-    /// A connector.
-    Connector,
-    /// A connector, or a pipe, `&PIPE`.
-    Line,
-    /// A curve.
-    Curve,
-    /// An environment.
-    Environment,
-    /// A selector, `:NAME`, or a name that may hold wild characters.
-    Selector,
-    /// A macro.
-    Macro,
-    /// A bottom over a grid.
-    Bathymetry,
-    /// What pipes hold, kept under a name.
-    Filling,
-    /// A line type of the library.
-    LineType,
-    /// A new name, not to be looked up.
-    New,
-}
+use super::values::Noun;
 
 /// What a value is.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -7,7 +7,7 @@ use super::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use super::functions;
 use super::record::{LONGEST_RECORD, Record, Word};
 use super::select::{self, Choice, Owner};
-use super::source::Span;
+use super::span::Span;
 use super::variables::Variables;
 
 /// Deepest nesting of functions within functions.

@@ -352,6 +352,13 @@ fn derived(units: [(&str, i8); 3]) -> String {
     }
 }
 
+/// A number with at most eight significant figures and no more digits than it needs.
+pub fn eight_figures(value: f64) -> String {
+    // adding zero turns -0 into 0
+    let rounded: f64 = format!("{value:.7e}").parse().unwrap_or(value) + 0.0;
+    if rounded != 0.0 && !(1e-5..1e15).contains(&rounded.abs()) { format!("{rounded:E}") } else { format!("{rounded}") }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,6 +1,6 @@
 //! What surrounds a line that feels water, wind and bottom all along itself.
 
-use crate::language::source::Span;
+use crate::language::span::Span;
 use nalgebra::Vector3;
 use std::fmt::Debug;
 

@@ -1,7 +1,7 @@
 //! Assemblies: connectors of a single node whose other ends an assembly takes care of.
 
 use super::{Ambient, Body, ClassError, Connection, Connector, Element, LineDuty, Model, Place, Pose, Surroundings};
-use crate::language::source::Span;
+use crate::language::span::Span;
 use indexmap::IndexMap;
 use nalgebra::Vector3;
 use std::sync::Arc;

@@ -8,7 +8,7 @@
 //! Guide to Splines, chapter IV).
 
 use super::ClassError;
-use crate::language::source::Span;
+use crate::language::span::Span;
 use crate::language::units::Dim;
 
 /// The most points of a grid: 32 bytes each, 128 MB together.

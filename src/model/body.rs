@@ -4,7 +4,7 @@ use super::database::AttachedDatabase;
 use super::geometry::{Place, Position};
 use super::hull::{LinearHydrostatics, Piece};
 use super::prescribed::Prescription;
-use crate::language::source::Span;
+use crate::language::span::Span;
 use nalgebra::{Matrix3, Vector3};
 
 /// The part that points outside of any body belong to: fixed in the global system.

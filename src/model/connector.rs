@@ -3,7 +3,7 @@
 use super::geometry::Position;
 use super::pose::Pose;
 use super::tether::TetherEnds;
-use crate::language::source::Span;
+use crate::language::span::Span;
 
 /// Where the far end of a line to ground lies.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,6 +1,6 @@
 //! Curves of `&DATA CURVES`: pairs of numbers under a name.
 
-use crate::language::source::Span;
+use crate::language::span::Span;
 use crate::language::units::Dim;
 
 /// What a curve describes.

@@ -1,6 +1,6 @@
 //! What a hydrodynamic database holds of one body: data only; the physics is in `hydro::database`.
 
-use crate::language::source::Span;
+use crate::language::span::Span;
 use nalgebra::{Complex, Matrix6, Vector3};
 use std::sync::Arc;
 

@@ -2,9 +2,9 @@
 //!
 //! Source: reference/model.md, "Environment". Directions are where wind, sea and current come from, from +X toward +Y.
 
-use crate::language::args::Given;
-use crate::language::source::Span;
-use crate::language::spec::Noun;
+use crate::language::span::Span;
+use crate::language::values::Given;
+use crate::language::values::Noun;
 
 /// A sea: spectrum or regular wave.
 #[derive(Clone, Debug, PartialEq)]
@@ -209,7 +209,7 @@ impl Environment {
             _ => &[],
         };
         let seas = [&self.sea, &self.added_sea].into_iter().flatten().map(|s| s.spectrum.as_str());
-        let gusts = self.options.iter().filter(|g| g.spec.name == "-W_SPECTRUM").filter_map(|g| g.word(0));
+        let gusts = self.options.iter().filter(|g| g.name == "-W_SPECTRUM").filter_map(|g| g.word(0));
         let named = self.options.iter().flat_map(|g| g.named(Noun::Curve)).filter_map(|v| v.word()).chain(gusts);
         Box::new(profiles.iter().map(|(name, _)| name.as_str()).chain(seas).chain(named))
     }

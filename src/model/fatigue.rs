@@ -2,7 +2,7 @@
 //! segments. The curves that windlass ships are not here: they belong to the post floor.
 
 use super::Model;
-use crate::language::source::Span;
+use crate::language::span::Span;
 use indexmap::IndexMap;
 use std::f64::consts::FRAC_PI_4;
 

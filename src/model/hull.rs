@@ -1,8 +1,8 @@
 //! What makes a body float: pieces of its parts, each a closed surface, or one linear stiffness.
 
 use super::geometry::{Place, Position};
-use crate::language::args::Given;
-use crate::language::source::Span;
+use crate::language::span::Span;
+use crate::language::values::Given;
 use nalgebra::{Matrix6, Vector3};
 
 /// The form of a piece, in the system of its part (m).

@@ -4,7 +4,7 @@
 //! forces.
 
 use super::geometry::Position;
-use crate::language::source::Span;
+use crate::language::span::Span;
 use indexmap::IndexMap;
 use nalgebra::Matrix6;
 

@@ -55,7 +55,7 @@ pub use selector::Selector;
 pub use tether::{TetherConstraint, TetherEnds, TetherHold, TetherSection, TetherUse};
 
 use crate::language::diagnostic::{Diagnostic, Outcome, did_you_mean};
-use crate::language::source::Span;
+use crate::language::span::Span;
 use indexmap::IndexMap;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};

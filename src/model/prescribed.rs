@@ -1,6 +1,6 @@
 //! Motions that bodies are given, instead of what forces would make them do.
 
-use crate::language::source::Span;
+use crate::language::span::Span;
 use std::sync::Arc;
 
 /// The motion of a body that is given.

@@ -4,8 +4,8 @@
 //! exception.
 
 use super::Model;
-use crate::language::select::matches;
-use crate::language::source::Span;
+use crate::language::span::Span;
+use crate::language::wildcard::matches;
 
 /// A selector of `&SELECT`.
 #[derive(Clone, Debug, PartialEq, Default)]

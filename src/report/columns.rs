@@ -5,7 +5,7 @@
 //! of no column is an error.
 
 use crate::language::diagnostic::did_you_mean;
-use crate::language::select::matches;
+use crate::language::wildcard::matches;
 use crate::table::{Column, Table};
 
 /// A selector that names nothing.

@@ -4,7 +4,8 @@ use super::Session;
 use crate::aqwa::{self, Deck, Records};
 use crate::command::{PLAIN, SCRIPT};
 use crate::language::diagnostic::{Diagnostic, Severity};
-use crate::language::source::{Span, Text};
+use crate::language::source::Text;
+use crate::language::span::Span;
 use crate::report::page;
 use std::path::Path;
 

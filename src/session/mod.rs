@@ -11,16 +11,19 @@ pub use reading::{read_all, read_text};
 use self::named::{in_menu, unknown};
 use crate::aqwa;
 use crate::command::{self, Call, Command, Effect, INMODEL_FILE, Job, Menu, PLAIN, SCRIPT, offered};
-use crate::language::args::{self, Args};
+use crate::language::args;
 use crate::language::diagnostic::{Diagnostic, Outcome, Severity};
 use crate::language::flow::macros::{self, Macro};
 use crate::language::flow::specs::CONTROL;
 use crate::language::flow::{Interpreter, Step};
 use crate::language::record::{Record, Word};
+use crate::language::render::render;
 use crate::language::select::{Choice, keyword};
-use crate::language::source::{Span, Text};
+use crate::language::source::Text;
+use crate::language::span::Span;
 use crate::language::spec::Form;
 use crate::language::token::Kind;
+use crate::language::values::Args;
 use crate::report::output::Output;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -182,8 +185,8 @@ impl Session {
         }
         self.job.last_severity = Some(diagnostic.severity);
         let sources = &self.interpreter.sources;
-        let plain = diagnostic.render(sources, false);
-        let coloured = if self.job.output.colour { diagnostic.render(sources, true) } else { String::new() };
+        let plain = render(&diagnostic, sources, false);
+        let coloured = if self.job.output.colour { render(&diagnostic, sources, true) } else { String::new() };
         self.job.output.message(&coloured, &plain);
         if self.keep_reports {
             self.reports.push(diagnostic);

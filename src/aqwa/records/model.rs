@@ -6,7 +6,7 @@ use crate::aqwa::elements::{Element, Shape, Structure};
 use crate::aqwa::hydrostatics::{Hydrostatics, SixBySix};
 use crate::aqwa::mass::MassProperties;
 use crate::language::diagnostic::Diagnostic;
-use crate::language::source::Span;
+use crate::language::span::Span;
 use nalgebra::Matrix6;
 
 /// Friction along a tube: fixed in AQWA (reference/aqwa-cards.md, "TUBE").

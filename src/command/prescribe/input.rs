@@ -3,7 +3,7 @@
 use super::super::Job;
 use super::super::number_rows::{Row, rows};
 use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::source::Span;
+use crate::language::span::Span;
 use crate::language::units::Dim;
 use crate::model::{PathRow, ResponseRow, Responses};
 use std::f64::consts::TAU;

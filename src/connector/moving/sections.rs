@@ -3,11 +3,11 @@
 use super::describe::{Description, Hold, JointMass, Part, Seabed, Strength};
 use crate::connector::checks;
 use crate::connector::section::LineSection;
-use crate::language::args::Args;
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
 use crate::language::spec::{Kind, OptionSpec, ValueSpec};
 use crate::language::units::Dim;
+use crate::language::values::Args;
 use crate::model::{ClassError, ClassRecord, Surroundings};
 use crate::rod::{Axial, Segment, Tube, Viscoelastic};
 use std::f64::consts::{FRAC_PI_4, PI};
@@ -329,7 +329,7 @@ pub fn seabed(records: &[ClassRecord]) -> Outcome<Seabed> {
 pub fn holds(records: &[ClassRecord], flexures: &[Flexure]) -> Outcome<[Option<Hold>; 2]> {
     let mut made = [None, None];
     let bends = [flexures.first(), flexures.last()].map(|f| f.is_some_and(|f| f.bending > 0.0));
-    for given in records.iter().flat_map(|r| r.args.options.iter()).filter(|g| g.spec.name == "-CLAMP") {
+    for given in records.iter().flat_map(|r| r.args.options.iter()).filter(|g| g.name == "-CLAMP") {
         let word = given.word(0).unwrap_or_default();
         let hold = Hold { declination: given.number(1), stiffness: given.number(2) };
         if let (Some(value), true) = (given.values.get(1), hold.declination.is_some_and(|d| !(0.0..=PI).contains(&d))) {

@@ -1,5 +1,5 @@
 use super::*;
-use crate::language::source::Span;
+use crate::language::span::Span;
 use crate::model::{
     Components, Current, Curve, CurveKind, Division, Environment, Filling, Formula, Phasing, Stretching, Wind,
 };

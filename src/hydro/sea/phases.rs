@@ -17,7 +17,7 @@ pub fn one_each(env: &Environment, components: &[Component]) -> Result<(), Class
     let text = format!("-PHASES has {} phases for {} wave components", env.sea_phases.len(), components.len());
     let error = ClassError::new(text)
         .help("one each, in the order of &STATUS SEA_SPECTRUM; -COMPONENTS says how many there are");
-    let given = env.options.iter().find(|option| option.spec.name == "-PHASES");
+    let given = env.options.iter().find(|option| option.name == "-PHASES");
     Err(match given {
         Some(option) => error.at(option.span),
         None => error,

@@ -1,15 +1,15 @@
 //! The words of a record or an option as values: how many are taken, whether they fit, the conversion to SI.
 
-use super::{Content, Value};
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::name;
 use crate::language::number;
 use crate::language::record::Word;
 use crate::language::select::{self, Owner};
-use crate::language::source::Span;
-use crate::language::spec::{Kind, Need, Noun, OptionSpec, Range, ValueSpec, expected};
+use crate::language::span::Span;
+use crate::language::spec::{Kind, Need, OptionSpec, Range, ValueSpec, expected};
 use crate::language::token::{Kind as Lex, is_numeric};
 use crate::language::units::{Dim, UnitSystem};
+use crate::language::values::{Content, Noun, Value};
 use std::sync::Arc;
 
 /// The words that belong to an option: a required value takes whatever stands there, an optional or repeated one only
@@ -87,7 +87,7 @@ pub(super) fn convert(
             && !fits(spec.kind, word)
             && spec_at(values.len() + 1).is_some_and(|next| fits(next.kind, word))
         {
-            values.push(Value { content: Content::Empty, span: word.span });
+            values.push(Value::empty(word.span));
         }
         let Some(spec) = spec_at(values.len()) else {
             return Err(Diagnostic::error(format!("{owner} takes no further value"), word.span)
@@ -129,7 +129,7 @@ fn one(
             return Err(Diagnostic::error(format!("{} of {owner} may not be left out", spec.name), span)
                 .label(format!("expected {}", expected(spec.kind, units))));
         }
-        return Ok(Value { content: Content::Empty, span });
+        return Ok(Value::empty(span));
     }
     let angular = before
         .iter()
@@ -139,19 +139,19 @@ fn one(
             _ => None,
         })
         .unwrap_or(false);
+    let dim = match spec.kind {
+        Kind::Number(dim) => dim,
+        Kind::StiffnessOfDof if angular => Dim::MomentPerRadian,
+        Kind::StiffnessOfDof => Dim::ForcePerLength,
+        Kind::ForceOfDof if angular => Dim::Moment,
+        Kind::ForceOfDof => Dim::Force,
+        Kind::DampingCoefficient => Dim::Damping(after.and_then(|w| number::evaluate(&w.text).ok()).unwrap_or(1.0)),
+        _ => Dim::None,
+    };
+    let noun = if let Kind::Name(noun) = spec.kind { Some(noun) } else { None };
     let content = match spec.kind {
-        Kind::Number(dim) => Content::Number(number_in(spec, word, owner, dim, units)?),
-        Kind::StiffnessOfDof => {
-            let dim = if angular { Dim::MomentPerRadian } else { Dim::ForcePerLength };
+        Kind::Number(_) | Kind::StiffnessOfDof | Kind::ForceOfDof | Kind::DampingCoefficient => {
             Content::Number(number_in(spec, word, owner, dim, units)?)
-        }
-        Kind::ForceOfDof => {
-            let dim = if angular { Dim::Moment } else { Dim::Force };
-            Content::Number(number_in(spec, word, owner, dim, units)?)
-        }
-        Kind::DampingCoefficient => {
-            let exponent = after.and_then(|w| number::evaluate(&w.text).ok()).unwrap_or(1.0);
-            Content::Number(number_in(spec, word, owner, Dim::Damping(exponent), units)?)
         }
         Kind::Integer => {
             let value = number_in(spec, word, owner, Dim::None, units)?;
@@ -172,7 +172,7 @@ fn one(
         }
         Kind::ChoiceOrName(..) | Kind::Text | Kind::File => Content::Word(word.text.clone()),
     };
-    Ok(Value { content, span })
+    Ok(Value { content, dim, noun, span })
 }
 
 /// Whether a word can be a name of this sort.

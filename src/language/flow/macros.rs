@@ -5,7 +5,7 @@
 use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::record::{Record, Word};
 use crate::language::select::{self, Choice, Owner};
-use crate::language::source::Span;
+use crate::language::span::Span;
 use crate::language::token::Kind;
 use std::sync::Arc;
 
