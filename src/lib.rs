@@ -17,5 +17,4 @@ pub mod report;
 pub mod rod;
 pub mod session;
 pub mod solve;
-pub mod table;
 pub mod tether;

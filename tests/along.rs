@@ -12,7 +12,7 @@ use run::{Quiet, model, settings};
 use windlass::solve::results::along::{Line, Where, envelope, histories, lines_at_rest, touchdown};
 use windlass::solve::results::events;
 use windlass::solve::time::{Ending, Run, Settings, Snapshot, Watcher};
-use windlass::table::Table;
+use windlass_base::table::Table;
 
 const DEPTH: f64 = 100.0;
 

@@ -4,8 +4,8 @@
 
 mod common;
 
-use windlass::language::units::{FOOT, KIP};
 use windlass::model::{Connector, LineLoads, Model};
+use windlass_base::units::{FOOT, KIP};
 
 /// What records leave: the model, what they print, the messages and their help.
 struct Left {

@@ -9,11 +9,11 @@ use windlass::connector::CLASSES;
 use windlass::language::flow::specs::CONTROL;
 use windlass::language::record;
 use windlass::language::select::{Choice, Owner, keyword};
-use windlass::language::span::SourceId;
 use windlass::language::spec::{CommandSpec, Opens};
 use windlass::report::files::JobFolder;
 use windlass::report::output::Output;
 use windlass::session::Session;
+use windlass_base::span::SourceId;
 
 const MENUS: [&str; 18] = [
     "MAIN",

@@ -13,7 +13,9 @@ use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 use windlass::hydro::sea::Sea;
 use windlass::hydro::{BodyLoad, Category, Floating, Underway};
-use windlass::model::{Model, Place, Pose, Six};
+use windlass::model::Model;
+use windlass_base::geometry::Place;
+use windlass_base::pose::{Pose, Six};
 
 /// A body with records on points of it, in an environment; metres and newtons.
 fn body(records: &str, environment: &str) -> Model {

@@ -4,10 +4,10 @@
 
 mod common;
 
-use windlass::language::span::Span;
 use windlass::model::{Model, Weight};
 use windlass::session::Session;
 use windlass::solve::{Options, SolveError, System, modes, settle};
+use windlass_base::span::Span;
 
 /// The model that records make, in metres and newtons; each `weights` is one of the body's own part.
 fn model(records: &str, weights: &[(&str, [f64; 3], f64, [f64; 3])]) -> Model {
@@ -15,7 +15,7 @@ fn model(records: &str, weights: &[(&str, [f64; 3], f64, [f64; 3])]) -> Model {
     session.open("records", format!("&DIMEN -DIMEN METERS N\n{records}\n"));
     session.run();
     assert!(
-        session.reports.iter().all(|r| r.severity != windlass::language::diagnostic::Severity::Error),
+        session.reports.iter().all(|r| r.severity != windlass_base::diagnostic::Severity::Error),
         "{}",
         screen.text()
     );
@@ -86,7 +86,7 @@ fn the_stiffness_of_the_system_is_the_difference_of_its_forces() {
     let scale = stiffness.amax();
     for column in 0..12 {
         let mut sides = [1.0, -1.0].map(|sign| {
-            let mut motion = windlass::model::Six::zeros();
+            let mut motion = windlass_base::pose::Six::zeros();
             motion[column % 6] = sign * 1e-5;
             state.poses = start.clone();
             state.poses[column / 6] = start[column / 6].moved(&motion);
@@ -123,7 +123,7 @@ fn the_stiffness_of_a_body_whose_junctions_follow_is_the_difference_of_its_force
     let start = rest.state.poses.clone();
     for column in 0..6 {
         let sides = [1.0, -1.0].map(|sign| {
-            let mut motion = windlass::model::Six::zeros();
+            let mut motion = windlass_base::pose::Six::zeros();
             motion[column] = sign * 1e-4;
             let mut state = rest.system.state(&model);
             state.poses = start.clone();

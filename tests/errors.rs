@@ -7,10 +7,10 @@
 use libtest_mimic::{Arguments, Failed, Trial};
 use std::fs;
 use std::path::{Path, PathBuf};
-use windlass::language::diagnostic::Severity;
 use windlass::report::files::JobFolder;
 use windlass::report::output::Output;
 use windlass::session::Session;
+use windlass_base::diagnostic::Severity;
 
 fn main() {
     let arguments = Arguments::from_args();

@@ -6,14 +6,15 @@ mod common;
 
 use std::f64::consts::{FRAC_PI_4, TAU};
 use windlass::connector::catenary::{Line, Segment};
-use windlass::language::span::Span;
-use windlass::model::{Model, Pose, Six, Weight};
+use windlass::model::{Model, Weight};
 use windlass::session::Session;
 use windlass::solve::excursion::{End, Path, Walk, resolved};
 use windlass::solve::offset::{Connectors, Pull};
 use windlass::solve::watch::{Watched, watch};
 use windlass::solve::{SolveError, System};
-use windlass::table::Table;
+use windlass_base::pose::{Pose, Six};
+use windlass_base::span::Span;
+use windlass_base::table::Table;
 
 /// The session that has run records, in metres and newtons.
 fn ran(records: &str) -> Session {

@@ -5,8 +5,10 @@
 mod common;
 
 use std::fmt::Write;
-use windlass::model::{Model, Place, Pose};
+use windlass::model::Model;
 use windlass::solve::{Options, System, equilibrium};
+use windlass_base::geometry::Place;
+use windlass_base::pose::Pose;
 
 fn model(records: &str) -> Model {
     let (mut session, screen, _folder) = common::session();

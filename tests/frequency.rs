@@ -9,12 +9,12 @@ use nalgebra::{Complex, Matrix6};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 use windlass::hydro::database::{Database, DriftTable};
-use windlass::language::span::Span;
 use windlass::model::{AttachedDatabase, DriftMethod, Model};
 use windlass::session::Session;
 use windlass::solve::frequency::{
     Asked, Derivative, Extreme, Linear, Operators, Quantity, Statistics, Trains, in_sea, natural, respond,
 };
+use windlass_base::span::Span;
 
 const G: f64 = 9.80665;
 

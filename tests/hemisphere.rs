@@ -12,7 +12,8 @@ use windlass::hydro::database::radiation::Radiation;
 use windlass::hydro::database::slow_drift::SlowDrift;
 use windlass::hydro::database::{Database, DriftTable, Qtf, capytaine};
 use windlass::hydro::sea::{Component, Sea, Water};
-use windlass::model::{Six, Stretching};
+use windlass::model::Stretching;
+use windlass_base::pose::Six;
 
 const RADIUS: f64 = 10.0;
 

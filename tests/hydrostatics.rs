@@ -9,7 +9,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use windlass::hydro::hull::{
     Fault, HullError, Hydrostatics, MeshKind, Solid, Surface, Tube, Wet, intersect, read_mesh,
 };
-use windlass::model::{Place, Pose, Six};
+use windlass_base::geometry::Place;
+use windlass_base::pose::{Pose, Six};
 
 const WATER: f64 = 1025.0 * 9.81;
 

@@ -11,15 +11,15 @@ use std::sync::Arc;
 use windlass::hydro::Floating;
 use windlass::hydro::database::Database;
 use windlass::hydro::sea::{Component, Sea, Water};
-use windlass::language::span::Span;
-use windlass::model::{
-    AttachedDatabase, Body, DriftMethod, LinearHydrostatics, Model, Part, Place, Pose, Six, Stretching, Weight,
-};
+use windlass::model::{AttachedDatabase, Body, DriftMethod, LinearHydrostatics, Model, Part, Stretching, Weight};
 use windlass::tether::Line;
 use windlass::tether::compatibility::Compatibility;
 use windlass::tether::installed::{Course, EndSprings, History, Installation, InstalledTether, Keep};
 use windlass::tether::structure::afloat::Afloat;
 use windlass::tether::structure::flow::{Flow, Waves};
+use windlass_base::geometry::Place;
+use windlass_base::pose::{Pose, Six};
+use windlass_base::span::Span;
 
 const MASS: f64 = 4e7;
 const ADDED: f64 = 2e7;

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use windlass::hydro::Underway;
 use windlass::hydro::current::CurrentField;
 use windlass::hydro::sea::{Component, Sea, Water};
-use windlass::model::{ClassError, Pose, Six, Stretching};
+use windlass::model::{ClassError, Stretching};
 use windlass::tether::Line;
 use windlass::tether::compatibility::Compatibility;
 use windlass::tether::installed::description::Description;
@@ -20,6 +20,7 @@ use windlass::tether::installed::{
 use windlass::tether::structure::flow::{Flow, FlowAt, Waves};
 use windlass::tether::structure::wave::DeepWave;
 use windlass::tether::structure::{Forces, Structure};
+use windlass_base::pose::{Pose, Six};
 
 const NATIVE: Compatibility = Compatibility::native();
 

@@ -8,10 +8,10 @@
 
 mod common;
 
-use windlass::language::diagnostic::Severity;
 use windlass::model::{End, Model, Situation};
 use windlass::session::Session;
 use windlass::solve::{Options, settle};
+use windlass_base::diagnostic::Severity;
 
 /// AE of 100 mm of the default steel (N).
 const EA: f64 = 29000.0 * 6894757.293168361 * std::f64::consts::FRAC_PI_4 * 0.01;
@@ -148,7 +148,7 @@ fn vertical_turns_the_body_to_hang_with_its_centre_below_the_hook() {
     near(roll, 0.0, 1e-9);
     // (2, 0, 21) from the centre to the hook is turned upright
     near(pitch, -(2.0_f64 / 21.0).atan(), 1e-9);
-    let centre = windlass::model::Place::new([x, y, z, roll, pitch, 0.0]).apply([0.0, 0.0, -2.0]);
+    let centre = windlass_base::geometry::Place::new([x, y, z, roll, pitch, 0.0]).apply([0.0, 0.0, -2.0]);
     for (got, want) in centre.iter().zip([3.0, 5.0, 50.0 - (4.0_f64 + 441.0).sqrt()]) {
         near(*got, want, 1e-8);
     }

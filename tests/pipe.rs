@@ -4,9 +4,10 @@
 
 mod common;
 
-use windlass::language::diagnostic::Severity;
-use windlass::model::{Element, End, LineDuty, Model, PIPE, Pose, Response, Situation, Six};
+use windlass::model::{Element, End, LineDuty, Model, PIPE, Response, Situation};
 use windlass::session::Session;
+use windlass_base::diagnostic::Severity;
+use windlass_base::pose::{Pose, Six};
 
 fn model(records: &str) -> Model {
     let (mut session, _screen, _folder): (Session, _, _) = common::session();

@@ -5,8 +5,9 @@
 mod common;
 
 use nalgebra::Vector3;
-use windlass::model::{Element, End, Pose, Response, Situation, Six, Summary, TimeStep};
+use windlass::model::{Element, End, Response, Situation, Summary, TimeStep};
 use windlass::session::Session;
+use windlass_base::pose::{Pose, Six};
 
 /// A line between *A of body ONE at the origin and another end.
 struct Rig {

@@ -14,8 +14,9 @@ use std::f64::consts::{PI, TAU};
 use std::fmt::Write;
 use std::sync::Arc;
 use windlass::hydro::sea::{Component, Sea, Water};
-use windlass::model::{Model, Pose, Six, Stretching};
+use windlass::model::{Model, Stretching};
 use windlass::solve::time::{Action, Ending, Motion, Prescribed, Run, Settings, What, When, prescribed};
+use windlass_base::pose::{Pose, Six};
 
 /// A model with a body B and a file in the job's folder; the text of what was said.
 fn session(file: &str, records: &str) -> (Model, i64, String) {
@@ -138,7 +139,7 @@ fn responses_lag_turn_with_the_body_and_are_mirrored() {
     let now = at(beam.as_ref(), 1.7);
     let swing = 1.5 * (w * 1.7).cos();
     assert!((now.pose.origin + Vector3::x() * swing).norm() < 1e-12, "{}", now.pose.origin);
-    let place = |roll: f64| Pose::of(&windlass::model::Place::new([0.0, 0.0, 0.0, roll, 0.0, PI / 2.0])).axes;
+    let place = |roll: f64| Pose::of(&windlass_base::geometry::Place::new([0.0, 0.0, 0.0, roll, 0.0, PI / 2.0])).axes;
     assert!((now.pose.axes - place(-(3.0 * swing).to_radians())).norm() < 1e-12);
     // from the other side all of it is the other way
     let other = motion(&file, record, Some(&sea(&[(w, 1.5, PI, 0.0)], 0.0)));

@@ -15,7 +15,7 @@ use windlass::post::line::working_stress::DesignCase;
 use windlass::solve::results::along::{Code, Line, check, lines_at_rest};
 use windlass::solve::results::events;
 use windlass::solve::time::Run;
-use windlass::table::Table;
+use windlass_base::table::Table;
 
 fn column(table: &Table, name: &str) -> Vec<f64> {
     table.get(name).unwrap_or_else(|| panic!("{name}")).numbers()

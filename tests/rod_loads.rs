@@ -7,7 +7,8 @@ mod common;
 
 use nalgebra::Vector3;
 use windlass::hydro::ambient;
-use windlass::model::{Element, End, LineNode, Response, Situation, Six, TimeStep};
+use windlass::model::{Element, End, LineNode, Response, Situation, TimeStep};
+use windlass_base::pose::Six;
 
 /// A line of a class between two points in the ground 100 m apart, 50 m below the surface along X or, `dry`, 10 m above it.
 struct Held {
@@ -28,7 +29,7 @@ fn held(class: &str, environment: &str, (z, dynamics): (f64, bool)) -> Held {
     let model = &session.job.model;
     let connector = model.connectors.values().next().unwrap();
     let element = model.element_in(connector, Some(&ambient(model, None).unwrap())).unwrap();
-    let ends = [0.0, 100.0].map(|x| End::still(windlass::model::Pose::at([x, 0.0, z])));
+    let ends = [0.0, 100.0].map(|x| End::still(windlass_base::pose::Pose::at([x, 0.0, z])));
     Held { element, ends, around: model.surroundings() }
 }
 

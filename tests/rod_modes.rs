@@ -8,7 +8,7 @@ mod common;
 use std::f64::consts::{FRAC_PI_4, PI};
 use windlass::session::Session;
 use windlass::solve::results::along::natural_modes;
-use windlass::table::Table;
+use windlass_base::table::Table;
 
 const GRAVITY: f64 = 9.80665;
 

@@ -17,7 +17,7 @@ use windlass::model::Model;
 use windlass::solve::System;
 use windlass::solve::results::along::lines_at_rest;
 use windlass::solve::time::{Run, Settings};
-use windlass::table::Table;
+use windlass_base::table::Table;
 
 /// Force of a connector on the first body it is fixed to, at rest where its ends stand (N).
 fn pull(model: &Model, name: &str) -> [f64; 3] {

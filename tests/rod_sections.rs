@@ -18,7 +18,7 @@ use windlass::post::line::lrfd::Factors;
 use windlass::solve::System;
 use windlass::solve::results::along::{Code, Line, check, envelope, fatigue_along, lines_at_rest, shape};
 use windlass::solve::results::events;
-use windlass::table::Table;
+use windlass_base::table::Table;
 
 const RHO: f64 = 1025.0;
 const G: f64 = 9.80665;

@@ -73,7 +73,7 @@ fn wind(model: &Model) -> (Vector3<f64>, Vector3<f64>) {
     let outer = system.nodes.iter().position(|n| n.name == "OUTER").unwrap();
     let list = system.contributions(&system.state(model).poses).unwrap();
     let own = list.iter().filter(|c| c.body == outer && c.category.name() == "WIND");
-    let total: windlass::model::Six = own.map(|c| c.load.wrench / 1e3).sum();
+    let total: windlass_base::pose::Six = own.map(|c| c.load.wrench / 1e3).sum();
     (total.fixed_rows::<3>(0).into_owned(), total.fixed_rows::<3>(3).into_owned())
 }
 

@@ -4,7 +4,7 @@
 
 use std::f64::consts::{FRAC_PI_4, TAU};
 use windlass::connector::catenary::{Bottom, Joint, Line, Segment};
-use windlass::language::units::{FOOT, KIP};
+use windlass_base::units::{FOOT, KIP};
 
 /// Steps of the path.
 pub const STEPS: usize = 100;

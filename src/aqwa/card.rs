@@ -7,7 +7,7 @@
 //! Source: seed 003, Appendices A and B; reference/aqwa-cards.md, section 1.
 
 use crate::language::source::Source;
-use crate::language::span::{SourceId, Span};
+use windlass_base::span::{SourceId, Span};
 
 /// Last column of a card; what stands further right is not read.
 pub const WIDTH: usize = 80;

@@ -10,8 +10,8 @@ use super::placed;
 use super::remarks::Remarks;
 use super::tethers::Tether;
 use super::waves::Waves;
-use crate::language::diagnostic::Diagnostic;
-use crate::language::span::Span;
+use windlass_base::diagnostic::Diagnostic;
+use windlass_base::span::Span;
 
 /// Checks a deck as a whole; decks that belong to stages before the first one are not asked for.
 pub fn check(deck: &Deck, remarks: &mut Remarks) {

@@ -9,8 +9,8 @@
 use super::card::{integer, real};
 use super::layout::{Layout, Record};
 use super::remarks::Remarks;
-use crate::language::diagnostic::Diagnostic;
-use crate::language::span::Span;
+use windlass_base::diagnostic::Diagnostic;
+use windlass_base::span::Span;
 
 /// Most elements of a deck.
 pub const MOST_ELEMENTS: usize = 60_000;

@@ -5,8 +5,8 @@
 use super::card::Field;
 use super::remarks::Remarks;
 use super::tethers::Tether;
-use crate::language::diagnostic::Diagnostic;
-use crate::language::span::Span;
+use windlass_base::diagnostic::Diagnostic;
+use windlass_base::span::Span;
 
 /// Stiffness of an end spring that is not given (A.2).
 pub const STIFF: f64 = 1.0e15;

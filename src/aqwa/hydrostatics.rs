@@ -6,8 +6,8 @@ use super::card::Field;
 use super::layout::{Layout, Record, Slot, int, num};
 use super::remarks::Remarks;
 use super::surroundings::Flow;
-use crate::language::diagnostic::Diagnostic;
-use crate::language::span::Span;
+use windlass_base::diagnostic::Diagnostic;
+use windlass_base::span::Span;
 
 const DATABASE: &str = "coefficients over frequency are not read from a deck; \
                         take them from a hydrodynamic database of the model instead";

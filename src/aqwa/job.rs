@@ -5,8 +5,8 @@
 use super::card::{Line, integer};
 use super::reader::Reader;
 use super::remarks::Remarks;
-use crate::language::diagnostic::{Diagnostic, did_you_mean};
-use crate::language::span::Span;
+use windlass_base::diagnostic::{Diagnostic, did_you_mean};
+use windlass_base::span::Span;
 
 /// The program a deck is written for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]

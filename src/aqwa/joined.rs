@@ -3,8 +3,8 @@
 use super::layout::{Layout, Record};
 use super::reader::{Cards, Reader};
 use super::{Deck, elements, hydrostatics, mooring, nodes, printing, properties, run, surroundings, waves};
-use crate::language::diagnostic::Diagnostic;
 use hydrostatics::Hydrostatics;
+use windlass_base::diagnostic::Diagnostic;
 
 /// Reads deck `number`, 1 to 20.
 pub fn read(deck: &mut Deck, number: u8, reader: &mut Reader<'_>) {

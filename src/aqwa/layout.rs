@@ -1,8 +1,8 @@
 //! What belongs in the columns of a card, as data: one [`Layout`] a keyword, and the [`Record`] that reading one gives.
 
 use super::card::{Face, Field, Line, WIDTH, integer, real};
-use crate::language::diagnostic::Diagnostic;
-use crate::language::span::Span;
+use windlass_base::diagnostic::Diagnostic;
+use windlass_base::span::Span;
 
 /// What a field holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

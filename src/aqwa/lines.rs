@@ -8,8 +8,8 @@
 use super::card::Field;
 use super::layout::Record;
 use super::remarks::Remarks;
-use crate::language::diagnostic::Diagnostic;
-use crate::language::span::Span;
+use windlass_base::diagnostic::Diagnostic;
+use windlass_base::span::Span;
 
 /// Most sections of a composite line.
 const MOST_SECTIONS: i64 = 10;

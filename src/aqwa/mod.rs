@@ -53,9 +53,7 @@ pub mod tethers;
 pub mod units;
 pub mod waves;
 
-use crate::language::diagnostic::Diagnostic;
 use crate::language::source::Sources;
-use crate::language::span::SourceId;
 use elements::{Shape, Structure};
 use hydrostatics::Hydrostatics;
 use job::Job;
@@ -67,6 +65,8 @@ use reader::{Cards, Reader};
 use run::{Multipliers, Start, Steps};
 use surroundings::{Held, Surroundings};
 use waves::Waves;
+use windlass_base::diagnostic::Diagnostic;
+use windlass_base::span::SourceId;
 
 pub use echo::Echo;
 pub use job::is_deck;

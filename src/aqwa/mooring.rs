@@ -8,8 +8,8 @@ use super::layout::{Layout, Record, Slot, int, num};
 use super::lines::{MooringLine, Property, Walk};
 use super::remarks::Remarks;
 use super::tethers::{Builder, Tether};
-use crate::language::diagnostic::Diagnostic;
-use crate::language::span::Span;
+use windlass_base::diagnostic::Diagnostic;
+use windlass_base::span::Span;
 
 const ENDS: [Slot; 4] = [int("structure 1", 11), int("node 1", 16), int("structure 2", 21), int("node 2", 26)];
 const UNSEEN: &str = "this card is not read; give the line with the classes of the model";

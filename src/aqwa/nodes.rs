@@ -8,9 +8,9 @@
 use super::card::Field;
 use super::layout::{Layout, Record, int, num};
 use super::remarks::Remarks;
-use crate::language::diagnostic::Diagnostic;
-use crate::language::span::Span;
 use indexmap::IndexMap;
+use windlass_base::diagnostic::Diagnostic;
+use windlass_base::span::Span;
 
 /// Most nodes of a deck, as of AQWA.
 pub const MOST_NODES: usize = 60_000;

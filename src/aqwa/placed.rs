@@ -4,8 +4,8 @@ use super::Deck;
 use super::elements::Structure;
 use super::remarks::Remarks;
 use super::tethers::Tether;
-use crate::language::diagnostic::Diagnostic;
 use nalgebra::{Rotation3, Vector3};
+use windlass_base::diagnostic::Diagnostic;
 
 /// Strain past which a tether at the start is said to be shorter than its span: steel yields below 0.4 %.
 const LONGEST_STRAIN: f64 = 0.01;

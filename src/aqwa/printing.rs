@@ -5,8 +5,8 @@
 use super::card::Field;
 use super::layout::{Layout, Record, Slot, int};
 use super::remarks::Remarks;
-use crate::language::diagnostic::Diagnostic;
-use crate::language::span::Span;
+use windlass_base::diagnostic::Diagnostic;
+use windlass_base::span::Span;
 
 const STEPS: &[Slot] = &[int("number of steps", 11)];
 const PARAMETER: &[Slot] = &[int("structure", 11), int("parameter", 16)];

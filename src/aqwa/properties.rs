@@ -6,9 +6,9 @@ use super::card::Field;
 use super::elements::Shape;
 use super::layout::{Layout, Record, Slot, int, num};
 use super::remarks::Remarks;
-use crate::language::diagnostic::Diagnostic;
-use crate::language::span::Span;
 use indexmap::IndexMap;
+use windlass_base::diagnostic::Diagnostic;
+use windlass_base::span::Span;
 
 /// Drag coefficient of a TUBE without a CONT card (assumed: the manual's page speaks of defaults, its values were not
 /// seen; both decks of seed 003 give these).
@@ -231,7 +231,7 @@ pub fn read_global(records: &[Record], remarks: &mut Remarks) -> Global {
         if !records.iter().any(|record| record.keyword == keyword) {
             remarks.once(keyword, || {
                 Diagnostic::plain(
-                    crate::language::diagnostic::Severity::Note,
+                    windlass_base::diagnostic::Severity::Note,
                     format!("deck 5 has no {keyword} card: {unset} is taken"),
                 )
                 .into()

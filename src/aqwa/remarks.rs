@@ -1,7 +1,7 @@
 //! What the reader of a deck has to say: errors, warnings and notes with their places, in the order met.
 
-use crate::language::diagnostic::{Diagnostic, Severity};
 use std::collections::BTreeSet;
+use windlass_base::diagnostic::{Diagnostic, Severity};
 
 /// Most messages kept of one deck; a file that is no deck has one a line.
 const MOST: usize = 200;

@@ -5,8 +5,8 @@
 use super::card::Field;
 use super::layout::{Layout, Record, Slot, int, num};
 use super::remarks::Remarks;
-use crate::language::diagnostic::Diagnostic;
-use crate::language::span::Span;
+use windlass_base::diagnostic::Diagnostic;
+use windlass_base::span::Span;
 
 const SIX: &[Slot] = &[num("X", 21), num("Y", 31), num("Z", 41), num("RX", 51), num("RY", 61), num("RZ", 71)];
 const SLOW: &str = "slow drift positions are not read apart from the total ones";

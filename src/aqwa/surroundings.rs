@@ -7,8 +7,8 @@
 use super::card::Field;
 use super::layout::{Layout, Record, int, num};
 use super::remarks::Remarks;
-use crate::language::diagnostic::Diagnostic;
-use crate::language::span::Span;
+use windlass_base::diagnostic::Diagnostic;
+use windlass_base::span::Span;
 
 /// Cards of deck 11.
 pub const LAYOUTS: &[Layout] = &[

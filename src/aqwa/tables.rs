@@ -2,8 +2,8 @@
 
 use super::Deck;
 use super::elements::{Shape, Structure};
-use crate::language::units::Dim;
-use crate::table::{Cell, Digits, Table, TableError};
+use windlass_base::table::{Cell, Digits, Table, TableError};
+use windlass_base::units::Dim;
 
 const WHOLE: Digits = Digits::Decimals(0);
 const PLACE: Digits = Digits::Decimals(3);

@@ -10,8 +10,8 @@ use super::card::Field;
 use super::end_springs::{EndSpring, check, in_force};
 use super::layout::Record;
 use super::remarks::Remarks;
-use crate::language::diagnostic::Diagnostic;
-use crate::language::span::Span;
+use windlass_base::diagnostic::Diagnostic;
+use windlass_base::span::Span;
 
 /// Most elements of a tether (AQWA of later years has 24).
 const MOST_ELEMENTS: usize = 1000;

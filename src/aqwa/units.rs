@@ -2,7 +2,7 @@
 //! length, and then the density of the water the unit of mass; time is in seconds, force follows.
 
 use super::properties::Global;
-use crate::language::diagnostic::Diagnostic;
+use windlass_base::diagnostic::Diagnostic;
 
 /// Units of a deck in SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,7 +48,7 @@ impl Units {
 pub fn units(global: &Global) -> Result<Units, Box<Diagnostic>> {
     let says = |message: String, span: Option<_>| match span {
         Some(span) => Diagnostic::error(message, span),
-        None => Box::new(Diagnostic::plain(crate::language::diagnostic::Severity::Error, message)),
+        None => Box::new(Diagnostic::plain(windlass_base::diagnostic::Severity::Error, message)),
     };
     let near = |set: &&Units| (global.gravity * set.length / GRAVITY - 1.0).abs() < 0.01;
     if !SETS.iter().any(|set| near(&set)) {

@@ -11,9 +11,9 @@ use super::card::Field;
 use super::layout::{Layout, Record, Slot, int, num};
 use super::remarks::Remarks;
 use super::surroundings::Flow;
-use crate::language::diagnostic::Diagnostic;
-use crate::language::span::Span;
 use std::f64::consts::PI;
+use windlass_base::diagnostic::Diagnostic;
+use windlass_base::span::Span;
 
 /// Most spectra of a deck.
 const MOST_SPECTRA: usize = 20;

@@ -2,16 +2,16 @@
 
 use super::alter::selected;
 use super::{Call, Command, Effect, Job};
-use crate::language::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use crate::language::name as rule;
 use crate::language::select::Owner;
 use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
-use crate::language::units::{Dim, UnitSystem};
-use crate::language::values::Noun;
-use crate::language::values::{Args, Given};
 use crate::model::{Model, PIPE, find, line_name};
 use crate::solve::FREEDOMS;
 use crate::solve::time::{Action, Watched, What, When};
+use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
+use windlass_base::units::{Dim, UnitSystem};
+use windlass_base::values::Noun;
+use windlass_base::values::{Args, Given};
 
 /// &ACTION.
 pub static ACTION: Command = Command { spec: &SPEC, edits: false, run };

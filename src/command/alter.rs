@@ -4,18 +4,19 @@
 //! Source: reference/model.md, &CONNECTOR.
 
 use super::{Call, Command, Effect, Job};
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
-use crate::language::span::Span;
 use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
-use crate::language::units::{Dim, UnitSystem};
-use crate::language::values::Noun;
-use crate::language::values::{Args, Given, Value};
-use crate::language::wildcard::{is_wild, matches};
-use crate::model::{Anchor, ClassError, Condition, Connector, LineLoads, LineModel, Model, find, unit_vector};
+use crate::model::{Anchor, ClassError, Condition, Connector, LineLoads, LineModel, Model, find};
 use crate::report::format::report;
 use crate::solve::pretension;
-use crate::table::{Cell, Digits};
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::geometry::unit_vector;
+use windlass_base::span::Span;
+use windlass_base::table::{Cell, Digits};
+use windlass_base::units::{Dim, UnitSystem};
+use windlass_base::values::Noun;
+use windlass_base::values::{Args, Given, Value};
+use windlass_base::wildcard::{is_wild, matches};
 
 /// &CONNECTOR.
 pub static ALTER: Command = Command { spec: &SPEC, edits: true, run };

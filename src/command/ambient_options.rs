@@ -2,13 +2,13 @@
 
 use super::Job;
 use super::environment::formula;
-use crate::language::diagnostic::Outcome;
 use crate::language::select::Owner;
-use crate::language::span::Span;
 use crate::language::spec::{Kind, OptionSpec, ValueSpec};
-use crate::language::values::Given;
-use crate::language::values::Noun;
 use crate::model::{Connector, Environment, Model, find};
+use windlass_base::diagnostic::Outcome;
+use windlass_base::span::Span;
+use windlass_base::values::Given;
+use windlass_base::values::Noun;
 
 /// -BATHYMETRY.
 pub(super) const BATHYMETRY: OptionSpec = OptionSpec::new(

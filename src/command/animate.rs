@@ -2,19 +2,19 @@
 
 use super::chosen::Chosen;
 use super::{Call, Command, Effect, Job};
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
-use crate::language::span::Span;
 use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
-use crate::language::units::Dim;
-use crate::language::values::Args;
-use crate::language::values::Noun;
 use crate::model::Thing;
 use crate::report::files::JobFolder;
 use crate::report::film;
 use crate::solve::film::{Film, Take};
 use crate::solve::results::Window;
 use std::path::PathBuf;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::span::Span;
+use windlass_base::units::Dim;
+use windlass_base::values::Args;
+use windlass_base::values::Noun;
 
 /// &ANIMATE.
 pub static ANIMATE: Command = Command { spec: &SPEC, edits: false, run };

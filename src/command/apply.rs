@@ -3,11 +3,11 @@
 //! Source: reference/model.md, "Weights and loads": multipliers compound.
 
 use super::{Call, Command, Effect};
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
-use crate::language::units::Dim;
-use crate::language::values::Noun;
 use crate::model::{Model, find};
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::units::Dim;
+use windlass_base::values::Noun;
 
 /// &APPLY.
 pub static APPLY: Command = Command { spec: &SPEC, edits: false, run };

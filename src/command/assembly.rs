@@ -4,12 +4,12 @@
 
 use super::rigging::{self, Rigging};
 use super::{Call, Command, Effect, Job, Menu, junction};
-use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::span::Span;
 use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
-use crate::language::values::Args;
-use crate::language::values::Noun;
 use crate::model::{Assembly, AssemblyKind, Body, Connector, Model, find};
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::span::Span;
+use windlass_base::values::Args;
+use windlass_base::values::Noun;
 
 /// ASSEMBLY.
 pub static ASSEMBLY: Command = Command { spec: &SPEC, edits: true, run };

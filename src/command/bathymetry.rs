@@ -4,18 +4,18 @@ use super::number_rows::rows;
 use super::status::push;
 use super::{Call, Command, Effect, Job, Menu};
 use crate::language::args;
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::name as rule;
 use crate::language::select::Owner;
-use crate::language::span::Span;
 use crate::language::spec::{CommandSpec, Form, Kind, Opens, OptionSpec, ValueSpec};
-use crate::language::units::Dim;
-use crate::language::values::Noun;
-use crate::language::values::Value;
 use crate::model::bathymetry::{Bathymetry, MOST_POINTS, fits};
 use crate::model::{Model, Thing};
-use crate::table::{Digits, Table};
 use std::sync::Arc;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::span::Span;
+use windlass_base::table::{Digits, Table};
+use windlass_base::units::Dim;
+use windlass_base::values::Noun;
+use windlass_base::values::Value;
 
 /// &BATHYMETRY.
 pub static BATHYMETRY: Command = Command { spec: &SPEC, edits: false, run };

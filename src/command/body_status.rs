@@ -3,13 +3,14 @@
 use super::chosen::Chosen;
 use super::equilibrium::told;
 use super::{Call, Job};
-use crate::language::diagnostic::Outcome;
 use crate::language::spec::{Kind, OptionSpec, ValueSpec};
-use crate::language::units::Dim;
-use crate::model::{Model, Position};
+use crate::model::Model;
 use crate::solve::frequency::{self, Linear};
 use crate::solve::{System, tables};
-use crate::table::Table;
+use windlass_base::diagnostic::Outcome;
+use windlass_base::geometry::Position;
+use windlass_base::table::Table;
+use windlass_base::units::Dim;
 
 const fn number(name: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(Dim::Length), "global coordinate")

@@ -3,13 +3,13 @@
 use super::{Call, Command, Effect, Job, Menu};
 use crate::connector::{CLASSES, type_notices};
 use crate::language::args;
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::name;
 use crate::language::select::choose;
 use crate::language::spec::{CommandSpec, Form};
-use crate::language::values::Args;
-use crate::language::values::Noun;
 use crate::model::{Class, ClassRecord, Curve, CurveKind, Model, find};
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::values::Args;
+use windlass_base::values::Noun;
 
 /// ~CLASS.
 pub static CLASS: Command = Command { spec: &SPEC, edits: false, run };

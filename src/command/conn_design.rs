@@ -3,17 +3,17 @@
 use super::chosen::{Chosen, raise};
 use super::disposition::{BOTH, HARD, send};
 use super::{Call, Command, Effect, Job, Menu, status, vary};
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
-use crate::language::span::Span;
 use crate::language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
-use crate::language::units::Dim;
-use crate::language::values::Args;
-use crate::language::values::Noun;
 use crate::model::{Class, Condition, Connector, Thing, find};
 use crate::report::disposition::Disposition;
 use crate::report::page;
-use crate::table::Table;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::span::Span;
+use windlass_base::table::Table;
+use windlass_base::units::Dim;
+use windlass_base::values::Args;
+use windlass_base::values::Noun;
 
 /// TABLE.
 pub static TABLE: Command = Command { spec: &TABLE_SPEC, edits: false, run: table };

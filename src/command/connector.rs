@@ -2,13 +2,15 @@
 
 use super::tether_ends as tether;
 use super::{Call, Command, Effect, Job, Menu};
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::name as rule;
 use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
-use crate::language::units::Dim;
-use crate::language::values::Args;
-use crate::language::values::Noun;
-use crate::model::{Anchor, Connector, Model, Point, Pose, Tug, find, unit_vector};
+use crate::model::{Anchor, Connector, Model, Point, Tug, find};
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::geometry::unit_vector;
+use windlass_base::pose::Pose;
+use windlass_base::units::Dim;
+use windlass_base::values::Args;
+use windlass_base::values::Noun;
 
 /// CONNECTOR.
 pub static CONNECTOR: Command = Command { spec: &CONNECTOR_SPEC, edits: false, run: connector };

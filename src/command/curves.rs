@@ -5,14 +5,14 @@
 use super::{Call, Command, Effect, Job, Menu};
 use crate::connector::viscous::Viscoelastic;
 use crate::language::args;
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::name as rule;
 use crate::language::record::Word;
 use crate::language::select::{Owner, choose};
-use crate::language::span::Span;
 use crate::language::spec::{CommandSpec, Form, Kind, Opens, OptionSpec, ValueSpec};
-use crate::language::values::Noun;
 use crate::model::{Curve, CurveKind, Model, Thing};
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::span::Span;
+use windlass_base::values::Noun;
 
 /// &DATA.
 pub static DATA: Command = Command { spec: &SPEC, edits: false, run };

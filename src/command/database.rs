@@ -5,20 +5,20 @@ use super::{Call, Command, Effect, Job};
 use crate::hydro::database::rao::RaoConvention;
 use crate::hydro::database::wamit::WamitScale;
 use crate::hydro::database::{Database, DatabaseError, SourceFile, capytaine, nemoh, rao, wamit};
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
 use crate::language::source::LARGEST_FILE;
-use crate::language::span::Span;
 use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
-use crate::language::units::Dim;
-use crate::language::values::Args;
-use crate::language::values::Noun;
 use crate::model::{AttachedDatabase, DriftMethod, Mass, Model, find};
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
 use std::path::Path;
 use std::sync::Arc;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::span::Span;
+use windlass_base::units::Dim;
+use windlass_base::values::Args;
+use windlass_base::values::Noun;
 
 /// DATABASE.
 pub static DATABASE: Command = Command { spec: &SPEC, edits: false, run };

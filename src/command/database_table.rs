@@ -4,11 +4,11 @@ use super::status::push;
 use crate::hydro::database::Amplitudes;
 use crate::hydro::database::checks::MODES;
 use crate::hydro::database::radiation::Radiation;
-use crate::language::units::Dim;
 use crate::model::{AttachedDatabase, Body, DriftMethod, Model};
-use crate::table::{Cell, Digits, Table};
 use nalgebra::{Complex, Matrix6};
 use std::f64::consts::TAU;
+use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::units::Dim;
 
 /// What is below this share of the largest of its kind is rounding.
 const NOTHING: f64 = 1e-9;

@@ -3,12 +3,13 @@
 use super::chosen::Chosen;
 use super::piece::{self, OPTIONS};
 use super::{Call, Command, Effect, Job};
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::name as rule;
 use crate::language::spec::{CommandSpec, Form, Kind, OptionSpec, ValueSpec, joined};
-use crate::language::units::Dim;
-use crate::language::values::Noun;
-use crate::model::{Body, Coordinates, GROUND, Model, Part, Place, Point, Position, Shape, Thing, find, unit_vector};
+use crate::model::{Body, Coordinates, GROUND, Model, Part, Point, Shape, Thing, find};
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::geometry::{Place, Position, unit_vector};
+use windlass_base::units::Dim;
+use windlass_base::values::Noun;
 
 /// &DESCRIBE.
 pub static DESCRIBE: Command = Command { spec: &DESCRIBE_SPEC, edits: false, run: describe };
@@ -210,7 +211,7 @@ fn interest(job: &mut Job, call: &Call) -> Outcome<Effect> {
     Ok(Effect::Done)
 }
 
-fn place_of(values: &[crate::language::values::Value]) -> Place {
+fn place_of(values: &[windlass_base::values::Value]) -> Place {
     let numbers = values.iter().filter(|v| v.word().is_none()).map(|v| v.number().unwrap_or(0.0));
     let mut six = [0.0; 6];
     for (slot, value) in six.iter_mut().zip(numbers) {

@@ -1,11 +1,11 @@
 //! `&DEVICE`: how the program behaves.
 
 use super::{Call, Command, Effect, Job};
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
-use crate::language::span::Span;
 use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use std::path::{Path, PathBuf};
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::span::Span;
 
 /// &DEVICE.
 pub static DEVICE: Command = Command { spec: &SPEC, edits: false, run };
@@ -157,6 +157,6 @@ pub fn existing(job: &Job, name: &str, span: Span) -> Outcome<PathBuf> {
         })
         .unwrap_or_default();
     let mut error = Diagnostic::error(format!("there is no file {}", path.display()), span);
-    error.help.extend(crate::language::diagnostic::did_you_mean(name, near.iter().map(String::as_str)));
+    error.help.extend(windlass_base::diagnostic::did_you_mean(name, near.iter().map(String::as_str)));
     Err(error)
 }

@@ -3,15 +3,15 @@
 //! Source: reference/solve.md, "Disposition menu".
 
 use super::{Call, Command, Effect, Job, Menu};
-use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::span::Span;
 use crate::language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
-use crate::language::units::Dim;
-use crate::language::values::Noun;
-use crate::language::values::{Args, Given};
 use crate::report::disposition::{Disposition, DispositionError, RowChoice};
 use crate::report::page;
-use crate::table::Table;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::span::Span;
+use windlass_base::table::Table;
+use windlass_base::units::Dim;
+use windlass_base::values::Noun;
+use windlass_base::values::{Args, Given};
 
 /// Where these commands are offered.
 pub(super) const MENU: &[&str] = &["DISPOSITION"];
@@ -178,7 +178,7 @@ pub(super) fn chosen(job: &Job, args: &Args, from: usize) -> Outcome<Table> {
     let mut table = result.map_err(|e| refused(args, &e))?;
     if args.has("-MAG_USE") {
         for cell in table.columns.iter_mut().flat_map(|c| c.cells.iter_mut()) {
-            if let crate::table::Cell::Number(value) = cell {
+            if let windlass_base::table::Cell::Number(value) = cell {
                 *value = value.abs();
             }
         }

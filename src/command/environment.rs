@@ -3,15 +3,15 @@
 //! Source: reference/model.md, "Environment".
 
 use super::{Call, Command, Effect, Job, ambient_options, probability, sea_options, wind_options};
-use crate::language::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use crate::language::name as rule;
 use crate::language::select::Owner;
-use crate::language::span::Span;
 use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
-use crate::language::units::Dim;
-use crate::language::values::Noun;
-use crate::language::values::{Args, Given};
 use crate::model::{Current, Curve, CurveKind, Environment, Formula, Model, Sea, Thing, TimeWindow, find};
+use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
+use windlass_base::span::Span;
+use windlass_base::units::Dim;
+use windlass_base::values::Noun;
+use windlass_base::values::{Args, Given};
 
 /// &ENV.
 pub static ENV: Command = Command { spec: &ENV_SPEC, edits: false, run };

@@ -5,17 +5,17 @@
 use super::chosen::raise;
 use super::disposition::{BOTH, HARD, send};
 use super::{Call, Command, Effect, Job};
-use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::span::Span;
 use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
-use crate::language::units::{Dim, UnitSystem};
-use crate::language::values::Given;
-use crate::language::values::Noun;
 use crate::model::{Model, find};
 use crate::report::page;
 use crate::solve::results::along::cautions;
 use crate::solve::{FREEDOMS, Options, SolveError, settle, tables};
 use indexmap::IndexMap;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::span::Span;
+use windlass_base::units::{Dim, UnitSystem};
+use windlass_base::values::Given;
+use windlass_base::values::Noun;
 
 /// &EQUI.
 pub static EQUI: Command = Command { spec: &SPEC, edits: true, run };

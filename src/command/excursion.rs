@@ -5,20 +5,21 @@
 use super::chosen::raise;
 use super::equilibrium::told;
 use super::{Call, Command, Effect, Job, Menu};
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
 use crate::language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
-use crate::language::units::Dim;
-use crate::language::values::Args;
-use crate::language::values::Noun;
-use crate::model::{Body, Model, Pose, find};
+use crate::model::{Body, Model, find};
 use crate::report::disposition::Disposition;
 use crate::report::format::number_in_full;
 use crate::solve::excursion::Path;
 use crate::solve::excursion_tables::{Asked, Systems, along, around, circle};
 use crate::solve::watch::watch;
 use crate::solve::{SolveError, System};
-use crate::table::Table;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::pose::Pose;
+use windlass_base::table::Table;
+use windlass_base::units::Dim;
+use windlass_base::values::Args;
+use windlass_base::values::Noun;
 
 /// MOVE.
 pub static MOVE: Command = Command { spec: &MOVE_SPEC, edits: false, run: moved };

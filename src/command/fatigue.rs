@@ -5,12 +5,12 @@
 use super::equilibrium::told;
 use super::prcpost::{CONNECTORS, asked, connectors};
 use super::{Call, Command, Effect, Job, Menu};
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
 use crate::language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
-use crate::language::units::Dim;
 use crate::report::disposition::Disposition;
 use crate::solve::results::{self, Exposed};
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::units::Dim;
 
 /// FATIGUE.
 pub static FATIGUE: Command = Command { spec: &SPEC, edits: false, run };

@@ -3,12 +3,12 @@
 use super::device::{existing, readable};
 use super::job::UserFile;
 use super::{Call, Command, Effect, Job, PLAIN};
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::record::Word;
 use crate::language::select::{Owner, choose};
-use crate::language::span::Span;
 use crate::language::spec::{CommandSpec, Form, Kind, ValueSpec};
 use crate::report::files::{FileError, Place, Side, lies_in};
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::span::Span;
 
 /// &INSERT.
 pub static INSERT: Command = Command { spec: &INSERT_SPEC, edits: false, run: insert };

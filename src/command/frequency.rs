@@ -5,18 +5,18 @@
 use super::chosen::{WARNING, raise};
 use super::equilibrium::told;
 use super::{Call, Command, Effect, Job, Menu, probability};
-use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::span::Span;
 use crate::language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
-use crate::language::units::Dim;
-use crate::language::values::Args;
-use crate::language::values::Noun;
 use crate::model::{Environment, Model, find};
 use crate::report::page;
 use crate::solve::frequency::{Asked, Extreme, Linear, Operators, Response, Trains, respond};
-use crate::table::Table;
 use std::f64::consts::TAU;
 use std::sync::Arc;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::span::Span;
+use windlass_base::table::Table;
+use windlass_base::units::Dim;
+use windlass_base::values::Args;
+use windlass_base::values::Noun;
 
 /// FREQ_RESPONSE.
 pub static FREQ_RESPONSE: Command = Command { spec: &MENU_SPEC, edits: false, run: open };

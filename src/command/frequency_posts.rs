@@ -7,20 +7,20 @@ use super::environment::{self, A_SEA_OPTION, SEA_OPTION, SP_TYPE_OPTION, SPREAD_
 use super::equilibrium::told;
 use super::frequency::{Found, found, heaving, seas};
 use super::{Call, Command, Effect, Job, Menu, probability};
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
-use crate::language::span::Span;
 use crate::language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
-use crate::language::units::Dim;
-use crate::language::values::Args;
-use crate::language::values::Noun;
 use crate::model::{Environment, Model, Thing, find};
 use crate::report::disposition::Disposition;
 use crate::solve::frequency::tables::{Told, body_statistics, operators, spectra, statistics};
 use crate::solve::frequency::{Asked, Derivative, Extreme, Linear, Quantity, Response, in_sea};
-use crate::table::Table;
 use nalgebra::Vector3;
 use std::sync::Arc;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::span::Span;
+use windlass_base::table::Table;
+use windlass_base::units::Dim;
+use windlass_base::values::Args;
+use windlass_base::values::Noun;
 
 /// MOTION.
 pub static MOTION: Command = Command { spec: &MOTION_SPEC, edits: false, run: motion };

@@ -4,17 +4,18 @@
 
 use super::job::UserFile;
 use super::{COMMANDS, Job};
-use crate::language::diagnostic::{Diagnostic, Outcome, Severity};
 use crate::language::logic;
 use crate::language::number;
 use crate::language::record::Word;
 use crate::language::select::{Owner, choose};
-use crate::language::span::Span;
 use crate::language::substitution::World;
-use crate::language::units::Dim;
-use crate::language::wildcard::matches;
-use crate::model::{Mass, Model, Point, Position};
+use crate::model::{Mass, Model, Point};
 use crate::report::format::fifteen_figures;
+use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
+use windlass_base::geometry::Position;
+use windlass_base::span::Span;
+use windlass_base::units::Dim;
+use windlass_base::wildcard::matches;
 
 /// What `&HELP` says of each: name, form, meaning.
 pub const HELP: &[(&str, &str, &str)] = &[

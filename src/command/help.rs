@@ -2,13 +2,13 @@
 
 use super::{COMMANDS, Call, Command, Effect, Job, offered, status};
 use crate::connector::CLASSES;
-use crate::language::diagnostic::Outcome;
 use crate::language::flow::specs::CONTROL;
 use crate::language::functions;
 use crate::language::name;
 use crate::language::select::{Owner, choose};
 use crate::language::spec::{CommandSpec, Kind, Need, ValueSpec, expected};
-use crate::language::units::UnitSystem;
+use windlass_base::diagnostic::Outcome;
+use windlass_base::units::UnitSystem;
 
 /// &HELP.
 pub static HELP: Command = Command { spec: &SPEC, edits: false, run };

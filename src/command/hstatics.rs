@@ -7,14 +7,16 @@ use super::status::push;
 use super::{Call, Command, Effect, Job, Menu};
 use crate::hydro::hull::Hydrostatics;
 use crate::hydro::{Floating, Hull, balanced};
-use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::span::Span;
 use crate::language::spec::{CommandSpec, Kind, Opens, ValueSpec};
-use crate::language::units::Dim;
-use crate::language::values::Noun;
-use crate::model::{Body, Mass, Place, Pose, find};
+use crate::model::{Body, Mass, find};
 use crate::report::disposition::Disposition;
-use crate::table::{Cell, Digits, Table};
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::geometry::Place;
+use windlass_base::pose::Pose;
+use windlass_base::span::Span;
+use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::units::Dim;
+use windlass_base::values::Noun;
 
 /// HSTATICS.
 pub static HSTATICS: Command = Command { spec: &HSTATICS_SPEC, edits: false, run: hstatics };

@@ -4,10 +4,6 @@ use super::bathymetry::Soundings;
 use super::buildg::Building;
 use super::frequency::Found;
 use super::pgen::Planes;
-use crate::language::diagnostic::{Diagnostic, Severity};
-use crate::language::span::Span;
-use crate::language::units::UnitSystem;
-use crate::language::values::Args;
 use crate::model::Model;
 use crate::report::disposition::Disposition;
 use crate::report::files::Place;
@@ -22,6 +18,10 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
+use windlass_base::diagnostic::{Diagnostic, Severity};
+use windlass_base::span::Span;
+use windlass_base::units::UnitSystem;
+use windlass_base::values::Args;
 
 /// A menu that is open.
 #[derive(Clone, Debug)]

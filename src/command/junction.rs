@@ -1,15 +1,16 @@
 //! `JUNCTION`: a point in the sea where lines meet.
 
 use super::{Call, Command, Effect, Job};
-use crate::language::diagnostic::with_article;
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::name as rule;
 use crate::language::select::Owner;
-use crate::language::span::Span;
 use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
-use crate::language::units::Dim;
-use crate::language::values::Noun;
-use crate::model::{Body, Junction, Model, Part, Place, Point, Position, Weight};
+use crate::model::{Body, Junction, Model, Part, Point, Weight};
+use windlass_base::diagnostic::with_article;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::geometry::{Place, Position};
+use windlass_base::span::Span;
+use windlass_base::units::Dim;
+use windlass_base::values::Noun;
 
 /// JUNCTION.
 pub static JUNCTION: Command = Command { spec: &SPEC, edits: false, run };

@@ -4,16 +4,16 @@ mod input;
 
 use super::{Call, Command, Effect, Job, file};
 use crate::connector::catenary::EndForces;
-use crate::language::diagnostic::{Diagnostic, Outcome, Severity};
 use crate::language::select::Owner;
 use crate::language::spec::{CommandSpec, Kind, ValueSpec};
-use crate::language::units::Dim;
 use crate::report::files::{Growing, Place};
 use crate::report::format::number_in_full;
 use crate::report::page;
-use crate::table::{Digits, Table};
 use input::{Input, InputError, Row};
 use std::collections::BTreeMap;
+use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
+use windlass_base::table::{Digits, Table};
+use windlass_base::units::Dim;
 
 /// LINES.
 pub static LINES: Command = Command { spec: &LINES_SPEC, edits: false, run: lines };

@@ -5,16 +5,17 @@
 
 use super::{Call, Command, Effect, Job};
 use crate::hydro::heading::ByHeading;
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
-use crate::language::span::Span;
 use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
-use crate::language::units::Dim;
-use crate::language::units::eight_figures;
-use crate::language::values::Noun;
-use crate::language::values::{Args, Given, Value};
-use crate::model::{Fluid, GROUND, LoadKind, Model, PartLoad, Position, find, unit_vector};
+use crate::model::{Fluid, GROUND, LoadKind, Model, PartLoad, find};
 use nalgebra::{Matrix6, Vector3};
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::geometry::{Position, unit_vector};
+use windlass_base::span::Span;
+use windlass_base::units::Dim;
+use windlass_base::units::eight_figures;
+use windlass_base::values::Noun;
+use windlass_base::values::{Args, Given, Value};
 
 /// #AREA.
 pub static AREA: Command = Command { spec: &AREA_SPEC, edits: false, run: area };

@@ -1,13 +1,13 @@
 //! The options that make a TUBE a member in waves and current, and the table of members.
 
 use super::status::push;
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
 use crate::language::spec::{Kind, OptionSpec, ValueSpec};
-use crate::language::units::Dim;
-use crate::language::values::Args;
 use crate::model::{Member, Model, Shape, WaveAction};
-use crate::table::{Cell, Digits, Table};
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::units::Dim;
+use windlass_base::values::Args;
 
 const fn factor(
     name: &'static str,

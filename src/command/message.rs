@@ -1,9 +1,9 @@
 //! Titles, messages, the clock, and the end of the job.
 
 use super::{Call, Command, Effect, Job};
-use crate::language::diagnostic::{Diagnostic, Outcome, Severity};
 use crate::language::spec::{CommandSpec, Form, Kind, ValueSpec};
 use crate::report::page::centre;
+use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
 
 /// Width in which `&CTYPE` centres.
 const WIDTH: usize = 80;

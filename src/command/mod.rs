@@ -95,12 +95,12 @@ pub use job::{Job, Menu, Settings};
 pub use menus::{finish, opened_by};
 pub use status::kinds as status_kinds;
 
-use crate::language::diagnostic::Outcome;
 use crate::language::record::{Record, Word};
 use crate::language::select::Owner;
 use crate::language::spec::CommandSpec;
-use crate::language::values::Args;
 use std::path::PathBuf;
+use windlass_base::diagnostic::Outcome;
+use windlass_base::values::Args;
 
 /// A record on its way to a handler.
 pub struct Call<'a> {

@@ -1,9 +1,9 @@
 //! The tables of &STATUS that list what the model itself holds: bodies, points, connectors, selectors.
 
 use super::status::{kinds_told, push};
-use crate::language::units::Dim;
 use crate::model::Model;
-use crate::table::{Cell, Digits, Table};
+use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::units::Dim;
 
 fn place_columns(mut table: Table) -> Table {
     for name in ["X", "Y", "Z"] {

@@ -1,16 +1,16 @@
 //! `DELETE` and `RENAME`: of anything in the model that has a name.
 
 use super::{Call, Command, Effect, Job};
-use crate::language::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use crate::language::name;
 use crate::language::select::Owner;
-use crate::language::span::Span;
 use crate::language::spec::{CommandSpec, Kind, ValueSpec};
-use crate::language::values::Content;
-use crate::language::values::Noun;
-use crate::language::wildcard::{is_wild, matches};
 use crate::model::{AssemblyKind, Model, Piece, Thing};
 use std::sync::Arc;
+use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
+use windlass_base::span::Span;
+use windlass_base::values::Content;
+use windlass_base::values::Noun;
+use windlass_base::wildcard::{is_wild, matches};
 
 /// DELETE.
 pub static DELETE: Command = Command { spec: &DELETE_SPEC, edits: true, run: delete };

@@ -2,9 +2,9 @@
 
 use super::Job;
 use super::device::existing;
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::source::LARGEST_FILE;
-use crate::language::span::Span;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::span::Span;
 
 /// A row of numbers, with its line in the file.
 pub(super) type Row<const N: usize> = (u64, [f64; N]);

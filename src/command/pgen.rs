@@ -4,13 +4,14 @@
 
 use super::piece::{self, OPTIONS};
 use super::{Call, Command, Effect, Job, Menu};
-use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::span::Span;
 use crate::language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
-use crate::language::units::Dim;
-use crate::language::values::Noun;
-use crate::language::values::Value;
-use crate::model::{Piece, Position, Shape};
+use crate::model::{Piece, Shape};
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::geometry::Position;
+use windlass_base::span::Span;
+use windlass_base::units::Dim;
+use windlass_base::values::Noun;
+use windlass_base::values::Value;
 
 /// PGEN.
 pub static PGEN: Command = Command { spec: &PGEN_SPEC, edits: false, run: pgen };

@@ -2,16 +2,16 @@
 
 use super::chosen::{Chosen, WARNING, gathered};
 use super::{Call, Command, Effect, Job};
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
 use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
-use crate::language::units::Dim;
-use crate::language::values::Args;
-use crate::language::values::Noun;
 use crate::model::Thing;
 use crate::report::picture::{Picture, View};
 use crate::report::plot::PlotError;
 use crate::solve::scene::{Choice, Scene};
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::units::Dim;
+use windlass_base::values::Args;
+use windlass_base::values::Noun;
 
 /// &PICTURE.
 pub static PICTURE: Command = Command { spec: &SPEC, edits: false, run };

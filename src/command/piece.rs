@@ -6,16 +6,17 @@ use super::written::option_as_written;
 use super::{Call, Command, Effect, Job, member};
 use crate::hydro;
 use crate::language::args;
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::name as rule;
-use crate::language::span::Span;
 use crate::language::spec::{CommandSpec, Form, Kind, OptionSpec, ValueSpec};
 use crate::language::token::Kind as Lex;
-use crate::language::units::Dim;
-use crate::language::values::Noun;
-use crate::language::values::{Args, Value};
-use crate::model::{Model, Part, Piece, Position, Shape, Thing, WaveAction, find};
+use crate::model::{Model, Part, Piece, Shape, Thing, WaveAction, find};
 use nalgebra::Vector3;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::geometry::Position;
+use windlass_base::span::Span;
+use windlass_base::units::Dim;
+use windlass_base::values::Noun;
+use windlass_base::values::{Args, Value};
 
 /// PANEL.
 pub static PANEL: Command = Command { spec: &PANEL_SPEC, edits: false, run: panel };

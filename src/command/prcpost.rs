@@ -6,18 +6,18 @@
 use super::chosen::Chosen;
 use super::equilibrium::told;
 use super::{Call, Command, Effect, Job, Menu};
-use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::span::Span;
 use crate::language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
-use crate::language::units::Dim;
-use crate::language::values::Noun;
-use crate::language::values::{Args, Value};
 use crate::model::{Model, Thing};
 use crate::report::disposition::Disposition;
 use crate::solve::SolveError;
 use crate::solve::results::{self, Event, Interest, Magnitude, Told, Window};
 use crate::solve::time::Run;
-use crate::table::Table;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::span::Span;
+use windlass_base::table::Table;
+use windlass_base::units::Dim;
+use windlass_base::values::Noun;
+use windlass_base::values::{Args, Value};
 
 /// TRAJECTORY.
 pub static TRAJECTORY: Command = Command { spec: &TRAJECTORY_SPEC, edits: false, run: trajectory };

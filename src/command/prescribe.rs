@@ -4,18 +4,19 @@ mod input;
 
 use super::status::push;
 use super::{Call, Command, Effect, Job};
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
 use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
-use crate::language::units::Dim;
-use crate::language::values::Noun;
-use crate::language::values::{Args, Given};
-use crate::model::{ClassError, GivenMotion, Model, Place, Prescription, Sinusoid, find};
+use crate::model::{ClassError, GivenMotion, Model, Prescription, Sinusoid, find};
 use crate::solve::FREEDOMS;
 use crate::solve::time::prescribed;
-use crate::table::{Cell, Digits, Table};
 use std::f64::consts::TAU;
 use std::sync::Arc;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::geometry::Place;
+use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::units::Dim;
+use windlass_base::values::Noun;
+use windlass_base::values::{Args, Given};
 
 /// PRESCRIBE.
 pub static PRESCRIBE: Command = Command { spec: &SPEC, edits: false, run };

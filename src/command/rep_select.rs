@@ -3,14 +3,14 @@
 //! Source: reference/solve.md, "Fatigue of lines".
 
 use super::{Call, Command, Effect, Job};
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::name as rule;
 use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
-use crate::language::units::Dim;
-use crate::language::values::Given;
-use crate::language::values::Noun;
 use crate::model::{FatigueCurve, FatigueKind, Model, ThicknessCorrection};
 use crate::post::fatigue::{Curve, find};
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::units::Dim;
+use windlass_base::values::Given;
+use windlass_base::values::Noun;
 
 /// &REP_SELECT.
 pub static REP_SELECT: Command = Command { spec: &SPEC, edits: false, run };

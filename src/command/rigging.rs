@@ -1,13 +1,15 @@
 //! Where a hook, its body and its lines begin: `-INITIAL`, `-VERTICAL` and `-ORIENT` of a tip-hook set.
 
 use crate::connector::hook::{Goal, Reach, hanging, hook};
-use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::span::Span;
-use crate::language::units::{Dim, UnitSystem};
-use crate::model::{Connector, Mass, Model, Place, Pose};
+use crate::model::{Connector, Mass, Model};
 use crate::report::format::report;
-use crate::table::{Cell, Digits};
 use nalgebra::{Matrix3, Rotation3, Vector3};
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::geometry::Place;
+use windlass_base::pose::Pose;
+use windlass_base::span::Span;
+use windlass_base::table::{Cell, Digits};
+use windlass_base::units::{Dim, UnitSystem};
 
 /// A tip-hook set that is being defined.
 pub struct Rigging<'a> {

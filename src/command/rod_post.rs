@@ -5,13 +5,8 @@ use super::disposition::{BOTH, HARD, send};
 use super::equilibrium::told;
 use super::prcpost::{asked, last_run};
 use super::{Call, Command, Effect, Job, Menu};
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
-use crate::language::span::Span;
 use crate::language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
-use crate::language::units::Dim;
-use crate::language::values::Noun;
-use crate::language::values::{Args, Given};
 use crate::post::line::fatigue::{MOST_POINTS, Round};
 use crate::post::line::lrfd::{Factors, SafetyClass};
 use crate::post::line::working_stress::DesignCase;
@@ -19,7 +14,12 @@ use crate::report::disposition::Disposition;
 use crate::report::page;
 use crate::solve::results::along::{self, Code, Line, Where};
 use crate::solve::results::{self, Event, Magnitude, Window};
-use crate::table::Table;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::span::Span;
+use windlass_base::table::Table;
+use windlass_base::units::Dim;
+use windlass_base::values::Noun;
+use windlass_base::values::{Args, Given};
 
 /// ROD.
 pub static ROD: Command = Command { spec: &SPEC, edits: false, run };

@@ -2,10 +2,10 @@
 
 use super::Job;
 use super::equilibrium::told;
-use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::values::Args;
 use crate::solve::results::along::{lines_at_rest, natural_modes};
-use crate::table::Table;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::table::Table;
+use windlass_base::values::Args;
 
 /// The tables of the lines that fit.
 ///

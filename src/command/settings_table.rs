@@ -2,9 +2,9 @@
 
 use super::Job;
 use super::status::push;
-use crate::language::units::Dim;
 use crate::model::{Coordinates, Model};
-use crate::table::{Digits, Table};
+use windlass_base::table::{Digits, Table};
+use windlass_base::units::Dim;
 
 /// Units.
 pub(super) fn dimensions(job: &Job) -> Table {

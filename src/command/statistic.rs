@@ -6,13 +6,13 @@
 use super::disposition::{ANY_COLUMN, BOTH, COLUMN, HARD, MAG_USE, RECORD, VALUES};
 use super::disposition::{chosen, here, refused, selectors, send, spec};
 use super::{Call, Command, Effect, Job};
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
 use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
-use crate::language::units::Dim;
 use crate::post::SeriesError;
 use crate::report::{page, statistic};
-use crate::table::Table;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::table::Table;
+use windlass_base::units::Dim;
 
 /// STATISTIC.
 pub static STATISTIC: Command = Command { spec: &SPEC, edits: false, run: statistics };

@@ -14,16 +14,16 @@ use super::{
     Call, Command, Effect, Job, Menu, bathymetry, body_status, body_tables, database_table, fatigue_table, line_types,
     member, model_tables, prescribe, rod_status, sea_table, settings_table, t_pressure, tether_status, wind_table,
 };
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::{Owner, choose};
 use crate::language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
-use crate::language::values::Noun;
 use crate::model::{Class, Thing};
 use crate::report::disposition::Disposition;
 use crate::report::page;
 use crate::report::plot::Chart;
 use crate::solve::run_tables;
-use crate::table::{Cell, Table};
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::table::{Cell, Table};
+use windlass_base::values::Noun;
 
 /// &STATUS.
 pub static STATUS: Command = Command { spec: &SPEC, edits: false, run };

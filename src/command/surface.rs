@@ -9,16 +9,17 @@ use super::member;
 use super::piece::{self, OPTIONS, READING};
 use super::{Call, Command, Effect, Job, Menu};
 use crate::hydro::hull::{MeshKind, read_mesh};
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
 use crate::language::source::LARGEST_FILE;
-use crate::language::span::Span;
 use crate::language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec, joined};
-use crate::language::units::Dim;
-use crate::language::values::Args;
-use crate::language::values::Noun;
-use crate::model::{Piece, Place, Position, Shape};
+use crate::model::{Piece, Shape};
 use crate::report::page;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::geometry::{Place, Position};
+use windlass_base::span::Span;
+use windlass_base::units::Dim;
+use windlass_base::values::Args;
+use windlass_base::values::Noun;
 
 /// &SURFACE.
 pub static SURFACE: Command = Command { spec: &SURFACE_SPEC, edits: false, run: surface };
@@ -239,7 +240,7 @@ fn move_block(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let name = args.word(0).unwrap_or_default();
     let by = Place::new([1, 2, 3, 4, 5, 6].map(|i| args.number(i).unwrap_or(0.0)));
     let known = job.model.names(crate::model::Thing::Piece);
-    let help = crate::language::diagnostic::did_you_mean(name, known);
+    let help = windlass_base::diagnostic::did_you_mean(name, known);
     let Some(Piece { shape, name, .. }) = job.model.piece_mut(name) else {
         let mut error = Diagnostic::error(format!("unknown piece {name}"), args.place(0));
         error.help.extend(help);

@@ -4,14 +4,14 @@
 
 use super::status::push;
 use super::{Call, Command, Effect, Job};
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::name as rule;
 use crate::language::select::Owner;
 use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
-use crate::language::units::Dim;
-use crate::language::values::Noun;
 use crate::model::{Contents, Filling, Model, Thing};
-use crate::table::{Digits, Table};
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::table::{Digits, Table};
+use windlass_base::units::Dim;
+use windlass_base::values::Noun;
 
 /// T_PRESSURE.
 pub static T_PRESSURE: Command = Command { spec: &SPEC, edits: false, run };

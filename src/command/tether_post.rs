@@ -4,20 +4,20 @@
 
 use super::disposition::{BOTH, HARD, send};
 use super::{Call, Command, Effect, Job, Menu};
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::{Owner, choose};
-use crate::language::span::Span;
 use crate::language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
-use crate::language::units::Dim;
-use crate::language::values::Noun;
-use crate::language::values::{Args, Given};
 use crate::post::SeriesError;
 use crate::post::tether::fatigue::{Asked, Endurance};
 use crate::report::disposition::Disposition;
 use crate::report::page;
 use crate::solve::tethered::{self, Of, Statistics, TetherHistory, Tethered};
-use crate::table::Table;
 use crate::tether::installed::Change;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::span::Span;
+use windlass_base::table::Table;
+use windlass_base::units::Dim;
+use windlass_base::values::Noun;
+use windlass_base::values::{Args, Given};
 
 /// TETHER.
 pub static TETHER: Command = Command { spec: &TETHER_SPEC, edits: false, run: tether };

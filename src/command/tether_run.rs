@@ -4,16 +4,16 @@
 
 use super::equilibrium::told;
 use super::{Effect, Job};
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
 use crate::language::spec::{Kind, OptionSpec, ValueSpec};
-use crate::language::units::Dim;
-use crate::language::values::Args;
-use crate::model::unit_vector;
 use crate::report::page;
 use crate::solve::tethered::{self, Settings};
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::geometry::unit_vector;
+use windlass_base::units::Dim;
+use windlass_base::values::Args;
 
 /// -TETHERS.
 pub const TETHERS: OptionSpec = OptionSpec::new(

@@ -2,10 +2,10 @@
 
 use super::Job;
 use super::equilibrium::told;
-use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::values::Args;
 use crate::solve::tethered;
-use crate::table::Table;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::table::Table;
+use windlass_base::values::Args;
 
 /// The tables of the tethers that fit.
 ///

@@ -1,11 +1,11 @@
 //! `&DIMEN` and `&DEFAULT`.
 
 use super::{Call, Command, Effect, Job};
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
 use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
-use crate::language::units::{Dim, ForceUnit, LengthUnit, UnitSystem};
 use crate::model::Coordinates;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::units::{Dim, ForceUnit, LengthUnit, UnitSystem};
 
 /// &DIMEN.
 pub static DIMEN: Command = Command { spec: &DIMEN_SPEC, edits: false, run: dimen };

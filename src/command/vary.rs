@@ -3,15 +3,15 @@
 use super::Job;
 use super::chosen::gathered;
 use super::status::push;
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
-use crate::language::span::Span;
 use crate::language::spec::{Kind, OptionSpec, ValueSpec};
-use crate::language::units::{Dim, UnitSystem};
-use crate::language::values::{Args, Given};
 use crate::model::{Class, ClassError, Condition, Configuration, Connector, LineChange, Placement};
 use crate::report::format::number_in_full;
-use crate::table::{Cell, Digits, Table};
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::span::Span;
+use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::units::{Dim, UnitSystem};
+use windlass_base::values::{Args, Given};
 
 /// -VARY.
 pub const VARY: OptionSpec = OptionSpec::new(

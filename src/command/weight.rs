@@ -3,14 +3,14 @@
 //! Source: reference/model.md, "Weights and loads".
 
 use super::{Call, Command, Effect, Job};
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
-use crate::language::units::eight_figures;
-use crate::language::units::{Dim, UnitSystem};
-use crate::language::values::Given;
-use crate::language::values::Noun;
 use crate::model::{Mass, Model, Weight, find};
 use nalgebra::{Matrix3, Vector3};
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::units::eight_figures;
+use windlass_base::units::{Dim, UnitSystem};
+use windlass_base::values::Given;
+use windlass_base::values::Noun;
 
 /// #WEIGHT.
 pub static ITEM: Command = Command { spec: &ITEM_SPEC, edits: false, run: item };

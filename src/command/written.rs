@@ -1,8 +1,8 @@
 //! Values kept in the model as a record would give them now: in the present units.
 
-use crate::language::units::eight_figures;
-use crate::language::units::{Dim, UnitSystem};
-use crate::language::values::{Given, Value};
+use windlass_base::units::eight_figures;
+use windlass_base::units::{Dim, UnitSystem};
+use windlass_base::values::{Given, Value};
 
 /// An option as a record would give it now: values in the present units.
 pub fn option_as_written(given: &Given, units: UnitSystem) -> String {

@@ -8,19 +8,19 @@ use super::mooring::{Mooring, line_error, no_other_end};
 use super::moving::{JointMass, MovingLine, Part, Seabed, Strength, description};
 use super::options::aqwa;
 use super::{ClassKind, checks};
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
-use crate::language::span::Span;
 use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
-use crate::language::units::Dim;
-use crate::language::values::{Args, Given};
 use crate::model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, LineModel, Placement, Surroundings,
 };
 use crate::rod::{self, Axial};
-use crate::table::{Cell, Digits, Table};
 use std::f64::consts::{FRAC_PI_4, PI};
 use std::sync::Arc;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::span::Span;
+use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::units::Dim;
+use windlass_base::values::{Args, Given};
 
 /// The class type CATENARY: an AQWA catenary section with the joint at its end.
 pub static CATENARY: ClassKind = ClassKind { spec: &CATENARY_SPEC, segmented: true, build: build_catenary };

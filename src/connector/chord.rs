@@ -7,8 +7,8 @@ use crate::model::{
     ClassError, Condition, Configuration, Element, End, Guess, LineChange, LineLoads, LineModel, Response, Situation,
     Summary,
 };
-use crate::table::Table;
 use nalgebra::{Matrix3, Vector3};
+use windlass_base::table::Table;
 
 /// A weightless line between two places.
 #[derive(Clone, Debug)]

@@ -5,8 +5,8 @@
 
 use super::catenary::LineError;
 use super::extension::Extension;
-use crate::model::Six;
 use nalgebra::{Matrix2, Vector2};
+use windlass_base::pose::Six;
 
 /// Newton steps.
 const STEPS: usize = 60;

@@ -44,10 +44,10 @@ mod zero_length;
 
 pub use section::type_notices;
 
-use crate::language::diagnostic::Outcome;
 use crate::language::spec::CommandSpec;
 use crate::model::{ClassRecord, ConnectorClass};
 use std::sync::Arc;
+use windlass_base::diagnostic::Outcome;
 
 /// A type of class a user can name in a `~NAME TYPE ...` record.
 pub struct ClassKind {

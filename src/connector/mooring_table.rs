@@ -2,8 +2,8 @@
 
 use super::catenary::{Buoy, Row};
 use super::mooring::Mooring;
-use crate::language::units::Dim;
-use crate::table::{Cell, Digits, Table};
+use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::units::Dim;
 
 /// The twelve columns of reference/solve.md, CONN_DESIGN.
 pub fn report(mooring: &Mooring, connector: &str, rows: &[Row]) -> Table {

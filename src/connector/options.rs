@@ -4,8 +4,8 @@
 
 use crate::language::select::Owner;
 use crate::language::spec::{Kind, OptionSpec, ValueSpec};
-use crate::language::units::Dim;
-use crate::language::values::Noun;
+use windlass_base::units::Dim;
+use windlass_base::values::Noun;
 
 const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(dim), help)

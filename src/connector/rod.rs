@@ -5,15 +5,15 @@
 use super::moving::{self as m, Description, Flexure, Hold, MovingLine, Part, Seabed};
 use super::section::{LineSection, properties};
 use super::{ClassKind, checks, options as o};
-use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::span::Span;
 use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
-use crate::language::units::Dim;
 use crate::model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, FatigueSegment, PipeLayout, Surroundings,
 };
-use crate::table::Table;
 use std::sync::Arc;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::span::Span;
+use windlass_base::table::Table;
+use windlass_base::units::Dim;
 
 /// The class type.
 pub static ROD: ClassKind = ClassKind { spec: &ROD_SPEC, segmented: true, build };

@@ -5,14 +5,14 @@
 use super::spring::{Restraint, Springs, no_anchor, restraint_table, restraints};
 use super::zero_law::{Contact, Sense};
 use super::{ClassKind, checks, options as o};
-use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::span::Span;
 use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
-use crate::language::units::Dim;
 use crate::model::{ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Surroundings};
-use crate::table::Table;
 use nalgebra::Vector3;
 use std::sync::Arc;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::span::Span;
+use windlass_base::table::Table;
+use windlass_base::units::Dim;
 
 /// The class type.
 pub static ROLLER: ClassKind = ClassKind { spec: &SPEC, segmented: false, build };

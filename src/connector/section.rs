@@ -6,14 +6,14 @@
 
 use super::checks;
 use super::line_types::{LineType, library};
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::{Owner, choose};
-use crate::language::span::Span;
-use crate::language::units::{Dim, UnitSystem};
-use crate::language::values::{Args, Given};
 use crate::model::{ClassRecord, FatigueSegment, Surroundings};
-use crate::table::{Cell, Digits, Table};
 use std::f64::consts::FRAC_PI_4;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::span::Span;
+use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::units::{Dim, UnitSystem};
+use windlass_base::values::{Args, Given};
 
 /// Density against which a specific gravity is given: fresh water (kg/m3).
 const FRESH_WATER: f64 = 1000.0;

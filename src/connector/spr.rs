@@ -5,11 +5,11 @@
 use super::restraint::Restraining;
 use super::spring::restraints;
 use super::{ClassKind, options as o};
-use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::span::Span;
 use crate::language::spec::CommandSpec;
 use crate::model::{ClassRecord, ConnectorClass};
 use std::sync::Arc;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::span::Span;
 
 /// The class type.
 pub static SPR: ClassKind = ClassKind { spec: &SPEC, segmented: false, build };

@@ -5,18 +5,18 @@
 use super::aqwa::{CA, LENGTH, number};
 use super::options::aqwa;
 use super::{ClassKind, checks};
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::select::Owner;
 use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
-use crate::language::units::Dim;
 use crate::model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Guess, Response, Situation, Summary,
     Surroundings, TetherSection, TetherUse,
 };
-use crate::table::{Cell, Digits, Table};
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::FRAC_PI_4;
 use std::sync::Arc;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::units::Dim;
 
 /// The class type TETHER: an AQWA tether/riser section.
 pub static TETHER: ClassKind = ClassKind { spec: &TETHER_SPEC, segmented: true, build: build_tether };

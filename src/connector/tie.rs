@@ -5,14 +5,14 @@
 use super::checks;
 use super::section::{LineSection, properties};
 use super::spring::no_anchor;
-use crate::language::diagnostic::Outcome;
-use crate::language::units::Dim;
 use crate::model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Guess, Response, Situation, Summary,
     Surroundings,
 };
-use crate::table::Table;
 use nalgebra::{Matrix3, Matrix6};
+use windlass_base::diagnostic::Outcome;
+use windlass_base::table::Table;
+use windlass_base::units::Dim;
 
 /// The force of a tie on its first end, toward the second.
 #[derive(Clone, Debug, PartialEq)]

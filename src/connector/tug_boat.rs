@@ -4,15 +4,16 @@
 
 use super::ClassKind;
 use super::spring::no_anchor;
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::spec::{CommandSpec, Kind, ValueSpec};
-use crate::language::units::Dim;
 use crate::model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Guess, Response, Situation, Summary,
-    Surroundings, unit_vector,
+    Surroundings,
 };
-use crate::table::Table;
 use std::sync::Arc;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::geometry::unit_vector;
+use windlass_base::table::Table;
+use windlass_base::units::Dim;
 
 /// The class type.
 pub static TUG_BOAT: ClassKind = ClassKind { spec: &SPEC, segmented: false, build };

@@ -230,7 +230,7 @@ fn unbound(gram: &DMatrix<f64>, pull: &DVector<f64>, free: &[usize]) -> Option<V
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::language::span::Span;
+    use windlass_base::span::Span;
 
     fn curve(kind: CurveKind, exponentials: usize, points: Vec<(f64, f64)>) -> Curve {
         Curve { name: "C".into(), kind, points, exponentials, metres: 1.0, span: Span::default() }

@@ -6,9 +6,9 @@
 
 use super::steady::{Medium, Steady};
 use super::stream::{InStream, Place, Push};
-use crate::model::Six;
 use nalgebra::{Matrix6x3, Vector3};
 use std::sync::Arc;
+use windlass_base::pose::Six;
 
 /// Areas in a stream, at a point of a body.
 #[derive(Debug)]

@@ -8,8 +8,8 @@
 
 use super::hull::Surface;
 use super::strips::{Strip, Strips};
-use crate::model::Pose;
 use nalgebra::{SMatrix, SVector, Vector3};
+use windlass_base::pose::Pose;
 
 /// A triangle of the skin: its corners, its unit normal in the body (outward), and how much of it is seen along each axis of the
 /// part.

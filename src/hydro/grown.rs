@@ -5,8 +5,9 @@
 
 use super::growth::Growth;
 use super::{BodyLoad, Category, Load, cross};
-use crate::model::{Body, ClassError, Model, Pose, Shape, Six, Surroundings};
+use crate::model::{Body, ClassError, Model, Shape, Surroundings};
 use nalgebra::{Matrix6, Vector3};
+use windlass_base::pose::{Pose, Six};
 
 /// Length of a ring (m), and the greatest number of them on a tube.
 const LENGTH: f64 = 1.0;

@@ -1,7 +1,8 @@
 //! Six values by heading, smooth all round.
 
-use crate::model::{ClassError, Six};
+use crate::model::ClassError;
 use std::f64::consts::{PI, TAU};
+use windlass_base::pose::Six;
 
 /// Six values that depend on a direction: cubic between the headings given, with the slope at each that of the parabola
 /// through it and its neighbours, and periodic. Value and slope have no jump, so that an equilibrium is found.

@@ -5,8 +5,9 @@
 //! (0, 0, height) and upright with no yaw. The force is exact for these angles of any size, and so is its stiffness.
 
 use super::{BodyLoad, Category, Load};
-use crate::model::{Body, ClassError, LinearHydrostatics, Pose, Six};
+use crate::model::{Body, ClassError, LinearHydrostatics};
 use nalgebra::{Matrix3, Matrix6, Rotation3, Vector3};
+use windlass_base::pose::{Pose, Six};
 
 /// Where roll and yaw are told apart no more: cosine of the pitch.
 const UPRIGHT: f64 = 1e-6;
@@ -67,8 +68,8 @@ impl BodyLoad for LinearHydrostatics {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::language::span::Span;
-    use crate::model::Place;
+    use windlass_base::geometry::Place;
+    use windlass_base::span::Span;
 
     fn linear(off_diagonal: f64) -> LinearHydrostatics {
         let mut stiffness = Matrix6::from_diagonal(&Six::new(1e3, 2e3, 4e6, 9e8, 8e10, 5e7));

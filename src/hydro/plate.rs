@@ -2,9 +2,9 @@
 
 use super::steady::Steady;
 use super::stream::{InStream, Place, Push};
-use crate::model::Six;
 use nalgebra::{Matrix6x3, Vector3};
 use std::sync::Arc;
+use windlass_base::pose::Six;
 
 /// A plate at its centre.
 #[derive(Debug)]

@@ -83,7 +83,7 @@ impl Steady {
         let bottom = around.depth.map(|d| d + around.tide);
         let mut waves = Vec::new();
         for sea in [&env.sea, &env.added_sea].into_iter().flatten().filter(|s| s.height > 0.0) {
-            let (cos, sin) = crate::model::unit_vector(sea.direction);
+            let (cos, sin) = windlass_base::geometry::unit_vector(sea.direction);
             waves.push((Vector3::new(-cos, -sin, 0.0), Arc::new(Waves::of(model, env, sea)?)));
         }
         Ok(Steady {

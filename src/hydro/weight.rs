@@ -1,8 +1,9 @@
 //! The weight of a body.
 
 use super::{BodyLoad, Category, Load, MovingLoad, Underway};
-use crate::model::{ClassError, Mass, Pose, Six};
+use crate::model::{ClassError, Mass};
 use nalgebra::Vector3;
+use windlass_base::pose::{Pose, Six};
 
 #[derive(Debug)]
 struct Weight {

@@ -5,9 +5,9 @@
 //! constants are written from memory of the standards named, but for that of ISO, which was compared with a published
 //! program (ckunte.net/2016/wind).
 
-use crate::language::units::Dim;
 use crate::model::{ClassError, Environment};
 use nalgebra::Vector3;
+use windlass_base::units::Dim;
 
 /// Height at which the wind of `&ENV` blows (m).
 pub const REFERENCE: f64 = 10.0;
@@ -102,7 +102,7 @@ impl WindField {
     }
 
     fn new(speed: f64, from: f64, profile: Profile, gust: Gust) -> Self {
-        let (cos, sin) = crate::model::unit_vector(from);
+        let (cos, sin) = windlass_base::geometry::unit_vector(from);
         WindField { speed, toward: Vector3::new(-cos, -sin, 0.0), profile, gust }
     }
 
@@ -195,7 +195,7 @@ fn roughness(speed: f64) -> f64 {
     // the logarithm changes slowly: each turn gains a figure or more
     for _ in 0..60 {
         let shear = KARMAN * speed / (REFERENCE / z0).ln();
-        z0 = (CHARNOCK / crate::language::units::STANDARD_GRAVITY * shear * shear).clamp(1e-7, 0.1);
+        z0 = (CHARNOCK / windlass_base::units::STANDARD_GRAVITY * shear * shear).clamp(1e-7, 0.1);
     }
     z0
 }

@@ -6,15 +6,15 @@
 
 mod convert;
 
-use super::diagnostic::{Diagnostic, Outcome};
 use super::record::Word;
 use super::select;
-use super::span::Span;
 use super::spec::{CommandSpec, Kind, OptionSpec, ValueSpec, expected};
 use super::token::Kind as Lex;
-use super::units::UnitSystem;
-use super::values::{Args, Given};
 use convert::{convert, take};
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::span::Span;
+use windlass_base::units::UnitSystem;
+use windlass_base::values::{Args, Given};
 
 /// Reads the words behind a command word.
 ///

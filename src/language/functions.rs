@@ -3,16 +3,16 @@
 //! Source: reference/language.md section 7. Where that text leaves a choice, the reading is in `&HELP` of the function
 //! ([`HELP`]).
 
-use super::diagnostic::{Diagnostic, Outcome};
 use super::logic;
 use super::number;
 use super::record::{Record, Word};
 use super::select::{self, Owner};
-use super::span::Span;
 use super::token::Kind;
-use super::units::eight_figures;
 use super::variables::Variables;
-use super::wildcard::matches;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::span::Span;
+use windlass_base::units::eight_figures;
+use windlass_base::wildcard::matches;
 
 /// The functions answered here, without `&`.
 pub const NAMES: &[&str] = &["NUMBER", "FORMAT", "STRING", "TOKEN", "LOGICAL", "V_EXIST"];

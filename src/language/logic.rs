@@ -5,9 +5,9 @@
 //! that tighter than `.OR.`. A parenthesis that its own word does not match groups conditions: `(1 .EQ. 1)`; matched ones
 //! are arithmetic: `(1+2)*3`.
 
-use super::diagnostic::{Diagnostic, Outcome};
 use super::number;
-use super::span::Span;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::span::Span;
 
 /// Deepest nesting of parentheses and `.NOT.`.
 const DEEPEST: usize = 64;

@@ -2,7 +2,6 @@
 //! diagnostics. It knows nothing of ships.
 
 pub mod args;
-pub mod diagnostic;
 pub mod flow;
 pub mod functions;
 pub mod logic;
@@ -12,11 +11,7 @@ pub mod record;
 pub mod render;
 pub mod select;
 pub mod source;
-pub mod span;
 pub mod spec;
 pub mod substitution;
 pub mod token;
-pub mod units;
-pub mod values;
 pub mod variables;
-pub mod wildcard;

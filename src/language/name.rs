@@ -2,8 +2,8 @@
 //!
 //! Source: reference/language.md sections 1 and 11; MOSES takes 8 characters, we take 64.
 
-use super::diagnostic::{Diagnostic, Outcome, with_article};
-use super::span::Span;
+use windlass_base::diagnostic::{Diagnostic, Outcome, with_article};
+use windlass_base::span::Span;
 
 /// Longest name taken (characters, the marker included).
 pub const LONGEST: usize = 64;

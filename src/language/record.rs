@@ -1,9 +1,9 @@
 //! Records: one logical line of text, joined over continuation lines, in which every byte still knows its place.
 
-use super::span::{SourceId, Span};
 use super::token::{self, Kind};
 use std::ops::Range;
 use std::sync::Arc;
+use windlass_base::span::{SourceId, Span};
 
 /// Longest record taken (bytes), before and after substitution.
 pub const LONGEST_RECORD: usize = 1 << 20;

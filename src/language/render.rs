@@ -1,10 +1,10 @@
 //! A message as a person reads it: the record it is about, the word underlined.
 
-use super::diagnostic::{Diagnostic, Severity};
 use super::source::{Source, Sources, floor_boundary};
-use super::span::Span;
 use annotate_snippets::{Annotation, AnnotationKind, Group, Level, Renderer, Snippet};
 use std::ops::Range;
+use windlass_base::diagnostic::{Diagnostic, Severity};
+use windlass_base::span::Span;
 
 /// The message as printed: headline, place, the record with the word underlined, help lines.
 pub fn render(diagnostic: &Diagnostic, sources: &Sources, colour: bool) -> String {

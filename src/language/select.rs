@@ -2,8 +2,8 @@
 //!
 //! Source: reference/language.md sections 2 and 11.
 
-use super::diagnostic::{Diagnostic, Outcome, did_you_mean};
-use super::span::Span;
+use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
+use windlass_base::span::Span;
 
 /// Whose name a keyword is. A MOSES abbreviation stays valid whatever else is added: names of MOSES are looked at
 /// first, the others only where none of MOSES's fits.

@@ -1,8 +1,8 @@
 //! Texts the program reads: where a [`Span`] finds its file, line and column.
 
-use super::span::{SourceId, Span};
 use std::ops::Range;
 use std::sync::Arc;
+use windlass_base::span::{SourceId, Span};
 
 /// A text as it was read. A byte that has no place in records (NUL, or one that is not UTF-8) stands in it as NUL, so
 /// that every byte keeps its offset.

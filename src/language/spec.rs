@@ -2,8 +2,8 @@
 //! and the printed manual all read these; nothing about a record's form is written twice.
 
 use super::select::Owner;
-use super::units::{Dim, UnitSystem};
-use super::values::Noun;
+use windlass_base::units::{Dim, UnitSystem};
+use windlass_base::values::Noun;
 
 /// What a value is.
 #[derive(Clone, Copy, Debug, PartialEq)]

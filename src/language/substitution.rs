@@ -3,12 +3,12 @@
 //! Source: reference/language.md sections 4 and 7. The text put in is not looked at again, so that no value can make
 //! the interpreter run in circles.
 
-use super::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use super::functions;
 use super::record::{LONGEST_RECORD, Record, Word};
 use super::select::{self, Choice, Owner};
-use super::span::Span;
 use super::variables::Variables;
+use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
+use windlass_base::span::Span;
 
 /// Deepest nesting of functions within functions.
 const DEEPEST: usize = 32;

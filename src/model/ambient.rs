@@ -1,8 +1,8 @@
 //! What surrounds a line that feels water, wind and bottom all along itself.
 
-use crate::language::span::Span;
 use nalgebra::Vector3;
 use std::fmt::Debug;
+use windlass_base::span::Span;
 
 /// Water and air at a place and a time.
 ///

@@ -1,10 +1,12 @@
 //! Assemblies: connectors of a single node whose other ends an assembly takes care of.
 
-use super::{Ambient, Body, ClassError, Connection, Connector, Element, LineDuty, Model, Place, Pose, Surroundings};
-use crate::language::span::Span;
+use super::{Ambient, Body, ClassError, Connection, Connector, Element, LineDuty, Model, Surroundings};
 use indexmap::IndexMap;
 use nalgebra::Vector3;
 use std::sync::Arc;
+use windlass_base::geometry::Place;
+use windlass_base::pose::Pose;
+use windlass_base::span::Span;
 
 /// What an assembly is made of.
 #[derive(Clone, Debug, PartialEq)]

@@ -8,8 +8,8 @@
 //! Guide to Splines, chapter IV).
 
 use super::ClassError;
-use crate::language::span::Span;
-use crate::language::units::Dim;
+use windlass_base::span::Span;
+use windlass_base::units::Dim;
 
 /// The most points of a grid: 32 bytes each, 128 MB together.
 pub const MOST_POINTS: usize = 4_000_000;

@@ -1,11 +1,11 @@
 //! Bodies, their parts, and points.
 
 use super::database::AttachedDatabase;
-use super::geometry::{Place, Position};
 use super::hull::{LinearHydrostatics, Piece};
 use super::prescribed::Prescription;
-use crate::language::span::Span;
 use nalgebra::{Matrix3, Vector3};
+use windlass_base::geometry::{Place, Position};
+use windlass_base::span::Span;
 
 /// The part that points outside of any body belong to: fixed in the global system.
 pub const GROUND: &str = "GROUND";

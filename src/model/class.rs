@@ -8,14 +8,14 @@ use super::environment::Surroundings;
 use super::fatigue::FatigueSegment;
 use super::line::{LineModel, Placement};
 use super::tether::TetherSection;
-use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::span::Span;
-use crate::language::units::eight_figures;
-use crate::language::units::{Dim, ForceUnit, LengthUnit, UnitSystem};
-use crate::language::values::Args;
-use crate::table::Table;
 use std::fmt::Debug;
 use std::sync::Arc;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::span::Span;
+use windlass_base::table::Table;
+use windlass_base::units::eight_figures;
+use windlass_base::units::{Dim, ForceUnit, LengthUnit, UnitSystem};
+use windlass_base::values::Args;
 
 /// One record of a class: SI values with their places, and the defaults in force when it was read.
 #[derive(Clone, Debug, PartialEq)]

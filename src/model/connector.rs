@@ -1,9 +1,9 @@
 //! Connectors: a class between one or two points.
 
-use super::geometry::Position;
-use super::pose::Pose;
 use super::tether::TetherEnds;
-use crate::language::span::Span;
+use windlass_base::geometry::Position;
+use windlass_base::pose::Pose;
+use windlass_base::span::Span;
 
 /// Where the far end of a line to ground lies.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! Curves of `&DATA CURVES`: pairs of numbers under a name.
 
-use crate::language::span::Span;
-use crate::language::units::Dim;
+use windlass_base::span::Span;
+use windlass_base::units::Dim;
 
 /// What a curve describes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,8 +1,8 @@
 //! What a hydrodynamic database holds of one body: data only; the physics is in `hydro::database`.
 
-use crate::language::span::Span;
 use nalgebra::{Complex, Matrix6, Vector3};
 use std::sync::Arc;
+use windlass_base::span::Span;
 
 /// Six complex amplitudes: of force (N) and moment (N m), or of translation (m) and rotation (rad).
 pub type Amplitudes = [Complex<f64>; 6];

@@ -2,7 +2,7 @@
 //!
 //! Source: reference/model.md, "Conventions and defaults".
 
-use crate::language::units::{INCH, KIP, STANDARD_GRAVITY};
+use windlass_base::units::{INCH, KIP, STANDARD_GRAVITY};
 
 /// Material of a section where a record gives none.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -11,11 +11,11 @@ use super::connector::Connector;
 use super::curve::Curve;
 use super::environment::Surroundings;
 use super::line::Placement;
-use super::pose::{Pose, Six};
 use nalgebra::{Matrix3, Matrix6};
 use std::any::Any;
 use std::fmt::Debug;
 use std::sync::Arc;
+use windlass_base::pose::{Pose, Six};
 
 /// An end of a connector: a point of a body with that body's axes, or a place in the ground.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,9 +2,9 @@
 //!
 //! Source: reference/model.md, "Environment". Directions are where wind, sea and current come from, from +X toward +Y.
 
-use crate::language::span::Span;
-use crate::language::values::Given;
-use crate::language::values::Noun;
+use windlass_base::span::Span;
+use windlass_base::values::Given;
+use windlass_base::values::Noun;
 
 /// A sea: spectrum or regular wave.
 #[derive(Clone, Debug, PartialEq)]

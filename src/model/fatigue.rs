@@ -2,9 +2,9 @@
 //! segments. The curves that windlass ships are not here: they belong to the post floor.
 
 use super::Model;
-use crate::language::span::Span;
 use indexmap::IndexMap;
 use std::f64::consts::FRAC_PI_4;
+use windlass_base::span::Span;
 
 /// What the ranges of a fatigue curve are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,9 +1,9 @@
 //! What makes a body float: pieces of its parts, each a closed surface, or one linear stiffness.
 
-use super::geometry::{Place, Position};
-use crate::language::span::Span;
-use crate::language::values::Given;
 use nalgebra::{Matrix6, Vector3};
+use windlass_base::geometry::{Place, Position};
+use windlass_base::span::Span;
+use windlass_base::values::Given;
 
 /// The form of a piece, in the system of its part (m).
 #[derive(Clone, Debug, PartialEq)]

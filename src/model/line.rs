@@ -2,8 +2,8 @@
 
 use super::class::ClassError;
 use super::element::Element;
-use super::geometry::Position;
-use crate::table::Table;
+use windlass_base::geometry::Position;
+use windlass_base::table::Table;
 
 /// Where a connector's ends are when it is asked something (m, global).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -3,10 +3,10 @@
 //! Source: reference/model.md, "Weights and loads". Everything is in the axes of its part; the floors above turn it into
 //! forces.
 
-use super::geometry::Position;
-use crate::language::span::Span;
 use indexmap::IndexMap;
 use nalgebra::Matrix6;
+use windlass_base::geometry::Position;
+use windlass_base::span::Span;
 
 /// What decides whether a load is one of wind or of current.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

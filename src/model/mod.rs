@@ -16,12 +16,10 @@ mod defaults;
 mod element;
 mod environment;
 mod fatigue;
-mod geometry;
 mod hull;
 mod line;
 mod load;
 mod names;
-mod pose;
 mod prescribed;
 mod selector;
 mod tether;
@@ -44,21 +42,21 @@ pub use environment::{
     Wind,
 };
 pub use fatigue::{FatigueCurve, FatigueKind, FatigueSegment, FatigueSelection, ThicknessCorrection};
-pub use geometry::{Place, Position, unit_vector};
 pub use hull::{LinearHydrostatics, Member, Piece, Shape, WaveAction, box_panels};
 pub use line::{Condition, Configuration, LineChange, LineLoads, LineModel, Placement};
 pub use load::{Fluid, LoadKind, Multipliers, PartLoad};
 pub use names::Thing;
-pub use pose::{Pose, Six};
 pub use prescribed::{GivenMotion, PathRow, Prescription, ResponseRow, Responses, Sinusoid};
 pub use selector::Selector;
 pub use tether::{TetherConstraint, TetherEnds, TetherHold, TetherSection, TetherUse};
 
-use crate::language::diagnostic::{Diagnostic, Outcome, did_you_mean};
-use crate::language::span::Span;
 use indexmap::IndexMap;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
+use windlass_base::geometry::Position;
+use windlass_base::pose::Pose;
+use windlass_base::span::Span;
 
 /// The whole database. Keys are names in upper case, with their marker (`~`, `*`, `:`).
 #[derive(Clone, Debug, Default)]

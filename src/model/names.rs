@@ -5,10 +5,10 @@
 //! that of its body or part.
 
 use super::{Assembly, AssemblyKind, Environment, Formula, Model, Piece};
-use crate::language::diagnostic::with_article;
-use crate::language::diagnostic::{Diagnostic, Outcome};
-use crate::language::span::Span;
-use crate::language::values::Noun;
+use windlass_base::diagnostic::with_article;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::span::Span;
+use windlass_base::values::Noun;
 
 /// A sort of thing that has a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

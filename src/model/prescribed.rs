@@ -1,7 +1,7 @@
 //! Motions that bodies are given, instead of what forces would make them do.
 
-use crate::language::span::Span;
 use std::sync::Arc;
+use windlass_base::span::Span;
 
 /// The motion of a body that is given.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,8 +4,8 @@
 //! exception.
 
 use super::Model;
-use crate::language::span::Span;
-use crate::language::wildcard::matches;
+use windlass_base::span::Span;
+use windlass_base::wildcard::matches;
 
 /// A selector of `&SELECT`.
 #[derive(Clone, Debug, PartialEq, Default)]

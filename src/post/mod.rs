@@ -1,7 +1,7 @@
 //! Post-processing of plain series: statistics, extremes, spectra, distributions, rainflow, harmonics, fatigue.
 //!
 //! A series is a `&[f64]` of samples, with a `&[f64]` of growing times where time matters. Values are SI; nothing here
-//! knows where they come from. [`tables`] does the same to the columns of a [`crate::table::Table`], the first of which
+//! knows where they come from. [`tables`] does the same to the columns of a [`windlass_base::table::Table`], the first of which
 //! is the independent one.
 
 pub mod cycle;

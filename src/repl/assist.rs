@@ -9,7 +9,6 @@ use crate::language::functions;
 use crate::language::select::{Choice, keyword};
 use crate::language::spec::{CommandSpec, Kind as ValueKind, ValueSpec};
 use crate::language::token::{self, Kind, Token};
-use crate::language::values::Noun;
 use crate::model::PIPE;
 use crate::session::Session;
 use rustyline::completion::{Completer, FilenameCompleter, Pair};
@@ -19,6 +18,7 @@ use rustyline::validate::{ValidationContext, ValidationResult, Validator};
 use rustyline::{Context, Helper};
 use std::borrow::Cow;
 use std::sync::{Arc, Mutex};
+use windlass_base::values::Noun;
 
 /// Names to complete, taken from the session before each line.
 #[derive(Default)]

@@ -4,9 +4,9 @@
 //! Source: reference/solve.md, "Disposition menu". The surplus columns it drops are those beyond what a command takes; a number
 //! of no column is an error.
 
-use crate::language::diagnostic::did_you_mean;
-use crate::language::wildcard::matches;
-use crate::table::{Column, Table};
+use windlass_base::diagnostic::did_you_mean;
+use windlass_base::table::{Column, Table};
+use windlass_base::wildcard::matches;
 
 /// A selector that names nothing.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -104,9 +104,9 @@ pub fn reported(table: &Table, selector: &str) -> Result<Vec<usize>, NoSuchColum
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::language::units::Dim;
-    use crate::table::Digits;
     use proptest::prelude::*;
+    use windlass_base::table::Digits;
+    use windlass_base::units::Dim;
 
     fn table(names: &[&str]) -> Table {
         names.iter().fold(Table::new("t"), |t, n| t.column("G", n, Dim::None, Digits::Usual))

@@ -2,8 +2,8 @@
 
 use super::columns::long_name;
 use super::format;
-use crate::language::units::UnitSystem;
-use crate::table::{Column, Table};
+use windlass_base::table::{Column, Table};
+use windlass_base::units::UnitSystem;
 
 /// The bytes of the file.
 ///
@@ -43,9 +43,9 @@ pub(super) fn heads(table: &Table, units: UnitSystem) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::language::units::Dim;
-    use crate::table::{Cell, Digits};
     use proptest::prelude::*;
+    use windlass_base::table::{Cell, Digits};
+    use windlass_base::units::Dim;
 
     #[test]
     fn heads_have_units_and_numbers_read_back_exactly() {

@@ -6,8 +6,8 @@
 
 use super::columns::{Choose, NoSuchColumn, choose, reported};
 use super::format;
-use crate::language::units::{Dim, UnitSystem};
-use crate::table::{Cell, Column, Digits, Table};
+use windlass_base::table::{Cell, Column, Digits, Table};
+use windlass_base::units::{Dim, UnitSystem};
 
 /// Why something could not be done with a table.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -4,12 +4,12 @@
 //! characters. Whole numbers are 32 bits wide, and doubles where that does not hold them.
 
 use super::stored::{SOURCE, StoreError, Values, stored};
-use crate::language::units::UnitSystem;
-use crate::table::Table;
 use netcdf3::{DataSet, FileWriter, Version};
 use std::cell::RefCell;
 use std::io::{Cursor, Seek, SeekFrom, Write};
 use std::rc::Rc;
+use windlass_base::table::Table;
+use windlass_base::units::UnitSystem;
 
 /// The dimension of rows.
 const ROW: &str = "row";
@@ -167,9 +167,9 @@ fn names<'a>(wanted: impl Iterator<Item = &'a str>) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::language::units::Dim;
-    use crate::table::{Cell, Digits};
     use netcdf3::FileReader;
+    use windlass_base::table::{Cell, Digits};
+    use windlass_base::units::Dim;
 
     #[test]
     fn a_file_reads_back_with_its_values_to_the_last_bit_its_units_names_and_text() {

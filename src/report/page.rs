@@ -5,10 +5,10 @@
 //! rows.
 
 use super::format;
-use crate::language::units::{Dim, UnitSystem};
-use crate::table::{Cell, Column, Digits, Table};
 use comfy_table::presets::NOTHING;
 use comfy_table::{CellAlignment, Table as Grid};
+use windlass_base::table::{Cell, Column, Digits, Table};
+use windlass_base::units::{Dim, UnitSystem};
 
 /// What stands at the head of a page.
 #[derive(Clone, Debug, Default, PartialEq)]

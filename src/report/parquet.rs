@@ -4,8 +4,6 @@
 
 use super::embedded::string;
 use super::stored::{SOURCE, StoreError, Values, stored};
-use crate::language::units::UnitSystem;
-use crate::table::Table;
 use ::parquet::basic::{LogicalType, Repetition, Type as Physical};
 use ::parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
 use ::parquet::errors::ParquetError;
@@ -14,6 +12,8 @@ use ::parquet::file::properties::WriterProperties;
 use ::parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use ::parquet::schema::types::Type;
 use std::sync::Arc;
+use windlass_base::table::Table;
+use windlass_base::units::UnitSystem;
 
 /// The bytes of the file.
 ///
@@ -98,11 +98,11 @@ fn put<T: DataType>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::language::units::Dim;
-    use crate::table::{Cell, Digits};
     use ::parquet::file::reader::{FileReader, SerializedFileReader};
     use ::parquet::record::Field;
     use std::io::Write;
+    use windlass_base::table::{Cell, Digits};
+    use windlass_base::units::Dim;
 
     #[test]
     fn a_file_reads_back_with_its_values_to_the_last_bit_its_units_and_what_is_missing() {

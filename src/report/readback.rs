@@ -4,8 +4,8 @@
 //! `&BUILDG -CSV` a line of heads and rows. A head that ends in a unit in parentheses, as STORE writes it, gives its column
 //! that dimension, whatever units the user has now.
 
-use crate::language::units::{Dim, ForceUnit, LengthUnit, UnitSystem};
-use crate::table::{Cell, Digits, Table};
+use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::units::{Dim, ForceUnit, LengthUnit, UnitSystem};
 
 /// Why a text is no table.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

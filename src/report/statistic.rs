@@ -1,11 +1,11 @@
 //! `STATISTIC`: what a column amounts to.
 
-use crate::language::units::{Dim, UnitSystem};
 use crate::post::SeriesError;
 use crate::post::extremes::rayleigh;
 use crate::post::statistics::{self, Crossings, Moments, Peak};
 use crate::post::tables::{self, Record};
-use crate::table::{Cell, Column, Digits, Table};
+use windlass_base::table::{Cell, Column, Digits, Table};
+use windlass_base::units::{Dim, UnitSystem};
 
 /// Count, mean, standard deviation, and the extremes with the value of the independent column where they occur.
 ///

@@ -1,8 +1,8 @@
 //! A table's columns as a binary file keeps them: one type of value a column, user units.
 
 use super::format;
-use crate::language::units::UnitSystem;
-use crate::table::{Cell, Column, Table};
+use windlass_base::table::{Cell, Column, Table};
+use windlass_base::units::UnitSystem;
 
 /// What wrote a file.
 pub const SOURCE: &str = concat!("windlass ", env!("CARGO_PKG_VERSION"));

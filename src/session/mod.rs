@@ -12,7 +12,6 @@ use self::named::{in_menu, unknown};
 use crate::aqwa;
 use crate::command::{self, Call, Command, Effect, INMODEL_FILE, Job, Menu, PLAIN, SCRIPT, offered};
 use crate::language::args;
-use crate::language::diagnostic::{Diagnostic, Outcome, Severity};
 use crate::language::flow::macros::{self, Macro};
 use crate::language::flow::specs::CONTROL;
 use crate::language::flow::{Interpreter, Step};
@@ -20,14 +19,15 @@ use crate::language::record::{Record, Word};
 use crate::language::render::render;
 use crate::language::select::{Choice, keyword};
 use crate::language::source::Text;
-use crate::language::span::Span;
 use crate::language::spec::Form;
 use crate::language::token::Kind;
-use crate::language::values::Args;
 use crate::report::output::Output;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::Arc;
+use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
+use windlass_base::span::Span;
+use windlass_base::values::Args;
 
 /// Why a run came back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,9 +3,9 @@
 
 use super::{Meaning, Session};
 use crate::command::{Command, Menu, opened_by};
-use crate::language::diagnostic::{Diagnostic, Severity};
 use crate::language::record::Word;
 use crate::language::token::Kind;
+use windlass_base::diagnostic::{Diagnostic, Severity};
 
 impl Session {
     /// Hands back the error of a command; where the command would have opened a menu, and the run goes on, its place is

@@ -4,9 +4,10 @@ use super::excursion;
 use super::excursion::{End, Moved, Path, Walk, worst};
 use super::system::{FREEDOMS, SolveError, System, without_rounding};
 use super::watch::{Circle, Watched};
-use crate::language::units::{Dim, UnitSystem};
-use crate::model::{Place, Pose};
-use crate::table::{Cell, Digits, Table};
+use windlass_base::geometry::Place;
+use windlass_base::pose::Pose;
+use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::units::{Dim, UnitSystem};
 
 /// The system without the lines that are removed, and the one with them where some are.
 #[derive(Debug)]

@@ -1,8 +1,8 @@
 //! What a run says of itself, and how it compares with another.
 
 use super::time::{Counts, History, Method, Run, Series, results};
-use crate::language::units::Dim;
-use crate::table::{Cell, Digits, Table};
+use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::units::Dim;
 
 /// How a run stepped.
 fn scheme(method: &Method) -> String {

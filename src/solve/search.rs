@@ -7,8 +7,8 @@
 use super::equilibrium::{LOOSE, Options};
 use super::system::{SolveError, State, System};
 use super::unknowns::Unknowns;
-use crate::model::Pose;
 use nalgebra::{Cholesky, DMatrix, DVector};
+use windlass_base::pose::Pose;
 
 /// Bold steps that may lead nowhere better.
 const PATIENCE: usize = 5;

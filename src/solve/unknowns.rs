@@ -2,8 +2,9 @@
 
 use super::equilibrium::Options;
 use super::system::{Node, State, System};
-use crate::model::{Place, Pose, Six};
 use nalgebra::{DMatrix, DVector};
+use windlass_base::geometry::Place;
+use windlass_base::pose::{Pose, Six};
 
 /// Longest step (m), and largest rotation in it (rad).
 const LONGEST: [f64; 2] = [50.0, 0.3];

@@ -1,8 +1,8 @@
 //! The description of a tether: what the data listing of seed 003 (7.1) tells of it before a run.
 
 use super::line::Line;
-use crate::language::units::Dim;
-use crate::table::{Cell, Digits, Table};
+use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::units::Dim;
 
 /// Second moment of area (m4).
 const QUARTIC: Dim = Dim::Derived { force: 0, length: 4, seconds: 0 };

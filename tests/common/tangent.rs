@@ -4,7 +4,7 @@
 
 use nalgebra::Matrix6;
 use windlass::hydro::BodyLoad;
-use windlass::model::{Pose, Six};
+use windlass_base::pose::{Pose, Six};
 
 /// Central differences of the wrench, by translations of a hundredth of a millimetre and rotations of 1e-6 rad: the third
 /// derivative in a passage about the surface is large.

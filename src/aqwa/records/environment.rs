@@ -5,8 +5,8 @@ use super::written::{Script, difference, number, numbers, opposite, rounded};
 use crate::aqwa::Deck;
 use crate::aqwa::surroundings::{Flow, Layer};
 use crate::aqwa::waves::{Spectrum, Waves};
-use crate::language::diagnostic::Diagnostic;
-use crate::language::units::KNOT;
+use windlass_base::diagnostic::Diagnostic;
+use windlass_base::units::KNOT;
 
 /// Names of the curves of a current profile.
 const PROFILE: [&str; 2] = ["CPRF_X", "CPRF_Y"];

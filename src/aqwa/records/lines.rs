@@ -4,8 +4,8 @@ use super::model::point;
 use super::written::{Script, number, numbers, rounded};
 use crate::aqwa::Deck;
 use crate::aqwa::lines::{Composite, Ends, Joint, LineKind, MooringLine, Property, Section};
-use crate::language::diagnostic::Diagnostic;
 use std::f64::consts::FRAC_PI_4;
+use windlass_base::diagnostic::Diagnostic;
 
 /// Diameter (m) of an elastic line as the class has it: only EA of the section counts.
 const DIAMETER: f64 = 1.0;

@@ -13,7 +13,7 @@ mod tethers;
 mod written;
 
 use super::Deck;
-use crate::language::diagnostic::Diagnostic;
+use windlass_base::diagnostic::Diagnostic;
 use written::{Scale, Script, number};
 
 /// The record that sets the units of the others.

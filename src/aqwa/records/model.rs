@@ -5,9 +5,9 @@ use crate::aqwa::Deck;
 use crate::aqwa::elements::{Element, Shape, Structure};
 use crate::aqwa::hydrostatics::{Hydrostatics, SixBySix};
 use crate::aqwa::mass::MassProperties;
-use crate::language::diagnostic::Diagnostic;
-use crate::language::span::Span;
 use nalgebra::Matrix6;
+use windlass_base::diagnostic::Diagnostic;
+use windlass_base::span::Span;
 
 /// Friction along a tube: fixed in AQWA (reference/aqwa-cards.md, "TUBE").
 const FRICTION: f64 = 0.016;

@@ -8,7 +8,7 @@ use crate::aqwa::Deck;
 use crate::aqwa::job::Program;
 use crate::aqwa::tethers::{Fatigue, Tether};
 use crate::aqwa::waves::Waves;
-use crate::language::diagnostic::Diagnostic;
+use windlass_base::diagnostic::Diagnostic;
 
 /// Hours for which the peak stress is expected when TPSH is not given (A.5).
 const HOURS: f64 = 3.0;

@@ -6,7 +6,7 @@ use crate::aqwa::Deck;
 use crate::aqwa::elements::Shape;
 use crate::aqwa::end_springs::EndSpring;
 use crate::aqwa::tethers::{Constraint, Description, Tether, TetherElement};
-use crate::language::span::Span;
+use windlass_base::span::Span;
 
 /// Name of the connector of a tether, by its place in deck 14.
 pub(super) fn name(index: usize) -> String {

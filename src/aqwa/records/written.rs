@@ -1,7 +1,7 @@
 //! How records are written: numbers in native units, lines, remarks, and what had to be refused.
 
 use crate::aqwa::units::Units;
-use crate::language::diagnostic::Diagnostic;
+use windlass_base::diagnostic::Diagnostic;
 
 /// Digits kept of a number that is reckoned from those of the cards: a difference of places, a product with the factor of a unit. A
 /// double has 15 to 17, of which the last ones of such a number are rounding; without them the digits of the cards show again.

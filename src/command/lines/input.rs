@@ -1,7 +1,6 @@
 //! The rows of a CSV file of lines: which column gives what, the line each row begins at, and what is wrong with a row.
 
 use crate::connector::catenary::{Bottom, Segment};
-use crate::language::diagnostic::nearest;
 use crate::language::source::LARGEST_FILE;
 use crate::language::spec::Range;
 use csv::ByteRecord;
@@ -9,6 +8,7 @@ use std::borrow::Cow;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
+use windlass_base::diagnostic::nearest;
 
 /// Longest row taken (bytes); a quote that is never closed ends here.
 const LONGEST_ROW: usize = 1 << 20;

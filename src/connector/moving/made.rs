@@ -97,7 +97,7 @@ impl MovingLine {
 /// The directions in which the ends are held, in the axes of their holders as defined.
 fn holds(description: &Description, connection: &Connection) -> Result<[Option<Held>; 2], ClassError> {
     let [a, b] = connection.connector.defined;
-    let b = if connection.to_ground { crate::model::Pose { origin: connection.ends[1].origin, ..b } } else { b };
+    let b = if connection.to_ground { windlass_base::pose::Pose { origin: connection.ends[1].origin, ..b } } else { b };
     let chord = b.origin - a.origin;
     let across = Vector3::new(chord.x, chord.y, 0.0).try_normalize(1e-9).unwrap_or_else(Vector3::x);
     let mut made = [None, None];

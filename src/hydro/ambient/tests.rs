@@ -1,9 +1,9 @@
 use super::*;
-use crate::language::span::Span;
 use crate::model::{
     Components, Current, Curve, CurveKind, Division, Environment, Filling, Formula, Phasing, Stretching, Wind,
 };
 use std::f64::consts::{PI, TAU};
+use windlass_base::span::Span;
 
 const GRAVITY: f64 = 9.80665;
 

@@ -10,11 +10,11 @@ use crate::hydro::steady::Steady;
 use crate::hydro::{Category, Load, transferred};
 use crate::model::{
     AttachedDatabase, Body, ClassError, Database, DriftMethod, LinearHydrostatics, LoadKind, Mass, Model, PartLoad,
-    Pose, Six,
 };
 use nalgebra::Matrix6;
 use std::f64::consts::PI;
 use std::sync::Arc;
+use windlass_base::pose::{Pose, Six};
 
 /// The step of the memory where the environment gives none (s).
 const USUAL_STEP: f64 = 0.1;

@@ -8,9 +8,10 @@ use super::waves::{ByHeading, Group, groups};
 use crate::hydro::body_load::{BodyLoad, MovingLoad, Underway};
 use crate::hydro::sea::Sea;
 use crate::hydro::{Category, Load, carried};
-use crate::model::{ClassError, Database, Pose, Six};
+use crate::model::{ClassError, Database};
 use nalgebra::Vector3;
 use std::sync::Arc;
+use windlass_base::pose::{Pose, Six};
 
 /// The excitation of one body in one sea.
 #[derive(Clone, Debug)]

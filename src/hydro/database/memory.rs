@@ -5,9 +5,9 @@
 //! the present one is straight, too, and its share of the trial's velocity is a matrix of damping. Where the steps are those of the grid
 //! it is the plain trapezoidal rule. All is in the body's axes.
 
-use crate::model::Six;
 use multiversion::multiversion;
 use nalgebra::Matrix6;
+use windlass_base::pose::Six;
 
 /// The most lags of a kernel.
 pub const MOST_LAGS: usize = 20_000;

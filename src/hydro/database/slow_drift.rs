@@ -15,9 +15,10 @@ use super::waves::{ByHeading, Group, WIDE, groups};
 use crate::hydro::body_load::{BodyLoad, MovingLoad, Underway};
 use crate::hydro::sea::Sea;
 use crate::hydro::{Category, Load, carried, turning};
-use crate::model::{ClassError, DriftTable, Pose, Qtf, Six};
+use crate::model::{ClassError, DriftTable, Qtf};
 use nalgebra::{Complex, Vector3};
 use std::sync::Arc;
+use windlass_base::pose::{Pose, Six};
 
 /// How the forces of a sea are found.
 #[derive(Clone, Debug)]

@@ -20,8 +20,8 @@ pub use surface::Surface;
 pub use tube::Tube;
 
 use super::Load;
-use crate::model::{Pose, Six};
 use nalgebra::{Matrix6, Vector3};
+use windlass_base::pose::{Pose, Six};
 
 /// Why a mesh or its file was not taken.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -1,8 +1,8 @@
 //! What a naval architect reads from the displaced volume: centres and metacentric heights.
 
 use super::Wet;
-use crate::model::Pose;
 use nalgebra::{Matrix2, Vector2, Vector3};
+use windlass_base::pose::Pose;
 
 /// Hydrostatics of a body in a pose. Heights are vertical and above the body's origin, so that KB, KM and KG have one
 /// base in any heel and trim; with the origin on the keel and the body upright they are those of the textbooks.

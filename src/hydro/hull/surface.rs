@@ -1,8 +1,8 @@
 //! A closed surface of triangles: its volume, and the exact integrals over its part below the water's surface.
 
 use super::{Solid, Wet};
-use crate::model::Pose;
 use nalgebra::Vector3;
+use windlass_base::pose::Pose;
 
 /// A closed surface of triangles, body coordinates (m), normals outward.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -8,9 +8,9 @@
 //! itself loses them where the axis is nearly level (it divides small differences by the slope).
 
 use super::{Solid, Surface, Wet};
-use crate::model::Pose;
 use nalgebra::{Matrix2, Vector2, Vector3};
 use std::f64::consts::{FRAC_PI_2, PI};
+use windlass_base::pose::Pose;
 
 /// A circular cylinder with flat ends, body coordinates (m).
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,8 +2,8 @@
 
 use super::member::{Rod, Standing};
 use crate::hydro::{cross, in_pose};
-use crate::model::Pose;
 use nalgebra::{Matrix3, Matrix6, Vector3};
+use windlass_base::pose::Pose;
 
 /// Adds a mass at an arm from the origin that has inertia as a matrix says (kg).
 pub(super) fn add(sum: &mut Matrix6<f64>, arm: &Vector3<f64>, mass: &Matrix3<f64>) {

@@ -4,9 +4,9 @@ use super::super::Load;
 use super::super::hull::Tube;
 use super::super::steady::{Medium, Steady};
 use super::super::stream::{Place, Push};
-use crate::model::{Pose, Six};
 use nalgebra::{Matrix3, Matrix6x3, RowVector6, Vector3};
 use std::f64::consts::PI;
+use windlass_base::pose::{Pose, Six};
 
 /// Points and weights of Gauss-Legendre quadrature of four points on [0, 1] (Abramowitz and Stegun, table 25.4).
 const GAUSS: [(f64, f64); 4] = [

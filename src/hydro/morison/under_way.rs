@@ -6,9 +6,9 @@ use crate::hydro::hull::{Solid, Wet};
 use crate::hydro::sea::{Kinematics, Sea, SeaAt};
 use crate::hydro::steady::{Medium, Steady, Streams};
 use crate::hydro::{Load, MovingLoad, Underway, in_pose};
-use crate::model::Six;
 use nalgebra::{Matrix6, Vector3};
 use std::sync::Arc;
+use windlass_base::pose::Six;
 
 /// What is kept first: force of waves, difference of added mass.
 const WAVE: usize = 0;

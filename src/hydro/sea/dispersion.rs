@@ -1,7 +1,7 @@
 //! Dispersion of linear waves: `w^2 = g k tanh(k d)`.
 
-use crate::language::units::Dim;
 use crate::model::ClassError;
+use windlass_base::units::Dim;
 
 /// Steps of Newton's method allowed; it takes some four.
 const STEPS: usize = 50;

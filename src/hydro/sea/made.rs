@@ -5,9 +5,10 @@ use super::density::Spectrum;
 use super::stokes::{Stokes, breaks};
 use super::{Component, Sea, Water, dispersion, phases, spreading};
 use crate::hydro::spectrum;
-use crate::language::units::Dim;
 use crate::model::{self, ClassError, Division, Environment, Model, Phasing};
 use std::f64::consts::TAU;
+use windlass_base::geometry::unit_vector;
+use windlass_base::units::Dim;
 
 /// Components of each sea where none are asked for.
 pub const USUAL_NUMBER: usize = 200;
@@ -130,7 +131,7 @@ fn regular(
         );
     }
     let frequency = TAU / sea.period;
-    let (cos, sin) = model::unit_vector(sea.direction);
+    let (cos, sin) = unit_vector(sea.direction);
     let toward = [-cos, -sin];
     // a crest at the origin at t = 0, or at the time of reinforcement (MOSES), unless a phase is given
     let phase = match env.phasing {

@@ -1,9 +1,9 @@
 //! Spectra with a formula, each in one place, from heights in m and periods in s.
 
 use super::density::{Hump, Spectrum};
-use crate::language::units::Dim;
 use crate::model::ClassError;
 use std::f64::consts::TAU;
+use windlass_base::units::Dim;
 
 /// Gravity in the formulas that were fitted with it (m/s2).
 const FITTED_GRAVITY: f64 = 9.81;

@@ -32,7 +32,7 @@ pub fn angle(of: f64, exponent: f64) -> f64 {
 /// Unit vectors of travel of some components of a sea that comes from a direction (rad).
 pub fn directions(number: usize, from: f64, exponent: f64) -> Vec<[f64; 2]> {
     let toward = |turn: f64| {
-        let (cos, sin) = crate::model::unit_vector((from + turn).rem_euclid(2.0 * PI));
+        let (cos, sin) = windlass_base::geometry::unit_vector((from + turn).rem_euclid(2.0 * PI));
         [-cos, -sin]
     };
     let one = |i: usize| match exponent {

@@ -1,16 +1,16 @@
 //! The words of a record or an option as values: how many are taken, whether they fit, the conversion to SI.
 
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::name;
 use crate::language::number;
 use crate::language::record::Word;
 use crate::language::select::{self, Owner};
-use crate::language::span::Span;
 use crate::language::spec::{Kind, Need, OptionSpec, Range, ValueSpec, expected};
 use crate::language::token::{Kind as Lex, is_numeric};
-use crate::language::units::{Dim, UnitSystem};
-use crate::language::values::{Content, Noun, Value};
 use std::sync::Arc;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::span::Span;
+use windlass_base::units::{Dim, UnitSystem};
+use windlass_base::values::{Content, Noun, Value};
 
 /// The words that belong to an option: a required value takes whatever stands there, an optional or repeated one only
 /// a word of its own type.

@@ -4,11 +4,11 @@ use super::Interpreter;
 use super::frames::{Branch, Collected, Collecting, Frame, Trips};
 use super::macros::{Macro, control_word};
 use super::specs::CONTROL;
-use crate::language::diagnostic::{Diagnostic, Outcome, Severity};
 use crate::language::record::Record;
 use crate::language::substitution::{World, substitute};
 use crate::language::{logic, number};
 use std::sync::Arc;
+use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
 
 impl Interpreter {
     /// Takes a record into the block being collected.

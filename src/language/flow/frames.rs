@@ -2,13 +2,13 @@
 
 use super::macros::Macro;
 use super::{Interpreter, Step};
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::record::{self, Record};
 use crate::language::source::Sources;
-use crate::language::span::{SourceId, Span};
 use std::collections::VecDeque;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::span::{SourceId, Span};
 
 pub(super) enum Frame {
     /// A text being read from byte `at`.

@@ -2,12 +2,12 @@
 //!
 //! Source: reference/language.md section 6.
 
-use crate::language::diagnostic::{Diagnostic, Outcome};
 use crate::language::record::{Record, Word};
 use crate::language::select::{self, Choice, Owner};
-use crate::language::span::Span;
 use crate::language::token::Kind;
 use std::sync::Arc;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::span::Span;
 
 /// One argument and what it is when it is not given.
 #[derive(Clone, Debug, PartialEq)]

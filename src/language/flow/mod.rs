@@ -8,11 +8,9 @@ mod frames;
 pub mod macros;
 pub mod specs;
 
-use super::diagnostic::{Diagnostic, Outcome};
 use super::record::{LONGEST_RECORD, Record};
 use super::select::Owner;
 use super::source::{Sources, Text};
-use super::span::Span;
 use super::substitution::{World, substitute};
 use super::variables::Variables;
 use frames::{Branch, Collecting, Frame};
@@ -21,6 +19,8 @@ use macros::{Macro, control_word};
 use std::collections::VecDeque;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::span::Span;
 
 /// Deepest nesting of macro calls.
 pub const DEEPEST_MACRO: usize = 64;
@@ -90,7 +90,7 @@ impl Interpreter {
         let depth = self.frames.iter().filter(|f| matches!(f, Frame::Source { .. })).count();
         if depth >= DEEPEST_INSERTION {
             let text = format!("files are inserted into each other deeper than {DEEPEST_INSERTION}");
-            let mut error = Box::new(Diagnostic::plain(super::diagnostic::Severity::Error, text));
+            let mut error = Box::new(Diagnostic::plain(windlass_base::diagnostic::Severity::Error, text));
             error.span = span;
             return Err(error.help("does the file insert itself?"));
         }
@@ -193,7 +193,7 @@ impl Interpreter {
         loop {
             if self.interrupt.swap(false, Ordering::Relaxed) {
                 self.unwind();
-                return Err(Box::new(Diagnostic::plain(super::diagnostic::Severity::Error, "interrupted")));
+                return Err(Box::new(Diagnostic::plain(windlass_base::diagnostic::Severity::Error, "interrupted")));
             }
             let record = match self.fetch()? {
                 Ok(record) => record,
@@ -212,7 +212,7 @@ impl Interpreter {
                 self.unwind();
                 let mut error =
                     Diagnostic::error(format!("the run has executed its {} records", self.budget), record.whole());
-                error.severity = super::diagnostic::Severity::Fatal;
+                error.severity = windlass_base::diagnostic::Severity::Fatal;
                 return Err(error.help("an endless &LOOP? &DEVICE -RECORDS n allows more"));
             }
             let control = control_word(record.first_word(), &self.internal);

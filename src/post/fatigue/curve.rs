@@ -108,7 +108,7 @@ impl Curve {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::language::span::Span;
+    use windlass_base::span::Span;
 
     fn user(points: &[(f64, f64)]) -> FatigueCurve {
         FatigueCurve { name: "U".into(), kind: FatigueKind::Tension, points: points.to_vec(), span: Span::default() }

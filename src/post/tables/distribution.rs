@@ -1,11 +1,11 @@
 //! Histograms, exceedance and rainflow of series as tables.
 
 use super::{Record, SIX, column, made, numbers};
-use crate::language::units::Dim;
 use crate::post::distribution::{self, levels};
 use crate::post::rainflow::{cycles, range_mean};
 use crate::post::{SeriesError, statistics};
-use crate::table::{Cell, Digits, Table};
+use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::units::Dim;
 
 /// Values counted into equal bins, with the share of each.
 ///

@@ -1,10 +1,10 @@
 //! Extremes of series as a table: Rayleigh, Weibull and Gumbel beside each other.
 
 use super::{Record, SIX, Series, column, made};
-use crate::language::units::Dim;
 use crate::post::extremes::{Extreme, FEWEST_BLOCKS, Gumbel, Weibull, block_maxima, rayleigh};
 use crate::post::{SeriesError, statistics};
-use crate::table::{Cell, Digits, Table};
+use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::units::Dim;
 
 /// What extremes are sought for.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,10 +1,10 @@
 //! Harmonic analysis of series as a table.
 
 use super::{Record, SIX, column, made, numbers};
-use crate::language::units::Dim;
 use crate::post::SeriesError;
 use crate::post::harmonics::{Harmonic, analyse, find_period};
-use crate::table::{Cell, Digits, Table};
+use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::units::Dim;
 
 /// What is asked of a harmonic analysis.
 #[derive(Clone, Copy, Debug, PartialEq)]

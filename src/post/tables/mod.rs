@@ -12,8 +12,8 @@ pub use harmonics::{Analysis, harmonics};
 pub use spectra::{amplitudes, density, moments};
 
 use super::SeriesError;
-use crate::language::units::Dim;
-use crate::table::{Cell, Column, Digits, Table};
+use windlass_base::table::{Cell, Column, Digits, Table};
+use windlass_base::units::Dim;
 
 /// A series of a table.
 #[derive(Clone, Debug, PartialEq)]

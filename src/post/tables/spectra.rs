@@ -1,11 +1,11 @@
 //! Spectra of series as tables.
 
 use super::{Record, SIX, Series, column, made, numbers};
-use crate::language::units::Dim;
 use crate::post::spectra::{self, Density, SpectralMoments, Window};
 use crate::post::{SeriesError, sampling};
-use crate::table::{Cell, Digits, Table};
 use std::f64::consts::TAU;
+use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::units::Dim;
 
 /// What the density of a quantity measures: its square times seconds. `None` where no unit of that is kept.
 fn squared(dim: Dim) -> Option<Dim> {

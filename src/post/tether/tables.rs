@@ -3,9 +3,9 @@
 
 use super::fatigue::{BINS, EndFatigue};
 use super::global::{Global, global};
-use crate::language::units::Dim;
 use crate::post::SeriesError;
-use crate::table::{Cell, Column, Digits, Table};
+use windlass_base::table::{Cell, Column, Digits, Table};
+use windlass_base::units::Dim;
 
 /// Stress in the users' force over the square of their length, as a consistent set of units has it.
 pub const STRESS: Dim = Dim::Derived { force: 1, length: -2, seconds: 0 };

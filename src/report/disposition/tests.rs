@@ -1,5 +1,5 @@
 use super::*;
-use crate::language::units::FOOT;
+use windlass_base::units::FOOT;
 
 fn menu() -> Disposition {
     let mut t = Table::new("t").column("", "X", Dim::Length, Digits::Usual).column("", "F", Dim::None, Digits::Usual);

@@ -1,9 +1,9 @@
 //! The page: data, and a viewer of our own that draws them (share/film), with nothing to be fetched from anywhere.
 
-use crate::language::units::{Dim, UnitSystem};
 use crate::report::embedded::{self, doubles, list, number, object, quoted, shorts, singles, string, wholes};
 use crate::solve::film::{Actor, Film, State, Strand, Waves};
 use nalgebra::{Rotation3, UnitQuaternion};
+use windlass_base::units::{Dim, UnitSystem};
 
 /// The page without its data, and what is put into it.
 const PARTS: [(&str, &str); 5] = [
@@ -59,7 +59,7 @@ fn data(film: &Film, title: &str, units: UnitSystem) -> String {
 
 fn actor(actor: &Actor) -> String {
     let solid = &actor.solid;
-    let pose = |p: &crate::model::Pose| {
+    let pose = |p: &windlass_base::pose::Pose| {
         let turn = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(p.axes));
         [p.origin.x, p.origin.y, p.origin.z, turn.i, turn.j, turn.k, turn.w]
     };

@@ -6,8 +6,6 @@ mod view;
 
 pub use view::View;
 
-use crate::language::units::{Dim, UnitSystem};
-use crate::model::Position;
 use crate::report::format;
 use crate::report::page;
 use crate::report::plot::draw::refused;
@@ -20,6 +18,8 @@ use plotters::prelude::{BLACK, DrawingBackend, RGBColor, SVGBackend, WHITE};
 use std::cell::RefCell;
 use std::rc::Rc;
 use view::{Extent, Frame, Seen, round_length};
+use windlass_base::geometry::Position;
+use windlass_base::units::{Dim, UnitSystem};
 
 /// Width of a page and its margin (pixels).
 const PAGE: (i32, i32) = (1000, 16);

@@ -1,7 +1,7 @@
 //! From where a scene is seen, and how what is seen is fitted into a rectangle of pixels.
 
-use crate::model::{Position, unit_vector};
 use std::f64::consts::FRAC_PI_2;
+use windlass_base::geometry::{Position, unit_vector};
 
 /// The altitude from which the three axes of a cube look equally long (rad): asin(1/sqrt 3).
 const ISOMETRIC: f64 = 0.615_479_708_670_387_3;

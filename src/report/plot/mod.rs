@@ -7,14 +7,14 @@ mod polar;
 pub(super) mod raster;
 pub(super) mod terminal;
 
-use crate::language::units::{Dim, UnitSystem};
 use crate::report::{format, page};
-use crate::table::{Cell, Column, Table};
 use draw::{Look, draw, refused};
 use plotters::drawing::{DrawingArea, IntoDrawingArea};
 use plotters::prelude::SVGBackend;
 use std::cell::RefCell;
 use std::rc::Rc;
+use windlass_base::table::{Cell, Column, Table};
+use windlass_base::units::{Dim, UnitSystem};
 
 /// Size of a plot in a file (pixels).
 const SIZE: (u32, u32) = (900, 600);

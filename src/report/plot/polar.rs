@@ -3,9 +3,7 @@
 use super::axis::Axis;
 use super::draw::{Look, Plane, refused};
 use super::{Chart, PlotError, Series};
-use crate::language::units::{Dim, UnitSystem};
 use crate::report::format;
-use crate::table::Table;
 use plotters::chart::ChartBuilder;
 use plotters::coord::Shift;
 use plotters::drawing::DrawingArea;
@@ -13,6 +11,8 @@ use plotters::element::{PathElement, Pixel, Text};
 use plotters::prelude::{BLACK, Color, DrawingBackend, RGBColor};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{IntoFont, TextStyle};
+use windlass_base::table::Table;
+use windlass_base::units::{Dim, UnitSystem};
 
 /// Rays of a page, and directions named on a terminal (degrees).
 const RAYS: (i32, i32) = (30, 90);
@@ -129,7 +129,7 @@ fn centred(look: &Look, vertical: VPos) -> TextStyle<'static> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::table::Digits;
+    use windlass_base::table::Digits;
 
     fn table(distance: impl Fn(f64) -> f64) -> Table {
         let mut t = Table::new("Watch").column("", "From", Dim::Angle, Digits::Usual).column(

@@ -1,6 +1,6 @@
 use super::*;
-use crate::table::Digits;
 use proptest::prelude::*;
+use windlass_base::table::Digits;
 
 fn chart() -> Chart {
     let mut t =

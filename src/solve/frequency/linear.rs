@@ -3,13 +3,14 @@
 use crate::hydro::database::radiation::Radiation;
 use crate::hydro::sea::dispersion::wave_number;
 use crate::hydro::{Category, in_pose};
-use crate::language::units::Dim;
-use crate::model::{Amplitudes, AttachedDatabase, ClassError, DriftMethod, DriftTable, Model, Pose, Qtf, Six};
+use crate::model::{Amplitudes, AttachedDatabase, ClassError, DriftMethod, DriftTable, Model, Qtf};
 use crate::solve::modes::held;
 use crate::solve::system::{FREEDOMS, SolveError, State, System, mass_block};
 use crate::solve::time::{Duties, Forces, Memory, Motion};
 use nalgebra::{Complex, DMatrix, DVector, Matrix6};
 use std::f64::consts::TAU;
+use windlass_base::pose::{Pose, Six};
+use windlass_base::units::Dim;
 
 /// Complex amplitudes of motion, six a body: of its origin (m) and its rotation (rad), global axes.
 pub type Motions = DVector<Complex<f64>>;

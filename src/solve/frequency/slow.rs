@@ -9,9 +9,9 @@ use super::linear::{Linear, Motions};
 use super::response::{Point, bounded};
 use super::trains::{Trains, bounds, even, resolved};
 use crate::hydro::carried;
-use crate::model::Six;
 use crate::solve::system::SolveError;
 use nalgebra::{Complex, DMatrix, SymmetricEigen};
+use windlass_base::pose::Six;
 
 /// Even points over the differences of frequency, and over the sea at each.
 const EVEN: (usize, usize) = (60, 120);

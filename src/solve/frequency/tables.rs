@@ -6,10 +6,10 @@ use super::operators::Operators;
 use super::quantity::{Derivative, Quantity};
 use super::response::{Point, Response};
 use super::statistics::{Extreme, Statistics};
-use crate::language::units::Dim;
 use crate::solve::system::FREEDOMS;
-use crate::table::{Cell, Digits, Table};
 use std::f64::consts::TAU;
+use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::units::Dim;
 
 /// A quantity with its name and what it measures.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,7 +2,8 @@
 
 use crate::hydro::sea::density::Spectrum;
 use crate::hydro::sea::{Sea, spreading};
-use crate::model::{ClassError, Environment, Model, unit_vector};
+use crate::model::{ClassError, Environment, Model};
+use windlass_base::geometry::unit_vector;
 
 /// Directions that stand for a spread sea, with equal shares of its energy.
 const DIRECTIONS: usize = 11;

@@ -9,11 +9,12 @@ use super::super::system::SolveError;
 use super::super::time::Run;
 use super::connectors::{force, poses};
 use super::{Event, columns};
-use crate::language::units::Dim;
-use crate::model::{Class, ClassError, Condition, Connector, FatigueSelection, Model, Placement, Pose};
+use crate::model::{Class, ClassError, Condition, Connector, FatigueSelection, Model, Placement};
 use crate::post::SeriesError;
 use crate::post::fatigue::{Curve, Exposure, LineDamage, Loaded, find, line_damage, line_life};
-use crate::table::{Cell, Digits, Table};
+use windlass_base::pose::Pose;
+use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::units::Dim;
 
 /// A run in a scatter of environments.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,9 +3,9 @@
 use super::super::system::SolveError;
 use super::super::time::Run;
 use super::{Event, Magnitude, columns, filled, headed, timed};
-use crate::language::units::Dim;
-use crate::table::Table;
 use nalgebra::Vector3;
+use windlass_base::table::Table;
+use windlass_base::units::Dim;
 
 /// Adds the columns of a force and a moment.
 pub(super) fn wrench_columns(table: Table, group: &str) -> Table {

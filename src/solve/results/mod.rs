@@ -21,9 +21,9 @@ pub use points::{Interest, points};
 
 use super::system::SolveError;
 use super::time::History;
-use crate::language::units::Dim;
-use crate::table::{Cell, Digits, Table};
 use nalgebra::Vector3;
+use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::units::Dim;
 
 /// Which components of a vector its magnitude is of: its length, or that of its projection on a plane or an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,10 +3,12 @@
 use super::super::system::SolveError;
 use super::super::time::{OF_BODY, Run};
 use super::{Event, Magnitude, columns, filled, headed, timed};
-use crate::language::units::Dim;
-use crate::model::{Mass, Place, Pose};
-use crate::table::Table;
+use crate::model::Mass;
 use nalgebra::Vector3;
+use windlass_base::geometry::Place;
+use windlass_base::pose::Pose;
+use windlass_base::table::Table;
+use windlass_base::units::Dim;
 
 /// How motions are told.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

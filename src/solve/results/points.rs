@@ -4,10 +4,10 @@ use super::super::system::SolveError;
 use super::super::time::Run;
 use super::motions::moving;
 use super::{Event, Magnitude, columns, filled, headed, timed};
-use crate::language::units::Dim;
-use crate::model::Position;
-use crate::table::Table;
 use nalgebra::Vector3;
+use windlass_base::geometry::Position;
+use windlass_base::table::Table;
+use windlass_base::units::Dim;
 
 /// A point that is told of.
 #[derive(Clone, Debug, PartialEq)]

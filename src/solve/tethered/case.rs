@@ -5,9 +5,7 @@ use super::moored::Moored;
 use crate::hydro::Floating;
 use crate::hydro::current::CurrentField;
 use crate::hydro::sea::Sea;
-use crate::model::{
-    Body, ClassError, Connector, Mass, Model, Pose, Shape, Six, TetherEnds, TetherHold, TetherSection, TetherUse,
-};
+use crate::model::{Body, ClassError, Connector, Mass, Model, Shape, TetherEnds, TetherHold, TetherSection, TetherUse};
 use crate::solve::SolveError;
 use crate::tether::compatibility::Compatibility;
 use crate::tether::installed::{Constraint, Course, EndSprings, Impact, InstalledTether, InternalFluid};
@@ -22,6 +20,7 @@ use crate::tether::{Line, TetherElement};
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 use std::sync::Arc;
+use windlass_base::pose::{Pose, Six};
 
 /// A case, ready to run.
 #[derive(Debug)]

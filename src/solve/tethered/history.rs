@@ -2,14 +2,15 @@
 
 use super::Tethered;
 use super::case::Installed;
-use crate::language::units::Dim;
-use crate::model::{ClassError, Place};
-use crate::table::Digits;
+use crate::model::ClassError;
 use crate::tether::Line;
 use crate::tether::installed::{Change, Installation, Moment, Observer};
 use crate::tether::structure::Forces;
 use crate::tether::towed::{self, History, Steps, Towed};
 use std::ops::ControlFlow;
+use windlass_base::geometry::Place;
+use windlass_base::table::Digits;
+use windlass_base::units::Dim;
 
 /// A quantity of nodes or of ends of elements.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! The other connectors of a structure that tethers hold.
 
 use crate::hydro::{Underway, ambient, carried};
-use crate::model::{Body, ClassError, Model, Pose, Six};
+use crate::model::{Body, ClassError, Model};
 use crate::model::{End, Response, Situation, Surroundings, TimeStep};
 use crate::solve::link::{Attachment, Link, link, pose_of};
 use crate::solve::system::SolveError;
@@ -9,6 +9,7 @@ use crate::solve::time::Duties;
 use crate::tether::structure::flow::FlowAt;
 use crate::tether::structure::{Forces, Structure};
 use nalgebra::Vector3;
+use windlass_base::pose::{Pose, Six};
 
 /// A structure with connectors to the ground that are no tethers.
 #[derive(Debug)]

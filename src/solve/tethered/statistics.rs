@@ -2,11 +2,11 @@
 
 use super::Tethered;
 use super::history::{Quantity, TetherHistory};
-use crate::language::units::Dim;
 use crate::post::SeriesError;
 use crate::post::tether::fatigue::{self, Asked, EndRecord};
 use crate::post::tether::tables::{AtEnd, Channel, Place, histogram, type_one, type_two};
-use crate::table::Table;
+use windlass_base::table::Table;
+use windlass_base::units::Dim;
 
 /// Which of the stored instants statistics and fatigue are of.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,10 +3,10 @@
 use super::Tethered;
 use super::history::{Quantity, StructureHistory};
 use super::tables::{SECONDS, column, text};
-use crate::language::units::Dim;
 use crate::post::SeriesError;
 use crate::post::cycle::{AQWA_SAMPLES, Cycle};
-use crate::table::{Cell, Column, Digits, Table};
+use windlass_base::table::{Cell, Column, Digits, Table};
+use windlass_base::units::Dim;
 
 /// Dimensions and digits of the six of a kind of [`StructureHistory`].
 fn six(kind: usize) -> [(Dim, Digits); 2] {

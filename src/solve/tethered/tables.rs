@@ -2,10 +2,10 @@
 
 use super::Tethered;
 use super::history::{Quantity, TetherHistory};
-use crate::language::units::Dim;
 use crate::post::tether::tables::STRESS;
-use crate::table::{Cell, Column, Digits, Table};
 use crate::tether::installed::Change;
+use windlass_base::table::{Cell, Column, Digits, Table};
+use windlass_base::units::Dim;
 
 pub(super) const SECONDS: Digits = Digits::Decimals(2);
 

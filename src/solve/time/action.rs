@@ -1,6 +1,7 @@
 //! What happens during a run: at a time, or when a condition is first met, within a 64th of a step.
 
-use crate::model::{Body, ClassError, Model, Position};
+use crate::model::{Body, ClassError, Model};
+use windlass_base::geometry::Position;
 
 /// What a condition watches.
 #[derive(Clone, Debug, PartialEq)]

@@ -8,8 +8,8 @@
 //! all this was off in the last steps, continued by a parabola, too.
 
 use super::forces::Motion;
-use crate::model::Six;
 use nalgebra::{DMatrix, DVector};
+use windlass_base::pose::Six;
 
 /// A step this near another, over its length, is as long.
 const SAME: f64 = 1e-6;

@@ -3,9 +3,9 @@
 use super::forces::{Forces, Motion};
 use super::inertia::{gyroscopic, turned_inertia};
 use super::step::Stepper;
-use crate::model::Six;
 use crate::solve::system::{Node, System};
 use nalgebra::{DMatrix, DVector, Matrix6};
+use windlass_base::pose::Six;
 
 impl Stepper {
     /// Fills the right side with what is left; gives its measure (m/s2).

@@ -8,13 +8,15 @@ mod spline;
 
 use super::forces::Motion;
 use crate::hydro::sea::Sea;
-use crate::model::{Body, ClassError, GivenMotion, Place, Pose, Sinusoid, Six};
+use crate::model::{Body, ClassError, GivenMotion, Sinusoid};
 use nalgebra::Vector3;
 use response::Riding;
 use spline::Spline;
 use std::f64::consts::TAU;
 use std::fmt::Debug;
 use std::sync::Arc;
+use windlass_base::geometry::Place;
+use windlass_base::pose::{Pose, Six};
 
 /// A motion that is given for all times.
 pub trait Prescribed: Debug + Send + Sync {

@@ -1,9 +1,10 @@
 //! The pull of a connector as a number: its tension, negative of one that pushes.
 
 use super::history::OF_BODY;
-use crate::model::{Place, Pose};
 use crate::solve::link::Attachment;
 use nalgebra::Vector3;
+use windlass_base::geometry::Place;
+use windlass_base::pose::Pose;
 
 /// The pull of a connector by its force on an end (N), negative where that pushes the end away from the other one, which is `apart`
 /// from it (m); `from` is the least distance at which it may ([`crate::model::Element::pushes`]).

@@ -7,7 +7,7 @@
 //! With am = af = 0 that is Newmark's (b = a). Rotations are advanced by the rotation vector of the step (Bruels, Cardona and
 //! Arnold, Mechanism and Machine Theory 48, 2012, 121-137), which keeps the order.
 
-use crate::model::Six;
+use windlass_base::pose::Six;
 
 /// Weights of an implicit scheme.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,8 +2,9 @@
 
 use super::course::Counts;
 use super::forces::Motion;
-use crate::model::{Place, Pose, Six};
 use nalgebra::Matrix3;
+use windlass_base::geometry::Place;
+use windlass_base::pose::{Pose, Six};
 
 /// A run at an instant.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -2,11 +2,11 @@
 
 use super::history::Layout;
 use super::pushing::Pushing;
-use crate::language::units::Dim;
 use crate::post::SeriesError;
 use crate::post::running::Running;
 use crate::solve::system::FREEDOMS;
 use nalgebra::Vector3;
+use windlass_base::units::Dim;
 
 /// A result against time.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! The straight axis of an installed tether (TLA): from its lower end to its attachment.
 
-use crate::model::{Pose, Six};
 use nalgebra::Vector3;
+use windlass_base::pose::{Pose, Six};
 
 /// The end at the structure: place, velocity and what turns with it.
 #[derive(Clone, Copy, Debug, Default)]

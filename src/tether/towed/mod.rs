@@ -24,8 +24,8 @@ use super::beam::{self, Matrix4};
 use super::line::Line;
 use super::modes::{self, NaturalMode, Pencil};
 use crate::hydro::sea::Component;
-use crate::language::units::Dim;
 use crate::model::ClassError;
+use windlass_base::units::Dim;
 
 pub use compatibility::Compatibility;
 pub use run::{History, Observer, Record, Steps};

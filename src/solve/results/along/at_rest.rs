@@ -2,12 +2,12 @@
 
 use super::{CLEARANCE, sections};
 use crate::hydro::ambient;
-use crate::language::units::Dim;
 use crate::model::{Element, End, Model, Situation};
 use crate::solve::link::{Attachment, connected, laid, pose_of};
 use crate::solve::system::SolveError;
 use crate::solve::time::Duties;
-use crate::table::{Cell, Digits, Table};
+use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::units::Dim;
 
 /// Tells of each line that moves by itself and whose name fits, between its ends where they stand: its name, its element, how its ends
 /// stand, and its state before anything has happened.
@@ -20,7 +20,7 @@ pub(in crate::solve) fn standing(
     mut tell: impl FnMut(&str, &dyn Element, &Situation, &[f64]) -> Result<(), SolveError>,
 ) -> Result<(), SolveError> {
     let around = ambient(model, None).map_err(SolveError::new)?;
-    let poses: Vec<_> = model.bodies.values().map(|b| crate::model::Pose::of(&b.place)).collect();
+    let poses: Vec<_> = model.bodies.values().map(|b| windlass_base::pose::Pose::of(&b.place)).collect();
     let surroundings = model.surroundings();
     let mut told = |name: &str, element: &dyn Element, ends: &[Attachment]| {
         if element.nodes() == 0 {
@@ -114,7 +114,8 @@ pub fn lines_at_rest(model: &Model, fits: &dyn Fn(&str) -> bool) -> Result<Vec<T
                 Some(sections.get(side.segment)?.used(node.effective, stress))
             });
             cells.push(used.reduce(f64::max).into());
-            let text = |e: crate::table::TableError| SolveError::new(crate::model::ClassError::new(e.to_string()));
+            let text =
+                |e: windlass_base::table::TableError| SolveError::new(crate::model::ClassError::new(e.to_string()));
             table.push(cells).map_err(text)?;
         }
         table.note("between its ends where they stand, in the mean current, without waves");

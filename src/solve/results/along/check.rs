@@ -1,7 +1,6 @@
 //! Unity checks along a line.
 
 use super::{Line, Section, wall_tension};
-use crate::language::units::Dim;
 use crate::model::ClassError;
 use crate::post::SeriesError;
 use crate::post::line::lrfd::{Factors, Resistance};
@@ -10,7 +9,8 @@ use crate::post::line::{Acting, Tube, over_break};
 use crate::solve::results::Event;
 use crate::solve::system::SolveError;
 use crate::solve::time::NodeRow;
-use crate::table::{Digits, Table};
+use windlass_base::table::{Digits, Table};
+use windlass_base::units::Dim;
 
 /// What a tube is checked by; other sections go by tension over break.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -27,7 +27,7 @@ use super::super::time::{AlongColumns, NodeRow, Quantity, Run};
 use super::Event;
 use crate::model::{AssemblyKind, ClassError, FatigueSegment, Model, WallMaterial, line_name};
 use crate::post::line::Tube;
-use crate::table::Digits;
+use windlass_base::table::Digits;
 
 /// Digits of the height over the bottom, into which a line that lies presses itself by millimetres.
 pub(super) const CLEARANCE: Digits = Digits::Decimals(3);

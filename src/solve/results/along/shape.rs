@@ -1,12 +1,12 @@
 //! Where a line is at an instant, with its forces there; and its nodes over time.
 
 use super::{CLEARANCE, Line};
-use crate::language::units::Dim;
 use crate::model::ClassError;
 use crate::solve::results::{Event, columns, filled, timed};
 use crate::solve::system::SolveError;
 use crate::solve::time::{BentRow, NodeRow};
-use crate::table::{Cell, Digits, Table};
+use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::units::Dim;
 
 /// A place along a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -113,7 +113,7 @@ pub fn histories(line: &Line, wanted: &[Where], events: &[Event]) -> Result<Tabl
         }
         Ok(())
     })?;
-    let empty = |c: &&crate::table::Column| c.cells.iter().all(|c| *c == Cell::Missing);
+    let empty = |c: &&windlass_base::table::Column| c.cells.iter().all(|c| *c == Cell::Missing);
     if wanted.iter().any(|w| matches!(w, Where::Arc(_)))
         && let Some(column) = table.columns.iter().filter(|c| c.name == "Tension").find(empty)
     {

@@ -1,11 +1,11 @@
 //! Where a line meets the bottom.
 
 use super::Line;
-use crate::language::units::Dim;
 use crate::solve::results::{Event, columns, filled, timed};
 use crate::solve::system::SolveError;
 use crate::solve::time::NodeRow;
-use crate::table::{Digits, Table};
+use windlass_base::table::{Digits, Table};
+use windlass_base::units::Dim;
 
 /// The touchdown point over some events, from the first end: the first node on the bottom with its distance and tension, the point
 /// between it and the one before at which the line would begin to lie, and the unstretched length on the bottom.

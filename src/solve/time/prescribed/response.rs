@@ -3,10 +3,11 @@
 use super::super::forces::Motion;
 use super::{Freedoms, Prescribed, moved};
 use crate::hydro::sea::Sea;
-use crate::language::units::Dim;
-use crate::model::{ClassError, Place, ResponseRow, Responses, unit_vector};
+use crate::model::{ClassError, ResponseRow, Responses};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
+use windlass_base::geometry::{Place, unit_vector};
+use windlass_base::units::Dim;
 
 /// A body that rides on the waves about its place.
 #[derive(Debug)]

@@ -1,7 +1,7 @@
 //! Results as data: named columns with dimensions, SI values inside. Engines and post-processing return a [`Table`];
 //! every report, plot, file and test reads one. A table knows nothing of how it is printed.
 
-use crate::language::units::Dim;
+use crate::units::Dim;
 
 /// One value of a column.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,6 +1,6 @@
 //! Where a rigid body stands while an engine moves it: its origin and its axes, exact for any rotation.
 
-use super::geometry::{Place, Position};
+use crate::geometry::{Place, Position};
 use nalgebra::{Matrix3, Rotation3, Vector3, Vector6};
 
 /// A force (N) and a moment (N m) about a stated point, or a translation (m) and a rotation vector (rad), global axes.

@@ -1,6 +1,6 @@
 //! Messages with a place: what is wrong, the word it is wrong with, what was expected, and the nearest known name.
 
-use super::span::Span;
+use crate::span::Span;
 
 /// How serious a message is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! The values of a record, whatever their form was: SI numbers, words and names, each with its place.
 
-use super::span::Span;
-use super::units::Dim;
+use crate::span::Span;
+use crate::units::Dim;
 use std::sync::Arc;
 
 /// What a name refers to; drives completion and the wording of errors.

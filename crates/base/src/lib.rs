@@ -1,0 +1,29 @@
+//! What every crate of windlass speaks: units, tables, places and poses, the values of records, diagnostics.
+//!
+//! Values are SI (m, kg, s, N, rad, K). A number meets the user's units twice: where a record is read and where a report is
+//! written; both go through [`units::Dim`].
+//!
+//! # Example
+//! ```
+//! use windlass_base::table::{Digits, Table};
+//! use windlass_base::units::{Dim, ForceUnit, LengthUnit, UnitSystem};
+//!
+//! let mut table = Table::new("Lines").column("", "Length", Dim::Length, Digits::Usual);
+//! table.push(vec![Dim::Length.to_si(500.0, UnitSystem::default()).into()])?;
+//! let metres = UnitSystem { length: LengthUnit::Meters, force: ForceUnit::Kilonewtons };
+//! let length = table.columns[0].numbers()[0];
+//! assert!((Dim::Length.from_si(length, metres) - 500.0 * 0.3048).abs() < 1e-12);
+//! # Ok::<(), windlass_base::table::TableError>(())
+//! ```
+
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
+pub mod diagnostic;
+pub mod geometry;
+pub mod pose;
+pub mod span;
+pub mod table;
+pub mod units;
+pub mod values;
+pub mod wildcard;
