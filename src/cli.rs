@@ -1,6 +1,5 @@
 //! The command line: what is run, from where, and the exit code.
 
-use crate::language::source::Text;
 use crate::repl;
 use crate::report::files::JobFolder;
 use crate::report::output::Output;
@@ -8,6 +7,7 @@ use crate::session::{End, Session, read_all};
 use clap::Parser;
 use std::io::{BufWriter, IsTerminal, Write, stderr, stdin, stdout};
 use std::path::{Path, PathBuf};
+use windlass_language::source::Text;
 
 /// A command interpreter for marine mooring analysis, in the style of MOSES.
 #[derive(Parser, Debug)]

@@ -9,11 +9,11 @@ mod common;
 
 use serde_json::Value;
 use windlass::aqwa::{self, Records};
-use windlass::language::source::Sources;
 use windlass::session::Session;
 use windlass::solve::tethered::Tethered;
 use windlass::tether::installed::Change;
 use windlass_base::diagnostic::Diagnostic;
+use windlass_language::source::Sources;
 
 fn file(name: &str) -> String {
     std::fs::read_to_string(format!("scripts/{name}")).unwrap()

@@ -6,14 +6,14 @@
 use std::fs;
 use windlass::command::{COMMANDS, offered, opened_by};
 use windlass::connector::CLASSES;
-use windlass::language::flow::specs::CONTROL;
-use windlass::language::record;
-use windlass::language::select::{Choice, Owner, keyword};
-use windlass::language::spec::{CommandSpec, Opens};
 use windlass::report::files::JobFolder;
 use windlass::report::output::Output;
 use windlass::session::Session;
 use windlass_base::span::SourceId;
+use windlass_language::flow::specs::CONTROL;
+use windlass_language::record;
+use windlass_language::select::{Choice, Owner, keyword};
+use windlass_language::spec::{CommandSpec, Opens};
 
 const MENUS: [&str; 18] = [
     "MAIN",

@@ -6,7 +6,7 @@
 mod common;
 
 use windlass::connector::CLASSES;
-use windlass::language::spec::{Kind, ValueSpec};
+use windlass_language::spec::{Kind, ValueSpec};
 
 /// Runs records; what they print, and the messages.
 fn run(records: &str) -> (String, Vec<String>) {

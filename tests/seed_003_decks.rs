@@ -11,9 +11,9 @@ use windlass::aqwa::lines::{LineKind, Property};
 use windlass::aqwa::tethers::{Constraint, Fatigue};
 use windlass::aqwa::waves::{Form, Waves};
 use windlass::aqwa::{Deck, Reading, is_deck, read};
-use windlass::language::render::render;
-use windlass::language::source::{Sources, Text};
 use windlass_base::diagnostic::{Diagnostic, Severity};
+use windlass_language::render::render;
+use windlass_language::source::{Sources, Text};
 
 fn reading_of(bytes: Vec<u8>) -> (Reading, Sources) {
     let mut sources = Sources::default();

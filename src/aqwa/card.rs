@@ -6,8 +6,8 @@
 //!
 //! Source: seed 003, Appendices A and B; reference/aqwa-cards.md, section 1.
 
-use crate::language::source::Source;
 use windlass_base::span::{SourceId, Span};
+use windlass_language::source::Source;
 
 /// Last column of a card; what stands further right is not read.
 pub const WIDTH: usize = 80;
@@ -231,7 +231,7 @@ pub fn real(text: &str) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::language::source::Sources;
+    use windlass_language::source::Sources;
 
     #[test]
     fn columns_are_characters_and_their_places_are_bytes() {

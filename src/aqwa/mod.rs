@@ -53,7 +53,6 @@ pub mod tethers;
 pub mod units;
 pub mod waves;
 
-use crate::language::source::Sources;
 use elements::{Shape, Structure};
 use hydrostatics::Hydrostatics;
 use job::Job;
@@ -67,6 +66,7 @@ use surroundings::{Held, Surroundings};
 use waves::Waves;
 use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::SourceId;
+use windlass_language::source::Sources;
 
 pub use echo::Echo;
 pub use job::is_deck;

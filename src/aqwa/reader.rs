@@ -3,10 +3,10 @@
 use super::card::{Face, Line, Lines};
 use super::layout::{How, Layout, Record, Standing};
 use super::remarks::Remarks;
-use crate::language::source::Source;
 use std::collections::BTreeSet;
 use windlass_base::diagnostic::{Diagnostic, Severity, did_you_mean};
 use windlass_base::span::{SourceId, Span};
+use windlass_language::source::Source;
 
 /// Most cards of a file.
 const MOST_CARDS: usize = 200_000;

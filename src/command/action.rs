@@ -2,9 +2,6 @@
 
 use super::alter::selected;
 use super::{Call, Command, Effect, Job};
-use crate::language::name as rule;
-use crate::language::select::Owner;
-use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::model::{Model, PIPE, find, line_name};
 use crate::solve::FREEDOMS;
 use crate::solve::time::{Action, Watched, What, When};
@@ -12,6 +9,9 @@ use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::Noun;
 use windlass_base::values::{Args, Given};
+use windlass_language::name as rule;
+use windlass_language::select::Owner;
+use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 
 /// &ACTION.
 pub static ACTION: Command = Command { spec: &SPEC, edits: false, run };

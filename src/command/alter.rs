@@ -4,8 +4,6 @@
 //! Source: reference/model.md, &CONNECTOR.
 
 use super::{Call, Command, Effect, Job};
-use crate::language::select::Owner;
-use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::model::{Anchor, ClassError, Condition, Connector, LineLoads, LineModel, Model, find};
 use crate::report::format::report;
 use crate::solve::pretension;
@@ -17,6 +15,8 @@ use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::Noun;
 use windlass_base::values::{Args, Given, Value};
 use windlass_base::wildcard::{is_wild, matches};
+use windlass_language::select::Owner;
+use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 
 /// &CONNECTOR.
 pub static ALTER: Command = Command { spec: &SPEC, edits: true, run };

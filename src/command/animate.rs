@@ -2,8 +2,6 @@
 
 use super::chosen::Chosen;
 use super::{Call, Command, Effect, Job};
-use crate::language::select::Owner;
-use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::model::Thing;
 use crate::report::files::JobFolder;
 use crate::report::film;
@@ -15,6 +13,8 @@ use windlass_base::span::Span;
 use windlass_base::units::Dim;
 use windlass_base::values::Args;
 use windlass_base::values::Noun;
+use windlass_language::select::Owner;
+use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 
 /// &ANIMATE.
 pub static ANIMATE: Command = Command { spec: &SPEC, edits: false, run };

@@ -3,10 +3,6 @@
 use super::number_rows::rows;
 use super::status::push;
 use super::{Call, Command, Effect, Job, Menu};
-use crate::language::args;
-use crate::language::name as rule;
-use crate::language::select::Owner;
-use crate::language::spec::{CommandSpec, Form, Kind, Opens, OptionSpec, ValueSpec};
 use crate::model::bathymetry::{Bathymetry, MOST_POINTS, fits};
 use crate::model::{Model, Thing};
 use std::sync::Arc;
@@ -16,6 +12,10 @@ use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_base::values::Noun;
 use windlass_base::values::Value;
+use windlass_language::args;
+use windlass_language::name as rule;
+use windlass_language::select::Owner;
+use windlass_language::spec::{CommandSpec, Form, Kind, Opens, OptionSpec, ValueSpec};
 
 /// &BATHYMETRY.
 pub static BATHYMETRY: Command = Command { spec: &SPEC, edits: false, run };

@@ -4,12 +4,12 @@
 
 use super::device::readable;
 use super::{Call, Command, Effect, Job, Menu};
-use crate::language::record::Record;
-use crate::language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 use crate::report::disposition::Disposition;
 use crate::report::readback::{self, ReadError};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
+use windlass_language::record::Record;
+use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 
 /// &BUILDG.
 pub static BUILDG: Command = Command { spec: &SPEC, edits: false, run };

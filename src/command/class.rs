@@ -2,14 +2,14 @@
 
 use super::{Call, Command, Effect, Job, Menu};
 use crate::connector::{CLASSES, type_notices};
-use crate::language::args;
-use crate::language::name;
-use crate::language::select::choose;
-use crate::language::spec::{CommandSpec, Form};
 use crate::model::{Class, ClassRecord, Curve, CurveKind, Model, find};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::values::Args;
 use windlass_base::values::Noun;
+use windlass_language::args;
+use windlass_language::name;
+use windlass_language::select::choose;
+use windlass_language::spec::{CommandSpec, Form};
 
 /// ~CLASS.
 pub static CLASS: Command = Command { spec: &SPEC, edits: false, run };

@@ -3,8 +3,6 @@
 use super::chosen::{Chosen, raise};
 use super::disposition::{BOTH, HARD, send};
 use super::{Call, Command, Effect, Job, Menu, status, vary};
-use crate::language::select::Owner;
-use crate::language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 use crate::model::{Class, Condition, Connector, Thing, find};
 use crate::report::disposition::Disposition;
 use crate::report::page;
@@ -14,6 +12,8 @@ use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_base::values::Args;
 use windlass_base::values::Noun;
+use windlass_language::select::Owner;
+use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 
 /// TABLE.
 pub static TABLE: Command = Command { spec: &TABLE_SPEC, edits: false, run: table };

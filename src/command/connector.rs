@@ -2,8 +2,6 @@
 
 use super::tether_ends as tether;
 use super::{Call, Command, Effect, Job, Menu};
-use crate::language::name as rule;
-use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::model::{Anchor, Connector, Model, Point, Tug, find};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::unit_vector;
@@ -11,6 +9,8 @@ use windlass_base::pose::Pose;
 use windlass_base::units::Dim;
 use windlass_base::values::Args;
 use windlass_base::values::Noun;
+use windlass_language::name as rule;
+use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 
 /// CONNECTOR.
 pub static CONNECTOR: Command = Command { spec: &CONNECTOR_SPEC, edits: false, run: connector };

@@ -4,15 +4,15 @@
 
 use super::{Call, Command, Effect, Job, Menu};
 use crate::connector::viscous::Viscoelastic;
-use crate::language::args;
-use crate::language::name as rule;
-use crate::language::record::Word;
-use crate::language::select::{Owner, choose};
-use crate::language::spec::{CommandSpec, Form, Kind, Opens, OptionSpec, ValueSpec};
 use crate::model::{Curve, CurveKind, Model, Thing};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::values::Noun;
+use windlass_language::args;
+use windlass_language::name as rule;
+use windlass_language::record::Word;
+use windlass_language::select::{Owner, choose};
+use windlass_language::spec::{CommandSpec, Form, Kind, Opens, OptionSpec, ValueSpec};
 
 /// &DATA.
 pub static DATA: Command = Command { spec: &SPEC, edits: false, run };

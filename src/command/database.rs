@@ -5,9 +5,6 @@ use super::{Call, Command, Effect, Job};
 use crate::hydro::database::rao::RaoConvention;
 use crate::hydro::database::wamit::WamitScale;
 use crate::hydro::database::{Database, DatabaseError, SourceFile, capytaine, nemoh, rao, wamit};
-use crate::language::select::Owner;
-use crate::language::source::LARGEST_FILE;
-use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::model::{AttachedDatabase, DriftMethod, Mass, Model, find};
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
@@ -19,6 +16,9 @@ use windlass_base::span::Span;
 use windlass_base::units::Dim;
 use windlass_base::values::Args;
 use windlass_base::values::Noun;
+use windlass_language::select::Owner;
+use windlass_language::source::LARGEST_FILE;
+use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 
 /// DATABASE.
 pub static DATABASE: Command = Command { spec: &SPEC, edits: false, run };

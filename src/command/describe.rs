@@ -3,13 +3,13 @@
 use super::chosen::Chosen;
 use super::piece::{self, OPTIONS};
 use super::{Call, Command, Effect, Job};
-use crate::language::name as rule;
-use crate::language::spec::{CommandSpec, Form, Kind, OptionSpec, ValueSpec, joined};
 use crate::model::{Body, Coordinates, GROUND, Model, Part, Point, Shape, Thing, find};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::{Place, Position, unit_vector};
 use windlass_base::units::Dim;
 use windlass_base::values::Noun;
+use windlass_language::name as rule;
+use windlass_language::spec::{CommandSpec, Form, Kind, OptionSpec, ValueSpec, joined};
 
 /// &DESCRIBE.
 pub static DESCRIBE: Command = Command { spec: &DESCRIBE_SPEC, edits: false, run: describe };
@@ -223,7 +223,7 @@ fn place_of(values: &[windlass_base::values::Value]) -> Place {
 fn point(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let [name, rest @ ..] = call.words else { return Ok(Effect::Done) };
     rule::check(&name.text, Some('*'), "point", name.span)?;
-    let args = crate::language::args::read(&POINT_SPEC, name.span, rest, job.units)?;
+    let args = windlass_language::args::read(&POINT_SPEC, name.span, rest, job.units)?;
     let at = [0, 1, 2].map(|i| args.number(i).unwrap_or(0.0));
     // the angles of the other modes are degrees, not lengths
     let direction = |value: f64| unit_vector(Dim::Length.from_si(value, job.units).to_radians());

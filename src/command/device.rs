@@ -1,11 +1,11 @@
 //! `&DEVICE`: how the program behaves.
 
 use super::{Call, Command, Effect, Job};
-use crate::language::select::Owner;
-use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use std::path::{Path, PathBuf};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
+use windlass_language::select::Owner;
+use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 
 /// &DEVICE.
 pub static DEVICE: Command = Command { spec: &SPEC, edits: false, run };

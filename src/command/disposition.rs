@@ -3,7 +3,6 @@
 //! Source: reference/solve.md, "Disposition menu".
 
 use super::{Call, Command, Effect, Job, Menu};
-use crate::language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 use crate::report::disposition::{Disposition, DispositionError, RowChoice};
 use crate::report::page;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -12,6 +11,7 @@ use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_base::values::Noun;
 use windlass_base::values::{Args, Given};
+use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 
 /// Where these commands are offered.
 pub(super) const MENU: &[&str] = &["DISPOSITION"];

@@ -3,15 +3,15 @@
 //! Source: reference/model.md, "Environment".
 
 use super::{Call, Command, Effect, Job, ambient_options, probability, sea_options, wind_options};
-use crate::language::name as rule;
-use crate::language::select::Owner;
-use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::model::{Current, Curve, CurveKind, Environment, Formula, Model, Sea, Thing, TimeWindow, find};
 use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use windlass_base::span::Span;
 use windlass_base::units::Dim;
 use windlass_base::values::Noun;
 use windlass_base::values::{Args, Given};
+use windlass_language::name as rule;
+use windlass_language::select::Owner;
+use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 
 /// &ENV.
 pub static ENV: Command = Command { spec: &ENV_SPEC, edits: false, run };
@@ -358,7 +358,7 @@ fn current(job: &Job, given: &Given) -> Outcome<Current> {
         let [what, direction] = pair else { continue };
         let direction = direction.number().unwrap_or(0.0);
         let word = what.word().unwrap_or_default();
-        if let Ok(velocity) = crate::language::number::evaluate(word) {
+        if let Ok(velocity) = windlass_language::number::evaluate(word) {
             if given.values.len() > 2 {
                 return Err(Diagnostic::error("a uniform current has one velocity and one direction", what.span)
                     .help("form: -CURRENT V DIR, or -CURRENT NAME1 DIR1 NAME2 DIR2 .."));

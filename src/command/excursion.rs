@@ -5,8 +5,6 @@
 use super::chosen::raise;
 use super::equilibrium::told;
 use super::{Call, Command, Effect, Job, Menu};
-use crate::language::select::Owner;
-use crate::language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 use crate::model::{Body, Model, find};
 use crate::report::disposition::Disposition;
 use crate::report::format::number_in_full;
@@ -20,6 +18,8 @@ use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_base::values::Args;
 use windlass_base::values::Noun;
+use windlass_language::select::Owner;
+use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 
 /// MOVE.
 pub static MOVE: Command = Command { spec: &MOVE_SPEC, edits: false, run: moved };

@@ -3,12 +3,12 @@
 use super::device::{existing, readable};
 use super::job::UserFile;
 use super::{Call, Command, Effect, Job, PLAIN};
-use crate::language::record::Word;
-use crate::language::select::{Owner, choose};
-use crate::language::spec::{CommandSpec, Form, Kind, ValueSpec};
 use crate::report::files::{FileError, Place, Side, lies_in};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
+use windlass_language::record::Word;
+use windlass_language::select::{Owner, choose};
+use windlass_language::spec::{CommandSpec, Form, Kind, ValueSpec};
 
 /// &INSERT.
 pub static INSERT: Command = Command { spec: &INSERT_SPEC, edits: false, run: insert };
@@ -206,7 +206,7 @@ pub fn write_open_files(job: &mut Job) -> Vec<Box<Diagnostic>> {
 const LARGEST: usize = 256 << 20;
 
 fn write(job: &mut Job, call: &Call, name: &Word) -> Outcome<()> {
-    let words = crate::language::token::words(call.record.text());
+    let words = windlass_language::token::words(call.record.text());
     let text = words.get(3).and_then(|t| call.record.text().get(t.range.start..)).unwrap_or_default().trim_end();
     match job.user_files.get_mut(&name.text.to_ascii_uppercase()) {
         Some(UserFile::Writing { text: lines, .. }) if lines.len() + text.len() < LARGEST => {

@@ -4,11 +4,6 @@
 
 use super::job::UserFile;
 use super::{COMMANDS, Job};
-use crate::language::logic;
-use crate::language::number;
-use crate::language::record::Word;
-use crate::language::select::{Owner, choose};
-use crate::language::substitution::World;
 use crate::model::{Mass, Model, Point};
 use crate::report::format::fifteen_figures;
 use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
@@ -16,6 +11,11 @@ use windlass_base::geometry::Position;
 use windlass_base::span::Span;
 use windlass_base::units::Dim;
 use windlass_base::wildcard::matches;
+use windlass_language::logic;
+use windlass_language::number;
+use windlass_language::record::Word;
+use windlass_language::select::{Owner, choose};
+use windlass_language::substitution::World;
 
 /// What `&HELP` says of each: name, form, meaning.
 pub const HELP: &[(&str, &str, &str)] = &[

@@ -2,13 +2,13 @@
 
 use super::{COMMANDS, Call, Command, Effect, Job, offered, status};
 use crate::connector::CLASSES;
-use crate::language::flow::specs::CONTROL;
-use crate::language::functions;
-use crate::language::name;
-use crate::language::select::{Owner, choose};
-use crate::language::spec::{CommandSpec, Kind, Need, ValueSpec, expected};
 use windlass_base::diagnostic::Outcome;
 use windlass_base::units::UnitSystem;
+use windlass_language::flow::specs::CONTROL;
+use windlass_language::functions;
+use windlass_language::name;
+use windlass_language::select::{Owner, choose};
+use windlass_language::spec::{CommandSpec, Kind, Need, ValueSpec, expected};
 
 /// &HELP.
 pub static HELP: Command = Command { spec: &SPEC, edits: false, run };
@@ -18,7 +18,7 @@ static SPEC: CommandSpec = CommandSpec {
         ValueSpec::new("NAME", Kind::Text, "command, function, or ~CLASS").or("what this menu offers"),
         ValueSpec::new("TYPE", Kind::Text, "class type, after ~CLASS").or("all class types"),
     ],
-    form: crate::language::spec::Form::Text,
+    form: windlass_language::spec::Form::Text,
     example: "&HELP\n&HELP &DIMEN\n&HELP ~CLASS B_CAT",
     ..CommandSpec::new("&HELP", "explains a command, a function or a class type")
 };

@@ -7,7 +7,6 @@ use super::status::push;
 use super::{Call, Command, Effect, Job, Menu};
 use crate::hydro::hull::Hydrostatics;
 use crate::hydro::{Floating, Hull, balanced};
-use crate::language::spec::{CommandSpec, Kind, Opens, ValueSpec};
 use crate::model::{Body, Mass, find};
 use crate::report::disposition::Disposition;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -17,6 +16,7 @@ use windlass_base::span::Span;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
 use windlass_base::values::Noun;
+use windlass_language::spec::{CommandSpec, Kind, Opens, ValueSpec};
 
 /// HSTATICS.
 pub static HSTATICS: Command = Command { spec: &HSTATICS_SPEC, edits: false, run: hstatics };

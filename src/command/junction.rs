@@ -1,9 +1,6 @@
 //! `JUNCTION`: a point in the sea where lines meet.
 
 use super::{Call, Command, Effect, Job};
-use crate::language::name as rule;
-use crate::language::select::Owner;
-use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::model::{Body, Junction, Model, Part, Point, Weight};
 use windlass_base::diagnostic::with_article;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -11,6 +8,9 @@ use windlass_base::geometry::{Place, Position};
 use windlass_base::span::Span;
 use windlass_base::units::Dim;
 use windlass_base::values::Noun;
+use windlass_language::name as rule;
+use windlass_language::select::Owner;
+use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 
 /// JUNCTION.
 pub static JUNCTION: Command = Command { spec: &SPEC, edits: false, run };

@@ -4,8 +4,6 @@ mod input;
 
 use super::{Call, Command, Effect, Job, file};
 use crate::connector::catenary::EndForces;
-use crate::language::select::Owner;
-use crate::language::spec::{CommandSpec, Kind, ValueSpec};
 use crate::report::files::{Growing, Place};
 use crate::report::format::number_in_full;
 use crate::report::page;
@@ -14,6 +12,8 @@ use std::collections::BTreeMap;
 use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
+use windlass_language::select::Owner;
+use windlass_language::spec::{CommandSpec, Kind, ValueSpec};
 
 /// LINES.
 pub static LINES: Command = Command { spec: &LINES_SPEC, edits: false, run: lines };

@@ -5,8 +5,6 @@
 
 use super::{Call, Command, Effect, Job};
 use crate::hydro::heading::ByHeading;
-use crate::language::select::Owner;
-use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::model::{Fluid, GROUND, LoadKind, Model, PartLoad, find};
 use nalgebra::{Matrix6, Vector3};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -16,6 +14,8 @@ use windlass_base::units::Dim;
 use windlass_base::units::eight_figures;
 use windlass_base::values::Noun;
 use windlass_base::values::{Args, Given, Value};
+use windlass_language::select::Owner;
+use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 
 /// #AREA.
 pub static AREA: Command = Command { spec: &AREA_SPEC, edits: false, run: area };

@@ -5,13 +5,13 @@ use super::class::known_curves;
 use super::connector::build_connector;
 use super::device::existing;
 use super::{Call, Command, Effect, INMODEL_FILE, Job, Menu, bathymetry, buildg, pgen, piece};
-use crate::language::record::Word;
-use crate::language::select::Owner;
-use crate::language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
-use crate::language::token::Kind as Lex;
 use std::path::PathBuf;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
+use windlass_language::record::Word;
+use windlass_language::select::Owner;
+use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
+use windlass_language::token::Kind as Lex;
 
 /// INMODEL.
 pub static INMODEL: Command = Command { spec: &INMODEL_SPEC, edits: false, run: inmodel };

@@ -1,9 +1,9 @@
 //! Titles, messages, the clock, and the end of the job.
 
 use super::{Call, Command, Effect, Job};
-use crate::language::spec::{CommandSpec, Form, Kind, ValueSpec};
 use crate::report::page::centre;
 use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
+use windlass_language::spec::{CommandSpec, Form, Kind, ValueSpec};
 
 /// Width in which `&CTYPE` centres.
 const WIDTH: usize = 80;
@@ -82,8 +82,8 @@ fn error(_: &mut Job, call: &Call) -> Outcome<Effect> {
         Diagnostic::error("&ERROR lacks its class", call.record.whole())
             .help("form: &ERROR WARNING|ERROR|FATAL message")
     })?;
-    let names = CLASSES.iter().map(|c| (*c, crate::language::select::Owner::Moses, *c));
-    let severity = match crate::language::select::choose(&class.text, class.span, "class of message", names)? {
+    let names = CLASSES.iter().map(|c| (*c, windlass_language::select::Owner::Moses, *c));
+    let severity = match windlass_language::select::choose(&class.text, class.span, "class of message", names)? {
         "WARNING" => Severity::Warning,
         "ERROR" => Severity::Error,
         _ => Severity::Fatal,

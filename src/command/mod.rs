@@ -95,12 +95,12 @@ pub use job::{Job, Menu, Settings};
 pub use menus::{finish, opened_by};
 pub use status::kinds as status_kinds;
 
-use crate::language::record::{Record, Word};
-use crate::language::select::Owner;
-use crate::language::spec::CommandSpec;
 use std::path::PathBuf;
 use windlass_base::diagnostic::Outcome;
 use windlass_base::values::Args;
+use windlass_language::record::{Record, Word};
+use windlass_language::select::Owner;
+use windlass_language::spec::CommandSpec;
 
 /// A record on its way to a handler.
 pub struct Call<'a> {

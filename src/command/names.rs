@@ -1,9 +1,6 @@
 //! `DELETE` and `RENAME`: of anything in the model that has a name.
 
 use super::{Call, Command, Effect, Job};
-use crate::language::name;
-use crate::language::select::Owner;
-use crate::language::spec::{CommandSpec, Kind, ValueSpec};
 use crate::model::{AssemblyKind, Model, Piece, Thing};
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
@@ -11,6 +8,9 @@ use windlass_base::span::Span;
 use windlass_base::values::Content;
 use windlass_base::values::Noun;
 use windlass_base::wildcard::{is_wild, matches};
+use windlass_language::name;
+use windlass_language::select::Owner;
+use windlass_language::spec::{CommandSpec, Kind, ValueSpec};
 
 /// DELETE.
 pub static DELETE: Command = Command { spec: &DELETE_SPEC, edits: true, run: delete };

@@ -2,9 +2,9 @@
 
 use super::Job;
 use super::device::existing;
-use crate::language::source::LARGEST_FILE;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
+use windlass_language::source::LARGEST_FILE;
 
 /// A row of numbers, with its line in the file.
 pub(super) type Row<const N: usize> = (u64, [f64; N]);

@@ -2,8 +2,6 @@
 
 use super::chosen::{Chosen, WARNING, gathered};
 use super::{Call, Command, Effect, Job};
-use crate::language::select::Owner;
-use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::model::Thing;
 use crate::report::picture::{Picture, View};
 use crate::report::plot::PlotError;
@@ -12,6 +10,8 @@ use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::units::Dim;
 use windlass_base::values::Args;
 use windlass_base::values::Noun;
+use windlass_language::select::Owner;
+use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 
 /// &PICTURE.
 pub static PICTURE: Command = Command { spec: &SPEC, edits: false, run };

@@ -5,10 +5,6 @@
 use super::written::option_as_written;
 use super::{Call, Command, Effect, Job, member};
 use crate::hydro;
-use crate::language::args;
-use crate::language::name as rule;
-use crate::language::spec::{CommandSpec, Form, Kind, OptionSpec, ValueSpec};
-use crate::language::token::Kind as Lex;
 use crate::model::{Model, Part, Piece, Shape, Thing, WaveAction, find};
 use nalgebra::Vector3;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -17,6 +13,10 @@ use windlass_base::span::Span;
 use windlass_base::units::Dim;
 use windlass_base::values::Noun;
 use windlass_base::values::{Args, Value};
+use windlass_language::args;
+use windlass_language::name as rule;
+use windlass_language::spec::{CommandSpec, Form, Kind, OptionSpec, ValueSpec};
+use windlass_language::token::Kind as Lex;
 
 /// PANEL.
 pub static PANEL: Command = Command { spec: &PANEL_SPEC, edits: false, run: panel };

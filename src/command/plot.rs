@@ -4,11 +4,11 @@ use super::disposition::{
     ANY_COLUMN, COLUMN, HEADING, MAG_USE, RECORD, VALUES, chosen, here, refused, selectors, spec, write_file,
 };
 use super::{Call, Command, Effect, Job};
-use crate::language::select::Owner;
-use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::report::plot::{Chart, PlotError};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::values::{Args, Value};
+use windlass_language::select::Owner;
+use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 
 /// PLOT.
 pub static PLOT: Command = Command { spec: &SPEC, edits: false, run };

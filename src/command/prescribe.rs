@@ -4,8 +4,6 @@ mod input;
 
 use super::status::push;
 use super::{Call, Command, Effect, Job};
-use crate::language::select::Owner;
-use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::model::{ClassError, GivenMotion, Model, Prescription, Sinusoid, find};
 use crate::solve::FREEDOMS;
 use crate::solve::time::prescribed;
@@ -17,6 +15,8 @@ use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
 use windlass_base::values::Noun;
 use windlass_base::values::{Args, Given};
+use windlass_language::select::Owner;
+use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 
 /// PRESCRIBE.
 pub static PRESCRIBE: Command = Command { spec: &SPEC, edits: false, run };

@@ -3,14 +3,14 @@
 //! Source: reference/solve.md, "Fatigue of lines".
 
 use super::{Call, Command, Effect, Job};
-use crate::language::name as rule;
-use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::model::{FatigueCurve, FatigueKind, Model, ThicknessCorrection};
 use crate::post::fatigue::{Curve, find};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::units::Dim;
 use windlass_base::values::Given;
 use windlass_base::values::Noun;
+use windlass_language::name as rule;
+use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 
 /// &REP_SELECT.
 pub static REP_SELECT: Command = Command { spec: &SPEC, edits: false, run };

@@ -2,9 +2,9 @@
 
 use super::message::underlined;
 use super::{Call, Command, Effect, Job, Menu};
-use crate::language::spec::{CommandSpec, Form, Kind, Opens, OptionSpec, ValueSpec};
 use crate::report::page::centre;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_language::spec::{CommandSpec, Form, Kind, Opens, OptionSpec, ValueSpec};
 
 /// &REPORT.
 pub static REPORT: Command = Command { spec: &REPORT_SPEC, edits: false, run: open };

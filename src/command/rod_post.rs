@@ -5,8 +5,6 @@ use super::disposition::{BOTH, HARD, send};
 use super::equilibrium::told;
 use super::prcpost::{asked, last_run};
 use super::{Call, Command, Effect, Job, Menu};
-use crate::language::select::Owner;
-use crate::language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 use crate::post::line::fatigue::{MOST_POINTS, Round};
 use crate::post::line::lrfd::{Factors, SafetyClass};
 use crate::post::line::working_stress::DesignCase;
@@ -20,6 +18,8 @@ use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_base::values::Noun;
 use windlass_base::values::{Args, Given};
+use windlass_language::select::Owner;
+use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 
 /// ROD.
 pub static ROD: Command = Command { spec: &SPEC, edits: false, run };

@@ -14,8 +14,6 @@ use super::{
     Call, Command, Effect, Job, Menu, bathymetry, body_status, body_tables, database_table, fatigue_table, line_types,
     member, model_tables, prescribe, rod_status, sea_table, settings_table, t_pressure, tether_status, wind_table,
 };
-use crate::language::select::{Owner, choose};
-use crate::language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 use crate::model::{Class, Thing};
 use crate::report::disposition::Disposition;
 use crate::report::page;
@@ -24,6 +22,8 @@ use crate::solve::run_tables;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::table::{Cell, Table};
 use windlass_base::values::Noun;
+use windlass_language::select::{Owner, choose};
+use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 
 /// &STATUS.
 pub static STATUS: Command = Command { spec: &SPEC, edits: false, run };

@@ -2,9 +2,9 @@
 
 use super::disposition::{MAG_USE, RECORD, VALUES, chosen, write_file};
 use super::{Call, Command, Effect, Job};
-use crate::language::spec::CommandSpec;
 use crate::report::{csv, netcdf, parquet};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_language::spec::CommandSpec;
 
 /// STORE.
 pub static STORE: Command = Command { spec: &SPEC, edits: false, run };

@@ -9,9 +9,6 @@ use super::member;
 use super::piece::{self, OPTIONS, READING};
 use super::{Call, Command, Effect, Job, Menu};
 use crate::hydro::hull::{MeshKind, read_mesh};
-use crate::language::select::Owner;
-use crate::language::source::LARGEST_FILE;
-use crate::language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec, joined};
 use crate::model::{Piece, Shape};
 use crate::report::page;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -20,6 +17,9 @@ use windlass_base::span::Span;
 use windlass_base::units::Dim;
 use windlass_base::values::Args;
 use windlass_base::values::Noun;
+use windlass_language::select::Owner;
+use windlass_language::source::LARGEST_FILE;
+use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec, joined};
 
 /// &SURFACE.
 pub static SURFACE: Command = Command { spec: &SURFACE_SPEC, edits: false, run: surface };

@@ -4,14 +4,14 @@
 
 use super::status::push;
 use super::{Call, Command, Effect, Job};
-use crate::language::name as rule;
-use crate::language::select::Owner;
-use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::model::{Contents, Filling, Model, Thing};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_base::values::Noun;
+use windlass_language::name as rule;
+use windlass_language::select::Owner;
+use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 
 /// T_PRESSURE.
 pub static T_PRESSURE: Command = Command { spec: &SPEC, edits: false, run };

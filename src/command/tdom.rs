@@ -6,8 +6,6 @@ use super::equilibrium::{told, warn_of_lines};
 use super::restart::go_on;
 use super::{Call, Command, Effect, Job, tether_run};
 use crate::hydro::morison::unmoved;
-use crate::language::select::Owner;
-use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::model::Model;
 use crate::report::page;
 use crate::report::run_log::RunLog;
@@ -23,6 +21,8 @@ use windlass_base::span::Span;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_base::values::Args;
+use windlass_language::select::Owner;
+use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 
 /// TDOM.
 pub static TDOM: Command = Command { spec: &SPEC, edits: true, run };

@@ -4,8 +4,6 @@
 
 use super::disposition::{BOTH, HARD, send};
 use super::{Call, Command, Effect, Job, Menu};
-use crate::language::select::{Owner, choose};
-use crate::language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 use crate::post::SeriesError;
 use crate::post::tether::fatigue::{Asked, Endurance};
 use crate::report::disposition::Disposition;
@@ -18,6 +16,8 @@ use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_base::values::Noun;
 use windlass_base::values::{Args, Given};
+use windlass_language::select::{Owner, choose};
+use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 
 /// TETHER.
 pub static TETHER: Command = Command { spec: &TETHER_SPEC, edits: false, run: tether };

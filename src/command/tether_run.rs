@@ -4,8 +4,6 @@
 
 use super::equilibrium::told;
 use super::{Effect, Job};
-use crate::language::select::Owner;
-use crate::language::spec::{Kind, OptionSpec, ValueSpec};
 use crate::report::page;
 use crate::solve::tethered::{self, Settings};
 use std::sync::Arc;
@@ -14,6 +12,8 @@ use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::unit_vector;
 use windlass_base::units::Dim;
 use windlass_base::values::Args;
+use windlass_language::select::Owner;
+use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
 
 /// -TETHERS.
 pub const TETHERS: OptionSpec = OptionSpec::new(

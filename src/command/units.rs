@@ -1,11 +1,11 @@
 //! `&DIMEN` and `&DEFAULT`.
 
 use super::{Call, Command, Effect, Job};
-use crate::language::select::Owner;
-use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::model::Coordinates;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::units::{Dim, ForceUnit, LengthUnit, UnitSystem};
+use windlass_language::select::Owner;
+use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 
 /// &DIMEN.
 pub static DIMEN: Command = Command { spec: &DIMEN_SPEC, edits: false, run: dimen };

@@ -3,8 +3,6 @@
 use super::Job;
 use super::chosen::gathered;
 use super::status::push;
-use crate::language::select::Owner;
-use crate::language::spec::{Kind, OptionSpec, ValueSpec};
 use crate::model::{Class, ClassError, Condition, Configuration, Connector, LineChange, Placement};
 use crate::report::format::number_in_full;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -12,6 +10,8 @@ use windlass_base::span::Span;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::{Args, Given};
+use windlass_language::select::Owner;
+use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
 
 /// -VARY.
 pub const VARY: OptionSpec = OptionSpec::new(

@@ -8,8 +8,6 @@ use super::mooring::{Mooring, line_error, no_other_end};
 use super::moving::{JointMass, MovingLine, Part, Seabed, Strength, description};
 use super::options::aqwa;
 use super::{ClassKind, checks};
-use crate::language::select::Owner;
-use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, LineModel, Placement, Surroundings,
 };
@@ -21,6 +19,8 @@ use windlass_base::span::Span;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
 use windlass_base::values::{Args, Given};
+use windlass_language::select::Owner;
+use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 
 /// The class type CATENARY: an AQWA catenary section with the joint at its end.
 pub static CATENARY: ClassKind = ClassKind { spec: &CATENARY_SPEC, segmented: true, build: build_catenary };

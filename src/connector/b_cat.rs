@@ -10,7 +10,6 @@ use super::mooring::{Mooring, end_springs, line_error, parts, with_series};
 use super::moving::{self as m, Flexure, MovingLine, Seabed};
 use super::section::{LineSection, properties};
 use super::{ClassKind, checks, options as o};
-use crate::language::spec::{CommandSpec, Kind, ValueSpec};
 use crate::model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, FatigueSegment, LineModel, Placement,
     Surroundings,
@@ -20,6 +19,7 @@ use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
+use windlass_language::spec::{CommandSpec, Kind, ValueSpec};
 
 /// The class type.
 pub static B_CAT: ClassKind = ClassKind { spec: &SPEC, segmented: true, build };

@@ -2,10 +2,10 @@
 //!
 //! Source: seeds 000/001; sizes in inches or mm, lengths in feet or metres, `bforce` the user's force.
 
-use crate::language::select::Owner;
-use crate::language::spec::{Kind, OptionSpec, ValueSpec};
 use windlass_base::units::Dim;
 use windlass_base::values::Noun;
+use windlass_language::select::Owner;
+use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
 
 const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(dim), help)

@@ -9,7 +9,6 @@ use super::h_cat::{LINE_OPTIONS, check_records, hung};
 use super::mooring::{end_springs, with_series};
 use super::section::{LineSection, properties};
 use super::{ClassKind, checks, options as o};
-use crate::language::spec::{CommandSpec, Kind, ValueSpec};
 use crate::model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, FatigueSegment, LineModel, Placement,
     Surroundings,
@@ -19,6 +18,7 @@ use windlass_base::diagnostic::Outcome;
 use windlass_base::span::Span;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
+use windlass_language::spec::{CommandSpec, Kind, ValueSpec};
 
 /// The class type.
 pub static SL_ELEM: ClassKind = ClassKind { spec: &SL_ELEM_SPEC, segmented: true, build };

@@ -5,8 +5,6 @@
 use super::aqwa::{CA, LENGTH, number};
 use super::options::aqwa;
 use super::{ClassKind, checks};
-use crate::language::select::Owner;
-use crate::language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use crate::model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Guess, Response, Situation, Summary,
     Surroundings, TetherSection, TetherUse,
@@ -17,6 +15,8 @@ use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
+use windlass_language::select::Owner;
+use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 
 /// The class type TETHER: an AQWA tether/riser section.
 pub static TETHER: ClassKind = ClassKind { spec: &TETHER_SPEC, segmented: true, build: build_tether };

@@ -4,7 +4,6 @@
 
 use super::ClassKind;
 use super::spring::no_anchor;
-use crate::language::spec::{CommandSpec, Kind, ValueSpec};
 use crate::model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Guess, Response, Situation, Summary,
     Surroundings,
@@ -14,6 +13,7 @@ use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::unit_vector;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
+use windlass_language::spec::{CommandSpec, Kind, ValueSpec};
 
 /// The class type.
 pub static TUG_BOAT: ClassKind = ClassKind { spec: &SPEC, segmented: false, build };

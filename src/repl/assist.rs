@@ -4,11 +4,6 @@
 use crate::command::{COMMANDS, offered, status_kinds};
 use crate::connector::CLASSES;
 use crate::connector::line_types::library;
-use crate::language::flow::specs::CONTROL;
-use crate::language::functions;
-use crate::language::select::{Choice, keyword};
-use crate::language::spec::{CommandSpec, Kind as ValueKind, ValueSpec};
-use crate::language::token::{self, Kind, Token};
 use crate::model::PIPE;
 use crate::session::Session;
 use rustyline::completion::{Completer, FilenameCompleter, Pair};
@@ -19,6 +14,11 @@ use rustyline::{Context, Helper};
 use std::borrow::Cow;
 use std::sync::{Arc, Mutex};
 use windlass_base::values::Noun;
+use windlass_language::flow::specs::CONTROL;
+use windlass_language::functions;
+use windlass_language::select::{Choice, keyword};
+use windlass_language::spec::{CommandSpec, Kind as ValueKind, ValueSpec};
+use windlass_language::token::{self, Kind, Token};
 
 /// Names to complete, taken from the session before each line.
 #[derive(Default)]
@@ -157,7 +157,7 @@ fn expected_value(
     from: usize,
 ) -> Option<(&'static ValueSpec, bool)> {
     let mut data = 0;
-    let mut option: Option<(&'static crate::language::spec::OptionSpec, usize)> = None;
+    let mut option: Option<(&'static windlass_language::spec::OptionSpec, usize)> = None;
     for token in words.get(from..).unwrap_or_default() {
         let word = text.get(token.range.clone()).unwrap_or_default();
         if token.kind == Kind::Option {

@@ -2,9 +2,6 @@
 
 mod assist;
 
-use crate::language::record::LONGEST_RECORD;
-use crate::language::source::Text;
-use crate::language::token;
 use crate::session::{End, Session};
 use assist::{Assistant, Known};
 use rustyline::config::Configurer;
@@ -17,6 +14,9 @@ use rustyline::{
 use std::io::{BufRead, Write};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
+use windlass_language::record::LONGEST_RECORD;
+use windlass_language::source::Text;
+use windlass_language::token;
 
 /// Records kept in the history file.
 const HISTORY: usize = 5000;

@@ -1,8 +1,8 @@
 //! How many digits a number is printed with: the one place that decides.
 
-use crate::language::functions::exponent;
 use windlass_base::table::{Cell, Column, Digits};
 use windlass_base::units::{Dim, ForceUnit, LengthUnit, UnitSystem};
+use windlass_language::functions::exponent;
 
 /// What a cell without a value prints as.
 const MISSING: &str = "";

@@ -3,11 +3,11 @@
 use super::Session;
 use crate::aqwa::{self, Deck, Records};
 use crate::command::{PLAIN, SCRIPT};
-use crate::language::source::Text;
 use crate::report::page;
 use std::path::Path;
 use windlass_base::diagnostic::{Diagnostic, Severity};
 use windlass_base::span::Span;
+use windlass_language::source::Text;
 
 impl Session {
     /// Opens a text as the job: an AQWA deck as the records it amounts to, anything else as a script.

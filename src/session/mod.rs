@@ -11,16 +11,6 @@ pub use reading::{read_all, read_text};
 use self::named::{in_menu, unknown};
 use crate::aqwa;
 use crate::command::{self, Call, Command, Effect, INMODEL_FILE, Job, Menu, PLAIN, SCRIPT, offered};
-use crate::language::args;
-use crate::language::flow::macros::{self, Macro};
-use crate::language::flow::specs::CONTROL;
-use crate::language::flow::{Interpreter, Step};
-use crate::language::record::{Record, Word};
-use crate::language::render::render;
-use crate::language::select::{Choice, keyword};
-use crate::language::source::Text;
-use crate::language::spec::Form;
-use crate::language::token::Kind;
 use crate::report::output::Output;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -28,6 +18,16 @@ use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
 use windlass_base::span::Span;
 use windlass_base::values::Args;
+use windlass_language::args;
+use windlass_language::flow::macros::{self, Macro};
+use windlass_language::flow::specs::CONTROL;
+use windlass_language::flow::{Interpreter, Step};
+use windlass_language::record::{Record, Word};
+use windlass_language::render::render;
+use windlass_language::select::{Choice, keyword};
+use windlass_language::source::Text;
+use windlass_language::spec::Form;
+use windlass_language::token::Kind;
 
 /// Why a run came back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

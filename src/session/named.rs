@@ -1,12 +1,12 @@
 //! What a word names in a menu, and what is said where it names nothing.
 
 use crate::command::{COMMANDS, Command, Menu, offered};
-use crate::language::flow::macros::Macro;
-use crate::language::flow::specs::CONTROL;
-use crate::language::record::Word;
-use crate::language::token::Kind;
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
+use windlass_language::flow::macros::Macro;
+use windlass_language::flow::specs::CONTROL;
+use windlass_language::record::Word;
+use windlass_language::token::Kind;
 
 /// A description record's command, when the menu takes descriptions.
 pub(super) fn in_menu(name: &str, menu: &Menu, first: &Word) -> Outcome<&'static Command> {

@@ -1,8 +1,8 @@
 //! The text of files and streams of records.
 
-use crate::language::source::{LARGEST_FILE, Text};
 use std::io::Read;
 use std::path::Path;
+use windlass_language::source::{LARGEST_FILE, Text};
 
 /// The text of a file of records.
 ///

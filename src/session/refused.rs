@@ -3,9 +3,9 @@
 
 use super::{Meaning, Session};
 use crate::command::{Command, Menu, opened_by};
-use crate::language::record::Word;
-use crate::language::token::Kind;
 use windlass_base::diagnostic::{Diagnostic, Severity};
+use windlass_language::record::Word;
+use windlass_language::token::Kind;
 
 impl Session {
     /// Hands back the error of a command; where the command would have opened a menu, and the run goes on, its place is

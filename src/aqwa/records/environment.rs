@@ -56,7 +56,7 @@ fn components(flow: &Flow, out: &Script) -> [f64; 2] {
 }
 
 fn cosine(degrees: f64) -> f64 {
-    crate::language::number::cosine_of_degrees(degrees)
+    windlass_language::number::cosine_of_degrees(degrees)
 }
 
 /// The current of the deck: that of the spectrum or wave, else the uniform one, else that of deck 10; with the profile.

@@ -161,7 +161,7 @@ mod tests {
     #[test]
     fn a_number_reads_back_as_it_is() {
         for value in [0.0, -0.0, 27.787, 1e15, 1.3367e24, -1e-10, 0.1 + 0.2, 2.15e11, 329.73543, 1e-4] {
-            assert_eq!(crate::language::number::evaluate(&number(value)), Ok(value + 0.0), "{value}");
+            assert_eq!(windlass_language::number::evaluate(&number(value)), Ok(value + 0.0), "{value}");
         }
         assert_eq!((number(27.787).as_str(), number(-0.0).as_str()), ("27.787", "0"));
     }

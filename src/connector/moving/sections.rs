@@ -3,14 +3,14 @@
 use super::describe::{Description, Hold, JointMass, Part, Seabed, Strength};
 use crate::connector::checks;
 use crate::connector::section::LineSection;
-use crate::language::select::Owner;
-use crate::language::spec::{Kind, OptionSpec, ValueSpec};
 use crate::model::{ClassError, ClassRecord, Surroundings};
 use crate::rod::{Axial, Segment, Tube, Viscoelastic};
 use std::f64::consts::{FRAC_PI_4, PI};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::units::Dim;
 use windlass_base::values::Args;
+use windlass_language::select::Owner;
+use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
 
 /// Drag, inline drag of the skin and added mass where nothing is given: those of AQWA's cable dynamics (seed 002, 5.8.3.1).
 const AQWA_CD: f64 = 1.0;

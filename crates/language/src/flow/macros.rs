@@ -2,9 +2,9 @@
 //!
 //! Source: reference/language.md section 6.
 
-use crate::language::record::{Record, Word};
-use crate::language::select::{self, Choice, Owner};
-use crate::language::token::Kind;
+use crate::record::{Record, Word};
+use crate::select::{self, Choice, Owner};
+use crate::token::Kind;
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;

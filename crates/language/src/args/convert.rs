@@ -1,11 +1,11 @@
 //! The words of a record or an option as values: how many are taken, whether they fit, the conversion to SI.
 
-use crate::language::name;
-use crate::language::number;
-use crate::language::record::Word;
-use crate::language::select::{self, Owner};
-use crate::language::spec::{Kind, Need, OptionSpec, Range, ValueSpec, expected};
-use crate::language::token::{Kind as Lex, is_numeric};
+use crate::name;
+use crate::number;
+use crate::record::Word;
+use crate::select::{self, Owner};
+use crate::spec::{Kind, Need, OptionSpec, Range, ValueSpec, expected};
+use crate::token::{Kind as Lex, is_numeric};
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;

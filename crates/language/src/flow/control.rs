@@ -4,9 +4,9 @@ use super::Interpreter;
 use super::frames::{Branch, Collected, Collecting, Frame, Trips};
 use super::macros::{Macro, control_word};
 use super::specs::CONTROL;
-use crate::language::record::Record;
-use crate::language::substitution::{World, substitute};
-use crate::language::{logic, number};
+use crate::record::Record;
+use crate::substitution::{World, substitute};
+use crate::{logic, number};
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
 

@@ -2,8 +2,8 @@
 //!
 //! Source: reference/language.md sections 4 to 6.
 
-use crate::language::select::Owner;
-use crate::language::spec::{CommandSpec, Form};
+use crate::select::Owner;
+use crate::spec::{CommandSpec, Form};
 
 const fn control(name: &'static str, help: &'static str, detail: &'static str, example: &'static str) -> CommandSpec {
     CommandSpec { form: Form::Text, owner: Owner::Moses, detail, example, ..CommandSpec::new(name, help) }

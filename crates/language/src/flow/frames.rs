@@ -2,8 +2,8 @@
 
 use super::macros::Macro;
 use super::{Interpreter, Step};
-use crate::language::record::{self, Record};
-use crate::language::source::Sources;
+use crate::record::{self, Record};
+use crate::source::Sources;
 use std::collections::VecDeque;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
