@@ -14,9 +14,9 @@ use windlass::hydro::hull::{Solid, Surface, Tube};
 use windlass::hydro::pieces::PieceLoad;
 use windlass::hydro::steady::{Medium, Steady};
 use windlass::hydro::wind::{Profile, WindField};
-use windlass::model::Model;
 use windlass_base::geometry::Place;
 use windlass_base::pose::Pose;
+use windlass_model::Model;
 
 /// A sphere of radius 10 m between `rows` parallels and twice as many meridians.
 fn sphere(rows: usize) -> Surface {

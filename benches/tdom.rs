@@ -13,8 +13,8 @@ mod measured;
 
 use std::sync::Arc;
 use std::time::Instant;
-use windlass::model::{Database, Model};
 use windlass::solve::time::{Convergence, Method, Run, Settings, Watcher};
+use windlass_model::{Database, Model};
 
 /// Takes rows and says nothing.
 struct Quiet;

@@ -8,9 +8,9 @@
 mod measured;
 
 use std::time::Instant;
-use windlass::model::Model;
 use windlass::post::tether::fatigue::{Asked, Endurance};
 use windlass::solve::tethered::{Settings, Statistics, Tethered, run};
+use windlass_model::Model;
 
 /// The model that a script has before its run.
 fn scripted(name: &str) -> Model {

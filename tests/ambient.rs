@@ -4,10 +4,10 @@
 
 use std::sync::Arc;
 use windlass::hydro::ambient;
-use windlass::model::Ambient;
 use windlass::report::files::JobFolder;
 use windlass::report::output::Output;
 use windlass::session::Session;
+use windlass_model::Ambient;
 
 /// What surrounds lines after a script; `errors` of its records are refused.
 fn after(script: &str, errors: i64) -> Arc<dyn Ambient> {

@@ -7,8 +7,8 @@ mod common;
 
 use std::collections::HashMap;
 use windlass::connector::CLASSES;
-use windlass::model::Placement;
 use windlass::session::Session;
+use windlass_model::Placement;
 
 /// What a job printed, what it said, and the columns of the CSV file it stored.
 struct Done {

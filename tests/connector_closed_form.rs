@@ -4,8 +4,8 @@
 
 mod common;
 
-use windlass::model::{Connector, LineLoads, Model};
 use windlass_base::units::{FOOT, KIP};
+use windlass_model::{Connector, LineLoads, Model};
 
 /// What records leave: the model, what they print, the messages and their help.
 struct Left {

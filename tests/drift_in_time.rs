@@ -13,9 +13,9 @@ use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 use windlass::hydro::sea::Sea;
 use windlass::hydro::{BodyLoad, Category, Floating, Underway};
-use windlass::model::Model;
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
+use windlass_model::Model;
 
 /// A body with records on points of it, in an environment; metres and newtons.
 fn body(records: &str, environment: &str) -> Model {
@@ -125,18 +125,18 @@ fn slow_drift_in_a_sea_has_the_mean_of_statics() {
 #[test]
 fn drift_of_records_and_of_a_database_on_one_body_is_refused() {
     let mut model = body(&format!("*P 0 0 0\n{}", table("*P")), "&ENV -SEA REGULAR 180 3 9");
-    let drift = windlass::model::DriftTable {
+    let drift = windlass_model::DriftTable {
         frequencies: vec![0.5],
         headings: vec![0.0],
         values: vec![vec![[1.0, 0.0, 0.0, 0.0, 0.0, 0.0]]],
     };
-    let data = windlass::model::Database { drift: Some(drift), ..Default::default() };
+    let data = windlass_model::Database { drift: Some(drift), ..Default::default() };
     let span = model.loads[0].span;
-    let mut attached = windlass::model::AttachedDatabase {
+    let mut attached = windlass_model::AttachedDatabase {
         data: Arc::new(data),
         at: [0.0; 3],
         memory: None,
-        drift: windlass::model::DriftMethod::Newman,
+        drift: windlass_model::DriftMethod::Newman,
         hydrostatics: false,
         span,
     };
@@ -144,7 +144,7 @@ fn drift_of_records_and_of_a_database_on_one_body_is_refused() {
     let error = Floating::of(&model, &model.bodies["B"]).unwrap_err();
     assert!(error.message.contains("#DRIFT") && error.span == Some(span), "{error:?}");
     assert!(Floating::under_way(&model, &model.bodies["B"], Some(&sea(&model))).is_err());
-    attached.drift = windlass::model::DriftMethod::None;
+    attached.drift = windlass_model::DriftMethod::None;
     model.bodies["B"].database = Some(attached);
     assert!(Floating::of(&model, &model.bodies["B"]).is_ok());
 }

@@ -6,13 +6,13 @@ mod common;
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use windlass::connector::CLASSES;
-use windlass::model::{
-    ClassError, Connection, Connector, Element, End, LineDuty, Model, Placement, Response, Situation, Surroundings,
-    TimeStep,
-};
 use windlass::session::Session;
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
+use windlass_model::{
+    ClassError, Connection, Connector, Element, End, LineDuty, Model, Placement, Response, Situation, Surroundings,
+    TimeStep,
+};
 
 /// What a force obeys beside being the same for the same.
 #[derive(Clone, Copy, PartialEq)]

@@ -4,10 +4,10 @@
 
 mod common;
 
-use windlass::model::{Model, Weight};
 use windlass::session::Session;
 use windlass::solve::{Options, SolveError, System, modes, settle};
 use windlass_base::span::Span;
+use windlass_model::{Model, Weight};
 
 /// The model that records make, in metres and newtons; each `weights` is one of the body's own part.
 fn model(records: &str, weights: &[(&str, [f64; 3], f64, [f64; 3])]) -> Model {
@@ -147,10 +147,10 @@ fn lifts(records: &str) -> Vec<(String, f64)> {
     let mut list = Vec::new();
     for connector in model.connectors.values() {
         let element = model.element(connector).unwrap();
-        let ends = model.end_poses(connector).map(windlass::model::End::still);
+        let ends = model.end_poses(connector).map(windlass_model::End::still);
         let surroundings = model.surroundings();
-        let at = windlass::model::Situation { ends: &ends, step: None, surroundings: &surroundings };
-        let mut out = windlass::model::Response::default();
+        let at = windlass_model::Situation { ends: &ends, step: None, surroundings: &surroundings };
+        let mut out = windlass_model::Response::default();
         let (committed, mut trial) = (vec![0.0; element.states()], vec![0.0; element.states()]);
         element.evaluate(&at, &committed, &mut trial, &mut None, &mut out).unwrap();
         list.push((connector.name.clone(), out.wrench[0][2]));

@@ -11,9 +11,10 @@ use windlass::hydro::database::memory::Memory;
 use windlass::hydro::database::radiation::Radiation;
 use windlass::hydro::database::slow_drift::SlowDrift;
 use windlass::hydro::database::{Database, DriftTable, Qtf, capytaine};
+use windlass::hydro::database::{DatabaseLookup, drift_at};
 use windlass::hydro::sea::{Component, Sea, Water};
-use windlass::model::Stretching;
 use windlass_base::pose::Six;
+use windlass_model::Stretching;
 
 const RADIUS: f64 = 10.0;
 
@@ -297,7 +298,7 @@ fn newmans_product_is_the_double_sum() {
     let mut wanted = Six::zeros();
     let of = |c: &Component| {
         let q = c.number * (c.toward[0] * x + c.toward[1] * y) - c.frequency * time + c.phase;
-        (q, Six::from(table.at(c.toward[1].atan2(c.toward[0]) - yaw, c.frequency).unwrap()))
+        (q, Six::from(drift_at(&table, c.toward[1].atan2(c.toward[0]) - yaw, c.frequency).unwrap()))
     };
     for a in &sea.components {
         for b in &sea.components {

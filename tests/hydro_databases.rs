@@ -8,6 +8,7 @@ use std::f64::consts::{PI, TAU};
 use windlass::hydro::database::rao::{self, RaoConvention};
 use windlass::hydro::database::wamit::{self, WamitScale};
 use windlass::hydro::database::{Database, SourceFile, capytaine, nemoh};
+use windlass::hydro::database::{DatabaseLookup, mirrored};
 
 const FOLDER: &str = "tests/data/hemisphere/";
 
@@ -165,7 +166,7 @@ fn the_other_side_of_a_symmetric_body_is_its_mirror() {
         ..all.clone()
     };
     assert!(half.excitation_at(-1.0, 1.0).is_err());
-    let made = half.mirrored();
+    let made = mirrored(half);
     assert_eq!(made.headings.len(), 8);
     for (own, other) in made.excitation.iter().flatten().zip(all.excitation.iter().flatten()) {
         for (a, b) in own.iter().zip(other) {

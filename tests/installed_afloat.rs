@@ -11,7 +11,6 @@ use std::sync::Arc;
 use windlass::hydro::Floating;
 use windlass::hydro::database::Database;
 use windlass::hydro::sea::{Component, Sea, Water};
-use windlass::model::{AttachedDatabase, Body, DriftMethod, LinearHydrostatics, Model, Part, Stretching, Weight};
 use windlass::tether::Line;
 use windlass::tether::compatibility::Compatibility;
 use windlass::tether::installed::{Course, EndSprings, History, Installation, InstalledTether, Keep};
@@ -20,6 +19,7 @@ use windlass::tether::structure::flow::{Flow, Waves};
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
 use windlass_base::span::Span;
+use windlass_model::{AttachedDatabase, Body, DriftMethod, LinearHydrostatics, Model, Part, Stretching, Weight};
 
 const MASS: f64 = 4e7;
 const ADDED: f64 = 2e7;

@@ -7,9 +7,9 @@ mod example;
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
-use windlass::model::ClassError;
 use windlass::tether::compatibility::Compatibility;
 use windlass::tether::installed::{Installation, Moment, Observer};
+use windlass_model::ClassError;
 
 thread_local! {
     static TAKEN: Cell<usize> = const { Cell::new(0) };

@@ -10,7 +10,6 @@ use std::sync::Arc;
 use windlass::hydro::Underway;
 use windlass::hydro::current::CurrentField;
 use windlass::hydro::sea::{Component, Sea, Water};
-use windlass::model::{ClassError, Stretching};
 use windlass::tether::Line;
 use windlass::tether::compatibility::Compatibility;
 use windlass::tether::installed::description::Description;
@@ -21,6 +20,7 @@ use windlass::tether::structure::flow::{Flow, FlowAt, Waves};
 use windlass::tether::structure::wave::DeepWave;
 use windlass::tether::structure::{Forces, Structure};
 use windlass_base::pose::{Pose, Six};
+use windlass_model::{ClassError, Stretching};
 
 const NATIVE: Compatibility = Compatibility::native();
 

@@ -5,8 +5,8 @@
 mod common;
 
 use windlass::connector::CLASSES;
-use windlass::model::{LineLoads, Placement};
 use windlass::session::Session;
+use windlass_model::{LineLoads, Placement};
 
 /// A line class, records of it, its ends, whether to ground, and whether its forces have an energy.
 type Example = (&'static str, &'static str, [f64; 3], [f64; 3], bool, bool);

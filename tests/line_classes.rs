@@ -5,8 +5,8 @@
 
 mod common;
 
-use windlass::model::{Condition, LineLoads, LineModel, Placement};
 use windlass::session::Session;
+use windlass_model::{Condition, LineLoads, LineModel, Placement};
 
 /// A session in metres and newtons (sections in mm, stresses in MPa) that has read these class records.
 fn session(records: &str) -> Session {

@@ -14,9 +14,9 @@ use tangent::differences;
 use windlass::hydro::hull::{Solid, Tube};
 use windlass::hydro::sea::{Component, Sea, Water, dispersion::wave_number};
 use windlass::hydro::{BodyLoad, Category, Floating, MovingLoad, Underway, morison};
-use windlass::model::{Model, Stretching};
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
+use windlass_model::{Model, Stretching};
 
 const RHO: f64 = 1025.0;
 const G: f64 = 9.80665;

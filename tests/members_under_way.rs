@@ -15,10 +15,10 @@ use std::sync::Arc;
 use windlass::hydro::hull::{Solid, Tube};
 use windlass::hydro::sea::{Component, Sea, Water};
 use windlass::hydro::{BodyLoad, Category, Floating, Underway, grown};
-use windlass::model::{Model, Stretching};
 use windlass::solve::time::Settings;
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
+use windlass_model::{Model, Stretching};
 
 const RHO: f64 = 1025.0;
 const G: f64 = 9.80665;

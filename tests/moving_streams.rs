@@ -7,9 +7,9 @@ mod common;
 use nalgebra::Matrix6;
 use windlass::hydro::gusts::{Gusts, REACH, Shape};
 use windlass::hydro::{BodyLoad, Category, Floating, MovingLoad, Underway};
-use windlass::model::Model;
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
+use windlass_model::Model;
 
 const KNOT: f64 = 1852.0 / 3600.0;
 

@@ -12,10 +12,10 @@ use tangent::differences;
 use windlass::hydro::hull::{Fault, Surface, Tube};
 use windlass::hydro::steady::{Medium, Steady};
 use windlass::hydro::{Category, Floating};
-use windlass::model::Model;
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
 use windlass_base::units::FOOT;
+use windlass_model::Model;
 
 const KNOT: f64 = 1852.0 / 3600.0;
 /// Pressure of 60 knots (Pa): 1/2 x 1.226 x 30.866667^2.

@@ -4,10 +4,10 @@
 
 mod common;
 
-use windlass::model::{Element, End, LineDuty, Model, PIPE, Response, Situation};
 use windlass::session::Session;
 use windlass_base::diagnostic::Severity;
 use windlass_base::pose::{Pose, Six};
+use windlass_model::{Element, End, LineDuty, Model, PIPE, Response, Situation};
 
 fn model(records: &str) -> Model {
     let (mut session, _screen, _folder): (Session, _, _) = common::session();

@@ -8,13 +8,13 @@ mod common;
 use std::fs;
 use tempfile::TempDir;
 use windlass::hydro::Category;
-use windlass::model::PIPE;
 use windlass::session::Session;
 use windlass::solve::results::along::{self, Line};
 use windlass::solve::results::{self, Magnitude};
 use windlass::solve::time::Run;
 use windlass_base::diagnostic::Severity;
 use windlass_base::table::Cell;
+use windlass_model::PIPE;
 
 /// Records of a pipe over five rollers of a barge that moves as it is told, in metres and newtons, up to its TDOM.
 fn records(limits: [f64; 2], motion: &str) -> String {

@@ -5,9 +5,9 @@
 mod common;
 
 use nalgebra::Vector3;
-use windlass::model::{Element, End, Response, Situation, Summary, TimeStep};
 use windlass::session::Session;
 use windlass_base::pose::{Pose, Six};
+use windlass_model::{Element, End, Response, Situation, Summary, TimeStep};
 
 /// A line between *A of body ONE at the origin and another end.
 struct Rig {

@@ -14,9 +14,9 @@ use std::f64::consts::{PI, TAU};
 use std::fmt::Write;
 use std::sync::Arc;
 use windlass::hydro::sea::{Component, Sea, Water};
-use windlass::model::{Model, Stretching};
 use windlass::solve::time::{Action, Ending, Motion, Prescribed, Run, Settings, What, When, prescribed};
 use windlass_base::pose::{Pose, Six};
+use windlass_model::{Model, Stretching};
 
 /// A model with a body B and a file in the job's folder; the text of what was said.
 fn session(file: &str, records: &str) -> (Model, i64, String) {

@@ -12,11 +12,11 @@ use runs::{model, settings};
 use std::f64::consts::TAU;
 use std::fs;
 use std::process::Command;
-use windlass::model::Model;
 use windlass::session::Session;
 use windlass::solve::System;
 use windlass::solve::results::along::lines_at_rest;
 use windlass::solve::time::{NodeRow, Run};
+use windlass_model::Model;
 
 const GRAVITY: f64 = 9.80665;
 const WATER: f64 = 1025.0;

@@ -7,14 +7,14 @@ mod common;
 
 use nalgebra::Vector3;
 use windlass::hydro::ambient;
-use windlass::model::{Element, End, LineNode, Response, Situation, TimeStep};
 use windlass_base::pose::Six;
+use windlass_model::{Element, End, LineNode, Response, Situation, TimeStep};
 
 /// A line of a class between two points in the ground 100 m apart, 50 m below the surface along X or, `dry`, 10 m above it.
 struct Held {
     element: Box<dyn Element>,
     ends: [End; 2],
-    around: windlass::model::Surroundings,
+    around: windlass_model::Surroundings,
 }
 
 fn held(class: &str, environment: &str, (z, dynamics): (f64, bool)) -> Held {

@@ -5,9 +5,9 @@
 mod common;
 
 use std::f64::consts::PI;
-use windlass::model::Model;
 use windlass::solve::{Options, modes, settle};
 use windlass_base::geometry::Place;
+use windlass_model::Model;
 
 const G: f64 = 9.81;
 const MASS: f64 = 268.8e6;

@@ -7,7 +7,7 @@
 use windlass::hydro::sea::components::bands;
 use windlass::hydro::sea::density::{Hump, Spectrum};
 use windlass::hydro::sea::dispersion::wave_number;
-use windlass::model::Division;
+use windlass_model::Division;
 
 /// Gravity of AQWA (m/s2), and the depth: wave numbers printed are those of deep water to their last digit.
 const GRAVITY: f64 = 9.81;

@@ -4,10 +4,10 @@
 
 mod common;
 
-use windlass::model::{Connection, Element, End, LineDuty, Model, Placement, Response, Situation, Summary, TimeStep};
 use windlass::session::Session;
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
+use windlass_model::{Connection, Element, End, LineDuty, Model, Placement, Response, Situation, Summary, TimeStep};
 
 /// A spring between a point of a body and another, or the ground, as records define it.
 struct Joint {

@@ -12,9 +12,9 @@ use windlass::hydro::area::AreaLoad;
 use windlass::hydro::steady::{Medium, Steady};
 use windlass::hydro::wind::{Profile, WindField};
 use windlass::hydro::{BodyLoad, Category, Floating};
-use windlass::model::Model;
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
+use windlass_model::Model;
 
 const KNOT: f64 = 1852.0 / 3600.0;
 

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use std::fmt::Write;
-use windlass::model::Model;
+use windlass_model::Model;
 
 use crate::measured::scripted;
 

@@ -3,10 +3,10 @@
 // every bench takes what it needs
 #![allow(dead_code, clippy::unwrap_used)]
 
-use windlass::model::Model;
 use windlass::report::files::JobFolder;
 use windlass::report::output::Output;
 use windlass::session::Session;
+use windlass_model::Model;
 
 /// The model that records make.
 pub fn scripted(records: &str) -> Model {

@@ -6,8 +6,8 @@
 use crate::{eight, measured};
 use std::sync::Arc;
 use std::time::Instant;
-use windlass::model::{Database, Model};
 use windlass::solve::time::{Convergence, Counts, Method, Run, Settings, Watcher};
+use windlass_model::{Database, Model};
 
 /// Takes rows and says nothing.
 struct Quiet;

@@ -2,7 +2,6 @@
 
 use super::alter::selected;
 use super::{Call, Command, Effect, Job};
-use crate::model::{Model, PIPE, find, line_name};
 use crate::solve::FREEDOMS;
 use crate::solve::time::{Action, Watched, What, When};
 use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
@@ -12,6 +11,7 @@ use windlass_base::values::{Args, Given};
 use windlass_language::name as rule;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_model::{Model, PIPE, find, line_name};
 
 /// &ACTION.
 pub static ACTION: Command = Command { spec: &SPEC, edits: false, run };

@@ -4,7 +4,6 @@
 //! Source: reference/model.md, &CONNECTOR.
 
 use super::{Call, Command, Effect, Job};
-use crate::model::{Anchor, ClassError, Condition, Connector, LineLoads, LineModel, Model, find};
 use crate::report::format::report;
 use crate::solve::pretension;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -17,6 +16,7 @@ use windlass_base::values::{Args, Given, Value};
 use windlass_base::wildcard::{is_wild, matches};
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_model::{Anchor, ClassError, Condition, Connector, LineLoads, LineModel, Model, find};
 
 /// &CONNECTOR.
 pub static ALTER: Command = Command { spec: &SPEC, edits: true, run };

@@ -2,13 +2,13 @@
 
 use super::Job;
 use super::environment::formula;
-use crate::model::{Connector, Environment, Model, find};
 use windlass_base::diagnostic::Outcome;
 use windlass_base::span::Span;
 use windlass_base::values::Given;
 use windlass_base::values::Noun;
 use windlass_language::select::Owner;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
+use windlass_model::{Connector, Environment, Model, find};
 
 /// -BATHYMETRY.
 pub(super) const BATHYMETRY: OptionSpec = OptionSpec::new(

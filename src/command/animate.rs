@@ -2,7 +2,6 @@
 
 use super::chosen::Chosen;
 use super::{Call, Command, Effect, Job};
-use crate::model::Thing;
 use crate::report::files::JobFolder;
 use crate::report::film;
 use crate::solve::film::{Film, Take};
@@ -15,6 +14,7 @@ use windlass_base::values::Args;
 use windlass_base::values::Noun;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_model::Thing;
 
 /// &ANIMATE.
 pub static ANIMATE: Command = Command { spec: &SPEC, edits: false, run };

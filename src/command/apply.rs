@@ -3,11 +3,11 @@
 //! Source: reference/model.md, "Weights and loads": multipliers compound.
 
 use super::{Call, Command, Effect};
-use crate::model::{Model, find};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::units::Dim;
 use windlass_base::values::Noun;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_model::{Model, find};
 
 /// &APPLY.
 pub static APPLY: Command = Command { spec: &SPEC, edits: false, run };

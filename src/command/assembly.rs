@@ -4,12 +4,12 @@
 
 use super::rigging::{self, Rigging};
 use super::{Call, Command, Effect, Job, Menu, junction};
-use crate::model::{Assembly, AssemblyKind, Body, Connector, Model, find};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::values::Args;
 use windlass_base::values::Noun;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_model::{Assembly, AssemblyKind, Body, Connector, Model, find};
 
 /// ASSEMBLY.
 pub static ASSEMBLY: Command = Command { spec: &SPEC, edits: true, run };

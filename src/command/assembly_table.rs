@@ -3,12 +3,12 @@
 use super::chosen::WARNING;
 use super::status::push;
 use crate::hydro::ambient;
-use crate::model::{
-    Assembly, AssemblyKind, ClassError, Connector, End, LaidPipe, LineDuty, Model, Response, Situation, Summary,
-};
 use nalgebra::Vector3;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
+use windlass_model::{
+    Assembly, AssemblyKind, ClassError, Connector, End, LaidPipe, LineDuty, Model, Response, Situation, Summary,
+};
 
 /// One table of the tip-hook sets: the hook, then its lines.
 pub fn assemblies(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem) -> Vec<Table> {

@@ -3,8 +3,6 @@
 use super::number_rows::rows;
 use super::status::push;
 use super::{Call, Command, Effect, Job, Menu};
-use crate::model::bathymetry::{Bathymetry, MOST_POINTS, fits};
-use crate::model::{Model, Thing};
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
@@ -16,6 +14,8 @@ use windlass_language::args;
 use windlass_language::name as rule;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Form, Kind, Opens, OptionSpec, ValueSpec};
+use windlass_model::bathymetry::{Bathymetry, MOST_POINTS, fits};
+use windlass_model::{Model, Thing};
 
 /// &BATHYMETRY.
 pub static BATHYMETRY: Command = Command { spec: &SPEC, edits: false, run };

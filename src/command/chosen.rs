@@ -1,13 +1,13 @@
 //! The names a record gives to choose among what the model holds.
 
 use super::{Call, Job};
-use crate::model::{Model, Thing};
 use std::cell::Cell;
 use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use windlass_base::span::Span;
 use windlass_base::table::Table;
 use windlass_base::values::Value;
 use windlass_base::wildcard::matches;
+use windlass_model::{Model, Thing};
 
 /// Names, patterns and selectors; none given chooses all. It remembers which of them chose something.
 pub struct Chosen<'a> {

@@ -2,7 +2,6 @@
 
 use super::{Call, Command, Effect, Job, Menu};
 use crate::connector::{CLASSES, type_notices};
-use crate::model::{Class, ClassRecord, Curve, CurveKind, Model, find};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::values::Args;
 use windlass_base::values::Noun;
@@ -10,6 +9,7 @@ use windlass_language::args;
 use windlass_language::name;
 use windlass_language::select::choose;
 use windlass_language::spec::{CommandSpec, Form};
+use windlass_model::{Class, ClassRecord, Curve, CurveKind, Model, find};
 
 /// ~CLASS.
 pub static CLASS: Command = Command { spec: &SPEC, edits: false, run };

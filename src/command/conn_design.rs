@@ -3,7 +3,6 @@
 use super::chosen::{Chosen, raise};
 use super::disposition::{BOTH, HARD, send};
 use super::{Call, Command, Effect, Job, Menu, status, vary};
-use crate::model::{Class, Condition, Connector, Thing, find};
 use crate::report::disposition::Disposition;
 use crate::report::page;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -14,6 +13,7 @@ use windlass_base::values::Args;
 use windlass_base::values::Noun;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
+use windlass_model::{Class, Condition, Connector, Thing, find};
 
 /// TABLE.
 pub static TABLE: Command = Command { spec: &TABLE_SPEC, edits: false, run: table };

@@ -2,7 +2,6 @@
 
 use super::tether_ends as tether;
 use super::{Call, Command, Effect, Job, Menu};
-use crate::model::{Anchor, Connector, Model, Point, Tug, find};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::unit_vector;
 use windlass_base::pose::Pose;
@@ -11,6 +10,7 @@ use windlass_base::values::Args;
 use windlass_base::values::Noun;
 use windlass_language::name as rule;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_model::{Anchor, Connector, Model, Point, Tug, find};
 
 /// CONNECTOR.
 pub static CONNECTOR: Command = Command { spec: &CONNECTOR_SPEC, edits: false, run: connector };

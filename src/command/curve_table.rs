@@ -1,9 +1,9 @@
 //! The tables of `&STATUS CURVES`.
 
 use crate::connector::viscous::Viscoelastic;
-use crate::model::{Curve, Model};
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
+use windlass_model::{Curve, Model};
 
 /// What the title of a fit begins with.
 const FIT: &str = "Exponentials of Curve";

@@ -4,7 +4,6 @@
 
 use super::{Call, Command, Effect, Job, Menu};
 use crate::connector::viscous::Viscoelastic;
-use crate::model::{Curve, CurveKind, Model, Thing};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::values::Noun;
@@ -13,6 +12,7 @@ use windlass_language::name as rule;
 use windlass_language::record::Word;
 use windlass_language::select::{Owner, choose};
 use windlass_language::spec::{CommandSpec, Form, Kind, Opens, OptionSpec, ValueSpec};
+use windlass_model::{Curve, CurveKind, Model, Thing};
 
 /// &DATA.
 pub static DATA: Command = Command { spec: &SPEC, edits: false, run };

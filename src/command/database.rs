@@ -2,10 +2,10 @@
 
 use super::device::found;
 use super::{Call, Command, Effect, Job};
+use crate::hydro::database::mirrored;
 use crate::hydro::database::rao::RaoConvention;
 use crate::hydro::database::wamit::WamitScale;
 use crate::hydro::database::{Database, DatabaseError, SourceFile, capytaine, nemoh, rao, wamit};
-use crate::model::{AttachedDatabase, DriftMethod, Mass, Model, find};
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
@@ -19,6 +19,7 @@ use windlass_base::values::Noun;
 use windlass_language::select::Owner;
 use windlass_language::source::LARGEST_FILE;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_model::{AttachedDatabase, DriftMethod, Mass, Model, find};
 
 /// DATABASE.
 pub static DATABASE: Command = Command { spec: &SPEC, edits: false, run };
@@ -140,7 +141,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let at = args.option("-AT").map_or([0.0; 3], |g| [0, 1, 2].map(|i| g.number(i).unwrap_or(0.0)));
     data.reference += Vector3::from(at);
     if yes(args, "-SYMMETRIC", false) {
-        data = data.mirrored();
+        data = mirrored(data);
     }
     if !yes(args, "-INFINITE", true) {
         data.infinite = None;

@@ -4,11 +4,12 @@ use super::status::push;
 use crate::hydro::database::Amplitudes;
 use crate::hydro::database::checks::MODES;
 use crate::hydro::database::radiation::Radiation;
-use crate::model::{AttachedDatabase, Body, DriftMethod, Model};
+use crate::hydro::database::{DatabaseLookup, mean_drift};
 use nalgebra::{Complex, Matrix6};
 use std::f64::consts::TAU;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
+use windlass_model::{AttachedDatabase, Body, DriftMethod, Model};
 
 /// What is below this share of the largest of its kind is rounding.
 const NOTHING: f64 = 1e-9;
@@ -143,7 +144,7 @@ fn amplitudes(
 /// Mean drift over the square of the wave amplitude.
 fn drift(body: &Body, attached: &AttachedDatabase) -> Option<Table> {
     let data = &attached.data;
-    let drift = data.drift.clone().or_else(|| data.qtf.as_ref().map(|q| q.diagonal()))?;
+    let drift = data.drift.clone().or_else(|| data.qtf.as_ref().map(mean_drift))?;
     let mut table = Table::new(format!("Mean Drift of {}", body.name))
         .column("", "Heading", Dim::Angle, Digits::Usual)
         .column("", "Frequency", Dim::Frequency, Digits::Decimals(4))

@@ -3,13 +3,13 @@
 use super::chosen::Chosen;
 use super::piece::{self, OPTIONS};
 use super::{Call, Command, Effect, Job};
-use crate::model::{Body, Coordinates, GROUND, Model, Part, Point, Shape, Thing, find};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::{Place, Position, unit_vector};
 use windlass_base::units::Dim;
 use windlass_base::values::Noun;
 use windlass_language::name as rule;
 use windlass_language::spec::{CommandSpec, Form, Kind, OptionSpec, ValueSpec, joined};
+use windlass_model::{Body, Coordinates, GROUND, Model, Part, Point, Shape, Thing, find};
 
 /// &DESCRIBE.
 pub static DESCRIBE: Command = Command { spec: &DESCRIBE_SPEC, edits: false, run: describe };

@@ -8,9 +8,9 @@ use super::written::option_as_written;
 use crate::hydro::gusts::Gusts;
 use crate::hydro::spectrum::gamma_of;
 use crate::hydro::steady::Steady;
-use crate::model::{Current, Environment, Sea};
 use windlass_base::table::{Cell, Table};
 use windlass_base::units::Dim;
+use windlass_model::{Current, Environment, Sea};
 
 /// The environment in force, or those kept under a name that is chosen.
 pub(super) fn environments(job: &Job, chosen: Option<&dyn Fn(&str) -> bool>) -> Vec<Table> {

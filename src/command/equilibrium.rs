@@ -5,7 +5,6 @@
 use super::chosen::raise;
 use super::disposition::{BOTH, HARD, send};
 use super::{Call, Command, Effect, Job};
-use crate::model::{Model, find};
 use crate::report::page;
 use crate::solve::results::along::cautions;
 use crate::solve::{FREEDOMS, Options, SolveError, settle, tables};
@@ -16,6 +15,7 @@ use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::Given;
 use windlass_base::values::Noun;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_model::{Model, find};
 
 /// &EQUI.
 pub static EQUI: Command = Command { spec: &SPEC, edits: true, run };

@@ -5,7 +5,6 @@
 use super::chosen::raise;
 use super::equilibrium::told;
 use super::{Call, Command, Effect, Job, Menu};
-use crate::model::{Body, Model, find};
 use crate::report::disposition::Disposition;
 use crate::report::format::number_in_full;
 use crate::solve::excursion::Path;
@@ -20,6 +19,7 @@ use windlass_base::values::Args;
 use windlass_base::values::Noun;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
+use windlass_model::{Body, Model, find};
 
 /// MOVE.
 pub static MOVE: Command = Command { spec: &MOVE_SPEC, edits: false, run: moved };

@@ -5,7 +5,6 @@
 use super::chosen::{WARNING, raise};
 use super::equilibrium::told;
 use super::{Call, Command, Effect, Job, Menu, probability};
-use crate::model::{Environment, Model, find};
 use crate::report::page;
 use crate::solve::frequency::{Asked, Extreme, Linear, Operators, Response, Trains, respond};
 use std::f64::consts::TAU;
@@ -17,6 +16,7 @@ use windlass_base::units::Dim;
 use windlass_base::values::Args;
 use windlass_base::values::Noun;
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
+use windlass_model::{Environment, Model, find};
 
 /// FREQ_RESPONSE.
 pub static FREQ_RESPONSE: Command = Command { spec: &MENU_SPEC, edits: false, run: open };

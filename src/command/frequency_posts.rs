@@ -7,7 +7,6 @@ use super::environment::{self, A_SEA_OPTION, SEA_OPTION, SP_TYPE_OPTION, SPREAD_
 use super::equilibrium::told;
 use super::frequency::{Found, found, heaving, seas};
 use super::{Call, Command, Effect, Job, Menu, probability};
-use crate::model::{Environment, Model, Thing, find};
 use crate::report::disposition::Disposition;
 use crate::solve::frequency::tables::{Told, body_statistics, operators, spectra, statistics};
 use crate::solve::frequency::{Asked, Derivative, Extreme, Linear, Quantity, Response, in_sea};
@@ -21,6 +20,7 @@ use windlass_base::values::Args;
 use windlass_base::values::Noun;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
+use windlass_model::{Environment, Model, Thing, find};
 
 /// MOTION.
 pub static MOTION: Command = Command { spec: &MOTION_SPEC, edits: false, run: motion };

@@ -4,7 +4,6 @@
 
 use super::job::UserFile;
 use super::{COMMANDS, Job};
-use crate::model::{Mass, Model, Point};
 use crate::report::format::fifteen_figures;
 use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
 use windlass_base::geometry::Position;
@@ -16,6 +15,7 @@ use windlass_language::number;
 use windlass_language::record::Word;
 use windlass_language::select::{Owner, choose};
 use windlass_language::substitution::World;
+use windlass_model::{Mass, Model, Point};
 
 /// What `&HELP` says of each: name, form, meaning.
 pub const HELP: &[(&str, &str, &str)] = &[
@@ -261,7 +261,7 @@ fn body(job: &Job, action: &Word, rest: &[Word], span: Span) -> Outcome<String> 
     let action_name = pick(action, "BODY", list)?;
     let Some(name) = rest.first() else { return Err(Diagnostic::error("&BODY lacks the body's name", span)) };
     let model = &job.model;
-    let found = crate::model::find(&model.bodies, &name.text, "body", name.span)?;
+    let found = windlass_model::find(&model.bodies, &name.text, "body", name.span)?;
     let key = Model::key(&found.name);
     Ok(match action_name {
         "LOCATION" => {
@@ -298,7 +298,7 @@ fn body(job: &Job, action: &Word, rest: &[Word], span: Span) -> Outcome<String> 
 fn connector(job: &Job, action: &Word, rest: &[Word], span: Span) -> Outcome<String> {
     let action = pick(action, "CONNECTOR", &["CLASS", "POINTS", "STATUS", "ANCHOR", "LENGTH"])?;
     let Some(name) = rest.first() else { return Err(Diagnostic::error("&CONNECTOR lacks the connector's name", span)) };
-    let found = crate::model::find(&job.model.connectors, &name.text, "connector", name.span)?;
+    let found = windlass_model::find(&job.model.connectors, &name.text, "connector", name.span)?;
     Ok(match action {
         "CLASS" => found.class.clone(),
         "POINTS" => found.points.join(" "),

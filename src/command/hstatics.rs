@@ -7,7 +7,6 @@ use super::status::push;
 use super::{Call, Command, Effect, Job, Menu};
 use crate::hydro::hull::Hydrostatics;
 use crate::hydro::{Floating, Hull, balanced};
-use crate::model::{Body, Mass, find};
 use crate::report::disposition::Disposition;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::Place;
@@ -17,6 +16,7 @@ use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
 use windlass_base::values::Noun;
 use windlass_language::spec::{CommandSpec, Kind, Opens, ValueSpec};
+use windlass_model::{Body, Mass, find};
 
 /// HSTATICS.
 pub static HSTATICS: Command = Command { spec: &HSTATICS_SPEC, edits: false, run: hstatics };
@@ -97,7 +97,7 @@ fn dispose(job: &mut Job, table: Table, span: Span) -> Effect {
 fn cform(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (args, span) = (&call.args, call.args.span);
     let body = body(job, span)?;
-    let told = |e: crate::model::ClassError| e.diagnostic(span, job.units);
+    let told = |e: windlass_model::ClassError| e.diagnostic(span, job.units);
     let hull = Hull::of(&job.model, body).map_err(told)?;
     let hull = hull.ok_or_else(|| {
         Diagnostic::error(format!("{} has no hull", body.name), span)
@@ -150,7 +150,7 @@ fn cform(job: &mut Job, call: &Call) -> Outcome<Effect> {
 fn rarm(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (args, span) = (&call.args, call.args.span);
     let body = body(job, span)?;
-    let told = |e: crate::model::ClassError| e.diagnostic(span, job.units);
+    let told = |e: windlass_model::ClassError| e.diagnostic(span, job.units);
     let floating = Floating::of(&job.model, body).map_err(told)?;
     let weight = floating.mass.mass * job.model.defaults.gravity;
     let mut table = Table::new(format!("Righting Arms of {}", body.name)).fact("Weight", weight, Dim::Force);

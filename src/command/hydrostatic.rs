@@ -3,13 +3,13 @@
 //! Source: reference/aqwa-cards.md, deck 7 (LSTF, BFEQ, ZCGE). The record is ours.
 
 use super::{Call, Command, Effect, Job};
-use crate::model::{LinearHydrostatics, Model, find};
 use nalgebra::{Matrix6, RowVector6};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::units::Dim;
 use windlass_base::values::Noun;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_model::{LinearHydrostatics, Model, find};
 
 /// #HYDROSTATIC.
 pub static HYDROSTATIC: Command = Command { spec: &SPEC, edits: false, run };

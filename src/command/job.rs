@@ -4,7 +4,6 @@ use super::bathymetry::Soundings;
 use super::buildg::Building;
 use super::frequency::Found;
 use super::pgen::Planes;
-use crate::model::Model;
 use crate::report::disposition::Disposition;
 use crate::report::files::Place;
 use crate::report::output::Output;
@@ -22,6 +21,7 @@ use windlass_base::diagnostic::{Diagnostic, Severity};
 use windlass_base::span::Span;
 use windlass_base::units::UnitSystem;
 use windlass_base::values::Args;
+use windlass_model::Model;
 
 /// A menu that is open.
 #[derive(Clone, Debug)]

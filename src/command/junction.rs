@@ -1,7 +1,6 @@
 //! `JUNCTION`: a point in the sea where lines meet.
 
 use super::{Call, Command, Effect, Job};
-use crate::model::{Body, Junction, Model, Part, Point, Weight};
 use windlass_base::diagnostic::with_article;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::{Place, Position};
@@ -11,6 +10,7 @@ use windlass_base::values::Noun;
 use windlass_language::name as rule;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_model::{Body, Junction, Model, Part, Point, Weight};
 
 /// JUNCTION.
 pub static JUNCTION: Command = Command { spec: &SPEC, edits: false, run };

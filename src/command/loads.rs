@@ -5,7 +5,6 @@
 
 use super::{Call, Command, Effect, Job};
 use crate::hydro::heading::ByHeading;
-use crate::model::{Fluid, GROUND, LoadKind, Model, PartLoad, find};
 use nalgebra::{Matrix6, Vector3};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::{Position, unit_vector};
@@ -16,6 +15,7 @@ use windlass_base::values::Noun;
 use windlass_base::values::{Args, Given, Value};
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_model::{Fluid, GROUND, LoadKind, Model, PartLoad, find};
 
 /// #AREA.
 pub static AREA: Command = Command { spec: &AREA_SPEC, edits: false, run: area };

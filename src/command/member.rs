@@ -1,13 +1,13 @@
 //! The options that make a TUBE a member in waves and current, and the table of members.
 
 use super::status::push;
-use crate::model::{Member, Model, Shape, WaveAction};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
 use windlass_base::values::Args;
 use windlass_language::select::Owner;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
+use windlass_model::{Member, Model, Shape, WaveAction};
 
 const fn factor(
     name: &'static str,

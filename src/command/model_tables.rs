@@ -1,9 +1,9 @@
 //! The tables of &STATUS that list what the model itself holds: bodies, points, connectors, selectors.
 
 use super::status::{kinds_told, push};
-use crate::model::Model;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
+use windlass_model::Model;
 
 fn place_columns(mut table: Table) -> Table {
     for name in ["X", "Y", "Z"] {

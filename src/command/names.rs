@@ -1,7 +1,6 @@
 //! `DELETE` and `RENAME`: of anything in the model that has a name.
 
 use super::{Call, Command, Effect, Job};
-use crate::model::{AssemblyKind, Model, Piece, Thing};
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use windlass_base::span::Span;
@@ -11,6 +10,7 @@ use windlass_base::wildcard::{is_wild, matches};
 use windlass_language::name;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, ValueSpec};
+use windlass_model::{AssemblyKind, Model, Piece, Thing};
 
 /// DELETE.
 pub static DELETE: Command = Command { spec: &DELETE_SPEC, edits: true, run: delete };

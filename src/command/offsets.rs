@@ -1,9 +1,9 @@
 //! The part of `&STATUS G_CONNECTOR` that few connectors need: offsets of their ends and angles of their axes.
 
 use super::status::push;
-use crate::model::Model;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
+use windlass_model::Model;
 
 /// -GO1, -GO2 and -EULER of the connectors that have one of them; `None` when none has.
 pub fn offsets(model: &Model, fits: &dyn Fn(&str) -> bool) -> Option<Table> {

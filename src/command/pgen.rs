@@ -4,7 +4,6 @@
 
 use super::piece::{self, OPTIONS};
 use super::{Call, Command, Effect, Job, Menu};
-use crate::model::{Piece, Shape};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::Position;
 use windlass_base::span::Span;
@@ -12,6 +11,7 @@ use windlass_base::units::Dim;
 use windlass_base::values::Noun;
 use windlass_base::values::Value;
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
+use windlass_model::{Piece, Shape};
 
 /// PGEN.
 pub static PGEN: Command = Command { spec: &PGEN_SPEC, edits: false, run: pgen };

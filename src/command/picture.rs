@@ -2,7 +2,6 @@
 
 use super::chosen::{Chosen, WARNING, gathered};
 use super::{Call, Command, Effect, Job};
-use crate::model::Thing;
 use crate::report::picture::{Picture, View};
 use crate::report::plot::PlotError;
 use crate::solve::scene::{Choice, Scene};
@@ -12,6 +11,7 @@ use windlass_base::values::Args;
 use windlass_base::values::Noun;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_model::Thing;
 
 /// &PICTURE.
 pub static PICTURE: Command = Command { spec: &SPEC, edits: false, run };

@@ -5,7 +5,6 @@
 use super::written::option_as_written;
 use super::{Call, Command, Effect, Job, member};
 use crate::hydro;
-use crate::model::{Model, Part, Piece, Shape, Thing, WaveAction, find};
 use nalgebra::Vector3;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::Position;
@@ -17,6 +16,7 @@ use windlass_language::args;
 use windlass_language::name as rule;
 use windlass_language::spec::{CommandSpec, Form, Kind, OptionSpec, ValueSpec};
 use windlass_language::token::Kind as Lex;
+use windlass_model::{Model, Part, Piece, Shape, Thing, WaveAction, find};
 
 /// PANEL.
 pub static PANEL: Command = Command { spec: &PANEL_SPEC, edits: false, run: panel };

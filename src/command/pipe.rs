@@ -3,12 +3,12 @@
 //! Source: reference/model.md, Assemblies, and the public page on pipe assemblies of the MOSES manual (conn_pipe).
 
 use super::{Call, Command, Effect, Job, Menu};
-use crate::model::{Assembly, AssemblyKind, Model, PIPE, find};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::units::Dim;
 use windlass_base::values::Args;
 use windlass_base::values::Noun;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_model::{Assembly, AssemblyKind, Model, PIPE, find};
 
 /// PIPE.
 pub static PIPE_COMMAND: Command = Command { spec: &SPEC, edits: true, run };

@@ -6,7 +6,6 @@
 use super::chosen::Chosen;
 use super::equilibrium::told;
 use super::{Call, Command, Effect, Job, Menu};
-use crate::model::{Model, Thing};
 use crate::report::disposition::Disposition;
 use crate::solve::SolveError;
 use crate::solve::results::{self, Event, Interest, Magnitude, Told, Window};
@@ -18,6 +17,7 @@ use windlass_base::units::Dim;
 use windlass_base::values::Noun;
 use windlass_base::values::{Args, Value};
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
+use windlass_model::{Model, Thing};
 
 /// TRAJECTORY.
 pub static TRAJECTORY: Command = Command { spec: &TRAJECTORY_SPEC, edits: false, run: trajectory };

@@ -4,7 +4,6 @@ mod input;
 
 use super::status::push;
 use super::{Call, Command, Effect, Job};
-use crate::model::{ClassError, GivenMotion, Model, Prescription, Sinusoid, find};
 use crate::solve::FREEDOMS;
 use crate::solve::time::prescribed;
 use std::f64::consts::TAU;
@@ -17,6 +16,7 @@ use windlass_base::values::Noun;
 use windlass_base::values::{Args, Given};
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_model::{ClassError, GivenMotion, Model, Prescription, Sinusoid, find};
 
 /// PRESCRIBE.
 pub static PRESCRIBE: Command = Command { spec: &SPEC, edits: false, run };
@@ -186,7 +186,7 @@ pub fn motions(model: &Model, fits: &dyn Fn(&str) -> bool) -> Option<Table> {
                 push(&mut table, cells);
             }
             GivenMotion::Path(rows) => {
-                let at = |row: Option<&crate::model::PathRow>| Cell::from(row.map(|r| r.0));
+                let at = |row: Option<&windlass_model::PathRow>| Cell::from(row.map(|r| r.0));
                 let mut cells = vec![name(), "file".into(), "all".into(), none(), none(), none(), none()];
                 cells.extend([rows.len().into(), at(rows.first()), at(rows.last())]);
                 push(&mut table, cells);

@@ -1,11 +1,11 @@
 //! The options of `&ENV` that make wave components of its seas.
 
-use crate::model::{Components, Division, Environment, Phasing, Stretching};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::units::Dim;
 use windlass_base::values::{Args, Given};
 use windlass_language::select::Owner;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
+use windlass_model::{Components, Division, Environment, Phasing, Stretching};
 
 const BY_WIDTH: &str = "EQUAL_FREQUENCY";
 const DIVISIONS: &[&str] = &["EQUAL_ENERGY", BY_WIDTH];

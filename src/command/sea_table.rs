@@ -3,12 +3,12 @@
 use super::Job;
 use super::status::push;
 use crate::hydro::sea::{Sea, Train};
-use crate::model::{Division, Environment, Stretching};
 use std::f64::consts::{PI, TAU};
 use windlass_base::diagnostic::Outcome;
 use windlass_base::span::Span;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
+use windlass_model::{Division, Environment, Stretching};
 
 /// Points of a spectrum plotted, and the shares of the energy between which they lie.
 const POINTS: usize = 241;

@@ -3,12 +3,12 @@
 //! Source: reference/language.md sections 10 and 11.
 
 use super::{Call, Command, Effect, Job, Menu};
-use crate::model::{Model, Selector, find};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::values::Noun;
 use windlass_language::name as rule;
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
+use windlass_model::{Model, Selector, find};
 
 /// &SELECT.
 pub static SELECT: Command = Command { spec: &SPEC, edits: false, run };

@@ -2,9 +2,9 @@
 
 use super::Job;
 use super::status::push;
-use crate::model::{Coordinates, Model};
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
+use windlass_model::{Coordinates, Model};
 
 /// Units.
 pub(super) fn dimensions(job: &Job) -> Table {

@@ -14,7 +14,6 @@ use super::{
     Call, Command, Effect, Job, Menu, bathymetry, body_status, body_tables, database_table, fatigue_table, line_types,
     member, model_tables, prescribe, rod_status, sea_table, settings_table, t_pressure, tether_status, wind_table,
 };
-use crate::model::{Class, Thing};
 use crate::report::disposition::Disposition;
 use crate::report::page;
 use crate::report::plot::Chart;
@@ -24,6 +23,7 @@ use windlass_base::table::{Cell, Table};
 use windlass_base::values::Noun;
 use windlass_language::select::{Owner, choose};
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
+use windlass_model::{Class, Thing};
 
 /// &STATUS.
 pub static STATUS: Command = Command { spec: &SPEC, edits: false, run };

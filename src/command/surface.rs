@@ -9,7 +9,6 @@ use super::member;
 use super::piece::{self, OPTIONS, READING};
 use super::{Call, Command, Effect, Job, Menu};
 use crate::hydro::hull::{MeshKind, read_mesh};
-use crate::model::{Piece, Shape};
 use crate::report::page;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::{Place, Position};
@@ -20,6 +19,7 @@ use windlass_base::values::Noun;
 use windlass_language::select::Owner;
 use windlass_language::source::LARGEST_FILE;
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec, joined};
+use windlass_model::{Piece, Shape};
 
 /// &SURFACE.
 pub static SURFACE: Command = Command { spec: &SURFACE_SPEC, edits: false, run: surface };
@@ -239,7 +239,7 @@ fn move_block(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let name = args.word(0).unwrap_or_default();
     let by = Place::new([1, 2, 3, 4, 5, 6].map(|i| args.number(i).unwrap_or(0.0)));
-    let known = job.model.names(crate::model::Thing::Piece);
+    let known = job.model.names(windlass_model::Thing::Piece);
     let help = windlass_base::diagnostic::did_you_mean(name, known);
     let Some(Piece { shape, name, .. }) = job.model.piece_mut(name) else {
         let mut error = Diagnostic::error(format!("unknown piece {name}"), args.place(0));

@@ -4,7 +4,6 @@
 
 use super::status::push;
 use super::{Call, Command, Effect, Job};
-use crate::model::{Contents, Filling, Model, Thing};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
@@ -12,6 +11,7 @@ use windlass_base::values::Noun;
 use windlass_language::name as rule;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_model::{Contents, Filling, Model, Thing};
 
 /// T_PRESSURE.
 pub static T_PRESSURE: Command = Command { spec: &SPEC, edits: false, run };

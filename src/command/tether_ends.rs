@@ -2,12 +2,12 @@
 //!
 //! Source: seed 003, Appendix A (cards TSPA, TSPV, TCAP, TIFL, TIMP, TLOW, TEGR, TLAC, TROC, TLAV, TROV).
 
-use crate::model::{TetherConstraint, TetherEnds, TetherHold, TetherUse};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::units::Dim;
 use windlass_base::values::{Args, Given};
 use windlass_language::select::Owner;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
+use windlass_model::{TetherConstraint, TetherEnds, TetherHold, TetherUse};
 
 const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(dim), help)

@@ -1,11 +1,11 @@
 //! `&DIMEN` and `&DEFAULT`.
 
 use super::{Call, Command, Effect, Job};
-use crate::model::Coordinates;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::units::{Dim, ForceUnit, LengthUnit, UnitSystem};
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_model::Coordinates;
 
 /// &DIMEN.
 pub static DIMEN: Command = Command { spec: &DIMEN_SPEC, edits: false, run: dimen };

@@ -3,7 +3,6 @@
 use super::Job;
 use super::chosen::gathered;
 use super::status::push;
-use crate::model::{Class, ClassError, Condition, Configuration, Connector, LineChange, Placement};
 use crate::report::format::number_in_full;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
@@ -12,6 +11,7 @@ use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::{Args, Given};
 use windlass_language::select::Owner;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
+use windlass_model::{Class, ClassError, Condition, Configuration, Connector, LineChange, Placement};
 
 /// -VARY.
 pub const VARY: OptionSpec = OptionSpec::new(

@@ -3,7 +3,6 @@
 //! Source: reference/model.md, "Weights and loads".
 
 use super::{Call, Command, Effect, Job};
-use crate::model::{Mass, Model, Weight, find};
 use nalgebra::{Matrix3, Vector3};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::units::eight_figures;
@@ -11,6 +10,7 @@ use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::Given;
 use windlass_base::values::Noun;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_model::{Mass, Model, Weight, find};
 
 /// #WEIGHT.
 pub static ITEM: Command = Command { spec: &ITEM_SPEC, edits: false, run: item };

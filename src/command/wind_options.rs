@@ -2,12 +2,12 @@
 
 use super::Job;
 use super::environment::{PERIODS, curve, formula, known_curve, number, periods, spectrum, text};
-use crate::model::{CurveKind, Environment, Formula, GustParts, Wind};
 use windlass_base::diagnostic::Outcome;
 use windlass_base::units::Dim;
 use windlass_base::values::Given;
 use windlass_language::select::Owner;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
+use windlass_model::{CurveKind, Environment, Formula, GustParts, Wind};
 
 /// Codes and laws of the mean wind; reference/model.md names no types, so these are the field's usual ones.
 const PROFILES: &[&str] = &["POWER", "LOGARITHMIC", "API", "NPD", "ISO", "ABS", "DNV"];

@@ -4,12 +4,12 @@ use super::Job;
 use super::sea_table::{chosen_environments, turn};
 use super::status::push;
 use crate::hydro::gusts::{DENSITY, Gusts};
-use crate::model::Environment;
 use std::f64::consts::TAU;
 use windlass_base::diagnostic::Outcome;
 use windlass_base::span::Span;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
+use windlass_model::Environment;
 
 /// Points of a spectrum plotted, and the share of the energy up to which they lie.
 const POINTS: usize = 241;

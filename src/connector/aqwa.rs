@@ -8,9 +8,6 @@ use super::mooring::{Mooring, line_error, no_other_end};
 use super::moving::{JointMass, MovingLine, Part, Seabed, Strength, description};
 use super::options::aqwa;
 use super::{ClassKind, checks};
-use crate::model::{
-    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, LineModel, Placement, Surroundings,
-};
 use crate::rod::{self, Axial};
 use std::f64::consts::{FRAC_PI_4, PI};
 use std::sync::Arc;
@@ -21,6 +18,9 @@ use windlass_base::units::Dim;
 use windlass_base::values::{Args, Given};
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_model::{
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, LineModel, Placement, Surroundings,
+};
 
 /// The class type CATENARY: an AQWA catenary section with the joint at its end.
 pub static CATENARY: ClassKind = ClassKind { spec: &CATENARY_SPEC, segmented: true, build: build_catenary };

@@ -10,16 +10,16 @@ use super::mooring::{Mooring, end_springs, line_error, parts, with_series};
 use super::moving::{self as m, Flexure, MovingLine, Seabed};
 use super::section::{LineSection, properties};
 use super::{ClassKind, checks, options as o};
-use crate::model::{
-    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, FatigueSegment, LineModel, Placement,
-    Surroundings,
-};
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_language::spec::{CommandSpec, Kind, ValueSpec};
+use windlass_model::{
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, FatigueSegment, LineModel, Placement,
+    Surroundings,
+};
 
 /// The class type.
 pub static B_CAT: ClassKind = ClassKind { spec: &SPEC, segmented: true, build };

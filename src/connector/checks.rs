@@ -1,8 +1,8 @@
 //! Checks that several classes share.
 
-use crate::model::{ClassError, ClassRecord, Connection, Connector};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::values::{Args, Given};
+use windlass_model::{ClassError, ClassRecord, Connection, Connector};
 
 /// A P-Y curve: points (force N, deflection m) growing in both, as the seed asks.
 ///

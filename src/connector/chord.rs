@@ -3,12 +3,12 @@
 use super::catenary::{Law, Point, rising_root};
 use super::extension::{Extended, Extension, Pull};
 use super::mooring::{Mooring, no_other_end};
-use crate::model::{
+use nalgebra::{Matrix3, Vector3};
+use windlass_base::table::Table;
+use windlass_model::{
     ClassError, Condition, Configuration, Element, End, Guess, LineChange, LineLoads, LineModel, Response, Situation,
     Summary,
 };
-use nalgebra::{Matrix3, Vector3};
-use windlass_base::table::Table;
 
 /// A weightless line between two places.
 #[derive(Clone, Debug)]

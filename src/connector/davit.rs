@@ -5,10 +5,10 @@
 use super::ClassKind;
 use super::sling::{DATA, DETAIL, OPTIONS};
 use super::tie::TieClass;
-use crate::model::{ClassRecord, ConnectorClass};
 use std::sync::Arc;
 use windlass_base::diagnostic::Outcome;
 use windlass_language::spec::CommandSpec;
+use windlass_model::{ClassRecord, ConnectorClass};
 
 /// The class type.
 pub static DAVIT: ClassKind = ClassKind { spec: &SPEC, segmented: false, build };

@@ -11,12 +11,12 @@ use super::mooring::{convolution, no_curve};
 use super::piston::{Does, Piston};
 use super::spring_law::Dashpot;
 use super::viscous::{Affine, Viscoelastic};
-use crate::model::{
-    ClassError, ClassRecord, Connection, Element, End, Guess, Response, Situation, SpringState, Summary,
-};
 use nalgebra::{Matrix3, Vector3};
 use windlass_base::diagnostic::Outcome;
 use windlass_base::span::Span;
+use windlass_model::{
+    ClassError, ClassRecord, Connection, Element, End, Guess, Response, Situation, SpringState, Summary,
+};
 
 /// The devices of a class.
 #[derive(Clone, Debug)]

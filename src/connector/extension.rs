@@ -1,8 +1,8 @@
 //! What lengthens a line at its first end: a link along the tension there, which may itself give way.
 
-use crate::model::{ClassError, End, Guess, Response, Summary};
 use nalgebra::Vector3;
 use std::fmt::Debug;
+use windlass_model::{ClassError, End, Guess, Response, Summary};
 
 /// A link of `length + compliance T` between the first end and the line, in the direction of the tension T. A negative length takes
 /// as much off the way between the ends.
@@ -47,12 +47,12 @@ pub trait Extended: Debug + Send + Sync {
     /// As [`Extended::pull`].
     fn told(&self, ends: &[End], by: Extension) -> Result<Summary, ClassError>;
 
-    /// See [`crate::model::Element::pushes`].
+    /// See [`windlass_model::Element::pushes`].
     fn pushes(&self) -> Option<f64> {
         None
     }
 
-    /// See [`crate::model::Element::made_for_place`].
+    /// See [`windlass_model::Element::made_for_place`].
     fn made_for_place(&self) -> bool {
         false
     }

@@ -3,8 +3,8 @@
 //! lengths is the one that is meant.
 
 use super::catenary::{Aim, Line, LineError};
-use crate::model::ClassError;
 use windlass_base::units::Dim;
+use windlass_model::ClassError;
 
 /// Most steps of each search.
 const MOST: usize = 200;

@@ -5,10 +5,10 @@
 use super::restraint::Restraining;
 use super::spring::Restraint;
 use super::{ClassKind, options as o};
-use crate::model::{ClassRecord, ConnectorClass};
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_language::spec::CommandSpec;
+use windlass_model::{ClassRecord, ConnectorClass};
 
 /// The class type.
 pub static FIX: ClassKind = ClassKind { spec: &SPEC, segmented: false, build };

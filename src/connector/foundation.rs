@@ -1,13 +1,13 @@
 //! FOUNDATION: a generalized spring of zero length that is checked in a FOUNDATION check.
 //!
-//! Source: seed 001. The check takes the ratio and the springs of [`crate::model::Summary`].
+//! Source: seed 001. The check takes the ratio and the springs of [`windlass_model::Summary`].
 
 use super::spring::Generalized;
 use super::{ClassKind, options as o};
-use crate::model::{ClassRecord, ConnectorClass};
 use std::sync::Arc;
 use windlass_base::diagnostic::Outcome;
 use windlass_language::spec::{CommandSpec, OptionSpec};
+use windlass_model::{ClassRecord, ConnectorClass};
 
 /// The class type.
 pub static FOUNDATION: ClassKind = ClassKind { spec: &SPEC, segmented: false, build };

@@ -7,11 +7,11 @@ use super::restraint::Restraining;
 use super::spring::Restraint;
 use super::zero_law::Friction;
 use super::{ClassKind, options as o};
-use crate::model::{ClassRecord, ConnectorClass};
 use std::sync::Arc;
 use windlass_base::diagnostic::Outcome;
 use windlass_base::units::Dim;
 use windlass_language::spec::{CommandSpec, Kind, ValueSpec};
+use windlass_model::{ClassRecord, ConnectorClass};
 
 /// The class type.
 pub static GAP: ClassKind = ClassKind { spec: &SPEC, segmented: false, build };

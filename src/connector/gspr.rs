@@ -4,10 +4,10 @@
 
 use super::spring::Generalized;
 use super::{ClassKind, foundation, options as o};
-use crate::model::{ClassRecord, ConnectorClass};
 use std::sync::Arc;
 use windlass_base::diagnostic::Outcome;
 use windlass_language::spec::{CommandSpec, OptionSpec, joined};
+use windlass_model::{ClassRecord, ConnectorClass};
 
 /// The class type.
 pub static GSPR: ClassKind = ClassKind { spec: &SPEC, segmented: false, build };

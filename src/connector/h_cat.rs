@@ -11,16 +11,16 @@ use super::mooring::{Mooring, end_springs, line_error, no_other_end, parts, with
 use super::moving::{self as m, Flexure, MovingLine, Seabed};
 use super::section::{LineSection, properties};
 use super::{ClassKind, checks, options as o};
-use crate::model::{
-    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, FatigueSegment, LineModel, Placement,
-    Surroundings,
-};
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_model::{
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, FatigueSegment, LineModel, Placement,
+    Surroundings,
+};
 
 /// The class type.
 pub static H_CAT: ClassKind = ClassKind { spec: &H_CAT_SPEC, segmented: true, build };

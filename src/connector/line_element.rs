@@ -4,9 +4,9 @@ use super::catenary::{Bottom, EndForces, Interpolated, Line, LineError, Regime, 
 use super::extended_line::{Plane, behind};
 use super::extension::{Extended, Extension, Pull};
 use super::mooring::Mooring;
-use crate::model::{Anchored, ClassError, Element, End, Guess, Placement, Response, Situation, Summary};
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use windlass_base::pose::Six;
+use windlass_model::{Anchored, ClassError, Element, End, Guess, Placement, Response, Situation, Summary};
 
 /// How the forces are found.
 #[derive(Clone, Debug)]

@@ -7,7 +7,6 @@ use super::spring::{Springs, no_anchor, restraint_table};
 use super::zero_law::{Contact, Sense};
 use super::zero_length::{ZeroLength, element_turns};
 use super::{ClassKind, checks, options as o};
-use crate::model::{ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Surroundings};
 use nalgebra::{Matrix3, Vector3};
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -15,6 +14,7 @@ use windlass_base::span::Span;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_language::spec::{CommandSpec, Kind, ValueSpec};
+use windlass_model::{ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Surroundings};
 
 /// The class type.
 pub static LMU: ClassKind = ClassKind { spec: &SPEC, segmented: false, build };

@@ -2,7 +2,7 @@
 
 use super::catenary::{Floor, FromTable, Interpolated, LineError, Row};
 use super::mooring::{Mooring, line_error};
-use crate::model::{ClassError, Condition, LineChange, LineLoads};
+use windlass_model::{ClassError, Condition, LineChange, LineLoads};
 
 impl Mooring {
     /// The loads of the exact solution.

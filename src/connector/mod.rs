@@ -44,10 +44,10 @@ mod zero_length;
 
 pub use section::type_notices;
 
-use crate::model::{ClassRecord, ConnectorClass};
 use std::sync::Arc;
 use windlass_base::diagnostic::Outcome;
 use windlass_language::spec::CommandSpec;
+use windlass_model::{ClassRecord, ConnectorClass};
 
 /// A type of class a user can name in a `~NAME TYPE ...` record.
 pub struct ClassKind {

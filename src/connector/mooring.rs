@@ -6,13 +6,13 @@ use super::first_length::for_tension;
 use super::line_element::LineElement;
 use super::mooring_table::{buoy_word, report};
 use super::section::LineSection;
-use crate::model::{
-    ClassError, ClassRecord, Condition, Configuration, Element, LineChange, LineLoads, LineModel, Placement,
-};
 use windlass_base::diagnostic::Outcome;
 use windlass_base::span::Span;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
+use windlass_model::{
+    ClassError, ClassRecord, Condition, Configuration, Element, LineChange, LineLoads, LineModel, Placement,
+};
 
 /// Points inside each segment in a shape table.
 const SHAPE_POINTS: usize = 9;

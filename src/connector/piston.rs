@@ -5,9 +5,9 @@
 //! while it can follow and the tension departs from it while it cannot; of MAX the way back to LD is as fast as VSHORT allows without
 //! passing TMAX; in statics it has all the time it needs, and starts at LD.
 
-use crate::model::ClassError;
 use windlass_base::units::Dim;
 use windlass_base::values::Given;
+use windlass_model::ClassError;
 
 /// Most evaluations of a search.
 const MOST: usize = 200;

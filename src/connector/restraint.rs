@@ -7,11 +7,11 @@ use super::spring::{Restraint, no_anchor, restraint_table};
 use super::spring_law::{Elastic, Group};
 use super::zero_law::{Contact, Friction, Sense, ZeroLaw};
 use super::zero_length::{ZeroLength, defined_displacement, element_turns};
-use crate::model::{ClassError, Connection, Connector, ConnectorClass, Element, Surroundings};
 use nalgebra::Matrix3;
 use windlass_base::diagnostic::Outcome;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
+use windlass_model::{ClassError, Connection, Connector, ConnectorClass, Element, Surroundings};
 
 /// A class of restraints.
 #[derive(Debug)]

@@ -5,7 +5,6 @@
 use super::spring::{Restraint, Springs, no_anchor, restraint_table, restraints};
 use super::zero_law::{Contact, Sense};
 use super::{ClassKind, checks, options as o};
-use crate::model::{ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Surroundings};
 use nalgebra::Vector3;
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -13,6 +12,7 @@ use windlass_base::span::Span;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_model::{ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Surroundings};
 
 /// The class type.
 pub static ROLLER: ClassKind = ClassKind { spec: &SPEC, segmented: false, build };

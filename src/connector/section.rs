@@ -6,7 +6,6 @@
 
 use super::checks;
 use super::line_types::{LineType, library};
-use crate::model::{ClassRecord, FatigueSegment, Surroundings};
 use std::f64::consts::FRAC_PI_4;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
@@ -14,6 +13,7 @@ use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::{Args, Given};
 use windlass_language::select::{Owner, choose};
+use windlass_model::{ClassRecord, FatigueSegment, Surroundings};
 
 /// Density against which a specific gravity is given: fresh water (kg/m3).
 const FRESH_WATER: f64 = 1000.0;

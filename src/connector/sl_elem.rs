@@ -9,16 +9,16 @@ use super::h_cat::{LINE_OPTIONS, check_records, hung};
 use super::mooring::{end_springs, with_series};
 use super::section::{LineSection, properties};
 use super::{ClassKind, checks, options as o};
-use crate::model::{
-    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, FatigueSegment, LineModel, Placement,
-    Surroundings,
-};
 use std::sync::Arc;
 use windlass_base::diagnostic::Outcome;
 use windlass_base::span::Span;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_language::spec::{CommandSpec, Kind, ValueSpec};
+use windlass_model::{
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, FatigueSegment, LineModel, Placement,
+    Surroundings,
+};
 
 /// The class type.
 pub static SL_ELEM: ClassKind = ClassKind { spec: &SL_ELEM_SPEC, segmented: true, build };

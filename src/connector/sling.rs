@@ -4,10 +4,10 @@
 
 use super::tie::TieClass;
 use super::{ClassKind, options as o};
-use crate::model::{ClassRecord, ConnectorClass};
 use std::sync::Arc;
 use windlass_base::diagnostic::Outcome;
 use windlass_language::spec::{CommandSpec, OptionSpec, ValueSpec};
+use windlass_model::{ClassRecord, ConnectorClass};
 
 /// The class type.
 pub static SLING: ClassKind = ClassKind { spec: &SPEC, segmented: false, build };

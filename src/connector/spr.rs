@@ -5,11 +5,11 @@
 use super::restraint::Restraining;
 use super::spring::restraints;
 use super::{ClassKind, options as o};
-use crate::model::{ClassRecord, ConnectorClass};
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_language::spec::CommandSpec;
+use windlass_model::{ClassRecord, ConnectorClass};
 
 /// The class type.
 pub static SPR: ClassKind = ClassKind { spec: &SPEC, segmented: false, build };

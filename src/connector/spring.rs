@@ -8,13 +8,13 @@ use super::viscous::Viscoelastic;
 use super::zero_law::{Contact, Friction, Sense, ZeroLaw};
 use super::zero_length::{ZeroLength, element_turns};
 use super::{checks, options as o};
-use crate::model::{ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Surroundings};
 use nalgebra::{Matrix3, Vector3};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
 use windlass_base::values::Args;
+use windlass_model::{ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Surroundings};
 
 /// One restrained degree of freedom.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,10 +5,6 @@
 use super::aqwa::{CA, LENGTH, number};
 use super::options::aqwa;
 use super::{ClassKind, checks};
-use crate::model::{
-    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Guess, Response, Situation, Summary,
-    Surroundings, TetherSection, TetherUse,
-};
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::FRAC_PI_4;
 use std::sync::Arc;
@@ -17,6 +13,10 @@ use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_model::{
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Guess, Response, Situation, Summary,
+    Surroundings, TetherSection, TetherUse,
+};
 
 /// The class type TETHER: an AQWA tether/riser section.
 pub static TETHER: ClassKind = ClassKind { spec: &TETHER_SPEC, segmented: true, build: build_tether };

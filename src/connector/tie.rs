@@ -5,14 +5,14 @@
 use super::checks;
 use super::section::{LineSection, properties};
 use super::spring::no_anchor;
-use crate::model::{
-    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Guess, Response, Situation, Summary,
-    Surroundings,
-};
 use nalgebra::{Matrix3, Matrix6};
 use windlass_base::diagnostic::Outcome;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
+use windlass_model::{
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Guess, Response, Situation, Summary,
+    Surroundings,
+};
 
 /// The force of a tie on its first end, toward the second.
 #[derive(Clone, Debug, PartialEq)]

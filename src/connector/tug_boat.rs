@@ -4,16 +4,16 @@
 
 use super::ClassKind;
 use super::spring::no_anchor;
-use crate::model::{
-    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Guess, Response, Situation, Summary,
-    Surroundings,
-};
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::unit_vector;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_language::spec::{CommandSpec, Kind, ValueSpec};
+use windlass_model::{
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Guess, Response, Situation, Summary,
+    Surroundings,
+};
 
 /// The class type.
 pub static TUG_BOAT: ClassKind = ClassKind { spec: &SPEC, segmented: false, build };

@@ -4,8 +4,8 @@
 //! the deflection. With K(s) = K_inf + sum k_i exp(-s / tau_i) each branch has one force as its memory, and the step below is
 //! exact for a deflection that runs evenly over it (Simo and Hughes, Computational Inelasticity, 10.3).
 
-use crate::model::{Curve, CurveKind};
 use nalgebra::{DMatrix, DVector};
+use windlass_model::{Curve, CurveKind};
 
 /// One branch: a spring and a dashpot in line.
 #[derive(Clone, Copy, Debug, PartialEq)]

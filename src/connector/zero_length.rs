@@ -7,9 +7,9 @@
 //! +-R J^-T s_theta with J the left Jacobian of SO(3) (Simo and Vu-Quoc 1986; Sola et al. 2018, eq. 145): what the virtual work of s asks.
 
 use super::zero_law::{Answer, ZeroLaw};
-use crate::model::{ClassError, Connection, Element, Guess, Response, Situation, SpringState, Summary};
 use nalgebra::{Matrix3, Matrix6, Rotation3, SMatrix, UnitQuaternion, Vector3, Vector6};
 use windlass_base::geometry::Place;
+use windlass_model::{ClassError, Connection, Element, Guess, Response, Situation, SpringState, Summary};
 
 type Wide = SMatrix<f64, 3, 12>;
 

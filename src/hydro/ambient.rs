@@ -3,10 +3,10 @@
 use super::growth::Growth;
 use super::sea::Sea;
 use super::steady::{Medium, Steady};
-use crate::model::{Ambient, Bathymetry, ClassError, Contents, Flow, Model};
 use nalgebra::Vector3;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use windlass_model::{Ambient, Bathymetry, ClassError, Contents, Flow, Model};
 
 /// Water, wind and bottom of the environment in force.
 #[derive(Debug)]

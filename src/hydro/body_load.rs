@@ -5,10 +5,10 @@
 //! is followed by another `begin` from the same state, so that `begin` may keep what it finds but nothing that has happened.
 
 use super::{Category, Load};
-use crate::model::ClassError;
 use nalgebra::Matrix6;
 use std::fmt::Debug;
 use windlass_base::pose::{Pose, Six};
+use windlass_model::ClassError;
 
 /// A body at the end of a step of time.
 #[derive(Clone, Copy, Debug)]

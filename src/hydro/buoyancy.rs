@@ -2,11 +2,11 @@
 
 use super::hull::{Fault, Solid, Surface, Tube, Wet, intersect};
 use super::{BodyLoad, Category, Load};
-use crate::model::{Body, ClassError, Model, Part, Piece, Shape, box_panels};
 use nalgebra::Vector3;
 use windlass_base::geometry::Position;
 use windlass_base::pose::Pose;
 use windlass_base::units::Dim;
+use windlass_model::{Body, ClassError, Model, Part, Piece, Shape, box_panels};
 
 /// Corners of panels nearer than this share of the size of a piece are one (files often keep seven digits).
 const WELD: f64 = 1e-6;

@@ -4,9 +4,9 @@
 //! the actual surface, tide included, and is not stretched; it is straight between its points, and above the first and
 //! below the last the current is that of the point; below the bottom there is none.
 
-use crate::model::{ClassError, Current, CurveKind, Environment, Model};
 use nalgebra::Vector3;
 use windlass_base::geometry::unit_vector;
+use windlass_model::{ClassError, Current, CurveKind, Environment, Model};
 
 /// One current over the depth, with its direction.
 #[derive(Clone, Debug, PartialEq)]

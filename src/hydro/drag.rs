@@ -4,10 +4,10 @@ use super::steady::{Medium, Steady};
 use super::stream::category;
 use super::stream::{Place, Push};
 use super::{BodyLoad, Category, Load, MovingLoad, Underway, cross};
-use crate::model::ClassError;
 use nalgebra::{Matrix3, Matrix6, Matrix6x3, Vector3};
 use std::sync::Arc;
 use windlass_base::pose::Pose;
+use windlass_model::ClassError;
 
 /// A drag matrix at its point.
 #[derive(Debug)]

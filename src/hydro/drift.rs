@@ -13,11 +13,11 @@ use super::spectrum::Waves;
 use super::steady::{Medium, Steady};
 use super::stream::{Place, Push};
 use super::{BodyLoad, Category, Load};
-use crate::model::{ClassError, DriftTable};
 use nalgebra::{Matrix6x3, Vector3};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 use windlass_base::pose::{Pose, Six};
+use windlass_model::{ClassError, DriftTable};
 
 /// Coefficients of one heading: the direction the waves come from in the body (rad); period (s), six coefficients (N/m2, N/m).
 pub type DriftRow = (f64, Vec<(f64, [f64; 6])>);

@@ -12,10 +12,10 @@ use super::sea::Sea;
 use super::steady::{Medium, Steady};
 use super::stream::Place;
 use super::{BodyLoad, Category, Load, MovingLoad, Underway, pieces};
-use crate::model::{Body, ClassError, Fluid, LoadKind, Model, Part, PartLoad, Piece};
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use std::sync::Arc;
 use windlass_base::pose::{Pose, Six};
+use windlass_model::{Body, ClassError, Fluid, LoadKind, Model, Part, PartLoad, Piece};
 
 /// What records have put on a body.
 #[derive(Debug)]

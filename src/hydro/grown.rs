@@ -5,9 +5,9 @@
 
 use super::growth::Growth;
 use super::{BodyLoad, Category, Load, cross};
-use crate::model::{Body, ClassError, Model, Shape, Surroundings};
 use nalgebra::{Matrix6, Vector3};
 use windlass_base::pose::{Pose, Six};
+use windlass_model::{Body, ClassError, Model, Shape, Surroundings};
 
 /// Length of a ring (m), and the greatest number of them on a tube.
 const LENGTH: f64 = 1.0;

@@ -6,8 +6,8 @@
 //! whoever makes a load asks with the elevation at which the part stands then. Drag and inertia take the larger diameter; the density
 //! of the growth in air is 1325 kg/m3 unless given (NORSOK N-003, marine growth, and DNV; from memory of them).
 
-use crate::model::{ClassError, CurveKind, Environment, Model};
 use std::f64::consts::FRAC_PI_4;
+use windlass_model::{ClassError, CurveKind, Environment, Model};
 
 /// Density of growth where none is given (kg/m3).
 pub const DENSITY: f64 = 1325.0;

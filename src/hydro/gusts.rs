@@ -8,10 +8,10 @@
 use super::sea::components::{Band, bands, bands_about};
 use super::sea::density::Spectrum;
 use super::sea::phases::phases;
-use crate::model::{ClassError, Curve, CurveKind, Division, Environment, Formula, Model, Phasing};
 use std::f64::consts::TAU;
 use std::sync::Mutex;
 use windlass_base::units::Dim;
+use windlass_model::{ClassError, Curve, CurveKind, Division, Environment, Formula, Model, Phasing};
 
 /// Lowest and highest frequency of gusts of a formula (Hz).
 pub const REACH: [f64; 2] = [1.0 / 3600.0, 1.0];

@@ -1,8 +1,8 @@
 //! Six values by heading, smooth all round.
 
-use crate::model::ClassError;
 use std::f64::consts::{PI, TAU};
 use windlass_base::pose::Six;
+use windlass_model::ClassError;
 
 /// Six values that depend on a direction: cubic between the headings given, with the slope at each that of the parabola
 /// through it and its neighbours, and periodic. Value and slope have no jump, so that an equilibrium is found.

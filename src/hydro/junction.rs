@@ -1,9 +1,9 @@
 //! What acts on a point where connectors meet: the buoyancy of a sphere, and the sea bottom.
 
 use super::{BodyLoad, Category, Load};
-use crate::model::{ClassError, Junction, Mass, Surroundings};
 use std::f64::consts::PI;
 use windlass_base::pose::Pose;
+use windlass_model::{ClassError, Junction, Mass, Surroundings};
 
 /// A sphere about the origin.
 #[derive(Debug)]

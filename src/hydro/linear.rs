@@ -5,9 +5,9 @@
 //! (0, 0, height) and upright with no yaw. The force is exact for these angles of any size, and so is its stiffness.
 
 use super::{BodyLoad, Category, Load};
-use crate::model::{Body, ClassError, LinearHydrostatics};
 use nalgebra::{Matrix3, Matrix6, Rotation3, Vector3};
 use windlass_base::pose::{Pose, Six};
+use windlass_model::{Body, ClassError, LinearHydrostatics};
 
 /// Where roll and yaw are told apart no more: cosine of the pitch.
 const UPRIGHT: f64 = 1e-6;

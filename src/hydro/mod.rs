@@ -40,11 +40,11 @@ pub use body_load::{BodyLoad, MovingLoad, Underway};
 pub use buoyancy::{Hull, PieceFault, piece_faults};
 pub use righting::{Balanced, balanced};
 
-use crate::model::{Body, ClassError, Mass, Model};
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use sea::Sea;
 use std::sync::Arc;
 use windlass_base::pose::{Pose, Six};
+use windlass_model::{Body, ClassError, Mass, Model};
 
 /// Categories of force that reports tell apart.
 ///

@@ -23,10 +23,10 @@ use super::steady::{Medium, Steady};
 use super::stream::category;
 use super::strips::Strips;
 use super::{BodyLoad, Category, Load, MovingLoad, Underway, cross};
-use crate::model::{ClassError, Part, Piece, Shape};
 use nalgebra::{Matrix3, Matrix6, RowVector6, SVector, Vector3, Vector6};
 use std::sync::Arc;
 use windlass_base::pose::Pose;
+use windlass_model::{ClassError, Part, Piece, Shape};
 
 /// A piece in wind or current.
 #[derive(Debug)]

@@ -12,11 +12,11 @@ use super::hull::{Solid, Surface};
 use super::morison::mean_number;
 use super::sea::Sea;
 use super::{BodyLoad, Category, Load, MovingLoad, Underway};
-use crate::model::{Body, ClassError, Model, WaveAction};
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use windlass_base::pose::{Pose, Six};
+use windlass_model::{Body, ClassError, Model, WaveAction};
 
 /// Longest edge of a panel times the mean wave number: a straight line errs on the pressure by its square over 8.
 const EDGE: f64 = 0.3;

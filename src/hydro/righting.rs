@@ -3,11 +3,11 @@
 //! Source: reference/solve.md, "Static process": three degrees of freedom (heave and two angles), connectors left out.
 
 use super::{Category, Floating};
-use crate::model::ClassError;
 use nalgebra::{Matrix2, Vector2, Vector3};
 use windlass_base::geometry::Place;
 use windlass_base::pose::Pose;
 use windlass_base::units::Dim;
+use windlass_model::ClassError;
 
 /// Most Newton steps of one heel.
 const STEPS: usize = 200;

@@ -11,9 +11,9 @@
 
 use super::sea::density::Spectrum;
 use super::sea::spectra::{PeriodType, jonswap, most_probable, ochi_hubble, torsethaugen, usual_gamma};
-use crate::model::{ClassError, Curve, CurveKind, Environment, Model, Sea};
 use std::f64::consts::TAU;
 use windlass_base::units::Dim;
+use windlass_model::{ClassError, Curve, CurveKind, Environment, Model, Sea};
 
 /// A sea as energies.
 #[derive(Clone, Debug, PartialEq)]

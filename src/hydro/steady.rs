@@ -4,9 +4,9 @@ use super::current::CurrentField;
 use super::spectrum::Waves;
 use super::variation::{Instant, Variation};
 use super::wind::WindField;
-use crate::model::{ClassError, Environment, Model, Surroundings};
 use nalgebra::Vector3;
 use std::sync::Arc;
+use windlass_model::{ClassError, Environment, Model, Surroundings};
 
 /// Half the height over which what is decided by the height of a point passes from current to wind (m). The sources say
 /// only "above" and "below"; a jump would keep an equilibrium near it from being found.

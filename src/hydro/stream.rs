@@ -2,9 +2,9 @@
 
 use super::steady::{Medium, Steady};
 use super::{BodyLoad, Category, Load, MovingLoad, Underway, cross};
-use crate::model::ClassError;
 use nalgebra::{Matrix3, Matrix6, Matrix6x3, Vector3};
 use windlass_base::pose::{Pose, Six};
+use windlass_model::ClassError;
 
 /// Force and moment about the point, in body axes, in a stream of a velocity in body axes; and how they change with it.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,7 +6,7 @@
 
 use super::gusts::Gusts;
 use super::ramp::ramp;
-use crate::model::{ClassError, CurveKind, Environment, Formula, Model};
+use windlass_model::{ClassError, CurveKind, Environment, Formula, Model};
 
 /// What wind and current have beside their means at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,9 +1,9 @@
 //! The weight of a body.
 
 use super::{BodyLoad, Category, Load, MovingLoad, Underway};
-use crate::model::{ClassError, Mass};
 use nalgebra::Vector3;
 use windlass_base::pose::{Pose, Six};
+use windlass_model::{ClassError, Mass};
 
 #[derive(Debug)]
 struct Weight {

@@ -5,9 +5,9 @@
 //! constants are written from memory of the standards named, but for that of ISO, which was compared with a published
 //! program (ckunte.net/2016/wind).
 
-use crate::model::{ClassError, Environment};
 use nalgebra::Vector3;
 use windlass_base::units::Dim;
+use windlass_model::{ClassError, Environment};
 
 /// Height at which the wind of `&ENV` blows (m).
 pub const REFERENCE: f64 = 10.0;

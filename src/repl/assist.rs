@@ -4,7 +4,6 @@
 use crate::command::{COMMANDS, offered, status_kinds};
 use crate::connector::CLASSES;
 use crate::connector::line_types::library;
-use crate::model::PIPE;
 use crate::session::Session;
 use rustyline::completion::{Completer, FilenameCompleter, Pair};
 use rustyline::highlight::{CmdKind, Highlighter};
@@ -19,6 +18,7 @@ use windlass_language::functions;
 use windlass_language::select::{Choice, keyword};
 use windlass_language::spec::{CommandSpec, Kind as ValueKind, ValueSpec};
 use windlass_language::token::{self, Kind, Token};
+use windlass_model::PIPE;
 
 /// Names to complete, taken from the session before each line.
 #[derive(Default)]

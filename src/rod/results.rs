@@ -11,8 +11,8 @@ use super::spatial::{transport, twist};
 use super::state::State;
 use super::surroundings::{Fluid, UniformFluid, World};
 use super::tension::{Stretch, Taken, tension};
-use crate::model::{LineNode, LineSide, LineStress};
 use nalgebra::Vector3;
+use windlass_model::{LineNode, LineSide, LineStress};
 
 impl Rod {
     /// Results at every node of a state.

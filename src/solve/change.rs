@@ -5,8 +5,8 @@ use super::system::{SolveError, System, moving_nodes};
 use super::time::{LinkEnds, Memory, Pushing};
 use crate::hydro::ambient;
 use crate::hydro::sea::Sea;
-use crate::model::{ClassError, Connector, Element, GivenMotion, Model};
 use std::sync::Arc;
+use windlass_model::{ClassError, Connector, Element, GivenMotion, Model};
 
 /// What is said of a connector that an action is about though a pipe lies on it.
 const HOLDS_PIPE: &str = "a pipe lies on it, which acts in its place: actions do nothing to the supports of a pipe";

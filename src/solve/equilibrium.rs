@@ -7,9 +7,9 @@
 use super::search::Search;
 use super::system::{Contribution, FREEDOMS, SolveError, State, System};
 use super::unknowns::{Unknowns, kept_turns};
-use crate::model::ClassError;
 use nalgebra::DMatrix;
 use windlass_base::units::Dim;
+use windlass_model::ClassError;
 
 /// What an equilibrium is asked for.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,10 +3,10 @@
 use super::equilibrium::{Options as Rest, equilibrium};
 use super::offset::{Connectors, Pull};
 use super::system::{SolveError, State, System};
-use crate::model::{ClassError, Summary};
 use nalgebra::Vector3;
 use windlass_base::pose::{Pose, Six};
 use windlass_base::units::Dim;
+use windlass_model::{ClassError, Summary};
 
 /// How a body is moved.
 #[derive(Clone, Copy, Debug, PartialEq)]

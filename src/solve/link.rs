@@ -2,10 +2,10 @@
 
 use super::system::SolveError;
 use super::time::Duties;
-use crate::model::{Ambient, Assembly, Connector, Element, LaidPipe, Model};
 use nalgebra::{Matrix3, Vector3};
 use std::sync::Arc;
 use windlass_base::pose::Pose;
+use windlass_model::{Ambient, Assembly, Connector, Element, LaidPipe, Model};
 
 /// What an end of a connector is fixed to.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,10 +1,10 @@
 //! The outline of a body: shapes whose convex hulls are filled in a picture, and the edges seen on them.
 
-use crate::model::{Body, Model, Shape, box_panels};
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use windlass_base::geometry::Position;
+use windlass_model::{Body, Model, Shape, box_panels};
 
 /// Cosine of the angle between two panels beyond which their common edge is sharp: 30 degrees.
 const SHARP: f64 = 0.866;

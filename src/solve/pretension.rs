@@ -2,8 +2,8 @@
 
 use super::system::SolveError;
 use crate::hydro::ambient;
-use crate::model::{ClassError, Condition, Connector, End, Model, Situation};
 use windlass_base::units::Dim;
+use windlass_model::{ClassError, Condition, Connector, End, Model, Situation};
 
 /// Steps from the present length to one beyond the force, each half as long again as the one before.
 const STEPS: usize = 60;

@@ -5,10 +5,10 @@ pub use super::outline::Outline;
 use super::outline::outline;
 use super::results::along::standing;
 use super::system::SolveError;
-use crate::model::{Body, ClassError, Condition, Connector, Model, Placement};
 use std::collections::BTreeSet;
 use windlass_base::geometry::Position;
 use windlass_base::table::{Cell, Table};
+use windlass_model::{Body, ClassError, Condition, Connector, Model, Placement};
 
 /// Largest turn of a drawn line between two points (rad); where it turns more it is given points between.
 const TURN: f64 = 0.05;

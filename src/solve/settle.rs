@@ -3,8 +3,8 @@
 
 use super::equilibrium::{Equilibrium, Options, equilibrium};
 use super::system::{SolveError, State, System};
-use crate::model::{ClassError, Model};
 use windlass_base::geometry::Place;
+use windlass_model::{ClassError, Model};
 
 /// Most times a system is made anew.
 const MOST: usize = 12;

@@ -5,11 +5,11 @@ use super::modes::held;
 use super::time::{Duties, Prescribed, prescribed};
 use crate::hydro::sea::Sea;
 use crate::hydro::{Category, Floating, Load, ambient, carried, transferred, turning};
-use crate::model::{Ambient, Body, ClassError, End, Guess, Mass, Model, Response, Situation, Surroundings};
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6};
 use std::sync::Arc;
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
+use windlass_model::{Ambient, Body, ClassError, End, Guess, Mass, Model, Response, Situation, Surroundings};
 
 /// Degrees of freedom of a body, in order.
 pub const FREEDOMS: [&str; 6] = ["X", "Y", "Z", "RX", "RY", "RZ"];

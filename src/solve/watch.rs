@@ -3,8 +3,8 @@
 use super::equilibrium::{Options as Rest, equilibrium};
 use super::offset::Connectors;
 use super::system::{SolveError, State, System};
-use crate::model::Summary;
 use windlass_base::pose::{Pose, Six};
+use windlass_model::Summary;
 
 /// Most steps of the solution from one direction to the next.
 const MOST: usize = 2000;

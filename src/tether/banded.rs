@@ -1,7 +1,7 @@
 //! Symmetric matrices of one plane of a tether: only the diagonal and three lines below it are filled, since a node is
 //! coupled to the next alone. Factors L D L' without exchange of rows: work and memory go with the order.
 
-use crate::model::ClassError;
+use windlass_model::ClassError;
 
 /// Filled entries of a row up to the diagonal.
 pub const WIDTH: usize = 4;

@@ -1,8 +1,8 @@
 //! The elements of a tether one after the other, from the trailing or anchor end to the vessel.
 
 use super::section::Tube;
-use crate::model::ClassError;
 use windlass_base::units::Dim;
+use windlass_model::ClassError;
 
 /// More elements than this are refused: work and memory go with them.
 pub const MOST_ELEMENTS: usize = 10_000;

@@ -6,9 +6,9 @@
 //! the last digit, so that modes held by soft springs alone keep all their digits beside a stiffness a million times theirs.
 
 use super::banded::{Banded, Factors};
-use crate::model::ClassError;
 use std::f64::consts::{PI, TAU};
 use windlass_base::units::Dim;
+use windlass_model::ClassError;
 
 /// Halvings of an interval at most; a double has no more to give.
 const HALVINGS: usize = 200;

@@ -2,11 +2,11 @@
 
 use super::super::Job;
 use super::super::number_rows::{Row, rows};
-use crate::model::{PathRow, ResponseRow, Responses};
 use std::f64::consts::TAU;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::units::Dim;
+use windlass_model::{PathRow, ResponseRow, Responses};
 
 /// Places at times, in SI.
 ///

@@ -1,9 +1,9 @@
 //! What the holders of a line feel of it.
 
-use crate::model::{ClassError, Response};
 use crate::rod::{EndForces, EndTangent, OnSupport, SupportTangent, Twelve};
 use nalgebra::{Matrix6, Vector3};
 use windlass_base::pose::Six;
+use windlass_model::{ClassError, Response};
 
 fn six(force: &Vector3<f64>, moment: &Vector3<f64>) -> Six {
     Six::new(force.x, force.y, force.z, moment.x, moment.y, moment.z)

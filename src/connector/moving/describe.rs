@@ -1,8 +1,8 @@
 //! What a line that moves by itself is made of, as its class says.
 
-use crate::model::{Ambient, Contents};
 use crate::rod::{Axial, Segment};
 use std::f64::consts::FRAC_PI_4;
+use windlass_model::{Ambient, Contents};
 
 /// What stands where a part ends and the next begins.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -131,8 +131,8 @@ impl Part {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::Flow;
     use nalgebra::Vector3;
+    use windlass_model::Flow;
 
     /// 50 mm of growth of 1400 kg/m3 everywhere.
     #[derive(Debug)]

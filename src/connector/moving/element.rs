@@ -6,15 +6,15 @@ use super::kept::{Kept, Layout};
 use super::laid::{Felt, Laid};
 use super::mesh::{most_wound, told, wind};
 use super::warm::{Base, Held, Warm};
-use crate::model::{
-    Ambient, ClassError, Element, End, Flow, Guess, LineBooks, LineMode, LineNode, Response, Situation, Summary,
-};
 use crate::rod::{self, Balance, EndForces, EndTangent, Ground, Motion, Rod, State, World};
 use nalgebra::Vector3;
 use std::cell::RefCell;
 use std::sync::Arc;
 use windlass_base::pose::Six;
 use windlass_base::units::Dim;
+use windlass_model::{
+    Ambient, ClassError, Element, End, Flow, Guess, LineBooks, LineMode, LineNode, Response, Situation, Summary,
+};
 
 /// An end may lie this much below the bottom (m).
 const BELOW: f64 = 1e-3;

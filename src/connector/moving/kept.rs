@@ -2,8 +2,8 @@
 //! mesh needs.
 
 use super::mesh::Bands;
-use crate::model::ClassError;
 use crate::rod::{Balance, Rod, State};
+use windlass_model::ClassError;
 
 /// Where what stands.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,12 +4,12 @@
 //! (conn_pipe). The pipe runs from the last support, the tensioner, over the first and down to the bottom, where it is held far beyond
 //! the touchdown. It rolls through rollers, and hangs by davits from its own nodes.
 
-use crate::model::{Element, End, Response, Situation, Surroundings};
 use crate::rod::{Grip, Gripped, Holds, Support};
 use nalgebra::{Matrix3, Vector3};
 use std::cell::RefCell;
 use std::sync::Arc;
 use windlass_base::pose::Pose;
+use windlass_model::{Element, End, Response, Situation, Surroundings};
 
 /// What a pipe lies on.
 #[derive(Clone, Debug)]

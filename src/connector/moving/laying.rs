@@ -7,12 +7,12 @@ use super::kept::Layout;
 use super::laid::{Held, Laid, Tensioner};
 use super::mesh::{Cut, few, mesh, told};
 use super::warm::{Base, Warm};
-use crate::model::{ClassError, End, PipeLayout, Situation};
 use crate::rod::{self, Rod, State};
 use nalgebra::{Matrix3, Vector3};
 use std::sync::Arc;
 use windlass_base::pose::Pose;
 use windlass_base::units::Dim;
+use windlass_model::{ClassError, End, PipeLayout, Situation};
 
 /// Elements between two supports, where -REFINE does not say.
 const BETWEEN: usize = 8;

@@ -8,10 +8,10 @@ use super::mesh::{Cut, SHORT, attachments, few, mesh, told};
 use super::start;
 use super::warm::{Base, Held};
 use crate::connector::mooring::no_other_end;
-use crate::model::{ClassError, Connection};
 use crate::rod::{self, Bottom, PlaneBottom, Rod, State};
 use nalgebra::Vector3;
 use std::sync::Arc;
+use windlass_model::{ClassError, Connection};
 
 impl MovingLine {
     /// The line of a class between the ends of a connector.

@@ -2,10 +2,10 @@
 
 use super::describe::Part;
 use crate::connector::catenary::{self, Joint, Line, Segment};
-use crate::model::Surroundings;
 use crate::rod::{Bottom, PlaneBottom};
 use nalgebra::Vector3;
 use std::f64::consts::PI;
+use windlass_model::Surroundings;
 
 /// Points of each part between its ends: so many that their chords follow a touchdown of a few metres' radius.
 const BETWEEN: usize = 400;

@@ -3,10 +3,10 @@
 use super::describe::Description;
 use super::laid::Laid;
 use super::mesh::Bands;
-use crate::model::{Ambient, Flow};
 use crate::rod::{self, Ground, PlaneBottom, Rod, Settings, Solver, State};
 use nalgebra::Vector3;
 use std::sync::Arc;
+use windlass_model::{Ambient, Flow};
 
 /// How often a rod halves a step of the run by itself, before the run halves its own.
 const HALVINGS: u32 = 8;

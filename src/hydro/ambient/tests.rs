@@ -1,9 +1,9 @@
 use super::*;
-use crate::model::{
-    Components, Current, Curve, CurveKind, Division, Environment, Filling, Formula, Phasing, Stretching, Wind,
-};
 use std::f64::consts::{PI, TAU};
 use windlass_base::span::Span;
+use windlass_model::{
+    Components, Current, Curve, CurveKind, Division, Environment, Filling, Formula, Phasing, Stretching, Wind,
+};
 
 const GRAVITY: f64 = 9.80665;
 
@@ -11,9 +11,9 @@ fn named(kind: &str, value: Option<f64>) -> Option<Formula> {
     Some(Formula { kind: kind.into(), value, span: Span::default() })
 }
 
-fn sea(spectrum: &str, height: f64, period: f64) -> Option<crate::model::Sea> {
+fn sea(spectrum: &str, height: f64, period: f64) -> Option<windlass_model::Sea> {
     let places = [Span::default(); 5];
-    Some(crate::model::Sea { spectrum: spectrum.into(), direction: PI, height, period, gamma: None, places })
+    Some(windlass_model::Sea { spectrum: spectrum.into(), direction: PI, height, period, gamma: None, places })
 }
 
 /// A model whose environment in force is this.

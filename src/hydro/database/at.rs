@@ -1,9 +1,9 @@
 //! Values between the frequencies and headings of a database.
 
 use crate::hydro::sea::dispersion::wave_number;
-use crate::model::{Amplitudes, ClassError, Database, DriftTable};
 use nalgebra::{Complex, Matrix6, Vector3};
 use std::f64::consts::TAU;
+use windlass_model::{Amplitudes, ClassError, Database, DriftTable};
 
 /// The widest gap between two headings that is interpolated over (rad): 90 degrees, and a little for rounding.
 pub const WIDEST_GAP: f64 = std::f64::consts::FRAC_PI_2 + 1e-6;
@@ -61,10 +61,33 @@ pub(super) fn around(headings: &[f64], heading: f64) -> Result<Between, ClassErr
     Ok((low, high, from / gap))
 }
 
-impl Database {
+/// Values of a database at any frequency and heading.
+pub trait DatabaseLookup {
     /// Added mass about the body's origin at a frequency (rad/s), straight between the frequencies given; held beyond them,
     /// toward the value at zero or infinite frequency where the source has it. `None` without any.
-    pub fn added_mass_at(&self, frequency: f64) -> Option<Matrix6<f64>> {
+    fn added_mass_at(&self, frequency: f64) -> Option<Matrix6<f64>>;
+
+    /// Damping about the body's origin at a frequency (rad/s), straight between the frequencies given and from nothing at zero; beyond
+    /// the last as 1/w3. `None` without any.
+    fn damping_at(&self, frequency: f64) -> Option<Matrix6<f64>>;
+
+    /// Excitation over wave amplitude about the body's origin, phases referred to it: the wave is `Re(a exp(-i w t))` there. The heading
+    /// (rad) is the direction of travel in the body. Straight between headings and frequencies in real and imaginary part; held
+    /// below the first frequency, beyond the last it falls in proportion to the period.
+    ///
+    /// # Errors
+    /// A database without excitation; a heading in a gap wider than 90 degrees.
+    fn excitation_at(&self, heading: f64, frequency: f64) -> Result<Amplitudes, ClassError>;
+
+    /// Motions of the body's origin over wave amplitude, where the source gives motions; else as [`DatabaseLookup::excitation_at`].
+    ///
+    /// # Errors
+    /// A database without motions; a heading in a gap wider than 90 degrees.
+    fn motion_at(&self, heading: f64, frequency: f64) -> Result<Amplitudes, ClassError>;
+}
+
+impl DatabaseLookup for Database {
+    fn added_mass_at(&self, frequency: f64) -> Option<Matrix6<f64>> {
         let (first, last) = (*self.frequencies.first()?, *self.frequencies.last()?);
         let (low, high) = (self.added_mass.first()?, self.added_mass.last()?);
         let about_reference = match (frequency < first, frequency > last, self.zero, self.infinite) {
@@ -76,9 +99,7 @@ impl Database {
         Some(moved_matrix(&about_reference, self.reference))
     }
 
-    /// Damping about the body's origin at a frequency (rad/s), straight between the frequencies given and from nothing at zero; beyond
-    /// the last as 1/w3. `None` without any.
-    pub fn damping_at(&self, frequency: f64) -> Option<Matrix6<f64>> {
+    fn damping_at(&self, frequency: f64) -> Option<Matrix6<f64>> {
         let (first, last) = (*self.frequencies.first()?, *self.frequencies.last()?);
         let factor = if frequency < first {
             frequency.max(0.0) / first
@@ -91,63 +112,51 @@ impl Database {
         Some(moved_matrix(&damping, self.reference))
     }
 
-    /// Excitation over wave amplitude about the body's origin, phases referred to it: the wave is `Re(a exp(-i w t))` there. The heading
-    /// (rad) is the direction of travel in the body. Straight between headings and frequencies in real and imaginary part; held
-    /// below the first frequency, beyond the last it falls in proportion to the period.
-    ///
-    /// # Errors
-    /// A database without excitation; a heading in a gap wider than 90 degrees.
-    pub fn excitation_at(&self, heading: f64, frequency: f64) -> Result<Amplitudes, ClassError> {
+    fn excitation_at(&self, heading: f64, frequency: f64) -> Result<Amplitudes, ClassError> {
         if self.excitation.is_empty() {
             return Err(ClassError::new(format!("the database ({}) has no excitation", self.source)));
         }
         let x = amplitudes_at(&self.excitation, (&self.headings, &self.frequencies), heading, frequency)?;
-        let shift = self.phase_shift(heading, frequency)?;
+        let shift = phase_shift(self, heading, frequency)?;
         Ok(moved_force(x, self.reference).map(|v| v * shift))
     }
 
-    /// Motions of the body's origin over wave amplitude, where the source gives motions; else as [`Database::excitation_at`].
-    ///
-    /// # Errors
-    /// A database without motions; a heading in a gap wider than 90 degrees.
-    pub fn motion_at(&self, heading: f64, frequency: f64) -> Result<Amplitudes, ClassError> {
+    fn motion_at(&self, heading: f64, frequency: f64) -> Result<Amplitudes, ClassError> {
         let Some(motions) = &self.motions else {
             return Err(ClassError::new(format!("the database ({}) has no motions", self.source)));
         };
         let [x, y, z, rx, ry, rz] = amplitudes_at(motions, (&self.headings, &self.frequencies), heading, frequency)?;
         // the origin stands at -reference from the reference point
-        let (arm, shift) = (-self.reference, self.phase_shift(heading, frequency)?);
+        let (arm, shift) = (-self.reference, phase_shift(self, heading, frequency)?);
         let moved = [x + ry * arm.z - rz * arm.y, y + rz * arm.x - rx * arm.z, z + rx * arm.y - ry * arm.x, rx, ry, rz];
         Ok(moved.map(|v| v * shift))
     }
-
-    /// What turns an amplitude over the wave at the reference point into one over the wave at the origin.
-    fn phase_shift(&self, heading: f64, frequency: f64) -> Result<Complex<f64>, ClassError> {
-        let along = self.reference.x * heading.cos() + self.reference.y * heading.sin();
-        if along == 0.0 {
-            return Ok(Complex::new(1.0, 0.0));
-        }
-        Ok(Complex::from_polar(1.0, wave_number(frequency, self.depth, self.gravity)? * along))
-    }
 }
 
-impl DriftTable {
-    /// Mean drift over the square of the amplitude, straight between headings and frequencies; held beyond the first and last
-    /// frequency. About the reference point.
-    ///
-    /// # Errors
-    /// A heading in a gap wider than 90 degrees.
-    pub fn at(&self, heading: f64, frequency: f64) -> Result<[f64; 6], ClassError> {
-        let (a, b, by_heading) = around(&self.headings, heading)?;
-        let (i, j, by_frequency) = between(&self.frequencies, frequency);
-        let cell = |h: usize, f: usize| self.values.get(h).and_then(|v| v.get(f)).copied().unwrap_or_default();
-        let line = |h: usize| {
-            let (low, high) = (cell(h, i), cell(h, j));
-            [0, 1, 2, 3, 4, 5].map(|k: usize| low[k] + (high[k] - low[k]) * by_frequency)
-        };
-        let (low, high) = (line(a), line(b));
-        Ok([0, 1, 2, 3, 4, 5].map(|k: usize| low[k] + (high[k] - low[k]) * by_heading))
+/// What turns an amplitude over the wave at the reference point into one over the wave at the origin.
+fn phase_shift(data: &Database, heading: f64, frequency: f64) -> Result<Complex<f64>, ClassError> {
+    let along = data.reference.x * heading.cos() + data.reference.y * heading.sin();
+    if along == 0.0 {
+        return Ok(Complex::new(1.0, 0.0));
     }
+    Ok(Complex::from_polar(1.0, wave_number(frequency, data.depth, data.gravity)? * along))
+}
+
+/// Mean drift over the square of the amplitude, straight between headings and frequencies; held beyond the first and last
+/// frequency. About the reference point.
+///
+/// # Errors
+/// A heading in a gap wider than 90 degrees.
+pub fn drift_at(table: &DriftTable, heading: f64, frequency: f64) -> Result<[f64; 6], ClassError> {
+    let (a, b, by_heading) = around(&table.headings, heading)?;
+    let (i, j, by_frequency) = between(&table.frequencies, frequency);
+    let cell = |h: usize, f: usize| table.values.get(h).and_then(|v| v.get(f)).copied().unwrap_or_default();
+    let line = |h: usize| {
+        let (low, high) = (cell(h, i), cell(h, j));
+        [0, 1, 2, 3, 4, 5].map(|k: usize| low[k] + (high[k] - low[k]) * by_frequency)
+    };
+    let (low, high) = (line(a), line(b));
+    Ok([0, 1, 2, 3, 4, 5].map(|k: usize| low[k] + (high[k] - low[k]) * by_heading))
 }
 
 /// A matrix between two of a list.
@@ -156,7 +165,7 @@ fn mixed(list: &[Matrix6<f64>], (low, high, share): Between) -> Option<Matrix6<f
     Some(a + (b - a) * share)
 }
 
-/// Amplitudes between headings and frequencies; see [`Database::excitation_at`].
+/// Amplitudes between headings and frequencies; see [`DatabaseLookup::excitation_at`].
 fn amplitudes_at(
     table: &[Vec<Amplitudes>],
     (headings, frequencies): (&[f64], &[f64]),

@@ -8,13 +8,13 @@ use crate::hydro::body_load::{BodyLoad, MovingLoad, Underway};
 use crate::hydro::sea::Sea;
 use crate::hydro::steady::Steady;
 use crate::hydro::{Category, Load, transferred};
-use crate::model::{
-    AttachedDatabase, Body, ClassError, Database, DriftMethod, LinearHydrostatics, LoadKind, Mass, Model, PartLoad,
-};
 use nalgebra::Matrix6;
 use std::f64::consts::PI;
 use std::sync::Arc;
 use windlass_base::pose::{Pose, Six};
+use windlass_model::{
+    AttachedDatabase, Body, ClassError, Database, DriftMethod, LinearHydrostatics, LoadKind, Mass, Model, PartLoad,
+};
 
 /// The step of the memory where the environment gives none (s).
 const USUAL_STEP: f64 = 0.1;
@@ -161,8 +161,8 @@ fn drift_once(model: &Model, body: &Body, attached: &AttachedDatabase) -> Result
 }
 
 /// The mean drift by heading and frequency: as it is given, or of the pairs of equal waves.
-fn drift_of(data: &Database) -> Option<crate::model::DriftTable> {
-    data.drift.clone().or_else(|| data.qtf.as_ref().map(crate::model::Qtf::diagonal))
+fn drift_of(data: &Database) -> Option<windlass_model::DriftTable> {
+    data.drift.clone().or_else(|| data.qtf.as_ref().map(super::slow_drift::mean_drift))
 }
 
 /// The slow drift of a sea.

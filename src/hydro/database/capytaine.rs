@@ -8,9 +8,9 @@ use super::checks::{MOST, checked};
 use super::matrices::matrix;
 use super::nemoh::refer_phases;
 use super::rows::{DatabaseError, heading};
-use crate::model::{Amplitudes, Database};
 use nalgebra::{Complex, Matrix6, Vector3};
 use netcdf_reader::{NcFile, NcOpenOptions};
+use windlass_model::{Amplitudes, Database};
 
 /// Names of the directions in Capytaine.
 const DOFS: [&str; 6] = ["SURGE", "SWAY", "HEAVE", "ROLL", "PITCH", "YAW"];

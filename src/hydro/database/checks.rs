@@ -1,9 +1,9 @@
 //! What every database must fulfil, whatever its source.
 
 use super::rows::DatabaseError;
-use crate::model::{Amplitudes, Database};
 use nalgebra::Matrix6;
 use std::f64::consts::TAU;
+use windlass_model::{Amplitudes, Database};
 
 /// Asymmetry of added mass or damping, over the geometric mean of the diagonal, that is said.
 const ASYMMETRY: f64 = 0.05;

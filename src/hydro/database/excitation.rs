@@ -4,14 +4,15 @@
 //! time of the reference point; between headings X is straight in real and imaginary part, so that the force has no
 //! jump when the body turns. Roll and pitch do not change it (first order).
 
+use super::at::DatabaseLookup;
 use super::waves::{ByHeading, Group, groups};
 use crate::hydro::body_load::{BodyLoad, MovingLoad, Underway};
 use crate::hydro::sea::Sea;
 use crate::hydro::{Category, Load, carried};
-use crate::model::{ClassError, Database};
 use nalgebra::Vector3;
 use std::sync::Arc;
 use windlass_base::pose::{Pose, Six};
+use windlass_model::{ClassError, Database};
 
 /// The excitation of one body in one sea.
 #[derive(Clone, Debug)]

@@ -21,5 +21,8 @@ pub mod wamit;
 mod wamit_qtf;
 mod waves;
 
-pub use crate::model::{Amplitudes, Database, DriftTable, Qtf};
+pub use at::{DatabaseLookup, drift_at};
 pub use rows::{DatabaseError, SourceFile};
+pub use slow_drift::mean_drift;
+pub use symmetry::mirrored;
+pub use windlass_model::{Amplitudes, Database, DriftTable, Qtf};

@@ -12,9 +12,9 @@ use super::matrices::{PairRow, by_frequency};
 use super::nemoh_case::{Case, Direction};
 use super::rows::{DatabaseError, ModeRow, SourceFile, by_wave, heading, number, same_frequency, separates};
 use crate::hydro::sea::dispersion::wave_number;
-use crate::model::Database;
 use nalgebra::{Complex, Matrix6};
 use std::f64::consts::{PI, TAU};
+use windlass_model::Database;
 
 /// Reads the results of a run; files are told apart by their names.
 ///

@@ -4,9 +4,9 @@
 //! prediction of ship motions: `K(t) = 2/pi int_0^inf B(w) cos(w t) dw`, `A_inf = A(w) + 1/w int_0^inf K(t) sin(w t) dt`.
 
 use super::at::moved_matrix;
-use crate::model::{ClassError, Database};
 use nalgebra::Matrix6;
 use std::f64::consts::PI;
+use windlass_model::{ClassError, Database};
 
 /// Memory where none is given (s), when the kernel has died away by then.
 pub const USUAL_MEMORY: f64 = 60.0;

@@ -6,9 +6,9 @@
 
 use super::checks::checked;
 use super::rows::{DatabaseError, ModeRow, Row, SourceFile, by_wave, heading, separates};
-use crate::model::Database;
 use nalgebra::Complex;
 use std::f64::consts::TAU;
+use windlass_model::Database;
 
 /// What a table of RAOs does not say itself.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,8 +1,8 @@
 //! Text files of numbers, and rows of them on a grid where each place is to be filled once.
 
-use crate::model::Amplitudes;
 use nalgebra::Complex;
 use std::f64::consts::TAU;
+use windlass_model::Amplitudes;
 
 /// Why a source makes no database.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -9,16 +9,17 @@
 //! `Re sum_pq Q_pq C_p conj(C_q)` over the frequencies of the table, with each wave shared between its two neighbours there. Pairs of waves of
 //! different directions take the QTF of the mean direction of the sea.
 
+use super::at::drift_at;
 use super::at::{around, between};
 use super::excitation::{kept, turned, yaw};
 use super::waves::{ByHeading, Group, WIDE, groups};
 use crate::hydro::body_load::{BodyLoad, MovingLoad, Underway};
 use crate::hydro::sea::Sea;
 use crate::hydro::{Category, Load, carried, turning};
-use crate::model::{ClassError, DriftTable, Qtf};
 use nalgebra::{Complex, Vector3};
 use std::sync::Arc;
 use windlass_base::pose::{Pose, Six};
+use windlass_model::{ClassError, DriftTable, Qtf};
 
 /// How the forces of a sea are found.
 #[derive(Clone, Debug)]
@@ -60,7 +61,7 @@ impl SlowDrift {
             for heading in &table.headings {
                 let mut sum = Six::zeros();
                 for (w, energy) in *energies {
-                    sum += Six::from(table.at(*heading, *w)?) * (2.0 * energy);
+                    sum += Six::from(drift_at(table, *heading, *w)?) * (2.0 * energy);
                 }
                 list.push(sum);
             }
@@ -94,7 +95,7 @@ impl SlowDrift {
         let lanes = made.groups.iter().map(|group| {
             ByHeading::of(group, &table.headings, |h, w, a| {
                 let heading = table.headings.get(h).copied().unwrap_or_default();
-                let [x, y, z, rx, ry, rz] = table.at(heading, w)?.map(|d| d * a);
+                let [x, y, z, rx, ry, rz] = drift_at(table, heading, w)?.map(|d| d * a);
                 Ok([x, y, z, rx, ry, rz, a])
             })
         });
@@ -107,7 +108,7 @@ impl SlowDrift {
     /// # Errors
     /// As [`SlowDrift::mean_of`].
     pub fn full(qtf: &Arc<Qtf>, reference: Vector3<f64>, sea: &Arc<Sea>) -> Result<Self, ClassError> {
-        let diagonal = qtf.diagonal();
+        let diagonal = mean_drift(qtf);
         let made = SlowDrift::mean(&diagonal, reference, sea)?;
         let near = |g: &Group| g.frequency.iter().map(|w| between(&qtf.frequencies, *w)).collect();
         let near: Vec<Vec<(usize, usize, f64)>> = made.groups.iter().map(near).collect();
@@ -213,17 +214,15 @@ impl SlowDrift {
     }
 }
 
-impl Qtf {
-    /// The mean drift: each frequency with itself.
-    pub fn diagonal(&self) -> DriftTable {
-        let real = |table: &Vec<Vec<[Complex<f64>; 6]>>| {
-            table.iter().enumerate().map(|(i, row)| row.get(i).map_or([0.0; 6], |six| six.map(|v| v.re))).collect()
-        };
-        DriftTable {
-            frequencies: self.frequencies.clone(),
-            headings: self.headings.clone(),
-            values: self.values.iter().map(real).collect(),
-        }
+/// The mean drift: each frequency with itqtf.
+pub fn mean_drift(qtf: &Qtf) -> DriftTable {
+    let real = |table: &Vec<Vec<[Complex<f64>; 6]>>| {
+        table.iter().enumerate().map(|(i, row)| row.get(i).map_or([0.0; 6], |six| six.map(|v| v.re))).collect()
+    };
+    DriftTable {
+        frequencies: qtf.frequencies.clone(),
+        headings: qtf.headings.clone(),
+        values: qtf.values.iter().map(real).collect(),
     }
 }
 

@@ -1,41 +1,39 @@
 //! The other side of a body that is symmetric about its x-z plane.
 
 use super::rows::{axis, place, same_heading};
-use crate::model::Database;
 use std::f64::consts::TAU;
+use windlass_model::Database;
 
 /// Which of the six change sign on the other side.
 const MIRROR: [f64; 6] = [1.0, -1.0, 1.0, -1.0, 1.0, -1.0];
 
-impl Database {
-    /// The same with the headings of the other side of a body that is symmetric about its x-z plane; those that are there stay.
-    /// A reference point off that plane has no mirror: the database is left as it is.
-    pub fn mirrored(mut self) -> Self {
-        if self.reference.y.abs() > 1e-9 {
-            self.remarks.push("its point is off the plane of symmetry: no headings are mirrored".into());
-            return self;
-        }
-        let own = self.headings.clone();
-        fill(&own, &mut self.excitation, |six| std::array::from_fn(|i| six[i] * MIRROR[i]));
-        if let Some(motions) = &mut self.motions {
-            fill(&own, motions, |six| std::array::from_fn(|i| six[i] * MIRROR[i]));
-        }
-        self.headings = both_sides(&own);
-        if let Some(drift) = &mut self.drift {
-            fill(&drift.headings, &mut drift.values, |six| std::array::from_fn(|i| six[i] * MIRROR[i]));
-            drift.headings = both_sides(&drift.headings);
-        }
-        if let Some(qtf) = &mut self.qtf {
-            let mirror = |row: &Vec<super::Amplitudes>| {
-                row.iter().map(|six| std::array::from_fn(|i| six[i] * MIRROR[i])).collect::<Vec<_>>()
-            };
-            fill(&qtf.headings, &mut qtf.values, mirror);
-            qtf.headings = both_sides(&qtf.headings);
-        }
-        self.remarks.retain(|r| !r.starts_with(super::checks::GAP));
-        self.remarks.extend(super::checks::gaps(&self.headings));
-        self
+/// The same with the headings of the other side of a body that is symmetric about its x-z plane; those that are there stay.
+/// A reference point off that plane has no mirror: the database is left as it is.
+pub fn mirrored(mut data: Database) -> Database {
+    if data.reference.y.abs() > 1e-9 {
+        data.remarks.push("its point is off the plane of symmetry: no headings are mirrored".into());
+        return data;
     }
+    let own = data.headings.clone();
+    fill(&own, &mut data.excitation, |six| std::array::from_fn(|i| six[i] * MIRROR[i]));
+    if let Some(motions) = &mut data.motions {
+        fill(&own, motions, |six| std::array::from_fn(|i| six[i] * MIRROR[i]));
+    }
+    data.headings = both_sides(&own);
+    if let Some(drift) = &mut data.drift {
+        fill(&drift.headings, &mut drift.values, |six| std::array::from_fn(|i| six[i] * MIRROR[i]));
+        drift.headings = both_sides(&drift.headings);
+    }
+    if let Some(qtf) = &mut data.qtf {
+        let mirror = |row: &Vec<super::Amplitudes>| {
+            row.iter().map(|six| std::array::from_fn(|i| six[i] * MIRROR[i])).collect::<Vec<_>>()
+        };
+        fill(&qtf.headings, &mut qtf.values, mirror);
+        qtf.headings = both_sides(&qtf.headings);
+    }
+    data.remarks.retain(|r| !r.starts_with(super::checks::GAP));
+    data.remarks.extend(super::checks::gaps(&data.headings));
+    data
 }
 
 /// Where a heading of one side is on the other.

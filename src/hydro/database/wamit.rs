@@ -11,9 +11,9 @@
 use super::checks::{MOST, checked};
 use super::matrices::{by_frequency, matrix};
 use super::rows::{ByWave, DatabaseError, ModeRow, Row, SourceFile, by_wave, heading, same_frequency, same_heading};
-use crate::model::{Amplitudes, Database, DriftTable, Qtf};
 use nalgebra::{Complex, Matrix6, Vector3};
 use std::f64::consts::TAU;
+use windlass_model::{Amplitudes, Database, DriftTable, Qtf};
 
 /// What the files of one WAMIT run do not say themselves.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,8 +5,8 @@
 
 use super::rows::{DatabaseError, SourceFile, axis, heading, place, same_frequency, same_heading};
 use super::wamit::{WamitScale, bounded, empty_qtf, frequency, mode_of};
-use crate::model::Qtf;
 use nalgebra::Complex;
+use windlass_model::Qtf;
 
 /// One row.
 struct Pair {

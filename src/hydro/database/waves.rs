@@ -7,9 +7,9 @@
 use super::at::around;
 use super::checks::MOST;
 use crate::hydro::sea::Sea;
-use crate::model::ClassError;
 use multiversion::multiversion;
 use std::f64::consts::FRAC_2_PI;
+use windlass_model::ClassError;
 
 /// Waves side by side.
 pub(super) const WIDE: usize = 8;

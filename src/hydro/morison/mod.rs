@@ -37,13 +37,13 @@ use super::hull::Tube;
 use super::sea::Sea;
 use super::steady::{Medium, Steady};
 use super::{BodyLoad, Category, Load, MovingLoad, Underway};
-use crate::model::{Body, ClassError, Model, Part, Piece, Shape, WaveAction};
 use member::Rod;
 use nalgebra::{Matrix6, Vector3};
 use std::f64::consts::PI;
 use std::sync::Arc;
 use under_way::UnderWay;
 use windlass_base::pose::{Pose, Six};
+use windlass_model::{Body, ClassError, Model, Part, Piece, Shape, WaveAction};
 
 /// Most segments of a member.
 const MOST: usize = 64;

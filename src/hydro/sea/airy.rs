@@ -5,9 +5,9 @@
 
 use super::eight::{Eight, exp, sin_cos};
 use super::{Component, Kinematics, Sea};
-use crate::model::Stretching;
 use multiversion::multiversion;
 use nalgebra::Vector3;
+use windlass_model::Stretching;
 
 /// Water this deep (k d) is deep to the last digit: exp(-2 k d) < 1e-17.
 const DEEP: f64 = 20.0;

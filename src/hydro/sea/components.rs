@@ -1,9 +1,9 @@
 //! A spectrum cut in bands, one wave component each.
 
 use super::density::Spectrum;
-use crate::model::{ClassError, Division};
 use std::f64::consts::TAU;
 use windlass_base::units::Dim;
+use windlass_model::{ClassError, Division};
 
 /// Shares of the energy between which bands of equal width lie when no limits are given. The end bands carry the rest.
 const SHARES: [f64; 2] = [0.001, 0.995];

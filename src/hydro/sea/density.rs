@@ -4,8 +4,8 @@
 //! and 0.09 above the peak: N = 5 is ISSC (gamma 1) and JONSWAP (DNV-RP-C205 3.5.5), N = 4 L + 1 that of Ochi and Hubble (1976),
 //! N = 4 that of Torsethaugen and Haver (2004). A curve of the user is straight between its points.
 
-use crate::model::ClassError;
 use windlass_base::units::Dim;
+use windlass_model::ClassError;
 
 /// Nodes and weights of Gauss and Legendre on -1 to 1, of the half above zero (Abramowitz and Stegun 25.4.30, n = 8).
 const GAUSS: [(f64, f64); 4] = [

@@ -1,7 +1,7 @@
 //! Dispersion of linear waves: `w^2 = g k tanh(k d)`.
 
-use crate::model::ClassError;
 use windlass_base::units::Dim;
+use windlass_model::ClassError;
 
 /// Steps of Newton's method allowed; it takes some four.
 const STEPS: usize = 50;

@@ -5,10 +5,10 @@ use super::density::Spectrum;
 use super::stokes::{Stokes, breaks};
 use super::{Component, Sea, Water, dispersion, phases, spreading};
 use crate::hydro::spectrum;
-use crate::model::{self, ClassError, Division, Environment, Model, Phasing};
 use std::f64::consts::TAU;
 use windlass_base::geometry::unit_vector;
 use windlass_base::units::Dim;
+use windlass_model::{self as model, ClassError, Division, Environment, Model, Phasing};
 
 /// Components of each sea where none are asked for.
 pub const USUAL_NUMBER: usize = 200;

@@ -14,8 +14,8 @@ pub mod spectra;
 pub mod spreading;
 pub mod stokes;
 
-use crate::model::Stretching;
 use nalgebra::Vector3;
+use windlass_model::Stretching;
 
 pub use airy::SeaAt;
 pub use made::Train;

@@ -1,10 +1,10 @@
 //! Phases of the components.
 
 use super::Component;
-use crate::model::{ClassError, Environment, Phasing};
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::Rng;
 use std::f64::consts::TAU;
+use windlass_model::{ClassError, Environment, Phasing};
 
 /// Sees that phases which are given (`-PHASES`) are as many as the components.
 ///

@@ -1,9 +1,9 @@
 //! Spectra with a formula, each in one place, from heights in m and periods in s.
 
 use super::density::{Hump, Spectrum};
-use crate::model::ClassError;
 use std::f64::consts::TAU;
 use windlass_base::units::Dim;
+use windlass_model::ClassError;
 
 /// Gravity in the formulas that were fitted with it (m/s2).
 const FITTED_GRAVITY: f64 = 9.81;

@@ -5,9 +5,9 @@
 //! mean speed in the frame of the wave. Crest at k X - w t + phase = 0.
 
 use super::{Kinematics, Water};
-use crate::model::ClassError;
 use nalgebra::Vector3;
 use windlass_base::units::Dim;
+use windlass_model::ClassError;
 
 /// Share of the length that a wave breaks at in deep water (Miche 1944): H = 0.142 L tanh(k d).
 const MICHE: f64 = 0.142;

@@ -6,8 +6,8 @@ use super::components::{bands, bands_about};
 use super::density::Spectrum;
 use super::spectra::{PeriodType, jonswap, most_probable, ochi_hubble, torsethaugen, usual_gamma};
 use super::*;
-use crate::model::{Division, Phasing};
 use std::f64::consts::{PI, TAU};
+use windlass_model::{Division, Phasing};
 
 const GRAVITY: f64 = 9.80665;
 

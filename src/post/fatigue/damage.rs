@@ -75,8 +75,8 @@ pub fn life(damage: f64, duration: f64, factor: f64) -> Result<Option<f64>, Seri
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::FatigueSelection;
     use crate::post::fatigue::find;
+    use windlass_model::FatigueSelection;
 
     #[test]
     fn damage_is_cycles_over_cycles_to_failure() {

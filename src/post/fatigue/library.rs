@@ -1,10 +1,10 @@
 //! The curves windlass ships: `share/fatigue_curves.toml`, where each curve names its source and how sure it is.
 
 use super::curve::{Branch, Curve};
-use crate::model::{FatigueKind, FatigueSelection};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
+use windlass_model::{FatigueKind, FatigueSelection};
 
 /// The library as shipped.
 const TEXT: &str = include_str!("../../../share/fatigue_curves.toml");

@@ -2,9 +2,9 @@
 
 use super::curve::Curve;
 use super::damage::{State, life, of_cycles, over};
-use crate::model::{FatigueKind, FatigueSegment, ThicknessCorrection};
 use crate::post::rainflow::{Cycle, cycles};
 use crate::post::{SeriesError, statistics};
+use windlass_model::{FatigueKind, FatigueSegment, ThicknessCorrection};
 
 /// What a record comes to in one segment.
 #[derive(Clone, Debug, PartialEq)]
@@ -173,8 +173,8 @@ pub fn line_life(scatter: &[Exposure], factor: f64) -> Result<Vec<SegmentLife>, 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::FatigueSelection;
     use crate::post::fatigue::find;
+    use windlass_model::FatigueSelection;
 
     fn named(name: &str) -> Curve {
         find(name, &FatigueSelection::default()).unwrap()

@@ -108,9 +108,9 @@ pub fn dirlik(m: &Moments, curve: &Curve, mean: f64) -> Result<f64, SeriesError>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::FatigueSelection;
     use crate::post::fatigue::find;
     use std::f64::consts::PI;
+    use windlass_model::FatigueSelection;
 
     fn named(name: &str) -> Curve {
         find(name, &FatigueSelection::default()).unwrap()

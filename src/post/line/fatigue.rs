@@ -2,11 +2,11 @@
 //!
 //! Cycles are those of rainflow, damage is Palmgren's and Miner's sum, as for the lines of seed 001 ([`crate::post::fatigue`]).
 
-use crate::model::{FatigueKind, FatigueSegment, ThicknessCorrection};
 use crate::post::fatigue::{Curve, Loaded, line_damage, of_cycles};
 use crate::post::rainflow::{Cycle, cycles};
 use crate::post::{SeriesError, finite, statistics};
 use std::f64::consts::{FRAC_PI_4, TAU};
+use windlass_model::{FatigueKind, FatigueSegment, ThicknessCorrection};
 
 /// A node with its record.
 #[derive(Clone, Copy, Debug)]
@@ -137,8 +137,8 @@ fn of_tube(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::FatigueSelection;
     use crate::post::fatigue::find;
+    use windlass_model::FatigueSelection;
 
     const WAVE: [f64; 2] = [-1.0, 1.0];
 

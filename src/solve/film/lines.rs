@@ -1,11 +1,11 @@
 //! Connectors of a film: their shape at every instant.
 
-use crate::model::{ClassError, Condition, Connector, Model, Placement};
 use crate::solve::results::along::{Section, sections, segments_at, sides};
 use crate::solve::scene::{CORNER, cubic};
 use crate::solve::time::{AlongColumns, Layout, LinkColumns};
 use windlass_base::geometry::Position;
 use windlass_base::table::{Cell, Table};
+use windlass_model::{ClassError, Condition, Connector, Model, Placement};
 
 /// How a connector is at an instant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

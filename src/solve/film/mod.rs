@@ -14,10 +14,10 @@ pub use solid::Solid;
 
 use super::results::{Window, events};
 use super::time::Run;
-use crate::model::{ClassError, Model};
 use nalgebra::Vector3;
 use windlass_base::geometry::{Place, Position};
 use windlass_base::pose::Pose;
+use windlass_model::{ClassError, Model};
 
 /// Most instants of a film.
 pub const MOST_FRAMES: usize = 2_000;

@@ -105,7 +105,7 @@ fn waves(sea: &Sea) -> Vec<Wave> {
 mod tests {
     use super::*;
     use crate::hydro::sea::{Component, Water};
-    use crate::model::Stretching;
+    use windlass_model::Stretching;
 
     fn component(frequency: f64, amplitude: f64, phase: f64) -> Component {
         Component { frequency, number: frequency * frequency / 9.81, amplitude, toward: [0.8, -0.6], phase }

@@ -1,9 +1,9 @@
 //! A body as a solid: triangles and sharp edges in its own axes, that move with it.
 
-use crate::model::{Body, Model, Shape, box_panels};
 use crate::solve::outline::drawn;
 use nalgebra::Vector3;
 use windlass_base::geometry::Position;
+use windlass_model::{Body, Model, Shape, box_panels};
 
 /// A surface in the axes of a body (m).
 #[derive(Clone, Debug, PartialEq, Default)]

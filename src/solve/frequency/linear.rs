@@ -1,9 +1,9 @@
 //! The linear equations of motion about a place, and the motions of unit waves.
 
 use crate::hydro::database::radiation::Radiation;
+use crate::hydro::database::{DatabaseLookup, mean_drift};
 use crate::hydro::sea::dispersion::wave_number;
 use crate::hydro::{Category, in_pose};
-use crate::model::{Amplitudes, AttachedDatabase, ClassError, DriftMethod, DriftTable, Model, Qtf};
 use crate::solve::modes::held;
 use crate::solve::system::{FREEDOMS, SolveError, State, System, mass_block};
 use crate::solve::time::{Duties, Forces, Memory, Motion};
@@ -11,6 +11,7 @@ use nalgebra::{Complex, DMatrix, DVector, Matrix6};
 use std::f64::consts::TAU;
 use windlass_base::pose::{Pose, Six};
 use windlass_base::units::Dim;
+use windlass_model::{Amplitudes, AttachedDatabase, ClassError, DriftMethod, DriftTable, Model};
 
 /// Complex amplitudes of motion, six a body: of its origin (m) and its rotation (rad), global axes.
 pub type Motions = DVector<Complex<f64>>;
@@ -72,7 +73,7 @@ impl Floats {
         let factors = [Category::Wave, Category::RadiationDrag, Category::WaveDrift]
             .map(|category| model.multipliers.of(category.name(), name));
         let slow = matches!(attached.drift, DriftMethod::Newman | DriftMethod::Full);
-        let table = || attached.data.drift.clone().or_else(|| attached.data.qtf.as_ref().map(Qtf::diagonal));
+        let table = || attached.data.drift.clone().or_else(|| attached.data.qtf.as_ref().map(mean_drift));
         let yaw = pose.axes[(1, 0)].atan2(pose.axes[(0, 0)]);
         Ok(Floats { attached: attached.clone(), infinite, yaw, factors, drift: slow.then(table).flatten() })
     }

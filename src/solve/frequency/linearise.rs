@@ -7,12 +7,12 @@
 
 use super::linear::Linear;
 use super::response::Response;
-use crate::model::ClassError;
 use crate::solve::system::SolveError;
 use crate::solve::time::Forces;
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, Normal};
 use windlass_base::pose::Six;
+use windlass_model::ClassError;
 
 /// Velocities over which the mean is taken.
 const POINTS: usize = 1024;

@@ -1,7 +1,7 @@
 //! The frequency domain: small motions about a place, linear in the waves.
 //!
 //! The equations are `(K - w2 (M + A(w)) - i w (B + B(w))) q = X(w, b)` with `q(t) = Re(q exp(-i w t))`, the signs of
-//! [`crate::model::Database`]: the argument of an amplitude is its lag behind the crest at the global origin. [`Linear`] holds them,
+//! [`windlass_model::Database`]: the argument of an amplitude is its lag behind the crest at the global origin. [`Linear`] holds them,
 //! [`Quantity`] what is asked of the motions, [`Response`] the motions in a sea with their spectra and statistics.
 
 mod linear;

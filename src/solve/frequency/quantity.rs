@@ -2,11 +2,11 @@
 
 use super::linear::{Linear, Motions};
 use crate::hydro::transferred;
-use crate::model::{End, Response, Situation, TimeStep};
 use crate::solve::link::{Attachment, arm, pose_of};
 use crate::solve::system::SolveError;
 use nalgebra::{Complex, DVector, Vector3};
 use windlass_base::pose::Six;
+use windlass_model::{End, Response, Situation, TimeStep};
 
 /// Which derivative with time is meant.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -8,10 +8,10 @@ use super::natural::{Natural, natural};
 use super::quantity::{Derivative, Quantity};
 use super::trains::{Trains, bounds, resolved};
 use super::{linearise, slow};
-use crate::model::ClassError;
 use crate::solve::system::SolveError;
 use std::f64::consts::TAU;
 use windlass_base::units::Dim;
+use windlass_model::ClassError;
 
 /// Most numbers kept.
 const MOST: usize = 20_000_000;

@@ -9,6 +9,7 @@ use super::linear::{Linear, Motions};
 use super::response::{Point, bounded};
 use super::trains::{Trains, bounds, even, resolved};
 use crate::hydro::carried;
+use crate::hydro::database::drift_at;
 use crate::solve::system::SolveError;
 use nalgebra::{Complex, DMatrix, SymmetricEigen};
 use windlass_base::pose::Six;
@@ -125,7 +126,7 @@ fn drifts(
             return Ok(Six::zeros());
         };
         let name = linear.system.nodes.get(*body).map_or("", |n| n.name.as_str());
-        let [x, y, z, rx, ry, rz] = table.at(toward - floats.yaw, frequency).map_err(SolveError::of(name))?;
+        let [x, y, z, rx, ry, rz] = drift_at(table, toward - floats.yaw, frequency).map_err(SolveError::of(name))?;
         let (sin, cos) = floats.yaw.sin_cos();
         let force = Six::new(x * cos - y * sin, x * sin + y * cos, z, rx * cos - ry * sin, rx * sin + ry * cos, rz);
         let axes = linear.poses.get(*body).map_or_else(nalgebra::Matrix3::identity, |p| p.axes);

@@ -2,8 +2,8 @@
 
 use crate::hydro::sea::density::Spectrum;
 use crate::hydro::sea::{Sea, spreading};
-use crate::model::{ClassError, Environment, Model};
 use windlass_base::geometry::unit_vector;
+use windlass_model::{ClassError, Environment, Model};
 
 /// Directions that stand for a spread sea, with equal shares of its energy.
 const DIRECTIONS: usize = 11;

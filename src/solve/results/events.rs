@@ -1,8 +1,8 @@
 //! Which instants of a run are told.
 
 use super::super::time::History;
-use crate::model::ClassError;
 use windlass_base::units::Dim;
+use windlass_model::ClassError;
 
 /// Most events of one table.
 const MOST: f64 = 2e6;

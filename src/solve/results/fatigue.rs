@@ -9,12 +9,12 @@ use super::super::system::SolveError;
 use super::super::time::Run;
 use super::connectors::{force, poses};
 use super::{Event, columns};
-use crate::model::{Class, ClassError, Condition, Connector, FatigueSelection, Model, Placement};
 use crate::post::SeriesError;
 use crate::post::fatigue::{Curve, Exposure, LineDamage, Loaded, find, line_damage, line_life};
 use windlass_base::pose::Pose;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
+use windlass_model::{Class, ClassError, Condition, Connector, FatigueSelection, Model, Placement};
 
 /// A run in a scatter of environments.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,12 +3,12 @@
 use super::super::system::SolveError;
 use super::super::time::{OF_BODY, Run};
 use super::{Event, Magnitude, columns, filled, headed, timed};
-use crate::model::Mass;
 use nalgebra::Vector3;
 use windlass_base::geometry::Place;
 use windlass_base::pose::Pose;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
+use windlass_model::Mass;
 
 /// How motions are told.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -2,8 +2,8 @@
 
 use super::super::link::{Attachment, connected, pose_of};
 use super::super::system::SolveError;
-use crate::model::{Connector, Element, End, Guess, Model, Situation, Surroundings};
 use windlass_base::pose::{Pose, Six};
+use windlass_model::{Connector, Element, End, Guess, Model, Situation, Surroundings};
 
 /// What a row does not keep of a connector.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,7 +5,6 @@ use super::moored::Moored;
 use crate::hydro::Floating;
 use crate::hydro::current::CurrentField;
 use crate::hydro::sea::Sea;
-use crate::model::{Body, ClassError, Connector, Mass, Model, Shape, TetherEnds, TetherHold, TetherSection, TetherUse};
 use crate::solve::SolveError;
 use crate::tether::compatibility::Compatibility;
 use crate::tether::installed::{Constraint, Course, EndSprings, Impact, InstalledTether, InternalFluid};
@@ -21,6 +20,9 @@ use nalgebra::Vector3;
 use std::f64::consts::PI;
 use std::sync::Arc;
 use windlass_base::pose::{Pose, Six};
+use windlass_model::{
+    Body, ClassError, Connector, Mass, Model, Shape, TetherEnds, TetherHold, TetherSection, TetherUse,
+};
 
 /// A case, ready to run.
 #[derive(Debug)]

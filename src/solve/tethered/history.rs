@@ -2,7 +2,6 @@
 
 use super::Tethered;
 use super::case::Installed;
-use crate::model::ClassError;
 use crate::tether::Line;
 use crate::tether::installed::{Change, Installation, Moment, Observer};
 use crate::tether::structure::Forces;
@@ -11,6 +10,7 @@ use std::ops::ControlFlow;
 use windlass_base::geometry::Place;
 use windlass_base::table::Digits;
 use windlass_base::units::Dim;
+use windlass_model::ClassError;
 
 /// A quantity of nodes or of ends of elements.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -21,8 +21,8 @@ pub use statistics::Statistics;
 pub use structure::{harmonics, structure, structure_series};
 pub use tables::{Of, along, events, forces, motions, series, told};
 
-use crate::model::{ClassError, Model};
 use crate::solve::SolveError;
+use windlass_model::{ClassError, Model};
 
 /// How a run of tethers goes.
 #[derive(Clone, Copy, Debug, PartialEq)]

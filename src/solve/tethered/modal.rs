@@ -2,12 +2,12 @@
 
 use super::case::{Kind, case, sections};
 use super::{Settings, case::Installed};
-use crate::model::{ClassError, Model};
 use crate::solve::SolveError;
 use crate::tether::installed::description::Description;
 use crate::tether::installed::modes::modes;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
+use windlass_model::{ClassError, Model};
 
 /// Settings under which a case is made to be told of, not to be run.
 const AT_REST: Settings = Settings { observed: 1.0, step: 1.0, store: 1, compatible: false, slam: 0.0, tow: [0.0; 2] };

@@ -1,8 +1,6 @@
 //! The other connectors of a structure that tethers hold.
 
 use crate::hydro::{Underway, ambient, carried};
-use crate::model::{Body, ClassError, Model};
-use crate::model::{End, Response, Situation, Surroundings, TimeStep};
 use crate::solve::link::{Attachment, Link, link, pose_of};
 use crate::solve::system::SolveError;
 use crate::solve::time::Duties;
@@ -10,6 +8,8 @@ use crate::tether::structure::flow::FlowAt;
 use crate::tether::structure::{Forces, Structure};
 use nalgebra::Vector3;
 use windlass_base::pose::{Pose, Six};
+use windlass_model::{Body, ClassError, Model};
+use windlass_model::{End, Response, Situation, Surroundings, TimeStep};
 
 /// A structure with connectors to the ground that are no tethers.
 #[derive(Debug)]

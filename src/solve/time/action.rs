@@ -1,7 +1,7 @@
 //! What happens during a run: at a time, or when a condition is first met, within a 64th of a step.
 
-use crate::model::{Body, ClassError, Model};
 use windlass_base::geometry::Position;
+use windlass_model::{Body, ClassError, Model};
 
 /// What a condition watches.
 #[derive(Clone, Debug, PartialEq)]

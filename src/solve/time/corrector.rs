@@ -3,9 +3,9 @@
 use super::forces::Motion;
 use super::scheme::Scheme;
 use super::step::{Convergence, Effort, Instant, Stepper, not_finite};
-use crate::model::ClassError;
 use crate::solve::system::{SolveError, System};
 use windlass_base::pose::Six;
+use windlass_model::ClassError;
 
 impl Stepper {
     /// A step by predictor and corrector: the trapezoidal rule by repetition.

@@ -5,8 +5,8 @@ use super::history::Layout;
 use super::scheme::Method;
 use super::snapshot::Snapshot;
 use super::step::Convergence;
-use crate::model::ClassError;
 use crate::solve::system::SolveError;
+use windlass_model::ClassError;
 
 /// How a run goes.
 #[derive(Clone, Debug, PartialEq)]

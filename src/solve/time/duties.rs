@@ -1,8 +1,8 @@
 //! What a run asks of its lines that move by themselves: they are made for it.
 
 use super::action::{Action, What};
-use crate::model::{LineDuty, Model};
 use std::collections::{BTreeMap, BTreeSet};
+use windlass_model::{LineDuty, Model};
 
 /// What a run asks, by the keys of connectors; nothing where there is no run.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -1,10 +1,10 @@
 //! Ends of connectors under way.
 
 use super::forces::Motion;
-use crate::model::End;
 use crate::solve::link::Attachment;
 use nalgebra::Vector3;
 use windlass_base::pose::{Pose, Six};
+use windlass_model::End;
 
 /// An end of a connector on a body that moves, or in the ground, and its arm from the origin of its body (m, global). Its acceleration
 /// is told where it is wanted.

@@ -5,12 +5,12 @@ use super::ends::end_of;
 use super::pushing::pull;
 use super::run::Run;
 use crate::hydro::sea::Sea;
-use crate::model::{ClassError, Model};
 use crate::solve::link::Attachment;
 use crate::solve::system::SolveError;
 use std::sync::Arc;
 use windlass_base::geometry::Position;
 use windlass_base::units::Dim;
+use windlass_model::{ClassError, Model};
 
 /// Most parts of a step that is divided for what is wound in it.
 const MOST_PARTS: f64 = 1000.0;

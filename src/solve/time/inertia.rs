@@ -1,10 +1,10 @@
 //! The inertia of bodies under way, and how it changes as they turn.
 
 use super::forces::Motion;
-use crate::model::Mass;
 use crate::solve::system::{Node, mass_block};
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use windlass_base::pose::{Pose, Six};
+use windlass_model::Mass;
 
 /// The inertia of a body about its origin in a pose, with added mass, global axes.
 pub fn inertia(node: &Node, pose: &Pose) -> Matrix6<f64> {

@@ -8,7 +8,6 @@ mod spline;
 
 use super::forces::Motion;
 use crate::hydro::sea::Sea;
-use crate::model::{Body, ClassError, GivenMotion, Sinusoid};
 use nalgebra::Vector3;
 use response::Riding;
 use spline::Spline;
@@ -17,6 +16,7 @@ use std::fmt::Debug;
 use std::sync::Arc;
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
+use windlass_model::{Body, ClassError, GivenMotion, Sinusoid};
 
 /// A motion that is given for all times.
 pub trait Prescribed: Debug + Send + Sync {

@@ -4,8 +4,8 @@ use super::forces::Motion;
 use super::run::Run;
 use super::snapshot::Snapshot;
 use crate::hydro::sea::Sea;
-use crate::model::{LineBooks, Model};
 use crate::solve::link::Link;
+use windlass_model::{LineBooks, Model};
 
 impl Run {
     /// Time reached (s).

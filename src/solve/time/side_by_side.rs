@@ -1,9 +1,9 @@
 //! Lines that move by themselves, evaluated side by side: each by itself, so that the number of threads changes nothing.
 
 use super::forces::{Forces, Motion};
-use crate::model::{ClassError, End, Guess, Response, Situation, TimeStep};
 use crate::solve::system::System;
 use std::sync::{Mutex, PoisonError};
+use windlass_model::{ClassError, End, Guess, Response, Situation, TimeStep};
 
 /// One of them, with what its evaluation needs and finds.
 #[derive(Default)]

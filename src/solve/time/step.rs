@@ -6,10 +6,10 @@
 use super::forces::{Forces, Memory, Motion};
 use super::inertia::{gyroscopic, inertia};
 use super::scheme::{Method, Scheme};
-use crate::model::ClassError;
 use crate::solve::system::{FREEDOMS, SolveError, System};
 use nalgebra::{DMatrix, DVector, LU, Matrix6, U6};
 use windlass_base::pose::Six;
+use windlass_model::ClassError;
 
 /// When a step is solved.
 #[derive(Clone, Copy, Debug, PartialEq)]

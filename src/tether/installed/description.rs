@@ -3,10 +3,10 @@
 use super::axis::Axis;
 use super::tension::Axial;
 use super::tether::InstalledTether;
-use crate::model::ClassError;
 use crate::tether::description::{Attachment, Configuration, Description as Listed};
 use crate::tether::structure::flow::Flow;
 use nalgebra::Vector3;
+use windlass_model::ClassError;
 
 /// The numbers of the description beside those of the elements.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,10 +3,10 @@
 use super::rig::Change;
 use super::rig::Rig;
 use super::run::{Event, Moment, Observer};
-use crate::model::ClassError;
 use crate::tether::structure::Forces;
 use windlass_base::geometry::Place;
 use windlass_base::pose::Six;
+use windlass_model::ClassError;
 
 /// Numbers kept at most: 400 MB.
 const MOST_NUMBERS: usize = 50_000_000;

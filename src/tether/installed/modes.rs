@@ -7,12 +7,12 @@ use super::axis::Axis;
 use super::bending::{Bending, Matrices};
 use super::tension::Axial;
 use super::tether::InstalledTether;
-use crate::model::ClassError;
 use crate::tether::beam;
 use crate::tether::compatibility::Compatibility;
 use crate::tether::modes::{self, NaturalMode, Pencil, Plane};
 use crate::tether::structure::flow::Flow;
 use nalgebra::Vector3;
+use windlass_model::ClassError;
 
 /// A mode of an installed tether.
 #[derive(Clone, Debug, PartialEq)]

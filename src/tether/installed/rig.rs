@@ -6,11 +6,11 @@ use super::stress::{EndLoads, Stresses};
 use super::tension::{Axial, Standing, Tension};
 use super::tether::InstalledTether;
 use crate::hydro::{carried, cross};
-use crate::model::ClassError;
 use crate::tether::compatibility::{Compatibility, SpringReference};
 use crate::tether::structure::flow::FlowAt;
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use windlass_base::pose::{Pose, Six};
+use windlass_model::ClassError;
 
 /// Which of the two stages of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

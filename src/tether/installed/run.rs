@@ -8,7 +8,6 @@
 use super::rig::{Change, Rig, Which};
 use super::tether::InstalledTether;
 use crate::hydro::{Underway, cross};
-use crate::model::ClassError;
 use crate::tether::compatibility::{Compatibility, VesselScheme};
 use crate::tether::structure::flow::{Flow, FlowAt};
 use crate::tether::structure::{Forces, Structure};
@@ -16,6 +15,7 @@ use nalgebra::Matrix6;
 use std::f64::consts::TAU;
 use windlass_base::pose::{Pose, Six};
 use windlass_base::units::Dim;
+use windlass_model::ClassError;
 
 /// Steps of a run at most.
 pub const MOST_STEPS: usize = 100_000_000;

@@ -1,9 +1,9 @@
 //! An installed tether as it is given.
 
-use crate::model::ClassError;
 use crate::tether::Line;
 use nalgebra::Vector3;
 use windlass_base::units::Dim;
+use windlass_model::ClassError;
 
 /// The stiffness of an end that nothing gives way at (seed 003, A.2), in the units of its deck: N/m, N m/rad.
 pub const RIGID: f64 = 1e15;

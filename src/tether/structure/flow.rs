@@ -3,9 +3,9 @@
 use super::wave::DeepWave;
 use crate::hydro::current::CurrentField;
 use crate::hydro::sea::{Kinematics, Sea, SeaAt};
-use crate::model::ClassError;
 use nalgebra::Vector3;
 use std::sync::Arc;
+use windlass_model::ClassError;
 
 /// The waves.
 #[derive(Clone, Debug)]

@@ -10,10 +10,10 @@
 //! The profile goes on above the mean level as it is. It is the wave of the installed example of seed 003, 8.2 (its `STOKES2 (D/W)`).
 
 use crate::hydro::sea::{Kinematics, stokes};
-use crate::model::ClassError;
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
 use windlass_base::units::Dim;
+use windlass_model::ClassError;
 
 /// The wave.
 #[derive(Clone, Copy, Debug, PartialEq)]

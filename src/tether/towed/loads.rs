@@ -9,8 +9,8 @@ use super::Towed;
 use super::scheme::State;
 use super::water::{Flow, Turn, Waters};
 use super::wetted::{Scan, Wetness, Wetted};
-use crate::model::ClassError;
 use windlass_base::units::Dim;
+use windlass_model::ClassError;
 
 /// Integration lengths at most: a long element in short waves has many.
 const MOST_LENGTHS: usize = 200_000;

@@ -24,8 +24,8 @@ use super::beam::{self, Matrix4};
 use super::line::Line;
 use super::modes::{self, NaturalMode, Pencil};
 use crate::hydro::sea::Component;
-use crate::model::ClassError;
 use windlass_base::units::Dim;
+use windlass_model::ClassError;
 
 pub use compatibility::Compatibility;
 pub use run::{History, Observer, Record, Steps};

@@ -2,9 +2,9 @@
 
 use super::Towed;
 use super::scheme::{Scheme, State, USUAL_B};
-use crate::model::ClassError;
 use std::ops::ControlFlow;
 use windlass_base::units::Dim;
+use windlass_model::ClassError;
 
 /// Steps of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]

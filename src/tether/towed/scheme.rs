@@ -10,8 +10,8 @@ use super::super::banded::{Banded, Factors};
 use super::super::beam::{self, Matrix4, Vector4, of_element, times};
 use super::loads::Loading;
 use super::{Towed, run::End};
-use crate::model::ClassError;
 use windlass_base::units::Dim;
+use windlass_model::ClassError;
 
 /// The value of b that the manual found best.
 pub const USUAL_B: f64 = 0.54;

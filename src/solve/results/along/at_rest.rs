@@ -2,12 +2,12 @@
 
 use super::{CLEARANCE, sections};
 use crate::hydro::ambient;
-use crate::model::{Element, End, Model, Situation};
 use crate::solve::link::{Attachment, connected, laid, pose_of};
 use crate::solve::system::SolveError;
 use crate::solve::time::Duties;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
+use windlass_model::{Element, End, Model, Situation};
 
 /// Tells of each line that moves by itself and whose name fits, between its ends where they stand: its name, its element, how its ends
 /// stand, and its state before anything has happened.
@@ -115,7 +115,7 @@ pub fn lines_at_rest(model: &Model, fits: &dyn Fn(&str) -> bool) -> Result<Vec<T
             });
             cells.push(used.reduce(f64::max).into());
             let text =
-                |e: windlass_base::table::TableError| SolveError::new(crate::model::ClassError::new(e.to_string()));
+                |e: windlass_base::table::TableError| SolveError::new(windlass_model::ClassError::new(e.to_string()));
             table.push(cells).map_err(text)?;
         }
         table.note("between its ends where they stand, in the mean current, without waves");

@@ -1,7 +1,6 @@
 //! Unity checks along a line.
 
 use super::{Line, Section, wall_tension};
-use crate::model::ClassError;
 use crate::post::SeriesError;
 use crate::post::line::lrfd::{Factors, Resistance};
 use crate::post::line::working_stress::{self, DesignCase};
@@ -11,6 +10,7 @@ use crate::solve::system::SolveError;
 use crate::solve::time::NodeRow;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
+use windlass_model::ClassError;
 
 /// What a tube is checked by; other sections go by tension over break.
 #[derive(Clone, Copy, Debug, PartialEq)]

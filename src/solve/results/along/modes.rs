@@ -1,11 +1,11 @@
 //! How a line swings between its ends where they stand.
 
 use super::at_rest::standing;
-use crate::model::{LineMode, LineNode, Model};
 use crate::solve::system::SolveError;
 use nalgebra::Vector3;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
+use windlass_model::{LineMode, LineNode, Model};
 
 /// The slowest natural modes of the lines that move by themselves and whose names fit, about where they rest between their ends as
 /// these stand: for each line a table, a row a mode, and with `shapes` behind it one of each mode, a row a node.
@@ -37,7 +37,7 @@ pub fn natural_modes(
 }
 
 fn text(error: windlass_base::table::TableError) -> SolveError {
-    SolveError::new(crate::model::ClassError::new(error.to_string()))
+    SolveError::new(windlass_model::ClassError::new(error.to_string()))
 }
 
 /// Periods, where each mode moves most, and which way.

@@ -1,12 +1,12 @@
 //! Where a line is at an instant, with its forces there; and its nodes over time.
 
 use super::{CLEARANCE, Line};
-use crate::model::ClassError;
 use crate::solve::results::{Event, columns, filled, timed};
 use crate::solve::system::SolveError;
 use crate::solve::time::{BentRow, NodeRow};
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
+use windlass_model::ClassError;
 
 /// A place along a line.
 #[derive(Clone, Copy, Debug, PartialEq)]

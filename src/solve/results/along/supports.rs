@@ -1,12 +1,12 @@
 //! What a pipe does to each of its supports over time.
 
 use super::Line;
-use crate::model::{AssemblyKind, Model};
 use crate::solve::results::{Event, Magnitude, columns, filled, timed};
 use crate::solve::system::SolveError;
 use nalgebra::Vector3;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
+use windlass_model::{AssemblyKind, Model};
 
 /// The force of a pipe on each of its supports on bodies over some events, global axes, from the support nearest to the bottom to the
 /// tensioner.

@@ -3,11 +3,11 @@
 use super::super::forces::Motion;
 use super::{Freedoms, Prescribed, moved};
 use crate::hydro::sea::Sea;
-use crate::model::{ClassError, ResponseRow, Responses};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 use windlass_base::geometry::{Place, unit_vector};
 use windlass_base::units::Dim;
+use windlass_model::{ClassError, ResponseRow, Responses};
 
 /// A body that rides on the waves about its place.
 #[derive(Debug)]
@@ -48,49 +48,47 @@ fn whole(angle: f64) -> f64 {
     angle.rem_euclid(TAU)
 }
 
-impl Responses {
-    /// Responses to a wave that comes from a heading (rad, from the body's x axis toward its y axis).
-    ///
-    /// # Errors
-    /// A heading that lies between none of the table.
-    fn at(&self, heading: f64, frequency: f64) -> Result<[Pair; 6], ClassError> {
-        let from = whole(heading);
-        if self.symmetric && from > PI {
-            // mirrored in the plane of x and z: sway, roll and yaw change their sign
-            let mut found = self.between(TAU - from, frequency)?;
-            for n in [1, 3, 5] {
-                found[n] = (-found[n].0, -found[n].1);
-            }
-            return Ok(found);
+/// Responses to a wave that comes from a heading (rad, from the body's x axis toward its y axis).
+///
+/// # Errors
+/// A heading that lies between none of the table.
+fn response_at(table: &Responses, heading: f64, frequency: f64) -> Result<[Pair; 6], ClassError> {
+    let from = whole(heading);
+    if table.symmetric && from > PI {
+        // mirrored in the plane of x and z: sway, roll and yaw change their sign
+        let mut found = response_between(table, TAU - from, frequency)?;
+        for n in [1, 3, 5] {
+            found[n] = (-found[n].0, -found[n].1);
         }
-        self.between(from, frequency)
+        return Ok(found);
     }
+    response_between(table, from, frequency)
+}
 
-    fn between(&self, from: f64, frequency: f64) -> Result<[Pair; 6], ClassError> {
-        const NEAR: f64 = 1e-9;
-        if let Some((_, rows)) = self.headings.iter().find(|(h, _)| (h - from).abs() <= NEAR) {
-            return Ok(by_frequency(rows, frequency));
+fn response_between(table: &Responses, from: f64, frequency: f64) -> Result<[Pair; 6], ClassError> {
+    const NEAR: f64 = 1e-9;
+    if let Some((_, rows)) = table.headings.iter().find(|(h, _)| (h - from).abs() <= NEAR) {
+        return Ok(by_frequency(rows, frequency));
+    }
+    let after = table.headings.partition_point(|(h, _)| *h < from);
+    let low = after.checked_sub(1).and_then(|n| table.headings.get(n));
+    let (low, high, turn) = match (low, table.headings.get(after)) {
+        (Some(low), Some(high)) => (Some(low), Some(high), high.0 - low.0),
+        // round by the north: from the last heading to the first one
+        _ => {
+            let ends = (table.headings.last(), table.headings.first());
+            let turn = ends.0.zip(ends.1).map_or(TAU, |(a, b)| b.0 + TAU - a.0);
+            (ends.0, ends.1, turn)
         }
-        let after = self.headings.partition_point(|(h, _)| *h < from);
-        let low = after.checked_sub(1).and_then(|n| self.headings.get(n));
-        let (low, high, turn) = match (low, self.headings.get(after)) {
-            (Some(low), Some(high)) => (Some(low), Some(high), high.0 - low.0),
-            // round by the north: from the last heading to the first one
-            _ => {
-                let ends = (self.headings.last(), self.headings.first());
-                let turn = ends.0.zip(ends.1).map_or(TAU, |(a, b)| b.0 + TAU - a.0);
-                (ends.0, ends.1, turn)
-            }
-        };
-        match (low, high) {
-            // a gap wider than a right angle is no table
-            (Some(low), Some(high)) if self.headings.len() > 1 && turn <= 0.5 * PI + NEAR => {
-                let share = whole(from - low.0) / turn;
-                Ok(mixed(by_frequency(&low.1, frequency), by_frequency(&high.1, frequency), share))
-            }
-            _ => Err(ClassError::of("waves come from {} of the body, and its table of responses has no headings within 90 degrees on both sides", &[(from, Dim::Angle)])
-                .help("give more headings, or -SYMMETRIC where the table is of one side")),
+    };
+    match (low, high) {
+        // a gap wider than a right angle is no table
+        (Some(low), Some(high)) if table.headings.len() > 1 && turn <= 0.5 * PI + NEAR => {
+            let share = whole(from - low.0) / turn;
+            Ok(mixed(by_frequency(&low.1, frequency), by_frequency(&high.1, frequency), share))
         }
+        _ => Err(ClassError::of("waves come from {} of the body, and its table of responses has no headings within 90 degrees on both sides", &[(from, Dim::Angle)])
+            .help("give more headings, or -SYMMETRIC where the table is of one side")),
     }
 }
 
@@ -106,7 +104,7 @@ impl Riding {
             let [tx, ty] = wave.toward;
             // waves come from where they do not go
             let heading = (-ty).atan2(-tx) - yaw;
-            let found = table.at(heading, wave.frequency)?;
+            let found = response_at(table, heading, wave.frequency)?;
             // of Re(R exp(i (q0 - w t))), q0 the phase of the crest at the body's origin
             let (s, c) = (wave.number * (tx * x + ty * y) + wave.phase).sin_cos();
             let own = found.map(|(re, im)| {

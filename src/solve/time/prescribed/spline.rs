@@ -2,9 +2,9 @@
 
 use super::super::forces::Motion;
 use super::{Freedoms, Prescribed, moved};
-use crate::model::{ClassError, PathRow};
 use std::f64::consts::TAU;
 use windlass_base::units::Dim;
+use windlass_model::{ClassError, PathRow};
 
 /// The natural cubic spline through rows: its second derivative is continuous, and zero at both ends (de Boor, A Practical Guide to
 /// Splines, 1978, chapter IV).

@@ -16,12 +16,12 @@ mod held;
 use super::axis::{Attachment, Axis, tilt};
 use super::tension::{Axial, Tension};
 use super::tether::{Constraint, InstalledTether, RIGID};
-use crate::model::ClassError;
 use crate::tether::banded::{Banded, Factors};
 use crate::tether::beam::{self, Vector4};
 use crate::tether::structure::flow::FlowAt;
 use held::Hold;
 use nalgebra::Vector3;
+use windlass_model::ClassError;
 
 /// How far a stage looks ahead with the stiffness (seed 003, 3.6: the best of its tests).
 pub const LOOK_AHEAD: f64 = 0.54;

@@ -3,9 +3,9 @@
 use super::super::{Compatibility, EndSpring, Multipliers};
 use super::*;
 use crate::hydro::sea::{Sea, Water};
-use crate::model::Stretching;
 use crate::tether::{Line, TetherElement};
 use nalgebra::Vector3;
+use windlass_model::Stretching;
 
 fn case(compatibility: Compatibility, depth: Option<f64>) -> Towed {
     let element = TetherElement {

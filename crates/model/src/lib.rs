@@ -2,6 +2,18 @@
 //!
 //! It holds SI values and the places they were written, in the order they were defined, and knows no physics. It
 //! declares what a connector class can be asked ([`ConnectorClass`]); the floors above implement it.
+//!
+//! # Example
+//! ```
+//! use windlass_model::{Body, Model};
+//!
+//! let mut model = Model::default();
+//! model.bodies.insert(Model::key("Barge"), Body { name: "Barge".into(), ..Body::default() });
+//! assert_eq!(model.bodies["BARGE"].name, "Barge");
+//! ```
+
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
 
 mod along;
 mod ambient;
