@@ -9,7 +9,6 @@ pub mod cli;
 pub mod command;
 pub mod connector;
 pub mod hydro;
-pub mod post;
 pub mod repl;
 pub mod report;
 pub mod rod;

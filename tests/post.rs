@@ -3,13 +3,13 @@
 
 #![allow(clippy::unwrap_used)]
 
-use windlass::post::extremes::{Gumbel, Weibull, block_maxima};
-use windlass::post::fatigue::{Branch, Curve, spectral};
-use windlass::post::rainflow::cycles;
-use windlass::post::running::Running;
-use windlass::post::spectra::{Window, amplitudes, welch};
-use windlass::post::statistics::{crossings, moments};
 use windlass_model::FatigueKind;
+use windlass_signal::extremes::{Gumbel, Weibull, block_maxima};
+use windlass_signal::fatigue::{Branch, Curve, spectral};
+use windlass_signal::rainflow::cycles;
+use windlass_signal::running::Running;
+use windlass_signal::spectra::{Window, amplitudes, welch};
+use windlass_signal::statistics::{crossings, moments};
 
 /// Step of the signal (s).
 const STEP: f64 = 0.5;

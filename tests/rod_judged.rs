@@ -10,12 +10,12 @@ mod runs;
 
 use runs::{model, run, settings};
 use std::f64::consts::FRAC_PI_4;
-use windlass::post::line::lrfd::Factors;
-use windlass::post::line::working_stress::DesignCase;
 use windlass::solve::results::along::{Code, Line, check, lines_at_rest};
 use windlass::solve::results::events;
 use windlass::solve::time::Run;
 use windlass_base::table::Table;
+use windlass_signal::line::lrfd::Factors;
+use windlass_signal::line::working_stress::DesignCase;
 
 fn column(table: &Table, name: &str) -> Vec<f64> {
     table.get(name).unwrap_or_else(|| panic!("{name}")).numbers()

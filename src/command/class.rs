@@ -103,7 +103,7 @@ pub fn known_curves(job: &Job, args: &Args) -> Outcome<()> {
 /// What is said of a fatigue curve that nothing defines yet.
 fn unknown_fatigue(args: &Args, job: &Job) -> Option<Diagnostic> {
     let value = args.option("-C_SN").and_then(|given| given.values.first())?;
-    let name = value.word().filter(|w| crate::post::fatigue::find(w, &job.model.fatigue).is_none())?;
+    let name = value.word().filter(|w| windlass_signal::fatigue::find(w, &job.model.fatigue).is_none())?;
     let text = format!("{name} is kept as the name of an S-N curve that is not defined here");
     let made = Diagnostic::remark(text, value.span);
     Some(*made.help("&STATUS SN lists the curves; &REP_SELECT -SN CURVE TYPE S N S N .. defines one"))

@@ -3,10 +3,10 @@
 use super::Job;
 use super::help::wrap;
 use super::status::push;
-use crate::post::fatigue::{Curve, find, library};
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
 use windlass_model::{FatigueKind, Model};
+use windlass_signal::fatigue::{Curve, find, library};
 
 /// The tables for what follows SN: names of curves or classes, or patterns.
 pub fn tables(job: &Job, fits: &dyn Fn(&str) -> bool, all: bool) -> Vec<Table> {

@@ -3,7 +3,6 @@
 //! Source: reference/solve.md, "Fatigue of lines".
 
 use super::{Call, Command, Effect, Job};
-use crate::post::fatigue::{Curve, find};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::units::Dim;
 use windlass_base::values::Given;
@@ -11,6 +10,7 @@ use windlass_base::values::Noun;
 use windlass_language::name as rule;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{FatigueCurve, FatigueKind, Model, ThicknessCorrection};
+use windlass_signal::fatigue::{Curve, find};
 
 /// &REP_SELECT.
 pub static REP_SELECT: Command = Command { spec: &SPEC, edits: false, run };

@@ -5,9 +5,6 @@ use super::disposition::{BOTH, HARD, send};
 use super::equilibrium::told;
 use super::prcpost::{asked, last_run};
 use super::{Call, Command, Effect, Job, Menu};
-use crate::post::line::fatigue::{MOST_POINTS, Round};
-use crate::post::line::lrfd::{Factors, SafetyClass};
-use crate::post::line::working_stress::DesignCase;
 use crate::report::disposition::Disposition;
 use crate::report::page;
 use crate::solve::results::along::{self, Code, Line, Where};
@@ -20,6 +17,9 @@ use windlass_base::values::Noun;
 use windlass_base::values::{Args, Given};
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
+use windlass_signal::line::fatigue::{MOST_POINTS, Round};
+use windlass_signal::line::lrfd::{Factors, SafetyClass};
+use windlass_signal::line::working_stress::DesignCase;
 
 /// ROD.
 pub static ROD: Command = Command { spec: &SPEC, edits: false, run };

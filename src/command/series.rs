@@ -4,8 +4,6 @@
 
 use super::disposition::{ANY_COLUMN, COLUMN, MAG_USE, MENU, RECORD, VALUES, chosen, here, refused, selectors};
 use super::{Call, Command, Effect, Job, Menu};
-use crate::post::SeriesError;
-use crate::post::tables::{self, Analysis, Extremes, Record};
 use crate::report::disposition::Disposition;
 use crate::report::{page, statistic};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -14,6 +12,8 @@ use windlass_base::units::Dim;
 use windlass_base::values::Args;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
+use windlass_signal::SeriesError;
+use windlass_signal::tables::{self, Analysis, Extremes, Record};
 
 const EXAMPLE: &str = "&BUILDG -CSV\nTime (s),Tension (kips),Z (ft)\n0,100,0\n1,120,2\n2,131,3\n3,128,2\n4,108,0\n5,90,-2\n6,80,-3\n\
                        7,83,-2\n8,101,0\n9,121,2\n10,133,3\n11,127,2\n12,107,0\n13,89,-2\n14,79,-3\n15,82,-2\n16,101,0\nEND\n\

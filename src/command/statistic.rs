@@ -6,13 +6,13 @@
 use super::disposition::{ANY_COLUMN, BOTH, COLUMN, HARD, MAG_USE, RECORD, VALUES};
 use super::disposition::{chosen, here, refused, selectors, send, spec};
 use super::{Call, Command, Effect, Job};
-use crate::post::SeriesError;
 use crate::report::{page, statistic};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_signal::SeriesError;
 
 /// STATISTIC.
 pub static STATISTIC: Command = Command { spec: &SPEC, edits: false, run: statistics };

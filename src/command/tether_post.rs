@@ -4,8 +4,6 @@
 
 use super::disposition::{BOTH, HARD, send};
 use super::{Call, Command, Effect, Job, Menu};
-use crate::post::SeriesError;
-use crate::post::tether::fatigue::{Asked, Endurance};
 use crate::report::disposition::Disposition;
 use crate::report::page;
 use crate::solve::tethered::{self, Of, Statistics, TetherHistory, Tethered};
@@ -18,6 +16,8 @@ use windlass_base::values::Noun;
 use windlass_base::values::{Args, Given};
 use windlass_language::select::{Owner, choose};
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
+use windlass_signal::SeriesError;
+use windlass_signal::tether::fatigue::{Asked, Endurance};
 
 /// TETHER.
 pub static TETHER: Command = Command { spec: &TETHER_SPEC, edits: false, run: tether };

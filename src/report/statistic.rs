@@ -1,11 +1,11 @@
 //! `STATISTIC`: what a column amounts to.
 
-use crate::post::SeriesError;
-use crate::post::extremes::rayleigh;
-use crate::post::statistics::{self, Crossings, Moments, Peak};
-use crate::post::tables::{self, Record};
 use windlass_base::table::{Cell, Column, Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
+use windlass_signal::SeriesError;
+use windlass_signal::extremes::rayleigh;
+use windlass_signal::statistics::{self, Crossings, Moments, Peak};
+use windlass_signal::tables::{self, Record};
 
 /// Count, mean, standard deviation, and the extremes with the value of the independent column where they occur.
 ///

@@ -1,6 +1,6 @@
 //! Fatigue of lines over a run, and over a scatter of environments.
 //!
-//! Source: reference/solve.md, "Fatigue of lines". Cycles are those of rainflow ([`crate::post::rainflow`]) of the tension at the upper
+//! Source: reference/solve.md, "Fatigue of lines". Cycles are those of rainflow ([`windlass_signal::rainflow`]) of the tension at the upper
 //! end of each segment. At the fairlead that is the run's own; below, the line is shaped between its ends at the turning points of the
 //! tension at the fairlead, between which a line at rest in every instant has no others of note.
 
@@ -9,12 +9,12 @@ use super::super::system::SolveError;
 use super::super::time::Run;
 use super::connectors::{force, poses};
 use super::{Event, columns};
-use crate::post::SeriesError;
-use crate::post::fatigue::{Curve, Exposure, LineDamage, Loaded, find, line_damage, line_life};
 use windlass_base::pose::Pose;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
 use windlass_model::{Class, ClassError, Condition, Connector, FatigueSelection, Model, Placement};
+use windlass_signal::SeriesError;
+use windlass_signal::fatigue::{Curve, Exposure, LineDamage, Loaded, find, line_damage, line_life};
 
 /// A run in a scatter of environments.
 #[derive(Clone, Debug, PartialEq)]

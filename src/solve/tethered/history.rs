@@ -32,7 +32,7 @@ const fn quantity(code: &'static str, group: &'static str, name: &'static str, d
 }
 
 const FOUR: Digits = Digits::Scientific(4);
-const STRESS: Dim = crate::post::tether::tables::STRESS;
+const STRESS: Dim = windlass_signal::tether::tables::STRESS;
 const GROUPS: [&str; 3] = ["Position", "Velocity", "Acceleration"];
 const LINEAR: [(Dim, Digits); 3] = [
     (Dim::Length, Digits::Decimals(3)),

@@ -2,11 +2,11 @@
 
 use super::Tethered;
 use super::history::{Quantity, TetherHistory};
-use crate::post::SeriesError;
-use crate::post::tether::fatigue::{self, Asked, EndRecord};
-use crate::post::tether::tables::{AtEnd, Channel, Place, histogram, type_one, type_two};
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
+use windlass_signal::SeriesError;
+use windlass_signal::tether::fatigue::{self, Asked, EndRecord};
+use windlass_signal::tether::tables::{AtEnd, Channel, Place, histogram, type_one, type_two};
 
 /// Which of the stored instants statistics and fatigue are of.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -101,7 +101,7 @@ impl Statistics {
             let (sine, cosine) = angle.sin_cos();
             y.iter().zip(&z).map(|(y, z)| y * cosine + z * sine).collect()
         };
-        let spread = |angle: f64| crate::post::tether::global::spread(&turned(angle)).1;
+        let spread = |angle: f64| windlass_signal::tether::global::spread(&turned(angle)).1;
         let mut best = (0.0, spread(0.0));
         for step in 1..18 {
             let angle = f64::from(step * 10).to_radians();
@@ -146,7 +146,7 @@ impl Statistics {
         let distance = |end: usize| tether.line.distances().get(end.div_ceil(2)).copied().unwrap_or_default();
         let ends: Vec<AtEnd> = found.into_iter().enumerate().map(|(end, f)| (end / 2 + 1, distance(end), f)).collect();
         let title = |what: &str| self.title(run, &format!("{what} of Tether {}", tether.name));
-        let mut table = crate::post::tether::tables::fatigue(&title("Fatigue and Peak Stress"), &ends)
+        let mut table = windlass_signal::tether::tables::fatigue(&title("Fatigue and Peak Stress"), &ends)
             .fact("Elapsed Time", duration, Dim::Time)
             .fact("Stress Concentration Factor", asked.curve.concentration, Dim::None)
             .fact("S-N Curve Intercept A", asked.curve.scaled(1e-3).intercept, Dim::None)

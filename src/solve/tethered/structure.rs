@@ -3,10 +3,10 @@
 use super::Tethered;
 use super::history::{Quantity, StructureHistory};
 use super::tables::{SECONDS, column, text};
-use crate::post::SeriesError;
-use crate::post::cycle::{AQWA_SAMPLES, Cycle};
 use windlass_base::table::{Cell, Column, Digits, Table};
 use windlass_base::units::Dim;
+use windlass_signal::SeriesError;
+use windlass_signal::cycle::{AQWA_SAMPLES, Cycle};
 
 /// Dimensions and digits of the six of a kind of [`StructureHistory`].
 fn six(kind: usize) -> [(Dim, Digits); 2] {

@@ -3,9 +3,9 @@
 //! A line that a winch lengthens has more nodes later. Nodes are numbered so that 1 is the first end, and each node of the line keeps
 //! its number while it lasts, as counted from the second end; a place whose node is not there holds no numbers.
 
-use crate::post::SeriesError;
-use crate::post::line::envelope::{Envelope, Seen};
 use windlass_model::{ClassError, LineNode};
+use windlass_signal::SeriesError;
+use windlass_signal::line::envelope::{Envelope, Seen};
 
 /// Numbers of every node: unstretched distance from the first end, x, y, z, clearance of the bottom (m; none: not a number), effective
 /// tension (N).

@@ -4,9 +4,9 @@ use super::action::Action;
 use super::course::Settings;
 use super::run::Run;
 use super::snapshot::Snapshot;
-use crate::post::SeriesError;
 use crate::solve::system::SolveError;
 use windlass_model::{ClassError, Model};
+use windlass_signal::SeriesError;
 
 /// FNV-1a, 64 bits (Fowler, Noll, Vo; RFC 9923): the same on every machine.
 #[derive(Clone, Copy)]

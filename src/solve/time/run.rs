@@ -11,12 +11,12 @@ use super::scheme::Method;
 use super::statistics::Statistics;
 use super::step::{Effort, Instant, Stepper};
 use crate::hydro::sea::Sea;
-use crate::post::SeriesError;
 use crate::solve::system::{SolveError, System, mass_block};
 use std::sync::Arc;
 use windlass_base::geometry::Place;
 use windlass_base::pose::Six;
 use windlass_model::{ClassError, Model};
+use windlass_signal::SeriesError;
 
 /// Times a step may be halved.
 const HALVINGS: u32 = 12;

@@ -2,11 +2,11 @@
 
 use super::history::Layout;
 use super::pushing::Pushing;
-use crate::post::SeriesError;
-use crate::post::running::Running;
 use crate::solve::system::FREEDOMS;
 use nalgebra::Vector3;
 use windlass_base::units::Dim;
+use windlass_signal::SeriesError;
+use windlass_signal::running::Running;
 
 /// A result against time.
 #[derive(Clone, Debug, PartialEq)]

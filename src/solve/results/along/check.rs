@@ -1,16 +1,16 @@
 //! Unity checks along a line.
 
 use super::{Line, Section, wall_tension};
-use crate::post::SeriesError;
-use crate::post::line::lrfd::{Factors, Resistance};
-use crate::post::line::working_stress::{self, DesignCase};
-use crate::post::line::{Acting, Tube, over_break};
 use crate::solve::results::Event;
 use crate::solve::system::SolveError;
 use crate::solve::time::NodeRow;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_model::ClassError;
+use windlass_signal::SeriesError;
+use windlass_signal::line::lrfd::{Factors, Resistance};
+use windlass_signal::line::working_stress::{self, DesignCase};
+use windlass_signal::line::{Acting, Tube, over_break};
 
 /// What a tube is checked by; other sections go by tension over break.
 #[derive(Clone, Copy, Debug, PartialEq)]

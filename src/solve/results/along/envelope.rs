@@ -1,12 +1,12 @@
 //! The least, mean and most at each node.
 
 use super::{CLEARANCE, Line, segments_at, sides};
-use crate::post::line::envelope::Seen;
 use crate::solve::results::Event;
 use crate::solve::system::SolveError;
 use crate::solve::time::{AlongEnvelope, Quantity};
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
+use windlass_signal::line::envelope::Seen;
 
 /// Quantities told, with the head of their columns and the sign they have there.
 const TOLD: [(&str, &str, Quantity, Dim); 6] = [

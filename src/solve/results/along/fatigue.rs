@@ -1,14 +1,14 @@
 //! Fatigue along a line.
 
 use super::Line;
-use crate::post::SeriesError;
-use crate::post::fatigue::{Curve, find, life};
-use crate::post::line::fatigue::{NodeDamage, NodeRecord, Round, node_damage};
 use crate::solve::results::Event;
 use crate::solve::system::SolveError;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
 use windlass_model::{ClassError, FatigueKind, FatigueSelection};
+use windlass_signal::SeriesError;
+use windlass_signal::fatigue::{Curve, find, life};
+use windlass_signal::line::fatigue::{NodeDamage, NodeRecord, Round, node_damage};
 
 /// Damage of each node over the stored instants of some events, round a tube at some points, and the life in years that it leaves
 /// when the record comes again for ever, with a design fatigue factor; where two segments meet that of the side that fails first. Each segment goes by its curve as for [`super::super::line_damages`].

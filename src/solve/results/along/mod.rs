@@ -25,9 +25,9 @@ pub use touchdown::touchdown;
 use super::super::system::SolveError;
 use super::super::time::{AlongColumns, NodeRow, Quantity, Run};
 use super::Event;
-use crate::post::line::Tube;
 use windlass_base::table::Digits;
 use windlass_model::{AssemblyKind, ClassError, FatigueSegment, Model, WallMaterial, line_name};
+use windlass_signal::line::Tube;
 
 /// Digits of the height over the bottom, into which a line that lies presses itself by millimetres.
 pub(super) const CLEARANCE: Digits = Digits::Decimals(3);

@@ -1,8 +1,8 @@
 //! Damage by the rule of Palmgren and Miner, and life.
 
 use super::curve::Curve;
-use crate::post::SeriesError;
-use crate::post::rainflow::Cycle;
+use crate::SeriesError;
+use crate::rainflow::Cycle;
 
 /// Seconds in a day.
 const DAY: f64 = 86_400.0;
@@ -75,7 +75,7 @@ pub fn life(damage: f64, duration: f64, factor: f64) -> Result<Option<f64>, Seri
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::post::fatigue::find;
+    use crate::fatigue::find;
     use windlass_model::FatigueSelection;
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::dripping::half_cycles;
 use super::global::spread;
-use crate::post::SeriesError;
+use crate::SeriesError;
 
 /// Number of stress ranges that half cycles are counted into (figure 7.9).
 pub const BINS: usize = 50;
@@ -191,8 +191,8 @@ pub fn along(ends: &[EndRecord], asked: Asked) -> Result<Vec<EndFatigue>, Series
         if end.about_y.len() != end.about_z.len() {
             return Err(SeriesError::Lengths { times: end.about_y.len(), values: end.about_z.len() });
         }
-        crate::post::finite(end.about_y)?;
-        crate::post::finite(end.about_z)?;
+        crate::finite(end.about_y)?;
+        crate::finite(end.about_z)?;
     }
     let width = bin_width(ends);
     Ok(ends.iter().map(|end| of_end(end, width, asked)).collect())

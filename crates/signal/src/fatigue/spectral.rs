@@ -3,7 +3,7 @@
 //! Both integrate a density of ranges over every branch of a curve in closed form, by incomplete gamma functions.
 
 use super::curve::Curve;
-use crate::post::SeriesError;
+use crate::SeriesError;
 use statrs::function::gamma::{checked_gamma_lr, gamma};
 use std::f64::consts::TAU;
 
@@ -108,7 +108,7 @@ pub fn dirlik(m: &Moments, curve: &Curve, mean: f64) -> Result<f64, SeriesError>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::post::fatigue::find;
+    use crate::fatigue::find;
     use std::f64::consts::PI;
     use windlass_model::FatigueSelection;
 

@@ -6,7 +6,7 @@
 //! could not be read, so equation numbers are not given.
 
 use super::{Acting, Tube};
-use crate::post::SeriesError;
+use crate::SeriesError;
 
 /// Design case, by its factor C_f on the basic allowable stress.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

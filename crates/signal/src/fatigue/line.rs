@@ -2,8 +2,8 @@
 
 use super::curve::Curve;
 use super::damage::{State, life, of_cycles, over};
-use crate::post::rainflow::{Cycle, cycles};
-use crate::post::{SeriesError, statistics};
+use crate::rainflow::{Cycle, cycles};
+use crate::{SeriesError, statistics};
 use windlass_model::{FatigueKind, FatigueSegment, ThicknessCorrection};
 
 /// What a record comes to in one segment.
@@ -173,7 +173,7 @@ pub fn line_life(scatter: &[Exposure], factor: f64) -> Result<Vec<SegmentLife>, 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::post::fatigue::find;
+    use crate::fatigue::find;
     use windlass_model::FatigueSelection;
 
     fn named(name: &str) -> Curve {

@@ -1,8 +1,8 @@
 //! Harmonic analysis of series as a table.
 
 use super::{Record, SIX, column, made, numbers};
-use crate::post::SeriesError;
-use crate::post::harmonics::{Harmonic, analyse, find_period};
+use crate::SeriesError;
+use crate::harmonics::{Harmonic, analyse, find_period};
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
 

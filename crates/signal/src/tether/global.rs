@@ -1,7 +1,7 @@
 //! Global statistics of a tether record (seed 003, 7.5 to 7.8).
 
-use crate::post::rainflow::reversals;
-use crate::post::{SeriesError, finite};
+use crate::rainflow::reversals;
+use crate::{SeriesError, finite};
 
 /// The ten numbers of one column of the statistics of type 1.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]

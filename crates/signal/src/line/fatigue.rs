@@ -1,10 +1,10 @@
 //! Fatigue at a node of a line: of a tube by the stress round its circumference, of a chain or rope by its tension.
 //!
-//! Cycles are those of rainflow, damage is Palmgren's and Miner's sum, as for the lines of seed 001 ([`crate::post::fatigue`]).
+//! Cycles are those of rainflow, damage is Palmgren's and Miner's sum, as for the lines of seed 001 ([`crate::fatigue`]).
 
-use crate::post::fatigue::{Curve, Loaded, line_damage, of_cycles};
-use crate::post::rainflow::{Cycle, cycles};
-use crate::post::{SeriesError, finite, statistics};
+use crate::fatigue::{Curve, Loaded, line_damage, of_cycles};
+use crate::rainflow::{Cycle, cycles};
+use crate::{SeriesError, finite, statistics};
 use std::f64::consts::{FRAC_PI_4, TAU};
 use windlass_model::{FatigueKind, FatigueSegment, ThicknessCorrection};
 
@@ -137,7 +137,7 @@ fn of_tube(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::post::fatigue::find;
+    use crate::fatigue::find;
     use windlass_model::FatigueSelection;
 
     const WAVE: [f64; 2] = [-1.0, 1.0];

@@ -1,4 +1,4 @@
-//! The curves windlass ships: `share/fatigue_curves.toml`, where each curve names its source and how sure it is.
+//! The curves windlass ships: `data/fatigue_curves.toml`, where each curve names its source and how sure it is.
 
 use super::curve::{Branch, Curve};
 use serde::Deserialize;
@@ -7,7 +7,7 @@ use std::sync::LazyLock;
 use windlass_model::{FatigueKind, FatigueSelection};
 
 /// The library as shipped.
-const TEXT: &str = include_str!("../../../share/fatigue_curves.toml");
+const TEXT: &str = include_str!("../../data/fatigue_curves.toml");
 
 /// Read once; the test below holds that the shipped text can be.
 static LIBRARY: LazyLock<Library> = LazyLock::new(|| toml::from_str(TEXT).unwrap_or_default());
@@ -160,7 +160,7 @@ mod tests {
     fn dnv_curves_give_the_cycles_of_another_program() {
         // benchmark-sncurve-2014.06.csv of iamlikeme/sncurves , some of its points (thickness against 25 mm): numbers
         // of the standard's rules printed to a tenth of a cycle
-        let table = include_str!("../../../tests/data/post/sncurves.csv");
+        let table = include_str!("../../tests/data/sncurves.csv");
         let mut count = 0;
         for line in table.lines().skip(1) {
             let f: Vec<&str> = line.split(',').collect();

@@ -1,6 +1,6 @@
 //! An S-N or T-N curve: cycles to failure by range, N = a / S^m in branches.
 
-use crate::post::SeriesError;
+use crate::SeriesError;
 use windlass_model::{FatigueCurve, FatigueKind};
 
 /// A branch of a curve: N = 10^log_a / S^slope for ranges from its own lower end up to that of the branch above it.

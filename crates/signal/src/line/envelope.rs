@@ -1,7 +1,7 @@
 //! The least, mean and largest of many quantities as a run goes, in flat memory.
 
-use crate::post::SeriesError;
-use crate::post::statistics::Peak;
+use crate::SeriesError;
+use crate::statistics::Peak;
 
 /// What was seen of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,7 +81,7 @@ impl Envelope {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::post::statistics;
+    use crate::statistics;
 
     #[test]
     fn an_envelope_is_what_statistics_of_each_series_are() {

@@ -1,8 +1,8 @@
 //! Spectra of series as tables.
 
 use super::{Record, SIX, Series, column, made, numbers};
-use crate::post::spectra::{self, Density, SpectralMoments, Window};
-use crate::post::{SeriesError, sampling};
+use crate::spectra::{self, Density, SpectralMoments, Window};
+use crate::{SeriesError, sampling};
 use std::f64::consts::TAU;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;

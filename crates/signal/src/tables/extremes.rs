@@ -1,8 +1,8 @@
 //! Extremes of series as a table: Rayleigh, Weibull and Gumbel beside each other.
 
 use super::{Record, SIX, Series, column, made};
-use crate::post::extremes::{Extreme, FEWEST_BLOCKS, Gumbel, Weibull, block_maxima, rayleigh};
-use crate::post::{SeriesError, statistics};
+use crate::extremes::{Extreme, FEWEST_BLOCKS, Gumbel, Weibull, block_maxima, rayleigh};
+use crate::{SeriesError, statistics};
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
 

@@ -3,7 +3,7 @@
 
 use super::fatigue::{BINS, EndFatigue};
 use super::global::{Global, global};
-use crate::post::SeriesError;
+use crate::SeriesError;
 use windlass_base::table::{Cell, Column, Digits, Table};
 use windlass_base::units::Dim;
 

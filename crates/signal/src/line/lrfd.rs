@@ -9,7 +9,7 @@
 //! gamma_SC 1.04 and 1.14.
 
 use super::Tube;
-use crate::post::SeriesError;
+use crate::SeriesError;
 use std::f64::consts::{FRAC_PI_3, PI};
 
 /// Safety class.

@@ -3,6 +3,18 @@
 //! A series is a `&[f64]` of samples, with a `&[f64]` of growing times where time matters. Values are SI; nothing here
 //! knows where they come from. [`tables`] does the same to the columns of a [`windlass_base::table::Table`], the first of which
 //! is the independent one.
+//!
+//! # Example
+//! The series of ASTM E1049-85, figure 6:
+//! ```
+//! let cycles = windlass_signal::rainflow::cycles(&[-2.0, 1.0, -3.0, 5.0, -1.0, 3.0, -4.0, 4.0, -2.0])?;
+//! let of_range = |range: f64| cycles.iter().filter(|c| c.range == range).map(|c| c.count).sum::<f64>();
+//! assert_eq!([3.0, 4.0, 6.0, 8.0, 9.0].map(of_range), [0.5, 1.5, 0.5, 1.0, 0.5]);
+//! # Ok::<(), windlass_signal::SeriesError>(())
+//! ```
+
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
 
 pub mod cycle;
 pub mod distribution;

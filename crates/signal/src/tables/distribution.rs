@@ -1,9 +1,9 @@
 //! Histograms, exceedance and rainflow of series as tables.
 
 use super::{Record, SIX, column, made, numbers};
-use crate::post::distribution::{self, levels};
-use crate::post::rainflow::{cycles, range_mean};
-use crate::post::{SeriesError, statistics};
+use crate::distribution::{self, levels};
+use crate::rainflow::{cycles, range_mean};
+use crate::{SeriesError, statistics};
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
 
