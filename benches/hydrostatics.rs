@@ -7,15 +7,15 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use nalgebra::{Matrix3, Vector3};
 use std::hint::black_box;
 use std::sync::Arc;
-use windlass::hydro::BodyLoad;
-use windlass::hydro::current::CurrentField;
-use windlass::hydro::exposed::Skin;
-use windlass::hydro::hull::{Solid, Surface, Tube};
-use windlass::hydro::pieces::PieceLoad;
-use windlass::hydro::steady::{Medium, Steady};
-use windlass::hydro::wind::{Profile, WindField};
 use windlass_base::geometry::Place;
 use windlass_base::pose::Pose;
+use windlass_hydro::BodyLoad;
+use windlass_hydro::current::CurrentField;
+use windlass_hydro::exposed::Skin;
+use windlass_hydro::hull::{Solid, Surface, Tube};
+use windlass_hydro::pieces::PieceLoad;
+use windlass_hydro::steady::{Medium, Steady};
+use windlass_hydro::wind::{Profile, WindField};
 use windlass_model::Model;
 
 /// A sphere of radius 10 m between `rows` parallels and twice as many meridians.

@@ -8,7 +8,6 @@ pub mod aqwa;
 pub mod cli;
 pub mod command;
 pub mod connector;
-pub mod hydro;
 pub mod repl;
 pub mod report;
 pub mod rod;

@@ -3,10 +3,10 @@
 #![allow(clippy::unwrap_used)]
 
 use std::sync::Arc;
-use windlass::hydro::ambient;
 use windlass::report::files::JobFolder;
 use windlass::report::output::Output;
 use windlass::session::Session;
+use windlass_hydro::ambient;
 use windlass_model::Ambient;
 
 /// What surrounds lines after a script; `errors` of its records are refused.

@@ -315,7 +315,7 @@ fn phases_are_as_many_as_the_components() {
     session.run();
     assert_eq!(session.errors, 0, "{:?}", session.reports);
     assert!(screen.text().contains("as -PHASES gives them"));
-    let sea_made = windlass::hydro::sea::Sea::of(&session.job.model, &session.job.model.environment).unwrap().unwrap();
+    let sea_made = windlass_hydro::sea::Sea::of(&session.job.model, &session.job.model.environment).unwrap().unwrap();
     let phases: Vec<f64> = sea_made.components.iter().map(|c| c.phase.to_degrees()).collect();
     assert!(phases.iter().zip([0.0, 90.0, 180.0]).all(|(found, want)| (found - want).abs() < 1e-12), "{phases:?}");
     let (mut session, _, _folder) = common::session();

@@ -7,12 +7,12 @@ mod common;
 
 use common::session;
 use nalgebra::{Vector3, Vector6};
-use windlass::hydro::hull::Hydrostatics;
-use windlass::hydro::{Category, Floating, Hull, balanced};
 use windlass_base::diagnostic::Severity;
 use windlass_base::geometry::Place;
 use windlass_base::pose::Pose;
 use windlass_base::units::{FOOT, KIP};
+use windlass_hydro::hull::Hydrostatics;
+use windlass_hydro::{Category, Floating, Hull, balanced};
 use windlass_model::{Mass, Model};
 
 /// The model of records that must draw no error; and the texts of what else they draw.

@@ -11,10 +11,10 @@ mod runs;
 
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
-use windlass::hydro::sea::Sea;
-use windlass::hydro::{BodyLoad, Category, Floating, Underway};
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
+use windlass_hydro::sea::Sea;
+use windlass_hydro::{BodyLoad, Category, Floating, Underway};
 use windlass_model::Model;
 
 /// A body with records on points of it, in an environment; metres and newtons.

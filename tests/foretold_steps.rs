@@ -9,10 +9,10 @@ mod measured;
 
 use std::f64::consts::PI;
 use std::sync::Arc;
-use windlass::hydro::Category;
 use windlass::solve::System;
 use windlass::solve::time::{Convergence, Duties, Ending, Forces, Memory, Method, Motion, Run, Settings, Watcher};
 use windlass_base::pose::{Pose, Six};
+use windlass_hydro::Category;
 use windlass_model::Model;
 
 /// Takes rows and says nothing.

@@ -8,13 +8,13 @@ mod common;
 use nalgebra::{Complex, Matrix6};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
-use windlass::hydro::database::DatabaseLookup;
-use windlass::hydro::database::{Database, DriftTable};
 use windlass::session::Session;
 use windlass::solve::frequency::{
     Asked, Derivative, Extreme, Linear, Operators, Quantity, Statistics, Trains, in_sea, natural, respond,
 };
 use windlass_base::span::Span;
+use windlass_hydro::database::DatabaseLookup;
+use windlass_hydro::database::{Database, DriftTable};
 use windlass_model::{AttachedDatabase, DriftMethod, Model};
 
 const G: f64 = 9.80665;

@@ -6,14 +6,14 @@
 use nalgebra::{Matrix6, Vector3};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
-use windlass::hydro::database::excitation::Excitation;
-use windlass::hydro::database::memory::Memory;
-use windlass::hydro::database::radiation::Radiation;
-use windlass::hydro::database::slow_drift::SlowDrift;
-use windlass::hydro::database::{Database, DriftTable, Qtf, capytaine};
-use windlass::hydro::database::{DatabaseLookup, drift_at};
-use windlass::hydro::sea::{Component, Sea, Water};
 use windlass_base::pose::Six;
+use windlass_hydro::database::excitation::Excitation;
+use windlass_hydro::database::memory::Memory;
+use windlass_hydro::database::radiation::Radiation;
+use windlass_hydro::database::slow_drift::SlowDrift;
+use windlass_hydro::database::{Database, DriftTable, Qtf, capytaine};
+use windlass_hydro::database::{DatabaseLookup, drift_at};
+use windlass_hydro::sea::{Component, Sea, Water};
 use windlass_model::Stretching;
 
 const RADIUS: f64 = 10.0;

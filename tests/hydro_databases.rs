@@ -5,10 +5,10 @@
 use nalgebra::{Complex, Matrix6};
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
-use windlass::hydro::database::rao::{self, RaoConvention};
-use windlass::hydro::database::wamit::{self, WamitScale};
-use windlass::hydro::database::{Database, SourceFile, capytaine, nemoh};
-use windlass::hydro::database::{DatabaseLookup, mirrored};
+use windlass_hydro::database::rao::{self, RaoConvention};
+use windlass_hydro::database::wamit::{self, WamitScale};
+use windlass_hydro::database::{Database, SourceFile, capytaine, nemoh};
+use windlass_hydro::database::{DatabaseLookup, mirrored};
 
 const FOLDER: &str = "tests/data/hemisphere/";
 

@@ -6,11 +6,9 @@
 use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
-use windlass::hydro::hull::{
-    Fault, HullError, Hydrostatics, MeshKind, Solid, Surface, Tube, Wet, intersect, read_mesh,
-};
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
+use windlass_hydro::hull::{Fault, HullError, Hydrostatics, MeshKind, Solid, Surface, Tube, Wet, intersect, read_mesh};
 
 const WATER: f64 = 1025.0 * 9.81;
 

@@ -7,9 +7,6 @@ mod example;
 
 use nalgebra::{Matrix6, Vector3};
 use std::sync::Arc;
-use windlass::hydro::Underway;
-use windlass::hydro::current::CurrentField;
-use windlass::hydro::sea::{Component, Sea, Water};
 use windlass::tether::Line;
 use windlass::tether::compatibility::Compatibility;
 use windlass::tether::installed::description::Description;
@@ -20,6 +17,9 @@ use windlass::tether::structure::flow::{Flow, FlowAt, Waves};
 use windlass::tether::structure::wave::DeepWave;
 use windlass::tether::structure::{Forces, Structure};
 use windlass_base::pose::{Pose, Six};
+use windlass_hydro::Underway;
+use windlass_hydro::current::CurrentField;
+use windlass_hydro::sea::{Component, Sea, Water};
 use windlass_model::{ClassError, Stretching};
 
 const NATIVE: Compatibility = Compatibility::native();

@@ -11,11 +11,11 @@ use nalgebra::{Matrix6, Vector3};
 use std::f64::consts::PI;
 use std::sync::Arc;
 use tangent::differences;
-use windlass::hydro::hull::{Solid, Tube};
-use windlass::hydro::sea::{Component, Sea, Water, dispersion::wave_number};
-use windlass::hydro::{BodyLoad, Category, Floating, MovingLoad, Underway, morison};
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
+use windlass_hydro::hull::{Solid, Tube};
+use windlass_hydro::sea::{Component, Sea, Water, dispersion::wave_number};
+use windlass_hydro::{BodyLoad, Category, Floating, MovingLoad, Underway, morison};
 use windlass_model::{Model, Stretching};
 
 const RHO: f64 = 1025.0;
@@ -412,7 +412,7 @@ fn a_box_is_pressed_by_waves_as_its_closed_form_says() {
 fn waves_as_long_as_the_sea_lift_a_box_as_a_tide_does() {
     let component = Component { frequency: 1e-6, number: 1e-10, amplitude: 1.7, toward: [1.0, 0.0], phase: 0.0 };
     let sea = Arc::new(Sea::airy(vec![component], water(None), 0.0, Stretching::Linear));
-    let hull = windlass::hydro::hull::Surface::block([-30.0, -10.0, -8.0], [30.0, 10.0, 6.0]);
+    let hull = windlass_hydro::hull::Surface::block([-30.0, -10.0, -8.0], [30.0, 10.0, 6.0]);
     for pose in [Pose::default(), place([0.0, 0.0, 1.0, 25.0, -10.0, 50.0])] {
         let got = on_a_box(&sea, 0.0, &pose);
         let at = |level: f64| hull.wet(&pose, level).load(RHO * G).wrench;

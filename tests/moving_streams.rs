@@ -5,10 +5,10 @@
 mod common;
 
 use nalgebra::Matrix6;
-use windlass::hydro::gusts::{Gusts, REACH, Shape};
-use windlass::hydro::{BodyLoad, Category, Floating, MovingLoad, Underway};
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
+use windlass_hydro::gusts::{Gusts, REACH, Shape};
+use windlass_hydro::{BodyLoad, Category, Floating, MovingLoad, Underway};
 use windlass_model::Model;
 
 const KNOT: f64 = 1852.0 / 3600.0;

@@ -9,12 +9,12 @@ mod tangent;
 
 use nalgebra::Vector3;
 use tangent::differences;
-use windlass::hydro::hull::{Fault, Surface, Tube};
-use windlass::hydro::steady::{Medium, Steady};
-use windlass::hydro::{Category, Floating};
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
 use windlass_base::units::FOOT;
+use windlass_hydro::hull::{Fault, Surface, Tube};
+use windlass_hydro::steady::{Medium, Steady};
+use windlass_hydro::{Category, Floating};
 use windlass_model::Model;
 
 const KNOT: f64 = 1852.0 / 3600.0;

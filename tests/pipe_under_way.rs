@@ -7,13 +7,13 @@ mod common;
 
 use std::fs;
 use tempfile::TempDir;
-use windlass::hydro::Category;
 use windlass::session::Session;
 use windlass::solve::results::along::{self, Line};
 use windlass::solve::results::{self, Magnitude};
 use windlass::solve::time::Run;
 use windlass_base::diagnostic::Severity;
 use windlass_base::table::Cell;
+use windlass_hydro::Category;
 use windlass_model::PIPE;
 
 /// Records of a pipe over five rollers of a barge that moves as it is told, in metres and newtons, up to its TDOM.

@@ -6,8 +6,8 @@
 mod common;
 
 use nalgebra::Vector3;
-use windlass::hydro::ambient;
 use windlass_base::pose::Six;
+use windlass_hydro::ambient;
 use windlass_model::{Element, End, LineNode, Response, Situation, TimeStep};
 
 /// A line of a class between two points in the ground 100 m apart, 50 m below the surface along X or, `dry`, 10 m above it.

@@ -7,7 +7,6 @@ mod example;
 
 use serde_json::Value;
 use std::sync::LazyLock;
-use windlass::hydro::Underway;
 use windlass::tether::compatibility::Compatibility;
 use windlass::tether::installed::description::Description;
 use windlass::tether::installed::modes::modes;
@@ -15,6 +14,7 @@ use windlass::tether::installed::{Change, History, Installation, Keep};
 use windlass::tether::structure::{Forces, Structure};
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
+use windlass_hydro::Underway;
 use windlass_signal::cycle::{AQWA_SAMPLES, Cycle};
 
 static LISTING: LazyLock<Value> = LazyLock::new(|| {

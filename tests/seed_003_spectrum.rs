@@ -4,9 +4,9 @@
 
 #![allow(clippy::unwrap_used)]
 
-use windlass::hydro::sea::components::bands;
-use windlass::hydro::sea::density::{Hump, Spectrum};
-use windlass::hydro::sea::dispersion::wave_number;
+use windlass_hydro::sea::components::bands;
+use windlass_hydro::sea::density::{Hump, Spectrum};
+use windlass_hydro::sea::dispersion::wave_number;
 use windlass_model::Division;
 
 /// Gravity of AQWA (m/s2), and the depth: wave numbers printed are those of deep water to their last digit.

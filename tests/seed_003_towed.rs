@@ -6,9 +6,9 @@
 #![allow(clippy::unwrap_used)]
 
 use serde_json::Value;
-use windlass::hydro::sea::Component;
 use windlass::tether::towed::{Compatibility, EndSpring, History, Multipliers, Record, Steps, Towed};
 use windlass::tether::{Line, TetherElement};
+use windlass_hydro::sea::Component;
 
 /// The printed numbers.
 fn printed() -> Value {

@@ -8,12 +8,12 @@ mod tangent;
 
 use nalgebra::Vector3;
 use tangent::differences;
-use windlass::hydro::area::AreaLoad;
-use windlass::hydro::steady::{Medium, Steady};
-use windlass::hydro::wind::{Profile, WindField};
-use windlass::hydro::{BodyLoad, Category, Floating};
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
+use windlass_hydro::area::AreaLoad;
+use windlass_hydro::steady::{Medium, Steady};
+use windlass_hydro::wind::{Profile, WindField};
+use windlass_hydro::{BodyLoad, Category, Floating};
 use windlass_model::Model;
 
 const KNOT: f64 = 1852.0 / 3600.0;

@@ -112,7 +112,7 @@ fn balance(session: &Session) -> (f64, f64) {
     let (body, mass) = (history.layout.body(0), 50000e3 / 9.80665);
     let mut rows = history.rows();
     let first: Vec<f64> = rows.next().unwrap().to_vec();
-    let flex = history.layout.category(0, windlass::hydro::Category::FlexConnectors).unwrap();
+    let flex = history.layout.category(0, windlass_hydro::Category::FlexConnectors).unwrap();
     let (mut work, mut before, mut worst, mut size) = (0.0, first, 0.0f64, 0.0f64);
     for row in rows {
         work += 0.5 * (row[flex] + before[flex]) * (row[body] - before[body]);

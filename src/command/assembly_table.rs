@@ -2,10 +2,10 @@
 
 use super::chosen::WARNING;
 use super::status::push;
-use crate::hydro::ambient;
 use nalgebra::Vector3;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
+use windlass_hydro::ambient;
 use windlass_model::{
     Assembly, AssemblyKind, ClassError, Connector, End, LaidPipe, LineDuty, Model, Response, Situation, Summary,
 };

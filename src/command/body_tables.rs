@@ -2,12 +2,12 @@
 
 use super::chosen::WARNING;
 use super::status::push;
-use crate::hydro::hull::Hydrostatics;
-use crate::hydro::{Category, Floating, Hull};
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use windlass_base::pose::{Pose, Six};
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
+use windlass_hydro::hull::Hydrostatics;
+use windlass_hydro::{Category, Floating, Hull};
 use windlass_model::{Body, ClassError, Mass, Model, Shape};
 
 /// Whether a body or part is chosen.

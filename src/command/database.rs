@@ -2,10 +2,6 @@
 
 use super::device::found;
 use super::{Call, Command, Effect, Job};
-use crate::hydro::database::mirrored;
-use crate::hydro::database::rao::RaoConvention;
-use crate::hydro::database::wamit::WamitScale;
-use crate::hydro::database::{Database, DatabaseError, SourceFile, capytaine, nemoh, rao, wamit};
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
@@ -16,6 +12,10 @@ use windlass_base::span::Span;
 use windlass_base::units::Dim;
 use windlass_base::values::Args;
 use windlass_base::values::Noun;
+use windlass_hydro::database::mirrored;
+use windlass_hydro::database::rao::RaoConvention;
+use windlass_hydro::database::wamit::WamitScale;
+use windlass_hydro::database::{Database, DatabaseError, SourceFile, capytaine, nemoh, rao, wamit};
 use windlass_language::select::Owner;
 use windlass_language::source::LARGEST_FILE;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
@@ -152,7 +152,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         return Err(Diagnostic::error(format!("{} has no hydrostatics", data.source), source)
             .help("leave out -HYDROSTATICS YES, and give the body a hull or #HYDROSTATIC"));
     }
-    let radiation = crate::hydro::database::radiation::Radiation::of(&data);
+    let radiation = windlass_hydro::database::radiation::Radiation::of(&data);
     let radiation = radiation.map_err(|e| Diagnostic::error(e.to_string(), source))?;
     for text in &data.remarks {
         job.warn(format!("{}: {text}", data.source), source);

@@ -1,14 +1,14 @@
 //! `&STATUS DATABASE`: the hydrodynamic databases of bodies.
 
 use super::status::push;
-use crate::hydro::database::Amplitudes;
-use crate::hydro::database::checks::MODES;
-use crate::hydro::database::radiation::Radiation;
-use crate::hydro::database::{DatabaseLookup, mean_drift};
 use nalgebra::{Complex, Matrix6};
 use std::f64::consts::TAU;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
+use windlass_hydro::database::Amplitudes;
+use windlass_hydro::database::checks::MODES;
+use windlass_hydro::database::radiation::Radiation;
+use windlass_hydro::database::{DatabaseLookup, mean_drift};
 use windlass_model::{AttachedDatabase, Body, DriftMethod, Model};
 
 /// What is below this share of the largest of its kind is rounding.

@@ -5,11 +5,11 @@ use super::chosen::WARNING;
 use super::sea_table::phasing;
 use super::wind_table;
 use super::written::option_as_written;
-use crate::hydro::gusts::Gusts;
-use crate::hydro::spectrum::gamma_of;
-use crate::hydro::steady::Steady;
 use windlass_base::table::{Cell, Table};
 use windlass_base::units::Dim;
+use windlass_hydro::gusts::Gusts;
+use windlass_hydro::spectrum::gamma_of;
+use windlass_hydro::steady::Steady;
 use windlass_model::{Current, Environment, Sea};
 
 /// The environment in force, or those kept under a name that is chosen.
@@ -69,7 +69,7 @@ fn environment(job: &Job, env: &Environment) -> Table {
     }
     if env.sea.is_some() || env.added_sea.is_some() {
         table = table.fact("Spreading Exponent", env.spreading.unwrap_or(200.0), Dim::None);
-        match crate::hydro::sea::Sea::of(model, env) {
+        match windlass_hydro::sea::Sea::of(model, env) {
             Ok(Some(sea)) => {
                 table = table.fact("Wave Components", sea.components.len(), Dim::None).fact(
                     "Phases of Waves",

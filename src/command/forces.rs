@@ -2,10 +2,10 @@
 
 use super::chosen::{WARNING, gathered};
 use super::status::push;
-use crate::hydro::ambient;
 use windlass_base::pose::Six;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
+use windlass_hydro::ambient;
 use windlass_model::{ClassError, Connector, End, Model, Response, Situation, Summary};
 
 /// What one connector does between its ends.

@@ -5,8 +5,6 @@
 use super::chosen::raise;
 use super::status::push;
 use super::{Call, Command, Effect, Job, Menu};
-use crate::hydro::hull::Hydrostatics;
-use crate::hydro::{Floating, Hull, balanced};
 use crate::report::disposition::Disposition;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::Place;
@@ -15,6 +13,8 @@ use windlass_base::span::Span;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
 use windlass_base::values::Noun;
+use windlass_hydro::hull::Hydrostatics;
+use windlass_hydro::{Floating, Hull, balanced};
 use windlass_language::spec::{CommandSpec, Kind, Opens, ValueSpec};
 use windlass_model::{Body, Mass, find};
 

@@ -4,7 +4,6 @@
 //! order of the values of the others is ours: no source gives it.
 
 use super::{Call, Command, Effect, Job};
-use crate::hydro::heading::ByHeading;
 use nalgebra::{Matrix6, Vector3};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::{Position, unit_vector};
@@ -13,6 +12,7 @@ use windlass_base::units::Dim;
 use windlass_base::units::eight_figures;
 use windlass_base::values::Noun;
 use windlass_base::values::{Args, Given, Value};
+use windlass_hydro::heading::ByHeading;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{Fluid, GROUND, LoadKind, Model, PartLoad, find};

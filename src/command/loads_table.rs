@@ -3,10 +3,10 @@
 use super::Job;
 use super::chosen::WARNING;
 use super::status::push;
-use crate::hydro::{Category, Floating};
 use windlass_base::pose::{Pose, Six};
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
+use windlass_hydro::{Category, Floating};
 use windlass_model::{Body, ClassError, Fluid, LoadKind, Model};
 
 /// One table of the records, one of the forces on each body as it stands.

@@ -4,7 +4,6 @@
 
 use super::written::option_as_written;
 use super::{Call, Command, Effect, Job, member};
-use crate::hydro;
 use nalgebra::Vector3;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::Position;
@@ -12,6 +11,7 @@ use windlass_base::span::Span;
 use windlass_base::units::Dim;
 use windlass_base::values::Noun;
 use windlass_base::values::{Args, Value};
+use windlass_hydro as hydro;
 use windlass_language::args;
 use windlass_language::name as rule;
 use windlass_language::spec::{CommandSpec, Form, Kind, OptionSpec, ValueSpec};

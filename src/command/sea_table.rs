@@ -2,12 +2,12 @@
 
 use super::Job;
 use super::status::push;
-use crate::hydro::sea::{Sea, Train};
 use std::f64::consts::{PI, TAU};
 use windlass_base::diagnostic::Outcome;
 use windlass_base::span::Span;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
+use windlass_hydro::sea::{Sea, Train};
 use windlass_model::{Division, Environment, Stretching};
 
 /// Points of a spectrum plotted, and the shares of the energy between which they lie.

@@ -5,7 +5,6 @@
 use super::equilibrium::{told, warn_of_lines};
 use super::restart::go_on;
 use super::{Call, Command, Effect, Job, tether_run};
-use crate::hydro::morison::unmoved;
 use crate::report::page;
 use crate::report::run_log::RunLog;
 use crate::solve::time::{Convergence, Ending, Method, Run, Scheme, Settings, Snapshot, Watcher};
@@ -20,6 +19,7 @@ use windlass_base::span::Span;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_base::values::Args;
+use windlass_hydro::morison::unmoved;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::Model;

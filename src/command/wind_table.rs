@@ -3,12 +3,12 @@
 use super::Job;
 use super::sea_table::{chosen_environments, turn};
 use super::status::push;
-use crate::hydro::gusts::{DENSITY, Gusts};
 use std::f64::consts::TAU;
 use windlass_base::diagnostic::Outcome;
 use windlass_base::span::Span;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
+use windlass_hydro::gusts::{DENSITY, Gusts};
 use windlass_model::Environment;
 
 /// Points of a spectrum plotted, and the share of the energy up to which they lie.

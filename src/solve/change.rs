@@ -3,9 +3,9 @@
 use super::link::{Attachment, Link, connected, link};
 use super::system::{SolveError, System, moving_nodes};
 use super::time::{LinkEnds, Memory, Pushing};
-use crate::hydro::ambient;
-use crate::hydro::sea::Sea;
 use std::sync::Arc;
+use windlass_hydro::ambient;
+use windlass_hydro::sea::Sea;
 use windlass_model::{ClassError, Connector, Element, GivenMotion, Model};
 
 /// What is said of a connector that an action is about though a pipe lies on it.

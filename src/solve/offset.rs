@@ -3,8 +3,8 @@
 
 use super::link::{Attachment, Link, arm, pose_of};
 use super::system::{SolveError, System};
-use crate::hydro::carried;
 use windlass_base::pose::{Pose, Six};
+use windlass_hydro::carried;
 use windlass_model::{ClassError, End, Guess, Situation, Summary};
 
 /// The connectors on one body, followed from place to place.

@@ -1,8 +1,8 @@
 //! The length of the first segment of a line that moves by itself, with which its first end bears a force at rest.
 
 use super::system::SolveError;
-use crate::hydro::ambient;
 use windlass_base::units::Dim;
+use windlass_hydro::ambient;
 use windlass_model::{ClassError, Condition, Connector, End, Model, Situation};
 
 /// Steps from the present length to one beyond the force, each half as long again as the one before.

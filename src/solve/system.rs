@@ -3,12 +3,12 @@
 use super::link::{Attachment, Link, arm, laid, link, pose_of};
 use super::modes::held;
 use super::time::{Duties, Prescribed, prescribed};
-use crate::hydro::sea::Sea;
-use crate::hydro::{Category, Floating, Load, ambient, carried, transferred, turning};
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6};
 use std::sync::Arc;
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
+use windlass_hydro::sea::Sea;
+use windlass_hydro::{Category, Floating, Load, ambient, carried, transferred, turning};
 use windlass_model::{Ambient, Body, ClassError, End, Guess, Mass, Model, Response, Situation, Surroundings};
 
 /// Degrees of freedom of a body, in order.

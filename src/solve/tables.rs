@@ -3,12 +3,12 @@
 use super::modes::modes;
 use super::settle::Settled;
 use super::system::{Contribution, FREEDOMS, SolveError, State, System};
-use crate::hydro::{Category, Load};
 use nalgebra::{Matrix6, Vector3};
 use windlass_base::geometry::Position;
 use windlass_base::pose::Six;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
+use windlass_hydro::{Category, Load};
 use windlass_model::Model;
 
 const COMPONENTS: [&str; 6] = ["FX", "FY", "FZ", "MX", "MY", "MZ"];

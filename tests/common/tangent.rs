@@ -3,8 +3,8 @@
 #![allow(clippy::unwrap_used)]
 
 use nalgebra::Matrix6;
-use windlass::hydro::BodyLoad;
 use windlass_base::pose::{Pose, Six};
+use windlass_hydro::BodyLoad;
 
 /// Central differences of the wrench, by translations of a hundredth of a millimetre and rotations of 1e-6 rad: the third
 /// derivative in a passage about the surface is large.

@@ -3,9 +3,9 @@
 use super::written::{Script, number, numbers, opposite, rounded};
 use crate::aqwa::Deck;
 use crate::aqwa::waves::{Form, RegularWave, Spectrum, Waves};
-use crate::hydro::sea::density::{Hump, Spectrum as Density};
 use std::f64::consts::{PI, TAU};
 use windlass_base::diagnostic::Diagnostic;
+use windlass_hydro::sea::density::{Hump, Spectrum as Density};
 
 /// Name of the curve of a spectrum without a formula in the language.
 const CURVE: &str = "DECK_13";

@@ -1,8 +1,8 @@
 //! The waves of a film.
 
-use crate::hydro::sea::Sea;
 use crate::solve::time::Run;
 use std::f64::consts::{PI, TAU};
+use windlass_hydro::sea::Sea;
 
 /// Harmonics kept of a regular wave that is not a cosine.
 const HARMONICS: usize = 8;
@@ -62,7 +62,7 @@ impl Waves {
 
 /// The components of a sea; those of one regular wave by the harmonics its surface has, so that a steep one keeps its form.
 fn waves(sea: &Sea) -> Vec<Wave> {
-    let linear = |c: &crate::hydro::sea::Component| Wave {
+    let linear = |c: &windlass_hydro::sea::Component| Wave {
         frequency: c.frequency,
         number: c.number,
         amplitude: c.amplitude,
@@ -104,7 +104,7 @@ fn waves(sea: &Sea) -> Vec<Wave> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::hydro::sea::{Component, Water};
+    use windlass_hydro::sea::{Component, Water};
     use windlass_model::Stretching;
 
     fn component(frequency: f64, amplitude: f64, phase: f64) -> Component {

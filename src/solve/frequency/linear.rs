@@ -1,9 +1,5 @@
 //! The linear equations of motion about a place, and the motions of unit waves.
 
-use crate::hydro::database::radiation::Radiation;
-use crate::hydro::database::{DatabaseLookup, mean_drift};
-use crate::hydro::sea::dispersion::wave_number;
-use crate::hydro::{Category, in_pose};
 use crate::solve::modes::held;
 use crate::solve::system::{FREEDOMS, SolveError, State, System, mass_block};
 use crate::solve::time::{Duties, Forces, Memory, Motion};
@@ -11,6 +7,10 @@ use nalgebra::{Complex, DMatrix, DVector, Matrix6};
 use std::f64::consts::TAU;
 use windlass_base::pose::{Pose, Six};
 use windlass_base::units::Dim;
+use windlass_hydro::database::radiation::Radiation;
+use windlass_hydro::database::{DatabaseLookup, mean_drift};
+use windlass_hydro::sea::dispersion::wave_number;
+use windlass_hydro::{Category, in_pose};
 use windlass_model::{Amplitudes, AttachedDatabase, ClassError, DriftMethod, DriftTable, Model};
 
 /// Complex amplitudes of motion, six a body: of its origin (m) and its rotation (rad), global axes.

@@ -1,11 +1,11 @@
 //! What is asked of motions: a number that is linear in them.
 
 use super::linear::{Linear, Motions};
-use crate::hydro::transferred;
 use crate::solve::link::{Attachment, arm, pose_of};
 use crate::solve::system::SolveError;
 use nalgebra::{Complex, DVector, Vector3};
 use windlass_base::pose::Six;
+use windlass_hydro::transferred;
 use windlass_model::{End, Response, Situation, TimeStep};
 
 /// Which derivative with time is meant.

@@ -8,11 +8,11 @@
 use super::linear::{Linear, Motions};
 use super::response::{Point, bounded};
 use super::trains::{Trains, bounds, even, resolved};
-use crate::hydro::carried;
-use crate::hydro::database::drift_at;
 use crate::solve::system::SolveError;
 use nalgebra::{Complex, DMatrix, SymmetricEigen};
 use windlass_base::pose::Six;
+use windlass_hydro::carried;
+use windlass_hydro::database::drift_at;
 
 /// Even points over the differences of frequency, and over the sea at each.
 const EVEN: (usize, usize) = (60, 120);

@@ -1,8 +1,8 @@
 //! A sea as energy over frequency and direction.
 
-use crate::hydro::sea::density::Spectrum;
-use crate::hydro::sea::{Sea, spreading};
 use windlass_base::geometry::unit_vector;
+use windlass_hydro::sea::density::Spectrum;
+use windlass_hydro::sea::{Sea, spreading};
 use windlass_model::{ClassError, Environment, Model};
 
 /// Directions that stand for a spread sea, with equal shares of its energy.
@@ -59,7 +59,7 @@ impl Trains {
                 }
                 None => {
                     let waves = sea.components.get(train.components).unwrap_or_default();
-                    let one = |c: &crate::hydro::sea::Component| {
+                    let one = |c: &windlass_hydro::sea::Component| {
                         (c.frequency, c.toward[1].atan2(c.toward[0]), 0.5 * c.amplitude * c.amplitude)
                     };
                     made.regular.extend(waves.iter().map(one));

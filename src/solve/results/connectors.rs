@@ -5,12 +5,12 @@ use super::super::time::{Layout, Run};
 use super::forces::{add, wrench_columns};
 use super::settled::{Rest, Settling};
 use super::{Event, Magnitude, columns, filled, headed, timed};
-use crate::hydro::Category;
 use nalgebra::Vector3;
 use windlass_base::geometry::Place;
 use windlass_base::pose::Pose;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
+use windlass_hydro::Category;
 use windlass_model::ClassError;
 
 /// The force of a connector by which its pull is told ([`Layout::pull`]), global axes (N); none while the connector does not act.

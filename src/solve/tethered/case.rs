@@ -2,9 +2,6 @@
 
 use super::Settings;
 use super::moored::Moored;
-use crate::hydro::Floating;
-use crate::hydro::current::CurrentField;
-use crate::hydro::sea::Sea;
 use crate::solve::SolveError;
 use crate::tether::compatibility::Compatibility;
 use crate::tether::installed::{Constraint, Course, EndSprings, Impact, InstalledTether, InternalFluid};
@@ -20,6 +17,9 @@ use nalgebra::Vector3;
 use std::f64::consts::PI;
 use std::sync::Arc;
 use windlass_base::pose::{Pose, Six};
+use windlass_hydro::Floating;
+use windlass_hydro::current::CurrentField;
+use windlass_hydro::sea::Sea;
 use windlass_model::{
     Body, ClassError, Connector, Mass, Model, Shape, TetherEnds, TetherHold, TetherSection, TetherUse,
 };

@@ -1,6 +1,5 @@
 //! The other connectors of a structure that tethers hold.
 
-use crate::hydro::{Underway, ambient, carried};
 use crate::solve::link::{Attachment, Link, link, pose_of};
 use crate::solve::system::SolveError;
 use crate::solve::time::Duties;
@@ -8,6 +7,7 @@ use crate::tether::structure::flow::FlowAt;
 use crate::tether::structure::{Forces, Structure};
 use nalgebra::Vector3;
 use windlass_base::pose::{Pose, Six};
+use windlass_hydro::{Underway, ambient, carried};
 use windlass_model::{Body, ClassError, Model};
 use windlass_model::{End, Response, Situation, Surroundings, TimeStep};
 

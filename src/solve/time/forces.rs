@@ -4,12 +4,12 @@ use super::ends::end_of;
 use super::foretelling::Foretelling;
 use super::inertia::of_added;
 use super::side_by_side::Alone;
-use crate::hydro::{BodyLoad, Category, MovingLoad, Underway, carried, transferred, turning};
 use crate::solve::link::{Attachment, Link};
 use crate::solve::system::{Node, SolveError, System};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use std::ops::Range;
 use windlass_base::pose::{Pose, Six};
+use windlass_hydro::{BodyLoad, Category, MovingLoad, Underway, carried, transferred, turning};
 use windlass_model::{Anchored, End, Guess, Response, Situation, TimeStep};
 
 /// Number of categories.

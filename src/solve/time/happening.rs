@@ -4,12 +4,12 @@ use super::action::{Watched, What, When, point_in_body};
 use super::ends::end_of;
 use super::pushing::pull;
 use super::run::Run;
-use crate::hydro::sea::Sea;
 use crate::solve::link::Attachment;
 use crate::solve::system::SolveError;
 use std::sync::Arc;
 use windlass_base::geometry::Position;
 use windlass_base::units::Dim;
+use windlass_hydro::sea::Sea;
 use windlass_model::{ClassError, Model};
 
 /// Most parts of a step that is divided for what is wound in it.

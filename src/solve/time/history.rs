@@ -7,12 +7,12 @@ use super::along::AlongColumns;
 use super::ends::end_of;
 use super::forces::{CATEGORIES, Forces, Motion, place_of};
 use super::pushing::Pushing;
-use crate::hydro::Category;
 use crate::solve::link::{Attachment, Link};
 use crate::solve::system::{SolveError, System};
 use nalgebra::Vector3;
 use windlass_base::geometry::Place;
 use windlass_base::pose::Six;
+use windlass_hydro::Category;
 use windlass_model::{ClassError, Guess, LineNode, Situation, TimeStep};
 
 /// Values of a body in a row: place (m), roll, pitch, yaw (rad), velocity (m/s, rad/s), acceleration (m/s2, rad/s2), global.

@@ -101,8 +101,8 @@ mod tests {
         let own = Matrix6::from_fn(|i, j| 100.0 * ((i * 5 + j * 3) as f64).sin());
         let pose = Pose::default().moved(&Six::new(0.0, 0.0, 0.0, 0.4, -0.7, 1.1));
         let a = Six::new(0.7, -1.1, 0.4, 0.2, 0.6, -0.9);
-        let whole = |pose: &Pose| crate::hydro::in_pose(&own, pose) * a;
-        let made = of_added(&crate::hydro::in_pose(&own, &pose), &a);
+        let whole = |pose: &Pose| windlass_hydro::in_pose(&own, pose) * a;
+        let made = of_added(&windlass_hydro::in_pose(&own, &pose), &a);
         for n in 3..6 {
             let mut by = Six::zeros();
             by[n] = 1e-6;

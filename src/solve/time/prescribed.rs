@@ -7,7 +7,6 @@ mod response;
 mod spline;
 
 use super::forces::Motion;
-use crate::hydro::sea::Sea;
 use nalgebra::Vector3;
 use response::Riding;
 use spline::Spline;
@@ -16,6 +15,7 @@ use std::fmt::Debug;
 use std::sync::Arc;
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
+use windlass_hydro::sea::Sea;
 use windlass_model::{Body, ClassError, GivenMotion, Sinusoid};
 
 /// A motion that is given for all times.

@@ -10,11 +10,11 @@ use super::inertia::gyroscopic;
 use super::scheme::Method;
 use super::statistics::Statistics;
 use super::step::{Effort, Instant, Stepper};
-use crate::hydro::sea::Sea;
 use crate::solve::system::{SolveError, System, mass_block};
 use std::sync::Arc;
 use windlass_base::geometry::Place;
 use windlass_base::pose::Six;
+use windlass_hydro::sea::Sea;
 use windlass_model::{ClassError, Model};
 use windlass_signal::SeriesError;
 

@@ -3,8 +3,8 @@
 use super::forces::Motion;
 use super::run::Run;
 use super::snapshot::Snapshot;
-use crate::hydro::sea::Sea;
 use crate::solve::link::Link;
+use windlass_hydro::sea::Sea;
 use windlass_model::{LineBooks, Model};
 
 impl Run {

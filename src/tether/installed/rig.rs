@@ -5,11 +5,11 @@ use super::bending::{Bending, Motion, Stage};
 use super::stress::{EndLoads, Stresses};
 use super::tension::{Axial, Standing, Tension};
 use super::tether::InstalledTether;
-use crate::hydro::{carried, cross};
 use crate::tether::compatibility::{Compatibility, SpringReference};
 use crate::tether::structure::flow::FlowAt;
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use windlass_base::pose::{Pose, Six};
+use windlass_hydro::{carried, cross};
 use windlass_model::ClassError;
 
 /// Which of the two stages of a step.

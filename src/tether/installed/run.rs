@@ -7,7 +7,6 @@
 
 use super::rig::{Change, Rig, Which};
 use super::tether::InstalledTether;
-use crate::hydro::{Underway, cross};
 use crate::tether::compatibility::{Compatibility, VesselScheme};
 use crate::tether::structure::flow::{Flow, FlowAt};
 use crate::tether::structure::{Forces, Structure};
@@ -15,6 +14,7 @@ use nalgebra::Matrix6;
 use std::f64::consts::TAU;
 use windlass_base::pose::{Pose, Six};
 use windlass_base::units::Dim;
+use windlass_hydro::{Underway, cross};
 use windlass_model::ClassError;
 
 /// Steps of a run at most.

@@ -2,9 +2,9 @@
 
 use super::flow::FlowAt;
 use super::{Forces, Structure};
-use crate::hydro::{BodyLoad, Category, Floating, Underway, carried, in_pose, transferred};
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use windlass_base::pose::{Pose, Six};
+use windlass_hydro::{BodyLoad, Category, Floating, Underway, carried, in_pose, transferred};
 use windlass_model::ClassError;
 
 /// A body with its loads, about its centre of gravity.

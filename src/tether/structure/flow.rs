@@ -1,10 +1,10 @@
 //! The water around structure and tethers: waves and a steady current.
 
 use super::wave::DeepWave;
-use crate::hydro::current::CurrentField;
-use crate::hydro::sea::{Kinematics, Sea, SeaAt};
 use nalgebra::Vector3;
 use std::sync::Arc;
+use windlass_hydro::current::CurrentField;
+use windlass_hydro::sea::{Kinematics, Sea, SeaAt};
 use windlass_model::ClassError;
 
 /// The waves.

@@ -10,11 +10,11 @@ pub mod tubes;
 pub mod wave;
 mod wet;
 
-use crate::hydro::Underway;
 use flow::FlowAt;
 use nalgebra::Matrix6;
 use std::fmt::Debug;
 use windlass_base::pose::Six;
+use windlass_hydro::Underway;
 use windlass_model::ClassError;
 
 /// Forces (N) and moments (N m) about the centre of gravity, global axes, by what makes them, and the inertia they move.

@@ -15,11 +15,11 @@
 use super::flow::FlowAt;
 use super::wet::WetPart;
 use super::{Forces, Structure};
-use crate::hydro::{Underway, carried, cross};
 use crate::tether::compatibility::Compatibility;
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use std::f64::consts::PI;
 use windlass_base::pose::{Pose, Six};
+use windlass_hydro::{Underway, carried, cross};
 use windlass_model::ClassError;
 
 /// Friction along a tube that AQWA always counts (its reference, element TUBE; a fit to the listing of seed 003 gives 0.01600).

@@ -9,10 +9,10 @@
 //!
 //! The profile goes on above the mean level as it is. It is the wave of the installed example of seed 003, 8.2 (its `STOKES2 (D/W)`).
 
-use crate::hydro::sea::{Kinematics, stokes};
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
 use windlass_base::units::Dim;
+use windlass_hydro::sea::{Kinematics, stokes};
 use windlass_model::ClassError;
 
 /// The wave.
@@ -48,7 +48,7 @@ impl DeepWave {
         }
         let frequency = TAU / period;
         let number = frequency * frequency / gravity;
-        let water = crate::hydro::sea::Water { depth: None, level: 0.0, gravity, density: 1.0 };
+        let water = windlass_hydro::sea::Water { depth: None, level: 0.0, gravity, density: 1.0 };
         stokes::breaks(2.0 * amplitude, number, &water)?;
         let toward = [direction.cos(), direction.sin()];
         Ok(DeepWave { amplitude, frequency, met: frequency, number, toward, phase: 0.0, second: true })
@@ -104,7 +104,7 @@ mod tests {
     #[test]
     fn it_is_the_second_order_of_fenton_but_for_the_third() {
         // Fenton (1985) as hydro::sea::stokes has it, at order 2 in deep water; its wave number is that of order 2 or 3, so it is taken
-        let water = crate::hydro::sea::Water { depth: None, level: 0.0, gravity: 9.81, density: 1025.0 };
+        let water = windlass_hydro::sea::Water { depth: None, level: 0.0, gravity: 9.81, density: 1025.0 };
         let mut own = DeepWave::new(1.0, 15.0, 0.0, 9.81).unwrap();
         let theirs = stokes::Stokes::of(2, (2.0, own.frequency), ([1.0, 0.0], 0.0), water).unwrap();
         own.number = theirs.number;

@@ -23,8 +23,8 @@ use super::banded::Banded;
 use super::beam::{self, Matrix4};
 use super::line::Line;
 use super::modes::{self, NaturalMode, Pencil};
-use crate::hydro::sea::Component;
 use windlass_base::units::Dim;
+use windlass_hydro::sea::Component;
 use windlass_model::ClassError;
 
 pub use compatibility::Compatibility;

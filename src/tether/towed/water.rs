@@ -1,15 +1,15 @@
 //! Waves and current in the axes of the tether, laid out for many places at one time.
 //!
-//! Airy waves added up (as [`crate::hydro::sea`]): with `q = kx x + ky y - w t + phase`, C and S being cosh and sinh of k(z+d)
+//! Airy waves added up (as [`windlass_hydro::sea`]): with `q = kx x + ky y - w t + phase`, C and S being cosh and sinh of k(z+d)
 //! over sinh(kd), u = a w C cos q, w = a w S sin q. Along an element the places of the first look do not move, so their
 //! `cos(kx x)` and `sin(kx x)` are kept; sines of the time are taken anew at every time, without recurrence. The sums are compiled for
 //! several widths of vector register, in one order on all of them, so that the digits are the same.
 
 use super::Towed;
-use crate::hydro::sea::Component;
-use crate::hydro::sea::eight::{Eight, sin_cos};
 use multiversion::multiversion;
 use std::f64::consts::{LN_2, LOG2_E};
+use windlass_hydro::sea::Component;
+use windlass_hydro::sea::eight::{Eight, sin_cos};
 
 /// Water this deep (k d) is deep to the last digit: exp(-2 k d) < 1e-17.
 const DEEP: f64 = 20.0;

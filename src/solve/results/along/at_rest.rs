@@ -1,12 +1,12 @@
 //! A line at rest between its ends where they stand.
 
 use super::{CLEARANCE, sections};
-use crate::hydro::ambient;
 use crate::solve::link::{Attachment, connected, laid, pose_of};
 use crate::solve::system::SolveError;
 use crate::solve::time::Duties;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
+use windlass_hydro::ambient;
 use windlass_model::{Element, End, Model, Situation};
 
 /// Tells of each line that moves by itself and whose name fits, between its ends where they stand: its name, its element, how its ends

@@ -2,11 +2,11 @@
 
 use super::super::forces::Motion;
 use super::{Freedoms, Prescribed, moved};
-use crate::hydro::sea::Sea;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 use windlass_base::geometry::{Place, unit_vector};
 use windlass_base::units::Dim;
+use windlass_hydro::sea::Sea;
 use windlass_model::{ClassError, ResponseRow, Responses};
 
 /// A body that rides on the waves about its place.

@@ -2,9 +2,9 @@
 
 use super::super::{Compatibility, EndSpring, Multipliers};
 use super::*;
-use crate::hydro::sea::{Sea, Water};
 use crate::tether::{Line, TetherElement};
 use nalgebra::Vector3;
+use windlass_hydro::sea::{Sea, Water};
 use windlass_model::Stretching;
 
 fn case(compatibility: Compatibility, depth: Option<f64>) -> Towed {
@@ -20,7 +20,7 @@ fn case(compatibility: Compatibility, depth: Option<f64>) -> Towed {
     };
     let wave = |i: usize| {
         let (i, frequency) = (i as f64, 0.4 + 0.13 * i as f64);
-        let number = crate::hydro::sea::dispersion::wave_number(frequency, depth, 9.81).unwrap();
+        let number = windlass_hydro::sea::dispersion::wave_number(frequency, depth, 9.81).unwrap();
         let toward = [(0.3 * i).cos(), (0.3 * i).sin()];
         Component { frequency, number, amplitude: 0.2 + 0.01 * i, toward, phase: 1.3 * i }
     };

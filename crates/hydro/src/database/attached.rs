@@ -4,10 +4,10 @@ use super::excitation::Excitation;
 use super::memory::{MOST_LAGS, Memory};
 use super::radiation::Radiation;
 use super::slow_drift::SlowDrift;
-use crate::hydro::body_load::{BodyLoad, MovingLoad, Underway};
-use crate::hydro::sea::Sea;
-use crate::hydro::steady::Steady;
-use crate::hydro::{Category, Load, transferred};
+use crate::body_load::{BodyLoad, MovingLoad, Underway};
+use crate::sea::Sea;
+use crate::steady::Steady;
+use crate::{Category, Load, transferred};
 use nalgebra::Matrix6;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -83,7 +83,7 @@ impl BodyLoad for RadiationLoad {
         let velocity = in_axes(at.velocity, &at.pose.axes.transpose());
         let (force, damping) = self.memory.force(&velocity, state);
         let wrench = in_axes(&force, &at.pose.axes);
-        let damping = crate::hydro::in_pose(&damping, at.pose);
+        let damping = crate::in_pose(&damping, at.pose);
         // the force turns with the axes, and so do those in which the velocity is taken
         let halves = |six: &Six| [six.fixed_rows::<3>(0).cross_matrix(), six.fixed_rows::<3>(3).cross_matrix()];
         let (turned, faster) = (halves(&wrench), halves(at.velocity));
@@ -137,7 +137,7 @@ pub fn of(model: &Model, body: &Body, under_way: Option<Option<&Arc<Sea>>>) -> R
     }
     let loads = loads.into_iter().map(|load| {
         let factor = model.multipliers.of(load.category().name(), &body.name);
-        if factor == 1.0 { load } else { crate::hydro::gathered::multiplied(load, factor) }
+        if factor == 1.0 { load } else { crate::gathered::multiplied(load, factor) }
     });
     Ok(Some(Brought { loads: loads.collect(), added_mass }))
 }
@@ -203,7 +203,7 @@ fn hydrostatics(model: &Model, body: &Body, attached: &AttachedDatabase) -> Resu
     let Some(stiffness) = data.hydrostatics else {
         return Err(refuse(format!("the database ({}) has no hydrostatics", data.source)));
     };
-    if body.linear.is_some() || crate::hydro::Hull::of(model, body)?.is_some() {
+    if body.linear.is_some() || crate::Hull::of(model, body)?.is_some() {
         let text = format!("{} has a hull or #HYDROSTATIC besides the hydrostatics of its database", body.name);
         return Err(refuse(text).help("leave out -HYDROSTATICS YES, or give the pieces -PERMEABILITY 0"));
     }

@@ -2,7 +2,7 @@
 //! records (normals, texture, groups, materials) do not concern the shape and are passed over.
 
 use super::{MeshFile, at_line, shown, triple};
-use crate::hydro::hull::HullError;
+use crate::hull::HullError;
 
 /// Records that say something of shape which is not read.
 const CURVED: [&str; 5] = ["curv", "curv2", "surf", "cstype", "vp"];

@@ -2,7 +2,7 @@
 //! corner. Corners run counter-clockwise as seen from the water (WAMIT manual, "The geometric data file").
 
 use super::{MeshFile, at_line, number, shown};
-use crate::hydro::hull::HullError;
+use crate::hull::HullError;
 
 pub fn read(bytes: &[u8]) -> Result<MeshFile, HullError> {
     let text = String::from_utf8_lossy(bytes);

@@ -6,7 +6,7 @@
 
 use super::at::around;
 use super::checks::MOST;
-use crate::hydro::sea::Sea;
+use crate::sea::Sea;
 use multiversion::multiversion;
 use std::f64::consts::FRAC_2_PI;
 use windlass_model::ClassError;

@@ -2,10 +2,10 @@
 
 use super::added;
 use super::member::{Rod, Standing, Station, drag};
-use crate::hydro::hull::{Solid, Wet};
-use crate::hydro::sea::{Kinematics, Sea, SeaAt};
-use crate::hydro::steady::{Medium, Steady, Streams};
-use crate::hydro::{Load, MovingLoad, Underway, in_pose};
+use crate::hull::{Solid, Wet};
+use crate::sea::{Kinematics, Sea, SeaAt};
+use crate::steady::{Medium, Steady, Streams};
+use crate::{Load, MovingLoad, Underway, in_pose};
 use nalgebra::{Matrix6, Vector3};
 use std::sync::Arc;
 use windlass_base::pose::Six;

@@ -6,9 +6,9 @@
 
 use super::at::DatabaseLookup;
 use super::waves::{ByHeading, Group, groups};
-use crate::hydro::body_load::{BodyLoad, MovingLoad, Underway};
-use crate::hydro::sea::Sea;
-use crate::hydro::{Category, Load, carried};
+use crate::body_load::{BodyLoad, MovingLoad, Underway};
+use crate::sea::Sea;
+use crate::{Category, Load, carried};
 use nalgebra::Vector3;
 use std::sync::Arc;
 use windlass_base::pose::{Pose, Six};

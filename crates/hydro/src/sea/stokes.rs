@@ -239,7 +239,7 @@ impl Stokes {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::hydro::sea::dispersion::wave_number;
+    use crate::sea::dispersion::wave_number;
 
     const GRAVITY: f64 = 9.80665;
 
@@ -250,7 +250,7 @@ mod tests {
     /// A wave of a steepness e = k H/2 of about this, of linear length 100 m.
     fn wave(order: u8, e: f64, depth: Option<f64>) -> Stokes {
         let k = std::f64::consts::TAU / 100.0;
-        let frequency = crate::hydro::sea::dispersion::frequency(k, depth, GRAVITY);
+        let frequency = crate::sea::dispersion::frequency(k, depth, GRAVITY);
         Stokes::of(order, (2.0 * e / k, frequency), ([1.0, 0.0], 0.0), water(depth)).unwrap()
     }
 

@@ -2,7 +2,7 @@
 //! not used: the order of corners tells the outside, as the format demands of both.
 
 use super::{MeshFile, at_line, shown, triple};
-use crate::hydro::hull::HullError;
+use crate::hull::HullError;
 
 /// Bytes before the triangles of a binary file: a title and their count.
 const HEADER: usize = 84;

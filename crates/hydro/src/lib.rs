@@ -1,6 +1,18 @@
 //! What acts on a body besides its connectors: weight, buoyancy, wind, current, mean wave drift.
 //!
 //! Each kind of load is one file with a type that implements [`BodyLoad`]; [`Floating`] gathers those of a body.
+//!
+//! # Example
+//! A wave of 10 s in deep water is g T^2 / (2 pi) long:
+//! ```
+//! use std::f64::consts::TAU;
+//! let number = windlass_hydro::sea::dispersion::wave_number(TAU / 10.0, None, 9.81)?;
+//! assert!((TAU / number - 9.81 * 100.0 / TAU).abs() < 1e-9);
+//! # Ok::<(), windlass_model::ClassError>(())
+//! ```
+
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
 
 mod ambient;
 pub mod area;

@@ -1,6 +1,6 @@
 //! Values between the frequencies and headings of a database.
 
-use crate::hydro::sea::dispersion::wave_number;
+use crate::sea::dispersion::wave_number;
 use nalgebra::{Complex, Matrix6, Vector3};
 use std::f64::consts::TAU;
 use windlass_model::{Amplitudes, ClassError, Database, DriftTable};

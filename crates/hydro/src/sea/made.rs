@@ -4,7 +4,7 @@ use super::components::{Band, bands, bands_about};
 use super::density::Spectrum;
 use super::stokes::{Stokes, breaks};
 use super::{Component, Sea, Water, dispersion, phases, spreading};
-use crate::hydro::spectrum;
+use crate::spectrum;
 use std::f64::consts::TAU;
 use windlass_base::geometry::unit_vector;
 use windlass_base::units::Dim;

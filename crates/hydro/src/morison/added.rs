@@ -1,7 +1,7 @@
 //! Added mass of members.
 
 use super::member::{Rod, Standing};
-use crate::hydro::{cross, in_pose};
+use crate::{cross, in_pose};
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use windlass_base::pose::Pose;
 

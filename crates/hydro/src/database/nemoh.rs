@@ -11,7 +11,7 @@ use super::checks::checked;
 use super::matrices::{PairRow, by_frequency};
 use super::nemoh_case::{Case, Direction};
 use super::rows::{DatabaseError, ModeRow, SourceFile, by_wave, heading, number, same_frequency, separates};
-use crate::hydro::sea::dispersion::wave_number;
+use crate::sea::dispersion::wave_number;
 use nalgebra::{Complex, Matrix6};
 use std::f64::consts::{PI, TAU};
 use windlass_model::Database;
