@@ -9,7 +9,7 @@ mod lines;
 use criterion::{Criterion, criterion_group, criterion_main};
 use lines::{Moving, table_lines};
 use std::hint::black_box;
-use windlass::connector::catenary::table;
+use windlass_catenary::table;
 
 fn benches(c: &mut Criterion) {
     for (name, line, breaks) in table_lines() {

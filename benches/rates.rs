@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 mod lines;
 
 use lines::{Moving, STEPS, table_lines};
-use windlass::connector::catenary::table;
+use windlass_catenary::table;
 
 /// Passes are repeated for so long, and the quickest counts: other work on the machine only ever adds.
 const ENOUGH: Duration = Duration::from_secs(4);

@@ -3,7 +3,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use windlass::connector::catenary::{Bottom, EndForces, Segment};
+use windlass_catenary::{Bottom, EndForces, Segment};
 
 struct Case {
     id: String,

@@ -3,8 +3,8 @@
 
 #![allow(clippy::unwrap_used)]
 
-use windlass::connector::catenary::{Buoy, Joint, Line, ROWS, Row, Segment, table};
 use windlass_base::units::{FOOT, KIP};
+use windlass_catenary::{Buoy, Joint, Line, ROWS, Row, Segment, table};
 
 fn area(od: f64) -> f64 {
     std::f64::consts::FRAC_PI_4 * od * od

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 use proptest::prelude::*;
-use windlass::connector::catenary::{Bottom, Buoy, Joint, Line, Segment, State};
+use windlass_catenary::{Bottom, Buoy, Joint, Line, Segment, State};
 
 fn segment() -> impl Strategy<Value = Segment> {
     (20.0..1500.0_f64, 1.0..3.7_f64, 4.5..10.0_f64).prop_map(|(length, weight, ea)| Segment {
@@ -181,7 +181,7 @@ fn contradiction(line: &Line, joints: &[Joint], depth: f64, h: f64, state: &Stat
 fn lines_with_buoys_are_solved_or_refused_for_a_reason() {
     use proptest::strategy::ValueTree;
     use proptest::test_runner::TestRunner;
-    use windlass::connector::catenary::LineError;
+    use windlass_catenary::LineError;
     let mut runner = TestRunner::deterministic();
     let (mut solved, mut refused, mut other) = (0, 0, Vec::new());
     let mut buoys = [0; 3];

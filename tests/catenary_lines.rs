@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use windlass::connector::catenary::{Floor, Joint, Line, LineError, Segment};
+use windlass_catenary::{Floor, Joint, Line, LineError, Segment};
 
 struct Case {
     x: f64,

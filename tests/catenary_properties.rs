@@ -4,7 +4,7 @@
 #![allow(clippy::unwrap_used)]
 
 use proptest::prelude::*;
-use windlass::connector::catenary::{Joint, Line, LineError, Segment, table};
+use windlass_catenary::{Joint, Line, LineError, Segment, table};
 
 fn line(segments: &[(f64, f64, f64)], joints: &[Joint], depth: f64) -> Line {
     let segments =

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use windlass::connector::catenary::{Floor, Joint, Law, Line, LineError, Segment};
+use windlass_catenary::{Floor, Joint, Law, Line, LineError, Segment};
 
 const CHAIN: Segment = Segment { length: 800.0, weight: 1200.0, ea: 6e8 };
 const ROPE: Segment = Segment { length: 500.0, weight: 40.0, ea: 8e7 };

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use windlass::connector::catenary::{Bottom, Floor, Line, Segment};
+use windlass_catenary::{Bottom, Floor, Line, Segment};
 
 /// A random number from 0 to 1, the same in every run.
 struct Dice(u64);

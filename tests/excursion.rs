@@ -5,7 +5,6 @@
 mod common;
 
 use std::f64::consts::{FRAC_PI_4, TAU};
-use windlass::connector::catenary::{Line, Segment};
 use windlass::session::Session;
 use windlass::solve::excursion::{End, Path, Walk, resolved};
 use windlass::solve::offset::{Connectors, Pull};
@@ -14,6 +13,7 @@ use windlass::solve::{SolveError, System};
 use windlass_base::pose::{Pose, Six};
 use windlass_base::span::Span;
 use windlass_base::table::Table;
+use windlass_catenary::{Line, Segment};
 use windlass_model::{Model, Weight};
 
 /// The session that has run records, in metres and newtons.

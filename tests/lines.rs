@@ -7,11 +7,11 @@ use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
-use windlass::connector::catenary::{Bottom, Segment};
 use windlass::report::files::JobFolder;
 use windlass::report::output::Output;
 use windlass::session::Session;
 use windlass_base::diagnostic::Severity;
+use windlass_catenary::{Bottom, Segment};
 
 const HEAD: &str = "id,x_m,z_m,length_m,EA_N,w_N_per_m";
 const GOOD: &str = "g,850,155,914,6.5E6,196";

@@ -3,8 +3,8 @@
 #![allow(clippy::unwrap_used)]
 
 use std::f64::consts::{FRAC_PI_4, TAU};
-use windlass::connector::catenary::{Bottom, Joint, Line, Segment};
 use windlass_base::units::{FOOT, KIP};
+use windlass_catenary::{Bottom, Joint, Line, Segment};
 
 /// Steps of the path.
 pub const STEPS: usize = 100;

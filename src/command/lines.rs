@@ -3,7 +3,6 @@
 mod input;
 
 use super::{Call, Command, Effect, Job, file};
-use crate::connector::catenary::EndForces;
 use crate::report::files::{Growing, Place};
 use crate::report::format::number_in_full;
 use crate::report::page;
@@ -12,6 +11,7 @@ use std::collections::BTreeMap;
 use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
+use windlass_catenary::EndForces;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, ValueSpec};
 

@@ -3,7 +3,6 @@
 //!
 //! Source: seed 002, 5.8.3.1 and 5.8.3.2; defaults of EA, maximum tension and coefficients: reference/model.md.
 
-use super::catenary::{Floor, Joint, Law, Line, Segment};
 use super::mooring::{Mooring, line_error, no_other_end};
 use super::moving::{JointMass, MovingLine, Part, Seabed, Strength, description};
 use super::options::aqwa;
@@ -16,6 +15,7 @@ use windlass_base::span::Span;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
 use windlass_base::values::{Args, Given};
+use windlass_catenary::{Floor, Joint, Law, Line, Segment};
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{

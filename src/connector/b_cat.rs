@@ -3,7 +3,6 @@
 //! Source: seed 001, "An B_CAT class describes a catenary line"; which options hold per segment and which per line:
 //! reference/model.md, last section.
 
-use super::catenary::{Floor, Law, Line, LineError};
 use super::devices::Devices;
 use super::line_element::LineElement;
 use super::mooring::{Mooring, end_springs, line_error, parts, with_series};
@@ -15,6 +14,7 @@ use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
+use windlass_catenary::{Floor, Law, Line, LineError};
 use windlass_language::spec::{CommandSpec, Kind, ValueSpec};
 use windlass_model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, FatigueSegment, LineModel, Placement,

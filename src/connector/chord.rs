@@ -1,10 +1,10 @@
 //! A spring along the chord between two ends: a weightless line, or one that also pushes.
 
-use super::catenary::{Law, Point, rising_root};
 use super::extension::{Extended, Extension, Pull};
 use super::mooring::{Mooring, no_other_end};
 use nalgebra::{Matrix3, Vector3};
 use windlass_base::table::Table;
+use windlass_catenary::{Law, Point, rising_root};
 use windlass_model::{
     ClassError, Condition, Configuration, Element, End, Guess, LineChange, LineLoads, LineModel, Response, Situation,
     Summary,

@@ -3,10 +3,10 @@
 //! With p the first end, y the end of the line and F(y) = (H, V) the pull there, p = y + a(T) F / T. Newton on y, with the stiffness K of
 //! the line and C = a' t t' + (a / T)(1 - t t') of the link: dp = (1 + C K) dy, and the stiffness of both is K (1 + C K)^-1.
 
-use super::catenary::LineError;
 use super::extension::Extension;
 use nalgebra::{Matrix2, Vector2};
 use windlass_base::pose::Six;
+use windlass_catenary::LineError;
 
 /// Newton steps.
 const STEPS: usize = 60;

@@ -2,8 +2,8 @@
 //! tension; where it hangs, the tension falls, has a least value, and rises with the weight. The tighter of the two
 //! lengths is the one that is meant.
 
-use super::catenary::{Aim, Line, LineError};
 use windlass_base::units::Dim;
+use windlass_catenary::{Aim, Line, LineError};
 use windlass_model::ClassError;
 
 /// Most steps of each search.

@@ -2,7 +2,6 @@
 //!
 //! Source: seed 001; reference/model.md: weightless unless EXACT, then with its weight in air.
 
-use super::catenary::{Law, Line};
 use super::chord::{Chord, ChordElement};
 use super::devices::Devices;
 use super::extension::Extended;
@@ -16,6 +15,7 @@ use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
+use windlass_catenary::{Law, Line};
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, FatigueSegment, LineModel, Placement,

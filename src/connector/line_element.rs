@@ -1,11 +1,11 @@
 //! A mooring line as an engine sees it: forces on its two ends at any place of these, followed from one place to the next.
 
-use super::catenary::{Bottom, EndForces, Interpolated, Line, LineError, Regime, Row, Segment, State};
 use super::extended_line::{Plane, behind};
 use super::extension::{Extended, Extension, Pull};
 use super::mooring::Mooring;
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use windlass_base::pose::Six;
+use windlass_catenary::{Bottom, EndForces, Interpolated, Line, LineError, Regime, Row, Segment, State};
 use windlass_model::{Anchored, ClassError, Element, End, Guess, Placement, Response, Situation, Summary};
 
 /// How the forces are found.

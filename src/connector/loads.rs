@@ -1,7 +1,7 @@
 //! What a mooring line does to what it is attached to: exactly, or from its table.
 
-use super::catenary::{Floor, FromTable, Interpolated, LineError, Row};
 use super::mooring::{Mooring, line_error};
+use windlass_catenary::{Floor, FromTable, Interpolated, LineError, Row};
 use windlass_model::{ClassError, Condition, LineChange, LineLoads};
 
 impl Mooring {

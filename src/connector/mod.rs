@@ -1,9 +1,8 @@
 //! Connector classes: each file has the spec of its class types and an object that implements
-//! [`ConnectorClass`]. `catenary` is the line engine.
+//! [`ConnectorClass`].
 
 mod aqwa;
 mod b_cat;
-pub mod catenary;
 mod checks;
 mod chord;
 mod davit;

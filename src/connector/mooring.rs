@@ -1,6 +1,5 @@
 //! A mooring line between two places: what every class made of catenary segments answers.
 
-use super::catenary::{Aim, Joint, Law, Line, LineError, Row, Segment, SegmentState, ShapePoint, State, table};
 use super::checks;
 use super::first_length::for_tension;
 use super::line_element::LineElement;
@@ -10,6 +9,7 @@ use windlass_base::diagnostic::Outcome;
 use windlass_base::span::Span;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
+use windlass_catenary::{Aim, Joint, Law, Line, LineError, Row, Segment, SegmentState, ShapePoint, State, table};
 use windlass_model::{
     ClassError, ClassRecord, Condition, Configuration, Element, LineChange, LineLoads, LineModel, Placement,
 };

@@ -1,9 +1,9 @@
 //! The thirty rows of a mooring line as the table of `CONN_DESIGN TABLE`.
 
-use super::catenary::{Buoy, Row};
 use super::mooring::Mooring;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
+use windlass_catenary::{Buoy, Row};
 
 /// The twelve columns of reference/solve.md, CONN_DESIGN.
 pub fn report(mooring: &Mooring, connector: &str, rows: &[Row]) -> Table {

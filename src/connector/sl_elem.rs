@@ -2,7 +2,6 @@
 //!
 //! Source: seed 001; reference/model.md.
 
-use super::catenary::Law;
 use super::chord::{Chord, ChordElement};
 use super::devices::Devices;
 use super::h_cat::{LINE_OPTIONS, check_records, hung};
@@ -14,6 +13,7 @@ use windlass_base::diagnostic::Outcome;
 use windlass_base::span::Span;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
+use windlass_catenary::Law;
 use windlass_language::spec::{CommandSpec, Kind, ValueSpec};
 use windlass_model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, FatigueSegment, LineModel, Placement,

@@ -1,12 +1,12 @@
 //! The rows of a CSV file of lines: which column gives what, the line each row begins at, and what is wrong with a row.
 
-use crate::connector::catenary::{Bottom, Segment};
 use csv::ByteRecord;
 use std::borrow::Cow;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 use windlass_base::diagnostic::nearest;
+use windlass_catenary::{Bottom, Segment};
 use windlass_language::source::LARGEST_FILE;
 use windlass_language::spec::Range;
 

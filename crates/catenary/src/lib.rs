@@ -10,6 +10,18 @@
 //!
 //! Source of the formulas: the elastic catenary (Irvine, Cable Structures, 1981, section 1.4), written so that no
 //! difference of nearly equal numbers is formed; the spring buoy after seed 001, `-CLUMP`.
+//!
+//! # Example
+//! A line of 235.04 m hangs between two points 200 m apart: sinh(1) = 235.04/200, so that H is its weight times 100 m.
+//! ```
+//! let line = windlass_catenary::Segment { length: 200.0 * 1f64.sinh(), weight: 1000.0, ea: 1e15 };
+//! let forces = line.between(200.0, 0.0, None)?;
+//! assert!((forces.fairlead[0] - 1000.0 * 100.0).abs() < 1e-3);
+//! # Ok::<(), windlass_catenary::LineError>(())
+//! ```
+
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
 
 mod adjust;
 mod between;

@@ -3,7 +3,9 @@
 /// A function's value and slope.
 #[derive(Clone, Copy, Debug)]
 pub struct Point {
+    /// Value of the function.
     pub value: f64,
+    /// Its derivative by the argument.
     pub slope: f64,
 }
 

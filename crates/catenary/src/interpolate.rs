@@ -66,7 +66,7 @@ pub struct Interpolated {
 /// What the ends of the line are pulled with.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pulled {
-    /// Horizontal force (N) and its derivative by the distance (N/m).
+    /// Horizontal force (N).
     pub force: f64,
     pub stiffness: f64,
     /// Vertical force at the fairlead (N, downward).
@@ -80,8 +80,9 @@ pub struct Pulled {
 /// What the table gives at a distance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FromTable {
-    /// Horizontal force (N) and its derivative by the distance (N/m).
+    /// Horizontal force (N).
     pub force: f64,
+    /// Its derivative by the distance (N/m).
     pub stiffness: f64,
     /// Vertical force at the fairlead (N, downward).
     pub vertical: f64,
