@@ -22,7 +22,7 @@ mod rods;
 use nalgebra::Vector3;
 use std::process::Command;
 use std::time::Instant;
-use windlass::rod::{End, Motion, Settings};
+use windlass_line_dynamics::{End, Motion, Settings};
 
 const SPAN: f64 = 120.0;
 const STEP: f64 = 0.1;

@@ -10,7 +10,6 @@ pub mod command;
 pub mod connector;
 pub mod repl;
 pub mod report;
-pub mod rod;
 pub mod session;
 pub mod solve;
 pub mod tether;

@@ -6,7 +6,7 @@
 mod moordyn;
 
 use moordyn::{chain, driven, reference};
-use windlass::rod::{End, Settings};
+use windlass_line_dynamics::{End, Settings};
 
 /// Fairlead force at every step up to 120 s, and at rest.
 fn run(elements: usize, step: f64) -> (f64, Vec<f64>) {

@@ -3,10 +3,10 @@
 #![allow(clippy::unwrap_used)]
 
 use nalgebra::Vector3;
-use windlass::rod::{
+use windlass_catenary as catenary;
+use windlass_line_dynamics::{
     Bottom, End, Fluid, Ground, PlaneBottom, Rod, Segment, Settings, Solver, State, UniformFluid, World,
 };
-use windlass_catenary as catenary;
 
 const GRAVITY: f64 = 9.80665;
 const WATER: f64 = 1000.0;

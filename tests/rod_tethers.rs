@@ -15,13 +15,13 @@ mod example;
 use nalgebra::Vector3;
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 use std::sync::LazyLock;
-use windlass::rod::{End, Fluid, Rod, Segment, Settings, Solver, State, UniformFluid, World};
 use windlass::session::Session;
 use windlass::solve::results::along::{lines_at_rest, natural_modes};
 use windlass::solve::tethered::Tethered;
 use windlass::tether::Line;
 use windlass::tether::compatibility::Compatibility;
 use windlass::tether::installed::modes::modes;
+use windlass_line_dynamics::{End, Fluid, Rod, Segment, Settings, Solver, State, UniformFluid, World};
 use windlass_signal::cycle::{AQWA_SAMPLES, Cycle};
 
 const GRAVITY: f64 = 9.81;

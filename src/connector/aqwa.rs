@@ -7,7 +7,6 @@ use super::mooring::{Mooring, line_error, no_other_end};
 use super::moving::{JointMass, MovingLine, Part, Seabed, Strength, description};
 use super::options::aqwa;
 use super::{ClassKind, checks};
-use crate::rod::{self, Axial};
 use std::f64::consts::{FRAC_PI_4, PI};
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -18,6 +17,7 @@ use windlass_base::values::{Args, Given};
 use windlass_catenary::{Floor, Joint, Law, Line, Segment};
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_line_dynamics::{self as rod, Axial};
 use windlass_model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, LineModel, Placement, Surroundings,
 };

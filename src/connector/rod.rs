@@ -1,6 +1,6 @@
 //! ROD: a line with bending stiffness and its own dynamics.
 //!
-//! Source: seed 001. MOSES treats rods as an assembly of large deflection tubular beam elements with inertia; the engine is `crate::rod`.
+//! Source: seed 001. MOSES treats rods as an assembly of large deflection tubular beam elements with inertia; the engine is `windlass_line_dynamics`.
 
 use super::moving::{self as m, Description, Flexure, Hold, MovingLine, Part, Seabed};
 use super::section::{LineSection, properties};
@@ -68,7 +68,7 @@ static ROD_SPEC: CommandSpec = CommandSpec {
 const REFINE: OptionSpec =
     OptionSpec { values: &[ValueSpec::new("N", Kind::Integer, "number of elements").positive()], ..o::REFINE };
 /// Most elements of a line with its memory told: what the engine holds.
-const MOST: i64 = crate::rod::MOST_ELEMENTS as i64;
+const MOST: i64 = windlass_line_dynamics::MOST_ELEMENTS as i64;
 
 #[derive(Debug)]
 struct Rod {
@@ -93,7 +93,7 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
     }
     if elements > MOST {
         let span = records.last().map_or(Span::default(), |r| r.args.option("-REFINE").map_or(r.args.span, |g| g.span));
-        let megabytes = elements as f64 * crate::rod::BYTES_PER_ELEMENT / 1e6;
+        let megabytes = elements as f64 * windlass_line_dynamics::BYTES_PER_ELEMENT / 1e6;
         return Err(Diagnostic::error(format!("a ROD has at most {MOST} elements"), span)
             .label(format!("with this segment it has {elements}, which would take about {megabytes:.0} MB")));
     }

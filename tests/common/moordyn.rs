@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 use std::f64::consts::PI;
-use windlass::rod::{
+use windlass_line_dynamics::{
     End, EndForces, Ground, Motion, PlaneBottom, Rod, Segment, Settings, Solver, State, UniformFluid, World,
 };
 

@@ -3,8 +3,8 @@
 use super::element::MovingLine;
 use super::mesh::told;
 use super::start;
-use crate::rod::{Bottom, End, EndForces, PlaneBottom, Rod, Solver, State, World};
 use nalgebra::Vector3;
+use windlass_line_dynamics::{Bottom, End, EndForces, PlaneBottom, Rod, Solver, State, World};
 use windlass_model::{ClassError, Surroundings};
 
 /// First and least share by which a bottom goes over from a plane to what it is.

@@ -1,8 +1,8 @@
 //! What the holders of a line feel of it.
 
-use crate::rod::{EndForces, EndTangent, OnSupport, SupportTangent, Twelve};
 use nalgebra::{Matrix6, Vector3};
 use windlass_base::pose::Six;
+use windlass_line_dynamics::{EndForces, EndTangent, OnSupport, SupportTangent, Twelve};
 use windlass_model::{ClassError, Response};
 
 fn six(force: &Vector3<f64>, moment: &Vector3<f64>) -> Six {

@@ -1,9 +1,9 @@
 //! Water and bottom around a line, as the rod asks for them.
 
 use super::describe::Seabed;
-use crate::rod::{Bottom, Fluid, FluidField, Ground, PlaneBottom, Segment, UniformFluid};
 use nalgebra::Vector3;
 use std::cell::RefCell;
+use windlass_line_dynamics::{Bottom, Fluid, FluidField, Ground, PlaneBottom, Segment, UniformFluid};
 use windlass_model::{Ambient, Flow, Surroundings};
 
 /// How far a line presses itself into the bottom by its own weight, as a share of its diameter: what the bottom's stiffness follows

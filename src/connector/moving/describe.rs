@@ -1,7 +1,7 @@
 //! What a line that moves by itself is made of, as its class says.
 
-use crate::rod::{Axial, Segment};
 use std::f64::consts::FRAC_PI_4;
+use windlass_line_dynamics::{Axial, Segment};
 use windlass_model::{Ambient, Contents};
 
 /// What stands where a part ends and the next begins.

@@ -6,12 +6,12 @@ use super::kept::{Kept, Layout};
 use super::laid::{Felt, Laid};
 use super::mesh::{most_wound, told, wind};
 use super::warm::{Base, Held, Warm};
-use crate::rod::{self, Balance, EndForces, EndTangent, Ground, Motion, Rod, State, World};
 use nalgebra::Vector3;
 use std::cell::RefCell;
 use std::sync::Arc;
 use windlass_base::pose::Six;
 use windlass_base::units::Dim;
+use windlass_line_dynamics::{self as rod, Balance, EndForces, EndTangent, Ground, Motion, Rod, State, World};
 use windlass_model::{
     Ambient, ClassError, Element, End, Flow, Guess, LineBooks, LineMode, LineNode, Response, Situation, Summary,
 };

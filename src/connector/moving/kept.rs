@@ -2,7 +2,7 @@
 //! mesh needs.
 
 use super::mesh::Bands;
-use crate::rod::{Balance, Rod, State};
+use windlass_line_dynamics::{Balance, Rod, State};
 use windlass_model::ClassError;
 
 /// Where what stands.

@@ -4,11 +4,11 @@
 //! (conn_pipe). The pipe runs from the last support, the tensioner, over the first and down to the bottom, where it is held far beyond
 //! the touchdown. It rolls through rollers, and hangs by davits from its own nodes.
 
-use crate::rod::{Grip, Gripped, Holds, Support};
 use nalgebra::{Matrix3, Vector3};
 use std::cell::RefCell;
 use std::sync::Arc;
 use windlass_base::pose::Pose;
+use windlass_line_dynamics::{Grip, Gripped, Holds, Support};
 use windlass_model::{Element, End, Response, Situation, Surroundings};
 
 /// What a pipe lies on.

@@ -7,11 +7,11 @@ use super::kept::Layout;
 use super::laid::{Held, Laid, Tensioner};
 use super::mesh::{Cut, few, mesh, told};
 use super::warm::{Base, Warm};
-use crate::rod::{self, Rod, State};
 use nalgebra::{Matrix3, Vector3};
 use std::sync::Arc;
 use windlass_base::pose::Pose;
 use windlass_base::units::Dim;
+use windlass_line_dynamics::{self as rod, Rod, State};
 use windlass_model::{ClassError, End, PipeLayout, Situation};
 
 /// Elements between two supports, where -REFINE does not say.

@@ -8,9 +8,9 @@ use super::mesh::{Cut, SHORT, attachments, few, mesh, told};
 use super::start;
 use super::warm::{Base, Held};
 use crate::connector::mooring::no_other_end;
-use crate::rod::{self, Bottom, PlaneBottom, Rod, State};
 use nalgebra::Vector3;
 use std::sync::Arc;
+use windlass_line_dynamics::{self as rod, Bottom, PlaneBottom, Rod, State};
 use windlass_model::{ClassError, Connection};
 
 impl MovingLine {

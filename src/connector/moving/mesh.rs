@@ -2,10 +2,10 @@
 
 use super::around::LIGHT;
 use super::describe::{JointMass, Part};
-use crate::rod::{self, Attachment, Rod, RodError, Segment, State};
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 use windlass_base::units::Dim;
+use windlass_line_dynamics::{self as rod, Attachment, Rod, RodError, Segment, State};
 use windlass_model::{Ambient, ClassError};
 
 /// An element at the winch is divided when it is longer than this share of those of its part as the class has them.

@@ -1,8 +1,8 @@
 //! Natural modes of a line.
 
 use super::mesh::told;
-use crate::rod::{End, Mode, Rod, RodError, Solver, State, World};
 use nalgebra::{Matrix2, SymmetricEigen, Vector2, Vector3};
+use windlass_line_dynamics::{End, Mode, Rod, RodError, Solver, State, World};
 use windlass_model::{ClassError, LineMode};
 
 /// Most modes that are found: the cost grows with the square of their number, and no one reads as many.

@@ -3,13 +3,13 @@
 use super::describe::{Description, Hold, JointMass, Part, Seabed, Strength};
 use crate::connector::checks;
 use crate::connector::section::LineSection;
-use crate::rod::{Axial, Segment, Tube, Viscoelastic};
 use std::f64::consts::{FRAC_PI_4, PI};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::units::Dim;
 use windlass_base::values::Args;
 use windlass_language::select::Owner;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
+use windlass_line_dynamics::{Axial, Segment, Tube, Viscoelastic};
 use windlass_model::{ClassError, ClassRecord, Surroundings};
 
 /// Drag, inline drag of the skin and added mass where nothing is given: those of AQWA's cable dynamics (seed 002, 5.8.3.1).

@@ -1,10 +1,10 @@
 //! From where a line falls into its first position of rest.
 
 use super::describe::Part;
-use crate::rod::{Bottom, PlaneBottom};
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 use windlass_catenary::{self as catenary, Joint, Line, Segment};
+use windlass_line_dynamics::{Bottom, PlaneBottom};
 use windlass_model::Surroundings;
 
 /// Points of each part between its ends: so many that their chords follow a touchdown of a few metres' radius.

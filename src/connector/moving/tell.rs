@@ -5,8 +5,8 @@ use super::element::MovingLine;
 use super::mesh::told;
 use super::modes;
 use super::warm::Warm;
-use crate::rod::{Settings, Solver};
 use std::f64::consts::PI;
+use windlass_line_dynamics::{Settings, Solver};
 use windlass_model::{ClassError, Guess, LineBooks, LineMode, LineNode, LineSide, Situation, Summary};
 
 /// Longest elements at an end that is held, by sqrt(EI/T), of which nothing is said: moment there is then 3 % low.

@@ -3,9 +3,9 @@
 use super::describe::Description;
 use super::laid::Laid;
 use super::mesh::Bands;
-use crate::rod::{self, Ground, PlaneBottom, Rod, Settings, Solver, State};
 use nalgebra::Vector3;
 use std::sync::Arc;
+use windlass_line_dynamics::{self as rod, Ground, PlaneBottom, Rod, Settings, Solver, State};
 use windlass_model::{Ambient, Flow};
 
 /// How often a rod halves a step of the run by itself, before the run halves its own.
@@ -78,7 +78,7 @@ fn solver_of(rod: &Rod) -> Solver {
 mod tests {
     use super::*;
     use crate::connector::moving::{Seabed, description};
-    use crate::rod::{End, Segment, UniformFluid, World};
+    use windlass_line_dynamics::{End, Segment, UniformFluid, World};
 
     #[test]
     fn a_solver_lasts_while_a_winch_changes_lengths_alone() {

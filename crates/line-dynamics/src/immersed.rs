@@ -246,8 +246,8 @@ fn wet_curvature(a: f64, b: f64, diameter: f64) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::rod::section::Segment;
-    use crate::rod::{Attachment, Rod};
+    use crate::section::Segment;
+    use crate::{Attachment, Rod};
 
     fn element() -> Element {
         let segment = Segment {

@@ -9,6 +9,25 @@
 //!
 //! SI units (m, kg, s, N, rad), global axes with z up. End A is the first node. Nothing is allocated in a step, and a
 //! step costs as much as its elements: one pass over them, and a band to factor.
+//!
+//! # Example
+//! A chain of 100 kg/m hangs in air between two points 90 m apart: both ends together carry its weight.
+//! ```
+//! use nalgebra::Vector3;
+//! use windlass_line_dynamics::{End, Rod, Segment, Settings, Solver, State, UniformFluid, World};
+//!
+//! let rod = Rod::new("chain", vec![Segment::line(100.0, 20, 100.0, 1e9, 0.1)], vec![])?;
+//! let ends = [Vector3::zeros(), Vector3::new(90.0, 0.0, 0.0)];
+//! let mut state = State::along(&rod, &[ends[0], Vector3::new(45.0, 0.0, -20.0), ends[1]])?;
+//! let air = UniformFluid::none();
+//! let mut solver = Solver::new(&rod, Settings::default());
+//! let held = solver.statics(&rod, &mut state, &World::new(&air, 9.81), ends.map(End::pinned))?;
+//! assert!((held.force[0].z + held.force[1].z + 100.0 * 100.0 * 9.81).abs() < 1.0);
+//! # Ok::<(), windlass_line_dynamics::RodError>(())
+//! ```
+
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
 
 mod abreast;
 mod again;

@@ -134,7 +134,7 @@ pub(super) fn contact(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::rod::PlaneBottom;
+    use crate::PlaneBottom;
 
     #[test]
     fn derivatives_of_contact_and_friction_are_their_differences() {
