@@ -12,4 +12,3 @@ pub mod repl;
 pub mod report;
 pub mod session;
 pub mod solve;
-pub mod tether;

@@ -11,9 +11,9 @@ use serde_json::Value;
 use windlass::aqwa::{self, Records};
 use windlass::session::Session;
 use windlass::solve::tethered::Tethered;
-use windlass::tether::installed::Change;
 use windlass_base::diagnostic::Diagnostic;
 use windlass_language::source::Sources;
+use windlass_tether::installed::Change;
 
 fn file(name: &str) -> String {
     std::fs::read_to_string(format!("scripts/{name}")).unwrap()

@@ -7,9 +7,9 @@ mod example;
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
-use windlass::tether::compatibility::Compatibility;
-use windlass::tether::installed::{Installation, Moment, Observer};
 use windlass_model::ClassError;
+use windlass_tether::compatibility::Compatibility;
+use windlass_tether::installed::{Installation, Moment, Observer};
 
 thread_local! {
     static TAKEN: Cell<usize> = const { Cell::new(0) };

@@ -7,20 +7,20 @@ mod example;
 
 use nalgebra::{Matrix6, Vector3};
 use std::sync::Arc;
-use windlass::tether::Line;
-use windlass::tether::compatibility::Compatibility;
-use windlass::tether::installed::description::Description;
-use windlass::tether::installed::{
-    Change, Constraint, Course, DefaultTaken, EndSprings, History, Installation, InstalledTether, InternalFluid, Keep,
-};
-use windlass::tether::structure::flow::{Flow, FlowAt, Waves};
-use windlass::tether::structure::wave::DeepWave;
-use windlass::tether::structure::{Forces, Structure};
 use windlass_base::pose::{Pose, Six};
 use windlass_hydro::Underway;
 use windlass_hydro::current::CurrentField;
 use windlass_hydro::sea::{Component, Sea, Water};
 use windlass_model::{ClassError, Stretching};
+use windlass_tether::Line;
+use windlass_tether::compatibility::Compatibility;
+use windlass_tether::installed::description::Description;
+use windlass_tether::installed::{
+    Change, Constraint, Course, DefaultTaken, EndSprings, History, Installation, InstalledTether, InternalFluid, Keep,
+};
+use windlass_tether::structure::flow::{Flow, FlowAt, Waves};
+use windlass_tether::structure::wave::DeepWave;
+use windlass_tether::structure::{Forces, Structure};
 
 const NATIVE: Compatibility = Compatibility::native();
 

@@ -18,11 +18,11 @@ use std::sync::LazyLock;
 use windlass::session::Session;
 use windlass::solve::results::along::{lines_at_rest, natural_modes};
 use windlass::solve::tethered::Tethered;
-use windlass::tether::Line;
-use windlass::tether::compatibility::Compatibility;
-use windlass::tether::installed::modes::modes;
 use windlass_line_dynamics::{End, Fluid, Rod, Segment, Settings, Solver, State, UniformFluid, World};
 use windlass_signal::cycle::{AQWA_SAMPLES, Cycle};
+use windlass_tether::Line;
+use windlass_tether::compatibility::Compatibility;
+use windlass_tether::installed::modes::modes;
 
 const GRAVITY: f64 = 9.81;
 /// Steel of the installed tether and of the pipe of the towed one.

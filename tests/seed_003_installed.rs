@@ -7,15 +7,15 @@ mod example;
 
 use serde_json::Value;
 use std::sync::LazyLock;
-use windlass::tether::compatibility::Compatibility;
-use windlass::tether::installed::description::Description;
-use windlass::tether::installed::modes::modes;
-use windlass::tether::installed::{Change, History, Installation, Keep};
-use windlass::tether::structure::{Forces, Structure};
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
 use windlass_hydro::Underway;
 use windlass_signal::cycle::{AQWA_SAMPLES, Cycle};
+use windlass_tether::compatibility::Compatibility;
+use windlass_tether::installed::description::Description;
+use windlass_tether::installed::modes::modes;
+use windlass_tether::installed::{Change, History, Installation, Keep};
+use windlass_tether::structure::{Forces, Structure};
 
 static LISTING: LazyLock<Value> = LazyLock::new(|| {
     serde_json::from_str(&std::fs::read_to_string("tests/data/installed_tether.json").unwrap()).unwrap()
@@ -318,7 +318,7 @@ fn the_harmonics_of_the_structure_are_those_of_the_listing() {
 
 #[test]
 fn each_peculiarity_makes_the_difference_that_its_doc_tells() {
-    use windlass::tether::compatibility::{SpringReference, VesselScheme};
+    use windlass_tether::compatibility::{SpringReference, VesselScheme};
     let all = Compatibility::aqwa_5_4();
     let run = |compatibility: Compatibility| {
         let (flow, mut platform) = (example::water(), example::platform(compatibility));

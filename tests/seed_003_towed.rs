@@ -6,9 +6,9 @@
 #![allow(clippy::unwrap_used)]
 
 use serde_json::Value;
-use windlass::tether::towed::{Compatibility, EndSpring, History, Multipliers, Record, Steps, Towed};
-use windlass::tether::{Line, TetherElement};
 use windlass_hydro::sea::Component;
+use windlass_tether::towed::{Compatibility, EndSpring, History, Multipliers, Record, Steps, Towed};
+use windlass_tether::{Line, TetherElement};
 
 /// The printed numbers.
 fn printed() -> Value {
@@ -36,7 +36,7 @@ fn line() -> Line {
     let element = |(i, group): (usize, &i64)| {
         let [outer_diameter, wall_thickness, density, youngs_modulus] = GROUPS[*group as usize - 1];
         let label =
-            windlass::tether::line::Label { nodes: [i as i64 + 1, i as i64 + 2], material: *group, geometry: *group };
+            windlass_tether::line::Label { nodes: [i as i64 + 1, i as i64 + 2], material: *group, geometry: *group };
         let length = nodes[i + 1] - nodes[i];
         TetherElement {
             length,

@@ -3,9 +3,9 @@
 #![allow(clippy::unwrap_used)]
 
 use std::f64::consts::{FRAC_PI_4, PI};
-use windlass::tether::towed::{Compatibility, EndSpring, History, Multipliers, Record, Steps, Towed};
-use windlass::tether::{Line, TetherElement};
 use windlass_hydro::sea::Component;
+use windlass_tether::towed::{Compatibility, EndSpring, History, Multipliers, Record, Steps, Towed};
+use windlass_tether::{Line, TetherElement};
 
 const DENSITY: f64 = 1025.0;
 const GRAVITY: f64 = 9.81;

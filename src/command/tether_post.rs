@@ -7,7 +7,6 @@ use super::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
 use crate::report::page;
 use crate::solve::tethered::{self, Of, Statistics, TetherHistory, Tethered};
-use crate::tether::installed::Change;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::table::Table;
@@ -18,6 +17,7 @@ use windlass_language::select::{Owner, choose};
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 use windlass_signal::SeriesError;
 use windlass_signal::tether::fatigue::{Asked, Endurance};
+use windlass_tether::installed::Change;
 
 /// TETHER.
 pub static TETHER: Command = Command { spec: &TETHER_SPEC, edits: false, run: tether };

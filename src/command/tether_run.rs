@@ -98,7 +98,8 @@ pub fn run(job: &mut Job, args: &Args) -> Outcome<Effect> {
     let head = job.page_head();
     let text = tables.iter().map(|t| page::render(t, job.units, &head)).collect::<Vec<_>>().join("\n");
     job.say(&text);
-    for event in made.happened.iter().filter(|e| matches!(e.change, crate::tether::installed::Change::LowerStop { .. }))
+    for event in
+        made.happened.iter().filter(|e| matches!(e.change, windlass_tether::installed::Change::LowerStop { .. }))
     {
         job.warn(format!("tether {} fell on its lower stop at {:.2} s", event.tether, event.time), span);
     }

@@ -3,14 +3,14 @@
 #![allow(dead_code, clippy::unwrap_used)]
 
 use nalgebra::{Matrix3, Vector3};
-use windlass::tether::compatibility::Compatibility;
-use windlass::tether::installed::{Course, EndSprings, Impact, InstalledTether};
-use windlass::tether::line::Label;
-use windlass::tether::structure::flow::{Flow, Waves};
-use windlass::tether::structure::tubes::{AQWA_FRICTION, Tube, Tubes};
-use windlass::tether::structure::wave::DeepWave;
-use windlass::tether::{Line, TetherElement};
 use windlass_base::pose::{Pose, Six};
+use windlass_tether::compatibility::Compatibility;
+use windlass_tether::installed::{Course, EndSprings, Impact, InstalledTether};
+use windlass_tether::line::Label;
+use windlass_tether::structure::flow::{Flow, Waves};
+use windlass_tether::structure::tubes::{AQWA_FRICTION, Tube, Tubes};
+use windlass_tether::structure::wave::DeepWave;
+use windlass_tether::{Line, TetherElement};
 
 /// The centre of gravity above the keel (m).
 const CENTRE: Vector3<f64> = Vector3::new(0.0, 0.0, 63.6);

@@ -3,16 +3,6 @@
 use super::Settings;
 use super::moored::Moored;
 use crate::solve::SolveError;
-use crate::tether::compatibility::Compatibility;
-use crate::tether::installed::{Constraint, Course, EndSprings, Impact, InstalledTether, InternalFluid};
-use crate::tether::line::Label;
-use crate::tether::structure::Structure;
-use crate::tether::structure::afloat::Afloat;
-use crate::tether::structure::flow::{Flow, Waves};
-use crate::tether::structure::tubes::{Tube, Tubes};
-use crate::tether::structure::wave::DeepWave;
-use crate::tether::towed::{self, EndSpring, Towed};
-use crate::tether::{Line, TetherElement};
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -23,6 +13,16 @@ use windlass_hydro::sea::Sea;
 use windlass_model::{
     Body, ClassError, Connector, Mass, Model, Shape, TetherEnds, TetherHold, TetherSection, TetherUse,
 };
+use windlass_tether::compatibility::Compatibility;
+use windlass_tether::installed::{Constraint, Course, EndSprings, Impact, InstalledTether, InternalFluid};
+use windlass_tether::line::Label;
+use windlass_tether::structure::Structure;
+use windlass_tether::structure::afloat::Afloat;
+use windlass_tether::structure::flow::{Flow, Waves};
+use windlass_tether::structure::tubes::{Tube, Tubes};
+use windlass_tether::structure::wave::DeepWave;
+use windlass_tether::towed::{self, EndSpring, Towed};
+use windlass_tether::{Line, TetherElement};
 
 /// A case, ready to run.
 #[derive(Debug)]

@@ -2,15 +2,15 @@
 
 use super::Tethered;
 use super::case::Installed;
-use crate::tether::Line;
-use crate::tether::installed::{Change, Installation, Moment, Observer};
-use crate::tether::structure::Forces;
-use crate::tether::towed::{self, History, Steps, Towed};
 use std::ops::ControlFlow;
 use windlass_base::geometry::Place;
 use windlass_base::table::Digits;
 use windlass_base::units::Dim;
 use windlass_model::ClassError;
+use windlass_tether::Line;
+use windlass_tether::installed::{Change, Installation, Moment, Observer};
+use windlass_tether::structure::Forces;
+use windlass_tether::towed::{self, History, Steps, Towed};
 
 /// A quantity of nodes or of ends of elements.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -244,7 +244,7 @@ impl towed::Observer for Keeper<'_> {
 /// What the engine refuses; a run that would keep too much.
 pub fn installed(case: Installed, kept: &mut Tethered, goes_on: &mut dyn FnMut(f64) -> bool) -> Result<(), ClassError> {
     let Installed { body, mut structure, tethers, flow, compatibility, course, points, .. } = case;
-    let of = |t: &crate::tether::installed::InstalledTether| {
+    let of = |t: &windlass_tether::installed::InstalledTether| {
         t.line.nodes() * INSTALLED_NODE.len() + 2 * t.line.elements().len() * INSTALLED_END.len()
     };
     let per = tethers.iter().map(of).sum::<usize>() + 6 * StructureHistory::KINDS.len() + 3 * points.len();

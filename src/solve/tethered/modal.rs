@@ -3,17 +3,17 @@
 use super::case::{Kind, case, sections};
 use super::{Settings, case::Installed};
 use crate::solve::SolveError;
-use crate::tether::installed::description::Description;
-use crate::tether::installed::modes::modes;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
 use windlass_model::{ClassError, Model};
+use windlass_tether::installed::description::Description;
+use windlass_tether::installed::modes::modes;
 
 /// Settings under which a case is made to be told of, not to be run.
 const AT_REST: Settings = Settings { observed: 1.0, step: 1.0, store: 1, compatible: false, slam: 0.0, tow: [0.0; 2] };
 
 /// A tether of the case, by its name.
-fn found<'a>(case: &'a Installed, name: &str) -> Result<&'a crate::tether::installed::InstalledTether, SolveError> {
+fn found<'a>(case: &'a Installed, name: &str) -> Result<&'a windlass_tether::installed::InstalledTether, SolveError> {
     let of = case.tethers.iter().find(|t| t.name.eq_ignore_ascii_case(name));
     of.ok_or_else(|| SolveError::new(ClassError::new(format!("{name} is no tether that acts"))))
 }
@@ -68,7 +68,7 @@ pub fn natural(model: &Model, name: &str, number: usize, compatible: bool) -> Re
         Kind::Towed(towed) => {
             let distances = towed.1.line.distances();
             let list = towed.1.modes(number).map_err(SolveError::new)?;
-            let page = |m: &crate::tether::modes::NaturalMode| {
+            let page = |m: &windlass_tether::modes::NaturalMode| {
                 let rows = distances.iter().enumerate().map(|(i, d)| (*d, m.node(i))).collect();
                 (m.frequency(), m.period(), rows)
             };
@@ -78,7 +78,7 @@ pub fn natural(model: &Model, name: &str, number: usize, compatible: bool) -> Re
             let tether = found(case, name)?;
             let attachment = case.course.pose.point(tether.attachment);
             let list = modes(tether, attachment, &case.flow, number, &case.compatibility).map_err(SolveError::new)?;
-            let page = |m: &crate::tether::installed::modes::InstalledMode| {
+            let page = |m: &windlass_tether::installed::modes::InstalledMode| {
                 let rows = m.heights.iter().enumerate().map(|(i, h)| (*h, m.node(i))).collect();
                 (m.mode.frequency(), m.mode.period(), rows)
             };

@@ -3,13 +3,13 @@
 use crate::solve::link::{Attachment, Link, link, pose_of};
 use crate::solve::system::SolveError;
 use crate::solve::time::Duties;
-use crate::tether::structure::flow::FlowAt;
-use crate::tether::structure::{Forces, Structure};
 use nalgebra::Vector3;
 use windlass_base::pose::{Pose, Six};
 use windlass_hydro::{Underway, ambient, carried};
 use windlass_model::{Body, ClassError, Model};
 use windlass_model::{End, Response, Situation, Surroundings, TimeStep};
+use windlass_tether::structure::flow::FlowAt;
+use windlass_tether::structure::{Forces, Structure};
 
 /// A structure with connectors to the ground that are no tethers.
 #[derive(Debug)]

@@ -2,10 +2,10 @@
 
 use super::Tethered;
 use super::history::{Quantity, TetherHistory};
-use crate::tether::installed::Change;
 use windlass_base::table::{Cell, Column, Digits, Table};
 use windlass_base::units::Dim;
 use windlass_signal::tether::tables::STRESS;
+use windlass_tether::installed::Change;
 
 pub(super) const SECONDS: Digits = Digits::Decimals(2);
 

@@ -20,6 +20,30 @@
 //! | [`structure`] | the structure that installed tethers hold, and the water around |
 //! | [`installed`] | tethers between anchors and a moving structure; their z runs along the axis, X and Y across |
 //! | [`compatibility`] | peculiarities of another program in the last two, each with a name |
+//!
+//! # Example
+//! The weight in air of a tendon of three steel tubes:
+//! ```
+//! use windlass_tether::{Line, TetherElement, line::Label};
+//!
+//! let element = TetherElement {
+//!     length: 100.0,
+//!     outer_diameter: 1.0,
+//!     wall_thickness: 0.05,
+//!     density: 7850.0,
+//!     youngs_modulus: 2.1e11,
+//!     drag: 1.0,
+//!     added_mass: 1.0,
+//!     label: Label::default(),
+//! };
+//! let line = Line::numbered(vec![element; 3])?;
+//! let steel = std::f64::consts::PI * 0.95 * 0.05 * 300.0 * 7850.0 * 9.81;
+//! assert!((line.weight(9.81) / steel - 1.0).abs() < 1e-12);
+//! # Ok::<(), windlass_model::ClassError>(())
+//! ```
+
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
 
 pub mod banded;
 pub mod beam;

@@ -15,7 +15,7 @@
 use super::flow::FlowAt;
 use super::wet::WetPart;
 use super::{Forces, Structure};
-use crate::tether::compatibility::Compatibility;
+use crate::compatibility::Compatibility;
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use std::f64::consts::PI;
 use windlass_base::pose::{Pose, Six};

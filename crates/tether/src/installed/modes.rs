@@ -7,10 +7,10 @@ use super::axis::Axis;
 use super::bending::{Bending, Matrices};
 use super::tension::Axial;
 use super::tether::InstalledTether;
-use crate::tether::beam;
-use crate::tether::compatibility::Compatibility;
-use crate::tether::modes::{self, NaturalMode, Pencil, Plane};
-use crate::tether::structure::flow::Flow;
+use crate::beam;
+use crate::compatibility::Compatibility;
+use crate::modes::{self, NaturalMode, Pencil, Plane};
+use crate::structure::flow::Flow;
 use nalgebra::Vector3;
 use windlass_model::ClassError;
 

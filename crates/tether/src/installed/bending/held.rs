@@ -4,7 +4,7 @@
 //! wider than the tether is a spring.
 
 use super::{Bending, EDGE, Stage};
-use crate::tether::installed::axis::{Axis, tilt};
+use crate::installed::axis::{Axis, tilt};
 use nalgebra::Vector3;
 
 /// What an unknown is held to.

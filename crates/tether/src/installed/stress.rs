@@ -6,7 +6,7 @@
 //! - von Mises at both extreme fibres, outside and inside, of the axial and bending stress there and of the hoop and radial ones of Lame's
 //!   thick cylinder (Timoshenko, Strength of Materials, 1956, part II, 44); the shear stress, which is least there, is left out.
 
-use crate::tether::Tube;
+use crate::Tube;
 
 /// What an end of an element bears.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

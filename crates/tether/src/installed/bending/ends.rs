@@ -1,9 +1,9 @@
 //! What an installed tether tells of its ends and its length: arc, what elements bear, what the structure feels.
 
 use super::{Bending, Cell, LOOK_AHEAD, Motion, Stage};
-use crate::tether::beam::{self, Vector4};
-use crate::tether::installed::axis::{Axis, tilt};
-use crate::tether::installed::tension::{Axial, Tension};
+use crate::beam::{self, Vector4};
+use crate::installed::axis::{Axis, tilt};
+use crate::installed::tension::{Axial, Tension};
 use nalgebra::Vector3;
 
 impl Bending {

@@ -16,9 +16,9 @@ mod held;
 use super::axis::{Attachment, Axis, tilt};
 use super::tension::{Axial, Tension};
 use super::tether::{Constraint, InstalledTether, RIGID};
-use crate::tether::banded::{Banded, Factors};
-use crate::tether::beam::{self, Vector4};
-use crate::tether::structure::flow::FlowAt;
+use crate::banded::{Banded, Factors};
+use crate::beam::{self, Vector4};
+use crate::structure::flow::FlowAt;
 use held::Hold;
 use nalgebra::Vector3;
 use windlass_model::ClassError;
@@ -119,7 +119,7 @@ impl Bending {
     /// That of a tether in water of a density (kg/m3) under a gravity (m/s2), straight and at rest.
     pub fn of(tether: &InstalledTether, density: f64, gravity: f64) -> Self {
         let line = &tether.line;
-        let cell = |e: &crate::tether::TetherElement| {
+        let cell = |e: &crate::TetherElement| {
             let tube = e.tube();
             let displaced = density * tube.external_area();
             let mass = e.mass_per_length() + tether.fluid.density * tube.internal_area();

@@ -1,6 +1,6 @@
 //! An installed tether as it is given.
 
-use crate::tether::Line;
+use crate::Line;
 use nalgebra::Vector3;
 use windlass_base::units::Dim;
 use windlass_model::ClassError;

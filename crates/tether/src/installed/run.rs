@@ -7,9 +7,9 @@
 
 use super::rig::{Change, Rig, Which};
 use super::tether::InstalledTether;
-use crate::tether::compatibility::{Compatibility, VesselScheme};
-use crate::tether::structure::flow::{Flow, FlowAt};
-use crate::tether::structure::{Forces, Structure};
+use crate::compatibility::{Compatibility, VesselScheme};
+use crate::structure::flow::{Flow, FlowAt};
+use crate::structure::{Forces, Structure};
 use nalgebra::Matrix6;
 use std::f64::consts::TAU;
 use windlass_base::pose::{Pose, Six};

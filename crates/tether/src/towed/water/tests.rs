@@ -2,7 +2,7 @@
 
 use super::super::{Compatibility, EndSpring, Multipliers};
 use super::*;
-use crate::tether::{Line, TetherElement};
+use crate::{Line, TetherElement};
 use nalgebra::Vector3;
 use windlass_hydro::sea::{Sea, Water};
 use windlass_model::Stretching;

@@ -12,7 +12,7 @@
 
 use super::axis::Axis;
 use super::tether::InstalledTether;
-use crate::tether::structure::flow::FlowAt;
+use crate::structure::flow::FlowAt;
 
 /// How a tether stands.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

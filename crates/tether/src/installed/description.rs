@@ -3,8 +3,8 @@
 use super::axis::Axis;
 use super::tension::Axial;
 use super::tether::InstalledTether;
-use crate::tether::description::{Attachment, Configuration, Description as Listed};
-use crate::tether::structure::flow::Flow;
+use crate::description::{Attachment, Configuration, Description as Listed};
+use crate::structure::flow::Flow;
 use nalgebra::Vector3;
 use windlass_model::ClassError;
 
@@ -48,7 +48,7 @@ impl Description {
         let water = flow.at(0.0);
         let tension = axial.tension(&axis, attachment.z, 0.0, &water);
         let line = &tether.line;
-        let inside = |e: &crate::tether::TetherElement| tether.fluid.density * e.tube().internal_area() * e.length;
+        let inside = |e: &crate::TetherElement| tether.fluid.density * e.tube().internal_area() * e.length;
         let weight = line.weight(gravity) + gravity * line.elements().iter().map(inside).sum::<f64>();
         let buoyancy = -line.buoyancy(density, gravity);
         let top = tether.anchor.z + line.length();

@@ -3,7 +3,7 @@
 use super::rig::Change;
 use super::rig::Rig;
 use super::run::{Event, Moment, Observer};
-use crate::tether::structure::Forces;
+use crate::structure::Forces;
 use windlass_base::geometry::Place;
 use windlass_base::pose::Six;
 use windlass_model::ClassError;
