@@ -7,7 +7,6 @@
 pub mod aqwa;
 pub mod cli;
 pub mod command;
-pub mod connector;
 pub mod repl;
 pub mod report;
 pub mod session;

@@ -6,8 +6,8 @@
 mod common;
 
 use std::collections::HashMap;
-use windlass::connector::CLASSES;
 use windlass::session::Session;
+use windlass_connectors::CLASSES;
 use windlass_model::Placement;
 
 /// What a job printed, what it said, and the columns of the CSV file it stored.

@@ -5,11 +5,11 @@
 
 use std::fs;
 use windlass::command::{COMMANDS, offered, opened_by};
-use windlass::connector::CLASSES;
 use windlass::report::files::JobFolder;
 use windlass::report::output::Output;
 use windlass::session::Session;
 use windlass_base::span::SourceId;
+use windlass_connectors::CLASSES;
 use windlass_language::flow::specs::CONTROL;
 use windlass_language::record;
 use windlass_language::select::{Choice, Owner, keyword};

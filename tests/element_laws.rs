@@ -5,10 +5,10 @@
 mod common;
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
-use windlass::connector::CLASSES;
 use windlass::session::Session;
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
+use windlass_connectors::CLASSES;
 use windlass_model::{
     ClassError, Connection, Connector, Element, End, LineDuty, Model, Placement, Response, Situation, Surroundings,
     TimeStep,

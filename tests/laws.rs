@@ -4,8 +4,8 @@
 
 mod common;
 
-use windlass::connector::CLASSES;
 use windlass::session::Session;
+use windlass_connectors::CLASSES;
 use windlass_model::{LineLoads, Placement};
 
 /// A line class, records of it, its ends, whether to ground, and whether its forces have an energy.

@@ -298,7 +298,7 @@ fn a_viscoelastic_spring_in_series_relaxes_by_the_exponential_of_both() {
     // K(t) = 2E4 + 3E4 exp(-t/tau) in series with k = 1E4; the fit of two points is exact, and tells tau
     let mut rig = Rig::spring("-CONVOLUTION SOFT");
     let curve = rig.session.job.model.curves.values().next().unwrap();
-    let law = windlass::connector::viscous::Viscoelastic::fit(curve).unwrap().law;
+    let law = windlass_connectors::viscous::Viscoelastic::fit(curve).unwrap().law;
     assert_eq!(law.branches.len(), 1);
     let (k, lasting, branch, tau) = (1e4, law.long_term, law.branches[0].stiffness, law.branches[0].time);
     near(lasting, 2e4);

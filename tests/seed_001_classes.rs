@@ -5,7 +5,7 @@
 
 mod common;
 
-use windlass::connector::CLASSES;
+use windlass_connectors::CLASSES;
 use windlass_language::spec::{Kind, ValueSpec};
 
 /// Runs records; what they print, and the messages.

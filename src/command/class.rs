@@ -1,10 +1,10 @@
 //! `~NAME TYPE ...`: defines a class, or adds a segment to one.
 
 use super::{Call, Command, Effect, Job, Menu};
-use crate::connector::{CLASSES, type_notices};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::values::Args;
 use windlass_base::values::Noun;
+use windlass_connectors::{CLASSES, type_notices};
 use windlass_language::args;
 use windlass_language::name;
 use windlass_language::select::choose;

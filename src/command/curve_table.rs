@@ -1,8 +1,8 @@
 //! The tables of `&STATUS CURVES`.
 
-use crate::connector::viscous::Viscoelastic;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
+use windlass_connectors::viscous::Viscoelastic;
 use windlass_model::{Curve, Model};
 
 /// What the title of a fit begins with.

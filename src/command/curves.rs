@@ -3,10 +3,10 @@
 //! Source: reference/model.md, "Curves".
 
 use super::{Call, Command, Effect, Job, Menu};
-use crate::connector::viscous::Viscoelastic;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::values::Noun;
+use windlass_connectors::viscous::Viscoelastic;
 use windlass_language::args;
 use windlass_language::name as rule;
 use windlass_language::record::Word;

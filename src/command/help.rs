@@ -1,9 +1,9 @@
 //! `&HELP`: everything a spec says, in words.
 
 use super::{COMMANDS, Call, Command, Effect, Job, offered, status};
-use crate::connector::CLASSES;
 use windlass_base::diagnostic::Outcome;
 use windlass_base::units::UnitSystem;
+use windlass_connectors::CLASSES;
 use windlass_language::flow::specs::CONTROL;
 use windlass_language::functions;
 use windlass_language::name;

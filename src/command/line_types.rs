@@ -3,13 +3,13 @@
 use super::Job;
 use super::help::wrap;
 use super::status::push;
-use crate::connector::line_types::{Formula, LineType, library};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_base::values::Value;
 use windlass_base::wildcard::matches;
+use windlass_connectors::line_types::{Formula, LineType, library};
 use windlass_language::number;
 
 /// The tables for what follows LINE_TYPES: nothing, nominal diameters in the user's section unit, names or patterns.

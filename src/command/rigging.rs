@@ -1,6 +1,5 @@
 //! Where a hook, its body and its lines begin: `-INITIAL`, `-VERTICAL` and `-ORIENT` of a tip-hook set.
 
-use crate::connector::hook::{Goal, Reach, hanging, hook};
 use crate::report::format::report;
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -9,6 +8,7 @@ use windlass_base::pose::Pose;
 use windlass_base::span::Span;
 use windlass_base::table::{Cell, Digits};
 use windlass_base::units::{Dim, UnitSystem};
+use windlass_connectors::hook::{Goal, Reach, hanging, hook};
 use windlass_model::{Connector, Mass, Model};
 
 /// A tip-hook set that is being defined.

@@ -2,8 +2,6 @@
 //! from the lexer and the specs.
 
 use crate::command::{COMMANDS, offered, status_kinds};
-use crate::connector::CLASSES;
-use crate::connector::line_types::library;
 use crate::session::Session;
 use rustyline::completion::{Completer, FilenameCompleter, Pair};
 use rustyline::highlight::{CmdKind, Highlighter};
@@ -13,6 +11,8 @@ use rustyline::{Context, Helper};
 use std::borrow::Cow;
 use std::sync::{Arc, Mutex};
 use windlass_base::values::Noun;
+use windlass_connectors::CLASSES;
+use windlass_connectors::line_types::library;
 use windlass_language::flow::specs::CONTROL;
 use windlass_language::functions;
 use windlass_language::select::{Choice, keyword};

@@ -1,6 +1,6 @@
 //! The library of line types: what a chain or rope of a nominal diameter weighs, displaces, how stiff and strong it is.
 //!
-//! Source: `share/line_types.toml`, where each formula names its own source and how sure it is.
+//! Source: `data/line_types.toml`, where each formula names its own source and how sure it is.
 
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -8,7 +8,7 @@ use std::f64::consts::FRAC_PI_4;
 use std::sync::LazyLock;
 
 /// The library as shipped.
-const TEXT: &str = include_str!("../../share/line_types.toml");
+const TEXT: &str = include_str!("../data/line_types.toml");
 
 /// Read once; the test below holds that the shipped text can be.
 static LIBRARY: LazyLock<Library> = LazyLock::new(|| toml::from_str(TEXT).unwrap_or_default());

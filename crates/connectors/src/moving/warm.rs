@@ -77,7 +77,7 @@ fn solver_of(rod: &Rod) -> Solver {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::connector::moving::{Seabed, description};
+    use crate::moving::{Seabed, description};
     use windlass_line_dynamics::{End, Segment, UniformFluid, World};
 
     #[test]

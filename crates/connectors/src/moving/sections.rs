@@ -1,8 +1,8 @@
 //! Parts of a line from the records of ROD, B_CAT and H_CAT.
 
 use super::describe::{Description, Hold, JointMass, Part, Seabed, Strength};
-use crate::connector::checks;
-use crate::connector::section::LineSection;
+use crate::checks;
+use crate::section::LineSection;
 use std::f64::consts::{FRAC_PI_4, PI};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::units::Dim;

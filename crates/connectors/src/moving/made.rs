@@ -7,7 +7,7 @@ use super::kept::Layout;
 use super::mesh::{Cut, SHORT, attachments, few, mesh, told};
 use super::start;
 use super::warm::{Base, Held};
-use crate::connector::mooring::no_other_end;
+use crate::mooring::no_other_end;
 use nalgebra::Vector3;
 use std::sync::Arc;
 use windlass_line_dynamics::{self as rod, Bottom, PlaneBottom, Rod, State};
