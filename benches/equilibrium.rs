@@ -13,7 +13,7 @@ mod measured;
 mod report;
 
 use report::report;
-use windlass::solve::{Options, System, equilibrium};
+use windlass_solve::{Options, System, equilibrium};
 
 /// A box whose hull is cut at the surface.
 const HULL: &str = "*CG 0 0 -2\n#WEIGHT *CG 2E8 22 22 22\n&SURFACE\nBLOCK HULL -30 -30 -8 30 30 10\nEND_&SURFACE\n";

@@ -12,9 +12,9 @@ mod measured;
 mod report;
 
 use report::report;
-use windlass::solve::System;
-use windlass::solve::offset::{Connectors, Pull};
 use windlass_base::pose::Pose;
+use windlass_solve::System;
+use windlass_solve::offset::{Connectors, Pull};
 
 const OFFSETS: usize = 200;
 const FARTHEST: f64 = 40.0;

@@ -13,8 +13,8 @@ mod measured;
 
 use std::sync::Arc;
 use std::time::Instant;
-use windlass::solve::time::{Convergence, Method, Run, Settings, Watcher};
 use windlass_model::{Database, Model};
+use windlass_solve::time::{Convergence, Method, Run, Settings, Watcher};
 
 /// Takes rows and says nothing.
 struct Quiet;

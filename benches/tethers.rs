@@ -8,9 +8,9 @@
 mod measured;
 
 use std::time::Instant;
-use windlass::solve::tethered::{Settings, Statistics, Tethered, run};
 use windlass_model::Model;
 use windlass_signal::tether::fatigue::{Asked, Endurance};
+use windlass_solve::tethered::{Settings, Statistics, Tethered, run};
 
 /// The model that a script has before its run.
 fn scripted(name: &str) -> Model {

@@ -10,4 +10,3 @@ pub mod command;
 pub mod repl;
 pub mod report;
 pub mod session;
-pub mod solve;

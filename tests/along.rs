@@ -9,10 +9,10 @@ mod common;
 mod run;
 
 use run::{Quiet, model, settings};
-use windlass::solve::results::along::{Line, Where, envelope, histories, lines_at_rest, touchdown};
-use windlass::solve::results::events;
-use windlass::solve::time::{Ending, Run, Settings, Snapshot, Watcher};
 use windlass_base::table::Table;
+use windlass_solve::results::along::{Line, Where, envelope, histories, lines_at_rest, touchdown};
+use windlass_solve::results::events;
+use windlass_solve::time::{Ending, Run, Settings, Snapshot, Watcher};
 
 const DEPTH: f64 = 100.0;
 

@@ -10,9 +10,9 @@ mod common;
 use serde_json::Value;
 use windlass::aqwa::{self, Records};
 use windlass::session::Session;
-use windlass::solve::tethered::Tethered;
 use windlass_base::diagnostic::Diagnostic;
 use windlass_language::source::Sources;
+use windlass_solve::tethered::Tethered;
 use windlass_tether::installed::Change;
 
 fn file(name: &str) -> String {
@@ -80,9 +80,9 @@ fn the_installed_deck_comes_to_the_printed_places_and_goes_slack_when_printed() 
             assert!(off < if time <= 5.0 { 4e-4 } else { 6e-3 }, "{axis} at {time} s: {off}");
         }
     }
-    let slack = |e: &&windlass::solve::tethered::Happening| e.change == Change::Slack;
+    let slack = |e: &&windlass_solve::tethered::Happening| e.change == Change::Slack;
     let (slack, struck): (Vec<_>, Vec<_>) = run.happened.iter().partition(slack);
-    let named = |list: &[&windlass::solve::tethered::Happening]| -> Vec<(String, f64)> {
+    let named = |list: &[&windlass_solve::tethered::Happening]| -> Vec<(String, f64)> {
         list.iter().map(|e| (e.tether.clone(), e.time)).collect()
     };
     assert_eq!(named(&slack), [("T1".to_string(), 6.5), ("T2".to_string(), 6.5)]);

@@ -13,7 +13,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 use windlass::report::run_log::RunLog;
-use windlass::solve::time::Run;
+use windlass_solve::time::Run;
 
 const CART: &str = "MEDIT\n*G 0 0 0\n&DESCRIBE BODY CART -IGNORE Y Z RX RY RZ\n*C 0 0 0\n#WEIGHT *C 98066.5 1 1 1\n\
                     ~S GSPR BOTH X 40000 1E9 -LEN 0\nCONNECTOR K ~S *C *G\nEND\n&INSTATE -LOCATE CART 0.5 0 0\n";

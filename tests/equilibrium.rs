@@ -5,9 +5,9 @@
 mod common;
 
 use windlass::session::Session;
-use windlass::solve::{Options, SolveError, System, modes, settle};
 use windlass_base::span::Span;
 use windlass_model::{Model, Weight};
+use windlass_solve::{Options, SolveError, System, modes, settle};
 
 /// The model that records make, in metres and newtons; each `weights` is one of the body's own part.
 fn model(records: &str, weights: &[(&str, [f64; 3], f64, [f64; 3])]) -> Model {
@@ -128,7 +128,7 @@ fn the_stiffness_of_a_body_whose_junctions_follow_is_the_difference_of_its_force
             let mut state = rest.system.state(&model);
             state.poses = start.clone();
             state.poses[buoy] = start[buoy].moved(&motion);
-            windlass::solve::equilibrium(&rest.system, &mut state, &held).unwrap();
+            windlass_solve::equilibrium(&rest.system, &mut state, &held).unwrap();
             state.residual.fixed_rows::<6>(6 * buoy).into_owned()
         });
         let slope = -(sides[0] - sides[1]) / 2e-4;

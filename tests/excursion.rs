@@ -6,15 +6,15 @@ mod common;
 
 use std::f64::consts::{FRAC_PI_4, TAU};
 use windlass::session::Session;
-use windlass::solve::excursion::{End, Path, Walk, resolved};
-use windlass::solve::offset::{Connectors, Pull};
-use windlass::solve::watch::{Watched, watch};
-use windlass::solve::{SolveError, System};
 use windlass_base::pose::{Pose, Six};
 use windlass_base::span::Span;
 use windlass_base::table::Table;
 use windlass_catenary::{Line, Segment};
 use windlass_model::{Model, Weight};
+use windlass_solve::excursion::{End, Path, Walk, resolved};
+use windlass_solve::offset::{Connectors, Pull};
+use windlass_solve::watch::{Watched, watch};
+use windlass_solve::{SolveError, System};
 
 /// The session that has run records, in metres and newtons.
 fn ran(records: &str) -> Session {

@@ -5,10 +5,10 @@
 mod common;
 
 use std::fmt::Write;
-use windlass::solve::{Options, System, equilibrium};
 use windlass_base::geometry::Place;
 use windlass_base::pose::Pose;
 use windlass_model::Model;
+use windlass_solve::{Options, System, equilibrium};
 
 fn model(records: &str) -> Model {
     let (mut session, screen, _folder) = common::session();

@@ -9,7 +9,7 @@ use serde_json::Value;
 use std::fs;
 use std::path::PathBuf;
 use windlass::session::Session;
-use windlass::solve::film::{Film, MOST_FRAMES, Take};
+use windlass_solve::film::{Film, MOST_FRAMES, Take};
 
 /// A box with a hull on two chains, away from rest; the chain `B` is let go at 3 s.
 const MOORED: &str = "&DIMEN -DIMEN METERS K-NTS\n&ENV -DEPTH 100 -TIME 6 0.2\nMEDIT\n&DESCRIBE BODY SHIP -IGNORE Z RX RY\n*CG 0 0 0\n\

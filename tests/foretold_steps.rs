@@ -9,11 +9,11 @@ mod measured;
 
 use std::f64::consts::PI;
 use std::sync::Arc;
-use windlass::solve::System;
-use windlass::solve::time::{Convergence, Duties, Ending, Forces, Memory, Method, Motion, Run, Settings, Watcher};
 use windlass_base::pose::{Pose, Six};
 use windlass_hydro::Category;
 use windlass_model::Model;
+use windlass_solve::System;
+use windlass_solve::time::{Convergence, Duties, Ending, Forces, Memory, Method, Motion, Run, Settings, Watcher};
 
 /// Takes rows and says nothing.
 struct Quiet;

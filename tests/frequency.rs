@@ -9,13 +9,13 @@ use nalgebra::{Complex, Matrix6};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 use windlass::session::Session;
-use windlass::solve::frequency::{
-    Asked, Derivative, Extreme, Linear, Operators, Quantity, Statistics, Trains, in_sea, natural, respond,
-};
 use windlass_base::span::Span;
 use windlass_hydro::database::DatabaseLookup;
 use windlass_hydro::database::{Database, DriftTable};
 use windlass_model::{AttachedDatabase, DriftMethod, Model};
+use windlass_solve::frequency::{
+    Asked, Derivative, Extreme, Linear, Operators, Quantity, Statistics, Trains, in_sea, natural, respond,
+};
 
 const G: f64 = 9.80665;
 
@@ -149,7 +149,7 @@ fn statistics_are_those_of_rayleigh() {
 }
 
 /// Response in the sea of a model.
-fn seen(model: &Model, asked: &Asked) -> (Linear, windlass::solve::frequency::Response) {
+fn seen(model: &Model, asked: &Asked) -> (Linear, windlass_solve::frequency::Response) {
     let trains = Trains::of(model, &model.environment).unwrap().unwrap();
     let mut linear = Linear::of(model).unwrap();
     let made = respond(&mut linear, &trains, asked).unwrap();

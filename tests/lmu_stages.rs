@@ -5,8 +5,8 @@
 
 mod common;
 
-use windlass::solve::System;
 use windlass_model::Model;
+use windlass_solve::System;
 
 /// The model after the script has set the hoist to a length and found the equilibrium.
 fn stage(hoist: &str) -> Model {

@@ -12,13 +12,13 @@ use nalgebra::{Matrix6, Vector3};
 use runs::{settings, trapezoidal};
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 use std::sync::Arc;
-use windlass::solve::time::Settings;
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
 use windlass_hydro::hull::{Solid, Tube};
 use windlass_hydro::sea::{Component, Sea, Water};
 use windlass_hydro::{BodyLoad, Category, Floating, Underway, grown};
 use windlass_model::{Model, Stretching};
+use windlass_solve::time::Settings;
 
 const RHO: f64 = 1025.0;
 const G: f64 = 9.80665;

@@ -7,9 +7,9 @@ mod common;
 
 use std::f64::consts::FRAC_PI_4;
 use std::fmt::Write;
-use windlass::solve::{Options, System, equilibrium};
 use windlass_base::pose::Six;
 use windlass_model::Model;
+use windlass_solve::{Options, System, equilibrium};
 
 /// The mooring of the script that made the file. MoorPy's hydrostatics are linear: the waterplane area at the origin, and at the
 /// metacentre the buoyancy at rest. By -KRX and -KRY: rho g V z_M against pitch about the origin, with the weight 2 m below it on

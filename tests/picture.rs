@@ -5,8 +5,8 @@
 mod common;
 
 use common::session;
-use windlass::solve::scene::{Choice, Scene, Sign, Stroke};
 use windlass_model::{Condition, Model};
+use windlass_solve::scene::{Choice, Scene, Sign, Stroke};
 
 const MOORING: &str = "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n&DESCRIBE BODY BARGE\n*BOW 0 0 5\n*STERN 100 0 5\n&INSTATE -CONDITION 0\n\
     ~W B_CAT 100 EXACT -LEN 700 -DEP 120 -BUOY 0 -WTPL 0.5\n\

@@ -8,13 +8,13 @@ mod common;
 use std::fs;
 use tempfile::TempDir;
 use windlass::session::Session;
-use windlass::solve::results::along::{self, Line};
-use windlass::solve::results::{self, Magnitude};
-use windlass::solve::time::Run;
 use windlass_base::diagnostic::Severity;
 use windlass_base::table::Cell;
 use windlass_hydro::Category;
 use windlass_model::PIPE;
+use windlass_solve::results::along::{self, Line};
+use windlass_solve::results::{self, Magnitude};
+use windlass_solve::time::Run;
 
 /// Records of a pipe over five rollers of a barge that moves as it is told, in metres and newtons, up to its TDOM.
 fn records(limits: [f64; 2], motion: &str) -> String {

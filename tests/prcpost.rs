@@ -12,14 +12,14 @@ mod runs;
 use nalgebra::Vector3;
 use runs::{Quiet, model, settings};
 use std::sync::Arc;
-use windlass::solve::results::{self, Exposed, Interest, Magnitude, Told, Window};
-use windlass::solve::time::{Action, Ending, Run, What, When};
 use windlass_base::pose::Six;
 use windlass_base::table::{Cell, Table};
 use windlass_hydro::sea::{Component, Sea, Water};
 use windlass_model::{FatigueSelection, Model, Stretching};
 use windlass_signal::fatigue::{find, of_cycles};
 use windlass_signal::rainflow::cycles;
+use windlass_solve::results::{self, Exposed, Interest, Magnitude, Told, Window};
+use windlass_solve::time::{Action, Ending, Run, What, When};
 
 fn run(model: &Model, (observed, dt): (f64, f64), start: &[(usize, Six)], actions: Vec<Action>) -> Run {
     let mut run = Run::new(model, settings(observed, dt), actions).unwrap();

@@ -13,10 +13,10 @@ use runs::{Quiet, settings, trapezoidal};
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write;
 use std::sync::Arc;
-use windlass::solve::time::{Action, Ending, Motion, Prescribed, Run, Settings, What, When, prescribed};
 use windlass_base::pose::{Pose, Six};
 use windlass_hydro::sea::{Component, Sea, Water};
 use windlass_model::{Model, Stretching};
+use windlass_solve::time::{Action, Ending, Motion, Prescribed, Run, Settings, What, When, prescribed};
 
 /// A model with a body B and a file in the job's folder; the text of what was said.
 fn session(file: &str, records: &str) -> (Model, i64, String) {

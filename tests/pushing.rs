@@ -7,12 +7,12 @@ mod common;
 
 use std::f64::consts::FRAC_PI_4;
 use windlass::session::Session;
-use windlass::solve::results::along::{Line, fatigue_along};
-use windlass::solve::results::{events, line_damages};
-use windlass::solve::time::Run;
 use windlass_signal::fatigue::{find, of_cycles};
 use windlass_signal::line::fatigue::Round;
 use windlass_signal::rainflow::Cycle;
+use windlass_solve::results::along::{Line, fatigue_along};
+use windlass_solve::results::{events, line_damages};
+use windlass_solve::time::Run;
 
 /// A session after records in metres and kilonewtons, none of them refused.
 fn after(records: &str) -> Session {

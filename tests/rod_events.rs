@@ -13,10 +13,10 @@ use std::f64::consts::TAU;
 use std::fs;
 use std::process::Command;
 use windlass::session::Session;
-use windlass::solve::System;
-use windlass::solve::results::along::lines_at_rest;
-use windlass::solve::time::{NodeRow, Run};
 use windlass_model::Model;
+use windlass_solve::System;
+use windlass_solve::results::along::lines_at_rest;
+use windlass_solve::time::{NodeRow, Run};
 
 const GRAVITY: f64 = 9.80665;
 const WATER: f64 = 1025.0;

@@ -14,8 +14,8 @@ use runs::{model, settings};
 use std::f64::consts::{FRAC_PI_4, TAU};
 use std::fs;
 use windlass::session::Session;
-use windlass::solve::System;
 use windlass_model::Model;
+use windlass_solve::System;
 
 const RHO: f64 = 1025.0;
 const G: f64 = 9.80665;

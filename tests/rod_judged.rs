@@ -10,12 +10,12 @@ mod runs;
 
 use runs::{model, run, settings};
 use std::f64::consts::FRAC_PI_4;
-use windlass::solve::results::along::{Code, Line, check, lines_at_rest};
-use windlass::solve::results::events;
-use windlass::solve::time::Run;
 use windlass_base::table::Table;
 use windlass_signal::line::lrfd::Factors;
 use windlass_signal::line::working_stress::DesignCase;
+use windlass_solve::results::along::{Code, Line, check, lines_at_rest};
+use windlass_solve::results::events;
+use windlass_solve::time::Run;
 
 fn column(table: &Table, name: &str) -> Vec<f64> {
     table.get(name).unwrap_or_else(|| panic!("{name}")).numbers()
@@ -49,7 +49,7 @@ fn a_wave_is_not_felt_by_a_riser_far_below_it() {
     assert_eq!(there.len(), 21);
     for place in there {
         let rows = || made.history.rows().map(|row| columns.node(place, row).unwrap());
-        let swing = |of: &dyn Fn(&windlass::solve::time::NodeRow) -> f64| {
+        let swing = |of: &dyn Fn(&windlass_solve::time::NodeRow) -> f64| {
             let all: Vec<f64> = rows().map(|n| of(&n)).collect();
             all.iter().fold(f64::MIN, |m, v| m.max(*v)) - all.iter().fold(f64::MAX, |m, v| m.min(*v))
         };

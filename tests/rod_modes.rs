@@ -7,8 +7,8 @@ mod common;
 
 use std::f64::consts::{FRAC_PI_4, PI};
 use windlass::session::Session;
-use windlass::solve::results::along::natural_modes;
 use windlass_base::table::Table;
+use windlass_solve::results::along::natural_modes;
 
 const GRAVITY: f64 = 9.80665;
 

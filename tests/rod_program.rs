@@ -13,11 +13,11 @@ mod runs;
 
 use runs::{model, run, settings, trapezoidal};
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
-use windlass::solve::System;
-use windlass::solve::results::along::lines_at_rest;
-use windlass::solve::time::{Run, Settings};
 use windlass_base::table::Table;
 use windlass_model::Model;
+use windlass_solve::System;
+use windlass_solve::results::along::lines_at_rest;
+use windlass_solve::time::{Run, Settings};
 
 /// Force of a connector on the first body it is fixed to, at rest where its ends stand (N).
 fn pull(model: &Model, name: &str) -> [f64; 3] {

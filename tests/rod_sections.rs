@@ -12,13 +12,13 @@ mod runs;
 use runs::{model, run, settings};
 use std::f64::consts::{FRAC_PI_4, PI};
 use std::sync::atomic::Ordering;
-use windlass::solve::System;
-use windlass::solve::results::along::{Code, Line, check, envelope, fatigue_along, lines_at_rest, shape};
-use windlass::solve::results::events;
 use windlass_base::table::Table;
 use windlass_model::Model;
 use windlass_signal::line::fatigue::Round;
 use windlass_signal::line::lrfd::Factors;
+use windlass_solve::System;
+use windlass_solve::results::along::{Code, Line, check, envelope, fatigue_along, lines_at_rest, shape};
+use windlass_solve::results::events;
 
 const RHO: f64 = 1025.0;
 const G: f64 = 9.80665;

@@ -6,8 +6,8 @@
 mod common;
 
 use serde_json::Value;
-use windlass::solve::tethered::Statistics;
 use windlass_signal::tether::fatigue::{Asked, BINS, Endurance, Ranges, damage_rate, expected_peak, life_days};
+use windlass_solve::tethered::Statistics;
 
 const RECORD: f64 = 350.25;
 

@@ -5,9 +5,9 @@
 mod common;
 
 use std::f64::consts::PI;
-use windlass::solve::{Options, modes, settle};
 use windlass_base::geometry::Place;
 use windlass_model::Model;
+use windlass_solve::{Options, modes, settle};
 
 const G: f64 = 9.81;
 const MASS: f64 = 268.8e6;

@@ -5,8 +5,8 @@
 mod common;
 
 use nalgebra::Vector3;
-use windlass::solve::System;
 use windlass_model::Model;
+use windlass_solve::System;
 
 /// The model and the screen after so many equilibria of the script.
 fn after(equilibria: usize) -> (Model, String) {

@@ -10,9 +10,9 @@ mod runs;
 
 use runs::{Quiet, model, run, settings, trapezoidal};
 use std::f64::consts::TAU;
-use windlass::solve::time::{Ending, History, Method, Run, Scheme, Settings};
 use windlass_base::pose::Six;
 use windlass_model::Model;
+use windlass_solve::time::{Ending, History, Method, Run, Scheme, Settings};
 
 fn x(history: &History) -> Vec<f64> {
     history.series(history.layout.body(0))

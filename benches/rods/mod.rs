@@ -6,8 +6,8 @@
 use crate::{eight, measured};
 use std::sync::Arc;
 use std::time::Instant;
-use windlass::solve::time::{Convergence, Counts, Method, Run, Settings, Watcher};
 use windlass_model::{Database, Model};
+use windlass_solve::time::{Convergence, Counts, Method, Run, Settings, Watcher};
 
 /// Takes rows and says nothing.
 struct Quiet;

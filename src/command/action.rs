@@ -2,8 +2,6 @@
 
 use super::alter::selected;
 use super::{Call, Command, Effect, Job};
-use crate::solve::FREEDOMS;
-use crate::solve::time::{Action, Watched, What, When};
 use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::Noun;
@@ -12,6 +10,8 @@ use windlass_language::name as rule;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{Model, PIPE, find, line_name};
+use windlass_solve::FREEDOMS;
+use windlass_solve::time::{Action, Watched, What, When};
 
 /// &ACTION.
 pub static ACTION: Command = Command { spec: &SPEC, edits: false, run };

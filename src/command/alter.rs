@@ -5,7 +5,6 @@
 
 use super::{Call, Command, Effect, Job};
 use crate::report::format::report;
-use crate::solve::pretension;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::unit_vector;
 use windlass_base::span::Span;
@@ -17,6 +16,7 @@ use windlass_base::wildcard::{is_wild, matches};
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{Anchor, ClassError, Condition, Connector, LineLoads, LineModel, Model, find};
+use windlass_solve::pretension;
 
 /// &CONNECTOR.
 pub static ALTER: Command = Command { spec: &SPEC, edits: true, run };

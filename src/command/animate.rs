@@ -4,8 +4,6 @@ use super::chosen::Chosen;
 use super::{Call, Command, Effect, Job};
 use crate::report::files::JobFolder;
 use crate::report::film;
-use crate::solve::film::{Film, Take};
-use crate::solve::results::Window;
 use std::path::PathBuf;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
@@ -15,6 +13,8 @@ use windlass_base::values::Noun;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::Thing;
+use windlass_solve::film::{Film, Take};
+use windlass_solve::results::Window;
 
 /// &ANIMATE.
 pub static ANIMATE: Command = Command { spec: &SPEC, edits: false, run };

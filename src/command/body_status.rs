@@ -3,14 +3,14 @@
 use super::chosen::Chosen;
 use super::equilibrium::told;
 use super::{Call, Job};
-use crate::solve::frequency::{self, Linear};
-use crate::solve::{System, tables};
 use windlass_base::diagnostic::Outcome;
 use windlass_base::geometry::Position;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
 use windlass_model::Model;
+use windlass_solve::frequency::{self, Linear};
+use windlass_solve::{System, tables};
 
 const fn number(name: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(Dim::Length), "global coordinate")

@@ -6,8 +6,6 @@ use super::chosen::raise;
 use super::disposition::{BOTH, HARD, send};
 use super::{Call, Command, Effect, Job};
 use crate::report::page;
-use crate::solve::results::along::cautions;
-use crate::solve::{FREEDOMS, Options, SolveError, settle, tables};
 use indexmap::IndexMap;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
@@ -16,6 +14,8 @@ use windlass_base::values::Given;
 use windlass_base::values::Noun;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{Model, find};
+use windlass_solve::results::along::cautions;
+use windlass_solve::{FREEDOMS, Options, SolveError, settle, tables};
 
 /// &EQUI.
 pub static EQUI: Command = Command { spec: &SPEC, edits: true, run };

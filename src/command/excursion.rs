@@ -7,10 +7,6 @@ use super::equilibrium::told;
 use super::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
 use crate::report::format::number_in_full;
-use crate::solve::excursion::Path;
-use crate::solve::excursion_tables::{Asked, Systems, along, around, circle};
-use crate::solve::watch::watch;
-use crate::solve::{SolveError, System};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::pose::Pose;
 use windlass_base::table::Table;
@@ -20,6 +16,10 @@ use windlass_base::values::Noun;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 use windlass_model::{Body, Model, find};
+use windlass_solve::excursion::Path;
+use windlass_solve::excursion_tables::{Asked, Systems, along, around, circle};
+use windlass_solve::watch::watch;
+use windlass_solve::{SolveError, System};
 
 /// MOVE.
 pub static MOVE: Command = Command { spec: &MOVE_SPEC, edits: false, run: moved };

@@ -6,11 +6,11 @@ use super::equilibrium::told;
 use super::prcpost::{CONNECTORS, asked, connectors};
 use super::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
-use crate::solve::results::{self, Exposed};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::units::Dim;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
+use windlass_solve::results::{self, Exposed};
 
 /// FATIGUE.
 pub static FATIGUE: Command = Command { spec: &SPEC, edits: false, run };

@@ -6,7 +6,6 @@ use super::chosen::{WARNING, raise};
 use super::equilibrium::told;
 use super::{Call, Command, Effect, Job, Menu, probability};
 use crate::report::page;
-use crate::solve::frequency::{Asked, Extreme, Linear, Operators, Response, Trains, respond};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -17,6 +16,7 @@ use windlass_base::values::Args;
 use windlass_base::values::Noun;
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 use windlass_model::{Environment, Model, find};
+use windlass_solve::frequency::{Asked, Extreme, Linear, Operators, Response, Trains, respond};
 
 /// FREQ_RESPONSE.
 pub static FREQ_RESPONSE: Command = Command { spec: &MENU_SPEC, edits: false, run: open };

@@ -8,8 +8,6 @@ use super::equilibrium::told;
 use super::frequency::{Found, found, heaving, seas};
 use super::{Call, Command, Effect, Job, Menu, probability};
 use crate::report::disposition::Disposition;
-use crate::solve::frequency::tables::{Told, body_statistics, operators, spectra, statistics};
-use crate::solve::frequency::{Asked, Derivative, Extreme, Linear, Quantity, Response, in_sea};
 use nalgebra::Vector3;
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -21,6 +19,8 @@ use windlass_base::values::Noun;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 use windlass_model::{Environment, Model, Thing, find};
+use windlass_solve::frequency::tables::{Told, body_statistics, operators, spectra, statistics};
+use windlass_solve::frequency::{Asked, Derivative, Extreme, Linear, Quantity, Response, in_sea};
 
 /// MOTION.
 pub static MOTION: Command = Command { spec: &MOTION_SPEC, edits: false, run: motion };

@@ -8,10 +8,6 @@ use crate::report::disposition::Disposition;
 use crate::report::files::Place;
 use crate::report::output::Output;
 use crate::report::page::PageHead;
-use crate::solve::Options;
-use crate::solve::results::Exposed;
-use crate::solve::tethered::Tethered;
-use crate::solve::time::{Action, Run};
 use indexmap::IndexMap;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -22,6 +18,10 @@ use windlass_base::span::Span;
 use windlass_base::units::UnitSystem;
 use windlass_base::values::Args;
 use windlass_model::Model;
+use windlass_solve::Options;
+use windlass_solve::results::Exposed;
+use windlass_solve::tethered::Tethered;
+use windlass_solve::time::{Action, Run};
 
 /// A menu that is open.
 #[derive(Clone, Debug)]

@@ -4,7 +4,6 @@ use super::chosen::{Chosen, WARNING, gathered};
 use super::{Call, Command, Effect, Job};
 use crate::report::picture::{Picture, View};
 use crate::report::plot::PlotError;
-use crate::solve::scene::{Choice, Scene};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::units::Dim;
 use windlass_base::values::Args;
@@ -12,6 +11,7 @@ use windlass_base::values::Noun;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::Thing;
+use windlass_solve::scene::{Choice, Scene};
 
 /// &PICTURE.
 pub static PICTURE: Command = Command { spec: &SPEC, edits: false, run };

@@ -7,9 +7,6 @@ use super::chosen::Chosen;
 use super::equilibrium::told;
 use super::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
-use crate::solve::SolveError;
-use crate::solve::results::{self, Event, Interest, Magnitude, Told, Window};
-use crate::solve::time::Run;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::table::Table;
@@ -18,6 +15,9 @@ use windlass_base::values::Noun;
 use windlass_base::values::{Args, Value};
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 use windlass_model::{Model, Thing};
+use windlass_solve::SolveError;
+use windlass_solve::results::{self, Event, Interest, Magnitude, Told, Window};
+use windlass_solve::time::Run;
 
 /// TRAJECTORY.
 pub static TRAJECTORY: Command = Command { spec: &TRAJECTORY_SPEC, edits: false, run: trajectory };

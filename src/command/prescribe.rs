@@ -4,8 +4,6 @@ mod input;
 
 use super::status::push;
 use super::{Call, Command, Effect, Job};
-use crate::solve::FREEDOMS;
-use crate::solve::time::prescribed;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -17,6 +15,8 @@ use windlass_base::values::{Args, Given};
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{ClassError, GivenMotion, Model, Prescription, Sinusoid, find};
+use windlass_solve::FREEDOMS;
+use windlass_solve::time::prescribed;
 
 /// PRESCRIBE.
 pub static PRESCRIBE: Command = Command { spec: &SPEC, edits: false, run };

@@ -1,11 +1,11 @@
 //! `-PROBABILITY` of `&ENV`: which extreme the statistics of FREQ_RESPONSE tell. What each word does is our reading.
 
-use crate::solve::frequency::Extreme;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::units::Dim;
 use windlass_base::values::Given;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
 use windlass_model::Environment;
+use windlass_solve::frequency::Extreme;
 
 const NAME: &str = "-PROBABILITY";
 const STATISTICS: &[&str] = &["RMS", "SIGNIFICANT", "MAXIMUM", "TIME", "PROBABILITY"];

@@ -4,10 +4,10 @@ use super::Job;
 use super::equilibrium::told;
 use super::tdom::FILE;
 use crate::report::run_log::{self, RunLog};
-use crate::solve::time::Run;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::values::Given;
+use windlass_solve::time::Run;
 
 /// Takes a run that begins to where the one in the file was, by the option that says so of the record at `span`; the file, to go on with.
 pub(super) fn go_on(job: &mut Job, made: &mut Run, again: &Given, span: Span) -> Outcome<RunLog> {

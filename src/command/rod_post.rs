@@ -7,8 +7,6 @@ use super::prcpost::{asked, last_run};
 use super::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
 use crate::report::page;
-use crate::solve::results::along::{self, Code, Line, Where};
-use crate::solve::results::{self, Event, Magnitude, Window};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::table::Table;
@@ -20,6 +18,8 @@ use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 use windlass_signal::line::fatigue::{MOST_POINTS, Round};
 use windlass_signal::line::lrfd::{Factors, SafetyClass};
 use windlass_signal::line::working_stress::DesignCase;
+use windlass_solve::results::along::{self, Code, Line, Where};
+use windlass_solve::results::{self, Event, Magnitude, Window};
 
 /// ROD.
 pub static ROD: Command = Command { spec: &SPEC, edits: false, run };

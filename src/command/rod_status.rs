@@ -2,10 +2,10 @@
 
 use super::Job;
 use super::equilibrium::told;
-use crate::solve::results::along::{lines_at_rest, natural_modes};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::table::Table;
 use windlass_base::values::Args;
+use windlass_solve::results::along::{lines_at_rest, natural_modes};
 
 /// The tables of the lines that fit.
 ///

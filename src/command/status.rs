@@ -17,13 +17,13 @@ use super::{
 use crate::report::disposition::Disposition;
 use crate::report::page;
 use crate::report::plot::Chart;
-use crate::solve::run_tables;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::table::{Cell, Table};
 use windlass_base::values::Noun;
 use windlass_language::select::{Owner, choose};
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 use windlass_model::{Class, Thing};
+use windlass_solve::run_tables;
 
 /// &STATUS.
 pub static STATUS: Command = Command { spec: &SPEC, edits: false, run };

@@ -7,8 +7,6 @@ use super::restart::go_on;
 use super::{Call, Command, Effect, Job, tether_run};
 use crate::report::page;
 use crate::report::run_log::RunLog;
-use crate::solve::time::{Convergence, Ending, Method, Run, Scheme, Settings, Snapshot, Watcher};
-use crate::solve::{SolveError, run_tables, settle, tethered};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -23,6 +21,8 @@ use windlass_hydro::morison::unmoved;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::Model;
+use windlass_solve::time::{Convergence, Ending, Method, Run, Scheme, Settings, Snapshot, Watcher};
+use windlass_solve::{SolveError, run_tables, settle, tethered};
 
 /// TDOM.
 pub static TDOM: Command = Command { spec: &SPEC, edits: true, run };

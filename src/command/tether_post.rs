@@ -6,7 +6,6 @@ use super::disposition::{BOTH, HARD, send};
 use super::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
 use crate::report::page;
-use crate::solve::tethered::{self, Of, Statistics, TetherHistory, Tethered};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::table::Table;
@@ -17,6 +16,7 @@ use windlass_language::select::{Owner, choose};
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 use windlass_signal::SeriesError;
 use windlass_signal::tether::fatigue::{Asked, Endurance};
+use windlass_solve::tethered::{self, Of, Statistics, TetherHistory, Tethered};
 use windlass_tether::installed::Change;
 
 /// TETHER.

@@ -5,7 +5,6 @@
 use super::equilibrium::told;
 use super::{Effect, Job};
 use crate::report::page;
-use crate::solve::tethered::{self, Settings};
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -14,6 +13,7 @@ use windlass_base::units::Dim;
 use windlass_base::values::Args;
 use windlass_language::select::Owner;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
+use windlass_solve::tethered::{self, Settings};
 
 /// -TETHERS.
 pub const TETHERS: OptionSpec = OptionSpec::new(

@@ -2,10 +2,10 @@
 
 use super::Job;
 use super::equilibrium::told;
-use crate::solve::tethered;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::table::Table;
 use windlass_base::values::Args;
+use windlass_solve::tethered;
 
 /// The tables of the tethers that fit.
 ///

@@ -4,10 +4,10 @@
 //! `S` a snapshot), the number of bytes, the bytes, and their checksum (FNV-1a, 64 bits). Numbers are little-endian. What stands
 //! behind the last whole block was being written when the program ended, and does not count.
 
-use crate::solve::time::{Snapshot, Watcher};
 use std::fs::File;
 use std::io::{BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::PathBuf;
+use windlass_solve::time::{Snapshot, Watcher};
 
 /// Begins every such file; its last byte is the version.
 const MARK: [u8; 8] = *b"WINDRUN\x02";

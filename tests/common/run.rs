@@ -1,8 +1,8 @@
 //! Runs for tests: a model of records, settings by length and step, a run to its end.
 
 use super::common;
-use windlass::solve::time::{Action, Convergence, Ending, Method, Run, Scheme, Settings, Watcher};
 use windlass_model::Model;
+use windlass_solve::time::{Action, Convergence, Ending, Method, Run, Scheme, Settings, Watcher};
 
 /// Takes rows and says nothing.
 pub struct Quiet;

@@ -11,7 +11,7 @@ use windlass_base::span::Span;
 pub const GROUND: &str = "GROUND";
 
 /// A rigid body.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Body {
     /// Its name as written.
     pub name: String,
@@ -43,7 +43,7 @@ pub struct Junction {
 }
 
 /// A part of a body; every attribute of a body belongs to a part.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Part {
     /// Its name as written.
     pub name: String,
@@ -60,7 +60,7 @@ pub struct Part {
 }
 
 /// A weight at a place of a part.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Weight {
     /// Its centre, in the part (m).
     pub at: Position,

@@ -1,9 +1,9 @@
 //! The page: data, and a viewer of our own that draws them (share/film), with nothing to be fetched from anywhere.
 
 use crate::report::embedded::{self, doubles, list, number, object, quoted, shorts, singles, string, wholes};
-use crate::solve::film::{Actor, Film, State, Strand, Waves};
 use nalgebra::{Rotation3, UnitQuaternion};
 use windlass_base::units::{Dim, UnitSystem};
+use windlass_solve::film::{Actor, Film, State, Strand, Waves};
 
 /// The page without its data, and what is put into it.
 const PARTS: [(&str, &str); 5] = [

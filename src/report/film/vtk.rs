@@ -3,8 +3,8 @@
 //! Source: The VTK User's Guide, "VTK File Formats", simple legacy formats; the list is ParaView's `.series` (JSON).
 
 use crate::report::embedded::string;
-use crate::solve::film::{Film, State};
 use std::fmt::Write;
+use windlass_solve::film::{Film, State};
 
 /// One file of the series.
 pub struct Step {

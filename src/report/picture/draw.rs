@@ -4,13 +4,13 @@ use super::labels::{Label, Sheet};
 use super::view::{Frame, Seen, View, hull};
 use crate::report::plot::draw::refused;
 use crate::report::plot::{PlotError, terminal};
-use crate::solve::scene::{Outline, Scene, Sign, Stroke};
 use plotters::coord::Shift;
 use plotters::drawing::DrawingArea;
 use plotters::element::{Circle, PathElement, Polygon, Rectangle, Text, TriangleMarker};
 use plotters::prelude::{BLACK, Color, DrawingBackend, RGBColor, WHITE};
 use plotters::style::{IntoTextStyle, TextStyle};
 use std::collections::BTreeSet;
+use windlass_solve::scene::{Outline, Scene, Sign, Stroke};
 
 /// The water, the ground, and their edges.
 const WATER: (RGBColor, RGBColor) = (RGBColor(232, 242, 250), RGBColor(86, 150, 200));

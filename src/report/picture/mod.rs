@@ -10,7 +10,6 @@ use crate::report::format;
 use crate::report::page;
 use crate::report::plot::draw::refused;
 use crate::report::plot::{PlotError, raster, terminal};
-use crate::solve::scene::{Scene, Sign, Stroke};
 use draw::{Look, Pen, SIGNS, STROKES, mark_index};
 use plotters::coord::Shift;
 use plotters::drawing::{DrawingArea, IntoDrawingArea};
@@ -20,6 +19,7 @@ use std::rc::Rc;
 use view::{Extent, Frame, Seen, round_length};
 use windlass_base::geometry::Position;
 use windlass_base::units::{Dim, UnitSystem};
+use windlass_solve::scene::{Scene, Sign, Stroke};
 
 /// Width of a page and its margin (pixels).
 const PAGE: (i32, i32) = (1000, 16);

@@ -1,0 +1,366 @@
+//! The linear equations of motion about a place, and the motions of unit waves.
+
+use crate::modes::held;
+use crate::system::{FREEDOMS, SolveError, State, System, mass_block};
+use crate::time::{Duties, Forces, Memory, Motion};
+use nalgebra::{Complex, DMatrix, DVector, Matrix6};
+use std::f64::consts::TAU;
+use windlass_base::pose::{Pose, Six};
+use windlass_base::units::Dim;
+use windlass_hydro::database::radiation::Radiation;
+use windlass_hydro::database::{DatabaseLookup, mean_drift};
+use windlass_hydro::sea::dispersion::wave_number;
+use windlass_hydro::{Category, in_pose};
+use windlass_model::{Amplitudes, AttachedDatabase, ClassError, DriftMethod, DriftTable, Model};
+
+/// Complex amplitudes of motion, six a body: of its origin (m) and its rotation (rad), global axes.
+pub type Motions = DVector<Complex<f64>>;
+
+/// Acceleration left, as a share of gravity, with which a place is not taken for one at rest.
+const RESTLESS: f64 = 2e-3;
+/// Growth of a motion over that of its mass or its stiffness alone that is taken for one without bound.
+const BOUNDLESS: f64 = 1e9;
+/// Share of the largest motion (m, rad) that is what rounding leaves.
+const ROUNDING: f64 = 1e-13;
+/// The time over which dashpots in series with springs are taken (s).
+const STEP: f64 = 1.0;
+
+/// What waves do to a body by its database.
+#[derive(Clone, Debug)]
+pub(super) struct Floats {
+    pub attached: AttachedDatabase,
+    /// Its added mass at infinite frequency, as the system has it.
+    infinite: Matrix6<f64>,
+    /// Where its x axis points on the plan (rad).
+    pub yaw: f64,
+    /// Multipliers of WAVE, R_DRAG and W_DRIFT.
+    pub factors: [f64; 3],
+    /// Mean drift by heading and frequency, where it makes slow drift.
+    pub drift: Option<DriftTable>,
+}
+
+/// The linear equations about a place, usually that of an equilibrium.
+#[derive(Debug)]
+pub struct Linear {
+    /// The system there.
+    pub system: System,
+    /// The same without waves and databases, in which velocities are resisted.
+    moving: System,
+    /// Places of the bodies.
+    pub poses: Vec<Pose>,
+    /// Stiffness of all that acts there, six a body.
+    pub stiffness: DMatrix<f64>,
+    /// Mass without that of radiated waves, six a body.
+    mass: DMatrix<f64>,
+    /// Damping without that of radiated waves: given ones, connectors at rest.
+    pub(super) damping: DMatrix<f64>,
+    /// What a sea adds to it by linearisation.
+    pub(super) linearised: DMatrix<f64>,
+    /// Motions of all freedoms by those that have inertia; held ones do not move, massless ones follow.
+    follow: DMatrix<f64>,
+    /// The freedoms that have inertia.
+    heavy: Vec<usize>,
+    pub(super) floats: Vec<Option<Floats>>,
+    /// Depth with the tide (m).
+    pub(super) depth: Option<f64>,
+    /// What a user should know; `warning: ` before what is dangerous.
+    pub notes: Vec<String>,
+}
+
+impl Floats {
+    fn of(model: &Model, name: &str, attached: &AttachedDatabase, pose: &Pose) -> Result<Self, ClassError> {
+        let infinite = Radiation::of(&attached.data)?.map_or_else(Matrix6::zeros, |r| r.infinite);
+        let factors = [Category::Wave, Category::RadiationDrag, Category::WaveDrift]
+            .map(|category| model.multipliers.of(category.name(), name));
+        let slow = matches!(attached.drift, DriftMethod::Newman | DriftMethod::Full);
+        let table = || attached.data.drift.clone().or_else(|| attached.data.qtf.as_ref().map(mean_drift));
+        let yaw = pose.axes[(1, 0)].atan2(pose.axes[(0, 0)]);
+        Ok(Floats { attached: attached.clone(), infinite, yaw, factors, drift: slow.then(table).flatten() })
+    }
+}
+
+impl Linear {
+    /// The equations of a model about its present configuration, in the environment in force.
+    ///
+    /// # Errors
+    /// The body or connector that makes no part of the system, or has no answer there.
+    pub fn of(model: &Model) -> Result<Self, SolveError> {
+        let system = System::of(model, &[])?;
+        let mut state = system.state(model);
+        system.evaluate(&mut state)?;
+        let (mut floats, mut mass) = (Vec::new(), system.mass_matrix(&state.poses));
+        for (index, (node, pose)) in system.nodes.iter().zip(&state.poses).enumerate() {
+            if model.bodies.get(&node.key).is_some_and(|b| b.prescribed.is_some()) {
+                let text = "its motion is given in time: the frequency domain has none for it";
+                return Err(SolveError::of(&node.name)(ClassError::new(text)));
+            }
+            let attached = model.bodies.get(&node.key).and_then(|b| b.database.as_ref());
+            let made = attached.map(|a| Floats::of(model, &node.name, a, pose)).transpose();
+            let made = made.map_err(SolveError::of(&node.name))?;
+            if let Some(made) = &made {
+                let block =
+                    mass_block(&node.floating.mass, pose) + node.floating.added(pose) - in_pose(&made.infinite, pose);
+                mass.fixed_view_mut::<6, 6>(6 * index, 6 * index).copy_from(&block);
+            }
+            floats.push(made);
+        }
+        let moving = calm(model)?;
+        let still = vec![Six::zeros(); state.poses.len()];
+        let damping = damping(&moving, &state.poses, &still, &mut Forces::default())?;
+        let (heavy, follow) = followed(&system, &state)?;
+        let around = &system.surroundings;
+        let depth = around.depth.map(|d| d + around.tide);
+        let linearised = DMatrix::zeros(mass.nrows(), mass.nrows());
+        let notes = Vec::new();
+        let (poses, stiffness) = (state.poses.clone(), state.stiffness.clone());
+        let mut made =
+            Linear { system, moving, poses, stiffness, mass, damping, linearised, follow, heavy, floats, depth, notes };
+        made.look(&state.residual);
+        made.look_at_lines(model);
+        Ok(made)
+    }
+
+    /// Remarks on the place and the bodies.
+    fn look(&mut self, left: &DVector<f64>) {
+        let (mut restless, mut still) = (Vec::new(), Vec::new());
+        for (index, node) in self.system.nodes.iter().enumerate() {
+            let mass = node.floating.mass.mass;
+            let force = (0..3).filter(|f| node.moves(*f)).map(|f| left[6 * index + f]);
+            let force = force.fold(0.0, f64::hypot);
+            if mass > 0.0 && force > RESTLESS * mass * self.system.gravity {
+                restless.push(node.name.clone());
+            }
+            if !node.junction && self.floats.get(index).is_none_or(|f| f.is_none()) {
+                still.push(node.name.clone());
+            }
+        }
+        if !restless.is_empty() {
+            let text = format!("warning: {} not at rest where the motions are taken about: &EQUI", list(&restless));
+            self.notes.push(text);
+        }
+        if !still.is_empty() {
+            self.notes.push(format!("no waves act on {}: without a hydrodynamic database", still.join(", ")));
+        }
+        for (index, node) in self.system.nodes.iter().enumerate() {
+            let own = self.damping.fixed_view::<6, 6>(6 * index, 6 * index).into_owned();
+            let least = (own + own.transpose()).symmetric_eigenvalues().min();
+            if least < -1e-9 * own.amax() {
+                self.notes.push(format!("warning: {} has a damping that is negative in some motion", node.name));
+            }
+        }
+    }
+
+    /// A remark on the lines whose dynamics are left out.
+    fn look_at_lines(&mut self, model: &Model) {
+        let moves = |name: &&str| model.connectors.get(&Model::key(name)).is_some_and(|c| model.moves(c));
+        let moving: Vec<_> = self.connectors().filter(moves).collect();
+        if !moving.is_empty() {
+            let text = format!(
+                "{}: what moves by itself follows the bodies here as at rest, without dynamics of its own",
+                moving.join(", ")
+            );
+            self.notes.push(text);
+        }
+    }
+
+    /// What resists velocities of the bodies, beside radiated waves, six a body: its change with them there.
+    ///
+    /// # Errors
+    /// A connector or load that has no answer.
+    pub(super) fn damping_under(&self, velocities: &[Six], forces: &mut Forces) -> Result<DMatrix<f64>, SolveError> {
+        damping(&self.moving, &self.poses, velocities, forces)
+    }
+
+    /// The connectors that act.
+    pub fn connectors(&self) -> impl Iterator<Item = &str> {
+        self.system.links.iter().map(|l| l.name.as_str())
+    }
+
+    /// Whether waves act on a body.
+    pub fn is_excited(&self) -> bool {
+        self.floats.iter().flatten().any(|f| !f.attached.data.excitation.is_empty())
+    }
+
+    /// The frequencies of the databases (rad/s), growing.
+    pub fn frequencies(&self) -> Vec<f64> {
+        let all = self.floats.iter().flatten().flat_map(|f| f.attached.data.frequencies.iter().copied());
+        let mut all: Vec<f64> = all.collect();
+        all.sort_by(f64::total_cmp);
+        all.dedup_by(|a, b| *a - *b <= 1e-9 * *b);
+        all
+    }
+
+    /// The headings of the first database, as directions the waves come from (rad), growing from 0.
+    pub fn headings(&self) -> Vec<f64> {
+        let Some(first) = self.floats.iter().flatten().next() else { return Vec::new() };
+        let from = |h: &f64| {
+            let turned = (h + first.yaw + 0.5 * TAU).rem_euclid(TAU);
+            if TAU - turned < 1e-9 { 0.0 } else { turned }
+        };
+        let mut all: Vec<f64> = first.attached.data.headings.iter().map(from).collect();
+        all.sort_by(f64::total_cmp);
+        all
+    }
+
+    /// Mass with added mass, and damping with that of radiated waves, at a frequency (rad/s), six a body.
+    pub fn inertia_and_damping(&self, frequency: f64) -> (DMatrix<f64>, DMatrix<f64>) {
+        let (mut mass, mut damping) = (self.mass.clone(), &self.damping + &self.linearised);
+        for (index, (floats, pose)) in self.floats.iter().zip(&self.poses).enumerate() {
+            let Some(Floats { attached, infinite, factors: [_, radiated, _], .. }) = floats else { continue };
+            let data = &attached.data;
+            let more = data.added_mass_at(frequency).map_or(*infinite, |a| infinite + (a - infinite) * *radiated);
+            let mut block = mass.fixed_view_mut::<6, 6>(6 * index, 6 * index);
+            block += in_pose(&more, pose);
+            if let Some(own) = data.damping_at(frequency) {
+                let mut block = damping.fixed_view_mut::<6, 6>(6 * index, 6 * index);
+                block += in_pose(&(own * *radiated), pose);
+            }
+        }
+        (mass, damping)
+    }
+
+    /// Forces of a wave of unit amplitude (m) that travels toward a direction (rad) with its crest at the global origin, six a body (N, N m).
+    ///
+    /// # Errors
+    /// A heading in a gap of a database.
+    pub fn excitation(&self, frequency: f64, toward: f64) -> Result<Motions, SolveError> {
+        let mut all = Motions::zeros(self.mass.nrows());
+        let k = self.wave_number(frequency)?;
+        let (sin, cos) = toward.sin_cos();
+        for (index, ((floats, pose), node)) in self.floats.iter().zip(&self.poses).zip(&self.system.nodes).enumerate() {
+            let Some(floats) = floats.as_ref().filter(|f| !f.attached.data.excitation.is_empty()) else { continue };
+            let x = floats.attached.data.excitation_at(toward - floats.yaw, frequency);
+            let x = turned(x.map_err(SolveError::of(&node.name))?, floats.yaw);
+            let [factor, ..] = floats.factors;
+            let phase = k * (pose.origin.x * cos + pose.origin.y * sin);
+            for (i, value) in x.into_iter().enumerate() {
+                all[6 * index + i] = value * Complex::from_polar(factor, phase);
+            }
+        }
+        Ok(all)
+    }
+
+    pub(super) fn wave_number(&self, frequency: f64) -> Result<f64, SolveError> {
+        wave_number(frequency, self.depth, self.system.gravity).map_err(SolveError::new)
+    }
+
+    /// Motions under forces of a frequency (rad/s).
+    ///
+    /// # Errors
+    /// A motion without bound: no damping at its natural period.
+    pub fn motions(&self, frequency: f64, forces: &[Motions]) -> Result<Vec<Motions>, SolveError> {
+        let (mass, damping) = self.inertia_and_damping(frequency);
+        let real = &self.stiffness - mass * (frequency * frequency);
+        let to = self.follow.transpose();
+        let (real, damping) = (&to * real * &self.follow, &to * damping * &self.follow);
+        let (inertia, stiffness) = (&to * &self.mass * &self.follow, &to * &self.stiffness * &self.follow);
+        let size = real.nrows();
+        let scale: Vec<f64> = (0..size)
+            .map(|i| (inertia[(i, i)].abs() * frequency * frequency + stiffness[(i, i)].abs()).sqrt().recip())
+            .collect();
+        let at = |i: usize| scale.get(i).copied().unwrap_or(1.0);
+        let scaled = DMatrix::from_fn(size, size, |i, j| {
+            Complex::new(real[(i, j)], -frequency * damping[(i, j)]) * (at(i) * at(j))
+        });
+        let inverse = scaled.lu().try_inverse().filter(|m| m.iter().all(|v| v.re.is_finite() && v.im.is_finite()));
+        let worst = |m: &DMatrix<Complex<f64>>| {
+            let largest = |i: usize| m.row(i).iter().fold(0.0, |most: f64, v| most.max(v.norm()));
+            (0..size).map(|i| (largest(i), i)).fold((0.0, 0), |a, b| if b.0 > a.0 { b } else { a })
+        };
+        let bound = inverse.as_ref().map(worst);
+        let (Some(inverse), Some((..=BOUNDLESS, _))) = (inverse, bound) else {
+            let row = bound.and_then(|(_, i)| self.heavy.get(i)).copied();
+            let text = "its motion has no bound at a period of {}: it is a natural period without damping";
+            let error = ClassError::of(text, &[(TAU / frequency, Dim::Time)]).help("#DAMP gives a body damping");
+            let name = |row: usize| {
+                let node = self.system.nodes.get(row / 6)?;
+                Some(format!("{} in {}", node.name, FREEDOMS.get(row % 6)?))
+            };
+            return Err(match row.and_then(name) {
+                Some(who) => SolveError::new(ClassError { message: format!("{who}: {}", error.message), ..error }),
+                None => SolveError::new(error),
+            });
+        };
+        let follow = self.follow.map(|v| Complex::new(v, 0.0));
+        let one = |force: &Motions| {
+            let own = follow.tr_mul(force);
+            let own = DVector::from_fn(size, |i, _| own[i] * at(i));
+            let moved = &inverse * own;
+            let mut all = &follow * DVector::from_fn(size, |i, _| moved[i] * at(i));
+            let least = ROUNDING * all.iter().fold(0.0, |most: f64, v| most.max(v.norm()));
+            all.iter_mut().filter(|v| v.norm() < least).for_each(|v| *v = Complex::new(0.0, 0.0));
+            all
+        };
+        Ok(forces.iter().map(one).collect())
+    }
+
+    /// Motions in waves of unit amplitude (m) of a frequency (rad/s), one for each direction of travel (rad).
+    ///
+    /// # Errors
+    /// As [`Linear::excitation`] and [`Linear::motions`].
+    pub fn operators(&self, frequency: f64, toward: &[f64]) -> Result<Vec<Motions>, SolveError> {
+        let forces = toward.iter().map(|b| self.excitation(frequency, *b)).collect::<Result<Vec<_>, _>>()?;
+        self.motions(frequency, &forces)
+    }
+}
+
+/// Several names as the subject of a sentence.
+fn list(names: &[String]) -> String {
+    format!("{} {}", names.join(", "), if names.len() == 1 { "is" } else { "are" })
+}
+
+/// Six amplitudes in axes turned about z by an angle (rad), in global axes.
+fn turned([x, y, z, rx, ry, rz]: Amplitudes, angle: f64) -> Amplitudes {
+    let (sin, cos) = angle.sin_cos();
+    [x * cos - y * sin, x * sin + y * cos, z, rx * cos - ry * sin, rx * sin + ry * cos, rz]
+}
+
+/// The bodies under way in calm water, without what databases bring and without gusts.
+fn calm(model: &Model) -> Result<System, SolveError> {
+    let mut calm = model.clone();
+    calm.bodies.values_mut().for_each(|b| b.database = None);
+    calm.environment.gusts = None;
+    System::under_way(&calm, None, Duties::default())
+}
+
+/// What resists velocities, six a body.
+fn damping(
+    system: &System,
+    poses: &[Pose],
+    velocities: &[Six],
+    forces: &mut Forces,
+) -> Result<DMatrix<f64>, SolveError> {
+    let motion = |(pose, velocity): (&Pose, &Six)| Motion { pose: *pose, velocity: *velocity, ..Motion::default() };
+    let motions: Vec<Motion> = poses.iter().zip(velocities).map(motion).collect();
+    let mut memory = Memory::of(system);
+    memory.begin(system, (&motions, &motions), (0.0, STEP))?;
+    forces.evaluate(system, &memory, &motions, (0.0, STEP))?;
+    match forces.damping.iter().all(|v| v.is_finite()) {
+        true => Ok(forces.damping.clone()),
+        false => Err(SolveError::new(ClassError::new("the damping has no value at some velocity of the bodies"))),
+    }
+}
+
+/// The freedoms that have inertia, and the motions of all freedoms by theirs.
+fn followed(system: &System, state: &State) -> Result<(Vec<usize>, DMatrix<f64>), SolveError> {
+    let mass = system.mass_matrix(&state.poses);
+    let moves = |i: &usize| system.nodes.get(i / 6).is_some_and(|n| n.moves(i % 6));
+    let (heavy, light): (Vec<usize>, Vec<usize>) = (0..mass.nrows()).filter(moves).partition(|i| mass[(*i, *i)] > 0.0);
+    if heavy.is_empty() {
+        return Err(SolveError::new(ClassError::new("no body with a mass is free to move")));
+    }
+    let mut follow = DMatrix::zeros(mass.nrows(), heavy.len());
+    for (column, row) in heavy.iter().enumerate() {
+        follow[(*row, column)] = 1.0;
+    }
+    let part = |r: &[usize], c: &[usize]| state.stiffness.select_rows(r).select_columns(c);
+    if !light.is_empty() {
+        let solved = held(part(&light, &light), &part(&light, &heavy));
+        let text = "freedoms without mass have no stiffness there";
+        let solved = solved.ok_or_else(|| SolveError::new(ClassError::new(text)))?;
+        for (from, row) in light.iter().enumerate() {
+            follow.row_mut(*row).copy_from(&-solved.row(from));
+        }
+    }
+    Ok((heavy, follow))
+}

@@ -1,0 +1,65 @@
+//! Natural periods with added mass at each mode's own frequency, and damping ratios.
+
+use super::linear::Linear;
+use crate::modes::{Mode, modes_with};
+use nalgebra::DVector;
+
+/// Times a mode's frequency is found again.
+const MOST: usize = 100;
+/// Change of a frequency that is none.
+const SAME: f64 = 1e-9;
+/// Eigenvalue below which nothing holds a motion (rad2/s2): a period of 17 hours.
+const LOOSE: f64 = 1e-8;
+
+/// A mode with its damping.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Natural {
+    /// Its eigenvalue, undamped period and shape, with added mass at its own frequency.
+    pub mode: Mode,
+    /// Damping over critical damping, at its own frequency; `None` where nothing holds it. It is that of the mode by itself:
+    /// damping that couples modes is left out.
+    pub damping: Option<f64>,
+    /// Whether the frequency and its added mass agree.
+    pub settled: bool,
+}
+
+/// The modes of a system about its place, lowest eigenvalue first as found with added mass at infinite frequency.
+pub fn natural(linear: &Linear) -> Vec<Natural> {
+    let stiffness = &linear.stiffness;
+    let start = modes_with(&linear.system, &linear.system.mass_matrix(&linear.poses), stiffness);
+    let floats = linear.floats.iter().any(Option::is_some);
+    start.into_iter().map(|mode| own(linear, mode, floats)).collect()
+}
+
+fn own(linear: &Linear, mut mode: Mode, floats: bool) -> Natural {
+    let frequency = |mode: &Mode| mode.eigenvalue.max(0.0).sqrt();
+    let mut settled = !floats;
+    for _ in 0..MOST {
+        if settled {
+            break;
+        }
+        let w = frequency(&mode);
+        let (mass, _) = linear.inertia_and_damping(w);
+        let list = modes_with(&linear.system, &mass, &linear.stiffness);
+        // the one most alike in shape, with translations and rotations weighed by their inertia
+        let weigh = |i: usize| mass[(i, i)].max(0.0);
+        let product = |a: &DVector<f64>, b: &DVector<f64>| -> f64 {
+            a.iter().zip(b.iter()).enumerate().map(|(i, (a, b))| weigh(i) * a * b).sum()
+        };
+        let alike = |other: &Mode| {
+            let size = product(&other.shape, &other.shape) * product(&mode.shape, &mode.shape);
+            if size > 0.0 { product(&mode.shape, &other.shape).powi(2) / size } else { 0.0 }
+        };
+        let best = list.into_iter().map(|m| (alike(&m), m)).reduce(|a, b| if b.0 > a.0 { b } else { a });
+        let Some((_, next)) = best else { break };
+        settled = (frequency(&next) - w).abs() <= SAME * w.max(LOOSE.sqrt());
+        mode = next;
+    }
+    let w = frequency(&mode);
+    let damping = (mode.eigenvalue > LOOSE).then(|| {
+        let (mass, damping) = linear.inertia_and_damping(w);
+        let of = |m: &nalgebra::DMatrix<f64>| mode.shape.dot(&(m * &mode.shape));
+        of(&damping) / (2.0 * w * of(&mass))
+    });
+    Natural { mode, damping: damping.filter(|d| d.is_finite()), settled }
+}

@@ -1,0 +1,128 @@
+//! What is asked of motions: a number that is linear in them.
+
+use super::linear::{Linear, Motions};
+use crate::link::{Attachment, arm, pose_of};
+use crate::system::SolveError;
+use nalgebra::{Complex, DVector, Vector3};
+use windlass_base::pose::Six;
+use windlass_hydro::transferred;
+use windlass_model::{End, Response, Situation, TimeStep};
+
+/// Which derivative with time is meant.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Derivative {
+    /// None.
+    #[default]
+    Place,
+    /// The first.
+    Velocity,
+    /// The second.
+    Acceleration,
+}
+
+impl Derivative {
+    /// Its power of time.
+    pub fn order(self) -> i32 {
+        match self {
+            Derivative::Place => 0,
+            Derivative::Velocity => 1,
+            Derivative::Acceleration => 2,
+        }
+    }
+}
+
+/// A number linear in the motions of all bodies and their velocities.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Quantity {
+    /// Its value at rest.
+    pub mean: f64,
+    /// Its change with the motions, six a body.
+    place: DVector<f64>,
+    /// Its change with the velocities.
+    rate: DVector<f64>,
+}
+
+/// The force of a connector on its first end on a body: its components in global axes, and its size, which for a line is its
+/// tension; `None` where there is no force at rest.
+pub type Pull = ([Quantity; 3], Option<Quantity>);
+
+impl Quantity {
+    /// A freedom of the origin of a body.
+    pub fn freedom(linear: &Linear, body: usize, freedom: usize) -> Self {
+        let size = 6 * linear.system.nodes.len();
+        let place = DVector::from_fn(size, |i, _| if i == 6 * body + freedom { 1.0 } else { 0.0 });
+        Quantity { mean: 0.0, place, rate: DVector::zeros(size) }
+    }
+
+    /// The three coordinates of a point of a body, given in the body (m).
+    pub fn point(linear: &Linear, body: usize, at: Vector3<f64>) -> [Self; 3] {
+        let pose = linear.poses.get(body).copied().unwrap_or_default();
+        let (arm, start) = (pose.axes * at, pose.point(at));
+        [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| {
+            let mut made = Quantity { mean: start.dot(&axis), ..Quantity::freedom(linear, body, 0) };
+            // axis . (turn x arm) = turn . (arm x axis)
+            let turn = arm.cross(&axis);
+            let six = [axis.x, axis.y, axis.z, turn.x, turn.y, turn.z];
+            six.into_iter().enumerate().for_each(|(i, v)| made.place[6 * body + i] = v);
+            made
+        })
+    }
+
+    /// What this is more than another.
+    pub fn minus(self, other: &Quantity) -> Self {
+        Quantity { mean: self.mean - other.mean, place: self.place - &other.place, rate: self.rate - &other.rate }
+    }
+
+    /// The force of a connector; `None` of a name that does not act on a body.
+    ///
+    /// # Errors
+    /// The connector that has no answer.
+    pub fn tension(linear: &Linear, name: &str) -> Result<Option<Pull>, SolveError> {
+        let (system, poses) = (&linear.system, &linear.poses);
+        let Some(link) = system.links.iter().find(|l| l.name.eq_ignore_ascii_case(name)) else { return Ok(None) };
+        let Some(first) = link.ends.iter().position(|e| matches!(e, Attachment::Body(..))) else { return Ok(None) };
+        let ends: Vec<End> = link.ends.iter().map(|e| End::still(pose_of(e, poses))).collect();
+        let committed = system.states.get(link.states.clone()).unwrap_or_default();
+        let mut trial = committed.to_vec();
+        let (mut rest, mut under_way) = (Response::default(), Response::default());
+        let step = Some(TimeStep { time: 0.0, dt: 1.0 });
+        for (step, out) in [(None, &mut rest), (step, &mut under_way)] {
+            let at = Situation { ends: &ends, step, surroundings: &system.surroundings };
+            link.element.evaluate(&at, committed, &mut trial, &mut None, out).map_err(SolveError::of(&link.name))?;
+        }
+        let size = 6 * system.nodes.len();
+        let count = link.ends.len();
+        let own = link.ends.get(first).map_or(Vector3::zeros(), |e| arm(e, poses));
+        let wrench = rest.wrench.get(first).copied().unwrap_or_else(Six::zeros);
+        let mut made =
+            [0, 1, 2].map(|i| Quantity { mean: wrench[i], place: DVector::zeros(size), rate: DVector::zeros(size) });
+        for (j, end) in link.ends.iter().enumerate() {
+            let Attachment::Body(body, _) = end else { continue };
+            let far = arm(end, poses);
+            let block = |all: &[nalgebra::Matrix6<f64>]| all.get(count * first + j).map(|b| transferred(b, own, far));
+            let (stiffness, damping) = (block(&rest.stiffness), block(&under_way.damping));
+            for (i, quantity) in made.iter_mut().enumerate() {
+                for k in 0..6 {
+                    quantity.place[6 * body + k] -= stiffness.map_or(0.0, |b| b[(i, k)]);
+                    quantity.rate[6 * body + k] -= damping.map_or(0.0, |b| b[(i, k)]);
+                }
+            }
+        }
+        let force = Vector3::new(wrench[0], wrench[1], wrench[2]);
+        let tension = force.norm();
+        let [x, y, z] = &made;
+        let along = (tension > 0.0).then(|| {
+            let unit = force / tension;
+            let sum = |part: fn(&Quantity) -> &DVector<f64>| part(x) * unit.x + part(y) * unit.y + part(z) * unit.z;
+            Quantity { mean: tension, place: sum(|q| &q.place), rate: sum(|q| &q.rate) }
+        });
+        Ok(Some((made, along)))
+    }
+
+    /// Its complex amplitude, or that of a derivative of it, under motions of a frequency (rad/s).
+    pub fn of(&self, motions: &Motions, frequency: f64, derivative: Derivative) -> Complex<f64> {
+        let rate = Complex::new(0.0, -frequency);
+        let part = |by: &DVector<f64>| by.iter().zip(motions.iter()).map(|(a, q)| q * *a).sum::<Complex<f64>>();
+        (part(&self.place) + part(&self.rate) * rate) * rate.powi(derivative.order())
+    }
+}

@@ -1,0 +1,155 @@
+//! Motions in a sea as spectra.
+//!
+//! A point is a small band of frequencies with complex amplitudes that add up without phase between them: one for each direction of
+//! the waves. The variance of a quantity g is `sum |g v|2` over them; its density the same over the width of the band.
+
+use super::linear::{Linear, Motions};
+use super::natural::{Natural, natural};
+use super::quantity::{Derivative, Quantity};
+use super::trains::{Trains, bounds, resolved};
+use super::{linearise, slow};
+use crate::system::SolveError;
+use std::f64::consts::TAU;
+use windlass_base::units::Dim;
+use windlass_model::ClassError;
+
+/// Most numbers kept.
+const MOST: usize = 20_000_000;
+
+/// Motions in a narrow band of frequencies.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point {
+    /// Its frequency (rad/s).
+    pub frequency: f64,
+    /// Its width (rad/s); `None` for a regular wave or a band without an end.
+    pub width: Option<f64>,
+    /// Energy of the waves in it (m2); none of slow drift.
+    pub energy: f64,
+    /// Motions of independent parts, whose squares add up: half the square of an amplitude is one of them squared.
+    pub parts: Vec<Motions>,
+}
+
+impl Point {
+    /// Variance of a quantity, or a derivative of it, in this band.
+    pub fn variance(&self, quantity: &Quantity, derivative: Derivative) -> f64 {
+        self.parts.iter().map(|v| quantity.of(v, self.frequency, derivative).norm_sqr()).sum()
+    }
+}
+
+/// Motions in a sea.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Response {
+    /// At the frequencies of the waves.
+    pub waves: Vec<Point>,
+    /// Slow drift.
+    pub slow: Vec<Point>,
+    /// Rounds of linearisation; 0: nothing was to be linearised.
+    pub rounds: usize,
+}
+
+/// What of a response is asked for.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Asked {
+    /// Frequencies (rad/s), growing; empty: as the sea and the natural periods need them.
+    pub frequencies: Vec<f64>,
+    /// Linearises what is not linear in velocity, and adds the slow drift.
+    pub spectral: bool,
+}
+
+/// The response of a system in a sea.
+///
+/// # Errors
+/// A heading in a gap of a database, a motion without bound, a linearisation that does not settle.
+pub fn respond(linear: &mut Linear, trains: &Trains, asked: &Asked) -> Result<Response, SolveError> {
+    // the same points in every round
+    let resonant = resonances(linear);
+    let mut made = within(linear, trains, asked, &resonant)?;
+    if asked.spectral {
+        made.rounds = linearise::settle(linear, &mut made, |l| within(l, trains, asked, &resonant))?;
+    }
+    Ok(made)
+}
+
+/// The response in a sea with the damping there is.
+///
+/// # Errors
+/// As [`respond`].
+pub fn in_sea(linear: &Linear, trains: &Trains, asked: &Asked) -> Result<Response, SolveError> {
+    within(linear, trains, asked, &resonances(linear))
+}
+
+/// Natural frequencies (rad/s) with their damping ratios.
+fn resonances(linear: &Linear) -> Vec<(f64, f64)> {
+    let of = |m: &Natural| Some((TAU / m.mode.period?, m.damping?));
+    natural(linear).iter().filter_map(of).filter(|(w, _)| w.is_finite()).collect()
+}
+
+fn within(linear: &Linear, trains: &Trains, asked: &Asked, resonant: &[(f64, f64)]) -> Result<Response, SolveError> {
+    let waves = waves(linear, trains, asked, resonant)?;
+    let slow = if asked.spectral { slow::drift(linear, trains, resonant)? } else { Vec::new() };
+    Ok(Response { waves, slow, rounds: 0 })
+}
+
+fn waves(linear: &Linear, trains: &Trains, asked: &Asked, resonant: &[(f64, f64)]) -> Result<Vec<Point>, SolveError> {
+    let mut points = Vec::new();
+    if let Some(range) = trains.range() {
+        let usual = || resolved(trains.points(range), resonant);
+        let own = if asked.frequencies.is_empty() { usual() } else { asked.frequencies.clone() };
+        let directions: usize = trains.irregular.iter().map(|d| d.toward.len()).sum();
+        bounded(own.len(), directions, linear)?;
+        let edges = bounds(&own, [0.0, f64::INFINITY]);
+        let below: Vec<Vec<f64>> =
+            trains.irregular.iter().map(|d| edges.iter().map(|w| d.spectrum.below(*w)[0]).collect()).collect();
+        for (i, frequency) in own.iter().enumerate() {
+            let (mut toward, mut energies) = (Vec::new(), Vec::new());
+            for (train, below) in trains.irregular.iter().zip(&below) {
+                let energy = match below.get(i..i + 2) {
+                    Some([low, high]) => (high - low).max(0.0),
+                    _ => 0.0,
+                };
+                if energy > 0.0 {
+                    toward.extend_from_slice(&train.toward);
+                    let share = energy / train.toward.len().max(1) as f64;
+                    energies.extend(train.toward.iter().map(|_| share));
+                }
+            }
+            let width = match edges.get(i..i + 2) {
+                Some([low, high]) => Some(high - low).filter(|w| i > 0 && w.is_finite()),
+                _ => None,
+            };
+            points.push(point(linear, *frequency, width, (&toward, &energies))?);
+        }
+    }
+    for (frequency, toward, energy) in &trains.regular {
+        points.push(point(linear, *frequency, None, (&[*toward], &[*energy]))?);
+    }
+    points.sort_by(|a, b| a.frequency.total_cmp(&b.frequency));
+    Ok(points)
+}
+
+fn point(
+    linear: &Linear,
+    frequency: f64,
+    width: Option<f64>,
+    (toward, energies): (&[f64], &[f64]),
+) -> Result<Point, SolveError> {
+    let mut parts = if toward.is_empty() { Vec::new() } else { linear.operators(frequency, toward)? };
+    for (part, energy) in parts.iter_mut().zip(energies) {
+        part.iter_mut().for_each(|v| *v *= energy.sqrt());
+    }
+    if parts.iter().flat_map(|p| p.iter()).any(|v| !(v.re.is_finite() && v.im.is_finite())) {
+        let text = "the motions at a period of {} are no numbers";
+        return Err(SolveError::new(ClassError::of(text, &[(TAU / frequency, Dim::Time)])));
+    }
+    Ok(Point { frequency, width, energy: energies.iter().sum(), parts })
+}
+
+/// Refuses more than memory is taken for.
+pub(super) fn bounded(points: usize, parts: usize, linear: &Linear) -> Result<(), SolveError> {
+    let size = points.saturating_mul(parts).saturating_mul(6 * linear.system.nodes.len());
+    if size > MOST {
+        let text = format!("{points} frequencies with {parts} parts of all bodies are more than are kept");
+        return Err(SolveError::new(ClassError::new(text).help("fewer periods, or no -SPREAD")));
+    }
+    Ok(())
+}

@@ -1,0 +1,57 @@
+//! Engines over the model: the system of bodies and connectors, its equilibrium, its stiffness and natural periods, its
+//! restoring forces. They know nothing of commands, files or printing.
+//!
+//! # Example
+//! A body of 1 MN that floats with 0.9 MN of buoyancy at z = 0 and a heave stiffness of 0.5 MN/m sinks by 0.2 m:
+//! ```
+//! use nalgebra::{Matrix6, Vector6};
+//! use windlass_model::{Body, LinearHydrostatics, Model, Part, Weight};
+//! use windlass_solve::{Options, settle};
+//!
+//! let linear = LinearHydrostatics {
+//!     at: [0.0; 3],
+//!     height: 0.0,
+//!     buoyancy: 0.9e6,
+//!     stiffness: Matrix6::from_diagonal(&Vector6::repeat(0.5e6)),
+//!     span: Default::default(),
+//! };
+//! let weight = Weight { weight: 1e6, radii: [5.0; 3], ..Weight::default() };
+//! let part = Part { name: "B".into(), body: "B".into(), weights: vec![weight], ..Part::default() };
+//! let mut model = Model::default();
+//! model.bodies.insert("B".into(), Body { name: "B".into(), linear: Some(linear), ..Body::default() });
+//! model.parts.insert("B".into(), part);
+//! settle(&mut model, &Options::default())?;
+//! assert!((model.bodies["B"].place.shift[2] + 0.2).abs() < 1e-9);
+//! # Ok::<(), windlass_solve::SolveError>(())
+//! ```
+
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
+mod change;
+mod equilibrium;
+pub mod excursion;
+pub mod excursion_tables;
+pub mod film;
+pub mod frequency;
+mod link;
+mod modes;
+pub mod offset;
+mod outline;
+pub mod pretension;
+pub mod results;
+pub mod run_tables;
+pub mod scene;
+mod search;
+mod settle;
+mod system;
+pub mod tables;
+pub mod tethered;
+pub mod time;
+mod unknowns;
+pub mod watch;
+
+pub use equilibrium::{Equilibrium, Options, equilibrium};
+pub use modes::{Mode, modes};
+pub use settle::{Settled, settle};
+pub use system::{Contribution, FREEDOMS, Node, SolveError, State, System};

@@ -1,0 +1,228 @@
+//! Unity checks along a line.
+
+use super::{Line, Section, wall_tension};
+use crate::results::Event;
+use crate::system::SolveError;
+use crate::time::NodeRow;
+use windlass_base::table::{Digits, Table};
+use windlass_base::units::Dim;
+use windlass_model::ClassError;
+use windlass_signal::SeriesError;
+use windlass_signal::line::lrfd::{Factors, Resistance};
+use windlass_signal::line::working_stress::{self, DesignCase};
+use windlass_signal::line::{Acting, Tube, over_break};
+
+/// What a tube is checked by; other sections go by tension over break.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Code {
+    /// DNV-ST-F201, with what corrodes of the wall (m).
+    Lrfd(Factors, f64),
+    /// API RP 2RD, with what corrodes of the wall (m).
+    WorkingStress(DesignCase, f64),
+    /// Tension over break for tubes, too.
+    Break,
+}
+
+impl Code {
+    fn name(&self) -> &'static str {
+        match self {
+            Code::Lrfd(..) => "F201",
+            Code::WorkingStress(..) => "2RD",
+            Code::Break => "BREAK",
+        }
+    }
+}
+
+/// A segment as it is checked.
+#[derive(Debug)]
+enum Checked {
+    Lrfd(Box<Resistance>),
+    WorkingStress(Tube, DesignCase),
+    Break(f64),
+}
+
+impl Checked {
+    fn of(section: &Section, code: &Code, bends: bool) -> Result<Checked, ClassError> {
+        let tube = section.tube.filter(|_| bends);
+        let wrong = |e: SeriesError| ClassError::new(e.to_string());
+        let thinner = |tube: Tube, corroded: f64| {
+            if corroded < tube.wall {
+                return Ok(Tube { wall: tube.wall - corroded, ..tube });
+            }
+            let values = [(corroded, Dim::Section), (tube.wall, Dim::Section)];
+            Err(ClassError::of("-CORROSION of {} leaves nothing of a wall of {}", &values))
+        };
+        Ok(match (code, tube) {
+            (Code::Lrfd(factors, corroded), Some(tube)) => {
+                Checked::Lrfd(Box::new(Resistance::of(thinner(tube, *corroded)?, *factors).map_err(wrong)?))
+            }
+            (Code::WorkingStress(case, corroded), Some(tube)) => {
+                let thinner = thinner(tube, *corroded)?;
+                thinner.check().map_err(wrong)?;
+                Checked::WorkingStress(thinner, *case)
+            }
+            _ => Checked::Break(section.segment.breaking),
+        })
+    }
+
+    fn name(&self) -> &'static str {
+        match self {
+            Checked::Lrfd(..) => "F201",
+            Checked::WorkingStress(..) => "2RD",
+            Checked::Break(_) => "BREAK",
+        }
+    }
+}
+
+/// The most a node uses, and what acts then.
+#[derive(Clone, Copy, Debug)]
+struct Worst {
+    used: f64,
+    time: f64,
+    arc: f64,
+    segment: usize,
+    acting: Acting,
+}
+
+/// The largest use of what each node resists over some events, and when; where two segments meet, of the one that uses more. What acts at the first stored instant, at rest, is functional
+/// load, of a node that a winch made later what acted there at the same distance from the first end; what is more or less later is of the
+/// environment.
+///
+/// # Errors
+/// A section that is no tube, a factor out of range.
+pub fn check(line: &Line, code: &Code, events: &[Event]) -> Result<Table, SolveError> {
+    let wrong = |e: SeriesError| SolveError { who: Some(line.name.to_string()), error: ClassError::new(e.to_string()) };
+    let (run, columns) = (line.run, line.columns);
+    let checked: Vec<Checked> = line
+        .sections
+        .iter()
+        .map(|section| Checked::of(section, code, columns.bends))
+        .collect::<Result<_, ClassError>>()
+        .map_err(|error| SolveError { who: Some(line.name.to_string()), error })?;
+    let first = run.history.rows().next().unwrap_or_default();
+    let rest: Vec<Option<NodeRow>> = line.places.iter().map(|p| columns.node(*p, first)).collect();
+    let length = line.length(first);
+    let lrfd = checked.iter().any(|c| matches!(c, Checked::Lrfd(_)));
+    let mut worst: Vec<Option<Worst>> = vec![None; line.places.len()];
+    let mut row = Vec::new();
+    for event in events {
+        line.row(event, &mut row);
+        let time = row.first().copied().unwrap_or(f64::NAN);
+        for ((place, rest), worst) in line.places.iter().zip(&rest).zip(&mut worst) {
+            let Some(node) = columns.node(*place, &row) else { continue };
+            for (_, segment, section) in line.sides(&node, &row) {
+                let Some(how) = checked.get(segment) else { continue };
+                let acting = acting(&node, section);
+                let used = match how {
+                    Checked::Lrfd(resistance) => {
+                        // what a winch has made since hangs where something else hung at rest
+                        let there = || line.at_arc(node.arc.min(length), first);
+                        let at_rest = rest.or_else(there).unwrap_or(node);
+                        resistance.used_now(design(&at_rest), design(&node), [acting.inside, acting.outside])
+                    }
+                    Checked::WorkingStress(tube, case) => {
+                        // of the wall that corrosion leaves
+                        let acting = Acting { wall: wall_tension(tube, &node), ..acting };
+                        working_stress::used(tube, &acting, *case).map_err(wrong)?
+                    }
+                    Checked::Break(breaking) => over_break(node.effective, *breaking).map_err(wrong)?,
+                };
+                if !used.is_finite() {
+                    return Err(line.wrong(format!("its check at {time} s is no number")));
+                }
+                if worst.is_none_or(|w| used > w.used) {
+                    *worst = Some(Worst { used, time, arc: node.arc, segment, acting });
+                }
+            }
+        }
+    }
+    let mut table = told(line, code, &checked, &worst)?;
+    if lrfd && rest.iter().any(Option::is_none) {
+        table.note(match length.is_finite() {
+            true => {
+                "what a winch made later has as functional load what was at its distance from the first end at rest"
+            }
+            false => "it did not act at rest: all of its load is functional",
+        });
+    }
+    Ok(table)
+}
+
+/// Moments about two directions and effective tension.
+fn design(node: &NodeRow) -> [f64; 3] {
+    let [one, other] = node.bent.map(|b| b.bends).unwrap_or_default();
+    [one, other, node.effective]
+}
+
+fn acting(node: &NodeRow, section: &Section) -> Acting {
+    let Some(bent) = &node.bent else { return Acting { effective: node.effective, ..Acting::default() } };
+    let [outside, inside] = bent.pressures;
+    Acting { moment: bent.moment(), effective: node.effective, wall: section.pulled(node), inside, outside }
+}
+
+fn told(line: &Line, code: &Code, checked: &[Checked], worst: &[Option<Worst>]) -> Result<Table, SolveError> {
+    let bends = line.columns.bends;
+    let by_code = checked.iter().any(|c| !matches!(c, Checked::Break(_)));
+    let mut table = Table::new("Unity Checks Along a Line")
+        .fact("Line", line.name, Dim::None)
+        .fact("Code", if by_code { code.name() } else { Code::Break.name() }, Dim::None)
+        .column("", "Node", Dim::None, Digits::Usual)
+        .column("", "Arc", Dim::Length, Digits::Usual)
+        .column("", "Check", Dim::None, Digits::Usual)
+        .column("Largest", "Used", Dim::None, Digits::Decimals(3))
+        .column("Largest", "At", Dim::Time, Digits::Usual)
+        .column("Then", "Tension", Dim::Force, Digits::Usual);
+    if bends {
+        table = table.column("Then", "Moment", Dim::Moment, Digits::Usual).column(
+            "Then",
+            "Net Pressure",
+            Dim::Stress,
+            Digits::Usual,
+        );
+    }
+    let mut most: Option<(usize, Worst)> = None;
+    for (index, found) in worst.iter().enumerate() {
+        let Some(found) = found else { continue };
+        if most.is_none_or(|(_, m)| found.used > m.used) {
+            most = Some((index + 1, *found));
+        }
+        let name = checked.get(found.segment).map(Checked::name);
+        let mut cells = vec![
+            (index + 1).into(),
+            found.arc.into(),
+            name.into(),
+            found.used.into(),
+            found.time.into(),
+            found.acting.effective.into(),
+        ];
+        if bends {
+            cells.push(found.acting.moment.into());
+            cells.push((found.acting.inside - found.acting.outside).into());
+        }
+        table.push(cells).map_err(|e| line.wrong(e.to_string()))?;
+    }
+    if let Some((node, Worst { used, time, .. })) = most {
+        // sums of steps are off in their last digits
+        let time = (time * 1e6).round() / 1e6;
+        let holds = if used > 1.0 { "warning: it does not hold; most" } else { "most" };
+        table.note(format!("{holds} is used at node {node}: {used:.3} at {time} s"));
+    }
+    match code {
+        Code::Lrfd(factors, _) if by_code => table.note(format!(
+            "DNV-ST-F201, combined loading, gamma_SC {} gamma_m {} gamma_F {} gamma_E {}: at rest functional, the rest of the environment",
+            factors.class.factor(),
+            factors.material,
+            factors.functional,
+            factors.environmental
+        )),
+        Code::WorkingStress(case, _) if by_code => table.note(format!(
+            "API RP 2RD (1998), von Mises stress at the middle of the wall over {} times 2/3 of the yield stress",
+            case.factor()
+        )),
+        _ => {}
+    }
+    if checked.iter().any(|c| matches!(c, Checked::Break(_))) {
+        table.note("BREAK is tension over breaking tension");
+    }
+    Ok(table)
+}

@@ -1,0 +1,115 @@
+//! The least, mean and most at each node.
+
+use super::{CLEARANCE, Line, segments_at, sides};
+use crate::results::Event;
+use crate::system::SolveError;
+use crate::time::{AlongEnvelope, Quantity};
+use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::units::Dim;
+use windlass_signal::line::envelope::Seen;
+
+/// Quantities told, with the head of their columns and the sign they have there.
+const TOLD: [(&str, &str, Quantity, Dim); 6] = [
+    ("Clearance", "C", Quantity::Clearance, Dim::Length),
+    ("Effective Tension", "T", Quantity::Effective, Dim::Force),
+    ("Wall Tension", "W", Quantity::Wall, Dim::Force),
+    ("Shear", "V", Quantity::Shear, Dim::Force),
+    ("Bending Moment", "M", Quantity::Moment, Dim::Moment),
+    ("Von Mises", "S", Quantity::VonMises, Dim::Stress),
+];
+
+/// Least, mean and most of clearance, tensions, shear, moment and von Mises stress at each node over some events, and the largest share
+/// of the yield stress of a tube or of the break of another section; of a run without stored instants over those behind its transient.
+///
+/// # Errors
+/// Numbers that make no table.
+pub fn envelope(line: &Line, events: &[Event]) -> Result<Table, SolveError> {
+    let (run, columns) = (line.run, line.columns);
+    let mut made = AlongEnvelope::default();
+    let mut row = Vec::new();
+    for event in events {
+        line.row(event, &mut row);
+        made.take(columns, &row).map_err(|e| line.wrong(e.to_string()))?;
+    }
+    let seen = match run.envelopes.get(line.link) {
+        Some(kept) if run.history.is_empty() => kept,
+        _ => &made,
+    };
+    let wall = columns.bends && line.sections.iter().any(|s| s.tube.is_some());
+    let told: Vec<_> = TOLD
+        .iter()
+        .filter(|(.., quantity, _)| match quantity {
+            Quantity::Clearance | Quantity::Effective => true,
+            Quantity::Wall | Quantity::VonMises => wall,
+            _ => columns.bends,
+        })
+        .collect();
+    let mut table = Table::new("Envelope Along a Line")
+        .fact("Line", line.name, Dim::None)
+        .column("", "Node", Dim::None, Digits::Usual)
+        .column("", "Arc", Dim::Length, Digits::Usual);
+    for (group, sign, _, dim) in &told {
+        let digits = if *sign == "C" { CLEARANCE } else { Digits::Usual };
+        for part in ["Min", "Mean", "Max"] {
+            table = table.column(group, &format!("{sign} {part}"), *dim, digits);
+        }
+    }
+    let mut table = table.column("", "Used", Dim::None, Digits::Decimals(3));
+    let length = line.places.last().and_then(|p| seen.seen(*p, Quantity::Arc)).map_or(f64::NAN, |s| s.mean);
+    let (mut worst, mut wound): (Option<(f64, usize)>, bool) = (None, false);
+    for (number, place) in line.numbered() {
+        let of = |quantity: Quantity| seen.seen(place, quantity);
+        let arc = of(Quantity::Arc).map(|s| s.mean);
+        wound |= of(Quantity::Arc).is_some_and(|s| s.most.value - s.least.value > 1e-6 * length);
+        let mut cells: Vec<Cell> = vec![number.into(), arc.into()];
+        for (.., quantity, _) in &told {
+            let found: Option<Seen> = of(*quantity);
+            cells.extend([
+                found.map(|s| s.least.value).into(),
+                found.map(|s| s.mean).into(),
+                found.map(|s| s.most.value).into(),
+            ]);
+        }
+        let used = arc.zip(of(Quantity::Effective)).and_then(|(arc, tension)| {
+            let stress = [Quantity::VonMisesBefore, Quantity::VonMisesBehind].map(of);
+            let sides = sides(&line.sections, segments_at(&line.sections, length - arc));
+            let used = sides.map(|(side, _, section)| {
+                section.used(tension.most.value, stress.get(side).and_then(|s| Some(s.as_ref()?.most.value)))
+            });
+            used.reduce(f64::max)
+        });
+        if let Some(used) = used
+            && worst.is_none_or(|(most, _)| used > most)
+        {
+            worst = Some((used, number));
+        }
+        cells.push(used.into());
+        table.push(cells).map_err(|e| line.wrong(e.to_string()))?;
+    }
+    if let Some((used, node)) = worst {
+        table.note(format!("most is used at node {node}: {used:.3}"));
+    }
+    table.note(if wall {
+        "Used is von Mises stress over yield stress of a tube, tension over breaking tension of other sections"
+    } else {
+        "Used is tension over breaking tension"
+    });
+    if wound {
+        table.note("a winch changed the length: Arc is the mean of each node while it was there");
+    }
+    if line.columns.most > line.nodes() && run.settings.along > 1 {
+        table.note(format!("every {} node is kept: TDOM -ALONG", ordinal(run.settings.along)));
+    }
+    Ok(table)
+}
+
+/// 2nd, 3rd, 4th.
+fn ordinal(number: usize) -> String {
+    let ending = match (number % 10, number % 100) {
+        (1, rest) if rest != 11 => "st",
+        (2, rest) if rest != 12 => "nd",
+        (3, rest) if rest != 13 => "rd",
+        _ => "th",
+    };
+    format!("{number}{ending}")
+}

@@ -1,0 +1,164 @@
+//! Fatigue along a line.
+
+use super::Line;
+use crate::results::Event;
+use crate::system::SolveError;
+use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::units::Dim;
+use windlass_model::{ClassError, FatigueKind, FatigueSelection};
+use windlass_signal::SeriesError;
+use windlass_signal::fatigue::{Curve, find, life};
+use windlass_signal::line::fatigue::{NodeDamage, NodeRecord, Round, node_damage};
+
+/// Damage of each node over the stored instants of some events, round a tube at some points, and the life in years that it leaves
+/// when the record comes again for ever, with a design fatigue factor; where two segments meet that of the side that fails first. Each segment goes by its curve as for [`super::super::line_damages`].
+///
+/// # Errors
+/// A segment without a curve, a record without length, what [`node_damage`] says.
+pub fn along(
+    line: &Line,
+    selection: &FatigueSelection,
+    (round, factor): (&Round, f64),
+    events: &[Event],
+) -> Result<Table, SolveError> {
+    let wrong = |error: ClassError| SolveError { who: Some(line.name.to_string()), error };
+    let refused = |e: SeriesError| wrong(ClassError::new(e.to_string()));
+    let mut curves = Vec::new();
+    for (index, section) in line.sections.iter().enumerate() {
+        let named = selection.curve_of(&section.segment);
+        let text = match named {
+            Some(curve) => format!("there is no fatigue curve {curve}"),
+            None => format!("segment {} has no fatigue curve", index + 1),
+        };
+        let missing = || wrong(ClassError::new(text).help("-C_SN of its class, or &REP_SELECT -SN, names one"));
+        curves.push(named.and_then(|c| find(c, selection)).ok_or_else(missing)?);
+    }
+    let mut row = Vec::new();
+    // one for each side: where two segments meet they go by curves and stresses of their own
+    let mut records: Vec<[Record; 2]> = line.places.iter().map(|_| Default::default()).collect();
+    for event in events {
+        line.row(event, &mut row);
+        let time = row.first().copied().unwrap_or(f64::NAN);
+        for (records, place) in records.iter_mut().zip(&line.places) {
+            let Some(node) = line.columns.node(*place, &row) else { continue };
+            for (side, segment, section) in line.sides(&node, &row) {
+                let Some(record) = records.get_mut(side) else { continue };
+                record.take((time, node.arc, segment));
+                record.tension.push(section.pulled(&node));
+                for (moments, value) in record.bends.iter_mut().zip(node.bent.map(|b| b.bends).unwrap_or_default()) {
+                    moments.push(value);
+                }
+            }
+        }
+    }
+    let mut table = Table::new("Fatigue Along a Line")
+        .fact("Line", line.name, Dim::None)
+        .fact("Record", records.iter().flatten().map(Record::length).fold(0.0, f64::max), Dim::Time)
+        .fact("Design Fatigue Factor", factor, Dim::None);
+    let by = |kind: FatigueKind| curves.iter().any(|c| c.kind == kind);
+    let round_tubes = line.columns.bends && by(FatigueKind::Stress) && line.sections.iter().any(|s| s.tube.is_some());
+    if round_tubes {
+        table = table.fact("Points Round a Tube", round.points, Dim::None).fact(
+            "Stress Concentration",
+            round.concentration,
+            Dim::None,
+        );
+    }
+    table = table
+        .column("", "Node", Dim::None, Digits::Usual)
+        .column("", "Arc", Dim::Length, Digits::Usual)
+        .column("", "Segment", Dim::None, Digits::Usual)
+        .column("", "Curve", Dim::None, Digits::Usual)
+        .column("", "Cycles", Dim::None, Digits::Decimals(1));
+    if by(FatigueKind::Stress) {
+        table = table.column("Largest Range", "Stress", Dim::Stress, Digits::Scientific(3));
+    }
+    if by(FatigueKind::Tension) {
+        table = table.column("Largest Range", "T/TB", Dim::None, Digits::Decimals(4));
+    }
+    if round_tubes {
+        table = table.column("", "Point", Dim::Angle, Digits::Decimals(1));
+    }
+    let mut table = table.column("", "Damage", Dim::None, Digits::Scientific(4)).column(
+        "",
+        "Life, Years",
+        Dim::None,
+        Digits::Scientific(4),
+    );
+    let mut worst: Option<(f64, usize)> = None;
+    for (index, sides) in records.iter().enumerate() {
+        let mut most = None;
+        for record in sides.iter().filter(|r| r.tension.len() > 1) {
+            let (Some(section), Some(curve)) = (line.sections.get(record.segment), curves.get(record.segment)) else {
+                continue;
+            };
+            let [one, other] = &record.bends;
+            let bends = line.columns.bends.then_some([one.as_slice(), other.as_slice()]);
+            let node = NodeRecord { segment: &section.segment, curve, tension: &record.tension, bends };
+            let made = node_damage(&node, selection.thickness.as_ref(), round).map_err(refused)?;
+            if most.as_ref().is_none_or(|(_, _, found): &(_, _, NodeDamage)| made.damage >= found.damage) {
+                most = Some((record, curve, made));
+            }
+        }
+        let Some((record, curve, found)) = most else { continue };
+        let years = life(found.damage, record.length(), factor).map_err(refused)?;
+        if worst.is_none_or(|(most, _)| found.damage > most) {
+            worst = Some((found.damage, index + 1));
+        }
+        let of_kind = |kind: FatigueKind| Cell::from((curve.kind == kind).then_some(found.largest));
+        let mut cells: Vec<Cell> = vec![
+            (index + 1).into(),
+            record.arc.into(),
+            (record.segment + 1).into(),
+            curve.name.as_str().into(),
+            found.cycles.into(),
+        ];
+        cells.extend([FatigueKind::Stress, FatigueKind::Tension].into_iter().filter(|k| by(*k)).map(of_kind));
+        if round_tubes {
+            cells.push(found.angle.into());
+        }
+        cells.extend([found.damage.into(), years.into()]);
+        table.push(cells).map_err(|e| line.wrong(e.to_string()))?;
+    }
+    if table.rows() == 0 {
+        return Err(line.wrong("fatigue needs more than one instant at which it acts"));
+    }
+    if let Some((damage, node)) = worst.filter(|(damage, _)| *damage > 0.0) {
+        table.note(format!("most damage is at node {node}: {damage:.4E}"));
+    }
+    for curve in curves.iter().filter(|c| c.unconfirmed) {
+        note_once(&mut table, curve);
+    }
+    table.note("Life is that of this record coming again for ever, over the design fatigue factor; none where there is no damage");
+    Ok(table)
+}
+
+fn note_once(table: &mut Table, curve: &Curve) {
+    let text = format!("the numbers of curve {} are not confirmed: &STATUS SN", curve.name);
+    if !table.notes.contains(&text) {
+        table.note(text);
+    }
+}
+
+/// What a node bore while it was there.
+#[derive(Debug, Default)]
+struct Record {
+    from: Option<f64>,
+    to: f64,
+    arc: f64,
+    segment: usize,
+    tension: Vec<f64>,
+    bends: [Vec<f64>; 2],
+}
+
+impl Record {
+    fn take(&mut self, (time, arc, segment): (f64, f64, usize)) {
+        self.from = self.from.or(Some(time));
+        (self.to, self.arc, self.segment) = (time, arc, segment);
+    }
+
+    /// How long it was there (s).
+    fn length(&self) -> f64 {
+        self.from.map_or(0.0, |from| self.to - from)
+    }
+}

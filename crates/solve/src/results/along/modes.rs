@@ -1,0 +1,125 @@
+//! How a line swings between its ends where they stand.
+
+use super::at_rest::standing;
+use crate::system::SolveError;
+use nalgebra::Vector3;
+use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::units::Dim;
+use windlass_model::{LineMode, LineNode, Model};
+
+/// The slowest natural modes of the lines that move by themselves and whose names fit, about where they rest between their ends as
+/// these stand: for each line a table, a row a mode, and with `shapes` behind it one of each mode, a row a node.
+///
+/// # Errors
+/// A line that does not rest there, or has fewer modes.
+pub fn natural_modes(
+    model: &Model,
+    fits: &dyn Fn(&str) -> bool,
+    number: usize,
+    shapes: bool,
+) -> Result<Vec<Table>, SolveError> {
+    let mut tables = Vec::new();
+    standing(model, fits, |name, element, at, state| {
+        let wrong = SolveError::of(name);
+        // what is too much is refused before anything is solved
+        let modes = element.swings(at, state, number).map_err(&wrong)?;
+        let mut nodes = Vec::new();
+        element.along(at, state, &mut nodes).map_err(&wrong)?;
+        tables.push(periods(name, &nodes, &modes)?);
+        if shapes {
+            for (index, mode) in modes.iter().enumerate() {
+                tables.push(shape(name, index + 1, &nodes, mode)?);
+            }
+        }
+        Ok(())
+    })?;
+    Ok(tables)
+}
+
+fn text(error: windlass_base::table::TableError) -> SolveError {
+    SolveError::new(windlass_model::ClassError::new(error.to_string()))
+}
+
+/// Periods, where each mode moves most, and which way.
+fn periods(name: &str, nodes: &[LineNode], modes: &[LineMode]) -> Result<Table, SolveError> {
+    let mut table = Table::new("Natural Modes of a Line")
+        .fact("Line", name, Dim::None)
+        .column("", "Mode", Dim::None, Digits::Usual)
+        .column("", "Period", Dim::Time, Digits::Decimals(3))
+        .column("", "Frequency", Dim::Frequency, Digits::Decimals(4))
+        .column("Most", "Node", Dim::None, Digits::Usual);
+    for at in ["Arc", "X", "Y", "Z"] {
+        table = table.column("Most", at, Dim::Length, Digits::Usual);
+    }
+    for way in ["Along", "In Plane", "Across"] {
+        table = table.column("Share of Motion", way, Dim::None, Digits::Decimals(3));
+    }
+    for (index, mode) in modes.iter().enumerate() {
+        let size = |i: usize| mode.shape.get(i).map_or(0.0, Vector3::norm);
+        // of equals the first: which of two like bows is larger by a thousandth tells nothing
+        let most = (0..nodes.len()).fold(0, |most, i| if size(i) > size(most) * 1.001 { i } else { most });
+        let mut row: Vec<Cell> = vec![(index + 1).into(), mode.period().into(), mode.frequency.into()];
+        row.push((most + 1).into());
+        let place = nodes.get(most).map(|n| [n.arc, n.position.x, n.position.y, n.position.z]);
+        row.extend((0..4).map(|i| Cell::from(place.and_then(|p| p.get(i).map(|v| clean(*v))))));
+        row.extend(shares(nodes, &mode.shape).map(|s| Cell::from(if s < 5e-4 { 0.0 } else { s })));
+        table.push(row).map_err(text)?;
+    }
+    table.note("about rest between its ends where they stand and are held, in the mean current, with added mass, without damping");
+    table.note("Along, In Plane and Across are along the line, in the vertical plane of its ends (of X where these are above each other) and across it");
+    Ok(table)
+}
+
+/// How much of a motion is along the line, across it in the vertical plane of the ends, and out of that plane: parts of the sum of
+/// squares over the length.
+fn shares(nodes: &[LineNode], shape: &[Vector3<f64>]) -> [f64; 3] {
+    let chord = nodes.first().zip(nodes.last()).map_or_else(Vector3::x, |(a, b)| b.position - a.position);
+    let level = Vector3::new(chord.x, chord.y, 0.0);
+    let level = if level.norm() > 1e-3 * chord.norm() { level.normalize() } else { Vector3::x() };
+    let out = Vector3::z().cross(&level);
+    let mut sums = [0.0; 3];
+    for (pair, moved) in nodes.windows(2).zip(shape.windows(2)) {
+        let ([a, b], [p, q]) = (pair, moved) else { continue };
+        let d = b.position - a.position;
+        let Some(t) = d.try_normalize(0.0) else { continue };
+        // across the line: a line that a current drives aside is not in the plane of its ends
+        let beside = (out - t * t.dot(&out)).try_normalize(1e-9).unwrap_or_else(Vector3::zeros);
+        for s in [p, q] {
+            let (along, aside) = (s.dot(&t), s.dot(&beside));
+            let rest = (s.norm_squared() - along * along - aside * aside).max(0.0);
+            for (sum, part) in sums.iter_mut().zip([along * along, rest, aside * aside]) {
+                *sum += part * (b.arc - a.arc);
+            }
+        }
+    }
+    let whole: f64 = sums.iter().sum();
+    if whole > 0.0 { sums.map(|s| s / whole) } else { sums }
+}
+
+/// A coordinate (m) as zero where it is but rounding.
+fn clean(place: f64) -> f64 {
+    if place.abs() < 1e-9 { 0.0 } else { place }
+}
+
+/// The shape of one mode.
+fn shape(name: &str, number: usize, nodes: &[LineNode], mode: &LineMode) -> Result<Table, SolveError> {
+    let mut table = Table::new(format!("Shape of Mode {number} of a Line"))
+        .fact("Line", name, Dim::None)
+        .fact("Period", mode.period(), Dim::Time)
+        .column("", "Node", Dim::None, Digits::Usual)
+        .column("", "Arc", Dim::Length, Digits::Usual);
+    for at in ["X", "Y", "Z"] {
+        table = table.column("Place", at, Dim::Length, Digits::Usual);
+    }
+    for way in ["X", "Y", "Z"] {
+        table = table.column("Motion", way, Dim::None, Digits::Decimals(4));
+    }
+    for (index, (node, moved)) in nodes.iter().zip(&mode.shape).enumerate() {
+        let mut row: Vec<Cell> = vec![(index + 1).into(), node.arc.into()];
+        row.extend(node.position.iter().map(|v| Cell::from(clean(*v))));
+        // what is nothing but rounding is nothing
+        row.extend(moved.iter().map(|v| Cell::from(if v.abs() < 5e-5 { 0.0 } else { *v })));
+        table.push(row).map_err(text)?;
+    }
+    Ok(table)
+}

@@ -1,0 +1,40 @@
+//! What a pipe does to each of its supports over time.
+
+use super::Line;
+use crate::results::{Event, Magnitude, columns, filled, timed};
+use crate::system::SolveError;
+use nalgebra::Vector3;
+use windlass_base::table::Table;
+use windlass_base::units::Dim;
+use windlass_model::{AssemblyKind, Model};
+
+/// The force of a pipe on each of its supports on bodies over some events, global axes, from the support nearest to the bottom to the
+/// tensioner.
+///
+/// # Errors
+/// A line that no supports hold.
+pub fn supports(line: &Line, magnitude: Magnitude, events: &[Event]) -> Result<Table, SolveError> {
+    let (model, layout) = (&line.run.model, &line.run.history.layout);
+    let names = match model.assemblies.get(&Model::key(line.name)).map(|a| &a.kind) {
+        Some(AssemblyKind::Pipe { supports, .. }) => supports,
+        _ => return Err(line.wrong("it lies on no supports: a pipe assembly does")),
+    };
+    let acts = |name: &&String| model.connectors.get(&Model::key(name)).is_some_and(|c| c.active);
+    let mut table = timed("Forces on Supports").fact("Line", line.name, Dim::None);
+    let mut places = Vec::new();
+    for (end, name) in names.iter().filter(acts).enumerate() {
+        let Some(at) = layout.wrench(line.link, end) else {
+            table.note(format!("{name} stands in the ground, and the run keeps no force on it"));
+            continue;
+        };
+        table = columns(table, name, &["FX", "FY", "FZ", "Mag."], Dim::Force);
+        places.push(at);
+    }
+    filled((&line.run.history, events), table, &mut |row, made| {
+        for at in &places {
+            let force = row.get(*at..at + 3).map_or(Vector3::repeat(f64::NAN), Vector3::from_column_slice);
+            magnitude.push(&force, made);
+        }
+        Ok(())
+    })
+}

@@ -1,0 +1,85 @@
+//! Where a line meets the bottom.
+
+use super::Line;
+use crate::results::{Event, columns, filled, timed};
+use crate::system::SolveError;
+use crate::time::NodeRow;
+use windlass_base::table::{Digits, Table};
+use windlass_base::units::Dim;
+
+/// The touchdown point over some events, from the first end: the first node on the bottom with its distance and tension, the point
+/// between it and the one before at which the line would begin to lie, and the unstretched length on the bottom.
+///
+/// # Errors
+/// None of its own.
+pub fn touchdown(line: &Line, events: &[Event]) -> Result<Table, SolveError> {
+    let mut table = timed("Touchdown").fact("Line", line.name, Dim::None);
+    table = table.column("First Node on Bottom", "Node", Dim::None, Digits::Decimals(0));
+    table = columns(table, "First Node on Bottom", &["Node Arc"], Dim::Length);
+    table = columns(table, "First Node on Bottom", &["Tension"], Dim::Force);
+    table = columns(table, "Touchdown", &["Arc", "X", "Y", "Z"], Dim::Length);
+    table = columns(table, "On Bottom", &["Length"], Dim::Length);
+    let mut table = filled((&line.run.history, events), table, &mut |row, made| {
+        let there: Vec<(usize, NodeRow)> =
+            line.numbered().filter_map(|(number, place)| Some((number, line.columns.node(place, row)?))).collect();
+        let Some(first) = there.iter().position(|(_, n)| n.clearance <= 0.0) else {
+            let grounded = if there.is_empty() { f64::NAN } else { 0.0 };
+            made.extend([[f64::NAN; 7].as_slice(), &[grounded]].concat());
+            return Ok(());
+        };
+        let Some((number, node)) = there.get(first) else { return Ok(()) };
+        let before = |back: usize| first.checked_sub(back).and_then(|i| there.get(i)).map(|(_, n)| n);
+        let (arc, at) = met(before(2), before(1), node);
+        let lies = |pair: &&[(usize, NodeRow)]| pair.iter().all(|(_, n)| n.clearance <= 0.0);
+        let pairs = there.windows(2).filter(lies).filter_map(|p| Some(p.last()?.1.arc - p.first()?.1.arc));
+        made.extend([*number as f64, node.arc, node.effective, arc]);
+        made.extend(at);
+        made.push(pairs.sum());
+        Ok(())
+    })?;
+    table.note(
+        "Touchdown lies between the first node on the bottom and the one before, where a parabola through the two nodes before comes down",
+    );
+    Ok(table)
+}
+
+/// The unstretched distance and the place at which a line comes down between the last node off the bottom and the first on it. A
+/// heavy line leaves the bottom with the height growing as the square of the distance, so that the roots of two heights tell where from.
+fn met(far: Option<&NodeRow>, last: Option<&NodeRow>, first: &NodeRow) -> (f64, [f64; 3]) {
+    let Some(last) = last else { return (first.arc, first.position) };
+    let far = far.filter(|f| f.clearance > last.clearance && last.clearance > 0.0);
+    let on = far.map_or(first.arc, |far| {
+        let [high, low] = [far.clearance.sqrt(), last.clearance.sqrt()];
+        last.arc + (last.arc - far.arc) * low / (high - low)
+    });
+    let on = on.clamp(last.arc, first.arc);
+    let share = (on - last.arc) / (first.arc - last.arc);
+    let mut at = last.position;
+    for (value, next) in at.iter_mut().zip(first.position) {
+        *value += share * (next - *value);
+    }
+    (on, at)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn node(arc: f64, clearance: f64) -> NodeRow {
+        NodeRow { arc, position: [10.0 * arc, 0.0, clearance], clearance, effective: 1.0, bent: None }
+    }
+
+    #[test]
+    fn a_line_touches_down_where_its_parabola_does() {
+        // heights 0.02 (s - 7.3)^2 on the way down
+        let height = |s: f64| 0.02 * (s - 7.3f64).powi(2);
+        let [far, last, first] = [node(5.0, height(5.0)), node(6.0, height(6.0)), node(8.0, -0.001)];
+        let (arc, at) = met(Some(&far), Some(&last), &first);
+        assert!((arc - 7.3).abs() < 1e-12 && (at[0] - 73.0).abs() < 1e-9, "{arc} {at:?}");
+        // never beyond the node that lies
+        assert_eq!(met(Some(&far), Some(&last), &node(7.0, 0.0)).0, 7.0);
+        // without a node to tell the slope by, that node
+        assert_eq!(met(None, Some(&last), &first).0, 8.0);
+        assert_eq!(met(None, None, &first), (8.0, first.position));
+    }
+}

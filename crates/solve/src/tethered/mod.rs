@@ -1,0 +1,123 @@
+//! Tethers in time: what the model says of them, of the structure that they hold and of the water, made into a case of the tether
+//! engine; its run, kept; and tables of it.
+//!
+//! A towed tether runs alone: its vessel is taken as at rest. Installed tethers run with the one body that they are attached to, and with
+//! its other connectors.
+//!
+//! Source: seed 003, chapters 1 to 4.
+
+mod case;
+mod history;
+mod modal;
+mod moored;
+mod statistics;
+mod structure;
+mod tables;
+
+pub use case::{Case, case};
+pub use history::{Happening, Quantity, StructureHistory, TetherHistory};
+pub use modal::{described, names, natural};
+pub use statistics::Statistics;
+pub use structure::{harmonics, structure, structure_series};
+pub use tables::{Of, along, events, forces, motions, series, told};
+
+use crate::SolveError;
+use windlass_model::{ClassError, Model};
+
+/// How a run of tethers goes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Time of its end (s); it starts at 0.
+    pub observed: f64,
+    /// Step (s).
+    pub step: f64,
+    /// Steps from one stored instant to the next.
+    pub store: usize,
+    /// With the peculiarities of AQWA 5.4, of which seed 003 has listings.
+    pub compatible: bool,
+    /// Factor on slam of a towed tether; 0 leaves it out.
+    pub slam: f64,
+    /// Velocity over the ground of the tow of a towed tether, global x and y (m/s).
+    pub tow: [f64; 2],
+}
+
+/// A run of tethers.
+#[derive(Clone, Debug)]
+pub struct Tethered {
+    /// How it went.
+    pub settings: Settings,
+    /// The stored instants (s).
+    pub times: Vec<f64>,
+    /// The structure, of installed tethers.
+    pub structure: Option<StructureHistory>,
+    /// The tethers, in the order of the model.
+    pub tethers: Vec<TetherHistory>,
+    /// What happened on the way.
+    pub happened: Vec<Happening>,
+    /// Seed of the random phases of its sea, where they are random.
+    pub seed: Option<u64>,
+    /// What a user should know of how the case was made.
+    pub notes: Vec<String>,
+    /// Whether it was told to stop before its end.
+    pub interrupted: bool,
+}
+
+/// Values kept at most: some 4 GB.
+const MOST_VALUES: f64 = 5e8;
+
+impl Settings {
+    /// Number of states, the first counted.
+    fn states(&self) -> usize {
+        (self.observed / self.step + 1e-9).floor().max(0.0) as usize + 1
+    }
+
+    fn check(&self) -> Result<(), ClassError> {
+        let sound = |value: f64| value.is_finite() && value > 0.0;
+        if sound(self.observed) && sound(self.step) && self.step <= self.observed {
+            return Ok(());
+        }
+        Err(ClassError::new("a run of tethers needs a time and a step above zero, the step not longer than the time"))
+    }
+
+    /// Refuses to keep more than memory has.
+    fn room(&self, values: usize) -> Result<(), ClassError> {
+        let instants = self.states() as f64 / self.store.max(1) as f64;
+        if instants * values as f64 <= MOST_VALUES {
+            return Ok(());
+        }
+        let store = (self.states() as f64 * values as f64 / MOST_VALUES).ceil();
+        Err(ClassError::new(format!("this run would keep {:.1E} numbers", instants * values as f64))
+            .help(format!("-STORE {store} keeps fewer instants")))
+    }
+}
+
+/// Whether a model has tethers that act.
+pub fn has_tethers(model: &Model) -> bool {
+    model.connectors.values().any(|c| c.active && !case::sections(model, c).is_empty())
+}
+
+/// Runs the tethers of a model; `goes_on` is asked at every state.
+///
+/// # Errors
+/// A model without tethers, or with what does not run with them; what the engine refuses.
+pub fn run(model: &Model, settings: Settings, goes_on: &mut dyn FnMut(f64) -> bool) -> Result<Tethered, SolveError> {
+    settings.check().map_err(SolveError::new)?;
+    let made = case(model, &settings)?;
+    let mut kept = Tethered {
+        settings,
+        times: Vec::new(),
+        structure: None,
+        tethers: Vec::new(),
+        happened: Vec::new(),
+        seed: made.seed,
+        notes: made.notes,
+        interrupted: false,
+    };
+    match made.kind {
+        case::Kind::Towed(towed) => history::towed(&towed, &mut kept, goes_on).map_err(SolveError::new)?,
+        case::Kind::Installed(installed) => {
+            history::installed(*installed, &mut kept, goes_on).map_err(SolveError::new)?;
+        }
+    }
+    Ok(kept)
+}

@@ -1,0 +1,132 @@
+//! The other connectors of a structure that tethers hold.
+
+use crate::link::{Attachment, Link, link, pose_of};
+use crate::system::SolveError;
+use crate::time::Duties;
+use nalgebra::Vector3;
+use windlass_base::pose::{Pose, Six};
+use windlass_hydro::{Underway, ambient, carried};
+use windlass_model::{Body, ClassError, Model};
+use windlass_model::{End, Response, Situation, Surroundings, TimeStep};
+use windlass_tether::structure::flow::FlowAt;
+use windlass_tether::structure::{Forces, Structure};
+
+/// A structure with connectors to the ground that are no tethers.
+#[derive(Debug)]
+pub struct Moored {
+    inner: Box<dyn Structure>,
+    links: Vec<Link>,
+    states: Vec<f64>,
+    trial: Vec<f64>,
+    /// Index of the body in the model.
+    body: usize,
+    centre: Vector3<f64>,
+    surroundings: Surroundings,
+    response: Response,
+}
+
+impl Moored {
+    /// A structure with the connectors of its body in the model; itself where there are none. `centre` is the centre of gravity in the
+    /// axes of the body (m).
+    ///
+    /// # Errors
+    /// A connector to another body, or one that makes no element.
+    pub fn around(
+        inner: Box<dyn Structure>,
+        model: &Model,
+        body: &Body,
+        centre: Vector3<f64>,
+    ) -> Result<Box<dyn Structure>, SolveError> {
+        let (mut links, mut states) = (Vec::new(), Vec::new());
+        let ambient = ambient(model, None).map_err(SolveError::new)?;
+        let Some(index) = model.bodies.get_index_of(&Model::key(&body.name)) else { return Ok(inner) };
+        for connector in model.connectors.values().filter(|c| c.active) {
+            if !super::case::sections(model, connector).is_empty() {
+                continue;
+            }
+            let made = link((model, &ambient, &Duties::default()), connector, &mut states)?;
+            if made.element.moves() {
+                let error = ClassError::new("a line that moves by itself cannot run beside tethers").at(connector.span);
+                let error = error.help("release it, or give a class without dynamics of its own");
+                return Err(SolveError { who: Some(connector.name.clone()), error });
+            }
+            let on = |end: &Attachment| matches!(end, Attachment::Body(i, _) if *i == index);
+            let elsewhere = |end: &Attachment| matches!(end, Attachment::Body(i, _) if *i != index);
+            if !made.ends.iter().any(on) {
+                continue;
+            }
+            if made.ends.iter().any(elsewhere) {
+                let text = format!("it ties {} to another body, and tethers run with one body alone", body.name);
+                let error = ClassError::new(text).at(connector.span);
+                return Err(SolveError { who: Some(connector.name.clone()), error });
+            }
+            links.push(made);
+        }
+        if links.is_empty() {
+            return Ok(inner);
+        }
+        let trial = states.clone();
+        let surroundings = model.surroundings();
+        Ok(Box::new(Moored {
+            inner,
+            links,
+            states,
+            trial,
+            body: index,
+            centre,
+            surroundings,
+            response: Response::default(),
+        }))
+    }
+}
+
+impl Structure for Moored {
+    fn forces(&mut self, at: &Underway, water: &FlowAt, accepted: bool, out: &mut Forces) -> Result<(), ClassError> {
+        self.inner.forces(at, water, accepted, out)?;
+        let arm = at.pose.axes * self.centre;
+        let pose = Pose { origin: at.pose.origin - arm, axes: at.pose.axes };
+        let mut poses = vec![Pose::default(); self.body + 1];
+        if let Some(own) = poses.get_mut(self.body) {
+            *own = pose;
+        }
+        let step = (at.dt > 0.0).then_some(TimeStep { time: at.time, dt: at.dt });
+        let spin = Vector3::new(at.velocity[3], at.velocity[4], at.velocity[5]);
+        let velocity = Vector3::new(at.velocity[0], at.velocity[1], at.velocity[2]);
+        for link in &self.links {
+            let ends: Vec<End> = link
+                .ends
+                .iter()
+                .map(|end| {
+                    let place = pose_of(end, &poses);
+                    let mut moves = Six::zeros();
+                    if matches!(end, Attachment::Body(..)) {
+                        let own = velocity + spin.cross(&(place.origin - at.pose.origin));
+                        moves.fixed_rows_mut::<3>(0).copy_from(&own);
+                        moves.fixed_rows_mut::<3>(3).copy_from(&spin);
+                    }
+                    End { velocity: moves, ..End::still(place) }
+                })
+                .collect();
+            let situation = Situation { ends: &ends, step, surroundings: &self.surroundings };
+            let (Some(before), Some(after)) =
+                (self.states.get(link.states.clone()), self.trial.get_mut(link.states.clone()))
+            else {
+                continue;
+            };
+            let named = |mut error: ClassError| {
+                error.message = format!("connector {}: {}", link.name, error.message);
+                error
+            };
+            link.element.evaluate(&situation, before, after, &mut None, &mut self.response).map_err(named)?;
+            for ((end, kind), wrench) in ends.iter().zip(&link.ends).zip(&self.response.wrench) {
+                if matches!(kind, Attachment::Body(..)) {
+                    out.floating += carried(wrench, end.pose.origin - at.pose.origin);
+                }
+            }
+        }
+        if accepted {
+            self.states.copy_from_slice(&self.trial);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,83 @@
+//! A step by predictor and corrector, for `-NEWMARK NO`.
+
+use super::forces::Motion;
+use super::scheme::Scheme;
+use super::step::{Convergence, Effort, Instant, Stepper, not_finite};
+use crate::system::{SolveError, System};
+use windlass_base::pose::Six;
+use windlass_model::ClassError;
+
+impl Stepper {
+    /// A step by predictor and corrector: the trapezoidal rule by repetition.
+    pub(super) fn corrector(
+        &mut self,
+        system: &mut System,
+        now: &mut Instant,
+        dt: f64,
+        wanted: &Convergence,
+    ) -> Result<Effort, SolveError> {
+        let (time, mut effort) = (now.time + dt, Effort::default());
+        self.weigh(system, &now.motions);
+        self.choose(system, &now.forces);
+        if let Some(row) = self.rows.iter().find(|r| !r.heavy) {
+            let name = system.nodes.get(row.at / 6).map(|n| n.name.clone());
+            let error = ClassError::new("-NEWMARK NO needs inertia in every freedom that moves")
+                .help("give it weight, or leave -NEWMARK out");
+            return Err(SolveError { who: name, error });
+        }
+        let start = now.motions.clone();
+        let mut ahead =
+            Instant { time, motions: start.clone(), memory: std::mem::take(&mut now.memory), ..Instant::default() };
+        std::mem::swap(&mut ahead.forces, &mut now.forces);
+        // Euler's step first, with the place to second order; then the mean of both ends
+        let euler = Scheme::newmark(0.0, 0.0);
+        let trapezoid = Scheme::newmark(0.25, 0.5);
+        let outcome = self.correct(system, &start, &mut ahead, dt, ([euler, trapezoid], wanted, &mut effort));
+        std::mem::swap(&mut ahead.forces, &mut now.forces);
+        now.memory = std::mem::take(&mut ahead.memory);
+        outcome?;
+        self.trial = ahead.motions;
+        self.accept(system, now, (time, dt));
+        Ok(effort)
+    }
+
+    fn correct(
+        &mut self,
+        system: &System,
+        start: &[Motion],
+        ahead: &mut Instant,
+        dt: f64,
+        ([euler, trapezoid], wanted, effort): ([Scheme; 2], &Convergence, &mut Effort),
+    ) -> Result<(), SolveError> {
+        let mut scheme = euler;
+        loop {
+            self.trial.clear();
+            self.trial.extend_from_slice(&ahead.motions);
+            self.over.clear();
+            self.over.resize(start.len(), Six::zeros());
+            self.prescribe(system, (ahead.time, dt))?;
+            self.place(system, start, dt, &scheme);
+            self.pose(system, start);
+            ahead.motions.clone_from(&self.trial);
+            if effort.evaluations == 0 {
+                ahead.memory.begin(system, (start, &ahead.motions), (ahead.time, dt))?;
+            }
+            let before: Vec<Six> = ahead.motions.iter().map(|m| m.acceleration).collect();
+            self.balance(system, ahead, dt)?;
+            effort.evaluations += 1;
+            let change =
+                ahead.motions.iter().zip(&before).map(|(m, b)| (m.acceleration - b).amax()).fold(0.0, f64::max);
+            if !change.is_finite() {
+                return Err(not_finite(system, &ahead.forces.sum, ahead.time));
+            }
+            if effort.iterations > 0 && change <= wanted.tolerance * system.gravity {
+                return Ok(());
+            }
+            if effort.iterations >= wanted.most {
+                return Err(self.unsolved(system, change, ahead.time, dt));
+            }
+            effort.iterations += 1;
+            scheme = trapezoid;
+        }
+    }
+}

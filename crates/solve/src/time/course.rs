@@ -1,0 +1,120 @@
+//! How a run is to go, how it ended and what it did, and who is told as it goes.
+
+use super::along::AlongColumns;
+use super::history::Layout;
+use super::scheme::Method;
+use super::snapshot::Snapshot;
+use super::step::Convergence;
+use crate::system::SolveError;
+use windlass_model::ClassError;
+
+/// How a run goes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// Length of the run (s).
+    pub observed: f64,
+    /// Step (s).
+    pub dt: f64,
+    /// Scheme.
+    pub method: Method,
+    /// When a step is solved.
+    pub convergence: Convergence,
+    /// Steps from one stored instant to the next.
+    pub store: usize,
+    /// Goes on when a body has rolled or pitched beyond 90 degrees.
+    pub capsize: bool,
+    /// Largest error of place of one step (m; rotations times 10 m): steps are halved as it asks. None: steps are as given.
+    pub adaptive: Option<f64>,
+    /// Keeps rows. Without, only who is told of them has them.
+    pub keep: bool,
+    /// Of the nodes of lines that move by themselves every so manieth is kept; 0: none.
+    pub along: usize,
+    /// Keeps the books of energy and momentum of lines that move by themselves.
+    pub books: bool,
+    /// Time that statistics leave out at the beginning (s).
+    pub transient: f64,
+}
+
+/// Most bytes of the rows of a run.
+const MOST_BYTES: f64 = 4e9;
+
+impl Settings {
+    /// Sees that the rows of a run have room in memory.
+    ///
+    /// # Errors
+    /// They would take more than 4 GB.
+    pub fn fits(&self, layout: &Layout) -> Result<(), SolveError> {
+        if !self.keep {
+            return Ok(());
+        }
+        let rows = (self.observed / self.dt / self.store.max(1) as f64).ceil() + 2.0;
+        let bytes = rows * layout.width as f64 * size_of::<f64>() as f64;
+        if bytes <= MOST_BYTES {
+            return Ok(());
+        }
+        let along: usize = layout.links.iter().filter_map(|l| l.along.as_ref()).map(AlongColumns::width).sum();
+        let (size, most) = (bytes / 1e9, MOST_BYTES / 1e9);
+        let text = format!(
+            "{rows} stored instants of {} numbers each, {along} of them of nodes of lines, take {size:.1} GB of memory: more than {most} GB",
+            layout.width
+        );
+        let help = "-STORE keeps fewer instants, -ALONG fewer nodes of lines, -STATISTICS none of either";
+        Err(SolveError::new(ClassError::new(text).help(help)))
+    }
+}
+
+/// Why a run ended.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Ending {
+    /// At its end.
+    Done,
+    /// It was told to stop.
+    Interrupted,
+    /// A body rolled or pitched beyond 90 degrees.
+    Capsized(String),
+    /// An action ended it.
+    Stopped(String),
+}
+
+/// What a run did.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Counts {
+    /// Steps taken, those that were halved by their parts.
+    pub steps: usize,
+    /// Steps that had to be cut because no balance was found.
+    pub cut: usize,
+    /// Iterations.
+    pub iterations: usize,
+    /// Evaluations of all forces.
+    pub evaluations: usize,
+}
+
+/// Who is told how a run goes.
+pub trait Watcher {
+    /// A stored row.
+    ///
+    /// # Errors
+    /// It could not be kept, in one sentence: the run ends.
+    fn row(&mut self, row: &[f64]) -> Result<(), String>;
+
+    /// Everything needed to go on from here.
+    ///
+    /// # Errors
+    /// It could not be kept, in one sentence: the run ends.
+    fn snapshot(&mut self, _snapshot: &Snapshot) -> Result<(), String> {
+        Ok(())
+    }
+
+    /// No more comes.
+    ///
+    /// # Errors
+    /// What came could not be kept, in one sentence.
+    fn finish(&mut self) -> Result<(), String> {
+        Ok(())
+    }
+
+    /// Asked before every step; false ends the run, which keeps what it has.
+    fn goes_on(&mut self, _time: f64) -> bool {
+        true
+    }
+}

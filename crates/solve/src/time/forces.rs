@@ -1,0 +1,398 @@
+//! What acts on bodies under way, and how it changes with their places and velocities.
+
+use super::ends::end_of;
+use super::foretelling::Foretelling;
+use super::inertia::of_added;
+use super::side_by_side::Alone;
+use crate::link::{Attachment, Link};
+use crate::system::{Node, SolveError, System};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use std::ops::Range;
+use windlass_base::pose::{Pose, Six};
+use windlass_hydro::{BodyLoad, Category, MovingLoad, Underway, carried, transferred, turning};
+use windlass_model::{Anchored, End, Guess, Response, Situation, TimeStep};
+
+/// Number of categories.
+pub const CATEGORIES: usize = Category::ALL.len();
+
+/// A body's motion at an instant.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Motion {
+    /// Where it is.
+    pub pose: Pose,
+    /// Velocity of its origin (m/s) and its rotation (rad/s), global axes.
+    pub velocity: Six,
+    /// Their derivatives (m/s2, rad/s2).
+    pub acceleration: Six,
+    /// The scheme's auxiliary acceleration (m/s2, rad/s2).
+    pub auxiliary: Six,
+    /// How the acceleration changed over the last step, over its length (m/s3, rad/s3): the next step begins its search with it.
+    pub jerk: Six,
+}
+
+/// What bodies and connectors remember: the states of loads, one vector, each load with its range.
+#[derive(Clone, Debug, Default)]
+pub struct Memory {
+    /// Values of all loads.
+    pub loads: Vec<f64>,
+    /// Where those of each load of each body stand.
+    pub(super) ranges: Vec<Vec<Range<usize>>>,
+    /// What the loads of each body hold ready for the step, beyond what they held for the step before.
+    ahead: Vec<Six>,
+}
+
+impl Memory {
+    /// That of a system before anything has happened.
+    pub fn of(system: &System) -> Self {
+        let mut memory = Memory::default();
+        for node in &system.nodes {
+            let mut ranges = Vec::new();
+            for load in &node.floating.loads {
+                let from = memory.loads.len();
+                memory.loads.resize(from + load.states(), 0.0);
+                load.start(memory.loads.get_mut(from..).unwrap_or_default());
+                ranges.push(from..memory.loads.len());
+            }
+            memory.ranges.push(ranges);
+        }
+        memory
+    }
+
+    fn each<'a>(&'a self, system: &'a System, body: usize) -> impl Iterator<Item = (&'a dyn BodyLoad, Range<usize>)> {
+        let loads = system.nodes.get(body).map_or(&[][..], |n| &n.floating.loads);
+        let ranges = self.ranges.get(body).map_or(&[][..], |r| r);
+        loads.iter().zip(ranges).map(|(load, range)| (load.as_ref(), range.clone()))
+    }
+
+    /// Gives the loads of a body what those of an earlier system, in their order, remembered.
+    pub(crate) fn recall(&mut self, body: usize, system: &System, (memory, old): (&Memory, &Node)) {
+        let (Some(node), Some(ranges)) = (system.nodes.get(body), self.ranges.get(body)) else { return };
+        let Some(before) = memory.ranges.get(body) else { return };
+        let mut earlier: Vec<_> = old.floating.loads.iter().map(|l| l.category()).zip(before).collect();
+        for (load, range) in node.floating.loads.iter().zip(ranges).filter(|(_, r)| !r.is_empty()) {
+            let same =
+                |(category, r): &(Category, &Range<usize>)| *category == load.category() && r.len() == range.len();
+            let Some(found) = earlier.iter().position(same) else { continue };
+            let (_, from) = earlier.remove(found);
+            if let (Some(to), Some(from)) = (self.loads.get_mut(range.clone()), memory.loads.get(from.clone())) {
+                to.copy_from_slice(from);
+            }
+        }
+    }
+
+    /// Prepares a step of every load, from a start to where the bodies are expected.
+    pub(crate) fn begin(
+        &mut self,
+        system: &System,
+        (start, ahead): (&[Motion], &[Motion]),
+        (time, dt): (f64, f64),
+    ) -> Result<(), SolveError> {
+        self.ahead.clear();
+        for ((node, ranges), (old, motion)) in system.nodes.iter().zip(&self.ranges).zip(start.iter().zip(ahead)) {
+            let at = Underway { time, dt, pose: &motion.pose, velocity: &motion.velocity };
+            // what the loads hold changes while the body turns: by half with the axes of the start, by half with those of the end
+            let axes = (old.pose.axes + motion.pose.axes) * 0.5;
+            let on_the_way = Underway { pose: &Pose { axes, ..motion.pose }, ..at };
+            let mut more = Six::zeros();
+            for (load, range) in node.floating.loads.iter().zip(ranges) {
+                let state = self.loads.get_mut(range.clone()).unwrap_or_default();
+                let before = load.held(&on_the_way, state);
+                load.begin(&at, state).map_err(SolveError::of(&node.name))?;
+                if let (Some(before), Some(now)) = (before, load.held(&on_the_way, state)) {
+                    more += now - before;
+                }
+            }
+            self.ahead.push(more);
+        }
+        Ok(())
+    }
+
+    /// Tells every load that a step is accepted.
+    pub(super) fn commit(&mut self, system: &System, motions: &[Motion], (time, dt): (f64, f64)) {
+        for ((node, ranges), motion) in system.nodes.iter().zip(&self.ranges).zip(motions) {
+            let at = Underway { time, dt, pose: &motion.pose, velocity: &motion.velocity };
+            for (load, range) in node.floating.loads.iter().zip(ranges).filter(|(_, r)| !r.is_empty()) {
+                load.commit(&at, self.loads.get_mut(range.clone()).unwrap_or_default());
+            }
+        }
+    }
+}
+
+/// Forces at an instant, six a body about its origin, global axes.
+#[derive(Debug, Default)]
+pub struct Forces {
+    /// All that acts but inertia (N, N m).
+    pub sum: DVector<f64>,
+    /// -d(sum)/d(motion of the bodies).
+    pub stiffness: DMatrix<f64>,
+    /// -d(sum)/d(velocity of the bodies).
+    pub damping: DMatrix<f64>,
+    /// -d(sum)/d(acceleration of the bodies): of connectors with inertia of their own, and of loads.
+    pub inertia: DMatrix<f64>,
+    /// Largest force of a connector on each body (N).
+    pub pull: Vec<f64>,
+    /// By body and category, those of inertia left out.
+    pub categories: Vec<[Six; CATEGORIES]>,
+    /// Wrench on every end of every connector, in their order, about the end's point.
+    pub wrenches: Vec<Six>,
+    /// States of the connectors at the end of the step.
+    pub trial: Vec<f64>,
+    /// What solvers of the connectors remember.
+    pub(super) guesses: Vec<Guess>,
+    foretelling: Foretelling,
+    /// Whether a connector has inertia of its own.
+    pub(super) moving: bool,
+    /// Whether a load adds to the inertia of its body.
+    carried: bool,
+    /// Those of them, evaluated side by side.
+    pub(super) alone: Vec<Alone>,
+    made: MovingLoad,
+    response: Response,
+    pub(super) ends: Vec<End>,
+    arms: Vec<Vector3<f64>>,
+}
+
+/// The index of a category in [`Forces::categories`].
+pub fn place_of(category: Category) -> usize {
+    Category::ALL.iter().position(|c| *c == category).unwrap_or(0)
+}
+
+impl Forces {
+    fn clear(&mut self, system: &System) {
+        let size = 6 * system.nodes.len();
+        if self.stiffness.nrows() != size {
+            self.sum = DVector::zeros(size);
+            self.stiffness = DMatrix::zeros(size, size);
+            self.damping = DMatrix::zeros(size, size);
+            self.inertia = DMatrix::zeros(size, size);
+        }
+        self.sum.fill(0.0);
+        self.stiffness.fill(0.0);
+        self.damping.fill(0.0);
+        self.inertia.fill(0.0);
+        self.pull.clear();
+        self.pull.resize(system.nodes.len(), 0.0);
+        self.categories.clear();
+        self.categories.resize(system.nodes.len(), [Six::zeros(); CATEGORIES]);
+        self.wrenches.clear();
+        self.carried = false;
+        self.moving = system.links.iter().any(|l| l.element.moves());
+        self.guesses.resize_with(system.links.len(), || None);
+        self.trial.clear();
+        self.trial.extend_from_slice(&system.states);
+    }
+
+    /// Nothing foretells the next step.
+    pub(super) fn unsettle(&mut self) {
+        self.foretelling.forget();
+    }
+
+    /// They are those of the end of a step of a length (s).
+    pub(super) fn settle(&mut self, dt: f64) {
+        if self.moving || self.carried {
+            self.foretelling.take_inertia(dt, &self.inertia);
+        }
+        self.foretelling.take(dt, &self.stiffness, &self.damping);
+    }
+
+    /// What is expected at a trial of the end of a step, from the forces of its start: by stiffness and damping for the motion and
+    /// the change of velocity of each body over the step, with what its loads hold ready. False without a step to go by.
+    pub(super) fn foretell(&mut self, (memory, dt): (&Memory, f64), motions: (&[Motion], &[Motion], &[Six])) -> bool {
+        for (body, held) in memory.ahead.iter().enumerate() {
+            let mut at = self.sum.fixed_rows_mut::<6>(6 * body);
+            at += held;
+        }
+        if self.moving {
+            self.foretelling.begin(&self.sum);
+        }
+        let parts = (motions.0, motions.1);
+        if self.carried && !self.moving {
+            self.foretelling.add_inertia(parts, &mut self.sum);
+        }
+        self.foretelling.add(dt, motions, &mut self.sum)
+            && (!self.moving || self.foretelling.add_moving(parts, &mut self.sum))
+    }
+
+    /// They are those of a trial that holds, of a step of a length (s): what foretells the next learns by it.
+    pub(super) fn learn(&mut self, dt: f64, motions: (&[Motion], &[Motion], &[Six])) {
+        if self.moving {
+            self.foretelling.learn(dt, motions, &self.sum);
+        }
+    }
+
+    /// Evaluates everything with the bodies in these motions at the end of a step; `dt` zero: at the start of a run.
+    ///
+    /// # Errors
+    /// The connector or body that has no answer there.
+    pub fn evaluate(
+        &mut self,
+        system: &System,
+        memory: &Memory,
+        motions: &[Motion],
+        (time, dt): (f64, f64),
+    ) -> Result<(), SolveError> {
+        self.clear(system);
+        for (body, (node, motion)) in system.nodes.iter().zip(motions).enumerate() {
+            let at = Underway { time, dt, pose: &motion.pose, velocity: &motion.velocity };
+            self.made.load.stiffness.fill(0.0);
+            self.made.damping.fill(0.0);
+            for (load, range) in memory.each(system, body) {
+                let state = memory.loads.get(range).unwrap_or_default();
+                self.made.load.wrench.fill(0.0);
+                load.add(&at, state, &mut self.made).map_err(SolveError::of(&node.name))?;
+                let wrench = self.made.load.wrench;
+                self.add(body, place_of(load.category()), &wrench);
+                if let Some(inertia) = load.inertia(state) {
+                    self.add(body, place_of(load.category()), &-(inertia * motion.acceleration));
+                    let mut block = self.inertia.fixed_view_mut::<6, 6>(6 * body, 6 * body);
+                    block += inertia;
+                    self.carried = true;
+                }
+                if let Some((other, part)) = load.apart(&at, state) {
+                    self.count_as(body, (place_of(load.category()), place_of(other)), &part);
+                }
+            }
+            let mut block = self.stiffness.fixed_view_mut::<6, 6>(6 * body, 6 * body);
+            block += self.made.load.stiffness;
+            let mut block = self.damping.fixed_view_mut::<6, 6>(6 * body, 6 * body);
+            block += self.made.damping;
+            if node.damped {
+                let linear = node.floating.damped(&motion.pose);
+                self.add(body, place_of(Category::RadiationDrag), &(-(linear * motion.velocity)));
+                let mut block = self.damping.fixed_view_mut::<6, 6>(6 * body, 6 * body);
+                block += linear;
+                // it turns with its body
+                let mut block = self.stiffness.fixed_view_mut::<6, 6>(6 * body, 6 * body);
+                block += of_added(&linear, &motion.velocity);
+            }
+        }
+        for (body, wrench) in system.applied.iter().filter(|(body, _)| *body < system.nodes.len()) {
+            self.add(*body, place_of(Category::Applied), wrench);
+        }
+        self.connect(system, motions, (time, dt))
+    }
+
+    fn add(&mut self, body: usize, category: usize, wrench: &Six) {
+        let mut at = self.sum.fixed_rows_mut::<6>(6 * body);
+        at += wrench;
+        if let Some(told) = self.categories.get_mut(body).and_then(|c| c.get_mut(category)) {
+            *told += wrench;
+        }
+    }
+
+    /// Counts a part of what was added in one category in another.
+    fn count_as(&mut self, body: usize, (from, to): (usize, usize), part: &Six) {
+        let Some(told) = self.categories.get_mut(body) else { return };
+        for (category, share) in [(from, -part), (to, *part)] {
+            if let Some(sum) = told.get_mut(category) {
+                *sum += share;
+            }
+        }
+    }
+
+    /// Adds what connectors exert.
+    fn connect(&mut self, system: &System, motions: &[Motion], (time, dt): (f64, f64)) -> Result<(), SolveError> {
+        self.connect_moving(system, motions, (time, dt));
+        let mut alone = 0..;
+        let (flexible, rigid) = (place_of(Category::FlexConnectors), place_of(Category::RigidConnectors));
+        for (index, link) in system.links.iter().enumerate() {
+            self.place_ends(link, motions);
+            let committed = system.states.get(link.states.clone()).unwrap_or_default();
+            let trial = self.trial.get_mut(link.states.clone()).unwrap_or_default();
+            let Some(guess) = self.guesses.get_mut(index) else { continue };
+            let step = (dt > 0.0).then_some(TimeStep { time, dt });
+            let at = Situation { ends: &self.ends, step, surroundings: &system.surroundings };
+            let anchored = matches!(link.ends.as_slice(), [Attachment::Body(..), Attachment::Ground(_)]);
+            if let (true, Some(found)) = (anchored, link.element.anchored(&at, guess)) {
+                let Anchored { wrenches, stiffness } = found.map_err(SolveError::of(&link.name))?;
+                self.wrenches.extend_from_slice(&wrenches);
+                self.hold(link, &wrenches, &stiffness, flexible);
+                continue;
+            }
+            if link.element.moves() {
+                let Some(found) = alone.next().and_then(|at| self.alone.get_mut(at)) else { continue };
+                if let Some(error) = found.failed.take() {
+                    return Err(SolveError::of(&link.name)(error));
+                }
+                trial.copy_from_slice(&found.trial);
+                std::mem::swap(&mut self.response, &mut found.response);
+            } else {
+                link.element
+                    .evaluate(&at, committed, trial, guess, &mut self.response)
+                    .map_err(SolveError::of(&link.name))?;
+            }
+            self.wrenches.extend_from_slice(&self.response.wrench);
+            let category = if link.element.rigid() { rigid } else { flexible };
+            let count = link.ends.len();
+            for (i, (end, own)) in link.ends.iter().zip(&self.arms).enumerate() {
+                let Attachment::Body(body, _) = end else { continue };
+                let Some(wrench) = self.response.wrench.get(i) else { continue };
+                let about = carried(wrench, *own);
+                let mut at = self.sum.fixed_rows_mut::<6>(6 * body);
+                at += about;
+                if let Some(told) = self.categories.get_mut(*body).and_then(|c| c.get_mut(category)) {
+                    *told += about;
+                }
+                if let Some(pull) = self.pull.get_mut(*body) {
+                    *pull = pull.max(wrench.fixed_rows::<3>(0).norm());
+                }
+                for (j, (other, far)) in link.ends.iter().zip(&self.arms).enumerate() {
+                    let Attachment::Body(column, _) = other else { continue };
+                    if let Some(block) = self.response.stiffness.get(count * i + j) {
+                        let mut moved = transferred(block, *own, *far);
+                        if i == j {
+                            moved += turning(wrench, *own);
+                        }
+                        let mut at = self.stiffness.fixed_view_mut::<6, 6>(6 * body, 6 * column);
+                        at += moved;
+                    }
+                    if let Some(block) = self.response.damping.get(count * i + j) {
+                        let mut at = self.damping.fixed_view_mut::<6, 6>(6 * body, 6 * column);
+                        at += transferred(block, *own, *far);
+                    }
+                    if let Some(block) = self.response.inertia.get(count * i + j) {
+                        let mut at = self.inertia.fixed_view_mut::<6, 6>(6 * body, 6 * column);
+                        at += transferred(block, *own, *far);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Where the ends of a connector are and how they move, and their arms from the origins of their bodies.
+    pub(super) fn place_ends(&mut self, link: &Link, motions: &[Motion]) {
+        self.ends.clear();
+        self.arms.clear();
+        for end in &link.ends {
+            let (end, arm) = end_of(end, motions, link.element.moves());
+            self.ends.push(end);
+            self.arms.push(arm);
+        }
+    }
+
+    /// Adds a force at the first end of a connector that the place of that end alone changes.
+    fn hold(&mut self, link: &Link, wrenches: &[Six; 2], stiffness: &Matrix3<f64>, category: usize) {
+        let (Some(Attachment::Body(body, _)), Some(arm)) = (link.ends.first(), self.arms.first()) else { return };
+        let [first, _] = wrenches;
+        let force = Vector3::new(first[0], first[1], first[2]);
+        let crossed = arm.cross_matrix();
+        let moment = arm.cross(&force);
+        self.add(*body, category, &Six::new(force.x, force.y, force.z, moment.x, moment.y, moment.z));
+        if let Some(pull) = self.pull.get_mut(*body) {
+            *pull = pull.max(force.norm());
+        }
+        // the point moves by -[arm] times the rotation; an arm that turns keeps its force
+        let by_turn = -(stiffness * crossed);
+        let mut block = self.stiffness.fixed_view_mut::<6, 6>(6 * body, 6 * body);
+        for (row, column, part) in [
+            (0, 0, *stiffness),
+            (0, 3, by_turn),
+            (3, 0, crossed * stiffness),
+            (3, 3, crossed * by_turn - force.cross_matrix() * crossed),
+        ] {
+            let mut at = block.fixed_view_mut::<3, 3>(row, column);
+            at += part;
+        }
+    }
+}

@@ -1,0 +1,319 @@
+//! What happens on the way of a run: conditions are looked at behind every step, which is cut where one comes true, connectors come and go, lengths change.
+
+use super::action::{Watched, What, When, point_in_body};
+use super::ends::end_of;
+use super::pushing::pull;
+use super::run::Run;
+use crate::link::Attachment;
+use crate::system::SolveError;
+use std::sync::Arc;
+use windlass_base::geometry::Position;
+use windlass_base::units::Dim;
+use windlass_hydro::sea::Sea;
+use windlass_model::{ClassError, Model};
+
+/// Most parts of a step that is divided for what is wound in it.
+const MOST_PARTS: f64 = 1000.0;
+
+/// What is winched, and how long it was.
+#[derive(Debug, Default)]
+pub(super) struct Winches {
+    list: Vec<(String, f64, Option<f64>)>,
+    lengths: Vec<Option<f64>>,
+}
+
+impl Run {
+    /// Puts bodies whose motion is given where they are now.
+    pub(super) fn prescribe(&mut self) -> Result<(), SolveError> {
+        for (motion, node) in self.now.motions.iter_mut().zip(&self.system.nodes) {
+            if let Some(prescribed) = &node.prescribed {
+                *motion = prescribed.at(self.now.time).map_err(SolveError::of(&node.name))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// In how many parts a step of the run is taken while a line is wound at a rate (m/s): its elements appear and go one by one.
+    fn parts_to_wind(&self, name: &str, rate: f64) -> Result<f64, SolveError> {
+        let Some(link) = self.system.links.iter().find(|l| l.name.eq_ignore_ascii_case(name)) else { return Ok(1.0) };
+        let Some(most) = link.element.most_wound() else { return Ok(1.0) };
+        let parts = (rate.abs() * self.settings.dt / most).ceil().max(1.0);
+        if parts <= MOST_PARTS {
+            return Ok(parts);
+        }
+        let text = format!(
+            "its winch takes {{}} in a step of {{}}, which would need {parts:.0} parts of the step for elements of {{}} each; at most {MOST_PARTS} are taken"
+        );
+        let values =
+            [(rate.abs() * self.settings.dt, Dim::Length), (self.settings.dt, Dim::Time), (2.0 * most, Dim::Length)];
+        let error = ClassError::of(text, &values)
+            .help("a lower rate, a shorter step of -TIME of &ENV, or fewer elements by -REFINE");
+        Err(SolveError { who: Some(link.name.clone()), error })
+    }
+
+    /// The longest part of a step (s) that lines under a winch allow.
+    pub(super) fn part_to_wind(&self) -> Result<f64, SolveError> {
+        let mut most: f64 = 1.0;
+        for (name, rate, _) in &self.winches {
+            most = most.max(self.parts_to_wind(name, *rate)?);
+        }
+        Ok(self.settings.dt / most)
+    }
+
+    pub(super) fn check_actions(&self) -> Result<(), SolveError> {
+        for action in &self.actions {
+            let wrong = |error: ClassError| {
+                SolveError::new(ClassError { message: format!("action {}: {}", action.name, error.message), ..error })
+            };
+            if let When::Above(Watched::Height(point), _) | When::Below(Watched::Height(point), _) = &action.when {
+                point_in_body(&self.model, point).map_err(wrong)?;
+            }
+            if let What::Winch(names, rate, _) = &action.what {
+                for name in names {
+                    self.parts_to_wind(name, *rate)?;
+                    let connector = self.model.connectors.get(&Model::key(name));
+                    if connector.is_none_or(|c| self.model.first_length(c).is_none()) {
+                        return Err(wrong(ClassError::new(format!("connector {name} has no length to change"))));
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The next time an action waits for, up to `end`.
+    pub(super) fn next_action(&self, end: f64) -> Option<f64> {
+        let waits = self.actions.iter().zip(&self.fired).filter(|(_, f)| f.is_none());
+        let times = waits.filter_map(|(a, _)| if let When::At(t) = a.when { Some(t) } else { None });
+        times.filter(|t| *t > self.now.time && *t < end).min_by(f64::total_cmp)
+    }
+
+    /// Changes the lengths of what is winched, to those at a time; gives what they were, for [`Run::unwind`].
+    pub(super) fn wind(&mut self, time: f64) -> Result<Winches, SolveError> {
+        if self.winches.is_empty() {
+            return Ok(Winches::default());
+        }
+        let length = |name: &String| self.model.connectors.get(&Model::key(name)).and_then(|c| c.first_length);
+        let lengths = self.winches.iter().map(|(name, ..)| length(name)).collect();
+        let before = Winches { list: self.winches.clone(), lengths };
+        self.wound = true;
+        let dt = time - self.now.time;
+        for (name, rate, to) in &mut self.winches {
+            let Some(connector) = self.model.connectors.get(&Model::key(name)) else { continue };
+            let old = self.model.first_length(connector).unwrap_or(0.0);
+            let mut length = old + *rate * dt;
+            if let Some(target) = *to
+                && (target - length) * *rate <= 0.0
+            {
+                (length, *rate) = (target, 0.0);
+            }
+            if length <= 0.0 {
+                let (name, left) = (name.clone(), old / rate.abs());
+                return Err(self.taken_in(&name, left));
+            }
+            if let Some(connector) = self.model.connectors.get_mut(&Model::key(name)) {
+                connector.first_length = Some(length);
+            }
+            self.system.make_anew(&self.model, name)?;
+        }
+        self.winches.retain(|(_, rate, _)| *rate != 0.0);
+        Ok(before)
+    }
+
+    /// The error of a winch that has nothing left to haul in so much later than now (s).
+    fn taken_in(&self, name: &str, left: f64) -> SolveError {
+        let winds = |what: &What| match what {
+            What::Winch(names, ..) => names.iter().any(|n| n.eq_ignore_ascii_case(name)),
+            _ => false,
+        };
+        let since = self.actions.iter().zip(&self.fired).filter(|(a, _)| winds(&a.what));
+        let last = since.filter_map(|(a, fired)| Some((a, (*fired)?))).max_by(|a, b| a.1.total_cmp(&b.1));
+        let by = last.map_or_else(String::new, |(action, _)| format!("by action {} ", action.name));
+        let text = format!("its first segment is hauled in {by}to the end: at {{}} nothing of it is left");
+        let error = ClassError::of(text, &[(self.now.time + left, Dim::Time)])
+            .help("a LENGTH of -WINCH, or a later action with a RATE of 0, ends the winch before");
+        SolveError { who: Some(name.to_string()), error }
+    }
+
+    /// The error of a winch that has less left than it hauls in within a step of the run: the shorter a line, the stiffer, and what
+    /// a last step finds no balance for is its end.
+    pub(super) fn nearly_taken_in(&self) -> Option<SolveError> {
+        self.winches.iter().filter(|(_, rate, _)| *rate < 0.0).find_map(|(name, rate, _)| {
+            let length = self.model.first_length(self.model.connectors.get(&Model::key(name))?)?;
+            let left = length / rate.abs();
+            (left <= self.settings.dt * (1.0 + 1e-9)).then(|| self.taken_in(name, left))
+        })
+    }
+
+    /// Puts lengths and winches back to what they were; elements follow when they are wound again.
+    pub(super) fn unwind(&mut self, before: Winches) {
+        if before.list.is_empty() {
+            return;
+        }
+        for ((name, ..), length) in before.list.iter().zip(before.lengths) {
+            if let Some(connector) = self.model.connectors.get_mut(&Model::key(name)) {
+                connector.first_length = length;
+            }
+        }
+        self.winches = before.list;
+    }
+
+    /// Whether a condition is still waited for.
+    pub(super) fn waits(&self) -> bool {
+        self.actions.iter().zip(&self.fired).any(|(a, f)| f.is_none() && !matches!(a.when, When::At(_)))
+    }
+
+    /// Whether a condition that is waited for is true now.
+    pub(super) fn comes_true(&self) -> bool {
+        let waited = self.actions.iter().zip(&self.fired).filter(|(_, f)| f.is_none());
+        waited.into_iter().any(|(a, _)| !matches!(a.when, When::At(_)) && self.due(&a.when))
+    }
+
+    fn due(&self, when: &When) -> bool {
+        match when {
+            When::At(time) => self.now.time >= time - 1e-9 * self.settings.dt,
+            When::Above(watched, value) => self.watched(watched).is_some_and(|v| v > *value),
+            When::Below(watched, value) => self.watched(watched).is_some_and(|v| v < *value),
+        }
+    }
+
+    /// The value of what is watched.
+    fn watched(&self, watched: &Watched) -> Option<f64> {
+        match watched {
+            Watched::Tension(name) => {
+                let mut first = 0;
+                for link in &self.system.links {
+                    if link.name.eq_ignore_ascii_case(name) {
+                        let told = link.element.pulling_end();
+                        let force = self.now.forces.wrenches.get(first + told)?.fixed_rows::<3>(0).into_owned();
+                        let at = |end: &Attachment| end_of(end, &self.now.motions, false).0.pose.origin;
+                        let away = |from| {
+                            Some(pull(
+                                &force,
+                                &(at(link.ends.get(1usize.checked_sub(told)?)?) - at(link.ends.get(told)?)),
+                                from,
+                            ))
+                        };
+                        return link.element.pushes().map_or_else(|| Some(force.norm()), away);
+                    }
+                    first += link.ends.len();
+                }
+                None
+            }
+            Watched::Freedom(body, freedom) => {
+                let index = self.model.bodies.get_index_of(&Model::key(body))?;
+                let place = self.now.motions.get(index)?.pose.place(self.near.get(index)?);
+                place.shift.iter().chain(&place.turn).nth(*freedom).copied()
+            }
+            Watched::Height(point) => {
+                let (body, at): (usize, Position) = point_in_body(&self.model, point).ok()?;
+                let place = self.now.motions.get(body)?.pose.point(at.into());
+                Some(place.z - self.system.surroundings.tide)
+            }
+        }
+    }
+
+    /// Does what has come due; gives the name of an action that ends the run.
+    pub(super) fn happens(&mut self) -> Result<Option<String>, SolveError> {
+        let mut changed = false;
+        let mut stop = None;
+        for index in 0..self.actions.len() {
+            if self.fired.get(index).is_none_or(Option::is_some) {
+                continue;
+            }
+            let Some(action) = self.actions.get(index).cloned() else { continue };
+            if !self.due(&action.when) {
+                continue;
+            }
+            if let Some(fired) = self.fired.get_mut(index) {
+                *fired = Some(self.now.time);
+            }
+            changed |= !matches!(action.what, What::Stop | What::Winch(..));
+            match &action.what {
+                What::Stop => stop = Some(action.name.clone()),
+                What::Winch(names, rate, to) => {
+                    for name in names {
+                        self.winds(&action.name, name, *rate, *to)?;
+                        self.winches.retain(|(n, ..)| !n.eq_ignore_ascii_case(name));
+                        if *rate != 0.0 {
+                            self.winches.push((name.clone(), *rate, *to));
+                        }
+                    }
+                }
+                what => self.change(what)?,
+            }
+        }
+        if changed {
+            // the forces have changed at once: the acceleration of the step before is not that of the next
+            self.forget();
+            self.prepare()?;
+        }
+        Ok(stop)
+    }
+
+    /// Refuses to begin to wind what a winch no longer holds, or away from the length that is asked for.
+    fn winds(&self, action: &str, name: &str, rate: f64, to: Option<f64>) -> Result<(), SolveError> {
+        let wrong = |error: ClassError| SolveError { who: Some(name.to_string()), error };
+        if self.system.duties.of(name).freed {
+            let text = format!("it has been let go by the time of action {action}, and no winch holds it");
+            return Err(wrong(ClassError::new(text)));
+        }
+        let connector = self.model.connectors.get(&Model::key(name));
+        let now = connector.and_then(|c| self.model.first_length(c));
+        if let (Some(now), Some(to)) = (now, to)
+            && (to - now) * rate < 0.0
+        {
+            let text =
+                format!("its first segment is {{}} long at action {action}, and at {{}} a second never comes to {{}}");
+            let values = [(now, Dim::Length), (rate, Dim::Length), (to, Dim::Length)];
+            return Err(wrong(ClassError::of(text, &values).help("a positive rate pays out, a negative one hauls in")));
+        }
+        Ok(())
+    }
+
+    pub(super) fn change(&mut self, what: &What) -> Result<(), SolveError> {
+        match what {
+            What::Release(names) => {
+                for name in names {
+                    self.winches.retain(|(n, ..)| !n.eq_ignore_ascii_case(name));
+                    // a line that moves by itself is let go at its first end, and falls
+                    let falls = self.system.moves(name);
+                    if let Some(connector) = self.model.connectors.get_mut(&Model::key(name)) {
+                        connector.active = falls;
+                    }
+                    if falls {
+                        self.system.duties.let_go(name, true);
+                        self.system.make_anew(&self.model, name)?;
+                    } else {
+                        self.system.leave_out(name);
+                    }
+                }
+            }
+            What::Activate(names) => {
+                for name in names {
+                    if let Some(connector) = self.model.connectors.get_mut(&Model::key(name)) {
+                        connector.active = true;
+                    }
+                    if self.system.duties.let_go(name, false) {
+                        // what has fallen is brought back as it first hung
+                        self.system.leave_out(name);
+                    }
+                    self.system.take_in(&self.model, name)?;
+                }
+            }
+            What::Environment(name) => {
+                let found = self.model.environments.get(&Model::key(name)).cloned();
+                let missing = || SolveError::new(ClassError::new(format!("there is no environment {name}")));
+                self.model.environment = found.ok_or_else(missing)?;
+                self.sea = Sea::of(&self.model, &self.model.environment).map_err(SolveError::new)?.map(Arc::new);
+                self.seas.push((self.now.time, self.sea.clone()));
+                let memory = self.system.load_anew(&self.model, self.sea.as_ref(), &self.now.memory)?;
+                self.now.memory = memory;
+                // a body that rides on the waves is where the new ones have it, as they are there at once
+                self.prescribe()?;
+            }
+            What::Winch(..) | What::Stop => {}
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,279 @@
+//! What a run keeps: a row of numbers for every stored instant, in the order of a layout that does not change during the run.
+//!
+//! A row holds the motions of the bodies, the wrenches of the connectors, and the nodes of lines that move by themselves. What else is told of an instant (line on the bottom,
+//! pull on the anchor, share of the break) follows from these when it is asked for.
+
+use super::along::AlongColumns;
+use super::ends::end_of;
+use super::forces::{CATEGORIES, Forces, Motion, place_of};
+use super::pushing::Pushing;
+use crate::link::{Attachment, Link};
+use crate::system::{SolveError, System};
+use nalgebra::Vector3;
+use windlass_base::geometry::Place;
+use windlass_base::pose::Six;
+use windlass_hydro::Category;
+use windlass_model::{ClassError, Guess, LineNode, Situation, TimeStep};
+
+/// Values of a body in a row: place (m), roll, pitch, yaw (rad), velocity (m/s, rad/s), acceleration (m/s2, rad/s2), global.
+pub const OF_BODY: usize = 18;
+
+/// A connector in the rows.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinkColumns {
+    /// Its name as written.
+    pub name: String,
+    /// The body at each end; none in the ground.
+    pub ends: Vec<Option<usize>>,
+    /// The end by whose force its pull is told, where that is on a body.
+    pub pulling: usize,
+    /// Where the wrenches on its ends on bodies begin, six each, in the order of the ends.
+    pub wrench: usize,
+    /// Where it says whether it acts, 1 or 0, and the length of its first segment (m; not a number without one).
+    pub active: usize,
+    /// Where its nodes stand, where it tells of them and they are kept.
+    pub along: Option<AlongColumns>,
+    /// Of one that may push, where it does.
+    pub pushing: Option<Pushing>,
+}
+
+/// A connector as a layout is made of it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LinkEnds {
+    /// Its name as written.
+    pub name: String,
+    /// The body at each end; none in the ground.
+    pub ends: Vec<Option<usize>>,
+    /// The end by whose force its pull is told, where that is on a body.
+    pub pulling: usize,
+    /// How many nodes it tells of at most, and whether they bend.
+    pub nodes: (usize, bool),
+    /// Of one that may push, where it does.
+    pub pushing: Option<Pushing>,
+}
+
+/// Which number of a row is what.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Layout {
+    /// Bodies as written, each with its key in the model.
+    pub bodies: Vec<(String, String)>,
+    /// Which freedoms of each body move: the others stay as they are.
+    pub moves: Vec<[bool; 6]>,
+    /// Connectors.
+    pub links: Vec<LinkColumns>,
+    /// Categories of force that are kept.
+    pub categories: Vec<Category>,
+    /// Numbers of a row.
+    pub width: usize,
+    forces: usize,
+}
+
+impl Layout {
+    /// That of a system; `links` are the connectors that act at some time; of their nodes every so manieth is kept, 0 for none.
+    pub fn new(system: &System, links: Vec<LinkEnds>, every: usize) -> Self {
+        let bodies: Vec<_> = system.nodes.iter().map(|n| (n.name.clone(), n.key.clone())).collect();
+        let moves = system.nodes.iter().map(|n| n.free.map(|free| free || n.prescribed.is_some())).collect();
+        let mut at = 1 + OF_BODY * bodies.len();
+        let mut columns = Vec::new();
+        for LinkEnds { name, ends, pulling, nodes, pushing } in links {
+            let (active, wrench) = (at, at + 2);
+            at = wrench + 6 * ends.iter().flatten().count();
+            let along = AlongColumns::new(at, nodes, every);
+            at += along.as_ref().map_or(0, AlongColumns::width);
+            columns.push(LinkColumns { name, ends, pulling, wrench, active, along, pushing });
+        }
+        let mut categories = vec![Category::Inertia, Category::Coriolis];
+        let loads = system.nodes.iter().flat_map(|n| &n.floating.loads).map(|l| l.category());
+        let connectors = [Category::FlexConnectors, Category::RigidConnectors].into_iter();
+        let damped = system.nodes.iter().filter(|n| n.damped).map(|_| Category::RadiationDrag);
+        let added = system.nodes.iter().filter(|n| n.added).map(|_| Category::AddedInertia);
+        let applied = system.applied.iter().map(|_| Category::Applied);
+        categories
+            .extend(loads.chain(connectors.take(2 * usize::from(!columns.is_empty()))).chain(damped).chain(added));
+        categories.extend(applied);
+        let categories: Vec<Category> = Category::ALL.into_iter().filter(|c| categories.contains(c)).collect();
+        let width = at + 6 * categories.len() * bodies.len();
+        Layout { bodies, moves, links: columns, categories, width, forces: at }
+    }
+
+    /// Where the numbers of a body begin.
+    pub fn body(&self, body: usize) -> usize {
+        1 + OF_BODY * body
+    }
+
+    /// Where the force of a category on a body begins: six numbers about its origin, global axes.
+    pub fn category(&self, body: usize, category: Category) -> Option<usize> {
+        let at = self.categories.iter().position(|c| *c == category)?;
+        Some(self.forces + 6 * (body * self.categories.len() + at))
+    }
+
+    /// Where the wrench stands by which the pull of a connector is told: on the end that its element says, or else the first of its ends
+    /// that is on a body; `None` where all are in the ground.
+    pub fn pull(&self, link: usize) -> Option<usize> {
+        let columns = self.links.get(link)?;
+        let of = |end: usize| self.wrench(link, end);
+        of(columns.pulling).or_else(|| (0..columns.ends.len()).find_map(of))
+    }
+
+    /// The pull of a connector in a row (N), negative where it pushes; none of one whose ends are all in the ground.
+    pub fn tension(&self, link: usize, row: &[f64]) -> Option<f64> {
+        let at = self.pull(link)?;
+        let force = Vector3::from_column_slice(row.get(at..at + 3)?);
+        let pushing = self.links.get(link).and_then(|l| l.pushing.as_ref());
+        Some(pushing.map_or_else(|| force.norm(), |p| p.pull(&force, row)))
+    }
+
+    /// Where the wrench on an end of a connector begins; none of an end in the ground.
+    pub fn wrench(&self, link: usize, end: usize) -> Option<usize> {
+        let columns = self.links.get(link)?;
+        columns.ends.get(end).copied().flatten()?;
+        Some(columns.wrench + 6 * columns.ends.iter().take(end).flatten().count())
+    }
+}
+
+/// What a row is made of beside motions and forces.
+#[derive(Clone, Debug, Default)]
+pub struct Told {
+    /// Inertia, added inertia and turning of each body, as forces.
+    pub inertia: Vec<[Six; 3]>,
+    /// Length of the first segment of each connector of the layout (m).
+    pub lengths: Vec<Option<f64>>,
+    /// Nodes of a line, made anew for each.
+    nodes: Vec<LineNode>,
+}
+
+/// Rows of a run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct History {
+    /// Which number is what.
+    pub layout: Layout,
+    /// All rows, one behind the other.
+    pub values: Vec<f64>,
+}
+
+impl History {
+    /// Without rows.
+    pub fn new(layout: Layout) -> Self {
+        History { layout, values: Vec::new() }
+    }
+
+    /// The rows, each of the layout's width.
+    pub fn rows(&self) -> impl ExactSizeIterator<Item = &[f64]> + Clone {
+        self.values.chunks_exact(self.layout.width.max(1))
+    }
+
+    /// Number of rows.
+    pub fn len(&self) -> usize {
+        self.rows().len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.values.is_empty()
+    }
+
+    /// One number of every row.
+    pub fn series(&self, at: usize) -> Vec<f64> {
+        self.rows().map(|row| row.get(at).copied().unwrap_or(f64::NAN)).collect()
+    }
+
+    /// The instants (s).
+    pub fn times(&self) -> Vec<f64> {
+        self.series(0)
+    }
+}
+
+impl Layout {
+    /// Writes the row of an instant. `near` are the places of the row before: angles go on from them without a jump.
+    ///
+    /// # Errors
+    /// A line that cannot tell of its nodes.
+    pub fn write(
+        &self,
+        (system, time): (&System, f64),
+        (motions, forces, told): (&[Motion], &mut Forces, &mut Told),
+        near: &mut [Place],
+        row: &mut Vec<f64>,
+    ) -> Result<(), SolveError> {
+        row.clear();
+        row.push(time);
+        for (motion, near) in motions.iter().zip(near) {
+            *near = motion.pose.place(near);
+            row.extend_from_slice(&near.shift);
+            row.extend_from_slice(&near.turn);
+            row.extend_from_slice(motion.velocity.as_slice());
+            row.extend_from_slice(motion.acceleration.as_slice());
+        }
+        row.resize(self.width, 0.0);
+        // a line that does not act has no nodes
+        for along in self.links.iter().filter_map(|l| l.along.as_ref()) {
+            if let Some(own) = row.get_mut(along.at..along.at + along.width()) {
+                own.fill(f64::NAN);
+            }
+        }
+        let mut first = 0;
+        for (index, link) in system.links.iter().enumerate() {
+            // in the same place unless a connector has gone
+            let same = |l: &LinkColumns| l.name == link.name;
+            let found = match self.links.get(index) {
+                Some(columns) if same(columns) => Some(index),
+                _ => self.links.iter().position(same),
+            };
+            if let (Some(number), Some(columns)) = (found, found.and_then(|n| self.links.get(n))) {
+                let length = told.lengths.get(number).copied().flatten();
+                if let Some([active, long]) = row.get_mut(columns.active..columns.active + 2) {
+                    (*active, *long) = (1.0, length.unwrap_or(f64::NAN));
+                }
+                let mut at = columns.wrench;
+                for (end, wrench) in link.ends.iter().zip(forces.wrenches.iter().skip(first)) {
+                    if let (Attachment::Body(..), Some(place)) = (end, row.get_mut(at..at + 6)) {
+                        place.copy_from_slice(wrench.as_slice());
+                        at += 6;
+                    }
+                }
+                if let Some(along) = &columns.along {
+                    let mut none = None;
+                    let guess = forces.guesses.get_mut(index).unwrap_or(&mut none);
+                    nodes_of((system, link, guess), (time, motions), &mut told.nodes)
+                        .and_then(|()| along.write(&told.nodes, row))
+                        .map_err(|e| SolveError::of(&link.name)(at_time(e, time)))?;
+                }
+            }
+            first += link.ends.len();
+        }
+        for body in 0..self.bodies.len() {
+            for category in &self.categories {
+                let of_inertia = |i: usize| told.inertia.get(body).and_then(|t| t.get(i)).copied();
+                let force = match category {
+                    Category::Inertia => of_inertia(0),
+                    Category::AddedInertia => of_inertia(1),
+                    Category::Coriolis => of_inertia(2),
+                    other => {
+                        forces.categories.get(body).and_then(|c: &[Six; CATEGORIES]| c.get(place_of(*other))).copied()
+                    }
+                };
+                let at = self.category(body, *category).unwrap_or(0);
+                if let (Some(force), Some(place)) = (force, row.get_mut(at..at + 6)) {
+                    place.copy_from_slice(force.as_slice());
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The nodes of a line at an instant.
+fn nodes_of(
+    (system, link, guess): (&System, &Link, &mut Guess),
+    (time, motions): (f64, &[Motion]),
+    nodes: &mut Vec<LineNode>,
+) -> Result<(), ClassError> {
+    let ends: Vec<_> = link.ends.iter().map(|end| end_of(end, motions, true).0).collect();
+    let step = Some(TimeStep { time, dt: 0.0 });
+    let at = Situation { ends: &ends, step, surroundings: &system.surroundings };
+    link.element.row(&at, system.states.get(link.states.clone()).unwrap_or_default(), guess, nodes)
+}
+
+fn at_time(error: ClassError, time: f64) -> ClassError {
+    ClassError { message: format!("at {time} s: {}", error.message), ..error }
+}

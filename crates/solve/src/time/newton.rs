@@ -1,0 +1,141 @@
+//! Newton's correction of a trial: what is left of the balance, how it changes with the unknowns, and the trial moved by what that asks for.
+
+use super::forces::{Forces, Motion};
+use super::inertia::{gyroscopic, turned_inertia};
+use super::step::Stepper;
+use crate::system::{Node, System};
+use nalgebra::{DMatrix, DVector, Matrix6};
+use windlass_base::pose::Six;
+
+impl Stepper {
+    /// Fills the right side with what is left; gives its measure (m/s2).
+    pub(super) fn residual(&mut self, system: &System, forces: &Forces) -> f64 {
+        if self.right.nrows() != self.rows.len() {
+            self.right = DVector::zeros(self.rows.len());
+        }
+        let mut most: f64 = 0.0;
+        let mut inertia = (usize::MAX, Six::zeros(), 1.0);
+        for (i, row) in self.rows.iter().enumerate() {
+            let (body, freedom) = (row.at / 6, row.at % 6);
+            let (Some(node), Some(trial), Some(mass)) =
+                (system.nodes.get(body), self.trial.get(body), self.masses.get(body))
+            else {
+                continue;
+            };
+            if inertia.0 != body {
+                let own = mass * trial.acceleration + gyroscopic(&node.floating.mass, trial);
+                inertia = (body, own, mass[(0, 0)].max(mass[(2, 2)]));
+            }
+            let left = if row.heavy { forces.sum[row.at] - inertia.1[freedom] } else { forces.sum[row.at] };
+            self.right[i] = left;
+            let measure = if row.heavy {
+                let own = mass[(freedom, freedom)] + forces.inertia[(row.at, row.at)].max(0.0);
+                // of a rotation, times the radius of gyration
+                if freedom < 3 { own } else { (own * inertia.2.max(f64::MIN_POSITIVE)).sqrt() }
+            } else {
+                let pull = forces.pull.get(body).copied().unwrap_or(0.0);
+                pull.max(1.0) / system.gravity
+            };
+            let share = left.abs() / measure;
+            // a comparison with a number that is none would pass it over
+            most = if share.is_nan() { f64::INFINITY } else { most.max(share) };
+        }
+        most
+    }
+
+    /// What turning changes in the inertia of each body.
+    pub(super) fn turn(&mut self, system: &System) {
+        self.turned.clear();
+        let made = |(node, trial): (&Node, &Motion)| turned_inertia(node, trial);
+        self.turned.extend(system.nodes.iter().zip(&self.trial).map(made));
+    }
+
+    pub(super) fn jacobian(&mut self, forces: &Forces, dt: f64, by_place: f64, by_velocity: f64) {
+        let size = self.rows.len();
+        if self.matrix.nrows() != size {
+            self.matrix = DMatrix::zeros(size, size);
+        }
+        if let ([mass], 6, true) = (self.masses.as_slice(), size, self.rows.iter().all(|r| r.heavy)) {
+            let block = |m: &DMatrix<f64>| m.fixed_view::<6, 6>(0, 0).into_owned();
+            let [place, velocity] = self.turned.first().copied().unwrap_or_default();
+            let whole = (block(&forces.stiffness) + place) * by_place
+                + (block(&forces.damping) + velocity) * by_velocity
+                + block(&forces.inertia)
+                + mass;
+            self.matrix.copy_from(&whole);
+            return;
+        }
+        for (j, column) in self.rows.iter().enumerate() {
+            let (place, velocity) = if column.heavy { (by_place, by_velocity) } else { (1.0, 1.0 / dt) };
+            for (i, row) in self.rows.iter().enumerate() {
+                let (at, to) = (row.at, column.at);
+                let mut value = forces.stiffness[(at, to)] * place + forces.damping[(at, to)] * velocity;
+                if row.heavy && column.heavy {
+                    value += forces.inertia[(at, to)];
+                }
+                if row.heavy && column.heavy && at / 6 == to / 6 {
+                    let place = (at % 6, to % 6);
+                    value += self.masses.get(at / 6).map_or(0.0, |m| m[place]);
+                    value += self.turned.get(at / 6).map_or(0.0, |[k, c]| k[place] * by_place + c[place] * by_velocity);
+                }
+                self.matrix[(i, j)] = value;
+            }
+        }
+    }
+
+    /// Finds the correction; what nothing holds and nothing weighs does not move. False where there is none.
+    pub(super) fn solve(&mut self) -> bool {
+        if self.rows.len() == 6 {
+            let matrix: Matrix6<f64> = self.matrix.fixed_view::<6, 6>(0, 0).into_owned();
+            self.factors = Some(matrix.lu());
+        }
+        if self.solve_again() {
+            return true;
+        }
+        self.moved.clear();
+        let scale = self.matrix.amax();
+        if let Ok(found) = self.matrix.clone().svd(true, true).solve(&self.right, 1e-12 * scale) {
+            self.moved.extend(found.iter());
+        }
+        self.moved.len() == self.rows.len() && self.moved.iter().all(|v| v.is_finite())
+    }
+
+    /// Finds the correction for another right side with the matrix that was solved last. False where there is none.
+    pub(super) fn solve_again(&mut self) -> bool {
+        self.moved.clear();
+        if let (Some(right), 6) = (self.right.as_slice().first_chunk::<6>(), self.rows.len()) {
+            if let Some(found) = self.factors.as_ref().and_then(|f| f.solve(&Six::from(*right))) {
+                self.moved.extend(found.iter());
+            }
+        } else if let Some(found) = self.matrix.clone().lu().solve(&self.right) {
+            self.moved.extend(found.iter());
+        }
+        self.moved.len() == self.rows.len() && self.moved.iter().all(|v| v.is_finite())
+    }
+
+    /// Moves the trial by the correction that was found.
+    pub(super) fn correct_trial(
+        &mut self,
+        system: &System,
+        start: &[Motion],
+        dt: f64,
+        (gain, by_place, by_velocity): (f64, f64, f64),
+    ) {
+        for (row, by) in self.rows.iter().zip(&self.moved) {
+            let (Some(trial), Some(over)) = (self.trial.get_mut(row.at / 6), self.over.get_mut(row.at / 6)) else {
+                continue;
+            };
+            let freedom = row.at % 6;
+            if row.heavy {
+                trial.acceleration[freedom] += by;
+                trial.auxiliary[freedom] += by * gain;
+                trial.velocity[freedom] += by * by_velocity;
+                over[freedom] += by * by_place;
+            } else {
+                over[freedom] += by;
+                trial.velocity[freedom] = over[freedom] / dt;
+            }
+        }
+        self.pose(system, start);
+    }
+}

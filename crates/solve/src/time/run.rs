@@ -1,0 +1,387 @@
+//! A run: steps from a start to an end, with what happens on the way, and rows kept.
+
+use super::action::Action;
+use super::along::AlongEnvelope;
+use super::course::{Counts, Ending, Settings, Watcher};
+use super::duties::Duties;
+use super::forces::{Memory, Motion};
+use super::history::{History, Layout, Told};
+use super::inertia::gyroscopic;
+use super::scheme::Method;
+use super::statistics::Statistics;
+use super::step::{Effort, Instant, Stepper};
+use crate::system::{SolveError, System, mass_block};
+use std::sync::Arc;
+use windlass_base::geometry::Place;
+use windlass_base::pose::Six;
+use windlass_hydro::sea::Sea;
+use windlass_model::{ClassError, Model};
+use windlass_signal::SeriesError;
+
+/// Times a step may be halved.
+const HALVINGS: u32 = 12;
+/// Times a step is halved to meet a condition.
+const SOUGHT: u32 = 6;
+/// Steps between two snapshots, at which what solvers remember is forgotten.
+pub const SNAPSHOT: usize = 500;
+
+/// A run.
+#[derive(Debug)]
+pub struct Run {
+    /// The model, with the connectors and lengths of now; bodies stand where they began.
+    pub model: Model,
+    /// How it goes.
+    pub settings: Settings,
+    /// What happens.
+    pub actions: Vec<Action>,
+    /// When each action happened (s).
+    pub fired: Vec<Option<f64>>,
+    /// Rows.
+    pub history: History,
+    /// Statistics of the stored instants behind the transient.
+    pub statistics: Statistics,
+    /// Least and most along each line of the layout behind the transient, of a run that keeps no rows.
+    pub envelopes: Vec<AlongEnvelope>,
+    /// What it did.
+    pub counts: Counts,
+    /// The sea now.
+    pub sea: Option<Arc<Sea>>,
+    pub(super) system: System,
+    pub(super) now: Instant,
+    pub(super) taken: usize,
+    pub(super) winches: Vec<(String, f64, Option<f64>)>,
+    stepper: Stepper,
+    pub(super) near: Vec<Place>,
+    row: Vec<f64>,
+    told: Told,
+    /// Whether a length has changed since the last row.
+    pub(super) wound: bool,
+    /// The seas of the run, each with the time since when it has been there (s).
+    pub seas: Vec<(f64, Option<Arc<Sea>>)>,
+    /// From what it began, for who reads of it.
+    pub began: String,
+    origin: Model,
+    start: Vec<(usize, Six)>,
+}
+
+/// What stood before a part of a step.
+struct Before {
+    time: f64,
+    motions: Vec<Motion>,
+    memory: Memory,
+    states: Vec<f64>,
+}
+
+/// A watcher could not keep what it was told: the disk is full, say.
+fn unkept(text: String) -> SolveError {
+    SolveError::new(ClassError::new(text).help(
+        "the run ends here and what it has stays for PRCPOST; with room for its file, TDOM -RESTART goes on from the last snapshot there",
+    ))
+}
+
+impl Run {
+    /// A run of a model from its present configuration, at rest.
+    ///
+    /// # Errors
+    /// The body or connector that makes no part of it; an action on what is not there.
+    pub fn new(model: &Model, settings: Settings, actions: Vec<Action>) -> Result<Self, SolveError> {
+        let (origin, model) = (model.clone(), model.clone());
+        let sea = Sea::of(&model, &model.environment).map_err(SolveError::new)?.map(Arc::new);
+        let duties = Duties::foreseen(&model, &actions, settings.observed, settings.books);
+        let system = System::under_way(&model, sea.as_ref(), duties)?;
+        let mut links = system.link_ends();
+        for name in actions.iter().filter_map(|a| a.when.connector()) {
+            if !links.iter().any(|l| l.name.eq_ignore_ascii_case(name)) {
+                system.ends_of(&model, name)?;
+            }
+        }
+        for name in actions.iter().flat_map(|a| a.connectors()) {
+            if !links.iter().any(|l| l.name.eq_ignore_ascii_case(name)) {
+                links.push(system.ends_of(&model, name)?);
+            }
+        }
+        let layout = Layout::new(&system, links, settings.along);
+        settings.fits(&layout)?;
+        let motions: Vec<Motion> =
+            system.state(&model).poses.into_iter().map(|pose| Motion { pose, ..Motion::default() }).collect();
+        let memory = Memory::of(&system);
+        let fired = vec![None; actions.len()];
+        let near = model.bodies.values().map(|b| b.place).collect();
+        let from = settings.transient;
+        let mut run = Run {
+            now: Instant { motions, memory, ..Instant::default() },
+            model,
+            settings,
+            actions,
+            fired,
+            statistics: Statistics::new(&layout, from),
+            envelopes: vec![AlongEnvelope::default(); layout.links.len()],
+            history: History::new(layout),
+            counts: Counts::default(),
+            seas: vec![(0.0, sea.clone())],
+            sea,
+            system,
+            taken: 0,
+            winches: Vec::new(),
+            stepper: Stepper::default(),
+            near,
+            row: Vec::new(),
+            told: Told::default(),
+            wound: true,
+            began: "as the bodies stand, at rest".into(),
+            origin,
+            start: Vec::new(),
+        };
+        run.check_actions()?;
+        run.prescribe()?;
+        run.prepare()?;
+        Ok(run)
+    }
+
+    /// The same run from its start, with other settings.
+    ///
+    /// # Errors
+    /// As [`Run::new`].
+    pub fn begun_again(&self, change: impl FnOnce(Settings) -> Settings) -> Result<Run, SolveError> {
+        let mut again = Run::new(&self.origin, change(self.settings.clone()), self.actions.clone())?;
+        again.began.clone_from(&self.began);
+        if !self.start.is_empty() {
+            again.begin_with(&self.start)?;
+        }
+        Ok(again)
+    }
+
+    /// Gives bodies velocities to begin with (m/s, rad/s, global axes).
+    ///
+    /// # Errors
+    /// As [`Run::new`].
+    pub fn begin_with(&mut self, velocities: &[(usize, Six)]) -> Result<(), SolveError> {
+        self.start = velocities.to_vec();
+        for (body, velocity) in velocities {
+            if let Some(motion) = self.now.motions.get_mut(*body) {
+                motion.velocity = *velocity;
+            }
+        }
+        self.prepare()
+    }
+
+    /// Accelerations that balance the forces as they are now.
+    pub(super) fn prepare(&mut self) -> Result<(), SolveError> {
+        self.now.memory.begin(&self.system, (&self.now.motions, &self.now.motions), (self.now.time, 0.0))?;
+        self.stepper.balance(&self.system, &mut self.now, 0.0)?;
+        // what moves by itself begins where it hangs
+        self.system.begin_moving(&self.now.forces.trial);
+        Ok(())
+    }
+
+    /// Takes steps to the end.
+    ///
+    /// # Errors
+    /// A body or connector without an answer, or a watcher that could not keep a row; rows so far are kept.
+    pub fn go(&mut self, watcher: &mut dyn Watcher) -> Result<Ending, SolveError> {
+        let ended = self.steps(watcher);
+        let kept = watcher.finish().map_err(unkept);
+        ended.and_then(|ending| kept.map(|()| ending))
+    }
+
+    fn steps(&mut self, watcher: &mut dyn Watcher) -> Result<Ending, SolveError> {
+        let steps = (self.settings.observed / self.settings.dt - 1e-9).ceil().max(0.0) as usize;
+        // one that goes on from its start has that row
+        if self.taken == 0 && self.history.is_empty() {
+            self.keep(watcher)?;
+            self.save(watcher)?;
+        }
+        while self.taken < steps {
+            if !watcher.goes_on(self.now.time) {
+                return Ok(Ending::Interrupted);
+            }
+            let end = (self.settings.dt * (self.taken + 1) as f64).min(self.settings.observed);
+            let mut stop = match self.to(end) {
+                Ok(stop) => stop,
+                Err(error) => {
+                    // from here -RESTART goes on, with what made it fail put right
+                    self.save(watcher)?;
+                    return Err(error);
+                }
+            };
+            self.taken += 1;
+            if stop.is_none() {
+                // the step's own time, so that no rounding adds up
+                self.now.time = end;
+                stop = self.happens()?;
+            }
+            let capsized = self.capsized();
+            let last = self.taken == steps || stop.is_some() || capsized.is_some();
+            if last || self.taken.is_multiple_of(self.settings.store.max(1)) {
+                self.keep(watcher)?;
+            }
+            if let Some(name) = stop {
+                return Ok(Ending::Stopped(name));
+            }
+            if let Some(name) = capsized {
+                return Ok(Ending::Capsized(name));
+            }
+            if self.taken.is_multiple_of(SNAPSHOT) {
+                self.save(watcher)?;
+            }
+        }
+        Ok(Ending::Done)
+    }
+
+    /// Goes to a time, in as many parts as that needs; gives the name of an action that ends the run before.
+    fn to(&mut self, end: f64) -> Result<Option<String>, SolveError> {
+        // halvings for the error or a balance, and for a condition that comes true
+        let (mut level, mut sought) = (0, 0);
+        loop {
+            let left = end - self.now.time;
+            if left <= 1e-9 * self.settings.dt {
+                return Ok(None);
+            }
+            let mut part = (self.settings.dt / f64::from(1u32 << (level + sought).min(HALVINGS))).min(left);
+            if !self.winches.is_empty() {
+                part = part.min(self.part_to_wind()?);
+            }
+            // an action at a time ends a step there
+            if let Some(at) = self.next_action(end)
+                && at > self.now.time + 1e-9 * self.settings.dt
+            {
+                part = part.min(at - self.now.time);
+            }
+            let before = (self.settings.adaptive.is_some() || self.waits()).then(|| self.before());
+            let winches = self.wind(self.now.time + part)?;
+            match self.stepper.step(
+                &mut self.system,
+                &mut self.now,
+                part,
+                (&self.settings.method, &self.settings.convergence),
+            ) {
+                Ok(Effort { iterations, evaluations }) => {
+                    self.counts.iterations += iterations;
+                    self.counts.evaluations += evaluations;
+                    if let Some(before) = before {
+                        let error = self.error_of_step(&before.motions, part);
+                        let rough = self.settings.adaptive.is_some_and(|allowed| error > allowed) && level < HALVINGS;
+                        let sudden = sought < SOUGHT && self.comes_true();
+                        if rough || sudden {
+                            self.unwind(winches);
+                            self.go_back(before);
+                            level += u32::from(rough);
+                            sought += u32::from(!rough);
+                            continue;
+                        }
+                        if self.settings.adaptive.is_some_and(|allowed| error < allowed / 10.0) {
+                            level = level.saturating_sub(1);
+                        }
+                    }
+                    self.counts.steps += 1;
+                    if part < self.settings.dt * 0.999 {
+                        let fired = self.fired.iter().flatten().count();
+                        if let Some(name) = self.happens()? {
+                            return Ok(Some(name));
+                        }
+                        if self.fired.iter().flatten().count() > fired {
+                            sought = 0;
+                        }
+                    }
+                }
+                Err(error) => {
+                    self.unwind(winches);
+                    if error.error.lasting {
+                        return Err(error);
+                    }
+                    if level >= HALVINGS {
+                        return Err(self.nearly_taken_in().unwrap_or(error));
+                    }
+                    self.counts.cut += 1;
+                    level += 1;
+                }
+            }
+        }
+    }
+
+    /// What a part of a step changes.
+    fn before(&self) -> Before {
+        Before {
+            time: self.now.time,
+            motions: self.now.motions.clone(),
+            memory: self.now.memory.clone(),
+            states: self.system.states.clone(),
+        }
+    }
+
+    /// Forgets a part of a step.
+    fn go_back(&mut self, before: Before) {
+        (self.now.time, self.now.motions) = (before.time, before.motions);
+        (self.now.memory, self.system.states) = (before.memory, before.states);
+        self.now.forces.unsettle();
+    }
+
+    /// The error of place of one step (m): `h^2 |beta - 1/6|` times the change of the acceleration (Zienkiewicz and Xie, Earthquake
+    /// Engineering and Structural Dynamics 20, 1991, 871-887, eq. 12).
+    fn error_of_step(&self, before: &[Motion], dt: f64) -> f64 {
+        let factor = match self.settings.method {
+            Method::Implicit(scheme) => (scheme.beta - 1.0 / 6.0).abs().max(1.0 / 12.0),
+            Method::Corrector => 1.0 / 12.0,
+        };
+        let change = |(new, old): (&Motion, &Motion)| {
+            let by = new.acceleration - old.acceleration;
+            by.fixed_rows::<3>(0).norm().max(10.0 * by.fixed_rows::<3>(3).norm())
+        };
+        factor * dt * dt * self.now.motions.iter().zip(before).map(change).fold(0.0, f64::max)
+    }
+
+    /// Forgets what solvers remember, so that a run that goes on from a snapshot finds the same digits.
+    pub(super) fn forget(&mut self) {
+        self.now.forces.guesses.clear();
+        self.now.forces.unsettle();
+    }
+
+    fn save(&mut self, watcher: &mut dyn Watcher) -> Result<(), SolveError> {
+        self.forget();
+        watcher.snapshot(&self.snapshot()).map_err(unkept)
+    }
+
+    fn keep(&mut self, watcher: &mut dyn Watcher) -> Result<(), SolveError> {
+        let mut told = std::mem::take(&mut self.told);
+        told.inertia.clear();
+        for (node, motion) in self.system.nodes.iter().zip(&self.now.motions) {
+            let a = &motion.acceleration;
+            let own = -(mass_block(&node.floating.mass, &motion.pose) * a);
+            let added = if node.added { -(node.floating.added(&motion.pose) * a) } else { Six::zeros() };
+            told.inertia.push([own, added, -gyroscopic(&node.floating.mass, motion)]);
+        }
+        // lengths change by winches alone
+        if !self.winches.is_empty() || told.lengths.is_empty() || self.wound {
+            let length =
+                |name: &String| self.model.connectors.get(&Model::key(name)).and_then(|c| self.model.first_length(c));
+            told.lengths.clear();
+            told.lengths.extend(self.history.layout.links.iter().map(|l| length(&l.name)));
+            self.wound = false;
+        }
+        let (layout, now) = (&self.history.layout, &mut self.now);
+        let parts = (now.motions.as_slice(), &mut now.forces, &mut told);
+        layout.write((&self.system, now.time), parts, &mut self.near, &mut self.row)?;
+        self.told = told;
+        let wrong = |e: SeriesError| SolveError::new(ClassError::new(e.to_string()));
+        self.statistics.take(&self.row).map_err(wrong)?;
+        if self.settings.keep {
+            self.history.values.extend_from_slice(&self.row);
+        } else if now.time >= self.settings.transient {
+            for (link, envelope) in self.history.layout.links.iter().zip(&mut self.envelopes) {
+                if let Some(along) = &link.along {
+                    envelope.take(along, &self.row).map_err(wrong)?;
+                }
+            }
+        }
+        watcher.row(&self.row).map_err(unkept)
+    }
+
+    fn capsized(&self) -> Option<String> {
+        if self.settings.capsize {
+            return None;
+        }
+        let over = |m: &Motion| m.pose.axes[(2, 2)] < 0.0;
+        let found = self.system.nodes.iter().zip(&self.now.motions).find(|(n, m)| !n.junction && over(m));
+        found.map(|(n, _)| n.name.clone())
+    }
+}

@@ -1,0 +1,53 @@
+//! What can be seen of a run from outside, and all that is needed to go on from where it is.
+
+use super::forces::Motion;
+use super::run::Run;
+use super::snapshot::Snapshot;
+use crate::link::Link;
+use windlass_hydro::sea::Sea;
+use windlass_model::{LineBooks, Model};
+
+impl Run {
+    /// Time reached (s).
+    pub fn time(&self) -> f64 {
+        self.now.time
+    }
+
+    /// The books of the lines that move by themselves, by name, where they are kept.
+    pub fn books(&self) -> Vec<(String, LineBooks)> {
+        let of = |link: &Link| {
+            let state = self.system.states.get(link.states.clone()).unwrap_or_default();
+            link.element.books(state).map(|books| (link.name.clone(), books))
+        };
+        self.system.links.iter().filter_map(of).collect()
+    }
+
+    /// Motions now.
+    pub fn motions(&self) -> &[Motion] {
+        &self.now.motions
+    }
+
+    /// The sea at a time (s) of the run: actions may have changed it.
+    pub fn sea_at(&self, time: f64) -> Option<&Sea> {
+        let found = self.seas.iter().rev().find(|(since, _)| *since <= time).or(self.seas.first());
+        found.and_then(|(_, sea)| sea.as_deref())
+    }
+
+    /// Everything needed to go on from here.
+    pub fn snapshot(&self) -> Snapshot {
+        let lengths = self.history.layout.links.iter().map(|l| self.model.connectors.get(&Model::key(&l.name)));
+        Snapshot {
+            time: self.now.time,
+            taken: self.taken,
+            motions: self.now.motions.clone(),
+            loads: self.now.memory.loads.clone(),
+            states: self.system.states.clone(),
+            lengths: lengths.map(|c| c.and_then(|c| c.first_length)).collect(),
+            fired: self.fired.clone(),
+            winches: self.winches.clone(),
+            near: self.near.clone(),
+            rows: self.history.len(),
+            counts: self.counts,
+        }
+    }
+}

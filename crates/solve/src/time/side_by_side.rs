@@ -1,0 +1,82 @@
+//! Lines that move by themselves, evaluated side by side: each by itself, so that the number of threads changes nothing.
+
+use super::forces::{Forces, Motion};
+use crate::system::System;
+use std::sync::{Mutex, PoisonError};
+use windlass_model::{ClassError, End, Guess, Response, Situation, TimeStep};
+
+/// One of them, with what its evaluation needs and finds.
+#[derive(Default)]
+pub(super) struct Alone {
+    /// Its number among the connectors.
+    pub link: usize,
+    pub ends: Vec<End>,
+    pub trial: Vec<f64>,
+    pub guess: Guess,
+    pub response: Response,
+    pub failed: Option<ClassError>,
+}
+
+impl std::fmt::Debug for Alone {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Alone").field("link", &self.link).field("ends", &self.ends).finish_non_exhaustive()
+    }
+}
+
+impl Forces {
+    /// Evaluates the connectors that move by themselves.
+    pub(super) fn connect_moving(&mut self, system: &System, motions: &[Motion], (time, dt): (f64, f64)) {
+        if !self.moving {
+            self.alone.clear();
+            return;
+        }
+        let moving = || system.links.iter().enumerate().filter(|(_, l)| l.element.moves());
+        self.alone.resize_with(moving().count(), Alone::default);
+        let mut alone = std::mem::take(&mut self.alone);
+        for (one, (index, link)) in alone.iter_mut().zip(moving()) {
+            self.place_ends(link, motions);
+            one.link = index;
+            one.ends.clone_from(&self.ends);
+            // all of it is written
+            one.trial.resize(link.states.len(), 0.0);
+            one.guess = self.guesses.get_mut(index).and_then(Option::take);
+        }
+        evaluate(system, &mut alone, Some(TimeStep { time, dt }));
+        for one in &mut alone {
+            if let Some(guess) = self.guesses.get_mut(one.link) {
+                *guess = one.guess.take();
+            }
+        }
+        self.alone = alone;
+    }
+}
+
+/// Evaluates them at the end of a step; `step` as of [`Situation`].
+fn evaluate(system: &System, lines: &mut [Alone], step: Option<TimeStep>) {
+    let one = |line: &mut Alone| {
+        let Some(link) = system.links.get(line.link) else { return };
+        let at = Situation { ends: &line.ends, step, surroundings: &system.surroundings };
+        let committed = system.states.get(link.states.clone()).unwrap_or_default();
+        let made = link.element.evaluate(&at, committed, &mut line.trial, &mut line.guess, &mut line.response);
+        line.failed = made.err();
+    };
+    let helpers = rayon::current_num_threads().min(lines.len()).saturating_sub(1);
+    if helpers == 0 {
+        lines.iter_mut().for_each(one);
+        return;
+    }
+    // this thread takes one after the other, as do others that find time
+    let left = Mutex::new(lines.iter_mut());
+    let next = || left.lock().unwrap_or_else(PoisonError::into_inner).next();
+    let work = || {
+        while let Some(line) = next() {
+            one(line);
+        }
+    };
+    rayon::in_place_scope(|scope| {
+        for _ in 0..helpers {
+            scope.spawn(|_| work());
+        }
+        work();
+    });
+}

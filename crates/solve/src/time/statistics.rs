@@ -1,0 +1,91 @@
+//! The results a run is judged by, and their statistics as it goes, in flat memory.
+
+use super::history::Layout;
+use super::pushing::Pushing;
+use crate::system::FREEDOMS;
+use nalgebra::Vector3;
+use windlass_base::units::Dim;
+use windlass_signal::SeriesError;
+use windlass_signal::running::Running;
+
+/// A result against time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Series {
+    /// What it is of, and which: `TBRG X`, `A Tension`.
+    pub name: String,
+    /// Its dimension.
+    pub dim: Dim,
+    /// Its numbers in a row: one, or the components of a force whose size it is.
+    pub columns: std::ops::Range<usize>,
+    /// Of the force of a connector that may push, where it does: its size is then negative.
+    pub pushing: Option<Pushing>,
+}
+
+impl Series {
+    /// Its value in a row.
+    pub fn value(&self, row: &[f64]) -> f64 {
+        match (row.get(self.columns.clone()), &self.pushing) {
+            (Some([one]), _) => *one,
+            (Some([x, y, z]), Some(pushing)) => pushing.pull(&Vector3::new(*x, *y, *z), row),
+            (Some(several), _) => several.iter().map(|v| v * v).sum::<f64>().sqrt(),
+            (None, _) => f64::NAN,
+        }
+    }
+}
+
+/// The results a run is judged by: places and angles of the bodies in the freedoms that move, tensions of the connectors.
+pub fn results(layout: &Layout) -> Vec<Series> {
+    let mut list = Vec::new();
+    for (body, (name, _)) in layout.bodies.iter().enumerate() {
+        let at = layout.body(body);
+        let moves = layout.moves.get(body).copied().unwrap_or([true; 6]);
+        for (i, freedom) in FREEDOMS.iter().enumerate().filter(|(i, _)| moves.get(*i) == Some(&true)) {
+            let dim = if i < 3 { Dim::Length } else { Dim::Angle };
+            list.push(Series { name: format!("{name} {freedom}"), dim, columns: at + i..at + i + 1, pushing: None });
+        }
+    }
+    for (link, columns) in layout.links.iter().enumerate() {
+        if let Some(at) = layout.pull(link) {
+            list.push(Series {
+                name: format!("{} Tension", columns.name),
+                dim: Dim::Force,
+                columns: at..at + 3,
+                pushing: columns.pushing.clone(),
+            });
+        }
+    }
+    list
+}
+
+/// Statistics of all results of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Statistics {
+    list: Vec<(Series, Running)>,
+    from: f64,
+}
+
+impl Statistics {
+    /// Of the results of a layout, from a time on (s).
+    pub fn new(layout: &Layout, from: f64) -> Self {
+        Statistics { list: results(layout).into_iter().map(|s| (s, Running::about(0.0))).collect(), from }
+    }
+
+    /// Takes the results of a row.
+    ///
+    /// # Errors
+    /// A result that is no number.
+    pub fn take(&mut self, row: &[f64]) -> Result<(), SeriesError> {
+        let time = row.first().copied().unwrap_or(f64::NAN);
+        if time >= self.from {
+            for (series, running) in &mut self.list {
+                running.push(time, series.value(row))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Every result with what was seen of it.
+    pub fn all(&self) -> impl Iterator<Item = (&Series, &Running)> {
+        self.list.iter().map(|(series, running)| (series, running))
+    }
+}

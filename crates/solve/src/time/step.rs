@@ -1,0 +1,341 @@
+//! One step of time: Newton's iteration on the accelerations at its end.
+//!
+//! Unknowns are the accelerations of the freedoms that move. A freedom without inertia (a junction without weight) has none: its
+//! unknown is its motion over the step, and it stands where nothing is left on it, as in statics.
+
+use super::forces::{Forces, Memory, Motion};
+use super::inertia::{gyroscopic, inertia};
+use super::scheme::{Method, Scheme};
+use crate::system::{FREEDOMS, SolveError, System};
+use nalgebra::{DMatrix, DVector, LU, Matrix6, U6};
+use windlass_base::pose::Six;
+use windlass_model::ClassError;
+
+/// When a step is solved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Convergence {
+    /// Most iterations before the step is cut.
+    pub most: usize,
+    /// Largest acceleration left, as a share of gravity (rotations times the radius of gyration); of a freedom without inertia the
+    /// largest force left, as a share of the largest force of a connector on it.
+    pub tolerance: f64,
+}
+
+impl Default for Convergence {
+    fn default() -> Self {
+        Convergence { most: 20, tolerance: 1e-7 }
+    }
+}
+
+/// Everything that moves, at an instant.
+#[derive(Debug, Default)]
+pub struct Instant {
+    /// Time (s).
+    pub time: f64,
+    /// Motions of the bodies.
+    pub motions: Vec<Motion>,
+    /// What loads remember.
+    pub memory: Memory,
+    /// Forces there.
+    pub forces: Forces,
+}
+
+/// How a step went.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Effort {
+    /// Iterations.
+    pub iterations: usize,
+    /// Evaluations of all forces.
+    pub evaluations: usize,
+}
+
+/// A row of the unknowns.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Row {
+    /// Body and freedom: six a body.
+    pub(super) at: usize,
+    /// Whether it has inertia.
+    pub(super) heavy: bool,
+}
+
+/// Solves steps of a system.
+#[derive(Debug, Default)]
+pub struct Stepper {
+    pub(super) trial: Vec<Motion>,
+    /// Motion of each body over the step: translation and rotation vector.
+    pub(super) over: Vec<Six>,
+    pub(super) rows: Vec<Row>,
+    pub(super) matrix: DMatrix<f64>,
+    pub(super) right: DVector<f64>,
+    pub(super) moved: Vec<f64>,
+    /// The matrix as it was last solved with, of one body.
+    pub(super) factors: Option<LU<f64, U6, U6>>,
+    pub(super) masses: Vec<Matrix6<f64>>,
+    /// How inertia changes with place and velocity.
+    pub(super) turned: Vec<[Matrix6<f64>; 2]>,
+}
+
+impl Stepper {
+    /// Finds the rows that move.
+    pub(super) fn choose(&mut self, system: &System, forces: &Forces) {
+        self.rows.clear();
+        for (body, node) in system.nodes.iter().enumerate() {
+            let Some(mass) = self.masses.get(body) else { continue };
+            let largest = mass.diagonal().amax();
+            for freedom in 0..6 {
+                if node.moves(freedom) {
+                    let at = 6 * body + freedom;
+                    // what hangs on it may have inertia where it has none itself
+                    let carried = forces.inertia.get((at, at)).copied().unwrap_or(0.0);
+                    let heavy = mass[(freedom, freedom)] > 1e-12 * largest || carried > 1e-12 * largest;
+                    self.rows.push(Row { at, heavy });
+                }
+            }
+        }
+    }
+
+    pub(super) fn weigh(&mut self, system: &System, motions: &[Motion]) {
+        self.masses.clear();
+        self.masses.extend(system.nodes.iter().zip(motions).map(|(n, m)| inertia(n, &m.pose)));
+    }
+
+    /// The accelerations that balance the forces at an instant, whose forces are evaluated here.
+    ///
+    /// # Errors
+    /// A body or connector without an answer; a freedom without inertia in the mass matrix.
+    pub fn balance(&mut self, system: &System, now: &mut Instant, dt: f64) -> Result<(), SolveError> {
+        now.forces.evaluate(system, &now.memory, &now.motions, (now.time, dt))?;
+        self.weigh(system, &now.motions);
+        self.choose(system, &now.forces);
+        let rows: Vec<usize> = self.rows.iter().filter(|r| r.heavy).map(|r| r.at).collect();
+        let mut matrix = DMatrix::zeros(rows.len(), rows.len());
+        let mut right = DVector::zeros(rows.len());
+        for (i, at) in rows.iter().enumerate() {
+            let (Some(node), Some(motion)) = (system.nodes.get(at / 6), now.motions.get(at / 6)) else { continue };
+            right[i] = now.forces.sum[*at] - gyroscopic(&node.floating.mass, motion)[at % 6];
+            if node.prescribed.is_none() {
+                for (j, column) in rows.iter().enumerate() {
+                    // the sum is that with the accelerations of before
+                    let carried = now.forces.inertia[(*at, *column)];
+                    let before = now.motions.get(column / 6).map_or(0.0, |m| m.acceleration[column % 6]);
+                    right[i] += carried * before;
+                    matrix[(i, j)] = carried;
+                    if column / 6 == at / 6 {
+                        matrix[(i, j)] += self.masses.get(at / 6).map_or(0.0, |m| m[(at % 6, column % 6)]);
+                    }
+                }
+            }
+        }
+        let solved = if rows.is_empty() { Some(right.clone()) } else { matrix.lu().solve(&right) };
+        let solved = solved.filter(|s| s.iter().all(|v| v.is_finite())).ok_or_else(|| self.singular(system, &rows))?;
+        for motion in now.motions.iter_mut().zip(&system.nodes).filter(|(_, n)| n.prescribed.is_none()).map(|(m, _)| m)
+        {
+            motion.acceleration = Six::zeros();
+        }
+        for (i, at) in rows.iter().enumerate() {
+            if let Some(motion) = now.motions.get_mut(at / 6) {
+                motion.acceleration[at % 6] = solved[i];
+            }
+        }
+        for motion in &mut now.motions {
+            (motion.auxiliary, motion.jerk) = (motion.acceleration, Six::zeros());
+        }
+        Ok(())
+    }
+
+    /// The error of a mass matrix that cannot be solved: the freedom with the least inertia.
+    fn singular(&self, system: &System, rows: &[usize]) -> SolveError {
+        let inertia = |at: &usize| self.masses.get(at / 6).map_or(0.0, |m| m[(at % 6, at % 6)]);
+        let turning = rows.iter().filter(|at| *at % 6 >= 3);
+        let least = turning.min_by(|a, b| inertia(a).total_cmp(&inertia(b))).or(rows.first()).copied().unwrap_or(0);
+        let freedom = FREEDOMS.get(least % 6).copied().unwrap_or_default();
+        let name = system.nodes.get(least / 6).map(|n| n.name.clone()).unwrap_or_default();
+        let error = ClassError::new(format!("it has no inertia in {freedom}")).help(format!(
+            "give its #WEIGHT radii of gyration, or leave the freedom out: &DESCRIBE BODY {name} -IGNORE"
+        ));
+        SolveError { who: Some(name), error }
+    }
+
+    /// Takes a step of `dt` from `now` to its end. Nothing has changed when it fails.
+    ///
+    /// # Errors
+    /// A body or connector without an answer; no balance within the most iterations.
+    pub fn step(
+        &mut self,
+        system: &mut System,
+        now: &mut Instant,
+        dt: f64,
+        (method, wanted): (&Method, &Convergence),
+    ) -> Result<Effort, SolveError> {
+        let made = match method {
+            Method::Implicit(scheme) => self.implicit(system, now, dt, (scheme, wanted)),
+            Method::Corrector => self.corrector(system, now, dt, wanted),
+        };
+        match made {
+            Ok(effort) if effort.iterations > 0 => now.forces.settle(dt),
+            // a trial that held as it was needs no foretelling, nor does most likely the next
+            _ => now.forces.unsettle(),
+        }
+        made
+    }
+
+    /// Trial motions for the present accelerations of the trial.
+    pub(super) fn place(&mut self, system: &System, start: &[Motion], dt: f64, scheme: &Scheme) {
+        for (((trial, over), old), node) in self.trial.iter_mut().zip(&mut self.over).zip(start).zip(&system.nodes) {
+            if node.prescribed.is_some() {
+                continue;
+            }
+            trial.auxiliary = scheme.auxiliary(&old.acceleration, &old.auxiliary, &trial.acceleration);
+            trial.velocity = scheme.velocity(dt, &old.velocity, &old.auxiliary, &trial.auxiliary);
+            *over = scheme.motion(dt, &old.velocity, &old.auxiliary, &trial.auxiliary);
+        }
+    }
+
+    /// Puts the trial bodies where their motion over the step takes them.
+    pub(super) fn pose(&mut self, system: &System, start: &[Motion]) {
+        for (((trial, over), old), node) in self.trial.iter_mut().zip(&self.over).zip(start).zip(&system.nodes) {
+            if node.prescribed.is_none() {
+                trial.pose = old.pose.moved(over);
+            }
+        }
+    }
+
+    pub(super) fn prescribe(&mut self, system: &System, (time, dt): (f64, f64)) -> Result<(), SolveError> {
+        for ((trial, over), node) in self.trial.iter_mut().zip(&mut self.over).zip(&system.nodes) {
+            if let Some(prescribed) = &node.prescribed {
+                let before = *trial;
+                *trial = prescribed.at(time).map_err(SolveError::of(&node.name))?;
+                let by = trial.pose.origin - before.pose.origin;
+                let turn = (before.velocity + trial.velocity) * (0.5 * dt);
+                // to the order of the step, as a forecast needs it
+                *over = Six::new(by.x, by.y, by.z, turn[3], turn[4], turn[5]);
+            }
+        }
+        Ok(())
+    }
+
+    fn implicit(
+        &mut self,
+        system: &mut System,
+        now: &mut Instant,
+        dt: f64,
+        (scheme, wanted): (&Scheme, &Convergence),
+    ) -> Result<Effort, SolveError> {
+        let (time, mut effort) = (now.time + dt, Effort::default());
+        self.trial.clear();
+        self.trial.extend_from_slice(&now.motions);
+        self.over.clear();
+        self.over.resize(now.motions.len(), Six::zeros());
+        // as of the last trial: which freedoms have inertia does not turn with the axes
+        if self.masses.len() != system.nodes.len() {
+            self.weigh(system, &now.motions);
+        }
+        self.choose(system, &now.forces);
+        self.prescribe(system, (time, dt))?;
+        // ahead as the acceleration changed last; what has no inertia goes on with its velocity
+        for (trial, _) in self.trial.iter_mut().zip(&system.nodes).filter(|(_, n)| n.prescribed.is_none()) {
+            trial.acceleration += trial.jerk * dt;
+        }
+        self.place(system, &now.motions, dt, scheme);
+        for row in self.rows.iter().filter(|r| !r.heavy) {
+            let (Some(trial), Some(over)) = (self.trial.get_mut(row.at / 6), self.over.get_mut(row.at / 6)) else {
+                continue;
+            };
+            (trial.acceleration[row.at % 6], trial.auxiliary[row.at % 6]) = (0.0, 0.0);
+            over[row.at % 6] = trial.velocity[row.at % 6] * dt;
+        }
+        self.pose(system, &now.motions);
+        self.weigh_again(system);
+        now.memory.begin(system, (&now.motions, &self.trial), (time, dt))?;
+        let gain = scheme.gain();
+        let (by_place, by_velocity) = (dt * dt * scheme.beta * gain, dt * scheme.gamma * gain);
+        let parts = (self.trial.as_slice(), now.motions.as_slice(), self.over.as_slice());
+        let mut foretold = now.forces.foretell((&now.memory, dt), parts);
+        if foretold {
+            let left = self.residual(system, &now.forces);
+            // a trial that is expected to hold needs no correction: half, as what is foretold is off, too
+            foretold = left.is_finite() && left > 0.5 * wanted.tolerance * system.gravity;
+        }
+        if foretold {
+            // stiffness and damping are still those of the start
+            self.turn(system);
+            self.jacobian(&now.forces, dt, by_place, by_velocity);
+            foretold = self.solve();
+        }
+        if foretold {
+            effort.iterations += 1;
+            self.correct_trial(system, &now.motions, dt, (gain, by_place, by_velocity));
+            self.weigh_again(system);
+        }
+        loop {
+            now.forces.evaluate(system, &now.memory, &self.trial, (time, dt))?;
+            effort.evaluations += 1;
+            let left = self.residual(system, &now.forces);
+            if !left.is_finite() {
+                return Err(not_finite(system, &now.forces.sum, time));
+            }
+            if left <= wanted.tolerance * system.gravity {
+                // what is foretold is near, not balanced: with the matrix at hand what is left goes, too
+                if foretold && effort.evaluations == 1 && !now.forces.moving && self.solve_again() {
+                    self.correct_trial(system, &now.motions, dt, (gain, by_place, by_velocity));
+                }
+                break;
+            }
+            if effort.iterations >= wanted.most {
+                return Err(self.unsolved(system, left, time, dt));
+            }
+            effort.iterations += 1;
+            self.turn(system);
+            self.jacobian(&now.forces, dt, by_place, by_velocity);
+            if !self.solve() {
+                return Err(self.unsolved(system, left, time, dt));
+            }
+            self.correct_trial(system, &now.motions, dt, (gain, by_place, by_velocity));
+            self.weigh_again(system);
+        }
+        now.forces.learn(dt, (&self.trial, &now.motions, &self.over));
+        self.accept(system, now, (time, dt));
+        Ok(effort)
+    }
+
+    /// Inertia follows the axes of bodies whose inertia is not the same about all of them.
+    pub(super) fn weigh_again(&mut self, system: &System) {
+        for ((mass, node), trial) in self.masses.iter_mut().zip(&system.nodes).zip(&self.trial) {
+            *mass = inertia(node, &trial.pose);
+        }
+    }
+
+    /// Makes the trial the present.
+    pub(super) fn accept(&mut self, system: &mut System, now: &mut Instant, (time, dt): (f64, f64)) {
+        now.time = time;
+        for (trial, old) in self.trial.iter_mut().zip(&now.motions) {
+            trial.jerk = (trial.acceleration - old.acceleration) / dt;
+        }
+        now.motions.clear();
+        now.motions.extend_from_slice(&self.trial);
+        now.memory.commit(system, &now.motions, (time, dt));
+        system.states.clear();
+        system.states.extend_from_slice(&now.forces.trial);
+    }
+
+    /// The error of a step without a balance.
+    pub(super) fn unsolved(&self, system: &System, left: f64, time: f64, dt: f64) -> SolveError {
+        let worst = self.right.iamax();
+        let at = self.rows.get(worst).map_or(0, |r| r.at);
+        let name = system.nodes.get(at / 6).map(|n| n.name.clone());
+        let freedom = FREEDOMS.get(at % 6).copied().unwrap_or_default();
+        let text = format!(
+            "no balance at {time} s with a step of {dt} s: an acceleration of {:.2e} g is left, most in {freedom}",
+            left / system.gravity
+        );
+        SolveError { who: name, error: ClassError::new(text) }
+    }
+}
+
+/// The error of a force that is no number.
+pub(super) fn not_finite(system: &System, sum: &DVector<f64>, time: f64) -> SolveError {
+    let at = sum.iter().position(|v| !v.is_finite()).unwrap_or(0);
+    let name = system.nodes.get(at / 6).map(|n| n.name.clone());
+    let error = ClassError::new(format!("the force in {} is no number at {time} s", FREEDOMS[at % 6]));
+    SolveError { who: name, error }
+}
