@@ -1,10 +1,12 @@
-//! windlass: a MOSES-style command interpreter for marine mooring analysis.
+//! windlass, the program: a MOSES-style command interpreter for marine mooring analysis.
 //!
-//! The floors of the house, top to bottom (each knows only those below it):
-//! `cli, repl | session | command, aqwa | report | solve | rod, tether | connector | hydro | post | model | table |
-//! language`. Everything below `session` can be used as a library by somebody who never types a command.
+//! From top to bottom: `cli` and `repl` (the two front doors), `session` (records one after the other), `command` (a spec and a
+//! handler each), `report` (tables, files, plots, films). The engines are crates of their own, `windlass-*`, and the dependency
+//! graph of Cargo keeps their order; none of them knows of commands, files or printing.
 
-pub mod aqwa;
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
 pub mod cli;
 pub mod command;
 pub mod repl;

@@ -8,8 +8,8 @@
 mod common;
 
 use serde_json::Value;
-use windlass::aqwa::{self, Records};
 use windlass::session::Session;
+use windlass_aqwa::{self as aqwa, Records};
 use windlass_base::diagnostic::Diagnostic;
 use windlass_language::source::Sources;
 use windlass_solve::tethered::Tethered;

@@ -4,13 +4,13 @@
 #![allow(clippy::unwrap_used)]
 
 use proptest::prelude::*;
-use windlass::aqwa::elements::Shape;
-use windlass::aqwa::end_springs::STIFF;
-use windlass::aqwa::job::Program;
-use windlass::aqwa::lines::{LineKind, Property};
-use windlass::aqwa::tethers::{Constraint, Fatigue};
-use windlass::aqwa::waves::{Form, Waves};
-use windlass::aqwa::{Deck, Reading, is_deck, read};
+use windlass_aqwa::elements::Shape;
+use windlass_aqwa::end_springs::STIFF;
+use windlass_aqwa::job::Program;
+use windlass_aqwa::lines::{LineKind, Property};
+use windlass_aqwa::tethers::{Constraint, Fatigue};
+use windlass_aqwa::waves::{Form, Waves};
+use windlass_aqwa::{Deck, Reading, is_deck, read};
 use windlass_base::diagnostic::{Diagnostic, Severity};
 use windlass_language::render::render;
 use windlass_language::source::{Sources, Text};
@@ -212,7 +212,7 @@ fn a_tube_has_the_inertia_of_a_hollow_cylinder() {
     let text = edited(&text, "    01 999 ", "    01   1\n    01   2                 6.0\n    01 999 ");
     let text = edited(&text, "(1) (51) (52) (2) (3)", "(1) (1) (2) (4) (4)");
     let deck = deck(&text);
-    let alone = windlass::aqwa::elements::Structure {
+    let alone = windlass_aqwa::elements::Structure {
         elements: deck.structures[0].elements.iter().filter(|e| e.material == 4).cloned().collect(),
         ..Default::default()
     };
@@ -1024,7 +1024,7 @@ proptest! {
         let reading = reading(&list.join("\n"));
         let _ = reading.deck.echo();
         prop_assert!(reading.deck.data_tables().is_ok());
-        prop_assert!(reading.deck.nodes.len() <= windlass::aqwa::nodes::MOST_NODES);
+        prop_assert!(reading.deck.nodes.len() <= windlass_aqwa::nodes::MOST_NODES);
         prop_assert!(reading.messages.len() <= 201);
     }
 

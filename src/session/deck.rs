@@ -1,10 +1,10 @@
 //! AQWA decks: read, told, and run as the records they amount to.
 
 use super::Session;
-use crate::aqwa::{self, Deck, Records};
 use crate::command::{PLAIN, SCRIPT};
 use crate::report::page;
 use std::path::Path;
+use windlass_aqwa::{self as aqwa, Deck, Records};
 use windlass_base::diagnostic::{Diagnostic, Severity};
 use windlass_base::span::Span;
 use windlass_language::source::Text;

@@ -9,12 +9,12 @@ mod refused;
 pub use reading::{read_all, read_text};
 
 use self::named::{in_menu, unknown};
-use crate::aqwa;
 use crate::command::{self, Call, Command, Effect, INMODEL_FILE, Job, Menu, PLAIN, SCRIPT, offered};
 use crate::report::output::Output;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::Arc;
+use windlass_aqwa as aqwa;
 use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
 use windlass_base::span::Span;
 use windlass_base::values::Args;

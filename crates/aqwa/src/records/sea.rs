@@ -1,8 +1,8 @@
 //! Waves: the spectra and the regular wave of deck 13 as options of `&ENV`.
 
 use super::written::{Script, number, numbers, opposite, rounded};
-use crate::aqwa::Deck;
-use crate::aqwa::waves::{Form, RegularWave, Spectrum, Waves};
+use crate::Deck;
+use crate::waves::{Form, RegularWave, Spectrum, Waves};
 use std::f64::consts::{PI, TAU};
 use windlass_base::diagnostic::Diagnostic;
 use windlass_hydro::sea::density::{Hump, Spectrum as Density};

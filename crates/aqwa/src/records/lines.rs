@@ -2,8 +2,8 @@
 
 use super::model::point;
 use super::written::{Script, number, numbers, rounded};
-use crate::aqwa::Deck;
-use crate::aqwa::lines::{Composite, Ends, Joint, LineKind, MooringLine, Property, Section};
+use crate::Deck;
+use crate::lines::{Composite, Ends, Joint, LineKind, MooringLine, Property, Section};
 use std::f64::consts::FRAC_PI_4;
 use windlass_base::diagnostic::Diagnostic;
 

@@ -2,10 +2,10 @@
 
 use super::model::{point, product};
 use super::written::{Script, difference, number, numbers, rounded};
-use crate::aqwa::Deck;
-use crate::aqwa::elements::Shape;
-use crate::aqwa::end_springs::EndSpring;
-use crate::aqwa::tethers::{Constraint, Description, Tether, TetherElement};
+use crate::Deck;
+use crate::elements::Shape;
+use crate::end_springs::EndSpring;
+use crate::tethers::{Constraint, Description, Tether, TetherElement};
 use windlass_base::span::Span;
 
 /// Name of the connector of a tether, by its place in deck 14.

@@ -4,10 +4,10 @@ use super::environment::spectrum;
 use super::model::{body, point};
 use super::tethers::name;
 use super::written::{Script, number, numbers, opposite, rounded};
-use crate::aqwa::Deck;
-use crate::aqwa::job::Program;
-use crate::aqwa::tethers::{Fatigue, Tether};
-use crate::aqwa::waves::Waves;
+use crate::Deck;
+use crate::job::Program;
+use crate::tethers::{Fatigue, Tether};
+use crate::waves::Waves;
 use windlass_base::diagnostic::Diagnostic;
 
 /// Hours for which the peak stress is expected when TPSH is not given (A.5).
@@ -74,7 +74,7 @@ fn bodies(deck: &Deck, out: &mut Script) {
 }
 
 /// Steps between printed or kept instants, as given; 1 for a card with nothing on it.
-fn every(field: Option<crate::aqwa::card::Field<i64>>) -> Option<i64> {
+fn every(field: Option<crate::card::Field<i64>>) -> Option<i64> {
     field.map(|field| field.value.max(1))
 }
 

@@ -1,6 +1,6 @@
 //! How records are written: numbers in native units, lines, remarks, and what had to be refused.
 
-use crate::aqwa::units::Units;
+use crate::units::Units;
 use windlass_base::diagnostic::Diagnostic;
 
 /// Digits kept of a number that is reckoned from those of the cards: a difference of places, a product with the factor of a unit. A

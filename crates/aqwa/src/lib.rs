@@ -26,6 +26,18 @@
 //! | 18 | [`printing::Printing`] | what the listing prints, and how often |
 //!
 //! Source: seed 003 (AQWATM-TETHER manual of 2006), reference/aqwa-cards.md.
+//!
+//! # Example
+//! ```
+//! use windlass_language::source::Sources;
+//!
+//! let mut sources = Sources::default();
+//! let id = sources.add("tow.dat", "JOB HE01  DRIF  WFRQ\nTITLE               Tether tow\n", 1);
+//! assert_eq!(windlass_aqwa::read(&sources, id).deck.job.title, "Tether tow");
+//! ```
+
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
 
 pub mod card;
 mod checks;

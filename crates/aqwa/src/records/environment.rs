@@ -2,9 +2,9 @@
 
 use super::sea;
 use super::written::{Script, difference, number, numbers, opposite, rounded};
-use crate::aqwa::Deck;
-use crate::aqwa::surroundings::{Flow, Layer};
-use crate::aqwa::waves::{Spectrum, Waves};
+use crate::Deck;
+use crate::surroundings::{Flow, Layer};
+use crate::waves::{Spectrum, Waves};
 use windlass_base::diagnostic::Diagnostic;
 use windlass_base::units::KNOT;
 

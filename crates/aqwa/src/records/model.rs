@@ -1,10 +1,10 @@
 //! Structures as bodies: decks 1 to 4, 7, 12, 15 and 17.
 
 use super::written::{Script, difference, number, numbers, rounded};
-use crate::aqwa::Deck;
-use crate::aqwa::elements::{Element, Shape, Structure};
-use crate::aqwa::hydrostatics::{Hydrostatics, SixBySix};
-use crate::aqwa::mass::MassProperties;
+use crate::Deck;
+use crate::elements::{Element, Shape, Structure};
+use crate::hydrostatics::{Hydrostatics, SixBySix};
+use crate::mass::MassProperties;
 use nalgebra::Matrix6;
 use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::Span;
