@@ -14,7 +14,7 @@
 mod eight;
 mod measured;
 #[allow(dead_code)]
-#[path = "../tests/common/moordyn.rs"]
+#[path = "../crates/line-dynamics/tests/it/moordyn.rs"]
 mod moordyn;
 #[path = "rods/mod.rs"]
 mod rods;

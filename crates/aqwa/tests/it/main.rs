@@ -1,0 +1,3 @@
+//! The example decks of the AQWA-TETHER manual, card by card.
+
+mod seed_003_decks;

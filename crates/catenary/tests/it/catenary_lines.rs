@@ -1,0 +1,328 @@
+//! Whole lines between two ends, against numbers not made here and against equilibrium itself.
+
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
+use windlass_catenary::{Floor, Joint, Line, LineError, Segment};
+
+struct Case {
+    x: f64,
+    z: f64,
+    segment: Segment,
+    friction: f64,
+    suspended: bool,
+    want: [f64; 4],
+    regime: String,
+}
+
+fn cases() -> Vec<Case> {
+    let mut reader = csv::Reader::from_path("../../tests/data/catenary_2000.csv").unwrap();
+    let heads = reader.headers().unwrap().clone();
+    let place = |name: &str| heads.iter().position(|h| h == name).unwrap();
+    reader
+        .records()
+        .map(|r| {
+            let r = r.unwrap();
+            let number = |name: &str| r[place(name)].parse::<f64>().unwrap();
+            Case {
+                x: number("x_m"),
+                z: number("z_m"),
+                segment: Segment { length: number("length_m"), weight: number("w_N_per_m"), ea: number("EA_N") },
+                friction: number("friction"),
+                suspended: number("suspended") == 1.0,
+                want: ["fairlead_H_N", "fairlead_V_N", "anchor_H_N", "anchor_V_N"].map(number),
+                regime: r[place("regime")].to_string(),
+            }
+        })
+        .collect()
+}
+
+/// The 2,000 lines of the validation data, each cut in pieces.
+fn check(pieces: usize) {
+    let (mut worst, mut wrong) = (0.0_f64, Vec::new());
+    for (row, case) in cases().iter().enumerate() {
+        let part = Segment { length: case.segment.length / pieces as f64, ..case.segment };
+        let line = Line::new(vec![part; pieces], vec![Joint::Free; pieces - 1], 0.0, 1e4).unwrap();
+        let floor = Floor { elevation: 0.0, slope: 0.0, friction: case.friction };
+        let line = line.over((!case.suspended).then_some(floor)).unwrap();
+        match line.at_distance(case.x, case.z) {
+            Ok(s) => {
+                let got = [s.force, s.top_vertical, s.anchor_horizontal, s.anchor_vertical];
+                let scale = case.want[0].hypot(case.want[1]);
+                let off = got.iter().zip(&case.want).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
+                let off = if scale > 0.0 { off / scale } else { off };
+                worst = worst.max(off);
+                if off > 1e-8 {
+                    wrong.push(format!("{row} {} {off:.2e}: {got:?} {:?}", case.regime, case.want));
+                }
+            }
+            Err(error) => wrong.push(format!("{row} {}: {error}", case.regime)),
+        }
+    }
+    println!("{pieces} pieces: worst {worst:.2e}");
+    assert!(wrong.is_empty(), "{} wrong\n{}", wrong.len(), wrong.join("\n"));
+}
+
+#[test]
+fn all_2000_lines_as_whole_lines_agree_to_1e_8_of_the_fairlead_tension() {
+    check(1);
+}
+
+#[test]
+fn all_2000_lines_cut_in_three_agree_to_1e_8_of_the_fairlead_tension() {
+    check(3);
+}
+
+/// A random number from 0 to 1, the same in every run.
+struct Dice(u64);
+
+impl Dice {
+    fn roll(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.roll()
+    }
+
+    fn scale(&mut self, low: f64, high: f64) -> f64 {
+        10f64.powf(self.between(low, high))
+    }
+}
+
+/// Walks down a solved line in small steps with nothing of the engine but the forces at the upper ends of its segments
+/// and their lengths on the bottom; what contradicts equilibrium or geometry, or with `true`, the error it ends in.
+fn contradiction(
+    line: &Line,
+    joints: &[Joint],
+    floor: Floor,
+    fairlead: f64,
+    anchor: f64,
+    x: f64,
+) -> Result<(), (bool, String)> {
+    let wrong = |what: String| Err((false, what));
+    const STEPS: usize = 4000;
+    let state = match line.at_distance(x, fairlead) {
+        Ok(state) => state,
+        Err(LineError::Undetermined | LineError::SlackSlope | LineError::Slides) => return Ok(()),
+        Err(error) => return Err((true, error.to_string())),
+    };
+    let (sin, cos) = (floor.slope / floor.slope.hypot(1.0), 1.0 / floor.slope.hypot(1.0));
+    let bottom = |at: f64| floor.elevation + (x - at) * floor.slope;
+    let weight: f64 = line.segments().iter().map(|s| s.weight.abs() * s.length).sum();
+    let force = 1e-7 * (state.top_tension + weight);
+    let stretched: f64 = line.segments().iter().map(|s| s.length * (1.0 + state.top_tension / s.ea)).sum();
+    let place = 2e-3 * (stretched + fairlead.abs() + floor.elevation.abs());
+    let (mut at, mut z) = (0.0, fairlead);
+    let (mut h, mut v) = (state.segments[0].top_horizontal, state.segments[0].top_vertical);
+    for (index, (s, got)) in line.segments().iter().zip(&state.segments).enumerate() {
+        if (got.top_horizontal - h).abs() > force || (got.top_vertical - v).abs() > force {
+            return wrong(format!("segment {} begins with {h} {v}, not as {got:?}", index + 1));
+        }
+        let rests = got.grounded > 0.0;
+        let above = if rests { (v * cos - h * sin) / (s.weight * cos) } else { s.length };
+        let below = s.length - above - got.grounded;
+        let hang = |length: f64, at: &mut f64, z: &mut f64, h: f64, v: &mut f64| {
+            let ds = length / STEPS as f64;
+            for _ in 0..STEPS {
+                let middle = *v - 0.5 * s.weight * ds;
+                let stretch = ds * (1.0 / h.hypot(middle).max(f64::MIN_POSITIVE) + 1.0 / s.ea);
+                *at += h * stretch;
+                *z -= middle * stretch;
+                *v -= s.weight * ds;
+                if *z < bottom(*at) - place {
+                    return Some(bottom(*at) - *z);
+                }
+            }
+            None
+        };
+        if let Some(by) = hang(above, &mut at, &mut z, h, &mut v) {
+            return wrong(format!("segment {} is {by} m below the bottom", index + 1));
+        }
+        if rests {
+            if (z - bottom(at)).abs() > place || (v * cos - h * sin).abs() > force {
+                return wrong(format!("segment {} touches down at {} above the bottom", index + 1, z - bottom(at)));
+            }
+            // Coulomb friction toward the fairlead and the weight along the slope, down to nothing
+            let loss = s.weight * (sin + floor.friction * cos);
+            let tension = h * cos + v * sin;
+            let under = if loss > 0.0 { (tension / loss).min(got.grounded) } else { got.grounded };
+            let left = (tension - loss * under).max(0.0);
+            let stretch = 0.5 * (tension + left) / s.ea * under;
+            let mut lies = if sin > floor.friction * cos { under } else { got.grounded };
+            if state.slack {
+                // a heap is where the state says that the joint or the anchor is
+                let end = state.joints.get(index).map_or(x, |j| j.x);
+                lies = ((end - at) / cos).clamp(0.0, lies + stretch) - stretch;
+            }
+            let length = lies + stretch;
+            at += length * cos;
+            z -= length * sin;
+            (h, v) = (left * cos, left * sin);
+            if let Some(by) = hang(below.max(0.0), &mut at, &mut z, h, &mut v) {
+                return wrong(format!("segment {} is {by} m below the bottom after its rest", index + 1));
+            }
+        }
+        let (Some(joint), Some(found)) = (joints.get(index), state.joints.get(index)) else { continue };
+        if (found.x - at).abs() > place || (found.z - z).abs() > place {
+            return wrong(format!("joint {} at {at} {z}, not as {found:?}", index + 1));
+        }
+        let on_bottom = (z - bottom(at)).abs() < place;
+        let lift = match joint {
+            Joint::Free => 0.0,
+            Joint::Weight(w) => -w,
+            Joint::SpringBuoy { .. } | Joint::Buoy { .. } => found.lift,
+        };
+        if found.reaction < 0.0 || (found.reaction > 0.0 && !on_bottom) {
+            return wrong(format!("joint {} at {z} is carried by no bottom {}: {found:?}", index + 1, bottom(at)));
+        }
+        // the bottom's reaction along its normal, and friction on it
+        let friction = (floor.friction * found.reaction).min((h * cos + (v + lift) * sin).max(0.0));
+        h += -found.reaction * sin - friction * cos;
+        v += lift + found.reaction * cos - friction * sin;
+        let along = h * cos + v * sin;
+        if found.reaction > 0.0 && along < 0.0 {
+            // nothing pulls any more: what slides lies at the anchor
+            (h, v) = (h - along * cos, v - along * sin);
+        }
+    }
+    if (at - x).abs() > place || (z - anchor).abs() > place {
+        return wrong(format!("the anchor at {at} {z}, not {x} {anchor}: {state:?}"));
+    }
+    if (h - state.anchor_horizontal).abs() > force || (v - state.anchor_vertical).abs() > force {
+        return wrong(format!("the anchor is pulled with {h} {v}: {state:?}"));
+    }
+    Ok(())
+}
+
+/// At most `refused` lines may end in an error; none may contradict equilibrium.
+fn random_lines(count: usize, slopes: f64, frictions: f64, lifts: bool, refused: usize) {
+    let mut dice = Dice(7);
+    let (mut wrong, mut errors) = (Vec::new(), 0);
+    for number in 0..count {
+        let pieces = 1 + (dice.roll() * 5.0) as usize;
+        let segments: Vec<Segment> = (0..pieces)
+            .map(|_| Segment {
+                length: dice.between(30.0, 900.0),
+                weight: dice.scale(1.0, 3.7) * if lifts && dice.roll() < 0.15 { -0.3 } else { 1.0 },
+                ea: dice.scale(6.5, 10.0),
+            })
+            .collect();
+        let joints: Vec<Joint> = (1..pieces)
+            .map(|_| match (dice.roll() * 4.0) as usize {
+                0 => Joint::Weight(dice.scale(3.0, 5.5)),
+                1 if lifts => Joint::Weight(-dice.scale(3.0, 5.5)),
+                2 if lifts => Joint::Buoy { lift: dice.scale(3.0, 6.0), weight: dice.scale(2.0, 4.0) },
+                _ => Joint::Free,
+            })
+            .collect();
+        let depth = dice.between(20.0, 1500.0);
+        let (slope, friction) = (slopes * dice.between(-1.0, 1.0), frictions * dice.roll());
+        let up =
+            if slopes == 0.0 && frictions == 0.0 && dice.roll() < 0.3 { dice.between(0.0, 0.8 * depth) } else { 0.0 };
+        let floor = Floor { elevation: -depth, slope, friction };
+        let anchor = -depth + up;
+        let line = Line::new(segments.clone(), joints.clone(), anchor, 0.0).unwrap().over(Some(floor)).unwrap();
+        let x = line.length() * dice.between(0.05, 1.1);
+        let fairlead = -dice.between(0.0, 0.5) * depth;
+        if fairlead < -depth + x * slope {
+            continue;
+        }
+        if let Err((error, what)) = contradiction(&line, &joints, floor, fairlead, anchor, x) {
+            errors += usize::from(error);
+            if error && errors <= refused {
+                continue;
+            }
+            wrong.push(format!(
+                "{number}: {what}\n   x {x} fairlead {fairlead} anchor {anchor} {floor:?} {segments:?} {joints:?}"
+            ));
+        }
+    }
+    println!("slopes to {slopes}, friction to {frictions}, buoys {lifts}: {errors} of {count} refused");
+    assert!(
+        wrong.is_empty(),
+        "{} wrong\n{}",
+        wrong.len(),
+        wrong.iter().take(6).cloned().collect::<Vec<_>>().join("\n")
+    );
+}
+
+#[test]
+fn random_lines_with_clumps_on_a_flat_smooth_bottom_are_in_equilibrium() {
+    random_lines(1000, 0.0, 0.0, false, 0);
+}
+
+#[test]
+fn random_lines_with_buoys_and_buoyant_segments_are_in_equilibrium() {
+    random_lines(1000, 0.0, 0.0, true, 0);
+}
+
+#[test]
+fn random_lines_with_friction_are_in_equilibrium() {
+    random_lines(1000, 0.0, 1.0, false, 0);
+}
+
+#[test]
+fn random_lines_on_a_smooth_slope_are_in_equilibrium() {
+    random_lines(1000, 0.15, 0.0, false, 1);
+}
+
+#[test]
+fn random_lines_with_friction_and_buoys_are_in_equilibrium_or_refused() {
+    random_lines(1000, 0.0, 1.0, true, 90);
+}
+
+#[test]
+fn random_lines_on_a_rough_slope_with_clumps_are_in_equilibrium() {
+    random_lines(1000, 0.15, 1.0, false, 1);
+}
+
+#[test]
+fn random_lines_on_a_rough_slope_with_buoys_are_in_equilibrium_or_refused() {
+    random_lines(1000, 0.15, 1.0, true, 60);
+}
+
+#[test]
+fn what_slides_down_a_slope_that_friction_does_not_hold_is_refused() {
+    let heavy = Segment { length: 600.0, weight: 1000.0, ea: 1e9 };
+    let on = |slope: f64, friction: f64| Some(Floor { elevation: -100.0, slope, friction });
+    let line =
+        |slope, friction| Line::new(vec![heavy], vec![], -100.0, 0.0).unwrap().over(on(slope, friction)).unwrap();
+    // slack at 300 m: toward the fairlead's foot, or toward the anchor
+    for slope in [-0.1, 0.1] {
+        assert_eq!(line(slope, 0.0).at_distance(300.0, 0.0).err(), Some(LineError::Slides));
+        let held = line(slope, 0.5).at_distance(300.0, 0.0).unwrap();
+        // it hangs down to the bottom beneath
+        let depth = 100.0 - 300.0 * slope;
+        assert!((held.top_vertical - 1000.0 * depth).abs() < 1e-3 * held.top_vertical, "{held:?}");
+    }
+    // a clump of 23.5 kN on a slope of 1 in 4 pulls the line above it uphill only as far as friction bears it
+    let soft = Segment { length: 32.5, weight: 139.0, ea: 168_000.0 };
+    let below = Segment { length: 138.0, weight: 12.0, ea: 540_000.0 };
+    let clump = Line::new(vec![soft, below], vec![Joint::Weight(23_500.0)], -45.0, 0.0).unwrap();
+    let clump = clump.over(Some(Floor { elevation: -45.0, slope: 0.25, friction: 1.3 })).unwrap();
+    if let Ok(state) = clump.at_distance(28.8, 0.0) {
+        assert!(state.force > -1.0, "it does not push: {state:?}");
+    }
+}
+
+#[test]
+fn numbers_whose_squares_have_no_room_are_refused_and_never_answered_wrongly() {
+    for (length, x, z, weight, ea) in
+        [(1e10, 1e10, 1e10, 1e300, 1e300), (1e300, 1e300, 1e300, 1.0, 1e9), (1.0, 1e200, 1.0, 1.0, 1.0)]
+    {
+        let segment = Segment { length, weight, ea };
+        assert!(segment.between(x, z, None).is_err(), "{segment:?}");
+    }
+}
+
+#[test]
+fn a_slack_line_whose_fairlead_lies_on_the_bottom_pulls_with_nothing() {
+    let heavy = Segment { length: 100.0, weight: 1000.0, ea: 1e9 };
+    let light = Segment { length: 50.0, weight: -100.0, ea: 1e9 };
+    let line = Line::new(vec![heavy, light, heavy], vec![Joint::Free; 2], -100.0, 0.0).unwrap();
+    for x in [0.0, 150.0] {
+        let state = line.at_distance(x, -100.0).unwrap();
+        assert!(state.force == 0.0 && state.top_vertical.abs() <= 1e-6, "{x}: {state:?}");
+    }
+}

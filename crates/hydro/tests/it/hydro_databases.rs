@@ -1,0 +1,286 @@
+//! Files of hydrodynamic databases: the same body through every format, dimensionless values, and bad files.
+
+#![allow(clippy::unwrap_used)]
+
+use nalgebra::{Complex, Matrix6};
+use proptest::prelude::*;
+use std::f64::consts::{PI, TAU};
+use windlass_hydro::database::rao::{self, RaoConvention};
+use windlass_hydro::database::wamit::{self, WamitScale};
+use windlass_hydro::database::{Database, SourceFile, capytaine, nemoh};
+use windlass_hydro::database::{DatabaseLookup, mirrored};
+
+const FOLDER: &str = "../../tests/data/hemisphere/";
+
+fn bytes(name: &str) -> Vec<u8> {
+    std::fs::read(format!("{FOLDER}{name}")).unwrap()
+}
+
+fn file(name: &str) -> SourceFile {
+    SourceFile { name: name.into(), text: String::from_utf8(bytes(name)).unwrap() }
+}
+
+fn text(name: &str, text: &str) -> SourceFile {
+    SourceFile { name: name.into(), text: text.into() }
+}
+
+fn scale(length: f64) -> WamitScale {
+    WamitScale { length, density: 1025.0, gravity: 9.80665, depth: None, body: None }
+}
+
+fn whole() -> Database {
+    capytaine::read("hemisphere.nc", &bytes("hemisphere.nc"), None).unwrap()
+}
+
+fn of_wamit() -> Database {
+    wamit::read("wamit", &[file("wamit.1"), file("wamit.3"), file("wamit.hst")], &scale(1.0)).unwrap()
+}
+
+fn nemoh_files() -> Vec<SourceFile> {
+    let names = [
+        "Nemoh.cal",
+        "results/RadiationCoefficients.tec",
+        "results/ExcitationForce.tec",
+        "mesh/KH.dat",
+        "mesh/Hydrostatics.dat",
+    ];
+    names.iter().map(|n| file(&format!("nemoh/{n}"))).collect()
+}
+
+/// Sees that a part agrees with the whole at its own frequencies and headings, to a share of the largest value.
+fn agrees(part: &Database, all: &Database, share: f64) {
+    let near = |a: &Matrix6<f64>, b: &Matrix6<f64>| {
+        let scale = |i: usize, j: usize| (b[(i, i)].abs() * b[(j, j)].abs()).sqrt().max(1e-6 * b.amax());
+        // Capytaine writes the indices of its .1 the other way round: what its own matrix lacks of symmetry is let pass
+        let own = |i: usize, j: usize| 1.001 * (b[(i, j)] - b[(j, i)]).abs() + share * scale(i, j);
+        (0..6).all(|i| (0..6).all(|j| (a[(i, j)] - b[(i, j)]).abs() <= own(i, j)))
+    };
+    for (index, w) in part.frequencies.iter().enumerate() {
+        assert!(near(&part.added_mass[index], &all.added_mass_at(*w).unwrap()), "added mass at {w}");
+        let (own, other) = (part.damping[index], all.damping_at(*w).unwrap());
+        let off = (own - other).amax() - (other - other.transpose()).amax();
+        assert!(off <= share * all.damping.iter().map(|b| b.amax()).fold(0.0, f64::max), "damping at {w}");
+        for (n, heading) in part.headings.iter().enumerate() {
+            let other = all.excitation_at(*heading, *w).unwrap();
+            for (a, b) in part.excitation[n][index].iter().zip(other) {
+                assert!((a - b).norm() <= share * other[2].norm().max(1e6), "{a} {b} at {w} {heading}");
+            }
+        }
+    }
+}
+
+#[test]
+fn every_format_gives_the_same_hemisphere() {
+    let all = whole();
+    assert_eq!((all.frequencies.len(), all.headings.len(), all.remarks.len()), (97, 8, 0));
+    let classic = capytaine::read("classic.nc", &bytes("classic.nc"), None).unwrap();
+    // the same numbers; the frequencies of a file of doubles are exact
+    agrees(&classic, &all, 1e-12);
+    assert_eq!((classic.zero, classic.infinite, classic.mass), (all.zero, all.infinite, all.mass));
+    // seven digits of values and of the periods they are at
+    agrees(&of_wamit(), &all, 2e-5);
+    assert!(
+        (of_wamit().hydrostatics.unwrap() - all.hydrostatics.unwrap()).amax() < 1e-6 * all.hydrostatics.unwrap().amax()
+    );
+    let nemoh = nemoh::read("nemoh", &nemoh_files(), None).unwrap();
+    agrees(&nemoh, &all, 2e-6);
+    assert!((nemoh.mass.unwrap() / all.mass.unwrap() - 1.0).abs() < 1e-6);
+    // headings 0 to 180 only, and nothing else to say
+    assert!(matches!(nemoh.remarks.as_slice(), [one] if one.contains("gap of 180 degrees")), "{:?}", nemoh.remarks);
+}
+
+#[test]
+fn limits_that_a_writer_exchanged_are_put_right() {
+    // a version of Capytaine marked infinite frequency by -1 and zero frequency by 0; the manual of WAMIT has it the other way round
+    let all = whole();
+    let straight = of_wamit();
+    assert!((straight.zero.unwrap()[(2, 2)] / all.zero.unwrap()[(2, 2)] - 1.0).abs() < 1e-6);
+    assert!((straight.infinite.unwrap()[(2, 2)] / all.infinite.unwrap()[(2, 2)] - 1.0).abs() < 1e-6);
+    assert_eq!(straight.remarks, Vec::<String>::new());
+    let odd = file("wamit.1")
+        .text
+        .replace("-1.000000e+00", "none")
+        .replace("0.000000e+00\t    ", "-1.0 ")
+        .replace("none", "0.0");
+    let data = wamit::read("odd", &[text("odd.1", &odd)], &scale(1.0)).unwrap();
+    assert_eq!((data.zero, data.infinite), (straight.zero, straight.infinite));
+    assert!(data.remarks.iter().any(|r| r.contains("exchanged")), "{:?}", data.remarks);
+    let manual = "0.0 3 3 0.5\n-1.0 3 3 0.83\n8.0 3 3 0.7 0.2\n6.0 3 3 0.6 0.25\n4.0 3 3 0.52 0.01\n";
+    let data = wamit::read("m", &[text("m.1", manual)], &scale(1.0)).unwrap();
+    assert_eq!((data.infinite.unwrap()[(2, 2)], data.zero.unwrap()[(2, 2)]), (0.5 * 1025.0, 0.83 * 1025.0));
+}
+
+#[test]
+fn values_of_wamit_are_made_dimensional_as_its_manual_says() {
+    let one = "WAMIT Numeric Output\n 0.62831853E+01 1 1 2.0 3.0\n6.2831853 1 5 2.0 3.0\n6.2831853 5 1 2.0 3.0\n6.2831853 5 5 2.0 3.0\n";
+    let three = "6.2831853 180 1 5 0 3.0 4.0\n6.2831853 180 5 5 0 3.0 4.0\n";
+    let four = "6.2831853 180 1 1 0 0.6 0.8\n6.2831853 180 4 1 0 0.6 0.8\n";
+    let nine = "6.2831853 180 180 1 2 180 -2.0 0.0\n6.2831853 180 180 6 3 0 3.0 0.0\n6.2831853 90 180 1 9 0 9.0 0.0\n";
+    let hst = "3 3 2.0\n4 4 2.0\n3 5 2.0\n";
+    let files = [text("a.1", one), text("a.3", three), text("a.4", four), text("a.9", nine), text("a.hst", hst)];
+    let data =
+        wamit::read("a", &files, &WamitScale { length: 10.0, density: 1000.0, gravity: 10.0, ..scale(1.0) }).unwrap();
+    // w = 1: A = A' rho L^k, B = B' rho L^k w
+    let close = |a: f64, b: f64| assert!((a / b - 1.0).abs() < 1e-7, "{a} {b}");
+    close(data.added_mass[0][(0, 0)], 2e6);
+    close(data.added_mass[0][(0, 4)], 2e7);
+    close(data.damping[0][(4, 4)], 3e8);
+    // rho g L^2, rho g L^3; conjugated
+    assert_eq!(data.excitation[0][0][0], Complex::new(3e6, -4e6));
+    assert_eq!(data.excitation[0][0][4], Complex::new(3e7, -4e7));
+    assert_eq!(data.motions.unwrap()[0][0][0], Complex::new(0.6, -0.8));
+    let drift = data.drift.unwrap();
+    assert_eq!(drift.values[0][0], [-2e5, 0.0, 0.0, 0.0, 0.0, 3e6]);
+    let c = data.hydrostatics.unwrap();
+    assert_eq!((c[(2, 2)], c[(3, 3)], c[(2, 4)]), (2e6, 2e8, 2e7));
+    assert_eq!(data.headings, vec![PI]);
+    assert!(data.remarks.iter().any(|r| r.contains("1 rows of crossing waves")), "{:?}", data.remarks);
+}
+
+#[test]
+fn a_qtf_of_wamit_is_hermitian_whichever_half_is_given() {
+    let rows =
+        "6 6 0 0 1 1 0 1.0 0\n6 8 0 0 1 1 0 0.5 0.25\n8 8 0 0 1 1 0 2.0 0\n10 10 0 0 1 1 0 3.0 0\n6 8 0 45 1 1 0 9 9\n";
+    let mut remarks = Vec::new();
+    let one = "6 1 1 1 1\n";
+    let data = wamit::read("q", &[text("q.12d", rows), text("q.1", one)], &scale(1.0)).unwrap();
+    remarks.extend(data.remarks.clone());
+    let qtf = data.qtf.unwrap();
+    let weight = 1025.0 * 9.80665;
+    // frequencies grow: 10 s, 8 s, 6 s; WAMIT's exp(+i w t) is conjugated
+    assert!((qtf.values[0][2][1][0] - Complex::new(0.5, -0.25) * weight).norm() < 1e-9);
+    assert!((qtf.values[0][1][2][0] - Complex::new(0.5, 0.25) * weight).norm() < 1e-9);
+    assert_eq!(qtf.values[0][0][1][0], Complex::new(0.0, 0.0));
+    assert!(remarks.iter().any(|r| r.contains("4 of 9 pairs")), "{remarks:?}");
+    let error = wamit::read("q", &[text("q.12d", "6 8 0 0 1 1 0 1 0\n"), text("q.1", one)], &scale(1.0)).unwrap_err();
+    assert!(error.to_string().contains("with itself"), "{error}");
+}
+
+#[test]
+fn the_other_side_of_a_symmetric_body_is_its_mirror() {
+    let all = whole();
+    let half = Database {
+        headings: all.headings[..5].to_vec(),
+        excitation: all.excitation[..5].to_vec(),
+        remarks: Vec::new(),
+        ..all.clone()
+    };
+    assert!(half.excitation_at(-1.0, 1.0).is_err());
+    let made = mirrored(half);
+    assert_eq!(made.headings.len(), 8);
+    for (own, other) in made.excitation.iter().flatten().zip(all.excitation.iter().flatten()) {
+        for (a, b) in own.iter().zip(other) {
+            // the panels are symmetric to rounding
+            assert!((a - b).norm() < 1e-6 * other[2].norm().max(1e4), "{a} {b}");
+        }
+    }
+}
+
+fn convention(lag: bool, degrees: bool) -> RaoConvention {
+    RaoConvention { lag, degrees, density: 1025.0, gravity: 9.80665, depth: None }
+}
+
+#[test]
+fn motions_are_read_with_their_conventions() {
+    let named = "Displacement RAOs of a ship\nWP, WD, ZA, ZP, RYA, RYP\n10, 0, 0.5, 30, 2, -90\n8, 0, 0.4, 40, 1, -80\n10, 90, 0.6, 0, 0, 0\n8, 90, 0.7, 0, 0, 0\n";
+    let data = rao::read("r", &text("r.csv", named), &convention(true, true)).unwrap();
+    let heave = data.motion_at(0.0, TAU / 10.0).unwrap()[2];
+    assert!((heave - Complex::from_polar(0.5, 30f64.to_radians())).norm() < 1e-12);
+    let pitch = data.motion_at(0.0, TAU / 10.0).unwrap()[4];
+    assert!((pitch - Complex::from_polar(2f64.to_radians(), -PI / 2.0)).norm() < 1e-12);
+    let led = rao::read("r", &text("r.csv", named), &convention(false, false)).unwrap();
+    assert!((led.motion_at(0.0, TAU / 10.0).unwrap()[4] - Complex::from_polar(2.0, PI / 2.0)).norm() < 1e-12);
+    let plain = "0 10 1 0 0 0 0.5 30 0 0 2 -90 0 0\n";
+    let data = rao::read("r", &text("r.txt", plain), &convention(true, true)).unwrap();
+    assert!((data.motion_at(0.0, TAU / 10.0).unwrap()[4] - pitch).norm() < 1e-12);
+}
+
+#[test]
+fn a_file_that_is_not_whole_says_what_it_lacks() {
+    let refused = |files: &[SourceFile], wanted: &str| {
+        let error = wamit::read("w", files, &scale(1.0)).unwrap_err().to_string();
+        assert!(error.contains(wanted), "{error}");
+    };
+    let good = "8 3 3 1 1\n8 5 5 1 1\n6 3 3 1 1\n6 5 5 1 1\n";
+    refused(&[text("w.1", "8 3 3 1 1\n8 5 5 1 1\n6 3 3 1 1\n")], "it has no row for modes 5 5 at 1.04720 rad/s");
+    refused(&[text("w.1", "8 3 3 1 1\n8 3 3 2 1\n")], "two unlike rows for modes 3 3");
+    refused(&[text("w.1", "8 3 3 nan 1\n")], "w.1, line 1: `nan` is no finite number");
+    refused(&[text("w.1", "8 3 3 1e999 1\n")], "no finite number");
+    refused(&[text("w.1", "8 3 9 1 1\n")], "is of a second body");
+    refused(&[text("w.1", "8 3 0 1 1\n")], "no number of a mode");
+    refused(&[text("w.1", "8 3\n")], "2 numbers stand here, 4 are expected");
+    refused(&[text("w.1", "")], "no rows of numbers");
+    refused(&[text("w.1", good), text("w.3", "8 0 3 1 0 1 0\n")], "lacks the frequency (rad/s) 1.04720");
+    let lone = "8 0 3 1 0 1 0\n6 0 3 1 0 1 0\n8 90 3 1 0 1 0\n";
+    refused(&[text("w.1", good), text("w.3", lone)], "no row for mode 3, heading 90.00 degrees, 1.04720 rad/s");
+    refused(&[], "neither added mass");
+    let body = WamitScale { body: Some(2), ..scale(1.0) };
+    let error = wamit::read("w", &[text("w.1", good)], &body).unwrap_err().to_string();
+    assert!(error.contains("no frequency of this body"), "{error}");
+    for (lacking, wanted) in [(0, "there is no Nemoh.cal"), (1, "")] {
+        let mut files = nemoh_files();
+        files.remove(lacking);
+        let read = nemoh::read("n", &files, None);
+        assert!(lacking > 0 || read.unwrap_err().to_string().contains(wanted));
+    }
+    let error = nemoh::read("n", &nemoh_files(), Some(2)).unwrap_err().to_string();
+    assert!(error.contains("there is no body 2"), "{error}");
+}
+
+#[test]
+fn what_looks_wrong_is_said() {
+    let rows = "8 1 1 1 1\n8 5 5 1 1\n8 1 5 1 0\n8 5 1 0.5 0\n6 1 1 1 -0.5\n6 5 5 1 1\n6 1 5 1 0\n6 5 1 1 0\n";
+    let three = "8 0 1 1 0 1 0\n6 0 1 1 0 1 0\n8 120 1 1 0 1 0\n6 120 1 1 0 1 0\n";
+    let data = wamit::read("w", &[text("w.1", rows), text("w.3", three)], &scale(1.0)).unwrap();
+    for wanted in ["added mass is not symmetric", "damping of X is negative", "a gap of 240 degrees"] {
+        assert!(data.remarks.iter().any(|r| r.contains(wanted)), "{wanted}: {:?}", data.remarks);
+    }
+    // rows in any order, and a row twice over, are no fault
+    let mixed = "6 3 3 2 1\n8 3 3 1 1\n6 3 3 2 1\n";
+    assert_eq!(wamit::read("w", &[text("w.1", mixed)], &scale(1.0)).unwrap().frequencies.len(), 2);
+}
+
+#[test]
+fn hdf5_and_classic_files_that_are_cut_are_refused() {
+    for name in ["hemisphere.nc", "classic.nc"] {
+        let whole = bytes(name);
+        for part in [0, 3, 100, 1000, whole.len() / 2] {
+            assert!(capytaine::read(name, &whole[..part], None).is_err(), "{name} {part}");
+        }
+        assert!(capytaine::read(name, &whole, Some(2)).is_err());
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    #[test]
+    fn no_text_makes_a_reader_panic(body in "([0-9.eED+\\- ]{0,12}[ \\n,\"=A-Za-z]{0,4}){0,60}", cut in 0usize..4000, junk in "\\PC{0,20}") {
+        for ending in ["1", "3", "9", "12d", "hst"] {
+            let _ = wamit::read("w", &[text(&format!("w.{ending}"), &body)], &scale(1.0));
+        }
+        let _ = rao::read("r", &text("r.csv", &body), &convention(true, true));
+        for index in 0..5 {
+            let mut files = nemoh_files();
+            let own = &mut files[index].text;
+            let at = (0..=cut.min(own.len())).rev().find(|n| own.is_char_boundary(*n)).unwrap();
+            own.replace_range(at..(at + 3).min(own.len()), &junk);
+            let _ = nemoh::read("n", &files, None);
+            files[index].text = body.clone();
+            let _ = nemoh::read("n", &files, None);
+        }
+    }
+
+    #[test]
+    fn no_change_of_bytes_makes_the_reader_of_netcdf_panic(
+        changes in proptest::collection::vec((0.0f64..1.0, any::<u8>()), 1..6), head in any::<bool>(), classic in any::<bool>(),
+    ) {
+        let mut bytes = bytes(if classic { "classic.nc" } else { "hemisphere.nc" });
+        let most = if head { bytes.len().min(6000) } else { bytes.len() };
+        for (place, value) in changes {
+            let at = (place * most as f64) as usize;
+            bytes[at] = value;
+        }
+        let _ = capytaine::read("c", &bytes, None);
+    }
+}

@@ -1,0 +1,6 @@
+//! Hydrostatics, waves and databases against closed forms, listings and published values.
+
+mod hemisphere;
+mod hydro_databases;
+mod hydrostatics;
+mod seed_003_spectrum;

@@ -1,0 +1,62 @@
+//! The wave spectrum of the towed-tether listing of seed 003: fifty lines and the significant height.
+//!
+//! Numbers and formulation: validation/towed-tether.md section 3. `tests/data/seed_003_spectrum.csv` holds the lines as printed.
+
+#![allow(clippy::unwrap_used)]
+
+use windlass_hydro::sea::components::bands;
+use windlass_hydro::sea::density::{Hump, Spectrum};
+use windlass_hydro::sea::dispersion::wave_number;
+use windlass_model::Division;
+
+/// Gravity of AQWA (m/s2), and the depth: wave numbers printed are those of deep water to their last digit.
+const GRAVITY: f64 = 9.81;
+/// Lowest and highest frequency (rad/s) of the JONS card.
+const LIMITS: [f64; 2] = [0.37, 2.5];
+
+/// JONSWAP by gamma 5.2273, alpha 0.01146, peak 0.6411 rad/s: the JONS card.
+fn hump() -> Hump {
+    Hump::of_alpha(0.01146, 0.6411, 5.2273, GRAVITY)
+}
+
+/// Line, wave number, frequency, phase, ordinate.
+fn printed() -> Vec<Vec<f64>> {
+    let text = std::fs::read_to_string("../../tests/data/seed_003_spectrum.csv").unwrap();
+    let lines = text.lines().filter(|l| l.starts_with(|c: char| c.is_ascii_digit()));
+    lines.map(|l| l.split(',').map(|w| w.parse().unwrap()).collect()).collect()
+}
+
+#[test]
+fn the_significant_height_is_the_printed_one_over_all_and_within_the_limits() {
+    let height = |limits| 4.0 * Spectrum::of_humps(vec![hump()], limits).moment(0).sqrt();
+    // printed to three decimals; alpha has four digits, so its half unit is 2.2e-4 of the energy, 1.1e-4 of the height
+    assert!((height(None) - 6.302).abs() < 1e-3, "{}", height(None));
+    assert!((height(Some(LIMITS)) - 6.293).abs() < 1e-3, "{}", height(Some(LIMITS)));
+}
+
+#[test]
+fn fifty_lines_of_equal_energy_have_the_printed_frequencies_and_ordinates() {
+    let spectrum = Spectrum::of_humps(vec![hump()], Some(LIMITS));
+    let bands = bands(&spectrum, 50, Division::EqualEnergy, true).unwrap();
+    let lines = printed();
+    assert_eq!((bands.len(), lines.len()), (50, 50));
+    let (mut frequency, mut ordinate, mut last, mut number): (f64, f64, f64, f64) = (0.0, 0.0, 0.0, 0.0);
+    for (band, line) in bands.iter().zip(&lines) {
+        frequency = frequency.max((band.frequency - line[2]).abs());
+        let k = wave_number(band.frequency, None, GRAVITY).unwrap();
+        number = number.max((k / line[1] - 1.0).abs());
+        let error = (band.ordinate(&spectrum) / line[4] - 1.0).abs();
+        if line[0] < 50.0 {
+            ordinate = ordinate.max(error)
+        } else {
+            last = error
+        }
+        assert!(((2.0 * band.energy).sqrt() - 0.3147).abs() < 5e-5);
+    }
+    // printed to 1e-4; towed-tether.md found the same: one unit in the last digit at most
+    assert!(frequency < 6.5e-5, "{frequency}");
+    assert!(number < 1.3e-4, "{number}");
+    assert!(ordinate < 1.3e-4, "{ordinate}");
+    // the last ordinate is printed with three digits, 0.0484: half a unit is 1.0e-3
+    assert!(last < 1.0e-3, "{last}");
+}

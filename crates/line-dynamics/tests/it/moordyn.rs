@@ -1,0 +1,66 @@
+//! The chain of 900 m of shared/validation/moordyn_chain900, its driven fairlead, and what MoorDyn found.
+
+use nalgebra::Vector3;
+use std::f64::consts::PI;
+use windlass_line_dynamics::{
+    End, EndForces, Ground, Motion, PlaneBottom, Rod, Segment, Settings, Solver, State, UniformFluid, World,
+};
+
+/// The fairlead: 5 m of surge, 10 s of period, brought up over 20 s.
+pub fn driven(t: f64) -> Motion {
+    let (w, p) = (2.0 * PI / 10.0, PI / 20.0);
+    let (r, rate, bend) = if t < 20.0 {
+        (0.5 * (1.0 - (p * t).cos()), 0.5 * p * (p * t).sin(), 0.5 * p * p * (p * t).cos())
+    } else {
+        (1.0, 0.0, 0.0)
+    };
+    let (s, c) = (w * t).sin_cos();
+    Motion {
+        position: Vector3::new(5.0 * r * s, 0.0, -10.0),
+        velocity: Vector3::x() * (5.0 * (rate * s + r * w * c)),
+        acceleration: Vector3::x() * (5.0 * (bend * s + 2.0 * rate * w * c - r * w * w * s)),
+    }
+}
+
+/// Gives the chain at rest in its world to `act`: its rod, solver and state, the end at the anchor, and the forces at rest.
+pub fn chain<T>(
+    (elements, settings): (usize, Settings),
+    act: impl FnOnce(&Rod, &mut Solver, &mut State, &World, End, EndForces) -> T,
+) -> T {
+    let chain = Segment {
+        axial_damping: 1e6,
+        drag_normal: 1.333,
+        drag_tangential: 0.639,
+        added_normal: 1.0,
+        added_tangential: 0.5,
+        ..Segment::line(900.0, elements, 199.0, 8.54e8, 0.18)
+    };
+    let rod = Rod::new("chain", vec![chain], vec![]).unwrap();
+    let fluid = UniformFluid::still(1025.0);
+    let bottom = PlaneBottom { height: -300.0, slope: [0.0, 0.0] };
+    let ground = Ground { damping: 3e5, ..Ground::elastic(3e6) };
+    let world = World { bottom: Some((&bottom, ground)), ..World::new(&fluid, 9.80665) };
+    let (a, b) = (Vector3::new(-800.0, 0.0, -300.0), Vector3::new(0.0, 0.0, -10.0));
+    let mut state = State::along(&rod, &[a, Vector3::new(-350.0, 0.0, -300.0), b]).unwrap();
+    let mut solver = Solver::new(&rod, settings);
+    let rest = solver.statics(&rod, &mut state, &world, [End::pinned(a), End::pinned(b)]).unwrap();
+    act(&rod, &mut solver, &mut state, &world, End::pinned(a), rest)
+}
+
+/// MoorDyn's force on the fairlead from 20 s on: time (s), size (N); and its range (N).
+pub fn reference() -> (Vec<(f64, f64)>, f64) {
+    let text = std::fs::read_to_string("../../tests/data/moordyn_chain900.csv")
+        .or_else(|_| std::fs::read_to_string("tests/data/moordyn_chain900.csv"))
+        .unwrap();
+    let rows: Vec<(f64, f64)> = text
+        .lines()
+        .skip(2)
+        .map(|line| {
+            let v: Vec<f64> = line.split(',').map(|c| c.parse().unwrap()).collect();
+            (v[0], v[1].hypot(v[2]))
+        })
+        .collect();
+    let high = rows.iter().fold(f64::MIN, |m, r| m.max(r.1));
+    let range = high - rows.iter().fold(f64::MAX, |m, r| m.min(r.1));
+    (rows, range)
+}

@@ -1,0 +1,3 @@
+//! Series against numpy, scipy and published rainflow and fatigue.
+
+mod post;

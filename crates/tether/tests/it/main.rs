@@ -1,0 +1,9 @@
+//! Tethers against the listings of the AQWA-TETHER manual and closed forms.
+
+mod installed_afloat;
+mod installed_allocations;
+mod installed_example;
+mod installed_tethers;
+mod seed_003_installed;
+mod seed_003_towed;
+mod towed_closed_form;

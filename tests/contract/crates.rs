@@ -1,0 +1,61 @@
+//! The crates: what each may depend on, and what each declares of itself.
+
+#![allow(clippy::unwrap_used)]
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::PathBuf;
+
+/// The folder of each engine crate by the name of its package, with its manifest.
+fn crates() -> BTreeMap<String, (PathBuf, toml::Table)> {
+    let folders = fs::read_dir("crates").unwrap().flatten().map(|entry| entry.path());
+    let read = |folder: PathBuf| {
+        let manifest: toml::Table = fs::read_to_string(folder.join("Cargo.toml")).unwrap().parse().unwrap();
+        (manifest["package"]["name"].as_str().unwrap().to_string(), (folder, manifest))
+    };
+    folders.map(read).collect()
+}
+
+fn dependencies(manifest: &toml::Table) -> Vec<&str> {
+    manifest["dependencies"].as_table().unwrap().keys().map(String::as_str).collect()
+}
+
+#[test]
+fn engines_do_not_depend_on_the_language() {
+    let crates = crates();
+    for name in ["base", "catenary", "line-dynamics", "tether", "hydro", "signal", "solve", "model"] {
+        let (_, manifest) = &crates[&format!("windlass-{name}")];
+        assert!(!dependencies(manifest).contains(&"windlass-language"), "windlass-{name} depends on the language");
+    }
+}
+
+#[test]
+fn each_library_is_used_where_it_belongs() {
+    let program: toml::Table = fs::read_to_string("Cargo.toml").unwrap().parse().unwrap();
+    let mut users: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    let all = crates().into_iter().map(|(name, (_, manifest))| (name, manifest));
+    for (name, manifest) in all.chain([("windlass".to_string(), program)]) {
+        for library in dependencies(&manifest) {
+            users.entry(library.to_string()).or_default().push(name.clone());
+        }
+    }
+    for library in ["rustyline", "comfy-table"] {
+        assert_eq!(users[library], ["windlass"], "{library}");
+    }
+    for library in ["logos", "meval"] {
+        assert_eq!(users[library], ["windlass-language"], "{library}");
+    }
+    assert!(users["nalgebra"].len() > 1 && users["indexmap"].len() > 1);
+}
+
+#[test]
+fn every_crate_forbids_unsafe_code_and_documents_what_is_public() {
+    for (name, (folder, _)) in crates() {
+        let root = fs::read_to_string(folder.join("src/lib.rs")).unwrap();
+        for attribute in ["#![forbid(unsafe_code)]", "#![deny(missing_docs)]"] {
+            assert!(root.contains(attribute), "{name} lacks {attribute}");
+        }
+        assert!(root.contains("//! # Example\n"), "{name} has no example");
+        assert!(folder.join("README.md").is_file(), "{name} has no README");
+    }
+}

@@ -1,0 +1,5 @@
+//! What the project promises of itself: specs, the crates and what they may use, the list of what is shown.
+
+mod coverage;
+mod crates;
+mod specs;

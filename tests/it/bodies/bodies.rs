@@ -1,0 +1,296 @@
+//! Bodies that float: weights, pieces, hydrostatics, and the initial configuration, against numbers by hand. The barge is that of
+//! the multi-point mooring sample of reference/model.md: a box of 400 x 100 x 20 ft with its origin at bow and keel.
+
+#![allow(clippy::unwrap_used)]
+
+use crate::common;
+
+use common::session;
+use nalgebra::{Vector3, Vector6};
+use windlass_base::diagnostic::Severity;
+use windlass_base::geometry::Place;
+use windlass_base::pose::Pose;
+use windlass_base::units::{FOOT, KIP};
+use windlass_hydro::hull::Hydrostatics;
+use windlass_hydro::{Category, Floating, Hull, balanced};
+use windlass_model::{Mass, Model};
+
+/// The model of records that must draw no error; and the texts of what else they draw.
+fn model(records: &str) -> (Model, Vec<String>) {
+    let (mut session, _screen, _folder) = session();
+    session.open("records", records.to_string());
+    session.run();
+    let errors: Vec<_> = session.reports.iter().filter(|r| r.severity == Severity::Error).collect();
+    assert!(errors.is_empty(), "{errors:?}");
+    (session.job.model.clone(), session.reports.iter().map(|r| r.message.clone()).collect())
+}
+
+fn near(found: f64, want: f64, part: f64) {
+    assert!((found - want).abs() <= part * want.abs(), "{found} instead of {want}");
+}
+
+const BARGE: &str = "MEDIT\n&DESCRIBE BODY TBRG\n*CG 200 0 12\nPGEN HULL\nPLANE 0 400 -RECT 0 20 100\nEND PGEN\nEND\n\
+                     &WEIGHT -TOTAL TBRG 23000 200 0 12 38 118 120\n&INSTATE -CONDITION 9\n";
+
+/// Hydrostatics of the first body where it is.
+fn state(model: &Model) -> Hydrostatics {
+    let body = &model.bodies[0];
+    let (hull, pose) = (Hull::of(model, body).unwrap().unwrap(), Pose::of(&body.place));
+    let mass = Mass::of(model.parts_of(body), model.defaults.gravity);
+    Hydrostatics::of(&hull.wet(&pose), &pose, mass.centre, hull.water_weight()).unwrap()
+}
+
+#[test]
+fn the_barge_has_the_hydrostatics_of_its_box() {
+    let (length, beam, draft, kg) = (400.0, 100.0, 9.0, 12.0);
+    let found = state(&model(BARGE).0);
+    let volume = length * beam * draft;
+    near(found.volume / FOOT.powi(3), volume, 1e-12);
+    near(found.displacement, volume * FOOT.powi(3) * 1025.0 * 9.80665, 1e-12);
+    near(found.kb / FOOT, draft / 2.0, 1e-12);
+    near(found.plane_area / FOOT.powi(2), length * beam, 1e-12);
+    near(found.wetted_area / FOOT.powi(2), length * beam + 2.0 * draft * (length + beam), 1e-12);
+    near(found.bm_t / FOOT, beam * beam / (12.0 * draft), 1e-12);
+    near(found.bm_l / FOOT, length * length / (12.0 * draft), 1e-12);
+    near(found.gm_t / FOOT, draft / 2.0 + beam * beam / (12.0 * draft) - kg, 1e-12);
+    let [x, y] = found.centre_of_flotation.unwrap();
+    near(x / FOOT, 200.0, 1e-12);
+    assert!(y.abs() < 1e-9);
+}
+
+#[test]
+fn panels_boxes_sections_and_meshes_of_one_form_have_one_buoyancy() {
+    let body = "&DESCRIBE BODY B\n&INSTATE -LOCATE B 0 0 -9 3 2 30\n";
+    let want = state(&model(&format!("{body}&SURFACE\nBLOCK HULL 0 -50 0 400 50 20\nEND\n")).0);
+    let corners =
+        "*A 0 -50 0\n*B 400 -50 0\n*C 400 50 0\n*D 0 50 0\n*E 0 -50 20\n*F 400 -50 20\n*G 400 50 20\n*H 0 50 20\n";
+    let faces = "*A *D *C *B|*E *F *G *H|*A *B *F *E|*B *C *G *F|*C *D *H *G|*D *A *E *H";
+    let outward: String = faces.split('|').map(|f| format!("PANEL {f}\n")).collect();
+    let inward: String =
+        faces.split('|').map(|f| format!("PANEL {}\n", f.split(' ').rev().collect::<Vec<_>>().join(" "))).collect();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("box.obj");
+    let obj = "v 0 -500 0\nv 4000 -500 0\nv 4000 500 0\nv 0 500 0\nv 0 -500 200\nv 4000 -500 200\nv 4000 500 200\nv 0 500 200\n\
+               f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+    std::fs::write(&path, obj).unwrap();
+    for hull in [
+        format!("MEDIT\n&DESCRIBE BODY B\n{corners}&DESCRIBE PIECE HULL\n{outward}END\n"),
+        format!("MEDIT\n&DESCRIBE BODY B\n{corners}&DESCRIBE PIECE HULL\n{inward}END\n"),
+        "MEDIT\nPGEN HULL\nPLANE 400 100 0 -CARTESIAN 0 0 50 0 50 20 0 20\nEND_PGEN\nEND\n".into(),
+        "MEDIT\n&DESCRIBE PIECE HULL\nPGEN\nPLANE 0 50 0 50 20\nPLANE 400 50 0 50 7 50 20\nEND_PGEN\nEND\n".into(),
+        format!("&SURFACE\nMESH HULL \"{}\" -SCALE 0.1\nEND\n", path.display()),
+        // the box in a part that stands elsewhere, turned by a quarter
+        "&DESCRIBE PART HOLD -MOVE 400 0 0 0 0 90\n&SURFACE\nBLOCK HULL -50 0 0 50 400 20\nEND\n".into(),
+        // and two halves side by side, and a whole of which a half is taken off and given back by permeability
+        "&SURFACE\nBLOCK BOW 0 -50 0 150 50 20\nBLOCK STERN 150 -50 0 400 50 20\nEND\n".into(),
+        "&SURFACE\nBLOCK A 0 -50 0 400 50 20\nBLOCK B 10 -5 1 20 5 19 -PERM -1\nBLOCK C 10 -5 1 20 5 19\nEND\n".into(),
+    ] {
+        let (model, said) = model(&format!("{body}{hull}"));
+        let found = state(&model);
+        let all = |h: &Hydrostatics| {
+            let b = h.centre_of_buoyancy;
+            [h.volume, b.x, b.y, b.z, h.plane_area, h.kb, h.bm_t, h.bm_l]
+        };
+        for (a, b) in all(&found).into_iter().zip(all(&want)) {
+            assert!((a - b).abs() <= 1e-9 * b.abs(), "{hull}\n{found:?}\n{want:?}\n{said:?}");
+        }
+        let turned = said.iter().any(|s| s.contains("look inward"));
+        assert_eq!(turned, hull.contains(&inward), "{said:?}");
+    }
+}
+
+#[test]
+fn a_part_that_is_moved_takes_its_pieces_and_weights_along() {
+    let records = "MEDIT\n&DESCRIBE BODY B\n&DESCRIBE PART P -MOVE 100 0 5 0 0 90\n*W 10 0 1\n#WEIGHT *W 50 1 2 2\nEND\n&SURFACE\n\
+                   BLOCK H 0 0 -10 20 10 0\nEND\n&INSTATE -LOCATE B 0 0 0\n";
+    let (model, _) = model(records);
+    let mass = Mass::of(model.parts_of(&model.bodies[0]), model.defaults.gravity);
+    // the part's x is the body's y
+    assert!((mass.centre / FOOT - Vector3::new(100.0, 10.0, 6.0)).norm() < 1e-9, "{}", mass.centre);
+    let radii = mass.radii().map(|k| k.unwrap() / FOOT);
+    for (k, want) in radii.into_iter().zip([2.0, 1.0, 2.0]) {
+        near(k, want, 1e-6);
+    }
+    let found = state(&model);
+    // between z = -5 and 0: half of 20 x 10 x 10 ft
+    near(found.volume / FOOT.powi(3), 1000.0, 1e-12);
+    let centre = found.centre_of_buoyancy / FOOT;
+    assert!((centre - Vector3::new(95.0, 10.0, -2.5)).norm() < 1e-9, "{centre}");
+}
+
+#[test]
+fn total_adds_the_one_weight_that_is_missing() {
+    let (model, _) = model(
+        "MEDIT\n&DESCRIBE BODY B\n*A 100 0 10\n*C 0 20 0\n#WEIGHT *A 300 5 6 7\n#WEIGHT *C 200\nEND\n&WEIGHT -TOTAL B 1000 50 2 8 30 60 70\n",
+    );
+    let mass = Mass::of(model.parts_of(&model.bodies[0]), model.defaults.gravity);
+    near(mass.mass * 9.80665, 1000.0 * KIP, 1e-12);
+    assert!((mass.centre / FOOT - Vector3::new(50.0, 2.0, 8.0)).norm() < 1e-9);
+    for (k, want) in mass.radii().into_iter().zip([30.0, 60.0, 70.0]) {
+        near(k.unwrap() / FOOT, want, 1e-9);
+    }
+    // 500 kips at (1000 c - 300 a - 200 c') / 500, by hand: x (50000 - 30000) / 500 = 40, y (2000 - 4000) / 500 = -4, z (8000 - 3000) / 500 = 10
+    let added = model.parts["B"].weights.last().unwrap();
+    near(added.weight, 500.0 * KIP, 1e-12);
+    assert!((Vector3::from(added.at) / FOOT - Vector3::new(40.0, -4.0, 10.0)).norm() < 1e-9);
+}
+
+#[test]
+fn margins_compound_and_keep_centre_and_radii() {
+    let records = format!("{BARGE}&WEIGHT -MARGIN TBRG 10 -MARGIN TBRG 10\n");
+    let (model, _) = model(&records);
+    let mass = Mass::of(model.parts_of(&model.bodies[0]), model.defaults.gravity);
+    near(mass.mass * 9.80665, 1.21 * 23000.0 * KIP, 1e-12);
+    for (k, want) in mass.radii().into_iter().zip([38.0, 118.0, 120.0]) {
+        near(k.unwrap() / FOOT, want, 1e-9);
+    }
+}
+
+#[test]
+fn weight_and_buoyancy_of_a_body_have_the_tangent_that_differences_show() {
+    let (model, _) = model(&format!("{BARGE}&INSTATE -LOCATE TBRG 30 -20 -9 4 1 25\n"));
+    let floating = Floating::of(&model, &model.bodies[0]).unwrap();
+    assert_eq!(floating.loads.iter().map(|l| l.category()).collect::<Vec<_>>(), [Category::Weight, Category::Buoyancy]);
+    let pose = Pose::of(&model.bodies[0].place);
+    for load in &floating.loads {
+        let at = load.load(&pose).unwrap();
+        for n in 0..6 {
+            let step = if n < 3 { 1e-3 } else { 1e-5 };
+            let mut motion = Vector6::zeros();
+            motion[n] = step;
+            let [up, down] = [motion, -motion].map(|m| load.load(&pose.moved(&m)).unwrap().wrench);
+            let difference = (down - up) / (2.0 * step);
+            // wrenches of 1e10 N m leave 1e-16 * 1e10 / 1e-5 = 0.1 of rounding, beside entries of 1e8 and more
+            let size = at.stiffness.amax();
+            assert!((difference - at.stiffness.column(n)).amax() < 1e-7 * size, "{:?} {n}", load.category());
+        }
+    }
+}
+
+#[test]
+fn the_tide_lifts_the_surface() {
+    let (low, high) = (state(&model(BARGE).0), state(&model(&format!("&DEFAULT -DEPTH 500\n{BARGE}&ENV -TIDE 2\n")).0));
+    near((high.volume - low.volume) / FOOT.powi(3), 400.0 * 100.0 * 2.0, 1e-12);
+}
+
+#[test]
+fn a_linear_stiffness_is_the_buoyancy_of_an_aqwa_deck() {
+    // K33 = 70 kips/ft, 2 ft deeper than at rest: B + 140; rolled by 0.01 rad: moment -12 kips-ft about the centre of gravity
+    let (model, _) = model(
+        "MEDIT\n&DESCRIBE BODY T\n*CG 30 0 0.5\n#WEIGHT *CG 650\n#HYDROSTATIC *CG 70 1200 60000 -BUOYANCY 650 -ZCGE -0.5\nEND\n\
+         &INSTATE -LOCATE T -30 0 -3 0.5729577951308232\n",
+    );
+    let body = &model.bodies[0];
+    let floating = Floating::of(&model, body).unwrap();
+    let pose = Pose::of(&body.place);
+    let total: Vector6<f64> = floating.loads.iter().map(|l| l.load(&pose).unwrap().wrench).sum();
+    let depth = 2.0 + 0.5 * (1.0 - 0.01f64.cos());
+    near(total[2] / KIP, 70.0 * depth, 1e-9);
+    let arm = pose.axes * floating.mass.centre;
+    let about = Vector3::new(total[3], total[4], total[5]) - arm.cross(&Vector3::new(total[0], total[1], total[2]));
+    near(about.x / KIP / FOOT, -12.0, 1e-9);
+}
+
+#[test]
+fn a_hull_and_a_linear_stiffness_contradict_each_other() {
+    let (model, _) = model(&format!("{BARGE}MEDIT\n#HYDROSTATIC *CG 70 1200 60000 -BUOYANCY 650 -ZCGE 3\nEND\n"));
+    assert!(Floating::of(&model, &model.bodies[0]).unwrap_err().message.contains("count twice"));
+}
+
+#[test]
+fn an_open_piece_is_warned_of_and_gives_no_buoyancy() {
+    let (model, said) = model(
+        "MEDIT\n&DESCRIBE BODY B\n&DESCRIBE PIECE LID\nPANEL 0 0 0  1 0 0  0 1 0\n&DESCRIBE PIECE NONE -PERM 0\nEND\n",
+    );
+    assert!(said.iter().any(|s| s.contains("LID: it is open")), "{said:?}");
+    assert!(said.iter().any(|s| s.contains("NONE: it has no panels")), "{said:?}");
+    assert!(Floating::of(&model, &model.bodies[0]).unwrap_err().message.contains("LID"));
+}
+
+#[test]
+fn overlapping_pieces_are_found_with_their_place_and_an_interior_within_its_exterior_is_none() {
+    let two = |p: &str| {
+        let records =
+            format!("&DESCRIBE BODY B\n&SURFACE\nBLOCK A 0 0 0 10 10 10\nBLOCK B 5 5 5 8 8 8 -PERM {p}\nEND\n");
+        model(&records).1
+    };
+    assert!(two("1").iter().any(|s| s.contains("pieces A and B overlap at")), "{:?}", two("1"));
+    assert!(two("-1").is_empty(), "{:?}", two("-1"));
+}
+
+#[test]
+fn conditions_of_several_bodies_keep_their_place_and_heading() {
+    let (model, _) = model(
+        "&DESCRIBE BODY A\n&DESCRIBE BODY B\n&INSTATE -LOCATE A 1 2 3 4 5 6 -LOCATE B 7 8 9 10 11 12\n\
+         &INSTATE -CONDITION A 9 1 2 -CONDITION 5\n",
+    );
+    let values = |name: &str| {
+        let [x, y, z, a, b, c] = model.bodies[name].place.values();
+        [x / FOOT, y / FOOT, z / FOOT, a.to_degrees(), b.to_degrees(), c.to_degrees()].map(|v| (v * 1e9).round() / 1e9)
+    };
+    assert_eq!(values("A"), [1.0, 2.0, -9.0, 1.0, 2.0, 6.0]);
+    // the body described last, at 5 ft draft, upright
+    assert_eq!(values("B"), [7.0, 8.0, -5.0, 0.0, 0.0, 12.0]);
+}
+
+#[test]
+fn roll_lifts_starboard_and_trim_sinks_the_stern() {
+    let (model, _) =
+        model("MEDIT\n&DESCRIBE BODY A\n*STARBOARD 0 10 0\n*STERN 10 0 0\nEND\n&INSTATE -CONDITION 0 5 0\n");
+    assert!(model.global(&model.points["*STARBOARD"])[2] > 0.0);
+    let (model, _) =
+        self::model("MEDIT\n&DESCRIBE BODY A\n*STARBOARD 0 10 0\n*STERN 10 0 0\nEND\n&INSTATE -CONDITION 0 0 5\n");
+    assert!(model.global(&model.points["*STERN"])[2] < 0.0);
+}
+
+#[test]
+fn a_move_and_its_opposite_restore_the_configuration() {
+    let records = "&DESCRIBE BODY A\n&INSTATE -LOCATE A 1 2 3 40 50 60\n&INSTATE -MOVE A 1 2 4 8 16 32\n&INSTATE -MOVE A -1 -2 -4 -8 -16 -32\n";
+    let place = model(records).0.bodies["A"].place;
+    let want = [FOOT, 2.0 * FOOT, 3.0 * FOOT, 40f64.to_radians(), 50f64.to_radians(), 60f64.to_radians()];
+    for (a, b) in place.values().into_iter().zip(want) {
+        assert!((a - b).abs() < 1e-15 * (1.0 + b), "{place:?}");
+    }
+}
+
+#[test]
+fn the_righting_arm_of_a_box_is_that_of_a_wall_sided_ship() {
+    // while neither bilge nor deck edge crosses the surface (tan roll < 9 / 50): GZ = sin roll (GM + BM tan^2 roll / 2), with the draft
+    // that carries the weight; trim stays zero, and the heading does not matter
+    let (model, _) = model(BARGE);
+    let floating = Floating::of(&model, &model.bodies[0]).unwrap();
+    let draft = 23000.0 * KIP / (1025.0 * 9.80665) / FOOT.powi(3) / 40_000.0;
+    let bm = 10_000.0 / 12.0 / draft;
+    let gm = draft / 2.0 + bm - 12.0;
+    for (degrees, yaw) in [(0.5f64, 0.0), (5.0, 1.0), (10.0, -2.0), (-10.0, 3.0)] {
+        let roll = degrees.to_radians();
+        let found = balanced(&floating, &Place::new([5.0, 6.0, -2.0, roll, 0.0, yaw])).unwrap();
+        let want = roll.sin() * (gm + 0.5 * bm * roll.tan().powi(2));
+        near(found.arm / FOOT, want, 1e-8);
+        assert!(found.place.turn[1].abs() < 1e-9, "{found:?}");
+    }
+}
+
+#[test]
+fn a_body_that_cannot_float_has_no_righting_arm() {
+    let (model, _) =
+        model("MEDIT\n&DESCRIBE BODY B\n*P 5 5 5\n#WEIGHT *P 5000\nEND\n&SURFACE\nBLOCK H 0 0 0 10 10 10\nEND\n");
+    let floating = Floating::of(&model, &model.bodies[0]).unwrap();
+    assert!(balanced(&floating, &Place::default()).unwrap_err().message.contains("no balance"));
+}
+
+#[test]
+fn the_report_of_hydrostatics_has_the_users_units() {
+    let (mut session, screen, _folder) = session();
+    session.open(
+        "records",
+        format!("{BARGE}&STATUS HYDROSTATICS\n&STATUS WEIGHT\nHSTATICS\nCFORM 9 1 2\nREPORT\nEND\nEND\n"),
+    );
+    session.run();
+    let text = screen.text();
+    // 360,000 ft3; BM 100^2 / (12 x 9); the weight of water over 40,000 ft2, 63.989 lb/ft3; GM = 4.5 + 92.593 - 12
+    for wanted in ["360000.00 ft3", "92.59 ft", "2.55955E+03", "85.09 ft", "23000.00", "118.00"] {
+        assert!(text.contains(wanted), "{wanted} in {text}");
+    }
+    assert!(session.reports.is_empty(), "{:?}", session.reports);
+}

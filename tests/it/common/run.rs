@@ -1,0 +1,52 @@
+//! Runs for tests: a model of records, settings by length and step, a run to its end.
+
+use crate::common;
+use windlass_model::Model;
+use windlass_solve::time::{Action, Convergence, Ending, Method, Run, Scheme, Settings, Watcher};
+
+/// Takes rows and says nothing.
+pub struct Quiet;
+
+impl Watcher for Quiet {
+    fn row(&mut self, _row: &[f64]) -> Result<(), String> {
+        Ok(())
+    }
+}
+
+/// The model of records in metres and newtons.
+pub fn model(records: &str) -> Model {
+    let (mut session, _, _folder) = common::session();
+    session.open("test", format!("&DIMEN -DIMEN METERS N\n{records}"));
+    session.run();
+    assert_eq!(session.errors, 0, "{:?}", session.reports);
+    session.job.model.clone()
+}
+
+/// A run over a time with a step (s) by the usual scheme, every step kept.
+pub fn settings(observed: f64, dt: f64) -> Settings {
+    Settings {
+        observed,
+        dt,
+        method: Method::default(),
+        convergence: Convergence::default(),
+        store: 1,
+        capsize: true,
+        adaptive: None,
+        keep: true,
+        along: 1,
+        books: false,
+        transient: 0.0,
+    }
+}
+
+/// The trapezoidal rule.
+pub fn trapezoidal() -> Method {
+    Method::Implicit(Scheme::newmark(0.25, 0.5))
+}
+
+/// A run that comes to its end.
+pub fn run(model: &Model, settings: Settings, actions: Vec<Action>) -> Run {
+    let mut run = Run::new(model, settings, actions).unwrap();
+    assert_eq!(run.go(&mut Quiet), Ok(Ending::Done));
+    run
+}

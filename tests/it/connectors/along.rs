@@ -1,0 +1,157 @@
+//! Results along lines that move by themselves: against the catenary, and against themselves kept in other ways.
+
+#![allow(clippy::unwrap_used)]
+
+use crate::common::run;
+
+use run::{Quiet, model, settings};
+use windlass_base::table::Table;
+use windlass_solve::results::along::{Line, Where, envelope, histories, lines_at_rest, touchdown};
+use windlass_solve::results::events;
+use windlass_solve::time::{Ending, Run, Settings, Snapshot, Watcher};
+
+const DEPTH: f64 = 100.0;
+
+/// A ship held where it is, with a chain on a flat bottom in so many elements.
+fn chain(elements: usize, sea: &str) -> String {
+    format!(
+        "MEDIT\n&DESCRIBE BODY SHIP -IGNORE X Y Z RX RY RZ\n*T 0 0 0\n#WEIGHT *T 1E7 5 5 5\n\
+         ~C B_CAT 100 -WTPLEN 2000 -BUOYDIA 0 -LEN 400 -EMODULUS 1E11 -B_TENSION 6E6 -DEPANCHOR {DEPTH}\n\
+         CONNECTOR A -ANC 0 350 ~C *T\n&CONNECTOR A -DYNAMICS {elements}\nEND\n&ENV -DEPTH {DEPTH} {sea}\n"
+    )
+}
+
+fn last(table: &Table, column: &str) -> f64 {
+    *table.get(column).unwrap().numbers().last().unwrap()
+}
+
+#[test]
+fn a_chain_at_rest_comes_down_where_the_catenary_does() {
+    let mut off = Vec::new();
+    for elements in [40, 80] {
+        let model = model(&chain(elements, ""));
+        let mut run = Run::new(&model, settings(0.2, 0.1), Vec::new()).unwrap();
+        run.go(&mut Quiet).unwrap();
+        let line = Line::of(&run, "a").unwrap();
+        let table = touchdown(&line, &events(&run.history, None).unwrap()[..1]).unwrap();
+        // w = 2000 N/m, H the tension on the bottom: a catenary of parameter a = H/w rises h over an arc sqrt(h^2 + 2 h a)
+        let parameter = last(&table, "Tension") / 2000.0;
+        let suspended = (DEPTH * DEPTH + 2.0 * DEPTH * parameter).sqrt();
+        let arc = last(&table, "Arc");
+        // chain and bottom do not stretch or yield visibly: 100 kN on 785 MN, 20 mm of penetration
+        off.push((arc - suspended).abs());
+        assert!((last(&table, "Length") - (400.0 - suspended)).abs() < 1.5 * 400.0 / elements as f64);
+    }
+    // a line that sinks 2 mm in leaves the bottom over sqrt(2 a 2 mm), 0.3 m, and two heights tell the slope to a share of an element of 10
+    // or 5 m
+    assert!(off.iter().all(|off| *off < 1.0), "{off:?}");
+}
+
+#[test]
+fn the_line_at_rest_and_the_first_row_of_a_run_in_still_water_are_one() {
+    let model = model(&chain(20, ""));
+    let rest = &lines_at_rest(&model, &|_| true).unwrap()[0];
+    let mut run = Run::new(&model, settings(0.2, 0.1), Vec::new()).unwrap();
+    run.go(&mut Quiet).unwrap();
+    let line = Line::of(&run, "A").unwrap();
+    assert_eq!(line.nodes(), 21);
+    let first = &events(&run.history, None).unwrap()[..1];
+    let table = envelope(&line, first).unwrap();
+    for (a, b) in rest.get("Tension").unwrap().numbers().iter().zip(table.get("T Mean").unwrap().numbers()) {
+        // statics are solved to 1e-5 of a tension
+        assert!((a / b - 1.0).abs() < 1e-4, "{a} {b}");
+    }
+    assert_eq!(rest.get("Arc").unwrap().numbers(), table.get("Arc").unwrap().numbers());
+}
+
+#[test]
+fn fewer_nodes_kept_and_none_kept_tell_what_all_tell() {
+    let model = model(&chain(12, "-SEA REGULAR 180 4 9"));
+    let ran = |change: fn(Settings) -> Settings| {
+        let mut run = Run::new(&model, change(settings(10.0, 0.25)), Vec::new()).unwrap();
+        assert_eq!(run.go(&mut Quiet), Ok(Ending::Done));
+        run
+    };
+    let (all, fourth) = (ran(|s| s), ran(|s| Settings { along: 4, ..s }));
+    let (bare, none) = (ran(|s| Settings { keep: false, ..s }), ran(|s| Settings { along: 0, ..s }));
+    let told = |run: &Run| {
+        let line = Line::of(run, "A").unwrap();
+        let kept = if run.history.is_empty() { Vec::new() } else { events(&run.history, None).unwrap() };
+        envelope(&line, &kept).unwrap()
+    };
+    let (whole, some, flat) = (told(&all), told(&fourth), told(&bare));
+    for column in ["Arc", "T Min", "T Mean", "T Max", "C Min", "Used"] {
+        let (a, b, c) = (&whole.get(column).unwrap().cells, &some.get(column).unwrap().cells, flat.get(column));
+        // from the second end: 13, 9, 5 and 1 of thirteen
+        assert_eq!(b.len(), 4);
+        for (few, many) in [(0, 0), (1, 4), (2, 8), (3, 12)] {
+            assert_eq!(a[many], b[few], "{column}");
+        }
+        assert_eq!(a, &c.unwrap().cells, "{column}");
+    }
+    assert!(Line::of(&none, "A").unwrap_err().help[0].contains("-ALONG"));
+    assert!(Line::of(&all, "B").is_err());
+    // a place between two nodes is between them
+    let line = Line::of(&all, "A").unwrap();
+    let kept = events(&all.history, None).unwrap();
+    let arcs = whole.get("Arc").unwrap().numbers();
+    let middle = 0.5 * (arcs[1] + arcs[2]);
+    let table = histories(&line, &[Where::Node(2), Where::Arc(middle), Where::Node(3)], &kept).unwrap();
+    let tensions: Vec<Vec<f64>> = table.columns.iter().filter(|c| c.name == "Tension").map(|c| c.numbers()).collect();
+    for ((low, middle), high) in tensions[0].iter().zip(&tensions[1]).zip(&tensions[2]) {
+        assert!(
+            (middle - (low + high) / 2.0).abs() <= 1e-9 * (low.abs() + high.abs()),
+            "{low} {middle} {high}, nodes at {arcs:?}"
+        );
+    }
+    assert!(histories(&line, &[Where::Arc(401.0)], &kept).is_err());
+    assert!(histories(&line, &[Where::Node(14)], &kept).is_err());
+}
+
+/// Keeps snapshots and rows as they come.
+#[derive(Default)]
+struct Keeper {
+    snapshots: Vec<Snapshot>,
+    rows: Vec<Vec<f64>>,
+}
+
+impl Watcher for Keeper {
+    fn row(&mut self, row: &[f64]) -> Result<(), String> {
+        self.rows.push(row.to_vec());
+        Ok(())
+    }
+
+    fn snapshot(&mut self, snapshot: &Snapshot) -> Result<(), String> {
+        self.snapshots.push(Snapshot::read(&snapshot.bytes()).unwrap());
+        Ok(())
+    }
+}
+
+#[test]
+fn a_run_that_goes_on_has_the_nodes_of_an_unbroken_one() {
+    let model = model(&chain(8, "-SEA REGULAR 180 4 9"));
+    let wanted = settings(60.0, 0.1);
+    let mut whole = Run::new(&model, wanted.clone(), Vec::new()).unwrap();
+    let mut kept = Keeper::default();
+    assert_eq!(whole.go(&mut kept), Ok(Ending::Done));
+    // one at the start, one after 500 steps
+    assert_eq!(kept.snapshots.iter().map(|s| s.taken).collect::<Vec<_>>(), [0, 500]);
+    for snapshot in &kept.snapshots {
+        let rows: Vec<f64> = kept.rows[..snapshot.rows].concat();
+        let mut again = Run::resume(&model, wanted.clone(), Vec::new(), (snapshot, rows)).unwrap();
+        assert_eq!(again.go(&mut Quiet), Ok(Ending::Done));
+        // bit by bit: what is not there is not a number
+        let bits = |run: &Run| run.history.values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
+        assert_eq!(again.history.len(), whole.history.len());
+        assert!(bits(&again) == bits(&whole), "from step {}", snapshot.taken);
+    }
+}
+
+#[test]
+fn rows_that_would_not_fit_in_memory_are_refused_before_the_run() {
+    let model = model(&chain(100, ""));
+    let refused = Run::new(&model, settings(1e6, 0.01), Vec::new()).unwrap_err().error;
+    assert!(refused.message.contains("GB of memory") && refused.help[0].contains("-STORE"), "{refused:?}");
+    assert!(Run::new(&model, Settings { keep: false, ..settings(1e6, 0.01) }, Vec::new()).is_ok());
+    assert!(Run::new(&model, Settings { store: 1000, ..settings(1e6, 0.01) }, Vec::new()).is_ok());
+}

@@ -1,0 +1,457 @@
+//! Zero-length classes, slings, rollers, restraints and tugs against numbers worked out by hand from the text of seed 001.
+
+#![allow(clippy::unwrap_used)]
+
+use crate::common;
+
+use windlass::session::Session;
+use windlass_base::geometry::Place;
+use windlass_base::pose::{Pose, Six};
+use windlass_model::{Connection, Element, End, LineDuty, Model, Placement, Response, Situation, Summary, TimeStep};
+
+/// A spring between a point of a body and another, or the ground, as records define it.
+struct Joint {
+    session: Session,
+    element: Box<dyn Element>,
+    state: Vec<f64>,
+}
+
+impl Joint {
+    /// The class `~C` with a connector between *A of body ONE and `second`; an assembly's connectors have their second end given.
+    fn new(records: &str, connector: &str) -> Joint {
+        let (mut session, screen, _folder) = common::session();
+        let text = format!(
+            "&DIMEN -DIMEN METERS N\nMEDIT\n*GROUND 0 0 0\n&DESCRIBE BODY ONE\n*A 0 0 0\n&DESCRIBE BODY TWO\n*B 0 0 0\n\
+             {records}\nCONNECTOR IT {connector}\nEND\n"
+        );
+        session.open("records", text);
+        session.run();
+        assert_eq!(session.errors, 0, "{records}: {:?} {}", session.reports, screen.text());
+        let model = &session.job.model;
+        let connector = model.connectors.values().next().unwrap();
+        let class = model.classes.values().next().unwrap();
+        let curve = |name: &str| model.curves.get(&Model::key(name));
+        let ends = model.end_poses(connector);
+        let surroundings = model.surroundings();
+        let made = Connection {
+            connector,
+            ends,
+            to_ground: false,
+            placement: Placement::default(),
+            curve: &curve,
+            surroundings: &surroundings,
+            ambient: None,
+            duty: LineDuty::default(),
+        };
+        let element = class.object.element(&made).unwrap();
+        let state = vec![0.0; element.states()];
+        Joint { session, element, state }
+    }
+
+    fn between(records: &str) -> Joint {
+        Joint::new(records, "~C *A *B")
+    }
+
+    /// The wrench on the first end: the second stands at these places and moves with this velocity.
+    fn at(&self, first: [f64; 6], second: [f64; 6], rate: [f64; 3], dt: Option<f64>) -> (Response, Vec<f64>) {
+        let [x, y, z] = rate;
+        let ends = [
+            End::still(Pose::of(&Place::new(first))),
+            End { velocity: Six::new(x, y, z, 0.0, 0.0, 0.0), ..End::still(Pose::of(&Place::new(second))) },
+        ];
+        let surroundings = self.session.job.model.surroundings();
+        let step = dt.map(|dt| TimeStep { time: dt, dt });
+        let (mut out, mut trial) = (Response::default(), vec![0.0; self.state.len()]);
+        let at = Situation { ends: &ends, step, surroundings: &surroundings };
+        self.element.evaluate(&at, &self.state, &mut trial, &mut None, &mut out).unwrap();
+        (out, trial)
+    }
+
+    /// Force and moment on the first end at rest, its body at the origin.
+    fn pull(&self, second: [f64; 3]) -> [f64; 6] {
+        let [x, y, z] = second;
+        self.at([0.0; 6], [x, y, z, 0.0, 0.0, 0.0], [0.0; 3], None).0.wrench[0].into()
+    }
+
+    /// The force on the first end while the second passes a place with a velocity.
+    fn passing(&self, second: [f64; 3], rate: [f64; 3]) -> [f64; 3] {
+        let [x, y, z] = second;
+        let w = self.at([0.0; 6], [x, y, z, 0.0, 0.0, 0.0], rate, Some(0.1)).0.wrench[0];
+        [w[0], w[1], w[2]]
+    }
+
+    fn summary(&self, first: [f64; 6], second: [f64; 6]) -> Summary {
+        let ends = [first, second].map(|p| End::still(Pose::of(&Place::new(p))));
+        let surroundings = self.session.job.model.surroundings();
+        self.element.summary(&Situation { ends: &ends, step: None, surroundings: &surroundings }, &self.state).unwrap()
+    }
+}
+
+fn near(got: &[f64], want: &[f64]) {
+    let size = want.iter().fold(1.0, |m: f64, v| m.max(v.abs()));
+    assert!(got.iter().zip(want).all(|(a, b)| (a - b).abs() <= 1e-9 * size), "{got:?} is not {want:?}");
+}
+
+#[test]
+fn a_gspr_pulls_with_its_spring_values_along_the_axes_of_the_first_body() {
+    let joint = Joint::between("~C GSPR X 1000 Y 200 Z 300");
+    // moment about the first point: d x F = (0.1, 0.2, -0.3) x (100, 40, -90)
+    near(&joint.pull([0.1, 0.2, -0.3]), &[100.0, 40.0, -90.0, -6.0, -21.0, -16.0]);
+    // a quarter turn of the first body about Z: its X is global Y
+    let turned = [0.0, 0.0, 0.0, 0.0, 0.0, std::f64::consts::FRAC_PI_2];
+    let (got, _) = joint.at(turned, [0.1, 0.2, -0.3, 0.0, 0.0, 0.0], [0.0; 3], None);
+    near(
+        got.wrench[0].as_slice(),
+        &[20.0, 200.0, -90.0, 0.2 * -90.0 + 0.3 * 200.0, -0.3 * 20.0 + 0.1 * 90.0, 20.0 - 4.0],
+    );
+    near(&got.wrench[1].as_slice()[..3], &[-20.0, -200.0, 90.0]);
+    // -EULER by the same angle, the body not turned
+    let euler = Joint::new("~C GSPR X 1000 Y 200 Z 300", "-EULER 0 0 90 ~C *A *B");
+    near(&euler.pull([0.1, 0.2, -0.3])[..3], &[20.0, 200.0, -90.0]);
+    // the second body may turn: translations do not know
+    let (got, _) = joint.at([0.0; 6], [0.1, 0.2, -0.3, 0.5, 0.6, 0.7], [0.0; 3], None);
+    near(&got.wrench[0].as_slice()[..3], &[100.0, 40.0, -90.0]);
+}
+
+#[test]
+fn the_element_axes_are_global_where_the_first_node_is_on_ground() {
+    let joint = Joint::new("~C GSPR X 1000", "~C *GROUND *B");
+    let (got, _) = joint.at([0.0; 6], [0.1, 0.2, 0.0, 0.4, 0.5, 0.6], [0.0; 3], None);
+    near(&got.wrench[0].as_slice()[..3], &[100.0, 0.0, 0.0]);
+}
+
+#[test]
+fn a_single_node_is_held_to_where_it_was_when_the_connector_was_defined() {
+    let (mut session, _, _folder) = common::session();
+    let records = "&DIMEN -DIMEN METERS N\nMEDIT\n&DESCRIBE BODY ONE\n*A 1 0 0\n~C GSPR X 1000 Y 1000\nEND\n\
+                   &INSTATE -LOCATE ONE 10 20 0 0 0 90\nMEDIT\nCONNECTOR IT ~C *A\nEND\n&INSTATE -MOVE ONE 0.5 0 0";
+    session.open("records", records);
+    session.run();
+    let model = &session.job.model;
+    let connector = model.connectors.values().next().unwrap();
+    let ends = model.end_poses(connector);
+    let surroundings = model.surroundings();
+    let made = Connection {
+        connector,
+        ends,
+        to_ground: true,
+        placement: Placement::default(),
+        curve: &|_| None,
+        surroundings: &surroundings,
+        ambient: None,
+        duty: LineDuty::default(),
+    };
+    let element = model.classes.values().next().unwrap().object.element(&made).unwrap();
+    let mut out = Response::default();
+    let at = Situation { ends: &ends.map(End::still), step: None, surroundings: &surroundings };
+    element.evaluate(&at, &[], &mut [], &mut None, &mut out).unwrap();
+    near(out.wrench[0].as_slice(), &[-500.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+}
+
+#[test]
+fn a_rotation_spring_turns_the_bodies_back_by_the_turn_since_the_definition() {
+    let joint = Joint::between("~C GSPR RX 100 RY 100 RZ 100");
+    // an isotropic rotation spring: a moment along the rotation vector; here 0.3 rad about Y
+    let (got, _) = joint.at([0.0; 6], [0.0, 0.0, 0.0, 0.0, 0.3, 0.0], [0.0; 3], None);
+    near(got.wrench[0].as_slice(), &[0.0, 0.0, 0.0, 0.0, 30.0, 0.0]);
+    near(got.wrench[1].as_slice(), &[0.0, 0.0, 0.0, 0.0, -30.0, 0.0]);
+    // both bodies turned alike: nothing
+    let turn = [0.0, 0.0, 0.0, 0.4, -0.2, 1.0];
+    near(joint.at(turn, turn, [0.0; 3], None).0.wrench[0].as_slice(), &[0.0; 6]);
+    // one spring about X, the turn (t, 0, t): J^-T (K t, 0, 0) = K t (1, t/2, 0) + c t2-terms: c (K t) (-t2, 0, t2), c(2 t2)
+    let joint = Joint::between("~C GSPR RX 100");
+    let t: f64 = 0.5;
+    let angle = 2.0_f64.sqrt() * t;
+    let turn = nalgebra::Rotation3::new(nalgebra::Vector3::new(t, 0.0, t));
+    let (roll, pitch, yaw) = turn.euler_angles();
+    let (got, _) = joint.at([0.0; 6], [0.0, 0.0, 0.0, roll, pitch, yaw], [0.0; 3], None);
+    let c = (1.0 - 0.5 * angle / (0.5 * angle).tan()) / (angle * angle);
+    let (s, q) = (100.0 * t, c * 100.0 * t * t * t);
+    near(&got.wrench[0].as_slice()[3..], &[s - q, 0.5 * t * s, q]);
+}
+
+#[test]
+fn no_degree_of_freedom_has_load_on_the_wrong_side_of_the_sense() {
+    let tension = Joint::between("~C GSPR TENSION X 1000 Y 200 RZ 50");
+    near(&tension.pull([-0.1, 0.3, 0.0]), &[0.0; 6]);
+    near(&tension.pull([0.1, 0.3, 0.0])[..2], &[100.0, 60.0]);
+    near(&tension.pull([0.0, 0.3, 0.0])[..2], &[0.0, 60.0]);
+    let turned = [-0.1, 0.3, 0.0, 0.0, 0.0, 0.2];
+    near(tension.at([0.0; 6], turned, [0.0; 3], None).0.wrench[0].as_slice(), &[0.0; 6]);
+    let compression = Joint::between("~C FOUNDATION COMPRESSION X 1000 Y 200");
+    near(&compression.pull([0.1, 0.3, 0.0]), &[0.0; 6]);
+    near(&compression.pull([-0.1, 0.3, 0.0])[..2], &[-100.0, 60.0]);
+}
+
+#[test]
+fn len_moves_the_beginning_of_the_spring_along_element_x() {
+    let joint = Joint::between("~C GSPR X 1000 Y 200 -LEN 2");
+    near(&joint.pull([2.1, 0.3, 0.0]), &[100.0, 60.0, 0.0, 0.0, 0.0, 2.1 * 60.0 - 0.3 * 100.0]);
+}
+
+#[test]
+fn a_symmetric_spring_has_z_as_y_and_its_curve_acts_on_the_resultant() {
+    let joint = Joint::between("~C GSPR X 1000 Y 200 RY 70 -SYMMETRIC");
+    near(&joint.pull([0.0, 0.3, 0.4])[..3], &[0.0, 60.0, 80.0]);
+    let (got, _) = joint.at([0.0; 6], [0.0, 0.0, 0.0, 0.0, 0.0, 0.2], [0.0; 3], None);
+    near(&got.wrench[0].as_slice()[3..], &[0.0, 0.0, 14.0]);
+    // 200 N/m in series with 50 N at 0.25 m: at 0.5 m both have 50 N
+    let joint = Joint::between("~C GSPR X 1000 Y 200 -SYMMETRIC -Y_PY 50 0.25 500 0.5");
+    near(&joint.pull([0.0, 0.3, 0.4])[..3], &[0.0, 30.0, 40.0]);
+    // not symmetric unless said: Z is free
+    near(&Joint::between("~C GSPR X 1000 Y 200").pull([0.0, 0.3, 0.4])[..3], &[0.0, 60.0, 0.0]);
+}
+
+#[test]
+fn p_y_curves_are_in_series_with_the_basic_stiffness_in_x_y_and_z() {
+    // 1000 N/m and a curve through (100, 0.3), (300, 0.5): at 200 N the two deflect 0.2 + 0.4 m, and 500 N/m lie beyond 0.8 m
+    for (axis, name) in ["X", "Y", "Z"].into_iter().enumerate() {
+        let joint = Joint::between(&format!("~C GSPR X 1000 Y 1000 Z 1000 -{name}_PY 100 0.3 300 0.5"));
+        for (u, f) in [(0.6, 200.0), (-0.6, -200.0), (0.2, 50.0), (1.2, 500.0)] {
+            let mut at = [0.0; 3];
+            at[axis] = u;
+            let mut want = [0.0; 3];
+            want[axis] = f;
+            near(&joint.pull(at)[..3], &want);
+        }
+    }
+}
+
+#[test]
+fn a_dashpot_has_the_power_of_the_velocity_up_to_its_largest_force_while_the_spring_acts() {
+    for (axis, name) in ["X", "Y", "Z"].into_iter().enumerate() {
+        let joint = Joint::between(&format!("~C GSPR X 1000 Y 1000 Z 1000 -{name}_DAMPING 5 2 40"));
+        for (v, f) in [(2.0, 20.0), (-2.0, -20.0), (4.0, 40.0)] {
+            let mut rate = [0.0; 3];
+            rate[axis] = v;
+            let mut want = [0.0; 3];
+            want[axis] = f;
+            near(&joint.passing([0.0; 3], rate), &want);
+        }
+    }
+    // without Fo no cap; with SENSE only while the spring has a force
+    let joint = Joint::between("~C GSPR COMPRESSION X 1000 -X_DAMPING 5 2");
+    near(&joint.passing([-0.1, 0.0, 0.0], [-10.0, 0.0, 0.0]), &[-600.0, 0.0, 0.0]);
+    near(&joint.passing([0.1, 0.0, 0.0], [-10.0, 0.0, 0.0]), &[0.0; 3]);
+    // statics know no rates
+    near(&joint.pull([-0.1, 0.0, 0.0])[..3], &[-100.0, 0.0, 0.0]);
+}
+
+#[test]
+fn friction_limits_the_resultant_of_the_lateral_springs() {
+    let joint = Joint::between("~C GSPR X 1000 Y 200 Z 200 -FRICTION 0.3");
+    // Fx 100: at most 30; (60, 80) is cut to (18, 24), (12, 16) is not
+    near(&joint.pull([0.1, 0.3, 0.4])[..3], &[100.0, 18.0, 24.0]);
+    near(&joint.pull([-0.1, 0.06, 0.08])[..3], &[-100.0, 12.0, 16.0]);
+    near(&joint.pull([0.1, 0.0, 0.0])[..3], &[100.0, 0.0, 0.0]);
+}
+
+#[test]
+fn friction_without_lateral_springs_acts_against_the_relative_velocity() {
+    let joint = Joint::between("~C GSPR COMPRESSION X 1000 -FRICTION 0.3");
+    // the second end slides with (0, 3, 4) m/s over the first and drags it along with 0.3 x 100 N; v0 = 0.01 m/s takes 2E-6 of it
+    let got = joint.passing([-0.1, 0.0, 0.0], [0.0, 3.0, 4.0]);
+    assert!((got[1] - 18.0).abs() < 1e-4 && (got[2] - 24.0).abs() < 1e-4, "{got:?}");
+    near(&joint.pull([-0.1, 0.5, 0.5])[..3], &[-100.0, 0.0, 0.0]);
+    near(&joint.passing([0.1, 0.0, 0.0], [0.0, 3.0, 4.0]), &[0.0; 3]);
+}
+
+const VISCOUS: &str =
+    "&DATA CONVOLUTION TIME SOFT 0 5000 2 3819.5920 4 3103.6383 8 2406.0059 12 2149.3612 20 2020.2138 60 2000 -NDOF 1";
+
+#[test]
+fn a_viscoelastic_spring_is_in_series_with_its_own_stiffness_by_time() {
+    // K(t) = 2000 + 3000 exp(-t/4) in series with 1000 N/m, a deflection of 0.6 m held: at once 1000 x 5000 / 6000, at last
+    // 1000 x 2000 / 3000 of it; between, 1000 (u - w) = Kinf w + branch with the time constant 4 x 6000 / 3000 = 8 s
+    let mut joint = Joint::between(&format!("{VISCOUS}\n~C GSPR X 1000 -CONVOLUTION X SOFT"));
+    near(&joint.pull([0.6, 0.0, 0.0])[..1], &[400.0]);
+    let force = |joint: &mut Joint, dt: f64| {
+        let (out, trial) = joint.at([0.0; 6], [0.6, 0.0, 0.0, 0.0, 0.0, 0.0], [0.0; 3], Some(dt));
+        joint.state = trial;
+        out.wrench[0][0]
+    };
+    let at_once = force(&mut joint, 1e-9);
+    assert!((at_once - 500.0).abs() < 1e-3, "{at_once}");
+    let mut last = 0.0;
+    for _ in 0..1000 {
+        last = force(&mut joint, 0.008);
+    }
+    // after 8 s: 400 + 100 / e; the curve is given to eight figures, and 1000 steps of second order
+    assert!((last - (400.0 + 100.0 / std::f64::consts::E)).abs() < 1e-2, "{last}");
+    // in a rotation the same numbers are N m/rad
+    let turned = Joint::between(&format!("{VISCOUS}\n~C GSPR RX 1000 -CONVOLUTION RX SOFT"));
+    let (out, _) = turned.at([0.0; 6], [0.0, 0.0, 0.0, 0.6, 0.0, 0.0], [0.0; 3], None);
+    near(&out.wrench[0].as_slice()[3..4], &[400.0]);
+}
+
+#[test]
+fn a_curve_in_feet_is_a_moment_per_radian_in_feet_where_it_acts_in_a_rotation() {
+    let (mut session, _, _folder) = common::session();
+    let records = "&DATA CONVOLUTION TIME SOFT 0 5 10 2\nMEDIT\n&DESCRIBE BODY ONE\n*A 0 0 0\n~C GSPR RX 2 -CONVOLUTION RX SOFT\n\
+                   CONNECTOR IT ~C *A\nEND";
+    session.open("records", records);
+    session.run();
+    let model = &session.job.model;
+    let connector = model.connectors.values().next().unwrap();
+    let ends = [Pose::of(&Place::new([0.0, 0.0, 0.0, 0.1, 0.0, 0.0])), Pose::default()];
+    let surroundings = model.surroundings();
+    let curve = |name: &str| model.curves.get(&Model::key(name));
+    let made = Connection {
+        connector,
+        ends,
+        to_ground: true,
+        placement: Placement::default(),
+        curve: &curve,
+        surroundings: &surroundings,
+        ambient: None,
+        duty: LineDuty::default(),
+    };
+    let element = model.classes.values().next().unwrap().object.element(&made).unwrap();
+    let at = Situation { ends: &ends.map(End::still), step: None, surroundings: &surroundings };
+    let summary = element.summary(&at, &vec![0.0; element.states()]).unwrap();
+    // 2 kip ft/rad twice in series, turned by 0.1 rad: 0.1 kip ft
+    near(&[summary.springs[0].force / (4448.2216152605 * 0.3048)], &[-0.1]);
+}
+
+#[test]
+fn the_report_has_deflections_forces_and_the_largest_share_of_an_allowable() {
+    let joint = Joint::between("~C FOUNDATION COMPRESSION X 1000 500 Y 200 50 Z 300 -IG_STIFF");
+    let told = joint.summary([0.0; 6], [-0.1, 0.3, 0.2, 0.0, 0.0, 0.0]);
+    assert_eq!(told.tension, Some(-100.0));
+    near(&[told.ratio.unwrap()], &[1.2]);
+    let list: Vec<(&str, f64, f64)> = told.springs.iter().map(|s| (s.dof.as_str(), s.deflection, s.force)).collect();
+    assert_eq!(list.iter().map(|s| s.0).collect::<Vec<_>>(), ["X", "Y", "Z"]);
+    near(&[list[1].1, list[1].2], &[0.3, 60.0]);
+    assert!(told.notes[0].contains("beyond its allowable"));
+    assert!(!joint.element.rigid());
+    assert!(joint.session.job.model.classes.values().all(|c| c.object.foundation() && c.ignored_stiffness));
+}
+
+/// An upright cone of 1 m, mouth 0.8 m, for a pin of 0.4 m: T = 0.2; the pin is the first end, the cone the second.
+const LMU: &str = "~C LMU 1000 400 800 X 5000 Y 3000";
+
+fn pin(x: f64, down: f64) -> [f64; 3] {
+    let joint = Joint::between(LMU);
+    let (out, _) = joint.at([x, 0.0, -down, 0.0, 0.0, 0.0], [0.0; 6], [0.0; 3], None);
+    [out.wrench[0][0], out.wrench[0][1], out.wrench[0][2]]
+}
+
+#[test]
+fn a_pin_above_the_cone_has_no_force_and_a_centred_one_none_before_it_lands() {
+    near(&pin(0.5, -0.01), &[0.0; 3]);
+    near(&pin(0.0, 0.0), &[0.0; 3]);
+    near(&pin(0.0, 0.999), &[0.0; 3]);
+    near(&pin(0.0, 1.1), &[0.0, 0.0, 500.0]);
+}
+
+#[test]
+fn a_pin_at_the_side_of_the_cone_is_pushed_to_the_axis_and_up() {
+    // D_v 0.4: room 0.2 x 0.6 = 0.12, d = 0.18 - 0.12 = 0.06, c = 0.012
+    near(&pin(0.18, 0.4), &[-180.0, 0.0, 60.0]);
+    near(&pin(-0.18, 0.4), &[180.0, 0.0, 60.0]);
+    near(&pin(0.11, 0.4), &[0.0; 3]);
+    // -SYMMETRIC is the default: across too
+    let joint = Joint::between(LMU);
+    let (out, _) = joint.at([0.0, 0.18, -0.4, 0.0, 0.0, 0.0], [0.0; 6], [0.0; 3], None);
+    near(&out.wrench[0].as_slice()[..3], &[0.0, -180.0, 60.0]);
+}
+
+#[test]
+fn a_landed_pin_is_pushed_up_by_the_bottom_and_by_the_side() {
+    // D_v 1.1, D_h 0.05: d = 0.05, c = 0.1 + 0.01
+    near(&pin(0.05, 1.1), &[-150.0, 0.0, 550.0]);
+}
+
+#[test]
+fn the_cone_turns_with_its_body_and_with_euler() {
+    // body TWO lies on its side: its z axis along global x (a pitch of 90 degrees); the pin comes from +x
+    let joint = Joint::between(LMU);
+    let lying = [0.0, 0.0, 0.0, 0.0, std::f64::consts::FRAC_PI_2, 0.0];
+    let (out, _) = joint.at([-1.1, 0.05, 0.0, 0.0, 0.0, 0.0], lying, [0.0; 3], None);
+    near(&out.wrench[0].as_slice()[..3], &[550.0, -150.0, 0.0]);
+    let euler = Joint::new(LMU, "-EULER 0 90 0 ~C *A *B");
+    let (out, _) = euler.at([-1.1, 0.05, 0.0, 0.0, 0.0, 0.0], [0.0; 6], [0.0; 3], None);
+    near(&out.wrench[0].as_slice()[..3], &[550.0, -150.0, 0.0]);
+}
+
+#[test]
+fn a_pin_that_enters_beside_the_mouth_is_warned_of() {
+    let joint = Joint::between(LMU);
+    assert!(joint.summary([0.3, 0.0, 0.0, 0.0, 0.0, 0.0], [0.0; 6]).notes[0].contains("outside of the cone's mouth"));
+    assert!(joint.summary([0.15, 0.0, 0.0, 0.0, 0.0, 0.0], [0.0; 6]).notes.is_empty());
+}
+
+#[test]
+fn slings_and_davits_pull_with_ae_over_l_and_never_push() {
+    // 50 mm: A = 1.9634954E-3 m2; E 2E5 MPa: AE/L = 3.9269908E8 / 5; the ends 5.1 m apart along (0.6, 0, -0.8)
+    for kind in ["SLING", "DAVIT"] {
+        let joint = Joint::new(&format!("~C {kind} 50 -LEN 5 -EMOD 2E5"), "~C *A");
+        let force = std::f64::consts::FRAC_PI_4 * 0.0025 * 2e11 / 5.0 * 0.1;
+        near(&joint.pull([3.06, 0.0, -4.08]), &[0.6 * force, 0.0, -0.8 * force, 0.0, 0.0, 0.0]);
+        near(&joint.pull([2.9, 0.0, -4.0]), &[0.0; 6]);
+        near(&joint.pull([0.0; 3]), &[0.0; 6]);
+    }
+}
+
+#[test]
+fn a_roller_pushes_beyond_its_gaps_and_lets_the_pipe_free_within() {
+    let joint = Joint::new("~C ROLLER Y 1000 Z 2000 -Y_ROLLER 20 30 -Z_ROLLER 0 10000", "~C *A");
+    near(&joint.pull([0.0, 0.03, 5.0])[..3], &[0.0; 3]);
+    // on the node: pressed down by the pipe 0.1 m below it; beside: 0.05 beyond +30 mm, 0.05 beyond -20 mm
+    near(&joint.pull([0.3, 0.08, -0.1])[..3], &[0.0, 50.0, -200.0]);
+    near(&joint.pull([0.0, -0.07, 0.1])[..3], &[0.0, -50.0, 0.0]);
+    // one pair alone: the other direction is free
+    let sides = Joint::new("~C ROLLER Y 1000 Z 2000 -Y_ROLLER 20 30", "~C *A");
+    near(&sides.pull([0.0, 0.08, -0.1])[..3], &[0.0, 50.0, 0.0]);
+}
+
+#[test]
+fn a_roller_without_gaps_holds_the_pipe_sideways_and_from_below_with_its_curves_in_series() {
+    let joint = Joint::new("~C ROLLER X 1", "~C *A");
+    near(&joint.pull([0.0, 1e-3, 0.1])[..3], &[0.0, 1e6, 0.0]);
+    near(&joint.pull([0.0, 0.0, -1e-3])[..3], &[0.0, 0.0, -1e6]);
+    // 1000 N/m and 100 N at 0.1 m: 0.2 m together
+    for (name, at, force) in [("Y", [0.0, 0.2, 0.0], [0.0, 100.0, 0.0]), ("Z", [0.0, 0.0, -0.2], [0.0, 0.0, -100.0])] {
+        let joint = Joint::new(&format!("~C ROLLER Y 1000 Z 1000 -{name}_PY 100 0.1"), "~C *A");
+        near(&joint.pull(at)[..3], &force);
+    }
+}
+
+#[test]
+fn restraints_have_no_force_as_they_were_defined_and_hold_rigidly_from_there() {
+    let records = |class: &str| format!("*AWAY 3 4 5\n{class}");
+    let fix = Joint::new(&records("~C FIX X Z RY"), "~C *A *AWAY");
+    near(&fix.pull([3.0, 4.0, 5.0]), &[0.0; 6]);
+    let got = fix.pull([3.0 + 1e-9, 7.0, 5.0]);
+    assert!((got[0] - 1000.0).abs() < 1.0 && got[1] == 0.0, "{got:?}");
+    let all = Joint::new(&records("~C FIX"), "~C *A *AWAY");
+    let (got, _) = all.at([0.0; 6], [3.0, 4.0, 5.0, 1e-9, 0.0, 0.0], [0.0; 3], None);
+    assert!((got.wrench[0][3] - 1000.0).abs() < 1.0, "{}", got.wrench[0]);
+    let spr = Joint::new(&records("~C SPR X 1000 RZ 50"), "~C *A *AWAY");
+    near(&spr.pull([3.1, 4.0, 5.0])[..3], &[100.0, 0.0, 0.0]);
+    assert!(fix.element.rigid() && spr.element.rigid());
+}
+
+#[test]
+fn a_gap_pushes_sticks_slides_and_lets_go() {
+    let mut gap = Joint::between("~C GAP 0.3");
+    near(&gap.pull([1e-3, 0.2, 0.0]), &[0.0; 6]);
+    // pressed by 1E6 N: sticks up to 3E5 N, 0.3 um; then slides, and the force stays
+    near(&gap.pull([-1e-6, 2e-7, 0.0])[..3], &[-1e6, 2e5, 0.0]);
+    let slid = [-1e-6, 0.0, 0.5, 0.0, 0.0, 0.0];
+    let (out, trial) = gap.at([0.0; 6], slid, [0.0; 3], Some(0.1));
+    near(&out.wrench[0].as_slice()[..3], &[-1e6, 0.0, 3e5]);
+    // from where it slid to, 0.2 um back: 2E5 N less
+    gap.state = trial;
+    near(&gap.pull([-1e-6, 0.0, 0.5 - 2e-7])[..3], &[-1e6, 0.0, 1e5]);
+    let smooth = Joint::between("~C GAP");
+    near(&smooth.pull([-1e-6, 0.5, 0.0])[..3], &[-1e6, 0.0, 0.0]);
+}
+
+#[test]
+fn a_tug_pulls_with_its_force_toward_its_direction() {
+    let joint = Joint::new("~C TUG_BOAT 500", "-TUG 60 100 ~C *A");
+    let (out, _) = joint.at([1.0, 2.0, 3.0, 0.1, 0.2, 0.3], [0.0; 6], [0.0; 3], None);
+    near(out.wrench[0].as_slice(), &[250.0, 500.0 * 0.75_f64.sqrt(), 0.0, 0.0, 0.0, 0.0]);
+    assert!(out.stiffness.iter().all(|k| k.amax() == 0.0));
+}

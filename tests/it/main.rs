@@ -1,0 +1,82 @@
+//! What goes through records: the program as its user meets it.
+
+mod common;
+
+/// The terminal, files and wrong input.
+mod program {
+    mod command_line;
+    mod disk_full;
+    mod editor;
+    mod file_names;
+    mod film;
+    mod hostile;
+    mod lines;
+    mod menus;
+    mod names;
+    mod never_panics;
+    mod picture;
+    mod varied;
+}
+
+/// Springs, lines, pipes: forces and laws.
+mod connectors {
+    mod along;
+    mod closed_form_lines;
+    mod connector_closed_form;
+    mod element_laws;
+    mod laws;
+    mod lift;
+    mod line_classes;
+    mod line_types;
+    mod lmu_stages;
+    mod pipe;
+    mod pipe_under_way;
+    mod pistons;
+    mod pushing;
+    mod rod_events;
+    mod rod_growth;
+    mod rod_judged;
+    mod rod_loads;
+    mod rod_modes;
+    mod rod_program;
+    mod rod_restart;
+    mod rod_sections;
+    mod rod_slope;
+    mod rod_tethers;
+    mod seed_001_classes;
+    mod springs_closed_form;
+}
+
+/// Loads on bodies, equilibrium, stiffness.
+mod bodies {
+    mod ambient;
+    mod bodies;
+    mod equilibrium;
+    mod excursion;
+    mod far_starts;
+    mod members;
+    mod moorpy_equilibrium;
+    mod moving_streams;
+    mod piece_loads;
+    mod seed_003_platform;
+    mod side_by_side;
+    mod steady_loads;
+}
+
+/// Frequency domain and time domain.
+mod time {
+    mod drift_in_time;
+    mod foretold_steps;
+    mod frequency;
+    mod members_under_way;
+    mod prcpost;
+    mod prescribed;
+    mod time_domain;
+    mod time_runs;
+}
+
+/// AQWA decks run by the session.
+mod aqwa {
+    mod aqwa_decks;
+    mod seed_003_fatigue;
+}

@@ -1,0 +1,150 @@
+//! Pictures: what is drawn stands where the model says, and what cannot be drawn is said.
+
+#![allow(clippy::unwrap_used)]
+
+use crate::common;
+
+use common::session;
+use windlass_model::{Condition, Model};
+use windlass_solve::scene::{Choice, Scene, Sign, Stroke};
+
+const MOORING: &str = "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n&DESCRIBE BODY BARGE\n*BOW 0 0 5\n*STERN 100 0 5\n&INSTATE -CONDITION 0\n\
+    ~W B_CAT 100 EXACT -LEN 700 -DEP 120 -BUOY 0 -WTPL 0.5\n\
+    CONNECTOR A -ANC 120 600 ~W *BOW\nCONNECTOR B -ANC 0 650 ~W *STERN\nEND\n";
+
+fn run(text: &str) -> (Model, Vec<String>, String, tempfile::TempDir) {
+    let (mut session, screen, folder) = session();
+    session.open("script", text.to_string());
+    session.run();
+    let reports = session.reports.iter().map(|r| r.message.clone()).collect();
+    (session.job.model.clone(), reports, screen.text(), folder)
+}
+
+fn scene(model: &Model) -> (Scene, usize) {
+    let choice = Choice { connector: &|_| true, body: &|_| true, stop: &|| false };
+    let (scene, unshaped) = Scene::of(model, &choice).unwrap();
+    (scene, unshaped.len())
+}
+
+#[test]
+fn a_drawn_line_passes_from_its_fairlead_through_its_touchdown_to_its_anchor_and_lies_in_one_plane() {
+    let (model, reports, ..) = run(MOORING);
+    assert!(reports.is_empty(), "{reports:?}");
+    let (scene, unshaped) = scene(&model);
+    assert_eq!((unshaped, scene.bottom), (0, Some(-120.0)));
+    let path = scene.paths.iter().find(|p| p.name == "A").unwrap();
+    assert_eq!((path.stroke, path.points[0]), (Stroke::Line, [0.0, 0.0, 5.0]));
+    // 600 m toward 120 degrees
+    let anchor = [-300.0, 600.0 * 0.75f64.sqrt(), -120.0];
+    let near = |a: [f64; 3], b: [f64; 3], within: f64| a.iter().zip(b).all(|(p, q)| (p - q).abs() < within);
+    assert!(near(*path.points.last().unwrap(), anchor, 1e-6), "{:?}", path.points.last());
+    let touchdown = scene.marks.iter().find(|m| m.sign == Sign::Touchdown).unwrap().at;
+    assert!(path.points.iter().any(|p| near(*p, touchdown, 1e-9)));
+    assert!((touchdown[2] + 120.0).abs() < 1e-6);
+    for [x, y, z] in &path.points {
+        assert!((y + x * 3f64.sqrt()).abs() < 1e-6 && *z > -120.000_001);
+    }
+}
+
+#[test]
+fn points_drawn_between_the_rows_of_a_shape_lie_on_the_line() {
+    // beside the seabed the hanging part is a catenary: z - z0 = a (cosh((x - x0) / a) - 1) with a = H / w but for its
+    // elastic stretch, which a stiff line has little of. A cubic over the arc h between two rows is off by h^4 / 384 of
+    // the fourth derivative of z = sqrt(a^2 + s^2) by the arc s, at most 3 / a^3
+    let (model, ..) = run(&MOORING.replace("-WTPL 0.5", "-WTPL 0.5 -EMOD 1E9"));
+    let (scene, _) = scene(&model);
+    let path = scene.paths.iter().find(|p| p.name == "B").unwrap();
+    let connector = &model.connectors["B"];
+    let line = model.classes["~W"].object.line(&model.placement(connector), &model.surroundings()).unwrap();
+    let table = line.geometry("B", Condition::Placed).unwrap();
+    let force = line.configuration(Condition::Placed).unwrap().horizontal;
+    let a = force / 500.0;
+    let bound = 3.0 * (700.0f64 / 10.0).powi(4) / (384.0 * a.powi(3));
+    let touchdown = table.facts.iter().find(|f| f.0 == "Touchdown at X").unwrap();
+    let x0 = 100.0 + touchdown.1.number().unwrap();
+    let hanging: Vec<_> = path.points.iter().filter(|p| p[0] < x0).collect();
+    assert!(hanging.len() > 20, "{}", hanging.len());
+    for [x, _, z] in hanging {
+        let want = a * (((x0 - x) / a).cosh() - 1.0) - 120.0;
+        assert!((z - want).abs() < bound, "at {x}: {z}, the catenary {want}");
+    }
+}
+
+#[test]
+fn a_line_without_a_solution_is_dashed_and_named() {
+    let (model, reports, screen, _) =
+        run(&MOORING.replace("END\n", "~T B_CAT 100 EXACT -LEN 700 -DEP 1 -BUOY 0 -WTPL 0.5\n*LOW 50 0 -3\nCONNECTOR C -ANC 90 600 ~T *LOW\nEND\n&PICTURE PLAN\n"));
+    let (scene, unshaped) = scene(&model);
+    assert_eq!(unshaped, 1);
+    assert_eq!(scene.paths.iter().find(|p| p.name == "C").unwrap().stroke, Stroke::Unsolved);
+    assert!(reports.iter().any(|r| r.contains("C: dashed between its ends")), "{reports:?}");
+    assert!(screen.contains("Plan"));
+}
+
+#[test]
+fn what_cannot_be_drawn_is_said() {
+    for (record, message) in [
+        ("&PICTURE PLAN NOBODY", "nothing among what can be drawn is called NOBODY"),
+        ("&PICTURE ASKEW", "nothing among what can be drawn is called ASKEW"),
+        ("&PICTURE PLAN -FROM 20", "-FROM goes with"),
+        ("&PICTURE TOP -EXAGGERATE 2", "no heights"),
+        ("&PICTURE -FILE a.jpg", "ends in .svg or .png"),
+        ("&PICTURE -FILE a.svg -FORMAT PNG", "does not end in .png"),
+        ("&PICTURE -FORMAT TERMINAL -HARD", "goes to no file"),
+    ] {
+        let (_, reports, _, folder) = run(&format!("{MOORING}{record}\n"));
+        assert!(reports.iter().any(|r| r.contains(message)), "{record}: {reports:?}");
+        let files = std::fs::read_dir(folder.path().join("job.ans")).map_or(0, |d| {
+            d.flatten().filter(|e| e.path().extension().is_some_and(|x| x == "svg" || x == "png")).count()
+        });
+        assert_eq!(files, 0, "{record}");
+    }
+    assert!(run("&PICTURE\n").1.iter().any(|r| r.contains("nothing to draw")));
+}
+
+#[test]
+fn files_are_the_same_twice_and_hold_names_and_a_round_scale() {
+    let drawn = || {
+        let (_, reports, _, folder) = run(&format!("{MOORING}&PICTURE -HARD\n&PICTURE ISO -FORMAT PNG\n"));
+        assert!(reports.is_empty(), "{reports:?}");
+        let read = |name: &str| std::fs::read(folder.path().join("job.ans").join(name)).unwrap();
+        (read("FIGURE1.svg"), read("FIGURE2.png"))
+    };
+    let (svg, png) = drawn();
+    assert_eq!((svg.clone(), png.clone()), drawn());
+    let svg = String::from_utf8(svg).unwrap();
+    for text in
+        ["Plan", "Elevation, seen from -Y", "BARGE", "*STERN", "water surface", "sea bottom", "200 m", "touchdown"]
+    {
+        assert!(svg.contains(text), "{text} is missing");
+    }
+    assert!(png.starts_with(b"\x89PNG"));
+}
+
+#[test]
+fn a_line_that_moves_by_itself_is_drawn_by_its_nodes_at_rest() {
+    let rod = MOORING
+        .replace("B_CAT 100 EXACT", "ROD 100 50 -EI 0 -REFINE 140")
+        .replace("-WTPL 0.5", "-WTPL 0.5 -SEABED 1E4");
+    let [exact, drawn] = [MOORING, &rod].map(|records| {
+        let (model, reports, ..) = run(records);
+        assert!(reports.is_empty(), "{reports:?}");
+        let (scene, unshaped) = scene(&model);
+        assert_eq!(unshaped, 0);
+        scene.paths.into_iter().find(|p| p.name == "B").unwrap()
+    });
+    assert_eq!((drawn.stroke, drawn.points.len()), (Stroke::Line, 141));
+    // every node lies by the line that hangs as heavy, within what a mesh of 5 m and a soft bottom make of it
+    for point in &drawn.points {
+        let near = |p: &[f64; 3]| p.iter().zip(point).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
+        let across = exact.points.windows(2).map(|w| {
+            let along: Vec<f64> = w[1].iter().zip(&w[0]).map(|(b, a)| b - a).collect();
+            let square: f64 = along.iter().map(|v| v * v).sum();
+            let dot: f64 = along.iter().zip(point.iter().zip(&w[0])).map(|(d, (p, a))| d * (p - a)).sum();
+            let t = (dot / square.max(1e-12)).clamp(0.0, 1.0);
+            near(&[0, 1, 2].map(|i| w[0][i] + t * along[i]))
+        });
+        let apart = across.fold(f64::MAX, f64::min).sqrt();
+        assert!(apart < 0.3, "{point:?}: {apart}");
+    }
+}
