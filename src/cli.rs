@@ -1,5 +1,6 @@
 //! The command line: what is run, from where, and the exit code.
 
+use crate::command::verdict::{OverBreak, Verdict};
 use crate::repl;
 use crate::report::files::JobFolder;
 use crate::report::output::Output;
@@ -9,10 +10,40 @@ use std::io::{BufWriter, IsTerminal, Write, stderr, stdin, stdout};
 use std::path::{Path, PathBuf};
 use windlass_language::source::Text;
 
+/// What stands at the end of `--help`.
+const EXIT_CODES: &str = "\
+Exit codes:
+  0    done
+  1    a record was wrong, or a result was asked for and there is none
+  2    wrong use of the command line
+  3    all results are there, but in a final state that was asked for (&EQUI, &STATUS F_CONNECTOR,
+       TDOM without an action that releases the line) a tension exceeds a break that was given
+  130  interrupted
+
+A ROOT with the name of a command (run, check, study, ...) is written ./ROOT or ROOT.cif.";
+
 /// A command interpreter for marine mooring analysis, in the style of MOSES.
 #[derive(Parser, Debug)]
-#[command(name = "windlass", version, about)]
+#[command(name = "windlass", version, about, after_help = EXIT_CODES)]
+#[command(args_conflicts_with_subcommands = true, disable_help_subcommand = true)]
 pub struct Cli {
+    /// A command; without one the job is run.
+    #[command(subcommand)]
+    pub command: Option<Subcommand>,
+    /// The job.
+    #[command(flatten)]
+    pub job: JobArgs,
+    /// Prints the man page.
+    #[arg(long, hide = true)]
+    pub man: bool,
+    /// Prints the completions of a shell.
+    #[arg(long, hide = true, value_name = "SHELL")]
+    pub completions: Option<String>,
+}
+
+/// What windlass is told to run, and how.
+#[derive(clap::Args, Debug)]
+pub struct JobArgs {
     /// A script (model.cif), an AQWA deck (tow.dat), a ROOT (runs ROOT.cif, then the terminal), or - for standard input
     pub job: Option<String>,
     /// What cannot be taken besides the job
@@ -35,6 +66,63 @@ pub struct Cli {
     pub allow_files: bool,
 }
 
+/// The words that stand for a command of windlass and for no ROOT.
+#[derive(clap::Subcommand, Debug)]
+pub enum Subcommand {
+    /// Run a job; the word may be left out
+    #[command(after_help = EXIT_CODES)]
+    Run(JobArgs),
+    /// Checks scripts without running them.
+    #[command(hide = true)]
+    Check(Words),
+    /// Runs a table of cases.
+    #[command(hide = true)]
+    Study(Words),
+    /// Runs the verification cases.
+    #[command(hide = true)]
+    Verify(Words),
+    /// Opens the answers of a job.
+    #[command(hide = true)]
+    Open(Words),
+    /// Makes a report of a job.
+    #[command(hide = true)]
+    Report(Words),
+    /// Formats scripts.
+    #[command(hide = true)]
+    Fmt(Words),
+    /// Serves an editor.
+    #[command(hide = true)]
+    Lsp(Words),
+    /// Writes the manual.
+    #[command(hide = true)]
+    Manual(Words),
+}
+
+/// Whatever follows a command that this version does not have.
+#[derive(clap::Args, Debug)]
+#[command(disable_help_flag = true)]
+pub struct Words {
+    /// The words.
+    #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+    pub words: Vec<String>,
+}
+
+impl Subcommand {
+    fn name(&self) -> &'static str {
+        match self {
+            Subcommand::Run(_) => "run",
+            Subcommand::Check(_) => "check",
+            Subcommand::Study(_) => "study",
+            Subcommand::Verify(_) => "verify",
+            Subcommand::Open(_) => "open",
+            Subcommand::Report(_) => "report",
+            Subcommand::Fmt(_) => "fmt",
+            Subcommand::Lsp(_) => "lsp",
+            Subcommand::Manual(_) => "manual",
+        }
+    }
+}
+
 /// Where records come from.
 enum Input {
     /// All records of `-c`, one a line.
@@ -47,15 +135,63 @@ enum Input {
     Terminal,
 }
 
-/// Runs the program; returns the exit code: 0, 1 (an error in the records), 2 (usage).
+/// Exit code of a wrong use of the command line.
+const USAGE: u8 = 2;
+/// Exit code of a job with a tension beyond a break.
+const OVER_BREAK: u8 = 3;
+/// Exit code of a job that was interrupted.
+const INTERRUPTED: u8 = 130;
+
+/// Runs the program; returns the exit code, as `--help` lists them.
 pub fn run(cli: Cli) -> u8 {
+    match job(cli) {
+        Ok(job) => run_job(job),
+        Err(text) => {
+            complain(&text);
+            USAGE
+        }
+    }
+}
+
+/// A line on the message stream; nothing else can be done when it is gone.
+fn complain(text: &str) {
+    let _ = writeln!(stderr(), "windlass: {text}");
+}
+
+/// The job to run, of what stands on the command line.
+fn job(cli: Cli) -> Result<JobArgs, String> {
+    if cli.man {
+        return Err("--man is not in this version".into());
+    }
+    if cli.completions.is_some() {
+        return Err("--completions is not in this version".into());
+    }
+    let Some(command) = cli.command else { return Ok(cli.job) };
+    let name = command.name();
+    match command {
+        Subcommand::Run(job) if job.job.is_some() || !job.commands.is_empty() => Ok(job),
+        Subcommand::Run(_) => Err(format!("run needs a JOB: a script, a deck, or a ROOT{}", namesake(name))),
+        _ => Err(format!("{name} is not in this version{}", namesake(name))),
+    }
+}
+
+/// How to run a ROOT that has the name of a command, where there is one.
+fn namesake(name: &str) -> String {
+    match script_of_root(Path::new(name)) {
+        Some(script) => {
+            format!("; the script {} has its name: write `./{name}` or `{}`", script.display(), script.display())
+        }
+        None => String::new(),
+    }
+}
+
+fn run_job(cli: JobArgs) -> u8 {
     let terminal = stdin().is_terminal();
     let (input, root) = match input(&cli, terminal) {
         Ok(found) => found,
         Err(text) => {
-            // nothing else can be done when the message stream is gone
-            let _ = writeln!(stderr(), "windlass: {text}");
-            return 2;
+            complain(&text);
+            return USAGE;
         }
     };
     let colour = stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty());
@@ -82,14 +218,52 @@ pub fn run(cli: Cli) -> u8 {
         Input::Terminal => (End::Done, true),
     };
     session.job.output.flush();
-    let script_errors = session.errors;
+    let of_script = exit_code(&session);
     if stay && (end != End::Finished || cli.interactive) {
         repl::run(&mut session, terminal);
     }
     session.finish();
     session.job.output.flush();
-    let failed = if terminal && stay { script_errors > 0 } else { session.errors > 0 };
-    u8::from(failed)
+    // what a person saw at the terminal is not said again
+    let code = if terminal && stay { of_script } else { exit_code(&session) };
+    match code {
+        OVER_BREAK => complain(&over_break(&session.job.verdict)),
+        1 if session.errors == 0 => complain("a result that was asked for does not exist: the warnings say why"),
+        _ => {}
+    }
+    code
+}
+
+fn exit_code(session: &Session) -> u8 {
+    let verdict = &session.job.verdict;
+    if session.interpreter.was_interrupted {
+        INTERRUPTED
+    } else if session.errors > 0 || verdict.absent > 0 {
+        1
+    } else if verdict.over_break.is_empty() {
+        0
+    } else {
+        OVER_BREAK
+    }
+}
+
+/// Connectors named for a tension beyond their break.
+const MOST_NAMED: usize = 5;
+
+/// The largest tensions over break, one a connector.
+fn over_break(verdict: &Verdict) -> String {
+    let mut list: Vec<&OverBreak> = verdict.over_break.iter().collect();
+    list.sort_by(|a, b| b.ratio.total_cmp(&a.ratio));
+    let mut named: Vec<&OverBreak> = Vec::new();
+    for over in list {
+        if !named.iter().any(|n| n.connector.eq_ignore_ascii_case(&over.connector)) {
+            named.push(over);
+        }
+    }
+    let more = named.len().saturating_sub(MOST_NAMED);
+    let one = |o: &&OverBreak| format!("{} at {:.3} of its break ({})", o.connector, o.ratio, o.command);
+    let text = named.iter().take(MOST_NAMED).map(one).collect::<Vec<_>>().join(", ");
+    format!("tension beyond the break: {text}{}", if more > 0 { format!(" and {more} more") } else { String::new() })
 }
 
 /// Columns of standard output when it is a terminal; one that does not tell has 80.
@@ -98,7 +272,7 @@ fn screen_columns() -> Option<usize> {
     stdout().is_terminal().then(|| size().map(|(width, _)| usize::from(width.0)).filter(|w| *w > 0).unwrap_or(80))
 }
 
-fn input(cli: &Cli, terminal: bool) -> Result<(Input, PathBuf), String> {
+fn input(cli: &JobArgs, terminal: bool) -> Result<(Input, PathBuf), String> {
     let here = PathBuf::from("windlass");
     if !cli.commands.is_empty() {
         if let Some(job) = &cli.job {
@@ -125,14 +299,9 @@ fn input(cli: &Cli, terminal: bool) -> Result<(Input, PathBuf), String> {
     if path.is_dir() {
         return Err(format!("{job} is a folder"));
     }
-    for end in ["cif", "CIF"] {
-        let mut name = path.as_os_str().to_os_string();
-        name.push(format!(".{end}"));
-        let script = PathBuf::from(name);
-        if script.is_file() {
-            let text = crate::session::read_text(&script)?;
-            return Ok((Input::Script { name: script.display().to_string(), text, then_terminal: true }, path.into()));
-        }
+    if let Some(script) = script_of_root(path) {
+        let text = crate::session::read_text(&script)?;
+        return Ok((Input::Script { name: script.display().to_string(), text, then_terminal: true }, path.into()));
     }
     if path.extension().is_some() || !terminal {
         let script = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("cif"));
@@ -142,6 +311,16 @@ fn input(cli: &Cli, terminal: bool) -> Result<(Input, PathBuf), String> {
         ));
     }
     Ok((Input::Terminal, path.into()))
+}
+
+/// The script of a ROOT, where there is one.
+fn script_of_root(root: &Path) -> Option<PathBuf> {
+    let with = |end: &str| {
+        let mut name = root.as_os_str().to_os_string();
+        name.push(end);
+        PathBuf::from(name)
+    };
+    [".cif", ".CIF"].map(with).into_iter().find(|script| script.is_file())
 }
 
 fn standard_input() -> Result<Input, String> {

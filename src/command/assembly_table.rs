@@ -1,6 +1,5 @@
 //! `&STATUS ASSEMBLIES`: where hooks are and what their lines bear.
 
-use super::chosen::WARNING;
 use super::status::push;
 use nalgebra::Vector3;
 use windlass_base::table::{Cell, Digits, Table};
@@ -54,7 +53,7 @@ fn pipe(model: &Model, assembly: &Assembly, units: UnitSystem) -> Table {
     let mut forces = match found {
         Ok(found) => found.map(|(forces, _)| forces).unwrap_or_default(),
         Err(error) => {
-            table.note(format!("{WARNING}{}: {}", assembly.name, error.text(units)));
+            table.note_absent(format!("{}: {}", assembly.name, error.text(units)));
             Vec::new()
         }
     }
@@ -110,7 +109,7 @@ fn rows(table: &mut Table, model: &Model, assembly: &Assembly, units: UnitSystem
         match connector.active.then(|| borne(model, connector)) {
             Some(Ok(summary)) => row.extend([summary.tension.into(), summary.ratio.into()]),
             Some(Err(error)) => {
-                table.note(format!("{WARNING}{name}: {}", error.text(units)));
+                table.note_absent(format!("{name}: {}", error.text(units)));
                 row.extend([Cell::Missing, Cell::Missing]);
             }
             None => row.extend([Cell::Missing, Cell::Missing]),

@@ -111,7 +111,7 @@ pub fn hydrostatics(model: &Model, fits: Fits, units: UnitSystem) -> Vec<Table> 
             of_body(model, body).unwrap_or_else(|error| {
                 let mut table = text(Table::new(format!("Hydrostatics of {}", body.name)), "Quantity");
                 push(&mut table, vec!["none".into()]);
-                table.note(format!("{WARNING}{}: {}", body.name, error.text(units)));
+                table.note_absent(format!("{}: {}", body.name, error.text(units)));
                 vec![table]
             })
         })

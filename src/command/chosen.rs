@@ -101,6 +101,7 @@ pub const WARNING: &str = "warning: ";
 
 /// Raises the warnings among the notes of a table at once: they concern all of it, whatever is then printed of it.
 pub fn raise(job: &mut Job, table: &Table, span: Span) {
+    job.verdict.absent += table.absent;
     let warnings = table.notes.iter().filter_map(|n| n.strip_prefix(WARNING));
     warnings.for_each(|text| job.warn(text, span));
 }

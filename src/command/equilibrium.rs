@@ -13,7 +13,7 @@ use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::Given;
 use windlass_base::values::Noun;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
-use windlass_model::{Model, find};
+use windlass_model::{Model, Summary, find};
 use windlass_solve::results::along::cautions;
 use windlass_solve::{FREEDOMS, Options, SolveError, settle, tables};
 
@@ -129,6 +129,11 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let settled = settle(&mut job.model, &options).map_err(|e| told(e, &job.model, call.args.span, job.units))?;
     let forces = tables::by_category(&settled.system, &settled.state, &|_| true)
         .map_err(|e| told(e, &job.model, call.args.span, job.units))?;
+    for (name, summary) in settled.system.summaries(&settled.state) {
+        if let Ok(Summary { ratio, critical, .. }) = summary {
+            job.verdict.take(&job.model, name, ratio, critical, "&EQUI");
+        }
+    }
     job.equilibrium = Options { ignored: Vec::new(), ..options };
     let list = [tables::rest(&job.model, &settled), forces, tables::periods(&settled.system, &settled.state)];
     let head = job.page_head();

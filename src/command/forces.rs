@@ -2,6 +2,7 @@
 
 use super::chosen::{WARNING, gathered};
 use super::status::push;
+use super::verdict::Verdict;
 use windlass_base::pose::Six;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
@@ -18,8 +19,8 @@ struct Found {
 }
 
 /// One row a connector, and a second table with the springs of those that have some. Those that are inactive or without a
-/// solution have no forces.
-pub fn forces(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem) -> Vec<Table> {
+/// solution have no forces. Tensions beyond a break go to `verdict`.
+pub fn forces(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem, verdict: &mut Verdict) -> Vec<Table> {
     let mut table = Table::new("Connector Forces")
         .column("", "Name", Dim::None, Digits::Usual)
         .column("", "Class", Dim::None, Digits::Usual)
@@ -47,12 +48,15 @@ pub fn forces(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem) -> 
                     (found.summary.solution, Some(found))
                 }
                 Err(error) => {
+                    table.absent += 1;
                     notes.push((connector.name.clone(), vec![format!("{WARNING}{}", error.text(units))]));
                     ("none", None)
                 }
             },
         };
         if let Some(found) = &found {
+            let Summary { ratio, critical, .. } = found.summary;
+            verdict.take(model, &connector.name, ratio, critical, "&STATUS F_CONNECTOR");
             spring_rows(&mut springs, connector, &found.summary);
         }
         let mut row: Vec<Cell> = vec![connector.name.as_str().into(), connector.class.as_str().into(), solution.into()];
@@ -82,7 +86,10 @@ pub fn foundations(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem
                 }
                 notes.push((connector.name.clone(), std::mem::take(&mut found.summary.notes)));
             }
-            Err(error) => notes.push((connector.name.clone(), vec![format!("{WARNING}{}", error.text(units))])),
+            Err(error) => {
+                table.absent += 1;
+                notes.push((connector.name.clone(), vec![format!("{WARNING}{}", error.text(units))]));
+            }
         }
     }
     table.notes = gathered(&notes);

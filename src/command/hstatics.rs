@@ -174,7 +174,7 @@ fn rarm(job: &mut Job, call: &Call) -> Outcome<Effect> {
             Ok(found) => found,
             Err(error) if n == 0 => return Err(told(error)),
             Err(error) => {
-                table.note(format!("{}{}: {}", super::chosen::WARNING, body.name, error.text(job.units)));
+                table.note_absent(format!("{}: {}", body.name, error.text(job.units)));
                 break;
             }
         };

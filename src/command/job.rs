@@ -4,6 +4,7 @@ use super::bathymetry::Soundings;
 use super::buildg::Building;
 use super::frequency::Found;
 use super::pgen::Planes;
+use super::verdict::Verdict;
 use crate::report::disposition::Disposition;
 use crate::report::files::Place;
 use crate::report::output::Output;
@@ -228,6 +229,8 @@ pub struct Job {
     pub tethered: Option<Tethered>,
     /// The runs that FATIGUE adds up.
     pub scatter: Vec<Exposed>,
+    /// What the exit code is to tell.
+    pub verdict: Verdict,
     /// Set by Ctrl-C: a command that takes long gives up, and the run ends behind it.
     pub interrupt: Arc<AtomicBool>,
 }
@@ -257,6 +260,7 @@ impl Job {
             run: None,
             tethered: None,
             scatter: Vec::new(),
+            verdict: Verdict::default(),
             interrupt: Arc::default(),
         }
     }

@@ -82,6 +82,7 @@ fn lines(job: &mut Job, call: &Call) -> Outcome<Effect> {
     }
     let whole = writer.into_inner().map_err(|e| lost(e.into_error().into()))?;
     whole.finish().map_err(refused)?;
+    job.verdict.absent += usize::try_from(tally.refused).unwrap_or(usize::MAX);
     job.notices.append(&mut tally.warnings);
     if tally.refused > TOLD {
         let text =

@@ -1,7 +1,6 @@
 //! `&STATUS LOADS`: the loads of wind, current and waves that records have put on parts, and what they come to.
 
 use super::Job;
-use super::chosen::WARNING;
 use super::status::push;
 use windlass_base::pose::{Pose, Six};
 use windlass_base::table::{Cell, Digits, Table};
@@ -82,7 +81,7 @@ fn forces(job: &Job, chosen: &dyn Fn(&str) -> bool) -> Table {
                     push(&mut table, row);
                 }
             }
-            Err(error) => table.note(format!("{WARNING}{}: {}", body.name, error.text(job.units))),
+            Err(error) => table.note_absent(format!("{}: {}", body.name, error.text(job.units))),
         }
     }
     table

@@ -84,6 +84,7 @@ mod tether_run;
 mod tether_status;
 mod units;
 mod vary;
+pub mod verdict;
 mod weight;
 mod wind_options;
 mod wind_table;

@@ -9,6 +9,7 @@ use super::forces::{forces, foundations};
 use super::loads_table::loads;
 use super::offsets::offsets;
 use super::prcpost::last_run;
+use super::verdict::Verdict;
 use super::written::{as_written, option_as_written};
 use super::{
     Call, Command, Effect, Job, Menu, bathymetry, body_status, body_tables, database_table, fatigue_table, line_types,
@@ -140,11 +141,12 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let model = &job.model;
     let chosen = Chosen::of(call, 1, model);
     let fits = |name: &str| chosen.takes(name);
+    let mut verdict = Verdict::default();
     let tables = match kind {
         "CONFIGURATION" => vec![model_tables::configuration(model, &fits)],
         "CL_FLEX" | "CLASSES" => classes(job, &|class| fits(&class.name)),
         "G_CONNECTOR" => std::iter::once(model_tables::connectors(model, &fits)).chain(offsets(model, &fits)).collect(),
-        "F_CONNECTOR" => forces(model, &fits, job.units),
+        "F_CONNECTOR" => forces(model, &fits, job.units, &mut verdict),
         "FOUNDATION" => vec![foundations(model, &fits, job.units)],
         "ASSEMBLIES" => assemblies(model, &fits, job.units),
         "FORCE" => body_status::forces(job, call, &fits)?,
@@ -176,6 +178,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         _ => vec![model_tables::summary(model)],
     };
     chosen.check(kind, &tables, things(kind))?;
+    job.verdict.over_break.append(&mut verdict.over_break);
     if let Some(given) = args.option("-DISPOSE") {
         let wanted = given.values.first().and_then(|v| v.integer()).unwrap_or(1);
         let index = usize::try_from(wanted - 1).unwrap_or(0);

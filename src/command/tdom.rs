@@ -305,6 +305,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     }
     let head = job.page_head();
     let text = tables.iter().map(|t| page::render(t, job.units, &head)).collect::<Vec<_>>().join("\n");
+    job.verdict.take_run(&made);
     job.run = Some(made);
     job.say(&text);
     let wrong = |e| told(e, &job.model, span, job.units);

@@ -175,6 +175,7 @@ pub fn tabulate(
     }
     table.notes = gathered(&notes);
     table.notes.extend(missing.iter().map(|(text, _)| text.clone()));
+    table.absent = missing.len();
     Ok((table, missing))
 }
 

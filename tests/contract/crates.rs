@@ -1,7 +1,5 @@
 //! The crates: what each may depend on, and what each declares of itself.
 
-#![allow(clippy::unwrap_used)]
-
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::PathBuf;

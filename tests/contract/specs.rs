@@ -1,8 +1,6 @@
 //! What every spec must keep: unique names, abbreviations of MOSES that stay valid, help, examples that run, a golden
 //! script for every command.
 
-#![allow(clippy::unwrap_used)]
-
 use std::fs;
 use windlass::command::{COMMANDS, offered, opened_by};
 use windlass::report::files::JobFolder;

@@ -1,5 +1,7 @@
 //! What goes through records: the program as its user meets it.
 
+#![allow(clippy::unwrap_used)]
+
 mod common;
 
 /// The terminal, files and wrong input.
@@ -48,7 +50,7 @@ mod connectors {
 }
 
 /// Loads on bodies, equilibrium, stiffness.
-mod bodies {
+mod floating {
     mod ambient;
     mod bodies;
     mod equilibrium;

@@ -53,6 +53,8 @@ pub struct Table {
     pub columns: Vec<Column>,
     /// Remarks printed under the rows.
     pub notes: Vec<String>,
+    /// Results that were asked for and could not be found; the remarks say why.
+    pub absent: usize,
 }
 
 /// Why a table operation could not be done.
@@ -130,6 +132,12 @@ impl Table {
     /// Adds a remark.
     pub fn note(&mut self, text: impl Into<String>) {
         self.notes.push(text.into());
+    }
+
+    /// Counts a result that was asked for and could not be found, and warns of the reason.
+    pub fn note_absent(&mut self, reason: impl std::fmt::Display) {
+        self.absent += 1;
+        self.notes.push(format!("warning: {reason}"));
     }
 
     /// Appends a row, one cell a column, SI.

@@ -2,7 +2,7 @@
 //! that moves a body to many places pays for no stiffness.
 
 use super::link::{Attachment, Link, arm, pose_of};
-use super::system::{SolveError, System};
+use super::system::{SolveError, State, System};
 use windlass_base::pose::{Pose, Six};
 use windlass_hydro::carried;
 use windlass_model::{ClassError, End, Guess, Situation, Summary};
@@ -93,12 +93,26 @@ impl Connectors {
     /// # Errors
     /// A connector that has no answer there.
     pub fn summaries(&self, system: &System, poses: &[Pose]) -> Result<Vec<Summary>, SolveError> {
-        let one = |link: &Link| {
-            let ends: Vec<End> = link.ends.iter().map(|end| End::still(pose_of(end, poses))).collect();
-            let committed = system.states.get(link.states.clone()).unwrap_or_default();
-            let at = Situation { ends: &ends, step: None, surroundings: &system.surroundings };
-            link.element.summary(&at, committed).map_err(SolveError::of(&link.name))
-        };
-        self.links(system).map(one).collect()
+        self.links(system).map(|link| summary(system, link, poses)).collect()
     }
+}
+
+impl System {
+    /// What a report tells of each connector with the bodies in the poses of a state: its name first.
+    ///
+    /// # Errors
+    /// Of each connector that has no answer there, why.
+    pub fn summaries<'a>(
+        &'a self,
+        state: &'a State,
+    ) -> impl Iterator<Item = (&'a str, Result<Summary, SolveError>)> + use<'a> {
+        self.links.iter().map(|link| (link.name.as_str(), summary(self, link, &state.poses)))
+    }
+}
+
+fn summary(system: &System, link: &Link, poses: &[Pose]) -> Result<Summary, SolveError> {
+    let ends: Vec<End> = link.ends.iter().map(|end| End::still(pose_of(end, poses))).collect();
+    let committed = system.states.get(link.states.clone()).unwrap_or_default();
+    let at = Situation { ends: &ends, step: None, surroundings: &system.surroundings };
+    link.element.summary(&at, committed).map_err(SolveError::of(&link.name))
 }

@@ -2,7 +2,7 @@
 //!
 //! Where the listings of seed 003 come from something that is no part of the theory, it is a switch here: on when a deck is to give the
 //! numbers of that program ([`Compatibility::aqwa_5_4`]), off natively. What each makes is told of the installed example of seed 003, 8.2,
-//! with that switch alone off (tests/seed_003_installed.rs holds them there).
+//! with that switch alone off (crates/tether/tests/it/seed_003_installed.rs holds them there).
 
 /// How a structure with tethers goes from its two accelerations to the end of a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -3,8 +3,6 @@
 //!
 //! Printed numbers: tests/data/{towed,installed}_tether.json; what can be met: validation/{towed,installed}-tether.md.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common;
 
 use serde_json::Value;

@@ -2,6 +2,8 @@
 
 #[path = "../../../crates/tether/tests/it/installed_example.rs"]
 pub mod installed_example;
+// here the numbers of MoorDyn alone are needed
+#[allow(dead_code)]
 #[path = "../../../crates/line-dynamics/tests/it/moordyn.rs"]
 pub mod moordyn;
 pub mod run;

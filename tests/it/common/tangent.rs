@@ -1,7 +1,5 @@
 //! The tangent of a load on a body, by differences.
 
-#![allow(clippy::unwrap_used)]
-
 use nalgebra::Matrix6;
 use windlass_base::pose::{Pose, Six};
 use windlass_hydro::BodyLoad;

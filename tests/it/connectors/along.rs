@@ -1,7 +1,5 @@
 //! Results along lines that move by themselves: against the catenary, and against themselves kept in other ways.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common::run;
 
 use run::{Quiet, model, settings};

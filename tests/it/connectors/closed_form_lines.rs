@@ -1,8 +1,6 @@
 //! Shapes, sensitivity tables and connector forces as the commands give them, against the closed catenary of a line that
 //! does not stretch, y = H/w (cosh(w x/H) - 1), against AE/L, and against each other.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common;
 
 use std::collections::HashMap;

@@ -1,7 +1,5 @@
 //! `&CONNECTOR` against closed forms of catenaries and springs, and against the forces of the line it leaves.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common;
 
 use windlass_base::units::{FOOT, KIP};

@@ -1,7 +1,5 @@
 //! Laws that the element of every class obeys, whatever its force: a class is under them the day its element exists.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common;
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
@@ -54,7 +52,7 @@ fn cases() -> Vec<Case> {
         connector,
         defined: now,
         now: [now[0], now[1], now[2], 0.0, 0.0, 0.0],
-        // tests/laws.rs has the laws of energy of lines
+        // tests/it/connectors/laws.rs has the laws of energy of lines
         kind: Other,
         balanced: false,
         free: false,
@@ -304,7 +302,7 @@ fn left(element: &dyn Element, bench: &Bench) -> Vec<f64> {
 fn every_class_that_has_an_element_is_under_the_laws() {
     for kind in CLASSES {
         let name = kind.spec.name;
-        // the state of a ROD is where it is in space: below are its laws at rest, in src/rod/tests those of its steps
+        // the state of a ROD is where it is in space: below are its laws at rest, in crates/line-dynamics/src/tests those of its steps
         if name == "ROD" || cases().iter().any(|c| c.class == name) {
             continue;
         }
@@ -329,7 +327,7 @@ fn every_class_that_has_an_element_is_under_the_laws() {
             ambient: None,
             duty: LineDuty::default(),
         });
-        assert!(made.is_err(), "{name} has an element and no case in tests/element_laws.rs");
+        assert!(made.is_err(), "{name} has an element and no case in tests/it/connectors/element_laws.rs");
     }
 }
 

@@ -1,7 +1,5 @@
 //! Laws that every line class obeys, whatever its force: a new one is under them the day it is registered.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common;
 
 use windlass::session::Session;

@@ -4,8 +4,6 @@
 //! newtons. A sling of length L stretched to l has T = EA (l - L) / L. With the hook h above the plane of the nodes
 //! l2 = h2 + 100, and the vertical forces give W = sum of T h / l.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common;
 
 use windlass::session::Session;

@@ -1,8 +1,6 @@
 //! The line classes of the seeds between their ends: forces, stiffness and every option that acts, against numbers not
 //! made here, closed forms and differences.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common;
 
 use windlass::session::Session;

@@ -1,7 +1,5 @@
 //! `-TYPE NAME D`: what a record with a line type of the library amounts to, and what is said of it. The library itself
-//! is tested against catalogues in `src/connector/line_types.rs`.
-
-#![allow(clippy::unwrap_used)]
+//! is tested against catalogues in `crates/connectors/src/line_types.rs`.
 
 use crate::common;
 

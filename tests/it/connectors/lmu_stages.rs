@@ -1,8 +1,6 @@
 //! The set-down of scripts/lmu.cif on four leg mating units: by the formulas of the issue, and beside an independent solution
 //! (tests/data/lmu_stages.py).
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common;
 
 use windlass_model::Model;

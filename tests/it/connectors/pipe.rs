@@ -1,7 +1,5 @@
 //! A pipe on five rollers: the balance of what it exerts on them, its stiffness, its shape against the field's theory.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common;
 
 use windlass::session::Session;

@@ -1,7 +1,5 @@
 //! A pipe on its supports under way: it stays where it rests, its tensioner keeps its limits, rollers do not pull, books add up.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common;
 
 use std::fs;

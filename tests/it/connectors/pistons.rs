@@ -1,7 +1,5 @@
 //! Pistons, dashpots and viscoelastic springs of lines against numbers worked out by hand from the text of seed 001.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common;
 
 use nalgebra::Vector3;

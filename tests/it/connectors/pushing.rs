@@ -1,7 +1,5 @@
 //! Connectors that push are in negative tension wherever a run tells of tension: its statistics, actions and fatigue.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common;
 
 use std::f64::consts::FRAC_PI_4;

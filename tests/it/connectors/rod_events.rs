@@ -1,7 +1,5 @@
 //! What happens to rods during runs of the program, what makes other lines move as rods do, and that a run is always the same.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common;
 use crate::common::run as runs;
 

@@ -1,8 +1,6 @@
 //! Marine growth on lines that move by themselves, at rest and in runs, against closed forms; and an environment that comes with it or
 //! without it while a run goes on.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common;
 use crate::common::run as runs;
 

@@ -1,7 +1,5 @@
 //! What lines that move by themselves are judged by: pressures under waves, both sides of where segments meet, tension at their ends.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common;
 use crate::common::run as runs;
 

@@ -1,8 +1,6 @@
 //! What the options of a line that moves by itself do to its loads, against closed forms: taut lines held at both ends, on which
 //! loads add up.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common;
 
 use nalgebra::Vector3;

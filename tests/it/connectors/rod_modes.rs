@@ -1,7 +1,5 @@
 //! Natural modes of lines through the program, `&STATUS ROD_MODES`, against closed forms.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common;
 
 use std::f64::consts::{FRAC_PI_4, PI};

@@ -1,7 +1,5 @@
 //! Rods as a user has them, by records through the program, against closed forms, the exact catenary and MoorDyn.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common::moordyn;
 use crate::common::run as runs;
 

@@ -1,8 +1,6 @@
 //! Runs with rods that fail: they say when, which line and where on it or what by, keep what they have, and go on with what made them
 //! fail put right.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common;
 
 use std::fs;

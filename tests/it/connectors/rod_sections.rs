@@ -1,8 +1,6 @@
 //! Sections of lines that move by themselves: both sides of a junction, tubes that do not bend, tensions at ends, and the bottom under
 //! them, against closed forms and against the same line laid the other way.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common;
 use crate::common::run as runs;
 

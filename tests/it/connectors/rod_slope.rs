@@ -1,7 +1,5 @@
 //! A line of the class ROD at rest by friction on a bottom that slopes.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common;
 
 /// Lines of a body that is held, of classes ~C and ~B with their anchors toward X and Y, in an environment: warnings that friction of ~C

@@ -1,8 +1,6 @@
 //! Class records of seeds 000/001 and 002 as a user writes them: every option is read and listed back, defaults and
 //! worked examples give the numbers of the text.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common;
 
 use windlass_connectors::CLASSES;

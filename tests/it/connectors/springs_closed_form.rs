@@ -1,7 +1,5 @@
 //! Zero-length classes, slings, rollers, restraints and tugs against numbers worked out by hand from the text of seed 001.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common;
 
 use windlass::session::Session;

@@ -1,7 +1,5 @@
 //! The command line as its user types it: records given with -c, wrong uses, the log.
 
-#![allow(clippy::unwrap_used)]
-
 use std::path::Path;
 use std::process::Command;
 
@@ -96,4 +94,102 @@ fn a_plot_that_goes_to_no_terminal_is_ninety_columns_wide() {
     assert!((88..=90).contains(&widest(&run(&plot).1)));
     let set = run(&["-c", "&DEVICE -PLOT_SIZE 50 12", plot[0], plot[1], plot[2], plot[3]]).1;
     assert!((48..=50).contains(&widest(&set)), "{set}");
+}
+
+/// A barge between two lines of about 760 kN; `line` is their class behind its length, `asked` what is asked of them.
+fn moored(line: &str, asked: &str) -> (Option<i32>, String, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let script = format!(
+        "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n&DESCRIBE BODY RIG\n*CG 0 0 -2\n*F 0 0 -10\n#WEIGHT *CG 20000 8 8 8\n&SURFACE\n\
+         BLOCK HULL -10 -10 -10 10 10 10\nEND_&SURFACE\n\
+         ~C B_CAT {line} -LEN 900 -BUOY 0 -WTPL 1\n\
+         CONNECTOR A -ANC 0 800 ~C *F\nCONNECTOR B -ANC 180 800 ~C *F\nEND\n&ENV -DEPTH 300 -TIME 2 0.5\n{asked}\n"
+    );
+    std::fs::write(folder.path().join("job.cif"), script).unwrap();
+    run_in(folder.path(), &["run", "job.cif"])
+}
+
+/// A chain with a break (kN).
+fn chain(breaking: u32) -> String {
+    format!("100 EXACT -EMOD 50000 -B_TENSION {breaking}")
+}
+
+#[test]
+fn tension_beyond_a_given_break_exits_with_3() {
+    for asked in ["&EQUI", "&STATUS F_CONNECTOR", "TDOM"] {
+        let (code, _, err) = moored(&chain(400), asked);
+        assert_eq!(code, Some(3), "{asked}: {err}");
+        assert!(err.contains("windlass: tension beyond the break: A at 1."), "{asked}: {err}");
+        assert_eq!(moored(&chain(4000), asked).0, Some(0), "{asked}");
+    }
+}
+
+#[test]
+fn break_of_a_bare_diameter_never_exits_with_3() {
+    // steel over 20 mm bears some 150 kN
+    let (code, out, err) = moored("20 EXACT", "&EQUI\n&STATUS F_CONNECTOR");
+    assert!(err.contains("beyond its breaking tension"), "{out}{err}");
+    assert_eq!(code, Some(0), "{err}");
+}
+
+#[test]
+fn sweeps_beyond_a_break_exit_with_0() {
+    for asked in [
+        "CONN_DESIGN\nTABLE A\nEND\nEND",
+        "CONN_DESIGN\nMOVE RIG 0 -DISTANCE 40\nEND\nEND",
+        "CONN_DESIGN\nWATCH RIG 100\nEND\nEND",
+    ] {
+        let (code, _, err) = moored(&chain(400), asked);
+        assert_eq!(code, Some(0), "{asked}: {err}");
+    }
+}
+
+#[test]
+fn lines_that_an_action_releases_do_not_exit_with_3() {
+    let release = |lines: &str| moored(&chain(400), &format!("&ACTION B1 -TENSION A 1E6 -RELEASE {lines}\nTDOM"));
+    let (code, _, err) = release("A");
+    assert_eq!(code, Some(3), "{err}");
+    assert!(err.contains("beyond the break: B at") && !err.contains("A at"), "{err}");
+}
+
+#[test]
+fn missing_result_exits_with_1_and_says_so() {
+    let (code, out, err) = moored(&chain(4000), "&ENV -DEPTH 5\n&STATUS F_CONNECTOR");
+    assert_eq!(code, Some(1), "{out}{err}");
+    assert!(err.contains("windlass: a result that was asked for does not exist"), "{err}");
+}
+
+#[test]
+fn reserved_words_are_commands_and_a_root_so_named_needs_its_ending() {
+    let folder = tempfile::tempdir().unwrap();
+    for word in ["check", "study", "verify", "open", "report", "fmt", "lsp", "manual"] {
+        let (code, out, err) = run_in(folder.path(), &[word, "cases.csv", "--jobs", "3"]);
+        assert_eq!((code, out.as_str()), (Some(2), ""));
+        assert_eq!(err, format!("windlass: {word} is not in this version\n"));
+    }
+    for flag in [&["--man"][..], &["--completions", "bash"]] {
+        let (code, _, err) = run_in(folder.path(), flag);
+        assert_eq!((code, err), (Some(2), format!("windlass: {} is not in this version\n", flag[0])));
+    }
+    std::fs::write(folder.path().join("study.cif"), "&TYPE mine\n&FINISH\n").unwrap();
+    let (code, _, err) = run_in(folder.path(), &["study"]);
+    assert_eq!(code, Some(2));
+    assert!(err.contains("the script study.cif has its name: write `./study` or `study.cif`"), "{err}");
+    for job in [&["./study"][..], &["study.cif"], &["run", "study"], &["run", "study.cif"]] {
+        assert_eq!(run_in(folder.path(), job), (Some(0), "mine\n".into(), String::new()), "{job:?}");
+    }
+    let (code, _, err) = run_in(folder.path(), &["run"]);
+    assert_eq!(code, Some(2));
+    assert!(err.contains("run needs a JOB"), "{err}");
+}
+
+#[test]
+fn help_lists_the_exit_codes() {
+    let (code, out, _) = run(&["--help"]);
+    assert_eq!(code, Some(0));
+    for line in
+        ["  0    done", "  1    a record was wrong", "  2    wrong use", "  3    all results", "  130  interrupted"]
+    {
+        assert!(out.contains(line), "{out}");
+    }
 }

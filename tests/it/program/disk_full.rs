@@ -1,6 +1,5 @@
 //! A disk that is full while a run or a table is written: it is said with the name of the file, and nothing that was computed is lost.
 
-#![allow(clippy::unwrap_used)]
 #![cfg(target_os = "linux")]
 
 use crate::common::run as runs;

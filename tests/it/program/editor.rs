@@ -2,8 +2,6 @@
 //! over several lines, a resize.
 
 #![cfg(unix)]
-#![allow(clippy::unwrap_used)]
-
 use portable_pty::{Child, CommandBuilder, MasterPty, PtySize, native_pty_system};
 use std::io::{Read, Write};
 use std::num::NonZeroU16;
@@ -214,7 +212,19 @@ fn ctrl_c_stops_an_endless_loop_and_returns_to_the_prompt() {
     t.ready("MAIN> ");
     t.record("&TYPE alive");
     t.ready("MAIN> ");
-    assert_eq!(t.end(), 1);
+    assert_eq!(t.end(), 130);
+}
+
+#[test]
+fn script_stopped_by_ctrl_c_exits_with_130() {
+    let home = tempfile::tempdir().unwrap();
+    let script = "&DEVICE -RECORDS 1000000000000\n&TYPE begun\n&LOOP\n&SET A = 1\n&ENDLOOP\n";
+    std::fs::write(home.path().join("job.cif"), script).unwrap();
+    let mut t = Terminal::start(home.path(), &["run", "job.cif"]);
+    t.see("begun");
+    t.press("\x03");
+    t.see("interrupted");
+    assert_eq!(t.end(), 130);
 }
 
 #[test]

@@ -1,7 +1,5 @@
 //! What a file name in a script means, that a bad one is refused where it is given, and that no file opened is lost.
 
-#![allow(clippy::unwrap_used)]
-
 use std::fs;
 use std::process::{Command, Output};
 

@@ -1,7 +1,5 @@
 //! Films of runs: what a page and a series hold is what the run did, whole, and within its bounds.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common;
 
 use serde_json::Value;

@@ -1,8 +1,6 @@
 //! LINES as a user runs it: the exact answers of catenary_2000.csv through files and commands, what goes through and what
 //! is added, rows that are refused, names of files, Ctrl-C.
 
-#![allow(clippy::unwrap_used)]
-
 use std::fs;
 use std::path::Path;
 use std::sync::Arc;

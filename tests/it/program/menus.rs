@@ -2,8 +2,6 @@
 //! for that menu are passed over up to its own `END`, with one message in all. The menus of curves and selectors make what
 //! their one-record forms make; what a connector was given is read back; a culled result shows what it showed before.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common;
 
 use windlass::session::{End, Session};

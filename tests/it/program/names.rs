@@ -1,8 +1,6 @@
 //! Names: an environment is told by its name, a selector follows what is renamed, DELETE says what it did and no more,
 //! and `&HELP` states the one rule of names.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common;
 
 /// What a script prints, and its messages with their help lines.

@@ -1,8 +1,6 @@
 //! Random text through the whole interpreter: it may refuse everything, but it must not panic, and every record is
 //! answered.
 
-#![allow(clippy::unwrap_used)]
-
 use proptest::prelude::*;
 use windlass::report::files::JobFolder;
 use windlass::report::output::Output;

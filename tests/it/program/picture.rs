@@ -1,7 +1,5 @@
 //! Pictures: what is drawn stands where the model says, and what cannot be drawn is said.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common;
 
 use common::session;

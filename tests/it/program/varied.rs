@@ -1,7 +1,5 @@
 //! `TABLE -VARY` of what makes the line itself: each row is the line of a class so written.
 
-#![allow(clippy::unwrap_used)]
-
 use std::process::Command;
 
 /// The rows of the last VIEW of a script, as numbers.

@@ -1,8 +1,6 @@
 //! #DRIFT in the time domain: against its mean at rest, which is tested beside closed forms in `steady_loads`, and the slow surge
 //! of a moored body against the closed form of a narrow response to white noise.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common;
 use crate::common::run as runs;
 

@@ -1,7 +1,5 @@
 //! Steps whose end is foretold by stiffness and damping end where steps do that are solved to the last digit, with one evaluation.
 
-#![allow(clippy::unwrap_used)]
-
 #[path = "../../../benches/eight/mod.rs"]
 mod eight;
 #[path = "../../../benches/measured/mod.rs"]

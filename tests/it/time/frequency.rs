@@ -1,7 +1,5 @@
 //! The frequency domain against closed forms, published values and runs in time.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common;
 
 use nalgebra::{Complex, Matrix6};

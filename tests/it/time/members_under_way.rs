@@ -1,7 +1,5 @@
 //! Members with marine growth, in a current that varies, and in runs: against larger tubes and closed forms.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common;
 use crate::common::run as runs;
 

@@ -1,8 +1,6 @@
 //! Tables of a run against closed forms: a point on a turning body, a line that hardly stretches between its ends, sums of forces,
 //! a winched length, a wave.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common::run as runs;
 
 use nalgebra::Vector3;

@@ -1,7 +1,5 @@
 //! Motions that bodies are given: exact derivatives, responses to waves, splines, and what cannot be.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common;
 use crate::common::run as runs;
 

@@ -1,7 +1,5 @@
 //! Runs as users make them: going on after they were cut off, lines that break, winches, slack hawsers, lines that swing a body.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common;
 
 use std::fs;

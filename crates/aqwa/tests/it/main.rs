@@ -1,3 +1,5 @@
 //! The example decks of the AQWA-TETHER manual, card by card.
 
+#![allow(clippy::unwrap_used)]
+
 mod seed_003_decks;

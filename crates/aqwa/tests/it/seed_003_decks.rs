@@ -1,8 +1,6 @@
 //! The decks of seed 003: both examples against their listings, every card of Appendices A and B with its fields, the
 //! ways a card may be written, what is refused and where, and random text.
 
-#![allow(clippy::unwrap_used)]
-
 use proptest::prelude::*;
 use windlass_aqwa::elements::Shape;
 use windlass_aqwa::end_springs::STIFF;
@@ -1032,7 +1030,7 @@ proptest! {
     fn no_bytes_make_the_reader_panic(bytes in prop::collection::vec(any::<u8>(), 0..2000)) {
         let (reading, sources) = reading_of(bytes);
         for message in &reading.messages {
-            prop_assert!(!render(&message, &sources, false).is_empty());
+            prop_assert!(!render(message, &sources, false).is_empty());
         }
     }
 
@@ -1049,7 +1047,7 @@ proptest! {
         let (reading, sources) = reading_of(format!("{}{piece}{}", &text[..from], &text[to..]).into_bytes());
         let _ = reading.deck.echo();
         for message in &reading.messages {
-            prop_assert!(!render(&message, &sources, false).is_empty());
+            prop_assert!(!render(message, &sources, false).is_empty());
         }
         for structure in &reading.deck.structures {
             prop_assert!(reading.deck.mass_properties(structure).mass.is_finite() || !reading.failed);

@@ -1,8 +1,6 @@
 //! The example line that ends seeds 000/001 against the independent values of issue 2 (feet, kips; X within 0.1 ft,
 //! forces within 0.1 kips: the digits the values were given with).
 
-#![allow(clippy::unwrap_used)]
-
 use windlass_base::units::{FOOT, KIP};
 use windlass_catenary::{Buoy, Joint, Line, ROWS, Row, Segment, table};
 

@@ -1,7 +1,5 @@
 //! Properties of a line at a given horizontal force that need no reference numbers.
 
-#![allow(clippy::unwrap_used)]
-
 use proptest::prelude::*;
 use windlass_catenary::{Bottom, Buoy, Joint, Line, Segment, State};
 

@@ -1,8 +1,6 @@
 //! Properties of the line engine that need no reference numbers: closed inelastic form, one segment as many, scaling,
 //! equilibrium, stiffness by differences, clumps on the bottom, and numbers it must refuse.
 
-#![allow(clippy::unwrap_used)]
-
 use proptest::prelude::*;
 use windlass_catenary::{Joint, Line, LineError, Segment, table};
 

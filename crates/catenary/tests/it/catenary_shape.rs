@@ -1,7 +1,5 @@
 //! The shape of a line, springs at its ends, stretch laws, and the line found from a tension.
 
-#![allow(clippy::unwrap_used)]
-
 use windlass_catenary::{Floor, Joint, Law, Line, LineError, Segment};
 
 const CHAIN: Segment = Segment { length: 800.0, weight: 1200.0, ea: 6e8 };

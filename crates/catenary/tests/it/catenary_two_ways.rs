@@ -1,7 +1,5 @@
 //! Single lines solved by the engine of single segments and by that of whole lines, which share no search: the same forces.
 
-#![allow(clippy::unwrap_used)]
-
 use windlass_catenary::{Bottom, Floor, Line, Segment};
 
 /// A random number from 0 to 1, the same in every run.

@@ -1,5 +1,7 @@
 //! The static line against exact lines, closed forms and its own laws.
 
+#![allow(clippy::unwrap_used)]
+
 mod catenary_2000;
 mod catenary_four_segment;
 mod catenary_integration;

@@ -1,8 +1,6 @@
 //! A floating hemisphere by Capytaine (tests/data/hemisphere, with the script that made it), against published values and
 //! exact relations of potential flow.
 
-#![allow(clippy::unwrap_used)]
-
 use nalgebra::{Matrix6, Vector3};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;

@@ -1,7 +1,5 @@
 //! Files of hydrodynamic databases: the same body through every format, dimensionless values, and bad files.
 
-#![allow(clippy::unwrap_used)]
-
 use nalgebra::{Complex, Matrix6};
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};

@@ -1,8 +1,6 @@
 //! Hydrostatics of boxes, spheres, tubes and the tension leg platform of seed 003 against closed forms; exact stiffness against
 //! differences; meshes that are wrong; mesh files.
 
-#![allow(clippy::unwrap_used)]
-
 use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};

@@ -2,8 +2,6 @@
 //!
 //! Numbers and formulation: validation/towed-tether.md section 3. `tests/data/seed_003_spectrum.csv` holds the lines as printed.
 
-#![allow(clippy::unwrap_used)]
-
 use windlass_hydro::sea::components::bands;
 use windlass_hydro::sea::density::{Hump, Spectrum};
 use windlass_hydro::sea::dispersion::wave_number;

@@ -54,6 +54,8 @@ pub struct Interpreter {
     pub passing: bool,
     /// Set by Ctrl-C; the run stops at the next record.
     pub interrupt: Arc<AtomicBool>,
+    /// Whether it has ever been set.
+    pub was_interrupted: bool,
     frames: Vec<Frame>,
     branches: Vec<Branch>,
     collecting: Option<Collecting>,
@@ -73,6 +75,7 @@ impl Interpreter {
             budget: RECORD_BUDGET,
             passing: false,
             interrupt: Arc::new(AtomicBool::new(false)),
+            was_interrupted: false,
             frames: Vec::new(),
             branches: Vec::new(),
             collecting: None,
@@ -192,6 +195,7 @@ impl Interpreter {
     pub fn next(&mut self, world: &mut dyn World) -> Outcome<Step> {
         loop {
             if self.interrupt.swap(false, Ordering::Relaxed) {
+                self.was_interrupted = true;
                 self.unwind();
                 return Err(Box::new(Diagnostic::plain(windlass_base::diagnostic::Severity::Error, "interrupted")));
             }

@@ -1,5 +1,7 @@
 //! Dynamic lines against MoorDyn and exact catenaries.
 
+#![allow(clippy::unwrap_used)]
+
 mod moordyn;
 mod rod_moordyn;
 mod rod_statics;

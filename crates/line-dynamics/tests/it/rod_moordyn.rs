@@ -1,7 +1,5 @@
 //! A 900 m chain whose fairlead is driven in surge, against MoorDyn: shared/validation/moordyn_chain900.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::moordyn;
 
 use moordyn::{chain, driven, reference};

@@ -1,7 +1,5 @@
 //! Rods without bending at rest, against the catenary engine and the random lines of shared/validation.
 
-#![allow(clippy::unwrap_used)]
-
 use nalgebra::Vector3;
 use windlass_catenary as catenary;
 use windlass_line_dynamics::{

@@ -1,4 +1,4 @@
-"""Numbers of other programs for tests/post.rs: numpy, scipy, rainflow 3.2 and FLife 2.3 (PyPI).
+"""Numbers of other programs for crates/signal/tests/it/post.rs: numpy, scipy, rainflow 3.2 and FLife 2.3 (PyPI).
 
     python make.py      writes series.csv (the signal) and expected.txt (one `name value` a line) beside itself
 

@@ -1,8 +1,6 @@
 //! Post-processing against other programs: numpy, scipy, and the rainflow and FLife packages of PyPI. `tests/data/make.py` made the
 //! signal and the numbers; it needs them, the tests do not.
 
-#![allow(clippy::unwrap_used)]
-
 use windlass_model::FatigueKind;
 use windlass_signal::extremes::{Gumbel, Weibull, block_maxima};
 use windlass_signal::fatigue::{Branch, Curve, spectral};

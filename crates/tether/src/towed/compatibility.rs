@@ -1,7 +1,7 @@
 //! Peculiarities of the program behind the listing of seed 003, each of which can be switched.
 //!
 //! What each makes in the towed example of the manual (significant height 6.3 m, 375 s), told as what changes when it is
-//! switched off (`tests/seed_003_towed.rs` pins the first column):
+//! switched off (`crates/tether/tests/it/seed_003_towed.rs` pins the first column):
 //!
 //! | switched off | error of the accelerations at the start (m/s2 of 2.86) | 2 x RMS of position | mean position | 2 x RMS of acceleration | 2 x RMS of moment |
 //! |--|--|--|--|--|--|

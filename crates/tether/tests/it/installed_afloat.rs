@@ -1,7 +1,5 @@
 //! Tethers on a body of the model with a hydrodynamic database, against the closed form of an oscillator.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::installed_example as example;
 
 use nalgebra::{Complex, Matrix6, Vector3};

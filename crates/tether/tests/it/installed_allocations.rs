@@ -1,7 +1,5 @@
 //! A step of structure and tethers takes no memory.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::installed_example as example;
 
 use std::alloc::{GlobalAlloc, Layout, System};

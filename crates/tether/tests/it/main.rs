@@ -1,5 +1,7 @@
 //! Tethers against the listings of the AQWA-TETHER manual and closed forms.
 
+#![allow(clippy::unwrap_used)]
+
 mod installed_afloat;
 mod installed_allocations;
 mod installed_example;

@@ -1,7 +1,5 @@
 //! The installed tethers of seed 003, 8.2, against its listing (tests/data/installed_tether.json): t, kN, m and degrees there, SI here.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::installed_example as example;
 
 use serde_json::Value;

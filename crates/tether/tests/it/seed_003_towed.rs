@@ -3,8 +3,6 @@
 //! `tests/data/towed_tether.json` holds the printed numbers (of validation/towed-tether.json). Formulation and what of the
 //! listing cannot be met: validation/towed-tether.md. Units of the deck: t, kN, m, s.
 
-#![allow(clippy::unwrap_used)]
-
 use serde_json::Value;
 use windlass_hydro::sea::Component;
 use windlass_tether::towed::{Compatibility, EndSpring, History, Multipliers, Record, Steps, Towed};

@@ -1,7 +1,5 @@
 //! The towed tether where its motion is known without a program: rest, a particle's path, symmetry, the frame of the tow.
 
-#![allow(clippy::unwrap_used)]
-
 use std::f64::consts::{FRAC_PI_4, PI};
 use windlass_hydro::sea::Component;
 use windlass_tether::towed::{Compatibility, EndSpring, History, Multipliers, Record, Steps, Towed};

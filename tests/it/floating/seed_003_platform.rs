@@ -1,7 +1,5 @@
 //! The tension leg platform of seed 003, 8.2, at rest on its tethers, scripts/tlp.cif, against closed forms.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common;
 
 use std::f64::consts::PI;

@@ -1,7 +1,5 @@
 //! Wind, current and mean wave drift on bodies, against numbers derived by hand beside them.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common;
 use crate::common::tangent;
 

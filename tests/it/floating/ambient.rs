@@ -1,7 +1,5 @@
 //! What lines feel all along themselves, from the records that say so.
 
-#![allow(clippy::unwrap_used)]
-
 use std::sync::Arc;
 use windlass::report::files::JobFolder;
 use windlass::report::output::Output;

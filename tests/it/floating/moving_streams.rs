@@ -1,7 +1,5 @@
 //! Wind and current on bodies that move, and that vary in time: against closed forms beside them, and tangents by differences.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common;
 
 use nalgebra::Matrix6;

@@ -1,7 +1,5 @@
 //! Two barges side by side, scripts/side_by_side.cif: fenders and hawsers by hand, and the statics of what is printed.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common;
 
 use nalgebra::Vector3;

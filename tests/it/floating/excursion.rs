@@ -1,7 +1,5 @@
 //! Excursions and watch circles against closed forms.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common;
 
 use std::f64::consts::{FRAC_PI_4, TAU};

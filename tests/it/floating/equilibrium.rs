@@ -1,7 +1,5 @@
 //! Equilibrium against numbers that can be derived by hand.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common;
 
 use windlass::session::Session;

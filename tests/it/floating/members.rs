@@ -1,8 +1,6 @@
 //! Round members in waves and current, against the integrals of linear theory over a pile (DNV-RP-C205, 6.5; Sarpkaya and Isaacson,
 //! Mechanics of Wave Forces on Offshore Structures, 1981, 4.2), and against statics.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common;
 use crate::common::tangent;
 

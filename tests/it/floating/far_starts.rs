@@ -1,7 +1,5 @@
 //! Far starts: a moored barge and a load in four slings come to the same rest from forty places each, in a bounded number of steps.
 
-#![allow(clippy::unwrap_used)]
-
 use crate::common;
 
 use std::fmt::Write;
