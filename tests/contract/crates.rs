@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// The folder of each engine crate by the name of its package, with its manifest.
 fn crates() -> BTreeMap<String, (PathBuf, toml::Table)> {
@@ -55,5 +55,33 @@ fn every_crate_forbids_unsafe_code_and_documents_what_is_public() {
         }
         assert!(root.contains("//! # Example\n"), "{name} has no example");
         assert!(folder.join("README.md").is_file(), "{name} has no README");
+    }
+}
+
+fn texts(folder: &Path, list: &mut Vec<(PathBuf, String)>) {
+    for entry in fs::read_dir(folder).unwrap().flatten() {
+        let path = entry.path();
+        if path.is_dir() {
+            texts(&path, list);
+        } else if path.extension().is_some_and(|e| e == "rs") {
+            let text = fs::read_to_string(&path).unwrap();
+            list.push((path, text));
+        }
+    }
+}
+
+#[test]
+fn engines_embed_nothing_from_outside_their_folder() {
+    for (name, (folder, _)) in crates() {
+        let mut list = Vec::new();
+        texts(&folder.join("src"), &mut list);
+        let home = folder.canonicalize().unwrap();
+        for (path, text) in list {
+            let embedded = ["include_str!(\"", "include_bytes!(\""].map(|call| text.split(call).skip(1));
+            for file in embedded.into_iter().flatten().filter_map(|rest| rest.split('"').next()) {
+                let found = path.parent().unwrap().join(file).canonicalize();
+                assert!(found.is_ok_and(|f| f.starts_with(&home)), "{name}: {} embeds {file}", path.display());
+            }
+        }
     }
 }
