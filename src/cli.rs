@@ -8,6 +8,9 @@ use crate::session::{End, Session, read_all};
 use clap::Parser;
 use std::io::{BufWriter, IsTerminal, Write, stderr, stdin, stdout};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock};
+use windlass_base::diagnostic::nearest;
 use windlass_language::source::Text;
 
 /// What stands at the end of `--help`.
@@ -16,11 +19,15 @@ Exit codes:
   0    done
   1    a record was wrong, or a result was asked for and there is none
   2    wrong use of the command line
-  3    all results are there, but in a final state that was asked for (&EQUI, &STATUS F_CONNECTOR,
-       TDOM without an action that releases the line) a tension exceeds a break that was given
+  3    all results are there, but a tension exceeds its break in a state that was asked for: &EQUI,
+       &STATUS F_CONNECTOR, or a run of TDOM (the largest tension at the first end, unless an action
+       by its tension has released the line). MOVE, WATCH and TABLE never give 3, nor does the break
+       of a bare diameter: it is given by -B_TENSION, -TENSTR, -FYIELD, -TYPE or -TMAX of the class.
   130  interrupted
+A job that deserves several of them ends with 130 before 1, and with 1 before 3.
 
-A ROOT with the name of a command (run, check, study, ...) is written ./ROOT or ROOT.cif.";
+A ROOT with the name of a command (run, check, study, verify, open, report, fmt, lsp, manual) is
+written with its ending: study.cif, or ./study.";
 
 /// A command interpreter for marine mooring analysis, in the style of MOSES.
 #[derive(Parser, Debug)]
@@ -42,7 +49,7 @@ pub struct Cli {
 }
 
 /// What windlass is told to run, and how.
-#[derive(clap::Args, Debug)]
+#[derive(clap::Args, Debug, Default)]
 pub struct JobArgs {
     /// A script (model.cif), an AQWA deck (tow.dat), a ROOT (runs ROOT.cif, then the terminal), or - for standard input
     pub job: Option<String>,
@@ -97,6 +104,9 @@ pub enum Subcommand {
     #[command(hide = true)]
     Manual(Words),
 }
+
+/// The words that stand for a command.
+const COMMANDS: [&str; 9] = ["run", "check", "study", "verify", "open", "report", "fmt", "lsp", "manual"];
 
 /// Whatever follows a command that this version does not have.
 #[derive(clap::Args, Debug)]
@@ -166,27 +176,58 @@ fn job(cli: Cli) -> Result<JobArgs, String> {
     if cli.completions.is_some() {
         return Err("--completions is not in this version".into());
     }
-    let Some(command) = cli.command else { return Ok(cli.job) };
-    let name = command.name();
-    match command {
-        Subcommand::Run(job) if job.job.is_some() || !job.commands.is_empty() => Ok(job),
-        Subcommand::Run(_) => Err(format!("run needs a JOB: a script, a deck, or a ROOT{}", namesake(name))),
+    let (name, job) = match cli.command {
+        Some(Subcommand::Run(job)) => ("run", job),
+        Some(command) => (command.name(), JobArgs::default()),
+        None => {
+            // a command behind options
+            let mut job = cli.job;
+            match COMMANDS.iter().find(|name| job.job.as_deref() == Some(**name)) {
+                Some(name) => {
+                    job.job = (!job.surplus.is_empty()).then(|| job.surplus.remove(0));
+                    (*name, job)
+                }
+                None => return Ok(job),
+            }
+        }
+    };
+    match name {
+        "run" if job.job.is_some() || !job.commands.is_empty() => Ok(job),
+        "run" => Err(format!("run needs a JOB: a script, a deck, or a ROOT{}", namesake(name))),
         _ => Err(format!("{name} is not in this version{}", namesake(name))),
     }
 }
 
-/// How to run a ROOT that has the name of a command, where there is one.
+/// How to run a file that has the name of a command, where there is one.
 fn namesake(name: &str) -> String {
-    match script_of_root(Path::new(name)) {
-        Some(script) => {
-            format!("; the script {} has its name: write `./{name}` or `{}`", script.display(), script.display())
+    let with_ending = [".cif", ".CIF", ".dat", ".DAT"].map(|end| format!("{name}{end}"));
+    let script = with_ending.into_iter().find(|file| Path::new(file).is_file());
+    let here = Path::new(name);
+    match script {
+        // a folder or a file of the bare name stands before the ROOT
+        Some(script) if here.exists() || !script.ends_with("cif") => {
+            format!("; the file {script} has its name: write `{script}` to run it")
         }
+        Some(script) => format!("; the script {script} has its name: write `./{name}` or `{script}` to run it"),
+        None if here.is_file() => format!("; there is a file of this name: write `./{name}` to run it"),
         None => String::new(),
     }
 }
 
 fn run_job(cli: JobArgs) -> u8 {
     let terminal = stdin().is_terminal();
+    // a job that is still being read is given up at once; later the record that runs says what it has
+    let running: Arc<OnceLock<Arc<AtomicBool>>> = Arc::default();
+    let interrupted = Arc::clone(&running);
+    // without the handler Ctrl-C ends the program, which loses no file
+    let _ = ctrlc::set_handler(move || match interrupted.get() {
+        Some(flag) => flag.store(true, Ordering::Relaxed),
+        None => std::process::exit(INTERRUPTED.into()),
+    });
+    if let Some(out) = cli.out.as_ref().filter(|out| out.exists() && !out.is_dir()) {
+        complain(&format!("--out {}: this is a file; name a folder", out.display()));
+        return USAGE;
+    }
     let (input, root) = match input(&cli, terminal) {
         Ok(found) => found,
         Err(text) => {
@@ -203,9 +244,8 @@ fn run_job(cli: JobArgs) -> u8 {
     session.job.output.columns = screen_columns;
     session.job.settings.batch = cli.batch;
     session.job.output.keep_log = cli.out.is_some() || !matches!(input, Input::Records(_));
-    let interrupt = session.interpreter.interrupt.clone();
-    // without the handler Ctrl-C ends the program, which loses no file
-    let _ = ctrlc::set_handler(move || interrupt.store(true, std::sync::atomic::Ordering::Relaxed));
+    // nothing has set it before
+    let _ = running.set(Arc::clone(&session.interpreter.interrupt));
     let (end, stay) = match input {
         Input::Records(records) => {
             session.open("-c", records);
@@ -219,17 +259,22 @@ fn run_job(cli: JobArgs) -> u8 {
     };
     session.job.output.flush();
     let of_script = exit_code(&session);
-    if stay && (end != End::Finished || cli.interactive) {
+    if stay && (end != End::Finished || (cli.interactive && !cli.batch)) {
         repl::run(&mut session, terminal);
     }
     session.finish();
     session.job.output.flush();
     // what a person saw at the terminal is not said again
     let code = if terminal && stay { of_script } else { exit_code(&session) };
-    match code {
-        OVER_BREAK => complain(&over_break(&session.job.verdict)),
-        1 if session.errors == 0 => complain("a result that was asked for does not exist: the warnings say why"),
-        _ => {}
+    if !(terminal && stay) {
+        let verdict = &session.job.verdict;
+        if session.errors == 0 && verdict.absent > 0 {
+            complain("exit code 1: a result that was asked for does not exist; the warnings say why");
+        }
+        if !verdict.over_break.is_empty() {
+            let text = over_break(verdict);
+            complain(&if code == OVER_BREAK { format!("exit code 3: {text}") } else { text });
+        }
     }
     code
 }
@@ -261,9 +306,9 @@ fn over_break(verdict: &Verdict) -> String {
         }
     }
     let more = named.len().saturating_sub(MOST_NAMED);
-    let one = |o: &&OverBreak| format!("{} at {:.3} of its break ({})", o.connector, o.ratio, o.command);
-    let text = named.iter().take(MOST_NAMED).map(one).collect::<Vec<_>>().join(", ");
-    format!("tension beyond the break: {text}{}", if more > 0 { format!(" and {more} more") } else { String::new() })
+    let one = |o: &&OverBreak| format!("{} ({})", o.text(), o.command);
+    let text = named.iter().take(MOST_NAMED).map(one).collect::<Vec<_>>().join("; ");
+    format!("{text}{}", if more > 0 { format!("; and {more} connectors more") } else { String::new() })
 }
 
 /// Columns of standard output when it is a terminal; one that does not tell has 80.
@@ -283,7 +328,10 @@ fn input(cli: &JobArgs, terminal: bool) -> Result<(Input, PathBuf), String> {
         return Ok((Input::Records(cli.commands.join("\n")), here));
     }
     if let Some(surplus) = cli.surplus.first() {
-        return Err(format!("one script at a time: `{surplus}` is one too many"));
+        return Err(match cli.job.as_ref().and_then(|job| meant_command(job, true)) {
+            Some(help) => help,
+            None => format!("one script at a time: `{surplus}` is one too many"),
+        });
     }
     let Some(job) = &cli.job else {
         return if terminal { Ok((Input::Terminal, here)) } else { Ok((standard_input()?, here)) };
@@ -296,12 +344,15 @@ fn input(cli: &JobArgs, terminal: bool) -> Result<(Input, PathBuf), String> {
         let text = crate::session::read_text(path)?;
         return Ok((Input::Script { name: job.clone(), text, then_terminal: false }, path.with_extension("")));
     }
-    if path.is_dir() {
-        return Err(format!("{job} is a folder"));
-    }
     if let Some(script) = script_of_root(path) {
         let text = crate::session::read_text(&script)?;
         return Ok((Input::Script { name: script.display().to_string(), text, then_terminal: true }, path.into()));
+    }
+    if path.is_dir() {
+        return Err(format!("{job} is a folder"));
+    }
+    if let Some(help) = meant_command(job, false) {
+        return Err(help);
     }
     if path.extension().is_some() || !terminal {
         let script = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("cif"));
@@ -311,6 +362,16 @@ fn input(cli: &JobArgs, terminal: bool) -> Result<(Input, PathBuf), String> {
         ));
     }
     Ok((Input::Terminal, path.into()))
+}
+
+/// What to say of a word that is no file and is a command but for its case, or is near to one: a lone word may be a new ROOT.
+fn meant_command(word: &str, near_too: bool) -> Option<String> {
+    if Path::new(word).exists() || script_of_root(Path::new(word)).is_some() {
+        return None;
+    }
+    let same = COMMANDS.into_iter().find(|name| name.eq_ignore_ascii_case(word));
+    let meant = same.or_else(|| nearest(word, COMMANDS).first().copied().filter(|_| near_too))?;
+    Some(format!("there is no file {word}, nor {word}.cif; did you mean the command `{meant}`?"))
 }
 
 /// The script of a ROOT, where there is one.

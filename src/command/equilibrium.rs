@@ -4,6 +4,7 @@
 
 use super::chosen::raise;
 use super::disposition::{BOTH, HARD, send};
+use super::verdict::{OverBreak, over_break};
 use super::{Call, Command, Effect, Job};
 use crate::report::page;
 use indexmap::IndexMap;
@@ -13,7 +14,7 @@ use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::Given;
 use windlass_base::values::Noun;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
-use windlass_model::{Model, Summary, find};
+use windlass_model::{Model, find};
 use windlass_solve::results::along::cautions;
 use windlass_solve::{FREEDOMS, Options, SolveError, settle, tables};
 
@@ -119,6 +120,12 @@ pub(super) fn warn_of_lines(job: &mut Job, span: Span) {
     }
 }
 
+/// Warns of tensions beyond a break, and keeps them for the exit code.
+pub(super) fn warn_of_breaks(job: &mut Job, list: Vec<OverBreak>, span: Span) {
+    list.iter().for_each(|over| job.warn(over.text(), span));
+    job.verdict.over_break.extend(list);
+}
+
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let options = options(job, call)?;
     if job.model.bodies.is_empty() {
@@ -129,10 +136,9 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let settled = settle(&mut job.model, &options).map_err(|e| told(e, &job.model, call.args.span, job.units))?;
     let forces = tables::by_category(&settled.system, &settled.state, &|_| true)
         .map_err(|e| told(e, &job.model, call.args.span, job.units))?;
+    let mut over = Vec::new();
     for (name, summary) in settled.system.summaries(&settled.state) {
-        if let Ok(Summary { ratio, critical, .. }) = summary {
-            job.verdict.take(&job.model, name, ratio, critical, "&EQUI");
-        }
+        over.extend(summary.ok().and_then(|s| over_break(name, s.over_given_break, "&EQUI")));
     }
     job.equilibrium = Options { ignored: Vec::new(), ..options };
     let list = [tables::rest(&job.model, &settled), forces, tables::periods(&settled.system, &settled.state)];
@@ -141,5 +147,6 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     send(job, &call.args, &text)?;
     list.iter().for_each(|t| raise(job, t, call.args.span));
     warn_of_lines(job, call.args.span);
+    warn_of_breaks(job, over, call.args.span);
     Ok(Effect::Done)
 }

@@ -2,7 +2,7 @@
 
 use super::chosen::{WARNING, gathered};
 use super::status::push;
-use super::verdict::Verdict;
+use super::verdict::{Verdict, over_break};
 use windlass_base::pose::Six;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
@@ -55,8 +55,8 @@ pub fn forces(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem, ver
             },
         };
         if let Some(found) = &found {
-            let Summary { ratio, critical, .. } = found.summary;
-            verdict.take(model, &connector.name, ratio, critical, "&STATUS F_CONNECTOR");
+            let largest = found.summary.over_given_break;
+            verdict.over_break.extend(over_break(&connector.name, largest, "&STATUS F_CONNECTOR"));
             spring_rows(&mut springs, connector, &found.summary);
         }
         let mut row: Vec<Cell> = vec![connector.name.as_str().into(), connector.class.as_str().into(), solution.into()];

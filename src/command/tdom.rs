@@ -2,8 +2,9 @@
 //!
 //! Source: reference/solve.md, "TDOM".
 
-use super::equilibrium::{told, warn_of_lines};
+use super::equilibrium::{told, warn_of_breaks, warn_of_lines};
 use super::restart::go_on;
+use super::verdict::over_break_in;
 use super::{Call, Command, Effect, Job, tether_run};
 use crate::report::page;
 use crate::report::run_log::RunLog;
@@ -305,9 +306,10 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     }
     let head = job.page_head();
     let text = tables.iter().map(|t| page::render(t, job.units, &head)).collect::<Vec<_>>().join("\n");
-    job.verdict.take_run(&made);
+    let over = over_break_in(&made);
     job.run = Some(made);
     job.say(&text);
+    warn_of_breaks(job, over, span);
     let wrong = |e| told(e, &job.model, span, job.units);
     let ended = ended.map_err(wrong)?;
     checked.transpose().map_err(wrong)?;

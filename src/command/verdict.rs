@@ -1,17 +1,30 @@
 //! What a job comes to for who reads its exit code alone: results that are missing, tensions beyond a break.
 
-use windlass_model::{Class, Model};
-use windlass_solve::time::{Action, Run, What};
+use windlass_model::Model;
+use windlass_solve::time::{Run, What};
 
-/// A connector whose tension exceeds a break in a state that was asked for.
+/// A connector whose tension exceeds a break that was given, in a state that was asked for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OverBreak {
     /// The connector, as written.
     pub connector: String,
     /// Its tension over the break.
     pub ratio: f64,
+    /// The segment, from 1.
+    pub segment: usize,
     /// The command that asked for the state.
     pub command: &'static str,
+    /// When, in a run (s).
+    pub time: Option<f64>,
+}
+
+impl OverBreak {
+    /// One sentence without a full stop.
+    pub fn text(&self) -> String {
+        let time = self.time.map_or(String::new(), |t| format!(" at {t:.1} s"));
+        let OverBreak { connector, ratio, segment, .. } = self;
+        format!("the tension of {connector} is {ratio:.3} times the break of its segment {segment}{time}")
+    }
 }
 
 /// What a job has come to so far.
@@ -23,51 +36,34 @@ pub struct Verdict {
     pub over_break: Vec<OverBreak>,
 }
 
-/// Options of a class record that state a break; without one it is that of steel with the bare diameter.
-const STATING: [&str; 5] = ["-B_TENSION", "-TENSTR", "-FYIELD", "-TYPE", "-TMAX"];
-
-/// Whether the break of a segment (from 1) was given.
-fn is_stated(class: &Class, segment: usize) -> bool {
-    let record = segment.checked_sub(1).and_then(|i| class.records.get(i));
-    record.is_some_and(|r| STATING.iter().any(|option| r.args.has(option)))
+/// A connector as one over its break, where it is: of the largest tension over a break that was given, and the segment (from 1).
+pub fn over_break(connector: &str, largest: Option<(f64, usize)>, command: &'static str) -> Option<OverBreak> {
+    let (ratio, segment) = largest.filter(|(ratio, _)| *ratio > 1.0)?;
+    Some(OverBreak { connector: connector.to_string(), ratio, segment, command, time: None })
 }
 
-fn class_of<'a>(model: &'a Model, connector: &str) -> Option<&'a Class> {
-    model.connectors.get(&Model::key(connector)).and_then(|c| model.classes.get(&Model::key(&c.class)))
-}
-
-impl Verdict {
-    /// Takes the largest tension over break of a connector, and the segment (from 1) that has it.
-    pub fn take(
-        &mut self,
-        model: &Model,
-        connector: &str,
-        ratio: Option<f64>,
-        segment: Option<usize>,
-        command: &'static str,
-    ) {
-        let (Some(ratio), Some(segment)) = (ratio, segment) else { return };
-        if ratio > 1.0 && class_of(model, connector).is_some_and(|class| is_stated(class, segment)) {
-            self.over_break.push(OverBreak { connector: connector.to_string(), ratio, command });
-        }
+/// The connectors whose largest tension at the first end exceeds the break of the segment there. One that an action by its tension has
+/// released, and none has put back, has broken in the run itself.
+pub fn over_break_in(run: &Run) -> Vec<OverBreak> {
+    let has_broken = |name: &str| {
+        let same = |other: &String| other.eq_ignore_ascii_case(name);
+        let happened =
+            || run.actions.iter().zip(&run.fired).filter(|(_, fired)| fired.is_some()).map(|(action, _)| action);
+        let released = happened().any(|action| {
+            let of_it = matches!(&action.what, What::Release(names) if names.iter().any(same));
+            of_it && action.when.connector().is_some_and(same)
+        });
+        released && !happened().any(|action| matches!(&action.what, What::Activate(names) if names.iter().any(same)))
+    };
+    let mut made = Vec::new();
+    for (series, running) in run.statistics.all() {
+        let Some(name) = series.name.strip_suffix(" Tension").filter(|name| !has_broken(name)) else { continue };
+        let connector = run.model.connectors.get(&Model::key(name));
+        let class = connector.and_then(|c| run.model.classes.get(&Model::key(&c.class)));
+        let segment = class.and_then(|c| c.fatigue_segments().first().filter(|s| s.break_is_given).map(|s| s.breaking));
+        let Some((breaking, seen)) = segment.zip(running.summary()) else { continue };
+        let over = over_break(name, Some((seen.maximum.value / breaking, 1)), "TDOM");
+        made.extend(over.map(|over| OverBreak { time: Some(seen.maximum.time), ..over }));
     }
-
-    /// Takes the largest tensions of a run at the first ends of its connectors. One that an action watches, and releases, breaks in
-    /// the run itself.
-    pub fn take_run(&mut self, run: &Run) {
-        let releases = |action: &&Action, name: &str| {
-            let same = |other: &String| other.eq_ignore_ascii_case(name);
-            matches!(&action.what, What::Release(names) if names.iter().any(same))
-                && action.when.connector().is_some_and(same)
-        };
-        for (series, running) in run.statistics.all() {
-            let Some(name) = series.name.strip_suffix(" Tension") else { continue };
-            if run.actions.iter().any(|action| releases(&action, name)) {
-                continue;
-            }
-            let breaking = class_of(&run.model, name).and_then(|c| c.fatigue_segments().first().map(|s| s.breaking));
-            let ratio = running.summary().zip(breaking).map(|(seen, breaking)| seen.maximum.value / breaking);
-            self.take(&run.model, name, ratio, Some(1), "TDOM");
-        }
-    }
+    made
 }

@@ -110,6 +110,7 @@ struct CatenarySection {
     length: f64,
     ea: f64,
     largest: f64,
+    largest_is_given: bool,
     /// k1, k2, k3, where given.
     coefficients: Option<[f64; 3]>,
     span: Span,
@@ -176,6 +177,7 @@ fn build_catenary(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
             length: checks::length(args, "CATENARY")?,
             ea: option("-EA", 5.0e6 * mass),
             largest: option("-TMAX", 5.0e4 * mass),
+            largest_is_given: args.has("-TMAX"),
             coefficients: args.option("-K").map(|g| [0, 1, 2].map(|i| g.number(i).unwrap_or(0.0))),
             span: args.span,
             ca: option("-CA", 1.0),
@@ -293,6 +295,7 @@ impl ConnectorClass for CatenaryClass {
         Ok(Box::new(Mooring {
             line,
             breaks: self.sections.iter().map(|s| s.largest).collect(),
+            breaks_given: self.sections.iter().map(|s| s.largest_is_given).collect(),
             largest,
             exact: true,
             place: *place,
@@ -346,7 +349,7 @@ impl ConnectorClass for CatenaryClass {
                     (s.area / FRAC_PI_4).sqrt(),
                 )
             },
-            strength: Strength { breaking: s.largest },
+            strength: Strength { breaking: s.largest, is_given: s.largest_is_given },
             joint: s.joint_mass.map(|[mass, displaced, added, drag]| JointMass {
                 mass,
                 volume: displaced / density,

@@ -165,6 +165,7 @@ impl Catenary {
         Ok(Mooring {
             line,
             breaks: self.sections.iter().map(|s| s.breaking).collect(),
+            breaks_given: self.sections.iter().map(|s| s.break_is_given).collect(),
             largest: self.limit.or(largest_break(&self.sections)).unwrap_or(0.0),
             exact: self.exact,
             place: *place,

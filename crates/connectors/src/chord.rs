@@ -69,6 +69,12 @@ impl Chord {
         ratios.enumerate().fold((0.0, 1), |best, (i, r)| if r > best.0 { (r, i + 1) } else { best })
     }
 
+    /// As [`Self::ratio`], of the segments whose break was given.
+    fn over_given_break(&self, force: f64) -> Option<(f64, usize)> {
+        let limits = self.line.breaks.iter().zip(&self.line.breaks_given).enumerate().filter(|(_, (_, given))| **given);
+        limits.map(|(i, (limit, _))| (force.max(0.0) / limit, i + 1)).max_by(|a, b| a.0.total_cmp(&b.0))
+    }
+
     /// What is told at a force (N), a distance between the ends, and what of it is left for the line (m).
     fn remarks(&self, force: f64, chord: f64, left: f64, ratio: f64) -> Vec<String> {
         let mut notes = self.line.notes.clone();
@@ -153,6 +159,7 @@ impl Extended for ChordElement {
             tension: Some(force),
             ratio: Some(ratio),
             critical: Some(critical),
+            over_given_break: self.chord.over_given_break(force),
             grounded: Some(0.0),
             solution: "exact",
             springs: Vec::new(),
@@ -253,6 +260,7 @@ impl LineModel for Chord {
             tension: force,
             ratio,
             critical,
+            over_given_break: self.over_given_break(force),
             grounded: 0.0,
             solution: "exact",
             notes: self.remarks(force, chord, chord, ratio),

@@ -248,10 +248,15 @@ impl Extended for LineElement {
             Solver::Table { rows, forces } => self.moved(&ends).by_table(rows, forces)?,
             _ => self.moved(&ends).exact_loads()?,
         };
+        // a table knows its critical segment alone
+        let over_given_break = loads
+            .over_given_break
+            .or_else(|| self.moved(&ends).exact_loads().ok().and_then(|exact| exact.over_given_break));
         Ok(Summary {
             tension: Some(loads.tension),
             ratio: Some(loads.ratio),
             critical: Some(loads.critical),
+            over_given_break,
             grounded: Some(loads.grounded),
             solution: loads.solution,
             springs: Vec::new(),

@@ -26,6 +26,7 @@ impl Mooring {
             tension: state.top_tension,
             ratio,
             critical,
+            over_given_break: self.over_given_break(&state),
             grounded: state.grounded,
             solution: "exact",
             notes: self.remarks(&state),
@@ -75,6 +76,10 @@ impl Mooring {
             tension: force.hypot(vertical),
             ratio,
             critical,
+            over_given_break: self
+                .breaks_given
+                .get(critical.saturating_sub(1))
+                .and_then(|g| g.then_some((ratio, critical))),
             grounded,
             solution: "table",
             notes,
@@ -118,6 +123,7 @@ impl Mooring {
             distance,
             tension: 0.0,
             ratio: 0.0,
+            over_given_break: None,
             critical: 1,
             grounded: 0.0,
             solution: "exact",

@@ -24,6 +24,8 @@ pub struct Mooring {
     pub line: Line,
     /// Breaking tensions, fairlead first (N).
     pub breaks: Vec<f64>,
+    /// Of each segment whether its break was given.
+    pub breaks_given: Vec<bool>,
     /// Largest horizontal force of the table (N).
     pub largest: f64,
     /// Whether forces come from the exact solution, or from the table of thirty points.
@@ -78,6 +80,16 @@ impl Mooring {
             let ratio = one(s) / limit;
             if ratio > best.0 { (ratio, i + 1) } else { best }
         })
+    }
+
+    /// As [`Self::ratio`], of the segments whose break was given.
+    pub(super) fn over_given_break(&self, state: &State) -> Option<(f64, usize)> {
+        let limits = self.breaks.iter().zip(&self.breaks_given);
+        let ratios = state.segments.iter().zip(limits).enumerate().filter(|(_, (_, (_, given)))| **given);
+        let one = |(i, (s, (limit, _))): (usize, (&SegmentState, (&f64, _)))| {
+            (s.top_tension.max(s.bottom_tension) / limit, i + 1)
+        };
+        ratios.map(one).max_by(|a, b| a.0.total_cmp(&b.0))
     }
 
     /// What is dangerous or surprising about a state.

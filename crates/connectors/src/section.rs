@@ -37,6 +37,8 @@ pub struct LineSection {
     pub buoyancy_diameter: f64,
     /// Breaking tension (N).
     pub breaking: f64,
+    /// Whether its record gives it: by `-B_TENSION`, a strength, or a line type.
+    pub break_is_given: bool,
     /// Weight of the clump at the end (N); negative: capacity of a spring buoy.
     pub clump: f64,
     /// Pendant of the spring buoy (m).
@@ -186,6 +188,7 @@ impl LineSection {
             displacement: number("-DISPLEN").unwrap_or(0.0),
             buoyancy_diameter: number("-BUOYDIAMETER").or(displaced).unwrap_or(od),
             breaking: breaking.unwrap_or(material.ultimate() * area),
+            break_is_given: breaking.is_some(),
             clump: clump.and_then(|c| c.number(0)).unwrap_or(0.0),
             pendant: clump.and_then(|c| c.number(1)).unwrap_or(0.0),
             refine: args.option("-REFINE").and_then(|g| g.values.first()).and_then(|v| v.integer()).unwrap_or(1),
@@ -198,6 +201,7 @@ impl LineSection {
         FatigueSegment {
             curve: None,
             breaking: self.breaking,
+            break_is_given: self.break_is_given,
             od: self.od,
             thickness: self.thickness,
             length: self.length,

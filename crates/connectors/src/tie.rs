@@ -23,6 +23,8 @@ pub struct Tie {
     pub length: f64,
     /// Breaking tension (N).
     pub breaking: f64,
+    /// Whether it was given.
+    pub break_is_given: bool,
 }
 
 impl Tie {
@@ -77,8 +79,9 @@ impl Element for Tie {
         if ratio > 1.0 {
             notes.push("warning: it is beyond its breaking tension".into());
         }
+        let over_given_break = self.break_is_given.then_some((ratio, 1));
         let (tension, ratio, critical) = (Some(tension), Some(ratio), Some(1));
-        Ok(Summary { tension, ratio, critical, solution: "exact", notes, ..Summary::default() })
+        Ok(Summary { tension, ratio, critical, over_given_break, solution: "exact", notes, ..Summary::default() })
     }
 }
 
@@ -129,6 +132,6 @@ impl ConnectorClass for TieClass {
         let section = self.section.ok_or_else(|| ClassError::new("the class has no record"))?;
         checks::in_assembly(self.kind, connection)?;
         let length = connection.connector.first_length.unwrap_or(section.length);
-        Ok(Box::new(Tie { ea: section.ea, length, breaking: section.breaking }))
+        Ok(Box::new(Tie { ea: section.ea, length, breaking: section.breaking, break_is_given: section.break_is_given }))
     }
 }

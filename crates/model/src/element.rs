@@ -109,6 +109,9 @@ pub struct Summary {
     pub ratio: Option<f64>,
     /// The segment that has it, from 1.
     pub critical: Option<usize>,
+    /// Largest tension over a break that was given (its value, a strength, a line type; not that of a bare diameter), and the
+    /// segment that has it, from 1.
+    pub over_given_break: Option<(f64, usize)>,
     /// Unstretched length on the bottom (m).
     pub grounded: Option<f64>,
     /// How it was found: `exact`, `table`, ...

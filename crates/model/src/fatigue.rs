@@ -87,6 +87,8 @@ pub struct FatigueSegment {
     pub curve: Option<String>,
     /// Breaking tension (N).
     pub breaking: f64,
+    /// Whether it was given, and is not that of a bare diameter.
+    pub break_is_given: bool,
     /// Outside diameter (m).
     pub od: f64,
     /// Wall thickness (m); `None` for a solid section.
@@ -111,7 +113,14 @@ mod tests {
     fn a_segment_goes_by_its_own_curve_before_the_last_chosen() {
         let chosen = vec!["X".to_string(), "WIRE".to_string()];
         let selection = FatigueSelection { chosen, ..FatigueSelection::default() };
-        let mut segment = FatigueSegment { curve: None, breaking: 1.0, od: 0.2, thickness: Some(0.1), length: 1.0 };
+        let mut segment = FatigueSegment {
+            curve: None,
+            breaking: 1.0,
+            break_is_given: true,
+            od: 0.2,
+            thickness: Some(0.1),
+            length: 1.0,
+        };
         assert_eq!(selection.curve_of(&segment), Some("WIRE"));
         segment.curve = Some("CHAIN".into());
         assert_eq!(selection.curve_of(&segment), Some("CHAIN"));

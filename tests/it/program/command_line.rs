@@ -119,9 +119,40 @@ fn tension_beyond_a_given_break_exits_with_3() {
     for asked in ["&EQUI", "&STATUS F_CONNECTOR", "TDOM"] {
         let (code, _, err) = moored(&chain(400), asked);
         assert_eq!(code, Some(3), "{asked}: {err}");
-        assert!(err.contains("windlass: tension beyond the break: A at 1."), "{asked}: {err}");
+        assert!(err.contains("windlass: exit code 3: the tension of A is 1."), "{asked}: {err}");
         assert_eq!(moored(&chain(4000), asked).0, Some(0), "{asked}");
     }
+}
+
+#[test]
+fn given_break_behind_a_more_loaded_bare_segment_exits_with_3() {
+    // the bare wire of 5 mm is the critical segment, and the chain behind it was given a break that both exceed
+    let bare = "5 EXACT -LEN 100 -BUOY 0 -WTPL 0.001 -EMOD 200000\n~C B_CAT";
+    let (code, _, err) = moored(&format!("{bare} 100 EXACT -EMOD 50000 -B_TENSION 10"), "&STATUS F_CONNECTOR");
+    assert_eq!(code, Some(3), "{err}");
+    assert!(err.contains("the break of its segment 2"), "{err}");
+}
+
+#[test]
+fn action_that_never_happened_excuses_no_line() {
+    let action = "&ACTION B1 -TENSION A 1E6 -RELEASE A B\nTDOM";
+    assert_eq!(moored(&chain(400), action).0, Some(3));
+}
+
+#[test]
+fn tension_beyond_a_break_is_told_beside_a_wrong_record() {
+    let (code, _, err) = moored(&chain(400), "&EQUI\n&BOGUS");
+    assert_eq!(code, Some(1), "{err}");
+    assert!(err.contains("warning: the tension of A is 1."), "{err}");
+}
+
+#[test]
+fn answers_into_a_file_are_refused_before_the_job_runs() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("job.cif"), "&TYPE ran\n").unwrap();
+    let (code, out, err) = run_in(folder.path(), &["--out", "job.cif", "job.cif"]);
+    assert_eq!((code, out.as_str()), (Some(2), ""));
+    assert!(err.contains("--out job.cif: this is a file; name a folder"), "{err}");
 }
 
 #[test]
@@ -146,17 +177,17 @@ fn sweeps_beyond_a_break_exit_with_0() {
 
 #[test]
 fn lines_that_an_action_releases_do_not_exit_with_3() {
-    let release = |lines: &str| moored(&chain(400), &format!("&ACTION B1 -TENSION A 1E6 -RELEASE {lines}\nTDOM"));
+    let release = |lines: &str| moored(&chain(400), &format!("&ACTION B1 -TENSION A 400 -RELEASE {lines}\nTDOM"));
     let (code, _, err) = release("A");
     assert_eq!(code, Some(3), "{err}");
-    assert!(err.contains("beyond the break: B at") && !err.contains("A at"), "{err}");
+    assert!(err.contains("the tension of B is") && !err.contains("the tension of A is"), "{err}");
 }
 
 #[test]
 fn missing_result_exits_with_1_and_says_so() {
     let (code, out, err) = moored(&chain(4000), "&ENV -DEPTH 5\n&STATUS F_CONNECTOR");
     assert_eq!(code, Some(1), "{out}{err}");
-    assert!(err.contains("windlass: a result that was asked for does not exist"), "{err}");
+    assert!(err.contains("windlass: exit code 1: a result that was asked for does not exist"), "{err}");
 }
 
 #[test]
@@ -178,9 +209,22 @@ fn reserved_words_are_commands_and_a_root_so_named_needs_its_ending() {
     for job in [&["./study"][..], &["study.cif"], &["run", "study"], &["run", "study.cif"]] {
         assert_eq!(run_in(folder.path(), job), (Some(0), "mine\n".into(), String::new()), "{job:?}");
     }
-    let (code, _, err) = run_in(folder.path(), &["run"]);
-    assert_eq!(code, Some(2));
-    assert!(err.contains("run needs a JOB"), "{err}");
+    for words in [&["run"][..], &["--batch", "run"]] {
+        let (code, _, err) = run_in(folder.path(), words);
+        assert_eq!(code, Some(2));
+        assert!(err.contains("run needs a JOB"), "{err}");
+    }
+    assert_eq!(run_in(folder.path(), &["--batch", "run", "study"]).1, "mine\n");
+    assert!(run_in(folder.path(), &["-i", "study"]).2.contains("study is not in this version"));
+    std::fs::create_dir(folder.path().join("study")).unwrap();
+    let (_, _, err) = run_in(folder.path(), &["study"]);
+    assert!(err.contains("write `study.cif` to run it") && !err.contains("./study"), "{err}");
+    assert_eq!(run_in(folder.path(), &["./study"]).1, "mine\n");
+    for (word, meant) in [("RUN", "run"), ("chek", "check")] {
+        let (code, _, err) = run_in(folder.path(), &[word, "study.cif"]);
+        assert_eq!(code, Some(2));
+        assert!(err.contains(&format!("did you mean the command `{meant}`?")), "{err}");
+    }
 }
 
 #[test]

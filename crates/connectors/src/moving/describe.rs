@@ -24,6 +24,8 @@ pub struct JointMass {
 pub struct Strength {
     /// Breaking tension (N).
     pub breaking: f64,
+    /// Whether it was given.
+    pub is_given: bool,
 }
 
 /// A part of a line: one record of its class.
@@ -155,7 +157,7 @@ mod tests {
     #[test]
     fn growth_sits_on_the_outside_of_a_line_whatever_it_displaces() {
         let bare = Segment { displaced: 0.0, ..Segment::line(10.0, 1, 100.0, 1e6, 0.3) };
-        let strength = Strength { breaking: 1.0 };
+        let strength = Strength { breaking: 1.0, is_given: true };
         let grown = Part { segment: bare.clone(), strength, joint: None }.grown(Some(&Foul), -10.0);
         // a ring from 0.3 to 0.4 m
         let ring = FRAC_PI_4 * 0.07;

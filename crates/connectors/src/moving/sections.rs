@@ -255,7 +255,7 @@ impl Flexure {
             tube,
             ..Segment::line(section.length, elements, section.weight / around.gravity, section.ea, section.od)
         };
-        let strength = Strength { breaking: section.breaking };
+        let strength = Strength { breaking: section.breaking, is_given: section.break_is_given };
         Part { segment, strength, joint: self.joint(section, around) }
     }
 }

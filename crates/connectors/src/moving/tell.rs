@@ -128,10 +128,18 @@ impl MovingLine {
         self.tell_along(at, committed, &mut nodes)?;
         let mut told = Summary { solution: "rod", notes: self.base.description.notes.clone(), ..Summary::default() };
         told.tension = nodes.first().map(|n| n.effective);
-        let breaks = |segment: usize| self.base.description.parts.get(segment).map(|p| p.strength.breaking);
         let sides = nodes.iter().flat_map(|n| n.sides().map(move |s| (n.effective, s.segment)));
-        let ratios = sides.filter_map(|(pull, segment)| breaks(segment).map(|b| (pull / b, segment + 1)));
-        if let Some((ratio, segment)) = ratios.max_by(|a, b| a.0.total_cmp(&b.0)) {
+        let parts = &self.base.description.parts;
+        let ratio = |(pull, segment): (f64, usize)| {
+            let strength = parts.get(segment)?.strength;
+            Some((pull / strength.breaking, segment + 1, strength.is_given))
+        };
+        let ratios: Vec<_> = sides.filter_map(ratio).collect();
+        let largest = |list: &mut dyn Iterator<Item = &(f64, usize, bool)>| {
+            list.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(ratio, segment, _)| (*ratio, *segment))
+        };
+        told.over_given_break = largest(&mut ratios.iter().filter(|(.., given)| *given));
+        if let Some((ratio, segment)) = largest(&mut ratios.iter()) {
             (told.ratio, told.critical) = (Some(ratio), Some(segment));
             if ratio > 1.0 {
                 told.notes.push("warning: the line is beyond its breaking tension".into());

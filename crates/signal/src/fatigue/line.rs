@@ -181,7 +181,7 @@ mod tests {
     }
 
     fn segment(breaking: f64, od: f64) -> FatigueSegment {
-        FatigueSegment { curve: None, breaking, od, thickness: None, length: 100.0 }
+        FatigueSegment { curve: None, breaking, break_is_given: true, od, thickness: None, length: 100.0 }
     }
 
     /// 101 samples from trough to trough: 50 cycles of 200 kN about 1000 kN.

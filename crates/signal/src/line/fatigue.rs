@@ -143,7 +143,14 @@ mod tests {
     const WAVE: [f64; 2] = [-1.0, 1.0];
 
     fn segment() -> FatigueSegment {
-        FatigueSegment { curve: None, breaking: 5e6, od: 0.3, thickness: Some(0.02), length: 100.0 }
+        FatigueSegment {
+            curve: None,
+            breaking: 5e6,
+            break_is_given: true,
+            od: 0.3,
+            thickness: Some(0.02),
+            length: 100.0,
+        }
     }
 
     fn curve() -> Curve {

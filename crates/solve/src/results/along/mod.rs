@@ -217,7 +217,14 @@ mod tests {
     #[test]
     fn a_place_is_in_the_segment_that_its_distance_from_the_second_end_says() {
         let segment = |length: f64| Section {
-            segment: FatigueSegment { curve: None, breaking: 1.0, od: 0.1, thickness: None, length },
+            segment: FatigueSegment {
+                curve: None,
+                breaking: 1.0,
+                break_is_given: true,
+                od: 0.1,
+                thickness: None,
+                length,
+            },
             tube: None,
         };
         let all = [100.0, 50.0, 20.0].map(segment);
