@@ -248,10 +248,14 @@ impl Extended for LineElement {
             Solver::Table { rows, forces } => self.moved(&ends).by_table(rows, forces)?,
             _ => self.moved(&ends).exact_loads()?,
         };
+        let mut over_given_break = loads.over_given_break;
         // a table knows its critical segment alone
-        let over_given_break = loads
-            .over_given_break
-            .or_else(|| self.moved(&ends).exact_loads().ok().and_then(|exact| exact.over_given_break));
+        if over_given_break.is_none() && matches!(self.solver, Solver::Table { .. }) {
+            let line = self.moved(&ends);
+            if line.breaks_given.contains(&true) {
+                over_given_break = line.exact_loads().ok().and_then(|exact| exact.over_given_break);
+            }
+        }
         Ok(Summary {
             tension: Some(loads.tension),
             ratio: Some(loads.ratio),
