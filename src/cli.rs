@@ -48,7 +48,7 @@ pub struct Cli {
     pub completions: Option<String>,
 }
 
-/// What windlass is told to run, and how.
+/// The job to run, and how to run it.
 #[derive(clap::Args, Debug, Default)]
 pub struct JobArgs {
     /// A script (model.cif), an AQWA deck (tow.dat), a ROOT (runs ROOT.cif, then the terminal), or - for standard input
