@@ -292,6 +292,11 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     warn_of_throwing(job, args);
     warn_of_lines(job, span);
     let mut going = Going::new(job, &made, log);
+    for text in run_tables::warnings_of_step(&made) {
+        // at once for who looks on; for the log with the record
+        going.bar.println(format!("warning: {text}"));
+        job.warn(text, span);
+    }
     let ended = made.go(&mut going);
     drop(going);
     let mut tables = vec![run_tables::told(&made)];
@@ -307,15 +312,24 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let head = job.page_head();
     let text = tables.iter().map(|t| page::render(t, job.units, &head)).collect::<Vec<_>>().join("\n");
     let over = over_break_in(&made);
+    let (poor, kept) = (ended.as_ref().ok().and_then(|_| run_tables::warning_of_accuracy(&made)), made.settings.keep);
     job.run = Some(made);
     job.say(&text);
+    if let Some(text) = poor {
+        job.warn(text, span);
+    }
     warn_of_breaks(job, over, span);
     let wrong = |e| told(e, &job.model, span, job.units);
     let ended = ended.map_err(wrong)?;
     checked.transpose().map_err(wrong)?;
     match ended {
         Ending::Done => {}
-        Ending::Interrupted => job.warn("the run was interrupted: what it has is kept, and -RESTART goes on", span),
+        Ending::Interrupted if kept => {
+            job.warn("the run was interrupted: what it has is kept, and -RESTART goes on", span);
+        }
+        Ending::Interrupted => {
+            job.warn("the run was interrupted: the statistics are those up to there; -STATISTICS keeps no file to go on from", span);
+        }
         Ending::Capsized(name) => {
             job.warn(
                 format!("body {name} rolled or pitched beyond 90 degrees: the run ended there (-NO_CAPSIZE YES)"),

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 use windlass_solve::time::{Snapshot, Watcher};
 
 /// Begins every such file; its last byte is the version.
-const MARK: [u8; 8] = *b"WINDRUN\x02";
+const MARK: [u8; 8] = *b"WINDRUN\x03";
 /// Bytes of the head.
 const HEAD: usize = 24;
 

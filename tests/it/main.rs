@@ -73,6 +73,7 @@ mod time {
     mod members_under_way;
     mod prcpost;
     mod prescribed;
+    mod step_accuracy;
     mod time_domain;
     mod time_runs;
 }

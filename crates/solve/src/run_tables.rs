@@ -1,6 +1,6 @@
 //! What a run says of itself, and how it compares with another.
 
-use super::time::{Counts, History, Method, Run, Series, results};
+use super::time::{Counts, Followed, History, Method, POOR_PERIOD, Resolution, Run, Series, Swing, results};
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
 
@@ -20,16 +20,35 @@ fn scheme(method: &Method) -> String {
 
 /// What a run did.
 pub fn told(run: &Run) -> Table {
-    let Counts { steps, cut, iterations, evaluations } = run.counts;
+    let Counts { steps: counted, cut, iterations, evaluations } = run.counts;
     let mut table = Table::new("Time Domain")
         .fact("Began", run.began.as_str(), Dim::None)
         .fact("Time Reached", run.time(), Dim::Time)
         .fact("Step", run.settings.dt, Dim::Time)
         .fact("Scheme", scheme(&run.settings.method), Dim::None)
-        .fact("Steps", steps, Dim::None)
+        .fact("Steps", counted, Dim::None)
         .fact("Steps Cut", cut, Dim::None)
         .fact("Iterations", iterations, Dim::None)
         .fact("Evaluations", evaluations, Dim::None);
+    let Resolution { natural, wave, .. } = &run.resolution;
+    let steps = |period: f64| shown(period / run.settings.dt);
+    if let Some(Swing { body, freedom, period }) = natural.first() {
+        let text = format!("{} s ({body} {freedom}), {} steps", shown(*period), steps(*period));
+        table = table.fact("Shortest Natural Period", text, Dim::None);
+    }
+    if let Some(period) = wave {
+        table = table.fact("Shortest Waves", format!("{} s, {} steps", shown(*period), steps(*period)), Dim::None);
+    }
+    if let Some(Followed { body, freedom, period, distortion }) = run.followed_worst() {
+        let (error, ..) = run.accuracy.largest;
+        let [longer, damping] = [distortion.period, distortion.damping].map(percent);
+        let text = format!("{longer} of {} s ({body} {freedom}), damping {damping} of critical", shown(period));
+        table = table.fact("Largest Error of a Step", error, Dim::Length).fact(
+            "Largest Error of a Period",
+            text,
+            Dim::None,
+        );
+    }
     if let Some(sea) = &run.sea {
         table = table.fact("Wave Components", sea.components.len(), Dim::None);
         if let Some(seed) = sea.seed {
@@ -50,6 +69,93 @@ pub fn told(run: &Run) -> Table {
         }
     }
     table
+}
+
+/// A number with three digits that count.
+fn shown(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return format!("{value}");
+    }
+    let first = value.abs().log10().floor();
+    if (-4.0..6.0).contains(&first) {
+        format!("{value:.*}", (2.0 - first).max(0.0) as usize)
+    } else {
+        format!("{value:.2e}")
+    }
+}
+
+/// A share in percent; less than a ten-thousandth is not told.
+fn percent(share: f64) -> String {
+    if share.abs() < 1e-4 { "below 0.01 %".into() } else { format!("{} %", shown(100.0 * share)) }
+}
+
+/// Steps from which on a run is announced.
+const MANY_STEPS: f64 = 1e8;
+
+/// What is wrong with the step of a run before it goes, a sentence each.
+pub fn warnings_of_step(run: &Run) -> Vec<String> {
+    let (Resolution { natural, wave, given }, dt, method) = (&run.resolution, run.settings.dt, &run.settings.method);
+    let mut list = Vec::new();
+    let steps = run.settings.observed / dt;
+    if steps >= MANY_STEPS {
+        let hours = shown(steps * 1e-5 / 3600.0);
+        list.push(format!(
+            "the run has {steps:.1e} steps: at 10 microseconds each they take {hours} hours; Ctrl-C ends it"
+        ));
+    }
+    if run.settings.adaptive.is_some() {
+        return list;
+    }
+    let poor = |period: f64| {
+        let made = method.distortion(period, dt);
+        (made.measure() > 1.0).then(|| {
+            format!(
+                "a step of at most {} s errs by less than {}",
+                shown(method.longest_step(period)),
+                percent(POOR_PERIOD)
+            )
+        })
+    };
+    if let Some((period, remedy)) = wave.and_then(|p| poor(p).map(|r| (p, r))) {
+        let by = percent(method.distortion(period, dt).period);
+        list.push(format!(
+            "a step of {} s is too long for the waves: a tenth of their energy has periods below {} s, where the scheme errs by {by} of a period; {remedy}",
+            shown(dt),
+            shown(period)
+        ));
+    }
+    if let Some((body, period)) = given.as_ref().filter(|(_, period)| method.distortion(*period, dt).measure() > 1.0) {
+        list.push(format!(
+            "a step of {} s is too long for {body}, which is moved with a period of {} s: between the steps forces are missed",
+            shown(dt),
+            shown(*period)
+        ));
+    }
+    // stiffer modes than waves excite follow their forces as in statics
+    let excited = |swing: &&Swing| wave.is_some_and(|wave| swing.period >= 0.5 * wave);
+    if let Some((Swing { body, freedom, period }, remedy)) =
+        natural.iter().find(excited).and_then(|swing| poor(swing.period).map(|r| (swing, r)))
+    {
+        let by = percent(method.distortion(*period, dt).period);
+        list.push(format!(
+            "a step of {} s is too long for the natural period of {body} in {freedom}, {} s: the scheme errs by {by} of it; {remedy}",
+            shown(dt),
+            shown(*period)
+        ));
+    }
+    list
+}
+
+/// What the steps of a run were too long for, as it saw itself.
+pub fn warning_of_accuracy(run: &Run) -> Option<String> {
+    let Followed { body, freedom, period, distortion } =
+        run.followed_worst().filter(|w| w.distortion.measure() > 1.0)?;
+    let [longer, damping] = [distortion.period, distortion.damping].map(percent);
+    Some(format!(
+        "the steps were too long for the motion of {body} in {freedom}: of its period of {} s the scheme errs by {longer} and damps {damping} of critical; a step of at most {} s follows it, and -CHECK shows the difference",
+        shown(period),
+        shown(run.settings.method.longest_step(period))
+    ))
 }
 
 /// Mean, deviation and extremes of the results of a run behind its transient, a table for each dimension.

@@ -378,3 +378,17 @@ fn a_comment_line_inside_a_continued_record_waits_for_the_rest() {
     t.ready("MAIN> ");
     assert_eq!(t.end(), 0);
 }
+
+#[test]
+fn run_of_very_many_steps_is_announced_and_interrupted_without_promising_a_file() {
+    let home = tempfile::tempdir().unwrap();
+    let records = "&DIMEN -DIMEN METERS N\nMEDIT\n*G 0 0 0\n&DESCRIBE BODY CART -IGNORE Y Z RX RY RZ\n*C 0 0 0\n\
+         #WEIGHT *C 9806.65 1 1 1\n~S GSPR BOTH X 4000 1E9 -LEN 0\nCONNECTOR S ~S *C *G\nEND\n&ENV -TIME 1E9 0.001\nTDOM -STATISTICS\n";
+    std::fs::write(home.path().join("job.cif"), records).unwrap();
+    let mut t = Terminal::start(home.path(), &["run", "job.cif"]);
+    t.see("1.0e12 steps");
+    t.see("Ctrl-C ends it");
+    t.press("\x03");
+    t.see("-STATISTICS keeps no file to go on from");
+    assert_eq!(t.end(), 130);
+}

@@ -85,14 +85,14 @@ fn files_that_are_no_runs_are_refused_and_never_panic() {
     run(&mut session, &moored("EXACT", "-TIME 20 0.1"));
     let job = folder.path().join("job.ans");
     fs::create_dir_all(&job).unwrap();
-    let hostile: [&[u8]; 4] = [b"", b"WINDRUN\x02", b"something else that is long enough to have a head", &[0xff; 64]];
+    let hostile: [&[u8]; 4] = [b"", b"WINDRUN\x03", b"something else that is long enough to have a head", &[0xff; 64]];
     for (n, bytes) in hostile.iter().enumerate() {
         fs::write(job.join("TDOM.run"), bytes).unwrap();
         session.open("test", "TDOM -RESTART\n");
         session.run();
         assert_eq!(session.errors, n as i64 + 1);
     }
-    let mut head = b"WINDRUN\x02".to_vec();
+    let mut head = b"WINDRUN\x03".to_vec();
     head.extend_from_slice(&[0xff; 16]);
     head.push(b'S');
     head.extend_from_slice(&u64::MAX.to_le_bytes());

@@ -2,7 +2,7 @@
 
 use super::forces::Motion;
 use super::scheme::Scheme;
-use super::step::{Convergence, Effort, Instant, Stepper, not_finite};
+use super::step::{Convergence, Effort, Instant, Stepper, not_finite, unsolved};
 use crate::system::{SolveError, System};
 use windlass_base::pose::Six;
 use windlass_model::ClassError;
@@ -65,8 +65,8 @@ impl Stepper {
             let before: Vec<Six> = ahead.motions.iter().map(|m| m.acceleration).collect();
             self.balance(system, ahead, dt)?;
             effort.evaluations += 1;
-            let change =
-                ahead.motions.iter().zip(&before).map(|(m, b)| (m.acceleration - b).amax()).fold(0.0, f64::max);
+            let changes = ahead.motions.iter().zip(&before).map(|(m, b)| m.acceleration - b);
+            let change = changes.clone().map(|c| c.amax()).fold(0.0, f64::max);
             if !change.is_finite() {
                 return Err(not_finite(system, &ahead.forces.sum, ahead.time));
             }
@@ -74,7 +74,10 @@ impl Stepper {
                 return Ok(());
             }
             if effort.iterations >= wanted.most {
-                return Err(self.unsolved(system, change, ahead.time, dt));
+                let worst = changes.enumerate().map(|(body, c)| (6 * body + c.iamax(), c.amax()));
+                let worst = worst.reduce(|a, b| if b.1 > a.1 { b } else { a }).map_or(0, |(at, _)| at);
+                let (time, what) = (ahead.time, "the acceleration still changes by");
+                return Err(unsolved(system, (worst, change), (time, dt), what));
             }
             effort.iterations += 1;
             scheme = trapezoid;

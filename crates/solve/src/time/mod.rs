@@ -3,6 +3,7 @@
 //! Source: reference/solve.md, "TDOM". The equations are Newton's and Euler's about the origin of each body, in global axes:
 //! `M a = F(t, q, v) - gyroscopic(v)`; connectors and loads are evaluated at the end of each step.
 
+mod accuracy;
 mod action;
 mod along;
 mod corrector;
@@ -17,6 +18,7 @@ mod inertia;
 mod newton;
 mod prescribed;
 mod pushing;
+mod resolution;
 mod resume;
 mod run;
 mod scheme;
@@ -26,6 +28,7 @@ mod snapshot;
 mod statistics;
 mod step;
 
+pub use accuracy::{Accuracy, Distortion, Followed, POOR_DAMPING, POOR_PERIOD};
 pub use action::{Action, Watched, What, When};
 pub use along::{AlongColumns, AlongEnvelope, BentRow, NodeRow, Quantity};
 pub use course::{Counts, Ending, Settings, Watcher};
@@ -34,6 +37,7 @@ pub use forces::{Forces, Memory, Motion};
 pub use history::{History, Layout, LinkColumns, LinkEnds, OF_BODY};
 pub use prescribed::{Prescribed, prescribed};
 pub use pushing::Pushing;
+pub use resolution::{Resolution, Swing};
 pub use run::{Run, SNAPSHOT};
 pub use scheme::{Method, Scheme};
 pub use snapshot::Snapshot;

@@ -115,6 +115,7 @@ impl Run {
         self.near.clone_from(&snapshot.near);
         self.taken = snapshot.taken;
         self.counts = snapshot.counts;
+        self.accuracy.clone_from(&snapshot.accuracy);
         self.forget();
         self.history.values = rows;
         let wrong = |e: SeriesError| SolveError::new(ClassError::new(e.to_string()));

@@ -1,5 +1,6 @@
 //! A run: steps from a start to an end, with what happens on the way, and rows kept.
 
+use super::accuracy::Accuracy;
 use super::action::Action;
 use super::along::AlongEnvelope;
 use super::course::{Counts, Ending, Settings, Watcher};
@@ -7,7 +8,7 @@ use super::duties::Duties;
 use super::forces::{Memory, Motion};
 use super::history::{History, Layout, Told};
 use super::inertia::gyroscopic;
-use super::scheme::Method;
+use super::resolution::Resolution;
 use super::statistics::Statistics;
 use super::step::{Effort, Instant, Stepper};
 use crate::system::{SolveError, System, mass_block};
@@ -44,6 +45,10 @@ pub struct Run {
     pub envelopes: Vec<AlongEnvelope>,
     /// What it did.
     pub counts: Counts,
+    /// What its step has to follow, as it is at the start.
+    pub resolution: Resolution,
+    /// What it has seen of its own steps.
+    pub accuracy: Accuracy,
     /// The sea now.
     pub sea: Option<Arc<Sea>>,
     pub(super) system: System,
@@ -118,6 +123,8 @@ impl Run {
             envelopes: vec![AlongEnvelope::default(); layout.links.len()],
             history: History::new(layout),
             counts: Counts::default(),
+            resolution: Resolution::default(),
+            accuracy: Accuracy::default(),
             seas: vec![(0.0, sea.clone())],
             sea,
             system,
@@ -171,6 +178,7 @@ impl Run {
         self.stepper.balance(&self.system, &mut self.now, 0.0)?;
         // what moves by itself begins where it hangs
         self.system.begin_moving(&self.now.forces.trial);
+        self.resolution = self.resolve();
         Ok(())
     }
 
@@ -259,7 +267,7 @@ impl Run {
                     self.counts.iterations += iterations;
                     self.counts.evaluations += evaluations;
                     if let Some(before) = before {
-                        let error = self.error_of_step(&before.motions, part);
+                        let error = self.settings.method.error_of_step(self.now.motions.iter(), part);
                         let rough = self.settings.adaptive.is_some_and(|allowed| error > allowed) && level < HALVINGS;
                         let sudden = sought < SOUGHT && self.comes_true();
                         if rough || sudden {
@@ -274,6 +282,8 @@ impl Run {
                         }
                     }
                     self.counts.steps += 1;
+                    let (nodes, motions) = (&self.system.nodes, &self.now.motions);
+                    self.accuracy.take(nodes, motions, &self.settings.method, (self.now.time, part));
                     if part < self.settings.dt * 0.999 {
                         let fired = self.fired.iter().flatten().count();
                         if let Some(name) = self.happens()? {
@@ -314,20 +324,6 @@ impl Run {
         (self.now.time, self.now.motions) = (before.time, before.motions);
         (self.now.memory, self.system.states) = (before.memory, before.states);
         self.now.forces.unsettle();
-    }
-
-    /// The error of place of one step (m): `h^2 |beta - 1/6|` times the change of the acceleration (Zienkiewicz and Xie, Earthquake
-    /// Engineering and Structural Dynamics 20, 1991, 871-887, eq. 12).
-    fn error_of_step(&self, before: &[Motion], dt: f64) -> f64 {
-        let factor = match self.settings.method {
-            Method::Implicit(scheme) => (scheme.beta - 1.0 / 6.0).abs().max(1.0 / 12.0),
-            Method::Corrector => 1.0 / 12.0,
-        };
-        let change = |(new, old): (&Motion, &Motion)| {
-            let by = new.acceleration - old.acceleration;
-            by.fixed_rows::<3>(0).norm().max(10.0 * by.fixed_rows::<3>(3).norm())
-        };
-        factor * dt * dt * self.now.motions.iter().zip(before).map(change).fold(0.0, f64::max)
     }
 
     /// Forgets what solvers remember, so that a run that goes on from a snapshot finds the same digits.

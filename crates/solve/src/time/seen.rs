@@ -1,5 +1,6 @@
 //! What can be seen of a run from outside, and all that is needed to go on from where it is.
 
+use super::accuracy::Followed;
 use super::forces::Motion;
 use super::run::Run;
 use super::snapshot::Snapshot;
@@ -11,6 +12,11 @@ impl Run {
     /// Time reached (s).
     pub fn time(&self) -> f64 {
         self.now.time
+    }
+
+    /// The motion that its steps follow worst, of those that are large enough to count; none where nothing moved.
+    pub fn followed_worst(&self) -> Option<Followed> {
+        self.accuracy.worst(&self.system, &self.now.motions, &self.settings.method)
     }
 
     /// The books of the lines that move by themselves, by name, where they are kept.
@@ -48,6 +54,7 @@ impl Run {
             near: self.near.clone(),
             rows: self.history.len(),
             counts: self.counts,
+            accuracy: self.accuracy.clone(),
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Everything a run needs to go on from an instant with the same digits, as numbers and as bytes.
 
+use super::accuracy::Accuracy;
 use super::course::Counts;
 use super::forces::Motion;
 use nalgebra::Matrix3;
@@ -31,6 +32,8 @@ pub struct Snapshot {
     pub rows: usize,
     /// What the run did so far.
     pub counts: Counts,
+    /// What the run has seen of its own steps.
+    pub accuracy: Accuracy,
 }
 
 /// Writes numbers one behind the other; a text as the number of its bytes and these.
@@ -134,6 +137,7 @@ impl Snapshot {
         out.count(self.rows);
         let Counts { steps, cut, iterations, evaluations } = self.counts;
         [steps, cut, iterations, evaluations].into_iter().for_each(|n| out.count(n));
+        out.list(&self.accuracy.numbers());
         out.0
     }
 
@@ -170,8 +174,22 @@ impl Snapshot {
         let rows = from.plain()?;
         let [steps, cut, iterations, evaluations] = [from.plain()?, from.plain()?, from.plain()?, from.plain()?];
         let counts = Counts { steps, cut, iterations, evaluations };
+        let accuracy = Accuracy::of(&from.list()?)?;
         let whole = from.0.is_empty();
-        whole.then_some(Snapshot { time, taken, motions, loads, states, lengths, fired, winches, near, rows, counts })
+        whole.then_some(Snapshot {
+            time,
+            taken,
+            motions,
+            loads,
+            states,
+            lengths,
+            fired,
+            winches,
+            near,
+            rows,
+            counts,
+            accuracy,
+        })
     }
 }
 
@@ -194,6 +212,7 @@ mod tests {
             near: vec![Place::default(); 2],
             rows: 3,
             counts: Counts { steps: 9, cut: 1, iterations: 20, evaluations: 29 },
+            accuracy: Accuracy::default(),
         };
         let bytes = snapshot.bytes();
         assert_eq!(Snapshot::read(&bytes), Some(snapshot));

@@ -282,13 +282,13 @@ impl Stepper {
                 break;
             }
             if effort.iterations >= wanted.most {
-                return Err(self.unsolved(system, left, time, dt));
+                return Err(self.unbalanced(system, left, time, dt));
             }
             effort.iterations += 1;
             self.turn(system);
             self.jacobian(&now.forces, dt, by_place, by_velocity);
             if !self.solve() {
-                return Err(self.unsolved(system, left, time, dt));
+                return Err(self.unbalanced(system, left, time, dt));
             }
             self.correct_trial(system, &now.motions, dt, (gain, by_place, by_velocity));
             self.weigh_again(system);
@@ -318,18 +318,23 @@ impl Stepper {
         system.states.extend_from_slice(&now.forces.trial);
     }
 
-    /// The error of a step without a balance.
-    pub(super) fn unsolved(&self, system: &System, left: f64, time: f64, dt: f64) -> SolveError {
-        let worst = self.right.iamax();
-        let at = self.rows.get(worst).map_or(0, |r| r.at);
-        let name = system.nodes.get(at / 6).map(|n| n.name.clone());
-        let freedom = FREEDOMS.get(at % 6).copied().unwrap_or_default();
-        let text = format!(
-            "no balance at {time} s with a step of {dt} s: an acceleration of {:.2e} g is left, most in {freedom}",
-            left / system.gravity
-        );
-        SolveError { who: name, error: ClassError::new(text) }
+    /// The error of a step whose iteration ended before the balance was found.
+    fn unbalanced(&self, system: &System, left: f64, time: f64, dt: f64) -> SolveError {
+        let most = |a: (usize, f64), b: (usize, f64)| if b.1.abs() > a.1.abs() { b } else { a };
+        let worst = self.right.iter().copied().enumerate().reduce(most).and_then(|(at, _)| self.rows.get(at));
+        unsolved(system, (worst.map_or(0, |r| r.at), left), (time, dt), "an acceleration is left of")
     }
+}
+
+/// The error of a step without a solution: the freedom that is worst, six a body, and what is left there (m/s2).
+pub(super) fn unsolved(system: &System, (at, left): (usize, f64), (time, dt): (f64, f64), what: &str) -> SolveError {
+    let name = system.nodes.get(at / 6).map(|n| n.name.clone());
+    let freedom = FREEDOMS.get(at % 6).copied().unwrap_or_default();
+    let text = format!(
+        "no balance at {time} s with a step of {dt} s: {what} {:.2e} g, most in {freedom}",
+        left / system.gravity
+    );
+    SolveError { who: name, error: ClassError::new(text) }
 }
 
 /// The error of a force that is no number.
