@@ -6,6 +6,7 @@
 //!
 //! Source: seed 003, Appendices A and B; reference/aqwa-cards.md, section 1.
 
+use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::{SourceId, Span};
 use windlass_language::source::Source;
 
@@ -123,9 +124,21 @@ impl<'a> Line<'a> {
         !self.text.get(self.offset(WIDTH + 1)..).unwrap_or_default().trim().is_empty()
     }
 
-    /// Whether the line has tabs, which belong to no column.
-    pub fn tabs(&self) -> bool {
-        self.text.contains('\t')
+    /// Whether what stands in the last column that is read goes on past it.
+    pub fn is_cut(&self) -> bool {
+        !self.blank(WIDTH, WIDTH) && !self.blank(WIDTH + 1, WIDTH + 1)
+    }
+
+    /// Column of the first tab, which belongs to no column.
+    pub fn tab(&self) -> Option<usize> {
+        self.text.chars().position(|c| c == '\t').map(|index| index + 1)
+    }
+
+    /// The error of a card with a tab in a column; `label` names the deck.
+    pub fn tab_error(&self, label: &str, column: usize) -> Box<Diagnostic> {
+        Diagnostic::error(format!("{label}: a tab stands in column {column}"), self.span(column, column))
+            .label("fields are found by their columns")
+            .help("write blanks in the place of tabs")
     }
 
     /// The words of a piece of the line: apart by blanks, tabs or commas.
@@ -145,8 +158,6 @@ pub struct Face<'a> {
     pub keyword: String,
     /// Place of the keyword.
     pub place: Span,
-    /// Whether all of this stands in its columns; else it was found by blanks.
-    pub fixed: bool,
     /// What follows.
     pub rest: &'a str,
 }
@@ -162,50 +173,51 @@ fn begins_keyword(piece: &str) -> bool {
 }
 
 impl<'a> Face<'a> {
-    /// The face of a card of deck `deck`; `keyworded` tells whether its cards have a keyword (all but decks 1 and 3).
-    pub fn of(line: &Line<'a>, deck: u8, keyworded: bool) -> Face<'a> {
-        Face::fixed(line, keyworded).unwrap_or_else(|| Face::free(line, deck, keyworded))
-    }
-
-    fn fixed(line: &Line<'a>, keyworded: bool) -> Option<Face<'a>> {
-        let end = line.columns(2, 4);
-        let last = is_end(end);
-        if line.tabs() || !line.blank(1, 1) || !(last || end.trim().is_empty()) {
-            return None;
+    /// The face of a card; `keyworded` tells whether the cards of its deck have a keyword (all but those of decks 1 and 3).
+    ///
+    /// # Errors
+    /// Which of the columns 1 to 10 hold what does not belong there, or where a tab stands; `label` names the deck.
+    pub fn of(line: &Line<'a>, label: &str, keyworded: bool) -> Result<Face<'a>, Box<Diagnostic>> {
+        if let Some(tab) = line.tab() {
+            return Err(line.tab_error(label, tab));
+        }
+        let wrong = |first: usize, last: usize, belongs: &str| {
+            let stands = line.columns(first, last).trim();
+            let columns = if first == last { format!("column {first}") } else { format!("columns {first}-{last}") };
+            let (message, span) = if stands.is_empty() {
+                (format!("{label}: {columns} are blank"), line.span(first, last))
+            } else {
+                (format!("{label}: `{stands}` stands in {columns}"), line.place_of(stands))
+            };
+            Diagnostic::error(message, span).label(belongs).help(
+                "a card has END in columns 2-4 where it closes its deck, an identifier in 5-6, its keyword in 7-10",
+            )
+        };
+        if !line.blank(1, 1) {
+            return Err(wrong(1, 1, "column 1 is blank"));
+        }
+        let last = is_end(line.columns(2, 4));
+        if !last && !line.blank(2, 4) {
+            return Err(wrong(2, 4, "END or nothing belongs in columns 2-4"));
         }
         let id = line.columns(5, 6).trim();
         let word = line.columns(7, 10);
         let (keyword, from) = match (keyworded, begins_keyword(word)) {
             (true, true) if !word.trim_end().contains(char::is_whitespace) => (word.trim_end(), 11),
             (true, false) if line.blank(7, WIDTH) => ("", 11),
+            (true, _) => return Err(wrong(7, 10, "a keyword belongs in columns 7-10")),
             (false, true) => (word.trim_end(), 11),
             (false, false) if id.bytes().all(|b| b.is_ascii_alphanumeric()) => ("", 7),
-            _ => return None,
+            (false, false) => return Err(wrong(5, 6, "an identifier of letters and digits belongs in columns 5-6")),
         };
         let rest = line.text.get(line.offset(from)..).unwrap_or_default();
-        Some(Face { last, id, keyword: keyword.to_ascii_uppercase(), place: line.span(7, 10), fixed: true, rest })
+        Ok(Face { last, id, keyword: keyword.to_ascii_uppercase(), place: line.span(7, 10), rest })
     }
 
-    fn free(line: &Line<'a>, deck: u8, keyworded: bool) -> Face<'a> {
-        let mut rest = line.text.trim_start();
-        let head = rest.get(..3).unwrap_or_default();
-        let after = rest.get(3..).unwrap_or_default();
-        let last = is_end(head) && !begins_keyword(after);
-        if last {
-            rest = after.trim_start();
-        }
-        let id = rest.get(..2).filter(|id| id.bytes().all(|b| b.is_ascii_digit())).unwrap_or_default();
-        let after = rest.get(id.len()..).unwrap_or_default();
-        // where a card has no keyword, two digits may be its first value: only the number of the deck is an identifier
-        let own = id == format!("{deck:02}");
-        let id =
-            if own || (keyworded && !after.starts_with(|c: char| c.is_ascii_digit() || c == '.')) { id } else { "" };
-        rest = rest.get(id.len()..).unwrap_or_default().trim_start();
-        let length = rest.find(|c: char| c.is_whitespace() || c == ',' || c == '(').unwrap_or(rest.len());
-        let word = rest.get(..length).filter(|word| begins_keyword(word)).unwrap_or_default();
-        let place = line.place_of(rest.get(..length).unwrap_or_default());
-        rest = rest.get(word.len()..).unwrap_or_default();
-        Face { last, id, keyword: word.to_ascii_uppercase(), place, fixed: false, rest }
+    /// Whether a line whose face does not fit seems to close its deck.
+    pub fn closes(line: &Line<'a>) -> bool {
+        let text = line.text.trim_start();
+        is_end(text.get(..3).unwrap_or_default()) && !begins_keyword(text.get(3..).unwrap_or_default())
     }
 }
 

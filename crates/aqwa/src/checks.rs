@@ -5,7 +5,7 @@ use super::Deck;
 use super::card::Field;
 use super::elements::Shape;
 use super::job::Program;
-use super::lines::LineKind;
+use super::lines::{LineKind, MooringLine};
 use super::placed;
 use super::remarks::Remarks;
 use super::tethers::Tether;
@@ -25,6 +25,9 @@ pub fn check(deck: &Deck, remarks: &mut Remarks) {
         line_ends(deck, remarks);
         numbers_of_structures(deck, remarks);
         placed::check(deck, remarks);
+    }
+    if whole {
+        wave_loads(deck, remarks);
     }
     towed(deck, whole, remarks);
     run(deck, remarks);
@@ -161,10 +164,43 @@ fn line_ends(deck: &Deck, remarks: &mut Remarks) {
             });
         }
         let ends = line.ends;
+        let earlier = deck.mooring.lines.iter().take_while(|other| other.span != line.span);
+        if let Some(same) = earlier.into_iter().find(|other| other.ends.numbers() == ends.numbers()) {
+            remarks.add(
+                Diagnostic::warning("deck 14: another line runs between these nodes", line.span)
+                    .label("both are taken")
+                    .other(same.span, "the other one"),
+            );
+        }
+        if matches!(line.kind, LineKind::Property { .. }) {
+            bottom(deck, line, remarks);
+        }
         for (number, point) in [(ends.structure1, ends.node1), (ends.structure2, ends.node2)] {
             structure(deck, "deck 14, structure of a line", number, remarks);
             node(deck, "deck 14, node of a line", point, remarks);
         }
+    }
+}
+
+/// Says which bottom a line from a structure to an anchor lies on: that of its anchor.
+fn bottom(deck: &Deck, line: &MooringLine, remarks: &mut Remarks) {
+    let [first, _, second, _] = line.ends.numbers();
+    let anchor = match (first > 0, second > 0) {
+        (true, false) => line.ends.node2,
+        (false, true) => line.ends.node1,
+        _ => return,
+    };
+    let Some(place) = deck.nodes.get(&anchor.value) else { return };
+    let (z, bed) = (place.position[2], -deck.global.depth);
+    if z >= 0.0 {
+        let message = format!("deck 14: the anchor of this line is at Z = {z}, which is not below the water line");
+        remarks.add(Diagnostic::error(message, anchor.span).label("a line lies on the bottom at its anchor"));
+    } else if z < bed {
+        let message = format!("deck 14: the anchor of this line is at Z = {z}, below the sea bed at {bed}");
+        remarks.add(Diagnostic::warning(message, anchor.span).label("the line lies on a bottom at its anchor"));
+    } else if z > bed {
+        let message = format!("deck 14: the anchor of this line is at Z = {z}, above the sea bed at {bed}");
+        remarks.add(Diagnostic::remark(message, anchor.span).label("the line lies on a bottom at its anchor"));
     }
 }
 
@@ -309,6 +345,32 @@ fn run(deck: &Deck, remarks: &mut Remarks) {
             }
         }
         _ => {}
+    }
+}
+
+/// A run in waves needs loads of the waves on each structure: those of its tubes, as the coefficients of decks 6 to 8 are not read.
+fn wave_loads(deck: &Deck, remarks: &mut Remarks) {
+    let timed = matches!(deck.job.program, Program::Drift | Program::Naut) && deck.job.runs();
+    let waves = match &deck.waves {
+        Waves::Still => false,
+        Waves::Regular(wave) => wave.amplitude > 0.0,
+        Waves::Spectra(_) => true,
+    };
+    // the vessel of a towed tether is a nominal one and is held
+    if !timed || !waves || deck.mooring.tethers.iter().any(Tether::towed) {
+        return;
+    }
+    for structure in &deck.structures {
+        if structure.elements.iter().all(|element| element.shape != Shape::Tube) {
+            let message =
+                format!("decks 6 to 8: structure {} has no wave coefficients, and no tubes", structure.number);
+            remarks.add(
+                Diagnostic::error(message, structure.span)
+                    .label("no load of the waves would act on it")
+                    .help("coefficients of a deck are not read; INMODEL -AQWA takes its model, and DATABASE of the model its coefficients")
+                    .help("still water is NONE in the place of deck 13"),
+            );
+        }
     }
 }
 

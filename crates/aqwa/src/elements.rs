@@ -9,6 +9,7 @@
 use super::card::{integer, real};
 use super::layout::{Layout, Record};
 use super::remarks::Remarks;
+use std::collections::HashMap;
 use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::Span;
 
@@ -53,14 +54,14 @@ const UNSEEN: &str = "this card is for the diffraction analysis of a hull, which
 
 /// Cards of deck 2.
 pub const LAYOUTS: &[Layout] = &[
-    Layout::text("TUBE"),
-    Layout::text("PMAS"),
-    Layout::text("STUB"),
-    Layout::text("DISC"),
-    Layout::text("PBOY"),
-    Layout::text("QPPL"),
-    Layout::text("TPPL"),
-    Layout::text("FPNT"),
+    Layout::text("TUBE").freely(),
+    Layout::text("PMAS").freely(),
+    Layout::text("STUB").freely(),
+    Layout::text("DISC").freely(),
+    Layout::text("PBOY").freely(),
+    Layout::text("QPPL").freely(),
+    Layout::text("TPPL").freely(),
+    Layout::text("FPNT").freely(),
     Layout::text("ZLWL"),
     Layout::refused("FIXD", UNSEEN),
     Layout::refused("SYMX", UNSEEN),
@@ -118,6 +119,8 @@ impl Shape {
 /// The structure of the cards of one deck ELMn; `present` elements were made before.
 pub fn read(number: i64, span: Span, records: &[Record], present: usize, remarks: &mut Remarks) -> Structure {
     let mut structure = Structure { number, span, ..Structure::default() };
+    // elements by kind, nodes and groups, with their cards
+    let mut there: HashMap<(Shape, Vec<i64>, i64, i64), Span> = HashMap::new();
     for record in records {
         if record.keyword == "ZLWL" {
             let height = groups(record).and_then(|(_, list)| match list.as_slice() {
@@ -136,7 +139,20 @@ pub fn read(number: i64, span: Span, records: &[Record], present: usize, remarks
         };
         let made = present + structure.elements.len();
         match elements(record, *shape, *count, *material, *geometry, made) {
-            Ok(list) => structure.elements.extend(list),
+            Ok(list) => {
+                for element in list {
+                    let key = (element.shape, element.nodes.clone(), element.material, element.geometry);
+                    if let Some(earlier) = there.insert(key, element.span) {
+                        let message = format!("deck 2, {name}: this element is given twice");
+                        remarks.add(
+                            Diagnostic::error(message, element.span)
+                                .label("leave out one of the two")
+                                .other(earlier, "given here first"),
+                        );
+                    }
+                    structure.elements.push(element);
+                }
+            }
             Err(mut error) => {
                 let groups = ["(node,step)"].repeat(*count).join(" ");
                 let material = if *material { " (material)" } else { "" };

@@ -47,6 +47,14 @@ pub fn check(tether: &Tether, remarks: &mut Remarks) {
                 .other(anchor.span, "the other end"),
         );
     }
+    if !tether.towed() && tether.description.lower_stop.is_none() {
+        remarks.once("TLOW missing", || {
+            Diagnostic::remark("deck 14: no TLOW card; a slack tether hangs free and meets no lower stop", tether.span)
+                .help(
+                    "so for every installed tether without the card; TLOW 0.0 keeps a tether from hanging free (A.11)",
+                )
+        });
+    }
     for (keyword, spring) in ends {
         if tether.towed() {
             check_towed(keyword, spring, tether.span, remarks);

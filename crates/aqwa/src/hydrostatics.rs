@@ -28,10 +28,10 @@ const VALUES: &[Slot] = &[
 
 /// Cards of deck 6.
 pub const FREQUENCIES: &[Layout] = &[
-    Layout::assumed("FREQ", VALUES),
-    Layout::assumed("PERD", VALUES),
-    Layout::assumed("HRTZ", VALUES),
-    Layout::assumed("DIRN", VALUES),
+    Layout::assumed("FREQ", VALUES).freely(),
+    Layout::assumed("PERD", VALUES).freely(),
+    Layout::assumed("HRTZ", VALUES).freely(),
+    Layout::assumed("DIRN", VALUES).freely(),
     Layout::refused("CSTR", UNSEEN),
     Layout::refused("FILE", DATABASE),
     Layout::refused("MVEF", UNSEEN),
@@ -40,14 +40,14 @@ pub const FREQUENCIES: &[Layout] = &[
 
 /// Cards of deck 7.
 pub const STIFFNESS: &[Layout] = &[
-    Layout::new("LSTF", ROW),
-    Layout::new("ASTF", ROW),
+    Layout::new("LSTF", ROW).by(&[16]),
+    Layout::new("ASTF", ROW).by(&[16]),
     Layout::refused("SSTF", "a stiffness between structures is not read"),
     Layout::new("BFEQ", &[num("buoyancy force at equilibrium", 21)]),
     Layout::new("ZCGE", &[num("Z of the centre of gravity at equilibrium", 21)]),
     Layout::new("SPOS", &SIX),
-    Layout::new("FIAM", ROW),
-    Layout::new("FIDP", ROW),
+    Layout::new("FIAM", ROW).by(&[16]),
+    Layout::new("FIDP", ROW).by(&[16]),
     Layout::refused("WAMS", DATABASE),
     Layout::refused("WDMP", DATABASE),
     Layout::refused("FREQ", DATABASE),
@@ -66,8 +66,11 @@ pub const DRIFT: &[Layout] = &[
 ];
 
 /// Cards of deck 9.
-pub const DAMPING: &[Layout] =
-    &[Layout::assumed("FIDA", ROW), Layout::assumed("FIDD", ROW), Layout::refused("FILE", DATABASE)];
+pub const DAMPING: &[Layout] = &[
+    Layout::assumed("FIDA", ROW).by(&[16]),
+    Layout::assumed("FIDD", ROW).by(&[16]),
+    Layout::refused("FILE", DATABASE),
+];
 
 /// Cards of deck 10.
 pub const HULL: &[Layout] = &[

@@ -132,14 +132,25 @@ pub fn is_deck(text: &str) -> bool {
 /// Reads deck 0.
 pub fn read(reader: &mut Reader<'_>) -> Job {
     let mut job = Job { stages: (1, 5), span: reader.here(), ..Job::default() };
-    let (mut met_job, mut restart, mut listed) = (false, None, None);
+    let (mut restart, mut listed) = (None, None);
+    let mut met: Vec<(&str, Span)> = Vec::new();
     while let Some(line) = reader.peek().cloned() {
         let Some(word) = Line::words(line.text).next() else { break };
         let rest =
             line.text.get(line.place_of(word).end as usize - line.place(0, 0).start as usize..).unwrap_or_default();
-        match word.to_ascii_uppercase().as_str() {
+        let word = word.to_ascii_uppercase();
+        if let Some(once) = ["JOB", "TITLE", "RESTART"].into_iter().find(|name| *name == word) {
+            match met.iter().find(|(name, _)| *name == once) {
+                Some((_, earlier)) => reader.remarks.add(
+                    Diagnostic::error(format!("deck 0, {once}: this line is given twice"), line.whole())
+                        .label("leave out one of the two")
+                        .other(*earlier, "given here first"),
+                ),
+                None => met.push((once, line.whole())),
+            }
+        }
+        match word.as_str() {
             "JOB" => {
-                met_job = true;
                 job.span = line.whole();
                 read_job(&mut job, &line, rest, &mut reader.remarks);
             }
@@ -151,7 +162,7 @@ pub fn read(reader: &mut Reader<'_>) -> Job {
         }
         reader.take();
     }
-    if !met_job {
+    if !met.iter().any(|(name, _)| *name == "JOB") {
         let span = job.span;
         reader.remarks.add(Diagnostic::error("deck 0 has no JOB line", span).label("JOB belongs in columns 1-3"));
     }
@@ -165,7 +176,8 @@ pub fn read(reader: &mut Reader<'_>) -> Job {
 }
 
 fn read_job(job: &mut Job, line: &Line<'_>, rest: &str, remarks: &mut Remarks) {
-    let by_columns = line.blank(4, 4) && line.blank(9, 10) && line.blank(15, 16) && !line.blank(11, 14) && !line.tabs();
+    let by_columns =
+        line.blank(4, 4) && line.blank(9, 10) && line.blank(15, 16) && !line.blank(11, 14) && line.tab().is_none();
     let words: Vec<&str> = if by_columns {
         vec![line.columns(5, 8).trim(), line.columns(11, 14).trim(), line.columns(17, 20).trim()]
     } else {

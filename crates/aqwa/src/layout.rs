@@ -1,4 +1,6 @@
 //! What belongs in the columns of a card, as data: one [`Layout`] a keyword, and the [`Record`] that reading one gives.
+//!
+//! A card that does not fit its columns is an error: no value is looked for elsewhere.
 
 use super::card::{Face, Field, Line, WIDTH, integer, real};
 use windlass_base::diagnostic::Diagnostic;
@@ -60,6 +62,25 @@ pub enum Standing {
     Passed(&'static str),
 }
 
+/// How often a card may come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Repeats {
+    /// Any number of times: each card says something of its own.
+    Freely,
+    /// Once in a deck.
+    Once {
+        /// A name that cards giving the same quantity share; empty for the keyword alone.
+        same: &'static str,
+        /// First columns of the whole numbers that tell one such card from another (row, structure).
+        by: &'static [usize],
+        /// Keywords of the cards after which it may come again.
+        until: &'static [&'static str],
+    },
+}
+
+/// Once in a deck.
+const ONCE: Repeats = Repeats::Once { same: "", by: &[], until: &[] };
+
 /// One kind of card of a deck.
 #[derive(Clone, Copy, Debug)]
 pub struct Layout {
@@ -71,32 +92,59 @@ pub struct Layout {
     pub text: bool,
     /// How it is answered.
     pub standing: Standing,
+    /// How often it may come; once unless said otherwise.
+    pub repeats: Repeats,
 }
 
 impl Layout {
     /// A card whose columns are sure.
     pub const fn new(keyword: &'static str, slots: &'static [Slot]) -> Self {
-        Layout { keyword, slots, text: false, standing: Standing::Sure }
+        Layout { keyword, slots, text: false, standing: Standing::Sure, repeats: ONCE }
     }
 
     /// A card whose columns are assumed.
     pub const fn assumed(keyword: &'static str, slots: &'static [Slot]) -> Self {
-        Layout { keyword, slots, text: false, standing: Standing::Assumed }
+        Layout { keyword, slots, text: false, standing: Standing::Assumed, repeats: ONCE }
     }
 
     /// A card that is refused for a reason.
     pub const fn refused(keyword: &'static str, reason: &'static str) -> Self {
-        Layout { keyword, slots: &[], text: true, standing: Standing::Refused(reason) }
+        Layout { keyword, slots: &[], text: true, standing: Standing::Refused(reason), repeats: ONCE }
     }
 
     /// A card that is passed over for a reason.
     pub const fn passed(keyword: &'static str, reason: &'static str) -> Self {
-        Layout { keyword, slots: &[], text: true, standing: Standing::Passed(reason) }
+        Layout { keyword, slots: &[], text: true, standing: Standing::Passed(reason), repeats: ONCE }
     }
 
     /// A card of text.
     pub const fn text(keyword: &'static str) -> Self {
-        Layout { keyword, slots: &[], text: true, standing: Standing::Sure }
+        Layout { keyword, slots: &[], text: true, standing: Standing::Sure, repeats: ONCE }
+    }
+
+    /// The card may come any number of times.
+    pub const fn freely(self) -> Self {
+        Layout { repeats: Repeats::Freely, ..self }
+    }
+
+    /// The card comes once for each value of the whole numbers that begin in these columns.
+    pub const fn by(self, by: &'static [usize]) -> Self {
+        Layout { repeats: Repeats::Once { same: "", by, until: &[] }, ..self }
+    }
+
+    /// The card may come again after one of these.
+    pub const fn until(self, until: &'static [&'static str]) -> Self {
+        Layout { repeats: Repeats::Once { same: "", by: &[], until }, ..self }
+    }
+
+    /// The card comes once among those that share a name, and again after one of these.
+    pub const fn one_of(self, same: &'static str, until: &'static [&'static str]) -> Self {
+        Layout { repeats: Repeats::Once { same, by: &[], until }, ..self }
+    }
+
+    /// The name of the field that begins in a column.
+    pub fn name_of(&self, column: usize) -> &'static str {
+        self.slots.iter().find(|slot| slot.column == column).map_or("", |slot| slot.name)
     }
 
     /// The columns of the card in words, for help lines.
@@ -106,11 +154,11 @@ impl Layout {
         format!("columns of {}: {fields}", if self.keyword.is_empty() { "this card" } else { self.keyword })
     }
 
-    /// The fields of a card with this face, by columns or, where those hold no such fields, by blanks.
+    /// The fields of a card with this face.
     ///
     /// # Errors
     /// A message that names the columns and what belongs there.
-    pub fn read(&self, deck: &str, line: &Line<'_>, face: &Face<'_>) -> Result<(Record, How), Box<Diagnostic>> {
+    pub fn read(&self, deck: &str, line: &Line<'_>, face: &Face<'_>) -> Result<Record, Box<Diagnostic>> {
         let mut record = Record {
             keyword: face.keyword.clone(),
             id: face.id.to_string(),
@@ -122,27 +170,32 @@ impl Layout {
             text: String::new(),
             text_place: line.place_of(face.rest.trim()),
         };
+        if line.is_cut() {
+            let message = format!("{}: what stands in column {WIDTH} goes on past it", self.named(deck));
+            return Err(Diagnostic::error(message, line.span(WIDTH, WIDTH + 1))
+                .label(format!("a card ends with column {WIDTH}"))
+                .help(self.usage()));
+        }
         if self.text {
-            let rest = if face.fixed { line.columns(11, WIDTH) } else { face.rest };
-            let rest = rest.trim().trim_start_matches(',').trim();
+            let before = line.text.chars().position(|c| c == '(').unwrap_or(WIDTH);
+            if before < 20 {
+                let message = format!("{}: a bracket stands before column 21", self.named(deck));
+                return Err(
+                    Diagnostic::error(message, line.span(11, 20)).label("groups in brackets belong in columns 21-80")
+                );
+            }
+            if before < WIDTH {
+                self.nothing_between(deck, line, 21, before)?;
+            }
+            let rest = line.columns(11, WIDTH).trim();
             record.text = rest.split_whitespace().collect::<Vec<_>>().join(" ");
             record.text_place = line.place_of(rest);
-            return Ok((record, if face.fixed { How::Columns } else { How::Blanks }));
+            return Ok(record);
         }
-        if !face.fixed {
-            let (integers, reals) = self.by_blanks(line, face.rest).ok_or_else(|| self.by_blanks_error(deck, line))?;
-            return Ok((Record { integers, reals, ..record }, How::Blanks));
-        }
-        let misfit = match self.by_columns(deck, line) {
-            Ok((integers, reals)) => return Ok((Record { integers, reals, ..record }, How::Columns)),
-            Err(misfit) => misfit,
-        };
-        // what stands past the last column is no more read by blanks than by columns
-        let read = line.columns(11 - 4 * usize::from(self.keyword.is_empty()), WIDTH);
-        match self.by_blanks(line, read) {
-            Some((integers, reals)) => Ok((Record { integers, reals, ..record }, How::Misfit(misfit))),
-            None => Err(misfit),
-        }
+        self.apart(deck, line)?;
+        let (integers, reals) = self.by_columns(deck, line)?;
+        self.in_place(deck, line)?;
+        Ok(Record { integers, reals, ..record })
     }
 
     fn by_columns(&self, deck: &str, line: &Line<'_>) -> Result<Values, Box<Diagnostic>> {
@@ -179,28 +232,61 @@ impl Layout {
         Ok((integers, reals))
     }
 
-    /// A warning where what looks like one number lies across two fields, and was therefore read as two.
-    pub fn straddled(&self, deck: &str, line: &Line<'_>) -> Option<Box<Diagnostic>> {
-        self.slots.windows(2).find_map(|pair| {
-            let [left, right] = pair else { return None };
-            let touching = left.last() + 1 == right.column
-                && !line.blank(left.last(), left.last())
-                && !line.blank(right.column, right.column);
-            if !touching {
-                return None;
+    /// Refuses neighbouring fields whose values touch so that it cannot be told where one ends: one number may lie across both.
+    ///
+    /// A sign begins a number. So does the first column of a field that is filled, if it is a whole number without a zero in front
+    /// (numbers of nodes have five digits) or has an exponent and one digit before the point.
+    fn apart(&self, deck: &str, line: &Line<'_>) -> Result<(), Box<Diagnostic>> {
+        for pair in self.slots.windows(2) {
+            let [left, right] = pair else { continue };
+            if left.last() + 1 != right.column
+                || line.blank(left.last(), left.last())
+                || line.blank(right.column, right.column)
+            {
+                continue;
             }
-            let before = line.columns(left.column, left.last()).split_whitespace().next_back()?;
-            let after = line.columns(right.column, right.last()).split_whitespace().next()?;
-            let joined = format!("{before}{after}");
+            let before = line.columns(left.column, left.last()).trim_start();
+            let after = line.columns(right.column, right.last()).trim_end();
+            if after.starts_with(['+', '-']) || (after.len() == right.width && begins_itself(after, right.holds)) {
+                continue;
+            }
+            let message = format!(
+                "{}, columns {}-{}: `{before}{after}` lies across two fields",
+                self.named(deck),
+                left.column,
+                right.last()
+            );
             let span = line.place_of(before).to(line.place_of(after));
-            (joined.contains('.') && real(&joined).is_some()).then(|| {
-                let message = format!(
-                    "{}: `{joined}` lies across two fields and was read as {before} and {after}",
-                    self.named(deck)
-                );
-                Diagnostic::warning(message, span).help(self.usage())
-            })
-        })
+            return Err(Diagnostic::error(message, span)
+                .label(format!("columns {}-{} end with column {}", left.column, left.last(), left.last()))
+                .help("move the number into its columns, or leave a blank between two numbers")
+                .help(self.usage()));
+        }
+        Ok(())
+    }
+
+    /// Refuses a value behind a blank field that does not end with its own: as a card that has slipped to the right has it.
+    fn in_place(&self, deck: &str, line: &Line<'_>) -> Result<(), Box<Diagnostic>> {
+        let blank = |slot: &Slot| line.blank(slot.column, slot.last());
+        let slipped = self.slots.windows(2).find_map(|pair| match pair {
+            [left, right] if left.last() + 1 == right.column && left.holds == right.holds => {
+                (blank(left) && !blank(right) && line.blank(right.last(), right.last())).then_some((left, right))
+            }
+            _ => None,
+        });
+        let Some((left, right)) = slipped else { return Ok(()) };
+        let word = line.columns(right.column, right.last()).trim();
+        let message = format!(
+            "{}, columns {}-{}: `{word}` stands behind a blank field and does not end with column {}",
+            self.named(deck),
+            right.column,
+            right.last(),
+            right.last()
+        );
+        Err(Diagnostic::error(message, line.place_of(word))
+            .label(format!("{} ends with column {}", right.name, right.last()))
+            .help(format!("if this is {}, it belongs in columns {}-{}", left.name, left.column, left.last()))
+            .help(self.usage()))
     }
 
     fn nothing_between(&self, deck: &str, line: &Line<'_>, first: usize, last: usize) -> Result<(), Box<Diagnostic>> {
@@ -212,67 +298,20 @@ impl Layout {
         Err(Diagnostic::error(message, line.place_of(word)).label("nothing belongs here").help(self.usage()))
     }
 
-    fn by_blanks_error(&self, deck: &str, line: &Line<'_>) -> Box<Diagnostic> {
-        Diagnostic::error(format!("{}: the values do not fit the card", self.named(deck)), line.whole())
-            .label("neither by columns nor apart by blanks")
-            .help(self.usage())
-    }
-
-    /// The values apart by blanks or commas: whole numbers fill the whole-number fields from the left until a number
-    /// with a point (or the last such field) is met, the others fill the remaining fields.
-    fn by_blanks<'a>(&self, line: &Line<'a>, rest: &'a str) -> Option<Values> {
-        let blank = Field { value: 0, given: false, span: line.whole() };
-        let nought = Field { value: 0.0, given: false, span: line.whole() };
-        let of = |holds| self.slots.iter().filter(move |slot| slot.holds == holds);
-        let mut integers: Vec<_> = of(Holds::Integer).map(|slot| (slot.column, blank)).collect();
-        let mut reals: Vec<_> = of(Holds::Real).map(|slot| (slot.column, nought)).collect();
-        let (mut whole, mut next) = (0, 0);
-        for word in Line::words(rest).flat_map(apart) {
-            let span = line.place_of(word);
-            match (integer(word), integers.get_mut(whole)) {
-                (Some(value), Some((_, field))) if next == 0 => {
-                    *field = Field { value, given: true, span };
-                    whole += 1;
-                }
-                _ => {
-                    reals.get_mut(next)?.1 = Field { value: real(word)?, given: true, span };
-                    next += 1;
-                }
-            }
-        }
-        Some((integers, reals))
-    }
-
     fn named(&self, deck: &str) -> String {
         if self.keyword.is_empty() { deck.to_string() } else { format!("{deck}, {}", self.keyword) }
     }
 }
 
-/// How the fields of a card were found.
-#[derive(Clone, Debug, PartialEq)]
-pub enum How {
-    /// By columns.
-    Columns,
-    /// By blanks, on a card that keeps no columns.
-    Blanks,
-    /// By blanks, on a card whose face stands in its columns; with what did not fit.
-    Misfit(Box<Diagnostic>),
-}
-
-/// Numbers that touch, as where a sign fills the last column of a field: `-52.630-329.73543`.
-fn apart(word: &str) -> impl Iterator<Item = &str> {
-    let bytes = word.as_bytes();
-    let begins = move |at: usize| {
-        matches!(bytes.get(at), Some(b'+' | b'-'))
-            && at.checked_sub(1).and_then(|before| bytes.get(before)).is_some_and(|b| b.is_ascii_digit() || *b == b'.')
-    };
-    let mut from = 0;
-    std::iter::from_fn(move || {
-        let to = (from + 1..word.len()).find(|at| begins(*at)).unwrap_or(word.len());
-        let piece = word.get(from..to).filter(|piece| !piece.is_empty());
-        from = to;
-        piece
-    })
+/// Whether a number that fills its field is the whole of a number, even behind another one.
+fn begins_itself(filled: &str, holds: Holds) -> bool {
+    match holds {
+        Holds::Integer => !filled.starts_with('0'),
+        Holds::Real => {
+            let mantissa = filled.split(['E', 'e', 'D', 'd']).next().unwrap_or_default();
+            mantissa.len() < filled.len() && mantissa.find('.') == Some(1)
+        }
+    }
 }
 
 /// Fields by the column they begin in.

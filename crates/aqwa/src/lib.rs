@@ -2,8 +2,8 @@
 //!
 //! Nothing is converted here: values are as given, in the units of the deck (any consistent set; [`Deck::units`] tells
 //! which from gravity and the density of the water), angles in degrees, directions those towards which something
-//! travels. Card errors name the deck, the card and its columns, and carry the place. A card whose columns no source
-//! confirms is read with a note of what was assumed; a card that would change the answer and is not read is an error.
+//! travels. Card errors name the deck, the card and its columns, and carry the place. A card that does not fit its
+//! columns is refused. A card whose columns no source confirms is read with a note of what was assumed; a card that would change the answer and is not read is an error.
 //!
 //! How the parts correspond to the model:
 //!
@@ -58,6 +58,7 @@ pub mod properties;
 pub mod reader;
 pub mod records;
 pub mod remarks;
+mod repeats;
 pub mod run;
 pub mod surroundings;
 mod tables;
@@ -197,7 +198,6 @@ pub fn read(sources: &Sources, id: SourceId) -> Reading {
         let warning = Diagnostic::warning("what follows the last deck is not read", line.whole());
         reader.remarks.add(warning);
     }
-    reader.tell_blanks();
     checks::check(&deck, &mut reader.remarks);
     let failed = reader.remarks.failed();
     Reading { deck, messages: reader.remarks.into_list(), failed }

@@ -29,6 +29,13 @@ pub struct Ends {
     pub node2: Field<i64>,
 }
 
+impl Ends {
+    /// Structure and node of both ends.
+    pub fn numbers(&self) -> [i64; 4] {
+        [self.structure1, self.node1, self.structure2, self.node2].map(|field| field.value)
+    }
+}
+
 /// What a mooring line is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LineKind {
@@ -347,6 +354,21 @@ fn composite(record: &Record, remarks: &mut Remarks) -> Composite {
             Diagnostic::error(format!("deck 14, COMP: a table of {} by {} points", points.0, points.1), record.span)
                 .label(format!("columns 11-15 times columns 16-20 is 1 to {MOST_POINTS}")),
         );
+    }
+    let of_table =
+        [record.int(11).span, record.int(16).span, record.int(21).span, record.real(31).span, record.real(41).span];
+    let given = [
+        record.int(11).given,
+        record.int(16).given,
+        record.int(21).given,
+        record.real(31).given,
+        record.real(41).given,
+    ];
+    if let Some((span, _)) = of_table.into_iter().zip(given).find(|(_, given)| *given) {
+        remarks.once("table of a composite", || {
+            Diagnostic::remark("deck 14, COMP: no table is made; a line is solved exactly at each position", span)
+                .label("columns 11-25 and 31-50 describe the table and have no effect")
+        });
     }
     Composite {
         points,

@@ -15,11 +15,17 @@ const ENDS: [Slot; 4] = [int("structure 1", 11), int("node 1", 16), int("structu
 const UNSEEN: &str = "this card is not read; give the line with the classes of the model";
 const NOT_YET: &str = "pre-processing of tethers is not available in the manual's program (A.13) nor here";
 
+/// The card that closes a tether.
+const TETHER: &[&str] = &["TETH"];
+/// The cards that begin a section.
+const SECTION: &[&str] = &["ECAT", "COMP"];
+
 /// Cards of deck 14.
 pub const LAYOUTS: &[Layout] = &[
-    Layout::new("TELM", &[int("node 1", 11), int("node 2", 16), int("material group", 21), int("geometry group", 26)]),
-    Layout::new("TSPA", SPRING),
-    Layout::new("TSPV", SPRING),
+    Layout::new("TELM", &[int("node 1", 11), int("node 2", 16), int("material group", 21), int("geometry group", 26)])
+        .freely(),
+    Layout::new("TSPA", SPRING).until(TETHER),
+    Layout::new("TSPV", SPRING).until(TETHER),
     Layout::new("TEIG", &[int("number of modes", 11)]),
     Layout::new(
         "TFAT",
@@ -29,29 +35,32 @@ pub const LAYOUTS: &[Layout] = &[
             num("S-N intercept", 51),
             num("S-N slope m", 61),
         ],
-    ),
-    Layout::new("TPSH", &[int("hours", 11), num("hours", 31)]),
+    )
+    .until(TETHER),
+    Layout::new("TPSH", &[int("hours", 11), num("hours", 31)]).until(TETHER),
     Layout::new("TSLK", &[num("time", 31)]),
-    Layout::new("TEGR", &[int("number of identical tethers", 11)]),
-    Layout::new("TCAP", &[num("anchor cap area", 31), num("vessel cap area", 41)]),
-    Layout::new("TIFL", &[num("internal pressure", 31), num("density of the internal fluid", 41)]),
-    Layout::new("TIMP", &[num("stress factor", 31), num("half life", 41)]),
-    Layout::new("TLOW", &[num("distance of the lower stop below the anchor", 31)]),
-    Layout::new("TLAC", &[]),
-    Layout::new("TROC", &[]),
-    Layout::new("TLAV", &[num("gap", 31)]),
-    Layout::new("TROV", &[]),
+    Layout::new("TEGR", &[int("number of identical tethers", 11)]).until(TETHER),
+    Layout::new("TCAP", &[num("anchor cap area", 31), num("vessel cap area", 41)]).until(TETHER),
+    Layout::new("TIFL", &[num("internal pressure", 31), num("density of the internal fluid", 41)]).until(TETHER),
+    Layout::new("TIMP", &[num("stress factor", 31), num("half life", 41)]).until(TETHER),
+    Layout::new("TLOW", &[num("distance of the lower stop below the anchor", 31)]).until(TETHER),
+    Layout::new("TLAC", &[]).freely(),
+    Layout::new("TROC", &[]).freely(),
+    Layout::new("TLAV", &[num("gap", 31)]).freely(),
+    Layout::new("TROV", &[]).freely(),
     Layout::new(
         "TETH",
         &[int("structure", 11), int("node on it", 16), int("0 (fixed)", 21), int("anchor or trailing node", 26)],
-    ),
+    )
+    .freely(),
     Layout::passed("TSTE", NOT_YET),
     Layout::passed("TTIM", NOT_YET),
     Layout::passed("TRAO", NOT_YET),
     Layout::refused("TECP", "composite tethers are not read"),
     Layout::refused("TSEG", "composite tethers are not read"),
     Layout::refused("TSGH", "composite tethers are not read"),
-    Layout::new("LINE", &[ENDS[0], ENDS[1], ENDS[2], ENDS[3], num("stiffness", 31), num("unstretched length", 41)]),
+    Layout::new("LINE", &[ENDS[0], ENDS[1], ENDS[2], ENDS[3], num("stiffness", 31), num("unstretched length", 41)])
+        .freely(),
     Layout::new(
         "LNDW",
         &[
@@ -65,8 +74,9 @@ pub const LAYOUTS: &[Layout] = &[
             num("winch speed", 61),
             num("greatest tension", 71),
         ],
-    ),
-    Layout::new("FORC", &[ENDS[0], ENDS[1], ENDS[2], ENDS[3], num("force", 31)]),
+    )
+    .freely(),
+    Layout::new("FORC", &[ENDS[0], ENDS[1], ENDS[2], ENDS[3], num("force", 31)]).freely(),
     Layout::assumed(
         "WNCH",
         &[
@@ -79,10 +89,11 @@ pub const LAYOUTS: &[Layout] = &[
             num("friction winding in", 51),
             num("friction paying out", 61),
         ],
-    ),
-    Layout::new("NLIN", NON_LINEAR),
-    Layout::new("NLID", NON_LINEAR),
-    Layout::new("POLY", &[num("P1", 31), num("P2", 41), num("P3", 51), num("P4", 61), num("P5", 71)]),
+    )
+    .freely(),
+    Layout::new("NLIN", NON_LINEAR).freely(),
+    Layout::new("NLID", NON_LINEAR).freely(),
+    Layout::new("POLY", &[num("P1", 31), num("P2", 41), num("P3", 51), num("P4", 61), num("P5", 71)]).freely(),
     Layout::new(
         "COMP",
         &[
@@ -94,7 +105,8 @@ pub const LAYOUTS: &[Layout] = &[
             num("highest Z", 41),
             num("slope of the sea bed", 51),
         ],
-    ),
+    )
+    .freely(),
     Layout::new(
         "ECAT",
         &[
@@ -105,8 +117,9 @@ pub const LAYOUTS: &[Layout] = &[
             num("greatest tension", 61),
             num("length", 71),
         ],
-    ),
-    Layout::new("ECAX", &[num("k1", 31), num("k2", 41), num("k3", 51)]),
+    )
+    .freely(),
+    Layout::new("ECAX", &[num("k1", 31), num("k2", 41), num("k3", 51)]).until(SECTION),
     Layout::new(
         "ECAH",
         &[
@@ -115,10 +128,11 @@ pub const LAYOUTS: &[Layout] = &[
             num("drag diameter", 61),
             num("inline drag coefficient", 71),
         ],
-    ),
-    Layout::new("ECAB", &[num("EI", 31)]),
-    Layout::assumed("BUOY", JOINT),
-    Layout::assumed("CLMP", JOINT),
+    )
+    .until(SECTION),
+    Layout::new("ECAB", &[num("EI", 31)]).until(SECTION),
+    Layout::assumed("BUOY", JOINT).one_of("joint", SECTION),
+    Layout::assumed("CLMP", JOINT).one_of("joint", SECTION),
     Layout::passed("DYNM", "cable dynamics is chosen by the class of the line here; the card has no effect"),
     Layout::passed("DOFF", "cable dynamics is chosen by the class of the line here; the card has no effect"),
     Layout::refused("NCEL", UNSEEN),

@@ -30,7 +30,7 @@ const UNSEEN: &str = "the columns of this card are published nowhere; give the n
 
 /// Cards of deck 1.
 pub const LAYOUTS: &[Layout] =
-    &[Layout::new("", SLOTS), Layout::refused("STRC", UNSEEN), Layout::refused("NODE", UNSEEN)];
+    &[Layout::new("", SLOTS).freely(), Layout::refused("STRC", UNSEEN), Layout::refused("NODE", UNSEEN)];
 
 /// A node of deck 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,6 +60,16 @@ pub fn read(records: &[Record], remarks: &mut Remarks) -> Nodes {
         let step = step.or(1);
         let from: [Field<f64>; 3] = record.reals(21);
         let by: [Field<f64>; 3] = record.reals(51);
+        if let (1, Some(idle)) = (count, by.iter().find(|field| field.value != 0.0)) {
+            remarks.add(
+                Diagnostic::error(
+                    "deck 1, columns 51-80: this card generates no nodes and has an increment",
+                    idle.span,
+                )
+                .label("coordinates belong in columns 21-50")
+                .help("columns 11-15 have the number of nodes to generate"),
+            );
+        }
         for k in 0..count {
             let number = first.value + k * step;
             let position = std::array::from_fn(|axis| from[axis].value + k as f64 * by[axis].value);

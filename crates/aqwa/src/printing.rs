@@ -20,13 +20,14 @@ pub const LAYOUTS: &[Layout] = &[
     Layout::new("PPRV", STEPS),
     Layout::new("TSTS", &[int("first step of the statistics", 11)]),
     Layout::new("TSTF", &[int("last step of the statistics", 11)]),
-    Layout::new("PTEN", &[int("structure", 11)]),
+    Layout::new("PTEN", &[int("structure", 11)]).by(&[11]),
     Layout::new(
         "NODE",
         &[int("structure", 11), int("node", 16), int("reference structure", 21), int("reference node", 26)],
-    ),
-    Layout::new("NOPR", PARAMETER),
-    Layout::new("PRNT", PARAMETER),
+    )
+    .by(&[11, 16, 21, 26]),
+    Layout::new("NOPR", PARAMETER).freely(),
+    Layout::new("PRNT", PARAMETER).freely(),
     Layout::passed("PCGP", "not available in AQWA nor here"),
     Layout::passed("PMST", "tensions along dynamic lines are had with the reports of the session"),
     Layout::passed("PRTD", "has no effect; PREV says how often a structure is printed"),
@@ -84,8 +85,7 @@ pub struct Printing {
 impl Printing {
     /// Whether a parameter of a structure is printed, given whether it usually is.
     pub fn prints(&self, structure: i64, parameter: i64, usual: bool) -> bool {
-        let fits =
-            |s: &&Switch| s.parameter.value == parameter && (s.structure.value == structure || s.structure.value == 0);
+        let fits = |s: &&Switch| s.parameter.value == parameter && s.structure.value == structure;
         self.switches.iter().rfind(fits).map_or(usual, |switch| switch.on)
     }
 }
@@ -127,6 +127,13 @@ pub fn read(records: &[Record], remarks: &mut Remarks) -> Printing {
                 printing.nodes.push(PrintedNode { structure: first, node: record.int(16), reference });
             }
             "NOPR" | "PRNT" => {
+                if first.value <= 0 {
+                    let message = format!("deck 18, {keyword}, columns 11-15: {} is no structure", first.value);
+                    remarks.add(
+                        Diagnostic::error(message, first.span)
+                            .label("the number of a structure of deck 2 belongs here, 1 for ELM1"),
+                    );
+                }
                 printing.switches.push(Switch { structure: first, parameter: record.int(16), on: keyword == "PRNT" });
             }
             _ => {}

@@ -25,7 +25,8 @@ pub const MATERIALS: &[Layout] = &[Layout::new(
         num("Young's modulus or second property", 31),
         num("third property", 41),
     ],
-)];
+)
+.freely()];
 
 const SIX: &[Slot] = &[
     int("geometry group", 16),
@@ -39,11 +40,11 @@ const SIX: &[Slot] = &[
 
 /// Cards of deck 4.
 pub const GEOMETRIES: &[Layout] = &[
-    Layout::new("TUBE", SIX),
-    Layout::new("PMAS", SIX),
-    Layout::assumed("STUB", SIX),
-    Layout::assumed("DISC", SIX),
-    Layout::new("CONT", &[num("drag coefficient", 21), num("added mass coefficient", 31)]),
+    Layout::new("TUBE", SIX).freely(),
+    Layout::new("PMAS", SIX).freely(),
+    Layout::assumed("STUB", SIX).freely(),
+    Layout::assumed("DISC", SIX).freely(),
+    Layout::new("CONT", &[num("drag coefficient", 21), num("added mass coefficient", 31)]).freely(),
 ];
 
 /// Cards of deck 5.
@@ -163,6 +164,10 @@ pub fn read_geometries(records: &[Record], remarks: &mut Remarks) -> Geometries 
             continue;
         };
         let group = record.int(16);
+        if group.value <= 0 {
+            let message = format!("deck 4, {}, columns 16-20: a geometry group has a number from 1 on", record.keyword);
+            remarks.add(Diagnostic::error(message, group.span).label("geometry group"));
+        }
         let key = (shape, group.value);
         continued = (shape != Shape::PointMass).then_some(key);
         if let Some(earlier) = list.get(&key) {

@@ -1,16 +1,16 @@
 //! Goes through the cards of a file deck by deck: headers, `END`, `NONE`, `FINI`, and cards whose decks are missing.
 
 use super::card::{Face, Line, Lines};
-use super::layout::{How, Layout, Record, Standing};
+use super::layout::{Layout, Record, Standing};
 use super::remarks::Remarks;
-use std::collections::BTreeSet;
-use windlass_base::diagnostic::{Diagnostic, Severity, did_you_mean};
+use super::repeats;
+use windlass_base::diagnostic::{Diagnostic, did_you_mean};
 use windlass_base::span::{SourceId, Span};
 use windlass_language::source::Source;
 
 /// Most cards of a file.
 const MOST_CARDS: usize = 200_000;
-/// Longest line that is taken for a card, of 80 columns or apart by blanks (bytes).
+/// Longest line that is taken for a card of 80 columns with a remark behind it (bytes).
 const LONGEST_LINE: usize = 1000;
 
 /// Header keywords of the decks 1 to 20; those of per-structure decks are followed by the number of the structure.
@@ -67,17 +67,8 @@ pub struct Reader<'a> {
     current: Option<Line<'a>>,
     taken: usize,
     end: Span,
-    by_blanks: ByBlanks,
     /// Messages so far.
     pub remarks: Remarks,
-}
-
-/// The cards that were read by blanks.
-#[derive(Default)]
-struct ByBlanks {
-    first: Option<Span>,
-    count: usize,
-    decks: BTreeSet<u8>,
 }
 
 /// The deck, and the number of the structure, that a header keyword announces; 0 for NONE and FINI.
@@ -100,14 +91,8 @@ impl<'a> Reader<'a> {
     /// A reader at the first card of a source.
     pub fn new(source: &'a Source, id: SourceId) -> Self {
         let end = Span::new(id, source.text.len(), source.text.len());
-        let mut reader = Reader {
-            lines: Lines::new(source, id),
-            current: None,
-            taken: 0,
-            end,
-            by_blanks: ByBlanks::default(),
-            remarks: Remarks::default(),
-        };
+        let mut reader =
+            Reader { lines: Lines::new(source, id), current: None, taken: 0, end, remarks: Remarks::default() };
         reader.take();
         reader
     }
@@ -146,25 +131,19 @@ impl<'a> Reader<'a> {
         self.peek().map_or(self.end, Line::whole)
     }
 
-    /// The header that a line is, if it is one: an identifier of two characters and a keyword in columns 11-14, or both
-    /// apart by blanks.
+    /// The header that a line is, if it is one: an identifier in columns 5-6 and a keyword from column 11 on.
     fn header_of(line: &Line<'_>) -> Option<(u8, Header)> {
-        let fixed = line.blank(1, 4) && line.blank(7, 10) && !line.tabs();
-        let (id, rest) = if fixed {
-            (line.columns(5, 6).trim(), line.columns(11, 80))
-        } else {
-            let text = line.text.trim_start();
-            let digits = text.get(..2).filter(|id| id.bytes().all(|b| b.is_ascii_digit())).unwrap_or_default();
-            (digits, text.get(digits.len()..).unwrap_or_default())
-        };
-        let mut words = Line::words(rest);
+        if !line.blank(1, 4) || !line.blank(7, 10) || line.blank(11, 11) || line.tab().is_some() {
+            return None;
+        }
+        let mut words = Line::words(line.columns(11, 80));
         let word = words.next()?;
         let (deck, name, structure) = announced(&word.to_ascii_uppercase())?;
         if words.next().is_some() {
             return None;
         }
-        let header = Header { keyword: name.to_string(), id: id.to_string(), structure, span: line.place_of(word) };
-        Some((deck, header))
+        let id = line.columns(5, 6).trim().to_string();
+        Some((deck, Header { keyword: name.to_string(), id, structure, span: line.place_of(word) }))
     }
 
     /// The header that comes next, if the next line is one, with the number of its deck (0 for NONE and FINI).
@@ -237,11 +216,13 @@ impl<'a> Reader<'a> {
                 }
                 None => {
                     let word = Line::words(line.text).last().unwrap_or_default().to_ascii_uppercase();
-                    let span = line.whole();
+                    let mut error = match line.tab() {
+                        Some(column) => line.tab_error(&format!("deck {deck}"), column),
+                        None => Diagnostic::error(format!("deck {deck}: this is no deck header"), line.whole())
+                            .label(format!("{wanted} belongs in columns 11-14")),
+                    };
                     self.take();
                     if !std::mem::replace(&mut complained, true) {
-                        let mut error = Diagnostic::error(format!("deck {deck}: this is no deck header"), span)
-                            .label(format!("{wanted} belongs in columns 11-14"));
                         error.help.extend(did_you_mean(&word, names.iter().copied().chain(["NONE"])));
                         self.remarks.add(error.help("lines up to the next header are passed over"));
                     }
@@ -264,8 +245,17 @@ impl<'a> Reader<'a> {
                 break;
             }
             let Some(line) = self.take() else { break };
-            let face = Face::of(&line, deck, keyworded);
-            if face.fixed && line.overlong() {
+            let face = match Face::of(&line, label, keyworded) {
+                Ok(face) => face,
+                Err(error) => {
+                    self.remarks.add(error);
+                    if Face::closes(&line) {
+                        break;
+                    }
+                    continue;
+                }
+            };
+            if line.overlong() && !line.is_cut() {
                 self.remarks.once(&format!("overlong {deck}"), || {
                     Diagnostic::warning(
                         format!("{label}: a card is longer than 80 columns; the rest is not read"),
@@ -277,38 +267,16 @@ impl<'a> Reader<'a> {
                 break;
             }
             let last = face.last;
-            list.extend(self.record(deck, label, &line, &face, layouts));
+            list.extend(self.record(label, &line, &face, layouts));
             if last {
                 break;
             }
         }
+        repeats::check(label, layouts, &list, &mut self.remarks);
         list
     }
 
-    /// Says which cards were read by blanks; to be called after the last deck.
-    pub fn tell_blanks(&mut self) {
-        let Some(first) = self.by_blanks.first else { return };
-        let decks: Vec<String> = self.by_blanks.decks.iter().map(u8::to_string).collect();
-        let what = match self.by_blanks.count {
-            1 => format!("a card of deck {} was", decks.join(", ")),
-            count => format!("{count} cards of the decks {} were", decks.join(", ")),
-        };
-        let message = format!("{what} read by blanks, not by columns");
-        self.remarks.add(
-            Diagnostic::remark(message, first)
-                .label("the first of them")
-                .help("a blank field cannot be seen so: values are taken from left to right, whole numbers first"),
-        );
-    }
-
-    fn record(
-        &mut self,
-        deck: u8,
-        label: &str,
-        line: &Line<'a>,
-        face: &Face<'a>,
-        layouts: &'static [Layout],
-    ) -> Option<Record> {
+    fn record(&mut self, label: &str, line: &Line<'a>, face: &Face<'a>, layouts: &'static [Layout]) -> Option<Record> {
         let Some(layout) = layouts.iter().find(|layout| matches(layout.keyword, &face.keyword)) else {
             let known = || layouts.iter().map(|layout| layout.keyword).filter(|keyword| !keyword.is_empty());
             let word =
@@ -341,30 +309,12 @@ impl<'a> Reader<'a> {
                 return None;
             }
         }
-        let (record, how) = self.remarks.keep(layout.read(label, line, face))?;
-        match how {
-            How::Columns => {
-                if let Some(warning) = layout.straddled(label, line) {
-                    self.remarks.add(warning);
-                }
-            }
-            How::Blanks => {
-                self.by_blanks.first.get_or_insert(record.span);
-                self.by_blanks.count += 1;
-                self.by_blanks.decks.insert(deck);
-            }
-            How::Misfit(mut misfit) => {
-                misfit.severity = Severity::Warning;
-                misfit.message.push_str("; the card was read by blanks");
-                self.remarks.add(misfit);
-            }
-        }
-        Some(record)
+        self.remarks.keep(layout.read(label, line, face))
     }
 }
 
 /// Whether a keyword is that of a layout; `POSn` and the like stand for the keyword followed by a number.
-fn matches(pattern: &str, keyword: &str) -> bool {
+pub fn matches(pattern: &str, keyword: &str) -> bool {
     let Some(stem) = pattern.strip_suffix('n') else { return pattern == keyword };
     let number = |stem: &str| keyword.strip_prefix(stem).is_some_and(|n| n.parse::<u8>().is_ok_and(|n| n > 0));
     number(stem) || (keyword.len() == 4 && stem.len() == 3 && stem.get(..2).is_some_and(number))

@@ -12,8 +12,12 @@ const SIX: &[Slot] = &[num("X", 21), num("Y", 31), num("Z", 41), num("RX", 51), 
 const SLOW: &str = "slow drift positions are not read apart from the total ones";
 
 /// Cards of deck 15; `n` stands for the number of the structure.
-pub const STARTS: &[Layout] =
-    &[Layout::new("POSn", SIX), Layout::new("VELn", SIX), Layout::refused("SLPn", SLOW), Layout::refused("SLVn", SLOW)];
+pub const STARTS: &[Layout] = &[
+    Layout::new("POSn", SIX).freely(),
+    Layout::new("VELn", SIX).freely(),
+    Layout::refused("SLPn", SLOW),
+    Layout::refused("SLVn", SLOW),
+];
 
 /// Cards of deck 16.
 pub const STEPS: &[Layout] = &[
@@ -23,9 +27,9 @@ pub const STEPS: &[Layout] = &[
 
 /// Cards of deck 17.
 pub const MULTIPLIERS: &[Layout] = &[
-    Layout::new("SLMM", &[int("structure", 11), num("slam multiplier", 21)]),
-    Layout::assumed("DRGM", &[int("structure", 11), num("drag multiplier", 21)]),
-    Layout::assumed("ADMM", &[int("structure", 11), num("added mass multiplier", 21)]),
+    Layout::new("SLMM", &[int("structure", 11), num("slam multiplier", 21)]).by(&[11]),
+    Layout::assumed("DRGM", &[int("structure", 11), num("drag multiplier", 21)]).by(&[11]),
+    Layout::assumed("ADMM", &[int("structure", 11), num("added mass multiplier", 21)]).by(&[11]),
     Layout::refused("SC1/", "drag that depends on the Reynolds number is not read"),
 ];
 

@@ -14,7 +14,7 @@ use windlass_base::span::Span;
 pub const LAYOUTS: &[Layout] = &[
     Layout::new("CURR", &[num("speed", 11), num("direction", 21)]),
     Layout::new("WIND", &[num("speed", 11), num("direction", 21)]),
-    Layout::new("CPRF", &[num("Z of the current", 11), num("speed", 21), num("direction", 31)]),
+    Layout::new("CPRF", &[num("Z of the current", 11), num("speed", 21), num("direction", 31)]).freely(),
     Layout::new("CDRN", &[num("direction of the profile", 11)]),
 ];
 
@@ -22,7 +22,7 @@ const ARTICULATION: &str = "articulations are not read from a deck; join the bod
 
 /// Cards of deck 12.
 pub const CONSTRAINTS: &[Layout] = &[
-    Layout::assumed("DACF", &[int("structure", 11), int("freedom", 16)]),
+    Layout::assumed("DACF", &[int("structure", 11), int("freedom", 16)]).by(&[11, 16]),
     Layout::refused("DCON", ARTICULATION),
     Layout::refused("FDCN", ARTICULATION),
     Layout::refused("KFCN", ARTICULATION),

@@ -87,8 +87,9 @@ pub struct Description {
     pub fluid: (f64, f64),
     /// Stress factor and half life (s) of impact.
     pub impact: Option<(f64, f64)>,
-    /// Distance of the lower stop below the anchor; 0 means that the tether can never hang free.
-    pub lower_stop: f64,
+    /// Distance of the lower stop below the anchor (TLOW); 0 means that the tether can never hang free (A.11), none that it meets
+    /// no stop.
+    pub lower_stop: Option<f64>,
     /// Constraints with the gap of TLAV and their cards.
     pub constraints: Vec<(Constraint, f64, Span)>,
 }
@@ -153,16 +154,7 @@ impl Builder {
                 }
                 let spring = EndSpring { towed: flag.value == 1, stiffness: record.reals(31), span: record.span };
                 let place = if record.keyword == "TSPA" { &mut tether.anchor } else { &mut tether.vessel };
-                match place {
-                    Some(earlier) => remarks.add(
-                        Diagnostic::error(
-                            format!("deck 14: a tether has only one {} card", record.keyword),
-                            record.span,
-                        )
-                        .other(earlier.span, "given here first"),
-                    ),
-                    None => *place = Some(spring),
-                }
+                *place = Some(spring);
             }
             "TFAT" => {
                 let usual = Fatigue::default();
@@ -208,8 +200,8 @@ impl Builder {
                 tether.impact = Some((value(31), value(41)));
             }
             "TLOW" => {
-                tether.lower_stop = value(31);
-                if tether.lower_stop < 0.0 {
+                tether.lower_stop = Some(value(31));
+                if value(31) < 0.0 {
                     remarks.add(Diagnostic::error(
                         "deck 14, TLOW, columns 31-40: a distance below the anchor is not below 0",
                         record.span,
@@ -310,6 +302,16 @@ impl Builder {
         };
         let tether =
             Tether { description, copy_of, structure, node: record.int(16), anchor: record.int(26), span: record.span };
+        let place = |tether: &Tether| [tether.structure, tether.node, tether.anchor].map(|field| field.value);
+        if let Some(same) = earlier.iter().find(|earlier| place(earlier) == place(&tether)) {
+            let message = "deck 14, TETH: another tether stands between these nodes";
+            let said = if copy_of.is_some() {
+                Diagnostic::error(message, record.span).label("leave out one of the two")
+            } else {
+                Diagnostic::warning(message, record.span).label("both are taken")
+            };
+            remarks.add(said.other(same.span, "the other one").help("TEGR gives the number of identical tethers"));
+        }
         if tether.copy_of.is_none() {
             check(&tether, remarks);
         }

@@ -26,14 +26,17 @@ const START: Slot = num("first frequency", 21);
 const FINISH: Slot = num("last frequency", 31);
 const UNSEEN: &str = "the columns of this card are published nowhere";
 
+/// Cards that give a spectrum; settings stand before them.
+const FORMS: &[&str] = &["PSMZ", "JONS", "JONH", "GAUS", "UDEF"];
+
 /// Cards of deck 13 SPEC.
 pub const SPECTRA: &[Layout] = &[
-    Layout::new("HRTZ", &[]),
-    Layout::new("RADS", &[]),
-    Layout::new("SPGR", &[]),
-    Layout::new("NSPL", &[int("number of spectral lines", 16)]),
-    Layout::new("SPDN", &[int("spreading", 11), int("number of directions", 16), num("direction", 21)]),
-    Layout::assumed("SEED", &[int("seed of the phases", 11), int("seed of the phases", 16)]),
+    Layout::new("HRTZ", &[]).freely(),
+    Layout::new("RADS", &[]).freely(),
+    Layout::new("SPGR", &[]).freely(),
+    Layout::new("NSPL", &[int("number of spectral lines", 16)]).until(FORMS),
+    Layout::new("SPDN", &[int("spreading", 11), int("number of directions", 16), num("direction", 21)]).until(FORMS),
+    Layout::assumed("SEED", &[int("seed of the phases", 11), int("seed of the phases", 16)]).until(FORMS),
     Layout::new(
         "PHAS",
         &[
@@ -45,18 +48,21 @@ pub const SPECTRA: &[Layout] = &[
             num("phase 5 (deg)", 61),
             num("phase 6 (deg)", 71),
         ],
-    ),
-    Layout::new("PSMZ", &[START, FINISH, num("significant height", 41), num("zero crossing period", 51)]),
-    Layout::new("JONS", &[START, FINISH, num("gamma", 41), num("alpha", 51), num("peak frequency", 61)]),
-    Layout::new("JONH", &[START, FINISH, num("gamma", 41), num("significant height", 51), num("peak frequency", 61)]),
+    )
+    .freely(),
+    Layout::new("PSMZ", &[START, FINISH, num("significant height", 41), num("zero crossing period", 51)]).freely(),
+    Layout::new("JONS", &[START, FINISH, num("gamma", 41), num("alpha", 51), num("peak frequency", 61)]).freely(),
+    Layout::new("JONH", &[START, FINISH, num("gamma", 41), num("significant height", 51), num("peak frequency", 61)])
+        .freely(),
     Layout::new(
         "GAUS",
         &[START, FINISH, num("sigma (rad/s)", 41), num("significant height", 51), num("peak frequency", 61)],
-    ),
-    Layout::assumed("UDEF", &[num("frequency", 21), num("ordinate", 31)]),
-    Layout::new("CURR", &[num("speed", 21), num("direction", 31)]),
-    Layout::new("WIND", &[num("speed", 21), num("direction", 31), num("reference height", 41)]),
-    Layout::new("TOWS", &[num("towing speed", 31), num("towing direction", 41)]),
+    )
+    .freely(),
+    Layout::assumed("UDEF", &[num("frequency", 21), num("ordinate", 31)]).freely(),
+    Layout::new("CURR", &[num("speed", 21), num("direction", 31)]).until(FORMS),
+    Layout::new("WIND", &[num("speed", 21), num("direction", 31), num("reference height", 41)]).until(FORMS),
+    Layout::new("TOWS", &[num("towing speed", 31), num("towing direction", 41)]).until(FORMS),
     Layout::refused("OHBS", "the Ochi-Hubble spectrum is not read; give it as UDEF"),
     Layout::refused("XSWL", "a second spectrum of swell is not read"),
     Layout::refused("UDWS", "a wind spectrum is not read"),
@@ -69,11 +75,11 @@ pub const SPECTRA: &[Layout] = &[
 
 /// Cards of deck 13 WAVE.
 pub const REGULAR: &[Layout] = &[
-    Layout::new("WAMP", &[num("wave amplitude", 21)]),
-    Layout::new("PERD", &[num("wave period", 21)]),
+    Layout::new("WAMP", &[num("wave amplitude", 21)]).one_of("amplitude", &[]),
+    Layout::new("PERD", &[num("wave period", 21)]).one_of("period", &[]),
     Layout::new("WVDN", &[num("wave direction", 21)]),
-    Layout::assumed("HGHT", &[num("wave height", 21)]),
-    Layout::assumed("FREQ", &[num("wave frequency (rad/s)", 21)]),
+    Layout::assumed("HGHT", &[num("wave height", 21)]).one_of("amplitude", &[]),
+    Layout::assumed("FREQ", &[num("wave frequency (rad/s)", 21)]).one_of("period", &[]),
     Layout::assumed("AIRY", &[]),
     Layout::assumed("WRMP", &[num("time of the ramp", 21)]),
     Layout::assumed("CURR", &[num("speed", 21), num("direction", 31)]),
@@ -187,6 +193,8 @@ fn stream(record: &Record) -> Option<Flow> {
 pub fn read_spectra(records: &[Record], remarks: &mut Remarks) -> Waves {
     let mut list: Vec<Spectrum> = Vec::new();
     let mut unit = 1.0;
+    // the last setting that no spectrum has come after
+    let mut idle: Option<&Record> = None;
     let mut now = Spectrum {
         form: Form::Given(Vec::new()),
         range: (0.0, 0.0),
@@ -201,6 +209,11 @@ pub fn read_spectra(records: &[Record], remarks: &mut Remarks) -> Waves {
     };
     for record in records {
         let third = |column: usize| record.real(column).value;
+        idle = match record.keyword.as_str() {
+            "HRTZ" | "RADS" | "SPGR" => idle,
+            keyword if FORMS.contains(&keyword) => None,
+            _ => Some(record),
+        };
         let form = match record.keyword.as_str() {
             "HRTZ" | "RADS" => {
                 unit = if record.keyword == "HRTZ" { 2.0 * PI } else { 1.0 };
@@ -279,6 +292,14 @@ pub fn read_spectra(records: &[Record], remarks: &mut Remarks) -> Waves {
                 .help("still water is NONE in the place of SPEC"),
         );
     }
+    if let (Some(setting), Some(last)) = (idle, list.last()) {
+        let message = format!("deck 13, {}: no spectrum comes after this card", setting.keyword);
+        remarks.add(
+            Diagnostic::error(message, setting.span)
+                .label("settings come before the spectrum they are for")
+                .other(last.span, "the last spectrum"),
+        );
+    }
     Waves::Spectra(list)
 }
 
@@ -324,7 +345,7 @@ fn towing(record: &Record, remarks: &mut Remarks) -> Option<(f64, f64)> {
 fn phases(list: &mut Vec<f64>, record: &Record, remarks: &mut Remarks) {
     let first = record.int(16);
     let next = i64::try_from(list.len()).unwrap_or(i64::MAX).saturating_add(1);
-    if first.given && first.value != next {
+    if first.value != next {
         remarks.add(
             Diagnostic::error(
                 format!("deck 13, PHAS, columns 16-20: the next phase is that of line {next}"),

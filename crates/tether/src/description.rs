@@ -158,8 +158,11 @@ impl Description<'_> {
                 out = out.fact(&format!("{name} Initial {axis}"), value, Dim::Length);
             }
         }
-        out.fact("Stop Below Anchor", self.stop, Dim::Length)
-            .fact("Unstretched Length", self.line.length(), Dim::Length)
+        out = match self.stop.is_finite() {
+            true => out.fact("Stop Below Anchor", self.stop, Dim::Length),
+            false => out.fact("Stop Below Anchor", "none", Dim::None),
+        };
+        out.fact("Unstretched Length", self.line.length(), Dim::Length)
             .fact("Initial Distance", self.initial_distance(), Dim::Length)
             .fact("Longitudinal Stiffness", self.longitudinal_stiffness(), Dim::ForcePerLength)
             .fact("Weight", self.weight(), Dim::Force)

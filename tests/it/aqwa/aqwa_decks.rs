@@ -265,12 +265,14 @@ fn spectra_become_seas_or_curves() {
 #[test]
 fn lines_become_classes_of_the_same_stiffness() {
     let cards = "    14LINE    1 1010    0 9010     100.0     250.0\n\
-                 \x20   14COMP   15   40         1\n    14ECAT                         0.170    0.0217  700000.0                600.0\n\
+                 \x20   14COMP   15   40         1\n    14ECAT                         0.170    0.0217  700000.0               600.0\n\
                  \x20   14NLIN    1 1020    0 9020\n    14TSLK                         0.001\n";
     let text = edited("    14TSLK                         0.001\n", cards);
     let made = lines(&records(&text).unwrap());
     assert!(made.contains("~COMP1 CATENARY 170 0.0217 -LEN 600 -EA 700000000 -TMAX 8500000"), "{made}");
-    assert!(made.contains("CONNECTOR L1 ~L1 *S1_1010 *N9010") && made.contains("CONNECTOR L2 ~COMP1 *S1_1020 *N9020"));
+    assert!(
+        made.contains("CONNECTOR L1 ~L1 *S1_1010 *N9010") && made.contains("CONNECTOR L2 ~COMP1 *S1_1020 -ANCHOR ")
+    );
     // 100 kN/m over 250 m is an EA of 25,000 kN, on a section of pi/4 m2
     let record = made.lines().find(|line| line.starts_with("~L1 SL_ELEM")).unwrap();
     let modulus: f64 = record.split("-EMODULUS ").nth(1).unwrap().parse().unwrap();
@@ -325,4 +327,197 @@ fn phases_are_as_many_as_the_components() {
         said.iter().any(|m| m.contains("2 phases for 3")) && said.iter().any(|m| m.contains("not from both")),
         "{said:?}"
     );
+}
+
+/// A body in 100 m of water (kg, m, N), its fairlead at z = -10, and these cards of deck 14 and decks 5, 13, 16.
+fn moored(program: &str, depth: f64, lines: &str, waves: &str) -> String {
+    let none = |decks: std::ops::RangeInclusive<u8>| decks.map(|n| format!("    {n:02}    NONE\n")).collect::<String>();
+    format!(
+        "JOB MOOR  {program}\nTITLE               Lines on the bottom\nOPTIONS END\n\
+        \x20   01    COOR\n    01   1                 0.0       0.0       0.0\n    01   2                 0.0       0.0     -10.0\n\
+        \x20   01  13                 0.0     535.0     -95.0\n END01  12               535.0       0.0    -100.0\n\
+        \x20   02    ELM1\n END02PMAS           (1) (1) (1) (1)\n    02    FINI\n    03    MATE\n END03             1     1.0E7\n\
+        \x20   04    GEOM\n END04PMAS         1     1.0E9       0.0       0.0     1.0E9       0.0     1.0E9\n\
+        \x20   05    GLOB\n    05DPTH{depth:10.1}\n    05DENS    1025.0\n END05ACCG      9.81\n{}{waves}    14    MOOR\n{lines}\
+        \x20   15    STRT\n END15POS1                 0.0       0.0       0.0       0.0       0.0       0.0\n\
+        \x20   16    TINT\n END16TIME       101       0.1\n{}",
+        none(6..=12),
+        none(17..=20)
+    )
+}
+
+const STILL: &str = "    13    NONE\n";
+const SECTION: &str = "    14ECAT                         150.0     0.018     6.0E8     5.0E6     570.0\n";
+
+/// The force of each connector of a model on its first end, as placed (N).
+fn pulls(model: &windlass_model::Model) -> Vec<[f64; 3]> {
+    let surroundings = model.surroundings();
+    let pull = |connector: &windlass_model::Connector| {
+        let element = model.element(connector).unwrap();
+        let ends = model.end_poses(connector).map(windlass_model::End::still);
+        let at = windlass_model::Situation { ends: &ends, step: None, surroundings: &surroundings };
+        let mut out = windlass_model::Response::default();
+        let (committed, mut trial) = (vec![0.0; element.states()], vec![0.0; element.states()]);
+        element.evaluate(&at, &committed, &mut trial, &mut None, &mut out).unwrap();
+        [0, 1, 2].map(|axis| out.wrench[0][axis])
+    };
+    model.connectors.values().map(pull).collect()
+}
+
+fn placed(deck: &str) -> (Session, String) {
+    let records = records(deck).unwrap();
+    let (session, _) = run("model.cif", &records.model_alone());
+    let text = lines(&records);
+    (session, text)
+}
+
+fn near(got: f64, want: f64) {
+    // the digits given
+    assert!((got / want - 1.0).abs() < 1e-8, "{got} is not {want}");
+}
+
+#[test]
+fn a_line_of_a_deck_lies_on_the_bottom_at_its_anchor() {
+    // Elastic catenary with a part on the bottom without friction: x = L - V/w + H/w asinh(V/H) + H L/EA,
+    // z = (sqrt(H2 + V2) - H)/w + V2/(2 w EA), w = (150 - 1025 0.018) 9.81 N/m, solved by scipy.optimize.fsolve.
+    // The same in 150 m: the bottom of a line is at its anchor.
+    let cards = format!("    14COMP                   1\n{SECTION} END14NLIN    1    2    0   12\n");
+    for depth in [100.0, 150.0] {
+        let (session, text) = placed(&moored("LIBR", depth, &cards, STILL));
+        assert_eq!(text.contains("-DEPANCHOR 100"), depth > 100.0, "{text}");
+        let [pull] = pulls(&session.job.model)[..] else { panic!() };
+        near(pull[0], 135470.09879651);
+        near(-pull[2], 211989.18607666);
+    }
+    // the anchor first and the structure second: the same line
+    let swapped = cards.replace("    1    2    0   12", "    0   12    1    2");
+    let (session, _) = placed(&moored("LIBR", 100.0, &swapped, STILL));
+    near(pulls(&session.job.model)[0][0], 135470.09879651);
+}
+
+#[test]
+fn lines_of_one_composite_to_anchors_of_two_depths_lie_each_on_its_own() {
+    // the second line as the first one, 85 m high and along Y
+    let cards = format!(
+        "    14COMP                   1\n{SECTION}    14NLIN    1    2    0   12\n END14NLIN    1    2    0   13\n"
+    );
+    let (session, text) = placed(&moored("LIBR", 100.0, &cards, STILL));
+    assert!(text.contains("~COMP1_2 CATENARY 150 0.018 -LEN 570 -EA 600000000 -TMAX 5000000 -DEPANCHOR 95"), "{text}");
+    let [first, second] = pulls(&session.job.model)[..] else { panic!() };
+    near(first[0], 135470.09879651);
+    near(second[1], 111006.07003181);
+    near(-second[2], 190715.33656658);
+}
+
+#[test]
+fn joints_of_a_composite_weigh_their_mass_less_the_water_they_displace() {
+    // two sections of elastic catenary, the lower one partly on the bottom; the vertical force falls by (m - m_displaced) g at the
+    // joint between them; solved by scipy.optimize.fsolve
+    for (joint, horizontal, vertical) in [
+        ("CLMP                        5000.0     700.0", 195661.92250174, 271338.39698688),
+        ("BUOY                         900.0    4200.0", 120762.63454596, 195375.17324813),
+    ] {
+        let cards = format!(
+            "    14COMP                   2\n    14ECAT                         220.0     0.026     8.0E8               450.0\n\
+             \x20   14{joint}\n    14ECAT                         150.0     0.018     6.0E8               120.0\n\
+             \x20END14NLIN    1    2    0   12\n"
+        );
+        let (session, _) = placed(&moored("LIBR", 100.0, &cards, STILL));
+        let [pull] = pulls(&session.job.model)[..] else { panic!() };
+        near(pull[0], horizontal);
+        near(-pull[2], vertical);
+    }
+}
+
+/// What reading a deck says.
+fn said(text: &str) -> Vec<Diagnostic> {
+    let mut sources = Sources::default();
+    let id = sources.add("deck", text, 1);
+    aqwa::read(&sources, id).messages
+}
+
+#[test]
+fn the_table_of_a_composite_and_an_anchor_off_the_sea_bed_are_said() {
+    let cards = |comp: &str| format!("    14COMP{comp}\n{SECTION} END14NLIN    1    2    0   12\n");
+    let plain = "                   1";
+    let told = |depth: f64, comp: &str| {
+        let list = said(&moored("LIBR", depth, &cards(comp), STILL));
+        list.into_iter().map(|m| format!("{:?}: {}", m.severity, m.message)).collect::<Vec<_>>().join("\n")
+    };
+    assert_eq!(told(100.0, plain), "");
+    for comp in ["   10              1", "        20         1", "                   1     -20.0       0.0"] {
+        assert_eq!(
+            told(100.0, comp),
+            "Note: deck 14, COMP: no table is made; a line is solved exactly at each position"
+        );
+    }
+    assert_eq!(told(150.0, plain), "Note: deck 14: the anchor of this line is at Z = -100, above the sea bed at -150");
+    assert_eq!(told(80.0, plain), "Warning: deck 14: the anchor of this line is at Z = -100, below the sea bed at -80");
+}
+
+#[test]
+fn a_structure_without_loads_of_the_waves_is_not_run_in_waves() {
+    let cards = format!("    14COMP                   1\n{SECTION} END14NLIN    1    2    0   12\n");
+    let spectrum = "    13    SPEC\n END13PSMZ                 0.2       2.0       6.0       9.0\n";
+    let regular = "    13    WAVE\n    13WAMP                 3.0\n END13PERD                10.0\n";
+    for (program, waves) in [("DRIF", spectrum), ("NAUT", regular)] {
+        let list = said(&moored(program, 100.0, &cards, waves));
+        let error = list.iter().find(|m| m.severity == windlass_base::diagnostic::Severity::Error).unwrap();
+        assert_eq!(error.message, "decks 6 to 8: structure 1 has no wave coefficients, and no tubes");
+        assert!(error.span.is_some() && error.help.iter().any(|help| help.contains("DATABASE")));
+        assert_eq!(said(&moored(program, 100.0, &cards, STILL)), []);
+    }
+}
+
+#[test]
+fn a_stop_at_the_anchor_keeps_a_tether_of_a_deck_from_hanging_free() {
+    let low = "    14TLOW                         100.0\n";
+    let with = |card: &str| file("mint.dat").replace(low, card).replace("16TIME       101", "16TIME        33");
+    for card in ["    14TLOW                           0.0\n", "    14TLOW\n"] {
+        let text = with(card);
+        assert!(lines(&records(&text).unwrap()).contains("-LOW_STOP 0 -GROUP 4"));
+        // tethers 1 and 2 of the listing go slack at 6.5 s
+        let (session, _) = run("mint.dat", &text);
+        assert!(tethered(&session).happened.is_empty());
+    }
+    let none = with("");
+    assert!(!lines(&records(&none).unwrap()).contains("-LOW_STOP"));
+    let notes: Vec<String> = said(&none).into_iter().map(|m| m.message).filter(|m| m.contains("TLOW")).collect();
+    assert_eq!(notes, ["deck 14: no TLOW card; a slack tether hangs free and meets no lower stop"]);
+    let (session, _) = run("mint.dat", &none);
+    assert!(!tethered(&session).happened.is_empty());
+}
+
+#[test]
+fn amplitude_period_and_direction_of_a_regular_wave_come_from_their_own_cards() {
+    let text = file("mint.dat")
+        .replace("13WAMP               15.00", "13WAMP               12.00")
+        .replace("13PERD               15.00", "13PERD               16.50")
+        .replace("13WVDN                0.00", "13WVDN               30.00");
+    // towards 30 degrees is from 210; the height is twice the amplitude
+    let made = lines(&records(&text).unwrap());
+    assert!(made.contains("-SEA STOKES 210 24 16.5 "), "{made}");
+}
+
+#[test]
+fn tslk_prints_the_tethers_from_slack_on_for_its_time() {
+    // the listing has TSLK 0.001 and prints all four tethers at 6.5 s, when the first two go slack, and no more of them up to the
+    // impact at 7.5 s; with 0.6 s each step of 0.25 s up to 7.1 s is printed (A.6)
+    for (time, printed) in [("0.001", &["6.50"][..]), ("  0.6", &["6.50", "6.75", "7.00"])] {
+        let text = file("mint.dat")
+            .replace("16TIME       101", "16TIME        31")
+            .replace("    14TSLK                         0.001", &format!("    14TSLK                         {time}"));
+        let (mut session, screen, _folder) = common::session();
+        session.open_job("mint.dat", text);
+        session.run();
+        assert_eq!(session.errors, 0, "{:?}", session.reports);
+        let text = screen.text();
+        for tether in 1..=4 {
+            let head = format!("M O T I O N S   O F   T E T H E R   T {tether}");
+            let page = text.split(&head).nth(1).unwrap().split("******").next().unwrap();
+            let rows = page.lines().map(|line| line.split_whitespace().take(2).collect::<Vec<_>>());
+            let times: Vec<&str> = rows.filter(|words| words.get(1) == Some(&"4")).map(|words| words[0]).collect();
+            assert_eq!(times, printed, "tether {tether}\n{page}");
+        }
+    }
 }

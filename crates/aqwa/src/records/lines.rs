@@ -1,7 +1,7 @@
 //! Mooring lines of deck 14 as classes of the model.
 
 use super::model::point;
-use super::written::{Script, number, numbers, rounded};
+use super::written::{Script, difference, number, numbers, rounded};
 use crate::Deck;
 use crate::lines::{Composite, Ends, Joint, LineKind, MooringLine, Property, Section};
 use std::f64::consts::FRAC_PI_4;
@@ -12,17 +12,28 @@ const DIAMETER: f64 = 1.0;
 
 /// Classes and connectors.
 pub(super) fn lines(deck: &Deck, out: &mut Script) {
-    let mut written: Vec<usize> = Vec::new();
+    // composites that are written, each with the depth of its anchor where that is not the depth of the water
+    let mut written: Vec<(usize, Option<f64>)> = Vec::new();
     for (index, line) in deck.mooring.lines.iter().enumerate() {
         let number = index + 1;
+        let [first, second] = ends(line.ends);
+        let anchor = anchor(deck, line, out);
         let class = match line.kind {
             LineKind::Elastic { stiffness, length } => elastic(number, stiffness, length, line, out),
             LineKind::Property { property, tension, .. } => match deck.mooring.properties.get(property) {
                 Some(Property::Composite(composite)) if tension == 0.0 => {
-                    let name = format!("COMP{}", property + 1);
-                    if !written.contains(&property) {
-                        written.push(property);
-                        catenary(&name, composite, out);
+                    let depth = anchor.and_then(|(_, depth)| depth);
+                    let variant = (property, depth);
+                    let others = written.iter().filter(|(other, _)| *other == property).count();
+                    let known = written.iter().position(|other| *other == variant);
+                    let place = known.map_or(others, |at| written.iter().take(at).filter(|w| w.0 == property).count());
+                    let name = match place {
+                        0 => format!("COMP{}", property + 1),
+                        _ => format!("COMP{}_{}", property + 1, place + 1),
+                    };
+                    if known.is_none() {
+                        written.push(variant);
+                        catenary(&name, composite, depth, out);
                     }
                     Some(name)
                 }
@@ -35,15 +46,28 @@ pub(super) fn lines(deck: &Deck, out: &mut Script) {
             LineKind::Force(_) => refused("FORC", "a TUG_BOAT, or #TABLE for a force on the body", line, out),
             LineKind::Winch { .. } => refused("WNCH", "an SL_ELEM with -PISTON, which keeps a tension", line, out),
         };
-        if let Some(class) = class {
-            let [first, second] = ends(line.ends);
-            out.record(format!(
-                "CONNECTOR L{number} ~{class} {} {}",
-                point(first.0, first.1),
-                point(second.0, second.1)
-            ));
-        }
+        let Some(class) = class else { continue };
+        let fairlead = point(first.0, first.1);
+        let other = match anchor {
+            Some((place, _)) if !matches!(line.kind, LineKind::Elastic { .. }) => format!("-ANCHOR {}", numbers(place)),
+            _ => point(second.0, second.1),
+        };
+        out.record(format!("CONNECTOR L{number} ~{class} {fairlead} {other}"));
     }
+}
+
+/// Direction (degrees) and distance (m) of the anchor of a line, and its depth (m) where that is not the depth of the water; none of
+/// a line between two structures.
+fn anchor(deck: &Deck, line: &MooringLine, out: &Script) -> Option<([f64; 2], Option<f64>)> {
+    let [(structure, node), (ground, anchor)] = ends(line.ends);
+    let structure = deck.structure(structure).filter(|_| ground <= 0)?;
+    let from = deck.placed(structure, node)?.map(|x| out.scale.length(x));
+    let to = deck.nodes.get(&anchor)?.position.map(|x| out.scale.length(x));
+    let [x, y] = [difference(to[0], from[0]), difference(to[1], from[1])];
+    let direction = if x == 0.0 && y == 0.0 { 0.0 } else { rounded(y.atan2(x).to_degrees()) };
+    let depth = difference(0.0, to[2]);
+    let of_water = out.scale.length(deck.global.depth);
+    Some(([direction, rounded(x.hypot(y))], (depth != of_water).then_some(depth)))
 }
 
 /// Structure and node of both ends, the one on a structure first: that is the fairlead.
@@ -79,8 +103,9 @@ fn elastic(number_of: usize, stiffness: f64, length: f64, line: &MooringLine, ou
     Some(name)
 }
 
-/// A composite line: one record a section from the fairlead, in kg, m, N.
-fn catenary(name: &str, composite: &Composite, out: &mut Script) {
+/// A composite line: one record a section from the fairlead, in kg, m, N. `depth` (m) is that of the anchor, on which the line lies,
+/// where it is not the depth of the water.
+fn catenary(name: &str, composite: &Composite, depth: Option<f64>, out: &mut Script) {
     if composite.slope != 0.0 {
         out.refuse(
             Diagnostic::error("deck 14, COMP, columns 51-60: the sea bed of a CATENARY is level", composite.span)
@@ -98,8 +123,10 @@ fn catenary(name: &str, composite: &Composite, out: &mut Script) {
     let mut below: Vec<Option<Joint>> = vec![None];
     below.extend(composite.sections.iter().map(|section| section.joint));
     let rows: Vec<(&Section, Option<Joint>)> = composite.sections.iter().zip(below).collect();
+    let mut depth = depth.map_or(String::new(), |depth| format!(" -DEPANCHOR {}", number(depth)));
     for (section, joint) in rows.into_iter().rev() {
-        out.record(record(name, section, joint, out));
+        let text = record(name, section, joint, out) + &std::mem::take(&mut depth);
+        out.record(text);
     }
 }
 

@@ -103,7 +103,7 @@ fn not_of_towed(description: &Description, out: &mut Script) {
         ("TCAP", description.caps != (0.0, 0.0)),
         ("TIFL", description.fluid != (0.0, 0.0)),
         ("TIMP", description.impact.is_some()),
-        ("TLOW", description.lower_stop > 0.0),
+        ("TLOW", description.lower_stop.is_some()),
         ("TEGR", description.group > 1),
         ("TLAC, TROC, TLAV, TROV", !description.constraints.is_empty()),
     ];
@@ -133,8 +133,8 @@ fn of_installed(description: &Description, out: &mut Script) -> String {
         }
         _ => {}
     }
-    if description.lower_stop > 0.0 {
-        text.push_str(&format!(" -LOW_STOP {}", number(out.scale.length(description.lower_stop))));
+    if let Some(stop) = description.lower_stop {
+        text.push_str(&format!(" -LOW_STOP {}", number(out.scale.length(stop))));
     }
     for (kind, gap, span) in &description.constraints {
         let node = constrained(description, *kind, *span, out);

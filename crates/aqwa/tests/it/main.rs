@@ -2,4 +2,5 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod columns;
 mod seed_003_decks;

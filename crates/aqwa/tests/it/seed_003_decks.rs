@@ -245,7 +245,7 @@ fn the_towed_example_is_what_chapter_8_says() {
     assert!(tether.towed());
     assert_eq!((tether.structure.value, tether.node.value, tether.anchor.value), (1, 999, 100));
     assert_eq!(tether.springs(), [[0.5; 3]; 2]);
-    assert_eq!((tether.description.impact, tether.description.lower_stop), (Some((100.0, 100.0)), 100.0));
+    assert_eq!((tether.description.impact, tether.description.lower_stop), (Some((100.0, 100.0)), Some(100.0)));
     assert_eq!((tether.description.fatigue, tether.description.peak_hours), (Fatigue::default(), None));
     assert_eq!((tether.description.elements.len(), deck.mooring.modes.unwrap().value), (13, 6));
     let tube = deck.geometry(Shape::Tube, 4).unwrap();
@@ -397,7 +397,7 @@ fn every_card_of_appendix_a_has_its_fields() {
     assert_eq!(tether.fatigue, Fatigue { concentration: 1.3, intercept: 1e24, slope: 3.0 });
     assert_eq!((tether.peak_hours, tether.group), (Some(6.0), 3));
     assert_eq!((tether.caps, tether.fluid), ((0.11, 0.22), (101.3, 0.85)));
-    assert_eq!((tether.impact, tether.lower_stop), (Some((3e5, 2.5)), 1.5));
+    assert_eq!((tether.impact, tether.lower_stop), (Some((3e5, 2.5)), Some(1.5)));
     let kinds: Vec<(Constraint, f64)> = tether.constraints.iter().map(|(kind, gap, _)| (*kind, *gap)).collect();
     use Constraint::*;
     assert_eq!(kinds, [(LateralFixed, 0.0), (RotationalFixed, 0.0), (LateralVessel, 0.1), (RotationalVessel, 0.0)]);
@@ -558,53 +558,51 @@ fn neighbouring_fields_may_touch_and_blank_fields_are_zero() {
 }
 
 #[test]
-fn the_same_cards_apart_by_blanks_or_tabs_read_the_same_with_a_note() {
-    let fixed = script("he01.dat");
-    // a blank field cannot be told so: the rows of LSTF are written out
-    let full = |row: usize| {
-        let values: Vec<&str> = (1..7).map(|k| if k == row { "1.0E10" } else { "0.0" }).collect();
-        format!("07LSTF {row} {}", values.join(" "))
-    };
-    for gap in [" ", "\t", ", "] {
-        let free: Vec<String> = fixed
-            .lines()
-            .map(|line| match line.strip_prefix("    07LSTF         ") {
-                Some(row) if row.len() > 1 => full(row[..1].parse().unwrap()),
-                _ => line.split_whitespace().collect::<Vec<_>>().join(gap),
-            })
-            .collect();
-        // the brackets of deck 2 and the words of deck 0 are apart by blanks
-        let free = free.join("\n").replace(", (", " (").replacen("JOB, HE01, DRIF, WFRQ", "JOB HE01 DRIF WFRQ", 1);
-        let got = reading(&free);
-        assert!(!got.failed, "{:#?}", got.messages);
-        assert_eq!(got.messages.len(), 1, "{:#?}", got.messages);
-        assert!(got.messages[0].message.ends_with("read by blanks, not by columns"));
-        assert_eq!(got.messages[0].severity, Severity::Note);
-        assert_eq!(got.deck.echo(), deck(&fixed).echo());
+fn cards_apart_by_blanks_or_tabs_are_refused_at_their_columns() {
+    // (what is edited, into what, the message, what it points at)
+    let low = "    14TLOW                         100.0";
+    for (from, to, said, at) in [
+        (
+            low,
+            "    14TLOW     100.0",
+            "deck 14 MOOR, TLOW: `100.0` stands in columns 11-30, which hold no field",
+            "100.0",
+        ),
+        (low, "    14TLOW\t100.0", "deck 14 MOOR: a tab stands in column 11", "\t"),
+        (low, "\t14TLOW                         100.0", "deck 14 MOOR: a tab stands in column 1", "\t"),
+        (low, "14TLOW                         100.0", "deck 14 MOOR: `1` stands in column 1", "1"),
+        (low, "   14TLOW                         100.0", "deck 14 MOOR: `1` stands in columns 2-4", "14"),
+        (low, "     14TLOW                         100.0", "deck 14 MOOR: `4TLO` stands in columns 7-10", "4TLO"),
+        (low, "    14                             100.0", "deck 14 MOOR: columns 7-10 are blank", " "),
+        // as the manual prints its figure 8.4, which has lost its columns
+        (
+            "    019020             -52.630   -52.630-329.73543",
+            "019020        -52.630  -52.630-329.73543",
+            "deck 1 COOR: `0` stands in column 1",
+            "0",
+        ),
+        ("    05    GLOB", "    05   GLOB", "deck 5: this is no deck header", "05   GLOB"),
+        ("    05    GLOB", "    05\tGLOB", "deck 5: a tab stands in column 7", "\t"),
+        (
+            "    02TUBE           (1) (51)",
+            "    02TUBE   (1) (51)",
+            "deck 2 ELM1, TUBE: a bracket stands before column 21",
+            "   (1)",
+        ),
+    ] {
+        let text = edited(&script("mint.dat"), from, to);
+        let (error, line, column) = refused(&text);
+        assert_eq!(error.message, said);
+        let rest: String = text.lines().nth(line - 1).unwrap().chars().skip(column - 1).collect();
+        assert!(rest.starts_with(at), "{said}: at `{rest}`");
     }
 }
 
 #[test]
-fn touching_numbers_apart_by_their_sign_are_read_on_cards_without_columns() {
-    // as seed 003 prints figure 8.4, which has lost its columns
-    let text = edited(
-        &script("mint.dat"),
-        "    019020             -52.630   -52.630-329.73543",
-        "019020        -52.630  -52.630-329.73543",
-    );
-    assert_eq!(deck(&text).nodes[&9020].position, [-52.63, -52.63, -329.73543]);
-}
-
-#[test]
-fn a_card_beside_its_columns_is_read_by_blanks_with_a_warning() {
-    let text = edited(&script("mint.dat"), "    14TLOW                         100.0", "    14TLOW     100.0");
-    let reading = reading(&text);
-    assert_eq!(reading.deck.mooring.tethers[0].description.lower_stop, 100.0);
-    assert_eq!(reading.messages[0].severity, Severity::Warning);
-    assert_eq!(
-        reading.messages[0].message,
-        "deck 14 MOOR, TLOW: `100.0` stands in columns 11-30, which hold no field; the card was read by blanks"
-    );
+fn a_card_whose_last_field_passes_column_80_is_refused() {
+    let row = "9.2809E12       0.0 7.1578E12";
+    let text = edited(&script("he01.dat"), row, "9.2809E12       0.0   7.1578E12");
+    assert_eq!(refused(&text).0.message, "deck 4 GEOM, PMAS: what stands in column 80 goes on past it");
 }
 
 #[test]
@@ -697,7 +695,8 @@ fn a_file_that_is_no_deck_is_refused_within_bounds() {
     assert!(reading.messages[200].message.ends_with("more messages about this deck are not shown"));
     let tethers = "    14TETH    1 1010    0 9010\n".repeat(200);
     let text = edited(&script("mint.dat"), "    14TETH    1 1010    0 9010\n", &tethers);
-    assert_eq!(refused(&text).0.message, "deck 14, TETH: a deck has at most 100 tethers");
+    let said = self::reading(&text).messages;
+    assert!(said.iter().any(|m| m.message == "deck 14, TETH: a deck has at most 100 tethers"), "{said:#?}");
 }
 
 /// What is said of a deck with an edit: the first error, its line and column.
@@ -743,7 +742,7 @@ fn bad_cards_are_refused_at_their_place() {
         ("    14TETH    1 1010", "    14TETH    2 1010", "structure 2 is not in deck 2", "2"),
         ("    14TETH    1 1010    0 9010", "    14TETH    1 1010    0 9011", "node 9011 is not in deck 1", "9011"),
         ("    14TETH    1 1010    0 9010", "    14TETH    1 1010    1 9010", "the other end of a tether is fixed", "1"),
-        (" END14TETH    1 1040    0 9040", " END14TEGR    4", "no TETH card closes this tether", "14TELM"),
+        (" END14TETH    1 1040    0 9040", " END14TLAC", "no TETH card closes this tether", "14TELM"),
         (
             "(11,1) (12,1) (2) (2)",
             "(11,1) (12,1) (2)",
@@ -879,15 +878,24 @@ fn a_towed_tether_is_held_to_what_chapter_8_demands() {
 }
 
 #[test]
-fn a_number_across_two_fields_is_warned_of() {
-    let text = edited(
-        &script("mint.dat"),
-        "    01  19                41.0      40.0",
-        "    01  19                41.00005      ",
-    );
-    let reading = reading(&text);
-    let warning = reading.messages.iter().find(|m| m.severity == Severity::Warning).unwrap();
-    assert_eq!(warning.message, "deck 1 COOR: `41.00005` lies across two fields and was read as 41.0 and 0005");
+fn a_number_across_two_fields_is_refused() {
+    let card = "    01  19                41.0      40.0     0.000";
+    let of = |fields: &str| edited(&script("mint.dat"), card, &format!("    01  19          {fields}"));
+    for (fields, said) in [
+        ("      41.00005     0.000", "deck 1 COOR, columns 21-40: `41.00005     0` lies across two fields"),
+        ("      41.00005      ", "deck 1 COOR, columns 21-40: `41.00005` lies across two fields"),
+        // the last digits of 41.0556 fill the blanks before 272.0179
+        ("     41.0556272.0179", "deck 1 COOR, columns 21-40: `41.0556272.0179` lies across two fields"),
+        ("1.2345E+0112.3456E+2", "deck 1 COOR, columns 21-40: `1.2345E+0112.3456E+2` lies across two fields"),
+    ] {
+        let error = refused(&of(fields)).0;
+        assert_eq!(error.message, said);
+    }
+    // a sign begins a number, and so does a number with an exponent and one digit before the point
+    let read = deck(&of("    -41.00-40.000000     0.000")).nodes[&19].position;
+    assert_eq!(read, [-41.0, -40.0, 0.0]);
+    let read = deck(&of("1.2345E+011.3000E+02     0.000")).nodes[&19].position;
+    assert_eq!(read, [12.345, 130.0, 0.0]);
 }
 
 #[test]
@@ -910,21 +918,21 @@ fn units_are_told_by_gravity_and_density() {
 fn generation_without_end_is_refused_with_its_reason() {
     for (text, part) in [
         (
-            edited(&script("mint.dat"), "    01  19                41.0", "01 19 99999999 1 41.0"),
-            "99999999 nodes cannot be generated",
+            edited(&script("mint.dat"), "    01  19                41.0", "    01  1999999    1      41.0"),
+            "99999 nodes cannot be generated",
         ),
         (edited(&script("mint.dat"), "    01  19     ", "    01  1999999"), "99999 nodes cannot be generated"),
         (edited(&script("mint.dat"), "    01  11    5    1", "    01  11   -5    1"), "-5 nodes cannot be generated"),
         (edited(&script("mint.dat"), "    01  11    5    1", "    01  11    5   -9"), "leads to node"),
         (edited(&script("mint.dat"), "(2) (11,1)", "(99999999) (11,1)"), "99999999 elements cannot be made"),
         (edited(&script("mint.dat"), "(2) (11,1)", "(0) (11,1)"), "0 elements cannot be made"),
-        (edited(&script("mint.dat"), "TIME       101", "TIME 999999999"), "cannot be run"),
     ] {
         let error = refused(&text).0;
         assert!(error.message.contains(part), "{}", error.message);
     }
     // and many cards within the limit do not add up past it
-    let cards: String = (0..9).map(|k| format!("01 {} 9999 1 0.0 0.0 0.0\n", 1_000_000 * (k + 1))).collect();
+    let cards: String =
+        (1..9).map(|k| format!("    01{:4} 9999   10       0.0       0.0       0.0\n", 5000 + k)).collect();
     let text = edited(
         &script("mint.dat"),
         "    01  19                41.0",
