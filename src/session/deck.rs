@@ -4,7 +4,7 @@ use super::Session;
 use crate::command::{PLAIN, SCRIPT};
 use crate::report::page;
 use std::path::Path;
-use windlass_aqwa::{self as aqwa, Deck, Records};
+use windlass_aqwa::{self as aqwa, Deck, Records, Written};
 use windlass_base::diagnostic::{Diagnostic, Severity};
 use windlass_base::span::Span;
 use windlass_language::source::Text;
@@ -24,14 +24,12 @@ impl Session {
         self.tell(&deck);
         let script = records.script();
         let named = format!("{}.cif", stem(name));
-        if let Err(error) = self.job.output.folder.write(&named, script.as_bytes()) {
+        if let Err(error) = self.job.output.folder.write(&named, script.text.as_bytes()) {
             let text = format!("the records of the deck are not kept: {error}");
             self.report(Diagnostic::plain(Severity::Warning, text));
         }
         self.job.settings.batch = true;
-        if let Err(error) = self.interpreter.open(&named, script, SCRIPT, None) {
-            self.report(*error);
-        }
+        self.open_records(&named, script, SCRIPT, None);
     }
 
     /// Reads the model of a deck next.
@@ -45,9 +43,37 @@ impl Session {
         // the first points of a deck are in the ground
         self.job.model.current_part = None;
         let named = format!("records of {name}");
-        if let Err(error) = self.interpreter.open(&named, records.model_alone(), PLAIN, Some(span)) {
-            self.report(*error);
+        self.open_records(&named, records.model_alone(), PLAIN, Some(span));
+    }
+
+    /// Reads the records of a deck next; what is said of them later is said of the cards they are made of.
+    fn open_records(&mut self, name: &str, records: Written, tag: u32, span: Option<Span>) {
+        match self.interpreter.open(name, records.text.clone(), tag, span) {
+            Ok(id) => self.decks.push((id, records)),
+            Err(error) => self.report(*error),
         }
+    }
+
+    /// A message about a record of a deck as one about the card it is made of.
+    pub(super) fn point_at_card(&self, mut said: Diagnostic) -> Diagnostic {
+        let made_of = |span: Span| {
+            let (_, records) = self.decks.iter().find(|(id, _)| *id == span.source)?;
+            let byte = span.start as usize;
+            let line = records.text.get(..byte)?.rfind('\n').map_or(0, |at| at + 1);
+            Some((records.origin(byte)?, records.text.get(line..)?.lines().next()?))
+        };
+        if let Some((origin, record)) = said.span.and_then(made_of) {
+            said.message = format!("{}: {}", origin.card, said.message);
+            said.help
+                .push(format!("the card is read as the record `{}`", record.trim().trim_end_matches('\\').trim_end()));
+            said.span = Some(origin.span);
+        }
+        if let Some((span, _)) = &mut said.other
+            && let Some((origin, _)) = made_of(*span)
+        {
+            *span = origin.span;
+        }
+        said
     }
 
     /// A deck with its records; nothing when it has an error, which is told.

@@ -16,7 +16,7 @@ use std::path::Path;
 use std::sync::Arc;
 use windlass_aqwa as aqwa;
 use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
-use windlass_base::span::Span;
+use windlass_base::span::{SourceId, Span};
 use windlass_base::values::Args;
 use windlass_language::args;
 use windlass_language::flow::macros::{self, Macro};
@@ -56,6 +56,8 @@ pub struct Session {
     pub reports: Vec<Diagnostic>,
     /// Errors when the terminal was last asked for a line.
     errors_at_prompt: i64,
+    /// Texts made of decks, with the cards they are made of.
+    decks: Vec<(SourceId, aqwa::Written)>,
 }
 
 impl Session {
@@ -72,6 +74,7 @@ impl Session {
             keep_reports: false,
             reports: Vec::new(),
             errors_at_prompt: 0,
+            decks: Vec::new(),
         }
     }
 
@@ -178,7 +181,8 @@ impl Session {
     }
 
     /// Prints a message, counts it, and remembers how serious it was.
-    pub fn report(&mut self, mut diagnostic: Diagnostic) {
+    pub fn report(&mut self, diagnostic: Diagnostic) {
+        let mut diagnostic = self.point_at_card(diagnostic);
         diagnostic.help.extend(self.interpreter.trace());
         if matches!(diagnostic.severity, Severity::Error | Severity::Fatal) {
             self.errors += 1;

@@ -83,7 +83,7 @@ use windlass_language::source::Sources;
 
 pub use echo::Echo;
 pub use job::is_deck;
-pub use records::{Records, model_records, records};
+pub use records::{Origin, Records, Written, model_records, records};
 
 /// A deck that was read.
 #[derive(Clone, Debug, Default)]

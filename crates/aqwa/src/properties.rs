@@ -101,6 +101,8 @@ pub struct Global {
     pub density: f64,
     /// Acceleration due to gravity; it tells the unit of length.
     pub gravity: f64,
+    /// Where the depth was given.
+    pub depth_span: Option<Span>,
     /// Where gravity was given.
     pub gravity_span: Option<Span>,
     /// Where the density was given.
@@ -109,7 +111,14 @@ pub struct Global {
 
 impl Default for Global {
     fn default() -> Self {
-        Global { depth: 1000.0, density: 1025.0, gravity: 9.81, gravity_span: None, density_span: None }
+        Global {
+            depth: 1000.0,
+            density: 1025.0,
+            gravity: 9.81,
+            depth_span: None,
+            gravity_span: None,
+            density_span: None,
+        }
     }
 }
 
@@ -221,7 +230,10 @@ pub fn read_global(records: &[Record], remarks: &mut Remarks) -> Global {
             continue;
         }
         match record.keyword.as_str() {
-            "DPTH" => global.depth = value.or(global.depth),
+            "DPTH" => {
+                global.depth = value.or(global.depth);
+                global.depth_span = Some(value.span);
+            }
             "DENS" => {
                 global.density = value.or(global.density);
                 global.density_span = Some(value.span);

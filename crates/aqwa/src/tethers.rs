@@ -92,6 +92,15 @@ pub struct Description {
     pub lower_stop: Option<f64>,
     /// Constraints with the gap of TLAV and their cards.
     pub constraints: Vec<(Constraint, f64, Span)>,
+    /// Keywords and places of its cards.
+    pub cards: Vec<(String, Span)>,
+}
+
+impl Description {
+    /// Place of the card with a keyword, where it was given.
+    pub fn card(&self, keyword: &str) -> Option<Span> {
+        self.cards.iter().find(|(name, _)| name == keyword).map(|(_, span)| *span)
+    }
 }
 
 /// A tether, closed by a TETH card.
@@ -141,6 +150,9 @@ impl Builder {
     pub fn take(&mut self, record: &Record, remarks: &mut Remarks) {
         self.first.get_or_insert(record.span);
         let tether = &mut self.description;
+        if record.keyword != "TELM" {
+            tether.cards.push((record.keyword.clone(), record.span));
+        }
         let value = |column: usize| record.real(column).value;
         match record.keyword.as_str() {
             "TELM" => self.element(record, remarks),

@@ -112,7 +112,7 @@ fn the_towed_deck_with_the_printed_phases_comes_to_the_printed_places() {
 #[test]
 fn a_deck_and_the_script_of_its_case_have_the_same_numbers_bit_for_bit() {
     for (deck, script) in [("mint.dat", "installed_tether.cif"), ("he01_phases.dat", "towed_tether.cif")] {
-        let made = records(&file(deck)).unwrap().script();
+        let made = records(&file(deck)).unwrap().script().text;
         let (of_deck, _) = run("deck.cif", &silent(&made));
         // the script of the example runs for a shorter time: here it runs as long as the deck
         let whole = tethered(&of_deck);
@@ -140,7 +140,7 @@ fn a_deck_leaves_its_records_as_a_script_that_runs_alike() {
     let short = file("mint.dat").replace("16TIME       101", "16TIME        11");
     let (of_deck, kept) = run("mint.dat", &short);
     let kept = kept.unwrap();
-    assert_eq!(kept, records(&short).unwrap().script());
+    assert_eq!(kept, records(&short).unwrap().script().text);
     let (again, _) = run("again.cif", &kept);
     assert_eq!(bits(tethered(&of_deck)), bits(tethered(&again)));
     assert_eq!(of_deck.job.model.connectors.len(), 4);
@@ -366,7 +366,7 @@ fn pulls(model: &windlass_model::Model) -> Vec<[f64; 3]> {
 
 fn placed(deck: &str) -> (Session, String) {
     let records = records(deck).unwrap();
-    let (session, _) = run("model.cif", &records.model_alone());
+    let (session, _) = run("model.cif", &records.model_alone().text);
     let text = lines(&records);
     (session, text)
 }
@@ -519,5 +519,62 @@ fn tslk_prints_the_tethers_from_slack_on_for_its_time() {
             let times: Vec<&str> = rows.filter(|words| words.get(1) == Some(&"4")).map(|words| words[0]).collect();
             assert_eq!(times, printed, "tether {tether}\n{page}");
         }
+    }
+}
+
+/// The first error of a job that is a deck, with the line and column it points at, and the name of the file.
+fn error_of(text: &str) -> (Diagnostic, String) {
+    let (mut session, _, _folder) = common::session();
+    session.open_job("case.dat", text);
+    session.run();
+    let sources = &session.interpreter.sources;
+    for report in &session.reports {
+        let place = report.span.map(|span| sources.place(span)).unwrap_or_default();
+        assert!(place.starts_with("case.dat:"), "{place}: {report:?}");
+    }
+    let errors = session.reports.iter().filter(|r| r.severity == windlass_base::diagnostic::Severity::Error);
+    let error = errors.clone().next().unwrap_or_else(|| panic!("no error: {:#?}", session.reports));
+    (error.clone(), error.span.map(|span| sources.place(span)).unwrap())
+}
+
+#[test]
+fn an_error_of_a_record_points_at_the_card_it_is_made_of() {
+    let start = "    15    STRT\n    15POS1             -46.000     0.000   -17.400     0.000     0.000       0.0\n \
+                 END15VEL1               0.000     0.000     0.000     0.000     0.000       0.0";
+    let cases = [
+        // a density below 0: the field of deck 3
+        (
+            "mint.dat",
+            "    03           101   7.81694    2.15E8\n",
+            "    03           101  -7.81694    2.15E8\n",
+            "deck 3, columns 21-30: RHO of -DENSITY of TETHER must be greater than zero",
+            " -7.81694",
+        ),
+        // blank springs are 1.0E15, too stiff for the step
+        (
+            "he01.dat",
+            "    14TSPA    1                      0.5       0.5       0.5\n",
+            "    14TSPA    1\n",
+            "deck 16, TIME: the step of 0.25 s is too large for the end springs of the towed tether",
+            "END16TIME",
+        ),
+        // a structure that starts where deck 1 has it, far above its tethers
+        (
+            "mint.dat",
+            start,
+            "    15    NONE",
+            "deck 14, TETH: tether T1 is 265.4055 m long, shorter",
+            "    14TETH    1 1010",
+        ),
+    ];
+    for (name, from, to, said, at) in cases {
+        let text = file(name);
+        assert!(text.contains(from), "{from}");
+        let text = text.replacen(from, to, 1);
+        let (error, place) = error_of(&text);
+        assert!(error.message.starts_with(said), "{}", error.message);
+        assert!(error.help.iter().any(|help| help.starts_with("the card is read as the record `")), "{error:?}");
+        let line: usize = place.split(':').nth(1).unwrap().parse().unwrap();
+        assert!(text.lines().nth(line - 1).unwrap().contains(at.trim_start()), "{place}: {said}");
     }
 }

@@ -6,6 +6,7 @@ use crate::Deck;
 use crate::surroundings::{Flow, Layer};
 use crate::waves::{Spectrum, Waves};
 use windlass_base::diagnostic::Diagnostic;
+use windlass_base::span::Span;
 use windlass_base::units::KNOT;
 
 /// Names of the curves of a current profile.
@@ -18,6 +19,26 @@ pub(super) fn environment(deck: &Deck, out: &mut Script) {
     options.extend(current(deck, out));
     options.extend(wind(deck, out));
     options.extend(time(deck, out));
+    if let Some(span) = deck.global.depth_span {
+        out.word("-DEPTH", "deck 5, DPTH", span);
+    }
+    let of_waves = match &deck.waves {
+        Waves::Spectra(list) => list.first().map(|sea| sea.span),
+        Waves::Regular(wave) => Some(wave.span),
+        Waves::Still => None,
+    };
+    if let Some(span) = of_waves {
+        out.word("-SEA", "deck 13", span);
+    }
+    let streams = [("-CURRENT", current_span(deck)), ("-WIND", wind_of(deck).map(|(card, flow)| (card, flow.span)))];
+    for (word, origin) in streams {
+        if let Some((card, span)) = origin {
+            out.word(word, card, span);
+        }
+    }
+    if let Some(steps) = deck.steps {
+        out.word("-TIME", "deck 16, TIME", steps.span);
+    }
     out.record(format!("&ENV {}", options.join(" \\\n  ")));
 }
 
@@ -59,19 +80,30 @@ fn cosine(degrees: f64) -> f64 {
     windlass_language::number::cosine_of_degrees(degrees)
 }
 
-/// The current of the deck: that of the spectrum or wave, else the uniform one, else that of deck 10; with the profile.
-fn current(deck: &Deck, out: &mut Script) -> Option<String> {
+/// The card of the current: that of the profile, else of the uniform current in force.
+fn current_span(deck: &Deck) -> Option<(&'static str, Span)> {
+    let profile = deck.surroundings.profile.first().map(|layer| ("deck 11, CPRF", layer.span));
+    profile.or_else(|| uniform(deck).first().map(|(card, flow)| (*card, flow.span)))
+}
+
+/// The uniform currents that are given, with their cards; the first one is in force.
+fn uniform(deck: &Deck) -> Vec<(&'static str, Flow)> {
     let own = match &deck.waves {
         Waves::Spectra(list) => list.first().and_then(|s| s.current),
         Waves::Regular(wave) => wave.current,
         Waves::Still => None,
     };
     let of_hulls = deck.hydrostatics.iter().find_map(|h| h.current);
-    let given: Vec<(&str, Flow)> = [("deck 13", own), ("deck 11", deck.surroundings.current), ("deck 10", of_hulls)]
+    [("deck 13, CURR", own), ("deck 11, CURR", deck.surroundings.current), ("deck 10, CURR", of_hulls)]
         .into_iter()
-        .filter_map(|(deck, flow)| Some((deck, flow?)))
+        .filter_map(|(card, flow)| Some((card, flow?)))
         .filter(|(_, flow)| flow.speed.value != 0.0)
-        .collect();
+        .collect()
+}
+
+/// The current of the deck: that of the spectrum or wave, else the uniform one, else that of deck 10; with the profile.
+fn current(deck: &Deck, out: &mut Script) -> Option<String> {
+    let given = uniform(deck);
     if let [(taken, _), others @ ..] = given.as_slice()
         && !others.is_empty()
     {
@@ -114,13 +146,20 @@ fn profile(layers: &[Layer], added: [f64; 2], out: &mut Script) -> String {
     if options == "-CURRENT" { "-CURRENT 0 0".into() } else { options }
 }
 
-fn wind(deck: &Deck, out: &mut Script) -> Option<String> {
+/// The wind in force, with its card.
+fn wind_of(deck: &Deck) -> Option<(&'static str, Flow)> {
     let own = match &deck.waves {
         Waves::Spectra(list) => list.first().and_then(|s| s.wind),
         Waves::Regular(wave) => wave.wind,
         Waves::Still => None,
     };
-    let flow = own.or(deck.surroundings.wind).filter(|flow| flow.speed.value != 0.0)?;
+    let own = own.map(|flow| ("deck 13, WIND", flow));
+    let found = own.or(deck.surroundings.wind.map(|flow| ("deck 11, WIND", flow)));
+    found.filter(|(_, flow)| flow.speed.value != 0.0)
+}
+
+fn wind(deck: &Deck, out: &mut Script) -> Option<String> {
+    let (_, flow) = wind_of(deck)?;
     out.remark("the structures of a deck have no areas for the wind; #AREA of the model gives them");
     let speed = out.scale.length(flow.speed.value);
     let toward = if speed < 0.0 { flow.direction.value + 180.0 } else { flow.direction.value };

@@ -52,7 +52,20 @@ pub(super) fn lines(deck: &Deck, out: &mut Script) {
             Some((place, _)) if !matches!(line.kind, LineKind::Elastic { .. }) => format!("-ANCHOR {}", numbers(place)),
             _ => point(second.0, second.1),
         };
+        out.card(format!("deck 14, {}", card(&line.kind)), line.span);
         out.record(format!("CONNECTOR L{number} ~{class} {fairlead} {other}"));
+    }
+}
+
+/// Keyword of the card of a line.
+fn card(kind: &LineKind) -> &'static str {
+    match kind {
+        LineKind::Elastic { .. } => "LINE",
+        LineKind::Winched { .. } => "LNDW",
+        LineKind::Force(_) => "FORC",
+        LineKind::Winch { .. } => "WNCH",
+        LineKind::Property { dynamic: false, .. } => "NLIN",
+        LineKind::Property { dynamic: true, .. } => "NLID",
     }
 }
 
@@ -94,6 +107,7 @@ fn elastic(number_of: usize, stiffness: f64, length: f64, line: &MooringLine, ou
     let length = out.scale.length(length);
     // N/m times m over the area, in MPa
     let modulus = out.scale.force(stiffness, -1) * 1e3 * length / (FRAC_PI_4 * DIAMETER * DIAMETER) / 1e6;
+    out.card("deck 14, LINE", line.span);
     out.record(format!(
         "~{name} SL_ELEM {} TENSION -LEN {} -EMODULUS {}",
         number(1000.0 * DIAMETER),
@@ -126,6 +140,11 @@ fn catenary(name: &str, composite: &Composite, depth: Option<f64>, out: &mut Scr
     let mut depth = depth.map_or(String::new(), |depth| format!(" -DEPANCHOR {}", number(depth)));
     for (section, joint) in rows.into_iter().rev() {
         let text = record(name, section, joint, out) + &std::mem::take(&mut depth);
+        out.card("deck 14, ECAT", section.span);
+        if let Some(joint) = joint {
+            let (word, card) = if joint.buoy { ("-BUOY", "deck 14, BUOY") } else { ("-CLUMP", "deck 14, CLMP") };
+            out.word(word, card, joint.span);
+        }
         out.record(text);
     }
 }

@@ -14,7 +14,9 @@ mod written;
 
 use super::Deck;
 use windlass_base::diagnostic::Diagnostic;
-use written::{Scale, Script, number};
+use written::{Line, Scale, Script, number};
+
+pub use written::Origin;
 
 /// The record that sets the units of the others.
 pub const UNITS: &str = "&DIMEN -DIMEN METERS K-NTS";
@@ -26,20 +28,60 @@ pub struct Records {
     pub model: Vec<String>,
     /// What is run, and what is told.
     pub job: Vec<String>,
+    /// The cards that the records of `model` and `job` are made of, by place in the record.
+    origins: Vec<Vec<(usize, Origin)>>,
+}
+
+/// Records as one text, with the cards they are made of.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Written {
+    /// The script.
+    pub text: String,
+    /// From which byte on the text is made of which card, in order.
+    pub origins: Vec<(usize, Origin)>,
+}
+
+impl Written {
+    fn add(&mut self, record: &str, origins: &[(usize, Origin)]) {
+        let start = self.text.len();
+        self.origins.extend(origins.iter().map(|(at, origin)| (start + at, origin.clone())));
+        self.text.push_str(record);
+        self.text.push('\n');
+    }
+
+    /// The card that a byte of the text is made of; none before the first record of a deck.
+    pub fn origin(&self, byte: usize) -> Option<&Origin> {
+        let behind = self.origins.partition_point(|(at, _)| *at <= byte);
+        behind.checked_sub(1).and_then(|index| self.origins.get(index)).map(|(_, origin)| origin)
+    }
 }
 
 impl Records {
+    fn new(model: Vec<Line>, job: Vec<Line>) -> Self {
+        let origins = model.iter().chain(&job).map(|line| line.origins.clone()).collect();
+        let texts = |lines: Vec<Line>| lines.into_iter().map(|line| line.text).collect();
+        Records { model: texts(model), job: texts(job), origins }
+    }
+
     /// The whole as a script.
-    pub fn script(&self) -> String {
-        let lines = std::iter::once(UNITS).chain(self.model.iter().chain(&self.job).map(String::as_str));
-        lines.map(|line| format!("{line}\n")).collect()
+    pub fn script(&self) -> Written {
+        let mut made = Written::default();
+        made.add(UNITS, &[]);
+        for (record, origins) in self.model.iter().chain(&self.job).zip(&self.origins) {
+            made.add(record, origins);
+        }
+        made
     }
 
     /// The model alone, after which the units are as before.
-    pub fn model_alone(&self) -> String {
-        let saved = UNITS.replacen("&DIMEN", "&DIMEN -SAVE", 1);
-        let lines = std::iter::once(saved.as_str()).chain(self.model.iter().map(String::as_str));
-        lines.chain(std::iter::once("&DIMEN -REMEMBER")).map(|line| format!("{line}\n")).collect()
+    pub fn model_alone(&self) -> Written {
+        let mut made = Written::default();
+        made.add(&UNITS.replacen("&DIMEN", "&DIMEN -SAVE", 1), &[]);
+        for (record, origins) in self.model.iter().zip(&self.origins) {
+            made.add(record, origins);
+        }
+        made.add("&DIMEN -REMEMBER", &[]);
+        made
     }
 }
 
@@ -52,7 +94,7 @@ pub fn records(deck: &Deck) -> Result<Records, Vec<Diagnostic>> {
     let mut out = written(deck)?;
     let model = std::mem::take(&mut out.lines);
     run::job(deck, &mut out);
-    if out.wrong.is_empty() { Ok(Records { model, job: out.lines }) } else { Err(out.wrong) }
+    if out.wrong.is_empty() { Ok(Records::new(model, out.lines)) } else { Err(out.wrong) }
 }
 
 /// The records of the model of a deck, whatever program it is for.
@@ -61,7 +103,7 @@ pub fn records(deck: &Deck) -> Result<Records, Vec<Diagnostic>> {
 /// As [`records`], but for what is run.
 pub fn model_records(deck: &Deck) -> Result<Records, Vec<Diagnostic>> {
     let out = written(deck)?;
-    if out.wrong.is_empty() { Ok(Records { model: out.lines, job: Vec::new() }) } else { Err(out.wrong) }
+    if out.wrong.is_empty() { Ok(Records::new(out.lines, Vec::new())) } else { Err(out.wrong) }
 }
 
 /// The model as it could be written, with what is wrong with it.
@@ -74,7 +116,7 @@ fn written(deck: &Deck) -> Result<Script, Vec<Diagnostic>> {
         return Err(vec![*error]);
     }
     let units = deck.units().map_err(|error| vec![*error])?;
-    let mut out = Script::new(Scale::of(&units));
+    let mut out = Script::new(Scale::of(&units), "deck 0, JOB", deck.job.span);
     model(deck, &units, &mut out);
     Ok(out)
 }
@@ -87,6 +129,12 @@ fn model(deck: &Deck, units: &super::units::Units, out: &mut Script) {
     ));
     let density = number(out.scale.density(deck.global.density));
     let gravity = number(out.scale.length(deck.global.gravity));
+    let global = &deck.global;
+    for (word, card, span) in [("-WATER", "DENS", global.density_span), ("-GRAVITY", "ACCG", global.gravity_span)] {
+        if let Some(span) = span {
+            out.word(word, format!("deck 5, {card}"), span);
+        }
+    }
     out.record(format!("&DEFAULT -WATER {density} -GRAVITY {gravity}"));
     environment::environment(deck, out);
     out.record("MEDIT");
@@ -97,5 +145,6 @@ fn model(deck: &Deck, units: &super::units::Units, out: &mut Script) {
     model::starts(deck, out);
     tethers::tethers(deck, out);
     lines::lines(deck, out);
+    out.card("deck 0, JOB", deck.job.span);
     out.record("END");
 }

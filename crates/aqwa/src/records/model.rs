@@ -42,6 +42,7 @@ pub(super) fn ground(deck: &Deck, out: &mut Script) {
     for node in nodes {
         if let Some(found) = deck.nodes.get(&node) {
             let place = found.position.map(|x| out.scale.length(x));
+            out.card("deck 1", found.span);
             out.record(format!("{} {}", point(0, node), numbers(place)));
         }
     }
@@ -70,6 +71,8 @@ pub(super) fn structure(deck: &Deck, of: &Structure, out: &mut Script) {
     let mass = mass(deck, of, out);
     let nominal = deck.mooring.tethers.iter().any(|tether| tether.towed());
     let name = body(of.number);
+    let header = format!("deck 2, ELM{}", of.number);
+    out.card(&header, of.span);
     out.remark(&format!("structure {}: the origin of the body is its center of gravity", of.number));
     let held = held(deck, of, nominal, out);
     out.record(format!("&DESCRIBE BODY {name}{held}"));
@@ -80,15 +83,23 @@ pub(super) fn structure(deck: &Deck, of: &Structure, out: &mut Script) {
                 let [at, centre] = [found.position[i], mass.centre[i]].map(|x| out.scale.length(x));
                 difference(at, centre)
             });
+            out.card("deck 1", found.span);
             out.record(format!("{} {}", point(of.number, node), numbers(place)));
         }
+    }
+    let massive = of.elements.iter().find(|element| element.shape == Shape::PointMass);
+    match massive {
+        Some(element) => out.card("deck 2, PMAS", element.span),
+        None => out.card(&header, of.span),
     }
     weight(deck, of, &mass, out);
     let index = deck.structures.iter().position(|s| s.number == of.number);
     let known = index.and_then(|index| deck.hydrostatics.get(index));
     if let Some(known) = known {
+        out.card("deck 7, LSTF", known.span);
         hydrostatics(deck, of, known, nominal, out);
     }
+    out.card(&header, of.span);
     tubes(deck, of, out);
 }
 
@@ -202,6 +213,8 @@ fn hydrostatics(deck: &Deck, of: &Structure, known: &Hydrostatics, nominal: bool
     if nominal && !deck.job.option("LSTF") {
         out.remark("without the option LSTF that program would not take this stiffness");
     }
+    out.word("-BUOYANCY", "deck 7, BFEQ", buoyancy.span);
+    out.word("-ZCGE", "deck 7, ZCGE", height.span);
     out.record(text);
 }
 
@@ -244,6 +257,9 @@ fn tubes(deck: &Deck, of: &Structure, out: &mut Script) {
             number(product(FRICTION, factors.drag)),
             number(product(geometry.added_mass(), factors.added_mass)),
         );
+        out.card("deck 2, TUBE", tube.span);
+        out.word("-CD", "deck 4, CONT", geometry.drag.map_or(geometry.span, |field| field.span));
+        out.word("-CA", "deck 4, CONT", geometry.added_mass.map_or(geometry.span, |field| field.span));
         out.record(text);
     }
     out.record("END_&SURFACE");
@@ -269,6 +285,11 @@ pub(super) fn starts(deck: &Deck, out: &mut Script) {
         }
     }
     for structure in &deck.structures {
+        let given = deck.starts.iter().find(|start| start.structure == structure.number && !start.velocity);
+        match given {
+            Some(start) => out.card(format!("deck 15, POS{}", start.structure), start.span),
+            None => out.card(format!("deck 2, ELM{}", structure.number), structure.span),
+        }
         let [x, y, z, rx, ry, rz] = deck.start(structure);
         let [x, y, z] = [x, y, z].map(|value| out.scale.length(value));
         out.record(format!("&INSTATE -LOCATE {} {}", body(structure.number), numbers([x, y, z, rx, ry, rz])));

@@ -22,8 +22,12 @@ pub(super) fn job(deck: &Deck, out: &mut Script) {
         out.record(format!("&TITLE {}", title.split_whitespace().collect::<Vec<_>>().join(" ")));
     }
     if !deck.mooring.tethers.is_empty() {
+        if let Some(first) = deck.mooring.tethers.first() {
+            out.word("TETHERS", "deck 14, TETH", first.span);
+        }
         out.record("&STATUS TETHERS");
         if let Some(modes) = deck.mooring.modes.filter(|modes| modes.value > 0) {
+            out.word("TETHER_MODES", "deck 14, TEIG", modes.span);
             out.record(format!("&STATUS TETHER_MODES -NUMBER {} -AQWA", modes.value));
         }
     }
@@ -37,6 +41,9 @@ pub(super) fn job(deck: &Deck, out: &mut Script) {
             "the stages end before the motion: nothing is run"
         });
         return;
+    }
+    if let Some(steps) = deck.steps {
+        out.card("deck 16, TIME", steps.span);
     }
     match (deck.job.program, deck.mooring.tethers.is_empty()) {
         (Program::Drift | Program::Naut, false) => tethered(deck, out),

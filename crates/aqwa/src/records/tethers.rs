@@ -8,6 +8,10 @@ use crate::end_springs::EndSpring;
 use crate::tethers::{Constraint, Description, Tether, TetherElement};
 use windlass_base::span::Span;
 
+/// Cards of an installed tether with the options they become.
+const OPTIONS: [(&str, &str); 5] =
+    [("TCAP", "-CAPS"), ("TIFL", "-FLUID"), ("TIMP", "-IMPACT"), ("TLOW", "-LOW_STOP"), ("TEGR", "-GROUP")];
+
 /// Name of the connector of a tether, by its place in deck 14.
 pub(super) fn name(index: usize) -> String {
     format!("T{}", index + 1)
@@ -50,6 +54,15 @@ fn class(deck: &Deck, index: usize, tether: &Tether, out: &mut Script) {
             element.material.value,
             element.geometry.value,
         );
+        out.card("deck 14, TELM", element.span);
+        out.word("TETHER", "deck 4, TUBE", geometry.span);
+        out.word("-LEN", "deck 14, TELM", element.span);
+        let [density, modulus, _] = material.properties.map(|field| field.span);
+        out.word("-DENSITY", "deck 3, columns 21-30", density);
+        out.word("-EMODULUS", "deck 3, columns 31-40", modulus);
+        for (word, field) in [("-CA", geometry.added_mass), ("-CD", geometry.drag)] {
+            out.word(word, "deck 4, CONT", field.map_or(geometry.span, |field| field.span));
+        }
         out.record(text);
     }
 }
@@ -76,9 +89,17 @@ fn connector(index: usize, tether: &Tether, out: &mut Script) {
         point(0, tether.anchor.value)
     );
     let description = &tether.description;
+    out.card("deck 14, TETH", tether.span);
     text.push_str(if tether.towed() { " -TOWED" } else { " -INSTALLED" });
     for (spring, side) in [(description.vessel, 'V'), (description.anchor, 'A')] {
         if let Some(spring) = spring {
+            let word = match (side, tether.towed()) {
+                ('V', true) => "-V_MOORING",
+                ('V', false) => "-V_SPRINGS",
+                (_, true) => "-A_MOORING",
+                (_, false) => "-A_SPRINGS",
+            };
+            out.word(word, format!("deck 14, TSP{side}"), spring.span);
             text.push_str(&springs(spring, side, tether.towed(), out));
         }
     }
@@ -115,6 +136,14 @@ fn not_of_towed(description: &Description, out: &mut Script) {
 
 fn of_installed(description: &Description, out: &mut Script) -> String {
     let mut text = String::new();
+    for (keyword, word) in OPTIONS {
+        if let Some(span) = description.card(keyword) {
+            out.word(word, format!("deck 14, {keyword}"), span);
+        }
+    }
+    for (kind, _, span) in &description.constraints {
+        out.word("-CONSTRAINT", format!("deck 14, {}", card(*kind)), *span);
+    }
     let (at_anchor, at_vessel) = description.caps;
     if (at_anchor, at_vessel) != (0.0, 0.0) {
         text.push_str(&format!(" \\\n  -CAPS {}", numbers([at_anchor, at_vessel].map(|area| out.scale.area(area)))));
@@ -149,6 +178,15 @@ fn of_installed(description: &Description, out: &mut Script) -> String {
     text
 }
 
+fn card(kind: Constraint) -> &'static str {
+    match kind {
+        Constraint::LateralFixed => "TLAC",
+        Constraint::RotationalFixed => "TROC",
+        Constraint::LateralVessel => "TLAV",
+        Constraint::RotationalVessel => "TROV",
+    }
+}
+
 fn hold(kind: Constraint) -> &'static str {
     match kind {
         Constraint::LateralFixed => "LATERAL_FIXED",
@@ -163,12 +201,7 @@ fn hold(kind: Constraint) -> &'static str {
 fn constrained(description: &Description, kind: Constraint, at: Span, out: &mut Script) -> usize {
     let count = description.elements.len();
     let before = description.elements.iter().filter(|element| element.span.start < at.start).count();
-    let card = match kind {
-        Constraint::LateralFixed => "TLAC",
-        Constraint::RotationalFixed => "TROC",
-        Constraint::LateralVessel => "TLAV",
-        Constraint::RotationalVessel => "TROV",
-    };
+    let card = card(kind);
     if (1..count).contains(&before) {
         out.remark(&format!("assumed: {card} holds the node of the TELM card before it"));
         return before + 1;

@@ -2,6 +2,7 @@
 
 use crate::units::Units;
 use windlass_base::diagnostic::Diagnostic;
+use windlass_base::span::Span;
 
 /// Digits kept of a number that is reckoned from those of the cards: a difference of places, a product with the factor of a unit. A
 /// double has 15 to 17, of which the last ones of such a number are rounding; without them the digits of the cards show again.
@@ -117,25 +118,71 @@ impl Scale {
     }
 }
 
+/// The card that a record, or an option of one, is made of.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Origin {
+    /// `deck 14, TETH`.
+    pub card: String,
+    /// The card, or its field.
+    pub span: Span,
+}
+
+/// A record with what it is made of.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Line {
+    pub(super) text: String,
+    /// Where in the text each card begins to speak, in order; the first is at 0.
+    pub(super) origins: Vec<(usize, Origin)>,
+}
+
 /// Records being written.
 #[derive(Debug)]
 pub(super) struct Script {
     /// The factors of the units.
     pub(super) scale: Scale,
     /// The lines so far.
-    pub(super) lines: Vec<String>,
+    pub(super) lines: Vec<Line>,
+    /// The card that the records to come are made of.
+    card: Origin,
+    /// Words of the next record, in their order, that other cards give.
+    words: Vec<(&'static str, Origin)>,
     /// What could not be written.
     pub(super) wrong: Vec<Diagnostic>,
 }
 
 impl Script {
-    pub(super) fn new(scale: Scale) -> Self {
-        Script { scale, lines: Vec::new(), wrong: Vec::new() }
+    /// A script whose records are made of a card until another one is named.
+    pub(super) fn new(scale: Scale, card: &str, span: Span) -> Self {
+        let card = Origin { card: card.into(), span };
+        Script { scale, lines: Vec::new(), card, words: Vec::new(), wrong: Vec::new() }
+    }
+
+    /// The card that the records to come are made of.
+    pub(super) fn card(&mut self, card: impl Into<String>, span: Span) {
+        self.card = Origin { card: card.into(), span };
+    }
+
+    /// A word of the next record from which on another card gives its values.
+    pub(super) fn word(&mut self, word: &'static str, card: impl Into<String>, span: Span) {
+        self.words.push((word, Origin { card: card.into(), span }));
     }
 
     /// Adds a record.
     pub(super) fn record(&mut self, text: impl Into<String>) {
-        self.lines.push(text.into());
+        let text = text.into();
+        let mut origins = vec![(0, self.card.clone())];
+        for (word, origin) in self.words.drain(..) {
+            // a word that is there twice is named twice
+            let taken = |at: usize| origins.iter().any(|(other, _)| *other == at);
+            let whole = |at: usize| {
+                let after = text.get(at + word.len()..).unwrap_or_default();
+                text.get(..at).is_some_and(|before| before.ends_with(' ')) && !after.starts_with(|c: char| c != ' ')
+            };
+            let found = text.match_indices(word).map(|(at, _)| at).find(|at| whole(*at) && !taken(*at));
+            origins.extend(found.map(|at| (at, origin)));
+        }
+        origins.sort_by_key(|(at, _)| *at);
+        self.lines.push(Line { text, origins });
     }
 
     /// Adds a remark line.
@@ -143,8 +190,8 @@ impl Script {
         // what comes from a deck may hold anything; a remark is one line
         let text: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
         let text = format!("$ {text}");
-        if self.lines.last() != Some(&text) {
-            self.lines.push(text);
+        if self.lines.last().is_none_or(|line| line.text != text) {
+            self.lines.push(Line { text, origins: vec![(0, self.card.clone())] });
         }
     }
 
@@ -157,6 +204,22 @@ impl Script {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn each_word_of_a_record_has_the_card_it_comes_from() {
+        let at = |byte: usize| Span::new(Default::default(), byte, byte + 1);
+        let mut out = Script::new(Scale::of(&Units { length: 1.0, mass: 1.0, name: "" }), "deck 0, JOB", at(0));
+        out.card("deck 14, TETH", at(1));
+        out.word("-B", "deck 14, TSPA", at(2));
+        out.word("-C", "deck 14, TLAC", at(3));
+        out.word("-C", "deck 14, TLAV", at(4));
+        out.word("-D", "not there", at(5));
+        out.record("T -BC 1 -C 2 \\\n  -B 3 -C 4");
+        let found: Vec<(usize, u32)> = out.lines[0].origins.iter().map(|(at, o)| (*at, o.span.start)).collect();
+        assert_eq!(found, [(0, 1), (8, 3), (17, 2), (22, 4)]);
+        out.record("S -B 1");
+        assert_eq!(out.lines[1].origins.len(), 1);
+    }
 
     #[test]
     fn a_number_reads_back_as_it_is() {

@@ -20,7 +20,7 @@ fn meaning(text: &str) -> Option<(Deck, String)> {
     if reading.failed {
         return None;
     }
-    let made = records(&reading.deck).ok()?.script();
+    let made = records(&reading.deck).ok()?.script().text;
     Some((reading.deck, made))
 }
 

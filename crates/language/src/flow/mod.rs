@@ -20,7 +20,7 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
-use windlass_base::span::Span;
+use windlass_base::span::{SourceId, Span};
 
 /// Deepest nesting of macro calls.
 pub const DEEPEST_MACRO: usize = 64;
@@ -85,11 +85,11 @@ impl Interpreter {
         }
     }
 
-    /// Opens a text; it is read before what is already open goes on. `tag` comes back with [`Step::Ended`].
+    /// Opens a text and returns its id; it is read before what is already open goes on. `tag` comes back with [`Step::Ended`].
     ///
     /// # Errors
     /// Too many files open inside each other.
-    pub fn open(&mut self, name: &str, text: impl Into<Text>, tag: u32, span: Option<Span>) -> Outcome<()> {
+    pub fn open(&mut self, name: &str, text: impl Into<Text>, tag: u32, span: Option<Span>) -> Outcome<SourceId> {
         let depth = self.frames.iter().filter(|f| matches!(f, Frame::Source { .. })).count();
         if depth >= DEEPEST_INSERTION {
             let text = format!("files are inserted into each other deeper than {DEEPEST_INSERTION}");
@@ -99,7 +99,7 @@ impl Interpreter {
         }
         let id = self.sources.add(name, text, 1);
         self.frames.push(Frame::Source { id, at: 0, tag });
-        Ok(())
+        Ok(id)
     }
 
     /// Opens the terminal as the lowest place to read from.
