@@ -545,8 +545,8 @@ fn an_error_of_a_record_points_at_the_card_it_is_made_of() {
         // a density below 0: the field of deck 3
         (
             "mint.dat",
-            "    03           101   7.81694    2.15E8\n",
-            "    03           101  -7.81694    2.15E8\n",
+            " END03           101   7.81694    2.15E8\n",
+            " END03           101  -7.81694    2.15E8\n",
             "deck 3, columns 21-30: RHO of -DENSITY of TETHER must be greater than zero",
             " -7.81694",
         ),

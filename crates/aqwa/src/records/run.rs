@@ -23,13 +23,14 @@ pub(super) fn job(deck: &Deck, out: &mut Script) {
     }
     if !deck.mooring.tethers.is_empty() {
         if let Some(first) = deck.mooring.tethers.first() {
-            out.word("TETHERS", "deck 14, TETH", first.span);
+            out.card("deck 14, TETH", first.span);
         }
         out.record("&STATUS TETHERS");
         if let Some(modes) = deck.mooring.modes.filter(|modes| modes.value > 0) {
-            out.word("TETHER_MODES", "deck 14, TEIG", modes.span);
+            out.card("deck 14, TEIG", modes.span);
             out.record(format!("&STATUS TETHER_MODES -NUMBER {} -AQWA", modes.value));
         }
+        out.card("deck 0, JOB", deck.job.span);
     }
     if !deck.job.runs() {
         let (_, finish) = deck.job.stages;

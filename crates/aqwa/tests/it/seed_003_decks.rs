@@ -412,9 +412,10 @@ fn a_tether_without_cards_has_the_defaults_of_appendix_a() {
     assert_eq!(tether.springs(), [[1e15; 3]; 2]);
     assert_eq!(tether.description.fatigue, Fatigue { concentration: 1.24, intercept: 1.3367e24, slope: 3.5 });
     let said: Vec<&str> = reading.messages.iter().map(|m| m.message.as_str()).collect();
-    assert_eq!(said.len(), 2, "{said:?}");
-    assert!(said[0].starts_with("deck 14: no TSPA card; 1.0E15 is taken"));
-    assert!(said[1].starts_with("deck 14: no TSPV card; 1.0E15 is taken"));
+    assert_eq!(said.len(), 3, "{said:?}");
+    assert_eq!(said[0], "deck 14: no TLOW card; a slack tether hangs free and meets no lower stop");
+    assert!(said[1].starts_with("deck 14: no TSPA card; 1.0E15 is taken"));
+    assert!(said[2].starts_with("deck 14: no TSPV card; 1.0E15 is taken"));
     // later manuals have the hours of TPSH in columns 11-15
     let hours = deck(&moor(&[elements, "    14TPSH    4", " END14TETH    1 1010    0 9010"]));
     assert_eq!(hours.mooring.tethers[0].description.peak_hours, Some(4.0));
