@@ -14,7 +14,7 @@ use windlass_catenary::table;
 fn benches(c: &mut Criterion) {
     for (name, line, breaks) in table_lines() {
         c.bench_function(&format!("thirty rows, four segments, {name}"), |b| {
-            b.iter(|| table(black_box(&line), &breaks, breaks[0], 0.0).unwrap().len())
+            b.iter(|| table(black_box(&line), &breaks, breaks[0], 0.0).unwrap().0.len())
         });
     }
     let cases = Moving::all();

@@ -34,12 +34,12 @@ fn main() {
     report("followed along the path", cases.len() * STEPS, || cases.iter().map(Moving::followed_along).sum());
     for (name, line, breaks) in table_lines() {
         if name == "sunk buoy" {
-            for row in table(&line, &breaks, breaks[0], 0.0).unwrap() {
+            for row in table(&line, &breaks, breaks[0], 0.0).unwrap().0 {
                 println!("row\t{}\t{}", row.state.x, row.state.force);
             }
         }
         report(&format!("thirty rows, four segments, {name}"), 1, || {
-            table(black_box(&line), &breaks, breaks[0], 0.0).unwrap().len() as f64
+            table(black_box(&line), &breaks, breaks[0], 0.0).unwrap().0.len() as f64
         });
     }
 }

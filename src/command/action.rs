@@ -71,7 +71,7 @@ static SPEC: CommandSpec = CommandSpec {
     detail: "Says what happens in runs of TDOM, from then on in every one; an action happens once a run. One option says when, one says \
              what. A time is met exactly: a step is cut there. A step in which a condition comes true is cut in halves until it is met \
              within a 64th of the step. Connectors that come to act are made between their ends as these stand at \
-             the start of the run. A winched line that is tabulated is tabulated anew in every step: EXACT is quicker. One that is cut into \
+             the start of the run. One that is cut into \
              elements changes by half of one at most in a part of a step, of which there are as many as that takes, up to 1000.",
     example: "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n*G 0 0 0\n&DESCRIBE BODY CART -IGNORE Y Z RX RY RZ\n*C 0 0 0\n#WEIGHT *C 100 1 1 1\n\
               ~S GSPR BOTH X 40 1000 -LEN 0\nCONNECTOR K ~S *C *G\nEND\n&INSTATE -LOCATE CART 0.5 0 0\n&ENV -TIME 10 0.1\n\

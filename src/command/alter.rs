@@ -15,7 +15,7 @@ use windlass_base::values::{Args, Given, Value};
 use windlass_base::wildcard::{is_wild, matches};
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
-use windlass_model::{Anchor, ClassError, Condition, Connector, LineLoads, LineModel, Model, find};
+use windlass_model::{Anchor, ClassError, Condition, Connector, FoundLength, LineLoads, LineModel, Model, find};
 use windlass_solve::pretension;
 
 /// &CONNECTOR.
@@ -73,10 +73,10 @@ static SPEC: CommandSpec = CommandSpec {
     ],
     detail: "An option acts on the names before it: those since the option before, else the same as that one's. Options act in \
              the order given; if one connector cannot be solved, or its line has no \
-             configuration behind a change, the record changes nothing. Lengths are those of the connector: \
+             configuration behind a change, the record changes nothing. -L_HORIZONTAL and -L_TENSION take the length nearest to the present one and name the others that give the force. Lengths are those of the connector: \
              its class and the other connectors of the class keep theirs. -A_HORIZONTAL and -A_TENSION keep the direction from \
              the fairlead and the depth. An anchor put at X Y Z has the depth -Z whatever -DEPANCHOR and &ENV say; under a B_CAT \
-             the bottom goes with it. What solves does so exactly, also for a class whose forces come from its table, and \
+             the bottom goes with it. What solves does so exactly, also for a class with -TABLE, and \
              passes over connectors that are inactive. \
              -DYNAMICS is the cable dynamics of AQWA: weight, drag, added mass and bottom act all along the line, in statics and in time; \
              its forces then follow from -CD, -CA and the diameters of its class.",
@@ -226,6 +226,7 @@ fn change(model: &Model, made: &mut Connector, given: &Given, said: &mut Said) -
     }
     let old = (model.first_length(made), made.anchor);
     let value = given.number(0).unwrap_or(0.0);
+    let mut also = String::new();
     match (option, aim) {
         ("-LENGTH", _) => made.first_length = Some(value),
         ("-L_DELTA", _) => {
@@ -245,7 +246,9 @@ fn change(model: &Model, made: &mut Connector, given: &Given, said: &mut Said) -
         ("-L_HORIZONTAL" | "-L_TENSION", Some(aim)) => {
             line(model, made)?;
             placed(model, made)?;
-            made.first_length = Some(line(model, made)?.first_length(aim)?);
+            let found = line(model, made)?.first_length(aim)?;
+            made.first_length = Some(found.length);
+            also = others(&found, made, given, said);
         }
         ("-ANCHOR", _) => {
             alone(made)?;
@@ -285,7 +288,21 @@ fn change(model: &Model, made: &mut Connector, given: &Given, said: &mut Said) -
     }
     let found = line(model, made)?;
     let forces = forces(found.as_ref(), model, made, given, said)?;
-    Ok(format!("{}{forces}", told(made, given, old, said)))
+    Ok(format!("{}{forces}{also}", told(made, given, old, said)))
+}
+
+/// The further lengths that give the same force; lengths without a configuration are warned of.
+fn others(found: &FoundLength, made: &Connector, given: &Given, said: &mut Said) -> String {
+    for [from, to] in &found.unsolved {
+        let [from, to] = [from, to].map(|l| said.measured(*l, Dim::Length));
+        said.warn(
+            made,
+            given,
+            &format!("lengths from {from} to {to} have no configuration: others may give this force"),
+        );
+    }
+    let list: Vec<String> = found.others.iter().map(|l| said.measured(*l, Dim::Length)).collect();
+    if list.is_empty() { String::new() } else { format!("; a first segment of {} gives the same", list.join(" or ")) }
 }
 
 /// Whether it has a length though it is no mooring line.
@@ -388,8 +405,9 @@ fn forces(
             return Err(ClassError::new(format!("its {what} would be {gets}, not {wants}")));
         }
         if (got - wanted).abs() > TABLE * wanted {
-            let text =
-                format!("its table of thirty points gives a {what} of {gets}, not {wants}: EXACT on its class does");
+            let text = format!(
+                "its table of thirty points gives a {what} of {gets}, not {wants}: its class without -TABLE does"
+            );
             said.warn(made, given, &text);
         }
     }

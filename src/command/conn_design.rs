@@ -1,6 +1,6 @@
 //! The CONN_DESIGN menu.
 
-use super::chosen::{Chosen, raise};
+use super::chosen::{Chosen, WARNING, raise};
 use super::disposition::{BOTH, HARD, send};
 use super::{Call, Command, Effect, Job, Menu, status, vary};
 use crate::report::disposition::Disposition;
@@ -13,7 +13,7 @@ use windlass_base::values::Args;
 use windlass_base::values::Noun;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
-use windlass_model::{Class, Condition, Connector, Thing, find};
+use windlass_model::{AbsentRow, Class, Condition, Connector, Thing, find};
 
 /// TABLE.
 pub static TABLE: Command = Command { spec: &TABLE_SPEC, edits: false, run: table };
@@ -54,7 +54,7 @@ static TABLE_SPEC: CommandSpec = CommandSpec {
     data: &[LINE],
     options: &[vary::VARY, HORIZONTAL, TENSION, DISTANCE],
     detail: "Thirty rows with horizontal forces T (n/29)**2 up to T, the table limit or the largest breaking tension of all \
-             segments; the fairlead stays at its present height. Rows beyond the breaking tension are kept and said. With \
+             segments; the fairlead stays at its present height. A row without a configuration has its force alone, and a warning. Rows beyond the breaking tension are kept and said. With \
              -VARY the rows are those of one parameter in place of the force: LENGTH (of the first segment), FAIRLEAD \
              (elevation of the fairlead), DEPTH (of the anchor), FRICTION, SLOPE, WEIGHT and STIFFNESS (factors on all \
              segments), DISTANCE, HORIZONTAL (force) or TENSION (at the fairlead); all but the last three are varied between \
@@ -150,9 +150,13 @@ fn table(job: &mut Job, call: &Call) -> Outcome<Effect> {
             .help("GEOMETRY shows a line in one configuration"));
     }
     let line = class.object.line(&job.model.placement(connector), &job.model.surroundings());
-    let made = line
+    let (mut made, absent) = line
         .and_then(|l| l.tabulate(&connector.name))
         .map_err(|e| e.diagnostic(span, job.units).help(format!("while tabulating connector {}", connector.name)))?;
+    made.absent = absent.len();
+    for AbsentRow { number, error } in absent {
+        made.note(format!("{WARNING}row {number} has no configuration: {}", error.text(job.units)));
+    }
     Ok(dispose(job, &name, made, span))
 }
 

@@ -2,7 +2,7 @@
 //!
 //! Source: reference/solve.md, "&EQUI".
 
-use super::chosen::raise;
+use super::chosen::{note_interpolated, raise};
 use super::disposition::{BOTH, HARD, send};
 use super::verdict::{OverBreak, over_break};
 use super::{Call, Command, Effect, Job};
@@ -62,8 +62,7 @@ static SPEC: CommandSpec = CommandSpec {
              stable, a share of the mass helps it. Options but -IGNORE are remembered. Freedoms are global directions at the body's \
              origin. A direction that nothing holds, and no force acts in, stays as it is and is told. The result is the \
              configuration from then on; &INSTATE -PREVIOUS goes back. \
-             Several equilibria may exist; none is promised. Connectors that are tabulated (B_CAT without EXACT) are tabulated anew at the \
-             elevation their fairleads come to.",
+             Several equilibria may exist; none is promised.",
     example: "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n*A 0 0 20\n&DESCRIBE BODY LOAD\n*HOOK 0 0 2\n*CG 0 0 0\n#WEIGHT *CG 500 1 1 1\n\
               ~TIE SL_ELEM 60 TENSION -LEN 10\nCONNECTOR T ~TIE *HOOK *A\nEND\n&INSTATE -LOCATE LOAD 0 0 8\n\
               &EQUI -ITER_MAX 100 -IGNORE LOAD RZ\n&STATUS F_CONNECTOR",
@@ -141,7 +140,8 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         over.extend(summary.ok().and_then(|s| over_break(name, s.over_given_break, "&EQUI")));
     }
     job.equilibrium = Options { ignored: Vec::new(), ..options };
-    let list = [tables::rest(&job.model, &settled), forces, tables::periods(&settled.system, &settled.state)];
+    let mut list = [tables::rest(&job.model, &settled), forces, tables::periods(&settled.system, &settled.state)];
+    note_interpolated(&job.model, &mut list);
     let head = job.page_head();
     let text = list.iter().map(|t| page::render(t, job.units, &head)).collect::<Vec<_>>().join("\n");
     send(job, &call.args, &text)?;

@@ -2,7 +2,7 @@
 //!
 //! Source: reference/solve.md, "CONN_DESIGN": MOVE body [angle]; its sixth column is the restoring force.
 
-use super::chosen::raise;
+use super::chosen::{note_interpolated, raise};
 use super::equilibrium::told;
 use super::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
@@ -88,8 +88,7 @@ static MOVE_SPEC: CommandSpec = CommandSpec {
              are those of the connectors on the body: Restoring along the direction, positive when it pushes back; \
              Transverse toward its left; Vertical upward; moments about the body's origin along global axes. Ten and T/TB are \
              the tension at the first end and the largest tension over break of each. With -REMOVE all of this is of the \
-             mooring without those lines, and the last columns are of the intact one at the same excursion. Lines that \
-             are tabulated (B_CAT without EXACT) keep the tables of where the body stands. Several angles, or -ANGLES, give \
+             mooring without those lines, and the last columns are of the intact one at the same excursion. Several angles, or -ANGLES, give \
              one row a direction: where the first line breaks, with the force there and at the excursions of -AT; PLOT Direction \
              Excursion -POLAR draws them. Nothing in the model is changed. The result goes to the disposition menu: PLOT 1 6 \
              is excursion and restoring force.",
@@ -164,7 +163,8 @@ fn systems(job: &Job, args: &Args) -> Outcome<Systems> {
 }
 
 /// Opens the disposition menu over a table, and raises its warnings.
-fn dispose(job: &mut Job, made: Table, args: &Args) -> Effect {
+fn dispose(job: &mut Job, mut made: Table, args: &Args) -> Effect {
+    note_interpolated(&job.model, std::slice::from_mut(&mut made));
     raise(job, &made, args.place(0));
     job.menus.push(Menu::Disposition(Box::new(Disposition::new(made))));
     Effect::Done

@@ -2,6 +2,7 @@
 //!
 //! Source: reference/solve.md, "Fatigue of lines".
 
+use super::chosen::note_interpolated;
 use super::equilibrium::told;
 use super::prcpost::{CONNECTORS, asked, connectors};
 use super::{Call, Command, Effect, Job, Menu};
@@ -82,9 +83,12 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let mut runs = if args.has("-ADD") { job.scatter.clone() } else { Vec::new() };
     runs.push(own);
     let factor = args.option_number("-DFF").unwrap_or(1.0);
-    let table = results::scatter(&runs, factor)
+    let mut table = results::scatter(&runs, factor)
         .map_err(|e| Diagnostic::error(e.to_string(), args.span).help("without -ADD a scatter begins anew"))?;
     job.scatter = runs;
+    if let Some(run) = &job.run {
+        note_interpolated(&run.model, std::slice::from_mut(&mut table));
+    }
     job.menus.push(Menu::Disposition(Box::new(Disposition::new(table))));
     Ok(Effect::Done)
 }

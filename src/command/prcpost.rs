@@ -3,7 +3,7 @@
 //! Source: reference/solve.md, "PRCPOST". In MOSES the events of a run are times, its increment is one of time, and what lies between
 //! two stored instants is on the straight line between them.
 
-use super::chosen::Chosen;
+use super::chosen::{Chosen, note_interpolated};
 use super::equilibrium::told;
 use super::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
@@ -213,7 +213,10 @@ pub(super) fn connectors(job: &Job, run: &Run, call: &Call) -> Outcome<Vec<usize
 
 /// Opens the disposition menu over what a run came to.
 fn dispose(job: &mut Job, made: Result<Table, SolveError>, span: Span) -> Outcome<Effect> {
-    let table = made.map_err(|e| told(e, &job.model, span, job.units))?;
+    let mut table = made.map_err(|e| told(e, &job.model, span, job.units))?;
+    if let Some(run) = &job.run {
+        note_interpolated(&run.model, std::slice::from_mut(&mut table));
+    }
     job.menus.push(Menu::Disposition(Box::new(Disposition::new(table))));
     Ok(Effect::Done)
 }

@@ -1,7 +1,7 @@
 //! `&STATUS`: what the model and the program hold.
 
 use super::assembly_table::assemblies;
-use super::chosen::{Chosen, raise};
+use super::chosen::{Chosen, note_interpolated, raise};
 use super::curve_table::{chart, curves};
 use super::disposition::{BOTH, HARD, send};
 use super::environment_table::environments;
@@ -117,7 +117,7 @@ static SPEC: CommandSpec = CommandSpec {
     detail: "Alone it counts what the model holds. ENVIRONMENT alone is the one in force, with a NAME the one kept \
              under it. LINE_TYPES lists the chains and ropes that -TYPE of a line \
              class knows; LINE_TYPES 3 gives their values at a nominal diameter, LINE_TYPES CHAIN_R4 the formulas of one. \
-             F_CONNECTOR solves every line between its ends as they are, exactly or from its table as its class says: the \
+             F_CONNECTOR solves every line between its ends as they are: the \
              force it exerts on its first end in the global system, its tension and the largest share of a segment's break, \
              what its anchor bears (V. Pull upward, H. Pull toward the first end), and the unstretched length on the bottom. \
              A line without a solution has a row without numbers and a warning that says why. FORCE sums what acts on each body \
@@ -142,7 +142,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let chosen = Chosen::of(call, 1, model);
     let fits = |name: &str| chosen.takes(name);
     let mut verdict = Verdict::default();
-    let tables = match kind {
+    let mut tables = match kind {
         "CONFIGURATION" => vec![model_tables::configuration(model, &fits)],
         "CL_FLEX" | "CLASSES" => classes(job, &|class| fits(&class.name)),
         "G_CONNECTOR" => std::iter::once(model_tables::connectors(model, &fits)).chain(offsets(model, &fits)).collect(),
@@ -178,6 +178,9 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         _ => vec![model_tables::summary(model)],
     };
     chosen.check(kind, &tables, things(kind))?;
+    if ["F_CONNECTOR", "FORCE", "STIFFNESS"].contains(&kind) {
+        note_interpolated(model, &mut tables);
+    }
     job.verdict.over_break.append(&mut verdict.over_break);
     if let Some(given) = args.option("-DISPOSE") {
         let wanted = given.values.first().and_then(|v| v.integer()).unwrap_or(1);

@@ -31,6 +31,7 @@ mod connectors {
     mod line_classes;
     mod line_types;
     mod lmu_stages;
+    mod one_catenary;
     mod pipe;
     mod pipe_under_way;
     mod pistons;

@@ -1,6 +1,7 @@
 //! Forces of a line from its table: a monotone cubic in the horizontal distance.
 //!
-//! Source: seed 001, B_CAT without EXACT; reference/solve.md for the rows. Monotone cubic: Fritsch and Carlson, SIAM
+//! Source: seed 001, the table of B_CAT; reference/solve.md for the rows. The rows are of one elevation of the fairlead; stiffness by
+//! that elevation is interpolated from the rows' own. Monotone cubic: Fritsch and Carlson, SIAM
 //! Journal on Numerical Analysis 17 (1980), 238-246.
 
 use super::table::Row;
@@ -60,36 +61,36 @@ impl Curve {
 pub struct Interpolated {
     x: Vec<f64>,
     force: Curve,
-    rest: [Curve; 5],
+    vertical: Curve,
+    /// What friction takes: without any, the anchor's pull is the force.
+    taken: Curve,
+    anchor_vertical: Curve,
+    grounded: Curve,
+    ratio: Curve,
+    /// d(H, V at the fairlead)/d(x, z) but its first place.
+    stiffness: [Curve; 3],
+    /// d(H, V at the anchor)/d(x, z).
+    coupling: [Curve; 4],
 }
 
 /// What the ends of the line are pulled with.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pulled {
-    /// Horizontal force (N).
-    pub force: f64,
-    pub stiffness: f64,
-    /// Vertical force at the fairlead (N, downward).
-    pub vertical: f64,
-    /// Its derivative by the distance (N/m).
-    pub vertical_slope: f64,
-    /// Horizontal and vertical pull on the anchor (N).
+    /// Horizontal and vertical force at the fairlead (N, toward the anchor and downward).
+    pub fairlead: [f64; 2],
+    /// Horizontal and vertical pull on the anchor (N, toward the fairlead and upward).
     pub anchor: [f64; 2],
+    /// d(fairlead)/d(distance, elevation of the fairlead) (N/m).
+    pub stiffness: [[f64; 2]; 2],
+    /// d(anchor)/d(distance, elevation of the fairlead) (N/m).
+    pub coupling: [[f64; 2]; 2],
 }
 
 /// What the table gives at a distance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FromTable {
-    /// Horizontal force (N).
-    pub force: f64,
-    /// Its derivative by the distance (N/m).
-    pub stiffness: f64,
-    /// Vertical force at the fairlead (N, downward).
-    pub vertical: f64,
-    /// Its derivative by the distance (N/m).
-    pub vertical_slope: f64,
-    /// Horizontal and vertical pull on the anchor (N).
-    pub anchor: [f64; 2],
+    /// Forces and their derivatives.
+    pub pulled: Pulled,
     /// Unstretched length on the bottom (m).
     pub grounded: f64,
     /// Largest tension over own break.
@@ -105,17 +106,23 @@ impl Interpolated {
     pub fn new(rows: &[Row]) -> Interpolated {
         let of = |f: fn(&Row) -> f64| rows.iter().map(f).collect::<Vec<f64>>();
         let x = of(|r| r.state.x);
-        let force = Curve::new(&x, of(|r| r.state.force), Some(of(|r| 1.0 / r.state.dx_dh)));
-        let rest = [
-            of(|r| r.state.top_vertical),
-            // what friction takes: without any, the anchor's pull is the force
-            of(|r| r.state.force - r.state.anchor_horizontal),
-            of(|r| r.state.anchor_vertical),
-            of(|r| r.state.grounded),
-            of(|r| r.ratio),
-        ]
-        .map(|y| Curve::new(&x, y, None));
-        Interpolated { x, force, rest }
+        // a fairlead on the bottom has a stiffness without end
+        let finite = |v: f64| if v.is_finite() { v } else { 0.0 };
+        let curve = |f: &dyn Fn(&Row) -> f64| Curve::new(&x, rows.iter().map(|r| finite(f(r))).collect(), None);
+        let place = |m: fn(&Row) -> [[f64; 2]; 2], i: usize, j: usize| curve(&|r: &Row| m(r)[i][j]);
+        let stiffness = [(0, 1), (1, 0), (1, 1)].map(|(i, j)| place(|r| r.state.stiffness, i, j));
+        let coupling = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(i, j)| place(|r| r.state.coupling, i, j));
+        Interpolated {
+            force: Curve::new(&x, of(|r| r.state.force), Some(of(|r| 1.0 / r.state.dx_dh))),
+            vertical: curve(&|r| r.state.top_vertical),
+            taken: curve(&|r| r.state.force - r.state.anchor_horizontal),
+            anchor_vertical: curve(&|r| r.state.anchor_vertical),
+            grounded: curve(&|r| r.state.grounded),
+            ratio: curve(&|r| r.ratio),
+            stiffness,
+            coupling,
+            x,
+        }
     }
 
     /// The interval that holds a distance (m): its number, its length (m), how far along it the distance is, from 0 to 1, and how
@@ -132,41 +139,36 @@ impl Interpolated {
     /// What the ends of the line are pulled with at a distance (m), as of [`Interpolated::at`].
     pub fn pull(&self, x: f64) -> Pulled {
         let (i, h, t, beyond) = self.interval(x);
-        let one = |curve: &Curve| {
+        let (mut force, slope) = self.force.at(i, h, t);
+        force += slope * beyond;
+        let straight = |curve: &Curve| {
             let (value, slope) = curve.at(i, h, t);
-            (value + slope * beyond, slope)
+            value + slope * beyond
         };
-        let (force, stiffness) = one(&self.force);
-        let [vertical, taken, anchor, ..] = &self.rest;
-        let ((vertical, vertical_slope), (taken, _), (anchor, _)) = (one(vertical), one(taken), one(anchor));
+        let inside = |curve: &Curve| curve.at(i, h, t).0;
+        let [xz, zx, zz] = self.stiffness.each_ref().map(inside);
+        let [axx, axz, azx, azz] = self.coupling.each_ref().map(inside);
         let force = force.max(0.0);
         Pulled {
-            force,
-            stiffness: if force > 0.0 { stiffness } else { 0.0 },
-            vertical,
-            vertical_slope,
-            anchor: [(force - taken).max(0.0), anchor.max(0.0)],
+            fairlead: [force, straight(&self.vertical)],
+            anchor: [(force - straight(&self.taken)).max(0.0), straight(&self.anchor_vertical)],
+            stiffness: [[if force > 0.0 { slope } else { 0.0 }, xz], [zx, zz]],
+            coupling: [[axx, axz], [azx, azz]],
         }
     }
 
     /// At a distance (m) not nearer than the first row; beyond the last one on straight lines.
     pub fn at(&self, x: f64, rows: &[Row]) -> FromTable {
         let (i, h, t, beyond) = self.interval(x);
-        let Pulled { force, stiffness, vertical, vertical_slope, anchor } = self.pull(x);
         let one = |curve: &Curve| {
             let (value, slope) = curve.at(i, h, t);
-            value + slope * beyond
+            (value + slope * beyond).max(0.0)
         };
-        let [_, _, _, grounded, ratio] = &self.rest;
         let critical_row = if t < 0.5 { i } else { i + 1 };
         FromTable {
-            force,
-            stiffness,
-            vertical,
-            vertical_slope,
-            anchor,
-            grounded: one(grounded).max(0.0),
-            ratio: one(ratio).max(0.0),
+            pulled: self.pull(x),
+            grounded: one(&self.grounded),
+            ratio: one(&self.ratio),
             critical: rows.get(critical_row).map_or(1, |r| r.critical),
             beyond: beyond > 0.0,
         }

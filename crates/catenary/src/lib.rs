@@ -43,13 +43,13 @@ mod solve;
 mod state;
 mod table;
 
-pub use adjust::Aim;
+pub use adjust::{Aim, Lengths};
 pub use end_forces::{Bottom, EndForces, Regime};
-pub use interpolate::{FromTable, Interpolated};
+pub use interpolate::{FromTable, Interpolated, Pulled};
 pub use law::Law;
 pub use line::{Floor, Joint, Line, Segment};
 pub use refused::LineError;
 pub use search::{Point, rising_root};
 pub use shape::ShapePoint;
 pub use state::{Buoy, JointState, SegmentState, State};
-pub use table::{ROWS, Row, first_force, table};
+pub use table::{MissingRow, ROWS, Row, first_force, table};

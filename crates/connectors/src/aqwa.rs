@@ -297,7 +297,7 @@ impl ConnectorClass for CatenaryClass {
             breaks: self.sections.iter().map(|s| s.largest).collect(),
             breaks_given: self.sections.iter().map(|s| s.largest_is_given).collect(),
             largest,
-            exact: true,
+            tabulated: false,
             place: *place,
             surface: surroundings.tide,
             bottom: surroundings.depth.map(|d| -d),

@@ -27,7 +27,8 @@ pub static B_CAT: ClassKind = ClassKind { spec: &SPEC, segmented: true, build };
 static SPEC: CommandSpec = CommandSpec {
     data: &[
         o::LINE_OD,
-        ValueSpec::new("FLAG", Kind::Choice(&["EXACT"]), "solve exactly instead of from a table").or("table"),
+        ValueSpec::new("FLAG", Kind::Choice(&["EXACT"]), "without effect: the line is always solved exactly")
+            .or("exact"),
     ],
     options: &[
         o::LEN,
@@ -52,6 +53,7 @@ static SPEC: CommandSpec = CommandSpec {
         o::B_TENSION,
         o::C_SN,
         o::TAB_LIM,
+        o::TABLE,
         o::CLUMP,
         o::BUOYDIAMETER,
         o::DRAGDIAMETER,
@@ -68,8 +70,10 @@ static SPEC: CommandSpec = CommandSpec {
              the joint stays CLEN below the surface until the pull reaches the buoy's displacement, then sinks; the \
              segments above it do not see the bottom. -TYPE NAME D takes a chain or rope of the library (&STATUS LINE_TYPES) \
              instead of OD. Per segment: OD, -TYPE, -LEN, material, diameters, -CLUMP, -B_TENSION, -C_SN. Per line, on any \
-             record: FLAG, -DEPANCHOR, -FRICTION, -SLOPE, -TAB_LIM, -SEND, -X_PY, -X_DAMPING, -CONVOLUTION, -PISTON. \
-             Connects a body to ground. -PISTON is a link of its position less LD between the first end and the line, in the direction of the tension; it has no weight. \
+             record: FLAG, -DEPANCHOR, -FRICTION, -SLOPE, -TABLE, -TAB_LIM, -SEND, -X_PY, -X_DAMPING, -CONVOLUTION, -PISTON. \
+             Connects a body to ground. The line is solved exactly wherever it is used. -TABLE is the shortcut of MOSES: thirty rows \
+             at the elevation of the fairlead, forces interpolated between them, exact nearer than the first row, straight on beyond the \
+             last. Its rows are made anew where the fairlead rises or sinks, which makes it slower than the exact solution. -PISTON is a link of its position less LD between the first end and the line, in the direction of the tension; it has no weight. \
              MAX stands as near to LD as TMAX allows; MINMAX stays where it is between TMIN and TMAX. While it can follow, the tension \
              stays at the limit without stiffness along it; beyond VLONG, VSHORT or the stroke (0 to LT) it departs. At rest the piston \
              has slid from LD as far as it must. A table or a shape of the line is at LD. The piston does not feel the dashpot of \
@@ -89,7 +93,7 @@ struct Catenary {
     seabed: Seabed,
     sections: Vec<LineSection>,
     places: Vec<Span>,
-    exact: bool,
+    tabulated: bool,
     depth: Option<f64>,
     friction: f64,
     slope: f64,
@@ -103,6 +107,13 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
     for name in PER_LINE {
         checks::once(records, name)?;
     }
+    let tabulated = records.iter().find_map(|r| r.args.option("-TABLE"));
+    let flag = records.iter().filter(|r| r.args.word(1) == Some("EXACT")).find_map(|r| r.args.data.get(1));
+    if let (Some(table), Some(flag)) = (tabulated, flag) {
+        return Err(Diagnostic::error("EXACT and -TABLE contradict each other", table.span)
+            .other(flag.span, "solved exactly")
+            .help("leave one of them out; without both the line is solved exactly"));
+    }
     let number = |name: &str| checks::once(records, name).map(|g| g.and_then(|g| g.number(0)));
     let flexures = records.iter().zip(&sections).map(|(r, s)| Flexure::read(r, s)).collect::<Outcome<Vec<_>>>()?;
     Ok(Arc::new(Catenary {
@@ -110,7 +121,7 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
         seabed: m::seabed(records)?,
         sections,
         places: records.iter().map(|r| r.args.option("-CLUMP").map_or(r.args.span, |c| c.span)).collect(),
-        exact: records.iter().any(|r| r.args.word(1) == Some("EXACT")),
+        tabulated: tabulated.is_some(),
         depth: number("-DEPANCHOR")?,
         friction: number("-FRICTION")?.unwrap_or(0.0),
         slope: number("-SLOPE")?.unwrap_or(0.0),
@@ -167,7 +178,7 @@ impl Catenary {
             breaks: self.sections.iter().map(|s| s.breaking).collect(),
             breaks_given: self.sections.iter().map(|s| s.break_is_given).collect(),
             largest: self.limit.or(largest_break(&self.sections)).unwrap_or(0.0),
-            exact: self.exact,
+            tabulated: self.tabulated,
             place: *place,
             surface: surroundings.tide,
             bottom: Some(-depth),
@@ -203,7 +214,7 @@ impl ConnectorClass for Catenary {
 
     fn properties(&self, name: &str, surroundings: &Surroundings) -> Table {
         let mut table = properties(name, "B_CAT", &self.sections, surroundings)
-            .fact("Solution", if self.exact { "EXACT" } else { "table of thirty points" }, Dim::None)
+            .fact("Solution", if self.tabulated { "table of thirty points (-TABLE)" } else { "exact" }, Dim::None)
             .fact("Depth at Anchor", self.depth.or(surroundings.depth), Dim::Length)
             .fact("Slope of Bottom", self.slope, Dim::None)
             .fact("Friction of Bottom", self.friction, Dim::None)
@@ -236,6 +247,10 @@ impl ConnectorClass for Catenary {
 
     fn is_line(&self) -> bool {
         true
+    }
+
+    fn is_tabulated(&self) -> bool {
+        self.tabulated
     }
 
     fn line(&self, place: &Placement, surroundings: &Surroundings) -> Result<Box<dyn LineModel>, ClassError> {

@@ -6,8 +6,8 @@ use nalgebra::{Matrix3, Vector3};
 use windlass_base::table::Table;
 use windlass_catenary::{Law, Point, rising_root};
 use windlass_model::{
-    ClassError, Condition, Configuration, Element, End, Guess, LineChange, LineLoads, LineModel, Response, Situation,
-    Summary,
+    AbsentRow, ClassError, Condition, Configuration, Element, End, FoundLength, Guess, LineChange, LineLoads,
+    LineModel, Response, Situation, Summary,
 };
 
 /// A weightless line between two places.
@@ -198,7 +198,7 @@ impl LineModel for Chord {
         Ok(Box::new(ChordElement::new(self.clone())?))
     }
 
-    fn tabulate(&self, connector: &str) -> Result<Table, ClassError> {
+    fn tabulate(&self, connector: &str) -> Result<(Table, Vec<AbsentRow>), ClassError> {
         self.line.tabulate(connector)
     }
 
@@ -279,7 +279,7 @@ impl LineModel for Chord {
         self.line.distance(condition)
     }
 
-    fn first_length(&self, condition: Condition) -> Result<f64, ClassError> {
+    fn first_length(&self, condition: Condition) -> Result<FoundLength, ClassError> {
         let (chord, horizontal) = self.chord();
         let tension = match condition {
             Condition::Tension(tension) => tension,
@@ -296,7 +296,7 @@ impl LineModel for Chord {
         let springs: f64 = self.springs.iter().flatten().map(|law| law.stretch(tension).0).sum();
         let length = (chord - others - springs) / stretched(1.0, first.ea);
         if length > 0.0 {
-            return Ok(length);
+            return Ok(FoundLength::only(length));
         }
         Err(ClassError::new("the rest of the line is too long: no length of the first segment makes it so tight"))
     }

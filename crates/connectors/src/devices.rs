@@ -253,8 +253,4 @@ impl Element for DeviceElement {
     fn pushes(&self) -> Option<f64> {
         self.line.pushes()
     }
-
-    fn made_for_place(&self) -> bool {
-        self.line.made_for_place()
-    }
 }

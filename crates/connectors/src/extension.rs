@@ -51,9 +51,4 @@ pub trait Extended: Debug + Send + Sync {
     fn pushes(&self) -> Option<f64> {
         None
     }
-
-    /// See [`windlass_model::Element::made_for_place`].
-    fn made_for_place(&self) -> bool {
-        false
-    }
 }

@@ -231,7 +231,7 @@ pub fn hung(
         breaks: sections.iter().map(|s| s.breaking).collect(),
         breaks_given: sections.iter().map(|s| s.break_is_given).collect(),
         largest: sections.iter().map(|s| s.breaking).reduce(f64::max).unwrap_or(0.0),
-        exact: true,
+        tabulated: false,
         place: *place,
         surface: surroundings.tide,
         bottom: surroundings.depth.map(|d| -d),

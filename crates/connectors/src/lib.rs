@@ -22,7 +22,6 @@ mod davit;
 mod devices;
 mod extended_line;
 mod extension;
-mod first_length;
 mod fix;
 mod foundation;
 mod gap;

@@ -5,7 +5,7 @@ use super::extension::{Extended, Extension, Pull};
 use super::mooring::Mooring;
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use windlass_base::pose::Six;
-use windlass_catenary::{Bottom, EndForces, Interpolated, Line, LineError, Regime, Row, Segment, State};
+use windlass_catenary::{Bottom, EndForces, Interpolated, Line, LineError, Pulled, Regime, Segment, State};
 use windlass_model::{Anchored, ClassError, Element, End, Guess, Placement, Response, Situation, Summary};
 
 /// How the forces are found.
@@ -15,8 +15,8 @@ enum Solver {
     Segment { segment: Segment, bottom: Option<Bottom> },
     /// The whole line.
     Whole,
-    /// From its table, made at the elevation its fairlead had when the element was made.
-    Table { rows: Vec<Row>, forces: Box<Interpolated> },
+    /// Interpolated in its table, which is made anew at every elevation of its fairlead.
+    Table,
 }
 
 /// A line between two ends.
@@ -30,13 +30,23 @@ pub struct LineElement {
 enum Last {
     Segment(EndForces),
     Whole(Box<State>),
+    Table(Box<TableAt>),
+}
+
+/// The table of a line at one elevation of its fairlead.
+struct TableAt {
+    /// The elevation (m).
+    elevation: f64,
+    /// Distance of its first row (m).
+    nearest: f64,
+    forces: Interpolated,
 }
 
 impl LineElement {
     /// The element of a line whose ends are where its placement says.
     ///
     /// # Errors
-    /// A line that sees the bottom between ends that both move; a table that cannot be made.
+    /// A line that sees the bottom between ends that both move.
     pub fn new(mooring: Mooring) -> Result<Self, ClassError> {
         mooring.placed()?;
         let line = &mooring.line;
@@ -46,11 +56,7 @@ impl LineElement {
         }
         let flat = line.floor().is_none_or(|f| f.slope == 0.0 && f.elevation == line.anchor());
         let solver = match line.single() {
-            _ if !mooring.exact => {
-                let rows = mooring.rows()?;
-                let forces = Box::new(Interpolated::new(&rows));
-                Solver::Table { rows, forces }
-            }
+            _ if mooring.tabulated => Solver::Table,
             Some(segment) if flat => {
                 let bottom = line.floor().map(|f| Bottom { friction: f.friction });
                 Solver::Segment { segment, bottom }
@@ -97,18 +103,34 @@ impl LineElement {
                 })
             }
             Solver::Whole => whole(&self.mooring.line, x, z, guess),
-            Solver::Table { rows, forces } => {
-                if rows.first().is_some_and(|first| x < first.state.x) {
-                    return whole(&self.mooring.line, x, z, guess);
-                }
-                let found = forces.pull(x);
-                Ok(Plane {
-                    fairlead: [found.force, found.vertical],
-                    anchor: found.anchor,
-                    stiffness: [[found.stiffness, 0.0], [found.vertical_slope, 0.0]],
-                    coupling: [[found.stiffness, 0.0], [0.0, 0.0]],
-                })
+            Solver::Table => self.interpolated(x, z, guess),
+        }
+    }
+
+    /// The forces from the table at the elevation `z` of the fairlead; exact ones nearer than its first row.
+    fn interpolated(&self, x: f64, z: f64, guess: &mut Guess) -> Result<Plane, LineError> {
+        let kept = match guess.take().map(|g| g.downcast::<Last>()) {
+            Some(Ok(last)) => Some(last).filter(|last| matches!(&**last, Last::Table(at) if at.elevation == z)),
+            _ => None,
+        };
+        let last = match kept {
+            Some(last) => last,
+            None => {
+                let (rows, _) = self.mooring.table(z)?;
+                let nearest = rows.first().map_or(0.0, |row| row.state.x);
+                Box::new(Last::Table(Box::new(TableAt { elevation: z, nearest, forces: Interpolated::new(&rows) })))
             }
+        };
+        let found = match &*last {
+            Last::Table(at) if x >= at.nearest => Some(at.forces.pull(x)),
+            _ => None,
+        };
+        *guess = Some(last);
+        match found {
+            Some(Pulled { fairlead, anchor, stiffness, coupling }) => {
+                Ok(Plane { fairlead, anchor, stiffness, coupling })
+            }
+            None => self.mooring.line.at_distance(x, z).map(|state| plane_of(&state)),
         }
     }
 
@@ -120,7 +142,7 @@ impl LineElement {
         let start = match guess.as_ref().and_then(|g| g.downcast_ref::<Last>()) {
             Some(Last::Segment(last)) => Some(last.fairlead),
             Some(Last::Whole(last)) => Some([last.force, last.top_vertical]),
-            None => None,
+            Some(Last::Table(_)) | None => None,
         };
         let rise = z - self.mooring.line.anchor();
         let apart = x.hypot(rise);
@@ -171,18 +193,22 @@ fn at_anchor(found: &EndForces, friction: f64) -> [[f64; 2]; 2] {
     }
 }
 
+fn plane_of(state: &State) -> Plane {
+    Plane {
+        fairlead: [state.force, state.top_vertical],
+        anchor: [state.anchor_horizontal, state.anchor_vertical],
+        stiffness: state.stiffness,
+        coupling: state.coupling,
+    }
+}
+
 fn whole(line: &Line, x: f64, z: f64, guess: &mut Guess) -> Result<Plane, LineError> {
     let last = guess.as_ref().and_then(|g| g.downcast_ref::<Last>());
     let state = match last {
         Some(Last::Whole(last)) => line.follow(x, z, last)?,
         _ => line.at_distance(x, z)?,
     };
-    let plane = Plane {
-        fairlead: [state.force, state.top_vertical],
-        anchor: [state.anchor_horizontal, state.anchor_vertical],
-        stiffness: state.stiffness,
-        coupling: state.coupling,
-    };
+    let plane = plane_of(&state);
     match guess.as_mut().and_then(|g| g.downcast_mut::<Last>()) {
         Some(Last::Whole(last)) => **last = state,
         _ => *guess = Some(Box::new(Last::Whole(Box::new(state)))),
@@ -244,17 +270,13 @@ impl Extended for LineElement {
                 first.pose.origin += Vector3::new((x - line_x) * ux, (x - line_x) * uy, line_z - z);
             }
         }
-        let loads = match &self.solver {
-            Solver::Table { rows, forces } => self.moved(&ends).by_table(rows, forces)?,
-            _ => self.moved(&ends).exact_loads()?,
-        };
+        let line = self.moved(&ends);
+        let tabulated = line.tabulated;
+        let loads = if tabulated { line.tabled_loads()? } else { line.exact_loads()? };
         let mut over_given_break = loads.over_given_break;
         // a table knows its critical segment alone
-        if over_given_break.is_none() && matches!(self.solver, Solver::Table { .. }) {
-            let line = self.moved(&ends);
-            if line.breaks_given.contains(&true) {
-                over_given_break = line.exact_loads().ok().and_then(|exact| exact.over_given_break);
-            }
+        if over_given_break.is_none() && tabulated && line.breaks_given.contains(&true) {
+            over_given_break = line.exact_loads().ok().and_then(|exact| exact.over_given_break);
         }
         Ok(Summary {
             tension: Some(loads.tension),
@@ -266,10 +288,6 @@ impl Extended for LineElement {
             springs: Vec::new(),
             notes: loads.notes,
         })
-    }
-
-    fn made_for_place(&self) -> bool {
-        matches!(self.solver, Solver::Table { .. })
     }
 }
 
@@ -314,10 +332,6 @@ impl Element for LineElement {
 
     fn summary(&self, at: &Situation, _committed: &[f64]) -> Result<Summary, ClassError> {
         self.told(at.ends, Extension::NONE)
-    }
-
-    fn made_for_place(&self) -> bool {
-        Extended::made_for_place(self)
     }
 }
 

@@ -1,7 +1,7 @@
 //! What a mooring line does to what it is attached to: exactly, or from its table.
 
 use super::mooring::{Mooring, line_error};
-use windlass_catenary::{Floor, FromTable, Interpolated, LineError, Row};
+use windlass_catenary::{Floor, FromTable, Interpolated, LineError};
 use windlass_model::{ClassError, Condition, LineChange, LineLoads};
 
 impl Mooring {
@@ -33,29 +33,26 @@ impl Mooring {
         })
     }
 
-    /// The loads by interpolation in the table of thirty points; nearer than its first row those of the exact solution.
+    /// The loads by interpolation in the table of thirty points at the elevation of its fairlead; nearer than its first row those of
+    /// the exact solution.
     ///
     /// # Errors
-    /// A line for which no table could be made.
+    /// A line for which no table could be made; no exact solution, nearer than the first row.
     pub fn tabled_loads(&self) -> Result<LineLoads, ClassError> {
-        let rows = self.rows()?;
-        self.by_table(&rows, &Interpolated::new(&rows))
-    }
-
-    /// The same from a table that is there.
-    ///
-    /// # Errors
-    /// No exact solution, nearer than the first row.
-    pub(super) fn by_table(&self, rows: &[Row], forces: &Interpolated) -> Result<LineLoads, ClassError> {
+        let (rows, missing) = self.rows()?;
         let (distance, along) = self.placed()?;
         if rows.first().is_some_and(|first| distance < first.state.x) {
             let mut loads = self.exact_loads()?;
             loads.notes.push("nearer than the first row of its table, and solved exactly there".into());
             return Ok(loads);
         }
-        let FromTable { force, stiffness: slope, vertical, vertical_slope, anchor, grounded, ratio, critical, beyond } =
-            forces.at(distance, rows);
+        let FromTable { pulled, grounded, ratio, critical, beyond } = Interpolated::new(&rows).at(distance, &rows);
+        let ([force, vertical], [anchor_horizontal, anchor_vertical]) = (pulled.fairlead, pulled.anchor);
         let mut notes = self.notes.clone();
+        if !missing.is_empty() {
+            let numbers: Vec<String> = missing.iter().map(|row| row.number.to_string()).collect();
+            notes.push(format!("rows of its table without a configuration are left out: {}", numbers.join(", ")));
+        }
         if beyond {
             notes.push("warning: beyond the table; its last slope is continued".into());
         }
@@ -67,11 +64,11 @@ impl Mooring {
         if ratio > 1.0 {
             notes.push("warning: the line is beyond its breaking tension".into());
         }
-        let across = if distance > 0.0 { force / distance } else { slope };
+        let across = if distance > 0.0 { force / distance } else { pulled.stiffness[0][0] };
         Ok(LineLoads {
             fairlead: [force * along[0], force * along[1], -vertical],
-            other: [-anchor[0] * along[0], -anchor[0] * along[1], anchor[1]],
-            stiffness: stiffness(along, [[slope, 0.0], [vertical_slope, 0.0]], across),
+            other: [-anchor_horizontal * along[0], -anchor_horizontal * along[1], anchor_vertical],
+            stiffness: stiffness(along, pulled.stiffness, across),
             distance,
             tension: force.hypot(vertical),
             ratio,

@@ -1,7 +1,6 @@
 //! A mooring line between two places: what every class made of catenary segments answers.
 
 use super::checks;
-use super::first_length::for_tension;
 use super::line_element::LineElement;
 use super::mooring_table::{buoy_word, report};
 use super::section::LineSection;
@@ -9,9 +8,12 @@ use windlass_base::diagnostic::Outcome;
 use windlass_base::span::Span;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
-use windlass_catenary::{Aim, Joint, Law, Line, LineError, Row, Segment, SegmentState, ShapePoint, State, table};
+use windlass_catenary::{
+    Aim, Joint, Law, Line, LineError, MissingRow, Row, Segment, SegmentState, ShapePoint, State, table,
+};
 use windlass_model::{
-    ClassError, ClassRecord, Condition, Configuration, Element, LineChange, LineLoads, LineModel, Placement,
+    AbsentRow, ClassError, ClassRecord, Condition, Configuration, Element, FoundLength, LineChange, LineLoads,
+    LineModel, Placement,
 };
 
 /// Points inside each segment in a shape table.
@@ -28,8 +30,8 @@ pub struct Mooring {
     pub breaks_given: Vec<bool>,
     /// Largest horizontal force of the table (N).
     pub largest: f64,
-    /// Whether forces come from the exact solution, or from the table of thirty points.
-    pub exact: bool,
+    /// Whether forces are interpolated in the table of thirty points (-TABLE); else they are solved exactly.
+    pub tabulated: bool,
     /// Its ends.
     pub place: Placement,
     /// Water surface and, where known, bottom at the anchor (m), for warnings of lines that see neither.
@@ -120,8 +122,14 @@ impl Mooring {
         notes
     }
 
-    pub(super) fn rows(&self) -> Result<Vec<Row>, ClassError> {
-        table(&self.line, &self.breaks, self.largest, self.fairlead()).map_err(|e| self.error(&e))
+    /// The rows of its table, and those without a configuration.
+    pub(super) fn rows(&self) -> Result<(Vec<Row>, Vec<MissingRow>), ClassError> {
+        self.table(self.fairlead()).map_err(|e| self.error(&e))
+    }
+
+    /// The same with its fairlead at an elevation (m).
+    pub(super) fn table(&self, fairlead: f64) -> Result<(Vec<Row>, Vec<MissingRow>), LineError> {
+        table(&self.line, &self.breaks, self.largest, fairlead)
     }
 }
 
@@ -250,8 +258,8 @@ pub fn line_error(error: &LineError, places: &[Span]) -> ClassError {
 }
 
 impl LineModel for Mooring {
-    fn tabulate(&self, connector: &str) -> Result<Table, ClassError> {
-        let rows = self.rows()?;
+    fn tabulate(&self, connector: &str) -> Result<(Table, Vec<AbsentRow>), ClassError> {
+        let (rows, missing) = self.rows()?;
         if let Some(first) = rows.first().filter(|r| r.ratio > 1.0) {
             let text = format!(
                 "{connector} breaks before its table begins: hanging straight down, segment {} bears {:.3} of its break",
@@ -260,7 +268,7 @@ impl LineModel for Mooring {
             return Err(ClassError::new(text)
                 .help("a line too short for the depth at its anchor, or with too small a break, cannot hang there"));
         }
-        Ok(report(self, connector, &rows))
+        Ok((report(self, connector, &rows, &missing), missing.iter().map(|row| self.absent(row)).collect()))
     }
 
     fn geometry(&self, connector: &str, condition: Condition) -> Result<Table, ClassError> {
@@ -303,8 +311,10 @@ impl LineModel for Mooring {
         if state.slack {
             out.note("the line needs no horizontal force to reach so far");
         }
-        if !self.exact && condition == Condition::Placed {
-            out.note("solved exactly; the forces of this class between its ends come from its table (B_CAT EXACT)");
+        if self.tabulated && condition == Condition::Placed {
+            out.note(
+                "solved exactly; the forces of this class between its ends are interpolated in its table (-TABLE)",
+            );
         }
         Ok(out)
     }
@@ -326,7 +336,7 @@ impl LineModel for Mooring {
     }
 
     fn loads(&self) -> Result<LineLoads, ClassError> {
-        if self.exact { self.exact_loads() } else { self.tabled_loads() }
+        if self.tabulated { self.tabled_loads() } else { self.exact_loads() }
     }
 
     fn element(&self) -> Result<Box<dyn Element>, ClassError> {
@@ -341,24 +351,28 @@ impl LineModel for Mooring {
         self.state(condition).map(|s| s.x)
     }
 
-    fn first_length(&self, condition: Condition) -> Result<f64, ClassError> {
+    fn first_length(&self, condition: Condition) -> Result<FoundLength, ClassError> {
         let (x, _) = self.placed()?;
-        let z = self.fairlead();
+        let present = self.line.segments().first().map_or(0.0, |s| s.length);
         let aim = match condition {
-            Condition::Tension(tension) => {
-                return for_tension(&self.line, [x, z], tension, |e| self.error(e));
-            }
-            Condition::Horizontal(force) => Some(Aim::Horizontal(force)),
+            Condition::Tension(tension) => Aim::Tension(tension),
+            Condition::Horizontal(force) => Aim::Horizontal(force),
             Condition::Vertical(_) => {
                 return Err(ClassError::new("a length is solved for a horizontal force or a tension"));
             }
-            Condition::Placed | Condition::Distance(_) => None,
+            Condition::Placed | Condition::Distance(_) => return Ok(FoundLength::only(present)),
         };
-        self.line.first_length(x, z, aim).map_err(|e| self.error(&e))
+        let lengths = self.line.first_lengths(x, self.fairlead(), aim).map_err(|e| self.error(&e))?;
+        let (length, others) = lengths.nearest(present).unwrap_or((present, Vec::new()));
+        Ok(FoundLength { length, others, unsolved: lengths.unsolved })
     }
 }
 
 impl Mooring {
+    fn absent(&self, row: &MissingRow) -> AbsentRow {
+        AbsentRow { number: row.number, error: self.error(&row.error) }
+    }
+
     fn shape_row(&self, state: &State, point: &ShapePoint, next: Option<&ShapePoint>) -> Vec<Cell> {
         let bottom = self.line.floor().map(|f| f.elevation + (state.x - point.x) * f.slope).or(self.bottom);
         let near = |x: f64, z: f64| (point.x - x).abs() + (point.z - z).abs() <= 1e-9 * (self.line.length() + x.abs());

@@ -3,10 +3,11 @@
 use super::mooring::Mooring;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
-use windlass_catenary::{Buoy, Row};
+use windlass_catenary::{Buoy, MissingRow, Row};
 
-/// The twelve columns of reference/solve.md, CONN_DESIGN.
-pub fn report(mooring: &Mooring, connector: &str, rows: &[Row]) -> Table {
+/// The twelve columns of reference/solve.md, CONN_DESIGN; a row without a configuration has its force alone.
+pub fn report(mooring: &Mooring, connector: &str, found: &[Row], missing: &[MissingRow]) -> Table {
+    let rows = numbered(found, missing);
     let bottom = mooring.line.floor().map(|f| f.elevation).or(mooring.bottom);
     let mut out = Table::new(format!("Properties of Line {connector}"))
         .fact("Water Depth", bottom.map(|b| -b), Dim::Length)
@@ -24,7 +25,16 @@ pub fn report(mooring: &Mooring, connector: &str, rows: &[Row]) -> Table {
         .column("", "Line on Bottom", Dim::Length, Digits::Usual)
         .column("1st Connection", "Height Ab Anchor", Dim::Length, Digits::Usual)
         .column("1st Connection", "Net Force Applied", Dim::Force, Digits::Usual);
-    for row in rows {
+    for (number, row) in rows.iter().enumerate() {
+        let Some(row) = row else {
+            let force = missing.iter().find(|m| m.number == number + 1).map(|m| m.force);
+            let mut cells = vec![Cell::Missing; 12];
+            if let Some(cell) = cells.get_mut(1) {
+                *cell = force.into();
+            }
+            let _ = out.push(cells);
+            continue;
+        };
         let s = &row.state;
         let joint = s.joints.first();
         let cells: Vec<Cell> = vec![
@@ -44,23 +54,33 @@ pub fn report(mooring: &Mooring, connector: &str, rows: &[Row]) -> Table {
         // the row has one cell a column, made just above
         let _ = out.push(cells);
     }
-    if let Some(first) = rows.iter().position(|r| r.ratio > 1.0) {
+    let is = |which: fn(&Row) -> bool| move |row: &Option<&Row>| row.is_some_and(which);
+    if let Some(first) = rows.iter().position(is(|r| r.ratio > 1.0)) {
         out.note(format!("{} beyond the breaking tension (Max T/TB above 1)", rows_from(first, rows.len() - 1)));
     }
-    let states: Vec<Option<Buoy>> = rows.iter().map(|r| r.state.joints.iter().find_map(|j| j.buoy)).collect();
+    let buoy = |row: &Option<&Row>| row.and_then(|r| r.state.joints.iter().find_map(|j| j.buoy));
+    let states: Vec<Option<Buoy>> = rows.iter().map(buoy).collect();
     out.notes.extend(buoy_notes(&states));
     out.notes.extend(mooring.notes.clone());
-    if rows.iter().any(|r| !r.state.below_bottom.is_empty()) {
+    if rows.iter().any(is(|r| !r.state.below_bottom.is_empty())) {
         out.note("warning: a segment above the spring buoy hangs below the bottom in some rows (it does not see it)");
     }
-    if let Some(first) = rows.iter().position(|r| !r.state.above_surface.is_empty()) {
-        let last = rows.iter().rposition(|r| !r.state.above_surface.is_empty()).unwrap_or(first);
+    let above = is(|r| !r.state.above_surface.is_empty());
+    if let Some(first) = rows.iter().position(above) {
+        let last = rows.iter().rposition(above).unwrap_or(first);
         let which = rows_from(first, last);
         out.note(format!(
             "warning: {which} with a buoyant part of the line above the water surface, which it does not see"
         ));
     }
     out
+}
+
+/// The rows of a table in their order, those without a configuration among them.
+fn numbered<'a>(found: &'a [Row], missing: &[MissingRow]) -> Vec<Option<&'a Row>> {
+    let mut found = found.iter();
+    let all = found.len() + missing.len();
+    (1..=all).map(|n| if missing.iter().any(|m| m.number == n) { None } else { found.next() }).collect()
 }
 
 /// `row 3 is` or `rows 3 to 5 are`, counted from 1.
@@ -81,9 +101,11 @@ pub fn buoy_word(buoy: Buoy) -> &'static str {
 fn buoy_notes(states: &[Option<Buoy>]) -> Vec<String> {
     let mut notes = Vec::new();
     let mut from = 0;
-    while let Some(Some(state)) = states.get(from) {
-        let run = states.iter().skip(from).take_while(|s| **s == Some(*state)).count();
-        notes.push(format!("{} with the spring buoy {}", rows_from(from, from + run - 1), buoy_word(*state)));
+    while let Some(state) = states.get(from) {
+        let run = states.iter().skip(from).take_while(|s| *s == state).count();
+        if let Some(state) = state {
+            notes.push(format!("{} with the spring buoy {}", rows_from(from, from + run - 1), buoy_word(*state)));
+        }
         from += run;
     }
     notes

@@ -209,6 +209,10 @@ pub const TAB_LIM: OptionSpec = OptionSpec::new(
     "largest tension of the table",
 )
 .default("largest breaking tension of all segments");
+/// `-TABLE`.
+pub const TABLE: OptionSpec =
+    OptionSpec::new("-TABLE", &[], "forces are interpolated in the table of thirty points, not solved")
+        .owner(Owner::Ours);
 /// `-DEPANCHOR`.
 pub const DEPANCHOR: OptionSpec = OptionSpec::new(
     "-DEPANCHOR",

@@ -258,6 +258,11 @@ pub trait ConnectorClass: Debug + Send + Sync {
         false
     }
 
+    /// Whether the forces of its lines are interpolated in a table, not solved: reports name them.
+    fn is_tabulated(&self) -> bool {
+        false
+    }
+
     /// The line a connector of this class makes between two places.
     ///
     /// # Errors

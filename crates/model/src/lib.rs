@@ -55,7 +55,7 @@ pub use environment::{
 };
 pub use fatigue::{FatigueCurve, FatigueKind, FatigueSegment, FatigueSelection, ThicknessCorrection};
 pub use hull::{LinearHydrostatics, Member, Piece, Shape, WaveAction, box_panels};
-pub use line::{Condition, Configuration, LineChange, LineLoads, LineModel, Placement};
+pub use line::{AbsentRow, Condition, Configuration, FoundLength, LineChange, LineLoads, LineModel, Placement};
 pub use load::{Fluid, LoadKind, Multipliers, PartLoad};
 pub use names::Thing;
 pub use prescribed::{GivenMotion, PathRow, Prescription, ResponseRow, Responses, Sinusoid};
@@ -192,6 +192,25 @@ impl Model {
         let [_, defined] = connector.defined;
         let anchor = || self.placement(connector).other.filter(|_| connector.anchor.is_some()).map(Pose::at);
         [first, self.end_pose(connector, 1).or_else(anchor).unwrap_or(defined)]
+    }
+
+    /// A remark that names the lines whose forces are interpolated in tables; every report that uses them has it.
+    pub fn interpolated_lines(&self) -> Option<String> {
+        /// Names written out; of more the number is told.
+        const MAX_NAMES: usize = 8;
+        let tabulated = |c: &&Connector| {
+            c.active
+                && !self.moves(c)
+                && self.classes.get(&Model::key(&c.class)).is_some_and(|k| k.object.is_tabulated())
+        };
+        let names: Vec<&str> = self.connectors.values().filter(tabulated).map(|c| c.name.as_str()).collect();
+        let shown = names.iter().take(MAX_NAMES).copied().collect::<Vec<_>>().join(", ");
+        let more = match names.len().saturating_sub(MAX_NAMES) {
+            0 => String::new(),
+            more => format!(" and {more} more"),
+        };
+        (!names.is_empty())
+            .then(|| format!("forces interpolated in tables of thirty points (-TABLE), not solved: {shown}{more}"))
     }
 
     /// Whether a connector moves by itself: its class does, or `&CONNECTOR -DYNAMICS` says so.

@@ -120,13 +120,40 @@ impl LineLoads {
     }
 }
 
+/// The lengths of a first segment with which a condition holds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FoundLength {
+    /// The one nearest to the present length (m).
+    pub length: f64,
+    /// The others (m).
+    pub others: Vec<f64>,
+    /// Bounds between which lengths have no configuration (m).
+    pub unsolved: Vec<[f64; 2]>,
+}
+
+impl FoundLength {
+    /// The only one.
+    pub fn only(length: f64) -> Self {
+        FoundLength { length, others: Vec::new(), unsolved: Vec::new() }
+    }
+}
+
+/// A row of a line's table without a configuration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AbsentRow {
+    /// Its number, from 1.
+    pub number: usize,
+    /// Why.
+    pub error: ClassError,
+}
+
 /// A mooring line between two places.
 pub trait LineModel {
-    /// The thirty-row table of `CONN_DESIGN TABLE`.
+    /// The thirty-row table of `CONN_DESIGN TABLE`, and its rows without a configuration, which have no numbers but their force.
     ///
     /// # Errors
-    /// A line for which no configuration could be proven.
-    fn tabulate(&self, connector: &str) -> Result<Table, ClassError>;
+    /// A line without a configuration in any row.
+    fn tabulate(&self, connector: &str) -> Result<(Table, Vec<AbsentRow>), ClassError>;
 
     /// The shape of the line: arc length, position, tension, angle, one row a point.
     ///
@@ -164,9 +191,9 @@ pub trait LineModel {
     /// A condition that no configuration meets.
     fn distance(&self, condition: Condition) -> Result<f64, ClassError>;
 
-    /// The length of the first segment (m) with which the condition holds between the ends as they are.
+    /// The lengths of the first segment with which the condition holds between the ends as they are.
     ///
     /// # Errors
     /// A condition that no length meets.
-    fn first_length(&self, condition: Condition) -> Result<f64, ClassError>;
+    fn first_length(&self, condition: Condition) -> Result<FoundLength, ClassError>;
 }

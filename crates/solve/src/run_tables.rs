@@ -58,6 +58,7 @@ pub fn told(run: &Run) -> Table {
             table = table.fact("Reinforced At", time, Dim::Time);
         }
     }
+    table.notes.extend(run.model.interpolated_lines());
     if run.actions.is_empty() {
         return table;
     }
@@ -182,6 +183,7 @@ pub fn extremes(run: &Run) -> Vec<Table> {
         }
     }
     if let Some(last) = tables.last_mut() {
+        last.notes.extend(run.model.interpolated_lines());
         last.note(match run.settings.transient {
             t if t > 0.0 => "of the stored instants behind TTRA_SET: PRCPOST takes other parts",
             _ => "of all stored instants, the beginning included: PRCPOST takes parts",

@@ -61,8 +61,8 @@ pub fn settle(model: &mut Model, options: &Options) -> Result<Settled, SolveErro
         }
     }
     if !settled {
-        let text = "the tables of its lines do not settle at the elevations their fairleads come to";
-        return Err(SolveError::new(ClassError::new(text).help("make the classes EXACT")));
+        let text = "the layout of its dynamic lines on the bottom does not settle at the places their ends come to";
+        return Err(SolveError::new(ClassError::new(text).help("&EQUI again goes on from the last place")));
     }
     for (body, place) in model.bodies.values_mut().zip(start) {
         body.previous = place;

@@ -206,7 +206,7 @@ fn connector_forces_are_those_of_the_shape_as_placed_and_point_to_the_anchor() {
 #[test]
 fn connector_forces_of_a_table_are_near_the_exact_ones_and_said_to_come_from_it() {
     let x = closed(3e5, 200.0, 1010.0)[0];
-    let done = run(&stiff("", x), |_| (), "&STATUS F_CONNECTOR");
+    let done = run(&stiff("-TABLE", x), |_| (), "&STATUS F_CONNECTOR");
     let row = done.row("A");
     assert!(done.text.lines().any(|l| l.trim_start().starts_with("A ") && l.contains(" table ")), "{}", done.text);
     // thirty rows between 0 and 1 MN: a monotone cubic is within some percent of the steep force

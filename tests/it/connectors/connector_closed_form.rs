@@ -311,7 +311,7 @@ fn an_anchor_under_its_fairlead_moves_in_the_direction_it_was_given() {
 
 #[test]
 fn a_table_that_misses_what_was_solved_for_is_said() {
-    let records = STIFF.replace(" EXACT", "").replace(" -EMOD 1E12", " -TAB_LIM 3000000");
+    let records = STIFF.replace(" EXACT", " -TABLE").replace(" -EMOD 1E12", " -TAB_LIM 3000000");
     let left = run(&format!("{records}&CONNECTOR A -A_TENSION 1500\n"));
     assert!(left.text.contains("(from its table of thirty points)"), "{}", left.text);
     assert!(

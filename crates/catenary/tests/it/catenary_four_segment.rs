@@ -23,7 +23,7 @@ fn line(capacity: f64, pendant: f64) -> Line {
 
 fn example(capacity: f64, pendant: f64) -> (Vec<Row>, [f64; 4]) {
     let breaks = [4.625, 4.625, 4.375, 4.625].map(|od| 60.0 * area(od) * KIP);
-    (table(&line(capacity, pendant), &breaks, breaks[0], 0.0).unwrap(), breaks)
+    (table(&line(capacity, pendant), &breaks, breaks[0], 0.0).unwrap().0, breaks)
 }
 
 fn close(got: f64, want: f64, within: f64, what: &str) {

@@ -111,7 +111,7 @@ impl Linear {
         let around = &system.surroundings;
         let depth = around.depth.map(|d| d + around.tide);
         let linearised = DMatrix::zeros(mass.nrows(), mass.nrows());
-        let notes = Vec::new();
+        let notes = model.interpolated_lines().into_iter().collect();
         let (poses, stiffness) = (state.poses.clone(), state.stiffness.clone());
         let mut made =
             Linear { system, moving, poses, stiffness, mass, damping, linearised, follow, heavy, floats, depth, notes };

@@ -52,7 +52,7 @@ pub(crate) fn standing(
 /// What is to be known of the lines that move by themselves where they rest between their ends as they stand: their names with the text.
 pub fn cautions(model: &Model) -> Vec<(String, &'static str)> {
     let mut made = Vec::new();
-    // of others nothing is to be said, and making them may mean to tabulate them
+    // of others nothing is to be said
     let moves = |name: &str| model.connectors.get(&Model::key(name)).is_some_and(|c| model.moves(c));
     let told = standing(model, &moves, |name, element, at, _| {
         made.extend(element.caution(at).map(|text| (name.to_string(), text)));
