@@ -248,7 +248,7 @@ fn change(model: &Model, made: &mut Connector, given: &Given, said: &mut Said) -
             placed(model, made)?;
             let found = line(model, made)?.first_length(aim)?;
             made.first_length = Some(found.length);
-            also = others(&found, made, given, said);
+            also = others(&found, said);
         }
         ("-ANCHOR", _) => {
             alone(made)?;
@@ -291,18 +291,19 @@ fn change(model: &Model, made: &mut Connector, given: &Given, said: &mut Said) -
     Ok(format!("{}{forces}{also}", told(made, given, old, said)))
 }
 
-/// The further lengths that give the same force; lengths without a configuration are warned of.
-fn others(found: &FoundLength, made: &Connector, given: &Given, said: &mut Said) -> String {
+/// The further lengths that give the same force, and those without a configuration.
+fn others(found: &FoundLength, said: &Said) -> String {
+    let list: Vec<String> = found.others.iter().map(|l| said.measured(*l, Dim::Length)).collect();
+    let mut text = if list.is_empty() {
+        String::new()
+    } else {
+        format!("; a first segment of {} gives the same", list.join(" or "))
+    };
     for [from, to] in &found.unsolved {
         let [from, to] = [from, to].map(|l| said.measured(*l, Dim::Length));
-        said.warn(
-            made,
-            given,
-            &format!("lengths from {from} to {to} have no configuration: others may give this force"),
-        );
+        text.push_str(&format!("; of {from} to {to} it has no configuration"));
     }
-    let list: Vec<String> = found.others.iter().map(|l| said.measured(*l, Dim::Length)).collect();
-    if list.is_empty() { String::new() } else { format!("; a first segment of {} gives the same", list.join(" or ")) }
+    text
 }
 
 /// Whether it has a length though it is no mooring line.

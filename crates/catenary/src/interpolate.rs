@@ -67,8 +67,9 @@ pub struct Interpolated {
     anchor_vertical: Curve,
     grounded: Curve,
     ratio: Curve,
-    /// d(H, V at the fairlead)/d(x, z) but its first place.
-    stiffness: [Curve; 3],
+    /// Of d(H, V at the fairlead)/d(x, z): dH/dz less dV/dx, which friction makes, and dV/dz.
+    unlike: Curve,
+    heave: Curve,
     /// d(H, V at the anchor)/d(x, z).
     coupling: [Curve; 4],
 }
@@ -107,19 +108,21 @@ impl Interpolated {
         let of = |f: fn(&Row) -> f64| rows.iter().map(f).collect::<Vec<f64>>();
         let x = of(|r| r.state.x);
         // a fairlead on the bottom has a stiffness without end
-        let finite = |v: f64| if v.is_finite() { v } else { 0.0 };
+        fn finite(v: f64) -> f64 {
+            if v.is_finite() { v } else { 0.0 }
+        }
         let curve = |f: &dyn Fn(&Row) -> f64| Curve::new(&x, rows.iter().map(|r| finite(f(r))).collect(), None);
         let place = |m: fn(&Row) -> [[f64; 2]; 2], i: usize, j: usize| curve(&|r: &Row| m(r)[i][j]);
-        let stiffness = [(0, 1), (1, 0), (1, 1)].map(|(i, j)| place(|r| r.state.stiffness, i, j));
         let coupling = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(i, j)| place(|r| r.state.coupling, i, j));
         Interpolated {
             force: Curve::new(&x, of(|r| r.state.force), Some(of(|r| 1.0 / r.state.dx_dh))),
-            vertical: curve(&|r| r.state.top_vertical),
+            vertical: Curve::new(&x, of(|r| r.state.top_vertical), Some(of(|r| finite(r.state.stiffness[1][0])))),
             taken: curve(&|r| r.state.force - r.state.anchor_horizontal),
             anchor_vertical: curve(&|r| r.state.anchor_vertical),
             grounded: curve(&|r| r.state.grounded),
             ratio: curve(&|r| r.ratio),
-            stiffness,
+            unlike: curve(&|r| r.state.stiffness[0][1] - r.state.stiffness[1][0]),
+            heave: place(|r| r.state.stiffness, 1, 1),
             coupling,
             x,
         }
@@ -146,11 +149,12 @@ impl Interpolated {
             value + slope * beyond
         };
         let inside = |curve: &Curve| curve.at(i, h, t).0;
-        let [xz, zx, zz] = self.stiffness.each_ref().map(inside);
+        let (vertical, zx) = self.vertical.at(i, h, t);
+        let (xz, zz) = (zx + inside(&self.unlike), inside(&self.heave));
         let [axx, axz, azx, azz] = self.coupling.each_ref().map(inside);
         let force = force.max(0.0);
         Pulled {
-            fairlead: [force, straight(&self.vertical)],
+            fairlead: [force, vertical + zx * beyond],
             anchor: [(force - straight(&self.taken)).max(0.0), straight(&self.anchor_vertical)],
             stiffness: [[if force > 0.0 { slope } else { 0.0 }, xz], [zx, zz]],
             coupling: [[axx, axz], [azx, azz]],

@@ -177,7 +177,7 @@ fn a_slack_or_a_tight_spring_gets_the_length_of_hookes_law() {
 }
 
 #[test]
-fn a_hanging_line_gets_the_tighter_of_two_lengths_from_any_present_one_or_hears_the_least_tension() {
+fn a_hanging_line_gets_the_nearer_of_two_lengths_or_hears_the_least_tension() {
     // no bottom: between ends of one height a catenary of span S has T = w S / 2 cosh(a) / a, s = S sinh(a) / a with
     // a = w S / 2 H; the least T is at a tanh(a) = 1, a = 1.19967864, T = w S / 2 * 1.50887956
     let (w, span) = (0.05, 1000.0);
@@ -188,15 +188,29 @@ fn a_hanging_line_gets_the_tighter_of_two_lengths_from_any_present_one_or_hears_
              &CONNECTOR L -L_TENSION {wanted}\n"
         )
     };
-    let a = 0.5_f64;
-    let wanted = w * span / 2.0 * a.cosh() / a;
-    for present in [900.0, 1001.0, 1100.0, 2500.0, 9000.0] {
-        let left = clean(&hung(present, wanted));
-        close(left.connector("L").first_length.unwrap() / FOOT, span * a.sinh() / a, 1e-8);
+    let tight = 0.5_f64;
+    let ratio = tight.cosh() / tight;
+    // the other side of the least value, by bisection
+    let (mut low, mut high) = (1.2_f64, 9.0);
+    for _ in 0..200 {
+        let middle: f64 = 0.5 * (low + high);
+        if middle.cosh() / middle < ratio { low = middle } else { high = middle }
+    }
+    let lengths = [tight, low].map(|a: f64| span * a.sinh() / a);
+    for (present, [taken, named]) in [
+        (900.0, lengths),
+        (1001.0, lengths),
+        (1100.0, lengths),
+        (2500.0, [lengths[1], lengths[0]]),
+        (9000.0, [lengths[1], lengths[0]]),
+    ] {
+        let left = clean(&hung(present, w * span / 2.0 * ratio));
+        close(left.connector("L").first_length.unwrap() / FOOT, taken, 1e-8);
+        assert!(left.text.contains(&format!("a first segment of {named:.2} ft gives the same")), "{}", left.text);
     }
     let least = w * span / 2.0 * 1.508_879_561_538_3;
     let left = run(&hung(1100.0, 0.99 * least));
-    let said = format!("the least tension is {:.6}", least);
+    let said = format!("the nearest is {:.6}", least);
     assert!(left.messages.iter().any(|m| m.contains(&said)), "{said}: {:?}", left.messages);
     clean(&hung(1100.0, 1.000_01 * least));
 }

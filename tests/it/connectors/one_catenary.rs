@@ -29,7 +29,11 @@ fn heaved(option: &str, reach: f64, motion: &str) -> String {
 
 /// Least and largest of the tensions that a run printed.
 fn tensions(text: &str) -> [f64; 2] {
-    let line = text.lines().skip_while(|l| !l.contains("A: Tension")).next().unwrap_or_else(|| panic!("{text}"));
+    let line = text
+        .lines()
+        .skip_while(|l| !l.trim_start().starts_with("A Tension "))
+        .next()
+        .unwrap_or_else(|| panic!("{text}"));
     let cells: Vec<f64> = line.split_whitespace().filter_map(|w| w.parse().ok()).collect();
     [cells[2], cells[4]]
 }
@@ -167,7 +171,6 @@ fn every_report_that_uses_a_table_names_its_lines() {
         ("&EQUI", 1),
         ("TDOM\nPRCPOST\nCONFORCE A\nREPORT\nEND\nTRAJECTORY\nREPORT 1:2\nEND\nEND", 4),
         ("CONN_DESIGN\nMOVE B 0 -DISTANCE 2 -ROWS 3\nREPORT\nEND\nWATCH B 100 -ANGLES 0 90 90\nREPORT\nEND\nEND", 2),
-        ("FREQ_RESPONSE\nRAO\nEND", 1),
     ] {
         let (_, text) = run(&format!("{records}\n{report}"));
         let found = text.matches(note).count();
