@@ -29,11 +29,7 @@ fn heaved(option: &str, reach: f64, motion: &str) -> String {
 
 /// Least and largest of the tensions that a run printed.
 fn tensions(text: &str) -> [f64; 2] {
-    let line = text
-        .lines()
-        .skip_while(|l| !l.trim_start().starts_with("A Tension "))
-        .next()
-        .unwrap_or_else(|| panic!("{text}"));
+    let line = text.lines().find(|l| l.trim_start().starts_with("A Tension ")).unwrap_or_else(|| panic!("{text}"));
     let cells: Vec<f64> = line.split_whitespace().filter_map(|w| w.parse().ok()).collect();
     [cells[2], cells[4]]
 }
