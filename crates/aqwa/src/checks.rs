@@ -26,9 +26,6 @@ pub fn check(deck: &Deck, remarks: &mut Remarks) {
         numbers_of_structures(deck, remarks);
         placed::check(deck, remarks);
     }
-    if whole {
-        wave_loads(deck, remarks);
-    }
     towed(deck, whole, remarks);
     run(deck, remarks);
     output(deck, remarks);
@@ -345,32 +342,6 @@ fn run(deck: &Deck, remarks: &mut Remarks) {
             }
         }
         _ => {}
-    }
-}
-
-/// A run in waves needs loads of the waves on each structure: those of its tubes, as the coefficients of decks 6 to 8 are not read.
-fn wave_loads(deck: &Deck, remarks: &mut Remarks) {
-    let timed = matches!(deck.job.program, Program::Drift | Program::Naut) && deck.job.runs();
-    let waves = match &deck.waves {
-        Waves::Still => false,
-        Waves::Regular(wave) => wave.amplitude > 0.0,
-        Waves::Spectra(_) => true,
-    };
-    // the vessel of a towed tether is a nominal one and is held
-    if !timed || !waves || deck.mooring.tethers.iter().any(Tether::towed) {
-        return;
-    }
-    for structure in &deck.structures {
-        if structure.elements.iter().all(|element| element.shape != Shape::Tube) {
-            let message =
-                format!("decks 6 to 8: structure {} has no wave coefficients, and no tubes", structure.number);
-            remarks.add(
-                Diagnostic::error(message, structure.span)
-                    .label("no load of the waves would act on it")
-                    .help("coefficients of a deck are not read; INMODEL -AQWA takes its model, and DATABASE of the model its coefficients")
-                    .help("still water is NONE in the place of deck 13"),
-            );
-        }
     }
 }
 

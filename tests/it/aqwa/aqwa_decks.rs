@@ -461,11 +461,18 @@ fn a_structure_without_loads_of_the_waves_is_not_run_in_waves() {
     let spectrum = "    13    SPEC\n END13PSMZ                 0.2       2.0       6.0       9.0\n";
     let regular = "    13    WAVE\n    13WAMP                 3.0\n END13PERD                10.0\n";
     for (program, waves) in [("DRIF", spectrum), ("NAUT", regular)] {
-        let list = said(&moored(program, 100.0, &cards, waves));
-        let error = list.iter().find(|m| m.severity == windlass_base::diagnostic::Severity::Error).unwrap();
+        let text = moored(program, 100.0, &cards, waves);
+        let list = records(&text).unwrap_err();
+        let [error] = list.as_slice() else { panic!("{list:?}") };
         assert_eq!(error.message, "decks 6 to 8: structure 1 has no wave coefficients, and no tubes");
         assert!(error.span.is_some() && error.help.iter().any(|help| help.contains("DATABASE")));
-        assert_eq!(said(&moored(program, 100.0, &cards, STILL)), []);
+        assert!(records(&moored(program, 100.0, &cards, STILL)).is_ok());
+        // its model is read all the same
+        let (mut session, _, folder) = common::session();
+        std::fs::write(folder.path().join("hull.dat"), text).unwrap();
+        session.open("test.cif", "INMODEL -AQWA hull.dat\n");
+        session.run();
+        assert_eq!((session.errors, session.job.model.connectors.len()), (0, 1), "{:?}", session.reports);
     }
 }
 

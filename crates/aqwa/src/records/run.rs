@@ -5,6 +5,7 @@ use super::model::{body, point};
 use super::tethers::name;
 use super::written::{Script, number, numbers, opposite, rounded};
 use crate::Deck;
+use crate::elements::Shape;
 use crate::job::Program;
 use crate::tethers::{Fatigue, Tether};
 use crate::waves::Waves;
@@ -46,6 +47,9 @@ pub(super) fn job(deck: &Deck, out: &mut Script) {
     if let Some(steps) = deck.steps {
         out.card("deck 16, TIME", steps.span);
     }
+    if matches!(deck.job.program, Program::Drift | Program::Naut) {
+        wave_loads(deck, out);
+    }
     match (deck.job.program, deck.mooring.tethers.is_empty()) {
         (Program::Drift | Program::Naut, false) => tethered(deck, out),
         (Program::Drift | Program::Naut, true) => bodies(deck, out),
@@ -66,6 +70,31 @@ pub(super) fn job(deck: &Deck, out: &mut Script) {
                 .label("DRIF, NAUT or LIBR belongs here")
                 .help("LINE is the diffraction analysis; for FER, INMODEL -AQWA reads the model and FREQ_RESPONSE runs it"),
         ),
+    }
+}
+
+/// A run in waves needs loads of the waves on each structure: those of its tubes, as the coefficients of decks 6 to 8 are not read.
+fn wave_loads(deck: &Deck, out: &mut Script) {
+    let waves = match &deck.waves {
+        Waves::Still => false,
+        Waves::Regular(wave) => wave.amplitude > 0.0,
+        Waves::Spectra(_) => true,
+    };
+    // the vessel of a towed tether is a nominal one and is held
+    if !waves || deck.mooring.tethers.iter().any(Tether::towed) {
+        return;
+    }
+    for structure in &deck.structures {
+        if structure.elements.iter().all(|element| element.shape != Shape::Tube) {
+            let message =
+                format!("decks 6 to 8: structure {} has no wave coefficients, and no tubes", structure.number);
+            out.refuse(
+                Diagnostic::error(message, structure.span)
+                    .label("no load of the waves would act on it")
+                    .help("coefficients of a deck are not read; INMODEL -AQWA takes its model, and DATABASE of the model its coefficients")
+                    .help("still water is NONE in the place of deck 13"),
+            );
+        }
     }
 }
 
