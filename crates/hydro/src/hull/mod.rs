@@ -8,6 +8,7 @@ mod boxes;
 mod cutting;
 mod faults;
 mod mesh;
+mod panelling;
 mod panels;
 mod state;
 mod surface;
@@ -15,6 +16,7 @@ mod tube;
 
 pub use faults::{Fault, MOST_CUTS, intersect};
 pub use mesh::{MeshFile, MeshKind, read_mesh};
+pub(super) use panelling::{Panel, Panelling};
 pub use state::Hydrostatics;
 pub use surface::Surface;
 pub use tube::Tube;

@@ -151,6 +151,16 @@ impl<'a> SeaAt<'a> {
         self.inside(at, height.min(elevation), elevation)
     }
 
+    /// The same, but above the surface it goes on as its formula does, where that has an end of its own.
+    pub fn continued(&self, at: Vector3<f64>) -> Kinematics {
+        let height = at.z - self.sea.level;
+        match (&self.sea.stokes, self.sea.stretching) {
+            (None, Stretching::Linear) => self.inside(at, height, 0.0),
+            (None, Stretching::Wheeler | Stretching::Delta) => self.inside(at, height, self.elevation(at.x, at.y)),
+            _ => self.wetted(at),
+        }
+    }
+
     /// The water at a height over the mean level (m) that is not above the surface; its elevation (m) is used by Wheeler and
     /// delta stretching.
     fn inside(&self, at: Vector3<f64>, height: f64, elevation: f64) -> Kinematics {
@@ -158,13 +168,21 @@ impl<'a> SeaAt<'a> {
         if let Some(wave) = &sea.stokes {
             return self.grown(wave.kinematics(Vector3::new(at.x, at.y, sea.level + height), self.time));
         }
+        let [height, rise] = self.stretched(height, elevation);
+        self.sums(at, height, rise)
+    }
+
+    /// The height over the mean level at which the waves are summed for a height (m) and an elevation (m), and the rise above it over which they
+    /// go on straight.
+    pub fn stretched(&self, height: f64, elevation: f64) -> [f64; 2] {
+        let sea = self.sea;
         match sea.stretching {
-            Stretching::Exponential => self.sums(at, height, 0.0),
-            Stretching::Linear => self.sums(at, height.min(0.0), height.max(0.0)),
+            Stretching::Exponential => [height, 0.0],
+            Stretching::Linear => [height.min(0.0), height.max(0.0)],
             Stretching::Wheeler => {
                 // Wheeler (1970): the surface is taken for the mean level, the bottom stays
                 let scale = sea.depth.map_or(1.0, |d| d / (d + elevation).max(f64::MIN_POSITIVE));
-                self.sums(at, ((height - elevation) * scale).min(0.0), 0.0)
+                [((height - elevation) * scale).min(0.0), 0.0]
             }
             Stretching::Delta => {
                 let deep = sea.lanes.stretch;
@@ -173,9 +191,29 @@ impl<'a> SeaAt<'a> {
                 } else {
                     height
                 };
-                self.sums(at, mapped.min(0.0), mapped.max(0.0))
+                [mapped.min(0.0), mapped.max(0.0)]
             }
         }
+    }
+
+    /// Whether what [`SeaAt::stretched`] gives at a height (m) depends on the elevation.
+    pub fn needs_elevation(&self, height: f64) -> bool {
+        match self.sea.stretching {
+            Stretching::Exponential | Stretching::Linear => false,
+            Stretching::Wheeler => true,
+            Stretching::Delta => height > -self.sea.lanes.stretch,
+        }
+    }
+
+    /// Whether the kinematics are smooth up to the surface of the waves, not up to where [`SeaAt::stretched`] begins to rise.
+    pub fn ends_at_surface(&self) -> bool {
+        self.sea.stokes.is_some() || matches!(self.sea.stretching, Stretching::Wheeler | Stretching::Exponential)
+    }
+
+    /// The surface is never farther from the mean level (m).
+    pub fn highest(&self) -> f64 {
+        // a crest of Stokes' is lower than its wave is high, twice the amplitude
+        if self.sea.stokes.is_some() { 2.0 * self.sea.lanes.highest } else { self.sea.lanes.highest }
     }
 
     /// A wave of full height as the ramp has it.

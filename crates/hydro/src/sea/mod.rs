@@ -8,6 +8,7 @@ pub mod components;
 pub mod density;
 pub mod dispersion;
 pub mod eight;
+mod grid;
 mod made;
 pub mod phases;
 pub mod spectra;
@@ -18,6 +19,7 @@ use nalgebra::Vector3;
 use windlass_model::Stretching;
 
 pub use airy::SeaAt;
+pub use grid::{FilledGrid, PressureGrid};
 pub use made::Train;
 
 /// One wave of the sea.
