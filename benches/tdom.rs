@@ -49,8 +49,13 @@ fn model(memory: bool, sea: bool) -> Model {
 }
 
 fn pass(name: &str, model: &Model, keep: bool) {
+    pass_of(10800.0, name, model, keep);
+}
+
+/// A run over some seconds of the sea.
+fn pass_of(observed: f64, name: &str, model: &Model, keep: bool) {
     let settings = Settings {
-        observed: 10800.0,
+        observed,
         dt: STEP,
         method: Method::default(),
         convergence: Convergence::default(),
@@ -84,4 +89,6 @@ fn main() {
     pass("200 waves, added mass", &model(false, true), true);
     pass("the same, statistics alone", &model(false, true), false);
     pass("200 waves, memory of 60 s", &model(true, true), true);
+    let semi = measured::scripted(include_str!("semi.cif"));
+    pass_of(600.0, "semi of Froude-Krylov blocks, 200 waves, ten minutes", &semi, true);
 }
