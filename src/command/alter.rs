@@ -3,6 +3,7 @@
 //!
 //! Source: reference/model.md, &CONNECTOR.
 
+use super::chosen::WARNING;
 use super::{Call, Command, Effect, Job};
 use crate::report::format::report;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -389,8 +390,11 @@ fn forces(
         said.warn(made, given, &format!("the depth of its anchor is now {own}, not the {other} of -DEPANCHOR or &ENV"));
     }
     let LineLoads { fairlead: [fx, fy, _], tension, solution, notes, .. } = found.loads()?;
-    for note in notes.iter().filter_map(|n| n.strip_prefix("warning: ")) {
-        said.warn(made, given, note);
+    let units = said.units;
+    for note in notes.iter().map(|n| n.text(units)) {
+        if let Some(text) = note.strip_prefix(WARNING) {
+            said.warn(made, given, text);
+        }
     }
     let horizontal = fx.hypot(fy);
     let [h, t] = [horizontal, tension].map(|f| said.measured(f, Dim::Force));

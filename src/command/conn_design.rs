@@ -166,7 +166,12 @@ fn geometry(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (name, condition) = (class.name.clone(), condition(args)?);
     let line = class.object.line(&job.model.placement(connector), &job.model.surroundings());
     let made = line
-        .and_then(|l| l.geometry(&connector.name, condition))
+        .and_then(|l| {
+            let mut made = l.geometry(&connector.name, condition)?;
+            let remarks = l.configuration(condition)?.notes;
+            made.notes.splice(0..0, remarks.iter().map(|note| note.text(job.units)));
+            Ok(made)
+        })
         .map_err(|e| e.diagnostic(span, job.units).help(format!("while shaping connector {}", connector.name)))?;
     Ok(dispose(job, &name, made, span))
 }

@@ -44,7 +44,7 @@ pub fn forces(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem, ver
             true if model.holds_pipe(&connector.name) => ("in pipe", None),
             true => match found(model, connector) {
                 Ok(mut found) => {
-                    notes.push((connector.name.clone(), std::mem::take(&mut found.summary.notes)));
+                    notes.push((connector.name.clone(), told(&mut found.summary, units)));
                     (found.summary.solution, Some(found))
                 }
                 Err(error) => {
@@ -84,7 +84,7 @@ pub fn foundations(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem
                 if largest.is_none_or(|(most, _)| ratio > most) {
                     largest = Some((ratio, &connector.name));
                 }
-                notes.push((connector.name.clone(), std::mem::take(&mut found.summary.notes)));
+                notes.push((connector.name.clone(), told(&mut found.summary, units)));
             }
             Err(error) => {
                 table.absent += 1;
@@ -97,6 +97,11 @@ pub fn foundations(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem
         table = table.fact("Largest Unity", ratio, Dim::None).fact("Of", name, Dim::None);
     }
     table
+}
+
+/// Takes what a user should know out of a summary, in these units.
+fn told(summary: &mut Summary, units: UnitSystem) -> Vec<String> {
+    std::mem::take(&mut summary.notes).iter().map(|note| note.text(units)).collect()
 }
 
 fn found(model: &Model, connector: &Connector) -> Result<Found, ClassError> {

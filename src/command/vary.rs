@@ -160,7 +160,7 @@ pub fn tabulate(
         match found {
             Ok(found) => {
                 row.extend(numbers(&found));
-                notes.push((named, found.notes));
+                notes.push((named, found.notes.iter().map(|note| note.text(job.units)).collect()));
             }
             Err(error) => {
                 row.extend([const { Cell::Missing }; 9]);

@@ -188,7 +188,7 @@ fn suspended(segment: &Segment, x: f64, z: f64) -> Result<EndForces, LineError> 
     if all == 0.0 {
         let tension = segment.ea * (chord - segment.length) / segment.length;
         if tension <= 0.0 {
-            return Err(LineError::Undetermined);
+            return Ok(EndForces::none([x, z]));
         }
         let (h, v) = (tension * (x / chord), tension * (z / chord));
         let reach = hanging(segment, h, v);
@@ -250,7 +250,7 @@ fn vertical(segment: &Segment, z: f64) -> Result<EndForces, LineError> {
     // hanging from one end: the other end carries nothing
     let own = length + 0.5 * all * (length / ea);
     if all == 0.0 && z.abs() <= length {
-        return Err(LineError::Undetermined);
+        return Ok(EndForces::none([0.0, z]));
     }
     let (v, z_v) = if z.abs() >= own {
         let middle = ea * (z.abs() - length) / length * z.signum();

@@ -26,6 +26,8 @@ pub enum Regime {
     OnBottomSlack,
     /// All of it on the bottom, stretched.
     OnBottomTaut,
+    /// Without weight and longer than the way between its ends: no force, and no definite shape.
+    WeightlessSlack,
 }
 
 impl Regime {
@@ -40,6 +42,7 @@ impl Regime {
             Regime::FullySlack => "fully_slack",
             Regime::OnBottomSlack => "on_bottom_slack",
             Regime::OnBottomTaut => "on_bottom_taut",
+            Regime::WeightlessSlack => "weightless_slack",
         }
     }
 }
@@ -67,6 +70,20 @@ pub struct EndForces {
 }
 
 impl EndForces {
+    /// Of a line without weight that is longer than the way between its ends.
+    pub(super) fn none(at: [f64; 2]) -> Self {
+        EndForces {
+            regime: Regime::WeightlessSlack,
+            at,
+            fairlead: [0.0; 2],
+            anchor: [0.0; 2],
+            grounded: 0.0,
+            stiffness: [[0.0; 2]; 2],
+            residual: 0.0,
+            iterations: 0,
+        }
+    }
+
     /// The same line upside down.
     pub(super) fn turned(self) -> Self {
         let EndForces { at: [x, z], fairlead, anchor, stiffness: [[a, b], [c, d]], .. } = self;

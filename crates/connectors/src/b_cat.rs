@@ -171,7 +171,7 @@ impl Catenary {
         if let Some(known) = surroundings.depth.filter(|d| (d - depth).abs() > 0.2 * d.max(depth) && self.slope == 0.0)
         {
             let share = depth / known;
-            notes.push(format!("warning: the depth of the anchor is {share:.2} of the depth of &ENV"));
+            notes.push(format!("warning: the depth of the anchor is {share:.2} of the depth of &ENV").into());
         }
         Ok(Mooring {
             line,

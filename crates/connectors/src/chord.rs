@@ -7,7 +7,7 @@ use windlass_base::table::Table;
 use windlass_catenary::{Law, Point, rising_root};
 use windlass_model::{
     AbsentRow, ClassError, Condition, Configuration, Element, End, FoundLength, Guess, LineChange, LineLoads,
-    LineModel, Response, Situation, Summary,
+    LineModel, Note, Response, Situation, Summary,
 };
 
 /// A weightless line between two places.
@@ -76,7 +76,7 @@ impl Chord {
     }
 
     /// What is told at a force (N), a distance between the ends, and what of it is left for the line (m).
-    fn remarks(&self, force: f64, chord: f64, left: f64, ratio: f64) -> Vec<String> {
+    fn remarks(&self, force: f64, chord: f64, left: f64, ratio: f64) -> Vec<Note> {
         let mut notes = self.line.notes.clone();
         if ratio > 1.0 {
             notes.push("warning: the line is beyond its breaking tension".into());

@@ -15,7 +15,7 @@ use nalgebra::{Matrix3, Vector3};
 use windlass_base::diagnostic::Outcome;
 use windlass_base::span::Span;
 use windlass_model::{
-    ClassError, ClassRecord, Connection, Element, End, Guess, Response, Situation, SpringState, Summary,
+    ClassError, ClassRecord, Connection, Element, End, Guess, Note, Response, Situation, SpringState, Summary,
 };
 
 /// The devices of a class.
@@ -52,8 +52,8 @@ impl Devices {
     }
 
     /// What is told of a line whose piston does not move.
-    pub fn notes(&self) -> Vec<String> {
-        self.piston.iter().map(|_| NOMINAL.to_string()).collect()
+    pub fn notes(&self) -> Vec<Note> {
+        self.piston.iter().map(|_| NOMINAL.into()).collect()
     }
 
     /// The element of a line with them; `line` has none of them.

@@ -59,10 +59,30 @@ pub const LINE_OPTIONS: &[OptionSpec] = &[
     m::SEABED,
 ];
 
+/// Options of a B_CAT that are taken, and do nothing without a bottom or give the place of an anchor.
+const BOTTOM_OPTIONS: [OptionSpec; 3] = [o::DEPANCHOR, o::FRICTION, o::SLOPE];
+
+const H_CAT_OPTIONS: [OptionSpec; LINE_OPTIONS.len() + BOTTOM_OPTIONS.len()] = {
+    let mut all = [o::DEPANCHOR; LINE_OPTIONS.len() + BOTTOM_OPTIONS.len()];
+    let mut i = 0;
+    while i < LINE_OPTIONS.len() {
+        all[i] = LINE_OPTIONS[i];
+        i += 1;
+    }
+    while i < all.len() {
+        all[i] = BOTTOM_OPTIONS[i - LINE_OPTIONS.len()];
+        i += 1;
+    }
+    all
+};
+
+/// What is said of a class with options of the bottom.
+const NO_BOTTOM: &str = "it has no bottom: -FRICTION and -SLOPE do nothing, and -DEPANCHOR is the depth of its anchor alone; a B_CAT lies on the bottom";
+
 static H_CAT_SPEC: CommandSpec = CommandSpec {
     data: &[o::LINE_OD, ValueSpec::new("FLAG", Kind::Choice(&["EXACT"]), "with its weight").or("weightless")],
-    options: LINE_OPTIONS,
-    detail: "-CD, -CA, -AX_DAMPING and -SEABED act with the line's own dynamics alone: &CONNECTOR -DYNAMICS. A hanging catenary: it knows neither bottom nor surface, and takes no buoys. Without EXACT it is weightless: \
+    options: &H_CAT_OPTIONS,
+    detail: "-CD, -CA, -AX_DAMPING and -SEABED act with the line's own dynamics alone: &CONNECTOR -DYNAMICS. A hanging catenary: it knows neither bottom nor surface (reports say where it passes them), and takes no buoys. -DEPANCHOR is the depth of its anchor; -FRICTION and -SLOPE do nothing. Without EXACT it is weightless: \
              a spring along the chord that only pulls. -PISTON is a link of its position less LD between the first end and the line, in the direction of the tension; it has no weight. \
              MAX stands as near to LD as TMAX allows; MINMAX stays where it is between TMIN and TMAX. While it can follow, the tension \
              stays at the limit without stiffness along it; beyond VLONG, VSHORT or the stroke (0 to LT) it departs. At rest the piston \
@@ -73,7 +93,8 @@ static H_CAT_SPEC: CommandSpec = CommandSpec {
 };
 
 /// Options that hold for the whole line.
-const PER_LINE: [&str; 6] = ["-SEND", "-X_PY", "-X_DAMPING", "-CONVOLUTION", "-PISTON", "-TAB_LIM"];
+const PER_LINE: [&str; 9] =
+    ["-SEND", "-X_PY", "-X_DAMPING", "-CONVOLUTION", "-PISTON", "-TAB_LIM", "-DEPANCHOR", "-FRICTION", "-SLOPE"];
 
 #[derive(Debug)]
 struct Hanging {
@@ -85,6 +106,9 @@ struct Hanging {
     springs: [Option<Law>; 2],
     devices: Devices,
     limit: Option<f64>,
+    depth: Option<f64>,
+    /// Whether options of a bottom were given.
+    bottom: bool,
 }
 
 /// Refuses spring buoys and options of the whole line given twice.
@@ -119,6 +143,8 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
         springs: end_springs(records)?,
         devices: Devices::read(records)?,
         limit: checks::once(records, "-TAB_LIM")?.and_then(|g| g.number(0)),
+        depth: checks::once(records, "-DEPANCHOR")?.and_then(|g| g.number(0)),
+        bottom: BOTTOM_OPTIONS.iter().any(|option| records.iter().any(|r| r.args.has(option.name))),
     }))
 }
 
@@ -137,7 +163,11 @@ impl ConnectorClass for Hanging {
 
     fn properties(&self, name: &str, surroundings: &Surroundings) -> Table {
         let flag = if self.exact { "EXACT" } else { "weightless" };
-        properties(name, "H_CAT", &self.sections, surroundings).fact("Flag", flag, Dim::None)
+        let mut table = properties(name, "H_CAT", &self.sections, surroundings).fact("Flag", flag, Dim::None);
+        if self.bottom {
+            table.note(NO_BOTTOM);
+        }
+        table
     }
 
     fn first_length(&self) -> Option<f64> {
@@ -145,7 +175,7 @@ impl ConnectorClass for Hanging {
     }
 
     fn anchor_depth(&self, surroundings: &Surroundings) -> Option<f64> {
-        surroundings.depth
+        self.depth.or(surroundings.depth)
     }
 
     fn series_curve(&self) -> Option<(&str, Span)> {
@@ -204,6 +234,9 @@ impl Hanging {
         let weight = |s: &LineSection| if self.exact { s.in_air() } else { 0.0 };
         let mut line = hung(&self.sections, springs, place, surroundings, &self.places, weight)?;
         line.largest = self.limit.unwrap_or(line.largest);
+        if self.bottom {
+            line.notes.push(NO_BOTTOM.into());
+        }
         Ok(line)
     }
 }

@@ -189,7 +189,9 @@ fn at_anchor(found: &EndForces, friction: f64) -> [[f64; 2]; 2] {
             let [[xx, xz], [zx, zz]] = [horizontal, vertical];
             [[xx + friction * zx, xz + friction * zz], none]
         }
-        Regime::ContactFrictionAnchorZero | Regime::FullySlack | Regime::OnBottomSlack => [none; 2],
+        Regime::ContactFrictionAnchorZero | Regime::FullySlack | Regime::OnBottomSlack | Regime::WeightlessSlack => {
+            [none; 2]
+        }
     }
 }
 

@@ -51,7 +51,8 @@ impl Mooring {
         let mut notes = self.notes.clone();
         if !missing.is_empty() {
             let numbers: Vec<String> = missing.iter().map(|row| row.number.to_string()).collect();
-            notes.push(format!("rows of its table without a configuration are left out: {}", numbers.join(", ")));
+            notes
+                .push(format!("rows of its table without a configuration are left out: {}", numbers.join(", ")).into());
         }
         if beyond {
             notes.push("warning: beyond the table; its last slope is continued".into());

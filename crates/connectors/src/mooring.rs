@@ -13,11 +13,13 @@ use windlass_catenary::{
 };
 use windlass_model::{
     AbsentRow, ClassError, ClassRecord, Condition, Configuration, Element, FoundLength, LineChange, LineLoads,
-    LineModel, Placement,
+    LineModel, Note, Placement,
 };
 
 /// Points inside each segment in a shape table.
 const SHAPE_POINTS: usize = 9;
+/// The same where the extremes of a shape are looked for: within 1e-4 of its sag.
+const CROSSING_POINTS: usize = 63;
 
 /// A line ready to be solved, with what is told of it.
 #[derive(Clone, Debug)]
@@ -41,7 +43,7 @@ pub struct Mooring {
     /// Records of the segments, for errors.
     pub places: Vec<Span>,
     /// What is always told of it.
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
 }
 
 impl Mooring {
@@ -95,31 +97,46 @@ impl Mooring {
     }
 
     /// What is dangerous or surprising about a state.
-    pub(super) fn remarks(&self, state: &State) -> Vec<String> {
+    pub(super) fn remarks(&self, state: &State) -> Vec<Note> {
         let mut notes = self.notes.clone();
         for (segment, _) in &state.below_bottom {
-            notes.push(format!(
-                "warning: segment {segment} hangs below the bottom, which it does not see above a spring buoy"
-            ));
+            let text =
+                format!("warning: segment {segment} hangs below the bottom, which it does not see above a spring buoy");
+            notes.push(text.into());
         }
         for (segment, _) in &state.above_surface {
-            notes.push(format!("warning: segment {segment} or the buoy at its end rises above the water surface"));
+            let text = format!("warning: segment {segment} or the buoy at its end rises above the water surface");
+            notes.push(text.into());
         }
         if self.line.floor().is_none() {
-            let shape = self.line.shape(state, SHAPE_POINTS);
-            let lowest = shape.iter().fold(f64::INFINITY, |m, p| m.min(p.z));
-            let (wet, dry) = (shape.iter().any(|p| p.z < self.surface), shape.iter().any(|p| p.z > self.surface));
-            if self.bottom.is_some_and(|b| lowest < b) {
-                notes.push("warning: the line passes below the sea bottom, which it does not see".into());
-            }
-            if wet && dry {
-                notes.push("warning: the line crosses the water surface, which it does not see".into());
-            }
+            notes.extend(self.crossings(state));
         }
         if self.ratio(state).0 > 1.0 {
             notes.push("warning: the line is beyond its breaking tension".into());
         }
         notes
+    }
+
+    /// Where and by how much a line that sees neither passes below the bottom, and above the water surface.
+    fn crossings(&self, state: &State) -> Vec<Note> {
+        let shape = self.line.shape(state, CROSSING_POINTS);
+        let Some(first) = shape.first() else { return Vec::new() };
+        // an end at an elevation is computed with rounding
+        let rounding = 1e-9 * (self.line.length() + self.surface.abs());
+        let extreme = |sign: f64| {
+            let high = shape.iter().fold(first, |best, p| if sign * p.z > sign * best.z { p } else { best });
+            (high.x, high.z)
+        };
+        let ((low_x, low), (high_x, high)) = (extreme(-1.0), extreme(1.0));
+        let told = |by: f64, what: &str, x: f64| {
+            let text =
+                format!("warning: the line passes up to {{}} {what}, {{}} beside its first end, which it does not see");
+            Note::of(text, &[(by, Dim::Length), (x, Dim::Length)])
+        };
+        let below = self.bottom.map(|bottom| bottom - low).filter(|by| *by > rounding);
+        let above = Some(high - self.surface).filter(|by| *by > rounding && low < self.surface - rounding);
+        let below = below.map(|by| told(by, "below the sea bottom", low_x));
+        below.into_iter().chain(above.map(|by| told(by, "above the water surface", high_x))).collect()
     }
 
     /// The rows of its table, and those without a configuration.
@@ -304,7 +321,6 @@ impl LineModel for Mooring {
             // the row has one cell a column, made just above
             let _ = out.push(self.shape_row(&state, point, shape.get(index + 1)));
         }
-        out.notes = self.remarks(&state);
         out.notes.extend(state.joints.iter().enumerate().filter_map(|(i, j)| {
             j.buoy.map(|b| format!("the buoy at the end of segment {} is {}", i + 1, buoy_word(b)))
         }));

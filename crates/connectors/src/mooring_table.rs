@@ -61,7 +61,7 @@ pub fn report(mooring: &Mooring, connector: &str, found: &[Row], missing: &[Miss
     let buoy = |row: &Option<&Row>| row.and_then(|r| r.state.joints.iter().find_map(|j| j.buoy));
     let states: Vec<Option<Buoy>> = rows.iter().map(buoy).collect();
     out.notes.extend(buoy_notes(&states));
-    out.notes.extend(mooring.notes.clone());
+    out.notes.extend(mooring.notes.iter().map(|n| n.to_string()));
     if rows.iter().any(is(|r| !r.state.below_bottom.is_empty())) {
         out.note("warning: a segment above the spring buoy hangs below the bottom in some rows (it does not see it)");
     }

@@ -16,8 +16,8 @@ use windlass_base::units::Dim;
 use windlass_catenary::Law;
 use windlass_language::spec::{CommandSpec, Kind, ValueSpec};
 use windlass_model::{
-    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, FatigueSegment, LineModel, Placement,
-    Surroundings,
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, FatigueSegment, LineModel, Note,
+    Placement, Surroundings,
 };
 
 /// The class type.
@@ -46,7 +46,7 @@ struct Spring {
     springs: [Option<Law>; 2],
     devices: Devices,
     limit: Option<f64>,
-    notes: Vec<String>,
+    notes: Vec<Note>,
 }
 
 fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {

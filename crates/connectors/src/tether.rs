@@ -292,7 +292,7 @@ impl Element for Bar {
         let found = self.pull(at)?;
         let mut notes = Vec::new();
         if self.count > 1.0 {
-            notes.push(format!("the tension is of one of {} tethers", self.count));
+            notes.push(format!("the tension is of one of {} tethers", self.count).into());
         }
         if found.slack {
             notes.push("warning: it is slack".into());

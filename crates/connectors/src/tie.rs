@@ -10,7 +10,7 @@ use windlass_base::diagnostic::Outcome;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_model::{
-    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Guess, Response, Situation, Summary,
+    ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Guess, Note, Response, Situation, Summary,
     Surroundings,
 };
 
@@ -72,9 +72,9 @@ impl Element for Tie {
         let (_, distance) = Tie::chord(at)?;
         let (tension, _) = self.tension(distance);
         let ratio = tension / self.breaking;
-        let mut notes = Vec::new();
+        let mut notes: Vec<Note> = Vec::new();
         if tension == 0.0 {
-            notes.push("it is slack".to_string());
+            notes.push("it is slack".into());
         }
         if ratio > 1.0 {
             notes.push("warning: it is beyond its breaking tension".into());

@@ -9,7 +9,7 @@
 use super::zero_law::{Answer, ZeroLaw};
 use nalgebra::{Matrix3, Matrix6, Rotation3, SMatrix, UnitQuaternion, Vector3, Vector6};
 use windlass_base::geometry::Place;
-use windlass_model::{ClassError, Connection, Element, Guess, Response, Situation, SpringState, Summary};
+use windlass_model::{ClassError, Connection, Element, Guess, Note, Response, Situation, SpringState, Summary};
 
 type Wide = SMatrix<f64, 3, 12>;
 
@@ -238,7 +238,7 @@ impl Element for ZeroLength {
             })
             .collect();
         let ratio = springs.iter().filter_map(|s| s.allowable.map(|most| s.force.abs() / most)).reduce(f64::max);
-        let mut notes = answer.notes;
+        let mut notes: Vec<Note> = answer.notes.into_iter().map(Note::from).collect();
         if ratio.is_some_and(|r| r > 1.0) {
             notes.push("warning: a force is beyond its allowable".into());
         }

@@ -7,13 +7,13 @@ use super::element::{Connection, Element};
 use super::environment::Surroundings;
 use super::fatigue::FatigueSegment;
 use super::line::{LineModel, Placement};
+use super::note::in_eight_figures;
 use super::tether::TetherSection;
 use std::fmt::Debug;
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::table::Table;
-use windlass_base::units::eight_figures;
 use windlass_base::units::{Dim, ForceUnit, LengthUnit, UnitSystem};
 use windlass_base::values::Args;
 
@@ -124,10 +124,7 @@ impl ClassError {
 
     /// The sentence with its values in these units.
     pub fn text(&self, units: UnitSystem) -> String {
-        self.values.iter().fold(self.message.clone(), |text, (value, dim)| {
-            let told = format!("{} {}", eight_figures(dim.from_si(*value, units)), dim.label(units));
-            text.replacen("{}", told.trim_end(), 1)
-        })
+        in_eight_figures(&self.message, &self.values, units)
     }
 
     /// The same at a place.

@@ -11,6 +11,7 @@ use super::connector::Connector;
 use super::curve::Curve;
 use super::environment::Surroundings;
 use super::line::Placement;
+use super::note::Note;
 use nalgebra::{Matrix3, Matrix6};
 use std::any::Any;
 use std::fmt::Debug;
@@ -119,7 +120,7 @@ pub struct Summary {
     /// Deflections and forces of springs.
     pub springs: Vec<SpringState>,
     /// What a user should know; `warning: ` before what is dangerous.
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
 }
 
 /// What an element between a body and the ground exerts, where the place of its first end alone matters.

@@ -32,6 +32,7 @@ mod hull;
 mod line;
 mod load;
 mod names;
+mod note;
 mod prescribed;
 mod selector;
 mod tether;
@@ -58,6 +59,7 @@ pub use hull::{LinearHydrostatics, Member, Piece, Shape, WaveAction, box_panels}
 pub use line::{AbsentRow, Condition, Configuration, FoundLength, LineChange, LineLoads, LineModel, Placement};
 pub use load::{Fluid, LoadKind, Multipliers, PartLoad};
 pub use names::Thing;
+pub use note::Note;
 pub use prescribed::{GivenMotion, PathRow, Prescription, ResponseRow, Responses, Sinusoid};
 pub use selector::Selector;
 pub use tether::{TetherConstraint, TetherEnds, TetherHold, TetherSection, TetherUse};

@@ -2,6 +2,7 @@
 
 use super::class::ClassError;
 use super::element::Element;
+use super::note::Note;
 use windlass_base::geometry::Position;
 use windlass_base::table::Table;
 
@@ -84,7 +85,7 @@ pub struct LineLoads {
     /// How it was found: exactly, or from a table.
     pub solution: &'static str,
     /// What a user should know of it; `warning: ` before what is dangerous.
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
 }
 
 /// A line in one configuration, in its own vertical plane.
@@ -107,7 +108,7 @@ pub struct Configuration {
     /// Stretched length on the bottom (m).
     pub on_bottom: f64,
     /// What a user should know of it; `warning: ` before what is dangerous.
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
 }
 
 impl LineLoads {

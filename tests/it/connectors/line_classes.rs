@@ -405,7 +405,7 @@ fn aqwa_buoys_and_clumps_have_their_masses_and_do_not_know_the_surface() {
 #[test]
 fn a_line_that_sees_neither_bottom_nor_surface_says_when_it_crosses_them() {
     let got = loads("~L H_CAT 100 EXACT -LEN 4000 -WTPL 500", place([0.0, 0.0, 10.0], [100.0, 0.0, 5.0], false));
-    for text in ["below the sea bottom", "crosses the water surface"] {
+    for text in ["below the sea bottom", "above the water surface"] {
         assert!(got.notes.iter().any(|n| n.contains(text)), "{:?}", got.notes);
     }
 }

@@ -206,3 +206,39 @@ fn length_for_a_tension_is_the_nearest_of_all_that_give_it() {
     let text = heavy(1400.0, 150.0, "-L_HORIZONTAL 100");
     assert!(text.starts_with("189.7557"), "{text}");
 }
+
+#[test]
+fn hanging_line_says_where_and_how_far_it_passes_bottom_and_surface() {
+    // inextensible, 1000 m between ends of one height: s = S sinh(a)/a, sag S (cosh(a) - 1)/(2 a); with a = 1 1175.201 m and 271.540 m,
+    // so that its lowest point, halfway, is 71.54 m below the bottom at 190 m
+    let hang = |z: f64, options: &str| {
+        let (_, text) = run(&format!(
+            "&ENV -DEPTH 190\nMEDIT\n&DESCRIBE BODY A\n*P 0 0 {z}\n&DESCRIBE BODY B\n*Q 1000 0 {z}\n\
+             ~H H_CAT 100 EXACT -LEN 1175.2011936438 -WTPL 0.5 -EMOD 1E12 {options}\nCONNECTOR L ~H *P *Q\nEND\n&STATUS F_CONNECTOR"
+        ));
+        text
+    };
+    let text = hang(10.0, "");
+    assert!(text.contains("passes up to 71.54 m below the sea bottom, 500.0"), "{text}");
+    assert!(text.contains("passes up to 10.00 m above the water surface, 0.00 m beside its first end"), "{text}");
+    // ends in the surface do not cross it
+    let text = hang(0.0, "-FRICTION 0.5 -SLOPE 0.02 -DEPANCHOR 150");
+    assert!(text.contains("passes up to 81.54 m below the sea bottom"), "{text}");
+    assert!(!text.contains("above the water surface"), "{text}");
+    assert!(text.contains("it has no bottom: -FRICTION and -SLOPE do nothing"), "{text}");
+}
+
+#[test]
+fn hanging_line_to_an_anchor_goes_to_the_depth_of_its_class() {
+    // weightless and straight: 300 m beside and 400 m below, EA 0.7854E6 kN, 1 m longer than its 499 m
+    let (_, text) = run(
+        "&ENV -DEPTH 900\nMEDIT\n&DESCRIBE BODY A\n*P 0 0 0\n~H H_CAT 100 -LEN 499 -EMOD 1E5 -DEPANCHOR 400\nCONNECTOR L ~H *P -ANC 0 300\n\
+         END\n&STATUS F_CONNECTOR",
+    );
+    let line = text.lines().find(|l| l.trim_start().starts_with("L ")).unwrap();
+    let cells: Vec<f64> = line.split_whitespace().skip(3).map(|w| w.parse().unwrap()).collect();
+    let tension = std::f64::consts::FRAC_PI_4 * 1e6 / 499.0;
+    for (got, want) in [(cells[1], 0.6 * tension), (-cells[3], 0.8 * tension), (cells[4], tension)] {
+        assert!((got - want).abs() <= 0.006, "{got} is not {want}\n{text}");
+    }
+}

@@ -117,11 +117,17 @@ fn hostile_numbers_are_errors_and_never_nan() {
 }
 
 #[test]
-fn a_weightless_line_is_a_spring_or_has_no_definite_shape() {
+fn weightless_line_is_a_spring_that_only_pulls() {
     let spring = Segment { length: 100.0, weight: 0.0, ea: 1e6 };
     let got = spring.between(60.6, 80.8, None).unwrap();
     assert!((got.fairlead[0] - 6e3).abs() < 1e-6 && (got.fairlead[1] - 8e3).abs() < 1e-6, "{got:?}");
-    assert!(spring.between(30.0, 40.0, None).is_err());
+    for (x, z, bottom) in
+        [(30.0, 40.0, None), (0.0, 40.0, None), (0.0, 0.0, None), (30.0, 40.0, Some(Bottom { friction: 0.3 }))]
+    {
+        let slack = spring.between(x, z, bottom).unwrap();
+        assert_eq!((slack.fairlead, slack.anchor, slack.stiffness), ([0.0; 2], [0.0; 2], [[0.0; 2]; 2]), "{x} {z}");
+        assert_eq!(slack.regime.name(), "weightless_slack");
+    }
 }
 
 #[test]

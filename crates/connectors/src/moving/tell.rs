@@ -7,7 +7,7 @@ use super::modes;
 use super::warm::Warm;
 use std::f64::consts::PI;
 use windlass_line_dynamics::{Settings, Solver};
-use windlass_model::{ClassError, Guess, LineBooks, LineMode, LineNode, LineSide, Situation, Summary};
+use windlass_model::{ClassError, Guess, LineBooks, LineMode, LineNode, LineSide, Note, Situation, Summary};
 
 /// Longest elements at an end that is held, by sqrt(EI/T), of which nothing is said: moment there is then 3 % low.
 const COARSE: f64 = 0.5;
@@ -126,7 +126,8 @@ impl MovingLine {
     pub(super) fn tell_summary(&self, at: &Situation, committed: &[f64]) -> Result<Summary, ClassError> {
         let mut nodes = Vec::new();
         self.tell_along(at, committed, &mut nodes)?;
-        let mut told = Summary { solution: "rod", notes: self.base.description.notes.clone(), ..Summary::default() };
+        let notes = self.base.description.notes.iter().map(|n| n.as_str().into()).collect();
+        let mut told = Summary { solution: "rod", notes, ..Summary::default() };
         told.tension = nodes.first().map(|n| n.effective);
         let sides = nodes.iter().flat_map(|n| n.sides().map(move |s| (n.effective, s.segment)));
         let parts = &self.base.description.parts;
@@ -145,10 +146,10 @@ impl MovingLine {
                 told.notes.push("warning: the line is beyond its breaking tension".into());
             }
         }
-        told.notes.extend(self.coarse(&nodes));
-        told.notes.extend(self.stocky(&nodes));
+        told.notes.extend(self.coarse(&nodes).into_iter().map(Note::from));
+        told.notes.extend(self.stocky(&nodes).into_iter().map(Note::from));
         if at.step.is_none() {
-            told.notes.extend(self.told_of_friction(at).map(|text| format!("warning: {text}")));
+            told.notes.extend(self.told_of_friction(at).map(|text| format!("warning: {text}").into()));
         }
         let lies = |pair: &[LineNode]| pair.iter().all(|n| n.clearance <= 0.0);
         told.grounded = Some(nodes.windows(2).filter(|p| lies(p)).map(|p| p[1].arc - p[0].arc).sum());
