@@ -6,11 +6,12 @@ use crate::report::files::JobFolder;
 use crate::report::output::Output;
 use crate::session::{End, Session, read_all};
 use clap::Parser;
-use std::io::{BufWriter, IsTerminal, Write, stderr, stdin, stdout};
+use std::io::{BufWriter, ErrorKind, IsTerminal, Write, stderr, stdin, stdout};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock};
 use windlass_base::diagnostic::nearest;
+use windlass_base::printable::printable;
 use windlass_language::source::Text;
 
 /// What stands at the end of `--help`.
@@ -68,7 +69,7 @@ pub struct JobArgs {
     /// Folder for answers instead of ROOT.ans
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Let &FILE act outside of the job's own folder
+    /// Let the job write outside of its own folder, and &FILE act there
     #[arg(long)]
     pub allow_files: bool,
 }
@@ -163,9 +164,20 @@ pub fn run(cli: Cli) -> u8 {
     }
 }
 
+/// Prints what the command line draws by itself, the help or what is wrong with it; returns the exit code.
+pub fn say(message: &clap::Error) -> u8 {
+    match message.print().and_then(|()| stdout().flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            complain(&format!("standard output cannot be written: {error}"));
+            1
+        }
+        _ => u8::try_from(message.exit_code()).unwrap_or(USAGE),
+    }
+}
+
 /// A line on the message stream; nothing else can be done when it is gone.
 fn complain(text: &str) {
-    let _ = writeln!(stderr(), "windlass: {text}");
+    let _ = writeln!(stderr(), "windlass: {}", printable(text));
 }
 
 /// The job to run, of what stands on the command line.
@@ -237,6 +249,10 @@ fn run_job(cli: JobArgs) -> u8 {
     };
     let colour = stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty());
     let folder = JobFolder::new(root, cli.out.clone(), cli.allow_files);
+    if let Err(error) = folder.check() {
+        complain(&format!("{error}; {}", error.help().unwrap_or_default()));
+        return USAGE;
+    }
     // a person sees each line as it comes; a file or a pipe is written in large pieces
     let screen: Box<dyn Write + Send> =
         if stdout().is_terminal() { Box::new(stdout()) } else { Box::new(BufWriter::with_capacity(1 << 16, stdout())) };

@@ -4,5 +4,8 @@ use clap::Parser;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    ExitCode::from(windlass::cli::run(windlass::cli::Cli::parse()))
+    ExitCode::from(match windlass::cli::Cli::try_parse() {
+        Ok(cli) => windlass::cli::run(cli),
+        Err(message) => windlass::cli::say(&message),
+    })
 }

@@ -144,7 +144,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
 /// Writes a series, its list last: there is no list of files that are not there. Where one cannot be written those before it
 /// are taken away again.
 fn series(folder: &JobFolder, film: &Film, (title, name): (&str, &str), span: Span) -> Outcome<PathBuf> {
-    let mut written: Vec<PathBuf> = Vec::new();
+    let mut written: Vec<(String, PathBuf)> = Vec::new();
     let mut size = 0;
     for step in film::steps(film, title, name).chain(std::iter::once_with(|| film::series(film, name))) {
         size += step.text.len();
@@ -155,15 +155,15 @@ fn series(folder: &JobFolder, film: &Film, (title, name): (&str, &str), span: Sp
             folder.write(&step.name, step.text.as_bytes()).map_err(|e| super::file::refused(&e, span))
         };
         match done {
-            Ok(path) => written.push(path),
+            Ok(path) => written.push((step.name, path)),
             Err(error) => {
-                for path in &written {
+                for (name, _) in &written {
                     // what cannot be taken away is left; the error below is the one that counts
-                    let _ = std::fs::remove_file(path);
+                    let _ = folder.remove(name);
                 }
                 return Err(error);
             }
         }
     }
-    written.pop().ok_or_else(|| Diagnostic::error("there is no instant to write", span))
+    written.pop().map(|(_, path)| path).ok_or_else(|| Diagnostic::error("there is no instant to write", span))
 }

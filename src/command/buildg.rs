@@ -2,7 +2,7 @@
 //!
 //! Source: reference/solve.md, "Disposition menu". A file behind the option is ours.
 
-use super::device::readable;
+use super::device::{read_input, readable};
 use super::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
 use crate::report::readback::{self, ReadError};
@@ -60,10 +60,8 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let name = file.word().unwrap_or_default();
     let path = readable(job, name, file.span)?;
     let at = |e: std::io::Error| Diagnostic::error(format!("{}: {e}", path.display()), file.span);
-    if std::fs::metadata(&path).map_err(at)?.len() > LARGEST {
-        return Err(Diagnostic::error(format!("{} is larger than 256 MB", path.display()), file.span));
-    }
-    let text = std::fs::read_to_string(&path).map_err(at)?;
+    let text = String::from_utf8(read_input(job, &path, LARGEST).map_err(at)?)
+        .map_err(|e| Diagnostic::error(format!("{}: {e}", path.display()), file.span))?;
     open(job, brief, name, &text).map_err(|e| Diagnostic::error(format!("{name}: {e}"), file.span))?;
     Ok(Effect::Done)
 }

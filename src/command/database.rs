@@ -276,9 +276,11 @@ fn read(job: &Job, args: &Args) -> Outcome<(Span, Database)> {
             let names = std::iter::once(format!("{name}/Nemoh.cal")).chain(inner).chain(hull);
             nemoh::read(name, &files(job, names, span)?, body)
         }
-        "-CAPYTAINE" => capytaine::read(name, &bytes(&super::device::readable(job, name, span)?, name, span)?, body),
+        "-CAPYTAINE" => {
+            capytaine::read(name, &bytes(job, &super::device::readable(job, name, span)?, name, span)?, body)
+        }
         _ => {
-            let file = text(&super::device::readable(job, name, span)?, name, span)?;
+            let file = text(job, &super::device::readable(job, name, span)?, name, span)?;
             let lag = args.option_word("-PHASE") != Some("LEAD");
             let degrees = args.option_word("-ROTATION") != Some("RAD");
             rao::read(name, &file, &RaoConvention { lag, degrees, density, gravity, depth })
@@ -293,26 +295,22 @@ fn files(job: &Job, names: impl Iterator<Item = String>, span: Span) -> Outcome<
     for name in names {
         let path = found(job, &name);
         if path.is_file() {
-            list.push(text(&path, &name, span)?);
+            list.push(text(job, &path, &name, span)?);
         }
     }
     Ok(list)
 }
 
 /// A file as text; what is no UTF-8 is replaced, and then refused as no number where it matters.
-fn text(path: &Path, name: &str, span: Span) -> Outcome<SourceFile> {
-    let bytes = bytes(path, name, span)?;
+fn text(job: &Job, path: &Path, name: &str, span: Span) -> Outcome<SourceFile> {
+    let bytes = bytes(job, path, name, span)?;
     Ok(SourceFile { name: name.to_string(), text: String::from_utf8_lossy(&bytes).into_owned() })
 }
 
 /// The bytes of a file that is not too large.
-fn bytes(path: &Path, name: &str, span: Span) -> Outcome<Vec<u8>> {
+fn bytes(job: &Job, path: &Path, name: &str, span: Span) -> Outcome<Vec<u8>> {
     let unusable = |why: String| Diagnostic::error(format!("{name} cannot be used: {why}"), span);
-    let size = std::fs::metadata(path).map_err(|e| unusable(e.to_string()))?.len();
-    if size > LARGEST_FILE {
-        return Err(unusable(format!("it has more than {LARGEST_FILE} bytes")));
-    }
-    std::fs::read(path).map_err(|e| unusable(e.to_string()))
+    super::device::read_input(job, path, LARGEST_FILE).map_err(|e| unusable(e.to_string()))
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! `&DEVICE`: how the program behaves.
 
 use super::{Call, Command, Effect, Job};
+use crate::report::files::{open_regular, read_regular};
 use std::path::{Path, PathBuf};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
@@ -140,6 +141,24 @@ pub fn readable(job: &Job, name: &str, span: Span) -> Outcome<PathBuf> {
     if path.is_file() { Ok(path) } else { existing(job, name, span) }
 }
 
+/// Opens a file that is input: a regular one; what is outside of the script's folder comes into the log.
+///
+/// # Errors
+/// As [`open_regular`].
+pub fn open_input(job: &Job, path: &Path) -> std::io::Result<std::fs::File> {
+    job.output.folder.note_reading(path);
+    open_regular(path)
+}
+
+/// The bytes of a file that is input, as [`open_input`], and of at most so many bytes.
+///
+/// # Errors
+/// As [`read_regular`].
+pub fn read_input(job: &Job, path: &Path, largest: u64) -> std::io::Result<Vec<u8>> {
+    job.output.folder.note_reading(path);
+    read_regular(path, largest)
+}
+
 /// A file to be read: beside the job's root, or as written.
 ///
 /// # Errors
@@ -148,6 +167,10 @@ pub fn existing(job: &Job, name: &str, span: Span) -> Outcome<PathBuf> {
     let path = beside_root(job, name);
     if path.is_file() {
         return Ok(path);
+    }
+    if path.exists() {
+        let sort = if path.is_dir() { "a folder" } else { "not a regular file" };
+        return Err(Diagnostic::error(format!("{} is {sort}", path.display()), span));
     }
     let near = path
         .parent()

@@ -1,6 +1,6 @@
 //! `&INSERT`, `USE_MAC` and `&FILE`.
 
-use super::device::{existing, readable};
+use super::device::{existing, read_input, readable};
 use super::job::UserFile;
 use super::{Call, Command, Effect, Job, PLAIN};
 use crate::report::files::{FileError, Place, Side, lies_in};
@@ -32,13 +32,13 @@ static USE_MAC_SPEC: CommandSpec = CommandSpec {
 static FILE_SPEC: CommandSpec = CommandSpec {
     form: Form::Text,
     data: &[ValueSpec::new("ACTION", Kind::Choice(ACTIONS), "what to do")],
-    detail: "MKDIR A; RM A; MV A B; CP A B; ANS_DIRECTORY A (where answers go from now on); OPEN TYPE FILE, WRITE TYPE text, \
+    detail: "MKDIR A; RM A; MV A B; CP A B; ANS_DIRECTORY A (a folder where answers go from now on, made if it is not there); OPEN TYPE FILE, WRITE TYPE text, \
              CLOSE TYPE (writes the file, whole; a file still open when the job ends is written then); USE TYPE FILE (for \
              &F_READ). Names that are written to, here and in STORE, PLOT and LINES: a relative name, with folders or without, is \
              inside the job's own folder (ROOT.ans or --out DIR) and may not climb out of it; a name that begins with ./ or \
              ../ and an absolute name mean what they mean to the shell. In the job's folder an earlier file is kept as \
-             name.1; outside of it no file is overwritten, and RM, MV, CP and MKDIR need --allow-files, and so does a name that a link \
-             leads out of the folder. Folders are made by MKDIR only. The job's log and report and the files that are \
+             name.1. Outside of it, and where a link leads out of it, writing needs --allow-files; a record typed at the terminal, not in \
+             a loop or macro, may create a file or folder there after a question. No file outside is overwritten. The job's log and report and the files that are \
              open are neither removed nor moved. A relative name that USE reads is looked for in the job's folder first, \
              where a script's own files are, then beside the script and in the current directory; &INFO(FILE_EXISTS \
              name) looks in the same places.",
@@ -109,8 +109,7 @@ fn file(job: &mut Job, call: &Call) -> Outcome<Effect> {
             })?;
         }
         "ANS_DIRECTORY" => {
-            let path = job.output.folder.own(&first.text).map_err(at)?;
-            job.output.folder.folder = path;
+            job.output.folder.move_to(&first.text).map_err(at)?;
         }
         "OPEN" => {
             let name = second()?;
@@ -121,8 +120,10 @@ fn file(job: &mut Job, call: &Call) -> Outcome<Effect> {
         _ => {
             let name = second()?;
             let path = readable(job, &name.text, name.span)?;
-            let text = std::fs::read_to_string(&path)
+            let bytes = read_input(job, &path, LARGEST as u64)
                 .map_err(|e| Diagnostic::error(format!("{}: {e}", path.display()), name.span))?;
+            let text = String::from_utf8(bytes)
+                .map_err(|e| Diagnostic::error(format!("{}: it is no text: {e}", path.display()), name.span))?;
             let lines = text.lines().rev().map(str::to_string).collect();
             write_unclosed(job, first)?;
             job.user_files.insert(first.text.to_ascii_uppercase(), UserFile::Reading { path, lines });
@@ -161,8 +162,7 @@ pub fn refused(error: &FileError, span: Span) -> Box<Diagnostic> {
 fn open(job: &mut Job, kind: &Word, name: &Word) -> Outcome<()> {
     write_unclosed(job, kind)?;
     let place = job.output.folder.place(&name.text).map_err(|e| refused(&e, name.span))?;
-    let twin = job.user_files.iter().find(|(_, f)| matches!(f, UserFile::Writing { place: p, .. } if *p == place));
-    if let Some((other, _)) = twin {
+    if let Some(other) = job.user_files.writing_at(place.path()) {
         let text = format!("{} is open already, as type {other}", place.path().display());
         return Err(Diagnostic::error(text, name.span));
     }
@@ -177,7 +177,7 @@ fn write_unclosed(job: &mut Job, kind: &Word) -> Outcome<()> {
     if let Some(UserFile::Writing { place, text, opened }) = job.user_files.get(&key) {
         let note = written_unclosed(&key, place, text, *opened)?;
         job.notices.push(*note);
-        job.user_files.shift_remove(&key);
+        job.user_files.remove(&key);
     }
     Ok(())
 }
@@ -191,7 +191,8 @@ fn written_unclosed(kind: &str, place: &Place, text: &str, opened: Span) -> Outc
 
 /// At the end of the job: writes the files that were opened and never closed. Returns what is to be said of each.
 pub fn write_open_files(job: &mut Job) -> Vec<Box<Diagnostic>> {
-    std::mem::take(&mut job.user_files)
+    let files = job.user_files.take();
+    files
         .iter()
         .filter_map(|(kind, file)| match file {
             UserFile::Writing { place, text, opened } => {
@@ -230,6 +231,6 @@ fn close(job: &mut Job, name: &Word) -> Outcome<()> {
         Some(UserFile::Reading { .. }) => {}
         None => return Err(Diagnostic::error(format!("no file of type {} is open", name.text), name.span)),
     }
-    job.user_files.shift_remove(&key);
+    job.user_files.remove(&key);
     Ok(())
 }

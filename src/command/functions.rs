@@ -57,7 +57,7 @@ impl World for Job {
     fn function(&mut self, name: &str, words: &[Word], span: Span) -> Outcome<String> {
         if name == "GET" {
             let prompt: Vec<&str> = words.iter().map(|w| w.text.as_ref()).collect();
-            let ask = self.ask.as_mut().ok_or_else(|| Diagnostic::error("&GET needs a terminal to ask at", span))?;
+            let ask = self.ask.as_ref().ok_or_else(|| Diagnostic::error("&GET needs a terminal to ask at", span))?;
             return ask(&prompt.join(" ")).ok_or_else(|| Diagnostic::error("&GET got no answer", span));
         }
         if name == "F_READ" {

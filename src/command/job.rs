@@ -6,11 +6,11 @@ use super::frequency::Found;
 use super::pgen::Planes;
 use super::verdict::Verdict;
 use crate::report::disposition::Disposition;
-use crate::report::files::Place;
+use crate::report::files::{Place, Question};
 use crate::report::output::Output;
 use crate::report::page::PageHead;
-use indexmap::IndexMap;
-use std::path::PathBuf;
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
@@ -182,8 +182,62 @@ pub enum UserFile {
     },
 }
 
-/// Asks the user at the terminal; `None` at the end of input.
-pub type Ask = Box<dyn FnMut(&str) -> Option<String> + Send>;
+/// Files of `&FILE`, by their type.
+#[derive(Debug, Default)]
+pub struct UserFiles {
+    /// With the number that says in which order they were opened.
+    by_type: HashMap<String, (u64, UserFile)>,
+    /// The types of those being written, by their places.
+    types: HashMap<PathBuf, String>,
+    opened: u64,
+}
+
+impl UserFiles {
+    /// The file of a type.
+    pub fn get(&self, kind: &str) -> Option<&UserFile> {
+        self.by_type.get(kind).map(|(_, file)| file)
+    }
+
+    /// The file of a type.
+    pub fn get_mut(&mut self, kind: &str) -> Option<&mut UserFile> {
+        self.by_type.get_mut(kind).map(|(_, file)| file)
+    }
+
+    /// Gives a type its file.
+    pub fn insert(&mut self, kind: String, file: UserFile) {
+        self.remove(&kind);
+        if let UserFile::Writing { place, .. } = &file {
+            self.types.insert(place.path().to_path_buf(), kind.clone());
+        }
+        self.opened += 1;
+        self.by_type.insert(kind, (self.opened, file));
+    }
+
+    /// Takes away the file of a type.
+    pub fn remove(&mut self, kind: &str) {
+        if let Some((_, UserFile::Writing { place, .. })) = self.by_type.remove(kind) {
+            self.types.remove(place.path());
+        }
+    }
+
+    /// The type of the file that is being written at a place.
+    pub fn writing_at(&self, path: &Path) -> Option<&str> {
+        self.types.get(path).map(String::as_str)
+    }
+
+    /// All files with their types.
+    pub fn iter(&self) -> impl Iterator<Item = (&str, &UserFile)> {
+        self.by_type.iter().map(|(kind, (_, file))| (kind.as_str(), file))
+    }
+
+    /// Takes away all files, in the order they were opened.
+    pub fn take(&mut self) -> Vec<(String, UserFile)> {
+        self.types.clear();
+        let mut all: Vec<_> = self.by_type.drain().collect();
+        all.sort_by_key(|(_, (order, _))| *order);
+        all.into_iter().map(|(kind, (_, file))| (kind, file)).collect()
+    }
+}
 
 /// One running job.
 pub struct Job {
@@ -210,13 +264,13 @@ pub struct Job {
     /// ASSEMBLY records of an open INMODEL, waiting for their connectors.
     pub deferred_assemblies: Vec<Args>,
     /// Files of `&FILE`.
-    pub user_files: IndexMap<String, UserFile>,
+    pub user_files: UserFiles,
     /// Variables that `&F_READ` sets.
     pub assignments: Vec<(String, String)>,
     /// Processor time at the last `&DCPTIME`.
     pub clock: Instant,
     /// How `&GET` asks; absent without a terminal.
-    pub ask: Option<Ask>,
+    pub ask: Option<Question>,
     /// Names longer than MOSES takes have been remarked on.
     pub long_name_said: bool,
     /// What `&EQUI` was last given.
@@ -250,7 +304,7 @@ impl Job {
             last_severity: None,
             deferred: Vec::new(),
             deferred_assemblies: Vec::new(),
-            user_files: IndexMap::new(),
+            user_files: UserFiles::default(),
             assignments: Vec::new(),
             clock: Instant::now(),
             ask: None,

@@ -3,6 +3,7 @@
 mod input;
 
 use super::{Call, Command, Effect, Job, file};
+use crate::report::csv::guarded;
 use crate::report::files::{Growing, Place};
 use crate::report::format::number_in_full;
 use crate::report::page;
@@ -59,13 +60,14 @@ fn lines(job: &mut Job, call: &Call) -> Outcome<Effect> {
         }
         made
     };
-    let mut input = Input::open(&path).map_err(unusable)?;
+    let opened = super::device::open_input(job, &path).map_err(|e| InputError::Unreadable(e.to_string()));
+    let mut input = opened.and_then(Input::open).map_err(unusable)?;
     let out = file::with_csv_ending(args.word(1).unwrap_or_default());
     let refused = |error| file::refused(&error, args.place(1));
     let place = job.output.folder.place(&out).map_err(refused)?;
     let lost = |error: csv::Error| Diagnostic::error(format!("{}: {error}", place.path().display()), args.place(1));
     let mut writer = csv::Writer::from_writer(place.begin().map_err(refused)?);
-    writer.write_record(heads(&input.heads)).map_err(lost)?;
+    writer.write_record(heads(&input.heads).iter().map(|head| guarded(head).into_owned())).map_err(lost)?;
     let width = input.heads.len();
     let mut tally = Tally::default();
     while let Some(row) = input.next().map_err(unusable)? {
@@ -119,7 +121,11 @@ fn write_row(
     solved: &Result<EndForces, String>,
 ) -> csv::Result<()> {
     for at in 0..width {
-        writer.write_field(row.cells.get(at).unwrap_or_default())?;
+        let cell = row.cells.get(at).unwrap_or_default();
+        match std::str::from_utf8(cell) {
+            Ok(text) => writer.write_field(guarded(text).as_bytes())?,
+            Err(_) => writer.write_field(cell)?,
+        }
     }
     let added = match solved {
         Ok(forces) => {

@@ -1,7 +1,7 @@
 //! CSV files of rows of numbers.
 
 use super::Job;
-use super::device::existing;
+use super::device::{existing, read_input};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_language::source::LARGEST_FILE;
@@ -22,17 +22,13 @@ pub(super) fn rows<const N: usize>(
     let path = existing(job, name, span)?;
     let refused =
         |why: String| Diagnostic::error(format!("{name} cannot be used: {why}"), span).help(format!("a row is {what}"));
-    let size = std::fs::metadata(&path).map_err(|e| refused(e.to_string()))?.len();
-    if size > LARGEST_FILE {
-        return Err(refused(format!("it has more than {LARGEST_FILE} bytes")));
-    }
+    let bytes = read_input(job, &path, LARGEST_FILE).map_err(|e| refused(e.to_string()))?;
     let mut reader = csv::ReaderBuilder::new()
         .has_headers(false)
         .flexible(true)
         .comment(Some(b'#'))
         .trim(csv::Trim::All)
-        .from_path(&path)
-        .map_err(|e| refused(e.to_string()))?;
+        .from_reader(bytes.as_slice());
     let mut found = Vec::new();
     for (index, record) in reader.records().enumerate() {
         let record = record.map_err(|e| refused(e.to_string()))?;

@@ -215,11 +215,7 @@ fn mesh_of(job: &Job, args: &Args, name: &str, span: Span) -> Outcome<Vec<Vec<Po
         }
     };
     let unusable = |why: String| Diagnostic::error(format!("{name} cannot be used: {why}"), span);
-    let size = std::fs::metadata(&path).map_err(|e| unusable(e.to_string()))?.len();
-    if size > LARGEST_FILE {
-        return Err(unusable(format!("it has more than {LARGEST_FILE} bytes")));
-    }
-    let bytes = std::fs::read(&path).map_err(|e| unusable(e.to_string()))?;
+    let bytes = super::device::read_input(job, &path, LARGEST_FILE).map_err(|e| unusable(e.to_string()))?;
     let panels = read_mesh(kind, &bytes).map_err(|e| unusable(e.to_string()))?.panels;
     if panels.is_empty() { Err(unusable("it has no panels".into())) } else { Ok(panels) }
 }

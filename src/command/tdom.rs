@@ -135,12 +135,21 @@ fn usual(model: &Model) -> Method {
     }
 }
 
+/// Most steps of a run: a million a second, which only a single spring reaches, would take a third of a year.
+const MOST_STEPS: f64 = 1e13;
+
 /// How a record wants its run to go.
 fn settings(job: &Job, args: &Args) -> Outcome<Settings> {
     let Some(window) = job.model.environment.time else {
         return Err(Diagnostic::error("the environment has no -TIME: how long, and with which step", args.span)
             .help("&ENV NAME -TIME TOBSERV DELTA_TIME"));
     };
+    let steps = (window.observed / window.step).ceil();
+    if steps > MOST_STEPS {
+        let text = format!("-TIME asks for {steps:.3e} steps; at most {MOST_STEPS:.0e} are taken");
+        return Err(Diagnostic::error(text, args.span)
+            .help("&ENV NAME -TIME TOBSERV DELTA_TIME: a longer step, or a shorter time"));
+    }
     let ramp = job.model.environment.ramp.unwrap_or(job.model.defaults.ramp);
     if ramp > 0.0 && window.step > ramp {
         let shown = |time: f64| Dim::Time.from_si(time, job.units);

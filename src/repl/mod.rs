@@ -2,6 +2,7 @@
 
 mod assist;
 
+use crate::report::files::Question;
 use crate::session::{End, Session};
 use assist::{Assistant, Known};
 use rustyline::config::Configurer;
@@ -14,6 +15,7 @@ use rustyline::{
 use std::io::{BufRead, Write};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
+use windlass_base::printable::printable;
 use windlass_language::record::LONGEST_RECORD;
 use windlass_language::source::Text;
 use windlass_language::token;
@@ -38,7 +40,9 @@ pub fn run(session: &mut Session, terminal: bool) {
     }
     let line = Arc::new(Mutex::new(line));
     let asked = Arc::clone(&line);
-    session.job.ask = Some(Box::new(move |prompt: &str| answer(&asked, prompt)));
+    let question: Question = Arc::new(move |prompt: &str| answer(&asked, &printable(prompt)));
+    session.job.output.folder.question = terminal.then(|| Arc::clone(&question));
+    session.job.ask = Some(question);
     if terminal {
         session.job.say("windlass: &HELP lists the commands, Tab completes, Ctrl-D leaves");
     }

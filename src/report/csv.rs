@@ -1,9 +1,11 @@
-//! Tables as CSV: a header of the column names with units, then numbers with full precision.
+//! Tables as CSV: a header of the column names with units, then numbers with full precision. Text that a spreadsheet would take for a
+//! formula gets an apostrophe in front.
 
 use super::columns::long_name;
 use super::format;
-use windlass_base::table::{Column, Table};
-use windlass_base::units::UnitSystem;
+use std::borrow::Cow;
+use windlass_base::table::{Cell, Column, Table};
+use windlass_base::units::{Dim, UnitSystem};
 
 /// The bytes of the file.
 ///
@@ -11,16 +13,30 @@ use windlass_base::units::UnitSystem;
 /// What the CSV writer reports; writing to memory does not fail otherwise.
 pub fn bytes(table: &Table, units: UnitSystem) -> Result<Vec<u8>, csv::Error> {
     let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record(heads(table, units))?;
+    writer.write_record(heads(table, units).iter().map(|head| guarded(head).into_owned()))?;
     for row in 0..table.rows() {
         writer.write_record(
-            table
-                .columns
-                .iter()
-                .map(|c| c.cells.get(row).map_or(String::new(), |cell| format::full(cell, c.dim, units))),
+            table.columns.iter().map(|c| c.cells.get(row).map_or(String::new(), |cell| written(cell, c.dim, units))),
         )?;
     }
     writer.into_inner().map_err(|e| csv::Error::from(std::io::Error::other(e.to_string())))
+}
+
+fn written(cell: &Cell, dim: Dim, units: UnitSystem) -> String {
+    let text = format::full(cell, dim, units);
+    if matches!(cell, Cell::Text(_)) { guarded(&text).into_owned() } else { text }
+}
+
+/// Text of a cell so that no spreadsheet takes it for a formula: an apostrophe goes before `=`, `+`, `-`, `@`, a tab or a carriage
+/// return, unless the text is a number.
+pub fn guarded(text: &str) -> Cow<'_, str> {
+    let formula = text.starts_with(['=', '+', '@', '\t', '\r']) || (text.starts_with('-') && text.len() > 1);
+    if formula && text.trim().parse::<f64>().is_err() { Cow::Owned(format!("'{text}")) } else { Cow::Borrowed(text) }
+}
+
+/// Text of a cell as it was before it was [`guarded`].
+pub fn unguarded(text: &str) -> &str {
+    text.strip_prefix('\'').filter(|bare| guarded(bare) != *bare).unwrap_or(text)
 }
 
 /// The heads, no two alike: a name that several columns have goes with its group, and if that does not tell them
@@ -44,8 +60,7 @@ pub(super) fn heads(table: &Table, units: UnitSystem) -> Vec<String> {
 mod tests {
     use super::*;
     use proptest::prelude::*;
-    use windlass_base::table::{Cell, Digits};
-    use windlass_base::units::Dim;
+    use windlass_base::table::Digits;
 
     #[test]
     fn heads_have_units_and_numbers_read_back_exactly() {
@@ -59,6 +74,41 @@ mod tests {
         table.push(vec![Cell::Missing, "c".into()]).unwrap();
         let text = String::from_utf8(bytes(&table, UnitSystem::SI).unwrap()).unwrap();
         assert_eq!(text, "X (m),\"State, now\"\n0.3333333333333333,\"a,b\"\n,c\n");
+    }
+
+    #[test]
+    fn text_that_a_spreadsheet_would_run_gets_an_apostrophe_and_numbers_do_not() {
+        let mut table = Table::new("t").column("", "=HYPERLINK(1)", Dim::None, Digits::Usual).column(
+            "",
+            "X",
+            Dim::None,
+            Digits::Usual,
+        );
+        let texts = ["=cmd|' /C calc'!A0", "+1+1", "@SUM(A1)", "-2+3", "-", "-5", "+5", "-1e3", "x=1", "\t=1", "\r=1"];
+        for text in texts {
+            table.push(vec![text.into(), Cell::Number(-1.5)]).unwrap();
+        }
+        let text = bytes(&table, UnitSystem::SI).unwrap();
+        let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(text.as_slice());
+        let first: Vec<String> = reader.records().map(|r| r.unwrap()[0].to_string()).collect();
+        let want = [
+            "'=HYPERLINK(1)",
+            "'=cmd|' /C calc'!A0",
+            "'+1+1",
+            "'@SUM(A1)",
+            "'-2+3",
+            "-",
+            "-5",
+            "+5",
+            "-1e3",
+            "x=1",
+            "'\t=1",
+            "'\r=1",
+        ];
+        assert_eq!(first, want);
+        assert!(String::from_utf8(text).unwrap().lines().nth(1).unwrap().ends_with(",-1.5"));
+        assert!(want.iter().skip(1).zip(texts).all(|(written, text)| unguarded(written) == text));
+        assert_eq!(unguarded("'quoted'"), "'quoted'");
     }
 
     #[test]
@@ -88,7 +138,9 @@ mod tests {
                 let same = number.to_bits() == x.to_bits() || (x.is_nan() && number.is_nan()) || (*x == 0.0 && number == 0.0);
                 prop_assert!(same, "{x:e} came back as {number:e}");
                 prop_assert_eq!(record[1].parse::<i64>().unwrap(), *n);
-                prop_assert_eq!(&record[2], text);
+                prop_assert!(!record[2].starts_with(['=', '+', '@']) || record[2].trim().parse::<f64>().is_ok());
+                let apostrophe = format!("'{text}");
+                prop_assert!(&record[2] == text || record[2] == *apostrophe);
             }
         }
     }

@@ -1,8 +1,9 @@
 //! The channels of a job: the screen, the log, and the report file.
 
-use super::files::{FileError, JobFolder};
-use std::io::Write;
+use super::files::{FileError, JobFolder, is_unlinked};
+use std::io::{ErrorKind, Write};
 use std::path::PathBuf;
+use windlass_base::printable::printable;
 
 /// Name of the log: type and serial, as MOSES names its answers.
 const LOG: &str = "LOG00001.TXT";
@@ -12,7 +13,9 @@ const REPORT: &str = "OUT00001.TXT";
 /// Where everything a job says goes.
 ///
 /// What goes to the screen goes to the log too; the log also holds the records read. The log and the report file are
-/// made when first written to, and everything is handed to the system at once: a job that is killed keeps them.
+/// made when first written to, and everything is handed to the system at once: a job that is killed keeps them. Text of records,
+/// files and names passes here, and what a terminal would act on is spelled ([`printable`]). What cannot be written is kept as a
+/// [`Trouble`], for the session to report.
 pub struct Output {
     /// The job's folder.
     pub folder: JobFolder,
@@ -27,6 +30,17 @@ pub struct Output {
     log: Option<std::fs::File>,
     report: Option<(PathBuf, std::fs::File)>,
     log_failed: bool,
+    screen_failed: bool,
+    troubles: Vec<Trouble>,
+}
+
+/// Output that was lost.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Trouble {
+    /// What was lost, and why.
+    pub text: String,
+    /// What to do about it.
+    pub help: Option<&'static str>,
 }
 
 impl Output {
@@ -47,20 +61,26 @@ impl Output {
             log: None,
             report: None,
             log_failed: false,
+            screen_failed: false,
+            troubles: Vec::new(),
         }
     }
 
     /// Writes text to the screen and the log; a newline is added where it lacks one.
     pub fn text(&mut self, text: &str) {
-        put(&mut self.screen, text);
-        self.log(text);
+        let text = printable(text);
+        let written = put(&mut self.screen, &text);
+        self.lose_screen(written);
+        self.log(&text);
     }
 
-    /// Writes a message: in colour (if allowed) to the message stream, plain to the log.
+    /// Writes a message: in colour (if allowed) to the message stream, plain to the log. The text of the user in the coloured one must be
+    /// [`printable`] already.
     pub fn message(&mut self, coloured: &str, plain: &str) {
-        // a screen that is gone (a closed pipe) must not stop the job
-        let _ = self.screen.flush();
-        put(&mut self.messages, if self.colour { coloured } else { plain });
+        self.flush();
+        // a message that cannot be written has nowhere else to go but the log
+        let _ =
+            if self.colour { put(&mut self.messages, coloured) } else { put(&mut self.messages, &printable(plain)) };
         let _ = self.messages.flush();
         self.log(plain);
     }
@@ -73,20 +93,50 @@ impl Output {
         if self.log.is_none() {
             match self.folder.create(LOG) {
                 Ok(file) => self.log = Some(file),
-                Err(error) => return self.lose_log(&format!("no log is kept: {error}")),
+                Err(error) => {
+                    let help = error.help().or(Some("--out DIR names another folder for answers"));
+                    return self.lose_log(format!("no log is kept: {error}"), help);
+                }
             }
         }
         if let Some(log) = &mut self.log
-            && let Err(error) = append(log, text)
+            && let Err(error) = append(log, &printable(text))
         {
-            self.lose_log(&format!("the log ends here: {error}"));
+            self.lose_log(format!("the log ends here: {error}"), None);
         }
     }
 
     /// Goes on without a log, and says so once.
-    fn lose_log(&mut self, why: &str) {
+    fn lose_log(&mut self, text: String, help: Option<&'static str>) {
         self.log_failed = true;
-        put(&mut self.messages, &format!("warning: {why}"));
+        self.troubles.push(Trouble { text, help });
+    }
+
+    /// Goes on without a screen, and says so once. A pipe that nobody reads any more is no trouble.
+    fn lose_screen(&mut self, written: std::io::Result<()>) {
+        if let Err(error) = written
+            && error.kind() != ErrorKind::BrokenPipe
+            && !self.screen_failed
+        {
+            self.screen_failed = true;
+            self.troubles.push(Trouble { text: format!("standard output cannot be written: {error}"), help: None });
+        }
+    }
+
+    /// What was lost since this was last asked.
+    pub fn troubles(&mut self) -> Vec<Trouble> {
+        std::mem::take(&mut self.troubles)
+    }
+
+    /// At the end of a job: sees that its files are still there.
+    pub fn check_files(&mut self) {
+        let log = self.log.take().map(|file| (self.folder.folder.join(LOG), file));
+        let deleted = |(path, file): (PathBuf, std::fs::File)| is_unlinked(&file).then_some(path);
+        for path in log.into_iter().chain(self.report.take()).filter_map(deleted) {
+            self.log_failed |= path.ends_with(LOG);
+            let text = format!("{} was deleted while the job ran", path.display());
+            self.troubles.push(Trouble { text, help: None });
+        }
     }
 
     /// Writes text to the report file `OUT00001.TXT`.
@@ -99,14 +149,17 @@ impl Output {
             self.report = Some((self.folder.folder.join(REPORT), file));
         }
         match &mut self.report {
-            Some((path, file)) => append(file, text).map_err(|source| FileError::System { path: path.clone(), source }),
+            Some((path, file)) => {
+                append(file, &printable(text)).map_err(|source| FileError::System { path: path.clone(), source })
+            }
             None => Ok(()),
         }
     }
 
     /// Empties the buffer of the screen; the files have none.
     pub fn flush(&mut self) {
-        let _ = self.screen.flush();
+        let written = self.screen.flush();
+        self.lose_screen(written);
     }
 }
 
@@ -115,12 +168,10 @@ fn append(file: &mut std::fs::File, text: &str) -> std::io::Result<()> {
     if text.ends_with('\n') { file.write_all(text.as_bytes()) } else { file.write_all(format!("{text}\n").as_bytes()) }
 }
 
-/// Writes text and ends its last line; a stream that refuses loses it.
-fn put(to: &mut dyn Write, text: &str) {
-    let _ = to.write_all(text.as_bytes());
-    if !text.ends_with('\n') {
-        let _ = to.write_all(b"\n");
-    }
+/// Writes text and ends its last line.
+fn put(to: &mut dyn Write, text: &str) -> std::io::Result<()> {
+    to.write_all(text.as_bytes())?;
+    if text.ends_with('\n') { Ok(()) } else { to.write_all(b"\n") }
 }
 
 #[cfg(test)]
@@ -151,5 +202,6 @@ mod tests {
         let mut out = output(dir.path());
         out.log("lost");
         assert!(out.log_failed && out.hard("refused").is_err());
+        assert!(out.troubles().iter().any(|t| t.text.contains("no log is kept")));
     }
 }

@@ -4,6 +4,7 @@
 //! `&BUILDG -CSV` a line of heads and rows. A head that ends in a unit in parentheses, as STORE writes it, gives its column
 //! that dimension, whatever units the user has now.
 
+use super::csv::unguarded;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::{Dim, ForceUnit, LengthUnit, UnitSystem};
 
@@ -102,7 +103,7 @@ impl Made {
         }
         let mut made = Made { table: Table::new(title), units: Vec::new() };
         for (index, text) in heads.iter().enumerate() {
-            let (name, dim, units) = head(text.trim());
+            let (name, dim, units) = head(unguarded(text.trim()));
             let name = if name.is_empty() { format!("Column {}", index + 1) } else { name };
             made.table = made.table.column("", &name, dim, if dim == Dim::None { SIX } else { Digits::Usual });
             made.units.push(units);
@@ -126,7 +127,7 @@ impl Made {
                     Cell::Number(si)
                 }
                 None if word.is_empty() => Cell::Missing,
-                None => Cell::Text(word.into()),
+                None => Cell::Text(unguarded(word).into()),
             };
             column.cells.push(cell);
         }

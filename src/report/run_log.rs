@@ -4,6 +4,7 @@
 //! `S` a snapshot), the number of bytes, the bytes, and their checksum (FNV-1a, 64 bits). Numbers are little-endian. What stands
 //! behind the last whole block was being written when the program ended, and does not count.
 
+use super::files::is_unlinked;
 use std::fs::File;
 use std::io::{BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::PathBuf;
@@ -45,6 +46,9 @@ pub enum RunLogError {
     /// Not such a file.
     #[error("it is no file of a run of this program")]
     Other,
+    /// A time or a motion that is no finite number.
+    #[error("it is damaged: it holds a time or a motion that is not finite")]
+    NotFinite,
     /// A file without a whole snapshot up to the time.
     #[error("it holds no snapshot at or before that time")]
     NoSnapshot,
@@ -83,6 +87,12 @@ impl RunLog {
         format!("{}: {error}", self.path.display())
     }
 
+    /// Sees that nobody has deleted the file: what is written to it would be lost.
+    fn still_there(&self) -> Result<(), String> {
+        let deleted = || format!("{} was deleted while the run was written to it", self.path.display());
+        if is_unlinked(self.file.get_ref()) { Err(deleted()) } else { Ok(()) }
+    }
+
     fn block(&mut self, kind: u8, bytes: &[u8]) -> std::io::Result<()> {
         self.file.write_all(&[kind])?;
         self.file.write_all(&(bytes.len() as u64).to_le_bytes())?;
@@ -99,11 +109,13 @@ impl Watcher for RunLog {
 
     fn snapshot(&mut self, snapshot: &Snapshot) -> Result<(), String> {
         let bytes = snapshot.bytes();
-        self.block(b'S', &bytes).and_then(|()| self.file.flush()).map_err(|e| self.said(&e))
+        self.block(b'S', &bytes).and_then(|()| self.file.flush()).map_err(|e| self.said(&e))?;
+        self.still_there()
     }
 
     fn finish(&mut self) -> Result<(), String> {
-        self.file.flush().map_err(|e| self.said(&e))
+        self.file.flush().map_err(|e| self.said(&e))?;
+        self.still_there()
     }
 }
 
@@ -128,10 +140,16 @@ pub fn read(file: &mut File, time: f64) -> Result<Kept, RunLogError> {
     while let Some((kind, block, next)) = block(&bytes, at) {
         match kind {
             b'R' if block.len() == width.saturating_mul(8) => {
+                if !block.first_chunk::<8>().is_some_and(|b| f64::from_le_bytes(*b).is_finite()) {
+                    return Err(RunLogError::NotFinite);
+                }
                 rows.extend(block.chunks_exact(8).filter_map(|b| b.first_chunk::<8>()).map(|b| f64::from_le_bytes(*b)));
             }
             b'S' => {
                 let snapshot = Snapshot::read(block).ok_or(RunLogError::Other)?;
+                if !is_finite(&snapshot) {
+                    return Err(RunLogError::NotFinite);
+                }
                 if snapshot.time > time * (1.0 + 1e-12) {
                     break;
                 }
@@ -146,6 +164,15 @@ pub fn read(file: &mut File, time: f64) -> Result<Kept, RunLogError> {
     Ok(Kept { fingerprint, width, rows, snapshot, end })
 }
 
+/// Whether a run can go on from here: its time and what moves.
+fn is_finite(snapshot: &Snapshot) -> bool {
+    let moves = snapshot.motions.iter().flat_map(|m| {
+        let pose = m.pose.origin.iter().chain(m.pose.axes.iter());
+        pose.chain(m.velocity.iter()).chain(m.acceleration.iter()).chain(m.auxiliary.iter()).chain(m.jerk.iter())
+    });
+    std::iter::once(&snapshot.time).chain(moves).all(|v| v.is_finite())
+}
+
 /// A whole block: what it is, its bytes, where the next one begins.
 fn block(bytes: &[u8], at: usize) -> Option<(u8, &[u8], usize)> {
     let kind = *bytes.get(at)?;
@@ -154,4 +181,53 @@ fn block(bytes: &[u8], at: usize) -> Option<(u8, &[u8], usize)> {
     let block = bytes.get(at + 9..end)?;
     let sum = u64::from_le_bytes(*bytes.get(end..)?.first_chunk::<8>()?);
     (sum == checksum(block)).then_some((kind, block, end + 8))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn begun(folder: &std::path::Path) -> (RunLog, PathBuf) {
+        let path = folder.join("TDOM.run");
+        let file = File::options().read(true).write(true).create_new(true).open(&path).unwrap();
+        (RunLog::begin(file, path.clone(), 1, 2).unwrap(), path)
+    }
+
+    fn at(time: f64) -> Snapshot {
+        Snapshot { time, ..Snapshot::default() }
+    }
+
+    fn kept(path: &std::path::Path) -> Result<Kept, RunLogError> {
+        read(&mut File::open(path).unwrap(), f64::INFINITY)
+    }
+
+    #[test]
+    fn a_run_file_with_a_time_that_is_no_number_is_refused() {
+        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            let folder = tempfile::tempdir().unwrap();
+            let (mut log, path) = begun(folder.path());
+            log.row(&[0.0, f64::NAN]).unwrap();
+            log.snapshot(&at(1.5)).unwrap();
+            assert_eq!(kept(&path).map(|k| (k.snapshot.time, k.rows.len())), Ok((1.5, 2)));
+            log.snapshot(&at(bad)).unwrap();
+            assert_eq!(kept(&path), Err(RunLogError::NotFinite), "snapshot at {bad}");
+            let folder = tempfile::tempdir().unwrap();
+            let (mut log, path) = begun(folder.path());
+            log.row(&[bad, 0.0]).unwrap();
+            log.snapshot(&at(1.0)).unwrap();
+            assert_eq!(kept(&path), Err(RunLogError::NotFinite), "row at {bad}");
+        }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_run_file_deleted_under_way_ends_the_run() {
+        let folder = tempfile::tempdir().unwrap();
+        let (mut log, path) = begun(folder.path());
+        log.snapshot(&at(1.0)).unwrap();
+        std::fs::remove_file(&path).unwrap();
+        for done in [log.snapshot(&at(2.0)), log.finish()] {
+            assert!(done.unwrap_err().contains("TDOM.run was deleted"));
+        }
+    }
 }

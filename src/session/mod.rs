@@ -178,6 +178,9 @@ impl Session {
         for said in command::write_open_files(&mut self.job) {
             self.report(*said);
         }
+        self.job.output.flush();
+        self.job.output.check_files();
+        self.report_lost_output();
     }
 
     /// Prints a message, counts it, and remembers how serious it was.
@@ -197,6 +200,15 @@ impl Session {
         }
     }
 
+    /// Output that could not be written is an error: the exit code tells of it.
+    fn report_lost_output(&mut self) {
+        for trouble in self.job.output.troubles() {
+            let mut error = Diagnostic::plain(Severity::Error, trouble.text);
+            error.help.extend(trouble.help.map(str::to_string));
+            self.report(error);
+        }
+    }
+
     /// Executes a record; true when the job is over.
     fn execute(&mut self, record: &Record) -> bool {
         let text = record.text().trim();
@@ -204,6 +216,18 @@ impl Session {
         if self.job.settings.echo {
             self.job.output.text(&format!("> {text}"));
         }
+        self.job.output.folder.typed = self.interpreter.reads_what_is_typed();
+        let over = self.carry_out(record, text);
+        self.job.output.folder.typed = false;
+        for path in self.job.output.folder.read_outside() {
+            self.job.output.log(&format!("read {}, outside of the script's folder", path.display()));
+        }
+        self.report_lost_output();
+        over
+    }
+
+    /// Does what a record says; true when the job is over.
+    fn carry_out(&mut self, record: &Record, text: &str) -> bool {
         let words = record.words();
         let asked = self.job.last_severity;
         self.job.last_severity = None;
@@ -245,6 +269,7 @@ impl Session {
                 false
             }
             Effect::Deck { name, path } => {
+                self.job.output.folder.note_reading(&path);
                 match read_text(&path) {
                     Ok(text) => self.insert_deck(&name, text, record.whole()),
                     Err(text) => self.report(*Diagnostic::error(text, record.whole())),
@@ -255,6 +280,7 @@ impl Session {
     }
 
     fn insert(&mut self, name: &str, path: &Path, tag: u32, span: Span) {
+        self.job.output.folder.note_reading(path);
         let read = read_text(path).map_err(|text| Diagnostic::error(text, span));
         if let Ok(text) = &read
             && tag == INMODEL_FILE

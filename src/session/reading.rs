@@ -1,5 +1,6 @@
 //! The text of files and streams of records.
 
+use crate::report::files::open_regular;
 use std::io::Read;
 use std::path::Path;
 use windlass_language::source::{LARGEST_FILE, Text};
@@ -11,7 +12,7 @@ use windlass_language::source::{LARGEST_FILE, Text};
 pub fn read_text(path: &Path) -> Result<Text, String> {
     let shown = path.display();
     let at = |e| format!("{shown}: {e}");
-    read_all(std::fs::File::open(path).map_err(at)?, &shown.to_string())
+    read_all(open_regular(path).map_err(at)?, &shown.to_string())
 }
 
 /// The text of a stream of records.

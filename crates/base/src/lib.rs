@@ -22,6 +22,7 @@
 pub mod diagnostic;
 pub mod geometry;
 pub mod pose;
+pub mod printable;
 pub mod span;
 pub mod table;
 pub mod units;

@@ -3,6 +3,7 @@
 //! Source: reference/language.md sections 1 and 11; MOSES takes 8 characters, we take 64.
 
 use windlass_base::diagnostic::{Diagnostic, Outcome, with_article};
+use windlass_base::printable::is_acted_on;
 use windlass_base::span::Span;
 
 /// Longest name taken (characters, the marker included).
@@ -11,7 +12,7 @@ pub const LONGEST: usize = 64;
 /// The rule, as `&HELP` states it.
 pub const RULE: &str = "A name has 1 to 64 characters, a marker (~ class, * point, : selector) among them and at least \
                         one more behind it; no blanks, commas or quotes, no @ or / (wild characters), no other :, and \
-                        it does not begin with & $ - # or %.";
+                        it does not begin with & $ - # % = + or @.";
 
 /// The marker a name begins with: that of a class, a point or a selector.
 pub fn marker(name: &str) -> Option<char> {
@@ -41,13 +42,13 @@ pub fn check(name: &str, mark: Option<char>, what: &str, span: Span) -> Outcome<
     if count > LONGEST {
         return refuse(format!("this has {count} characters, and at most {LONGEST} are taken"));
     }
-    if let Some(first) = name.chars().next().filter(|c| "&$-#%".contains(*c)) {
+    if let Some(first) = name.chars().next().filter(|c| "&$-#%=+@".contains(*c)) {
         return refuse(format!("a name does not begin with {first}"));
     }
-    let wrong = |c: &char| c.is_whitespace() || c.is_control() || "@/:,'\"".contains(*c);
+    let wrong = |c: &char| c.is_whitespace() || is_acted_on(*c) || "@/:,'\"".contains(*c);
     match bare.chars().find(wrong) {
         Some(c) if c.is_whitespace() => refuse("a name has no blanks".into()),
-        Some(c) if c.is_control() => refuse("a name has no such character".into()),
+        Some(c) if is_acted_on(c) => refuse("a name has no such character".into()),
         Some(c) => refuse(format!("a name has no {c}")),
         None => Ok(()),
     }
@@ -64,7 +65,29 @@ mod tests {
             assert!(good(name, None), "{name}");
         }
         let long = "N".repeat(65);
-        for name in ["", "A B", "A\tB", "A@", "@", "A/B", "A:", ":A", "~A", "*A", "&A", "$A", "-A", "#A", "%A", &long] {
+        for name in [
+            "",
+            "A B",
+            "A\tB",
+            "A@",
+            "@",
+            "A/B",
+            "A:",
+            ":A",
+            "~A",
+            "*A",
+            "&A",
+            "$A",
+            "-A",
+            "#A",
+            "%A",
+            "=A",
+            "+A",
+            "=cmd|calc",
+            "A\u{202e}",
+            "A\u{9b}",
+            &long,
+        ] {
             assert!(!good(name, None), "{name}");
         }
         assert!(good("~A", Some('~')) && good("*-1", Some('*')) && good(":S", Some(':')));

@@ -4,9 +4,11 @@ use super::source::{Source, Sources, floor_boundary};
 use annotate_snippets::{Annotation, AnnotationKind, Group, Level, Renderer, Snippet};
 use std::ops::Range;
 use windlass_base::diagnostic::{Diagnostic, Severity};
+use windlass_base::printable::{is_acted_on, printable};
 use windlass_base::span::Span;
 
-/// The message as printed: headline, place, the record with the word underlined, help lines.
+/// The message as printed: headline, place, the record with the word underlined, help lines. What a terminal would act on in the text of
+/// records and names is spelled; the colours are the renderer's.
 pub fn render(diagnostic: &Diagnostic, sources: &Sources, colour: bool) -> String {
     let diagnostic = shortened(diagnostic);
     let level = match diagnostic.severity {
@@ -23,7 +25,7 @@ pub fn render(diagnostic: &Diagnostic, sources: &Sources, colour: bool) -> Strin
     let mut excerpts: Vec<(Excerpt<'_>, Vec<Annotation<'_>>)> = Vec::new();
     for (span, kind, text) in places {
         let Some(source) = sources.get(span.source) else { continue };
-        let excerpt = Excerpt::of(source, span);
+        let excerpt = Excerpt::of(source, span, excerpts.len());
         let mut annotation = kind.span(excerpt.range.clone());
         if !text.is_empty() {
             annotation = annotation.label(text);
@@ -38,7 +40,7 @@ pub fn render(diagnostic: &Diagnostic, sources: &Sources, colour: bool) -> Strin
         group = group.element(
             Snippet::source(excerpt.text.as_ref())
                 .line_start(excerpt.line)
-                .path(excerpt.name)
+                .path(excerpt.mark.as_deref().unwrap_or(&excerpt.name))
                 .fold(true)
                 .annotations(annotations.clone()),
         );
@@ -47,14 +49,18 @@ pub fn render(diagnostic: &Diagnostic, sources: &Sources, colour: bool) -> Strin
         group = group.element(Level::HELP.message(text.as_str()));
     }
     let renderer = if colour { Renderer::styled() } else { Renderer::plain() };
-    renderer.render(&[group])
+    let mut text = renderer.render(&[group]);
+    for (excerpt, _) in excerpts.iter().filter(|(e, _)| e.mark.is_some()) {
+        text = excerpt.with_place(&text, sources);
+    }
+    text
 }
 
-/// The message with every text cut to a length a person reads.
+/// The message with every text printable and cut to a length a person reads.
 fn shortened(diagnostic: &Diagnostic) -> Diagnostic {
     let cut = |text: &str| match text.char_indices().nth(LONGEST_TEXT) {
-        Some((at, _)) => format!("{} ..", text.get(..at).unwrap_or_default()),
-        None => text.to_string(),
+        Some((at, _)) => printable(&format!("{} ..", text.get(..at).unwrap_or_default())).into_owned(),
+        None => printable(text).into_owned(),
     };
     Diagnostic {
         message: cut(&diagnostic.message),
@@ -67,7 +73,11 @@ fn shortened(diagnostic: &Diagnostic) -> Diagnostic {
 
 /// The lines around a span, cut so that a huge record does not become a huge message.
 struct Excerpt<'a> {
-    name: &'a str,
+    span: Span,
+    /// Stands for the place while the message is laid out, where the text shown does not tell the column: the line is cut or has
+    /// characters spelled.
+    mark: Option<String>,
+    name: std::borrow::Cow<'a, str>,
     text: std::borrow::Cow<'a, str>,
     line: usize,
     range: Range<usize>,
@@ -83,7 +93,15 @@ impl<'a> Excerpt<'a> {
         self.name == other.name && self.line == other.line && self.text == other.text
     }
 
-    fn of(source: &'a Source, span: Span) -> Self {
+    /// The message with the place instead of the mark and the numbers behind it.
+    fn with_place(&self, text: &str, sources: &Sources) -> String {
+        let mark = self.mark.as_deref().unwrap_or_default();
+        let Some((head, tail)) = text.split_once(mark) else { return text.to_string() };
+        let tail = tail.trim_start_matches(|c: char| c == ':' || c.is_ascii_digit());
+        format!("{head}{}{tail}", printable(&sources.place(self.span)))
+    }
+
+    fn of(source: &'a Source, span: Span, index: usize) -> Self {
         let text: &str = &source.text;
         let start = floor_boundary(text, span.start as usize);
         let end = floor_boundary(text, span.end as usize).max(start);
@@ -91,7 +109,11 @@ impl<'a> Excerpt<'a> {
         let tail = text.get(end..).unwrap_or_default();
         let from = head.rfind('\n').map_or(0, |i| i + 1);
         let to = tail.find('\n').map_or(text.len(), |i| end + i);
+        // the carriage return of a line end is no text
+        let to = if text.get(start..to).is_some_and(|line| line.ends_with('\r')) { to - 1 } else { to };
+        let end = end.min(to);
         let line = source.first_line + head.bytes().filter(|b| *b == b'\n').count();
+        let line_start = from;
         let (from, to, end) = if to - from <= SHOWN {
             (from, to, end)
         } else {
@@ -101,12 +123,47 @@ impl<'a> Excerpt<'a> {
         };
         let shown = text.get(from..to).unwrap_or_default();
         let range = start - from..end - from;
-        if !shown.contains('\0') {
-            return Excerpt { name: &source.name, text: shown.into(), line, range };
+        let name = printable(&source.name);
+        if !shown.contains(is_acted_on) {
+            let mark = (from > line_start).then(|| mark(index));
+            return Excerpt { span, mark, name, text: shown.into(), line, range };
         }
         // bytes that are no text stand as NUL in a source
-        let legible = |text: &str| text.replace('\0', "\u{fffd}");
+        let legible = |text: &str| printable(&text.replace('\0', "\u{fffd}").replace("\r\n", "\n")).into_owned();
         let moved = |at: usize| legible(shown.get(..at).unwrap_or_default()).len();
-        Excerpt { name: &source.name, text: legible(shown).into(), line, range: moved(range.start)..moved(range.end) }
+        let range = moved(range.start)..moved(range.end);
+        Excerpt { span, mark: Some(mark(index)), name, text: legible(shown).into(), line, range }
+    }
+}
+
+/// A mark that no text has: characters for private use.
+fn mark(index: usize) -> String {
+    format!("\u{e000}{}\u{e001}", "\u{e002}".repeat(index))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_terminal_acts_on_is_spelled_and_the_word_stays_underlined() {
+        let mut sources = Sources::default();
+        let id = sources.add("a\u{1b}.cif", "&TYPE \u{1b}[2J x\u{9b} WRONG\r\nEND\r\n", 1);
+        let start = "&TYPE \u{1b}[2J x\u{9b} ".len();
+        let error = Diagnostic::error("no \u{202e}such", Span::new(id, start, start + 5)).label("here\u{7}");
+        let text = render(&error, &sources, false);
+        assert!(!text.chars().any(is_acted_on), "{text:?}");
+        for piece in [r"no \u{202e}such", r"a\u{1b}.cif:1:15", r"&TYPE \u{1b}[2J x\u{9b} WRONG", r"^^^^^ here\u{7}"] {
+            assert!(text.contains(piece), "{piece}: {text}");
+        }
+        let lines: Vec<&str> = text.lines().collect();
+        let at = |mark: &str| lines.iter().find_map(|l| l.find(mark));
+        assert_eq!(at("WRONG"), at("^^^^^"), "{text}");
+        // a line that is cut tells its true column
+        let long = sources.add("long.cif", format!("{} WRONG {}", "x".repeat(900), "y".repeat(900)), 7);
+        let text = render(&Diagnostic::error("no", Span::new(long, 901, 906)), &sources, false);
+        assert!(text.contains("long.cif:7:902\n") && text.contains("WRONG"), "{text}");
+        let coloured = render(&error, &sources, true);
+        assert!(coloured.contains('\u{1b}') && !coloured.contains("\u{1b}[2J"), "{coloured:?}");
     }
 }

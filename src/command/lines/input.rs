@@ -4,7 +4,6 @@ use csv::ByteRecord;
 use std::borrow::Cow;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
-use std::path::Path;
 use windlass_base::diagnostic::nearest;
 use windlass_catenary::{Bottom, Segment};
 use windlass_language::source::LARGEST_FILE;
@@ -133,9 +132,8 @@ impl Input {
     ///
     /// # Errors
     /// What the system refuses, a file that is empty or too large, a column that is missing or stands twice.
-    pub fn open(path: &Path) -> Result<Self, InputError> {
+    pub fn open(file: File) -> Result<Self, InputError> {
         let system = |e: std::io::Error| InputError::Unreadable(e.to_string());
-        let file = File::open(path).map_err(system)?;
         if file.metadata().map_err(system)?.len() > LARGEST_FILE {
             return Err(InputError::Unreadable(format!("it has more than {LARGEST_FILE} bytes")));
         }
@@ -292,7 +290,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("in.csv");
         std::fs::write(&path, bytes).unwrap();
-        Input::open(&path)
+        Input::open(File::open(path).unwrap())
     }
 
     /// Line and id of each row.

@@ -1,4 +1,4 @@
-//! Why a file could not be written or touched.
+//! Why a file could not be written, read or touched.
 
 use std::path::PathBuf;
 
@@ -27,6 +27,9 @@ pub enum FileError {
         /// The job's folder.
         folder: PathBuf,
     },
+    /// A file elsewhere that the user, asked, does not want.
+    #[error("{} is outside of the job's folder, and the answer was no: nothing is written", .0.display())]
+    Declined(PathBuf),
     /// A relative name that climbs out of the job's folder, or stops at it.
     #[error("`{name}` leads to nothing below the job's own folder {}", folder.display())]
     LeadsOut {
@@ -41,18 +44,32 @@ pub enum FileError {
     /// The folder a file would stand in is missing.
     #[error("there is no folder {}", .0.display())]
     NoFolder(PathBuf),
+    /// `ROOT.ans` is a link.
+    #[error("the answers folder {} is a link, and answers would go where it points", .0.display())]
+    FolderIsLink(PathBuf),
+    /// The job's folder was deleted while the job ran.
+    #[error("the answers folder {} was deleted while the job ran", .0.display())]
+    FolderGone(PathBuf),
 }
 
 impl FileError {
     /// What to do about it, for a help line.
     pub fn help(&self) -> Option<&'static str> {
         match self {
-            FileError::NotOwn { .. } => Some("a script may only touch what is its own; --allow-files lifts this"),
+            FileError::NotOwn { .. } => Some(
+                "a script writes below the job's own folder only; --allow-files lifts this, and a record typed at a terminal may create a file elsewhere",
+            ),
             FileError::LeadsOut { .. } => Some("a name from the current directory begins with ./ or ../"),
             FileError::NoFolder(_) => Some(
                 "&FILE MKDIR makes one in the job's folder; a name from the current directory begins with ./ or ../",
             ),
-            FileError::System { .. } | FileError::Exists(_) | FileError::Taken(_) | FileError::InUse(_) => None,
+            FileError::FolderIsLink(_) => Some("--out DIR names the folder for answers, which may be a link"),
+            FileError::System { .. }
+            | FileError::Exists(_)
+            | FileError::Taken(_)
+            | FileError::Declined(_)
+            | FileError::InUse(_)
+            | FileError::FolderGone(_) => None,
         }
     }
 }

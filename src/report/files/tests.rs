@@ -20,12 +20,19 @@ fn an_earlier_answer_is_kept_under_a_number() {
 
 #[test]
 fn nothing_outside_the_folder_is_overwritten() {
-    let (dir, job) = job();
+    let (dir, mut job) = job();
     let path = dir.path().join("mine.txt");
     std::fs::write(&path, "mine").unwrap();
-    assert!(matches!(job.write(path.to_str().unwrap(), b"x"), Err(FileError::Exists(_))));
-    assert_eq!(std::fs::read_to_string(&path).unwrap(), "mine");
-    assert_eq!(std::fs::read_dir(dir.path()).unwrap().count(), 1, "no temporary file is left");
+    for allowed in [false, true] {
+        job.allow_files = allowed;
+        let refused = job.write(path.to_str().unwrap(), b"x").unwrap_err();
+        assert!(
+            matches!(refused, FileError::Exists(_)) == allowed
+                && matches!(refused, FileError::NotOwn { .. }) != allowed
+        );
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), "mine");
+        assert_eq!(std::fs::read_dir(dir.path()).unwrap().count(), 1, "no temporary file is left");
+    }
 }
 
 #[test]
@@ -83,11 +90,10 @@ fn a_name_means_the_same_file_whatever_is_allowed() {
     let (dir, mut job) = job();
     job.write("a", b"1").unwrap();
     job.allow_files = true;
-    assert_eq!(job.own("a").unwrap(), job.folder.join("a"));
     let beyond = dir.path().join("mine");
     assert_eq!(job.transfer("a", beyond.to_str().unwrap(), true).unwrap(), beyond);
     assert!(beyond.exists());
-    assert!(matches!(job.own("a/../../mine"), Err(FileError::LeadsOut { .. })));
+    assert!(matches!(job.remove("a/../../mine"), Err(FileError::LeadsOut { .. })));
 }
 
 #[test]
@@ -132,7 +138,9 @@ fn a_subfolder_is_made_by_mkdir_and_then_takes_files() {
 
 #[test]
 fn a_place_is_refused_when_asked_for_and_leaves_nothing_behind() {
-    let (dir, job) = job();
+    let (dir, mut job) = job();
+    assert!(matches!(job.place(dir.path().join("new").to_str().unwrap()), Err(FileError::NotOwn { .. })));
+    job.allow_files = true;
     let outside = |name: &str| dir.path().join(name).to_str().unwrap().to_string();
     std::fs::write(outside("mine"), "mine").unwrap();
     assert!(matches!(job.place(&outside("mine")), Err(FileError::Exists(_))));
@@ -179,4 +187,207 @@ fn a_file_that_grows_is_neither_deleted_nor_moved_nor_written_over() {
     assert!(matches!(moved, Err((Side::From, FileError::InUse(_)))), "nor its folder");
     job.transfer("log", "copy", true).unwrap();
     assert!(job.folder.join("log").exists() && job.folder.join("copy").exists());
+}
+
+/// A job whose user answers every question so, and counts the questions.
+fn asked(job: &mut JobFolder, answer: Option<&'static str>) -> Arc<Mutex<Vec<String>>> {
+    let questions = Arc::new(Mutex::new(Vec::new()));
+    let list = Arc::clone(&questions);
+    job.typed = true;
+    job.question = Some(Arc::new(move |text| {
+        list.lock().unwrap().push(text.to_string());
+        answer.map(str::to_string)
+    }));
+    questions
+}
+
+#[test]
+fn a_typed_record_creates_a_file_elsewhere_after_one_question_and_overwrites_none() {
+    let (dir, mut job) = job();
+    job.write("own", b"1").unwrap();
+    let outside = |name: &str| dir.path().join(name).to_str().unwrap().to_string();
+    for (answer, made) in
+        [(Some("y"), true), (Some(" Yes "), true), (Some(""), false), (Some("n"), false), (None, false)]
+    {
+        let questions = asked(&mut job, answer);
+        for done in [
+            job.write(&outside("file"), b"1").map(|_| ()),
+            job.make_folder(&outside("folder/sub")).map(|_| ()),
+            job.transfer("own", &outside("copy"), true).map(|_| ()).map_err(|e| e.1),
+        ] {
+            assert!(
+                made == done.is_ok() && (made || matches!(done, Err(FileError::Declined(_)))),
+                "{answer:?}: {done:?}"
+            );
+        }
+        assert_eq!(questions.lock().unwrap().len(), 3, "one question each");
+        assert_eq!(
+            [outside("file"), outside("folder/sub"), outside("copy")].map(|p| Path::new(&p).exists()),
+            [made; 3]
+        );
+        if made {
+            assert!(matches!(job.write(&outside("file"), b"2"), Err(FileError::Exists(_))));
+            assert!(matches!(job.remove(&outside("file")), Err(FileError::NotOwn { .. })), "nor deletes");
+            assert_eq!(questions.lock().unwrap().len(), 3, "what is refused anyway is not asked");
+            std::fs::remove_file(outside("file")).unwrap();
+            std::fs::remove_file(outside("copy")).unwrap();
+            std::fs::remove_dir_all(outside("folder")).unwrap();
+        }
+    }
+    let questions = asked(&mut job, Some("y"));
+    job.typed = false;
+    assert!(matches!(job.write(&outside("file"), b"1"), Err(FileError::NotOwn { .. })), "a script is not asked for");
+    job.typed = true;
+    job.write("own", b"2").unwrap();
+    assert!(questions.lock().unwrap().is_empty());
+}
+
+#[cfg(unix)]
+#[test]
+fn an_answers_folder_that_is_a_link_is_refused_unless_the_user_named_it() {
+    let dir = tempfile::tempdir().unwrap();
+    let victim = dir.path().join("victim");
+    std::fs::create_dir(&victim).unwrap();
+    std::fs::write(victim.join("x"), "mine").unwrap();
+    std::os::unix::fs::symlink(&victim, dir.path().join("job.ans")).unwrap();
+    let mut job = JobFolder::new(dir.path().join("job"), None, false);
+    let inside = job.folder.join("x").to_str().unwrap().to_string();
+    let link = |done: Result<PathBuf, FileError>| {
+        assert!(matches!(done, Err(FileError::FolderIsLink(_))), "{done:?}");
+    };
+    for name in ["x", &inside] {
+        link(job.remove(name));
+        link(job.write(name, b"1"));
+        link(job.make_folder(name));
+        link(job.transfer(name, "y", false).map_err(|e| e.1));
+    }
+    link(job.create("LOG").map(|_| PathBuf::new()));
+    link(job.check().map(|()| PathBuf::new()));
+    assert!(FileError::FolderIsLink(PathBuf::new()).help().is_some_and(|help| help.contains("--out DIR")));
+    assert_eq!(std::fs::read_dir(&victim).unwrap().count(), 1);
+    // named by the user, it is resolved once: what the link says later does not matter
+    let named = JobFolder::new(dir.path().join("job"), Some(dir.path().join("job.ans")), false);
+    named.check().unwrap();
+    named.write("y", b"1").unwrap();
+    std::fs::remove_file(dir.path().join("job.ans")).unwrap();
+    std::fs::create_dir(dir.path().join("other")).unwrap();
+    std::os::unix::fs::symlink(dir.path().join("other"), dir.path().join("job.ans")).unwrap();
+    named.write("z", b"1").unwrap();
+    assert!(victim.join("z").exists());
+    assert_eq!(std::fs::read_dir(dir.path().join("other")).unwrap().count(), 0);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_put_in_the_way_between_finding_a_place_and_writing_leads_nowhere() {
+    let (dir, job) = job();
+    let (outside, sub) = (dir.path().join("outside"), job.folder.join("sub"));
+    std::fs::create_dir(&outside).unwrap();
+    job.make_folder("sub").unwrap();
+    let place = job.place("sub/x").unwrap();
+    let mut growing = place.begin().unwrap();
+    growing.write_all(b"1").unwrap();
+    std::fs::rename(&sub, job.folder.join("away")).unwrap();
+    std::os::unix::fs::symlink(&outside, &sub).unwrap();
+    assert!(matches!(place.write(b"1"), Err(FileError::NotOwn { .. })));
+    growing.finish().unwrap();
+    assert!(job.folder.join("away/x").exists(), "it stands where it was begun");
+    assert_eq!(std::fs::read_dir(&outside).unwrap().count(), 0);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_swapped_in_while_files_are_written_never_leads_out() {
+    use std::sync::atomic::AtomicBool;
+    let (dir, job) = job();
+    let outside = dir.path().join("outside");
+    std::fs::create_dir(&outside).unwrap();
+    std::fs::write(outside.join("x"), "mine").unwrap();
+    job.make_folder("sub").unwrap();
+    job.write("own", b"1").unwrap();
+    let [sub, away, link] = ["sub", "away", "link"].map(|name| job.folder.join(name));
+    std::os::unix::fs::symlink(&outside, &link).unwrap();
+    let over = AtomicBool::new(false);
+    std::thread::scope(|scope| {
+        scope.spawn(|| {
+            while !over.load(Ordering::Relaxed) {
+                for (from, to) in [(&sub, &away), (&link, &sub), (&sub, &link), (&away, &sub)] {
+                    std::fs::rename(from, to).unwrap();
+                }
+            }
+        });
+        // each of these succeeds or is refused, as it meets the folder or the link
+        for _ in 0..300 {
+            let _ = job.write("sub/x", b"theirs");
+            let _ = job.remove("sub/x");
+            let _ = job.transfer("own", "sub/z", true);
+            let _ = job.transfer("sub/z", "back", false);
+            let _ = job.remove("back");
+        }
+        over.store(true, Ordering::Relaxed);
+    });
+    assert_eq!(std::fs::read_to_string(outside.join("x")).unwrap(), "mine");
+    assert_eq!(std::fs::read_dir(&outside).unwrap().count(), 1);
+}
+
+#[test]
+fn temporary_files_of_killed_jobs_are_removed_and_those_of_living_ones_stay() {
+    let (dir, job) = job();
+    job.make_folder("sub").unwrap();
+    let left = ["", "sub/"].map(|sub| job.folder.join(format!("{sub}.windlass-1-0.tmp")));
+    let others = [".windlass-notes", "x.tmp", ".tmpA1"].map(|name| job.folder.join(name));
+    for path in left.iter().chain(&others) {
+        std::fs::write(path, "x").unwrap();
+    }
+    let living = job.place("living").unwrap();
+    let mut living = living.begin().unwrap();
+    living.write_all(b"1").unwrap();
+    let next = JobFolder::new(dir.path().join("job"), None, false);
+    next.write("sub/y", b"1").unwrap();
+    assert!(left.iter().all(|path| !path.exists()) && others.iter().all(|path| path.exists()));
+    living.finish().unwrap();
+    assert_eq!(std::fs::read_to_string(job.folder.join("living")).unwrap(), "1");
+}
+
+#[test]
+fn a_number_is_found_for_an_earlier_file_however_many_there_are() {
+    let (_dir, job) = job();
+    for number in 0..100 {
+        job.write("t", format!("{number}").as_bytes()).unwrap();
+    }
+    let read = |name: &str| std::fs::read_to_string(job.folder.join(name)).unwrap();
+    assert_eq!(
+        (read("t"), read("t.1"), read("t.42"), read("t.99")),
+        ("99".into(), "0".into(), "41".into(), "98".into())
+    );
+    assert!(!job.folder.join("t.100").exists());
+}
+
+#[cfg(unix)]
+#[test]
+fn a_folder_deleted_under_way_is_named() {
+    let (_dir, mut job) = job();
+    let log = job.create("log").unwrap();
+    assert!(!is_unlinked(&log));
+    std::fs::remove_dir_all(&job.folder).unwrap();
+    assert!(is_unlinked(&log));
+    for done in [job.write("x", b"1"), job.create("TDOM.run").map(|_| PathBuf::new()), job.make_folder("sub")] {
+        assert!(matches!(done, Err(FileError::FolderGone(_))), "{done:?}");
+    }
+}
+
+#[test]
+fn what_is_read_outside_of_the_scripts_folder_is_noted_once() {
+    let dir = tempfile::tempdir().unwrap();
+    let here = dir.path().join("here");
+    std::fs::create_dir(&here).unwrap();
+    for path in [here.join("in"), dir.path().join("out")] {
+        std::fs::write(path, "x").unwrap();
+    }
+    let job = JobFolder::new(here.join("job"), None, false);
+    for name in ["in", "../out", "in", "../here/in", "../out"] {
+        job.note_reading(&here.join(name));
+    }
+    assert_eq!(job.read_outside(), [real(&dir.path().join("out")).unwrap()]);
+    assert!(job.read_outside().is_empty());
 }

@@ -392,3 +392,33 @@ fn run_of_very_many_steps_is_announced_and_interrupted_without_promising_a_file(
     t.see("-STATISTICS keeps no file to go on from");
     assert_eq!(t.end(), 130);
 }
+
+#[test]
+fn a_typed_record_may_create_a_file_elsewhere_after_one_question() {
+    let home = tempfile::tempdir().unwrap();
+    let file = |name: &str| home.path().join(name);
+    std::fs::write(file("mine"), "mine").unwrap();
+    std::fs::write(file("script.cif"), "&FILE OPEN S ./by_script\n").unwrap();
+    let mut t = Terminal::start(home.path(), &[]);
+    t.ready("MAIN> ");
+    t.record("&FILE OPEN T ./new");
+    t.see("new is outside of the job's folder. Create it (y/N)?");
+    t.press("y\r");
+    t.ready("MAIN> ");
+    t.record("&FILE CLOSE T");
+    t.ready("MAIN> ");
+    t.record("&FILE OPEN U ./other");
+    t.see("other is outside of the job's folder. Create it (y/N)?");
+    t.press("\r");
+    t.see("the answer was no");
+    t.ready("MAIN> ");
+    t.record("&FILE OPEN U ./mine");
+    t.see("no file is overwritten");
+    t.ready("MAIN> ");
+    t.record("&INSERT script.cif");
+    t.see("by_script is not below the job's own folder");
+    t.ready("MAIN> ");
+    t.end();
+    assert_eq!((std::fs::read(file("new")).unwrap(), std::fs::read(file("mine")).unwrap()), (vec![], b"mine".to_vec()));
+    assert!(!file("other").exists() && !file("by_script").exists());
+}

@@ -84,7 +84,7 @@ fn a_dot_or_two_in_front_and_absolute_names_mean_what_the_shell_means() {
          {TABLE}STORE ./s X Force\nPLOT X Force ../p.svg\n{TABLE_END}&FILE MKDIR x\n&FILE MV ./job.ans/x ./job.ans/y\n",
         absolute.display()
     );
-    let run = Run::within(folder, &script, &[]);
+    let run = Run::within(folder, &script, &["--allow-files"]);
     assert_eq!(run.code, Some(0), "{}", run.err);
     assert_eq!(run.names("."), ["job.ans", "job.cif", "s.csv", "sub"]);
     assert_eq!(run.names(".."), ["absolute.txt", "here", "p.svg"]);
@@ -95,17 +95,18 @@ fn a_dot_or_two_in_front_and_absolute_names_mean_what_the_shell_means() {
 }
 
 #[test]
-fn outside_the_jobs_folder_nothing_is_overwritten_and_the_file_actions_ask_for_allow_files() {
+fn outside_the_jobs_folder_nothing_is_overwritten_and_writing_asks_for_allow_files() {
     let script = format!(
         "{TABLE}STORE ./job.cif X Force\n{TABLE_END}&FILE RM ./job.cif\n&FILE CP ./job.cif ./copy\n\
          &FILE MV ./job.cif moved\n&FILE MKDIR ../new\n"
     );
     let run = Run::of(&script, &[]);
     assert_eq!(run.code, Some(1));
-    assert_eq!(run.err.matches("no file is overwritten").count(), 1, "{}", run.err);
-    assert_eq!(run.err.matches("--allow-files lifts this").count(), 4, "{}", run.err);
+    assert_eq!(run.err.matches("--allow-files lifts this").count(), 5, "{}", run.err);
     assert_eq!((run.names("."), run.names("..")), (vec!["job.ans".into(), "job.cif".into()], vec!["here".into()]));
     assert_eq!(run.read("job.cif").unwrap(), script);
+    let run = Run::of(&format!("{TABLE}STORE ./job.cif X Force\n{TABLE_END}"), &["--allow-files"]);
+    assert_eq!((run.code, run.err.matches("no file is overwritten").count()), (Some(1), 1), "{}", run.err);
     let script = "&FILE CP ./job.cif ./copy\n&FILE CP ./copy copy\n&FILE MV ./copy ../moved\n&FILE MKDIR ./new\n";
     let run = Run::of(script, &["--allow-files"]);
     assert_eq!(run.code, Some(0), "{}", run.err);
@@ -137,7 +138,7 @@ fn a_relative_name_that_climbs_out_is_refused_by_every_command_even_with_allow_f
 fn open_fails_at_open_where_the_file_could_not_be_written() {
     let refused = |name: &str, why: &str| {
         let script = format!("&FILE MKDIR sub\n&FILE OPEN T {name}\n&FILE WRITE T lost\n");
-        let run = Run::of(&script, &[]);
+        let run = Run::of(&script, &["--allow-files"]);
         assert_eq!(run.code, Some(1));
         assert!(run.err.contains(why) && run.err.contains("--> job.cif:2:14"), "{name}: {}", run.err);
         assert!(run.err.contains("no file of type T is open"), "{name}: {}", run.err);
@@ -166,7 +167,7 @@ fn a_file_never_closed_is_written_whole_and_named_however_the_job_ends() {
         (&*"NONSENSE\n".repeat(30), &[], 1),
         ("&FILE ANS_DIRECTORY other\n", &[], 0),
     ] {
-        let run = Run::of(&format!("{body}{end}"), arguments);
+        let run = Run::of(&format!("{body}{end}"), &[arguments, &["--allow-files"]].concat());
         assert_eq!(run.code, Some(code), "{end}: {}", run.err);
         assert_eq!(run.read("job.ans/n.txt").as_deref(), Some("one\nthree\n"), "{end}");
         assert_eq!(run.read("o.txt").as_deref(), Some("two\n"), "{end}");
@@ -261,4 +262,205 @@ fn a_copy_or_move_that_is_refused_points_at_the_name_it_is_about() {
     for place in ["job.cif:3:16", "job.cif:4:16", "job.cif:5:16", "job.cif:6:10", "job.cif:7:10", "job.cif:8:16"] {
         assert!(run.err.contains(place), "{place}: {}", run.err);
     }
+}
+
+/// Runs the program in a folder with this on its standard input.
+fn fed(here: &std::path::Path, arguments: &[&str], input: &str) -> Output {
+    let file = here.join("input");
+    fs::write(&file, input).unwrap();
+    let stdin = fs::File::open(&file).unwrap();
+    Command::new(env!("CARGO_BIN_EXE_windlass")).args(arguments).current_dir(here).stdin(stdin).output().unwrap()
+}
+
+#[test]
+fn no_record_that_is_not_typed_makes_a_file_outside_of_the_jobs_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    let (home, here) = (folder.path().join("home"), folder.path().join("home/here"));
+    fs::create_dir_all(&here).unwrap();
+    let lines = "id,x_m,z_m,length_m,EA_N,w_N_per_m\n1,400,100,500,1e9,1000\n";
+    let outside = home.join(".bash_login");
+    let records = format!(
+        "&FILE OPEN T ../.bash_login\n&FILE OPEN T {}\n&FILE OPEN T ~/../x\n&FILE OPEN T ./n\n&FILE MKDIR ../.ssh\n&FILE CP ./lines.csv ../n\n{TABLE}STORE ../s X Force\n\
+         PLOT X Force ../p.svg\n&PICTURE -FILE ../p.png\nEND\nLINES lines.csv ../out.csv\nEND\n",
+        outside.display()
+    );
+    let files = [
+        ("lines.csv", lines.to_string()),
+        ("records.cif", records.clone()),
+        ("inserted.cif", "&INSERT records.cif\n".into()),
+        ("called.cif", format!("&MACRO M\n{records}&ENDMACRO\nM\n")),
+        ("job.dat", records.clone()),
+        ("model.cif", "INMODEL\n".into()),
+    ];
+    for (name, text) in &files {
+        fs::write(here.join(name), text).unwrap();
+    }
+    fs::write(here.join("input"), "").unwrap();
+    let before = || {
+        let mut names: Vec<_> = fs::read_dir(&home).unwrap().map(|e| e.unwrap().file_name()).collect();
+        names.extend(fs::read_dir(&here).unwrap().map(|e| e.unwrap().file_name()));
+        names.retain(|name| !name.to_string_lossy().ends_with(".ans"));
+        names.sort();
+        names
+    };
+    let there = before();
+    let by_c: Vec<&str> = records.lines().flat_map(|record| ["-c", record]).collect();
+    let limit = "&DEVICE -LIMERROR 99\n";
+    let ways: [(&[&str], String); 6] = [
+        (&["records.cif"], String::new()),
+        (&["inserted.cif"], String::new()),
+        (&["called.cif"], String::new()),
+        (&by_c, String::new()),
+        (&["-"], format!("{limit}{records}")),
+        (&["-i", "-c", limit], records.clone()),
+    ];
+    for (arguments, input) in ways {
+        let done = fed(&here, arguments, &input);
+        let err = String::from_utf8_lossy(&done.stderr);
+        assert_eq!(done.status.code(), Some(1), "{arguments:?}: {err}");
+        assert!(err.matches("--allow-files lifts this").count() >= 7, "{arguments:?}: {err}");
+        assert_eq!(before(), there, "{arguments:?}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn an_answers_folder_that_is_a_link_is_refused_and_one_named_by_out_is_taken() {
+    let folder = tempfile::tempdir().unwrap();
+    let (here, victim) = (folder.path().join("here"), folder.path().join("victim"));
+    fs::create_dir(&here).unwrap();
+    fs::create_dir(&victim).unwrap();
+    fs::write(victim.join("x"), "mine").unwrap();
+    for link in ["job.ans", "windlass.ans"] {
+        std::os::unix::fs::symlink(&victim, here.join(link)).unwrap();
+    }
+    fs::write(here.join("job.cif"), "&FILE RM x\n&FILE MKDIR y\n&FILE OPEN T z\n&FILE MV x w\n").unwrap();
+    for arguments in [&["job.cif"][..], &["job"], &["-c", "&FILE RM x", "-c", "&FILE OPEN T ./windlass.ans/z"]] {
+        let done = fed(&here, arguments, "");
+        let err = String::from_utf8_lossy(&done.stderr);
+        assert_eq!(done.status.code(), Some(2), "{arguments:?}: {err}");
+        assert!(err.contains(".ans is a link") && err.contains("--out DIR names"), "{err}");
+        assert_eq!(fs::read_dir(&victim).unwrap().count(), 1);
+    }
+    fs::write(here.join("job.cif"), "&FILE MKDIR y\n&FILE OPEN T z\n&FILE MV x w\n").unwrap();
+    let done = fed(&here, &["job.cif", "--out", "job.ans"], "");
+    assert_eq!(done.status.code(), Some(0), "{}", String::from_utf8_lossy(&done.stderr));
+    assert!(victim.join("w").exists() && victim.join("y").is_dir() && victim.join("z").exists());
+}
+
+#[test]
+fn what_is_read_outside_of_the_scripts_folder_stands_in_the_log() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("here")).unwrap();
+    for (name, text) in [("out.cif", "&TYPE from outside\n"), ("out.txt", "x\n"), ("here/in.txt", "y\n")] {
+        fs::write(folder.path().join(name), text).unwrap();
+    }
+    let run = Run::within(
+        folder,
+        "&INSERT ../out.cif\n&FILE USE T ../out.txt\n&FILE USE U in.txt\n&FILE USE U ../out.txt\n",
+        &[],
+    );
+    assert_eq!(run.code, Some(0), "{}", run.err);
+    let log = run.read("job.ans/LOG00001.TXT").unwrap();
+    let told: Vec<&str> = log.lines().filter(|line| line.contains("outside of the script's folder")).collect();
+    assert_eq!(told.len(), 2, "{log}");
+    assert!(told[0].contains("out.cif") && told[1].contains("out.txt") && told.iter().all(|t| t.starts_with("read ")));
+    assert!(!run.out.contains("outside of the script's folder"));
+}
+
+#[cfg(unix)]
+#[test]
+fn what_is_no_regular_file_is_refused_at_once_wherever_a_file_is_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path().join("here");
+    fs::create_dir(&here).unwrap();
+    assert!(Command::new("mkfifo").arg(here.join("pipe")).status().unwrap().success());
+    let proc = if cfg!(target_os = "linux") { "&FILE USE T /proc/kmsg\n&FILE USE T /proc/self/environ\n" } else { "" };
+    let script = format!(
+        "&DEVICE -LIMERROR 99\n&FILE USE T pipe\n&FILE USE T /dev/zero\n&INSERT pipe\nINMODEL -AQWA pipe\n\
+         CONN_DESIGN\nLINES pipe out.csv\nEND\n{proc}&BUILDG -CSV pipe\n"
+    );
+    let run = Run::within(folder, &script, &[]);
+    assert_eq!(run.code, Some(1));
+    assert!(
+        run.err.matches("error: ").count()
+            >= script.lines().filter(|l| l.contains("pipe") || l.contains("USE")).count(),
+        "{}",
+        run.err
+    );
+    let run = Run::of(if proc.is_empty() { "X\n" } else { proc }, &[]);
+    assert_eq!(run.err.matches("this is not a regular file").count(), proc.lines().count(), "{}", run.err);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn output_that_cannot_be_written_ends_with_1_and_the_reason_and_a_closed_pipe_is_quiet() {
+    let folder = tempfile::tempdir().unwrap();
+    let program = || {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_windlass"));
+        command.current_dir(folder.path());
+        command
+    };
+    for arguments in [&["-c", "&TYPE x"][..], &["-c", "&TYPE x", "--out", "answers"], &["--help"], &["--version"]] {
+        let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+        let done = program().args(arguments).stdout(full).output().unwrap();
+        let err = String::from_utf8_lossy(&done.stderr);
+        assert_eq!(done.status.code(), Some(1), "{arguments:?}: {err}");
+        assert_eq!(err.matches("standard output cannot be written: No space left on device").count(), 1, "{err}");
+    }
+    let mut child = program()
+        .args(["-c", "&TYPE x"])
+        .stdout(std::process::Stdio::piped())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let done = child.wait_with_output().unwrap();
+    assert_eq!((done.status.code(), done.stderr.len()), (Some(0), 0), "{}", String::from_utf8_lossy(&done.stderr));
+}
+
+#[cfg(unix)]
+#[test]
+fn an_answers_folder_deleted_under_way_is_an_error_with_its_name() {
+    use std::io::{BufRead, Write};
+    let folder = tempfile::tempdir().unwrap();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_windlass"))
+        .args(["-i", "-c", "&TYPE begun", "--out", "answers"])
+        .current_dir(folder.path())
+        .stdin(std::process::Stdio::piped())
+        .stdout(std::process::Stdio::piped())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut line = String::new();
+    std::io::BufReader::new(child.stdout.take().unwrap()).read_line(&mut line).unwrap();
+    assert_eq!(line, "begun\n");
+    fs::remove_dir_all(folder.path().join("answers")).unwrap();
+    child.stdin.take().unwrap().write_all(b"&FILE OPEN T x\n").unwrap();
+    let done = child.wait_with_output().unwrap();
+    let err = String::from_utf8_lossy(&done.stderr);
+    assert_eq!(done.status.code(), Some(1), "{err}");
+    assert!(err.contains("the answers folder answers was deleted while the job ran"), "{err}");
+    assert!(err.contains("LOG00001.TXT was deleted while the job ran"), "{err}");
+}
+
+#[test]
+fn what_a_terminal_would_act_on_is_spelled_wherever_text_of_the_user_is_printed() {
+    // OSC 52 (the clipboard), clear screen, C1, a right-to-left override; a script of MS-DOS shows none of its line ends
+    let bad = "\u{1b}]52;c;AA\u{7}\u{1b}[2J\u{9b}31m\u{202e}";
+    let script = format!(
+        "&TITLE {bad}t\r\n&TYPE a{bad}\r\n&CTYPE {bad}c\r\n&SET V = {bad}v\r\n&TYPE %V%\r\n{bad}\r\n&FILE USE T {bad}none\r\n\
+         &DEVICE -OECHO\r\n&ERROR WARNING {bad}w\r\nMEDIT\r\n*P{bad} 0 0 0\r\n&ENV -DEPTH {bad}\r\n",
+    );
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("here")).unwrap();
+    let run = Run::within(folder, &script, &[]);
+    assert_eq!(run.code, Some(1));
+    let log = run.read("job.ans/LOG00001.TXT").unwrap();
+    for text in [&run.out, &run.err, &log] {
+        assert!(text.chars().all(|c| c == '\n' || (!c.is_control() && c != '\u{202e}')), "{text:?}");
+    }
+    let spelled = r"a\u{1b}]52;c;AA\u{7}\u{1b}[2J\u{9b}31m\u{202e}";
+    assert!(run.out.lines().any(|line| line == spelled), "{}", run.out);
+    assert!(!run.out.contains(r"\u{d}") && !run.err.contains(r"\u{d}"), "{}{}", run.out, run.err);
 }

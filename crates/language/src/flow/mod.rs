@@ -137,6 +137,11 @@ impl Interpreter {
         matches!(self.frames.last(), Some(Frame::Terminal { .. }) | None)
     }
 
+    /// The record that came last stands in what was typed itself: in no loop, macro or file.
+    pub fn reads_what_is_typed(&self) -> bool {
+        matches!(self.frames.last(), Some(Frame::Terminal { .. }))
+    }
+
     /// Abandons everything open but the terminal: after Ctrl-C or a fatal error.
     pub fn unwind(&mut self) {
         self.collecting = None;
