@@ -45,7 +45,8 @@ fn check(script: &Path, name: &str) -> Result<(), Failed> {
             _ if title.contains(".run") => "(a run)\n".to_string(),
             Some("csv") => without_residuals(&fs::read_to_string(&file)?),
             _ => {
-                let text = fs::read_to_string(&file)?.replace(&*out.to_string_lossy(), "OUT")
+                let text = fs::read_to_string(&file)?
+                    .replace(&*out.to_string_lossy(), "OUT")
                     .replace(env!("CARGO_MANIFEST_DIR"), "HERE");
                 // what &DCPTIME prints is a time of the machine
                 text.lines().filter(|l| !l.starts_with("*** time ")).map(|l| format!("{l}\n")).collect()

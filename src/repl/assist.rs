@@ -10,6 +10,7 @@ use rustyline::validate::{ValidationContext, ValidationResult, Validator};
 use rustyline::{Context, Helper};
 use std::borrow::Cow;
 use std::sync::{Arc, Mutex};
+use windlass_base::printable::is_acted_on;
 use windlass_base::values::Noun;
 use windlass_connectors::CLASSES;
 use windlass_connectors::line_types::library;
@@ -108,6 +109,10 @@ impl Known {
 fn line_type_names() -> impl Iterator<Item = String> {
     library().types.iter().map(|t| t.name.clone())
 }
+
+/// Longest line that is painted and hinted at (bytes). A painted line is printed anew with every key: time and output grow as the square of
+/// its length.
+const LONGEST_PAINTED: usize = 1000;
 
 /// The editor's helper.
 pub struct Assistant {
@@ -259,7 +264,10 @@ impl Completer for Assistant {
                     }
                     ValueKind::File => {
                         drop(known);
-                        return self.files.complete(line, pos, context);
+                        let (start, mut files) = self.files.complete(line, pos, context)?;
+                        // a name that the terminal would act on cannot be typed either
+                        files.retain(|file| !file.replacement.contains(is_acted_on));
+                        return Ok((start, files));
                     }
                     _ => {}
                 }
@@ -280,6 +288,7 @@ fn begins(name: &str, word: &str) -> bool {
 
 /// The candidates in order, each once; a word that is complete is followed by a blank.
 fn sorted(mut candidates: Vec<String>) -> Vec<Pair> {
+    candidates.retain(|text| !text.contains(is_acted_on));
     candidates.sort();
     candidates.dedup();
     candidates
@@ -300,7 +309,12 @@ impl Hinter for Assistant {
 
     /// The rest of the record's form, from its spec, once a blank follows what has been typed.
     fn hint(&self, line: &str, pos: usize, _: &Context<'_>) -> Option<String> {
-        if self.asking || pos < line.len() || !line.ends_with(' ') || line.contains('\n') {
+        if self.asking
+            || line.len() > LONGEST_PAINTED
+            || pos < line.len()
+            || !line.ends_with(' ')
+            || line.contains('\n')
+        {
             return None;
         }
         let known = self.known.lock().ok()?;
@@ -326,7 +340,7 @@ impl Hinter for Assistant {
 
 impl Highlighter for Assistant {
     fn highlight<'l>(&self, line: &'l str, _: usize) -> Cow<'l, str> {
-        if self.asking || !self.colour {
+        if self.asking || !self.colour || line.len() > LONGEST_PAINTED {
             return Cow::Borrowed(line);
         }
         let mut out = String::with_capacity(line.len() + 32);
@@ -360,8 +374,8 @@ impl Highlighter for Assistant {
         Cow::Owned(out)
     }
 
-    fn highlight_char(&self, _: &str, _: usize, _: CmdKind) -> bool {
-        self.colour
+    fn highlight_char(&self, line: &str, _: usize, _: CmdKind) -> bool {
+        self.colour && line.len() <= LONGEST_PAINTED
     }
 
     fn highlight_hint<'h>(&self, hint: &'h str) -> Cow<'h, str> {

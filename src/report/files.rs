@@ -207,9 +207,12 @@ fn is_temporary(name: &OsStr) -> bool {
 /// Numbers the temporary files of this process.
 static TEMPORARIES: AtomicU64 = AtomicU64::new(0);
 
+/// Most names tried for a temporary file: each that is lost was taken by another job at that very moment.
+const MOST_TRIES: u32 = 1000;
+
 /// A new temporary file, locked, and its name.
 fn temporary(dir: &Dir) -> std::io::Result<(OsString, File)> {
-    loop {
+    for _ in 0..MOST_TRIES {
         let number = TEMPORARIES.fetch_add(1, Ordering::Relaxed);
         let name = OsString::from(format!("{}{}-{number}{}", TEMPORARY[0], std::process::id(), TEMPORARY[1]));
         let file = match dir.open_with(&name, OpenOptions::new().write(true).create_new(true)) {
@@ -224,6 +227,7 @@ fn temporary(dir: &Dir) -> std::io::Result<(OsString, File)> {
             return Ok((name, file));
         }
     }
+    Err(ErrorKind::AlreadyExists.into())
 }
 
 /// The job's root name and its folder for answers.
@@ -363,7 +367,8 @@ impl JobFolder {
         if let Some(below) = self.below(&path) {
             return Ok(Spot { base: self.dir()?, below, path, own: true });
         }
-        if !self.allow_files && !(can_ask && self.typed && self.question.is_some()) {
+        let can_ask = can_ask && self.typed && self.question.is_some();
+        if !self.allow_files && !can_ask {
             self.check()?;
             return Err(FileError::NotOwn { path, folder: self.folder.clone() });
         }

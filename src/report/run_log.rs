@@ -11,7 +11,7 @@ use std::path::PathBuf;
 use windlass_solve::time::{Snapshot, Watcher};
 
 /// Begins every such file; its last byte is the version.
-const MARK: [u8; 8] = *b"WINDRUN\x03";
+pub const MARK: [u8; 8] = *b"WINDRUN\x03";
 /// Bytes of the head.
 const HEAD: usize = 24;
 
@@ -123,7 +123,7 @@ impl Watcher for RunLog {
 ///
 /// # Errors
 /// A file that is none, or holds no such snapshot.
-pub fn read(file: &mut File, time: f64) -> Result<Kept, RunLogError> {
+pub fn read(file: &mut (impl Read + Seek), time: f64) -> Result<Kept, RunLogError> {
     let mut bytes = Vec::new();
     file.seek(SeekFrom::Start(0))
         .and_then(|_| file.read_to_end(&mut bytes))

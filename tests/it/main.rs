@@ -11,6 +11,7 @@ mod program {
     mod editor;
     mod file_names;
     mod film;
+    mod fuzzed;
     mod hostile;
     mod lines;
     mod menus;

@@ -21,6 +21,8 @@ struct Terminal {
     keys: Box<dyn Write + Send>,
     bytes: Receiver<Vec<u8>>,
     screen: vt100::Parser,
+    /// Bytes that came from the program.
+    received: usize,
 }
 
 impl Terminal {
@@ -52,6 +54,7 @@ impl Terminal {
             keys,
             bytes,
             screen: vt100::Parser::new(whole(SIZE.rows), whole(SIZE.cols), 500),
+            received: 0,
         }
     }
 
@@ -66,7 +69,10 @@ impl Terminal {
         while !holds(self.screen.screen()) {
             let left = limit.saturating_duration_since(Instant::now());
             match self.bytes.recv_timeout(left) {
-                Ok(bytes) => self.screen.process(&bytes),
+                Ok(bytes) => {
+                    self.received += bytes.len();
+                    self.screen.process(&bytes);
+                }
                 Err(_) => {
                     let _ = self.child.kill();
                     panic!("{what} never came; the screen holds\n{}", self.screen.screen().contents());
@@ -421,4 +427,21 @@ fn a_typed_record_may_create_a_file_elsewhere_after_one_question() {
     t.end();
     assert_eq!((std::fs::read(file("new")).unwrap(), std::fs::read(file("mine")).unwrap()), (vec![], b"mine".to_vec()));
     assert!(!file("other").exists() && !file("by_script").exists());
+}
+
+#[test]
+fn a_long_line_is_printed_in_proportion_to_its_length() {
+    let home = tempfile::tempdir().unwrap();
+    let mut t = Terminal::start(home.path(), &[]);
+    t.ready("MAIN> ");
+    let before = t.received;
+    t.press(&format!("&TYPE {}THE_END", "word ".repeat(2000)));
+    t.see("THE_END");
+    // 1,000 characters painted one by one are less than 1 MB (half a square, each word with two escapes); then the whole line is printed
+    // once a row of 100 characters: half of 100 times 10,000 characters. Painted to its end it would be 50 MB and more
+    let printed = t.received - before;
+    assert!(printed < 2_000_000, "{printed} bytes");
+    t.press("\r");
+    t.ready("MAIN> ");
+    assert_eq!(t.end(), 0);
 }
