@@ -38,6 +38,7 @@ const TENSION: &[ValueSpec] = &[number("F", Dim::Force, "tension at the fairlead
 static SPEC: CommandSpec = CommandSpec {
     data: &[ValueSpec::new(":SEL", Kind::Name(Noun::Selector), "connector, pattern or selector")],
     repeat: 1,
+    interleaved: true,
     options: &[
         OptionSpec::new(
             "-LENGTH",

@@ -155,7 +155,7 @@ fn of_body(model: &Model, body: &Body) -> Result<Vec<Table>, ClassError> {
 }
 
 /// A number that is zero but for rounding as zero; `size` is that of the numbers it was made of.
-fn settled(value: f64, size: f64) -> f64 {
+pub(super) fn settled(value: f64, size: f64) -> f64 {
     if value.abs() <= 1e-11 * size { 0.0 } else { value }
 }
 

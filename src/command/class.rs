@@ -1,10 +1,10 @@
 //! `~NAME TYPE ...`: defines a class, or adds a segment to one.
 
-use super::{Call, Command, Effect, Job, Menu};
+use super::{Call, Command, Effect, Job, Menu, plausible};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::values::Args;
 use windlass_base::values::Noun;
-use windlass_connectors::{CLASSES, type_notices};
+use windlass_connectors::{CLASSES, ClassKind, type_notices};
 use windlass_language::args;
 use windlass_language::name;
 use windlass_language::select::choose;
@@ -72,6 +72,11 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         }
     }
     let object = (kind.build)(&records)?;
+    if let Some(last) = records.last() {
+        notices.extend(object.notices(&last.args, job.units, &job.model.surroundings()));
+        notices.extend(plausible::friction(&last.args));
+        notices.extend(idle(job, kind, &last.args));
+    }
     let ignored_stiffness = records.iter().any(|r| r.args.has("-IG_STIFF"));
     let class = Class { name: name.text.to_string(), records, ignored_stiffness, object, span };
     job.model.classes.insert(key, class);
@@ -98,6 +103,25 @@ pub fn known_curves(job: &Job, args: &Args) -> Outcome<()> {
         }
     }
     Ok(())
+}
+
+/// What is said, once for each class type, of options that do nothing in it.
+fn idle(job: &mut Job, kind: &'static ClassKind, args: &Args) -> Vec<Diagnostic> {
+    let mut made = Vec::new();
+    for (option, with) in kind.idle {
+        let Some(given) = args.option(option) else { continue };
+        let said = (kind.spec.name, *option);
+        if job.idle_said.contains(&said) {
+            continue;
+        }
+        job.idle_said.push(said);
+        let text = match *with {
+            "" => format!("{option} does nothing in {} (said once)", kind.spec.name),
+            with => format!("{option} of {} acts with {with} alone (said once)", kind.spec.name),
+        };
+        made.push(*Diagnostic::remark(text, given.span));
+    }
+    made
 }
 
 /// What is said of a fatigue curve that nothing defines yet.

@@ -2,7 +2,7 @@
 //!
 //! Source: reference/model.md, "Environment".
 
-use super::{Call, Command, Effect, Job, ambient_options, probability, sea_options, wind_options};
+use super::{Call, Command, Effect, Job, ambient_options, plausible, probability, sea_options, wind_options};
 use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use windlass_base::span::Span;
 use windlass_base::units::Dim;
@@ -186,6 +186,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     if !made.name.is_empty() {
         job.model.environments.insert(Model::key(&made.name), made.clone());
     }
+    doubt(job, &made, &call.args);
     job.model.environment = made;
     ambient_options::planes(job, call.args.option("-BATHYMETRY"));
     Ok(Effect::Done)
@@ -193,8 +194,15 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
 
 fn define(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let made = build(job, &call.args)?;
+    doubt(job, &made, &call.args);
     job.model.environments.insert(Model::key(&made.name), made);
     Ok(Effect::Done)
+}
+
+/// Warns of what cannot be.
+fn doubt(job: &mut Job, made: &Environment, args: &Args) {
+    let doubts = plausible::doubts(&job.model, made, args, job.units);
+    job.notices.extend(doubts);
 }
 
 fn build(job: &Job, args: &Args) -> Outcome<Environment> {
@@ -368,7 +376,10 @@ fn current(job: &Job, given: &Given) -> Outcome<Current> {
                     .label(format!("this is {velocity}"))
                     .help("a current from the other side has another direction"));
             }
-            return Ok(Current::Uniform { velocity: Dim::Velocity.to_si(velocity, job.units), direction });
+            let velocity = Dim::Velocity
+                .checked_si(velocity, job.units)
+                .map_err(|why| Diagnostic::error("V of -CURRENT is too large", what.span).label(why))?;
+            return Ok(Current::Uniform { velocity, direction });
         }
         known_curve(job, given, 2 * index, CurveKind::CurrentProfile)?;
         profiles.push((word.to_string(), direction));

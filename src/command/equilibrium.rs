@@ -4,7 +4,7 @@
 
 use super::chosen::{note_interpolated, raise};
 use super::disposition::{BOTH, HARD, send};
-use super::verdict::{OverBreak, over_break};
+use super::verdict::{OverBreak, judged};
 use super::{Call, Command, Effect, Job};
 use crate::report::page;
 use indexmap::IndexMap;
@@ -137,7 +137,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         .map_err(|e| told(e, &job.model, call.args.span, job.units))?;
     let mut over = Vec::new();
     for (name, summary) in settled.system.summaries(&settled.state) {
-        over.extend(summary.ok().and_then(|s| over_break(name, s.over_given_break, "&EQUI")));
+        over.extend(summary.ok().and_then(|s| judged(name, &s, "&EQUI")));
     }
     job.equilibrium = Options { ignored: Vec::new(), ..options };
     let mut list = [tables::rest(&job.model, &settled), forces, tables::periods(&settled.system, &settled.state)];

@@ -2,12 +2,13 @@
 
 use super::chosen::{WARNING, gathered};
 use super::status::push;
-use super::verdict::{Verdict, over_break};
+use super::verdict::{Verdict, judged};
 use windlass_base::pose::Six;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_hydro::ambient;
 use windlass_model::{ClassError, Connector, End, Model, Response, Situation, Summary};
+use windlass_solve::results::fender_table;
 
 /// What one connector does between its ends.
 struct Found {
@@ -38,6 +39,7 @@ pub fn forces(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem, ver
         .column("On Bottom", "Unstretched", Dim::Length, Digits::Usual);
     let mut notes: Vec<(String, Vec<String>)> = Vec::new();
     let mut springs = spring_table("Springs of Connectors");
+    let mut fenders = Vec::new();
     for connector in model.connectors.values().filter(|c| fits(&c.name)) {
         let (solution, found) = match connector.active {
             false => ("inactive", None),
@@ -55,9 +57,9 @@ pub fn forces(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem, ver
             },
         };
         if let Some(found) = &found {
-            let largest = found.summary.over_given_break;
-            verdict.over_break.extend(over_break(&connector.name, largest, "&STATUS F_CONNECTOR"));
+            verdict.over_break.extend(judged(&connector.name, &found.summary, "&STATUS F_CONNECTOR"));
             spring_rows(&mut springs, connector, &found.summary);
+            fenders.extend(found.summary.fender.map(|state| (connector.name.as_str(), state)));
         }
         let mut row: Vec<Cell> = vec![connector.name.as_str().into(), connector.class.as_str().into(), solution.into()];
         row.extend(numbers(found.as_ref()));
@@ -65,7 +67,8 @@ pub fn forces(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem, ver
     }
     table.notes = gathered(&notes);
     let springs = Some(springs).filter(|s| s.rows() > 0);
-    std::iter::once(table).chain(springs).collect()
+    let fenders = fender_table("Fenders", fenders.iter().map(|(name, state)| (*name, state, None)));
+    std::iter::once(table).chain(springs).chain(Some(fenders).filter(|f| f.rows() > 0)).collect()
 }
 
 /// The FOUNDATION check of seed 001: every spring of every foundation against its allowable, and the largest of each.

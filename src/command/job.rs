@@ -257,6 +257,8 @@ pub struct Job {
     pub output: Output,
     /// Warnings and notes a handler raised; the session prints them.
     pub notices: Vec<Diagnostic>,
+    /// Options that do nothing in their class type, of which the user has been told: type and option.
+    pub idle_said: Vec<(&'static str, &'static str)>,
     /// Severity of the last record, for `&INFO(SEVERITY ..)`.
     pub last_severity: Option<Severity>,
     /// CONNECTOR records of an open INMODEL, waiting for names defined later.
@@ -301,6 +303,7 @@ impl Job {
             settings: Settings::default(),
             output,
             notices: Vec::new(),
+            idle_said: Vec::new(),
             last_severity: None,
             deferred: Vec::new(),
             deferred_assemblies: Vec::new(),

@@ -1,13 +1,15 @@
 //! The options that make a TUBE a member in waves and current, and the table of members.
 
+use super::body_tables::settled;
 use super::status::push;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
 use windlass_base::values::Args;
+use windlass_hydro::morison;
 use windlass_language::select::Owner;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
-use windlass_model::{Member, Model, Shape, WaveAction};
+use windlass_model::{ClassError, Member, Model, Shape, WaveAction};
 
 const fn factor(
     name: &'static str,
@@ -23,7 +25,17 @@ const fn value(help: &'static str) -> [ValueSpec; 1] {
 const CD: [ValueSpec; 1] = value("drag across the axis, on the diameter");
 const CDA: [ValueSpec; 1] = value("friction along the axis, on the skin");
 const CA: [ValueSpec; 1] = value("added mass across the axis, on the displaced mass; Cm is 1 + CA");
-const CAA: [ValueSpec; 1] = value("added mass along the axis of each end, on the half sphere over it");
+const CAA: [ValueSpec; 2] = [
+    ValueSpec::new(
+        "C1",
+        Kind::Number(Dim::None),
+        "added mass along the axis at the first end, on the half sphere over it",
+    )
+    .not_negative(),
+    ValueSpec::new("C2", Kind::Number(Dim::None), "the same at the second end; 0 where it joins another piece")
+        .or("C1")
+        .not_negative(),
+];
 
 /// What a TUBE takes besides what every piece takes.
 pub const OPTIONS: [OptionSpec; 4] = [
@@ -39,7 +51,8 @@ pub const READING: &str = "A round member with flat ends between two points of t
      1/2 rho CD OD |u| u across its axis and 1/2 rho CDA pi OD |u| u along it, u being the velocity of waves and current less its own; \
      (1 + CA) rho pi/4 OD^2 times the acceleration of the water across its axis; the pressure of the waves on its ends; and hydrostatic \
      pressure up to the surface where it is at the time. CA is also added to the inertia of the body, as is CAA rho pi/12 OD^3 along the axis \
-     at each end in the water: 0.64 is half a disc (DNV-RP-C205), for an end that is free. 0.016 for CDA is what AQWA has. In \
+     at each end in the water: 0.64 is half a disc (DNV-RP-C205), for an end that is free; an end that joins another piece has none: \
+     -CAA 0.64 0. &STATUS PIECES prints the added mass of all members of a body. 0.016 for CDA is what AQWA has. In \
      equilibrium the drag of the current is left, under the mean level. -CS_CURRENT instead gives the drag of the areas along the axes of \
      the part, as of other pieces; with CD it contradicts. -DIFTYPE 3DDIF says that a hydrodynamic database has the tube in its hull: of the \
      formula drag alone is left. Slamming and the drag of flat ends are not counted.";
@@ -72,7 +85,8 @@ pub fn coefficients(args: &Args, permeability: f64) -> Outcome<Member> {
         drag: cd,
         friction: given("-CDA").unwrap_or(friction),
         added: given("-CA").unwrap_or(added),
-        end_added: given("-CAA").unwrap_or(0.0),
+        end_added: [given("-CAA"), args.option("-CAA").and_then(|g| g.number(1)).or(given("-CAA"))]
+            .map(|caa| caa.unwrap_or(0.0)),
     })
 }
 
@@ -83,7 +97,9 @@ pub fn members(model: &Model, fits: &dyn Fn(&str) -> bool) -> Option<Table> {
         table = table.column("", name, Dim::None, Digits::Usual);
     }
     table = table.column("", "OD", Dim::Section, Digits::Usual).column("", "Length", Dim::Length, Digits::Usual);
-    for (group, name) in [("Across", "CD"), ("Along", "CDA"), ("Across", "CA"), ("Ends", "CAA")] {
+    for (group, name) in
+        [("Across", "CD"), ("Along", "CDA"), ("Across", "CA"), ("CAA of End", "1"), ("CAA of End", "2")]
+    {
         table = table.column(group, name, Dim::None, Digits::Usual);
     }
     let mut any = false;
@@ -106,7 +122,8 @@ pub fn members(model: &Model, fits: &dyn Fn(&str) -> bool) -> Option<Table> {
                     member.drag.into(),
                     member.friction.into(),
                     told(member.added),
-                    told(member.end_added),
+                    told(member.end_added[0]),
+                    told(member.end_added[1]),
                 ],
             );
             any = true;
@@ -114,4 +131,47 @@ pub fn members(model: &Model, fits: &dyn Fn(&str) -> bool) -> Option<Table> {
     }
     table.note("By Morison's formula: CD and CA on the diameter, CDA on the skin, CAA on the half sphere over an end");
     any.then_some(table)
+}
+
+/// The added mass of the members of each body under the mean level where it stands, about its origin in its own axes.
+///
+/// # Errors
+/// An environment that cannot be computed.
+pub fn added_mass(model: &Model, fits: &dyn Fn(&str) -> bool) -> Result<Vec<Table>, ClassError> {
+    let power = |length: i8| Dim::Derived { force: 1, length, seconds: 2 };
+    let names = ["X", "Y", "Z", "RX", "RY", "RZ"];
+    let mut halves = ["Added Mass of Members", "Added Moment of Inertia of Members"].map(|title| {
+        Table::new(title).column("", "Body", Dim::None, Digits::Usual).column("", "DF", Dim::None, Digits::Usual)
+    });
+    for (half, table) in halves.iter_mut().enumerate() {
+        for (n, name) in names.into_iter().enumerate() {
+            let length = half + n / 3;
+            let dim = power(if length == 0 {
+                -1
+            } else if length == 1 {
+                0
+            } else {
+                1
+            });
+            let group = if n < 3 { "By Acceleration" } else { "By Angular Acceleration" };
+            *table = std::mem::take(table).column(group, name, dim, Digits::Scientific(5));
+        }
+    }
+    for body in model.bodies.values().filter(|b| fits(&b.name)) {
+        let (_, added) = morison::of(model, body, None)?;
+        let whole = added.amax();
+        if whole == 0.0 {
+            continue;
+        }
+        for (n, name) in names.into_iter().enumerate() {
+            let mut row: Vec<Cell> = vec![body.name.as_str().into(), name.into()];
+            row.extend(added.row(n).iter().map(|x| Cell::from(settled(*x, whole))));
+            if let Some(table) = halves.get_mut(n / 3) {
+                push(table, row);
+            }
+        }
+    }
+    let [_, last] = &mut halves;
+    last.note("about the body's origin, in its axes, under the mean level where it stands");
+    Ok(halves.into_iter().filter(|table| table.rows() > 0).collect())
 }

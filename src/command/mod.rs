@@ -57,6 +57,7 @@ mod pgen;
 mod picture;
 mod piece;
 mod pipe;
+mod plausible;
 mod plot;
 mod prcpost;
 mod prescribe;

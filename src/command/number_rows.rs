@@ -4,6 +4,7 @@ use super::Job;
 use super::device::{existing, read_input};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
+use windlass_base::units::Dim;
 use windlass_language::source::LARGEST_FILE;
 
 /// A row of numbers, with its line in the file.
@@ -42,10 +43,9 @@ pub(super) fn rows<const N: usize>(
         }
         let mut row = [0.0; N];
         for (column, (slot, text)) in row.iter_mut().zip(&record).enumerate() {
-            *slot = number(text)
-                .ok()
-                .filter(|v| v.is_finite())
-                .ok_or_else(|| refused(format!("line {line}: value {} is `{text}`, which is no number", column + 1)))?;
+            *slot = number(text).ok().filter(|v| v.abs() <= Dim::Length.most()).ok_or_else(|| {
+                refused(format!("line {line}: value {} is `{text}`, which is no number up to 1E9", column + 1))
+            })?;
         }
         if found.len() >= most {
             return Err(refused(format!("it has more than {most} rows")));

@@ -160,7 +160,13 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         "WIND_SPECTRUM" => wind_table::spectra(job, (!chosen.all()).then_some(&fits), args.place(0))?,
         "LOADS" => loads(job, &fits),
         "WEIGHT" => vec![body_tables::weights(model, &fits)],
-        "PIECES" => std::iter::once(body_tables::pieces(model, &fits)).chain(member::members(model, &fits)).collect(),
+        "PIECES" => {
+            let added = member::added_mass(model, &fits).map_err(|e| e.diagnostic(args.place(0), job.units))?;
+            std::iter::once(body_tables::pieces(model, &fits))
+                .chain(member::members(model, &fits))
+                .chain(added)
+                .collect()
+        }
         "HYDROSTATICS" => body_tables::hydrostatics(model, &fits, job.units),
         "DATABASE" => database_table::tables(model, &fits),
         "BODIES" => {

@@ -116,6 +116,7 @@ static TUBE_SPEC: CommandSpec = CommandSpec {
         ValueSpec::new("*P1", Kind::Name(Noun::Point), "centre of one end"),
         ValueSpec::new("*P2", Kind::Name(Noun::Point), "centre of the other end"),
         number("OD", Dim::Section, "outer diameter").positive(),
+        number("OD2", Dim::Section, "diameter at the other end: refused where it differs").or("OD").positive(),
     ],
     options: &TUBE_OPTIONS,
     detail: member::READING,
@@ -194,6 +195,11 @@ fn mesh(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let span = args.place(1);
     let panels = mesh_of(job, args, name, span)?;
     let scale = Dim::Length.to_si(args.option_number("-SCALE").unwrap_or(1.0), job.units);
+    let largest = panels.iter().flatten().flatten().fold(0.0_f64, |most, x| most.max((scale * x).abs()));
+    if largest > Dim::Length.most() {
+        let text = format!("{name} cannot be used: a coordinate of {largest:e} m is no ship's");
+        return Err(Diagnostic::error(text, span).help("-SCALE gives its unit"));
+    }
     let scaled = panels.into_iter().map(|p| p.into_iter().map(|at| at.map(|x| scale * x)).collect()).collect();
     let by = args
         .option("-MOVE")
@@ -227,6 +233,11 @@ fn tube(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let ends = [end(1)?, end(2)?];
     if ends[0] == ends[1] {
         return Err(Diagnostic::error("a tube needs two points at different places", args.place(2)));
+    }
+    if args.number(4).is_some_and(|other| Some(other) != args.number(3)) {
+        return Err(Diagnostic::error("a TUBE has one diameter: tapers are not supported", args.place(4)).help(
+            "divide it into TUBEs of steps in diameter; PGEN makes a cone that floats, without a member's forces",
+        ));
     }
     whole(job, args, Shape::Tube { ends, diameter: args.number(3).unwrap_or_default() })
 }

@@ -22,7 +22,8 @@ use windlass_hydro::morison::unmoved;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::Model;
-use windlass_solve::time::{Convergence, Ending, Method, Run, Scheme, Settings, Snapshot, Watcher};
+use windlass_solve::results::{fender_peaks, fender_table};
+use windlass_solve::time::{Convergence, Ending, Method, Run, Scheme, Settings, Snapshot, Watcher, When};
 use windlass_solve::{SolveError, run_tables, settle, tethered};
 
 /// TDOM.
@@ -278,6 +279,19 @@ fn warn_of_still_pieces(job: &mut Job, made: &Run, span: Span) {
     }
 }
 
+/// Warns of actions at times that the run does not reach.
+fn warn_of_late_actions(job: &mut Job, made: &Run, span: Span) {
+    let end = made.settings.observed;
+    let late = made.actions.iter().filter_map(|action| match action.when {
+        When::At(time) if time > end => Some(format!("{} at {time} s", action.name)),
+        _ => None,
+    });
+    let list: Vec<String> = late.collect();
+    if !list.is_empty() {
+        job.warn(format!("the run ends at {end} s, before the actions {}", list.join(", ")), span);
+    }
+}
+
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (args, span) = (&call.args, call.args.span);
     if args.has("-TETHERS") {
@@ -299,6 +313,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         );
     }
     warn_of_throwing(job, args);
+    warn_of_late_actions(job, &made, span);
     warn_of_lines(job, span);
     let mut going = Going::new(job, &made, log);
     for text in run_tables::warnings_of_step(&made) {
@@ -311,6 +326,11 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let mut tables = vec![run_tables::told(&made)];
     tables.extend(run_tables::extremes(&made));
     tables.extend(run_tables::books(&made));
+    let fenders = fender_peaks(&made).map_err(|e| told(e, &made.model, span, job.units))?;
+    if !fenders.is_empty() {
+        let rows = fenders.iter().map(|p| (p.name.as_str(), &p.state, Some(p.time)));
+        tables.push(fender_table("Fenders at Their Largest Deflection", rows));
+    }
     let checked = match &ended {
         Ok(_) if args.has("-CHECK") => Some(check(job, &made)),
         _ => None,
@@ -328,6 +348,12 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         job.warn(text, span);
     }
     warn_of_breaks(job, over, span);
+    for p in fenders.iter().filter(|p| p.state.deflection > p.state.rated) {
+        let share = 100.0 * p.state.deflection / p.state.rated;
+        let text =
+            format!("fender {} is deflected to {share:.0} per cent of its rated deflection at {:.1} s", p.name, p.time);
+        job.warn(text, span);
+    }
     let wrong = |e| told(e, &job.model, span, job.units);
     let ended = ended.map_err(wrong)?;
     checked.transpose().map_err(wrong)?;

@@ -189,10 +189,10 @@ fn without(error: ClassError, span: Span, connector: &Connector, units: UnitSyst
 /// A value (user units) in SI.
 fn value(parameter: Parameter, given: f64, span: Span, job: &Job) -> Outcome<f64> {
     let name = parameter.name().to_uppercase();
-    let si = parameter.dim().to_si(given, job.units);
-    if !si.is_finite() {
-        return Err(Diagnostic::error(format!("a value of -VARY {name} is too large"), span));
-    }
+    let si = parameter.dim().checked_si(given, job.units).map_err(|why| {
+        let size = if given.abs() < 1.0 { "small" } else { "large" };
+        Diagnostic::error(format!("a value of -VARY {name} is too {size}"), span).label(why)
+    })?;
     match parameter.lacks(given) {
         Some(want) => Err(Diagnostic::error(format!("a value of -VARY {name} must be {want}"), span)
             .label(format!("this is {given}"))),

@@ -1,6 +1,6 @@
 //! What a job comes to for who reads its exit code alone: results that are missing, tensions beyond a break.
 
-use windlass_model::Model;
+use windlass_model::{Model, Summary};
 use windlass_solve::time::{Run, What};
 
 /// A connector whose tension exceeds a break that was given, in a state that was asked for.
@@ -12,6 +12,8 @@ pub struct OverBreak {
     pub ratio: f64,
     /// The segment, from 1.
     pub segment: usize,
+    /// By what share of its length the line is too short for its ends, where nothing gives its break.
+    pub too_short: Option<f64>,
     /// The command that asked for the state.
     pub command: &'static str,
     /// When, in a run (s).
@@ -23,6 +25,12 @@ impl OverBreak {
     pub fn text(&self) -> String {
         let time = self.time.map_or(String::new(), |t| format!(" at {t:.1} s"));
         let OverBreak { connector, ratio, segment, .. } = self;
+        if let Some(share) = self.too_short {
+            let percent = 100.0 * share;
+            return format!(
+                "{connector} is {percent:.1} per cent too short for its ends: its tension is {ratio:.3} times the break of segment {segment}{time}"
+            );
+        }
         format!("the tension of {connector} is {ratio:.3} times the break of its segment {segment}{time}")
     }
 }
@@ -39,7 +47,17 @@ pub struct Verdict {
 /// A connector as one over its break, where it is: of the largest tension over a break that was given, and the segment (from 1).
 pub fn over_break(connector: &str, largest: Option<(f64, usize)>, command: &'static str) -> Option<OverBreak> {
     let (ratio, segment) = largest.filter(|(ratio, _)| *ratio > 1.0)?;
-    Some(OverBreak { connector: connector.to_string(), ratio, segment, command, time: None })
+    Some(OverBreak { connector: connector.to_string(), ratio, segment, too_short: None, command, time: None })
+}
+
+/// The same of what a report tells of it; one that is far too short for its ends is over its break whoever gives that.
+pub fn judged(connector: &str, told: &Summary, command: &'static str) -> Option<OverBreak> {
+    let over = over_break(connector, told.over_given_break, command);
+    over.or_else(|| {
+        let too_short = told.too_short?;
+        let made = over_break(connector, told.ratio.zip(told.critical), command)?;
+        Some(OverBreak { too_short: Some(too_short), ..made })
+    })
 }
 
 /// The connectors whose largest tension at the first end exceeds the break of the segment there. One that an action by its tension has

@@ -7,6 +7,8 @@
 
 use std::fmt;
 
+/// The smallest size but zero that is taken as input, in SI of any dimension: its fourth power stays a number.
+pub const LEAST: f64 = 1e-36;
 /// One international foot (m).
 pub const FOOT: f64 = 0.3048;
 /// One inch (m).
@@ -271,6 +273,52 @@ impl Dim {
             | Dim::Pascals
             | Dim::KilogramsPerCubicMetre => 1.0,
         }
+    }
+
+    /// The largest size that is taken as input (SI). No ship, sea or line comes near it, and what an engine makes of it, its fourth power
+    /// among others, stays a number.
+    pub fn most(self) -> f64 {
+        match self {
+            Dim::Length | Dim::Section | Dim::Metres => 1e9,
+            Dim::Angle | Dim::AngularVelocity | Dim::AngularAcceleration => 1e6,
+            Dim::Velocity | Dim::WindSpeed | Dim::Acceleration => 1e6,
+            Dim::Frequency | Dim::ThermalExpansion | Dim::TemperatureRise => 1e6,
+            Dim::Density | Dim::KilogramsPerCubicMetre => 1e9,
+            Dim::Time | Dim::Days => 1e12,
+            Dim::Area | Dim::SquareMetres => 1e18,
+            Dim::Volume => 1e27,
+            Dim::None
+            | Dim::Force
+            | Dim::ForcePerLength
+            | Dim::Moment
+            | Dim::MomentPerRadian
+            | Dim::Stress
+            | Dim::SpectralDensity
+            | Dim::AngleDensity
+            | Dim::Damping(_)
+            | Dim::Derived { .. }
+            | Dim::Mass
+            | Dim::MassPerLength
+            | Dim::Newtons
+            | Dim::NewtonSquareMetres
+            | Dim::Pascals => 1e36,
+        }
+    }
+
+    /// The number in SI, where it is one that can be reckoned with: zero, or of a size between [`LEAST`] and [`Dim::most`].
+    ///
+    /// # Errors
+    /// Why it is none.
+    pub fn checked_si(self, value: f64, units: UnitSystem) -> Result<f64, String> {
+        let si = self.to_si(value, units);
+        if si != 0.0 && si.abs() < LEAST {
+            return Err(format!("smaller than {LEAST:e}, which is zero here: write 0"));
+        }
+        if si.abs() <= self.most() {
+            return Ok(si);
+        }
+        let most = self.from_si(self.most(), units);
+        Err(format!("the largest size taken is {} {}", eight_figures(most), self.label(units)).trim_end().to_string())
     }
 
     /// SI value of `value` user units.

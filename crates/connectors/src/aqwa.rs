@@ -23,7 +23,7 @@ use windlass_model::{
 };
 
 /// The class type CATENARY: an AQWA catenary section with the joint at its end.
-pub static CATENARY: ClassKind = ClassKind { spec: &CATENARY_SPEC, segmented: true, build: build_catenary };
+pub static CATENARY: ClassKind = ClassKind { spec: &CATENARY_SPEC, segmented: true, build: build_catenary, idle: &[] };
 
 /// A number of an AQWA record.
 pub const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {

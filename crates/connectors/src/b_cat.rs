@@ -7,13 +7,14 @@ use super::devices::Devices;
 use super::line_element::LineElement;
 use super::mooring::{Mooring, end_springs, line_error, parts, with_series};
 use super::moving::{self as m, Flexure, MovingLine, Seabed};
-use super::section::{LineSection, properties};
+use super::section::{self, LineSection, properties};
 use super::{ClassKind, checks, options as o};
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::table::Table;
-use windlass_base::units::Dim;
+use windlass_base::units::{Dim, UnitSystem};
+use windlass_base::values::Args;
 use windlass_catenary::{Floor, Law, Line, LineError};
 use windlass_language::spec::{CommandSpec, Kind, ValueSpec};
 use windlass_model::{
@@ -22,7 +23,7 @@ use windlass_model::{
 };
 
 /// The class type.
-pub static B_CAT: ClassKind = ClassKind { spec: &SPEC, segmented: true, build };
+pub static B_CAT: ClassKind = ClassKind { spec: &SPEC, segmented: true, build, idle: section::CATENARY_IDLE };
 
 static SPEC: CommandSpec = CommandSpec {
     data: &[
@@ -202,6 +203,10 @@ impl ConnectorClass for Catenary {
                 .help("add the next segment with the same class name, or make CW positive"));
         }
         Ok(())
+    }
+
+    fn notices(&self, last: &Args, units: UnitSystem, around: &Surroundings) -> Vec<Diagnostic> {
+        section::bar_notice(&self.sections, last, units, around).into_iter().collect()
     }
 
     fn check_ends(&self, connector: &Connector, bodies: usize) -> Outcome<()> {

@@ -1,7 +1,7 @@
 //! A spring along the chord between two ends: a weightless line, or one that also pushes.
 
 use super::extension::{Extended, Extension, Pull};
-use super::mooring::{Mooring, no_other_end};
+use super::mooring::{Mooring, no_other_end, too_short, too_short_note};
 use nalgebra::{Matrix3, Vector3};
 use windlass_base::table::Table;
 use windlass_catenary::{Law, Point, rising_root};
@@ -19,7 +19,12 @@ pub struct Chord {
     pub springs: [Option<Law>; 2],
     /// Whether it also pushes.
     pub pushes: bool,
+    /// Weight in water that it leaves out (N).
+    pub left_out: f64,
 }
+
+/// Share of the tension from which on a weight that is left out is told, and warned of.
+const LEFT_OUT: [f64; 2] = [0.01, 0.1];
 
 impl Chord {
     /// From the first end to the other (m, global).
@@ -84,6 +89,12 @@ impl Chord {
         if force != 0.0 && chord == 0.0 {
             notes
                 .push("warning: its ends coincide; the direction of its force is not defined, and taken upward".into());
+        }
+        notes.extend(too_short(chord / self.line.line.length(), ratio).map(too_short_note));
+        let share = if force == 0.0 { 0.0 } else { self.left_out.abs() / force.abs() };
+        if share >= LEFT_OUT[0] {
+            let warning = if share >= LEFT_OUT[1] { "warning: " } else { "" };
+            notes.push(format!("{warning}it has no weight here: its own in water is {:.3} of this tension", share));
         }
         if force == 0.0 && left < self.line.line.length() {
             notes.push("the line is slack".into());
@@ -160,9 +171,11 @@ impl Extended for ChordElement {
             ratio: Some(ratio),
             critical: Some(critical),
             over_given_break: self.chord.over_given_break(force),
+            too_short: too_short(chord / self.chord.line.line.length(), ratio),
             grounded: Some(0.0),
-            solution: "exact",
+            solution: "weightless",
             springs: Vec::new(),
+            fender: None,
             notes: self.chord.remarks(force, chord, chord - by.at(force), ratio),
         })
     }
@@ -262,7 +275,7 @@ impl LineModel for Chord {
             critical,
             over_given_break: self.over_given_break(force),
             grounded: 0.0,
-            solution: "exact",
+            solution: "weightless",
             notes: self.remarks(force, chord, chord, ratio),
         })
     }
@@ -272,7 +285,7 @@ impl LineModel for Chord {
             return Err(ClassError::new("the line has no weight"));
         }
         let line = self.line.with(change)?;
-        Ok(Box::new(Chord { line, springs: self.springs.clone(), pushes: self.pushes }))
+        Ok(Box::new(Chord { line, springs: self.springs.clone(), pushes: self.pushes, left_out: self.left_out }))
     }
 
     fn distance(&self, condition: Condition) -> Result<f64, ClassError> {

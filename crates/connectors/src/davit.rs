@@ -11,7 +11,7 @@ use windlass_language::spec::CommandSpec;
 use windlass_model::{ClassRecord, ConnectorClass};
 
 /// The class type.
-pub static DAVIT: ClassKind = ClassKind { spec: &SPEC, segmented: false, build };
+pub static DAVIT: ClassKind = ClassKind { spec: &SPEC, segmented: false, build, idle: &[] };
 
 static SPEC: CommandSpec = CommandSpec {
     data: DATA,

@@ -11,7 +11,7 @@ use windlass_language::spec::CommandSpec;
 use windlass_model::{ClassRecord, ConnectorClass};
 
 /// The class type.
-pub static FIX: ClassKind = ClassKind { spec: &SPEC, segmented: false, build };
+pub static FIX: ClassKind = ClassKind { spec: &SPEC, segmented: false, build, idle: &[] };
 
 /// Stiffness of what is rigid (N/m, N m/rad): rounding of positions of a thousand metres, some 1E-13 m, stays below a newton.
 pub const RIGID: f64 = 1e12;

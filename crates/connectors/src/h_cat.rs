@@ -8,13 +8,14 @@ use super::extension::Extended;
 use super::line_element::LineElement;
 use super::mooring::{Mooring, end_springs, line_error, no_other_end, parts, with_series};
 use super::moving::{self as m, Flexure, MovingLine, Seabed};
-use super::section::{LineSection, properties};
+use super::section::{self, LineSection, properties};
 use super::{ClassKind, checks, options as o};
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::table::Table;
-use windlass_base::units::Dim;
+use windlass_base::units::{Dim, UnitSystem};
+use windlass_base::values::{Args, Given};
 use windlass_catenary::{Law, Line};
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{
@@ -23,7 +24,7 @@ use windlass_model::{
 };
 
 /// The class type.
-pub static H_CAT: ClassKind = ClassKind { spec: &H_CAT_SPEC, segmented: true, build };
+pub static H_CAT: ClassKind = ClassKind { spec: &H_CAT_SPEC, segmented: true, build, idle: section::CATENARY_IDLE };
 
 /// Options of lines between two places.
 pub const LINE_OPTIONS: &[OptionSpec] = &[
@@ -153,6 +154,19 @@ impl ConnectorClass for Hanging {
         "H_CAT"
     }
 
+    fn notices(&self, last: &Args, units: UnitSystem, around: &Surroundings) -> Vec<Diagnostic> {
+        if self.exact {
+            return section::bar_notice(&self.sections, last, units, around).into_iter().collect();
+        }
+        let given = ["-WTPLEN", "-DENSITY", "-SPGRAVITY", "-TYPE"].iter().find_map(|name| last.option(name));
+        let says = |given: &Given| {
+            let text = format!("{} is not used: an H_CAT without EXACT is weightless", given.name);
+            *Diagnostic::remark(text, given.span)
+                .help("~NAME H_CAT OD EXACT has its weight; a dynamic line has it always")
+        };
+        given.filter(|_| self.straight() && self.sections.len() == 1).map(says).into_iter().collect()
+    }
+
     fn check_ends(&self, connector: &Connector, bodies: usize) -> Outcome<()> {
         checks::ends("H_CAT", connector, bodies, 2, 2)
     }
@@ -191,7 +205,7 @@ impl ConnectorClass for Hanging {
         let mut line = self.made(place, surroundings, &springs)?;
         line.notes.extend(self.devices.notes());
         if self.straight() {
-            return Ok(Box::new(Chord { line, springs, pushes: false }));
+            return Ok(Box::new(Chord { line, springs, pushes: false, left_out: self.left_out(surroundings) }));
         }
         Ok(Box::new(line))
     }
@@ -210,7 +224,12 @@ impl ConnectorClass for Hanging {
         let springs = self.springs.clone();
         let line = self.made(&connection.placement, connection.surroundings, &springs)?;
         let line: Box<dyn Extended> = if self.straight() {
-            Box::new(ChordElement::new(Chord { line, springs, pushes: false })?)
+            Box::new(ChordElement::new(Chord {
+                line,
+                springs,
+                pushes: false,
+                left_out: self.left_out(connection.surroundings),
+            })?)
         } else {
             Box::new(LineElement::new(line)?)
         };
@@ -222,6 +241,11 @@ impl Hanging {
     /// Whether it is a spring along its chord.
     fn straight(&self) -> bool {
         !self.exact && self.sections.iter().all(|s| s.clump == 0.0)
+    }
+
+    /// Weight in water that a spring along the chord leaves out (N).
+    fn left_out(&self, surroundings: &Surroundings) -> f64 {
+        self.sections.iter().map(|s| s.submerged(surroundings) * s.length).sum()
     }
 
     /// The line with these springs at its ends.

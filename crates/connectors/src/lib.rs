@@ -22,6 +22,7 @@ mod davit;
 mod devices;
 mod extended_line;
 mod extension;
+mod fender;
 mod fix;
 mod foundation;
 mod gap;
@@ -66,6 +67,8 @@ pub struct ClassKind {
     pub spec: &'static CommandSpec,
     /// True when a repeated class name adds a segment; else it replaces the class.
     pub segmented: bool,
+    /// Options that are read and kept and do nothing here, each with what they act with; empty where nothing is.
+    pub idle: &'static [(&'static str, &'static str)],
     /// Builds the object from all records of the class so far, fairlead first.
     pub build: fn(&[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>>,
 }
@@ -94,5 +97,6 @@ pub static CLASSES: &[&ClassKind] = &[
     &fix::FIX,
     &spr::SPR,
     &gap::GAP,
+    &fender::FENDER,
     &tug_boat::TUG_BOAT,
 ];

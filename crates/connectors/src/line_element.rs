@@ -2,7 +2,7 @@
 
 use super::extended_line::{Plane, behind};
 use super::extension::{Extended, Extension, Pull};
-use super::mooring::Mooring;
+use super::mooring::{Mooring, too_short, too_short_note};
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use windlass_base::pose::Six;
 use windlass_catenary::{Bottom, EndForces, Interpolated, Line, LineError, Pulled, Regime, Segment, State};
@@ -280,15 +280,22 @@ impl Extended for LineElement {
         if over_given_break.is_none() && tabulated && line.breaks_given.contains(&true) {
             over_given_break = line.exact_loads().ok().and_then(|exact| exact.over_given_break);
         }
+        let (x, _, z) = self.between(&ends);
+        let chord = x.hypot(z - self.mooring.line.anchor());
+        let too_short = too_short(chord / self.mooring.line.length(), loads.ratio);
+        let mut notes = loads.notes;
+        notes.extend(too_short.map(too_short_note));
         Ok(Summary {
             tension: Some(loads.tension),
             ratio: Some(loads.ratio),
             critical: Some(loads.critical),
             over_given_break,
+            too_short,
             grounded: Some(loads.grounded),
             solution: loads.solution,
             springs: Vec::new(),
-            notes: loads.notes,
+            fender: None,
+            notes,
         })
     }
 }

@@ -17,7 +17,7 @@ use windlass_language::spec::{CommandSpec, Kind, ValueSpec};
 use windlass_model::{ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Surroundings};
 
 /// The class type.
-pub static LMU: ClassKind = ClassKind { spec: &SPEC, segmented: false, build };
+pub static LMU: ClassKind = ClassKind { spec: &SPEC, segmented: false, build, idle: &[] };
 
 static SPEC: CommandSpec = CommandSpec {
     data: &[

@@ -66,6 +66,7 @@ impl ConnectorClass for Restraining {
             groups: list().map(group).collect(),
             dashpots: Vec::new(),
             friction: self.friction,
+            pushes_only: false,
         };
         Ok(Box::new(ZeroLength {
             holder: 0,

@@ -16,7 +16,11 @@ use windlass_model::{
 };
 
 /// The class type.
-pub static ROD: ClassKind = ClassKind { spec: &ROD_SPEC, segmented: true, build };
+pub static ROD: ClassKind = ClassKind { spec: &ROD_SPEC, segmented: true, build, idle: &[] };
+
+const NO_TORSION: &str = "a rod has no torsion";
+const NO_SHEAR: &str = "a rod does not deform in shear (Euler and Bernoulli)";
+const ONE_BENDING: &str = "a rod has one bending stiffness in all directions, -EI";
 
 static ROD_SPEC: CommandSpec = CommandSpec {
     data: &[o::OD, ValueSpec::new("T", Kind::Number(Dim::Section), "wall thickness").positive()],
@@ -54,6 +58,16 @@ static ROD_SPEC: CommandSpec = CommandSpec {
         m::CLUMP_DRAG,
         m::CLAMP,
         m::SEABED,
+    ],
+    absent: &[
+        ("-GJ", NO_TORSION),
+        ("-TORSION", NO_TORSION),
+        ("-CURVATURE", "a rod is straight without load"),
+        ("-SHEAR", NO_SHEAR),
+        ("-GA", NO_SHEAR),
+        ("-EIY", ONE_BENDING),
+        ("-EIZ", ONE_BENDING),
+        ("-MOMENT", "its ends are pinned, or held by -CLAMP; a moment at an end cannot be given"),
     ],
     detail: "Large-deflection tubular elements with inertia, first record at the first end. -REFINE cuts a segment into elements; \
              the seed's 300 over all segments were MOSES' limit, here it is memory. The rod feels waves, current, wind, growth and bottom along itself, at rest without \

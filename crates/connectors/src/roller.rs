@@ -15,7 +15,7 @@ use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Surroundings};
 
 /// The class type.
-pub static ROLLER: ClassKind = ClassKind { spec: &SPEC, segmented: false, build };
+pub static ROLLER: ClassKind = ClassKind { spec: &SPEC, segmented: false, build, idle: &[] };
 
 const fn gap(name: &'static str, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(Dim::Section), help).not_negative()
@@ -42,7 +42,8 @@ static SPEC: CommandSpec = CommandSpec {
              Z- Z+: the pipe moves freely by so much on each side of the node; beyond, the physical roller there pushes it back with \
              the SPV of Y or Z (1.0E9 N/m where none is given). With neither, lateral motion is restrained and the pipe cannot go below \
              the node; it can lift off. With one of them only, nothing restrains the other direction. A one-sided restraint: Z- 0, Z+ \
-             10000. X, RX, RY and RZ are springs that act always; SENSE is read and says nothing, as rollers only push. -Y_PY and -Z_PY \
+             10000. X, RX, RY and RZ are springs that act always. Rollers only push: SENSE COMPRESSION and BOTH say the same, TENSION is refused, and so is \
+             COMPRESSION beside an X spring, which acts both ways. -Y_PY and -Z_PY \
              are in series with the rollers. A single point: the pipe assembly takes care of the other end, and without one it exerts \
              no force.",
     example: "MEDIT\n~ROLL ROLLER COMPRESSION Y 100 Z 100 -Z_ROLLER 0 10000\nEND\n&STATUS CLASS ~ROLL",
@@ -65,6 +66,18 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
     let args = &record.args;
     let gaps = |name: &str| args.option(name).and_then(|g| Some([g.number(0)?, g.number(1)?]));
     let given = restraints(args, 1, 3)?;
+    match args.word(0) {
+        Some("TENSION") => {
+            return Err(Diagnostic::error("a ROLLER only pushes: SENSE TENSION has no meaning", args.place(0))
+                .help("leave SENSE out, or COMPRESSION"));
+        }
+        Some("COMPRESSION") if given.iter().any(|r| r.dof == "X") => {
+            return Err(Diagnostic::error("the X spring of a ROLLER, along the pipe, acts both ways", args.place(0))
+                .label("SENSE COMPRESSION cannot hold for it")
+                .help("leave SENSE out: the rollers push all the same"));
+        }
+        _ => {}
+    }
     let mut all = given.clone();
     for dof in ["Y", "Z"] {
         if !all.iter().any(|r| r.dof == dof) {

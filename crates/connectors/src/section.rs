@@ -10,13 +10,29 @@ use std::f64::consts::FRAC_PI_4;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::table::{Cell, Digits, Table};
-use windlass_base::units::{Dim, UnitSystem};
+use windlass_base::units::{Dim, UnitSystem, eight_figures};
 use windlass_base::values::{Args, Given};
 use windlass_language::select::{Owner, choose};
 use windlass_model::{ClassRecord, FatigueSegment, Surroundings};
 
 /// Density against which a specific gravity is given: fresh water (kg/m3).
 const FRESH_WATER: f64 = 1000.0;
+
+/// With what options of dynamic lines act.
+const DYNAMICS: &str = "&CONNECTOR -DYNAMICS";
+/// Options of the catenaries that do nothing by themselves.
+pub const CATENARY_IDLE: &[(&str, &str)] = &[
+    ("-POI_RAT", ""),
+    ("-ALPHA", ""),
+    ("-REFINE", DYNAMICS),
+    ("-DRAGDIAMETER", DYNAMICS),
+    ("-WINDDIAMETER", DYNAMICS),
+    ("-AMASDIAMETER", DYNAMICS),
+    ("-CD", DYNAMICS),
+    ("-CA", DYNAMICS),
+    ("-AX_DAMPING", DYNAMICS),
+    ("-SEABED", DYNAMICS),
+];
 
 /// A segment of line, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,6 +63,8 @@ pub struct LineSection {
     pub refine: i64,
     /// Its type of the library.
     pub of_type: Option<OfType>,
+    /// Whether its record gives no weight: it has that of a solid bar.
+    pub is_bar: bool,
 }
 
 /// What a section of the library has beside weight, stiffness and strength.
@@ -193,6 +211,7 @@ impl LineSection {
             pendant: clump.and_then(|c| c.number(1)).unwrap_or(0.0),
             refine: args.option("-REFINE").and_then(|g| g.values.first()).and_then(|v| v.integer()).unwrap_or(1),
             of_type,
+            is_bar: of_type.is_none() && ["-WTPLEN", "-DENSITY", "-SPGRAVITY"].iter().all(|name| !args.has(name)),
         })
     }
 
@@ -218,6 +237,33 @@ impl LineSection {
     pub fn in_air(&self) -> f64 {
         self.weight
     }
+}
+
+/// A value to four figures, with its unit.
+pub fn short(value: f64, dim: Dim, units: UnitSystem) -> String {
+    let own = dim.from_si(value, units);
+    format!("{} {}", eight_figures(format!("{own:.3e}").parse().unwrap_or(own)), dim.label(units))
+}
+
+/// What is said of the first segment of a line that has a diameter alone: it weighs as much as a solid bar.
+pub fn bar_notice(
+    sections: &[LineSection],
+    last: &Args,
+    units: UnitSystem,
+    around: &Surroundings,
+) -> Option<Diagnostic> {
+    let (own, others) = sections.split_last()?;
+    if !own.is_bar || own.thickness.is_some() || others.iter().any(|s| s.is_bar) {
+        return None;
+    }
+    let (od, weight) = (short(own.od, Dim::Section, units), short(own.submerged(around), Dim::ForcePerLength, units));
+    let mut text = format!("{od} without a weight is a solid steel bar, {weight} in water");
+    if !own.break_is_given {
+        text.push_str(&format!(", break {}", short(own.breaking, Dim::Force, units)));
+    }
+    let advice =
+        "-TYPE CHAIN_R4 D makes it a chain (&STATUS LINE_TYPES lists chain, wire and rope); -WTPLEN gives a weight";
+    Some(*Diagnostic::remark(text, last.place(0)).help(advice))
 }
 
 /// The `&STATUS CLASS` table of a line: one row a segment.

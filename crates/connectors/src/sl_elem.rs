@@ -6,13 +6,14 @@ use super::chord::{Chord, ChordElement};
 use super::devices::Devices;
 use super::h_cat::{LINE_OPTIONS, check_records, hung};
 use super::mooring::{end_springs, with_series};
-use super::section::{LineSection, properties};
+use super::section::{LineSection, properties, short};
 use super::{ClassKind, checks, options as o};
 use std::sync::Arc;
-use windlass_base::diagnostic::Outcome;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::table::Table;
-use windlass_base::units::Dim;
+use windlass_base::units::{Dim, UnitSystem};
+use windlass_base::values::Args;
 use windlass_catenary::Law;
 use windlass_language::spec::{CommandSpec, Kind, ValueSpec};
 use windlass_model::{
@@ -21,14 +22,34 @@ use windlass_model::{
 };
 
 /// The class type.
-pub static SL_ELEM: ClassKind = ClassKind { spec: &SL_ELEM_SPEC, segmented: true, build };
+pub static SL_ELEM: ClassKind = ClassKind { spec: &SL_ELEM_SPEC, segmented: true, build, idle: IDLE };
+
+/// Options that do nothing in a spring along a chord.
+const IDLE: &[(&str, &str)] = &[
+    ("-WTPLEN", ""),
+    ("-DISPLEN", ""),
+    ("-DENSITY", ""),
+    ("-SPGRAVITY", ""),
+    ("-BUOYDIAMETER", ""),
+    ("-DRAGDIAMETER", ""),
+    ("-WINDDIAMETER", ""),
+    ("-AMASDIAMETER", ""),
+    ("-POI_RAT", ""),
+    ("-ALPHA", ""),
+    ("-REFINE", ""),
+    ("-CLUMP", ""),
+    ("-CD", ""),
+    ("-CA", ""),
+    ("-AX_DAMPING", ""),
+    ("-SEABED", ""),
+];
 
 static SL_ELEM_SPEC: CommandSpec = CommandSpec {
     data: &[
         o::LINE_OD,
         ValueSpec::new("FLAG", Kind::Choice(&["TENSION"]), "tension only").or("tension and compression"),
     ],
-    detail: "Its force depends only on the distance between the ends and acts along the line between them. -PISTON is a link of its position less LD between the first end and the line, in the direction of the tension; it has no weight. \
+    detail: "Its force depends only on the distance between the ends and acts along the line between them: it has no weight. H_CAT EXACT has. -PISTON is a link of its position less LD between the first end and the line, in the direction of the tension; it has no weight. \
              MAX stands as near to LD as TMAX allows; MINMAX stays where it is between TMIN and TMAX. While it can follow, the tension \
              stays at the limit without stiffness along it; beyond VLONG, VSHORT or the stroke (0 to LT) it departs. At rest the piston \
              has slid from LD as far as it must. A table or a shape of the line is at LD. The piston does not feel the dashpot of \
@@ -72,6 +93,15 @@ impl ConnectorClass for Spring {
         "SL_ELEM"
     }
 
+    fn notices(&self, last: &Args, units: UnitSystem, around: &Surroundings) -> Vec<Diagnostic> {
+        let weight: f64 = self.sections.iter().map(|s| s.submerged(around) * s.length).sum();
+        if self.sections.len() > 1 || weight == 0.0 {
+            return Vec::new();
+        }
+        let text = format!("an SL_ELEM has no weight: {} in water are left out", short(weight, Dim::Force, units));
+        vec![*Diagnostic::remark(text, last.span).help("H_CAT EXACT has its weight, ROD bends as well")]
+    }
+
     fn check_ends(&self, connector: &Connector, bodies: usize) -> Outcome<()> {
         checks::ends("SL_ELEM", connector, bodies, 2, 2)
     }
@@ -82,7 +112,9 @@ impl ConnectorClass for Spring {
 
     fn properties(&self, name: &str, surroundings: &Surroundings) -> Table {
         let flag = if self.tension { "TENSION" } else { "tension and compression" };
-        properties(name, "SL_ELEM", &self.sections, surroundings).fact("Flag", flag, Dim::None)
+        let mut table = properties(name, "SL_ELEM", &self.sections, surroundings).fact("Flag", flag, Dim::None);
+        table.note("an SL_ELEM has no weight: those above are not used");
+        table
     }
 
     fn first_length(&self) -> Option<f64> {
@@ -127,6 +159,7 @@ impl Spring {
         let mut line = hung(&straight, &springs, place, surroundings, &self.places, |_| 0.0)?;
         line.largest = self.limit.unwrap_or(line.largest);
         line.notes.clone_from(&self.notes);
-        Ok(Chord { line, springs, pushes: !self.tension })
+        let left_out = straight.iter().map(|s| s.submerged(surroundings) * s.length).sum();
+        Ok(Chord { line, springs, pushes: !self.tension, left_out })
     }
 }

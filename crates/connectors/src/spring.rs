@@ -12,7 +12,7 @@ use nalgebra::{Matrix3, Vector3};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::table::{Cell, Digits, Table};
-use windlass_base::units::Dim;
+use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::Args;
 use windlass_model::{ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Surroundings};
 
@@ -143,11 +143,7 @@ impl Springs {
             restrained(&list, dof, symmetric, given.span)?;
             *slot = Some(points);
         }
-        let dashpots = ["-X_DAMPING", "-Y_DAMPING", "-Z_DAMPING"].map(|name| {
-            let given = args.option(name)?;
-            let most = given.number(2).unwrap_or(f64::INFINITY);
-            Some(Dashpot { coefficient: given.number(0)?, exponent: given.number(1)?, most })
-        });
+        let dashpots = ["-X_DAMPING", "-Y_DAMPING", "-Z_DAMPING"].map(|name| Dashpot::read(args, name));
         let friction = args.option_number("-FRICTION");
         Ok(Springs { restraints: list, symmetric, curves, dashpots, convolutions, friction })
     }
@@ -193,7 +189,7 @@ impl Springs {
             Some(mu) if all.iter().any(|r| r.0 == 1 || r.0 == 2) => Friction::Limit(mu),
             Some(mu) => Friction::Rate(mu),
         };
-        Ok(ZeroLaw { sense, contact, groups, dashpots, friction })
+        Ok(ZeroLaw { sense, contact, groups, dashpots, friction, pushes_only: false })
     }
 
     fn viscous(&self, dof: usize, connection: &Connection) -> Result<Option<Viscoelastic>, ClassError> {
@@ -250,6 +246,7 @@ impl Generalized {
     pub fn read(records: &[ClassRecord], kind: &'static str) -> Outcome<Self> {
         let record = records.last().ok_or_else(|| Diagnostic::error("a class needs a record", Span::default()))?;
         let args = &record.args;
+        looks_along_x(args, kind)?;
         Ok(Generalized {
             kind,
             sense: Sense::of(args.word(0)),
@@ -266,9 +263,35 @@ impl Generalized {
     }
 }
 
+/// SENSE goes by the displacement along element X: without a spring there the others would push and pull alike.
+///
+/// # Errors
+/// TENSION or COMPRESSION without an X spring, at the word.
+fn looks_along_x(args: &Args, kind: &str) -> Outcome<()> {
+    let has_x = args.data.iter().skip(1).any(|v| v.word() == Some("X"));
+    let Some(sense) = args.word(0).filter(|sense| *sense != "BOTH" && !has_x) else { return Ok(()) };
+    Err(Diagnostic::error(format!("SENSE {sense} of {kind} goes by element X, which has no spring"), args.place(0))
+        .label("the springs given would push and pull alike")
+        .help("turn element X to their direction with -EULER of CONNECTOR and give X; BOTH for springs that act always; FENDER for a fender"))
+}
+
 impl ConnectorClass for Generalized {
     fn kind(&self) -> &'static str {
         self.kind
+    }
+
+    fn notices(&self, args: &Args, _: UnitSystem, _: &Surroundings) -> Vec<Diagnostic> {
+        let mut made = Vec::new();
+        let has_x = self.springs.restraints.iter().any(|r| r.dof == "X");
+        if let Some(given) = args.option("-LEN").filter(|_| !has_x && self.offset > 0.0) {
+            let text = format!("-LEN of {} offsets element X, which has no spring: it does nothing", self.kind);
+            made.push(*Diagnostic::warning(text, given.span));
+        }
+        if let Some(given) = args.option("-X_DAMPING").filter(|_| self.sense == Sense::Compression) {
+            let text = "this dashpot pulls while the ends part faster than the spring pushes";
+            made.push(*Diagnostic::remark(text, given.span).help("a FENDER never pulls"));
+        }
+        made
     }
 
     fn check_ends(&self, connector: &Connector, bodies: usize) -> Outcome<()> {

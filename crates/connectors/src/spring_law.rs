@@ -4,6 +4,7 @@
 
 use super::viscous::{Affine, Viscoelastic};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
+use windlass_base::values::Args;
 
 /// Velocity below which a dashpot of an exponent below one is linear (m/s): its slope is without bound at rest.
 const SLOW: f64 = 1e-3;
@@ -20,7 +21,7 @@ struct Sized {
 /// Springs in series, the same both ways: force against deflection in straight pieces from zero; the last slope goes on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Elastic {
-    /// (force, deflection), growing in both.
+    /// (force, deflection), growing deflections.
     points: Vec<(f64, f64)>,
 }
 
@@ -33,6 +34,11 @@ impl Elastic {
             points.push((stiffness, 1.0));
         }
         Elastic { points }
+    }
+
+    /// A force by its own points (force, deflection): deflections grow, forces may fall; the origin is passed over.
+    pub fn of_curve(curve: &[(f64, f64)]) -> Self {
+        Elastic { points: curve.iter().copied().filter(|(_, y)| *y > 0.0).collect() }
     }
 
     /// Force at a deflection >= 0 with a further spring of this compliance (m/N) in series.
@@ -63,6 +69,13 @@ pub struct Dashpot {
 }
 
 impl Dashpot {
+    /// That of an option `Co Ex Fo`.
+    pub fn read(args: &Args, name: &str) -> Option<Dashpot> {
+        let given = args.option(name)?;
+        let most = given.number(2).unwrap_or(f64::INFINITY);
+        Some(Dashpot { coefficient: given.number(0)?, exponent: given.number(1)?, most })
+    }
+
     fn force(&self, speed: f64) -> Sized {
         let (c, ex) = (self.coefficient, self.exponent);
         // below one the power is rounded off at rest, and stays below the seed's

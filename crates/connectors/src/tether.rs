@@ -19,7 +19,7 @@ use windlass_model::{
 };
 
 /// The class type TETHER: an AQWA tether/riser section.
-pub static TETHER: ClassKind = ClassKind { spec: &TETHER_SPEC, segmented: true, build: build_tether };
+pub static TETHER: ClassKind = ClassKind { spec: &TETHER_SPEC, segmented: true, build: build_tether, idle: &[] };
 
 static TETHER_SPEC: CommandSpec = CommandSpec {
     owner: Owner::Aqwa,

@@ -164,6 +164,8 @@ pub struct ZeroLaw {
     pub dashpots: Vec<(Dashpot, [bool; 3])>,
     /// Friction in Y and Z.
     pub friction: Friction,
+    /// Whether spring and dashpot together never pull along X.
+    pub pushes_only: bool,
 }
 
 /// What the law answers.
@@ -234,6 +236,11 @@ impl ZeroLaw {
                 force += more;
                 answer.by_rate += slope;
             }
+        }
+        if self.pushes_only && force.x > 0.0 {
+            force.x = 0.0;
+            slopes.row_mut(0).fill(0.0);
+            answer.by_rate.row_mut(0).fill(0.0);
         }
         answer.force.fixed_rows_mut::<3>(0).copy_from(&force);
         answer.slopes.fixed_view_mut::<3, 3>(0, 0).copy_from(&slopes);

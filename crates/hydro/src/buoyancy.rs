@@ -230,17 +230,34 @@ fn apart(a: &[Vector3<f64>; 2], b: &[Vector3<f64>; 2]) -> bool {
     (0..3).any(|i| a_low[i] >= b_high[i] || b_low[i] >= a_high[i])
 }
 
+/// A piece that is a tube, in its body.
+fn tube_of(part: &Part, piece: &Piece) -> Option<Tube> {
+    match &piece.shape {
+        Shape::Tube { ends, diameter } => {
+            let ends = ends.map(|at| Vector3::from(part.place.apply(at)));
+            Some(Tube { ends, diameter: *diameter })
+        }
+        _ => None,
+    }
+}
+
 /// What is wrong with a piece, by itself and beside the others of its body; places in the system of the body.
 pub fn piece_faults(model: &Model, body: &Body, part: &Part, piece: &Piece) -> Vec<PieceFault> {
     let Solidified { form, mut faults } = Solidified::of(part, piece, Surface::faults);
     let Some(surface) = form.and_then(Form::surface) else { return faults };
     let bounds = bounds(part, piece);
+    let round = tube_of(part, piece);
     for other in model.parts_of(body).flat_map(|p| p.pieces.iter().map(move |piece| (p, piece))) {
         // an interior lies within an exterior; two of one sort count twice where they overlap
         if other.1.name == piece.name || other.1.permeability * piece.permeability <= 0.0 {
             continue;
         }
         if apart(&bounds, &self::bounds(other.0, other.1)) {
+            continue;
+        }
+        if let (Some(own), Some(beside)) = (&round, tube_of(other.0, other.1))
+            && own.is_apart(&beside)
+        {
             continue;
         }
         let form = Solidified::of(other.0, other.1, Surface::leaks).form;

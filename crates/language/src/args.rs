@@ -14,7 +14,7 @@ use convert::{convert, take};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::units::UnitSystem;
-use windlass_base::values::{Args, Given};
+use windlass_base::values::{Args, Given, Value};
 
 /// Reads the words behind a command word.
 ///
@@ -26,10 +26,16 @@ pub fn read(spec: &'static CommandSpec, command: Span, words: &[Word], units: Un
     let mut data: Vec<&Word> = Vec::new();
     // words behind an option that could have been its choice and are none of it
     let mut declined: Vec<(&Word, &'static OptionSpec, &'static ValueSpec)> = Vec::new();
+    // data behind an option's values, each with the option
+    let mut behind: Vec<(&Word, &Given)> = Vec::new();
+    let mut trailing: Vec<(&Word, usize)> = Vec::new();
     let mut at = 0;
     while let Some(word) = words.get(at) {
         if word.kind == Lex::Option {
             let what = format!("option of {}", spec.name);
+            if let Some((name, why)) = spec.absent.iter().find(|(name, _)| name.eq_ignore_ascii_case(&word.text)) {
+                return Err(Diagnostic::error(format!("{name} of {} is not supported: {why}", spec.name), word.span));
+            }
             let option = select::choose(&word.text, word.span, &what, spec.option_names())?;
             if !option.many
                 && let Some(first) = args.options.iter().find(|g| g.name == option.name)
@@ -49,22 +55,82 @@ pub fn read(spec: &'static CommandSpec, command: Span, words: &[Word], units: Un
                 declined.push((next, option, value));
             }
         } else {
+            if let Some(option) = args.options.len().checked_sub(1) {
+                trailing.push((word, option));
+            }
             data.push(word);
             at += 1;
         }
     }
+    behind.extend(trailing.iter().filter_map(|(word, option)| Some((*word, args.options.get(*option)?))));
     args.data = convert(spec.data, spec.repeat, spec.name, command, &data, units).map_err(|error| {
         let meant = declined.iter().find(|(word, ..)| error.span == Some(word.span));
-        match meant {
-            Some((word, option, value)) => Diagnostic::error(
+        let stray = behind.iter().find(|(word, _)| error.span == Some(word.span));
+        match (meant, stray) {
+            (Some((word, option, value)), _) => Diagnostic::error(
                 format!("{} of {} of {} must be {}", value.name, option.name, spec.name, expected(value.kind, units)),
                 word.span,
             )
             .label(format!("nor can this be a datum: {}", error.message)),
-            None => hint(error, &spec.syntax()),
+            (None, Some((word, given))) => hint(error, &spec.syntax()).help(missing_option(word, given)),
+            (None, None) => hint(error, &spec.syntax()),
         }
     })?;
+    strays(spec, &args.data, &behind)?;
     Ok(args)
+}
+
+/// Words behind the values of an option that are data by nothing but their place: a unit, a value too many, the values of an option
+/// left out. Data may stand behind an option where the record needs them, or where a word shows what it is: a choice, a point, a class.
+///
+/// # Errors
+/// The first such word.
+fn strays(spec: &CommandSpec, data: &[Value], behind: &[(&Word, &Given)]) -> Outcome<()> {
+    if spec.interleaved {
+        return Ok(());
+    }
+    let fixed = spec.data.len() - spec.repeat.min(spec.data.len());
+    let kind_of = |word: &Word| {
+        // what was passed over before a word has its place too
+        let index = data.iter().rposition(|value| value.span == word.span)?;
+        match spec.data.get(index) {
+            Some(value) => Some((value, value.is_required())),
+            None if spec.repeat > 0 => Some((spec.data.get(fixed + (index - fixed) % spec.repeat)?, false)),
+            None => None,
+        }
+    };
+    for run in behind.chunk_by(|(_, one), (_, other)| one.span == other.span) {
+        let kinds: Vec<_> = run.iter().filter_map(|(word, given)| Some((word, given, kind_of(word)?))).collect();
+        if kinds.iter().any(|(.., (_, required))| *required) {
+            continue;
+        }
+        let by_place = |word: &Word, value: &ValueSpec| {
+            let shows = matches!(word.kind, Lex::Selector | Lex::Class | Lex::Point);
+            !shows && !matches!(value.kind, Kind::Choice(_))
+        };
+        if let Some((word, given, (value, _))) = kinds.iter().find(|(word, _, (value, _))| by_place(word, value)) {
+            return Err(Diagnostic::error(
+                format!("`{}` stands behind {}, which takes no further value", word.text, given.name),
+                word.span,
+            )
+            .label(format!("{} of {} stands before the options", value.name, spec.name))
+            .help(missing_option(word, given))
+            .help(format!("form: {}", spec.syntax())));
+        }
+    }
+    Ok(())
+}
+
+/// What may be wrong with a word behind an option.
+fn missing_option(word: &Word, given: &Given) -> String {
+    const UNITS: [&str; 24] = [
+        "m", "mm", "cm", "km", "ft", "in", "feet", "kn", "n", "kips", "kip", "t", "mt", "te", "s", "sec", "deg",
+        "knots", "kts", "m/s", "kg", "mpa", "ksi", "rad",
+    ];
+    if UNITS.contains(&word.text.to_ascii_lowercase().as_str()) {
+        return "numbers have no units in a record: &DIMEN sets them".into();
+    }
+    format!("is an option missing before it? {} has all its values", given.name)
 }
 
 fn refs(words: &[Word]) -> Vec<&Word> {

@@ -215,8 +215,12 @@ pub struct CommandSpec {
     pub data: &'static [ValueSpec],
     /// The last this-many data repeat as a group (0: none do).
     pub repeat: usize,
+    /// Whether options act on the data before them, so that data stand between options.
+    pub interleaved: bool,
     /// Options in the order of the manual.
     pub options: &'static [OptionSpec],
+    /// Options of other programs that are not offered, each with why: asked for, they are refused with that.
+    pub absent: &'static [(&'static str, &'static str)],
     /// One line of help.
     pub help: &'static str,
     /// More help: readings, conventions, what is checked.
@@ -236,7 +240,9 @@ impl CommandSpec {
             form: Form::Words,
             data: &[],
             repeat: 0,
+            interleaved: false,
             options: &[],
+            absent: &[],
             help,
             detail: "",
             example: "",

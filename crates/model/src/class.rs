@@ -164,6 +164,11 @@ pub trait ConnectorClass: Debug + Send + Sync {
         Ok(())
     }
 
+    /// What the writer of the last record should know: notes and warnings at its words, values in these units.
+    fn notices(&self, _last: &Args, _: UnitSystem, _: &Surroundings) -> Vec<Diagnostic> {
+        Vec::new()
+    }
+
     /// Whether a connector of this class fits its ends: number of points, and how many of them are on bodies.
     ///
     /// # Errors
@@ -215,6 +220,11 @@ pub trait ConnectorClass: Debug + Send + Sync {
 
     /// Whether a FOUNDATION check reports its connectors: the ratio and the springs of their summaries (seed 001).
     fn foundation(&self) -> bool {
+        false
+    }
+
+    /// Whether the summaries of its connectors tell of a fender.
+    fn is_fender(&self) -> bool {
         false
     }
 

@@ -101,6 +101,21 @@ pub struct SpringState {
     pub allowable: Option<f64>,
 }
 
+/// A fender in a situation.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FenderState {
+    /// Deflection (m); zero where it does not touch.
+    pub deflection: f64,
+    /// Rated deflection (m).
+    pub rated: f64,
+    /// Reaction of its curve (N).
+    pub reaction: f64,
+    /// Energy absorbed, the area under its curve (N m).
+    pub energy: f64,
+    /// The same at the rated deflection (N m).
+    pub rated_energy: f64,
+}
+
 /// What a report tells of an element in a situation, beside the wrench on its ends.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Summary {
@@ -113,12 +128,16 @@ pub struct Summary {
     /// Largest tension over a break that was given (its value, a strength, a line type; not that of a bare diameter), and the
     /// segment that has it, from 1.
     pub over_given_break: Option<(f64, usize)>,
+    /// By what share of its length a line is too short for its ends, of one that reaches them beyond its break alone.
+    pub too_short: Option<f64>,
     /// Unstretched length on the bottom (m).
     pub grounded: Option<f64>,
     /// How it was found: `exact`, `table`, ...
     pub solution: &'static str,
     /// Deflections and forces of springs.
     pub springs: Vec<SpringState>,
+    /// Of a fender, how far it is deflected.
+    pub fender: Option<FenderState>,
     /// What a user should know; `warning: ` before what is dangerous.
     pub notes: Vec<Note>,
 }

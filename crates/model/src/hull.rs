@@ -61,8 +61,8 @@ pub struct Member {
     pub friction: f64,
     /// Added mass across the axis, Ca = Cm - 1: rho Ca pi D^2/4 a length.
     pub added: f64,
-    /// Added mass along the axis of each end: rho Caa pi D^3/12, of the half sphere on the end.
-    pub end_added: f64,
+    /// Added mass along the axis at the first and the second end: rho Caa pi D^3/12, of the half sphere on the end.
+    pub end_added: [f64; 2],
 }
 
 /// What waves do to a piece.

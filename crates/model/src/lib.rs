@@ -48,7 +48,8 @@ pub use curve::{Curve, CurveKind};
 pub use database::{Amplitudes, AttachedDatabase, Database, DriftMethod, DriftTable, Qtf};
 pub use defaults::{Coordinates, Defaults, Material};
 pub use element::{
-    Anchored, Connection, Element, End, Guess, LineDuty, Response, Situation, SpringState, Summary, TimeStep,
+    Anchored, Connection, Element, End, FenderState, Guess, LineDuty, Response, Situation, SpringState, Summary,
+    TimeStep,
 };
 pub use environment::{
     Components, Current, Division, Environment, Formula, GustParts, Phasing, Sea, Stretching, Surroundings, TimeWindow,

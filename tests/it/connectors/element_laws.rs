@@ -102,6 +102,19 @@ fn cases() -> Vec<Case> {
             Elastic,
         ),
         spring("ROLLER", "~C ROLLER Y 1E5 Z 2E5 -Z_PY 1E3 0.05 9E4 0.3", [0.3, 0.3, -0.4, 0.0, 0.0, 0.0], Elastic),
+        // on the falling piece of its curve, the face turned
+        spring(
+            "FENDER",
+            "~C FENDER 1.5 2E4 0.3 1.5E4 0.5 4E4 0.8 -NORMAL 1 0.2 0.1",
+            [1.1, 0.15, -0.1, 0.3, -0.2, 0.4],
+            Elastic,
+        ),
+        spring(
+            "FENDER",
+            "~C FENDER 1.5 2E4 0.3 4E4 0.8 -FRICTION 0.3 -X_DAMPING 5E3 1.2",
+            [1.1, 0.15, -0.1, 0.1, -0.2, 0.1],
+            Dissipative,
+        ),
         spring("SLING", "~C SLING 50 -LEN 5", [1.0, 3.0, -4.0, 0.2, 0.3, 0.1], Elastic),
         spring("DAVIT", "~C DAVIT 50 -LEN 5", [1.0, 3.0, -4.0, 0.2, 0.3, 0.1], Elastic),
         Case { defined: [0.5, 1.0, -2.0], ..spring("FIX", "~C FIX", [0.51, 1.02, -1.99, 0.02, -0.03, 0.01], Elastic) },

@@ -453,3 +453,53 @@ fn a_tug_pulls_with_its_force_toward_its_direction() {
     near(out.wrench[0].as_slice(), &[250.0, 500.0 * 0.75_f64.sqrt(), 0.0, 0.0, 0.0, 0.0]);
     assert!(out.stiffness.iter().all(|k| k.amax() == 0.0));
 }
+
+/// 1.5 m high; 200 kN at 0.3 m, 150 kN at 0.5 m, 300 kN at 0.8 m.
+const BUCKLING: &str = "~C FENDER 1.5 2E5 0.3 1.5E5 0.5 3E5 0.8 -RATED 0.6 -NORMAL 0 1 0";
+
+#[test]
+fn a_fender_pushes_by_its_curve_along_its_normal_and_never_pulls() {
+    let joint = Joint::between(BUCKLING);
+    // the face at y: deflection 1.5 - y, at 1.3 on the first piece, at 1.1 on the falling one, at 0.6 beyond the last point
+    for (y, push) in [(1.6, 0.0), (1.5, 0.0), (1.3, 2e5 * 0.2 / 0.3), (1.1, 1.75e5), (1.0, 1.5e5), (0.6, 3.5e5)] {
+        near(&joint.pull([0.4, y, 0.2])[..3], &[0.0, -push, 0.0]);
+    }
+    // a face that has slid along by (3, 2) m is pushed where the fender stands: a moment about its point
+    let (got, _) = joint.at([0.0; 6], [3.0, 1.3, 2.0, 0.0, 0.0, 0.0], [0.0; 3], None);
+    let push = 2e5 * 0.2 / 0.3;
+    near(got.wrench[1].as_slice(), &[0.0, push, 0.0, 2.0 * push, 0.0, -3.0 * push]);
+    near(got.wrench[0].as_slice(), &[0.0, -push, 0.0, 0.0, 0.0, 0.0]);
+    // a face turned by 30 degrees about z through (0, 1.3, 0): 1.3 cos 30 from the base, and pushed along its own normal
+    let turn = std::f64::consts::PI / 6.0;
+    let (got, _) = joint.at([0.0; 6], [0.0, 1.3, 0.0, 0.0, 0.0, turn], [0.0; 3], None);
+    let push = 2e5 + (1.5 - 1.3 * turn.cos() - 0.3) * (1.5e5 - 2e5) / 0.2;
+    near(&got.wrench[1].as_slice()[..3], &[-push * turn.sin(), push * turn.cos(), 0.0]);
+}
+
+#[test]
+fn a_fender_tells_its_deflection_and_energy_and_warns_beyond_the_rated_one() {
+    let joint = Joint::between(BUCKLING);
+    let told = joint.summary([0.0; 6], [0.0, 0.85, 0.0, 0.0, 0.0, 0.0]);
+    let state = told.fender.unwrap();
+    // to 0.3 m 30 kNm, to 0.5 m (200 + 150) / 2 x 0.2 = 35 kNm, to 0.65 m (150 + 225) / 2 x 0.15 = 28.125 kNm; rated 0.6 m, 200 kN there
+    near(
+        &[state.deflection, state.reaction, state.energy, state.rated_energy],
+        &[0.65, 2.25e5, 93.125e3, 65e3 + 17.5e3],
+    );
+    assert_eq!(told.notes, ["warning: deflected to 108 per cent of the rated deflection of the fender"]);
+    let crushed = joint.summary([0.0; 6], [0.0, -0.1, 0.0, 0.0, 0.0, 0.0]);
+    assert!(crushed.notes[0].contains("stands behind the base"), "{:?}", crushed.notes);
+    assert!(joint.summary([0.0; 6], [0.0, 0.95, 0.0, 0.0, 0.0, 0.0]).notes.is_empty());
+}
+
+#[test]
+fn a_fender_with_a_dashpot_pushes_more_going_in_and_never_pulls_coming_out() {
+    let joint = Joint::between("~C FENDER 1.5 2E5 0.4 -FRICTION 0.25 -X_DAMPING 1E5 1");
+    // 0.2 m: 100 kN; 0.5 m/s: 50 kN
+    near(&joint.passing([1.3, 0.0, 0.0], [-0.5, 0.0, 0.0]), &[-1.5e5, 0.0, 0.0]);
+    near(&joint.passing([1.3, 0.0, 0.0], [0.5, 0.0, 0.0]), &[-0.5e5, 0.0, 0.0]);
+    near(&joint.passing([1.3, 0.0, 0.0], [3.0, 0.0, 0.0]), &[0.0; 3]);
+    // 25 kN along a face that slides with (0, 3, 4) m/s; v0 = 0.01 m/s takes 2E-6 of it
+    let got = joint.passing([1.3, 0.0, 0.0], [0.0, 3.0, 4.0]);
+    assert!((got[1] - 15e3).abs() < 0.1 && (got[2] - 20e3).abs() < 0.1, "{got:?}");
+}

@@ -325,6 +325,22 @@ fn the_added_mass_of_a_spar_is_its_closed_form() {
 }
 
 #[test]
+fn an_end_that_joins_another_piece_has_no_added_mass_of_its_own() {
+    // a pontoon of 3 m under water: half spheres of its diameter over its ends, along its axis
+    let along = |caa: &str| {
+        let model = body(&format!("TUBE P *C *D 3000 -CA 0 {caa}"), "");
+        let deep = place([0.0, 0.0, -20.0, 0.0, 0.0, 0.0]);
+        let mut lowered = model.clone();
+        lowered.bodies.get_mut("B").unwrap().place.shift = deep.origin.into();
+        Floating::of(&lowered, &lowered.bodies["B"]).unwrap().added_mass[(0, 0)]
+    };
+    let half_sphere = RHO * PI * 27.0 / 12.0;
+    near(along("-CAA 0.64"), 2.0 * 0.64 * half_sphere, 1e-12);
+    near(along("-CAA 0.64 0"), 0.64 * half_sphere, 1e-12);
+    near(along("-CAA 0.2 0.5"), 0.7 * half_sphere, 1e-12);
+}
+
+#[test]
 fn what_the_surface_changes_of_the_added_mass_is_inertia_of_the_step() {
     let model = body("TUBE S *A *B 20000 -CD 0 -CA 0.9", "");
     let load = members(&model, None);

@@ -159,3 +159,27 @@ fn a_pendulum_swings_with_the_period_of_its_large_angle() {
     // of the step: (w h)^2 / 12 of the period, w = 2 pi / 6.8 s, a little more at large angles
     assert!((found / exact - 1.0).abs() < 1e-5, "{found} {exact}");
 }
+
+#[test]
+fn a_berthing_fender_takes_the_energy_of_the_ship_and_friction_its_impulse() {
+    // 1000 t at 0.15 m/s: 11.25 kNm, the area under 360 kN/m up to 0.25 m, after pi / 2 / sqrt(360 / 1000) = 2.618 s. It slides along at
+    // 1 m/s: friction 0.2 takes 0.2 x 2 x 0.15 m/s while the push turns the ship back, whatever its curve. Steps of 0.01 s: 1e-5 of each
+    let ship = model(
+        "MEDIT\n*Q 0 0 0\n&DESCRIBE BODY SHIP -IGNORE Z RX RY RZ\n*C 0 0 0\n*SIDE 0 1.5 0\n#WEIGHT *C 9806650 5 5 5\n\
+         ~F FENDER 1.5 9E4 0.25 4E5 0.6 -NORMAL 0 1 0 -RATED 0.2 -FRICTION 0.2\nCONNECTOR F ~F *Q *SIDE\nEND\n",
+    );
+    let mut made = Run::new(&ship, Settings { method: trapezoidal(), ..settings(8.0, 0.01) }, vec![]).unwrap();
+    made.begin_with(&[(0, Six::new(1.0, -0.15, 0.0, 0.0, 0.0, 0.0))]).unwrap();
+    made.go(&mut Quiet).unwrap();
+    let peaks = windlass_solve::results::fender_peaks(&made).unwrap();
+    let [peak] = peaks.as_slice() else { panic!("{peaks:?}") };
+    for (got, want) in [(peak.state.deflection, 0.25), (peak.state.reaction, 9e4), (peak.state.energy, 11_250.0)] {
+        assert!((got / want - 1.0).abs() < 1e-5, "{got} is not {want}");
+    }
+    assert!((peak.time - 2.618).abs() < 0.011, "{}", peak.time);
+    let at = made.history.layout.body(0);
+    let last = made.history.rows().last().unwrap();
+    assert!((last[at + 7] - 0.15).abs() < 1e-6, "{}", last[at + 7]);
+    // rounded off under 0.01 m/s: v0^2 / (2 v^2) of it
+    assert!((last[at + 6] - 0.94).abs() < 6e-6, "{}", last[at + 6]);
+}

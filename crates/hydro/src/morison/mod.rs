@@ -7,7 +7,7 @@
 //! - pressure of the undisturbed waves: the hydrostatic pressure up to the surface where it is at the time, and of the dynamic
 //!   pressure p `rho A a_n` across and the difference of `A p` of the ends along the axis. At the surface the dynamic pressure
 //!   is what makes the whole pressure zero, so that an upright member bears on it with `A p` of its foot alone;
-//! - added mass: `rho Ca A (a - b)_n`, and `rho Caa pi D^3/12 (a - b)_t` at each wet end.
+//! - added mass: `rho Ca A (a - b)_n`, and `rho Caa pi D^3/12 (a - b)_t` at each wet end, with a Caa of its own.
 //!
 //! Where the surface cuts sections, drag and friction act on the share of a section's height that is wet, inertia on the share of
 //! its area, in water of the middle of what is wet. The acceleration of the water is that at a place; what the water brings along
@@ -151,7 +151,8 @@ fn rods(
         let drags = 0.5 * density * diameter * of(Category::ViscousDrag);
         let count = (length / reach).ceil().clamp(1.0, MOST as f64) as usize;
         let corner = |n: usize| from + axis * (length * n as f64 / count as f64);
-        let end_added = density * PI * diameter.powi(3) / 12.0 * own.end_added * own_waves;
+        let half_sphere = density * PI * diameter.powi(3) / 12.0 * own_waves;
+        let [first, second] = own.end_added.map(|caa| half_sphere * caa);
         Rod {
             from,
             axis,
@@ -161,7 +162,7 @@ fn rods(
             along: drags * PI * own.friction,
             section: (core * piece.permeability + (section - core)) * own_waves,
             added: density * section * own.added * own_waves,
-            end_added: [n == 0, n == last].map(|free| if free { end_added } else { 0.0 }),
+            end_added: [if n == 0 { first } else { 0.0 }, if n == last { second } else { 0.0 }],
             factor: of(Category::Wave),
             segments: (0..count).map(|n| Tube { ends: [corner(n), corner(n + 1)], diameter: *diameter }).collect(),
         }

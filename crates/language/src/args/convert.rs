@@ -157,7 +157,7 @@ fn one(
             let value = number_in(spec, word, owner, Dim::None, units)?;
             if value.fract() != 0.0 || value.abs() > 9.0e15 {
                 return Err(Diagnostic::error(format!("{} of {owner} must be a whole number", spec.name), span)
-                    .label(format!("this is {value}")));
+                    .label(format!("this is {}", in_short(value))));
             }
             Content::Integer(value as i64)
         }
@@ -173,6 +173,11 @@ fn one(
         Kind::ChoiceOrName(..) | Kind::Text | Kind::File => Content::Word(word.text.clone()),
     };
     Ok(Value { content, dim, noun, span })
+}
+
+/// A number without hundreds of digits.
+fn in_short(value: f64) -> String {
+    if value != 0.0 && !(1e-5..1e15).contains(&value.abs()) { format!("{value:E}") } else { value.to_string() }
 }
 
 /// Whether a word can be a name of this sort.
@@ -211,11 +216,10 @@ fn number_in(spec: &ValueSpec, word: &Word, owner: &str, dim: Dim, units: UnitSy
     };
     if let Some(want) = wrong {
         return Err(Diagnostic::error(format!("{} of {owner} must be {want}", spec.name), word.span)
-            .label(format!("this is {value}")));
+            .label(format!("this is {}", in_short(value))));
     }
-    let si = dim.to_si(value, units);
-    if !si.is_finite() {
-        return Err(Diagnostic::error(format!("{} of {owner} is too large", spec.name), word.span));
-    }
-    Ok(si)
+    dim.checked_si(value, units).map_err(|why| {
+        let size = if value.abs() < 1.0 { "small" } else { "large" };
+        Diagnostic::error(format!("{} of {owner} is too {size}", spec.name), word.span).label(why)
+    })
 }
