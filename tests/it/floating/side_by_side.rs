@@ -60,7 +60,10 @@ fn by_hand(model: &Model) -> Vec<(&'static str, Vector3<f64>, Vector3<f64>)> {
 
 /// Forces on the first end as printed by the last &STATUS F_CONNECTOR (kN).
 fn printed(screen: &str, name: &str) -> [f64; 3] {
-    let line = screen.lines().rfind(|l| l.trim_start().starts_with(name) && l.contains(" exact ")).unwrap();
+    let line = screen
+        .lines()
+        .rfind(|l| l.trim_start().starts_with(name) && (l.contains(" exact ") || l.contains(" weightless ")))
+        .unwrap();
     let words: Vec<f64> = line.split_whitespace().filter_map(|w| w.parse().ok()).collect();
     [words[1], words[2], words[3]]
 }
