@@ -94,7 +94,8 @@ impl Chord {
         let share = if force == 0.0 { 0.0 } else { self.left_out.abs() / force.abs() };
         if share >= LEFT_OUT[0] {
             let warning = if share >= LEFT_OUT[1] { "warning: " } else { "" };
-            notes.push(format!("{warning}it has no weight here: its own in water is {:.3} of this tension", share));
+            notes
+                .push(format!("{warning}it has no weight here: its own in water is {share:.3} of this tension").into());
         }
         if force == 0.0 && left < self.line.line.length() {
             notes.push("the line is slack".into());

@@ -288,10 +288,10 @@ impl Element for Standing {
         if deflection > self.height {
             told.notes.push("warning: the face stands behind the base of the fender: it is crushed, or its normal points away from the face".into());
         } else if deflection > self.rated {
-            told.notes.push(format!(
-                "warning: deflected to {:.0} per cent of the rated deflection of the fender",
-                100.0 * deflection / self.rated
-            ));
+            let share = 100.0 * deflection / self.rated;
+            told.notes.push(
+                format!("warning: deflected to {share:.0} per cent of the rated deflection of the fender").into(),
+            );
         }
         told.fender = Some(FenderState { deflection, rated: self.rated, reaction, energy, rated_energy });
         Ok(told)

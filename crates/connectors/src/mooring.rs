@@ -426,6 +426,6 @@ pub fn too_short(taut: f64, ratio: f64) -> Option<f64> {
 }
 
 /// What is said of it.
-pub fn too_short_note(share: f64) -> String {
-    format!("warning: it is {:.1} per cent too short for its ends", 100.0 * share)
+pub fn too_short_note(share: f64) -> Note {
+    format!("warning: it is {:.1} per cent too short for its ends", 100.0 * share).into()
 }

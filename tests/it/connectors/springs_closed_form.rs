@@ -486,7 +486,7 @@ fn a_fender_tells_its_deflection_and_energy_and_warns_beyond_the_rated_one() {
         &[state.deflection, state.reaction, state.energy, state.rated_energy],
         &[0.65, 2.25e5, 93.125e3, 65e3 + 17.5e3],
     );
-    assert_eq!(told.notes, ["warning: deflected to 108 per cent of the rated deflection of the fender"]);
+    assert!(told.notes[0].contains("warning: deflected to 108 per cent of the rated deflection"), "{:?}", told.notes);
     let crushed = joint.summary([0.0; 6], [0.0, -0.1, 0.0, 0.0, 0.0, 0.0]);
     assert!(crushed.notes[0].contains("stands behind the base"), "{:?}", crushed.notes);
     assert!(joint.summary([0.0; 6], [0.0, 0.95, 0.0, 0.0, 0.0, 0.0]).notes.is_empty());
