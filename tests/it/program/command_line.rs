@@ -115,6 +115,18 @@ fn chain(breaking: u32) -> String {
 }
 
 #[test]
+fn line_far_too_short_for_its_ends_exits_with_3() {
+    // 2200 ft away and 100 ft deep: hypot(2200, 100) / 2000 - 1 = 10.1 %; nothing gives its break
+    let mut records =
+        vec!["MEDIT", "&DESCRIBE BODY B", "*F 0 0 0", "~W B_CAT 4 -LEN 2000 -DEP 100", "CONNECTOR A -ANC 0 2200 ~W *F"];
+    records.extend(["END", "&STATUS F_CONNECTOR"]);
+    let arguments: Vec<&str> = records.into_iter().flat_map(|record| ["-c", record]).collect();
+    let (code, _, err) = run(&arguments);
+    assert_eq!(code, Some(3), "{err}");
+    assert!(err.contains("windlass: exit code 3: A is 10.1 per cent too short for its ends"), "{err}");
+}
+
+#[test]
 fn tension_beyond_a_given_break_exits_with_3() {
     for asked in ["&EQUI", "&STATUS F_CONNECTOR", "TDOM"] {
         let (code, _, err) = moored(&chain(400), asked);
