@@ -24,6 +24,7 @@ Exit codes:
        &STATUS F_CONNECTOR, or a run of TDOM (the largest tension at the first end, unless an action
        by its tension has released the line). MOVE, WATCH and TABLE never give 3, nor does the break
        of a bare diameter: it is given by -B_TENSION, -TENSTR, -FYIELD, -TYPE or -TMAX of the class.
+       A line beyond any break whose ends are over 5 % of its length too far apart gives 3 as well.
   130  interrupted
 A job that deserves several of them ends with 130 before 1, and with 1 before 3.
 
