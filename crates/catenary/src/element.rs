@@ -27,6 +27,16 @@ impl Tilt {
         Tilt { sin: slope / hypotenuse, cos: 1.0 / hypotenuse }
     }
 
+    /// Vertical over horizontal distance.
+    pub fn slope(self) -> f64 {
+        self.sin / self.cos
+    }
+
+    /// The angle above the horizontal, toward the fairlead (rad).
+    pub fn angle(self) -> f64 {
+        self.sin.atan2(self.cos)
+    }
+
     /// Components along t and n from those along x and z.
     pub fn turned(self, x: f64, z: f64) -> (f64, f64) {
         (x * self.cos + z * self.sin, z * self.cos - x * self.sin)
@@ -199,7 +209,7 @@ pub fn stretch(segment: &Segment, law: Option<&Law>, tilt: Tilt, length: f64, p:
 }
 
 /// A spring along its own tension: n = y(T) q/T.
-fn linked(law: &Law, p: f64, q: f64) -> Part {
+pub(super) fn linked(law: &Law, p: f64, q: f64) -> Part {
     let tension = p.hypot(q);
     let (y, slope) = law.stretch(tension);
     let share = if tension > 0.0 { y / tension } else { slope };
@@ -250,12 +260,12 @@ fn rest(segment: &Segment, law: Option<&Law>, ground: &Ground, p: f64, length: f
 }
 
 /// Strain at a tension, and its derivative.
-fn strain(segment: &Segment, law: Option<&Law>, tension: f64) -> (f64, f64) {
+pub(super) fn strain(segment: &Segment, law: Option<&Law>, tension: f64) -> (f64, f64) {
     law.map_or((tension / segment.ea, 1.0 / segment.ea), |l| l.stretch(tension))
 }
 
 /// Mean strain between two tensions, and its derivative when both change.
-fn mean_strain(segment: &Segment, law: Option<&Law>, a: f64, b: f64) -> (f64, f64) {
+pub(super) fn mean_strain(segment: &Segment, law: Option<&Law>, a: f64, b: f64) -> (f64, f64) {
     match law {
         None => (0.5 * (a + b) / segment.ea, 1.0 / segment.ea),
         Some(law) => law.mean(a, b),

@@ -1,11 +1,12 @@
-//! The catenary line engine: elastic segments, clump weights, spring buoys, a flat bottom.
+//! The catenary line engine: elastic segments, clump weights, spring buoys, a flat, sloped or uneven bottom.
 //!
 //! SI throughout (m, N). Elevations are above the mean water surface z = 0. A line is described from the fairlead to
 //! the anchor. `H` is the horizontal component of the tension, the same all along a line without friction; `V` is the
 //! vertical component of the tension at a section, positive where the line rises toward the fairlead.
 //!
-//! Two directions: [`Line::at_horizontal_force`] and its inverse [`Line::at_distance`] for whole lines on a flat bottom
-//! without friction; [`Segment::between`] for one segment in every regime, with or without a bottom, with friction, and [`Segment::follow`] for the
+//! Two directions: [`Line::at_horizontal_force`] and its inverse [`Line::at_distance`] for whole lines. On a flat bottom
+//! without friction all contacts of a line are found at once; on any other, and for very many segments, the line is laid
+//! down from the fairlead to the anchor. [`Segment::between`] for one segment in every regime, with or without a bottom, with friction, and [`Segment::follow`] for the
 //! same at a fairlead that moves.
 //!
 //! Source of the formulas: the elastic catenary (Irvine, Cable Structures, 1981, section 1.4), written so that no
@@ -26,13 +27,16 @@
 mod adjust;
 mod between;
 mod chain;
+mod dual;
 mod element;
 mod end_forces;
 mod follow;
 mod interpolate;
 mod law;
+mod layout;
 mod line;
 mod policy;
+mod profile;
 mod read;
 mod refused;
 mod search;
@@ -51,5 +55,5 @@ pub use line::{Floor, Joint, Line, Segment};
 pub use refused::LineError;
 pub use search::{Point, rising_root};
 pub use shape::ShapePoint;
-pub use state::{Buoy, JointState, SegmentState, State};
+pub use state::{Buoy, Heap, JointState, SegmentState, State};
 pub use table::{MissingRow, ROWS, Row, first_force, table};

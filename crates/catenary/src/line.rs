@@ -4,6 +4,7 @@ use super::chain::{Chain, Pull};
 use super::element::{Element, Ground, Tilt};
 use super::end_forces::{Bottom, EndForces};
 use super::law::Law;
+use super::profile::Profile;
 use super::refused::LineError;
 
 /// A piece of line with the same properties all along.
@@ -62,11 +63,15 @@ pub struct Line {
     pub(super) anchor: f64,
     pub(super) surface: f64,
     pub(super) floor: Option<Floor>,
+    pub(super) profile: Profile,
     pub(super) chain: Chain,
 }
 
 /// Lengths (m) and forces (N) from which on the squares that are formed of them have no room in a double.
 pub(super) const LARGEST: f64 = 1e140;
+
+/// Segments up to which all contacts of a line are found at once; more are laid down one after the other.
+const MOST_PLAIN: usize = 30;
 
 impl Segment {
     /// The forces when the fairlead lies `x` >= 0 beside and `z` above the anchor (m); with a `bottom` at the anchor's
@@ -151,7 +156,8 @@ impl Line {
         let ground = Ground { tilt: Tilt::FLAT, friction: 0.0, least: 0.0 };
         let chain = Chain { elements: Vec::new(), pulls: Vec::new(), ground };
         let springs = [None, None];
-        Line { segments, laws, springs, joints, anchor, surface, floor: Some(floor), chain }.assembled()
+        let profile = Profile::plane(anchor, 0.0);
+        Line { segments, laws, springs, joints, anchor, surface, floor: Some(floor), profile, chain }.assembled()
     }
 
     /// The line over another bottom, or over none.
@@ -173,7 +179,39 @@ impl Line {
                 return Err(LineError::AnchorBelow(elevation - self.anchor));
             }
         }
-        Line { floor, ..self }.assembled()
+        let profile = floor.map_or(Profile::plane(self.anchor, 0.0), |f| Profile::plane(f.elevation, f.slope));
+        Line { floor, profile, ..self }.assembled()
+    }
+
+    /// The line over a bottom of plane faces: `places` are distances from the anchor toward the fairlead and elevations
+    /// there (m), the distances growing from 0. Beyond the last one its face goes on.
+    ///
+    /// # Errors
+    /// Fewer than two places, distances that do not grow from 0, values that are not finite, negative friction, an anchor
+    /// below the bottom.
+    pub fn over_profile(self, places: &[(f64, f64)], friction: f64) -> Result<Line, LineError> {
+        let number = self.segments.len();
+        let refused = |what, value| LineError::Value { what, segment: number, value };
+        let (Some(&(from, elevation)), Some(&(last, _))) = (places.first(), places.get(1)) else {
+            return Err(refused("the number of places of the bottom", places.len() as f64));
+        };
+        for (at, z) in places {
+            if !z.is_finite() || !at.is_finite() || z.abs().max(at.abs()) >= LARGEST {
+                return Err(refused("a place of the bottom", if z.is_finite() { *at } else { *z }));
+            }
+        }
+        if from != 0.0 || places.iter().zip(places.iter().skip(1)).any(|(a, b)| b.0 <= a.0) {
+            return Err(refused("a distance along the bottom", last));
+        }
+        let profile = Profile::new(places);
+        let floor = Floor { elevation, slope: profile.tilt(0).slope(), friction };
+        let line = self.over(Some(floor))?;
+        Line { profile, ..line }.assembled()
+    }
+
+    /// The elevation of the bottom at a distance from the anchor toward the fairlead (m), if there is one.
+    pub fn bottom_at(&self, distance: f64) -> Option<f64> {
+        self.floor.map(|_| self.profile.elevation(distance))
     }
 
     /// The line with springs in series at the fairlead and at the anchor, stretching along the tension there (seed 001,
@@ -249,6 +287,12 @@ impl Line {
         self.floor
     }
 
+    /// Whether its bottom is flat and smooth, and its parts so few that they are best solved all at once.
+    pub(super) fn is_plain(&self) -> bool {
+        let flat = self.profile.faces() == 1 && self.profile.tilt(0) == Tilt::FLAT;
+        flat && self.floor.is_none_or(|f| f.friction == 0.0) && self.segments.len() <= MOST_PLAIN
+    }
+
     /// Elevation from which heights above the bottom are counted (m).
     pub(super) fn datum(&self) -> f64 {
         self.floor.map_or(self.anchor, |f| f.elevation)
@@ -261,10 +305,12 @@ impl Line {
 
     /// Makes the chain that is solved.
     fn assembled(mut self) -> Result<Line, LineError> {
-        let last_buoy = self.joints.iter().rposition(|j| matches!(j, Joint::SpringBuoy { .. }));
-        let sees = |index: usize| self.floor.is_some() && last_buoy.is_none_or(|b| index > b);
+        // grounding between the fairlead and a spring buoy at the end of the first segment is not considered (seed 001,
+        // `-CLUMP`)
+        let blind = matches!(self.joints.first(), Some(Joint::SpringBuoy { .. }));
+        let sees = |index: usize| self.floor.is_some() && !(blind && index == 0);
         let surface = self.surface - self.datum();
-        let flat = self.floor.is_none_or(|f| f.slope == 0.0);
+        let flat = self.floor.is_none_or(|f| f.slope == 0.0) && self.profile.faces() == 1;
         let [first, last] = self.springs.clone();
         let mut elements: Vec<Element> = first.map(Element::Link).into_iter().collect();
         let mut pulls: Vec<Pull> = elements.iter().map(|_| Pull { on_bottom: sees(0), ..Pull::default() }).collect();

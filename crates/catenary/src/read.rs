@@ -80,11 +80,13 @@ impl Line {
             above_surface: self.above_surface(&rested, &places),
             segments,
             slack,
+            heap: None,
             iterations: rested.iterations,
             residual,
             unbalance: rested.unbalance,
             places,
             rested,
+            laid: None,
         };
         if !state.is_finite() {
             return Err(LineError::NotConverged { force: force.0, residual: f64::NAN, iterations: state.iterations });
@@ -115,7 +117,7 @@ impl Line {
     }
 
     /// Whether nothing pulls the line down or up.
-    fn weightless(&self) -> bool {
+    pub(super) fn weightless(&self) -> bool {
         self.chain.elements.iter().all(|e| e.weight() == 0.0) && self.chain.pulls.iter().all(|p| p.lift == 0.0)
     }
 

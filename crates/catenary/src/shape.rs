@@ -2,6 +2,7 @@
 
 use super::chain::Held;
 use super::element::{Element, Tilt, stretch};
+use super::layout::{Laid, point};
 use super::line::Line;
 use super::state::State;
 
@@ -40,6 +41,9 @@ impl Line {
     /// The shape of the line in a state of its own: both ends of each segment, `between` points evenly inside, and the
     /// places where it meets and leaves the bottom.
     pub fn shape(&self, state: &State, between: usize) -> Vec<ShapePoint> {
+        if let Some(laid) = &state.laid {
+            return self.laid_shape(laid, state.x, between);
+        }
         let mut points = Vec::new();
         let mut arc = 0.0;
         for (number, (index, element, held)) in self.lengths(&state.rested).enumerate() {
@@ -61,6 +65,21 @@ impl Line {
     /// The point at an unstretched length from the fairlead (m); `None` outside the line.
     pub fn point_at(&self, state: &State, length: f64) -> Option<ShapePoint> {
         let mut arc = 0.0;
+        if let Some(laid) = &state.laid {
+            let mut stretches = laid.stretches.iter().peekable();
+            let mut number = 0;
+            for (index, element) in self.chain.elements.iter().enumerate() {
+                number += usize::from(matches!(element, Element::Length { .. }));
+                let s = length - arc;
+                while let Some(part) = stretches.next_if(|p| p.element == index) {
+                    if (part.from..=part.to).contains(&s) {
+                        return point(element, part, s, state.x, (number, arc));
+                    }
+                }
+                arc += element.length();
+            }
+            return None;
+        }
         for (number, (index, element, held)) in self.lengths(&state.rested).enumerate() {
             let s = length - arc;
             if (0.0..=element.length()).contains(&s) {
@@ -69,6 +88,28 @@ impl Line {
             arc += element.length();
         }
         None
+    }
+
+    fn laid_shape(&self, laid: &Laid, x: f64, between: usize) -> Vec<ShapePoint> {
+        let mut points = Vec::new();
+        let mut stretches = laid.stretches.iter().peekable();
+        let (mut arc, mut number) = (0.0, 0);
+        for (index, element) in self.chain.elements.iter().enumerate() {
+            let length = element.length();
+            number += usize::from(length > 0.0);
+            let mut inside = (0..=between + 1).map(|i| length * i as f64 / (between + 1) as f64).peekable();
+            while let Some(part) = stretches.next_if(|p| p.element == index) {
+                // and the places where it meets and leaves the bottom
+                while let Some(s) = inside.next_if(|s| *s <= part.to + 1e-9 * length) {
+                    points.extend(point(element, part, s, x, (number, arc)));
+                }
+                if points.last().is_none_or(|p| (p.arc - arc - part.to).abs() > 1e-9 * length) {
+                    points.extend(point(element, part, part.to, x, (number, arc)));
+                }
+            }
+            arc += length;
+        }
+        points
     }
 
     /// A point of a piece, `s` below its upper end; `arc` is the length before it.

@@ -2,6 +2,7 @@
 
 use super::chain::Rested;
 use super::element::{Element, Tilt};
+use super::layout;
 use super::line::{LARGEST, Line};
 use super::refused::LineError;
 use super::search::{Point, rising_root};
@@ -19,9 +20,13 @@ impl Line {
     pub fn at_horizontal_force(&self, force: f64, fairlead: f64) -> Result<State, LineError> {
         self.check_fairlead(fairlead)?;
         positive("the horizontal force", force)?;
+        if !self.is_plain() {
+            return layout::at_force(self, force, fairlead);
+        }
         if self.tilt() == Tilt::FLAT {
-            let rested = self.rest(force, self.height(0.0, fairlead).1, None)?;
-            return self.state(rested, None, fairlead);
+            let height = self.height(0.0, fairlead).1;
+            let found = self.rest(force, height, None).and_then(|rested| self.state(rested, None, fairlead));
+            return found.or_else(|error| layout::at_force(self, force, fairlead).map_err(|_| error));
         }
         // the height above a sloped bottom depends on the distance; the force grows with that
         let start = self.length();
@@ -59,6 +64,27 @@ impl Line {
         if !(0.0..LARGEST).contains(&x) {
             return Err(LineError::Value { what: "the horizontal distance", segment: 1, value: x });
         }
+        let lost = |error: &LineError| matches!(error, LineError::NotConverged { .. } | LineError::Unproven { .. });
+        if self.is_plain() {
+            return match self.all_at_once(x, fairlead, last) {
+                Err(error) if lost(&error) => layout::between_ends(self, x, fairlead, last).map_err(|_| error),
+                found => found,
+            };
+        }
+        match layout::between_ends(self, x, fairlead, last) {
+            // what has no tension feels no friction
+            Err(LineError::SlackSlope) if self.tilt() == Tilt::FLAT && self.profile.faces() == 1 => {
+                let smooth = self.floor.map(|f| super::line::Floor { friction: 0.0, ..f });
+                let found = self.clone().over(smooth)?.all_at_once(x, fairlead, None)?;
+                if found.slack { Ok(found) } else { Err(LineError::SlackSlope) }
+            }
+            found => found,
+        }
+    }
+
+    /// The line between two ends over a flat and smooth bottom, all its contacts at once.
+    fn all_at_once(&self, x: f64, fairlead: f64, last: Option<&State>) -> Result<State, LineError> {
+        let last = last.filter(|s| s.laid.is_none());
         let (at, height) = self.height(x, fairlead);
         let target = at - self.anchor_place().0;
         let chain = &self.chain;

@@ -1,6 +1,7 @@
 //! What a solved line looks like.
 
 use super::chain::Rested;
+use super::layout::Laid;
 
 /// How a spring buoy stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -11,6 +12,17 @@ pub enum Buoy {
     Held,
     /// The buoy is pulled under with all its capacity.
     Sunk,
+}
+
+/// Where a line that is longer than its way lies in a heap: its tension is zero there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Heap {
+    /// Straight below the fairlead, where the line first touches the bottom; what lies beyond hangs on the anchor.
+    Touchdown,
+    /// At the anchor: the spare length slides down the slope to it.
+    Anchor,
+    /// In a hollow of the bottom, at this distance from the anchor (m).
+    Hollow(f64),
 }
 
 /// A segment in a configuration.
@@ -79,13 +91,15 @@ pub struct State {
     pub segments: Vec<SegmentState>,
     /// Joints, fairlead first.
     pub joints: Vec<JointState>,
-    /// Segments (from 1) that hang below the bottom because the seed lets those above a spring buoy ignore it, with
+    /// Segments (from 1) that hang below the bottom because the first segment does not see it where a spring buoy ends it, with
     /// how far (m).
     pub below_bottom: Vec<(usize, f64)>,
     /// Segments (from 1) whose buoyant line or lower joint rises above the water surface, with how far (m).
     pub above_surface: Vec<(usize, f64)>,
     /// The line reaches without any horizontal force.
     pub slack: bool,
+    /// Where spare length lies in a heap on a bottom that is not flat, and how much of it (m).
+    pub heap: Option<(Heap, f64)>,
     /// Iterations of all the searches.
     pub iterations: usize,
     /// What is left of the distance, mapped through the stiffness to a force (N): at most 1e-9 of the tension.
@@ -95,6 +109,8 @@ pub struct State {
     /// Ends of the chain's pieces: distance from the fairlead and elevation (m).
     pub(super) places: Vec<(f64, f64)>,
     pub(super) rested: Rested,
+    /// The stretches of a line over a bottom that is not flat and smooth.
+    pub(super) laid: Option<Box<Laid>>,
 }
 
 impl State {

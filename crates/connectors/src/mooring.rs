@@ -9,7 +9,7 @@ use windlass_base::span::Span;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
 use windlass_catenary::{
-    Aim, Joint, Law, Line, LineError, MissingRow, Row, Segment, SegmentState, ShapePoint, State, table,
+    Aim, Heap, Joint, Law, Line, LineError, MissingRow, Row, Segment, SegmentState, ShapePoint, State, table,
 };
 use windlass_model::{
     AbsentRow, ClassError, ClassRecord, Condition, Configuration, Element, FoundLength, LineChange, LineLoads,
@@ -101,8 +101,20 @@ impl Mooring {
         let mut notes = self.notes.clone();
         for (segment, _) in &state.below_bottom {
             let text =
-                format!("warning: segment {segment} hangs below the bottom, which it does not see above a spring buoy");
+                format!("warning: segment {segment} hangs below the bottom, which it does not see above the spring buoy at its end");
             notes.push(text.into());
+        }
+        if let Some((heap, _)) = state.heap {
+            notes.push(
+                match heap {
+                    Heap::Touchdown => {
+                        "idealised: the spare length lies in a heap at the touchdown; the line beyond it hangs on the anchor"
+                    }
+                    Heap::Anchor => "idealised: the spare length slides down the slope and lies in a heap at the anchor",
+                    Heap::Hollow(_) => "idealised: the spare length lies in a heap in a hollow of the bottom",
+                }
+                .into(),
+            );
         }
         for (segment, _) in &state.above_surface {
             let text = format!("warning: segment {segment} or the buoy at its end rises above the water surface");
@@ -390,7 +402,7 @@ impl Mooring {
     }
 
     fn shape_row(&self, state: &State, point: &ShapePoint, next: Option<&ShapePoint>) -> Vec<Cell> {
-        let bottom = self.line.floor().map(|f| f.elevation + (state.x - point.x) * f.slope).or(self.bottom);
+        let bottom = self.line.bottom_at(state.x - point.x).or(self.bottom);
         let near = |x: f64, z: f64| (point.x - x).abs() + (point.z - z).abs() <= 1e-9 * (self.line.length() + x.abs());
         let touchdown = state.touchdown.is_some_and(|(x, z)| near(x, z));
         let joint = next.is_some_and(|n| n.segment > point.segment);

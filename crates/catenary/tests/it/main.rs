@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod catenary_2000;
+mod catenary_bottoms;
 mod catenary_four_segment;
 mod catenary_integration;
 mod catenary_lines;

@@ -1,0 +1,301 @@
+//! A line over any bottom, laid down from the fairlead to the anchor.
+//!
+//! With the horizontal force at the fairlead given, the line is found span by span. Of all curves that hang free from the
+//! fairlead, the first span is the steepest one that stays above the bottom: where it touches, the line begins to lie.
+//! What lies loses `w (sin + mu cos)` of tension a length toward the anchor (Coulomb, friction fully mobilised toward the
+//! fairlead; Jonkman, NREL/TP-500-41958, 2007, section 2.7.2), around a ridge the factor `exp(-mu angle)` (Euler and
+//! Eytelwein). It lies as far as it can: up to the last place from which the free rest of the line stays above the
+//! bottom. There the next span begins, and so on to the anchor. A curve sinks everywhere when its vertical force at the
+//! beginning grows, or when it leaves the bottom later, so that each span is one safeguarded search; a curve that has
+//! been found stays a possible continuation of itself, so that there always is an answer.
+//!
+//! One search in the horizontal force (or in the distance) is left, which brings the end to the anchor. All numbers carry
+//! their derivatives by the horizontal force and by the place of the fairlead: the stiffness is that of the formulas.
+//!
+//! Axes: `u` the distance from the anchor toward the fairlead, `z` upward; `h` and `v` are the tension's components,
+//! `v` positive where the line rises toward the fairlead.
+
+mod ends;
+mod path;
+mod span;
+mod states;
+
+pub(super) use ends::{at_force, between_ends};
+pub(super) use states::point;
+
+use super::chain::Pull;
+use super::dual::Var;
+use super::element::{Element, Tilt, linked, strain, stretch};
+use super::line::Line;
+use super::profile::Profile;
+use super::refused::LineError;
+use super::state::Heap;
+use path::{End, Path};
+use span::{Candidate, Kind};
+
+/// A point of the line.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Point {
+    /// The piece, and the unstretched length from its upper end (m).
+    pub element: usize,
+    pub s: Var,
+    pub u: Var,
+    pub z: Var,
+    pub h: Var,
+    pub v: Var,
+}
+
+impl Point {
+    fn solved(self, zero: &Var) -> Point {
+        let Point { element, s, u, z, h, v } = self;
+        Point { element, s: s.solved(zero), u: u.solved(zero), z: z.solved(zero), h: h.solved(zero), v: v.solved(zero) }
+    }
+}
+
+/// How a stretch of a piece is held.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Manner {
+    /// It hangs free.
+    Hangs,
+    /// It lies on a face, losing this much tension a length (N/m).
+    Lies { tilt: Tilt, loss: f64 },
+    /// It lies in a heap, without tension.
+    Heap,
+}
+
+/// A stretch of a piece.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stretch {
+    pub element: usize,
+    /// Unstretched lengths from the upper end of the piece (m).
+    pub from: f64,
+    pub to: f64,
+    /// Place and forces at its upper end.
+    pub u: f64,
+    pub z: f64,
+    pub h: f64,
+    pub v: f64,
+    /// Place and forces at its lower end.
+    pub low: [f64; 4],
+    pub manner: Manner,
+}
+
+/// What became of a joint.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct JointAt {
+    pub u: f64,
+    pub z: f64,
+    /// Its lift (N, upward) and what the bottom carries (N, along its normal).
+    pub lift: f64,
+    pub reaction: f64,
+    /// Whether the lift is between the two sides of its step, and whether it is past it.
+    pub held: bool,
+    pub passed: bool,
+}
+
+/// A line laid down.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Laid {
+    /// How far from the anchor the line ends, along u (m): positive when it falls short.
+    pub short: Var,
+    /// Vertical force at the fairlead (N).
+    pub top: Var,
+    /// Forces at the anchor (N).
+    pub end: [Var; 2],
+    pub stretches: Vec<Stretch>,
+    pub joints: Vec<JointAt>,
+    pub heap: Option<(Heap, f64)>,
+    /// Whether something floats above the heap.
+    pub vague: bool,
+    /// Largest gap left at a landing (m).
+    pub left: f64,
+    pub iterations: usize,
+}
+
+/// Where a span begins.
+pub(super) enum Origin {
+    Fairlead,
+    /// At a joint that stands at a step of its lift.
+    Held {
+        before: Point,
+        low: f64,
+        high: f64,
+    },
+    Ground(Path),
+}
+
+/// The line to be laid.
+pub(super) struct Layout<'a> {
+    line: &'a Line,
+    elements: &'a [Element],
+    pulls: &'a [Pull],
+    bottom: &'a Profile,
+    friction: f64,
+    least: f64,
+    /// Unstretched length (m), all weights (N), and the rounding of a place (m).
+    length: f64,
+    weight: f64,
+    fine: f64,
+}
+
+/// The fairlead and the force there.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Top {
+    pub h: Var,
+    pub u: Var,
+    pub z: Var,
+    /// Vertical force to begin with (N), when one is near.
+    pub near: Option<f64>,
+    /// Length that lies in a heap where the line first touches the bottom (m).
+    pub heap: Var,
+}
+
+impl<'a> Layout<'a> {
+    pub fn new(line: &'a Line, x: f64, z: f64) -> Layout<'a> {
+        let chain = &line.chain;
+        let length = chain.length();
+        let weight = chain.elements.iter().map(|e| e.weight().abs()).sum::<f64>()
+            + chain.pulls.iter().map(|p| p.lift.abs()).sum::<f64>();
+        Layout {
+            line,
+            elements: &chain.elements,
+            pulls: &chain.pulls,
+            bottom: &line.profile,
+            friction: line.floor.map_or(0.0, |f| f.friction),
+            least: chain.ground.least,
+            length,
+            weight,
+            fine: 2.0 * f64::EPSILON * (length + x.abs() + (z - line.anchor).abs()),
+        }
+    }
+
+    /// The piece below a point over an unstretched length.
+    fn hang(&self, from: &Point, length: Var) -> Point {
+        let (h, v) = (from.h, from.v);
+        match self.elements.get(from.element) {
+            Some(Element::Length { segment, law, .. }) => {
+                let low = v - length * segment.weight;
+                let r = stretch(segment, law.as_ref(), Tilt::FLAT, length.value, h.value, low.value);
+                let tension = h.value.hypot(low.value);
+                // what is added at the lower end
+                let more = if tension > 0.0 { (1.0 + strain(segment, law.as_ref(), tension).0) / tension } else { 0.0 };
+                let x = Var::function(r.x, [(h, r.x_h), (v, r.x_v), (length, more * h.value)]);
+                let z = Var::function(r.z, [(h, r.z_h), (v, r.z_v), (length, more * low.value)]);
+                Point { s: from.s + length, u: from.u - x, z: from.z - z, v: low, ..*from }
+            }
+            Some(Element::Link(law)) => {
+                let part = linked(law, h.value, v.value);
+                let x = Var::function(part.t, [(h, part.t_p), (v, part.t_q)]);
+                let z = Var::function(part.n, [(h, part.n_p), (v, part.n_q)]);
+                Point { u: from.u - x, z: from.z - z, ..*from }
+            }
+            None => *from,
+        }
+    }
+
+    fn element_length(&self, element: usize) -> f64 {
+        self.elements.get(element).map_or(0.0, Element::length)
+    }
+
+    /// Elevation of the step of a joint's lift, if it has one.
+    fn step(&self, joint: usize) -> Option<f64> {
+        let pull = self.pulls.get(joint)?;
+        pull.steps.first().map(|(z, _)| z + self.line.datum())
+    }
+
+    /// The lift above and below the step of a joint.
+    fn lifts(&self, joint: usize) -> (f64, f64) {
+        self.pulls.get(joint).map_or((0.0, 0.0), |p| (p.passed(p.steps.len()), p.lift))
+    }
+
+    /// Lays the line.
+    pub fn lay(&self, top: &Top) -> Result<Laid, LineError> {
+        let mut sunk = vec![false; self.pulls.len()];
+        // a joint that sinks may take one before it along
+        for _ in 0..=self.pulls.len() {
+            if let Some(laid) = self.lay_with(top, &mut sunk)? {
+                return Ok(laid);
+            }
+        }
+        Err(LineError::NotConverged { force: top.h.value, residual: f64::NAN, iterations: self.pulls.len() })
+    }
+
+    /// Lays the line with joints that are past the step of their lift; `None` when one more of them is found behind
+    /// another that is held.
+    fn lay_with(&self, top: &Top, sunk: &mut [bool]) -> Result<Option<Laid>, LineError> {
+        let mut laid = Laid { joints: vec![JointAt::default(); self.pulls.len()], ..Laid::default() };
+        let mut origin = Origin::Fairlead;
+        let mut heap = (top.heap.value > 0.0).then_some(top.heap);
+        if let Some(lying) = self.fairlead_on_bottom(top) {
+            laid.top = lying.at.v;
+            origin = match self.begin(&lying, heap.take(), &mut laid)? {
+                Some(path) => Origin::Ground(path),
+                None => return Ok(Some(laid)),
+            };
+        }
+        // every span begins further toward the anchor or sinks a buoy
+        for _ in 0..=8 * (self.elements.len() + self.bottom.faces() + 2) {
+            let (departure, landing) = self.next_span(&origin, top, sunk, &mut laid)?;
+            if let Kind::Held(joint) = landing.kind {
+                let before = landing.at;
+                let (low, high) = self.lifts(joint);
+                let free = self.depart(&Origin::Held { before, low, high }, top, high);
+                if self.limit(&free, sunk).gap.value >= 0.0 {
+                    // all of its lift does not hold it
+                    if let Some(s) = sunk.get_mut(joint) {
+                        *s = true;
+                    }
+                    if matches!(origin, Origin::Held { .. }) {
+                        return Ok(None);
+                    }
+                    continue;
+                }
+                self.record(&origin, &departure, &landing, sunk, &mut laid);
+                origin = Origin::Held { before, low, high };
+                continue;
+            }
+            self.record(&origin, &departure, &landing, sunk, &mut laid);
+            if matches!(landing.kind, Kind::End) {
+                (laid.short, laid.end) = (landing.at.u, [landing.at.h, landing.at.v]);
+                return Ok(Some(laid));
+            }
+            origin = match self.begin(&landing, heap.take(), &mut laid)? {
+                Some(path) => Origin::Ground(path),
+                None => return Ok(Some(laid)),
+            };
+        }
+        Err(LineError::NotConverged { force: top.h.value, residual: laid.left, iterations: laid.iterations })
+    }
+
+    /// Begins to lie; `None` when the line lies up to its end.
+    fn begin(&self, landing: &Candidate, heap: Option<Var>, laid: &mut Laid) -> Result<Option<Path>, LineError> {
+        let path = self.path(landing, heap, laid)?;
+        match path.end {
+            End::Lifted => return Ok(Some(path)),
+            End::Anchor(at) => {
+                (laid.short, laid.end) = (at.u, [at.h, at.v]);
+            }
+            End::Heap { at, sump } => {
+                laid.short = at.u + -sump;
+                laid.end = [Var::fixed(0.0); 2];
+            }
+        }
+        self.record_path(&path, None, laid);
+        Ok(None)
+    }
+
+    /// The landing of a fairlead that lies on the bottom itself.
+    fn fairlead_on_bottom(&self, top: &Top) -> Option<Candidate> {
+        let first = self.elements.iter().position(|e| matches!(e, Element::Length { .. }))?;
+        if !self.elements.get(first).is_some_and(Element::can_rest) {
+            return None;
+        }
+        let face = self.bottom.face(top.u.value);
+        let gap = top.z.value - self.bottom.elevation_of(face, top.u.value);
+        (first == 0 && gap.abs() <= self.fine).then(|| {
+            let at =
+                Point { u: top.u, z: top.z, h: top.h, v: top.h * self.bottom.tilt(face).slope(), ..Point::default() };
+            Candidate { kind: Kind::Tangent(face), gap: Var::fixed(gap), at }
+        })
+    }
+}

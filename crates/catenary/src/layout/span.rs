@@ -1,0 +1,317 @@
+//! A span: the free curve that just touches what it must not pass.
+
+use super::{JointAt, Laid, Layout, Manner, Origin, Point, Stretch, Top};
+use crate::dual::{UNKNOWN, Var};
+use crate::element::{Element, Tilt, strain, stretch};
+use crate::law::Law;
+use crate::line::Segment;
+use crate::refused::LineError;
+
+/// What a curve may touch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Kind {
+    /// A face, along which the line goes on.
+    Tangent(usize),
+    /// A ridge.
+    Vertex(usize),
+    /// The bottom, with a joint.
+    Joint(usize),
+    /// The step of a joint's lift.
+    Held(usize),
+    /// The height of the anchor, with its end.
+    End,
+}
+
+/// A place where a curve touches, or by how much it does not.
+#[derive(Clone, Copy, Debug)]
+pub struct Candidate {
+    pub kind: Kind,
+    /// Height above what is touched (m).
+    pub gap: Var,
+    pub at: Point,
+}
+
+impl Candidate {
+    /// How much the unknown may grow until it touches.
+    fn room(&self) -> f64 {
+        let slope = self.gap.by_unknown();
+        if slope < 0.0 {
+            -self.gap.value / slope
+        } else if self.gap.value < 0.0 {
+            f64::NEG_INFINITY
+        } else {
+            f64::INFINITY
+        }
+    }
+}
+
+/// Where a curve begins, and the face that it leaves.
+#[derive(Clone, Copy, Debug)]
+pub struct Departure {
+    pub point: Point,
+    pub face: Option<usize>,
+}
+
+/// Steps after which a search gives up.
+const MOST_STEPS: usize = 200;
+/// Steps after which every other one halves the bracket.
+const NEWTON_STEPS: usize = 25;
+
+impl Layout<'_> {
+    /// The beginning of a span with its unknown at a value: the vertical force, the lift of the joint, or the weight that
+    /// lies before it.
+    pub fn depart(&self, origin: &Origin, top: &Top, unknown: f64) -> Departure {
+        match origin {
+            Origin::Fairlead => {
+                let v = Var::parameter(unknown, UNKNOWN, 1.0);
+                let point = Point { element: 0, s: Var::fixed(0.0), u: top.u, z: top.z, h: top.h, v };
+                Departure { point, face: None }
+            }
+            Origin::Held { before, .. } => {
+                let v = before.v + Var::parameter(unknown, UNKNOWN, 1.0);
+                let point = Point { element: before.element + 1, s: Var::fixed(0.0), v, ..*before };
+                Departure { point, face: None }
+            }
+            Origin::Ground(path) => self.leave(path, unknown),
+        }
+    }
+
+    /// Finds the span: its beginning and where it lands.
+    pub fn next_span(
+        &self,
+        origin: &Origin,
+        top: &Top,
+        sunk: &[bool],
+        laid: &mut Laid,
+    ) -> Result<(Departure, Candidate), LineError> {
+        let (mut low, mut high, mut at) = match origin {
+            Origin::Fairlead => {
+                let guess = 0.5 * self.weight + top.h.value * 0.1;
+                (f64::NEG_INFINITY, f64::INFINITY, top.near.unwrap_or(guess))
+            }
+            Origin::Held { low, high, .. } => (*low, *high, 0.5 * (low + high)),
+            Origin::Ground(path) => (0.0, path.weight, path.weight),
+        };
+        let mut grow = self.weight + top.h.value;
+        let mut best: Option<(Departure, Candidate)> = None;
+        let mut steps = 0;
+        while steps < MOST_STEPS {
+            steps += 1;
+            let departure = self.depart(origin, top, at);
+            let found = self.limit(&departure, sunk);
+            let gap = found.gap.value;
+            if gap.is_nan() {
+                break;
+            }
+            let better = best.as_ref().is_none_or(|(_, b)| gap.abs() < b.gap.value.abs());
+            if better {
+                best = Some((departure, found));
+            }
+            let left = best.as_ref().map_or(f64::INFINITY, |(_, b)| b.gap.value.abs());
+            if left <= self.fine || (!better && left <= 64.0 * self.fine) {
+                break;
+            }
+            if gap > 0.0 {
+                low = at;
+            } else {
+                high = at;
+            }
+            let bracketed = low.is_finite() && high.is_finite();
+            let newton = at + found.room();
+            let inside = newton.is_finite() && newton > low && newton < high;
+            let next =
+                if inside && (bracketed || (newton - at).abs() < grow) && (steps < NEWTON_STEPS || steps % 2 == 0) {
+                    newton
+                } else if bracketed {
+                    0.5 * (low + high)
+                } else {
+                    grow *= 2.0;
+                    if gap > 0.0 { at + grow } else { at - grow }
+                };
+            if next == at || (bracketed && high - low <= 2.0 * f64::EPSILON * (low.abs() + high.abs())) {
+                break;
+            }
+            at = next;
+        }
+        laid.iterations += steps;
+        let Some((departure, landing)) = best else {
+            return Err(LineError::NotConverged { force: top.h.value, residual: f64::NAN, iterations: steps });
+        };
+        let left = landing.gap.value.abs();
+        if let Origin::Ground(path) = origin
+            && path.begins_with_heap()
+            && left > 1e-9 * self.length
+        {
+            // what floats would have to leave from within the heap
+            return Err(LineError::SlackSlope);
+        }
+        laid.left = laid.left.max(left);
+        let zero = landing.gap;
+        if matches!(origin, Origin::Fairlead) {
+            laid.top = departure.point.v.solved(&zero);
+        }
+        let departure = Departure { point: departure.point.solved(&zero), ..departure };
+        Ok((departure, Candidate { at: landing.at.solved(&zero), ..landing }))
+    }
+
+    /// What a curve touches first when its unknown grows.
+    pub fn limit(&self, from: &Departure, sunk: &[bool]) -> Candidate {
+        let mut best: Option<Candidate> = None;
+        let mut take = |candidate: Candidate| {
+            if best.as_ref().is_none_or(|b| candidate.room() < b.room()) {
+                best = Some(candidate);
+            }
+        };
+        let mut at = from.point;
+        let mut departed = from.face;
+        for element in from.point.element..self.elements.len() {
+            let length = -at.s + self.element_length(element);
+            let low = self.hang(&at, length);
+            // what only weighs goes on to rise from the face that it left
+            departed = departed.filter(|_| self.elements.get(element).is_some_and(|e| e.weight() >= 0.0));
+            self.touches(&at, &low, length.value, departed, &mut take);
+            let Some(pull) = self.pulls.get(element) else {
+                at = low;
+                break;
+            };
+            let face = self.bottom.face(low.u.value);
+            if pull.on_bottom && departed != Some(face) {
+                take(Candidate { kind: Kind::Joint(element), gap: self.above(&low, face), at: low });
+            }
+            let (above, below) = self.lifts(element);
+            let past = sunk.get(element).copied().unwrap_or(false);
+            if let (Some(step), false) = (self.step(element), past) {
+                take(Candidate { kind: Kind::Held(element), gap: low.z + -step, at: low });
+            }
+            let lift = if past { below } else { above };
+            at = Point { element: element + 1, s: Var::fixed(0.0), v: low.v + lift, ..low };
+            departed = departed.filter(|_| lift <= 0.0);
+        }
+        let line = self.bottom.tilt(0).slope();
+        let gap = at.z - at.u * line + -self.line.anchor;
+        take(Candidate { kind: Kind::End, gap, at });
+        best.unwrap_or(Candidate { kind: Kind::End, gap, at })
+    }
+
+    /// The height of a point above the plane of a face.
+    fn above(&self, at: &Point, face: usize) -> Var {
+        let (from, z) = self.bottom.vertex(face);
+        at.z - (at.u + -from) * self.bottom.tilt(face).slope() + -z
+    }
+
+    /// Where a stretch of a piece between two points comes nearest to the bottom.
+    fn touches(&self, at: &Point, low: &Point, length: f64, departed: Option<usize>, take: &mut impl FnMut(Candidate)) {
+        let Some(Element::Length { segment, law, sees_bottom: true }) = self.elements.get(at.element) else { return };
+        let (first, last) = (self.bottom.face(at.u.value), self.bottom.face(low.u.value));
+        for face in (last..=first).rev() {
+            if segment.weight > 0.0 && departed != Some(face) {
+                let slope = self.bottom.tilt(face).slope();
+                let s = (at.v - at.h * slope) * (1.0 / segment.weight);
+                if s.value > 0.0 && s.value < length {
+                    let touch = self.hang(at, s);
+                    let (from, to) = self.bottom.extent(face);
+                    if touch.u.value >= from && touch.u.value <= to {
+                        take(Candidate { kind: Kind::Tangent(face), gap: self.above(&touch, face), at: touch });
+                    }
+                }
+            }
+            if face > last && departed != Some(face) && self.bottom.is_ridge(face) {
+                let (u, z) = self.bottom.vertex(face);
+                let reached = reach(segment, law.as_ref(), at, length, at.u.value - u);
+                let over = self.hang(at, Var::fixed(reached));
+                let steep = over.v.value / over.h.value;
+                let aside = over.u + -u;
+                // the point of the line that is above the vertex
+                let by = rate(segment, law.as_ref(), &over);
+                let s = Var { value: reached, by: aside.by.map(|b| b / by) };
+                let gap = over.z - aside * steep + -z;
+                take(Candidate { kind: Kind::Vertex(face), gap, at: self.hang(at, s) });
+            }
+        }
+    }
+
+    /// Keeps what hangs between a beginning and a landing.
+    pub fn record(&self, origin: &Origin, from: &Departure, to: &Candidate, sunk: &[bool], laid: &mut Laid) {
+        match origin {
+            Origin::Ground(path) => self.record_path(path, Some(&from.point), laid),
+            Origin::Held { before, .. } => {
+                let lift = from.point.v.value - before.v.value;
+                self.keep_joint(before.element, before, (lift, 0.0), [true, false], laid);
+            }
+            Origin::Fairlead => {}
+        }
+        let last = if matches!(to.kind, Kind::End) { self.elements.len() } else { to.at.element + 1 };
+        let mut at = from.point;
+        for element in from.point.element..last {
+            let whole = element + 1 < last || matches!(to.kind, Kind::End | Kind::Joint(_) | Kind::Held(_));
+            let length = if whole { -at.s + self.element_length(element) } else { to.at.s - at.s };
+            let low = self.hang(&at, length);
+            laid.stretches.push(stretched(&at, &low, Manner::Hangs));
+            if element + 1 < last && element < self.pulls.len() {
+                let (above, below) = self.lifts(element);
+                let past = sunk.get(element).copied().unwrap_or(false);
+                let lift = if past { below } else { above };
+                self.keep_joint(element, &low, (lift, 0.0), [false, past], laid);
+                at = Point { element: element + 1, s: Var::fixed(0.0), v: low.v + lift, ..low };
+            }
+        }
+    }
+
+    pub fn keep_joint(
+        &self,
+        joint: usize,
+        at: &Point,
+        (lift, reaction): (f64, f64),
+        [held, passed]: [bool; 2],
+        laid: &mut Laid,
+    ) {
+        if let Some(place) = laid.joints.get_mut(joint) {
+            *place = JointAt { u: at.u.value, z: at.z.value, lift, reaction, held, passed };
+        }
+    }
+}
+
+/// The stretch between two points of a piece.
+pub fn stretched(at: &Point, low: &Point, manner: Manner) -> Stretch {
+    Stretch {
+        element: at.element,
+        from: at.s.value,
+        to: low.s.value,
+        u: at.u.value,
+        z: at.z.value,
+        h: at.h.value,
+        v: at.v.value,
+        low: [low.u.value, low.z.value, low.h.value, low.v.value],
+        manner,
+    }
+}
+
+/// How fast u falls along the line at a point (unstretched length).
+fn rate(segment: &Segment, law: Option<&Law>, at: &Point) -> f64 {
+    let tension = at.h.value.hypot(at.v.value);
+    at.h.value / tension * (1.0 + strain(segment, law, tension).0)
+}
+
+/// The unstretched length below a point after which the line is `aside` nearer to the anchor.
+fn reach(segment: &Segment, law: Option<&Law>, from: &Point, length: f64, aside: f64) -> f64 {
+    let (h, v) = (from.h.value, from.v.value);
+    let (mut low, mut high) = (0.0, length);
+    let mut s = 0.5 * length;
+    for _ in 0..MOST_STEPS {
+        let end = v - segment.weight * s;
+        let off = stretch(segment, law, Tilt::FLAT, s, h, end).x - aside;
+        if off > 0.0 {
+            high = s;
+        } else {
+            low = s;
+        }
+        let tension = h.hypot(end);
+        let newton = s - off * tension / (h * (1.0 + strain(segment, law, tension).0));
+        let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+        if (next - s).abs() <= 2.0 * f64::EPSILON * length {
+            return next;
+        }
+        s = next;
+    }
+    s
+}

@@ -1,0 +1,195 @@
+//! What a laid line means: its state, proven, and its shape.
+
+use super::{Laid, Layout, Manner, Stretch};
+use crate::dual::Var;
+use crate::element::{Element, Tilt, mean_strain, stretch};
+use crate::line::{Joint, Segment};
+use crate::refused::LineError;
+use crate::shape::ShapePoint;
+use crate::solve::PROOF;
+use crate::state::{Buoy, JointState, SegmentState, State};
+
+impl Layout<'_> {
+    /// The state of a line laid from a fairlead at `x` beside the anchor and elevation `z`.
+    pub fn state(&self, laid: Laid, [x, z]: [f64; 2], slack: bool) -> Result<State, LineError> {
+        let [by_first, by_x, by_z, _] = laid.short.by;
+        let Some(first) = laid.stretches.first().copied() else { return Err(LineError::Empty) };
+        if laid.vague {
+            return Err(LineError::SlackSlope);
+        }
+        let clean = |v: f64| if slack && v.abs() <= 64.0 * self.least { 0.0 } else { v };
+        // as the fairlead moves, the end stays at the anchor
+        let moved = |v: Var| {
+            let [own, x, z, _] = v.by;
+            let share = |by: f64| if by_first == 0.0 { 0.0 } else { own * by / by_first };
+            [x - share(by_x), z - share(by_z)]
+        };
+        let [end_h, end_v] = laid.end;
+        let force = Var::parameter(first.h, 0, 1.0);
+        let (mut stiffness, mut coupling) = ([moved(force), moved(laid.top)], [moved(end_h), moved(end_v)]);
+        if slack {
+            stiffness[0] = [0.0; 2];
+            coupling[0] = if laid.heap.is_some() { coupling[0] } else { [0.0; 2] };
+        }
+        let on_bottom = first.manner != Manner::Hangs;
+        if on_bottom {
+            stiffness[1][1] = f64::INFINITY;
+        }
+        let tension = first.h.hypot(first.v);
+        let scale = tension.max(end_h.value.hypot(end_v.value));
+        let [[xx, _], [zx, _]] = stiffness;
+        let short = laid.short.value;
+        let residual = if slack { 0.0 } else { short.abs() * xx.hypot(zx) };
+        let rounding = 2.0 * self.fine;
+        if !(slack || residual <= PROOF * scale || short.abs() <= rounding) {
+            return Err(LineError::Unproven { residual, tension: scale });
+        }
+        if laid.left > 1e-12 * (self.length + x.abs()) + 64.0 * self.fine {
+            return Err(LineError::NotConverged { force: first.h, residual: laid.left, iterations: laid.iterations });
+        }
+        let place = |u: f64, z: f64| (x - u, z);
+        let mut places: Vec<(f64, f64)> = vec![(0.0, z)];
+        let mut segments = Vec::new();
+        let (mut grounded, mut grounded_stretched, mut touchdown) = (0.0, 0.0, None);
+        let mut below_bottom = Vec::new();
+        let mut above_surface = Vec::new();
+        let mut at = 0;
+        for (index, element) in self.elements.iter().enumerate() {
+            let from = at;
+            while laid.stretches.get(at).is_some_and(|s| s.element == index) {
+                at += 1;
+            }
+            let parts = laid.stretches.get(from..at).unwrap_or_default();
+            let (Some(head), Some(tail)) = (parts.first(), parts.last()) else { return Err(LineError::Empty) };
+            let [u, z, low_h, low_v] = tail.low;
+            places.push(place(u, z));
+            let Element::Length { segment, sees_bottom, .. } = element else { continue };
+            let number = segments.len() + 1;
+            let mut on_bottom = 0.0;
+            for part in parts.iter().filter(|p| p.manner != Manner::Hangs) {
+                touchdown = touchdown.or(Some(place(part.u, part.z)));
+                on_bottom += part.to - part.from;
+                let [u, z, ..] = part.low;
+                grounded_stretched +=
+                    if part.manner == Manner::Heap { part.to - part.from } else { (part.u - u).hypot(part.z - z) };
+            }
+            grounded += on_bottom;
+            let (top_h, top_v) = (clean(head.h), clean(head.v));
+            let (low_h, low_v) = (clean(low_h), clean(low_v));
+            segments.push(SegmentState {
+                top_tension: top_h.hypot(top_v),
+                bottom_tension: low_h.hypot(low_v),
+                top_horizontal: top_h,
+                bottom_horizontal: low_h,
+                top_vertical: top_v,
+                bottom_vertical: low_v,
+                grounded: on_bottom,
+            });
+            let fine = 1e-9 * (self.length + self.line.anchor.abs());
+            if let (false, true, Some(by)) = (*sees_bottom, self.line.floor.is_some(), self.depth_below(segment, head))
+            {
+                below_bottom.extend((by > fine).then_some((number, by)));
+            }
+            let lifted = matches!(self.line.joints.get(number - 1), Some(Joint::Weight(w)) if *w < 0.0);
+            let highest = highest(segment, head, lifted);
+            above_surface.extend((highest > self.line.surface + fine).then_some((number, highest - self.line.surface)));
+        }
+        let skip = self.line.first_joint();
+        let joints = self.line.joints.iter().zip(laid.joints.iter().skip(skip)).map(|(joint, at)| {
+            let (x, z) = place(at.u, at.z);
+            let buoy = matches!(joint, Joint::SpringBuoy { .. } | Joint::Buoy { .. }).then_some(
+                match (at.held, at.passed || at.reaction > 0.0) {
+                    (true, _) => Buoy::Held,
+                    (_, true) => Buoy::Sunk,
+                    _ => Buoy::Slack,
+                },
+            );
+            // what the line feels of a clump that the bottom carries
+            let cos = self.bottom.tilt(self.bottom.face(at.u)).cos;
+            let lift = if matches!(joint, Joint::Weight(_)) { at.lift + at.reaction * cos } else { at.lift };
+            JointState { x, z, lift, reaction: at.reaction, buoy }
+        });
+        let (force, vertical) = (clean(first.h), clean(first.v));
+        let state = State {
+            force,
+            x,
+            dx_dh: if slack { 0.0 } else { 1.0 / xx },
+            top_vertical: vertical,
+            top_tension: force.hypot(vertical),
+            anchor_horizontal: clean(end_h.value),
+            anchor_vertical: clean(end_v.value),
+            stiffness,
+            coupling,
+            grounded,
+            grounded_stretched,
+            touchdown,
+            joints: joints.collect(),
+            below_bottom,
+            above_surface,
+            segments,
+            slack,
+            heap: laid.heap,
+            iterations: laid.iterations,
+            residual,
+            unbalance: laid.left * xx.abs(),
+            places,
+            rested: Default::default(),
+            laid: Some(Box::new(laid)),
+        };
+        if !state.is_finite() {
+            return Err(LineError::NotConverged { force, residual: f64::NAN, iterations: state.iterations });
+        }
+        Ok(state)
+    }
+
+    /// How far a hanging stretch that does not see the bottom is below it (m).
+    fn depth_below(&self, segment: &Segment, part: &Stretch) -> Option<f64> {
+        let mut lowest: f64 = self.bottom.elevation(part.low[0]) - part.low[1];
+        for face in self.bottom.face(part.low[0])..=self.bottom.face(part.u) {
+            let s = (part.v - part.h * self.bottom.tilt(face).slope()) / segment.weight;
+            if segment.weight > 0.0 && s > part.from && s < part.to {
+                let reach = stretch(segment, None, Tilt::FLAT, s, part.h, part.v - segment.weight * s);
+                let (u, z) = (part.u - reach.x, part.z - reach.z);
+                lowest = lowest.max(self.bottom.elevation(u) - z);
+            }
+        }
+        Some(lowest)
+    }
+}
+
+/// The highest place of a buoyant segment, and of the lower end of one that is lifted there.
+fn highest(segment: &Segment, part: &Stretch, lifted: bool) -> f64 {
+    let [_, low, _, v] = part.low;
+    let mut highest = if lifted { low } else { f64::NEG_INFINITY };
+    if segment.weight < 0.0 {
+        highest = highest.max(low);
+        if v > 0.0 && part.v < 0.0 {
+            let above = Segment { length: -v / segment.weight, ..*segment };
+            highest = highest.max(low + stretch(&above, None, Tilt::FLAT, above.length, part.h, v).z);
+        }
+    }
+    highest
+}
+
+/// A point of a stretch, `s` from the upper end of its piece; `x` is the distance of the ends and `arc` the length before
+/// the piece.
+pub fn point(element: &Element, part: &Stretch, s: f64, x: f64, (segment, arc): (usize, f64)) -> Option<ShapePoint> {
+    let Element::Length { segment: properties, law, .. } = element else { return None };
+    let length = (s - part.from).clamp(0.0, part.to - part.from);
+    let (u, z, h, v) = match part.manner {
+        Manner::Hangs => {
+            let v = part.v - properties.weight * length;
+            let reach = stretch(properties, law.as_ref(), Tilt::FLAT, length, part.h, v);
+            (part.u - reach.x, part.z - reach.z, part.h, v)
+        }
+        Manner::Lies { tilt, loss } => {
+            let (tension, _) = tilt.turned(part.h, part.v);
+            let left = (tension - loss * length).max(0.0);
+            let along = length * (1.0 + mean_strain(properties, law.as_ref(), tension, left).0);
+            (part.u - along * tilt.cos, part.z - along * tilt.sin, left * tilt.cos, left * tilt.sin)
+        }
+        Manner::Heap => (part.u, part.z, 0.0, 0.0),
+    };
+    let on_bottom = part.manner != Manner::Hangs;
+    Some(ShapePoint { arc: arc + s, segment, x: x - u, z, horizontal: h, vertical: v, on_bottom })
+}

@@ -1,0 +1,97 @@
+//! The bottom under a line: plane faces between vertices, by the distance from the anchor toward the fairlead.
+
+use super::element::Tilt;
+
+/// A bottom of plane faces. Beyond its first and last vertex the outer faces go on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Profile {
+    /// Distances from the anchor toward the fairlead (m), growing; at least two.
+    at: Vec<f64>,
+    /// Elevations there (m).
+    z: Vec<f64>,
+    /// Inclination of the face beyond each vertex but the last.
+    tilts: Vec<Tilt>,
+}
+
+impl Profile {
+    /// A plane through a place under the anchor.
+    pub fn plane(elevation: f64, slope: f64) -> Profile {
+        Profile { at: vec![0.0, 1.0], z: vec![elevation, elevation + slope], tilts: vec![Tilt::new(slope)] }
+    }
+
+    /// From places (distance from the anchor, elevation), growing and at least two; neighbours in one plane are one face.
+    pub fn new(places: &[(f64, f64)]) -> Profile {
+        let mut kept: Vec<(f64, f64)> = Vec::with_capacity(places.len());
+        let slope = |a: (f64, f64), b: (f64, f64)| (b.1 - a.1) / (b.0 - a.0);
+        for place in places {
+            while let [.., before, last] = kept.as_slice()
+                && (slope(*before, *last) - slope(*last, *place)).abs() <= 1e-12 * (1.0 + slope(*before, *last).abs())
+            {
+                kept.pop();
+            }
+            kept.push(*place);
+        }
+        let tilts = kept.iter().zip(kept.iter().skip(1)).map(|(a, b)| Tilt::new(slope(*a, *b))).collect();
+        let (at, z) = kept.into_iter().unzip();
+        Profile { at, z, tilts }
+    }
+
+    /// Number of faces.
+    pub fn faces(&self) -> usize {
+        self.tilts.len()
+    }
+
+    /// The face at a distance from the anchor; 0 is the anchor's.
+    pub fn face(&self, at: f64) -> usize {
+        self.at.partition_point(|v| *v <= at).clamp(1, self.faces().max(1)) - 1
+    }
+
+    /// The inclination of a face.
+    pub fn tilt(&self, face: usize) -> Tilt {
+        self.tilts.get(face).copied().unwrap_or(Tilt::FLAT)
+    }
+
+    /// A vertex: distance from the anchor and elevation.
+    pub fn vertex(&self, vertex: usize) -> (f64, f64) {
+        (self.at.get(vertex).copied().unwrap_or(0.0), self.z.get(vertex).copied().unwrap_or(0.0))
+    }
+
+    /// The elevation of a face's plane.
+    pub fn elevation_of(&self, face: usize, at: f64) -> f64 {
+        let (from, z) = self.vertex(face);
+        z + (at - from) * self.tilt(face).slope()
+    }
+
+    /// The elevation of the bottom.
+    pub fn elevation(&self, at: f64) -> f64 {
+        self.elevation_of(self.face(at), at)
+    }
+
+    /// From which distance to which a face goes: the outer ones without end.
+    pub fn extent(&self, face: usize) -> (f64, f64) {
+        let from = if face == 0 { f64::NEG_INFINITY } else { self.vertex(face).0 };
+        let to = if face + 1 >= self.faces() { f64::INFINITY } else { self.vertex(face + 1).0 };
+        (from, to)
+    }
+
+    /// Whether the bottom bends downward at the inner vertex on the way to the anchor: a line lies around it.
+    pub fn is_ridge(&self, vertex: usize) -> bool {
+        vertex > 0 && vertex < self.faces() && self.tilt(vertex - 1).slope() > self.tilt(vertex).slope()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_profile_has_the_elevations_of_its_vertices_and_goes_on_beyond_them() {
+        let made = Profile::new(&[(0.0, -100.0), (50.0, -95.0), (100.0, -90.0), (200.0, -100.0)]);
+        assert_eq!(made.faces(), 2, "two neighbours in one plane are one face");
+        for (at, z) in [(-10.0, -101.0), (0.0, -100.0), (50.0, -95.0), (100.0, -90.0), (150.0, -95.0), (300.0, -110.0)]
+        {
+            assert!((made.elevation(at) - z).abs() < 1e-12, "{at}");
+        }
+        assert!(made.is_ridge(1) && !made.is_ridge(0) && !made.is_ridge(2));
+    }
+}

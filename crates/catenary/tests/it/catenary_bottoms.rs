@@ -1,0 +1,117 @@
+//! Lines over slopes and uneven bottoms, with friction, lifted by buoys, and of very many segments, against numbers that
+//! were not made here.
+
+use windlass_catenary::{Floor, Heap, Joint, Line, Segment};
+
+fn close(got: f64, want: f64, scale: f64, what: &str) {
+    assert!((got - want).abs() <= scale, "{what}: {got} for {want}");
+}
+
+fn flat(depth: f64, friction: f64) -> Option<Floor> {
+    Some(Floor { elevation: -depth, slope: 0.0, friction })
+}
+
+#[test]
+fn moorings_over_slopes_agree_with_the_closed_forms() {
+    // tests/data/static_slopes.py: 60 moorings of eight lines, slopes within 0.06
+    let mut reader = csv::Reader::from_path("../../tests/data/static_slopes.csv").unwrap();
+    let mut regimes = std::collections::BTreeMap::new();
+    for row in reader.records() {
+        let row = row.unwrap();
+        let v = |i: usize| row[i].parse::<f64>().unwrap();
+        let told = format!("mooring {} line {}", &row[0], &row[1]);
+        let segment = Segment { length: v(4), weight: v(5), ea: v(6) };
+        let floor = Floor { elevation: -v(3), slope: v(7), friction: v(8) };
+        let line = Line::new(vec![segment], vec![], -v(3), 1e4).unwrap().over(Some(floor)).unwrap();
+        let state = line.at_distance(v(2), 0.0).unwrap_or_else(|e| panic!("{told}: {e}"));
+        // 1e-8 of the tension at the fairlead, as for the lines over a flat bottom
+        let scale = 1e-8 * v(9).hypot(v(10));
+        close(state.force, v(9), scale, &told);
+        close(state.top_vertical, v(10), scale, &told);
+        close(state.anchor_horizontal, v(11), scale, &told);
+        close(state.anchor_vertical, v(12), scale, &told);
+        close(state.grounded, v(13), 1e-7 * segment.length, &told);
+        let heap = match &row[14] {
+            "heap_anchor" => Some(Heap::Anchor),
+            "heap_touchdown" => Some(Heap::Touchdown),
+            _ => None,
+        };
+        assert_eq!(state.heap.map(|h| h.0), heap, "{told}");
+        *regimes.entry(row[14].to_string()).or_insert(0) += 1;
+        // and back from the force
+        if state.force > 1e-3 * scale / 1e-8 {
+            let back = line.at_horizontal_force(state.force, 0.0).unwrap();
+            close(back.x, v(2), 1e-8 * segment.length + scale / state.stiffness[0][0], &told);
+        }
+    }
+    assert!(regimes.len() == 5 && regimes.values().all(|n| *n >= 10), "{regimes:?}");
+}
+
+#[test]
+fn friction_acts_between_touchdowns_that_a_light_segment_lifts() {
+    // an equilibrium found by shooting over the touchdowns, closed to 1e-9: H 274,521 N, T 786,929 N, 840 m on the bottom and
+    // touchdown 5 m before the anchor
+    let area = 0.25 * std::f64::consts::PI * 0.1 * 0.1;
+    let part = |length, weight, emod: f64| Segment { length, weight, ea: emod * 1e6 * area };
+    let parts = vec![part(3900.0, 270.0, 58569.019), part(2200.0, -68.0, 216_450.72), part(1200.0, 49.0, 152_788.75)];
+    let line = Line::new(parts, vec![Joint::Free, Joint::Weight(2300.0)], -1900.0, 0.0).unwrap();
+    let state = line.over(flat(1900.0, 0.96)).unwrap().at_distance(5700.0, 0.0).unwrap();
+    close(state.force, 274_521.0, 0.5, "H");
+    close(state.top_tension, 786_929.0, 0.5, "T");
+    // 840 m before the light segment, 5 m before the anchor
+    close(state.segments[0].grounded, 840.0, 0.5, "on the bottom");
+    close(state.segments[2].grounded, 5.0, 0.5, "at the anchor");
+}
+
+#[test]
+fn the_bottom_is_seen_below_a_spring_buoy_farther_down() {
+    // the same line as a dynamic line of 60 elements: 376.64 kN
+    let ea = 2e11 * 0.25 * std::f64::consts::PI * 0.084 * 0.084;
+    let part = Segment { length: 300.0, weight: 1200.0, ea };
+    let buoy = Joint::SpringBuoy { capacity: 5000.0, depth: 0.0 };
+    let line = Line::new(vec![part; 3], vec![Joint::Free, buoy], -100.0, 0.0).unwrap();
+    let state = line.at_distance(870.0, 0.0).unwrap();
+    close(state.top_tension, 376.64e3, 2e-4 * 376.64e3, "T");
+    assert!(state.below_bottom.is_empty());
+}
+
+/// A line of 500 m cut in so many parts; whether each has a weight of its own.
+fn cut(parts: usize, varied: bool, friction: f64) -> Line {
+    let share = |i: usize| if varied { 1.0 + 0.3 * ((i * 7919) % 101) as f64 / 101.0 } else { 1.0 };
+    let segment = |i: usize| Segment { length: 500.0 / parts as f64, weight: 600.0 * share(i), ea: 7e8 };
+    let segments = (0..parts).map(segment).collect();
+    let line = Line::new(segments, vec![Joint::Free; parts - 1], -100.0, 0.0).unwrap();
+    line.over(flat(100.0, friction)).unwrap()
+}
+
+#[test]
+fn a_line_cut_in_a_thousand_parts_has_the_same_digits() {
+    for friction in [0.0, 0.5] {
+        let whole = cut(1, false, friction).at_distance(480.0, 0.0).unwrap();
+        let mut work = Vec::new();
+        for parts in [30, 1000, 10_000] {
+            let state = cut(parts, false, friction).at_distance(480.0, 0.0).unwrap();
+            close(state.force, whole.force, 1e-11 * whole.force, "H");
+            close(state.top_tension, whole.top_tension, 1e-11 * whole.top_tension, "T");
+            close(state.grounded, whole.grounded, 1e-9 * 500.0, "on the bottom");
+            assert!(state.segments.len() == parts && state.residual <= 1e-9 * state.top_tension);
+            work.push(state.iterations);
+        }
+        // each iteration goes once along the line: as many for ten thousand parts as for thirty
+        assert!(work.iter().all(|w| *w <= 200), "{work:?}");
+    }
+}
+
+#[test]
+fn a_thousand_unlike_parts_carry_their_weights() {
+    for (parts, friction) in [(40, 0.0), (1000, 0.0), (1000, 0.3)] {
+        let line = cut(parts, true, friction);
+        let state = line.at_distance(480.0, 0.0).unwrap();
+        // what hangs is carried by the fairlead; friction takes mu times what lies
+        let lies = |(s, at): (&Segment, &windlass_catenary::SegmentState)| s.weight * at.grounded;
+        let lying: f64 = line.segments().iter().zip(&state.segments).map(lies).sum();
+        let all: f64 = line.segments().iter().map(|s| s.weight * s.length).sum();
+        close(state.top_vertical, all - lying, 1e-9 * all, "V");
+        close(state.anchor_horizontal, state.force - friction * lying, 1e-9 * all, "H at the anchor");
+    }
+}
