@@ -2,7 +2,7 @@
 
 use super::chain::Held;
 use super::element::{Element, Tilt, stretch};
-use super::layout::{Laid, point};
+use super::layout::{Laid, Stretch, point};
 use super::line::Line;
 use super::state::State;
 
@@ -103,7 +103,9 @@ impl Line {
                 while let Some(s) = inside.next_if(|s| *s <= part.to + 1e-9 * length) {
                     points.extend(point(element, part, s, x, (number, arc)));
                 }
-                if points.last().is_none_or(|p| (p.arc - arc - part.to).abs() > 1e-9 * length) {
+                let goes_on = |next: &&Stretch| next.element == index && next.runs_on_from(part);
+                let last = !stretches.peek().is_some_and(goes_on);
+                if last && points.last().is_none_or(|p| (p.arc - arc - part.to).abs() > 1e-9 * length) {
                     points.extend(point(element, part, part.to, x, (number, arc)));
                 }
             }

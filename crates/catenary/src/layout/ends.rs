@@ -6,7 +6,7 @@ use crate::element::Element;
 use crate::line::Line;
 use crate::refused::LineError;
 use crate::search::{Point, rising_root};
-use crate::state::State;
+use crate::state::{Heap, State};
 
 /// Parameters of a layout: the horizontal force (or the length of a heap), and the place of the fairlead.
 const FORCE: usize = 0;
@@ -18,7 +18,7 @@ const MOST_STEPS: usize = 200;
 impl Layout<'_> {
     fn top(&self, h: Var, x: f64, z: f64, near: Option<f64>) -> Top {
         let (u, z) = (Var::parameter(x, ASIDE, 1.0), Var::parameter(z, ABOVE, 1.0));
-        Top { h, u, z, near, heap: Var::fixed(0.0) }
+        Top { h, u, z, near, heap: Var::fixed(0.0), hollow: None }
     }
 
     /// By how much a fairlead lies below a bottom that carries the first piece (m).
@@ -48,12 +48,16 @@ pub fn between_ends(line: &Line, x: f64, z: f64, last: Option<&State>) -> Result
     };
     let mut best: Option<(f64, Laid)> = None;
     let mut failed = None;
+    let mut hollow = None;
     let (_, steps) = rising_root(begin, x, |h| {
         let h = h.max(least);
         match layout.lay(&layout.top(Var::parameter(h, FORCE, 1.0), x, z, near)) {
             Ok(laid) => {
                 let (short, slope) = (laid.short.value, -laid.short.by[FORCE]);
                 near = Some(laid.top.value);
+                if let Some((Heap::Hollow(sump), _)) = laid.heap {
+                    hollow = Some((h, sump));
+                }
                 // the least force already reaches so far
                 let limp = h <= least && short <= 0.0;
                 if limp || best.as_ref().is_none_or(|(_, b)| short.abs() <= b.short.value.abs()) {
@@ -72,6 +76,10 @@ pub fn between_ends(line: &Line, x: f64, z: f64, last: Option<&State>) -> Result
         return Err(failed.unwrap_or(LineError::NotConverged { force: begin, residual: f64::NAN, iterations: steps }));
     };
     laid.iterations += steps;
+    let in_hollow = matches!(laid.heap, Some((Heap::Hollow(_), _)));
+    if let Some((force, sump)) = hollow.filter(|_| in_hollow || laid.short.value.abs() > 1e-9 * layout.length) {
+        laid = heap_in_hollow(&layout, [x, z], force, sump)?;
+    }
     let slack = h <= 4.0 * least && laid.short.value <= 0.0;
     if slack {
         // little may hang: without horizontal force means little against that
@@ -121,6 +129,46 @@ fn heap_at_touchdown(layout: &Layout, x: f64, z: f64, without: &Laid) -> Result<
         (Some(laid), None) => Ok(laid),
         (None, None) => Err(LineError::SlackSlope),
     }
+}
+
+/// The line whose spare length lies in a hollow: without tension it comes down to it from the one side, and hangs down to
+/// it from the anchor on the other.
+fn heap_in_hollow(layout: &Layout, [x, z]: [f64; 2], force: f64, sump: f64) -> Result<Laid, LineError> {
+    let mut near: Option<(f64, Laid)> = None;
+    let lost = |left| LineError::NotConverged { force, residual: left, iterations: MOST_STEPS };
+    rising_root(force, 0.0, |h| match layout.lay(&layout.top(Var::parameter(h, FORCE, 1.0), x, z, None)) {
+        Ok(laid) if laid.heap.is_some_and(|(place, _)| place == Heap::Hollow(sump)) => {
+            let found = Point { value: -laid.short.value, slope: -laid.short.by[FORCE] };
+            if near.as_ref().is_none_or(|(_, n)| laid.short.value < n.short.value) {
+                near = Some((h, laid));
+            }
+            found
+        }
+        // with tension beyond the hollow
+        _ => Point { value: layout.length, slope: f64::NAN },
+    });
+    let Some((h, above)) = near else { return Err(lost(f64::NAN)) };
+    let mut best: Option<Laid> = None;
+    rising_root(0.01 * layout.length, 0.0, |length| {
+        let top = layout.top(Var::fixed(h), x, z, Some(above.top.value));
+        match layout.lay(&Top { hollow: Some((sump, Var::parameter(length, FORCE, 1.0))), ..top }) {
+            Ok(laid) => {
+                let found = Point { value: laid.short.value, slope: laid.short.by[FORCE] };
+                if best.as_ref().is_none_or(|b| found.value.abs() <= b.short.value.abs()) {
+                    best = Some(laid);
+                }
+                found
+            }
+            Err(_) => Point { value: f64::NAN, slope: f64::NAN },
+        }
+    });
+    let below = best.ok_or_else(|| lost(f64::NAN))?;
+    if below.short.value.abs() > 1e-9 * layout.length {
+        return Err(lost(below.short.value));
+    }
+    // the two sides do not feel each other
+    let end = below.end.map(|v| Var::fixed(v.value));
+    Ok(Laid { short: above.short, top: above.top, end, ..below })
 }
 
 /// The line with a horizontal force at its fairlead, at elevation `z`.

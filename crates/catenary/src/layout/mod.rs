@@ -80,6 +80,16 @@ pub(super) struct Stretch {
     pub manner: Manner,
 }
 
+impl Stretch {
+    /// Whether it lies on the same face as the one before it.
+    pub fn runs_on_from(&self, before: &Stretch) -> bool {
+        match (self.manner, before.manner) {
+            (Manner::Lies { tilt, .. }, Manner::Lies { tilt: same, .. }) => tilt == same,
+            _ => false,
+        }
+    }
+}
+
 /// What became of a joint.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct JointAt {
@@ -148,6 +158,8 @@ pub(super) struct Top {
     pub near: Option<f64>,
     /// Length that lies in a heap where the line first touches the bottom (m).
     pub heap: Var,
+    /// A hollow of the bottom (distance from the anchor) in which a length lies in a heap.
+    pub hollow: Option<(f64, Var)>,
 }
 
 impl<'a> Layout<'a> {
@@ -228,7 +240,7 @@ impl<'a> Layout<'a> {
         let mut heap = (top.heap.value > 0.0).then_some(top.heap);
         if let Some(lying) = self.fairlead_on_bottom(top) {
             laid.top = lying.at.v;
-            origin = match self.begin(&lying, heap.take(), &mut laid)? {
+            origin = match self.begin(&lying, heap.take(), top.hollow, &mut laid)? {
                 Some(path) => Origin::Ground(path),
                 None => return Ok(Some(laid)),
             };
@@ -259,7 +271,7 @@ impl<'a> Layout<'a> {
                 (laid.short, laid.end) = (landing.at.u, [landing.at.h, landing.at.v]);
                 return Ok(Some(laid));
             }
-            origin = match self.begin(&landing, heap.take(), &mut laid)? {
+            origin = match self.begin(&landing, heap.take(), top.hollow, &mut laid)? {
                 Some(path) => Origin::Ground(path),
                 None => return Ok(Some(laid)),
             };
@@ -268,8 +280,14 @@ impl<'a> Layout<'a> {
     }
 
     /// Begins to lie; `None` when the line lies up to its end.
-    fn begin(&self, landing: &Candidate, heap: Option<Var>, laid: &mut Laid) -> Result<Option<Path>, LineError> {
-        let path = self.path(landing, heap, laid)?;
+    fn begin(
+        &self,
+        landing: &Candidate,
+        heap: Option<Var>,
+        hollow: Option<(f64, Var)>,
+        laid: &mut Laid,
+    ) -> Result<Option<Path>, LineError> {
+        let path = self.path(landing, heap, hollow, laid)?;
         match path.end {
             End::Lifted => return Ok(Some(path)),
             End::Anchor(at) => {

@@ -71,8 +71,15 @@ impl Path {
 }
 
 impl Layout<'_> {
-    /// The path from a landing; `heap` is the length that lies in a heap there.
-    pub fn path(&self, landing: &Candidate, heap: Option<Var>, laid: &mut Laid) -> Result<Path, LineError> {
+    /// The path from a landing; `heap` is the length that lies in a heap there, `hollow` the place and length of one in a
+    /// hollow of the bottom.
+    pub fn path(
+        &self,
+        landing: &Candidate,
+        heap: Option<Var>,
+        hollow: Option<(f64, Var)>,
+        laid: &mut Laid,
+    ) -> Result<Path, LineError> {
         let mut path = Path { pieces: Vec::new(), weight: 0.0, end: End::Lifted };
         let at = landing.at;
         let mut cursor = match landing.kind {
@@ -97,6 +104,18 @@ impl Layout<'_> {
             laid.heap = Some((Heap::Touchdown, length.value));
         }
         path.end = self.extend(&mut path, cursor);
+        if let (End::Heap { at, sump }, Some((place, length))) = (path.end, hollow)
+            && sump == place
+        {
+            let vertex = self.bottom.face(sump);
+            let (u, z) = self.bottom.vertex(vertex);
+            let at = Point { u: Var::fixed(u), z: Var::fixed(z), ..at };
+            let tension = Var::fixed(self.least);
+            let mut cursor = Cursor { at, face: vertex.saturating_sub(1), tension };
+            self.heaped(&mut path, &mut cursor, length)?;
+            laid.heap = Some((Heap::Hollow(sump), length.value));
+            path.end = self.extend(&mut path, cursor);
+        }
         if let End::Heap { at, sump } = path.end {
             let buoyant = self.elements.iter().skip(at.element).any(|e| e.weight() < 0.0)
                 || (at.element..self.pulls.len()).any(|j| self.lifts(j).1 > 0.0);

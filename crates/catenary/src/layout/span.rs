@@ -215,8 +215,10 @@ impl Layout<'_> {
                     }
                 }
             }
-            if face > last && departed != Some(face) && self.bottom.is_ridge(face) {
-                let (u, z) = self.bottom.vertex(face);
+            let (u, z) = self.bottom.vertex(face);
+            // not the ridge that it has just left
+            let ahead = at.u.value - u > 64.0 * self.fine && departed != Some(face);
+            if face > last && ahead && self.bottom.is_ridge(face) {
                 let reached = reach(segment, law.as_ref(), at, length, at.u.value - u);
                 let over = self.hang(at, Var::fixed(reached));
                 let steep = over.v.value / over.h.value;

@@ -17,7 +17,9 @@ impl Layout<'_> {
         if laid.vague {
             return Err(LineError::SlackSlope);
         }
-        let clean = |v: f64| if slack && v.abs() <= 64.0 * self.least { 0.0 } else { v };
+        // the least tension stands for none
+        let none = if slack { 64.0 } else { 2.0 } * self.least;
+        let clean = |v: f64| if v.abs() <= none { 0.0 } else { v };
         // as the fairlead moves, the end stays at the anchor
         let moved = |v: Var| {
             let [own, x, z, _] = v.by;

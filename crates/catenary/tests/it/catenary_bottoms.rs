@@ -115,3 +115,80 @@ fn a_thousand_unlike_parts_carry_their_weights() {
         close(state.anchor_horizontal, state.force - friction * lying, 1e-9 * all, "H at the anchor");
     }
 }
+
+#[test]
+fn lines_over_ridges_and_hollows_agree_with_contacts_closed_by_hand() {
+    // tests/data/static_profiles.py: 1200 N/m, EA 6e8 N; H, V, pull on the anchor, length on the bottom
+    type Case<'a> = (f64, &'a [(f64, f64)], [f64; 2], [f64; 5]);
+    const VALLEY: &[(f64, f64)] = &[(0.0, -200.0), (400.0, -220.0), (1000.0, -190.0)];
+    const RIDGE: &[(f64, f64)] = &[(0.0, -220.0), (250.0, -190.0), (1000.0, -215.0)];
+    const TIP: &[(f64, f64)] = &[(0.0, -260.0), (300.0, -170.0), (1000.0, -400.0)];
+    const BRIDGE: &[(f64, f64)] = &[(0.0, -230.0), (150.0, -200.0), (230.0, -260.0), (310.0, -195.0), (1000.0, -215.0)];
+    let cases: [Case; 8] = [
+        (0.0, VALLEY, [900.0, 968.0], [404878.505986, 505113.436421, 419032.286778, -20951.614339, 530.936488844]),
+        (0.0, RIDGE, [800.0, 876.0], [259683.088596, 411573.498071, 233128.710162, 27975.445219, 525.808665813]),
+        (0.0, TIP, [700.0, 765.0], [410936.386259, 453797.770888, 299264.224035, 89779.267210, 313.018044632]),
+        (0.0, BRIDGE, [900.0, 976.0], [315983.836103, 447349.786527, 278363.136438, 55672.627288, 432.976921185]),
+        (0.2, VALLEY, [900.0, 968.0], [405852.317653, 505615.369706, 292328.824135, -14616.441207, 533.439959944]),
+        (0.2, RIDGE, [800.0, 876.0], [260136.149196, 411810.714437, 102640.985977, 12316.918317, 525.598400491]),
+        (0.2, TIP, [700.0, 765.0], [411304.681303, 453905.679901, 192053.080969, 57615.924291, 313.057638499]),
+        (0.2, BRIDGE, [900.0, 976.0], [336315.556233, 457296.219797, 148784.226590, 29756.845318, 422.246514812]),
+    ];
+    for (friction, places, [x, length], want) in cases {
+        let told = format!("{friction} {places:?}");
+        let (_, anchor) = places[0];
+        let segment = Segment { length, weight: 1200.0, ea: 6e8 };
+        let line = Line::new(vec![segment], vec![], anchor, 0.0).unwrap().over_profile(places, friction).unwrap();
+        let state = line.at_distance(x, -10.0).unwrap_or_else(|e| panic!("{told}: {e}"));
+        let got = [state.force, state.top_vertical, state.anchor_horizontal, state.anchor_vertical, state.grounded];
+        for (got, want) in got.into_iter().zip(want) {
+            close(got, want, 1e-8 * 6e5, &told);
+        }
+        // the stiffness is the difference of the forces
+        let d = 1e-4;
+        let at = |dx: f64, dz: f64| line.at_distance(x + dx, -10.0 + dz).unwrap();
+        for (column, (plus, minus)) in [(at(d, 0.0), at(-d, 0.0)), (at(0.0, d), at(0.0, -d))].into_iter().enumerate() {
+            let force = [plus.force - minus.force, plus.top_vertical - minus.top_vertical];
+            let far = [plus.anchor_horizontal - minus.anchor_horizontal, plus.anchor_vertical - minus.anchor_vertical];
+            let scale = 1e-5 * (state.stiffness[0][0] + state.stiffness[1][1]);
+            for row in 0..2 {
+                close(state.stiffness[row][column], force[row] / (2.0 * d), scale, &told);
+                close(state.coupling[row][column], far[row] / (2.0 * d), scale, &told);
+            }
+        }
+        // the shape does not pass below the bottom, and runs to the anchor
+        let shape = line.shape(&state, 200);
+        assert!(shape.iter().all(|p| p.z >= line.bottom_at(x - p.x).unwrap() - 1e-6), "{told}");
+        let last = shape.last().unwrap();
+        close(last.x, x, 1e-6, &told);
+        close(last.z, anchor, 1e-6, &told);
+    }
+}
+
+#[test]
+fn spare_length_heaps_in_a_hollow_without_friction() {
+    // it comes down 1 in 10 to the hollow with T = 0 there, and hangs on the anchor by w times the height
+    let places = [(0.0, -200.0), (400.0, -220.0), (1000.0, -160.0)];
+    let segment = Segment { length: 1100.0, weight: 1200.0, ea: 1e15 };
+    let line = Line::new(vec![segment], vec![], -200.0, 0.0).unwrap().over_profile(&places, 0.0).unwrap();
+    let state = line.at_distance(700.0, -10.0).unwrap();
+    // on a frictionless bottom T - w z is the same all along: zero tension at the hollow, w times its depth below the anchor
+    close(state.top_tension, 1200.0 * (220.0 - 10.0), 1e-3, "T");
+    close(state.anchor_horizontal.hypot(state.anchor_vertical), 1200.0 * 20.0, 1e-3, "T at the anchor");
+    let Some((Heap::Hollow(at), length)) = state.heap else { panic!("{:?}", state.heap) };
+    let (x, z) = state.touchdown.unwrap();
+    let hangs = (state.top_vertical - state.force * 0.1) / 1200.0;
+    let lies = (700.0 - x - 400.0).hypot(z + 220.0) + 400f64.hypot(20.0);
+    close(at, 400.0, 1e-9, "hollow");
+    close(length, 1100.0 - hangs - lies, 1e-6, "heap");
+}
+
+#[test]
+fn a_shape_has_one_point_at_the_touchdown_where_friction_takes_the_tension() {
+    let segment = Segment { length: 600.0, weight: 1200.0, ea: 6e8 };
+    let line = Line::new(vec![segment], vec![], -100.0, 0.0).unwrap().over(flat(100.0, 0.8)).unwrap();
+    let state = line.at_distance(540.0, 0.0).unwrap();
+    assert_eq!(state.anchor_horizontal, 0.0);
+    // both ends, nine inside, the touchdown
+    assert_eq!(line.shape(&state, 9).len(), 12);
+}
