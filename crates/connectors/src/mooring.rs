@@ -100,8 +100,9 @@ impl Mooring {
     pub(super) fn remarks(&self, state: &State) -> Vec<Note> {
         let mut notes = self.notes.clone();
         for (segment, _) in &state.below_bottom {
-            let text =
-                format!("warning: segment {segment} hangs below the bottom, which it does not see above the spring buoy at its end");
+            let text = format!(
+                "warning: segment {segment} hangs below the bottom, which it does not see above the spring buoy at its end"
+            );
             notes.push(text.into());
         }
         if let Some((heap, _)) = state.heap {
