@@ -5,11 +5,12 @@
 //! the hydrostatics up to the mean level, which are the body's buoyancy, are taken off. All of it is found once a step, at the place expected
 //! at its end.
 //!
-//! Panels are triangles whose edges are no longer than [`EDGE`] over the mean wave number of the pressure at their depth, where the body is
-//! at the start, and near the surface [`EDGE_AT_SURFACE`] over that of the waves. On a panel whose nodes are
-//! all below the mean level and the waves, the dynamic pressure alone is left; it is integrated by its values at the middles of the three edges, which is exact
-//! for a pressure of the second degree (Strang and Fix 1973, table 4.1). A panel that the surface cuts is taken as four triangles: the surface of the waves is a straight line across each, and below it the pressure
-//! is that of water at rest, by the elevations at the six nodes, with what the waves differ from it linear in each triangle.
+//! Panels are triangles whose edges are no longer than `EDGE` over the root mean square wave number of the waves, and near the surface, with
+//! the body where it is at the start, than `EDGE_AT_SURFACE` over it. On a panel whose nodes are all below the mean level and the waves, the
+//! dynamic pressure alone is left; it is integrated by its values at the middles of the three edges, which is exact for a pressure of the
+//! second degree (Strang and Fix 1973, table 4.1). A panel that the surface cuts is taken as four triangles: the surface of the waves is a
+//! straight line across each, and below it the pressure is that of water at rest, by the elevations at the six nodes, with what the waves
+//! differ from it linear in each triangle.
 //!
 //! What the hull makes of the waves, diffraction and radiation, needs a hydrodynamic database, which is why a piece
 //! that is in one takes no part here.
@@ -23,8 +24,8 @@ use std::sync::Arc;
 use windlass_base::pose::{Pose, Six};
 use windlass_model::{Body, ClassError, Model, WaveAction};
 
-/// Longest edge of a panel below the waves times the mean wave number of the pressure there, where the force of waves on a
-/// box errs by 2e-4, as the fourth power of it.
+/// Longest edge of a panel times the root mean square wave number: the force of a wave on a submerged box errs by less than 5e-4, and with the
+/// fourth power of it.
 const EDGE: f64 = 0.8;
 /// The same of a panel that waves may cut; there the error goes with the square.
 const EDGE_AT_SURFACE: f64 = 0.3;
@@ -93,11 +94,12 @@ pub fn of(model: &Model, body: &Body, sea: Option<&Arc<Sea>>) -> Result<Option<W
     Ok((!surfaces.is_empty()).then(|| from_surfaces(sea, surfaces.into_iter(), &pose, 1.0)))
 }
 
-/// Root mean square of the wave numbers (1/m) in the pressure at a depth (m), by their part in it.
-fn mean_number(sea: &Sea, depth: f64) -> f64 {
-    let part = |c: &Component| (c.amplitude * (-c.number * depth).exp()).powi(2);
-    let [all, numbers] =
-        sea.components.iter().fold([0.0; 2], |[all, numbers], c| [all + part(c), numbers + part(c) * c.number.powi(2)]);
+/// Root mean square of the wave numbers (1/m) of a sea, by their energy.
+fn mean_number(sea: &Sea) -> f64 {
+    let [all, numbers] = sea.components.iter().fold([0.0; 2], |[all, numbers], c| {
+        let energy = c.amplitude * c.amplitude;
+        [all + energy, numbers + energy * c.number * c.number]
+    });
     if all > 0.0 { (numbers / all).sqrt() } else { 0.0 }
 }
 
@@ -109,14 +111,14 @@ fn from_surfaces(
     finer: f64,
 ) -> WavePressure {
     let near = NEAR * (0.5 * sea.components.iter().map(|c| c.amplitude * c.amplitude).sum::<f64>()).sqrt();
-    let at_surface = EDGE_AT_SURFACE / mean_number(sea, 0.0) / finer;
+    let at_surface = EDGE_AT_SURFACE / mean_number(sea) / finer;
     let limit = |corners: &[Vector3<f64>; 3]| {
         let heights = corners.map(|corner| pose.origin.z + (pose.axes * corner).z - sea.level);
         let [low, high] =
             [heights.into_iter().fold(f64::INFINITY, f64::min), heights.into_iter().fold(f64::NEG_INFINITY, f64::max)];
         if low < near && high > -near { at_surface } else { f64::INFINITY }
     };
-    let longest = EDGE / mean_number(sea, 0.0) / finer;
+    let longest = EDGE / mean_number(sea) / finer;
     let (mut nodes, mut panels): (Vec<Node>, Vec<Pressed>) = (Vec::new(), Vec::new());
     for (factor, surface) in surfaces {
         let mut made = Panelling::new(&surface, longest, MOST);
