@@ -17,7 +17,7 @@
 
 use super::buoyancy::skin;
 use super::hull::{Panel, Panelling, Surface};
-use super::sea::{Component, FilledGrid, PressureGrid, Sea, SeaAt};
+use super::sea::{FilledGrid, PressureGrid, Sea, SeaAt};
 use super::{BodyLoad, Category, Load, MovingLoad, Underway};
 use nalgebra::Vector3;
 use std::sync::Arc;
@@ -413,7 +413,7 @@ impl BodyLoad for WavePressure {
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
-    use super::super::sea::Water;
+    use super::super::sea::{Component, Water};
     use super::*;
     use nalgebra::Rotation3;
     use windlass_model::Stretching;
