@@ -53,9 +53,9 @@ static SPEC: CommandSpec = CommandSpec {
                     .within(1e-3, 1.0),
                 ValueSpec::new("ALPHA", Kind::Number(Dim::None), "gamma of the books").or("0.5").within(0.0, 2.0),
             ],
-            "the scheme",
+            "the scheme of bodies and dynamic lines; with NO dynamic lines keep generalised-alpha with spectral radius 0.2",
         )
-        .default("generalised-alpha with spectral radius 0.9"),
+        .default("generalised-alpha with spectral radius 0.9; 0.2 with dynamic lines"),
         OptionSpec::new(
             "-CONVERGE",
             &[
@@ -86,10 +86,10 @@ static SPEC: CommandSpec = CommandSpec {
         OptionSpec::new(
             "-RHO",
             &[ValueSpec::new("R", Kind::Number(Dim::None), "spectral radius at infinite frequency").within(0.0, 1.0)],
-            "generalised-alpha with another spectral radius: 1 damps nothing, 0 damps most",
+            "generalised-alpha with another spectral radius, of bodies and dynamic lines: 1 damps nothing, 0 damps most",
         )
         .owner(Owner::Ours)
-        .default("0.9; 0.2 with lines that move by themselves"),
+        .default("0.9; 0.2 with dynamic lines"),
         OptionSpec::new(
             "-ADAPTIVE",
             &[ValueSpec::new("TOL", Kind::Number(Dim::Length), "largest error of place in a step").positive()],
@@ -255,14 +255,23 @@ fn reset(job: &Job, model: &mut Model, time: f64) -> Option<Vec<(usize, Six)>> {
     Some(velocities)
 }
 
-/// Warns of a scheme that damps less than lines that move by themselves do.
-fn warn_of_throwing(job: &mut Job, args: &Args) {
+/// Warns of a scheme that damps dynamic lines too little.
+fn warn_of_throwing(job: &mut Job, args: &Args, method: &Method) {
     let Some(given) = args.option("-RHO").or(args.option("-NEWMARK")) else { return };
     let damps = given.name == "-RHO" && given.number(0).is_some_and(|r| r <= 0.2);
-    if !damps && usual(&job.model) == Method::with_moving_lines() {
-        let text = "with lines that move by themselves a scheme that damps less than -RHO 0.2 can throw up what hangs on a stiff line that goes slack within a step";
-        job.warn(text, given.span);
+    if damps || usual(&job.model) != Method::with_moving_lines() {
+        return;
     }
+    let text = match method {
+        Method::Corrector => return,
+        Method::Implicit(scheme) if !scheme.unconditionally_stable() => {
+            "dynamic lines have short natural periods: with 2 BETA below ALPHA the step must be shorter than these, or the lines become unstable"
+        }
+        Method::Implicit(_) => {
+            "with dynamic lines a scheme that damps less than -RHO 0.2 can throw up what hangs on a stiff line that goes slack within a step"
+        }
+    };
+    job.warn(text, given.span);
 }
 
 /// Warns of pieces that displace water and that the waves of a run move by no pressure.
@@ -312,7 +321,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             span,
         );
     }
-    warn_of_throwing(job, args);
+    warn_of_throwing(job, args, &made.settings.method);
     warn_of_late_actions(job, &made, span);
     warn_of_lines(job, span);
     let mut going = Going::new(job, &made, log);

@@ -72,6 +72,7 @@ mod time {
     mod drift_in_time;
     mod foretold_steps;
     mod frequency;
+    mod line_scheme;
     mod members_under_way;
     mod prcpost;
     mod prescribed;

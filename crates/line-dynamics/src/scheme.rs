@@ -3,13 +3,13 @@
 use super::state::State;
 use super::system::Weights;
 use nalgebra::Vector3;
+use windlass_model::SchemeWeights;
 
 /// How a rod is stepped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Spectral radius at infinite frequency of the generalised-alpha scheme, 0 to 1: 1 damps nothing, 0 kills what the step
-    /// cannot follow.
-    pub rho_inf: f64,
+    /// The scheme. Of generalised-alpha a spectral radius at infinite frequency of 1 damps nothing, 0 kills what the step cannot follow.
+    pub scheme: SchemeWeights,
     /// An iteration has converged when no node moves by more than this share of the shortest element, or none would
     /// from then on if its moves went on shrinking as they do. A turn counts as the move on an arm of that length.
     pub tolerance: f64,
@@ -21,14 +21,23 @@ pub struct Settings {
     pub unstable: bool,
 }
 
+/// Spectral radius at infinite frequency where nothing else is asked for: of a mode it damps 2.3 % of critical at 10 steps a period,
+/// 0.40 % at 20, 0.055 % at 40, and it throws little up where a line snaps taut.
+const RHO: f64 = 0.2;
+
 impl Default for Settings {
     fn default() -> Self {
-        Settings { rho_inf: 0.2, tolerance: 1e-5, iterations: 20, halvings: 12, unstable: false }
+        Settings {
+            scheme: SchemeWeights::generalised(RHO),
+            tolerance: 1e-5,
+            iterations: 20,
+            halvings: 12,
+            unstable: false,
+        }
     }
 }
 
-/// The scheme's constants for one step length: generalised-alpha (Chung and Hulbert 1993) in the form of Arnold and
-/// Bruels 2007, in which equilibrium holds at the end of the step.
+/// The scheme's constants for one step length, in the form of Arnold and Bruels 2007, in which equilibrium holds at the end of the step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scheme {
     pub h: f64,
@@ -53,10 +62,8 @@ fn flush(v: Vector3<f64>) -> Vector3<f64> {
 }
 
 impl Scheme {
-    pub fn new(h: f64, rho: f64) -> Self {
-        let (alpha_m, alpha_f) = ((2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0));
-        let gamma = 0.5 + alpha_f - alpha_m;
-        let beta = 0.25 * (1.0 + alpha_f - alpha_m).powi(2);
+    pub fn new(h: f64, weights: &SchemeWeights) -> Self {
+        let SchemeWeights { alpha_m, alpha_f, beta, gamma } = *weights;
         Scheme {
             h,
             new_by_u: 1.0 / (beta * h * h),

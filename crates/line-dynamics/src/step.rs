@@ -283,7 +283,7 @@ impl Solver {
         near: bool,
     ) -> Result<usize, Failure> {
         let h = time - from.time;
-        let scheme = if self.snaps { Scheme::euler(h) } else { Scheme::new(h, self.settings.rho_inf.clamp(0.0, 1.0)) };
+        let scheme = if self.snaps { Scheme::euler(h) } else { Scheme::new(h, &self.settings.scheme) };
         let last = rod.elements.len();
         self.weights = scheme.weights();
         let shortest = rod.shortest();

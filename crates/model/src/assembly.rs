@@ -1,6 +1,6 @@
 //! Assemblies: connectors of a single node whose other ends an assembly takes care of.
 
-use super::{Ambient, Body, ClassError, Connection, Connector, Element, LineDuty, Model, Surroundings};
+use super::{Ambient, Body, ClassError, Connection, Connector, Element, LineDuty, Model, SchemeWeights, Surroundings};
 use indexmap::IndexMap;
 use nalgebra::Vector3;
 use std::sync::Arc;
@@ -51,6 +51,8 @@ pub struct PipeLayout<'a> {
     pub ambient: Option<&'a Arc<dyn Ambient>>,
     /// Whether a run keeps its books of energy and momentum.
     pub books: bool,
+    /// The scheme that steps it; that of its engine where none.
+    pub scheme: Option<SchemeWeights>,
 }
 
 /// A pipe over the supports that act, in the order of its ends.
@@ -164,6 +166,7 @@ impl Model {
             surroundings: &surroundings,
             ambient,
             books: duty.books,
+            scheme: duty.scheme,
         };
         Ok(Some(LaidPipe { element: found.pipe(layout)?, supports: held }))
     }

@@ -12,6 +12,7 @@ use super::curve::Curve;
 use super::environment::Surroundings;
 use super::line::Placement;
 use super::note::Note;
+use super::scheme::SchemeWeights;
 use nalgebra::{Matrix3, Matrix6};
 use std::any::Any;
 use std::fmt::Debug;
@@ -304,6 +305,8 @@ pub struct LineDuty {
     pub books: bool,
     /// Whether its first end is let go: it falls, held at its second end.
     pub freed: bool,
+    /// The scheme that steps it; that of its engine where none.
+    pub scheme: Option<SchemeWeights>,
 }
 
 /// What a class is told of the connector that an element is made of.

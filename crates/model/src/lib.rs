@@ -34,6 +34,7 @@ mod load;
 mod names;
 mod note;
 mod prescribed;
+mod scheme;
 mod selector;
 mod tether;
 
@@ -62,6 +63,7 @@ pub use load::{Fluid, LoadKind, Multipliers, PartLoad};
 pub use names::Thing;
 pub use note::Note;
 pub use prescribed::{GivenMotion, PathRow, Prescription, ResponseRow, Responses, Sinusoid};
+pub use scheme::SchemeWeights;
 pub use selector::Selector;
 pub use tether::{TetherConstraint, TetherEnds, TetherHold, TetherSection, TetherUse};
 

@@ -5,14 +5,17 @@ use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
 
 /// How a run stepped.
-fn scheme(method: &Method) -> String {
-    match method {
+fn scheme(run: &Run) -> String {
+    match &run.settings.method {
         Method::Implicit(s) if s.alpha_m == 0.0 && s.alpha_f == 0.0 => {
             format!("Newmark, beta {}, alpha {}", s.beta, s.gamma)
         }
         Method::Implicit(s) => {
             // rho = af / (1 - af)
             format!("generalised-alpha, spectral radius {:.3}", s.alpha_f / (1.0 - s.alpha_f))
+        }
+        Method::Corrector if run.has_dynamic_lines() => {
+            "predictor and corrector; dynamic lines by generalised-alpha, spectral radius 0.200".into()
         }
         Method::Corrector => "predictor and corrector".into(),
     }
@@ -25,7 +28,7 @@ pub fn told(run: &Run) -> Table {
         .fact("Began", run.began.as_str(), Dim::None)
         .fact("Time Reached", run.time(), Dim::Time)
         .fact("Step", run.settings.dt, Dim::Time)
-        .fact("Scheme", scheme(&run.settings.method), Dim::None)
+        .fact("Scheme", scheme(run), Dim::None)
         .fact("Steps", counted, Dim::None)
         .fact("Steps Cut", cut, Dim::None)
         .fact("Iterations", iterations, Dim::None)

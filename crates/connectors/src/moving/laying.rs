@@ -241,6 +241,7 @@ fn along_course(
             flat: description.seabed.depth.or(around.depth).map(|depth| -depth),
             holds: [None, None],
             freed: false,
+            scheme: layout.scheme,
             felt: [false, false],
             laid: Some(laid),
         }),

@@ -87,6 +87,7 @@ impl MovingLine {
             ground,
             holds,
             freed: connection.duty.freed,
+            scheme: connection.duty.scheme,
             felt: [true, !connection.to_ground],
             laid: None,
         };

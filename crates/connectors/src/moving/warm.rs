@@ -6,7 +6,7 @@ use super::mesh::Bands;
 use nalgebra::Vector3;
 use std::sync::Arc;
 use windlass_line_dynamics::{self as rod, Ground, PlaneBottom, Rod, Settings, Solver, State};
-use windlass_model::{Ambient, Flow};
+use windlass_model::{Ambient, Flow, SchemeWeights};
 
 /// How often a rod halves a step of the run by itself, before the run halves its own.
 const HALVINGS: u32 = 8;
@@ -31,6 +31,8 @@ pub(super) struct Base {
     pub holds: [Option<Held>; 2],
     /// Whether the first end is let go.
     pub freed: bool,
+    /// The scheme that steps it; that of the engine where none.
+    pub scheme: Option<SchemeWeights>,
     /// Which ends can move.
     pub felt: [bool; 2],
     /// What it lies on, of a pipe; its ends are then those of its supports.
@@ -57,21 +59,22 @@ impl Warm {
         let rod = base.rod.clone();
         let (state, flows) = (State::default(), Vec::new());
         let nodes = rod.nodes();
-        Warm { base: base.clone(), solver: solver_of(&rod), nodes, rod, rest: None, state, flows }
+        Warm { base: base.clone(), solver: solver_of(base, &rod), nodes, rod, rest: None, state, flows }
     }
 
     /// Gives the rod another solver, if a winch has given it more nodes or fewer: of other lengths alone the solver remembers where it was.
     pub fn fit(&mut self) {
         if self.rod.nodes() != self.nodes {
             self.nodes = self.rod.nodes();
-            self.solver = solver_of(&self.rod);
+            self.solver = solver_of(&self.base, &self.rod);
         }
     }
 }
 
-/// A solver of a rod.
-fn solver_of(rod: &Rod) -> Solver {
-    Solver::new(rod, Settings { halvings: HALVINGS, ..Settings::default() })
+/// A solver of a rod of a line.
+fn solver_of(base: &Base, rod: &Rod) -> Solver {
+    let usual = Settings::default();
+    Solver::new(rod, Settings { halvings: HALVINGS, scheme: base.scheme.unwrap_or(usual.scheme), ..usual })
 }
 
 #[cfg(test)]
@@ -95,6 +98,7 @@ mod tests {
             ground,
             holds: [None, None],
             freed: false,
+            scheme: None,
             felt: [true; 2],
             laid: None,
         };

@@ -2,6 +2,7 @@
 
 use super::super::*;
 use nalgebra::Vector3;
+use windlass_model::SchemeWeights;
 
 fn beam(length: f64, elements: usize, bending: f64, ea: f64) -> Rod {
     let segment = Segment { bending, compression: true, ..Segment::line(length, elements, 1.0, ea, 0.1) };
@@ -193,7 +194,7 @@ fn the_books_of_a_beam_know_the_work_of_a_clamp_that_turns() {
         let world = World::new(&fluid, 9.81);
         let rate = 0.5;
         let mut state = State::along(&rod, &[Vector3::zeros(), Vector3::x() * 10.0]).unwrap();
-        let mut solver = Solver::new(&rod, Settings { rho_inf: 1.0, ..Settings::default() });
+        let mut solver = Solver::new(&rod, Settings { scheme: SchemeWeights::generalised(1.0), ..Settings::default() });
         solver.statics(&rod, &mut state, &world, turned(0.0, 0.0)).unwrap();
         for (x, v) in state.position.iter().zip(state.velocity.iter_mut()) {
             *v = (Vector3::y() * rate).cross(x);

@@ -2,6 +2,7 @@
 
 use super::super::*;
 use nalgebra::Vector3;
+use windlass_model::SchemeWeights;
 
 /// No fluid, no bottom.
 fn vacuum(fluid: &UniformFluid, gravity: f64) -> World<'_> {
@@ -15,7 +16,7 @@ fn a_pendulum_let_go_level_takes_the_period_of_the_elliptic_integral() {
     let fluid = UniformFluid::none();
     let world = vacuum(&fluid, 9.81);
     let mut state = State::along(&rod, &[Vector3::zeros(), Vector3::x() * 2.0]).unwrap();
-    let mut solver = Solver::new(&rod, Settings { rho_inf: 1.0, ..Settings::default() });
+    let mut solver = Solver::new(&rod, Settings { scheme: SchemeWeights::generalised(1.0), ..Settings::default() });
     let ends = [End::pinned(Vector3::zeros()), End::FREE];
     solver.start(&rod, &mut state, &world, ends).unwrap();
     let h = 0.002;
@@ -105,7 +106,8 @@ fn the_tip_of_a_folded_chain_falls_faster_than_a_stone() {
     let (a, b) = (Vector3::zeros(), Vector3::x() * gap);
     let low = Vector3::new(0.5 * gap, 0.0, -0.5 * length);
     let mut state = State::along(&rod, &[a, low, b]).unwrap();
-    let mut solver = Solver::new(&rod, Settings { rho_inf: env("RHO", 0.2), ..Settings::default() });
+    let mut solver =
+        Solver::new(&rod, Settings { scheme: SchemeWeights::generalised(env("RHO", 0.2)), ..Settings::default() });
     solver.statics(&rod, &mut state, &world, [End::pinned(a), End::pinned(b)]).unwrap();
     let free = (2.0 * length / 9.81f64).sqrt();
     let h = free / env("STEPS", 2000.0);
@@ -177,7 +179,7 @@ fn energy_and_momentum_of_a_swinging_moored_rope_add_up() {
     let (a, b) = (Vector3::new(0.0, 0.0, -50.0), Vector3::new(75.0, 0.0, -5.0));
     let run = |h: f64| {
         let mut state = State::along(&rod, &[a, b]).unwrap();
-        let mut solver = Solver::new(&rod, Settings { rho_inf: 0.9, ..Settings::default() });
+        let mut solver = Solver::new(&rod, Settings { scheme: SchemeWeights::generalised(0.9), ..Settings::default() });
         let made = solver.statics(&rod, &mut state, &world, [End::pinned(a), End::pinned(b)]).unwrap();
         let mut books = Balance::open(&rod, &state, &world, &solver, &made);
         let mut worst = (0.0f64, 0.0f64);
@@ -224,7 +226,7 @@ fn energy_of_a_swinging_twisted_beam_adds_up() {
     let clamp = End::pinned(Vector3::zeros()).clamped(Vector3::y()).with_side(rod.sides().unwrap()[0]);
     let run = |h: f64| {
         let mut state = State::along(&rod, &points).unwrap();
-        let mut solver = Solver::new(&rod, Settings { rho_inf: 1.0, ..Settings::default() });
+        let mut solver = Solver::new(&rod, Settings { scheme: SchemeWeights::generalised(1.0), ..Settings::default() });
         let mut books: Option<Balance> = None;
         let mut worst: f64 = 0.0;
         for i in 1..=(3.0 / h) as usize {

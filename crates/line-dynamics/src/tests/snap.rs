@@ -2,6 +2,7 @@
 
 use super::super::*;
 use nalgebra::Vector3;
+use windlass_model::SchemeWeights;
 
 const GRAVITY: f64 = 9.81;
 /// Of the load (kg).
@@ -19,7 +20,7 @@ fn rebound([elements, ea]: [f64; 2], [height, aside]: [f64; 2], rho_inf: f64, h:
     let low = Vector3::new(aside, 0.0, height - length);
     let belly = (0.25 * (length * length - low.norm_squared())).max(0.0).sqrt();
     let mut state = State::along(&rod, &[top, 0.5 * low + Vector3::y() * belly, low]).unwrap();
-    let mut solver = Solver::new(&rod, Settings { rho_inf, ..Settings::default() });
+    let mut solver = Solver::new(&rod, Settings { scheme: SchemeWeights::generalised(rho_inf), ..Settings::default() });
     let ends = [End::pinned(top), End::FREE];
     solver.start(&rod, &mut state, &world, ends).unwrap();
     let (mut bounced, mut highest) = (false, f64::MIN);
@@ -76,7 +77,7 @@ fn a_bounce_that_the_steps_follow_keeps_its_height_and_its_period_to_the_second_
     let ends = [End::pinned(top), End::FREE];
     let away = |steps: usize| {
         let mut state = State::along(&rod, &[top, from]).unwrap();
-        let mut solver = Solver::new(&rod, Settings { rho_inf: 0.9, ..Settings::default() });
+        let mut solver = Solver::new(&rod, Settings { scheme: SchemeWeights::generalised(0.9), ..Settings::default() });
         solver.start(&rod, &mut state, &world, ends).unwrap();
         for i in 1..=steps {
             solver.step(&rod, &mut state, &world, i as f64 * period / steps as f64, ends).unwrap();

@@ -3,6 +3,7 @@
 use super::super::*;
 use super::tangent::compare;
 use nalgebra::{Matrix3, Rotation3, Vector3};
+use windlass_model::SchemeWeights;
 
 /// A cradle: a floor that reaches `half_width` to each side, with a flank beyond on each side, `opening` between them.
 /// Each pushes by stiffness times depth, which grows from zero over the first `soft`, with damping, and never pulls.
@@ -229,7 +230,7 @@ fn dropped(h: f64) -> Balance {
     };
     let start = Vector3::zeros();
     let mut state = State::along(&rod, &[start, Vector3::new(40.0, 0.0, 1.0)]).unwrap();
-    let mut solver = Solver::new(&rod, Settings { rho_inf: 0.9, ..Settings::default() });
+    let mut solver = Solver::new(&rod, Settings { scheme: SchemeWeights::generalised(0.9), ..Settings::default() });
     let ends = [End::pinned(start), End::FREE];
     let at = rollers(0.0);
     solver.start(&rod, &mut state, &World { supports: &supports(&at), ..World::new(&fluid, 9.81) }, ends).unwrap();

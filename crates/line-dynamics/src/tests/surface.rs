@@ -3,6 +3,7 @@
 use super::super::*;
 use super::tangent::compare;
 use nalgebra::Vector3;
+use windlass_model::SchemeWeights;
 
 const AIR: f64 = 1.226;
 
@@ -111,7 +112,7 @@ fn a_cylinder_thrown_at_the_surface_shares_its_momentum_with_the_water() {
     let at = |x: f64| Vector3::new(x, 0.0, 0.6);
     let mut state = State::along(&rod, &[at(0.0), at(length)]).unwrap();
     state.velocity.fill(Vector3::z() * -speed);
-    let mut solver = Solver::new(&rod, Settings { rho_inf: 1.0, ..Settings::default() });
+    let mut solver = Solver::new(&rod, Settings { scheme: SchemeWeights::generalised(1.0), ..Settings::default() });
     solver.start(&rod, &mut state, &world, [End::FREE; 2]).unwrap();
     let made = EndForces { force: [Vector3::zeros(); 2], moment: [Vector3::zeros(); 2], iterations: 0, parts: 1 };
     let mut books = Balance::open(&rod, &state, &world, &solver, &made);

@@ -1,8 +1,10 @@
 //! What a run asks of its lines that move by themselves: they are made for it.
 
 use super::action::{Action, What};
+use super::course::Settings;
+use super::scheme::Method;
 use std::collections::{BTreeMap, BTreeSet};
-use windlass_model::{LineDuty, Model};
+use windlass_model::{LineDuty, Model, SchemeWeights};
 
 /// What a run asks, by the keys of connectors; nothing where there is no run.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -13,11 +15,18 @@ pub struct Duties {
     longest: BTreeMap<String, f64>,
     /// Those whose first end is let go.
     freed: BTreeSet<String>,
+    /// The scheme of the bodies, where that is implicit.
+    scheme: Option<SchemeWeights>,
 }
 
 impl Duties {
-    /// Those of a run over a time (s) at its start.
-    pub fn foreseen(model: &Model, actions: &[Action], observed: f64, books: bool) -> Self {
+    /// Those of a run at its start.
+    pub fn foreseen(model: &Model, actions: &[Action], settings: &Settings) -> Self {
+        let Settings { observed, books, .. } = *settings;
+        let scheme = match &settings.method {
+            Method::Implicit(scheme) => Some(scheme.weights()),
+            Method::Corrector => None,
+        };
         let mut longest: BTreeMap<String, f64> = BTreeMap::new();
         for action in actions {
             let What::Winch(names, rate, to) = &action.what else { continue };
@@ -30,7 +39,7 @@ impl Duties {
                 *most = if to.is_some() { most.max(paid) } else { *most + (paid - now).max(0.0) };
             }
         }
-        Duties { books, longest, freed: BTreeSet::new() }
+        Duties { books, longest, freed: BTreeSet::new(), scheme }
     }
 
     /// Lets the first end of a line go, or holds it again; whether that is other than it was.
@@ -42,6 +51,11 @@ impl Duties {
     /// What is asked of a connector.
     pub fn of(&self, name: &str) -> LineDuty {
         let key = Model::key(name);
-        LineDuty { longest: self.longest.get(&key).copied(), books: self.books, freed: self.freed.contains(&key) }
+        LineDuty {
+            longest: self.longest.get(&key).copied(),
+            books: self.books,
+            freed: self.freed.contains(&key),
+            scheme: self.scheme,
+        }
     }
 }

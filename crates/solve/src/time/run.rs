@@ -92,7 +92,7 @@ impl Run {
     pub fn new(model: &Model, settings: Settings, actions: Vec<Action>) -> Result<Self, SolveError> {
         let (origin, model) = (model.clone(), model.clone());
         let sea = Sea::of(&model, &model.environment).map_err(SolveError::new)?.map(Arc::new);
-        let duties = Duties::foreseen(&model, &actions, settings.observed, settings.books);
+        let duties = Duties::foreseen(&model, &actions, &settings);
         let system = System::under_way(&model, sea.as_ref(), duties)?;
         let mut links = system.link_ends();
         for name in actions.iter().filter_map(|a| a.when.connector()) {

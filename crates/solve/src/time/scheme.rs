@@ -8,6 +8,7 @@
 //! Arnold, Mechanism and Machine Theory 48, 2012, 121-137), which keeps the order.
 
 use windlass_base::pose::Six;
+use windlass_model::SchemeWeights;
 
 /// Weights of an implicit scheme.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,14 +59,19 @@ impl Scheme {
     /// The generalised-alpha scheme of a spectral radius at infinite frequency, 0 to 1: second order, unconditionally stable for
     /// linear systems, least damping of low frequencies (Chung and Hulbert, Journal of Applied Mechanics 60, 1993, 371-375, eq. 25).
     pub fn generalised(rho: f64) -> Self {
-        let (alpha_m, alpha_f) = ((2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0));
-        let gamma = 0.5 - alpha_m + alpha_f;
-        Scheme { alpha_m, alpha_f, beta: 0.25 * (gamma + 0.5) * (gamma + 0.5), gamma }
+        let SchemeWeights { alpha_m, alpha_f, beta, gamma } = SchemeWeights::generalised(rho);
+        Scheme { alpha_m, alpha_f, beta, gamma }
     }
 
     /// Newmark's scheme; 0.25 and 0.5 make the trapezoidal rule.
     pub fn newmark(beta: f64, gamma: f64) -> Self {
         Scheme { alpha_m: 0.0, alpha_f: 0.0, beta, gamma }
+    }
+
+    /// The same for what is stepped beside the bodies.
+    pub fn weights(&self) -> SchemeWeights {
+        let Scheme { alpha_m, alpha_f, beta, gamma } = *self;
+        SchemeWeights { alpha_m, alpha_f, beta, gamma }
     }
 
     /// Whether a linear system without damping stays bounded with any step (Newmark's condition, 2 b >= g >= 1/2).

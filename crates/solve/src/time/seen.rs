@@ -19,6 +19,11 @@ impl Run {
         self.accuracy.worst(&self.system, &self.now.motions, &self.settings.method)
     }
 
+    /// Whether a dynamic line acts now.
+    pub fn has_dynamic_lines(&self) -> bool {
+        self.system.links.iter().any(|l| l.element.moves())
+    }
+
     /// The books of the lines that move by themselves, by name, where they are kept.
     pub fn books(&self) -> Vec<(String, LineBooks)> {
         let of = |link: &Link| {
