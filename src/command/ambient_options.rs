@@ -63,7 +63,8 @@ fn plane_of(model: &Model, connector: &Connector) -> Option<Plane> {
     if model.moves(connector) {
         return class.slopes().then_some(Plane::Slope);
     }
-    (connector.points.len() < 2 && class.lies_on_plane()).then_some(Plane::Anchor)
+    let on_plane = connector.points.len() < 2 && class.lies_on_plane() && model.bathymetry_under(connector).is_none();
+    on_plane.then_some(Plane::Anchor)
 }
 
 /// Says of lines on a plane bottom of their own that the bottom just put in force is none.

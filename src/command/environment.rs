@@ -136,8 +136,9 @@ static ENV_SPEC: CommandSpec = CommandSpec {
              force until the next &ENV. NCYCLES of -TIME, -MD_PERIOD and -USE_MEAN are kept and shown, and act on nothing: the sources do not say what they do to a line. The sources list no types for -PROBABILITY, -SP_TYPE, -W_PROFILE, -W_DESIGN and \
              -W_SPECTRUM: those taken are the field's usual ones. Depth and tide together must leave water. \
              -T_PRESSURE names data of the command T_PRESSURE: what pipes of class ROD hold, and how warm. -BATHYMETRY names a bottom of \
-             &BATHYMETRY: lines that move by themselves lie on it, and anchors of connectors defined by -ANCHOR stand on it; lines of other classes \
-             lie on the plane through their own anchor, and waves have the depth of -DEPTH everywhere. \
+             &BATHYMETRY: dynamic lines lie on it, anchors of connectors defined by -ANCHOR stand on it, and a quasi-static B_CAT lies on its profile along \
+             the azimuth of the line. Lines of AQWA, and a B_CAT with -SLOPE or -DEPANCHOR or whose anchor was given an elevation, lie on a plane \
+             through their anchor. Waves have the depth of -DEPTH everywhere. \
              -W_SPECTRUM adds gusts in the time domain, the same at all places and heights, on the speed 10 m up: API RP 2A 20th edition; NPD \
              and ISO (Froya); Ochi and Shin; Harris; Davenport; Kaimal; the drag coefficient of the last four is Wu's, 0.0008 + 0.000065 U. \
              The speed of -WIND is then an hourly mean: periods from an hour to a second are taken, in -W_COMPONENTS of equal energy or about \

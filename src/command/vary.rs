@@ -149,7 +149,7 @@ pub fn tabulate(
     for (given, span) in vary.values.iter().filter_map(|v| Some((v.number()?, v.span))) {
         let value = value(parameter, given, span, job)?;
         let named = format!("{} {} {unit}", parameter.name(), number_in_full(given));
-        let (place, condition) = at(parameter, value, place, held);
+        let (place, condition) = at(parameter, value, &place, held);
         let line = class.object.line(&place, &around);
         let line = match parameter.change(value) {
             Some(change) => line.and_then(|l| l.changed(change)),
@@ -174,6 +174,9 @@ pub fn tabulate(
         return Err(without(error, span, connector, job.units));
     }
     table.notes = gathered(&notes);
+    if place.bathymetry.is_some() && matches!(parameter, Parameter::Depth | Parameter::Slope) {
+        table.note("the line lies on a plane through its anchor here, not on the bathymetry");
+    }
     table.notes.extend(missing.iter().map(|(text, _)| text.clone()));
     table.absent = missing.len();
     Ok((table, missing))
@@ -201,14 +204,15 @@ fn value(parameter: Parameter, given: f64, span: Span, job: &Job) -> Outcome<f64
 }
 
 /// Where the ends are, and the configuration, with a value of the parameter.
-fn at(parameter: Parameter, value: f64, place: Placement, held: Condition) -> (Placement, Condition) {
+fn at(parameter: Parameter, value: f64, place: &Placement, held: Condition) -> (Placement, Condition) {
     let [x, y, _] = place.fairlead;
+    let place = place.clone();
     match parameter {
         Parameter::Length => (Placement { first_length: Some(value), ..place }, held),
         Parameter::Fairlead => (Placement { fairlead: [x, y, value], ..place }, held),
         Parameter::Depth => {
             let other = place.other.map(|[x, y, _]| [x, y, -value]);
-            (Placement { other, ..place }, held)
+            (Placement { other, bathymetry: None, ..place }, held)
         }
         Parameter::Friction | Parameter::Slope | Parameter::Weight | Parameter::Stiffness => (place, held),
         Parameter::Distance => (place, Condition::Distance(value)),

@@ -5,6 +5,7 @@
 
 use super::devices::Devices;
 use super::line_element::LineElement;
+use super::line_profile::LineProfile;
 use super::mooring::{Mooring, end_springs, line_error, parts, with_series};
 use super::moving::{self as m, Flexure, MovingLine, Seabed};
 use super::section::{self, LineSection, properties};
@@ -72,7 +73,7 @@ static SPEC: CommandSpec = CommandSpec {
              segments above it do not see the bottom. -TYPE NAME D takes a chain or rope of the library (&STATUS LINE_TYPES) \
              instead of OD. Per segment: OD, -TYPE, -LEN, material, diameters, -CLUMP, -B_TENSION, -C_SN. Per line, on any \
              record: FLAG, -DEPANCHOR, -FRICTION, -SLOPE, -TABLE, -TAB_LIM, -SEND, -X_PY, -X_DAMPING, -CONVOLUTION, -PISTON. \
-             Connects a body to ground. The line is solved exactly wherever it is used. -TABLE is the shortcut of MOSES: thirty rows \
+             Connects a body to ground. On -BATHYMETRY of &ENV the line lies on the profile along its azimuth, unless -DEPANCHOR or -SLOPE is given. The line is solved exactly wherever it is used. -TABLE is the shortcut of MOSES: thirty rows \
              at the elevation of the fairlead, forces interpolated between them, exact nearer than the first row, straight on beyond the \
              last. Its rows are made anew where the fairlead rises or sinks, which makes it slower than the exact solution. -PISTON is a link of its position less LD between the first end and the line, in the direction of the tension; it has no weight. \
              MAX stands as near to LD as TMAX allows; MINMAX stays where it is between TMIN and TMAX. While it can follow, the tension \
@@ -97,7 +98,7 @@ struct Catenary {
     tabulated: bool,
     depth: Option<f64>,
     friction: f64,
-    slope: f64,
+    slope: Option<f64>,
     limit: Option<f64>,
     springs: [Option<Law>; 2],
     devices: Devices,
@@ -125,7 +126,7 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
         tabulated: tabulated.is_some(),
         depth: number("-DEPANCHOR")?,
         friction: number("-FRICTION")?.unwrap_or(0.0),
-        slope: number("-SLOPE")?.unwrap_or(0.0),
+        slope: number("-SLOPE")?,
         limit: number("-TAB_LIM")?,
         springs: end_springs(records)?,
         devices: Devices::read(records)?,
@@ -154,25 +155,40 @@ impl Catenary {
         };
         let error = |e: LineError| line_error(&e, &self.places);
         let (segments, joints) = parts(&self.sections, place, |s| s.submerged(surroundings));
-        let floor = Floor { elevation: -depth, slope: self.slope, friction: self.friction };
+        let floor = Floor { elevation: -depth, slope: self.slope.unwrap_or(0.0), friction: self.friction };
+        let length = segments.iter().map(|s| s.length).sum();
+        let profile = place
+            .bathymetry
+            .as_ref()
+            .zip(place.other)
+            .map(|(grid, [x, y, _])| LineProfile::new(grid, [x, y], place.span().1, length, self.friction));
         let line = Line::new(segments, joints, -depth, surroundings.tide)
-            .and_then(|l| l.over(Some(floor)))
+            .and_then(|l| match &profile {
+                Some(profile) => profile.lay(l),
+                None => l.over(Some(floor)),
+            })
             .and_then(|l| l.with_springs(springs))
             .map_err(error)?;
         if depth <= -surroundings.tide {
             return Err(ClassError::new("the anchor lies above the water surface").help("check -DEPANCHOR and -ANCHOR"));
         }
         let [_, _, fairlead] = place.fairlead;
-        if self.slope == 0.0 && fairlead < -depth {
+        let flat = self.slope.is_none_or(|slope| slope == 0.0) && profile.is_none();
+        if flat && fairlead < -depth {
             return Err(
                 ClassError::new("the fairlead lies below the anchor's depth").help("check &INSTATE and -DEPANCHOR")
             );
         }
         let mut notes = Vec::new();
-        if let Some(known) = surroundings.depth.filter(|d| (d - depth).abs() > 0.2 * d.max(depth) && self.slope == 0.0)
-        {
+        if let Some(known) = surroundings.depth.filter(|d| (d - depth).abs() > 0.2 * d.max(depth) && flat) {
             let share = depth / known;
             notes.push(format!("warning: the depth of the anchor is {share:.2} of the depth of &ENV").into());
+        }
+        if let Some(coarse) = profile.as_ref().map(LineProfile::coarseness).filter(|c| *c > 1.0) {
+            notes.push(
+                format!("warning: the profile under the line has {coarse:.1} times the spacing of the bathymetry")
+                    .into(),
+            );
         }
         Ok(Mooring {
             line,
@@ -180,7 +196,8 @@ impl Catenary {
             breaks_given: self.sections.iter().map(|s| s.break_is_given).collect(),
             largest: self.limit.or(largest_break(&self.sections)).unwrap_or(0.0),
             tabulated: self.tabulated,
-            place: *place,
+            profile,
+            place: place.clone(),
             surface: surroundings.tide,
             bottom: Some(-depth),
             places: self.places.clone(),
@@ -221,7 +238,7 @@ impl ConnectorClass for Catenary {
         let mut table = properties(name, "B_CAT", &self.sections, surroundings)
             .fact("Solution", if self.tabulated { "table of thirty points (-TABLE)" } else { "exact" }, Dim::None)
             .fact("Depth at Anchor", self.depth.or(surroundings.depth), Dim::Length)
-            .fact("Slope of Bottom", self.slope, Dim::None)
+            .fact("Slope of Bottom", self.slope.unwrap_or(0.0), Dim::None)
             .fact("Friction of Bottom", self.friction, Dim::None)
             .fact("Table Limit", self.limit.or(largest_break(&self.sections)), Dim::Force);
         if self.check().is_err() {
@@ -236,6 +253,10 @@ impl ConnectorClass for Catenary {
 
     fn anchor_depth(&self, surroundings: &Surroundings) -> Option<f64> {
         self.depth.or(surroundings.depth)
+    }
+
+    fn follows_bathymetry(&self) -> bool {
+        self.depth.is_none() && self.slope.is_none()
     }
 
     fn lies_on_plane(&self) -> bool {

@@ -30,6 +30,7 @@ mod gspr;
 mod h_cat;
 pub mod hook;
 mod line_element;
+mod line_profile;
 pub mod line_types;
 mod lmu;
 mod loads;

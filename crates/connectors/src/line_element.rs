@@ -2,11 +2,17 @@
 
 use super::extended_line::{Plane, behind};
 use super::extension::{Extended, Extension, Pull};
+use super::line_profile::LineProfile;
 use super::mooring::{Mooring, too_short, too_short_note};
 use nalgebra::{Matrix3, Matrix6, Vector3};
+use std::borrow::Cow;
 use windlass_base::pose::Six;
 use windlass_catenary::{Bottom, EndForces, Interpolated, Line, LineError, Pulled, Regime, Segment, State};
 use windlass_model::{Anchored, ClassError, Element, End, Guess, Placement, Response, Situation, Summary};
+
+/// Angle (rad) over which forces of a line on a bathymetry are compared: a hundredth of the distance between faces of a long line's
+/// profile, and forces that are proven to 1e-9 leave 1e-5 of the tension over it.
+const TURN: f64 = 1e-4;
 
 /// How the forces are found.
 #[derive(Clone, Debug)]
@@ -37,6 +43,8 @@ enum Last {
 struct TableAt {
     /// The elevation (m).
     elevation: f64,
+    /// The bottom that its rows lie on, by the direction from the fairlead to the anchor; any where that is a plane.
+    azimuth: Option<[f64; 2]>,
     /// Distance of its first row (m).
     nearest: f64,
     forces: Interpolated,
@@ -57,7 +65,7 @@ impl LineElement {
         let flat = line.floor().is_none_or(|f| f.slope == 0.0 && f.elevation == line.anchor());
         let solver = match line.single() {
             _ if mooring.tabulated => Solver::Table,
-            Some(segment) if flat => {
+            Some(segment) if flat && mooring.profile.is_none() => {
                 let bottom = line.floor().map(|f| Bottom { friction: f.friction });
                 Solver::Segment { segment, bottom }
             }
@@ -109,8 +117,11 @@ impl LineElement {
 
     /// The forces from the table at the elevation `z` of the fairlead; exact ones nearer than its first row.
     fn interpolated(&self, x: f64, z: f64, guess: &mut Guess) -> Result<Plane, LineError> {
+        let azimuth = self.mooring.profile.as_ref().map(LineProfile::azimuth);
         let kept = match guess.take().map(|g| g.downcast::<Last>()) {
-            Some(Ok(last)) => Some(last).filter(|last| matches!(&**last, Last::Table(at) if at.elevation == z)),
+            Some(Ok(last)) => {
+                Some(last).filter(|l| matches!(&**l, Last::Table(at) if at.elevation == z && at.azimuth == azimuth))
+            }
             _ => None,
         };
         let last = match kept {
@@ -118,7 +129,8 @@ impl LineElement {
             None => {
                 let (rows, _) = self.mooring.table(z)?;
                 let nearest = rows.first().map_or(0.0, |row| row.state.x);
-                Box::new(Last::Table(Box::new(TableAt { elevation: z, nearest, forces: Interpolated::new(&rows) })))
+                let forces = Interpolated::new(&rows);
+                Box::new(Last::Table(Box::new(TableAt { elevation: z, azimuth, nearest, forces })))
             }
         };
         let found = match &*last {
@@ -159,10 +171,41 @@ impl LineElement {
         }
     }
 
+    /// The element with its line on the bottom in a direction from the fairlead to the anchor.
+    fn facing(&self, along: [f64; 2]) -> Result<Cow<'_, LineElement>, ClassError> {
+        match &self.mooring.profile {
+            Some(profile) if profile.azimuth() != along => {
+                let profile = profile.facing(along);
+                let line = profile.lay(self.mooring.line.clone()).map_err(|e| self.mooring.error(&e))?;
+                let mooring = Mooring { line, profile: Some(profile), ..self.mooring.clone() };
+                Ok(Cow::Owned(LineElement { mooring, solver: self.solver.clone() }))
+            }
+            _ => Ok(Cow::Borrowed(self)),
+        }
+    }
+
+    /// How the pull on the first end and on the other change with the direction from the first to the other (N/rad), for a line
+    /// on a bathymetry: a line that turns lies on another profile.
+    fn by_azimuth(&self, x: f64, along: [f64; 2], z: f64, by: Extension) -> Result<[[f64; 2]; 2], ClassError> {
+        if self.mooring.profile.is_none() || x == 0.0 {
+            return Ok([[0.0; 2]; 2]);
+        }
+        let [ux, uy] = along;
+        let turned = |angle: f64| -> Result<Plane, ClassError> {
+            let (sin, cos) = angle.sin_cos();
+            let there = self.facing([ux * cos - uy * sin, uy * cos + ux * sin])?;
+            let found = there.extended(x, z, by, &mut None).map_err(|e| self.mooring.error(&e))?;
+            Ok(found.0)
+        };
+        let (before, after) = (turned(-TURN)?, turned(TURN)?);
+        let rate = |a: [f64; 2], b: [f64; 2]| [(b[0] - a[0]) / (2.0 * TURN), (b[1] - a[1]) / (2.0 * TURN)];
+        Ok([rate(before.fairlead, after.fairlead), rate(before.anchor, after.anchor)])
+    }
+
     /// The line with its ends there.
     fn moved(&self, ends: &[End]) -> Mooring {
         let at = |i: usize| ends.get(i).map(|e| e.pose.origin.into());
-        let place = Placement { fairlead: at(0).unwrap_or_default(), other: at(1), ..self.mooring.place };
+        let place = Placement { fairlead: at(0).unwrap_or_default(), other: at(1), ..self.mooring.place.clone() };
         let (_, _, z) = self.between(ends);
         let [x, y, own] = place.fairlead;
         // elevations in the line's own system
@@ -230,6 +273,16 @@ fn by_place([ux, uy]: [f64; 2], k: [[f64; 2]; 2], across: f64, sign: f64) -> Mat
     Matrix3::from_columns(&[first, second, Vector3::new(-xz * ux, -xz * uy, zz)]) * sign
 }
 
+/// The part of the same that comes of the bottom, where the pull changes by `rate` with the direction (N/rad): the first end that goes
+/// across the line by a length turns it by that length over the distance `x`.
+fn by_turn([ux, uy]: [f64; 2], [horizontal, vertical]: [f64; 2], x: f64) -> Matrix3<f64> {
+    if x == 0.0 {
+        return Matrix3::zeros();
+    }
+    let across = Vector3::new(-uy, ux, 0.0);
+    Vector3::new(horizontal * ux, horizontal * uy, -vertical) * across.transpose() / x
+}
+
 /// The same as the block of two ends that exert no moments.
 fn block(along: [f64; 2], k: [[f64; 2]; 2], across: f64, sign: f64) -> Matrix6<f64> {
     let mut block = Matrix6::zeros();
@@ -247,13 +300,19 @@ impl Extended for LineElement {
     fn pull(&self, ends: &[End], by: Extension, guess: &mut Guess, out: &mut Response) -> Result<Pull, ClassError> {
         out.clear(2);
         let (x, along, z) = self.between(ends);
-        let Some((plane, _)) = self.tight(x, z, by, guess)? else {
+        let here = self.facing(along)?;
+        let Some((plane, _)) = here.tight(x, z, by, guess)? else {
             return Ok(Pull { tension: 0.0, along: Vector3::zeros() });
         };
         let ([h, _], [far_h, _]) = (plane.fairlead, plane.anchor);
         let over = |force: f64, k: [[f64; 2]; 2]| if x > 0.0 { force / x } else { xx_of(k) };
-        let first = block(along, plane.stiffness, over(h, plane.stiffness), 1.0);
-        let other = block(along, plane.coupling, over(far_h, plane.coupling), -1.0);
+        let mut first = block(along, plane.stiffness, over(h, plane.stiffness), 1.0);
+        let mut other = block(along, plane.coupling, over(far_h, plane.coupling), -1.0);
+        let [near, far] = here.by_azimuth(x, along, z, by)?;
+        for (block, rate, sign) in [(&mut first, near, 1.0), (&mut other, far, -1.0)] {
+            let mut translations = block.fixed_view_mut::<3, 3>(0, 0);
+            translations += by_turn(along, rate, x) * sign;
+        }
         let wrenches = plane.wrenches(along);
         let pull = wrenches[0].fixed_rows::<3>(0).into_owned();
         out.wrench.copy_from_slice(&wrenches);
@@ -267,12 +326,14 @@ impl Extended for LineElement {
         let mut ends = ends.to_vec();
         if by != Extension::NONE {
             let (x, [ux, uy], z) = self.between(&ends);
-            let [line_x, line_z] = self.tight(x, z, by, &mut None)?.map_or([x, z], |(_, at)| at);
+            let here = self.facing([ux, uy])?;
+            let [line_x, line_z] = here.tight(x, z, by, &mut None)?.map_or([x, z], |(_, at)| at);
             if let Some(first) = ends.first_mut() {
                 first.pose.origin += Vector3::new((x - line_x) * ux, (x - line_x) * uy, line_z - z);
             }
         }
-        let line = self.moved(&ends);
+        let (_, along, _) = self.between(&ends);
+        let line = self.facing(along)?.moved(&ends);
         let tabulated = line.tabulated;
         let loads = if tabulated { line.tabled_loads()? } else { line.exact_loads()? };
         let mut over_given_break = loads.over_given_break;
@@ -315,12 +376,14 @@ impl Element for LineElement {
     fn anchored(&self, at: &Situation, guess: &mut Guess) -> Option<Result<Anchored, ClassError>> {
         self.mooring.place.to_ground.then(|| {
             let (x, along, z) = self.between(at.ends);
-            let Some((plane, _)) = self.tight(x, z, Extension::NONE, guess)? else {
+            let here = self.facing(along)?;
+            let Some((plane, _)) = here.tight(x, z, Extension::NONE, guess)? else {
                 return Ok(Anchored { wrenches: [Six::zeros(); 2], stiffness: Matrix3::zeros() });
             };
             let [force, _] = plane.fairlead;
             let across = if x > 0.0 { force / x } else { xx_of(plane.stiffness) };
-            let stiffness = by_place(along, plane.stiffness, across, 1.0);
+            let [rate, _] = here.by_azimuth(x, along, z, Extension::NONE)?;
+            let stiffness = by_place(along, plane.stiffness, across, 1.0) + by_turn(along, rate, x);
             Ok(Anchored { wrenches: plane.wrenches(along), stiffness })
         })
     }
@@ -333,7 +396,7 @@ impl Element for LineElement {
         out: &mut Vec<Six>,
     ) -> Result<(), ClassError> {
         let (x, along, z) = self.between(at.ends);
-        let found = self.tight(x, z, Extension::NONE, guess)?;
+        let found = self.facing(along)?.tight(x, z, Extension::NONE, guess)?;
         out.clear();
         out.extend(found.map_or([Six::zeros(); 2], |(plane, _)| plane.wrenches(along)));
         Ok(())

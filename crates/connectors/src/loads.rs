@@ -93,13 +93,19 @@ impl Mooring {
         let floor = |of: fn(f64, Floor) -> Floor, value: f64| {
             line.floor().map(|f| of(value, f)).ok_or_else(|| ClassError::new("the line sees no bottom"))
         };
+        let mut profile = self.profile.clone();
         let made = match change {
             LineChange::Friction(value) => {
                 let floor = floor(|friction, f| Floor { friction, ..f }, value)?;
-                line.over(Some(floor))
+                profile = profile.map(|p| p.with_friction(value));
+                match &profile {
+                    Some(profile) => profile.lay(line),
+                    None => line.over(Some(floor)),
+                }
             }
             LineChange::Slope(value) => {
                 let floor = floor(|slope, f| Floor { slope, ..f }, value)?;
+                profile = None;
                 line.over(Some(floor))
             }
             LineChange::Weight(factor) => line.scaled(factor, 1.0).unwrap_or(Err(LineError::Empty)),
@@ -107,7 +113,7 @@ impl Mooring {
                 .scaled(1.0, factor)
                 .ok_or_else(|| ClassError::new("the line stretches by a law of its own, not by one stiffness"))?,
         };
-        Ok(Mooring { line: made.map_err(|e| line_error(&e, &self.places))?, ..self.clone() })
+        Ok(Mooring { line: made.map_err(|e| line_error(&e, &self.places))?, profile, ..self.clone() })
     }
 
     /// A weightless line that is not tight: no force.

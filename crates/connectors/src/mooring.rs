@@ -2,6 +2,7 @@
 
 use super::checks;
 use super::line_element::LineElement;
+use super::line_profile::LineProfile;
 use super::mooring_table::{buoy_word, report};
 use super::section::LineSection;
 use windlass_base::diagnostic::Outcome;
@@ -34,6 +35,8 @@ pub struct Mooring {
     pub largest: f64,
     /// Whether forces are interpolated in the table of thirty points (-TABLE); else they are solved exactly.
     pub tabulated: bool,
+    /// The bathymetry below it, where it does not lie on a plane.
+    pub profile: Option<LineProfile>,
     /// Its ends.
     pub place: Placement,
     /// Water surface and, where known, bottom at the anchor (m), for warnings of lines that see neither.

@@ -142,6 +142,12 @@ impl Bathymetry {
         [&self.x, &self.y].map(|list| [0, list.len() - 1].map(|i| list.get(i).copied().unwrap_or(f64::NAN)))
     }
 
+    /// The shortest distance between neighbouring columns or rows (m).
+    pub fn finest_spacing(&self) -> f64 {
+        let steps = |places: &[f64]| places.windows(2).map(|w| w[1] - w[0]).fold(f64::INFINITY, f64::min);
+        steps(&self.x).min(steps(&self.y))
+    }
+
     /// Numbers of its columns and rows.
     pub fn size(&self) -> [usize; 2] {
         [self.x.len(), self.y.len()]

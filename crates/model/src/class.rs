@@ -203,7 +203,12 @@ pub trait ConnectorClass: Debug + Send + Sync {
         None
     }
 
-    /// Whether its lines lie on a plane bottom through their own anchor.
+    /// Whether its lines lie on the bathymetry of the environment when they are solved statically.
+    fn follows_bathymetry(&self) -> bool {
+        false
+    }
+
+    /// Whether its lines lie on a plane bottom through their own anchor, where no bathymetry is below them.
     fn lies_on_plane(&self) -> bool {
         false
     }

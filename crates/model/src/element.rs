@@ -310,7 +310,7 @@ pub struct LineDuty {
 }
 
 /// What a class is told of the connector that an element is made of.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub struct Connection<'a> {
     /// The connector.
     pub connector: &'a Connector,

@@ -152,6 +152,15 @@ impl Model {
         env.bathymetry.as_ref().and_then(|named| self.bathymetries.get(&Model::key(&named.kind)))
     }
 
+    /// The bathymetry that a static line lies on: that of the environment in force, where neither its class nor its anchor says
+    /// another depth or a slope.
+    pub fn bathymetry_under(&self, connector: &Connector) -> Option<&Arc<Bathymetry>> {
+        let class = self.classes.get(&Model::key(&connector.class))?;
+        let on_grid = connector.points.len() < 2 && class.object.follows_bathymetry();
+        let stands_on_it = connector.anchor.is_some_and(|anchor| anchor.elevation.is_none());
+        self.bathymetry_in(&self.environment).filter(|_| on_grid && stands_on_it)
+    }
+
     /// Depth below z = 0 at which a connector has its anchor (m) where nothing else is said: that of its class, else of the bottom there.
     pub fn anchor_depth(&self, connector: &Connector) -> Option<f64> {
         let class = self.classes.get(&Model::key(&connector.class))?;
@@ -292,6 +301,7 @@ impl Model {
             anchored: connector.points.len() < 2,
             first_length: connector.first_length,
             series: series.and_then(Curve::long_term_stiffness),
+            bathymetry: self.bathymetry_under(connector).cloned(),
         }
     }
 

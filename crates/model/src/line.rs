@@ -1,13 +1,15 @@
 //! What a mooring line between two places answers, whatever its class.
 
+use super::bathymetry::Bathymetry;
 use super::class::ClassError;
 use super::element::Element;
 use super::note::Note;
+use std::sync::Arc;
 use windlass_base::geometry::Position;
 use windlass_base::table::Table;
 
 /// Where a connector's ends are when it is asked something (m, global).
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Placement {
     /// The first end: the fairlead of a line.
     pub fairlead: Position,
@@ -21,6 +23,8 @@ pub struct Placement {
     pub first_length: Option<f64>,
     /// Long-term stiffness of the viscoelastic spring of the class (N/m), where its curve is defined.
     pub series: Option<f64>,
+    /// The bathymetry that the line lies on; none where its bottom is a plane.
+    pub bathymetry: Option<Arc<Bathymetry>>,
 }
 
 impl Placement {

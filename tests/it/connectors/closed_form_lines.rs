@@ -269,14 +269,7 @@ fn exactly_the_classes_that_make_lines_say_so() {
         session.open("example", format!("&ENV -DEPTH 5000\n{}", kind.spec.example));
         session.run();
         let class = session.job.model.classes.values().next().unwrap();
-        let place = Placement {
-            fairlead: [0.0; 3],
-            other: Some([9.0, 0.0, -9.0]),
-            to_ground: false,
-            anchored: false,
-            first_length: None,
-            series: None,
-        };
+        let place = Placement { other: Some([9.0, 0.0, -9.0]), ..Placement::default() };
         let line = class.object.line(&place, &session.job.model.surroundings());
         let none =
             line.is_err_and(|e| ["is no mooring line", "moves by itself"].iter().any(|why| e.message.contains(why)));

@@ -56,7 +56,7 @@ impl Bench {
     fn loads(&self, fairlead: [f64; 3], other: [f64; 3], to_ground: bool) -> LineLoads {
         let model = &self.0.job.model;
         let anchored = to_ground;
-        let place = Placement { fairlead, other: Some(other), to_ground, anchored, first_length: None, series: None };
+        let place = Placement { fairlead, other: Some(other), to_ground, anchored, ..Placement::default() };
         let class = model.classes.values().next_back().unwrap();
         class.object.line(&place, &model.surroundings()).unwrap().loads().unwrap()
     }

@@ -16,7 +16,7 @@ fn session(records: &str) -> Session {
 }
 
 fn place(fairlead: [f64; 3], other: [f64; 3], to_ground: bool) -> Placement {
-    Placement { fairlead, other: Some(other), to_ground, anchored: to_ground, first_length: None, series: None }
+    Placement { fairlead, other: Some(other), to_ground, anchored: to_ground, ..Placement::default() }
 }
 
 fn with<T>(records: &str, place: Placement, ask: impl Fn(&dyn LineModel) -> T) -> T {
@@ -163,7 +163,7 @@ fn breaks_come_from_the_tension_given_the_ultimate_stress_or_the_yield_stress() 
         ("-FYIELD 300", 500.0 * area),
         ("", 36.0 / 0.6 * 6.894_757_293_168_36 * area),
     ] {
-        let got = loads(&format!("{base} {options}"), end);
+        let got = loads(&format!("{base} {options}"), end.clone());
         near(got.tension, tension, 1e-9);
         near(got.ratio, tension / limit, 1e-6);
     }
@@ -198,7 +198,7 @@ fn springs_of_send_and_x_py_are_in_series_with_the_line() {
     let area = std::f64::consts::FRAC_PI_4 * 0.01;
     let k = 2e11 * area / 50.0;
     let end = place([0.0; 3], [52.0, 0.0, 0.0], false);
-    let one = |options: &str| loads(&format!("~L SL_ELEM 100 -LEN 50 -EMOD 200000 {options}"), end).tension;
+    let one = |options: &str| loads(&format!("~L SL_ELEM 100 -LEN 50 -EMOD 200000 {options}"), end.clone()).tension;
     near(one(""), 2.0 * k, 1e-12);
     near(one("-SEND 1E6"), 2.0 / (1.0 / k + 1e-6), 1e-10);
     near(one("-SEND 1E6 5E5"), 2.0 / (1.0 / k + 1e-6 + 2e-6), 1e-10);
@@ -216,7 +216,7 @@ fn springs_of_send_and_x_py_are_in_series_with_the_line() {
 fn a_weightless_h_cat_is_an_sl_elem_that_only_pulls() {
     for x in [30.0, 49.0, 51.0, 52.0] {
         let end = place([0.0; 3], [x, 5.0, -3.0], false);
-        let (a, b) = (loads("~L H_CAT 100 -LEN 50", end), loads("~L SL_ELEM 100 TENSION -LEN 50", end));
+        let (a, b) = (loads("~L H_CAT 100 -LEN 50", end.clone()), loads("~L SL_ELEM 100 TENSION -LEN 50", end.clone()));
         assert_eq!((a.fairlead, a.stiffness), (b.fairlead, b.stiffness));
     }
 }
