@@ -65,8 +65,15 @@ fn pass(name: &str, model: &Model, settings: Settings, statistics: bool) {
 }
 
 fn main() {
-    let settings =
-        |observed, step, store| Settings { observed, step, store, compatible: true, slam: 1.0, tow: [0.0; 2] };
+    let settings = |observed, step, store| Settings {
+        observed,
+        step,
+        store,
+        compatible: true,
+        slam: 1.0,
+        tow: [0.0; 2],
+        transient: 0.0,
+    };
     pass("towed example, statistics and fatigue", &scripted("towed_tether"), settings(375.0, 0.25, 2), true);
     pass("installed example", &scripted("installed_tether"), settings(25.0, 0.25, 1), true);
     for elements in [25, 50, 100, 200] {

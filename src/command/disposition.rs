@@ -168,13 +168,28 @@ fn rows(args: &Args) -> RowChoice {
         values: args.option("-VALUES").map(|g| {
             (g.word(0).unwrap_or_default().to_string(), g.number(1).unwrap_or(0.0), g.number(2).unwrap_or(0.0))
         }),
+        from: None,
     }
 }
 
 /// The columns a record chooses, as a table with scales, shifts and -MAG_USE applied.
 pub(super) fn chosen(job: &Job, args: &Args, from: usize) -> Outcome<Table> {
+    chosen_rows(job, args, from, &rows(args))
+}
+
+/// The same for statistics, which leave the transient of a run out unless -RECORD or -VALUES choose rows; with what is to be said of that.
+pub(super) fn chosen_for_statistics(job: &Job, args: &Args) -> Outcome<(Table, Option<String>)> {
+    let chosen = args.has("-RECORD") || args.has("-VALUES");
+    let from = here(job, args.span)?.transient().filter(|_| !chosen);
+    let table = chosen_rows(job, args, 0, &RowChoice { from, ..rows(args) })?;
+    let said =
+        from.map(|t| format!("without the transient: rows from TTRA_SET, {t} s, on; -RECORD or -VALUES take others"));
+    Ok((table, said))
+}
+
+fn chosen_rows(job: &Job, args: &Args, from: usize, rows: &RowChoice) -> Outcome<Table> {
     let d = here(job, args.span)?;
-    let result = d.columns(&selectors(args, from)).and_then(|c| d.extract(&c, &rows(args), true, job.units));
+    let result = d.columns(&selectors(args, from)).and_then(|c| d.extract(&c, rows, true, job.units));
     let mut table = result.map_err(|e| refused(args, &e))?;
     if args.has("-MAG_USE") {
         for cell in table.columns.iter_mut().flat_map(|c| c.cells.iter_mut()) {

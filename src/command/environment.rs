@@ -81,7 +81,9 @@ const OPTIONS: &[OptionSpec] = &[
         &[
             number("TOBSERV", Dim::Time, "time observed").positive(),
             number("DELTA_TIME", Dim::Time, "time step").positive(),
-            number("TTRA_SET", Dim::Time, "time set aside for the transient").or("0").not_negative(),
+            number("TTRA_SET", Dim::Time, "time set aside for the transient: statistics leave it out")
+                .or("0")
+                .not_negative(),
             ValueSpec::new("NCYCLES", Kind::Integer, "cycles: kept and shown, without effect").or("1").within(1.0, 1e6),
         ],
         "time window",

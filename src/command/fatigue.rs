@@ -4,7 +4,7 @@
 
 use super::chosen::note_interpolated;
 use super::equilibrium::told;
-use super::prcpost::{CONNECTORS, asked, connectors};
+use super::prcpost::{CONNECTORS, asked_behind_transient, connectors};
 use super::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -31,7 +31,7 @@ static SPEC: CommandSpec = CommandSpec {
             ],
             "the part of the run that is counted; its stored instants",
         )
-        .default("all of it"),
+        .default("all of it but TTRA_SET"),
         OptionSpec::new(
             "-DURATION",
             &[ValueSpec::new("D", Kind::Number(Dim::Days), "days").positive()],
@@ -49,8 +49,8 @@ static SPEC: CommandSpec = CommandSpec {
     detail: "Rainflow cycles of the tension at the upper end of each segment, each by the curve of -C_SN of its class or by the last of \
              &REP_SELECT -SN, stress with -THICK_SN; Palmgren and Miner's sum. CDR is that of all environments, each for its duration, and \
              Life when they come again for ever. A scatter is run one environment after the other: TDOM and FATIGUE, then TDOM and FATIGUE \
-             -ADD for each further one. Tension below the fairlead is found at the turning points of that at the fairlead. Leave the \
-             start of the run out by -EVENTS. Governs marks the segment that seed 001 goes by: that with the largest tension over its \
+             -ADD for each further one. Tension below the fairlead is found at the turning points of that at the fairlead. TTRA_SET of \
+             &ENV -TIME is left out, other parts by -EVENTS. Governs marks the segment that seed 001 goes by: that with the largest tension over its \
              break where its curve is one of tension, else that with the largest stress.",
     example: "MEDIT\n&DESCRIBE BODY BUOY -IGNORE Z RX RY RZ\n*P 0 0 0\n#WEIGHT *P 2000 10 10 10\n~W B_CAT 4 -LEN 1000 -C_SN CHAIN\n\
               ~W B_CAT 4 -LEN 3000 -DEP 500\nCONNECTOR A -ANC 0 3900 ~W *P\nCONNECTOR B -ANC 180 3900 ~W *P\nEND\n&REP_SELECT -SN WIRE\n\
@@ -61,7 +61,7 @@ static SPEC: CommandSpec = CommandSpec {
 
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
-    let (run, events) = asked(job, args)?;
+    let (run, events) = asked_behind_transient(job, args)?;
     let span = args.option("-EVENTS").map_or(args.span, |g| g.span);
     let time = |event: Option<&results::Event>| event.and_then(|e| e.time(&run.history)).unwrap_or(0.0);
     let record = time(events.last()) - time(events.first());

@@ -46,7 +46,7 @@ const EVENTS: OptionSpec = OptionSpec::new(
     ],
     "the events that are told",
 )
-.default("all stored instants");
+.default("all stored instants; STATISTIC, SPECTRUM, EXTREMES and their like leave out those before TTRA_SET");
 const AXES: &[&str] = &["X", "Y", "Z"];
 const MAG_DEFINE: OptionSpec = OptionSpec::new(
     "-MAG_DEFINE",
@@ -162,6 +162,27 @@ pub(super) fn asked<'a>(job: &'a Job, args: &Args) -> Outcome<(&'a Run, Vec<Even
     Ok((run, events))
 }
 
+/// The same for what sums up a run: without -EVENTS the instants behind its transient.
+pub(super) fn asked_behind_transient<'a>(job: &'a Job, args: &Args) -> Outcome<(&'a Run, Vec<Event>)> {
+    let transient = transient_of(job, args);
+    if transient <= 0.0 {
+        return asked(job, args);
+    }
+    let run = last_run(job, args.span)?;
+    let window = Window { begin: transient, end: None, increment: None };
+    let found = results::events(&run.history, Some(&window)).map_err(|_| {
+        let text = format!("the run has no instant behind TTRA_SET, {transient} s, which is left out");
+        Diagnostic::error(text, args.span).help("-EVENTS takes a part of the run")
+    })?;
+    Ok((run, found))
+}
+
+/// How much of the beginning of the last run statistics of a result leave out (s): nothing where -EVENTS chooses instants.
+pub(super) fn transient_of(job: &Job, args: &Args) -> f64 {
+    let run = job.run.as_ref().filter(|_| !args.has("-EVENTS"));
+    run.map_or(0.0, |run| run.settings.transient)
+}
+
 /// What magnitudes are of.
 fn magnitude(args: &Args) -> Magnitude {
     let Some(given) = args.option("-MAG_DEFINE") else { return Magnitude::default() };
@@ -212,12 +233,13 @@ pub(super) fn connectors(job: &Job, run: &Run, call: &Call) -> Outcome<Vec<usize
 }
 
 /// Opens the disposition menu over what a run came to.
-fn dispose(job: &mut Job, made: Result<Table, SolveError>, span: Span) -> Outcome<Effect> {
-    let mut table = made.map_err(|e| told(e, &job.model, span, job.units))?;
+fn dispose(job: &mut Job, made: Result<Table, SolveError>, args: &Args) -> Outcome<Effect> {
+    let mut table = made.map_err(|e| told(e, &job.model, args.span, job.units))?;
     if let Some(run) = &job.run {
         note_interpolated(&run.model, std::slice::from_mut(&mut table));
     }
-    job.menus.push(Menu::Disposition(Box::new(Disposition::new(table))));
+    let transient = transient_of(job, args);
+    job.menus.push(Menu::Disposition(Box::new(Disposition::new(table).behind(transient))));
     Ok(Effect::Done)
 }
 
@@ -226,7 +248,7 @@ fn trajectory(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (run, events) = asked(job, args)?;
     let how = Told { centre: args.has("-CG"), local: local(args), magnitude: magnitude(args) };
     let made = results::trajectory(run, &bodies(job, run, args)?, &how, &events);
-    dispose(job, made, args.span)
+    dispose(job, made, args)
 }
 
 fn points(job: &mut Job, call: &Call) -> Outcome<Effect> {
@@ -259,35 +281,35 @@ fn points(job: &mut Job, call: &Call) -> Outcome<Effect> {
         return Err(Diagnostic::error("no point is marked", args.span).help("&DESCRIBE INTEREST *POINT marks points"));
     }
     let made = results::points(run, &list, (local(args), magnitude(args)), &events);
-    dispose(job, made, args.span)
+    dispose(job, made, args)
 }
 
 fn conforce(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (run, events) = asked(job, &call.args)?;
     let made = results::connector_forces(run, &connectors(job, run, call)?, magnitude(&call.args), &events);
-    dispose(job, made, call.args.span)
+    dispose(job, made, &call.args)
 }
 
 fn cf_magnitude(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (run, events) = asked(job, &call.args)?;
     let made = results::magnitudes(run, &connectors(job, run, call)?, magnitude(&call.args), &events);
-    dispose(job, made, call.args.span)
+    dispose(job, made, &call.args)
 }
 
 fn tot_cforce(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (run, events) = asked(job, &call.args)?;
     let made = results::total_forces(run, &bodies(job, run, &call.args)?, magnitude(&call.args), &events);
-    dispose(job, made, call.args.span)
+    dispose(job, made, &call.args)
 }
 
 fn c_length(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (run, events) = asked(job, &call.args)?;
     let made = results::lengths(run, &connectors(job, run, call)?, &events);
-    dispose(job, made, call.args.span)
+    dispose(job, made, &call.args)
 }
 
 fn body_force(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (run, events) = asked(job, &call.args)?;
     let made = results::body_forces(run, &bodies(job, run, &call.args)?, magnitude(&call.args), &events);
-    dispose(job, made, call.args.span)
+    dispose(job, made, &call.args)
 }

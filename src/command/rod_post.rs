@@ -3,7 +3,7 @@
 use super::chosen::raise;
 use super::disposition::{BOTH, HARD, send};
 use super::equilibrium::told;
-use super::prcpost::{asked, last_run};
+use super::prcpost::{asked, asked_behind_transient, last_run, transient_of};
 use super::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
 use crate::report::page;
@@ -60,7 +60,7 @@ static SPEC: CommandSpec = CommandSpec {
             ],
             "the instants that are told or counted",
         )
-        .default("all stored instants"),
+        .default("all stored instants; ENVELOPE, FATIGUE and CHECK leave out those before TTRA_SET"),
         ours(
             "-ARC",
             &[ValueSpec::new("S", Kind::Number(Dim::Length), "unstretched distance from the first end").not_negative()],
@@ -153,7 +153,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             return Err(Diagnostic::error(text, given.span));
         };
         raise(job, &table, args.place(0));
-        job.menus.push(Menu::Disposition(Box::new(Disposition::new(table))));
+        job.menus.push(Menu::Disposition(Box::new(Disposition::new(table).behind(transient_of(job, args)))));
         return Ok(Effect::Done);
     }
     let head = job.page_head();
@@ -174,7 +174,12 @@ fn tables(job: &Job, args: &Args) -> Outcome<Vec<Table>> {
     }
     // of a run without rows its own envelope is told
     let bare = what == "ENVELOPE" && run.history.is_empty() && !args.has("-EVENTS");
-    let events = if bare { Vec::new() } else { asked(job, args)?.1 };
+    let sums_up = ["ENVELOPE", "FATIGUE", "CHECK"].contains(&what);
+    let events = match sums_up {
+        _ if bare => Vec::new(),
+        true => asked_behind_transient(job, args)?.1,
+        false => asked(job, args)?.1,
+    };
     let made = match what {
         "ENVELOPE" => along::envelope(&line, &events),
         "NODE" => along::histories(&line, &places(args, &line)?, &events),

@@ -2,7 +2,9 @@
 //!
 //! Source: reference/solve.md, "Disposition menu", for SPECTRUM and FFT; the others are ours.
 
-use super::disposition::{ANY_COLUMN, COLUMN, MAG_USE, MENU, RECORD, VALUES, chosen, here, refused, selectors};
+use super::disposition::{
+    ANY_COLUMN, COLUMN, MAG_USE, MENU, RECORD, VALUES, chosen_for_statistics, here, refused, selectors,
+};
 use super::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
 use crate::report::{page, statistic};
@@ -201,11 +203,11 @@ fn whole(args: &Args, name: &str) -> Option<usize> {
     args.option(name).and_then(|g| g.values.first()?.integer()).and_then(|n| usize::try_from(n).ok())
 }
 
-/// The record of the columns chosen.
-fn record(job: &Job, args: &Args) -> Outcome<Record> {
+/// The record of the columns chosen, and what is to be said of the rows left out.
+fn record(job: &Job, args: &Args) -> Outcome<(Record, Option<String>)> {
     here(job, args.span)?.numeric(&selectors(args, 0)).map_err(|e| refused(args, &e))?;
-    let table = chosen(job, args, 0)?;
-    Record::of(&table).map_err(|e| wrong(args, &e))
+    let (table, without) = chosen_for_statistics(job, args)?;
+    Ok((Record::of(&table).map_err(|e| wrong(args, &e))?, without))
 }
 
 fn wrong(args: &Args, error: &SeriesError) -> Box<Diagnostic> {
@@ -214,8 +216,9 @@ fn wrong(args: &Args, error: &SeriesError) -> Box<Diagnostic> {
 
 /// Makes a table of the columns chosen and opens an inner menu over it.
 fn open(job: &mut Job, call: &Call, make: impl Fn(&Record, &Args) -> Result<Table, SeriesError>) -> Outcome<Effect> {
-    let record = record(job, &call.args)?;
-    let table = make(&record, &call.args).map_err(|e| wrong(&call.args, &e))?;
+    let (record, without) = record(job, &call.args)?;
+    let mut table = make(&record, &call.args).map_err(|e| wrong(&call.args, &e))?;
+    table.notes.extend(without);
     enter(job, table);
     Ok(Effect::Done)
 }
@@ -229,11 +232,15 @@ fn enter(job: &mut Job, table: Table) {
 
 fn spectrum(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
-    let record = record(job, args)?;
+    let (record, without) = record(job, args)?;
     let length = whole(args, "-SEGMENT");
-    let table = tables::density(&record, length).map_err(|e| wrong(args, &e))?;
+    let mut table = tables::density(&record, length).map_err(|e| wrong(args, &e))?;
     let moments = statistic::spectral(&record, length, job.units).map_err(|e| wrong(args, &e))?;
-    let text = format!("{}\n\n{}", moments.title, page::grid(&moments, job.units).join("\n"));
+    let mut text = format!("{}\n\n{}", moments.title, page::grid(&moments, job.units).join("\n"));
+    if let Some(without) = &without {
+        text.push_str(&format!("\n\n   {without}"));
+    }
+    table.notes.extend(without);
     job.say(&text);
     enter(job, table);
     Ok(Effect::Done)

@@ -4,7 +4,7 @@
 //! its help.
 
 use super::disposition::{ANY_COLUMN, BOTH, COLUMN, HARD, MAG_USE, RECORD, VALUES};
-use super::disposition::{chosen, here, refused, selectors, send, spec};
+use super::disposition::{chosen_for_statistics, here, refused, selectors, send, spec};
 use super::{Call, Command, Effect, Job};
 use crate::report::{page, statistic};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -38,13 +38,14 @@ static SPEC: CommandSpec = CommandSpec {
              over 3. Where the independent column grows, cycles are counted from an up-crossing of the mean to the next: \
              Period is their mean length, 1/3 Range the mean of the highest third of their crest-to-trough ranges \
              (of a wave record its significant height), 1/10 Range that of the highest tenth. 2 Std. Dev. is the significant \
-             single amplitude of a Gaussian process. -DURATION needs a column of time; EXTREMES fits distributions.",
+             single amplitude of a Gaussian process. Of a run the rows before TTRA_SET of &ENV -TIME are left out, as TDOM leaves them \
+             out of its own statistics, unless -EVENTS, -RECORD or -VALUES choose. -DURATION needs a column of time; EXTREMES fits distributions.",
     ..spec("STATISTIC", "mean, deviation, extremes and cycles of columns")
 };
 fn statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     here(job, args.span)?.numeric(&selectors(args, 0)).map_err(|e| refused(args, &e))?;
-    let table = chosen(job, args, 0)?;
+    let (table, without) = chosen_for_statistics(job, args)?;
     let count = table.columns.len();
     let (independent, described) = if count > 1 { (Some(0), (1..count).collect()) } else { (None, vec![0]) };
     let mut parts = vec![statistic::in_units(&table, independent, &described, job.units)];
@@ -59,7 +60,10 @@ fn statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {
         parts.push(statistic::peaks(&table).map_err(wrong)?);
     }
     let text = |t: &Table| format!("{}\n\n{}", t.title, page::grid(t, job.units).join("\n"));
-    let text = parts.iter().map(text).collect::<Vec<_>>().join("\n\n");
+    let mut text = parts.iter().map(text).collect::<Vec<_>>().join("\n\n");
+    if let Some(without) = without {
+        text.push_str(&format!("\n\n   {without}"));
+    }
     send(job, args, &text)?;
     Ok(Effect::Done)
 }

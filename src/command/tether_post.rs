@@ -41,7 +41,7 @@ const EVENTS: OptionSpec = ours(
     ],
     "the stored instants that are told or counted",
 )
-.default("all");
+.default("all; STATISTICS, RANGES and FATIGUE leave out those before TTRA_SET");
 const DISPOSE: OptionSpec = ours(
     "-DISPOSE",
     &[ValueSpec::new("N", Kind::Integer, "which of its tables").or("1").within(1.0, 1e6)],
@@ -177,7 +177,7 @@ fn slack_alone(run: &Tethered, given: Option<&Given>, list: Vec<usize>) -> Vec<u
 
 fn window(run: &Tethered, args: &Args) -> Statistics {
     let given = args.option("-EVENTS");
-    let from = given.and_then(|g| g.number(0)).unwrap_or(f64::NEG_INFINITY);
+    let from = given.and_then(|g| g.number(0)).unwrap_or(run.settings.transient);
     let to = given.and_then(|g| g.number(1)).unwrap_or(f64::INFINITY);
     Statistics::between(run, from, to)
 }
@@ -325,7 +325,9 @@ fn out(job: &mut Job, args: &Args, tables: Vec<Table>) -> Outcome<Effect> {
             let text = format!("there is no table {wanted} here: there are {}", tables.len());
             return Err(Diagnostic::error(text, given.span));
         };
-        job.menus.push(Menu::Disposition(Box::new(Disposition::new(table))));
+        let run = job.tethered.as_ref().filter(|_| !args.has("-EVENTS"));
+        let transient = run.map_or(0.0, |run| run.settings.transient);
+        job.menus.push(Menu::Disposition(Box::new(Disposition::new(table).behind(transient))));
         return Ok(Effect::Done);
     }
     let head = job.page_head();

@@ -87,6 +87,7 @@ pub fn run(job: &mut Job, args: &Args) -> Outcome<Effect> {
         compatible,
         slam: args.option_number("-SLAM").unwrap_or(0.0),
         tow: tow.unwrap_or_default(),
+        transient: window.transient.unwrap_or(0.0),
     };
     let interrupt = Arc::clone(&job.interrupt);
     let mut goes_on = |_: f64| !interrupt.load(Ordering::Relaxed);

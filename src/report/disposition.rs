@@ -34,6 +34,9 @@ pub enum DispositionError {
     /// Bounds that leave no row.
     #[error("no row lies within the bounds")]
     NoRow,
+    /// All rows are of the transient.
+    #[error("all rows are before TTRA_SET, {0} s, which statistics leave out: -RECORD takes rows by their numbers")]
+    Transient(f64),
     /// Ranges to exclude that leave no row.
     #[error("no row is left: every value of {0} lies inside of the ranges to exclude")]
     AllCulled(String),
@@ -62,6 +65,8 @@ pub struct RowChoice {
     pub record: Option<(i64, i64)>,
     /// Column selector and the bounds its values must lie in (user units).
     pub values: Option<(String, f64, f64)>,
+    /// Leaves out what is before this time (s) by a first column of time.
+    pub from: Option<f64>,
 }
 
 /// A table being disposed of.
@@ -71,6 +76,8 @@ pub struct Disposition {
     pub table: Table,
     /// Factor and shift of each column, in user units: shown = value * factor + shift.
     adjust: Vec<(f64, f64)>,
+    /// The time before which statistics leave rows out (s), of a result against time.
+    transient: Option<f64>,
 }
 
 /// Stands above the notes of a culled table, whose rows have other numbers.
@@ -80,7 +87,18 @@ impl Disposition {
     /// A menu over a table.
     pub fn new(table: Table) -> Self {
         let adjust = vec![(1.0, 0.0); table.columns.len()];
-        Disposition { table, adjust }
+        Disposition { table, adjust, transient: None }
+    }
+
+    /// The same over a run whose transient lasts so long (s): its statistics leave that out.
+    pub fn behind(self, transient: f64) -> Self {
+        let times = self.table.columns.first().is_some_and(|c| c.dim == Dim::Time);
+        Disposition { transient: Some(transient).filter(|t| times && *t > 0.0), ..self }
+    }
+
+    /// The time before which statistics leave rows out (s), where they do.
+    pub fn transient(&self) -> Option<f64> {
+        self.transient
     }
 
     /// The columns several selectors choose, in their order and each once; nothing given chooses all.
@@ -204,6 +222,14 @@ impl Disposition {
             taken.retain(|row| (from..=to).contains(&number(row)));
             if taken.is_empty() {
                 return Err(DispositionError::Rows { from, to, rows: count });
+            }
+        }
+        if let (Some(from), Some(times)) = (choice.from, self.table.columns.first()) {
+            // a time that is an instant's but for rounding
+            let near = 1e-9 * from.abs().max(1.0);
+            taken.retain(|row| times.cells.get(*row).and_then(Cell::number).is_some_and(|t| t >= from - near));
+            if taken.is_empty() {
+                return Err(DispositionError::Transient(from));
             }
         }
         if let Some((selector, low, high)) = &choice.values {

@@ -80,6 +80,7 @@ mod time {
     mod step_accuracy;
     mod time_domain;
     mod time_runs;
+    mod transient;
 }
 
 /// AQWA decks run by the session.

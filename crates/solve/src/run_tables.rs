@@ -195,8 +195,8 @@ pub fn extremes(run: &Run) -> Vec<Table> {
     tables
 }
 
-/// What differs between a run and the same with half the step: a table for each dimension.
-pub fn compared(first: &History, second: &History) -> Vec<Table> {
+/// What differs between a run and the same with half the step, behind a transient (s): a table for each dimension.
+pub fn compared(first: &History, second: &History, transient: f64) -> Vec<Table> {
     let all = results(&first.layout);
     let mut tables = Vec::new();
     for (title, dim) in KINDS {
@@ -209,10 +209,10 @@ pub fn compared(first: &History, second: &History) -> Vec<Table> {
             .column("Std. Dev.", "Full Step ", dim, Digits::Usual)
             .column("Std. Dev.", "Half Step ", dim, Digits::Usual);
         for series in all.iter().filter(|s| s.dim == dim) {
-            let pairs = first.rows().zip(second.rows());
+            let pairs = first.rows().zip(second.rows()).filter(|(row, _)| is_behind(row, transient));
             let differences = pairs.map(|(a, b)| (a.first().copied(), (series.value(a) - series.value(b)).abs()));
             let worst = differences.fold((None, -1.0), |worst, at| if at.1 > worst.1 { at } else { worst });
-            let (one, other) = (Moments::of(first, series), Moments::of(second, series));
+            let (one, other) = (Moments::of(first, series, transient), Moments::of(second, series, transient));
             let cells =
                 [Some(worst.1), worst.0, Some(one.most), Some(other.most), Some(one.deviation), Some(other.deviation)];
             push(&mut table, &series.name, cells.map(Cell::from));
@@ -222,13 +222,18 @@ pub fn compared(first: &History, second: &History) -> Vec<Table> {
         }
     }
     if let Some(last) = tables.last_mut() {
-        last.note("at the instants both runs have; a difference that does not fall with the step again is one of an action or an impact");
+        last.note("at the instants both runs have behind TTRA_SET; a difference that does not fall with the step again is one of an action or an impact");
     }
     tables
 }
 
 /// The dimensions of results, with what they are called.
 const KINDS: [(&str, Dim); 3] = [("Places", Dim::Length), ("Angles", Dim::Angle), ("Tensions", Dim::Force)];
+
+/// Whether a row is behind the transient (s).
+fn is_behind(row: &[f64], transient: f64) -> bool {
+    row.first().is_some_and(|time| *time >= transient)
+}
 
 /// Deviation and largest value of a result.
 struct Moments {
@@ -237,9 +242,9 @@ struct Moments {
 }
 
 impl Moments {
-    fn of(history: &History, series: &Series) -> Self {
-        let values = || history.rows().map(|row| series.value(row));
-        let count = history.len().max(1) as f64;
+    fn of(history: &History, series: &Series, transient: f64) -> Self {
+        let values = || history.rows().filter(|row| is_behind(row, transient)).map(|row| series.value(row));
+        let count = values().count().max(1) as f64;
         let mean = values().sum::<f64>() / count;
         let variance = values().map(|v| (v - mean) * (v - mean)).sum::<f64>() / count;
         Moments { deviation: variance.sqrt(), most: values().fold(f64::NEG_INFINITY, f64::max) }

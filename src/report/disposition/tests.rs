@@ -40,7 +40,7 @@ fn a_column_chosen_twice_is_scaled_once_and_the_list_shows_it() {
     d.scale(10.0, &["X", "1:2"]).unwrap();
     d.shift(1.0, &["F", "F"]).unwrap();
     let us = UnitSystem::default();
-    assert_eq!(d.values("F", &RowChoice { record: Some((2, 2)), values: None }, us).unwrap(), "41");
+    assert_eq!(d.values("F", &RowChoice { record: Some((2, 2)), values: None, from: None }, us).unwrap(), "41");
     let list = d.vlist(us);
     assert!(list[0].ends_with("10.00 to 50.00") && list[1].ends_with("11.0000 to 251.0000"), "{list:?}");
 }
@@ -54,7 +54,7 @@ fn culled_rows_keep_their_values_and_the_scales_and_shifts_made_before() {
     // F shows 2 n n - 1: rows 2 and 3 show 7 and 17
     let mut culled = d.cull("F", &[(0.0, 6.9), (17.1, 1e9)], us).unwrap();
     assert_eq!(culled.table.columns[1].cells, [Cell::Number(4.0), Cell::Number(9.0)]);
-    let kept = RowChoice { record: Some((2, 3)), values: None };
+    let kept = RowChoice { record: Some((2, 3)), values: None, from: None };
     for column in [0, 1] {
         let before = d.extract(&[column], &kept, true, us).unwrap();
         assert_eq!(culled.extract(&[column], &RowChoice::default(), true, us).unwrap(), before);
@@ -93,7 +93,7 @@ fn the_ends_of_a_range_hold_after_the_conversion_of_units() {
     for n in 1..=2000 {
         let at: f64 = format!("{}.{}", n / 10, n % 10).parse().unwrap();
         assert_eq!(d.cull("X", &[(at, at)], us).unwrap().table.rows(), 1999, "{at}");
-        let only = RowChoice { record: None, values: Some(("X".into(), at, at)) };
+        let only = RowChoice { values: Some(("X".into(), at, at)), ..RowChoice::default() };
         assert_eq!(d.rows(&only, us).unwrap().len(), 1, "{at}");
     }
 }
@@ -116,8 +116,8 @@ fn a_value_that_is_missing_is_told_not_skipped() {
     let mut d = menu();
     d.table.columns[1].cells[2] = Cell::Missing;
     let us = UnitSystem::default();
-    let from_two = RowChoice { record: Some((2, 5)), values: None };
+    let from_two = RowChoice { record: Some((2, 5)), values: None, from: None };
     let want = DispositionError::NoValue { column: "F".into(), row: 3 };
     assert_eq!(d.values("F", &from_two, us), Err(want));
-    assert_eq!(d.values("F", &RowChoice { record: Some((4, 5)), values: None }, us).unwrap(), "16 25");
+    assert_eq!(d.values("F", &RowChoice { record: Some((4, 5)), values: None, from: None }, us).unwrap(), "16 25");
 }

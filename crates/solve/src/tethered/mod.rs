@@ -39,6 +39,8 @@ pub struct Settings {
     pub slam: f64,
     /// Velocity over the ground of the tow of a towed tether, global x and y (m/s).
     pub tow: [f64; 2],
+    /// Time that statistics leave out at the beginning (s).
+    pub transient: f64,
 }
 
 /// A run of tethers.

@@ -10,7 +10,8 @@ use windlass_tether::installed::description::Description;
 use windlass_tether::installed::modes::modes;
 
 /// Settings under which a case is made to be told of, not to be run.
-const AT_REST: Settings = Settings { observed: 1.0, step: 1.0, store: 1, compatible: false, slam: 0.0, tow: [0.0; 2] };
+const AT_REST: Settings =
+    Settings { observed: 1.0, step: 1.0, store: 1, compatible: false, slam: 0.0, tow: [0.0; 2], transient: 0.0 };
 
 /// A tether of the case, by its name.
 fn found<'a>(case: &'a Installed, name: &str) -> Result<&'a windlass_tether::installed::InstalledTether, SolveError> {
