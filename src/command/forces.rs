@@ -14,6 +14,8 @@ use windlass_solve::results::fender_table;
 struct Found {
     /// Force on the first end, and on the other (N, global).
     forces: [[f64; 3]; 2],
+    /// The first of its ends that is on a body; the first where none is.
+    on_body: usize,
     /// Horizontal distance between the ends (m).
     distance: f64,
     summary: Summary,
@@ -28,7 +30,7 @@ pub fn forces(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem, ver
         .column("", "Solution", Dim::None, Digits::Usual)
         .column("Horizontal", "Distance", Dim::Length, Digits::Usual);
     for name in ["FX", "FY", "FZ"] {
-        table = table.column("Force on First End", name, Dim::Force, Digits::Usual);
+        table = table.column("Force on Body", name, Dim::Force, Digits::Usual);
     }
     let mut table = table
         .column("Tension", "Ten Top", Dim::Force, Digits::Usual)
@@ -128,13 +130,17 @@ fn found(model: &Model, connector: &Connector) -> Result<Found, ClassError> {
     let force = |i: usize| out.wrench.get(i).map_or([0.0; 3], shown);
     let [first, second] = ends.map(|e| e.pose.origin);
     let distance = (second - first).xy().norm();
-    Ok(Found { forces: [force(0), force(1)], distance, summary: element.summary(&at, &committed)? })
+    let is_on_body = |name: &String| model.points.get(&Model::key(name)).is_some_and(|p| model.body_of(p).is_some());
+    let on_body = connector.points.iter().take(2).position(is_on_body).unwrap_or(0);
+    Ok(Found { forces: [force(0), force(1)], on_body, distance, summary: element.summary(&at, &committed)? })
 }
 
 /// The ten numbers of a row.
 fn numbers(found: Option<&Found>) -> [Cell; 10] {
-    let Some(Found { forces, distance, summary }) = found else { return [const { Cell::Missing }; 10] };
-    let [[fx, fy, fz], [ax, ay, az]] = *forces;
+    let Some(Found { forces, on_body, distance, summary }) = found else { return [const { Cell::Missing }; 10] };
+    let [fx, fy, fz] = forces.get(*on_body).copied().unwrap_or_default();
+    // what holds the far end of the line
+    let [ax, ay, az] = forces.get(1 - on_body).copied().unwrap_or_default();
     let line = |value: f64| if summary.tension.is_some() { Cell::from(value) } else { Cell::Missing };
     [
         (*distance).into(),

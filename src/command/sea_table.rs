@@ -106,7 +106,10 @@ fn components(env: &Environment, sea: &Sea, train: &Train) -> Table {
         .column("", "Amplitude", Dim::Length, Digits::Decimals(3))
         .column("", "From", Dim::Angle, Digits::Usual)
         .column("", "Phase", Dim::Angle, Digits::Usual)
-        .column("", "Density", Dim::SpectralDensity, Digits::Decimals(4));
+        .column("", "Density", Dim::SpectralDensity, Digits::Decimals(4))
+        .column("Stands For", "From", Dim::Frequency, Digits::Decimals(4))
+        .column("Stands For", "To", Dim::Frequency, Digits::Decimals(4))
+        .column("Stands For", "Mean Density", Dim::SpectralDensity, Digits::Decimals(4));
     for (index, wave) in waves.iter().enumerate() {
         let band = train.bands.get(index).zip(train.spectrum.as_ref());
         let [x, y] = wave.toward;
@@ -117,7 +120,10 @@ fn components(env: &Environment, sea: &Sea, train: &Train) -> Table {
             wave.amplitude.into(),
             turn((-y).atan2(-x)).into(),
             turn(wave.phase).into(),
-            band.map(|(band, spectrum)| band.ordinate(spectrum)).into(),
+            band.map(|(_, spectrum)| spectrum.density(wave.frequency)).into(),
+            band.map(|(band, _)| band.low).into(),
+            band.map(|(band, _)| band.high).filter(|high| high.is_finite()).into(),
+            band.and_then(|(band, _)| band.mean_density()).into(),
         ];
         push(&mut table, row);
     }

@@ -76,7 +76,10 @@ fn components(job: &Job, env: &Environment, gusts: &Gusts) -> Table {
         .column("", "Frequency", Dim::Frequency, Digits::Decimals(5))
         .column("", "Amplitude", Dim::WindSpeed, Digits::Decimals(3))
         .column("", "Phase", Dim::Angle, Digits::Usual)
-        .column("", "Density", DENSITY, Digits::Decimals(3));
+        .column("", "Density", DENSITY, Digits::Decimals(3))
+        .column("Stands For", "From", Dim::Frequency, Digits::Decimals(5))
+        .column("Stands For", "To", Dim::Frequency, Digits::Decimals(5))
+        .column("Stands For", "Mean Density", DENSITY, Digits::Decimals(3));
     for (index, (band, phase)) in gusts.bands.iter().zip(&gusts.phases).enumerate() {
         let row = vec![
             (index + 1).into(),
@@ -84,7 +87,10 @@ fn components(job: &Job, env: &Environment, gusts: &Gusts) -> Table {
             band.frequency.into(),
             (2.0 * band.energy).sqrt().into(),
             turn(*phase).into(),
-            band.ordinate(&gusts.spectrum).into(),
+            gusts.spectrum.density(band.frequency).into(),
+            band.low.into(),
+            Some(band.high).filter(|high| high.is_finite()).into(),
+            band.mean_density().into(),
         ];
         push(&mut table, row);
     }

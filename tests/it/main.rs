@@ -28,6 +28,7 @@ mod connectors {
     mod closed_form_lines;
     mod connector_closed_form;
     mod element_laws;
+    mod force_on_body;
     mod laws;
     mod lift;
     mod line_classes;

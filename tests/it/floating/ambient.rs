@@ -1,5 +1,7 @@
 //! What lines feel all along themselves, from the records that say so.
 
+use crate::common;
+use std::f64::consts::TAU;
 use std::sync::Arc;
 use windlass::report::files::JobFolder;
 use windlass::report::output::Output;
@@ -44,4 +46,31 @@ fn a_bottom_of_records_reaches_lines_and_one_with_a_refused_row_does_not() {
     // the row, the grid, and the name
     let wrong = records.replace("50 32 42", "50 32 deep");
     assert_eq!(after(&format!("{wrong}-BATHYMETRY B"), 3).bottom(50.0, 25.0), None);
+}
+
+#[test]
+fn spectrum_tables_print_the_density_at_their_frequency() {
+    let (mut session, screen, _folder) = common::session();
+    let records = "&DIMEN -DIMEN METERS K-NTS\n&ENV -SEA JONSWAP 180 6 10 1 -S_PERIOD 8 9.6 14 -WIND 40 180 -W_SPECTRUM API -W_PERIOD 20 100 300\n\
+                   &STATUS SEA_SPECTRUM\n&STATUS WIND_SPECTRUM\n";
+    session.open("test", records.to_string());
+    session.run();
+    let text = screen.text();
+    let density = |period: &str, column: usize| -> f64 {
+        let row = text.lines().map(|l| l.split_whitespace().collect::<Vec<_>>()).find(|w| w.get(1) == Some(&period));
+        row.unwrap()[column].parse().unwrap()
+    };
+    // Pierson-Moskowitz (gamma 1), Hs 6 m, Tp 10 s: 5/16 Hs^2 wp^4 / w^5 exp(-5/4 (wp/w)^4); printed to four decimals
+    for (period, seconds) in [("14.000", 14.0), ("9.600", 9.6), ("8.000", 8.0f64)] {
+        let ratio = seconds / 10.0;
+        let want = 11.25 * ratio.powi(5) / (TAU / 10.0) * (-1.25 * ratio.powi(4)).exp();
+        assert!((density(period, 6) - want).abs() <= 5.1e-5, "{period}: {} {want}", density(period, 6));
+    }
+    // API RP 2A, 20th edition, at 10 m, over rad/s; the formula stands in steps of its logarithm, off by 2e-5; printed to three
+    let speed = 40.0 * 1852.0 / 3600.0;
+    let (deviation, peak) = (0.15 * 0.5f64.powf(-0.125) * speed, 0.0025 * speed);
+    for (period, seconds) in [("300.000", 300.0), ("100.000", 100.0), ("20.000", 20.0)] {
+        let want = deviation * deviation / peak * (1.0 + 1.5 / (seconds * peak)).powf(-5.0 / 3.0) / TAU;
+        assert!((density(period, 5) - want).abs() <= 5.1e-4 + 2e-5 * want, "{period}: {} {want}", density(period, 5));
+    }
 }

@@ -22,9 +22,9 @@ pub struct Band {
 }
 
 impl Band {
-    /// Mean density (m2 s) over the band; that at its frequency where the band has no end.
-    pub fn ordinate(&self, spectrum: &Spectrum) -> f64 {
-        if self.high.is_finite() { self.energy / (self.high - self.low) } else { spectrum.density(self.frequency) }
+    /// Mean density over the band (m2 s), as AQWA lists it; `None` where the band has no end.
+    pub fn mean_density(&self) -> Option<f64> {
+        self.high.is_finite().then(|| self.energy / (self.high - self.low))
     }
 }
 

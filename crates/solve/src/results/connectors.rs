@@ -77,6 +77,7 @@ pub fn connector_forces(
             remembering.join(", ")
         ));
     }
+    table.note("the force is that on the first end on a body");
     table.note(
         "Mag./Break is the largest tension of a segment over its own break; the length on the bottom is unstretched",
     );
