@@ -65,14 +65,32 @@ fn friction_acts_between_touchdowns_that_a_light_segment_lifts() {
 
 #[test]
 fn the_bottom_is_seen_below_a_spring_buoy_farther_down() {
-    // the same line as a dynamic line of 60 elements: 376.64 kN
+    // scipy: 229.681 m hang, the buoy lifts V = 2500 N on either side of it, the rest lies with H; T + EA, H and V as in Irvine 1981
     let ea = 2e11 * 0.25 * std::f64::consts::PI * 0.084 * 0.084;
     let part = Segment { length: 300.0, weight: 1200.0, ea };
     let buoy = Joint::SpringBuoy { capacity: 5000.0, depth: 0.0 };
     let line = Line::new(vec![part; 3], vec![Joint::Free, buoy], -100.0, 0.0).unwrap();
     let state = line.at_distance(870.0, 0.0).unwrap();
-    close(state.top_tension, 376.64e3, 2e-4 * 376.64e3, "T");
+    close(state.top_tension, 376_593.278674, 1e-3, "T");
+    close(state.force, 256_627.547873, 1e-3, "H");
+    close(state.grounded, 900.0 - 229.680936929 - 5000.0 / 1200.0, 1e-6, "on the bottom");
     assert!(state.below_bottom.is_empty());
+}
+
+#[test]
+fn a_first_segment_above_a_spring_buoy_hangs_below_the_bottom() {
+    // scipy: a symmetric catenary between the surface and the buoy there, the second segment down to where it touches down
+    let ea = 2e11 * 0.25 * std::f64::consts::PI * 0.084 * 0.084;
+    let part = |length| Segment { length, weight: 1200.0, ea };
+    let buoy = Joint::SpringBuoy { capacity: 300e3, depth: 0.0 };
+    let line = Line::new(vec![part(300.0), part(600.0)], vec![buoy], -50.0, 0.0).unwrap();
+    let state = line.at_distance(700.0, 0.0).unwrap();
+    close(state.force, 30_729.714631, 1e-3, "H");
+    close(state.top_tension, 182_604.258881, 1e-3, "T");
+    close(state.joints[0].lift, 265_363.746732, 1e-3, "buoy");
+    close(state.grounded, 528.863544390, 1e-6, "on the bottom");
+    let &[(1, below)] = state.below_bottom.as_slice() else { panic!("{:?}", state.below_bottom) };
+    close(below, 126.574300433 - 50.0, 1e-6, "below the bottom");
 }
 
 /// A line of 500 m cut in so many parts; whether each has a weight of its own.
