@@ -1,10 +1,11 @@
 //! What no sea, wind or current on record comes near, and friction that no soil has: warned of at the record.
 
 use std::f64::consts::TAU;
-use windlass_base::diagnostic::Diagnostic;
+use windlass_base::diagnostic::{Diagnostic, Severity};
 use windlass_base::span::Span;
 use windlass_base::units::{Dim, KNOT, UnitSystem, eight_figures};
 use windlass_base::values::Args;
+use windlass_hydro::sea::Sea as Waves;
 use windlass_hydro::sea::dispersion::wave_number;
 use windlass_hydro::spectrum;
 use windlass_model::{Current, Environment, Model, Sea};
@@ -77,18 +78,25 @@ pub(super) fn doubts(model: &Model, env: &Environment, args: &Args, units: UnitS
     }
     for (name, sea) in [("-SEA", &env.sea), ("-A_SEA", &env.added_sea)] {
         if let Some(sea) = sea.as_ref().filter(|_| args.has(name) || args.has("-DEPTH") || args.has("-SP_TYPE"))
-            && let Some(text) = breaking(model, env, sea, units)
+            && let Some(doubt) = breaking(model, env, sea, units)
         {
-            warn(text, sea.place(2));
+            made.push(doubt);
         }
     }
     made
 }
 
-/// Why an irregular sea cannot be: its significant wave breaks, or it is steeper than sea states are.
-fn breaking(model: &Model, env: &Environment, sea: &Sea, units: UnitSystem) -> Option<String> {
-    // what makes no spectrum is an error where the sea is made
-    let found = spectrum::of(model, env, sea, None).ok()??;
+/// Why a sea cannot be: its wave or its significant wave breaks, or it is steeper than sea states are.
+fn breaking(model: &Model, env: &Environment, sea: &Sea, units: UnitSystem) -> Option<Diagnostic> {
+    let Ok(found) = spectrum::of(model, env, sea, None) else {
+        // an error where the sea is made
+        return None;
+    };
+    let Some(found) = found else {
+        // the waves of a regular sea are made quickly
+        let error = Waves::of(model, env).err()?.diagnostic(sea.place(2), units);
+        return Some(Diagnostic { severity: Severity::Warning, ..*error });
+    };
     let around = model.surroundings_in(env);
     let depth = around.depth.map(|d| d + around.tide);
     let peak = TAU / found.peak();
@@ -98,17 +106,19 @@ fn breaking(model: &Model, env: &Environment, sea: &Sea, units: UnitSystem) -> O
     let height = shown(sea.height, Dim::Length, units);
     if sea.height > highest {
         let highest = shown(highest, Dim::Length, units);
-        return Some(format!(
+        let text = format!(
             "a significant height of {height} with a peak period of {} breaks: the highest wave of that period here is 0.142 L tanh(k d) = {highest}",
             shown(peak, Dim::Time, units)
-        ));
+        );
+        return Some(*Diagnostic::warning(text, sea.place(2)));
     }
     let (steepness, limit) = (TAU * sea.height / (around.gravity * peak * peak), steepest(peak));
     (steepness > limit).then(|| {
-        format!(
+        let text = format!(
             "a significant height of {height} with a peak period of {}: 2 pi HS/(g Tp2) is {steepness:.3}, and sea states have {limit:.3} at most (DNV-RP-C205 3.5.4)",
             shown(peak, Dim::Time, units)
-        )
+        );
+        *Diagnostic::warning(text, sea.place(2))
     })
 }
 
