@@ -37,8 +37,9 @@ pub fn forces(job: &Job, call: &Call, fits: &dyn Fn(&str) -> bool) -> Outcome<Ve
 /// # Errors
 /// A connector or body that cannot be evaluated.
 pub fn modes(job: &Job, call: &Call) -> Outcome<Vec<Table>> {
-    let linear = Linear::of(&job.model).map_err(|e| told(e, &job.model, call.args.place(0), job.units))?;
-    Ok(frequency::tables::modes(&linear).into())
+    let wrong = |e| told(e, &job.model, call.args.place(0), job.units);
+    let linear = Linear::of(&job.model).map_err(wrong)?;
+    Ok(frequency::tables::modes(&linear).map_err(wrong)?.into())
 }
 
 /// The stiffness of the bodies that are named, of all where no connector is named either, and that of each connector named.

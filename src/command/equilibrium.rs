@@ -140,7 +140,9 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         over.extend(summary.ok().and_then(|s| judged(name, &s, "&EQUI")));
     }
     job.equilibrium = Options { ignored: Vec::new(), ..options };
-    let mut list = [tables::rest(&job.model, &settled), forces, tables::periods(&settled.system, &settled.state)];
+    let periods =
+        tables::periods(&settled.system, &settled.state).map_err(|e| told(e, &job.model, call.args.span, job.units))?;
+    let mut list = [tables::rest(&job.model, &settled), forces, periods];
     note_interpolated(&job.model, &mut list);
     let head = job.page_head();
     let text = list.iter().map(|t| page::render(t, job.units, &head)).collect::<Vec<_>>().join("\n");

@@ -85,3 +85,77 @@ fn engines_embed_nothing_from_outside_their_folder() {
         }
     }
 }
+
+/// A source without its tests, which stand last, and without comments.
+fn code(text: &str) -> impl Iterator<Item = &str> {
+    let own = text.split("#[cfg(test)]").next().unwrap_or_default();
+    own.lines().map(|line| line.split("//").next().unwrap_or_default())
+}
+
+#[test]
+fn dense_factorisations_stand_in_one_place() {
+    let methods = [
+        "lu",
+        "full_piv_lu",
+        "qr",
+        "col_piv_qr",
+        "cholesky",
+        "udu",
+        "lblt",
+        "svd",
+        "svd_unordered",
+        "try_svd",
+        "polar",
+        "schur",
+        "try_schur",
+        "hessenberg",
+        "bidiagonalize",
+        "symmetric_tridiagonalize",
+        "symmetric_eigen",
+        "try_symmetric_eigen",
+        "symmetric_eigenvalues",
+        "eigenvalues",
+        "complex_eigenvalues",
+        "singular_values",
+        "singular_values_unordered",
+        "rank",
+        "try_inverse",
+        "try_inverse_mut",
+        "pseudo_inverse",
+        "determinant",
+        "exp_matrix",
+    ];
+    let methods: Vec<String> = methods.iter().map(|m| format!(".{m}(")).collect();
+    let types = ["LU", "FullPivLU", "QR", "ColPivQR", "Cholesky", "SVD", "Schur", "Hessenberg", "SymmetricEigen"];
+    let mut list = Vec::new();
+    for (_, (folder, _)) in crates() {
+        texts(&folder.join("src"), &mut list);
+    }
+    texts(Path::new("src"), &mut list);
+    let mut seen = false;
+    for (path, text) in list {
+        if path.ends_with("base/src/dense.rs") {
+            seen = true;
+            continue;
+        }
+        for (number, line) in code(&text).enumerate() {
+            let place = format!("{}:{}", path.display(), number + 1);
+            for method in &methods {
+                assert!(
+                    !line.contains(method.as_str()),
+                    "{place} calls {method}): windlass_base::dense has it, guarded"
+                );
+            }
+            // a name of nalgebra's decompositions comes from the guarded place, or not at all
+            let brought = line.contains("nalgebra::") || line.trim_start().starts_with("use nalgebra");
+            let words = || line.split(|c: char| !c.is_alphanumeric() && c != '_');
+            let found = types.iter().find(|t| brought && words().any(|word| word == **t));
+            assert!(
+                found.is_none(),
+                "{place} brings {} from nalgebra: windlass_base::dense has it, guarded",
+                found.unwrap()
+            );
+        }
+    }
+    assert!(seen, "windlass_base::dense is not where it was");
+}

@@ -5,6 +5,7 @@
 
 use super::extension::Extension;
 use nalgebra::{Matrix2, Vector2};
+use windlass_base::dense::inverse;
 use windlass_base::pose::Six;
 use windlass_catenary::LineError;
 
@@ -112,7 +113,7 @@ pub fn behind(
             break;
         }
         let whole = Matrix2::identity() + now.give * matrix(now.plane.stiffness);
-        let step = whole.try_inverse().map_or(now.rest, |inverse| inverse * now.rest);
+        let step = inverse(whole).map_or(now.rest, |inverse| inverse * now.rest);
         let nearer = (0..HALVINGS).find_map(|halvings| {
             let tried = at(now.at + step * 0.5_f64.powi(halvings as i32)).ok()?;
             (tried.rest.norm() < now.rest.norm()).then_some(tried)
@@ -126,7 +127,7 @@ pub fn behind(
     }
     let (k, give) = (matrix(now.plane.stiffness), now.give);
     let whole = Matrix2::identity() + give * k;
-    let inverse = whole.try_inverse().ok_or(LineError::Unproven { residual: f64::NAN, tension })?;
+    let inverse = inverse(whole).map_err(|_| LineError::Unproven { residual: f64::NAN, tension })?;
     let plane =
         Plane { stiffness: rows(&(k * inverse)), coupling: rows(&(matrix(now.plane.coupling) * inverse)), ..now.plane };
     Ok((plane, now.at.into()))

@@ -5,6 +5,7 @@
 //! exact for a deflection that runs evenly over it (Simo and Hughes, Computational Inelasticity, 10.3).
 
 use nalgebra::{DMatrix, DVector};
+use windlass_base::dense::{Cholesky, never};
 use windlass_model::{Curve, CurveKind};
 
 /// One branch: a spring and a dashpot in line.
@@ -222,8 +223,8 @@ fn unbound(gram: &DMatrix<f64>, pull: &DVector<f64>, free: &[usize]) -> Option<V
     let some = |i: usize| free.get(i).copied().unwrap_or(0);
     let matrix = DMatrix::from_fn(free.len(), free.len(), |i, j| gram[(some(i), some(j))]);
     let right = DVector::from_fn(free.len(), |i, _| pull[some(i)]);
-    let solved = matrix.cholesky()?.solve(&right);
-    solved.iter().all(|v| v.is_finite()).then(|| solved.iter().copied().collect())
+    let solved = Cholesky::new(matrix, &never).and_then(|factor| factor.solve(&right)).ok()?;
+    Some(solved.iter().copied().collect())
 }
 
 #[cfg(test)]

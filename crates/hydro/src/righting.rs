@@ -4,6 +4,7 @@
 
 use super::{Category, Floating};
 use nalgebra::{Matrix2, Vector2, Vector3};
+use windlass_base::dense::{Lu, never};
 use windlass_base::geometry::Place;
 use windlass_base::pose::Pose;
 use windlass_base::units::Dim;
@@ -72,10 +73,9 @@ pub fn balanced(floating: &Floating, from: &Place) -> Result<Balanced, ClassErro
             by_heave.fixed_rows::<3>(3).dot(&across),
             by_trim.fixed_rows::<3>(3).dot(&across),
         );
-        let step =
-            matrix.lu().solve(&Vector2::new(force.z, turn.dot(&across))).filter(|s| s.iter().all(|x| x.is_finite()));
+        let step = Lu::new(matrix, &never).and_then(|lu| lu.solve(&Vector2::new(force.z, turn.dot(&across))));
         // without a waterplane nothing holds it: it rises or sinks by a tenth of what it is
-        let step = step.unwrap_or_else(|| Vector2::new(0.1 * size * force.z.signum(), 0.0));
+        let step = step.unwrap_or_else(|_| Vector2::new(0.1 * size * force.z.signum(), 0.0));
         let cut = (MOST_TURN / step[1].abs()).min(0.5 * size / step[0].abs()).min(1.0);
         place.shift[2] += cut * step[0];
         place.turn[1] += cut * step[1];

@@ -10,7 +10,8 @@ use super::surroundings::World;
 use super::system::Weights;
 use super::trial::{lay, sample, soften};
 use super::workspace::Workspace;
-use nalgebra::{DMatrix, SymmetricEigen, Vector3};
+use nalgebra::{DMatrix, Vector3};
+use windlass_base::dense::{Cholesky, DenseError, SymmetricEigen};
 
 /// Rounds of iteration after which modes are given up.
 const MOST_ROUNDS: usize = 500;
@@ -123,13 +124,16 @@ impl Solver {
                 DMatrix::from_fn(space, space, |i, j| 0.5 * (dot(&vectors[i], &of[j]) + dot(&vectors[j], &of[i])))
             };
             let (k, m) = (small(&held), small(&loaded));
-            let Some(factor) = m.cholesky() else { return Err(refuse("its modes cannot be told apart".to_string())) };
-            let inverse =
-                factor.l().try_inverse().ok_or_else(|| refuse("its modes cannot be told apart".to_string()))?;
-            let eigen = SymmetricEigen::new(&inverse * k * inverse.transpose());
+            let stop = || world.fluid.interrupted();
+            let wrong = |e| match e {
+                DenseError::Interrupted => RodError::Interrupted { rod: rod.name.clone() },
+                _ => refuse("its modes cannot be told apart".to_string()),
+            };
+            let inverse = Cholesky::new(m, &stop).and_then(|factor| factor.inverse_of_lower()).map_err(wrong)?;
+            let eigen = SymmetricEigen::new(&inverse * k * inverse.transpose(), &stop).map_err(wrong)?;
             let mut order: Vec<usize> = (0..space).collect();
-            order.sort_by(|a, b| eigen.eigenvalues[*a].total_cmp(&eigen.eigenvalues[*b]));
-            let turn = inverse.transpose() * &eigen.eigenvectors;
+            order.sort_by(|a, b| eigen.values[*a].total_cmp(&eigen.values[*b]));
+            let turn = inverse.transpose() * &eigen.vectors;
             vectors = order
                 .iter()
                 .map(|j| {
@@ -142,7 +146,7 @@ impl Solver {
                     made
                 })
                 .collect();
-            let values: Vec<f64> = order.iter().map(|j| eigen.eigenvalues[*j]).collect();
+            let values: Vec<f64> = order.iter().map(|j| eigen.values[*j]).collect();
             let change = |(a, b): (&f64, &f64)| (a - b).abs() / (a.abs() + shift);
             let larger = |most: f64, c: f64| if c.is_nan() { f64::INFINITY } else { most.max(c) };
             let worst = values[..count].iter().zip(&found).map(change).fold(0.0, larger);

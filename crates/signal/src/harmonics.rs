@@ -4,6 +4,7 @@ use super::spectra::amplitudes;
 use super::{SeriesError, sampling, timed};
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
+use windlass_base::dense::{Cholesky, never};
 
 /// Most harmonics that are fitted.
 pub const MOST: usize = 50;
@@ -87,9 +88,8 @@ pub fn analyse(
     let time = |row: usize| kept.get(row).map_or(0.0, |(t, _)| *t);
     let matrix = DMatrix::from_fn(rows, columns, |row, column| basis(time(row), column));
     let right = DVector::from_iterator(rows, kept.iter().map(|(_, x)| *x));
-    let normal = matrix.tr_mul(&matrix).cholesky();
-    let solved = normal.map(|factor| factor.solve(&matrix.tr_mul(&right)));
-    let Some(found) = solved.filter(|s| s.iter().all(|v| v.is_finite())) else {
+    let normal = Cholesky::new(matrix.tr_mul(&matrix), &never);
+    let Ok(found) = normal.and_then(|factor| factor.solve(&matrix.tr_mul(&right))) else {
         return Err(SeriesError::Refused("the samples do not tell the harmonics apart".into()));
     };
     let left = &right - &matrix * &found;
@@ -163,7 +163,8 @@ fn sine_misfit(grid: &sampling::Uniform, w: f64) -> f64 {
         right += row * *x;
         squares += x * x;
     }
-    normal.cholesky().map_or(f64::INFINITY, |factor| squares - right.dot(&factor.solve(&right)))
+    let solved = Cholesky::new(normal, &never).and_then(|factor| factor.solve(&right));
+    solved.map_or(f64::INFINITY, |found| squares - right.dot(&found))
 }
 
 #[cfg(test)]

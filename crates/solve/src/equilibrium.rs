@@ -8,6 +8,7 @@ use super::search::Search;
 use super::system::{Contribution, FREEDOMS, SolveError, State, System};
 use super::unknowns::{Unknowns, kept_turns};
 use nalgebra::DMatrix;
+use windlass_base::dense::SymmetricEigen;
 use windlass_base::units::Dim;
 use windlass_model::ClassError;
 
@@ -67,6 +68,9 @@ pub fn equilibrium(system: &System, state: &mut State, options: &Options) -> Res
     let mut best = (f64::INFINITY, state.poses.clone());
     let mut stale = 0;
     for steps in 0..=options.most {
+        if system.is_interrupted() {
+            return Err(SolveError::new(ClassError::new("interrupted").lasting()));
+        }
         // a junction is measured by what pulls at it now
         let unknowns = Unknowns::of(system, state, options, &turns);
         let (worst, at) = unknowns.worst(&unknowns.residual(state), options);
@@ -85,7 +89,7 @@ pub fn equilibrium(system: &System, state: &mut State, options: &Options) -> Res
                 state.poses = best.1;
                 search.evaluate(state)?;
             }
-            let loose = loose(system, &unknowns, state);
+            let loose = loose(system, &unknowns, state)?;
             let measure = unknowns.largest(&unknowns.residual(state));
             return Ok(Equilibrium { steps, evaluations: search.evaluations, measure, loose });
         }
@@ -119,19 +123,15 @@ fn weighed(system: &System, options: &Options) -> Result<(), SolveError> {
 const MILE: f64 = 5000.0;
 
 /// Freedoms along which nothing holds a body.
-fn loose(system: &System, unknowns: &Unknowns, state: &State) -> Vec<(String, String)> {
-    if unknowns.rows.is_empty() {
-        // no matrix has eigenvalues then
-        return Vec::new();
-    }
+fn loose(system: &System, unknowns: &Unknowns, state: &State) -> Result<Vec<(String, String)>, SolveError> {
     let stiffness = unknowns.stiffness(state);
     let root = unknowns.inertia.map(|d| 1.0 / d.sqrt());
     let scaled = DMatrix::from_fn(root.len(), root.len(), |i, j| {
         0.5 * (stiffness[(i, j)] + stiffness[(j, i)]) * root[i] * root[j]
     });
-    let made = scaled.symmetric_eigen();
+    let made = SymmetricEigen::new(scaled, &|| system.is_interrupted()).map_err(|e| unknowns.unfactored(system, e))?;
     let mut found: Vec<usize> = Vec::new();
-    for (value, vector) in made.eigenvalues.iter().zip(made.eigenvectors.column_iter()) {
+    for (value, vector) in made.values.iter().zip(made.vectors.column_iter()) {
         if value.abs() <= LOOSE {
             found.extend(vector.iter().enumerate().filter(|(_, v)| v.abs() > 0.3).map(|(i, _)| i));
         }
@@ -142,7 +142,7 @@ fn loose(system: &System, unknowns: &Unknowns, state: &State) -> Vec<(String, St
         let body = system.nodes.get(unknowns.body(i)).map_or(String::new(), |n| n.name.clone());
         (body, FREEDOMS.get(unknowns.freedom(i)).copied().unwrap_or_default().to_string())
     };
-    found.into_iter().map(name).collect()
+    Ok(found.into_iter().map(name).collect())
 }
 
 /// The error of bodies that do not come to rest.
@@ -168,7 +168,7 @@ fn failure(system: &System, state: &State, unknowns: &Unknowns, at: usize, optio
     let told: Vec<String> = acting.iter().take(3).map(|(_, who)| format!("{who} {{}}")).collect();
     values.extend(acting.iter().take(3).map(|(value, _)| (*value, dim)));
     let told = if told.is_empty() { "nothing acts on it".to_string() } else { told.join(", ") };
-    let mut free = loose(system, unknowns, state);
+    let mut free = loose(system, unknowns, state).unwrap_or_default();
     // nor does what holds so little that the body would go a mile
     let held = unknowns.stiffness(state)[(at, at)];
     if freedom < 3 && left.abs() > held.abs() * MILE {

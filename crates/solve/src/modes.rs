@@ -1,8 +1,9 @@
 //! Small motions about a place: the eigenvalues of the stiffness against the mass, and natural periods.
 
-use super::system::{FREEDOMS, State, System};
-use nalgebra::{Cholesky, DMatrix, DVector};
+use super::system::{FREEDOMS, SolveError, State, System};
+use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
+use windlass_base::dense::{Cholesky, DenseError, Lu, Stop, SymmetricEigen, eigenvalues, least_squares};
 
 /// A small motion of the whole system.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,33 +21,43 @@ pub struct Mode {
 }
 
 /// The modes of the freedoms that move, lowest eigenvalue first. Freedoms of bodies without mass follow the others.
-pub fn modes(system: &System, state: &State) -> Vec<Mode> {
+///
+/// # Errors
+/// A mass or stiffness that is not finite, with its body and degree of freedom; eigenvalues that do not converge; an interrupt.
+pub fn modes(system: &System, state: &State) -> Result<Vec<Mode>, SolveError> {
     modes_with(system, &system.mass_matrix(&state.poses), &state.stiffness)
 }
 
 /// The same of a mass matrix and a stiffness, six a body.
-pub(super) fn modes_with(system: &System, mass: &DMatrix<f64>, stiffness: &DMatrix<f64>) -> Vec<Mode> {
+pub(super) fn modes_with(
+    system: &System,
+    mass: &DMatrix<f64>,
+    stiffness: &DMatrix<f64>,
+) -> Result<Vec<Mode>, SolveError> {
     let free = |i: usize| system.nodes.get(i / 6).and_then(|n| n.free.get(i % 6)).copied().unwrap_or(false);
     let rows: Vec<usize> = (0..mass.nrows()).filter(|i| free(*i)).collect();
     let (heavy, light): (Vec<usize>, Vec<usize>) = rows.iter().partition(|i| mass[(**i, **i)] > 0.0);
     if heavy.is_empty() {
-        return Vec::new();
+        return Ok(Vec::new());
     }
+    let stop = || system.is_interrupted();
     let part = |m: &DMatrix<f64>, r: &[usize], c: &[usize]| m.select_rows(r).select_columns(c);
     let mut k = part(stiffness, &heavy, &heavy);
-    let mut follow = DMatrix::zeros(light.len(), heavy.len());
-    if !light.is_empty()
-        && let Some(solved) = held(part(stiffness, &light, &light), &part(stiffness, &light, &heavy))
-    {
-        k -= part(stiffness, &heavy, &light) * &solved;
-        follow = -solved;
-    }
+    let solved = held(part(stiffness, &light, &light), &part(stiffness, &light, &heavy), &stop);
+    let solved = solved.map_err(|e| system.unfactored("stiffness", &light, e))?;
+    k -= part(stiffness, &heavy, &light) * &solved;
+    let follow = -solved;
     // weights without radii of gyration make a mass without inertia about some axis
     let mut m = part(mass, &heavy, &heavy);
     let tiny = m.diagonal().amax() * 1e-12;
     m.iter_mut().step_by(heavy.len() + 1).for_each(|d| *d += tiny);
-    let Some(root) = Cholesky::new(m).and_then(|c| c.l().try_inverse()) else { return Vec::new() };
-    let pairs = pairs(&(&root * k * root.transpose()));
+    let root = match Cholesky::new(m, &stop).and_then(|c| c.inverse_of_lower()) {
+        Ok(root) => root,
+        // added mass may take away more than there is
+        Err(DenseError::NotPositive | DenseError::Singular) => return Ok(Vec::new()),
+        Err(error) => return Err(system.unfactored("mass", &heavy, error)),
+    };
+    let pairs = pairs(&(&root * k * root.transpose()), &stop).map_err(|e| system.unfactored("stiffness", &heavy, e))?;
     let mode = |(eigenvalue, beside, vector): (f64, f64, DVector<f64>)| {
         let heavy_part = root.transpose() * vector;
         let light_part = &follow * &heavy_part;
@@ -70,16 +81,13 @@ pub(super) fn modes_with(system: &System, mass: &DMatrix<f64>, stiffness: &DMatr
             shape,
         }
     };
-    pairs.into_iter().map(mode).collect()
+    Ok(pairs.into_iter().map(mode).collect())
 }
 
-/// What solves `k x = right` with as little motion as can be: what nothing holds does not move. `None` of numbers that are none.
-pub(super) fn held(k: DMatrix<f64>, right: &DMatrix<f64>) -> Option<DMatrix<f64>> {
-    if !k.iter().chain(right.iter()).all(|v| v.is_finite()) {
-        return None;
-    }
-    let size = k.amax();
-    k.svd(true, true).solve(right, 1e-12 * size).ok()
+/// What solves `k x = right` with as little motion as can be: what nothing holds does not move.
+pub(super) fn held(k: DMatrix<f64>, right: &DMatrix<f64>, stop: Stop) -> Result<DMatrix<f64>, DenseError> {
+    let size = k.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+    least_squares(k, right, 1e-12 * size, stop)
 }
 
 /// Share of its largest element by which a matrix may differ from its transpose and be taken for symmetric.
@@ -87,32 +95,34 @@ const SYMMETRIC: f64 = 1e-7;
 
 /// Eigenvalues of a matrix, real and imaginary parts, with vectors, lowest first. Forces without an energy (a pin in a cone of
 /// unlike springs, friction, tables) make it unsymmetric.
-fn pairs(matrix: &DMatrix<f64>) -> Vec<(f64, f64, DVector<f64>)> {
+fn pairs(matrix: &DMatrix<f64>, stop: Stop) -> Result<Vec<(f64, f64, DVector<f64>)>, DenseError> {
     let size = matrix.amax();
     let mut list: Vec<(f64, f64, DVector<f64>)> = if (matrix - matrix.transpose()).amax() <= SYMMETRIC * size {
-        let eigen = ((matrix + matrix.transpose()) * 0.5).symmetric_eigen();
-        let vectors = eigen.eigenvectors.column_iter().map(|c| c.into_owned());
-        eigen.eigenvalues.iter().zip(vectors).map(|(value, vector)| (*value, 0.0, vector)).collect()
+        let eigen = SymmetricEigen::new((matrix + matrix.transpose()) * 0.5, stop)?;
+        let vectors = eigen.vectors.column_iter().map(|c| c.into_owned());
+        eigen.values.iter().zip(vectors).map(|(value, vector)| (*value, 0.0, vector)).collect()
     } else {
-        matrix.complex_eigenvalues().iter().map(|value| (value.re, value.im, vector(matrix, value.re))).collect()
+        let values = eigenvalues(matrix.clone(), stop)?;
+        let one = |value: nalgebra::Complex<f64>| Ok((value.re, value.im, vector(matrix, value.re, stop)?));
+        values.into_iter().map(one).collect::<Result<_, DenseError>>()?
     };
     list.sort_by(|a, b| a.0.total_cmp(&b.0));
-    list
+    Ok(list)
 }
 
 /// The vector of an eigenvalue, by inverse iteration from beside it.
-fn vector(matrix: &DMatrix<f64>, value: f64) -> DVector<f64> {
+fn vector(matrix: &DMatrix<f64>, value: f64, stop: Stop) -> Result<DVector<f64>, DenseError> {
     let size = matrix.amax().max(f64::MIN_POSITIVE);
     let mut shifted = matrix.clone();
     shifted.iter_mut().step_by(matrix.nrows() + 1).for_each(|d| *d -= value + 1e-10 * size);
-    let solver = shifted.lu();
+    let solver = Lu::new(shifted, stop)?;
     // no eigenvector is at right angles to all of these numbers
     let mut vector = DVector::from_fn(matrix.nrows(), |i, _| 1.0 + 0.37 * i as f64);
     for _ in 0..3 {
-        match solver.solve(&vector).filter(|v| v.iter().all(|x| x.is_finite())) {
-            Some(next) if next.norm() > 0.0 => vector = next.normalize(),
+        match solver.solve(&vector) {
+            Ok(next) if next.norm() > 0.0 => vector = next.normalize(),
             _ => break,
         }
     }
-    vector
+    Ok(vector)
 }

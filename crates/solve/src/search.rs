@@ -7,7 +7,8 @@
 use super::equilibrium::{LOOSE, Options};
 use super::system::{SolveError, State, System};
 use super::unknowns::Unknowns;
-use nalgebra::{Cholesky, DMatrix, DVector};
+use nalgebra::{DMatrix, DVector};
+use windlass_base::dense::{Cholesky, DenseError, Lu, Stop};
 use windlass_base::pose::Pose;
 
 /// Bold steps that may lead nowhere better.
@@ -66,7 +67,9 @@ impl<'a> Search<'a> {
 
     fn step(&mut self, unknowns: &Unknowns, state: &mut State, worst: f64) -> Result<(), SolveError> {
         let residual = unknowns.residual(state);
-        let (step, needed) = direction(unknowns, &unknowns.stiffness(state), &residual, self.help);
+        let stop = || self.system.is_interrupted();
+        let made = direction(unknowns, &unknowns.stiffness(state), &residual, self.help, &stop);
+        let (step, needed) = made.map_err(|e| unknowns.unfactored(self.system, e))?;
         let work = residual.dot(&step).abs();
         let from = state.poses.clone();
         let longest = unknowns.limit(&step);
@@ -130,7 +133,13 @@ impl<'a> Search<'a> {
 }
 
 /// The step, and the share of the inertia (1/s2) that had to be added to the stiffness to hold the bodies.
-fn direction(unknowns: &Unknowns, stiffness: &DMatrix<f64>, residual: &DVector<f64>, help: f64) -> (DVector<f64>, f64) {
+fn direction(
+    unknowns: &Unknowns,
+    stiffness: &DMatrix<f64>,
+    residual: &DVector<f64>,
+    help: f64,
+    stop: Stop,
+) -> Result<(DVector<f64>, f64), DenseError> {
     let root = unknowns.inertia.map(|d| 1.0 / d.sqrt());
     let scaled = DMatrix::from_fn(root.len(), root.len(), |i, j| stiffness[(i, j)] * root[i] * root[j]);
     let symmetric = (&scaled + scaled.transpose()) * 0.5;
@@ -138,11 +147,11 @@ fn direction(unknowns: &Unknowns, stiffness: &DMatrix<f64>, residual: &DVector<f
     let right = residual.component_mul(&root);
     // forces without an energy: what their stiffness does is not told by its symmetric part
     if help == 0.0 && (&scaled - scaled.transpose()).amax() > 1e-6 * size {
-        let solved = scaled.clone().lu().solve(&right).filter(|s| s.iter().all(|v| v.is_finite()));
+        let solved = Lu::new(scaled.clone(), stop)?.solve(&right).ok();
         if let Some(step) = solved.filter(|s| s.dot(&right) > 0.0).map(|s| s.component_mul(&root))
             && unknowns.limit(&step) >= 1.0
         {
-            return (step, 0.0);
+            return Ok((step, 0.0));
         }
     }
     let mut needed = help;
@@ -150,14 +159,16 @@ fn direction(unknowns: &Unknowns, stiffness: &DMatrix<f64>, residual: &DVector<f
     loop {
         let mut held = symmetric.clone();
         held.iter_mut().step_by(root.len() + 1).for_each(|d| *d += needed - LOOSE);
-        if Cholesky::new(held).is_some() || needed > 1e3 * size {
-            break;
+        match Cholesky::new(held, stop) {
+            Err(DenseError::NotPositive) if needed <= 1e3 * size => {}
+            Ok(_) | Err(DenseError::NotPositive) => break,
+            Err(error) => return Err(error),
         }
         needed = needed.max(next);
         next = 10.0 * needed;
     }
     let mut held = scaled;
     held.iter_mut().step_by(root.len() + 1).for_each(|d| *d += needed);
-    let solved = held.lu().solve(&right).filter(|s| s.iter().all(|v| v.is_finite()));
-    (solved.unwrap_or(right).component_mul(&root), needed)
+    let solved = Lu::new(held, stop)?.solve(&right);
+    Ok((solved.unwrap_or(right).component_mul(&root), needed))
 }

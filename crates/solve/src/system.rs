@@ -5,6 +5,7 @@ use super::modes::held;
 use super::time::{Duties, Prescribed, prescribed};
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6};
 use std::sync::Arc;
+use windlass_base::dense::DenseError;
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
 use windlass_hydro::sea::Sea;
@@ -302,7 +303,10 @@ impl System {
 
     /// The stiffness of one body in an evaluated state: other bodies held, junctions following to where nothing is left on
     /// them (N/m, N, N m/rad; about its origin, global axes).
-    pub fn followed_stiffness(&self, state: &State, body: usize) -> Matrix6<f64> {
+    ///
+    /// # Errors
+    /// A stiffness that is not finite; an interrupt.
+    pub fn followed_stiffness(&self, state: &State, body: usize) -> Result<Matrix6<f64>, SolveError> {
         let own: Vec<usize> = (6 * body..6 * body + 6).collect();
         let junctions = self.nodes.iter().enumerate().filter(|(index, n)| n.junction && *index != body);
         let follow: Vec<usize> = junctions
@@ -310,12 +314,28 @@ impl System {
             .collect();
         let part = |r: &[usize], c: &[usize]| state.stiffness.select_rows(r).select_columns(c);
         let mut made = part(&own, &own);
-        if !follow.is_empty()
-            && let Some(moved) = held(part(&follow, &follow), &part(&follow, &own))
-        {
-            made -= part(&own, &follow) * moved;
+        let moved = held(part(&follow, &follow), &part(&follow, &own), &|| self.is_interrupted());
+        made -= part(&own, &follow) * moved.map_err(|e| self.unfactored("stiffness", &follow, e))?;
+        Ok(made.fixed_view::<6, 6>(0, 0).into_owned())
+    }
+
+    /// Whether whoever waits for a solution wants none any more.
+    pub(super) fn is_interrupted(&self) -> bool {
+        self.ambient.interrupted()
+    }
+
+    /// The error of a matrix that has no factors, each of whose rows belongs to a degree of freedom, six a body.
+    pub(super) fn unfactored(&self, what: &str, rows: &[usize], error: DenseError) -> SolveError {
+        match error {
+            DenseError::NotFinite { row, .. } => {
+                let at = rows.get(row).copied().unwrap_or(0);
+                let name = self.nodes.get(at / 6).map(|n| n.name.clone());
+                let freedom = FREEDOMS.get(at % 6).copied().unwrap_or_default();
+                SolveError { who: name, error: ClassError::new(format!("the {what} in {freedom} is not finite")) }
+            }
+            DenseError::Interrupted => SolveError::new(ClassError::new("interrupted").lasting()),
+            other => SolveError::new(ClassError::new(format!("the {what} has no factors: {other}"))),
         }
-        made.fixed_view::<6, 6>(0, 0).into_owned()
     }
 
     /// Whether a connector was made for the place of its ends, so that the system is to be made anew where it comes to rest.

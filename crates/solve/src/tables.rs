@@ -127,14 +127,17 @@ fn wrench_row(body: &str, what: &str, wrench: &Six) -> Vec<Cell> {
 }
 
 /// Eigenvalues of the stiffness against the mass, and natural periods.
-pub fn periods(system: &System, state: &State) -> Table {
+///
+/// # Errors
+/// As [`modes`].
+pub fn periods(system: &System, state: &State) -> Result<Table, SolveError> {
     let mut table = Table::new("Natural Periods")
         .column("", "Mode", Dim::None, Digits::Usual)
         .column("", "Eigenvalue", Dim::None, Digits::Scientific(5))
         .column("", "Period", Dim::Time, Digits::Usual)
         .column("Moves Most", "Body", Dim::None, Digits::Usual)
         .column("Moves Most", "Freedom", Dim::None, Digits::Usual);
-    for (index, mode) in modes(system, state).into_iter().enumerate() {
+    for (index, mode) in modes(system, state)?.into_iter().enumerate() {
         // a period of 17 hours holds nothing
         let held = mode.eigenvalue.abs() > 1e-8;
         let period = mode.period.filter(|_| held);
@@ -164,7 +167,7 @@ pub fn periods(system: &System, state: &State) -> Table {
     table.note(
         "eigenvalues in rad2/s2, of the stiffness against mass and the added mass of #AMASS and members; undamped",
     );
-    table
+    Ok(table)
 }
 
 /// Connectors of a stiffness report.
@@ -201,7 +204,7 @@ pub fn stiffnesses(
             let wrench = own().fold(Six::zeros(), |sum, c| sum + c.load.wrench);
             let left_out = own().filter(|c| c.connector.as_deref().is_some_and(|name| (connectors.left_out)(name)));
             let mut names: Vec<&str> = Vec::new();
-            let mut followed = system.followed_stiffness(state, body);
+            let mut followed = system.followed_stiffness(state, body)?;
             for c in left_out {
                 followed -= c.load.stiffness;
                 names.extend(c.connector.as_deref());

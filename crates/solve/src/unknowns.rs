@@ -1,8 +1,9 @@
 //! The unknowns of an equilibrium: freedoms that move, what they weigh, and how a step in them moves the bodies.
 
 use super::equilibrium::Options;
-use super::system::{Node, State, System};
+use super::system::{Node, SolveError, State, System};
 use nalgebra::{DMatrix, DVector};
+use windlass_base::dense::DenseError;
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
 
@@ -93,6 +94,12 @@ impl<'a> Unknowns<'a> {
 
     pub fn body(&self, unknown: usize) -> usize {
         self.rows.get(unknown).map_or(0, |[(r, _), _]| r / 6)
+    }
+
+    /// The error of a stiffness that has no factors.
+    pub fn unfactored(&self, system: &System, error: DenseError) -> SolveError {
+        let rows: Vec<usize> = self.rows.iter().map(|[(row, _), _]| *row).collect();
+        system.unfactored("stiffness", &rows, error)
     }
 
     /// The share of a step that stays within the longest.

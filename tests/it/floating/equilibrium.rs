@@ -49,7 +49,7 @@ fn a_weight_on_a_spring_hangs_below_it_stretched_by_its_weight() {
 fn its_periods_are_those_of_a_spring_and_of_a_double_pendulum() {
     let mut model = model(HUNG, &[("LOAD", [0.0, 0.0, 0.0], 1e5, [1.0, 1.0, 1.0])]);
     let found = settle(&mut model, &Options::default()).unwrap();
-    let list = modes(&found.system, &found.state);
+    let list = modes(&found.system, &found.state).unwrap();
     let ea = 29000.0 * 6894757.293168361 * std::f64::consts::FRAC_PI_4 * 0.05 * 0.05;
     let (g, m) = (9.80665, 1e5 / 9.80665);
     let heave = ea / 10.0 / m;
@@ -63,6 +63,36 @@ fn its_periods_are_those_of_a_spring_and_of_a_double_pendulum() {
     {
         assert!((list[index].eigenvalue / want - 1.0).abs() < 1e-6, "{index} {want} {list:?}");
     }
+}
+
+#[test]
+fn damaged_stiffness_has_no_modes_and_names_its_place() {
+    let mut model = model(HUNG, &[("LOAD", [0.0, 0.0, 0.0], 1e5, [1.0, 1.0, 1.0])]);
+    let mut found = settle(&mut model, &Options::default()).unwrap();
+    for value in [f64::NAN, f64::INFINITY] {
+        for (row, column) in [(3, 3), (3, 5), (3, 0)] {
+            let mut damaged = found.state.stiffness.clone();
+            damaged[(row, column)] = value;
+            std::mem::swap(&mut found.state.stiffness, &mut damaged);
+            let error = modes(&found.system, &found.state).unwrap_err();
+            std::mem::swap(&mut found.state.stiffness, &mut damaged);
+            assert_eq!(error.who.as_deref(), Some("LOAD"));
+            assert!(error.error.message.contains("is not finite"), "{error:?}");
+        }
+    }
+    // the largest that a file or record may hold still has modes, or an error
+    let largest = found.state.stiffness.clone() * 1e36;
+    found.state.stiffness = largest;
+    let list = modes(&found.system, &found.state).unwrap();
+    assert!(list.iter().all(|m| m.eigenvalue.is_finite()));
+}
+
+#[test]
+fn interrupted_equilibrium_ends_with_its_error() {
+    let mut model = model(HUNG, &[("LOAD", [0.0, 0.0, 0.0], 1e5, [1.0, 1.0, 1.0])]);
+    model.interrupt.store(true, std::sync::atomic::Ordering::Relaxed);
+    let error = settle(&mut model, &Options::default()).unwrap_err();
+    assert_eq!(error.error.message, "interrupted");
 }
 
 #[test]
@@ -117,7 +147,7 @@ fn the_stiffness_of_a_body_whose_junctions_follow_is_the_difference_of_its_force
     let buoy = model.bodies.get_index_of("BUOY").unwrap();
     let held = Options { ignored: (0..6).map(|f| (buoy, f)).collect(), ..Options::default() };
     let rest = settle(&mut model, &Options::default()).unwrap();
-    let got = rest.system.followed_stiffness(&rest.state, buoy);
+    let got = rest.system.followed_stiffness(&rest.state, buoy).unwrap();
     let start = rest.state.poses.clone();
     for column in 0..6 {
         let sides = [1.0, -1.0].map(|sign| {

@@ -110,7 +110,7 @@ fn an_oscillator_moves_with_amplitude_and_lag_of_its_closed_form() {
 fn natural_periods_and_damping_ratios_are_those_of_oscillators() {
     let mut model = model("#DAMP *C 50 0 90 0 0 0\n", "");
     attach(&mut model, DriftMethod::None);
-    let modes = natural(&Linear::of(&model).unwrap());
+    let modes = natural(&Linear::of(&model).unwrap()).unwrap();
     for (mode, (stiffness, damping)) in modes.iter().zip([(3e5, 5e4 + RADIATED), (8e5, 9e4 + RADIATED)]) {
         let w = f64::sqrt(stiffness / (1e6 + ADDED));
         assert!((mode.mode.period.unwrap() * w / TAU - 1.0).abs() < 1e-9 && mode.settled);

@@ -1,7 +1,8 @@
 //! Natural modes of a line.
 
 use super::mesh::told;
-use nalgebra::{Matrix2, SymmetricEigen, Vector2, Vector3};
+use nalgebra::{Matrix2, Vector2, Vector3};
+use windlass_base::dense::{DenseError, SymmetricEigen, never};
 use windlass_line_dynamics::{End, Mode, Rod, RodError, Solver, State, World};
 use windlass_model::{ClassError, LineMode};
 
@@ -83,18 +84,19 @@ pub(super) fn of(
 
 /// Makes of two modes of one frequency one with the least motion in a direction, and one with the least beside it.
 fn set_apart(a: &mut Mode, b: &mut Mode, across: &Vector3<f64>) {
-    let least = |part: &dyn Fn(&Vector3<f64>, &Vector3<f64>) -> f64| -> Vector2<f64> {
+    let least = |part: &dyn Fn(&Vector3<f64>, &Vector3<f64>) -> f64| -> Result<Vector2<f64>, DenseError> {
         let mut sums = Matrix2::zeros();
         for (p, q) in a.shape.iter().zip(&b.shape) {
             let mixed = part(p, q);
             sums += Matrix2::new(part(p, p), mixed, mixed, part(q, q));
         }
-        let eigen = SymmetricEigen::new(sums);
-        let which = if eigen.eigenvalues[0] <= eigen.eigenvalues[1] { 0 } else { 1 };
-        eigen.eigenvectors.column(which).into_owned()
+        let eigen = SymmetricEigen::new(sums, &never)?;
+        let which = if eigen.values[0] <= eigen.values[1] { 0 } else { 1 };
+        Ok(eigen.vectors.column(which).into_owned())
     };
     let within = least(&|p, q| p.dot(across) * q.dot(across));
     let beside = least(&|p, q| p.dot(q) - p.dot(across) * q.dot(across));
+    let (Ok(within), Ok(beside)) = (within, beside) else { return };
     // the same twice: neither direction tells them apart, as of two along the line
     if (within[0] * beside[1] - within[1] * beside[0]).abs() < 1e-3 {
         return;

@@ -3,6 +3,7 @@
 use super::rows::DatabaseError;
 use nalgebra::Matrix6;
 use std::f64::consts::TAU;
+use windlass_base::units::Dim;
 use windlass_model::{Amplitudes, Database};
 
 /// Asymmetry of added mass or damping, over the geometric mean of the diagonal, that is said.
@@ -45,15 +46,8 @@ pub(super) fn checked(mut data: Database) -> Result<Database, DatabaseError> {
     if !whole {
         return wrong("its tables are of unlike size".into());
     }
-    let single = data.infinite.iter().chain(&data.zero).chain(&data.hydrostatics);
-    let matrices = data.added_mass.iter().chain(&data.damping).chain(single);
-    let mut amplitudes = data.excitation.iter().chain(data.motions.iter().flatten()).flatten().flatten();
-    let finite = matrices.into_iter().all(|m| m.iter().all(|v| v.is_finite()))
-        && amplitudes.all(|x| x.re.is_finite() && x.im.is_finite())
-        && data.reference.iter().all(|v| v.is_finite())
-        && data.drift.iter().all(|d| d.values.iter().flatten().flatten().all(|v| v.is_finite()));
-    if !finite {
-        return wrong("it holds values that are no finite numbers".into());
+    if let Some(what) = damaged(&data) {
+        return wrong(format!("{what} is not finite, or larger than {:E}", Dim::None.most()));
     }
     if !(data.density > 0.0 && data.density.is_finite() && data.gravity > 0.0 && data.gravity.is_finite()) {
         return wrong("its density and gravity are not greater than zero".into());
@@ -69,6 +63,40 @@ pub(super) fn checked(mut data: Database) -> Result<Database, DatabaseError> {
     .collect();
     data.remarks.extend(remarks);
     Ok(data)
+}
+
+/// The first value that is not finite or too large to be reckoned with, in words.
+fn damaged(data: &Database) -> Option<String> {
+    let bad = |v: &f64| v.is_nan() || v.abs() > Dim::None.most();
+    let name = |i: usize| MODES.get(i).copied().unwrap_or_default();
+    let entry = |m: &Matrix6<f64>| m.iter().position(bad).map(|at| format!("{}-{}", name(at % 6), name(at / 6)));
+    let by_frequency = |what: &str, list: &[Matrix6<f64>]| {
+        let found = list.iter().zip(&data.frequencies).find_map(|(m, w)| entry(m).map(|place| (place, *w)));
+        found.map(|(place, w)| format!("{what} {place} at {w:.4} rad/s"))
+    };
+    let single = |what: &str, m: &Option<Matrix6<f64>>| Some(format!("{what} {}", entry(m.as_ref()?)?));
+    let by_wave = |what: &str, table: &[Vec<Amplitudes>]| {
+        let waves = table
+            .iter()
+            .zip(&data.headings)
+            .flat_map(|(row, h)| row.iter().zip(&data.frequencies).map(move |(a, w)| (a, h, w)));
+        let one = |a: &Amplitudes| a.iter().position(|x| bad(&x.re) || bad(&x.im));
+        let found = waves.into_iter().find_map(|(a, h, w)| one(a).map(|mode| (mode, *h, *w)));
+        found
+            .map(|(mode, h, w)| format!("{what} {} at {w:.4} rad/s, heading {:.1} degrees", name(mode), h.to_degrees()))
+    };
+    by_frequency("added mass", &data.added_mass)
+        .or_else(|| by_frequency("damping", &data.damping))
+        .or_else(|| single("added mass at infinite frequency", &data.infinite))
+        .or_else(|| single("added mass at zero frequency", &data.zero))
+        .or_else(|| single("hydrostatic stiffness", &data.hydrostatics))
+        .or_else(|| by_wave("excitation", &data.excitation))
+        .or_else(|| by_wave("motion", data.motions.as_deref().unwrap_or_default()))
+        .or_else(|| data.reference.iter().any(bad).then(|| "the point of reference".to_string()))
+        .or_else(|| {
+            let mut drift = data.drift.iter().flat_map(|d| d.values.iter().flatten().flatten());
+            drift.any(bad).then(|| "a coefficient of drift".to_string())
+        })
 }
 
 /// The worst asymmetry of matrices, where it is to be said.

@@ -2,6 +2,7 @@
 
 use nalgebra::Complex;
 use std::f64::consts::TAU;
+use windlass_base::units::Dim;
 use windlass_model::Amplitudes;
 
 /// Why a source makes no database.
@@ -74,7 +75,11 @@ impl SourceFile {
                 Err(word) => {
                     let shown = line.split(separates).filter(|w| !w.is_empty()).nth(word).unwrap_or_default();
                     let shown: String = shown.chars().take(24).filter(|c| !c.is_control()).collect();
-                    return Err(self.wrong_at(number, format!("`{shown}` is no finite number")));
+                    let why = match parsed(&shown).filter(|v| v.is_finite()) {
+                        Some(_) => format!("`{shown}` is too large: the largest size taken is {:E}", Dim::None.most()),
+                        None => format!("`{shown}` is no finite number"),
+                    };
+                    return Err(self.wrong_at(number, why));
                 }
             }
         }
@@ -110,10 +115,14 @@ pub(super) fn separates(c: char) -> bool {
     c.is_whitespace() || c == ',' || c == ';'
 }
 
-/// A finite number as Fortran, too, writes it.
+/// A number as Fortran, too, writes it.
+fn parsed(word: &str) -> Option<f64> {
+    word.parse().or_else(|_| word.replace(['d', 'D'], "e").parse()).ok()
+}
+
+/// The same, where it is one that can be reckoned with.
 pub(super) fn number(word: &str) -> Option<f64> {
-    let value: f64 = word.parse().or_else(|_| word.replace(['d', 'D'], "e").parse()).ok()?;
-    value.is_finite().then_some(value)
+    parsed(word).filter(|value| value.abs() <= Dim::None.most())
 }
 
 /// The numbers of a line, up to sixteen; else which word is none.

@@ -226,6 +226,48 @@ fn a_file_that_is_not_whole_says_what_it_lacks() {
 }
 
 #[test]
+fn damaged_number_of_each_format_is_refused_with_its_place() {
+    // NetCDF 3 holds its doubles as they are, the largest byte first
+    let sound = bytes("classic.nc");
+    let data = capytaine::read("classic.nc", &sound, None).unwrap();
+    let (frequency, heave) = (data.frequencies[2], data.added_mass[2][(2, 2)]);
+    let at = sound.windows(8).position(|w| w == heave.to_be_bytes()).unwrap();
+    for value in [f64::NAN, f64::INFINITY, 1e300, 1e155, -1.1e36] {
+        let mut damaged = sound.clone();
+        damaged[at..at + 8].copy_from_slice(&value.to_be_bytes());
+        let error = capytaine::read("classic.nc", &damaged, None).unwrap_err().to_string();
+        assert!(
+            error.contains(&format!("added mass Z-Z at {frequency:.4} rad/s is not finite, or larger than 1E36")),
+            "{error}"
+        );
+    }
+    for word in ["NaN", "1E300", "1E155", "-1.1E36", "1E999"] {
+        let damaged = |name: &str, line: usize, column: usize| {
+            let text = file(name).text;
+            let changed = text.lines().enumerate().map(|(i, l)| {
+                let mut words: Vec<&str> = l.split_whitespace().collect();
+                if i + 1 == line {
+                    words[column] = word;
+                }
+                words.join(" ")
+            });
+            SourceFile { name: name.into(), text: changed.collect::<Vec<_>>().join("\n") }
+        };
+        let error = wamit::read("wamit", &[damaged("wamit.1", 87, 3)], &scale(1.0)).unwrap_err().to_string();
+        assert!(error.starts_with(&format!("wamit.1, line 87: `{word}` is ")), "{error}");
+        let error =
+            wamit::read("wamit", &[file("wamit.1"), damaged("wamit.3", 20, 5)], &scale(1.0)).unwrap_err().to_string();
+        assert!(error.starts_with(&format!("wamit.3, line 20: `{word}` is ")), "{error}");
+        for (index, line, column) in [(1, 12, 1), (2, 12, 1), (3, 3, 2)] {
+            let mut files = nemoh_files();
+            files[index] = damaged(&files[index].name, line, column);
+            let error = nemoh::read("nemoh", &files, None).unwrap_err().to_string();
+            assert!(error.contains(&format!("line {line}: ")), "{index} {word}: {error}");
+        }
+    }
+}
+
+#[test]
 fn what_looks_wrong_is_said() {
     let rows = "8 1 1 1 1\n8 5 5 1 1\n8 1 5 1 0\n8 5 1 0.5 0\n6 1 1 1 -0.5\n6 5 5 1 1\n6 1 5 1 0\n6 5 1 1 0\n";
     let three = "8 0 1 1 0 1 0\n6 0 1 1 0 1 0\n8 120 1 1 0 1 0\n6 120 1 1 0 1 0\n";

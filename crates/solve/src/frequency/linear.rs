@@ -5,6 +5,7 @@ use crate::system::{FREEDOMS, SolveError, State, System, mass_block};
 use crate::time::{Duties, Forces, Memory, Motion};
 use nalgebra::{Complex, DMatrix, DVector, Matrix6};
 use std::f64::consts::TAU;
+use windlass_base::dense::{DenseError, Lu, SymmetricEigen, never};
 use windlass_base::pose::{Pose, Six};
 use windlass_base::units::Dim;
 use windlass_hydro::database::radiation::Radiation;
@@ -143,7 +144,7 @@ impl Linear {
         }
         for (index, node) in self.system.nodes.iter().enumerate() {
             let own = self.damping.fixed_view::<6, 6>(6 * index, 6 * index).into_owned();
-            let least = (own + own.transpose()).symmetric_eigenvalues().min();
+            let least = SymmetricEigen::new(own + own.transpose(), &never).map_or(0.0, |e| e.values.min());
             if least < -1e-9 * own.amax() {
                 self.notes.push(format!("warning: {} has a damping that is negative in some motion", node.name));
             }
@@ -262,7 +263,11 @@ impl Linear {
         let scaled = DMatrix::from_fn(size, size, |i, j| {
             Complex::new(real[(i, j)], -frequency * damping[(i, j)]) * (at(i) * at(j))
         });
-        let inverse = scaled.lu().try_inverse().filter(|m| m.iter().all(|v| v.re.is_finite() && v.im.is_finite()));
+        let inverse = match Lu::new(scaled, &|| self.system.is_interrupted()).and_then(|lu| lu.inverse()) {
+            Ok(inverse) => Some(inverse),
+            Err(DenseError::Singular) => None,
+            Err(error) => return Err(self.system.unfactored("dynamic stiffness", &self.heavy, error)),
+        };
         let worst = |m: &DMatrix<Complex<f64>>| {
             let largest = |i: usize| m.row(i).iter().fold(0.0, |most: f64, v| most.max(v.norm()));
             (0..size).map(|i| (largest(i), i)).fold((0.0, 0), |a, b| if b.0 > a.0 { b } else { a })
@@ -355,9 +360,8 @@ fn followed(system: &System, state: &State) -> Result<(Vec<usize>, DMatrix<f64>)
     }
     let part = |r: &[usize], c: &[usize]| state.stiffness.select_rows(r).select_columns(c);
     if !light.is_empty() {
-        let solved = held(part(&light, &light), &part(&light, &heavy));
-        let text = "freedoms without mass have no stiffness there";
-        let solved = solved.ok_or_else(|| SolveError::new(ClassError::new(text)))?;
+        let solved = held(part(&light, &light), &part(&light, &heavy), &|| system.is_interrupted());
+        let solved = solved.map_err(|e| system.unfactored("stiffness", &light, e))?;
         for (from, row) in light.iter().enumerate() {
             follow.row_mut(*row).copy_from(&-solved.row(from));
         }

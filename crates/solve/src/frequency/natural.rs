@@ -2,6 +2,7 @@
 
 use super::linear::Linear;
 use crate::modes::{Mode, modes_with};
+use crate::system::SolveError;
 use nalgebra::DVector;
 
 /// Times a mode's frequency is found again.
@@ -24,14 +25,17 @@ pub struct Natural {
 }
 
 /// The modes of a system about its place, lowest eigenvalue first as found with added mass at infinite frequency.
-pub fn natural(linear: &Linear) -> Vec<Natural> {
+///
+/// # Errors
+/// As [`crate::modes`].
+pub fn natural(linear: &Linear) -> Result<Vec<Natural>, SolveError> {
     let stiffness = &linear.stiffness;
-    let start = modes_with(&linear.system, &linear.system.mass_matrix(&linear.poses), stiffness);
+    let start = modes_with(&linear.system, &linear.system.mass_matrix(&linear.poses), stiffness)?;
     let floats = linear.floats.iter().any(Option::is_some);
     start.into_iter().map(|mode| own(linear, mode, floats)).collect()
 }
 
-fn own(linear: &Linear, mut mode: Mode, floats: bool) -> Natural {
+fn own(linear: &Linear, mut mode: Mode, floats: bool) -> Result<Natural, SolveError> {
     let frequency = |mode: &Mode| mode.eigenvalue.max(0.0).sqrt();
     let mut settled = !floats;
     for _ in 0..MOST {
@@ -40,7 +44,7 @@ fn own(linear: &Linear, mut mode: Mode, floats: bool) -> Natural {
         }
         let w = frequency(&mode);
         let (mass, _) = linear.inertia_and_damping(w);
-        let list = modes_with(&linear.system, &mass, &linear.stiffness);
+        let list = modes_with(&linear.system, &mass, &linear.stiffness)?;
         // the one most alike in shape, with translations and rotations weighed by their inertia
         let weigh = |i: usize| mass[(i, i)].max(0.0);
         let product = |a: &DVector<f64>, b: &DVector<f64>| -> f64 {
@@ -61,5 +65,5 @@ fn own(linear: &Linear, mut mode: Mode, floats: bool) -> Natural {
         let of = |m: &nalgebra::DMatrix<f64>| mode.shape.dot(&(m * &mode.shape));
         of(&damping) / (2.0 * w * of(&mass))
     });
-    Natural { mode, damping: damping.filter(|d| d.is_finite()), settled }
+    Ok(Natural { mode, damping: damping.filter(|d| d.is_finite()), settled })
 }

@@ -62,7 +62,7 @@ pub struct Asked {
 /// A heading in a gap of a database, a motion without bound, a linearisation that does not settle.
 pub fn respond(linear: &mut Linear, trains: &Trains, asked: &Asked) -> Result<Response, SolveError> {
     // the same points in every round
-    let resonant = resonances(linear);
+    let resonant = resonances(linear)?;
     let mut made = within(linear, trains, asked, &resonant)?;
     if asked.spectral {
         made.rounds = linearise::settle(linear, &mut made, |l| within(l, trains, asked, &resonant))?;
@@ -75,13 +75,13 @@ pub fn respond(linear: &mut Linear, trains: &Trains, asked: &Asked) -> Result<Re
 /// # Errors
 /// As [`respond`].
 pub fn in_sea(linear: &Linear, trains: &Trains, asked: &Asked) -> Result<Response, SolveError> {
-    within(linear, trains, asked, &resonances(linear))
+    within(linear, trains, asked, &resonances(linear)?)
 }
 
 /// Natural frequencies (rad/s) with their damping ratios.
-fn resonances(linear: &Linear) -> Vec<(f64, f64)> {
+fn resonances(linear: &Linear) -> Result<Vec<(f64, f64)>, SolveError> {
     let of = |m: &Natural| Some((TAU / m.mode.period?, m.damping?));
-    natural(linear).iter().filter_map(of).filter(|(w, _)| w.is_finite()).collect()
+    Ok(natural(linear)?.iter().filter_map(of).filter(|(w, _)| w.is_finite()).collect())
 }
 
 fn within(linear: &Linear, trains: &Trains, asked: &Asked, resonant: &[(f64, f64)]) -> Result<Response, SolveError> {

@@ -9,7 +9,8 @@ use super::linear::{Linear, Motions};
 use super::response::{Point, bounded};
 use super::trains::{Trains, bounds, even, resolved};
 use crate::system::SolveError;
-use nalgebra::{Complex, DMatrix, SymmetricEigen};
+use nalgebra::{Complex, DMatrix};
+use windlass_base::dense::SymmetricEigen;
 use windlass_base::pose::Six;
 use windlass_hydro::carried;
 use windlass_hydro::database::drift_at;
@@ -40,9 +41,11 @@ pub(super) fn drift(linear: &Linear, trains: &Trains, resonant: &[(f64, f64)]) -
         let spectrum = forces(linear, trains, &drifting, (*frequency, range, waves))?;
         let width = high - low;
         let mut list = Vec::new();
-        let eigen = SymmetricEigen::new(spectrum);
-        let largest = eigen.eigenvalues.max();
-        for (value, vector) in eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter()) {
+        let rows: Vec<usize> = drifting.iter().flat_map(|body| 6 * body..6 * body + 6).collect();
+        let eigen = SymmetricEigen::new(spectrum, &|| linear.system.is_interrupted())
+            .map_err(|e| linear.system.unfactored("spectrum of slow drift", &rows, e))?;
+        let largest = eigen.values.max();
+        for (value, vector) in eigen.values.iter().zip(eigen.vectors.column_iter()) {
             if value.is_nan() || *value <= NOTHING * largest {
                 continue;
             }

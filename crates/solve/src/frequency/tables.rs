@@ -6,7 +6,7 @@ use super::operators::Operators;
 use super::quantity::{Derivative, Quantity};
 use super::response::{Point, Response};
 use super::statistics::{Extreme, Statistics};
-use crate::system::FREEDOMS;
+use crate::system::{FREEDOMS, SolveError};
 use std::f64::consts::TAU;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
@@ -227,7 +227,10 @@ pub fn body_statistics(
 }
 
 /// Natural periods with damping ratios, and the shapes of the modes.
-pub fn modes(linear: &Linear) -> [Table; 2] {
+///
+/// # Errors
+/// As [`crate::modes`].
+pub fn modes(linear: &Linear) -> Result<[Table; 2], SolveError> {
     let mut periods = Table::new("Natural Periods")
         .column("", "Mode", Dim::None, Digits::Usual)
         .column("", "Period", Dim::Time, Digits::Usual)
@@ -245,7 +248,7 @@ pub fn modes(linear: &Linear) -> [Table; 2] {
         let group = if i < 3 { "Translation" } else { "Rotation" };
         shapes = shapes.column(group, name, Dim::None, Digits::Decimals(5));
     }
-    for (index, Natural { mode, damping, settled }) in natural(linear).into_iter().enumerate() {
+    for (index, Natural { mode, damping, settled }) in natural(linear)?.into_iter().enumerate() {
         let period = mode.period.filter(|_| damping.is_some());
         let (body, freedom) = (mode.most.0.as_str(), mode.most.1);
         let told = format!("mode {} of {body} in {freedom}", index + 1);
@@ -276,5 +279,5 @@ pub fn modes(linear: &Linear) -> [Table; 2] {
     periods.note("periods are undamped, with added mass at the period of each mode; the ratio is to critical damping");
     shapes.note("largest motion 1; rotations in radians a metre");
     linear.notes.iter().for_each(|n| periods.note(n.clone()));
-    [periods, shapes]
+    Ok([periods, shapes])
 }

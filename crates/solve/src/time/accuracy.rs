@@ -10,6 +10,7 @@ use super::scheme::{Method, Scheme};
 use crate::system::{FREEDOMS, Node, System, mass_block};
 use nalgebra::Matrix3;
 use std::f64::consts::TAU;
+use windlass_base::dense::{eigenvalues, never};
 use windlass_base::pose::Six;
 
 /// Error of a period, as a share of it, above which a step is too long: that of the trapezoidal rule with eight steps a period.
@@ -64,10 +65,7 @@ impl Scheme {
         let b = [0, 1, 2].map(|i| held[i] - gain * square * x[i]);
         let v = [gamma * b[0], 1.0 + gamma * b[1], 1.0 - gamma + gamma * b[2]];
         let matrix = Matrix3::from_row_iterator([x, v, b].into_iter().flatten());
-        if !matrix.iter().all(|v| v.is_finite()) {
-            return none;
-        }
-        let values = matrix.complex_eigenvalues();
+        let Ok(values) = eigenvalues(matrix, &never) else { return none };
         let Some(root) = values.iter().max_by(|p, q| p.im.total_cmp(&q.im)).filter(|z| z.im > 1e-12) else {
             return none;
         };

@@ -5,6 +5,7 @@ use super::inertia::{gyroscopic, turned_inertia};
 use super::step::Stepper;
 use crate::system::{Node, System};
 use nalgebra::{DMatrix, DVector, Matrix6};
+use windlass_base::dense::{DenseError, Lu, least_squares_of_one};
 use windlass_base::pose::Six;
 
 impl Stepper {
@@ -83,34 +84,33 @@ impl Stepper {
         }
     }
 
-    /// Finds the correction; what nothing holds and nothing weighs does not move. False where there is none.
-    pub(super) fn solve(&mut self) -> bool {
+    /// Finds the correction; what nothing holds and nothing weighs does not move.
+    pub(super) fn solve(&mut self, system: &System) -> Result<(), DenseError> {
         if self.rows.len() == 6 {
             let matrix: Matrix6<f64> = self.matrix.fixed_view::<6, 6>(0, 0).into_owned();
-            self.factors = Some(matrix.lu());
+            self.factors = Some(Lu::new(matrix, &|| system.is_interrupted())?);
         }
-        if self.solve_again() {
-            return true;
+        match self.solve_again(system) {
+            Err(DenseError::Singular) => {}
+            other => return other,
         }
-        self.moved.clear();
-        let scale = self.matrix.amax();
-        if let Ok(found) = self.matrix.clone().svd(true, true).solve(&self.right, 1e-12 * scale) {
-            self.moved.extend(found.iter());
-        }
-        self.moved.len() == self.rows.len() && self.moved.iter().all(|v| v.is_finite())
+        let least = 1e-12 * self.matrix.amax();
+        let found = least_squares_of_one(self.matrix.clone(), &self.right, least, &|| system.is_interrupted())?;
+        self.moved.extend(found.iter());
+        Ok(())
     }
 
-    /// Finds the correction for another right side with the matrix that was solved last. False where there is none.
-    pub(super) fn solve_again(&mut self) -> bool {
+    /// Finds the correction for another right side with the matrix that was solved last.
+    pub(super) fn solve_again(&mut self, system: &System) -> Result<(), DenseError> {
         self.moved.clear();
         if let (Some(right), 6) = (self.right.as_slice().first_chunk::<6>(), self.rows.len()) {
-            if let Some(found) = self.factors.as_ref().and_then(|f| f.solve(&Six::from(*right))) {
-                self.moved.extend(found.iter());
-            }
-        } else if let Some(found) = self.matrix.clone().lu().solve(&self.right) {
-            self.moved.extend(found.iter());
+            let factors = self.factors.as_ref().ok_or(DenseError::Singular)?;
+            self.moved.extend(factors.solve(&Six::from(*right))?.iter());
+        } else {
+            let factors = Lu::new(self.matrix.clone(), &|| system.is_interrupted())?;
+            self.moved.extend(factors.solve(&self.right)?.iter());
         }
-        self.moved.len() == self.rows.len() && self.moved.iter().all(|v| v.is_finite())
+        Ok(())
     }
 
     /// Moves the trial by the correction that was found.

@@ -67,7 +67,9 @@ impl Run {
         if !mass.iter().chain(forces.stiffness.iter()).all(|v| v.is_finite()) {
             return Vec::new();
         }
+        // what cannot be solved here is found, and named, by the first step
         let mut list: Vec<Swing> = modes_with(&self.system, &mass, &forces.stiffness)
+            .unwrap_or_default()
             .into_iter()
             .filter_map(|m| m.period.map(|period| Swing { body: m.most.0, freedom: m.most.1, period }))
             .collect();

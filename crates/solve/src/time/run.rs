@@ -206,6 +206,8 @@ impl Run {
             let end = (self.settings.dt * (self.taken + 1) as f64).min(self.settings.observed);
             let mut stop = match self.to(end) {
                 Ok(stop) => stop,
+                // a factorisation that listened ends its step with an error
+                Err(_) if !watcher.goes_on(self.now.time) => return Ok(Ending::Interrupted),
                 Err(error) => {
                     // from here -RESTART goes on, with what made it fail put right
                     self.save(watcher)?;

@@ -7,7 +7,8 @@ use super::forces::{Forces, Memory, Motion};
 use super::inertia::{gyroscopic, inertia};
 use super::scheme::{Method, Scheme};
 use crate::system::{FREEDOMS, SolveError, System};
-use nalgebra::{DMatrix, DVector, LU, Matrix6, U6};
+use nalgebra::{DMatrix, DVector, Matrix6, U6};
+use windlass_base::dense::{DenseError, Lu};
 use windlass_base::pose::Six;
 use windlass_model::ClassError;
 
@@ -69,7 +70,7 @@ pub struct Stepper {
     pub(super) right: DVector<f64>,
     pub(super) moved: Vec<f64>,
     /// The matrix as it was last solved with, of one body.
-    pub(super) factors: Option<LU<f64, U6, U6>>,
+    pub(super) factors: Option<Lu<f64, U6>>,
     pub(super) masses: Vec<Matrix6<f64>>,
     /// How inertia changes with place and velocity.
     pub(super) turned: Vec<[Matrix6<f64>; 2]>,
@@ -126,8 +127,11 @@ impl Stepper {
                 }
             }
         }
-        let solved = if rows.is_empty() { Some(right.clone()) } else { matrix.lu().solve(&right) };
-        let solved = solved.filter(|s| s.iter().all(|v| v.is_finite())).ok_or_else(|| self.singular(system, &rows))?;
+        let solved = Lu::new(matrix, &|| system.is_interrupted()).and_then(|lu| lu.solve(&right));
+        let solved = solved.map_err(|e| match e {
+            DenseError::Singular => self.singular(system, &rows),
+            other => system.unfactored("force or inertia", &rows, other),
+        })?;
         for motion in now.motions.iter_mut().zip(&system.nodes).filter(|(_, n)| n.prescribed.is_none()).map(|(m, _)| m)
         {
             motion.acceleration = Six::zeros();
@@ -260,7 +264,7 @@ impl Stepper {
             // stiffness and damping are still those of the start
             self.turn(system);
             self.jacobian(&now.forces, dt, by_place, by_velocity);
-            foretold = self.solve();
+            foretold = self.solve(system).is_ok();
         }
         if foretold {
             effort.iterations += 1;
@@ -276,7 +280,7 @@ impl Stepper {
             }
             if left <= wanted.tolerance * system.gravity {
                 // what is foretold is near, not balanced: with the matrix at hand what is left goes, too
-                if foretold && effort.evaluations == 1 && !now.forces.moving && self.solve_again() {
+                if foretold && effort.evaluations == 1 && !now.forces.moving && self.solve_again(system).is_ok() {
                     self.correct_trial(system, &now.motions, dt, (gain, by_place, by_velocity));
                 }
                 break;
@@ -287,9 +291,7 @@ impl Stepper {
             effort.iterations += 1;
             self.turn(system);
             self.jacobian(&now.forces, dt, by_place, by_velocity);
-            if !self.solve() {
-                return Err(self.unbalanced(system, left, time, dt));
-            }
+            self.solve(system).map_err(|e| self.unsolvable(system, e, left, (time, dt)))?;
             self.correct_trial(system, &now.motions, dt, (gain, by_place, by_velocity));
             self.weigh_again(system);
         }
@@ -316,6 +318,21 @@ impl Stepper {
         now.memory.commit(system, &now.motions, (time, dt));
         system.states.clear();
         system.states.extend_from_slice(&now.forces.trial);
+    }
+
+    /// The error of a step whose correction cannot be found.
+    fn unsolvable(&self, system: &System, error: DenseError, left: f64, (time, dt): (f64, f64)) -> SolveError {
+        match error {
+            DenseError::Singular | DenseError::NotPositive => self.unbalanced(system, left, time, dt),
+            other => {
+                let rows: Vec<usize> = self.rows.iter().map(|r| r.at).collect();
+                let made = system.unfactored("stiffness, damping or inertia", &rows, other);
+                SolveError {
+                    error: ClassError { message: format!("{} at {time} s", made.error.message), ..made.error },
+                    ..made
+                }
+            }
+        }
     }
 
     /// The error of a step whose iteration ended before the balance was found.

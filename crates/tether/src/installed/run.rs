@@ -12,6 +12,7 @@ use crate::structure::flow::{Flow, FlowAt};
 use crate::structure::{Forces, Structure};
 use nalgebra::Matrix6;
 use std::f64::consts::TAU;
+use windlass_base::dense::{Cholesky, SymmetricEigen, never};
 use windlass_base::pose::{Pose, Six};
 use windlass_base::units::Dim;
 use windlass_hydro::{Underway, cross};
@@ -219,11 +220,12 @@ impl<'a> Installation<'a> {
             let row = Six::new(along.x, along.y, along.z, turning.x, turning.y, turning.z);
             stiffness += row * row.transpose() * (rig.axial_stiffness() * rig.tether().group);
         }
-        let Some(factor) = forces.inertia.cholesky() else { return Ok(()) };
-        let half = factor.l();
+        let Ok(factor) = Cholesky::new(forces.inertia, &never) else { return Ok(()) };
+        let half = factor.lower();
         let Some(left) = half.solve_lower_triangular(&stiffness) else { return Ok(()) };
         let Some(whole) = half.solve_lower_triangular(&left.transpose()) else { return Ok(()) };
-        let highest = whole.symmetric_eigenvalues().max().max(0.0).sqrt();
+        let Ok(swings) = SymmetricEigen::new(whole, &never) else { return Ok(()) };
+        let highest = swings.values.max().max(0.0).sqrt();
         if highest * course.step <= STABLE {
             return Ok(());
         }

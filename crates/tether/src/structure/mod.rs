@@ -13,6 +13,7 @@ mod wet;
 use flow::FlowAt;
 use nalgebra::Matrix6;
 use std::fmt::Debug;
+use windlass_base::dense::{Cholesky, never};
 use windlass_base::pose::Six;
 use windlass_hydro::Underway;
 use windlass_model::ClassError;
@@ -103,9 +104,7 @@ impl Forces {
     /// # Errors
     /// An inertia that is not positive; forces that are not finite.
     pub fn acceleration(&self) -> Result<Six, ClassError> {
-        let factor = self.inertia.cholesky();
-        let found = factor.map(|f| f.solve(&self.total())).filter(|a| a.iter().all(|x| x.is_finite()));
-        found.ok_or_else(|| {
+        Cholesky::new(self.inertia, &never).and_then(|factor| factor.solve(&self.total())).map_err(|_| {
             ClassError::new(
                 "the structure has no acceleration: its inertia is not positive, or a force on it has no value",
             )

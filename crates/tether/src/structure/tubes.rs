@@ -18,6 +18,7 @@ use super::{Forces, Structure};
 use crate::compatibility::Compatibility;
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use std::f64::consts::PI;
+use windlass_base::dense::{Cholesky, never};
 use windlass_base::pose::{Pose, Six};
 use windlass_hydro::{Underway, carried, cross};
 use windlass_model::ClassError;
@@ -67,7 +68,7 @@ impl Tubes {
         tubes: Vec<Tube>,
         compatibility: Compatibility,
     ) -> Result<Self, ClassError> {
-        if !(mass > 0.0 && mass.is_finite()) || inertia.cholesky().is_none() {
+        if !(mass > 0.0 && mass.is_finite()) || Cholesky::new(inertia, &never).is_err() {
             return Err(ClassError::new("a structure of tubes needs a mass and moments of inertia greater than zero"));
         }
         for (index, tube) in tubes.iter().enumerate() {
