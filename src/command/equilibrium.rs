@@ -57,7 +57,7 @@ static SPEC: CommandSpec = CommandSpec {
         BOTH,
     ],
     detail: "All bodies and active connectors in the environment in force. Newton's iteration with the analytic stiffness goes on as \
-             far as rounding lets it; what is left is reported, and must be less than the tolerance, which is a \
+             far as rounding lets it, of each group of bodies and junctions that connectors join by itself and then of all; what is left is reported, and must be less than the tolerance, which is a \
              share of gravity: 0.001 means a force of a thousandth of the body's weight. Far from rest, or where the stiffness is not \
              stable, a share of the mass helps it. Options but -IGNORE are remembered. Freedoms are global directions at the body's \
              origin. A direction that nothing holds, and no force acts in, stays as it is and is told. The result is the \

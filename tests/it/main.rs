@@ -63,10 +63,12 @@ mod floating {
     mod members;
     mod moorpy_equilibrium;
     mod moving_streams;
+    mod networks;
     mod piece_loads;
     mod seed_003_platform;
     mod side_by_side;
     mod steady_loads;
+    mod trial_places;
 }
 
 /// Frequency domain and time domain.

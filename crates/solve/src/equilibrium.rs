@@ -1,12 +1,14 @@
-//! Static equilibrium of bodies and connectors: Newton on the sum of forces with the analytic stiffness.
+//! Static equilibrium of bodies and connectors: Newton on the sum of forces with the analytic stiffness. What connectors do not join
+//! is brought to rest part by part, and then seen to be so all together.
 //!
 //! Far away, or where the stiffness does not hold the bodies, the stiffness is helped by a share of the mass: a step in
 //! pseudo-time, which shrinks to none as the residual does (Kelley and Keyes, SIAM Journal on Numerical Analysis 35
 //! (1998), 508-523). Each step is shortened until the forces along it have not turned around.
 
+use super::parts::{Part, parts};
 use super::search::Search;
 use super::system::{Contribution, FREEDOMS, SolveError, State, System};
-use super::unknowns::{Unknowns, kept_turns};
+use super::unknowns::{Turns, Unknowns, kept_turns};
 use nalgebra::DMatrix;
 use windlass_base::dense::SymmetricEigen;
 use windlass_base::units::Dim;
@@ -63,7 +65,34 @@ const LONG_STALE: usize = 12;
 pub fn equilibrium(system: &System, state: &mut State, options: &Options) -> Result<Equilibrium, SolveError> {
     weighed(system, options)?;
     let turns = kept_turns(system, state, options);
-    let mut search = Search::new(system, options);
+    let free = |body: usize, freedom: usize| {
+        system.nodes.get(body).and_then(|n| n.free.get(freedom)) == Some(&true)
+            && !options.ignored.contains(&(body, freedom))
+    };
+    let moves = |part: &Part| part.iter().enumerate().any(|(body, own)| *own && (0..6).any(|f| free(body, f)));
+    let parts: Vec<Part> = parts(system).into_iter().filter(moves).collect();
+    let (mut steps, mut evaluations) = (0, 0);
+    if parts.len() > 1 {
+        for part in &parts {
+            let found = find(system, state, options, (&turns, Some(part)))?;
+            steps += found.steps;
+            evaluations += found.evaluations;
+        }
+    }
+    let found = find(system, state, options, (&turns, None))?;
+    let unknowns = Unknowns::of(system, state, options, (&turns, None));
+    let loose = loose(system, &unknowns, state)?;
+    Ok(Equilibrium { steps: steps + found.steps, evaluations: evaluations + found.evaluations, loose, ..found })
+}
+
+/// Brings a part to rest, `None` for everything together; what is loose in it is left open.
+fn find(
+    system: &System,
+    state: &mut State,
+    options: &Options,
+    (turns, part): (&[Turns], Option<&Part>),
+) -> Result<Equilibrium, SolveError> {
+    let mut search = Search::new(system, options, part);
     search.evaluate(state)?;
     let mut best = (f64::INFINITY, state.poses.clone());
     let mut stale = 0;
@@ -72,7 +101,7 @@ pub fn equilibrium(system: &System, state: &mut State, options: &Options) -> Res
             return Err(SolveError::new(ClassError::new("interrupted").lasting()));
         }
         // a junction is measured by what pulls at it now
-        let unknowns = Unknowns::of(system, state, options, &turns);
+        let unknowns = Unknowns::of(system, state, options, (turns, part));
         let (worst, at) = unknowns.worst(&unknowns.residual(state), options);
         if worst.is_nan() {
             return Err(failure(system, state, &unknowns, at, options));
@@ -89,16 +118,15 @@ pub fn equilibrium(system: &System, state: &mut State, options: &Options) -> Res
                 state.poses = best.1;
                 search.evaluate(state)?;
             }
-            let loose = loose(system, &unknowns, state)?;
             let measure = unknowns.largest(&unknowns.residual(state));
-            return Ok(Equilibrium { steps, evaluations: search.evaluations, measure, loose });
+            return Ok(Equilibrium { steps, evaluations: search.evaluations, measure, loose: Vec::new() });
         }
         if steps == options.most {
             return Err(failure(system, state, &unknowns, at, options));
         }
         search.go(&unknowns, state, worst)?;
     }
-    let unknowns = Unknowns::of(system, state, options, &turns);
+    let unknowns = Unknowns::of(system, state, options, (turns, part));
     let (_, at) = unknowns.worst(&unknowns.residual(state), options);
     Err(failure(system, state, &unknowns, at, options))
 }

@@ -38,6 +38,7 @@ mod link;
 mod modes;
 pub mod offset;
 mod outline;
+mod parts;
 pub mod pretension;
 pub mod results;
 pub mod run_tables;

@@ -5,6 +5,7 @@
 //! boldly for some steps, and comes back when they have led nowhere better.
 
 use super::equilibrium::{LOOSE, Options};
+use super::parts::Part;
 use super::system::{SolveError, State, System};
 use super::unknowns::Unknowns;
 use nalgebra::{DMatrix, DVector};
@@ -19,11 +20,17 @@ const SLOW: usize = 3;
 const SHORT: f64 = 0.2;
 /// Most trials of a step.
 const TRIALS: usize = 14;
+/// Most times a trial place without an answer is brought nearer: by then the step is a trillionth of its length.
+const RETREATS: usize = 40;
+/// Steps in a row without a place that has an answer, each with ten times the help of the one before, after which there is none.
+const BLOCKED: usize = 6;
 
 /// A search on its way.
 pub(super) struct Search<'a> {
     pub system: &'a System,
     pub options: &'a Options,
+    /// The bodies that it brings to rest; all where there is none.
+    part: Option<&'a Part>,
     pub evaluations: usize,
     /// Share of the inertia added to the stiffness (1/s2).
     help: f64,
@@ -31,16 +38,18 @@ pub(super) struct Search<'a> {
     slow: [usize; 2],
     /// The place bold steps began at or the better one they found, what was left there, and the steps since.
     bold: Option<(Vec<Pose>, f64, usize)>,
+    /// Steps in a row without a place that has an answer.
+    blocked: usize,
 }
 
 impl<'a> Search<'a> {
-    pub fn new(system: &'a System, options: &'a Options) -> Self {
-        Search { system, options, evaluations: 0, help: 0.0, slow: [0, SLOW], bold: None }
+    pub fn new(system: &'a System, options: &'a Options, part: Option<&'a Part>) -> Self {
+        Search { system, options, part, evaluations: 0, help: 0.0, slow: [0, SLOW], bold: None, blocked: 0 }
     }
 
     pub fn evaluate(&mut self, state: &mut State) -> Result<(), SolveError> {
         self.evaluations += 1;
-        self.system.evaluate(state)
+        self.system.evaluate_part(state, self.part)
     }
 
     /// Goes on from a place where `worst` is left: a step, or back to a better place.
@@ -79,16 +88,18 @@ impl<'a> Search<'a> {
         // share and force along the step of the farthest place before the forces turn around, and of the nearest behind
         let (mut before, mut behind): ((f64, f64), Option<(f64, f64)>) = ((0.0, work), None);
         let mut share = longest;
-        let mut error = None;
-        for _ in 0..TRIALS {
+        let (mut error, mut trials, mut retreats) = (None, 0, 0);
+        while trials < TRIALS && retreats < RETREATS {
             state.poses = unknowns.moved(&from, &step, share);
             match self.evaluate(state) {
                 Ok(()) => {
+                    trials += 1;
                     let new = unknowns.residual(state);
                     let (now, after) = (unknowns.worst(&new, self.options).0, new.dot(&step));
                     let fell = after.abs() <= 0.9 * work;
                     if bold || now < worst || (after >= -0.5 * work && (fell || behind.is_none())) {
                         self.taken(share / longest, needed, now / worst, blind);
+                        self.blocked = 0;
                         return Ok(());
                     }
                     if after >= -0.5 * work {
@@ -97,7 +108,14 @@ impl<'a> Search<'a> {
                         behind = Some((share, after));
                     }
                 }
+                Err(wrong) if wrong.error.lasting => {
+                    state.poses = from;
+                    return Err(wrong);
+                }
+                // a place without an answer is no place to go to: nearer ones may have one
                 Err(wrong) => {
+                    retreats += 1;
+                    trials += usize::from(before.0 > 0.0);
                     error = Some(wrong);
                     behind = Some((share, -work));
                 }
@@ -112,10 +130,12 @@ impl<'a> Search<'a> {
             state.poses = unknowns.moved(&from, &step, before.0);
             self.evaluate(state)?;
             self.taken(before.0 / longest, needed, 1.0, blind);
+            self.blocked = 0;
             return Ok(());
         }
         state.poses = from;
-        if let Some(error) = error {
+        self.blocked = if error.is_some() { self.blocked + 1 } else { 0 };
+        if let Some(error) = error.filter(|_| self.blocked > BLOCKED) {
             return Err(error);
         }
         // no share of the step is good: a shorter step in pseudo-time

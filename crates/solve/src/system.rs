@@ -2,6 +2,7 @@
 
 use super::link::{Attachment, Link, arm, laid, link, pose_of};
 use super::modes::held;
+use super::parts::Part;
 use super::time::{Duties, Prescribed, prescribed};
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6};
 use std::sync::Arc;
@@ -200,18 +201,34 @@ impl System {
     /// # Errors
     /// The connector or body that has no answer there.
     pub fn evaluate(&self, state: &mut State) -> Result<(), SolveError> {
+        self.evaluate_part(state, None)
+    }
+
+    /// Evaluates a part at the poses of a state, `None` for everything; what belongs to other bodies stays as it is.
+    ///
+    /// # Errors
+    /// As [`System::evaluate`].
+    pub(super) fn evaluate_part(&self, state: &mut State, part: Option<&Part>) -> Result<(), SolveError> {
         let size = 6 * self.nodes.len();
         state.residual.resize_vertically_mut(size, 0.0);
-        state.residual.fill(0.0);
         if state.stiffness.nrows() != size {
             state.stiffness = DMatrix::zeros(size, size);
         }
-        state.stiffness.fill(0.0);
-        state.pull.clear();
         state.pull.resize(self.nodes.len(), 0.0);
         state.guesses.resize_with(self.links.len(), || None);
         state.trial.resize(self.states.len(), 0.0);
-        for (index, (node, pose)) in self.nodes.iter().zip(&state.poses).enumerate() {
+        let belongs = |body: usize| part.is_none_or(|p| p.get(body).copied().unwrap_or(false));
+        let bodies: Vec<usize> = (0..self.nodes.len()).filter(|body| belongs(*body)).collect();
+        for body in &bodies {
+            state.residual.fixed_rows_mut::<6>(6 * body).fill(0.0);
+            for column in &bodies {
+                state.stiffness.fixed_view_mut::<6, 6>(6 * body, 6 * column).fill(0.0);
+            }
+            if let Some(pull) = state.pull.get_mut(*body) {
+                *pull = 0.0;
+            }
+        }
+        for (index, (node, pose)) in self.nodes.iter().zip(&state.poses).enumerate().filter(|(i, _)| belongs(*i)) {
             for load in &node.floating.loads {
                 let load = load.load(pose).map_err(SolveError::of(&node.name))?;
                 let mut at = state.residual.fixed_rows_mut::<6>(6 * index);
@@ -220,12 +237,16 @@ impl System {
                 block += load.stiffness;
             }
         }
-        for (body, wrench) in self.applied.iter().filter(|(body, _)| *body < self.nodes.len()) {
+        for (body, wrench) in self.applied.iter().filter(|(body, _)| *body < self.nodes.len() && belongs(*body)) {
             let mut at = state.residual.fixed_rows_mut::<6>(6 * body);
             at += wrench;
         }
         let (mut ends, mut arms) = (Vec::new(), Vec::new());
         for (link, guess) in self.links.iter().zip(&mut state.guesses) {
+            let joined = |end: &Attachment| matches!(end, Attachment::Body(body, _) if belongs(*body));
+            if part.is_some() && !link.ends.iter().any(joined) {
+                continue;
+            }
             ends.clear();
             ends.extend(link.ends.iter().map(|end| End::still(pose_of(end, &state.poses))));
             let committed = self.states.get(link.states.clone()).unwrap_or_default();

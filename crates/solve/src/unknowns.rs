@@ -1,6 +1,7 @@
 //! The unknowns of an equilibrium: freedoms that move, what they weigh, and how a step in them moves the bodies.
 
 use super::equilibrium::Options;
+use super::parts::Part;
 use super::system::{Node, SolveError, State, System};
 use nalgebra::{DMatrix, DVector};
 use windlass_base::dense::DenseError;
@@ -27,9 +28,11 @@ pub(super) struct Unknowns<'a> {
 }
 
 impl<'a> Unknowns<'a> {
-    pub fn of(system: &System, state: &State, options: &Options, turns: &'a [Turns]) -> Self {
+    /// Those of a part, `None` for all bodies, that keep some of their angles.
+    pub fn of(system: &System, state: &State, options: &Options, (turns, part): (&'a [Turns], Option<&Part>)) -> Self {
         let (mut rows, mut inertia, mut measure) = (Vec::new(), Vec::new(), Vec::new());
-        for (body, node) in system.nodes.iter().enumerate() {
+        let belongs = |body: usize| part.is_none_or(|p| p.get(body).copied().unwrap_or(false));
+        for (body, node) in system.nodes.iter().enumerate().filter(|(body, _)| belongs(*body)) {
             let own = &node.floating.mass;
             let pull = state.pull.get(body).copied().unwrap_or(0.0) / system.gravity;
             let mass = if node.junction || own.mass <= 0.0 { own.mass.max(pull).max(1e-3) } else { own.mass };
