@@ -2,8 +2,10 @@
 
 use super::Job;
 use super::environment::formula;
+use super::plausible::shown;
 use windlass_base::diagnostic::Outcome;
 use windlass_base::span::Span;
+use windlass_base::units::Dim;
 use windlass_base::values::Given;
 use windlass_base::values::Noun;
 use windlass_language::select::Owner;
@@ -67,10 +69,31 @@ fn plane_of(model: &Model, connector: &Connector) -> Option<Plane> {
     on_plane.then_some(Plane::Anchor)
 }
 
-/// Says of lines on a plane bottom of their own that the bottom just put in force is none.
+/// Warns of a connector whose anchor, or whose fairlead where it lies on the bathymetry, is beyond the edges of the grid.
+fn warn_outside(job: &mut Job, connector: &str, span: Span) {
+    let model = &job.model;
+    let Some(connector) = model.connectors.get(&Model::key(connector)) else { return };
+    let (Some(grid), Some(anchor)) = (model.bathymetry_in(&model.environment), connector.anchor) else { return };
+    let fairlead = model.end(connector, 0).filter(|_| model.bathymetry_under(connector).is_some());
+    let ends = [Some(("anchor", anchor.at)), fairlead.map(|[x, y, _]| ("fairlead", [x, y]))];
+    let outside = ends.into_iter().flatten().map(|(end, at)| (end, grid.distance_outside(at)));
+    let Some((end, by)) = outside.filter(|(_, by)| *by > 0.0).max_by(|a, b| a.1.total_cmp(&b.1)) else { return };
+    let by = shown(by, Dim::Length, job.units);
+    let text = format!(
+        "the {end} of {} lies {by} beyond the edge of bathymetry {}: the depth at the edge is taken there",
+        connector.name, grid.name
+    );
+    job.warn(text, span);
+}
+
+/// Says of lines on a plane bottom of their own that the bottom just put in force is none, and of lines that reach beyond it.
 pub(super) fn planes(job: &mut Job, given: Option<&Given>) {
     let (Some(given), Some(named)) = (given, &job.model.environment.bathymetry) else { return };
     let grid = named.kind.clone();
+    let lines: Vec<String> = job.model.connectors.values().map(|c| c.name.clone()).collect();
+    for line in lines {
+        warn_outside(job, &line, given.span);
+    }
     for which in [Plane::Anchor, Plane::Slope] {
         let lies = |c: &&Connector| plane_of(&job.model, c) == Some(which);
         let lines: Vec<&str> = job.model.connectors.values().filter(lies).map(|c| c.name.as_str()).collect();
@@ -92,6 +115,7 @@ pub(super) fn planes(job: &mut Job, given: Option<&Given>) {
 
 /// The same of a connector just defined, where a bottom over a grid is in force.
 pub(super) fn plane(job: &mut Job, connector: &str, span: Span) {
+    warn_outside(job, connector, span);
     let model = &job.model;
     let found = model.connectors.get(&Model::key(connector)).and_then(|c| plane_of(model, c));
     let (Some(which), Some(named)) = (found, &model.environment.bathymetry) else { return };

@@ -2,6 +2,7 @@
 //!
 //! Source: reference/model.md, "Environment".
 
+use super::plausible::shown;
 use super::{Call, Command, Effect, Job, ambient_options, plausible, probability, sea_options, wind_options};
 use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use windlass_base::span::Span;
@@ -279,6 +280,14 @@ pub(super) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<
             let (observed, step) = (at(0).unwrap_or(0.0), at(1).unwrap_or(0.0));
             if step > observed {
                 return Err(Diagnostic::error("the time step is longer than the time observed", place(given, 1)));
+            }
+            if let Some(transient) = at(2).filter(|transient| observed > 0.0 && *transient >= observed) {
+                let text = format!(
+                    "the transient set aside, {}, leaves nothing of the {} observed",
+                    shown(transient, Dim::Time, job.units),
+                    shown(observed, Dim::Time, job.units)
+                );
+                return Err(Diagnostic::error(text, place(given, 2)).help("TTRA_SET is part of TOBSERV, at its beginning"));
             }
             env.time = Some(TimeWindow {
                 observed,

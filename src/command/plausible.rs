@@ -22,7 +22,7 @@ const WATER: [f64; 2] = [900.0, 1300.0];
 const MOST_FRICTION: f64 = 2.0;
 
 /// A value as the user wrote it, to four figures, with its unit.
-fn shown(value: f64, dim: Dim, units: UnitSystem) -> String {
+pub(super) fn shown(value: f64, dim: Dim, units: UnitSystem) -> String {
     let own = dim.from_si(value, units);
     let short = format!("{own:.3e}").parse().unwrap_or(own);
     format!("{} {}", eight_figures(short), dim.label(units)).trim_end().to_string()

@@ -335,7 +335,9 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let mut tables = vec![run_tables::told(&made)];
     tables.extend(run_tables::extremes(&made));
     tables.extend(run_tables::books(&made));
-    let fenders = fender_peaks(&made).map_err(|e| told(e, &made.model, span, job.units))?;
+    // what is not found of them costs no run
+    let peaks = fender_peaks(&made);
+    let fenders = peaks.as_deref().unwrap_or_default();
     if !fenders.is_empty() {
         let rows = fenders.iter().map(|p| (p.name.as_str(), &p.state, Some(p.time)));
         tables.push(fender_table("Fenders at Their Largest Deflection", rows));
@@ -366,6 +368,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let wrong = |e| told(e, &job.model, span, job.units);
     let ended = ended.map_err(wrong)?;
     checked.transpose().map_err(wrong)?;
+    peaks.map_err(wrong)?;
     match ended {
         Ending::Done => {}
         Ending::Interrupted if kept => {

@@ -156,12 +156,13 @@ impl Catenary {
         let error = |e: LineError| line_error(&e, &self.places);
         let (segments, joints) = parts(&self.sections, place, |s| s.submerged(surroundings));
         let floor = Floor { elevation: -depth, slope: self.slope.unwrap_or(0.0), friction: self.friction };
-        let length = segments.iter().map(|s| s.length).sum();
+        let (distance, azimuth) = place.span();
+        let length = segments.iter().map(|s| s.length).sum::<f64>().max(distance);
         let profile = place
             .bathymetry
             .as_ref()
             .zip(place.other)
-            .map(|(grid, [x, y, _])| LineProfile::new(grid, [x, y], place.span().1, length, self.friction));
+            .map(|(grid, [x, y, _])| LineProfile::new(grid, [x, y], azimuth, length, self.friction));
         let line = Line::new(segments, joints, -depth, surroundings.tide)
             .and_then(|l| match &profile {
                 Some(profile) => profile.lay(l),

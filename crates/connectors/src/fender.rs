@@ -103,6 +103,11 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
         return Err(Diagnostic::error("the rated deflection lies beyond the last point of the curve", given.span)
             .help("give the points of the curve up to there"));
     }
+    if reaction_and_energy(&curve, rated).1 <= 0.0 {
+        let at = args.option("-RATED").map_or(record.args.span, |given| given.span);
+        return Err(Diagnostic::error("the fender absorbs no energy up to its rated deflection", at)
+            .help("the first reaction of the curve stands before the rated deflection"));
+    }
     let mut normal = Vector3::x();
     if let Some(given) = args.option("-NORMAL") {
         let at = |i: usize| given.number(i).unwrap_or(0.0);

@@ -12,7 +12,8 @@ use windlass_model::Bathymetry;
 const FACES_PER_CELL: f64 = 16.0;
 /// The most faces of a profile; the time to solve a line grows with them.
 const MAX_FACES: f64 = 400.0;
-/// How far the profile goes beyond the unstretched length: lines stretch, and search with larger forces than they bear.
+/// How far the profile goes, over the unstretched length or the distance of the ends, whichever is longer: lines stretch, become longer,
+/// and are searched with larger forces than they bear.
 const REACH: f64 = 1.25;
 
 /// The bathymetry along the azimuth of a line.
@@ -31,8 +32,8 @@ pub struct LineProfile {
 }
 
 impl LineProfile {
-    /// The profile of a grid for a line of an unstretched length (m) that comes to its anchor (m, global) in a direction, with a
-    /// friction coefficient.
+    /// The profile of a grid for a line of an unstretched length or a distance of its ends (m) that comes to its anchor (m, global) in a
+    /// direction, with a friction coefficient.
     pub fn new(grid: &Arc<Bathymetry>, anchor: [f64; 2], azimuth: [f64; 2], length: f64, friction: f64) -> LineProfile {
         let reach = REACH * length;
         let finest = grid.finest_spacing() / FACES_PER_CELL;

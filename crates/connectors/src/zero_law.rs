@@ -228,7 +228,9 @@ impl ZeroLaw {
         let k_u = by_deflection.fixed_view::<3, 3>(0, 0) * deflection.slopes;
         let mut force = answer.force.fixed_rows::<3>(0).into_owned();
         let mut slopes = k_u;
-        self.rub(&u, rate, dt.is_some(), committed, trial, (&mut force, &mut slopes, &mut answer.by_rate));
+        if !self.pushes_only {
+            self.rub(&u, rate, dt.is_some(), committed, trial, (&mut force, &mut slopes, &mut answer.by_rate));
+        }
         if dt.is_some() {
             let [x, y, z] = deflection.touches;
             for (dashpot, [in_x, in_y, in_z]) in &self.dashpots {
@@ -237,10 +239,14 @@ impl ZeroLaw {
                 answer.by_rate += slope;
             }
         }
-        if self.pushes_only && force.x > 0.0 {
-            force.x = 0.0;
-            slopes.row_mut(0).fill(0.0);
-            answer.by_rate.row_mut(0).fill(0.0);
+        if self.pushes_only {
+            if force.x > 0.0 {
+                force.x = 0.0;
+                slopes.row_mut(0).fill(0.0);
+                answer.by_rate.row_mut(0).fill(0.0);
+            }
+            // what rubs is pressed on by spring and dashpot together
+            self.rub(&u, rate, dt.is_some(), committed, trial, (&mut force, &mut slopes, &mut answer.by_rate));
         }
         answer.force.fixed_rows_mut::<3>(0).copy_from(&force);
         answer.slopes.fixed_view_mut::<3, 3>(0, 0).copy_from(&slopes);
@@ -282,6 +288,7 @@ impl ZeroLaw {
     ) {
         let lateral = Matrix3::from_diagonal(&Vector3::new(0.0, 1.0, 1.0));
         let along_x = slopes.row(0).into_owned() * force.x.signum();
+        let rate_of_x = by_rate.row(0).into_owned() * force.x.signum();
         match self.friction {
             Friction::None => {}
             Friction::Limit(mu) => {
@@ -294,7 +301,7 @@ impl ZeroLaw {
                     let most = mu * force.x.abs();
                     *force += n * most;
                     *slopes += n * along_x * mu;
-                    *by_rate += lateral * by * lateral * most;
+                    *by_rate += lateral * by * lateral * most + n * rate_of_x * mu;
                 }
             }
             Friction::Stick { mu, stiffness } => {

@@ -31,7 +31,7 @@ const EDGE: f64 = 0.8;
 const EDGE_AT_SURFACE: f64 = 0.3;
 /// Standard deviations of the surface from the mean level within which waves may cut a panel.
 const NEAR: f64 = 3.0;
-/// Panels of a piece beyond which none is divided.
+/// Panels of a piece beyond which all their edges are longer.
 const MOST: usize = 20_000;
 
 /// The pressure of a sea on the pieces of a body.
@@ -121,8 +121,7 @@ fn from_surfaces(
     let longest = EDGE / mean_number(sea) / finer;
     let (mut nodes, mut panels): (Vec<Node>, Vec<Pressed>) = (Vec::new(), Vec::new());
     for (factor, surface) in surfaces {
-        let mut made = Panelling::new(&surface, longest, MOST);
-        made.refine(&limit, MOST);
+        let made = Panelling::new(&surface, longest, MOST).refined(&limit, MOST);
         let first = nodes.len() as u32;
         nodes.extend(made.nodes.into_iter().map(|place| Node { place, wrench: Six::zeros() }));
         panels.extend(made.panels.into_iter().map(|p| Pressed { panel: p.map(|n| n + first), factor }));
@@ -138,10 +137,9 @@ fn from_surfaces(
             }
         }
     }
-    let reach = nodes.iter().map(|n| n.place.norm()).fold(0.0, f64::max);
-    let heights = nodes.iter().map(|n| n.place.z);
-    let [low, high] = heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], z| [a.min(z), b.max(z)]);
-    let grid = PressureGrid::new(sea, [reach, high - low], nodes.len());
+    let corners = nodes.iter().map(|n| (n.place, n.place));
+    let extent = corners.reduce(|(low, high), (p, q)| (low.inf(&p), high.sup(&q))).map(|(low, high)| high - low);
+    let grid = extent.and_then(|extent| PressureGrid::new(sea, [extent.norm(), extent.z], nodes.len()));
     let weight = sea.density * sea.gravity;
     WavePressure { sea: Arc::clone(sea), grid, nodes, panels, weight }
 }
@@ -469,6 +467,31 @@ mod tests {
             // cells of 5.6 m by 5 m, k h = 0.63 (the mean number of one wave is its own): fourth powers over some hundreds
             let error = (got.fixed_rows::<3>(0) - want).norm() / (scale * x * y * z * k).abs();
             assert!(error < 5e-4, "{error} at {time}");
+        }
+    }
+
+    #[test]
+    fn hull_far_from_its_origin_has_the_closed_form_of_its_waves() {
+        // the box is 6500 km from the origin of its body, as in a projection of maps; two hundred waves, each of the closed form above
+        let far = 6.5e6;
+        let sea = sea(200, 0.0, 0.15, Stretching::Linear);
+        let made = pressed(&sea, &[[[far - 45.0, -7.5, -30.0], [far + 45.0, 7.5, -21.0]]], 2.0);
+        assert!(made.grid.is_some());
+        let pose = Pose { origin: Vector3::new(-far, 0.0, 0.0), ..Pose::default() };
+        for time in [0.0, 4.1, 9.3] {
+            let (mut want, mut scale) = (Vector3::zeros(), 0.0);
+            for wave in &sea.components {
+                let (k, a) = (wave.number, wave.amplitude);
+                let volume = 2.0 * (k * 45.0).sin() / k * 15.0 * ((k * -21.0).exp() - (k * -30.0).exp()) / k;
+                let (sin, cos) = (wave.phase - wave.frequency * time).sin_cos();
+                // the gradient of rho g a e^(kz) cos(kx - wt + phase) over the volume, against it
+                want += Vector3::new(k * sin, 0.0, -k * cos) * (RHO * G * a * volume);
+                scale += (RHO * G * a * k * volume).powi(2);
+            }
+            let got = made.at(time, &pose).fixed_rows::<3>(0).into_owned();
+            // panels of half the usual length: a sixteenth of 5e-4, by the standard deviation of the force; rounding of 1e-9 m
+            let error = (got - want).norm() / (0.5 * scale).sqrt();
+            assert!(error < 5e-5, "{error} at {time}");
         }
     }
 

@@ -142,6 +142,12 @@ impl Bathymetry {
         [&self.x, &self.y].map(|list| [0, list.len() - 1].map(|i| list.get(i).copied().unwrap_or(f64::NAN)))
     }
 
+    /// How far a place (m) lies beyond the edges of the grid (m); 0 on it.
+    pub fn distance_outside(&self, place: [f64; 2]) -> f64 {
+        let axes = self.extent().into_iter().zip(place);
+        axes.map(|([low, high], at)| (low - at).max(at - high).max(0.0)).fold(0.0, f64::hypot)
+    }
+
     /// The shortest distance between neighbouring columns or rows (m).
     pub fn finest_spacing(&self) -> f64 {
         let steps = |places: &[f64]| places.windows(2).map(|w| w[1] - w[0]).fold(f64::INFINITY, f64::min);

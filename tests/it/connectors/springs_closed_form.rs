@@ -499,6 +499,11 @@ fn a_fender_with_a_dashpot_pushes_more_going_in_and_never_pulls_coming_out() {
     near(&joint.passing([1.3, 0.0, 0.0], [-0.5, 0.0, 0.0]), &[-1.5e5, 0.0, 0.0]);
     near(&joint.passing([1.3, 0.0, 0.0], [0.5, 0.0, 0.0]), &[-0.5e5, 0.0, 0.0]);
     near(&joint.passing([1.3, 0.0, 0.0], [3.0, 0.0, 0.0]), &[0.0; 3]);
+    // sliding too: a quarter of 150 kN going in, of 50 kN coming out, nothing where it has come off
+    for (speed, normal) in [(-0.5, 1.5e5), (0.5, 0.5e5), (3.0, 0.0)] {
+        let got = joint.passing([1.3, 0.0, 0.0], [speed, 3.0, 4.0]);
+        assert!((got[1] - 0.15 * normal).abs() < 0.1 && (got[2] - 0.2 * normal).abs() < 0.1, "{got:?}");
+    }
     // 25 kN along a face that slides with (0, 3, 4) m/s; v0 = 0.01 m/s takes 2E-6 of it
     let got = joint.passing([1.3, 0.0, 0.0], [0.0, 3.0, 4.0]);
     assert!((got[1] - 15e3).abs() < 0.1 && (got[2] - 20e3).abs() < 0.1, "{got:?}");

@@ -8,6 +8,7 @@
 use super::Surface;
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
+use std::f64::consts::SQRT_2;
 
 /// A triangle's corners a, b, c and the middles of its edges ab, bc, ca.
 pub type Panel = [u32; 6];
@@ -107,27 +108,44 @@ impl Panelling {
 }
 
 impl Panelling {
-    /// Divides panels in four until none has an edge longer than a limit (m) that depends on its corners, or there are more than `most`.
-    pub fn refine(&mut self, limit: &dyn Fn(&[Vector3<f64>; 3]) -> f64, most: usize) {
-        let mut nodes = Nodes { at: std::mem::take(&mut self.nodes), middles: BTreeMap::new(), rows: BTreeMap::new() };
+    /// Divides panels in four until none has an edge longer than a limit (m) that depends on its corners; where that makes more than
+    /// `most`, all limits are longer by the same factor.
+    pub fn refined(&self, limit: &dyn Fn(&[Vector3<f64>; 3]) -> f64, most: usize) -> Self {
+        let mut factor = 1.0;
+        loop {
+            // panels that are not divided are as many as there are
+            if let Some(made) = self.divided(&|corners| factor * limit(corners), most.max(self.panels.len())) {
+                return made;
+            }
+            factor *= SQRT_2;
+        }
+    }
+
+    /// The same with these limits; `None` where they make more than `most`.
+    fn divided(&self, limit: &dyn Fn(&[Vector3<f64>; 3]) -> f64, most: usize) -> Option<Self> {
+        let mut nodes = Nodes { at: self.nodes.clone(), middles: BTreeMap::new(), rows: BTreeMap::new() };
         for [a, b, c, x, y, z] in &self.panels {
             for (p, q, middle) in [(a, b, x), (b, c, y), (c, a, z)] {
                 nodes.middles.insert((*p.min(q), *p.max(q)), *middle);
             }
         }
-        let mut open = std::mem::take(&mut self.panels);
+        let (mut open, mut panels) = (self.panels.clone(), Vec::new());
         while let Some([a, b, c, x, y, z]) = open.pop() {
             let corners = [a, b, c].map(|n| nodes.place(n));
             let longest = nodes.length(a, b).max(nodes.length(b, c)).max(nodes.length(c, a));
-            if longest <= limit(&corners) || self.panels.len() + open.len() >= most {
-                self.panels.push([a, b, c, x, y, z]);
+            if longest <= limit(&corners) {
+                panels.push([a, b, c, x, y, z]);
                 continue;
+            }
+            // three more than the one that is divided
+            if panels.len() + open.len() + 4 > most {
+                return None;
             }
             for [p, q, r] in [[a, x, z], [x, b, y], [z, y, c], [x, y, z]] {
                 open.push([p, q, r, nodes.middle(p, q), nodes.middle(q, r), nodes.middle(r, p)]);
             }
         }
-        self.nodes = nodes.at;
+        Some(Panelling { nodes: nodes.at, panels })
     }
 }
 

@@ -80,10 +80,10 @@ struct FilledTrain<'a> {
 }
 
 impl PressureGrid {
-    /// That of a sea for a number of places within a distance (m) of a body's origin, and over a height (m); `None` where the direct sum is
-    /// cheaper, or the sea is not made of a few long-crested trains of Airy waves.
-    pub fn new(sea: &Sea, [reach, height]: [f64; 2], places: usize) -> Option<Self> {
-        if sea.stokes.is_some() || sea.stretching == Stretching::Exponential || !(reach > 0.0 && reach.is_finite()) {
+    /// That of a sea for a number of places no farther from each other than a distance (m), and over a height (m); `None` where the direct
+    /// sum is cheaper, or the sea is not made of a few long-crested trains of Airy waves.
+    pub fn new(sea: &Sea, [across, height]: [f64; 2], places: usize) -> Option<Self> {
+        if sea.stokes.is_some() || sea.stretching == Stretching::Exponential || !(across > 0.0 && across.is_finite()) {
             return None;
         }
         let mut groups: Vec<([f64; 2], Vec<&Component>)> = Vec::new();
@@ -94,10 +94,15 @@ impl PressureGrid {
                 None => return None,
             }
         }
-        let trains: Vec<Train> =
-            groups.iter().map(|(toward, members)| Train::new(*toward, members, sea.depth, reach)).collect();
-        let nodes: f64 = trains.iter().map(|t| (2.0 * reach / t.spacing) * (height / t.spacing + POINTS as f64)).sum();
-        (!trains.is_empty() && nodes * NODE_COST < places as f64).then_some(PressureGrid { trains })
+        // what it costs is known before it is made: the nodes bound its memory too
+        let spacings: Vec<f64> = groups.iter().map(|(_, members)| spacing(members, across)).collect();
+        let nodes: f64 = spacings.iter().map(|h| (across / h) * (height / h + POINTS as f64)).sum();
+        if groups.is_empty() || nodes * NODE_COST >= places as f64 {
+            return None;
+        }
+        let made = groups.iter().zip(spacings);
+        let trains = made.map(|((toward, members), h)| Train::new(*toward, members, sea.depth, (across, h))).collect();
+        Some(PressureGrid { trains })
     }
 
     /// The sea at a time (s) around places given by their arms from a body's origin, of which `lowest` is the depth of the deepest below
@@ -143,12 +148,18 @@ impl Block {
     }
 }
 
+/// The distance of stations (m) at which waves err by [`TOLERANCE`], at most that of the places.
+fn spacing(members: &[&Component], across: f64) -> f64 {
+    let energy: f64 = members.iter().map(|c| c.amplitude * c.amplitude).sum();
+    let sixth: f64 = members.iter().map(|c| (c.amplitude * c.number.powi(6)).powi(2)).sum();
+    (TOLERANCE / CENTRAL * (energy / sixth).sqrt()).powf(1.0 / 6.0).min(across)
+}
+
 impl Train {
-    fn new(toward: [f64; 2], members: &[&Component], depth: Option<f64>, reach: f64) -> Self {
-        let energy: f64 = members.iter().map(|c| c.amplitude * c.amplitude).sum();
-        let sixth: f64 = members.iter().map(|c| (c.amplitude * c.number.powi(6)).powi(2)).sum();
-        let spacing = (TOLERANCE / CENTRAL * (energy / sixth).sqrt()).powf(1.0 / 6.0).min(reach);
-        let levels = (depth.map_or(reach, |d| d.min(reach)) * 2.0 / spacing) as usize + POINTS;
+    fn new(toward: [f64; 2], members: &[&Component], depth: Option<f64>, (across, spacing): (f64, f64)) -> Self {
+        // a body may sink by its own size; deeper places take the direct sum
+        let deepest = 2.0 * across;
+        let levels = (depth.map_or(deepest, |d| d.min(deepest)) / spacing) as usize + POINTS;
         let blocks: Vec<Block> = members
             .chunks(8)
             .map(|list| {
@@ -232,7 +243,7 @@ impl FilledTrain<'_> {
     fn elevation(&self, arm: &Vector3<f64>) -> Option<f64> {
         let Train { toward, spacing, .. } = self.train;
         let along = (toward[0] * arm.x + toward[1] * arm.y) / spacing - self.first;
-        let station = along as usize - BEFORE;
+        let station = (along as usize).checked_sub(BEFORE)?;
         let mut sum = 0.0;
         for (column, x) in
             self.heads.get(station * self.levels..)?.chunks(self.levels).zip(weights(along - station as f64))
@@ -246,7 +257,8 @@ impl FilledTrain<'_> {
         let Train { toward, spacing, .. } = self.train;
         let along = (toward[0] * arm.x + toward[1] * arm.y) / spacing - self.first;
         let down = depth / spacing + BEFORE as f64;
-        let (station, level) = (along as usize - BEFORE, down as usize - BEFORE);
+        let station = (along as usize).checked_sub(BEFORE)?;
+        let level = (down as usize).checked_sub(BEFORE)?;
         if level + POINTS > self.levels {
             return None;
         }
@@ -317,7 +329,7 @@ mod tests {
         for depth in [None, Some(40.0)] {
             let sea = sea(depth);
             let deviation = (0.5 * sea.components.iter().map(|c| c.amplitude.powi(2)).sum::<f64>()).sqrt();
-            let grid = PressureGrid::new(&sea, [50.0, 30.0], 100_000).unwrap();
+            let grid = PressureGrid::new(&sea, [100.0, 30.0], 100_000).unwrap();
             let arms: Vec<Vector3<f64>> = (0..500)
                 .map(|n| {
                     let n = f64::from(n);
@@ -343,11 +355,11 @@ mod tests {
 
     #[test]
     fn grid_is_refused_where_the_direct_sum_is_cheaper() {
-        assert!(PressureGrid::new(&sea(None), [50.0, 30.0], 10).is_none());
+        assert!(PressureGrid::new(&sea(None), [100.0, 30.0], 10).is_none());
         let mut spread = sea(None);
         for (n, c) in spread.components.iter_mut().enumerate() {
             c.toward = [(n as f64).cos(), (n as f64).sin()];
         }
-        assert!(PressureGrid::new(&spread, [50.0, 30.0], 100_000).is_none());
+        assert!(PressureGrid::new(&spread, [100.0, 30.0], 100_000).is_none());
     }
 }
