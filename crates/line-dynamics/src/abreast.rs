@@ -40,7 +40,7 @@ struct Asked {
     ea: Each,
     /// Strain by warmth, free of tension.
     free: Each,
-    /// What tension has of the pressure outside (m2), and of that inside at z = 0 (N) and by the way down (N/m): none but of tubes.
+    /// What tension has of the pressure outside (m2), and of that inside at the datum of heights (N) and by the way down (N/m): none but of tubes.
     outside: Each,
     inside: Each,
     contents: Each,
@@ -112,7 +112,7 @@ impl Abreast {
             asked.rate[n] = if trial.still { 0.0 } else { element.rate };
             asked.ea[n] = element.ea;
             let tube = rod.segments[element.segment].tube.as_ref();
-            let Walls { free, outside, inside, contents } = tube.map_or(Walls::default(), |t| Walls::of(t, gravity));
+            let Walls { free, outside, inside, contents } = tube.map_or(Walls::default(), |t| Walls::of(t, gravity, trial.origin.z));
             (asked.free[n], asked.outside[n]) = (free, outside);
             (asked.inside[n], asked.contents[n]) = (inside, contents);
             asked.damping[n] = element.damping;

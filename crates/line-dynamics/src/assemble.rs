@@ -139,7 +139,7 @@ fn axial(
     let let_out = if trial.still { 0.0 } else { element.rate };
     let rate = (t.dot(&dv) - stretch * let_out) * inverse_rest;
     let taken = Taken { compression: (element.compression || trial.stiff()) && !trial.loose, ease: trial.ease };
-    let stretched = Stretch { strain: stretch - 1.0, rate, height: 0.5 * (xa.z + xb.z) };
+    let stretched = Stretch { strain: stretch - 1.0, rate, height: 0.5 * (xa.z + xb.z), datum: trial.origin.z };
     let memory = trial.memory.get(*i);
     let Tension { value, by_strain, by_rate, by_height } =
         tension(rod, element, taken, &stretched, memory, [*i, i + 1].map(|node| &trial.fluid[node]), gravity);

@@ -5,6 +5,7 @@ use super::contact::{self, contact};
 use super::hinges::{HingeAt, hinge_sides};
 use super::immersed::{Node, on_half, wet_prism};
 use super::mesh::{Element, Rod};
+use super::nearby::Nearby;
 use super::rope::Memory;
 use super::spatial;
 use super::state::State;
@@ -165,7 +166,8 @@ struct At<'a> {
 
 fn look(rod: &Rod, state: &State, world: &World, solver: &Solver, made: &EndForces) -> Look {
     let trial = &solver.trial;
-    let at = At { rod, state, world, trial };
+    let near = Nearby::new(world, state.origin, Vec::new());
+    let at = At { rod, state, world: &near.world(), trial };
     let mut found = Look::default();
     for i in 0..rod.elements.len() {
         found.stretch(&at, i);
@@ -195,7 +197,7 @@ impl Look {
     fn lump(&mut self, At { state, world, .. }: &At, node: usize, mass: f64) {
         let (x, v) = (&state.position[node], &state.velocity[node]);
         self.energy.kinetic += 0.5 * mass * v.norm_squared();
-        self.energy.gravity += mass * world.gravity * x.z;
+        self.energy.gravity += mass * world.gravity * (x.z + state.origin.z);
         self.momentum += v * mass;
         self.force.z -= mass * world.gravity;
     }
@@ -210,7 +212,7 @@ impl Look {
         let taken = Taken { compression: element.compression, ease: 1.0 };
         let memory = state.yielded.get(i).map(|yielded| Memory::at_once(*yielded));
         let pull = |rate| {
-            let stretched = Stretch { strain, rate, height };
+            let stretched = Stretch { strain, rate, height, datum: state.origin.z };
             let fluids = [&trial.fluid[i], &trial.fluid[i + 1]];
             tension(rod, element, taken, &stretched, memory.as_ref(), fluids, world.gravity).value
         };

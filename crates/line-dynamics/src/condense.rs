@@ -77,7 +77,7 @@ impl Solver {
     ///
     /// None where there is no trial, or the system cannot be solved, as it could in the trial.
     pub fn end_tangent(&mut self, rod: &Rod, world: &World) -> Option<EndTangent> {
-        self.linearise(rod, world, true, [true; 2])?;
+        self.nearby(world, |solver, world, _| solver.linearise(rod, world, true, [true; 2]))?;
         Some(self.condense(rod, [true; 2]))
     }
 
@@ -91,7 +91,7 @@ impl Solver {
     /// The same, of which only the rows and columns of some ends are asked for, A and B: an end in the ground feels nothing and
     /// does not move. The others are zero. That of end A alone costs next to nothing.
     pub fn end_tangent_felt(&mut self, rod: &Rod, world: &World, felt: [bool; 2]) -> Option<EndTangent> {
-        self.linearise(rod, world, false, felt)?;
+        self.nearby(world, |solver, world, _| solver.linearise(rod, world, false, felt))?;
         Some(self.condense(rod, felt))
     }
 

@@ -140,7 +140,7 @@ pub(super) fn rub(rod: &Rod, world: &World, trial: &Trial, i: usize, side: usize
     let spare = (most - kept).max(SPARE);
     let taken = Taken { compression: (element.compression || !trial.limp) && !trial.loose, ease: trial.ease };
     let height = 0.5 * (trial.x[node].z + trial.x[other].z);
-    let stretch = Stretch { strain: length / element.rest - 1.0, rate: 0.0, height };
+    let stretch = Stretch { strain: length / element.rest - 1.0, rate: 0.0, height, datum: trial.origin.z };
     let fluids = [&trial.fluid[i], &trial.fluid[i + 1]];
     let pull = tension(rod, element, taken, &stretch, trial.memory.get(i), fluids, world.gravity);
     let drawn = if mu > 0.0 { pull.value / (spare * mu * n) } else { 0.0 };

@@ -220,7 +220,7 @@ impl Solver {
         let (element, trial) = (&rod.elements[i], &self.trial);
         let (a, b) = (&trial.x[i], &trial.x[i + 1]);
         let strain = (b - a).norm() / element.rest - 1.0;
-        let stretched = Stretch { strain, rate: 0.0, height: 0.5 * (a.z + b.z) };
+        let stretched = Stretch { strain, rate: 0.0, height: 0.5 * (a.z + b.z), datum: trial.origin.z };
         let taken = Taken { compression: element.compression, ease: 1.0 };
         let fluids = [&trial.fluid[i], &trial.fluid[i + 1]];
         tension(rod, element, taken, &stretched, trial.memory.get(i), fluids, world.gravity).value

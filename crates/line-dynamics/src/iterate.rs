@@ -49,7 +49,7 @@ impl Solver {
     pub(super) fn foretell(&mut self, from: &State, scheme: &Scheme, time: f64, ends: &[End; 2]) {
         let next = &mut self.next;
         next.bedding.copy_from_slice(&from.bedding);
-        next.time = time;
+        (next.time, next.origin) = (time, from.origin);
         let last = from.position.len() - 1;
         for i in 0..=last {
             let u = (from.velocity[i] + from.averaged[i] * (0.5 * scheme.h)) * scheme.h;

@@ -48,6 +48,7 @@ mod immersed;
 mod iterate;
 mod mesh;
 mod modes;
+mod nearby;
 mod on_nodes;
 mod results;
 mod rope;

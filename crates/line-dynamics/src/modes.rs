@@ -50,6 +50,19 @@ impl Solver {
     ) -> Result<Vec<Mode>, RodError> {
         self.fits(rod, state)?;
         self.at = At::Nowhere;
+        self.trial.origin = state.origin;
+        self.nearby(world, |solver, world, near| solver.modes_nearby(rod, state, world, near.ends(ends), count))
+    }
+
+    /// [`Solver::modes`] in coordinates from the origin of the state.
+    fn modes_nearby(
+        &mut self,
+        rod: &Rod,
+        state: &State,
+        world: &World,
+        ends: [End; 2],
+        count: usize,
+    ) -> Result<Vec<Mode>, RodError> {
         let refuse = |why: String| RodError::Shape { rod: rod.name.clone(), why };
         let last = rod.elements.len();
         let stride = self.work.stride();

@@ -6,6 +6,7 @@ use super::ends::End;
 use super::hinges::{HingeAt, hinge_sides};
 use super::immersed::{Node, on_half};
 use super::mesh::Rod;
+use super::nearby::Nearby;
 use super::rope::Memory;
 use super::spatial::{transport, twist};
 use super::state::State;
@@ -22,6 +23,8 @@ impl Rod {
     /// and dragged along itself: all that the holder takes along the rod.
     /// Shear is the change of the moment over the elements beside a node.
     pub fn results(&self, state: &State, world: &World, ends: &[End; 2]) -> Vec<LineNode> {
+        let near = Nearby::new(world, state.origin, Vec::new());
+        let world = &near.world();
         let last = self.elements.len();
         let (x, v) = (&state.position, &state.velocity);
         let mut fluids = vec![UniformFluid::none().0; x.len()];
@@ -93,7 +96,7 @@ impl Rod {
                 let tube = |segment: usize| self.segments[segment].tube.as_ref();
                 let pressures = tube(element.segment).or(tube(first)).map_or([0.0; 2], |tube| {
                     let (outer, _) = fluids[i].pressure(x[i].z, world.gravity);
-                    [outer, tube.pressure + tube.contents * world.gravity * (tube.at - x[i].z)]
+                    [outer, tube.pressure + tube.contents * world.gravity * (tube.at - state.origin.z - x[i].z)]
                 });
                 let side = |segment: usize| {
                     let Some(tube) = tube(segment) else { return LineSide { segment, wall: effective, stress: None } };
@@ -105,7 +108,7 @@ impl Rod {
                 let made = LineNode {
                     arc,
                     segment: behind.segment,
-                    position: x[i],
+                    position: x[i] + state.origin,
                     velocity: v[i],
                     effective,
                     wall: behind.wall,
@@ -136,6 +139,8 @@ impl Rod {
             out.extend(self.results(state, world, ends));
             return;
         }
+        let near = Nearby::new(world, state.origin, Vec::new());
+        let world = &near.world();
         let (last, fluid) = (self.elements.len(), UniformFluid::none().0);
         let (mut arc, mut before) = (0.0, 0.0);
         for (i, x) in state.position.iter().enumerate() {
@@ -143,7 +148,8 @@ impl Rod {
             let element = &self.elements[beside];
             let pull = if i < last { self.pull(i, state, [&fluid; 2], world.gravity).1 } else { before };
             let effective = if i > 0 { 0.5 * (before + pull) } else { pull };
-            let mut made = LineNode { arc, segment: element.segment, position: *x, effective, ..LineNode::default() };
+            let position = x + state.origin;
+            let mut made = LineNode { arc, segment: element.segment, position, effective, ..LineNode::default() };
             (made.wall, made.clearance) = (effective, clearance(world, x));
             out.push(made);
             (arc, before) = (arc + if i < last { element.rest } else { 0.0 }, pull);
@@ -202,7 +208,7 @@ impl Rod {
         let t = d / length;
         let stretch = length / element.rest;
         let rate = (t.dot(&(v[i + 1] - v[i])) - stretch * element.rate) / element.rest;
-        let stretched = Stretch { strain: stretch - 1.0, rate, height: 0.5 * (x[i].z + x[i + 1].z) };
+        let stretched = Stretch { strain: stretch - 1.0, rate, height: 0.5 * (x[i].z + x[i + 1].z), datum: state.origin.z };
         let taken = Taken { compression: element.compression, ease: 1.0 };
         let memory = state.yielded.get(i).map(|yielded| Memory::at_once(*yielded));
         ((t, length), tension(self, element, taken, &stretched, memory.as_ref(), beside, gravity).value)

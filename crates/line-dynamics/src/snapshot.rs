@@ -6,6 +6,8 @@ use super::section::{Attachment, Segment};
 use super::state::State;
 use nalgebra::Vector3;
 
+/// Numbers before the nodes: time and origin.
+const HEAD: usize = 4;
 /// Numbers of a node: position, velocity, acceleration, averaged acceleration, where it sticks, bedding.
 const PER_NODE: usize = 16;
 
@@ -51,11 +53,11 @@ impl Rod {
 }
 
 impl State {
-    /// Appends all of it to a row of numbers: the time; position, velocity, acceleration, averaged acceleration,
+    /// Appends all of it to a row of numbers: the time and the origin; position, velocity, acceleration, averaged acceleration,
     /// place where it sticks and bedding of each node; the director of each element of a rod with torsion; the strain to which each element of
     /// one with viscoelastic rope has yielded.
     pub fn pack(&self, out: &mut Vec<f64>) {
-        let count = 1 + PER_NODE * self.position.len() + 3 * self.director.len() + self.yielded.len();
+        let count = HEAD + PER_NODE * self.position.len() + 3 * self.director.len() + self.yielded.len();
         let from = out.len();
         out.resize(from + count, 0.0);
         self.pack_into(&mut out[from..]);
@@ -63,9 +65,9 @@ impl State {
 
     /// The same into the beginning of a list: how many numbers they are; none where the list is too short.
     pub fn pack_into(&self, out: &mut [f64]) -> Option<usize> {
-        let count = 1 + PER_NODE * self.position.len() + 3 * self.director.len() + self.yielded.len();
-        let (time, rest) = out.get_mut(..count)?.split_first_mut()?;
-        *time = self.time;
+        let count = HEAD + PER_NODE * self.position.len() + 3 * self.director.len() + self.yielded.len();
+        let (head, rest) = out.get_mut(..count)?.split_first_chunk_mut::<HEAD>()?;
+        *head = [self.time, self.origin.x, self.origin.y, self.origin.z];
         let (nodes, rest) = rest.split_at_mut(PER_NODE * self.position.len());
         let motions = self.position.iter().zip(&self.velocity).zip(&self.acceleration).zip(&self.averaged);
         let (nodes, _) = nodes.as_chunks_mut::<PER_NODE>();
@@ -90,7 +92,7 @@ impl State {
         let elements = rod.elements.len();
         let (turns, strains) =
             (if rod.twists() { 3 * elements } else { 0 }, if rod.remembers() { elements } else { 0 });
-        1 + PER_NODE * rod.nodes() + turns + strains
+        HEAD + PER_NODE * rod.nodes() + turns + strains
     }
 
     /// The state that [`State::pack`] made numbers of, to the last bit.
@@ -119,9 +121,9 @@ impl State {
             let place = from.iter().position(|v| !v.is_finite()).unwrap_or(0);
             return Err(refuse(format!("number {} of its state is {}", place + 1, from[place])));
         }
-        let (nodes, elements) = from[1..].split_at(PER_NODE * rod.nodes());
+        let (nodes, elements) = from[HEAD..].split_at(PER_NODE * rod.nodes());
         let (directors, yielded) = elements.split_at(if rod.twists() { 3 * rod.elements.len() } else { 0 });
-        self.time = from[0];
+        (self.time, self.origin) = (from[0], Vector3::new(from[1], from[2], from[3]));
         let lists =
             [&mut self.position, &mut self.velocity, &mut self.acceleration, &mut self.averaged, &mut self.stuck];
         for (first, list) in lists.into_iter().enumerate() {

@@ -56,6 +56,18 @@ impl Solver {
     ) -> Result<EndForces, RodError> {
         self.fits(rod, state)?;
         self.at = At::Nowhere;
+        self.trial.origin = state.origin;
+        self.nearby(world, |solver, world, near| solver.start_nearby(rod, state, world, near.ends(ends)))
+    }
+
+    /// [`Solver::start`] in coordinates from the origin of the state.
+    fn start_nearby(
+        &mut self,
+        rod: &Rod,
+        state: &mut State,
+        world: &World,
+        ends: [End; 2],
+    ) -> Result<EndForces, RodError> {
         let last = rod.elements.len();
         let known = ends.map(|e| e.motion.is_some());
         self.trial.time = state.time;

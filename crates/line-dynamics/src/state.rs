@@ -11,7 +11,10 @@ use nalgebra::Vector3;
 pub struct State {
     /// Time (s).
     pub time: f64,
-    /// Position of each node (m, global).
+    /// From where positions are measured (m, global): where end A was at the last position of rest, or the first point of
+    /// [`State::along`].
+    pub origin: Vector3<f64>,
+    /// Position of each node (m, global axes, from [`State::origin`]): [`State::place`] is the global one.
     pub position: Vec<Vector3<f64>>,
     /// Velocity of each node (m/s).
     pub velocity: Vec<Vector3<f64>>,
@@ -24,7 +27,7 @@ pub struct State {
     /// Least penetration over which the bottom's stiffness grows at each node (m): see
     /// [`Solver::statics`](super::Solver::statics).
     pub(super) bedding: Vec<f64>,
-    /// Where each node sticks to the bottom by friction (m): see [`Ground`](super::Ground).
+    /// Where each node sticks to the bottom by friction (m, from the origin): see [`Ground`](super::Ground).
     pub(super) stuck: Vec<Vector3<f64>>,
     /// Strain to which each element has yielded; empty for a rod without viscoelastic rope.
     pub(super) yielded: Vec<f64>,
@@ -46,7 +49,7 @@ impl State {
             return Err(RodError::Shape { rod: rod.name.clone(), why });
         }
         let length = rod.length();
-        let mut at = 1;
+        let (mut at, origin) = (1, points[0]);
         let position = rod
             .arc()
             .iter()
@@ -56,7 +59,7 @@ impl State {
                     at += 1;
                 }
                 let share = (here - along[at - 1]) / (along[at] - along[at - 1]).max(f64::MIN_POSITIVE);
-                points[at - 1] + (points[at] - points[at - 1]) * share.clamp(0.0, 1.0)
+                (points[at - 1] - origin) + (points[at] - points[at - 1]) * share.clamp(0.0, 1.0)
             })
             .collect();
         let position: Vec<Vector3<f64>> = position;
@@ -86,6 +89,7 @@ impl State {
         let yielded = rod.yielded(&position);
         Ok(State {
             time: 0.0,
+            origin,
             stuck: position.clone(),
             position,
             velocity: rest.clone(),
@@ -97,9 +101,29 @@ impl State {
         })
     }
 
+    /// Place of a node, from end A (m, global); none of a node that is not there.
+    pub fn place(&self, node: usize) -> Option<Vector3<f64>> {
+        self.position.get(node).map(|x| x + self.origin)
+    }
+
+    /// Place of each node from end A (m, global).
+    pub fn places(&self) -> Vec<Vector3<f64>> {
+        self.position.iter().map(|x| x + self.origin).collect()
+    }
+
+    /// Measures positions from another origin (m, global); the places stay.
+    pub(super) fn move_origin(&mut self, origin: Vector3<f64>) {
+        let back = self.origin - origin;
+        if back != Vector3::zeros() {
+            self.position.iter_mut().chain(&mut self.stuck).for_each(|x| *x += back);
+            self.origin = origin;
+        }
+    }
+
     /// Becomes another state of the same rod, in memory that is there.
     pub(super) fn copy_from(&mut self, other: &State) {
         self.time = other.time;
+        self.origin = other.origin;
         self.position.copy_from_slice(&other.position);
         self.velocity.copy_from_slice(&other.velocity);
         self.acceleration.copy_from_slice(&other.acceleration);

@@ -52,8 +52,8 @@ impl Solver {
         world: &World,
         ends: [End; 2],
     ) -> Result<EndForces, RodError> {
-        self.begin(rod, state)?;
-        let made = self.come_to_rest(rod, state, world, ends);
+        self.begin(rod, state, &ends)?;
+        let made = self.nearby(world, |solver, world, near| solver.come_to_rest(rod, state, world, near.ends(ends)));
         self.done(made, |_| true)
     }
 
@@ -68,14 +68,21 @@ impl Solver {
         world: &World,
         ends: [End; 2],
     ) -> Result<Option<EndForces>, RodError> {
-        self.begin(rod, state)?;
+        self.begin(rod, state, &ends)?;
         let mass = masses(rod);
-        let made = self.rest_beside(rod, state, world, ends, &mass, &mut 0);
+        let made = self.nearby(world, |solver, world, near| {
+            solver.rest_beside(rod, state, world, near.ends(ends), &mass, &mut 0)
+        });
         self.done(made, Option::is_some)
     }
 
-    fn begin(&mut self, rod: &Rod, state: &State) -> Result<(), RodError> {
+    /// Measures positions from where end A is held.
+    fn begin(&mut self, rod: &Rod, state: &mut State, ends: &[End; 2]) -> Result<(), RodError> {
         self.fits(rod, state)?;
+        if let Some(motion) = ends[0].motion.filter(|motion| motion.position.iter().all(|c| c.is_finite())) {
+            state.move_origin(motion.position);
+        }
+        self.trial.origin = state.origin;
         self.at = At::Nowhere;
         self.slid = false;
         self.trial.still = true;

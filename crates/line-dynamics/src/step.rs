@@ -64,6 +64,8 @@ pub struct Solver {
     pub(super) beside: Workspace,
     /// Solutions with the transpose of the matrix.
     pub(super) adjoint: Vec<f64>,
+    /// Room for global places.
+    pub(super) room: Vec<Vector3<f64>>,
 }
 
 /// What the solver has at hand.
@@ -84,6 +86,7 @@ impl Solver {
         let zero = vec![Vector3::zeros(); nodes];
         let state = State {
             time: 0.0,
+            origin: Vector3::zeros(),
             position: zero.clone(),
             velocity: zero.clone(),
             acceleration: zero.clone(),
@@ -96,6 +99,7 @@ impl Solver {
         let still = UniformFluid::none().0;
         let trial = Trial {
             time: 0.0,
+            origin: Vector3::zeros(),
             x: zero.clone(),
             v: zero.clone(),
             a: zero.clone(),
@@ -132,6 +136,7 @@ impl Solver {
             weights: Weights { k: 1.0, c: 0.0, m: 0.0 },
             slid: false,
             at: At::Nowhere,
+            room: Vec::with_capacity(nodes),
             whole: false,
             near: Near::new(),
         }
@@ -173,6 +178,19 @@ impl Solver {
             let why = format!("a step from {} s to {time} s goes nowhere", state.time);
             return Err(RodError::Shape { rod: rod.name.clone(), why });
         }
+        self.trial.origin = state.origin;
+        self.nearby(world, |solver, world, near| solver.trial_nearby(rod, state, world, time, near.ends(ends)))
+    }
+
+    /// [`Solver::trial`] in coordinates from the origin of the state.
+    fn trial_nearby(
+        &mut self,
+        rod: &Rod,
+        state: &State,
+        world: &World,
+        time: f64,
+        ends: [End; 2],
+    ) -> Result<EndForces, RodError> {
         let mut iterations = 0;
         if self.follows(state, time, &ends) {
             match self.attempt(rod, state, world, time, ends, true) {

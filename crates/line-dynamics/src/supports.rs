@@ -1,6 +1,7 @@
 //! A rod on what holds it between its ends.
 
 use super::mesh::Rod;
+use super::nearby::Nearby;
 use super::state::State;
 use super::step::Solver;
 use super::surroundings::{Gripped, Holds, Support, World};
@@ -217,7 +218,8 @@ impl Rod {
             let force = supported(support, &found, &state.velocity).map_or_else(Vector3::zeros, |made| made.force);
             OnSupport { force, moment: found.at.cross(&force), arc: Some(arc) }
         };
-        world.supports.iter().map(look).collect()
+        let near = Nearby::new(world, state.origin, Vec::new());
+        near.world().supports.iter().map(look).collect()
     }
 }
 
@@ -299,6 +301,11 @@ impl Solver {
     ///
     /// None where there is no trial, or the system cannot be solved, as it could in the trial.
     pub fn support_tangent(&mut self, rod: &Rod, world: &World) -> Option<SupportTangent> {
+        self.nearby(world, |solver, world, _| solver.support_tangent_nearby(rod, world))
+    }
+
+    /// [`Solver::support_tangent`] in coordinates from the origin of the trial.
+    fn support_tangent_nearby(&mut self, rod: &Rod, world: &World) -> Option<SupportTangent> {
         self.linearise(rod, world, true, [false; 2])?;
         let count = world.supports.len();
         let (x, v) = (&self.trial.x, &self.trial.v);

@@ -19,8 +19,10 @@ pub(super) struct Stretch {
     pub strain: f64,
     /// Strain rate (1/s).
     pub rate: f64,
-    /// Elevation of its middle (m).
+    /// Elevation of its middle over the datum (m).
     pub height: f64,
+    /// Elevation of the datum, the origin of positions (m, global).
+    pub datum: f64,
 }
 
 /// How the law of an element is taken.
@@ -39,20 +41,20 @@ pub(super) struct Walls {
     pub free: f64,
     /// Tension by the pressure outside (m2).
     pub outside: f64,
-    /// Tension that the contents take away at z = 0 (N), and give back by the way up from there (N/m).
+    /// Tension that the contents take away at the datum (N), and give back by the way up from there (N/m).
     pub inside: f64,
     pub contents: f64,
 }
 
 impl Walls {
-    /// Of a tube: (1 - 2 nu)(p_e A_e - p_i A_i) (Sparks, Fundamentals of Marine Riser Mechanics, 2007, section 2.4).
+    /// Of a tube, heights over a datum (m, global): (1 - 2 nu)(p_e A_e - p_i A_i) (Sparks, Fundamentals of Marine Riser Mechanics, 2007, section 2.4).
     #[inline(always)]
-    pub fn of(tube: &Tube, gravity: f64) -> Self {
+    pub fn of(tube: &Tube, gravity: f64, datum: f64) -> Self {
         let share = 1.0 - 2.0 * tube.poisson;
         let [outside, inside] = tube.areas().map(|area| share * area);
         let contents = tube.contents * gravity * inside;
         let free = tube.expansion * tube.warmer;
-        Walls { free, outside, inside: tube.pressure * inside + contents * tube.at, contents }
+        Walls { free, outside, inside: tube.pressure * inside + contents * (tube.at - datum), contents }
     }
 }
 
@@ -104,7 +106,7 @@ pub(super) fn tension(
         made.by_strain += slope;
     }
     if let Some(tube) = &segment.tube {
-        let Walls { outside, inside, contents, .. } = Walls::of(tube, gravity);
+        let Walls { outside, inside, contents, .. } = Walls::of(tube, gravity, stretch.datum);
         let [a, b] = fluids.map(|fluid| fluid.pressure(stretch.height, gravity));
         let (outer, by_height) = (0.5 * (a.0 + b.0), 0.5 * (a.1 + b.1));
         made.value += outer * outside - (inside - contents * stretch.height);

@@ -13,6 +13,8 @@ use nalgebra::{Rotation3, Vector3};
 #[derive(Clone, Debug)]
 pub(super) struct Trial {
     pub time: f64,
+    /// From where its positions are measured (m, global).
+    pub origin: Vector3<f64>,
     pub x: Vec<Vector3<f64>>,
     pub v: Vec<Vector3<f64>>,
     pub a: Vec<Vector3<f64>>,

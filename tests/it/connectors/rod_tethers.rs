@@ -349,7 +349,7 @@ fn towed_periods(cut: usize, plane: Option<bool>) -> Vec<(f64, [f64; 3])> {
     let places: Vec<Vector3<f64>> = rod.arc().iter().map(|s| Vector3::new(place(*s), 0.0, -0.5)).collect();
     let ends = [places[0], places[places.len() - 1]].map(End::pinned);
     let mut state = State::along(&rod, &places).unwrap();
-    state.position = places;
+    state.position = places.iter().map(|place| place - state.origin).collect();
     let mut solver = Solver::new(&rod, Settings::default());
     if plane.is_none() {
         solver.statics(&rod, &mut state, &world, ends).unwrap();

@@ -100,8 +100,10 @@ impl MovingLine {
         while share < 1.0 {
             let [before, bottom] = [share, to].map(|share| Between { plane: &plane, other, share });
             let mut next = state.clone();
+            let origin = next.origin;
             for x in next.position.iter_mut().take(last).skip(1) {
-                x.z += bottom.height(x.x, x.y).0 - before.height(x.x, x.y).0;
+                let place = *x + origin;
+                x.z += bottom.height(place.x, place.y).0 - before.height(place.x, place.y).0;
             }
             let world = World { bottom: Some((&bottom, ground)), ..*world };
             if solver.statics_beside(rod, &mut next, &world, ends).ok()?.is_some() {

@@ -236,8 +236,8 @@ impl MovingLine {
             })
         });
         let end = if dt > 0.0 { solver.end() } else { state };
-        let paid = match (&self.base.laid, end.position.first()) {
-            (Some(laid), Some(place)) if dt > 0.0 => laid.paid(at.ends, place, kept.paid),
+        let paid = match (&self.base.laid, end.place(0)) {
+            (Some(laid), Some(place)) if dt > 0.0 => laid.paid(at.ends, &place, kept.paid),
             _ => kept.paid,
         };
         self.layout.write((rod, &self.base.bands), (end, paid), trial)?;

@@ -162,10 +162,10 @@ impl MovingLine {
             let Some(tensioner) = tensioner.as_mut().filter(|t| t.stiffness == 0.0) else { return Ok(line) };
             // it is cut where the tensioner holds it as laid
             let rest = line.rest(&at, &mut Warm::of(&line.base))?.state;
-            let end = ends.last().zip(rest.position.first());
+            let end = ends.last().zip(rest.place(0));
             let short =
                 end.map_or(0.0, |(end, x)| (end.pose.axes * turn * tensioner.along).dot(&(x - end.pose.origin)));
-            course.points = rest.position;
+            course.points = rest.places();
             match course.spans.first_mut() {
                 Some((_, length)) if short.abs() > SHORT && cut < CUTS && *length + short > 0.0 => *length += short,
                 _ => (tensioner.at, tensioner.stiffness) = (short, part.ea() / BRAKE),

@@ -57,8 +57,8 @@ fn a_current_across_pulls_at_what_hangs_and_moves_nothing_that_lies() {
             assert!(!solver.slid(), "{slope} {length} {speed}");
             // up to two elements before it leaves the bottom
             let over = |x: &Vector3<f64>| x.z - bottom.height(x.x, x.y).0;
-            let foot = state.position.iter().rposition(|x| over(x) < 0.0).unwrap().saturating_sub(2);
-            let aside = state.position[..foot].iter().map(|x| x.y.abs()).fold(0.0, f64::max);
+            let foot = state.places().iter().rposition(|x| over(x) < 0.0).unwrap().saturating_sub(2);
+            let aside = state.places()[..foot].iter().map(|x| x.y.abs()).fold(0.0, f64::max);
             let hangs = (rod.nodes() - 1 - foot) as f64 * length / 88.0;
             let drag = 0.5 * DENSITY * 1.2 * DIAMETER * speed * speed * hangs;
             println!(
@@ -160,7 +160,7 @@ fn a_current_across_a_line_that_lies_from_end_to_end_does_not_move_it() {
         let mut solver = Solver::new(&rod, Settings::default());
         solver.statics(&rod, &mut state, &world, ends).unwrap();
         let made = solver.statics(&rod, &mut state, &world, ends).unwrap();
-        let aside = state.position.iter().map(|x| x.y).fold(0.0, f64::max);
+        let aside = state.places().iter().map(|x| x.y).fold(0.0, f64::max);
         // as it rests it stays
         let before = state.clone();
         for i in 1..=50 {

@@ -60,6 +60,34 @@ fn a_cantilever_with_a_tip_load_takes_the_shape_of_the_elastica() {
 }
 
 #[test]
+fn short_stiff_cantilever_far_from_the_origin_bends_as_near_it() {
+    // P L^3 / (3 EI) + w L^4 / (8 EI) with EI = 2.16e8 N m2, P = 500 kN, w = 2.332 kN/m, L = 1 m; the slope of 1.2e-3 changes the sixth figure
+    let (length, elements, bending) = (1.0, 100, 2.16e8);
+    let exact = 5e5 / (3.0 * bending) + 2332.0 / (8.0 * bending);
+    let segment = Segment {
+        bending,
+        compression: true,
+        ..Segment::line(length, elements, 2332.0 / 9.80665, 5e10, 0.1)
+    };
+    let rod = Rod::new("short", vec![segment], vec![]).unwrap();
+    let fluid = UniformFluid::none();
+    let forces = [(elements, Vector3::new(0.0, 0.0, -5e5))];
+    let world = World { forces: &forces, ..World::new(&fluid, 9.80665) };
+    for root in [Vector3::zeros(), Vector3::new(0.0, 0.0, 500.0), Vector3::new(7071.0678, -7071.0679, 500.0)] {
+        let mut state = State::along(&rod, &[root, root + Vector3::x() * length]).unwrap();
+        let mut solver = Solver::new(&rod, Settings::default());
+        let clamp = End::pinned(root).clamped(Vector3::x());
+        let made = solver.statics(&rod, &mut state, &world, [clamp, End::FREE]).unwrap();
+        let bent = -state.position[elements].z;
+        // a chain of n elements is stiffer by 1 / (4 n^2) of a cantilever under a tip load, 2.5e-5 here
+        assert!((bent / exact - 1.0).abs() < 1e-4, "{root}: {bent} {exact}");
+        let node = rod.results(&state, &world, &[clamp, End::FREE])[elements].position;
+        assert!((node.z - root.z + bent).abs() < 1e-12 * (1.0 + root.norm()));
+        assert!((made.moment[0].norm() / (5e5 + 1166.0) - 1.0).abs() < 1e-4, "{root}: {}", made.moment[0]);
+    }
+}
+
+#[test]
 fn a_clamped_and_tensioned_riser_bends_as_the_beam_with_tension() {
     // a light beam under tension T between clamps at x = 0 and L with a side load q: closed form of EI y'''' - T y'' = q
     let (length, bending, tension, q) = (100.0, 1e7, 2e5, 20.0);

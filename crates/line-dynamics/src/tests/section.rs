@@ -221,7 +221,7 @@ fn a_polynomial_and_a_table_of_tension_hang_as_the_line_they_describe() {
         let mut state = State::along(&rod, &[top, Vector3::new(0.0, 0.0, -10.0)]).unwrap();
         let mut solver = Solver::new(&rod, Settings::default());
         solver.statics(&rod, &mut state, &world, [End::pinned(top), End::FREE]).unwrap();
-        -state.position[50].z - 10.0
+        -state.place(50).unwrap().z - 10.0
     };
     // own weight w over length L: w L^2 / 2 EA
     let linear = 20.0 * 9.81 * 100.0 / (2.0 * 1e4);

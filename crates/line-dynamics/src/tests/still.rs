@@ -77,7 +77,7 @@ fn ropes_that_are_slack_vertical_grounded_or_buoyant_come_to_rest() {
                 // holders alone
                 let weight = 100.0 * 9.81 * (mass - 1025.0 * std::f64::consts::FRAC_PI_4 * diameter * diameter);
                 let held = made.force[0].z + made.force[1].z;
-                let clear = state.position.iter().all(|x| x.z > bottom.height(x.x, x.y).0 && x.z < -0.2);
+                let clear = state.places().iter().all(|x| x.z > bottom.height(x.x, x.y).0 && x.z < -0.2);
                 if clear {
                     assert!((held + weight).abs() < 1e-6 * weight.abs(), "{held} {weight}");
                 }
@@ -235,7 +235,7 @@ fn a_rope_that_floats_up_comes_to_rest_as_its_mirror_image_that_sinks_and_as_soo
         let mut state = State::along(&rod, &[a, b]).unwrap();
         let ends = [End::pinned(a), End::pinned(b)];
         let made = Solver::new(&rod, Settings::default()).statics(&rod, &mut state, &world, ends).unwrap();
-        (state.position, made.iterations)
+        (state.places(), made.iterations)
     };
     let ((light, few), (heavy, many)) = (rest(0.2, 10.0), rest(2.0 * water - 0.2, -10.0));
     for (a, b) in light.iter().zip(&heavy) {

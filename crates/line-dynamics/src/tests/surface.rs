@@ -81,7 +81,7 @@ fn a_cylinder_pressed_through_the_surface_takes_up_the_momentum_of_its_added_mas
         };
         let (steps, h) = (2000, 1e-3);
         let run = |state: &mut State, solver: &mut Solver, speed: f64| {
-            let (t0, from) = (state.time, [state.position[0], state.position[1]]);
+            let (t0, from) = (state.time, [0, 1].map(|node| state.place(node).unwrap()));
             (1..=steps).fold(Vector3::zeros(), |sum, i| {
                 let t = i as f64 * h;
                 let made = solver
@@ -153,7 +153,7 @@ fn a_pipe_that_drops_level_on_the_sea_slams_and_floats() {
         }
         // afloat with two fifths of its section under: 3 s^2 - 2 s^3 = 0.4 at s = 0.432932
         let wanted = (0.5 - 0.432_932) * diameter;
-        let bent = state.position.iter().map(|x| (x.z - wanted).abs()).fold(0.0, f64::max);
+        let bent = state.places().iter().map(|x| (x.z - wanted).abs()).fold(0.0, f64::max);
         // what is left of its heave, which dies out with drag
         assert!(bent < 0.02, "{h}: {bent}");
         assert!(state.velocity.iter().all(|v| v.norm() < 0.1), "{h}: {:?}", state.velocity[0]);

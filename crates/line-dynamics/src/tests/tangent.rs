@@ -24,6 +24,7 @@ fn everything(bending: f64) -> (Rod, State) {
     let buoy = super::buoy(7);
     let rod = Rod::new("all", segments, vec![buoy]).unwrap();
     let mut state = State::along(&rod, &[Vector3::new(0.0, 0.0, -9.0), Vector3::new(30.0, 5.0, 8.0)]).unwrap();
+    state.move_origin(Vector3::zeros());
     for i in 0..rod.nodes() {
         let s = i as f64;
         state.position[i] += Vector3::new((s * 1.3).sin(), (s * 2.1).cos(), (s * 0.7).sin() * 1.5);
@@ -129,6 +130,7 @@ fn elements_taken_at_once_are_what_each_is_alone() {
         let mut rod = Rod::new("plain", vec![segment], vec![]).unwrap();
         // the top comes out of the water, some elements are slack, one is wound, one node stands still in the water
         let mut state = State::along(&rod, &[Vector3::new(0.0, 0.0, -90.0), Vector3::new(30.0, 5.0, 6.0)]).unwrap();
+        state.move_origin(Vector3::zeros());
         for i in 0..rod.nodes() {
             let s = i as f64;
             state.position[i] += Vector3::new((s * 1.3).sin(), (s * 2.1).cos(), (s * 0.7).sin() * 1.5);
