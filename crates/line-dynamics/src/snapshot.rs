@@ -89,10 +89,14 @@ impl State {
 
     /// How many numbers [`State::pack`] makes of a state of a rod.
     pub fn packed(rod: &Rod) -> usize {
-        let elements = rod.elements.len();
+        State::packed_with(rod, rod.elements.len())
+    }
+
+    /// The same of a rod of such segments that a winch has given so many elements.
+    pub fn packed_with(rod: &Rod, elements: usize) -> usize {
         let (turns, strains) =
             (if rod.twists() { 3 * elements } else { 0 }, if rod.remembers() { elements } else { 0 });
-        HEAD + PER_NODE * rod.nodes() + turns + strains
+        HEAD + PER_NODE * elements.saturating_add(1) + turns + strains
     }
 
     /// The state that [`State::pack`] made numbers of, to the last bit.

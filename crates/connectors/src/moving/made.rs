@@ -72,10 +72,9 @@ impl MovingLine {
                 rod::MOST_ELEMENTS
             )));
         }
-        let per_node = State::packed(&rod).div_ceil(rod.nodes()) + 1;
         let holds = holds(&description, connection)?;
         let ground = ground(&description.seabed, rod.segments(), around);
-        let layout = Layout::new(capacity, per_node * (capacity + 2), connection.duty.books);
+        let layout = Layout::new(capacity, State::packed_with(&rod, capacity), connection.duty.books);
         let base = Base {
             description,
             rod,
