@@ -1,7 +1,7 @@
 //! Falls by which a rod comes to rest: see [`Solver::statics`].
 
 use super::error::RodError;
-use super::mesh::Rod;
+use super::mesh::{Element, Rod};
 use super::step::Solver;
 use super::surroundings::World;
 use super::tension::{Stretch, Taken, tension};
@@ -25,6 +25,8 @@ const SHORTEST: f64 = 1e-9;
 /// Acceleration that falls are paced by where there is next to no weight (m/s2): some number that is not zero, as nothing
 /// else than how soon the falls have the right length goes by it.
 const LIGHT: f64 = 1.0;
+/// Least mass by which the falls of a rod are paced, as a share of that of what is attached to it.
+const ATTACHED: f64 = 1e-3;
 /// Strain below which a start is too short.
 const SHORT: f64 = -0.01;
 /// Largest residual of a node as a share of the largest force in the rod.
@@ -46,8 +48,8 @@ impl Solver {
         most_iterations: usize,
     ) -> Result<(), RodError> {
         let last = rod.elements.len();
-        let weight = mass.iter().sum::<f64>() * world.gravity.abs();
-        if !self.trial.stiff() && !self.trial.held {
+        let weight = weight(rod, world);
+        if !self.trial.stiff() && !self.trial.held && !self.stands {
             // a start that is much too short would buckle in all its elements at once: it first falls as a chain does
             let strains =
                 rod.elements.iter().zip(self.trial.x.windows(2)).map(|(e, x)| (x[1] - x[0]).norm() / e.rest - 1.0);
@@ -178,7 +180,7 @@ impl Solver {
         if !worst.1.is_finite() {
             return Fall::Lost;
         }
-        let rest = worst.1 <= self.forces_told(rod, world, mass);
+        let rest = worst.1 <= self.forces_told(rod, world);
         // a state that rests is looked at on its own; what would grow slower than this it may
         let pseudo = if rest { 100.0 * first_fall(rod, world) } else { pseudo };
         for (node, m) in mass.iter().enumerate() {
@@ -212,7 +214,23 @@ impl Solver {
             let d = &self.change[stride * i..stride * i + 3];
             self.trial.x[i] += Vector3::new(d[0], d[1], d[2]);
         }
-        Fall::Moved { share: size / shortest, worst }
+        Fall::Moved { share: self.share_moved(rod, size), worst }
+    }
+
+    /// The change at hand, of which a coordinate changes by `size` at most (m), as a share of what Newton's iteration follows: of the shortest
+    /// element; of a stiff rod, which moves far without bending much, the largest change of an edge as a share of its element.
+    pub(super) fn share_moved(&self, rod: &Rod, size: f64) -> f64 {
+        if !self.stands {
+            return size / rod.shortest();
+        }
+        let stride = self.work.stride();
+        let pairs = self.change.chunks_exact(stride).zip(self.change.chunks_exact(stride).skip(1));
+        let edge = |((a, b), element): ((&[f64], &[f64]), &Element)| {
+            let square: f64 = a.iter().zip(b).take(3).map(|(a, b)| (b - a) * (b - a)).sum();
+            square.sqrt() / element.rest
+        };
+        let turns = self.change.chunks_exact(stride).flat_map(|node| node[3..].iter().map(|turn| turn.abs()));
+        pairs.zip(&rod.elements).map(edge).chain(turns).fold(0.0, f64::max)
     }
 
     /// Tension (N) of an element of the trial, at rest, with what heat and pressure do to it.
@@ -228,8 +246,8 @@ impl Solver {
 
     /// The least residual that can be told from nothing (N): a share of the largest force in the rod, or what rounding of
     /// positions makes through its stiffness.
-    fn forces_told(&self, rod: &Rod, world: &World, mass: &[f64]) -> f64 {
-        let weight = mass.iter().sum::<f64>() * world.gravity.abs();
+    fn forces_told(&self, rod: &Rod, world: &World) -> f64 {
+        let weight = weight(rod, world);
         let place = self.trial.x.iter().fold(0.0, |most: f64, x| most.max(x.amax()));
         let mut told = PROOF * weight;
         for (i, (element, x)) in rod.elements.iter().zip(self.trial.x.windows(2)).enumerate() {
@@ -261,10 +279,28 @@ pub(super) enum Fall {
     Moved { share: f64, worst: (usize, f64) },
 }
 
+/// Weight of a rod in air, with what is attached (N).
+pub(super) fn weight(rod: &Rod, world: &World) -> f64 {
+    let own = rod.elements.iter().map(|e| 2.0 * e.mass).sum::<f64>();
+    (own + rod.attachments.iter().map(|a| a.mass).sum::<f64>()) * world.gravity.abs()
+}
+
 /// Mass of each node (kg), by which falls are paced. The water it displaces is left out: falls get as long as they are
 /// easily found, and a rope that floats up comes to rest in no more of them than one that sinks.
-pub(super) fn masses(rod: &Rod) -> Vec<f64> {
+///
+/// Where the rod is loaded or bends by more than its weight, falls that its own mass paces are too long for these forces. Along its
+/// length it then has as much mass as they would weigh; and it has no less than a share of what is attached to it.
+pub(super) fn masses(rod: &Rod, world: &World) -> Vec<f64> {
+    let given: f64 = world.forces.iter().map(|(_, force)| force.norm()).sum();
+    let whole = weight(rod, world);
+    let attached = rod.attachments.iter().map(|a| a.mass).sum::<f64>() * world.gravity.abs();
+    let beyond = (given.max(rod.bending_force()) - whole).max(ATTACHED * attached - (whole - attached)).max(0.0);
+    let more = beyond / world.gravity.abs().max(LIGHT) / rod.length();
     let mut mass = vec![0.0; rod.nodes()];
+    for (i, element) in rod.elements.iter().enumerate().filter(|_| more > 0.0) {
+        mass[i] += 0.5 * more * element.rest;
+        mass[i + 1] += 0.5 * more * element.rest;
+    }
     for (i, element) in rod.elements.iter().enumerate() {
         mass[i] += element.mass;
         mass[i + 1] += element.mass;

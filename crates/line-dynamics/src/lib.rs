@@ -38,6 +38,7 @@ mod bend;
 mod books;
 mod condense;
 mod contact;
+mod continuation;
 mod drawn;
 mod ends;
 mod error;

@@ -249,6 +249,12 @@ impl Rod {
         self.elements.iter().map(|e| e.rest).fold(f64::INFINITY, f64::min)
     }
 
+    /// Force across a rod (N) that bends it by an angle of one over its length, EI / L^2 of the softest element: none of one with an
+    /// element that does not bend.
+    pub(super) fn bending_force(&self) -> f64 {
+        self.elements.iter().map(|e| e.bending).fold(f64::INFINITY, f64::min) / self.length().powi(2)
+    }
+
     /// Unstretched distance of each node from end A (m).
     pub fn arc(&self) -> Vec<f64> {
         let mut sum = 0.0;

@@ -82,7 +82,8 @@ impl Solver {
             return None;
         }
         self.work.newton(&mut self.change);
-        if largest(&self.change, stride, rod.shortest()) > NEAR * rod.shortest() {
+        let size = largest(&self.change, stride, rod.shortest());
+        if !size.is_finite() || self.share_moved(rod, size) > NEAR {
             return None;
         }
         turn(&mut self.trial.director, &self.trial.x, &self.change, stride, [false; 2]);

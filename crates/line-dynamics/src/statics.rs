@@ -3,7 +3,7 @@
 use super::drawn::{LEFT, drawn};
 use super::ends::End;
 use super::error::RodError;
-use super::falls::masses;
+use super::falls::{masses, weight};
 use super::held::Calm;
 use super::hinges::end_moment;
 use super::mesh::Rod;
@@ -52,7 +52,7 @@ impl Solver {
         world: &World,
         ends: [End; 2],
     ) -> Result<EndForces, RodError> {
-        self.begin(rod, state, &ends)?;
+        self.begin(rod, state, world, &ends)?;
         let made = self.nearby(world, |solver, world, near| solver.come_to_rest(rod, state, world, near.ends(ends)));
         self.done(made, |_| true)
     }
@@ -68,8 +68,8 @@ impl Solver {
         world: &World,
         ends: [End; 2],
     ) -> Result<Option<EndForces>, RodError> {
-        self.begin(rod, state, &ends)?;
-        let mass = masses(rod);
+        self.begin(rod, state, world, &ends)?;
+        let mass = masses(rod, world);
         let made = self.nearby(world, |solver, world, near| {
             solver.rest_beside(rod, state, world, near.ends(ends), &mass, &mut 0)
         });
@@ -77,12 +77,13 @@ impl Solver {
     }
 
     /// Measures positions from where end A is held.
-    fn begin(&mut self, rod: &Rod, state: &mut State, ends: &[End; 2]) -> Result<(), RodError> {
+    fn begin(&mut self, rod: &Rod, state: &mut State, world: &World, ends: &[End; 2]) -> Result<(), RodError> {
         self.fits(rod, state)?;
         if let Some(motion) = ends[0].motion.filter(|motion| motion.position.iter().all(|c| c.is_finite())) {
             state.move_origin(motion.position);
         }
         self.trial.origin = state.origin;
+        self.stands = rod.is_stiff(weight(rod, world));
         self.at = At::Nowhere;
         self.slid = false;
         self.trial.still = true;
@@ -112,9 +113,14 @@ impl Solver {
         world: &World,
         ends: [End; 2],
     ) -> Result<EndForces, RodError> {
-        let (mass, mut done) = (masses(rod), 0);
+        let (mass, mut done) = (masses(rod, world), 0);
         if let Some(made) = self.rest_beside(rod, state, world, ends, &mass, &mut done)? {
             return Ok(made);
+        }
+        if self.stands
+            && let Some(done) = self.rest_followed(rod, state, world, &ends, &mass)?
+        {
+            return Ok(self.rested(rod, state, world, &ends, done));
         }
         let drawn = drawn(rod, world, &ends);
         if drawn.is_none()
@@ -258,7 +264,7 @@ impl Solver {
     }
 
     /// Takes the state as the trial, at rest with its ends where they are to be.
-    fn lie(&mut self, rod: &Rod, state: &State, world: &World, ends: &[End; 2]) {
+    pub(super) fn lie(&mut self, rod: &Rod, state: &State, world: &World, ends: &[End; 2]) {
         let (last, zero) = (rod.elements.len(), Vector3::zeros());
         self.weights = Weights { k: 1.0, c: 0.0, m: 0.0 };
         self.trial.time = state.time;

@@ -53,6 +53,8 @@ pub struct Solver {
     pub(super) weights: Weights,
     /// See [`Solver::slid`].
     pub(super) slid: bool,
+    /// Whether the rod at hand stands by its bending stiffness: see [`Rod::is_stiff`].
+    pub(super) stands: bool,
     /// What is at hand: see [`At`].
     pub(super) at: At,
     /// Where the step of the last trial began, and whether it was made in one part.
@@ -135,6 +137,7 @@ impl Solver {
             next: state,
             weights: Weights { k: 1.0, c: 0.0, m: 0.0 },
             slid: false,
+            stands: false,
             at: At::Nowhere,
             room: Vec::with_capacity(nodes),
             whole: false,

@@ -3,6 +3,7 @@
 mod across;
 mod again;
 mod beam;
+mod cantilever;
 mod end_tangent;
 mod friction;
 mod lowering;

@@ -1,0 +1,150 @@
+//! Rest of a stiff rod by continuation.
+//!
+//! A rod whose bending stiffness outweighs it does not fall into its shape as a chain does: let go of its stiffness it folds, and a
+//! fold has no end of bending force. It is therefore followed from a shape that is known to one that is wanted: loads and places of
+//! the ends go over from the one to the other by steps, each of which is Newton's iteration from the step before. A step that does
+//! not converge is made shorter; where the shortest does not, as a strut buckles there, the rod falls into its next shape.
+
+use super::ends::{End, Motion};
+use super::error::RodError;
+use super::mesh::Rod;
+use super::state::State;
+use super::step::Solver;
+use super::surroundings::World;
+use nalgebra::Vector3;
+
+/// First and least step, as shares of the whole way.
+const FIRST: f64 = 0.25;
+const LEAST: f64 = 1.0 / 256.0;
+/// Newton iterations after which a fall into the next shape is given up.
+const MOST_FALLING: usize = 600;
+/// By how much a step grows after one that has converged.
+const GROWTH: f64 = 2.0;
+
+/// Where a continuation begins.
+#[derive(Clone, Debug)]
+struct Start {
+    state: State,
+    /// Share of weight and given forces that is there already.
+    loaded: f64,
+}
+
+impl Rod {
+    /// Whether a rod of a weight (N) stands by its bending stiffness: EI / L^2 is above it. Every element bears compression and bends.
+    pub(super) fn is_stiff(&self, weight: f64) -> bool {
+        self.bending_force() > weight && self.elements.iter().all(|e| e.compression)
+    }
+}
+
+impl Solver {
+    /// Rest of a stiff rod: from the state, if that rests where its ends are, or else from the straight rod free of load. None where
+    /// neither way leads there.
+    pub(super) fn rest_followed(
+        &mut self,
+        rod: &Rod,
+        state: &State,
+        world: &World,
+        ends: &[End; 2],
+        mass: &[f64],
+    ) -> Result<Option<usize>, RodError> {
+        let mut done = 0;
+        let near = Start { state: state.clone(), loaded: 1.0 };
+        for start in std::iter::once(near).chain(straight(rod, state, ends)) {
+            if self.followed(rod, start, world, ends, mass, &mut done)? {
+                return Ok(Some(done));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Whether the way from a start leads to the ends wanted: the trial is then there.
+    fn followed(
+        &mut self,
+        rod: &Rod,
+        mut start: Start,
+        world: &World,
+        ends: &[End; 2],
+        mass: &[f64],
+        done: &mut usize,
+    ) -> Result<bool, RodError> {
+        let last = rod.elements.len();
+        let from = [0, last].map(|node| start.state.position[node]);
+        let (mut share, mut step) = (0.0, FIRST);
+        // nothing is moved at first: the start itself has to rest
+        let mut to = 0.0;
+        loop {
+            if world.fluid.interrupted() {
+                return Err(RodError::Interrupted { rod: rod.name.clone() });
+            }
+            let loaded = start.loaded + (1.0 - start.loaded) * to;
+            let forces: Vec<_> = world.forces.iter().map(|(node, force)| (*node, force * loaded)).collect();
+            let world = World { gravity: world.gravity * loaded, forces: &forces, ..*world };
+            let between = [0, 1].map(|side| {
+                let place = |motion: Motion| from[side] + (motion.position - from[side]) * to;
+                End { motion: ends[side].motion.map(|m| if to < 1.0 { Motion::still(place(m)) } else { m }), ..ends[side] }
+            });
+            self.lie(rod, &start.state, &world, &between);
+            let found = match self.settle(rod, &start.state, &world, mass, &between) {
+                None if to > 0.0 && step < LEAST => self.next_shape(rod, &start.state, &world, mass, &between)?,
+                found => found,
+            };
+            match found {
+                Some(count) => {
+                    *done += count;
+                    if to >= 1.0 {
+                        return Ok(true);
+                    }
+                    start.state.position.copy_from_slice(&self.trial.x);
+                    start.state.director.copy_from_slice(&self.trial.director);
+                    (share, step) = (to, if to > 0.0 { GROWTH * step } else { step });
+                }
+                None if to == 0.0 || step < LEAST => return Ok(false),
+                None => step *= 0.25,
+            }
+            to = (share + step).min(1.0);
+        }
+    }
+
+    /// Falls from a state, moved along with its ends, into a shape beside it: the iterations it took.
+    fn next_shape(
+        &mut self,
+        rod: &Rod,
+        state: &State,
+        world: &World,
+        mass: &[f64],
+        ends: &[End; 2],
+    ) -> Result<Option<usize>, RodError> {
+        self.lie(rod, state, world, ends);
+        let (length, last) = (rod.length(), rod.elements.len());
+        let moved = [0, last].map(|node| self.trial.x[node] - state.position[node]);
+        for (x, (from, arc)) in self.trial.x.iter_mut().zip(state.position.iter().zip(rod.arc())) {
+            let s = arc / length;
+            *x = from + moved[0] * (1.0 - s) + moved[1] * s;
+        }
+        let mut done = 0;
+        match self.fall_to_rest(rod, world, mass, &mut done, MOST_FALLING) {
+            Err(interrupted @ RodError::Interrupted { .. }) => Err(interrupted),
+            made => Ok(made.is_ok().then_some(done)),
+        }
+    }
+}
+
+/// The straight rod free of load, from end A in the direction in which its ends are held, or to the other end; none of one whose shape free
+/// of load is not known or not straight, or that lies on something.
+fn straight(rod: &Rod, state: &State, ends: &[End; 2]) -> Option<Start> {
+    let [a, b] = ends.map(|end| end.motion.map(|motion| motion.position));
+    let held = ends[0].direction.or(ends[1].direction).and_then(|d| d.try_normalize(1e-12));
+    let chord = a.zip(b).and_then(|(a, b)| (b - a).try_normalize(1e-9));
+    let along = held.or(chord)?;
+    let arc = rod.arc();
+    let root = match (a, b) {
+        (Some(a), _) if ends[0].direction.is_some() || b.is_none() || held.is_none() => a,
+        (_, Some(b)) => b - along * rod.length(),
+        _ => return None,
+    };
+    if rod.twists() {
+        return None;
+    }
+    let position: Vec<Vector3<f64>> = arc.iter().map(|s| root + along * *s).collect();
+    Some(Start { state: State { stuck: position.clone(), position, ..state.clone() }, loaded: 0.0 })
+}
