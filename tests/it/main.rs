@@ -39,6 +39,7 @@ mod connectors {
     mod pipe_under_way;
     mod pistons;
     mod pushing;
+    mod rod_cantilever;
     mod rod_events;
     mod rod_growth;
     mod rod_judged;

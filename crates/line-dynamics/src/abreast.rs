@@ -112,7 +112,8 @@ impl Abreast {
             asked.rate[n] = if trial.still { 0.0 } else { element.rate };
             asked.ea[n] = element.ea;
             let tube = rod.segments[element.segment].tube.as_ref();
-            let Walls { free, outside, inside, contents } = tube.map_or(Walls::default(), |t| Walls::of(t, gravity, trial.origin.z));
+            let Walls { free, outside, inside, contents } =
+                tube.map_or(Walls::default(), |t| Walls::of(t, gravity, trial.origin.z));
             (asked.free[n], asked.outside[n]) = (free, outside);
             (asked.inside[n], asked.contents[n]) = (inside, contents);
             asked.damping[n] = element.damping;

@@ -81,7 +81,10 @@ impl Solver {
             let world = World { gravity: world.gravity * loaded, forces: &forces, ..*world };
             let between = [0, 1].map(|side| {
                 let place = |motion: Motion| from[side] + (motion.position - from[side]) * to;
-                End { motion: ends[side].motion.map(|m| if to < 1.0 { Motion::still(place(m)) } else { m }), ..ends[side] }
+                End {
+                    motion: ends[side].motion.map(|m| if to < 1.0 { Motion::still(place(m)) } else { m }),
+                    ..ends[side]
+                }
             });
             self.lie(rod, &start.state, &world, &between);
             let found = match self.settle(rod, &start.state, &world, mass, &between) {

@@ -208,7 +208,8 @@ impl Rod {
         let t = d / length;
         let stretch = length / element.rest;
         let rate = (t.dot(&(v[i + 1] - v[i])) - stretch * element.rate) / element.rest;
-        let stretched = Stretch { strain: stretch - 1.0, rate, height: 0.5 * (x[i].z + x[i + 1].z), datum: state.origin.z };
+        let stretched =
+            Stretch { strain: stretch - 1.0, rate, height: 0.5 * (x[i].z + x[i + 1].z), datum: state.origin.z };
         let taken = Taken { compression: element.compression, ease: 1.0 };
         let memory = state.yielded.get(i).map(|yielded| Memory::at_once(*yielded));
         ((t, length), tension(self, element, taken, &stretched, memory.as_ref(), beside, gravity).value)

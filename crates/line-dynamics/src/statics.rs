@@ -70,9 +70,8 @@ impl Solver {
     ) -> Result<Option<EndForces>, RodError> {
         self.begin(rod, state, world, &ends)?;
         let mass = masses(rod, world);
-        let made = self.nearby(world, |solver, world, near| {
-            solver.rest_beside(rod, state, world, near.ends(ends), &mass, &mut 0)
-        });
+        let made = self
+            .nearby(world, |solver, world, near| solver.rest_beside(rod, state, world, near.ends(ends), &mass, &mut 0));
         self.done(made, Option::is_some)
     }
 

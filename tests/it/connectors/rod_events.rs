@@ -422,7 +422,8 @@ fn a_winch_that_never_comes_to_its_length_ends_the_run_where_it_begins() {
 #[test]
 fn a_line_that_is_let_go_is_wound_no_more() {
     // until the load falls freely, before the rope whips
-    let records = fine_winch("0.5 60").replace("-TIME 60", "-TIME 18").replace("TDOM", "&ACTION OFF -AT 15 -RELEASE ROPE\nTDOM");
+    let records =
+        fine_winch("0.5 60").replace("-TIME 60", "-TIME 18").replace("TDOM", "&ACTION OFF -AT 15 -RELEASE ROPE\nTDOM");
     let session = after(&records);
     for (time, row) in nodes(session.job.run.as_ref().unwrap()).iter().filter(|r| r.0 > 5.0) {
         let long = row.last().unwrap().arc;

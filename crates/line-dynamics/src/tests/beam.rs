@@ -64,11 +64,8 @@ fn short_stiff_cantilever_far_from_the_origin_bends_as_near_it() {
     // P L^3 / (3 EI) + w L^4 / (8 EI) with EI = 2.16e8 N m2, P = 500 kN, w = 2.332 kN/m, L = 1 m; the slope of 1.2e-3 changes the sixth figure
     let (length, elements, bending) = (1.0, 100, 2.16e8);
     let exact = 5e5 / (3.0 * bending) + 2332.0 / (8.0 * bending);
-    let segment = Segment {
-        bending,
-        compression: true,
-        ..Segment::line(length, elements, 2332.0 / 9.80665, 5e10, 0.1)
-    };
+    let segment =
+        Segment { bending, compression: true, ..Segment::line(length, elements, 2332.0 / 9.80665, 5e10, 0.1) };
     let rod = Rod::new("short", vec![segment], vec![]).unwrap();
     let fluid = UniformFluid::none();
     let forces = [(elements, Vector3::new(0.0, 0.0, -5e5))];
