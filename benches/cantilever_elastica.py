@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tips of a cantilever by scipy: python3 benches/cantilever_elastica.py > tests/data/cantilever_elastica.csv
+"""Tips of a cantilever by scipy: python3 benches/cantilever_elastica.py > crates/line-dynamics/tests/data/cantilever_elastica.csv
 
 A steel pipe of 168.3 by 7.11 mm (E 2e11 Pa) and 10 m is clamped level and hangs under a dead load at its tip, with its own weight and
 without. With s the unstretched arc from the clamp, theta the slope downward, V(s) = P + w (L - s) and the tension T = V sin(theta):

@@ -19,7 +19,7 @@ fn pipe(elements: usize, weight: f64) -> Rod {
 
 /// Load (N), weight (N/m), place of the tip from the clamp, and moment there (N m): scipy's elastica.
 fn elastica() -> impl Iterator<Item = (f64, f64, Vector3<f64>, f64)> {
-    let text = include_str!("../../../../tests/data/cantilever_elastica.csv");
+    let text = include_str!("../../tests/data/cantilever_elastica.csv");
     text.lines().skip(1).map(|line| {
         let row: Vec<f64> = line.split(',').map(|v| v.parse().unwrap()).collect();
         (row[0], row[1], Vector3::new(row[2], 0.0, row[3]), row[5])
