@@ -74,6 +74,7 @@ mod floating {
 
 /// Frequency domain and time domain.
 mod time {
+    mod categories;
     mod drift_in_time;
     mod foretold_steps;
     mod frequency;

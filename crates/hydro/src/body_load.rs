@@ -94,9 +94,14 @@ pub trait BodyLoad: Debug + Send + Sync {
         None
     }
 
-    /// What of the load counts in another category than its own, where there is such.
-    fn apart(&self, _at: &Underway, _state: &[f64]) -> Option<(Category, Six)> {
-        None
+    /// The categories besides its own in which parts of the load are counted. Reports have a place for each of them.
+    fn other_categories(&self) -> &'static [Category] {
+        &[]
+    }
+
+    /// The part of the load that is counted in one of [`BodyLoad::other_categories`] instead of its own (N, N m; as the load itself).
+    fn part(&self, _category: Category, _at: &Underway, _state: &[f64]) -> Six {
+        Six::zeros()
     }
 
     /// Adds what [`BodyLoad::moving`] gives; a load of which little is other than zero does it with less work.

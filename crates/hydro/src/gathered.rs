@@ -71,8 +71,12 @@ impl BodyLoad for Multiplied {
         self.load.inertia(state).map(|inertia| inertia * self.factor)
     }
 
-    fn apart(&self, at: &Underway, state: &[f64]) -> Option<(Category, Six)> {
-        self.load.apart(at, state).map(|(category, wrench)| (category, wrench * self.factor))
+    fn other_categories(&self) -> &'static [Category] {
+        self.load.other_categories()
+    }
+
+    fn part(&self, category: Category, at: &Underway, state: &[f64]) -> Six {
+        self.load.part(category, at, state) * self.factor
     }
 
     fn commit(&self, at: &Underway, state: &mut [f64]) {

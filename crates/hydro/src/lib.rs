@@ -94,18 +94,6 @@ pub enum Category {
 }
 
 impl Category {
-    /// Those that act on a body at rest, in the order of reports.
-    pub const AT_REST: [Category; 8] = [
-        Category::Weight,
-        Category::Buoyancy,
-        Category::Wind,
-        Category::ViscousDrag,
-        Category::WaveDrift,
-        Category::Bottom,
-        Category::FlexConnectors,
-        Category::RigidConnectors,
-    ];
-
     /// All, in the order of reports.
     pub const ALL: [Category; 14] = [
         Category::Weight,

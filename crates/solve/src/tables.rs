@@ -87,7 +87,7 @@ pub fn by_category(system: &System, state: &State, fits: &dyn Fn(&str) -> bool) 
     ));
     for (body, node) in system.nodes.iter().enumerate().filter(|(_, n)| fits(&n.name)) {
         let (mut total, mut size) = (Six::zeros(), Six::zeros());
-        for category in Category::AT_REST {
+        for category in Category::ALL {
             let of = |c: &&Contribution| c.body == body && c.category == category;
             let mut any = false;
             let sum = all.iter().filter(of).fold(Six::zeros(), |sum, c| {

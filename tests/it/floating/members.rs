@@ -378,8 +378,8 @@ fn drag_under_way_is_told_in_its_own_category() {
     let (pose, velocity) = (Pose::default(), Six::zeros());
     let now = Underway { time: 0.0, dt: 0.0, pose: &pose, velocity: &velocity };
     load.begin(&now, &mut state).unwrap();
-    let (category, drag) = load.apart(&now, &state).unwrap();
-    assert_eq!(category, Category::ViscousDrag);
+    assert_eq!(load.other_categories(), [Category::ViscousDrag]);
+    let drag = load.part(Category::ViscousDrag, &now, &state);
     let whole = load.moving(&now, &state).unwrap().load.wrench;
     // under the crest there is no acceleration along the wave: all of it is drag
     near(whole[0], drag[0], 1e-12);

@@ -256,9 +256,15 @@ impl BodyLoad for Members {
         self.under_way.as_ref().map(|_| UnderWay::inertia(state))
     }
 
-    fn apart(&self, at: &Underway, state: &[f64]) -> Option<(Category, Six)> {
-        let way = self.under_way.as_ref()?;
-        Some((Category::ViscousDrag, way.drag(at, state).0))
+    fn other_categories(&self) -> &'static [Category] {
+        if self.under_way.is_some() { &[Category::ViscousDrag] } else { &[] }
+    }
+
+    fn part(&self, category: Category, at: &Underway, state: &[f64]) -> Six {
+        match (&self.under_way, category) {
+            (Some(way), Category::ViscousDrag) => way.drag(at, state).0,
+            _ => Six::zeros(),
+        }
     }
 }
 

@@ -70,6 +70,14 @@ impl Action {
             What::Environment(_) | What::Stop => &[],
         }
     }
+
+    /// The environment it brings, where it does.
+    pub fn environment(&self) -> Option<&String> {
+        match &self.what {
+            What::Environment(name) => Some(name),
+            _ => None,
+        }
+    }
 }
 
 /// Where a point stands in its body, and the body's number.

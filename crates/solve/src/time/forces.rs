@@ -248,8 +248,9 @@ impl Forces {
                     block += inertia;
                     self.carried = true;
                 }
-                if let Some((other, part)) = load.apart(&at, state) {
-                    self.count_as(body, (place_of(load.category()), place_of(other)), &part);
+                for other in load.other_categories() {
+                    let part = load.part(*other, &at, state);
+                    self.count_as(body, (place_of(load.category()), place_of(*other)), &part);
                 }
             }
             let mut block = self.stiffness.fixed_view_mut::<6, 6>(6 * body, 6 * body);

@@ -8,7 +8,7 @@ use super::ends::end_of;
 use super::forces::{CATEGORIES, Forces, Motion, place_of};
 use super::pushing::Pushing;
 use crate::link::{Attachment, Link};
-use crate::system::{SolveError, System};
+use crate::system::{Node, SolveError, System};
 use nalgebra::Vector3;
 use windlass_base::geometry::Place;
 use windlass_base::pose::Six;
@@ -70,7 +70,8 @@ pub struct Layout {
 
 impl Layout {
     /// That of a system; `links` are the connectors that act at some time; of their nodes every so manieth is kept, 0 for none.
-    pub fn new(system: &System, links: Vec<LinkEnds>, every: usize) -> Self {
+    /// `later` are the loads of bodies in environments that come during the run: their categories have a place from the start.
+    pub fn new(system: &System, later: &[Node], links: Vec<LinkEnds>, every: usize) -> Self {
         let bodies: Vec<_> = system.nodes.iter().map(|n| (n.name.clone(), n.key.clone())).collect();
         let moves = system.nodes.iter().map(|n| n.free.map(|free| free || n.prescribed.is_some())).collect();
         let mut at = 1 + OF_BODY * bodies.len();
@@ -83,10 +84,11 @@ impl Layout {
             columns.push(LinkColumns { name, ends, pulling, wrench, active, along, pushing });
         }
         let mut categories = vec![Category::Inertia, Category::Coriolis];
-        let loads = system.nodes.iter().flat_map(|n| &n.floating.loads).map(|l| l.category());
+        let loads = system.nodes.iter().chain(later).flat_map(|n| &n.floating.loads);
+        let loads = loads.flat_map(|l| std::iter::once(l.category()).chain(l.other_categories().iter().copied()));
         let connectors = [Category::FlexConnectors, Category::RigidConnectors].into_iter();
-        let damped = system.nodes.iter().filter(|n| n.damped).map(|_| Category::RadiationDrag);
-        let added = system.nodes.iter().filter(|n| n.added).map(|_| Category::AddedInertia);
+        let damped = system.nodes.iter().chain(later).filter(|n| n.damped).map(|_| Category::RadiationDrag);
+        let added = system.nodes.iter().chain(later).filter(|n| n.added).map(|_| Category::AddedInertia);
         let applied = system.applied.iter().map(|_| Category::Applied);
         categories
             .extend(loads.chain(connectors.take(2 * usize::from(!columns.is_empty()))).chain(damped).chain(added));

@@ -11,7 +11,7 @@ use super::inertia::gyroscopic;
 use super::resolution::Resolution;
 use super::statistics::Statistics;
 use super::step::{Effort, Instant, Stepper};
-use crate::system::{SolveError, System, mass_block};
+use crate::system::{SolveError, System, mass_block, moving_nodes};
 use std::sync::Arc;
 use windlass_base::geometry::Place;
 use windlass_base::pose::Six;
@@ -105,7 +105,13 @@ impl Run {
                 links.push(system.ends_of(&model, name)?);
             }
         }
-        let layout = Layout::new(&system, links, settings.along);
+        let mut later = Vec::new();
+        for environment in actions.iter().filter_map(|a| model.environments.get(&Model::key(a.environment()?))) {
+            let changed = Model { environment: environment.clone(), ..model.clone() };
+            let sea = Sea::of(&changed, environment).map_err(SolveError::new)?.map(Arc::new);
+            later.extend(moving_nodes(&changed, sea.as_ref())?);
+        }
+        let layout = Layout::new(&system, &later, links, settings.along);
         settings.fits(&layout)?;
         let motions: Vec<Motion> =
             system.state(&model).poses.into_iter().map(|pose| Motion { pose, ..Motion::default() }).collect();
@@ -176,6 +182,9 @@ impl Run {
     pub(super) fn prepare(&mut self) -> Result<(), SolveError> {
         self.now.memory.begin(&self.system, (&self.now.motions, &self.now.motions), (self.now.time, 0.0))?;
         self.stepper.balance(&self.system, &mut self.now, 0.0)?;
+        // with the accelerations found, which what has inertia of its own feels
+        let Instant { time, motions, memory, forces } = &mut self.now;
+        forces.evaluate(&self.system, memory, motions, (*time, 0.0))?;
         // what moves by itself begins where it hangs
         self.system.begin_moving(&self.now.forces.trial);
         self.resolution = self.resolve();
