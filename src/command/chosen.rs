@@ -106,10 +106,10 @@ pub fn raise(job: &mut Job, table: &Table, span: Span) {
     warnings.for_each(|text| job.warn(text, span));
 }
 
-/// Names the lines whose forces are interpolated, under the first of some tables that use them.
-pub fn note_interpolated(model: &Model, tables: &mut [Table]) {
+/// Notes what is computed by a shortcut or is missing and accepted, under the first of some tables.
+pub fn note_caveats(model: &Model, tables: &mut [Table]) {
     if let Some(table) = tables.first_mut() {
-        table.notes.extend(model.interpolated_lines());
+        table.notes.extend(model.caveats());
     }
 }
 

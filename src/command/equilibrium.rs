@@ -2,7 +2,7 @@
 //!
 //! Source: reference/solve.md, "&EQUI".
 
-use super::chosen::{note_interpolated, raise};
+use super::chosen::{WARNING, note_caveats, raise};
 use super::disposition::{BOTH, HARD, send};
 use super::verdict::{OverBreak, judged};
 use super::{Call, Command, Effect, Job};
@@ -140,10 +140,18 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         over.extend(summary.ok().and_then(|s| judged(name, &s, "&EQUI")));
     }
     job.equilibrium = Options { ignored: Vec::new(), ..options };
-    let periods =
-        tables::periods(&settled.system, &settled.state).map_err(|e| told(e, &job.model, call.args.span, job.units))?;
-    let mut list = [tables::rest(&job.model, &settled), forces, periods];
-    note_interpolated(&job.model, &mut list);
+    let mut list = vec![tables::rest(&job.model, &settled), forces];
+    match job.model.check_added_mass() {
+        Ok(()) => list.push(
+            tables::periods(&settled.system, &settled.state)
+                .map_err(|e| told(e, &job.model, call.args.span, job.units))?,
+        ),
+        Err(error) => {
+            let text = format!("{WARNING}natural periods are left out: {}", error.text(job.units));
+            list.iter_mut().take(1).for_each(|t| t.note(text.as_str()));
+        }
+    }
+    note_caveats(&job.model, &mut list);
     let head = job.page_head();
     let text = list.iter().map(|t| page::render(t, job.units, &head)).collect::<Vec<_>>().join("\n");
     send(job, &call.args, &text)?;

@@ -2,7 +2,7 @@
 //!
 //! Source: reference/solve.md, "CONN_DESIGN": MOVE body [angle]; its sixth column is the restoring force.
 
-use super::chosen::{note_interpolated, raise};
+use super::chosen::{note_caveats, raise};
 use super::equilibrium::told;
 use super::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
@@ -164,7 +164,7 @@ fn systems(job: &Job, args: &Args) -> Outcome<Systems> {
 
 /// Opens the disposition menu over a table, and raises its warnings.
 fn dispose(job: &mut Job, mut made: Table, args: &Args) -> Effect {
-    note_interpolated(&job.model, std::slice::from_mut(&mut made));
+    note_caveats(&job.model, std::slice::from_mut(&mut made));
     raise(job, &made, args.place(0));
     job.menus.push(Menu::Disposition(Box::new(Disposition::new(made))));
     Effect::Done

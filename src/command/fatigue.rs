@@ -2,7 +2,7 @@
 //!
 //! Source: reference/solve.md, "Fatigue of lines".
 
-use super::chosen::note_interpolated;
+use super::chosen::note_caveats;
 use super::equilibrium::told;
 use super::prcpost::{CONNECTORS, asked_behind_transient, connectors};
 use super::{Call, Command, Effect, Job, Menu};
@@ -87,7 +87,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         .map_err(|e| Diagnostic::error(e.to_string(), args.span).help("without -ADD a scatter begins anew"))?;
     job.scatter = runs;
     if let Some(run) = &job.run {
-        note_interpolated(&run.model, std::slice::from_mut(&mut table));
+        note_caveats(&run.model, std::slice::from_mut(&mut table));
     }
     job.menus.push(Menu::Disposition(Box::new(Disposition::new(table))));
     Ok(Effect::Done)

@@ -53,6 +53,7 @@ mod model_tables;
 mod names;
 mod number_rows;
 mod offsets;
+mod parameter;
 mod pgen;
 mod picture;
 mod piece;
@@ -282,6 +283,7 @@ pub static COMMANDS: &[&Command] = &[
     &animate::ANIMATE,
     &units::DIMEN,
     &units::DEFAULT,
+    &parameter::PARAMETER,
     &device::DEVICE,
     &file::FILE,
     &message::TITLE,

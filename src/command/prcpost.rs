@@ -3,7 +3,7 @@
 //! Source: reference/solve.md, "PRCPOST". In MOSES the events of a run are times, its increment is one of time, and what lies between
 //! two stored instants is on the straight line between them.
 
-use super::chosen::{Chosen, note_interpolated};
+use super::chosen::{Chosen, note_caveats};
 use super::equilibrium::told;
 use super::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
@@ -236,7 +236,7 @@ pub(super) fn connectors(job: &Job, run: &Run, call: &Call) -> Outcome<Vec<usize
 fn dispose(job: &mut Job, made: Result<Table, SolveError>, args: &Args) -> Outcome<Effect> {
     let mut table = made.map_err(|e| told(e, &job.model, args.span, job.units))?;
     if let Some(run) = &job.run {
-        note_interpolated(&run.model, std::slice::from_mut(&mut table));
+        note_caveats(&run.model, std::slice::from_mut(&mut table));
     }
     let transient = transient_of(job, args);
     job.menus.push(Menu::Disposition(Box::new(Disposition::new(table).behind(transient))));

@@ -1,7 +1,7 @@
 //! `&STATUS`: what the model and the program hold.
 
 use super::assembly_table::assemblies;
-use super::chosen::{Chosen, note_interpolated, raise};
+use super::chosen::{Chosen, note_caveats, raise};
 use super::curve_table::{chart, curves};
 use super::disposition::{BOTH, HARD, send};
 use super::environment_table::environments;
@@ -185,7 +185,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     };
     chosen.check(kind, &tables, things(kind))?;
     if ["F_CONNECTOR", "FORCE", "STIFFNESS"].contains(&kind) {
-        note_interpolated(model, &mut tables);
+        note_caveats(model, &mut tables);
     }
     job.verdict.over_break.append(&mut verdict.over_break);
     if let Some(given) = args.option("-DISPOSE") {

@@ -2,7 +2,7 @@
 //!
 //! Source: seed 003, chapters 1 to 4 and decks 16 and 17.
 
-use super::chosen::note_interpolated;
+use super::chosen::note_caveats;
 use super::equilibrium::told;
 use super::{Effect, Job};
 use crate::report::page;
@@ -93,7 +93,7 @@ pub fn run(job: &mut Job, args: &Args) -> Outcome<Effect> {
     let mut goes_on = |_: f64| !interrupt.load(Ordering::Relaxed);
     let made = tethered::run(&job.model, settings, &mut goes_on).map_err(|e| told(e, &job.model, span, job.units))?;
     let mut tables = vec![tethered::told(&made)];
-    note_interpolated(&job.model, &mut tables);
+    note_caveats(&job.model, &mut tables);
     let events = tethered::events(&made);
     if events.rows() > 0 {
         tables.push(events);

@@ -80,6 +80,7 @@ mod time {
     mod frequency;
     mod line_scheme;
     mod members_under_way;
+    mod missing_added_mass;
     mod prcpost;
     mod prescribed;
     mod step_accuracy;

@@ -33,6 +33,7 @@ mod line;
 mod load;
 mod names;
 mod note;
+mod parameters;
 mod prescribed;
 mod scheme;
 mod selector;
@@ -62,6 +63,7 @@ pub use line::{AbsentRow, Condition, Configuration, FoundLength, LineChange, Lin
 pub use load::{Fluid, LoadKind, Multipliers, PartLoad};
 pub use names::Thing;
 pub use note::Note;
+pub use parameters::Parameters;
 pub use prescribed::{GivenMotion, PathRow, Prescription, ResponseRow, Responses, Sinusoid};
 pub use scheme::SchemeWeights;
 pub use selector::Selector;
@@ -88,6 +90,8 @@ pub struct Model {
     pub loads: Vec<PartLoad>,
     /// Multipliers of `&APPLY`.
     pub multipliers: Multipliers,
+    /// What `&PARAMETER` said.
+    pub parameters: Parameters,
     /// Classes.
     pub classes: IndexMap<String, Class>,
     /// Connectors.
@@ -208,7 +212,7 @@ impl Model {
         [first, self.end_pose(connector, 1).or_else(anchor).unwrap_or(defined)]
     }
 
-    /// A remark that names the lines whose forces are interpolated in tables; every report that uses them has it.
+    /// A remark that names the lines whose forces are interpolated in tables.
     pub fn interpolated_lines(&self) -> Option<String> {
         /// Names written out; of more the number is told.
         const MAX_NAMES: usize = 8;

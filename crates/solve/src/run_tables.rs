@@ -61,7 +61,7 @@ pub fn told(run: &Run) -> Table {
             table = table.fact("Reinforced At", time, Dim::Time);
         }
     }
-    table.notes.extend(run.model.interpolated_lines());
+    table.notes.extend(run.model.caveats());
     if run.actions.is_empty() {
         return table;
     }
@@ -186,7 +186,7 @@ pub fn extremes(run: &Run) -> Vec<Table> {
         }
     }
     if let Some(last) = tables.last_mut() {
-        last.notes.extend(run.model.interpolated_lines());
+        last.notes.extend(run.model.caveats());
         last.note(match run.settings.transient {
             t if t > 0.0 => "of the stored instants behind TTRA_SET: PRCPOST takes other parts",
             _ => "of all stored instants, the beginning included: PRCPOST takes parts",

@@ -94,7 +94,7 @@ fn step_too_long_for_its_motion_is_warned_of_and_a_fair_one_is_not() {
 /// A box of 20 x 20 x 10 m with the pressure of waves alone, in waves of 3 m and 8 s, with a step (s).
 fn floating_box(step: f64) -> Run {
     let records = format!(
-        "&DIMEN -DIMEN METERS KN\n&ENV -DEPTH 100 -TIME 60 {step} -SEA ISSC 180 3 8\nMEDIT\n&DESCRIBE BODY B\n*G 0 0 -1\n\
+        "&DIMEN -DIMEN METERS KN\n&PARAMETER -ACCEPT_MISSING YES\n&ENV -DEPTH 100 -TIME 60 {step} -SEA ISSC 180 3 8\nMEDIT\n&DESCRIBE BODY B\n*G 0 0 -1\n\
          #WEIGHT *G 20110 7 7 8\nEND\n&SURFACE\nBLOCK H -10 -10 -5 10 10 5 -DIFTYPE FK\nEND\nTDOM\n"
     );
     let (mut session, _, _folder) = common::session();

@@ -12,7 +12,7 @@ use windlass_hydro::database::radiation::Radiation;
 use windlass_hydro::database::{DatabaseLookup, mean_drift};
 use windlass_hydro::sea::dispersion::wave_number;
 use windlass_hydro::{Category, in_pose};
-use windlass_model::{Amplitudes, AttachedDatabase, ClassError, DriftMethod, DriftTable, Model};
+use windlass_model::{Amplitudes, AttachedDatabase, ClassError, DriftMethod, DriftTable, Model, Piece, WaveAction};
 
 /// Complex amplitudes of motion, six a body: of its origin (m) and its rotation (rad), global axes.
 pub type Motions = DVector<Complex<f64>>;
@@ -86,6 +86,7 @@ impl Linear {
     /// # Errors
     /// The body or connector that makes no part of the system, or has no answer there.
     pub fn of(model: &Model) -> Result<Self, SolveError> {
+        model.check_added_mass().map_err(SolveError::new)?;
         let system = System::of(model, &[])?;
         let mut state = system.state(model);
         system.evaluate(&mut state)?;
@@ -112,18 +113,18 @@ impl Linear {
         let around = &system.surroundings;
         let depth = around.depth.map(|d| d + around.tide);
         let linearised = DMatrix::zeros(mass.nrows(), mass.nrows());
-        let notes = model.interpolated_lines().into_iter().collect();
+        let notes = model.caveats();
         let (poses, stiffness) = (state.poses.clone(), state.stiffness.clone());
         let mut made =
             Linear { system, moving, poses, stiffness, mass, damping, linearised, follow, heavy, floats, depth, notes };
-        made.look(&state.residual);
+        made.look(model, &state.residual);
         made.look_at_lines(model);
         Ok(made)
     }
 
     /// Remarks on the place and the bodies.
-    fn look(&mut self, left: &DVector<f64>) {
-        let (mut restless, mut still) = (Vec::new(), Vec::new());
+    fn look(&mut self, model: &Model, left: &DVector<f64>) {
+        let (mut restless, mut still, mut in_time) = (Vec::new(), Vec::new(), Vec::new());
         for (index, node) in self.system.nodes.iter().enumerate() {
             let mass = node.floating.mass.mass;
             let force = (0..3).filter(|f| node.moves(*f)).map(|f| left[6 * index + f]);
@@ -132,7 +133,10 @@ impl Linear {
                 restless.push(node.name.clone());
             }
             if !node.junction && self.floats.get(index).is_none_or(|f| f.is_none()) {
-                still.push(node.name.clone());
+                let body = model.bodies.get(&node.key);
+                let feels = |piece: &Piece| piece.member.is_some() || piece.waves == WaveAction::Pressure;
+                let feels = body.is_some_and(|b| model.parts_of(b).any(|part| part.pieces.iter().any(feels)));
+                if feels { &mut in_time } else { &mut still }.push(node.name.clone());
             }
         }
         if !restless.is_empty() {
@@ -141,6 +145,10 @@ impl Linear {
         }
         if !still.is_empty() {
             self.notes.push(format!("no waves act on {}: without a hydrodynamic database", still.join(", ")));
+        }
+        if !in_time.is_empty() {
+            let text = format!("waves act on members and hulls (-DIFTYPE FK) of {} in TDOM alone", in_time.join(", "));
+            self.notes.push(text);
         }
         for (index, node) in self.system.nodes.iter().enumerate() {
             let own = self.damping.fixed_view::<6, 6>(6 * index, 6 * index).into_owned();

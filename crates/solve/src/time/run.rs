@@ -90,6 +90,7 @@ impl Run {
     /// # Errors
     /// The body or connector that makes no part of it; an action on what is not there.
     pub fn new(model: &Model, settings: Settings, actions: Vec<Action>) -> Result<Self, SolveError> {
+        model.check_added_mass().map_err(SolveError::new)?;
         let (origin, model) = (model.clone(), model.clone());
         let sea = Sea::of(&model, &model.environment).map_err(SolveError::new)?.map(Arc::new);
         let duties = Duties::foreseen(&model, &actions, &settings);
