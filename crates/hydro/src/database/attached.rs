@@ -9,7 +9,6 @@ use crate::sea::Sea;
 use crate::steady::Steady;
 use crate::{Category, Load, transferred};
 use nalgebra::Matrix6;
-use std::f64::consts::PI;
 use std::sync::Arc;
 use windlass_base::pose::{Pose, Six};
 use windlass_model::{
@@ -45,7 +44,8 @@ impl RadiationLoad {
             let text = format!("a memory of {length} s in steps of {step} s is none of 1 to {MOST_LAGS} steps");
             return Err(ClassError::new(text));
         }
-        Ok(RadiationLoad { memory: Memory::new(&radiation.kernel(step, length), step) })
+        let kernel = |time: f64| radiation.faded_at(time, length);
+        Ok(RadiationLoad { memory: Memory::new(&kernel, (radiation.finest(), length), step) })
     }
 }
 
@@ -115,9 +115,7 @@ pub fn of(model: &Model, body: &Body, under_way: Option<Option<&Arc<Sea>>>) -> R
     if let Some(radiation) = Radiation::of(data)? {
         added_mass = radiation.infinite;
         if under_way.is_some() {
-            // a twentieth of the shortest period that the source has
-            let finest = data.frequencies.last().map_or(USUAL_STEP, |w| PI / (10.0 * w));
-            let step = model.environment.time.map_or(USUAL_STEP, |t| t.step).min(finest);
+            let step = model.environment.time.map_or(USUAL_STEP, |t| t.step);
             let length = attached.memory.unwrap_or_else(|| radiation.memory());
             loads.push(Box::new(RadiationLoad::new(&radiation, step, length)?));
         }
@@ -226,14 +224,11 @@ mod tests {
 
     #[test]
     fn the_force_of_memory_changes_with_turning_and_velocity_by_its_differences() {
-        let kernel: Vec<Matrix6<f64>> = (0..50)
-            .map(|n| {
-                Matrix6::from_fn(|i, j| {
-                    (if i == j { 3.0 } else { 0.2 * (i as f64 - 2.0 * j as f64) }) / (1.0 + 0.2 * n as f64)
-                })
-            })
-            .collect();
-        let load = RadiationLoad { memory: Memory::new(&kernel, 0.1) };
+        let kernel = |time: f64| {
+            let pair = |i: usize, j: usize| if i == j { 3.0 } else { 0.2 * (i as f64 - 2.0 * j as f64) };
+            Matrix6::from_fn(pair) / (1.0 + 2.0 * time)
+        };
+        let load = RadiationLoad { memory: Memory::new(&kernel, (0.1, 5.0), 0.1) };
         let mut state = vec![0.0; load.states()];
         let pose = Pose::default().moved(&Six::new(0.0, 0.0, 0.0, 0.4, -0.7, 1.1));
         let velocity = Six::new(1.0, 2.0, -1.0, 0.3, -0.5, 0.2);

@@ -96,6 +96,18 @@ impl Radiation {
         (0..=lags).map(|n| self.kernel_at(n as f64 * dt)).collect()
     }
 
+    /// The kernel of a memory that ends (s): over its second half it fades as a squared cosine. Cut off at once, what is left of it would give
+    /// slow motions a damping, or take it from them.
+    pub fn faded_at(&self, time: f64, memory: f64) -> Matrix6<f64> {
+        let faded = (2.0 * time / memory - 1.0).clamp(0.0, 1.0);
+        self.kernel_at(time) * (0.5 * PI * faded).cos().powi(2)
+    }
+
+    /// A twentieth of the shortest period that the source has (s): within it the kernel is smooth.
+    pub fn finest(&self) -> f64 {
+        PI / (10.0 * self.frequencies.iter().rev().nth(TAIL.1).copied().unwrap_or(1.0))
+    }
+
     /// The memory after which what is left of the kernel is two thousandths of its largest (s): 60 s, or more up to 300 s.
     pub fn memory(&self) -> f64 {
         let largest = self.kernel_at(0.0).diagonal();
