@@ -3,7 +3,7 @@
 use crate::common;
 
 /// What a session with a floating box of 20 x 20 x 10 m prints, its hull under the pressure of waves, after records; and its errors.
-fn printed(load: &str, records: &str) -> (String, usize) {
+fn printed(load: &str, records: &str) -> (String, i64) {
     let (mut session, screen, _folder) = common::session();
     session.open(
         "records",
