@@ -1,7 +1,7 @@
 //! A floating hemisphere by Capytaine (tests/data/hemisphere, with the script that made it), against published values and
 //! exact relations of potential flow.
 
-use nalgebra::{Matrix6, Vector3};
+use nalgebra::Vector3;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 use windlass_base::pose::Six;
