@@ -6,7 +6,7 @@ use crate::common::run as runs;
 use runs::{model, run, settings, trapezoidal};
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 use windlass_base::table::Table;
-use windlass_model::Model;
+use windlass_model::{End, Model, Response, Situation};
 use windlass_solve::System;
 use windlass_solve::results::along::lines_at_rest;
 use windlass_solve::time::{Run, Settings};
@@ -74,6 +74,35 @@ fn the_force_of_a_grounded_rod_goes_to_that_of_the_exact_catenary() {
         assert!(errors.windows(2).all(|e| e[1] < e[0] / 3.0), "{length}: {errors:?}");
         let order = (errors[0] / errors[3]).log2() / 3.0;
         assert!((1.9..2.7).contains(&order), "{length}: {order}");
+    }
+}
+
+#[test]
+fn anchor_of_a_grounded_dynamic_line_bears_the_pull_along_the_bottom_alone() {
+    // a line that does not stretch, a = H/w, 95 m below its fairlead: x = L - s + a acosh(1 + h/a), s = sqrt(h^2 + 2 h a)
+    let (length, reach, height) = (800.0, 785.0, 95.0f64);
+    let net = (7850.0 - 1025.0) * FRAC_PI_4 * 0.12 * 0.12 * 9.80665;
+    let (mut low, mut high) = (1.0, 1e4);
+    for _ in 0..200 {
+        let a: f64 = 0.5 * (low + high);
+        let x = length - (height * height + 2.0 * height * a).sqrt() + a * (1.0 + height / a).acosh();
+        if x < reach { low = a } else { high = a }
+    }
+    let horizontal = low * net;
+    for class in ["ROD 120 60 -LEN 800 -REFINE 40 -EI 0", "ROD 120 60 -LEN 800 -REFINE 160 -EI 0"] {
+        let made = model(&moored(&format!("{class} -EA 1E11 -SEABED 1E7"), reach));
+        let (element, ends) = (made.element(&made.connectors["L"]).unwrap(), made.end_poses(&made.connectors["L"]));
+        let ends = ends.map(End::still);
+        let at = Situation { ends: &ends, step: None, surroundings: &made.surroundings() };
+        let (mut state, mut out) = (vec![0.0; element.states()], Response::default());
+        element.start(&mut state);
+        let committed = state.clone();
+        element.evaluate(&at, &committed, &mut state, &mut None, &mut out).unwrap();
+        let [x, y, z] = [0, 1, 2].map(|i| out.wrench[1][i]);
+        // half an element of 40 weighs 7.6 kN
+        assert!(z == 0.0 && y.abs() < 1e-6 * horizontal, "{z}");
+        // where in an element the line comes down moves its force by up to the square of the element over the suspended length
+        assert!((x.abs() / horizontal - 1.0).abs() < 5e-3, "{x} {horizontal}");
     }
 }
 

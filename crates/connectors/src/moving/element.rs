@@ -36,6 +36,11 @@ pub struct MovingLine {
     pub(super) nominal: f64,
 }
 
+/// Where the two ends of a line are (m).
+fn places(ends: &[End]) -> [Vector3<f64>; 2] {
+    [0, 1].map(|i| ends.get(i).map_or_else(Vector3::zeros, |e| e.pose.origin))
+}
+
 /// A line at rest.
 pub(super) struct Rest {
     pub state: State,
@@ -102,6 +107,21 @@ impl MovingLine {
         Ok([first, made(second, b)])
     }
 
+    /// What its holders bear. An anchor on the bottom does not bear what the end of the line presses on the bottom with: the half of its
+    /// last element that has its weight at the anchor's node lies beside it.
+    fn on_holders(&self, forces: EndForces, places: &[Vector3<f64>; 2], world: &World) -> EndForces {
+        let mut made = forces;
+        let (Some((bottom, _)), false, [_, anchor]) = (&world.bottom, self.base.felt[1], places) else { return made };
+        let (height, [x, y]) = bottom.height(anchor.x, anchor.y);
+        let outward = Vector3::new(-x, -y, 1.0).normalize();
+        let [_, pull] = &mut made.force;
+        let pressed = pull.dot(&outward).min(0.0);
+        if anchor.z - height < BELOW {
+            *pull -= outward * pressed;
+        }
+        made
+    }
+
     /// Where it hangs at rest between ends.
     pub(super) fn rest(&self, at: &Situation, warm: &mut Warm) -> Result<Rest, ClassError> {
         let ends = self.held(at.ends, true)?;
@@ -109,7 +129,7 @@ impl MovingLine {
             warm.rod = self.base.rod.clone();
         }
         warm.fit();
-        let places = [0, 1].map(|i| at.ends.get(i).map_or_else(Vector3::zeros, |e| e.pose.origin));
+        let places = places(at.ends);
         let Warm { rod, solver, rest, flows, .. } = warm;
         self.within((at, true, 0.0), flows, |world| {
             if let Some((bottom, _)) = &world.bottom.filter(|_| self.base.laid.is_none()) {
@@ -182,7 +202,7 @@ impl MovingLine {
         warm: &mut Warm,
         out: &mut Response,
     ) -> Result<(), ClassError> {
-        let ends = self.held(at.ends, false)?;
+        let (ends, places) = (self.held(at.ends, false)?, places(at.ends));
         if let Some(rod) = self.meshed(kept, &warm.rod)? {
             warm.rod = rod;
         }
@@ -201,7 +221,8 @@ impl MovingLine {
                     solver.reached(state);
                     on_supports(out, &rod.on_supports(state, world), solver.support_tangent(rod, world).as_ref())?;
                 } else {
-                    on_ends(out, &forces, solver.end_tangent_felt(rod, world, self.base.felt).as_ref(), true)?;
+                    let felt = solver.end_tangent_felt(rod, world, self.base.felt);
+                    on_ends(out, &self.on_holders(forces, &places, world), felt.as_ref(), true)?;
                 }
                 Ok::<_, ClassError>(forces)
             } else {
@@ -220,7 +241,7 @@ impl MovingLine {
                 for (side, mass) in solver.end_masses().iter().enumerate() {
                     tangent.acceleration.fixed_view_mut::<3, 3>(6 * side, 6 * side).copy_from(&-mass);
                 }
-                on_ends(out, &forces, Some(&tangent), true)?;
+                on_ends(out, &self.on_holders(forces, &places, world), Some(&tangent), true)?;
                 Ok(forces)
             }
         })?;
@@ -309,14 +330,17 @@ impl Element for MovingLine {
         if let (Some(step), Some(kept)) = (at.step, &kept) {
             return self.step(at, (step.time, step.dt), kept, trial, warm, out);
         }
-        let found = self.rest(at, warm)?;
+        let (found, places) = (self.rest(at, warm)?, places(at.ends));
         let Warm { rod, solver, flows, .. } = &mut *warm;
         self.within((at, true, 0.0), flows, |world| match self.base.laid {
             Some(_) => {
                 let loads = rod.on_supports(&found.state, world);
                 on_supports(out, &loads, solver.support_tangent(rod, world).as_ref())
             }
-            None => on_ends(out, &found.forces, solver.end_tangent(rod, world).as_ref(), false),
+            None => {
+                let forces = self.on_holders(found.forces, &places, world);
+                on_ends(out, &forces, solver.end_tangent(rod, world).as_ref(), false)
+            }
         })?;
         let mut state = found.state;
         state.time = at.step.map_or(0.0, |step| step.time);
