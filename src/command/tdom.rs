@@ -23,6 +23,7 @@ use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::Model;
 use windlass_solve::results::{fender_peaks, fender_table};
+use windlass_solve::screening::{self, Screening};
 use windlass_solve::time::{Convergence, Ending, Method, Run, Scheme, Settings, Snapshot, Watcher, When};
 use windlass_solve::{SolveError, run_tables, settle, tethered};
 
@@ -110,6 +111,9 @@ static SPEC: CommandSpec = CommandSpec {
         )
         .owner(Owner::Ours)
         .default("1: all nodes"),
+        OptionSpec::new("-SCREEN", &[yes_no("NO leaves it out")], "replays the three most loaded quasi-static lines as dynamic lines after the run")
+            .owner(Owner::Ours)
+            .default("YES"),
         tether_run::TETHERS,
         tether_run::SLAM,
         tether_run::TOW,
@@ -119,7 +123,10 @@ static SPEC: CommandSpec = CommandSpec {
              step that finds no balance is cut in halves, which is counted. -NEWMARK YES 0.25 0.5 is the trapezoidal rule; -NEWMARK NO \
              needs small steps. The bodies of the model stay where they stand. Results go to PRCPOST, and as the run goes to the file \
              TDOM.run in the job's folder, from which -RESTART goes on, also after the program was killed, with the digits of an \
-             unbroken run. Ctrl-C ends a run and keeps what it has. -TETHERS runs the connectors of class TETHER by the scheme of two stages of AQWA: a towed one \
+             unbroken run. Ctrl-C ends a run and keeps what it has. Lines without &CONNECTOR -DYNAMICS are quasi-static: at every instant they hang as \
+             at rest, without inertia and drag. After the run -SCREEN replays the three of these with the largest tension over break as dynamic \
+             lines, ten periods around that tension, with their ends moved as in the run, and warns where they pull more than 1.1 times as hard. \
+             A replay has elements of at most 20 m (60 to 200) and takes 1000 to 1200 steps. -TETHERS runs the connectors of class TETHER by the scheme of two stages of AQWA: a towed one \
              alone, its vessel at rest; installed ones with the one body they hold and its other connectors. It takes -STORE, -SLAM and -TOW of the \
              options here, and PRCPOST has TETHER and STRUCTURE for it. &ACTION says what happens during a run: lines that break, winches.",
     example: "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n*G 0 0 0\n&DESCRIBE BODY CART -IGNORE Y Z RX RY RZ\n*C 0 0 0\n#WEIGHT *C 100 1 1 1\n\
@@ -332,7 +339,14 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     }
     let ended = made.go(&mut going);
     drop(going);
-    let mut tables = vec![run_tables::told(&made)];
+    let screening = screened(job, args, &made, ended.as_ref().ok());
+    let mut first = run_tables::told(&made);
+    if let Err(Some(reason)) = &screening {
+        first.note(format!("the quasi-static lines are not replayed as dynamic lines: {reason}"));
+    }
+    let screening = screening.unwrap_or_default();
+    first.notes.extend(screening::remarks(&screening, job.units));
+    let mut tables = vec![first];
     tables.extend(run_tables::extremes(&made));
     tables.extend(run_tables::books(&made));
     // what is not found of them costs no run
@@ -342,6 +356,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         let rows = fenders.iter().map(|p| (p.name.as_str(), &p.state, Some(p.time)));
         tables.push(fender_table("Fenders at Their Largest Deflection", rows));
     }
+    tables.extend(screening::table(&screening));
     let checked = match &ended {
         Ok(_) if args.has("-CHECK") => Some(check(job, &made)),
         _ => None,
@@ -356,6 +371,9 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     job.run = Some(made);
     job.say(&text);
     if let Some(text) = poor {
+        job.warn(text, span);
+    }
+    for text in screening::warnings(&screening, job.units) {
         job.warn(text, span);
     }
     warn_of_breaks(job, over, span);
@@ -386,6 +404,20 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         Ending::Stopped(name) => job.remark(format!("action {name} ended the run"), span),
     }
     Ok(Effect::Done)
+}
+
+/// The quasi-static lines of a run that ended, replayed as dynamic lines; or why not, where there are such lines.
+fn screened(job: &Job, args: &Args, made: &Run, ending: Option<&Ending>) -> Result<Screening, Option<&'static str>> {
+    let off = args.option("-SCREEN").and_then(|g| g.word(0)) == Some("NO");
+    let reason = match ending {
+        _ if screening::quasi_static_lines(made).is_empty() => return Err(None),
+        _ if off => "-SCREEN NO",
+        None => "the run failed",
+        Some(Ending::Interrupted) => "the run was interrupted",
+        Some(_) if !made.settings.keep => "-STATISTICS keeps no motion of their ends",
+        Some(_) => return Ok(screening::screen(made, &|| !job.interrupted())),
+    };
+    Err(Some(reason))
 }
 
 /// The same run again with half the step, and what differs.

@@ -46,7 +46,7 @@ pub const TOW: OptionSpec = OptionSpec::new(
 .default("0: it stays");
 
 /// Options of TDOM that a run of tethers does not take.
-const NOT_TAKEN: [&str; 11] = [
+const NOT_TAKEN: [&str; 12] = [
     "-NO_CAPSIZE",
     "-EQUI",
     "-NEWMARK",
@@ -58,6 +58,7 @@ const NOT_TAKEN: [&str; 11] = [
     "-CHECK",
     "-STATISTICS",
     "-ALONG",
+    "-SCREEN",
 ];
 
 /// Runs the tethers of the model.

@@ -83,6 +83,7 @@ mod time {
     mod missing_added_mass;
     mod prcpost;
     mod prescribed;
+    mod screening;
     mod step_accuracy;
     mod time_domain;
     mod time_runs;

@@ -214,27 +214,28 @@ impl Model {
 
     /// A remark that names the lines whose forces are interpolated in tables.
     pub fn interpolated_lines(&self) -> Option<String> {
-        /// Names written out; of more the number is told.
-        const MAX_NAMES: usize = 8;
         let tabulated = |c: &&Connector| {
             c.active
                 && !self.moves(c)
                 && self.classes.get(&Model::key(&c.class)).is_some_and(|k| k.object.is_tabulated())
         };
         let names: Vec<&str> = self.connectors.values().filter(tabulated).map(|c| c.name.as_str()).collect();
-        let shown = names.iter().take(MAX_NAMES).copied().collect::<Vec<_>>().join(", ");
-        let more = match names.len().saturating_sub(MAX_NAMES) {
-            0 => String::new(),
-            more => format!(" and {more} more"),
-        };
+        let shown = list_names(&names);
         (!names.is_empty())
-            .then(|| format!("forces interpolated in tables of thirty points (-TABLE), not solved: {shown}{more}"))
+            .then(|| format!("forces interpolated in tables of thirty points (-TABLE), not solved: {shown}"))
     }
 
     /// Whether a connector moves by itself: its class does, or `&CONNECTOR -DYNAMICS` says so.
     pub fn moves(&self, connector: &Connector) -> bool {
         let class = self.classes.get(&Model::key(&connector.class));
         connector.dynamics.is_some() || class.is_some_and(|c| c.object.moves())
+    }
+
+    /// Whether a connector is a line that at every instant has the shape of rest between its ends: a line whose own inertia and drag are
+    /// left out.
+    pub fn is_quasi_static(&self, connector: &Connector) -> bool {
+        let class = self.classes.get(&Model::key(&connector.class));
+        class.is_some_and(|c| c.object.is_line()) && !self.moves(connector)
     }
 
     /// The element a connector is to an engine, between its ends as they are, in water and air at rest.
@@ -358,6 +359,16 @@ impl Model {
             .filter(|c| c.points.iter().any(|p| Model::key(p) == key))
             .map(|c| c.name.as_str())
             .collect()
+    }
+}
+
+/// Names as a remark lists them: the first eight, and how many more there are.
+pub fn list_names(names: &[&str]) -> String {
+    const MAX_NAMES: usize = 8;
+    let shown = names.iter().take(MAX_NAMES).copied().collect::<Vec<_>>().join(", ");
+    match names.len().saturating_sub(MAX_NAMES) {
+        0 => shown,
+        more => format!("{shown} and {more} more"),
     }
 }
 

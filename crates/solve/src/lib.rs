@@ -43,6 +43,7 @@ pub mod pretension;
 pub mod results;
 pub mod run_tables;
 pub mod scene;
+pub mod screening;
 mod search;
 mod settle;
 mod system;

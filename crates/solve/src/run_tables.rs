@@ -1,8 +1,10 @@
 //! What a run says of itself, and how it compares with another.
 
+use super::screening::quasi_static_lines;
 use super::time::{Counts, Followed, History, Method, POOR_PERIOD, Resolution, Run, Series, Swing, results};
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
+use windlass_model::list_names;
 
 /// How a run stepped.
 fn scheme(run: &Run) -> String {
@@ -60,6 +62,10 @@ pub fn told(run: &Run) -> Table {
         if let Some(time) = sea.reinforcement {
             table = table.fact("Reinforced At", time, Dim::Time);
         }
+    }
+    let quasi_static = quasi_static_lines(run);
+    if !quasi_static.is_empty() {
+        table.note(format!("quasi-static lines, without inertia and drag of their own: {}", list_names(&quasi_static)));
     }
     table.notes.extend(run.model.caveats());
     if run.actions.is_empty() {
