@@ -7,7 +7,7 @@
 //! mobilised toward the fairlead; Jonkman, NREL/TP-500-41958, 2007, section 2.7.2).
 
 use super::chain::Chain;
-use super::element::{Element, Ground, Tilt, vertical_of_contact};
+use super::element::{Element, vertical_of_contact};
 use super::end_forces::{Bottom, EndForces, Regime};
 use super::line::{LARGEST, Segment};
 use super::refused::LineError;
@@ -201,13 +201,12 @@ fn suspended(segment: &Segment, x: f64, z: f64) -> Result<EndForces, LineError> 
         return Ok(answer);
     }
     let elements = vec![Element::Length { segment: *segment, law: None, sees_bottom: false }];
-    let ground = Ground { tilt: Tilt::FLAT, friction: 0.0, least: 0.0 };
-    let chain = Chain { elements, pulls: Vec::new(), ground };
-    let (h, steps) = rising_root(h, x, |h| match chain.rest(h, z, 0.0, 0.0, None) {
-        Ok(rested) => Point { value: rested.t, slope: rested.t_by[0] },
+    let chain = Chain { elements, pulls: Vec::new(), least: 0.0 };
+    let (h, steps) = rising_root(h, x, |h| match chain.rest(h, z, 0.0, None) {
+        Ok(rested) => Point { value: rested.x, slope: rested.x_by[0] },
         Err(_) => Point { value: f64::NAN, slope: f64::NAN },
     });
-    let v = chain.rest(h, z, 0.0, 0.0, None)?.held.first().map_or(f64::NAN, |held| held.q_hi);
+    let v = chain.rest(h, z, 0.0, None)?.held.first().map_or(f64::NAN, |held| held.v_hi);
     let reach = hanging(segment, h, v - all);
     prove(segment, Regime::Suspended, [x, z], [h, v], [h, v - all], &reach, 0.0, steps)
 }

@@ -1,10 +1,10 @@
 //! What a line is made of, and what is refused.
 
 use super::chain::{Chain, Pull};
-use super::element::{Element, Ground, Tilt};
+use super::element::Element;
 use super::end_forces::{Bottom, EndForces};
 use super::law::Law;
-use super::profile::Profile;
+use super::profile::{Profile, Tilt};
 use super::refused::LineError;
 
 /// A piece of line with the same properties all along.
@@ -153,8 +153,7 @@ impl Line {
         }
         let floor = Floor { elevation: anchor, slope: 0.0, friction: 0.0 };
         let laws = vec![None; segments.len()];
-        let ground = Ground { tilt: Tilt::FLAT, friction: 0.0, least: 0.0 };
-        let chain = Chain { elements: Vec::new(), pulls: Vec::new(), ground };
+        let chain = Chain { elements: Vec::new(), pulls: Vec::new(), least: 0.0 };
         let springs = [None, None];
         let profile = Profile::plane(anchor, 0.0);
         Line { segments, laws, springs, joints, anchor, surface, floor: Some(floor), profile, chain }.assembled()
@@ -287,10 +286,14 @@ impl Line {
         self.floor
     }
 
+    /// Whether its bottom is flat.
+    pub(super) fn is_flat(&self) -> bool {
+        self.profile.faces() == 1 && self.profile.tilt(0) == Tilt::FLAT
+    }
+
     /// Whether its bottom is flat and smooth, and its parts so few that they are best solved all at once.
     pub(super) fn is_plain(&self) -> bool {
-        let flat = self.profile.faces() == 1 && self.profile.tilt(0) == Tilt::FLAT;
-        flat && self.floor.is_none_or(|f| f.friction == 0.0) && self.segments.len() <= MOST_PLAIN
+        self.is_flat() && self.floor.is_none_or(|f| f.friction == 0.0) && self.segments.len() <= MOST_PLAIN
     }
 
     /// Elevation from which heights above the bottom are counted (m).
@@ -310,7 +313,6 @@ impl Line {
         let blind = matches!(self.joints.first(), Some(Joint::SpringBuoy { .. }));
         let sees = |index: usize| self.floor.is_some() && !(blind && index == 0);
         let surface = self.surface - self.datum();
-        let flat = self.floor.is_none_or(|f| f.slope == 0.0) && self.profile.faces() == 1;
         let [first, last] = self.springs.clone();
         let mut elements: Vec<Element> = first.map(Element::Link).into_iter().collect();
         let mut pulls: Vec<Pull> = elements.iter().map(|_| Pull { on_bottom: sees(0), ..Pull::default() }).collect();
@@ -323,7 +325,7 @@ impl Line {
                 Joint::Weight(w) => (-w, Vec::new()),
                 Joint::SpringBuoy { capacity, depth } => {
                     let held = surface - depth;
-                    if held < 0.0 && on_bottom && flat {
+                    if held < 0.0 && on_bottom && self.is_flat() {
                         return Err(LineError::Pendant { segment: index + 1, by: -held });
                     }
                     (*capacity, if *capacity > 0.0 { vec![(held, *capacity)] } else { Vec::new() })
@@ -336,13 +338,11 @@ impl Line {
             elements.push(Element::Link(law));
             pulls.push(Pull { on_bottom: sees(self.segments.len()), ..Pull::default() });
         }
-        let floor = self.floor.unwrap_or(Floor { elevation: 0.0, slope: 0.0, friction: 0.0 });
         let weight: f64 =
             elements.iter().map(|e| e.weight().abs()).sum::<f64>() + pulls.iter().map(|p| p.lift.abs()).sum::<f64>();
         let stiffest = self.segments.iter().fold(f64::INFINITY, |m, s| s.ea.min(m));
         let least = if weight > 0.0 { 1e-11 * weight } else { 1e-11 * stiffest };
-        let ground = Ground { tilt: Tilt::new(floor.slope), friction: floor.friction, least };
-        self.chain = Chain { elements, pulls, ground };
+        self.chain = Chain { elements, pulls, least };
         Ok(self)
     }
 

@@ -1,7 +1,8 @@
 //! Where a chain touches the bottom or is held, and the sections between such places.
 
 use super::chain::{Chain, Held, Stand};
-use super::element::{Element, Part};
+use super::element::Element;
+use super::segment::Reach;
 
 /// Which pieces rest on the bottom, and how the joints stand.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -27,9 +28,9 @@ impl Section {
         if self.begins_with_leg { None } else { self.from.checked_sub(1) }
     }
 
-    /// Whether its upper end is on the bottom within a piece.
-    pub fn starts_free(&self) -> bool {
-        self.begins_with_leg
+    /// Whether its upper end is the fairlead.
+    pub fn starts_at_fairlead(&self) -> bool {
+        self.from == 0 && !self.begins_with_leg
     }
 
     /// The joint of known height at its lower end; none at the anchor or on the bottom within a piece.
@@ -38,7 +39,7 @@ impl Section {
     }
 
     /// Its parts: piece, part, whether that is the piece's lower leg.
-    pub fn parts<'a>(&self, held: &'a [Held]) -> impl Iterator<Item = (usize, &'a Part, bool)> + use<'a> {
+    pub fn parts<'a>(&self, held: &'a [Held]) -> impl Iterator<Item = (usize, &'a Reach, bool)> + use<'a> {
         let own = *self;
         held.iter().enumerate().skip(own.from).take(own.to + 1 - own.from).map(move |(i, h)| {
             let lower = i == own.from && own.begins_with_leg;

@@ -1,6 +1,36 @@
 //! The bottom under a line: plane faces between vertices, by the distance from the anchor toward the fairlead.
 
-use super::element::Tilt;
+/// The inclination of a face, rising toward the fairlead.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tilt {
+    pub sin: f64,
+    pub cos: f64,
+}
+
+impl Tilt {
+    pub const FLAT: Tilt = Tilt { sin: 0.0, cos: 1.0 };
+
+    /// From vertical / horizontal distance.
+    pub fn new(slope: f64) -> Tilt {
+        let hypotenuse = slope.hypot(1.0);
+        Tilt { sin: slope / hypotenuse, cos: 1.0 / hypotenuse }
+    }
+
+    /// Vertical over horizontal distance.
+    pub fn slope(self) -> f64 {
+        self.sin / self.cos
+    }
+
+    /// The angle above the horizontal, toward the fairlead (rad).
+    pub fn angle(self) -> f64 {
+        self.sin.atan2(self.cos)
+    }
+
+    /// Components along and normal to the face from those along x and z.
+    pub fn turned(self, x: f64, z: f64) -> (f64, f64) {
+        (x * self.cos + z * self.sin, z * self.cos - x * self.sin)
+    }
+}
 
 /// A bottom of plane faces. Beyond its first and last vertex the outer faces go on.
 #[derive(Clone, Debug, PartialEq)]

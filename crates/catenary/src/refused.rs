@@ -65,9 +65,6 @@ pub enum LineError {
     /// A weightless line with slack: any shape will do.
     #[error("a weightless line longer than the distance between its ends has no definite shape")]
     Undetermined,
-    /// A part without tension on a slope that friction does not hold.
-    #[error("a slack part of the line, or a clump, slides down the sloped bottom: friction does not hold it")]
-    Slides,
     /// A slack line with buoys over a slope: where its heaps lie depends on how it was laid.
     #[error("a slack line with buoyant parts over a sloped bottom has no definite shape")]
     SlackSlope,

@@ -6,7 +6,7 @@ use super::line::Segment;
 ///
 /// `x`, `z`: horizontal and vertical distance from the lower to the upper end (m). `_h`: derivative with respect to the
 /// horizontal force at fixed vertical force (m/N); `_v`: with respect to the vertical force, which shifts by the same
-/// amount at both ends (m/N).
+/// amount at both ends (m/N). A leg that ends on the bottom is longer the larger |V| is: its `_v` includes that.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reach {
     pub x: f64,

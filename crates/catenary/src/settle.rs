@@ -1,23 +1,21 @@
 //! The search for the places where a chain touches the bottom or is held, and for the forces between them.
 
 use super::chain::{Chain, Held, Rested, Stand};
-use super::element::{Element, Part};
+use super::element::Element;
 use super::policy::{Policy, Section, first_policy};
 use super::refused::LineError;
+use super::segment::Reach;
 
-/// A chain to be rested at given tensions along the bottom.
+/// A chain to be rested at a given horizontal force.
 pub struct Problem<'a> {
     chain: &'a Chain,
     top: f64,
     bottom: f64,
-    /// Tension along t at the upper end of each piece, and where it leaves the bottom.
-    tensions: Vec<f64>,
-    leaves: Vec<f64>,
-    /// Heights along n of the steps of each joint's lift.
-    steps: Vec<Vec<f64>>,
-    places: Vec<f64>,
+    /// Horizontal force (N), and that of what touches the bottom: no smaller than the chain's least one.
+    h: f64,
+    h_touching: f64,
     policy: Policy,
-    /// Forces q of the last solution, to begin with.
+    /// Vertical forces of the last solution, to begin with.
     near: Vec<(f64, f64)>,
 }
 
@@ -28,85 +26,17 @@ const MOST_CHANGES: usize = 300;
 const MOST_STEPS: usize = 200;
 
 impl<'a> Problem<'a> {
-    pub fn new(chain: &'a Chain, p: f64, top: f64, bottom: f64, near: Option<&Rested>) -> Problem<'a> {
-        let count = chain.elements.len();
-        let near = near.filter(|n| n.held.len() == count);
-        let policy = near.map_or_else(|| first_policy(chain), |n| n.policy.clone());
-        let all = |f: fn(&Held) -> f64| near.map_or_else(|| vec![p; count], |n| n.held.iter().map(f).collect());
-        let coupled = chain.ground.friction > 0.0 || chain.ground.tilt.sin != 0.0;
-        let (mut tensions, mut leaves) =
-            if coupled { (all(|h| h.p_hi), all(|h| h.leave)) } else { (vec![p; count], vec![p; count]) };
-        if let (Some(first), false) = (tensions.first_mut(), leaves.is_empty()) {
-            *first = p;
-        }
-        if near.is_none() {
-            // a slope takes its share before friction is known
-            let mut at = p;
-            for (i, element) in chain.elements.iter().enumerate() {
-                let (_, fall) = element.fall(&chain.ground);
-                if let (Some(t), Some(l)) = (tensions.get_mut(i), leaves.get_mut(i)) {
-                    (*t, *l) = (at, (at - fall).max(chain.ground.least));
-                }
-                at -= fall;
-            }
-        }
-        let mut made = Problem {
+    pub fn new(chain: &'a Chain, h: f64, top: f64, bottom: f64, near: Option<&Rested>) -> Problem<'a> {
+        let near = near.filter(|n| n.held.len() == chain.elements.len());
+        Problem {
             chain,
             top,
             bottom,
-            tensions,
-            leaves,
-            steps: Vec::new(),
-            places: vec![0.0; count + 1],
-            policy,
-            near: near.map_or_else(Vec::new, |n| n.held.iter().map(|h| (h.q_hi, h.q_lo)).collect()),
-        };
-        made.place_steps();
-        made
-    }
-
-    fn place_steps(&mut self) {
-        let tilt = self.chain.ground.tilt;
-        let along = |j: usize| self.places.get(j + 1).copied().unwrap_or(0.0) * tilt.sin;
-        let one = |(j, pull): (usize, &super::chain::Pull)| {
-            pull.steps.iter().map(|(z, _)| (z - along(j)) / tilt.cos).collect::<Vec<f64>>()
-        };
-        self.steps = self.chain.pulls.iter().enumerate().map(one).collect();
-    }
-
-    /// Brings in a share of what friction and slope make of a solution; how much they change.
-    pub fn follow(&mut self, rested: &Rested, p: f64, at: f64, share: f64) -> f64 {
-        let ground = &self.chain.ground;
-        let mut tensions = vec![p];
-        for j in 0..self.chain.pulls.len() {
-            let value = |list: &[f64]| list.get(j).copied().unwrap_or(0.0);
-            let above = rested.held.get(j).map_or(p, |h| h.p_lo);
-            let taken = ground.friction * value(&rested.reactions);
-            let next = above + value(&rested.lifts) * ground.tilt.sin - taken;
-            let lies = rested.policy.stands.get(j) == Some(&Stand::Bottom);
-            tensions.push(if lies { next.max(ground.least) } else { next });
+            h,
+            h_touching: h.max(chain.least),
+            policy: near.map_or_else(|| first_policy(chain), |n| n.policy.clone()),
+            near: near.map_or_else(Vec::new, vertical_forces),
         }
-        let leaves: Vec<f64> = rested.held.iter().map(|h| h.leave.max(ground.least)).collect();
-        let mut places = vec![at];
-        let mut place = at;
-        for held in rested.held.iter().rev() {
-            place += held.t;
-            places.push(place);
-        }
-        places.reverse();
-        let off = |a: &[f64], b: &[f64]| a.iter().zip(b).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
-        let size = tensions.iter().fold(p.abs() + ground.least, |m: f64, t| m.max(t.abs()));
-        let mut change = off(&tensions, &self.tensions).max(off(&leaves, &self.leaves)) / size;
-        if ground.tilt.sin != 0.0 {
-            change = change.max(off(&places, &self.places) / (self.chain.length() + place.abs()));
-        }
-        self.near = rested.held.iter().map(|h| (h.q_hi, h.q_lo)).collect();
-        for (list, next) in [(&mut self.tensions, tensions), (&mut self.leaves, leaves), (&mut self.places, places)] {
-            list.iter_mut().zip(next).for_each(|(old, new)| *old += share * (new - *old));
-        }
-        self.policy = rested.policy.clone();
-        self.place_steps();
-        change
     }
 
     /// Policy iteration.
@@ -119,30 +49,32 @@ impl<'a> Problem<'a> {
             if next == self.policy {
                 return Ok(Rested { iterations, ..rested });
             }
-            self.near = rested.held.iter().map(|h| (h.q_hi, h.q_lo)).collect();
+            self.near = vertical_forces(&rested);
             self.policy = next;
         }
-        let force = self.tensions.first().copied().unwrap_or(0.0);
-        Err(LineError::NotConverged { force, residual: f64::NAN, iterations })
+        Err(LineError::NotConverged { force: self.h, residual: f64::NAN, iterations })
     }
 
     /// The height of a joint that stands fast.
     fn height(&self, joint: usize) -> f64 {
         match self.policy.stands.get(joint) {
-            Some(Stand::Step(k)) => self.steps.get(joint).and_then(|s| s.get(*k)).copied().unwrap_or(0.0),
+            Some(Stand::Step(k)) => self.step(joint, *k).unwrap_or(0.0),
             _ => 0.0,
         }
     }
 
+    /// The height of a step of a joint's lift.
+    fn step(&self, joint: usize, step: usize) -> Option<f64> {
+        self.chain.pulls.get(joint)?.steps.get(step).map(|(z, _)| *z)
+    }
+
     /// The chain under the present policy.
     fn solve(&self) -> Result<Rested, LineError> {
-        let ground = &self.chain.ground;
         let count = self.chain.elements.len();
         let mut rested = Rested { policy: self.policy.clone(), ..Rested::default() };
         let start = |i: usize| {
-            let p = self.tensions.get(i).copied().unwrap_or(0.0);
-            let leave = self.leaves.get(i).copied().unwrap_or(p);
-            Held { p_hi: p, leave, rests: self.policy.rests.get(i).copied().unwrap_or(false), ..Held::default() }
+            let rests = self.policy.rests.get(i).copied().unwrap_or(false);
+            Held { h: if rests { self.h_touching } else { self.h }, rests, ..Held::default() }
         };
         rested.held = (0..count).map(start).collect();
         for section in self.policy.sections(count) {
@@ -157,177 +89,165 @@ impl<'a> Problem<'a> {
         }
         for (element, held) in self.chain.elements.iter().zip(&mut rested.held) {
             if !held.rests {
-                let (_, along) = element.fall(ground);
-                held.p_lo = held.p_hi - along;
-                held.leave = held.p_lo;
-                (held.t, held.above) = (held.upper.t, element.length());
+                (held.x, held.above) = (held.upper.x, element.length());
                 continue;
             }
-            let (_, along) = element.per_length(ground);
-            let (above, below) = (element.leg(ground, held.q_hi), element.leg(ground, held.q_lo));
-            let touch = (held.p_hi - along * above).max(ground.least);
+            let (above, below) = (element.leg(held.v_hi), element.leg(held.v_lo));
             held.above = above;
             held.ground = element.length() - above - below;
-            let rest = element.rest(ground, touch, held.ground.max(0.0));
-            held.lacks = touch + along * above - held.p_hi;
-            held.p_hi += held.lacks;
-            held.leave = rest.p.max(ground.least);
-            held.p_lo = rest.p - along * below;
-            held.t = held.upper.t + held.lower.t + rest.t;
-            held.ground_stretched = rest.stretched;
+            held.ground_stretched = held.ground.max(0.0) * (1.0 + element.strain(held.h).0);
+            held.x = held.upper.x + held.lower.x + held.ground_stretched;
         }
-        let mut n = self.top;
-        rested.n.push(n);
+        let mut z = self.top;
+        rested.z.push(z);
         for (i, held) in rested.held.iter().enumerate() {
-            n = match self.policy.stands.get(i) {
+            z = match self.policy.stands.get(i) {
                 None => self.bottom,
-                Some(Stand::Free(_)) if held.rests => -held.lower.n,
-                Some(Stand::Free(_)) => n - held.upper.n,
+                Some(Stand::Free(_)) if held.rests => -held.lower.z,
+                Some(Stand::Free(_)) => z - held.upper.z,
                 Some(_) => self.height(i),
             };
-            rested.n.push(n);
+            rested.z.push(z);
         }
         for (j, pull) in self.chain.pulls.iter().enumerate() {
             let force = |h: Option<&Held>, f: fn(&Held) -> f64| h.map_or(0.0, f);
-            let line = force(rested.held.get(j), |h| h.q_lo) - force(rested.held.get(j + 1), |h| h.q_hi);
+            let line = force(rested.held.get(j), |h| h.v_lo) - force(rested.held.get(j + 1), |h| h.v_hi);
             let (lift, reaction) = match self.policy.stands.get(j) {
                 Some(Stand::Free(k)) => (pull.passed(*k), 0.0),
-                Some(Stand::Step(_)) => (-line / ground.tilt.cos, 0.0),
-                _ => (pull.lift, -line - pull.lift * ground.tilt.cos),
+                Some(Stand::Step(_)) => (-line, 0.0),
+                _ => (pull.lift, -line - pull.lift),
             };
             rested.lifts.push(lift);
             rested.reactions.push(reaction);
         }
-        rested.t = rested.held.iter().map(|h| h.t).sum();
+        rested.x = rested.held.iter().map(|h| h.x).sum();
         Ok(rested)
     }
 
-    /// q at the upper end of a section, from its drop.
+    /// The vertical force at the upper end of a section, from its drop.
     fn solve_section(&self, section: &Section, drop: f64, rested: &mut Rested) -> Result<(), LineError> {
         let elements = &self.chain.elements;
-        let ground = &self.chain.ground;
         let run: Vec<(usize, &Element)> =
             elements.iter().enumerate().skip(section.from).take(section.to + 1 - section.from).collect();
         let lone_leg = run.len() == 1 && (section.begins_with_leg || section.ends_with_leg);
         if lone_leg && drop == 0.0 {
             for held in rested.held.iter_mut().skip(section.from).take(1) {
-                let none = Part { n_q: f64::INFINITY, ..Part::default() };
+                let none = Reach { z_v: f64::INFINITY, ..Reach::default() };
                 if section.begins_with_leg {
-                    (held.q_lo, held.lower) = (0.0, none);
+                    (held.v_lo, held.lower) = (0.0, none);
                 } else {
-                    (held.q_hi, held.upper) = (0.0, none);
+                    (held.v_hi, held.upper) = (0.0, none);
                 }
             }
             return Ok(());
         }
-        let walk = |q: f64, held: &mut [Held]| {
-            let (mut q, mut n, mut n_q) = (q, 0.0, 0.0);
+        let walk = |v: f64, held: &mut [Held]| {
+            let (mut v, mut z, mut z_v) = (v, 0.0, 0.0);
             for (i, element) in &run {
                 let Some(held) = held.get_mut(*i) else { continue };
-                let (p, leave) = (held.p_hi, held.leave);
                 let part = if *i == section.from && section.begins_with_leg {
-                    held.lower = element.lower_leg(ground, leave, q);
-                    held.q_lo = q;
+                    held.lower = element.lower_leg(held.h, v);
+                    held.v_lo = v;
                     held.lower
                 } else if *i == section.to && section.ends_with_leg {
-                    held.upper = element.upper_leg(ground, p, q);
-                    held.q_hi = q;
+                    held.upper = element.upper_leg(held.h, v);
+                    held.v_hi = v;
                     held.upper
                 } else {
-                    held.upper = element.whole(ground, p, q);
-                    held.q_hi = q;
-                    held.q_lo = q - element.fall(ground).0;
+                    held.upper = element.whole(held.h, v);
+                    held.v_hi = v;
+                    held.v_lo = v - element.weight();
                     held.upper
                 };
-                n += part.n;
-                n_q += part.n_q;
+                z += part.z;
+                z_v += part.z_v;
                 if let (Some(Stand::Free(k)), Some(pull)) = (self.policy.stands.get(*i), self.chain.pulls.get(*i)) {
-                    q = held.q_lo + pull.passed(*k) * ground.tilt.cos;
+                    v = held.v_lo + pull.passed(*k);
                 }
             }
-            (n, n_q)
+            (z, z_v)
         };
         let length: f64 = run.iter().map(|(_, e)| e.length()).sum();
         let weight: f64 = run.iter().map(|(_, e)| e.weight()).sum();
         let pulled: f64 = run.iter().filter_map(|(i, _)| self.chain.pulls.get(*i)).map(|p| p.lift.abs()).sum();
-        let p = self.tensions.get(section.from).copied().unwrap_or(0.0);
+        let h = self.h;
         let near = self.near.get(section.from).map(|(hi, lo)| if section.begins_with_leg { *lo } else { *hi });
         let steepness = (drop / length.max(f64::MIN_POSITIVE)).clamp(-2.0, 2.0);
-        let mut q = near.filter(|q| q.is_finite()).unwrap_or(0.5 * weight + p.abs() * steepness);
-        if lone_leg && q == 0.0 {
-            q = drop.signum() * (p.abs() + weight.abs()) * 1e-3;
+        let mut v = near.filter(|v| v.is_finite()).unwrap_or(0.5 * weight + h * steepness);
+        if lone_leg && v == 0.0 {
+            v = drop.signum() * (h + weight.abs()) * 1e-3;
         }
         let fine = 2.0 * f64::EPSILON * (length + drop.abs());
         let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
-        let mut grow = weight.abs() + pulled + p.abs();
-        let mut best = (f64::INFINITY, q, f64::INFINITY);
+        let mut grow = weight.abs() + pulled + h;
+        let mut best = (f64::INFINITY, v, f64::INFINITY);
         let mut steps = 0;
         while steps < MOST_STEPS {
             steps += 1;
-            let (n, n_q) = walk(q, &mut rested.held);
-            let off = n - drop;
+            let (z, z_v) = walk(v, &mut rested.held);
+            let off = z - drop;
             if !off.is_finite() {
                 break;
             }
             let better = off.abs() < best.0;
             if better {
-                best = (off.abs(), q, n_q);
+                best = (off.abs(), v, z_v);
             }
             if best.0 <= fine || (!better && best.0 <= 64.0 * fine) {
                 break;
             }
             if off > 0.0 {
-                high = high.min(q);
+                high = high.min(v);
             } else {
-                low = low.max(q);
+                low = low.max(v);
             }
-            let newton = q - off / n_q;
+            let newton = v - off / z_v;
             let bracketed = low.is_finite() && high.is_finite();
             let inside = newton.is_finite() && newton > low && newton < high;
-            let next = if inside && (bracketed || (newton - q).abs() < grow) {
+            let next = if inside && (bracketed || (newton - v).abs() < grow) {
                 newton
             } else if bracketed {
                 0.5 * (low + high)
             } else {
                 grow *= 2.0;
-                if off > 0.0 { q - grow } else { q + grow }
+                if off > 0.0 { v - grow } else { v + grow }
             };
-            if next == q || (bracketed && high - low <= 4.0 * f64::EPSILON * (low.abs() + high.abs())) {
+            if next == v || (bracketed && high - low <= 4.0 * f64::EPSILON * (low.abs() + high.abs())) {
                 break;
             }
-            q = next;
+            v = next;
         }
-        let (off, q, n_q) = best;
-        walk(q, &mut rested.held);
-        let tension = rested.held.iter().fold(p.abs(), |m: f64, h| m.max(h.q_hi.abs()));
+        let (off, v, z_v) = best;
+        walk(v, &mut rested.held);
+        let tension = rested.held.iter().fold(h, |m: f64, held| m.max(held.v_hi.abs()));
         rested.iterations += steps;
         rested.left = rested.left.max(off);
-        rested.unbalance = rested.unbalance.max(off / n_q);
-        if off <= 1e-12 * length || off <= 1e-10 * tension * n_q {
+        rested.unbalance = rested.unbalance.max(off / z_v);
+        if off <= 1e-12 * length || off <= 1e-10 * tension * z_v {
             return Ok(());
         }
-        Err(LineError::NotConverged { force: p, residual: off, iterations: steps })
+        Err(LineError::NotConverged { force: h, residual: off, iterations: steps })
     }
 
     /// The policy that a solution asks for; `one` changes only what is furthest off.
     fn better(&self, rested: &Rested, one: bool) -> Policy {
         let length = self.chain.length();
         let fine = 1e-12 * length;
-        let ground = &self.chain.ground;
-        let size = rested.held.iter().fold(ground.least, |m: f64, h| m.max(h.q_hi.abs()).max(h.q_lo.abs()).max(h.p_hi));
+        let largest = |m: f64, held: &Held| m.max(held.v_hi.abs()).max(held.v_lo.abs()).max(held.h);
+        let size = rested.held.iter().fold(self.chain.least, largest);
         let small = 1e-12 * size;
         // by how much a piece or joint is off, and what it becomes
         let mut pieces: Vec<(f64, usize)> = Vec::new();
         let mut joints: Vec<(f64, usize, Stand)> = Vec::new();
-        let end = |i: usize| rested.n.get(i).copied().unwrap_or(0.0);
+        let end = |i: usize| rested.z.get(i).copied().unwrap_or(0.0);
         for (i, (element, held)) in self.chain.elements.iter().zip(&rested.held).enumerate() {
             if held.rests {
-                let broken = held.ground < -fine || held.q_hi < -small || held.q_lo > small;
+                let broken = held.ground < -fine || held.v_hi < -small || held.v_lo > small;
                 if broken {
                     pieces.push(((-held.ground / length).max(1e-12), i));
                 }
             } else if element.can_rest() {
-                let lowest = lowest(element, ground, held, end(i), end(i + 1));
+                let lowest = self.lowest(element, held, end(i), end(i + 1));
                 if lowest < -fine {
                     pieces.push((-lowest / length, i));
                 }
@@ -336,7 +256,7 @@ impl<'a> Problem<'a> {
         for (j, stand) in rested.policy.stands.iter().enumerate() {
             let Some(pull) = self.chain.pulls.get(j) else { continue };
             let height = end(j + 1);
-            let step = |k: usize| self.steps.get(j).and_then(|s| s.get(k)).copied();
+            let step = |k: usize| self.step(j, k);
             let lift = rested.lifts.get(j).copied().unwrap_or(0.0);
             match *stand {
                 Stand::Free(k) => {
@@ -389,9 +309,17 @@ impl<'a> Problem<'a> {
         }
         policy
     }
+
+    /// The height of the lowest point of a free piece.
+    fn lowest(&self, element: &Element, held: &Held, hi: f64, lo: f64) -> f64 {
+        if held.v_lo < 0.0 && held.v_hi > 0.0 {
+            hi - element.upper_leg(self.h_touching, held.v_hi).z
+        } else {
+            hi.min(lo)
+        }
+    }
 }
 
-/// The height of the lowest point of a free piece.
-fn lowest(element: &Element, ground: &super::element::Ground, held: &Held, hi: f64, lo: f64) -> f64 {
-    if held.q_lo < 0.0 && held.q_hi > 0.0 { hi - element.upper_leg(ground, held.p_hi, held.q_hi).n } else { hi.min(lo) }
+fn vertical_forces(rested: &Rested) -> Vec<(f64, f64)> {
+    rested.held.iter().map(|h| (h.v_hi, h.v_lo)).collect()
 }

@@ -1,7 +1,7 @@
 //! The shape of a solved line: positions and tensions at any arc length.
 
 use super::chain::Held;
-use super::element::{Element, Tilt, stretch};
+use super::element::{Element, stretch};
 use super::layout::{Laid, Stretch, point};
 use super::line::Line;
 use super::state::State;
@@ -125,44 +125,39 @@ impl Line {
         arc: f64,
     ) -> Option<ShapePoint> {
         let Element::Length { segment: properties, law, .. } = element else { return None };
-        let ground = &self.chain.ground;
-        let tilt = ground.tilt;
-        let (across, along) = element.per_length(ground);
+        let least = self.chain.least;
+        let weight = properties.weight;
         let (x, z) = state.places.get(index).copied()?;
         let (end_x, end_z) = state.places.get(index + 1).copied()?;
-        let hang = |s: f64, p: f64, q: f64| {
-            let r = stretch(properties, law.as_ref(), tilt, s, p, q);
-            tilt.back(r.x, r.z)
+        // a leg of this length with these forces at its lower end
+        let hang = |length: f64, h: f64, v: f64| {
+            if length > 0.0 {
+                let r = stretch(properties, law.as_ref(), length, h, v);
+                (r.x, r.z)
+            } else {
+                (0.0, 0.0)
+            }
         };
         let lies = held.rests && s > held.above && s <= held.above + held.ground;
-        let (x, z, p, q) = if !held.rests || s <= held.above {
-            let (p, q) = (held.p_hi - along * s, held.q_hi - across * s);
-            let (dx, dz) = if s > 0.0 { hang(s, p, q) } else { (0.0, 0.0) };
-            (x + dx, z - dz, p, q)
+        let (x, z, h, v) = if !held.rests || s <= held.above {
+            let v = held.v_hi - weight * s;
+            let (dx, dz) = hang(s, held.h, v);
+            (x + dx, z - dz, held.h, v)
         } else if lies {
-            let touch = (held.p_hi - along * held.above).max(ground.least);
-            let (dx, dz) = if held.above > 0.0 { hang(held.above, touch, 0.0) } else { (0.0, 0.0) };
-            let rest = element.rest(ground, touch, s - held.above);
+            let h = held.h.max(least);
+            let (dx, dz) = hang(held.above, h, 0.0);
+            let stretched = 1.0 + element.strain(h).0;
             // what lies in a heap keeps between its ends
-            let whole = element.rest(ground, touch, held.ground).t;
-            let room = room(tilt, (x + dx, z - dz), (end_x, end_z), held);
+            let whole = held.ground * stretched;
+            let room = (end_x - (x + dx) - held.lower.x).max(0.0);
             let share = if whole > 0.0 { (room / whole).min(1.0) } else { 0.0 };
-            let (gx, gz) = tilt.back(rest.t * share, 0.0);
-            (x + dx + gx, z - dz - gz, rest.p, 0.0)
+            (x + dx + (s - held.above) * stretched * share, z - dz, h, 0.0)
         } else {
             let left = element.length() - s;
-            let (p, q) = (held.p_lo, held.q_lo);
-            let (dx, dz) = if left > 0.0 { hang(left, p, q) } else { (0.0, 0.0) };
-            (end_x - dx, end_z + dz, p + along * left, q + across * left)
+            let (dx, dz) = hang(left, held.h, held.v_lo);
+            (end_x - dx, end_z + dz, held.h, held.v_lo + weight * left)
         };
-        let (horizontal, vertical) = tilt.back(p, q);
-        let horizontal = if state.slack && horizontal.abs() <= 64.0 * ground.least { 0.0 } else { horizontal };
-        Some(ShapePoint { arc: arc + s, segment, x, z, horizontal, vertical, on_bottom: lies })
+        let horizontal = if state.slack && h.abs() <= 64.0 * least { 0.0 } else { h };
+        Some(ShapePoint { arc: arc + s, segment, x, z, horizontal, vertical: v, on_bottom: lies })
     }
-}
-
-/// The room along the bottom between the touchdown and the place where the piece leaves it (m).
-fn room(tilt: Tilt, touchdown: (f64, f64), end: (f64, f64), held: &Held) -> f64 {
-    let (along, _) = tilt.turned(end.0 - touchdown.0, touchdown.1 - end.1);
-    (along - held.lower.t).max(0.0)
 }

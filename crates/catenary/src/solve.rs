@@ -1,7 +1,7 @@
 //! The configuration of a whole line: at a given horizontal force or tension, or between two given ends.
 
-use super::chain::Rested;
-use super::element::{Element, Tilt};
+use super::chain::{Chain, Rested};
+use super::element::Element;
 use super::layout;
 use super::line::{LARGEST, Line};
 use super::refused::LineError;
@@ -23,23 +23,8 @@ impl Line {
         if !self.is_plain() {
             return layout::at_force(self, force, fairlead);
         }
-        if self.tilt() == Tilt::FLAT {
-            let height = self.height(0.0, fairlead).1;
-            let found = self.rest(force, height, None).and_then(|rested| self.state(rested, None, fairlead));
-            return found.or_else(|error| layout::at_force(self, force, fairlead).map_err(|_| error));
-        }
-        // the height above a sloped bottom depends on the distance; the force grows with that
-        let start = self.length();
-        let (x, _) = rising_root(start, force, |x| match self.at_distance(x, fairlead) {
-            Ok(state) => Point { value: state.force, slope: state.stiffness[0][0] },
-            Err(_) => Point { value: f64::NAN, slope: f64::NAN },
-        });
-        let state = self.at_distance(x, fairlead)?;
-        let residual = (state.force - force).abs();
-        if residual <= PROOF * state.top_tension {
-            return Ok(state);
-        }
-        Err(LineError::Unproven { residual, tension: state.top_tension })
+        let found = self.rest(force, fairlead, None).and_then(|rested| self.state(rested, None, fairlead));
+        found.or_else(|error| layout::at_force(self, force, fairlead).map_err(|_| error))
     }
 
     /// The configuration in which the fairlead at elevation `fairlead` (m) is `x` >= 0 beside the anchor (m). When the
@@ -73,7 +58,7 @@ impl Line {
         }
         match layout::between_ends(self, x, fairlead, last) {
             // what has no tension feels no friction
-            Err(LineError::SlackSlope) if self.tilt() == Tilt::FLAT && self.profile.faces() == 1 => {
+            Err(LineError::SlackSlope) if self.is_flat() => {
                 let smooth = self.floor.map(|f| super::line::Floor { friction: 0.0, ..f });
                 let found = self.clone().over(smooth)?.all_at_once(x, fairlead, None)?;
                 if found.slack { Ok(found) } else { Err(LineError::SlackSlope) }
@@ -85,51 +70,35 @@ impl Line {
     /// The line between two ends over a flat and smooth bottom, all its contacts at once.
     fn all_at_once(&self, x: f64, fairlead: f64, last: Option<&State>) -> Result<State, LineError> {
         let last = last.filter(|s| s.laid.is_none());
-        let (at, height) = self.height(x, fairlead);
-        let target = at - self.anchor_place().0;
         let chain = &self.chain;
-        let least = chain.ground.least;
+        let least = chain.least;
         let weight: f64 = chain.elements.iter().map(|e| e.weight().abs()).sum();
         let start = (0.3 * weight).max(16.0 * least);
         let mut near: Option<Rested> = last.map(|s| s.rested.clone());
         let mut failed = None;
         let mut found: Option<Rested> = None;
-        // over a slope the tension along it can be less than nothing where the line is steep
-        let lifts: f64 = chain.pulls.iter().map(|p| p.lift.abs()).sum();
-        let short = (x.hypot(fairlead - self.anchor) - chain.length()).max(0.0);
-        let taut = short / self.segments.iter().map(|s| s.length / s.ea).sum::<f64>();
-        let shift = chain.ground.tilt.sin.abs() * (weight + lifts + 2.0 * taut);
-        let tension = |p: f64| if shift > 0.0 { p - shift } else { p.max(least) };
-        let begin = last.map_or(start + shift, |last| {
-            let p = last.rested.held.first().map_or(start, |h| h.p_hi);
-            // the reach changes with the tension and with the height
-            let [t_p, t_n] = last.rested.t_by;
-            let risen = last.rested.n.first().map_or(0.0, |n| height - n);
-            let predicted = p + (target - last.rested.t - t_n * risen) / t_p;
-            if predicted + shift > 0.1 * (p + shift) { predicted + shift } else { (p + shift).max(least) }
+        let begin = last.map_or(start, |last| {
+            let h = last.rested.held.first().map_or(start, |held| held.h);
+            // the reach changes with the force and with the height
+            let [x_h, x_z] = last.rested.x_by;
+            let risen = last.rested.z.first().map_or(0.0, |z| fairlead - self.datum() - z);
+            let predicted = h + (x - last.rested.x - x_z * risen) / x_h;
+            if predicted > 0.1 * h { predicted } else { h.max(least) }
         });
-        let (_, steps) = rising_root(begin, target, |p| match self.rest(tension(p), height, near.as_ref()) {
+        let (_, steps) = rising_root(begin, x, |h| match self.rest(h.max(least), fairlead, near.as_ref()) {
             Ok(rested) => {
-                // without horizontal force nothing changes any more; over a slope that begins at a tension above none
-                let lacks = rested.held.iter().fold(0.0, |m: f64, h| m.max(h.lacks)) > 4.0 * least;
-                let limp = shift == 0.0 && p <= least && rested.t >= target;
-                let point = match (lacks, limp) {
-                    (true, _) => Point { value: target - chain.length(), slope: f64::NAN },
-                    (_, true) => Point { value: target, slope: rested.t_by[0] },
-                    _ => Point { value: rested.t, slope: rested.t_by[0] },
-                };
+                // without horizontal force nothing changes any more
+                let limp = h <= least && rested.x >= x;
+                let point = Point { value: if limp { x } else { rested.x }, slope: rested.x_by[0] };
                 near = Some(rested.clone());
-                let better = |f: &Rested| (rested.t - target).abs() <= (f.t - target).abs();
-                if !lacks && found.as_ref().is_none_or(better) {
+                if found.as_ref().is_none_or(|f| (rested.x - x).abs() <= (f.x - x).abs()) {
                     found = Some(rested);
                 }
                 point
             }
             Err(error) => {
-                // over a slope there is none at all for a tension too small; whatever is found is proven
                 failed = Some(error);
-                let skip = shift > 0.0 || chain.ground.friction > 0.0;
-                Point { value: if skip { target - chain.length() } else { f64::NAN }, slope: f64::NAN }
+                Point { value: f64::NAN, slope: f64::NAN }
             }
         });
         let Some(mut rested) = found else {
@@ -140,21 +109,14 @@ impl Line {
             }));
         };
         // little may hang: without horizontal force means little against that
-        let hanging = rested.held.first().map_or(0.0, |h| h.q_hi.abs());
-        if shift == 0.0
-            && rested.t >= target
-            && hanging > least
-            && hanging * 1e-11 < least
-            && rested.held.iter().all(|h| h.p_hi <= least)
-        {
-            let mut finer = chain.clone();
-            finer.ground.least = 1e-11 * hanging;
-            let (at, low) = self.anchor_place();
-            let finer = finer.rest(finer.ground.least, height, low, at, Some(&rested));
-            rested = finer.unwrap_or(rested);
+        let (h, hanging) = rested.held.first().map_or((0.0, 0.0), |held| (held.h, held.v_hi.abs()));
+        if rested.x >= x && h <= least && hanging > least && hanging * 1e-11 < least {
+            let finer = Chain { least: 1e-11 * hanging, ..chain.clone() };
+            let [top, bottom] = self.heights(fairlead);
+            rested = finer.rest(finer.least, top, bottom, Some(&rested)).unwrap_or(rested);
         }
         rested.iterations += steps;
-        match (self.state(rested, Some((x, target)), fairlead), failed) {
+        match (self.state(rested, Some(x), fairlead), failed) {
             (Err(LineError::Unproven { .. }), Some(reason)) => Err(reason),
             (outcome, _) => outcome,
         }
@@ -212,33 +174,24 @@ impl Line {
         Err(LineError::Unproven { residual: off, tension: state.top_tension })
     }
 
-    /// The inclination of the bottom.
-    pub(super) fn tilt(&self) -> Tilt {
-        self.chain.ground.tilt
+    /// Heights of the fairlead and of the anchor above the bottom, or above the anchor where there is none (m).
+    fn heights(&self, fairlead: f64) -> [f64; 2] {
+        [fairlead - self.datum(), self.anchor - self.datum()]
     }
 
-    /// A place beside and above the anchor in axes along the bottom: t and n (m).
-    pub(super) fn height(&self, x: f64, z: f64) -> (f64, f64) {
-        self.tilt().turned(x, z - self.datum())
-    }
-
-    /// The anchor in axes along the bottom (m).
-    pub(super) fn anchor_place(&self) -> (f64, f64) {
-        self.height(0.0, self.anchor)
-    }
-
-    fn rest(&self, p: f64, height: f64, near: Option<&Rested>) -> Result<Rested, LineError> {
-        let (at, low) = self.anchor_place();
-        if self.elements_see_bottom() && height < 0.0 {
-            return Err(LineError::BelowBottom(-height));
+    fn rest(&self, h: f64, fairlead: f64, near: Option<&Rested>) -> Result<Rested, LineError> {
+        let [top, bottom] = self.heights(fairlead);
+        if self.elements_see_bottom() && top < 0.0 {
+            return Err(LineError::BelowBottom(-top));
         }
-        let warm = self.chain.rest(p, height, low, at, near);
+        let chain = &self.chain;
+        let warm = chain.rest(h, top, bottom, near);
         if warm.is_ok() {
             return warm;
         }
         // begun anew: with what is not lifted on the bottom, then with nothing there
-        let cold = if near.is_some() { self.chain.rest(p, height, low, at, None) } else { warm };
-        cold.or_else(|error| self.chain.rest(p, height, low, at, Some(&self.chain.afloat(p))).map_err(|_| error))
+        let cold = if near.is_some() { chain.rest(h, top, bottom, None) } else { warm };
+        cold.or_else(|error| chain.rest(h, top, bottom, Some(&chain.afloat(h))).map_err(|_| error))
     }
 
     /// Whether the bottom carries the first piece.

@@ -279,7 +279,6 @@ pub fn line_error(error: &LineError, places: &[Span]) -> ClassError {
         LineError::BelowBottom(_) => made.help("check &INSTATE and -DEPANCHOR"),
         LineError::Undetermined => made.help("give it weight, or pull it tight"),
         LineError::Pendant { .. } => made.help("make CLEN shorter than the depth"),
-        LineError::Slides => made.help("give the bottom friction larger than its slope, or pull the line tight"),
         LineError::Unproven { .. } | LineError::NotConverged { .. } => made
             .help("change the length, the place of the anchor or the buoys a little; without friction more is solved"),
         _ => made,

@@ -25,9 +25,9 @@ pub(super) use states::point;
 
 use super::chain::Pull;
 use super::dual::Var;
-use super::element::{Element, Tilt, linked, strain, stretch};
+use super::element::{Element, linked, strain, stretch};
 use super::line::Line;
-use super::profile::Profile;
+use super::profile::{Profile, Tilt};
 use super::refused::LineError;
 use super::state::Heap;
 use path::{End, Path};
@@ -174,7 +174,7 @@ impl<'a> Layout<'a> {
             pulls: &chain.pulls,
             bottom: &line.profile,
             friction: line.floor.map_or(0.0, |f| f.friction),
-            least: chain.ground.least,
+            least: chain.least,
             length,
             weight,
             fine: 2.0 * f64::EPSILON * (length + x.abs() + (z - line.anchor).abs()),
@@ -187,7 +187,7 @@ impl<'a> Layout<'a> {
         match self.elements.get(from.element) {
             Some(Element::Length { segment, law, .. }) => {
                 let low = v - length * segment.weight;
-                let r = stretch(segment, law.as_ref(), Tilt::FLAT, length.value, h.value, low.value);
+                let r = stretch(segment, law.as_ref(), length.value, h.value, low.value);
                 let tension = h.value.hypot(low.value);
                 // what is added at the lower end
                 let more = if tension > 0.0 { (1.0 + strain(segment, law.as_ref(), tension).0) / tension } else { 0.0 };
@@ -197,8 +197,8 @@ impl<'a> Layout<'a> {
             }
             Some(Element::Link(law)) => {
                 let part = linked(law, h.value, v.value);
-                let x = Var::function(part.t, [(h, part.t_p), (v, part.t_q)]);
-                let z = Var::function(part.n, [(h, part.n_p), (v, part.n_q)]);
+                let x = Var::function(part.x, [(h, part.x_h), (v, part.x_v)]);
+                let z = Var::function(part.z, [(h, part.z_h), (v, part.z_v)]);
                 Point { u: from.u - x, z: from.z - z, ..*from }
             }
             None => *from,

@@ -3,7 +3,8 @@
 use super::span::{Candidate, Departure, Kind, stretched};
 use super::{Laid, Layout, Manner, Point, Stretch};
 use crate::dual::{UNKNOWN, Var};
-use crate::element::{Element, Tilt, mean_strain, strain};
+use crate::element::{Element, mean_strain, strain};
+use crate::profile::Tilt;
 use crate::refused::LineError;
 use crate::state::Heap;
 

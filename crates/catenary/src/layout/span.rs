@@ -2,7 +2,7 @@
 
 use super::{JointAt, Laid, Layout, Manner, Origin, Point, Stretch, Top};
 use crate::dual::{UNKNOWN, Var};
-use crate::element::{Element, Tilt, strain, stretch};
+use crate::element::{Element, strain, stretch};
 use crate::law::Law;
 use crate::line::Segment;
 use crate::refused::LineError;
@@ -301,7 +301,7 @@ fn reach(segment: &Segment, law: Option<&Law>, from: &Point, length: f64, aside:
     let mut s = 0.5 * length;
     for _ in 0..MOST_STEPS {
         let end = v - segment.weight * s;
-        let off = stretch(segment, law, Tilt::FLAT, s, h, end).x - aside;
+        let off = stretch(segment, law, s, h, end).x - aside;
         if off > 0.0 {
             high = s;
         } else {

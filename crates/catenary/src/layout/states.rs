@@ -2,7 +2,7 @@
 
 use super::{Laid, Layout, Manner, Stretch};
 use crate::dual::Var;
-use crate::element::{Element, Tilt, mean_strain, stretch};
+use crate::element::{Element, mean_strain, stretch};
 use crate::line::{Joint, Segment};
 use crate::refused::LineError;
 use crate::shape::ShapePoint;
@@ -150,7 +150,7 @@ impl Layout<'_> {
         for face in self.bottom.face(part.low[0])..=self.bottom.face(part.u) {
             let s = (part.v - part.h * self.bottom.tilt(face).slope()) / segment.weight;
             if segment.weight > 0.0 && s > part.from && s < part.to {
-                let reach = stretch(segment, None, Tilt::FLAT, s, part.h, part.v - segment.weight * s);
+                let reach = stretch(segment, None, s, part.h, part.v - segment.weight * s);
                 let (u, z) = (part.u - reach.x, part.z - reach.z);
                 lowest = lowest.max(self.bottom.elevation(u) - z);
             }
@@ -167,7 +167,7 @@ fn highest(segment: &Segment, part: &Stretch, lifted: bool) -> f64 {
         highest = highest.max(low);
         if v > 0.0 && part.v < 0.0 {
             let above = Segment { length: -v / segment.weight, ..*segment };
-            highest = highest.max(low + stretch(&above, None, Tilt::FLAT, above.length, part.h, v).z);
+            highest = highest.max(low + stretch(&above, None, above.length, part.h, v).z);
         }
     }
     highest
@@ -181,7 +181,7 @@ pub fn point(element: &Element, part: &Stretch, s: f64, x: f64, (segment, arc): 
     let (u, z, h, v) = match part.manner {
         Manner::Hangs => {
             let v = part.v - properties.weight * length;
-            let reach = stretch(properties, law.as_ref(), Tilt::FLAT, length, part.h, v);
+            let reach = stretch(properties, law.as_ref(), length, part.h, v);
             (part.u - reach.x, part.z - reach.z, part.h, v)
         }
         Manner::Lies { tilt, loss } => {

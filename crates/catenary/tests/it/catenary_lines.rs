@@ -104,7 +104,7 @@ fn contradiction(
     const STEPS: usize = 4000;
     let state = match line.at_distance(x, fairlead) {
         Ok(state) => state,
-        Err(LineError::Undetermined | LineError::SlackSlope | LineError::Slides) => return Ok(()),
+        Err(LineError::Undetermined | LineError::SlackSlope) => return Ok(()),
         Err(error) => return Err((true, error.to_string())),
     };
     let (sin, cos) = (floor.slope / floor.slope.hypot(1.0), 1.0 / floor.slope.hypot(1.0));
