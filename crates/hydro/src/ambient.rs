@@ -60,7 +60,7 @@ impl Ambient for Around {
             }
             out.wind = streams.velocity(Medium::Air, place.z).0;
             if let Some(sea) = &sea {
-                let found = sea.wetted(*place);
+                let found = sea.wetted_line(*place);
                 out.velocity += found.velocity;
                 out.acceleration += found.acceleration;
                 out.surface += found.elevation;

@@ -14,7 +14,7 @@ pub struct Flow {
     pub velocity: Vector3<f64>,
     /// Its acceleration (m/s2, global).
     pub acceleration: Vector3<f64>,
-    /// Elevation of the surface above or below the place (m, global z).
+    /// Elevation of the surface above or below the place (m, global z); the mean level where no wave comes down to the place.
     pub surface: f64,
     /// What the pressure at the place is more than that of still water up to the surface, as a height of water (m): nothing where the
     /// water is still and at the surface; less than nothing deep under a crest and more under a trough, whose weight does not reach down.

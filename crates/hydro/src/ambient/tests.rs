@@ -55,7 +55,8 @@ fn a_regular_wave_is_that_of_the_closed_form_on_the_tide() {
         let velocity = Vector3::new(cos, 0.0, sin) * (a * w * decay);
         let acceleration = Vector3::new(sin, 0.0, -cos) * (a * w * w * decay);
         // wave numbers are solved to 1e-12
-        assert!((found.surface - 1.5 - a * cos).abs() < 1e-9, "{x}");
+        let surface = if z < 1.5 - a { 0.0 } else { a * cos };
+        assert!((found.surface - 1.5 - surface).abs() < 1e-9, "{x}");
         assert!((found.velocity - velocity).norm() < 1e-9 && (found.acceleration - acceleration).norm() < 1e-9, "{x}");
         // p = rho g a exp(k z) cos beside that of the water up to the mean level
         assert!((found.surface + found.head - 1.5 - a * decay * cos).abs() < 1e-9, "{x}");
@@ -87,11 +88,21 @@ fn below_the_surface_it_is_the_sea_and_above_it_the_water_at_the_surface() {
             let place = Vector3::new(11.0 * f64::from(i), -3.0 * f64::from(i), -38.0 + 1.3 * f64::from(i));
             let found = flow(&around, time, place.into());
             let surface = 2.0 + sea.elevation(place.x, place.y, time);
-            assert!((found.surface - surface).abs() < 1e-12, "{stretching:?} {i}");
+            // Airy waves leave places below the sum of their amplitudes under the mean level, and there a millionth of each is left out
+            let highest: f64 = sea.components.iter().map(|c| c.amplitude).sum();
+            let far = stretching == Stretching::Linear && sea.stokes.is_none() && place.z < 2.0 - highest;
+            assert!((found.surface - if far { 2.0 } else { surface }).abs() < 1e-12, "{stretching:?} {i}");
             // a micron below the surface, where the place is above it
             let at = Vector3::new(place.x, place.y, place.z.min(surface - 1e-6));
             let want = sea.kinematics(at, time);
-            let near = if place.z > surface { 1e-5 } else { 1e-12 };
+            let speeds: f64 = sea.components.iter().map(|c| c.amplitude * c.frequency).sum();
+            let near = if place.z > surface {
+                1e-5
+            } else if far {
+                2e-6 * speeds
+            } else {
+                1e-12
+            };
             (over, under) = if place.z > surface { (over + 1, under) } else { (over, under + 1) };
             assert!((found.velocity - want.velocity).norm() < near, "{stretching:?} {i}");
             assert!((found.acceleration - want.acceleration).norm() < near, "{stretching:?} {i}");
@@ -114,8 +125,10 @@ fn pressure_is_that_of_the_wave_at_depth_and_nothing_at_the_surface() {
         for (time, amplitude) in [(0.0, 5.0), (4.0, -5.0)] {
             let head = |depth: f64| {
                 let found = flow(&around, time, [0.0, 0.0, 1.0 + amplitude - depth]);
-                assert!((found.surface - 1.0 - amplitude).abs() < 1e-9);
-                found.head
+                let deep = stretching == Stretching::Linear && depth > 5.0 + amplitude;
+                assert!((found.surface - 1.0 - if deep { 0.0 } else { amplitude }).abs() < 1e-9);
+                // over still water up to the crest or trough
+                found.surface + found.head - 1.0 - amplitude
             };
             // exp(-k 500) is 2e-14: nothing of the wave is left, and the water weighs as that up to the mean level
             assert!((head(500.0) + amplitude).abs() < 1e-9, "{stretching:?}");
