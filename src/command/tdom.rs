@@ -98,6 +98,13 @@ static SPEC: CommandSpec = CommandSpec {
         )
         .owner(Owner::Ours)
         .default("steps are as given"),
+        OptionSpec::new(
+            "-DIVIDING",
+            &[ValueSpec::new("T", Kind::Number(Dim::Time), "period").positive()],
+            "period that divides motion: what is quicker is of first order, about the place and heading at which waves act on databases",
+        )
+        .owner(Owner::Ours)
+        .default("the period above which a hundredth of the energy of the sea is; 15 s without waves"),
         OptionSpec::new("-CHECK", &[], "runs again with half the step and prints the difference of every result")
             .owner(Owner::Ours),
         OptionSpec::new("-STATISTICS", &[], "keeps statistics of every result and no instants: flat memory, no file")
@@ -128,7 +135,9 @@ static SPEC: CommandSpec = CommandSpec {
              lines, ten periods around that tension, with their ends moved as in the run, and warns where they pull more than 1.1 times as hard. \
              A replay has elements of at most 20 m (60 to 200) and takes 1000 to 1200 steps. -TETHERS runs the connectors of class TETHER by the scheme of two stages of AQWA: a towed one \
              alone, its vessel at rest; installed ones with the one body they hold and its other connectors. It takes -STORE, -SLAM and -TOW of the \
-             options here, and PRCPOST has TETHER and STRUCTURE for it. &ACTION says what happens during a run: lines that break, winches.",
+             options here, and PRCPOST has TETHER and STRUCTURE for it. &ACTION says what happens during a run: lines that break, winches. \
+             The first-order loads of a database are linear about the low-frequency place and heading of its body, what a filter leaves of them: \
+             of motion with the dividing period and shorter ones 4 % at most, of ten and twenty times the period all within 25 % and 6 %. The period is printed.",
     example: "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n*G 0 0 0\n&DESCRIBE BODY CART -IGNORE Y Z RX RY RZ\n*C 0 0 0\n#WEIGHT *C 100 1 1 1\n\
               ~S GSPR BOTH X 40 1000 -LEN 0\nCONNECTOR K ~S *C *G\nEND\n&INSTATE -LOCATE CART 0.5 0 0\n&ENV -TIME 10 0.1\nTDOM",
     ..CommandSpec::new("TDOM", "runs the system in time")
@@ -211,6 +220,7 @@ fn settings(job: &Job, args: &Args) -> Outcome<Settings> {
 fn begun(job: &mut Job, args: &Args, settings: Settings) -> Outcome<(Run, Option<RunLog>)> {
     let wrong = |e, job: &Job| told(e, &job.model, args.span, job.units);
     let mut model = job.model.clone();
+    model.parameters.dividing = args.option_number("-DIVIDING");
     let mut velocities = Vec::new();
     let mut began = None;
     if let Some(given) = args.option("-RESET") {

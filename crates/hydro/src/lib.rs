@@ -32,6 +32,7 @@ pub mod heading;
 pub mod hull;
 mod junction;
 mod linear;
+pub mod low_frequency;
 pub mod morison;
 pub mod pieces;
 pub mod plate;
@@ -216,9 +217,10 @@ pub struct Floating {
     /// What acts on it.
     pub loads: Vec<Box<dyn BodyLoad>>,
     /// Added mass about its origin, body axes (kg, kg m, kg m2): of `#AMASS`, of members, of a database at infinite frequency, and the
-    /// inertia of growth.
+    /// inertia of growth. Under way that of a database is among the loads.
     pub added_mass: Matrix6<f64>,
-    /// Linear damping about its origin, body axes (N s/m, N s, N m s), of `#DRAG` and `#DAMP`.
+    /// Linear damping about its origin, body axes (N s/m, N s, N m s), of `#DRAG` and `#DAMP`. Under way that of a body with a database is
+    /// among the loads.
     pub damping: Matrix6<f64>,
 }
 
@@ -267,11 +269,12 @@ impl Floating {
         let pressed = pressure::of(model, body, under_way.flatten())?;
         loads.extend(pressed.map(|load| Box::new(load) as Box<dyn BodyLoad>));
         let mut added_mass = gathered.added_mass + grown.mass + of_members;
-        if let Some(brought) = database::attached::of(model, body, under_way)? {
+        let mut damping = gathered.damping;
+        if let Some(brought) = database::attached::of(model, body, under_way, &mut damping)? {
             loads.extend(brought.loads);
             added_mass += brought.added_mass;
         }
-        Ok(Floating { mass, loads, added_mass, damping: gathered.damping })
+        Ok(Floating { mass, loads, added_mass, damping })
     }
 
     /// The added mass in a pose, global axes.

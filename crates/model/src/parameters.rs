@@ -7,6 +7,8 @@ use crate::{Body, ClassError, LoadKind, Model, WaveAction};
 pub struct Parameters {
     /// Whether modes and runs go on without what a body lacks, and reports say so.
     pub accept_missing: bool,
+    /// The dividing period of first-order and low-frequency motion (s), where one is given.
+    pub dividing: Option<f64>,
 }
 
 impl Model {

@@ -4,6 +4,7 @@ use super::screening::quasi_static_lines;
 use super::time::{Counts, Followed, History, Method, POOR_PERIOD, Resolution, Run, Series, Swing, results};
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
+use windlass_hydro::low_frequency::dividing_period;
 use windlass_model::list_names;
 
 /// How a run stepped.
@@ -62,6 +63,9 @@ pub fn told(run: &Run) -> Table {
         if let Some(time) = sea.reinforcement {
             table = table.fact("Reinforced At", time, Dim::Time);
         }
+    }
+    if run.model.bodies.values().any(|b| b.database.is_some()) {
+        table = table.fact("Dividing Period", dividing_period(&run.model, run.sea.as_deref()), Dim::Time);
     }
     let quasi_static = quasi_static_lines(run);
     if !quasi_static.is_empty() {

@@ -1,12 +1,15 @@
 //! First-order wave forces in time: the excitation of a database summed over the waves of a sea.
 //!
-//! `F(t) = Re sum X(b - yaw, w) a exp(i (k . x - w t + phase))` in axes that turn with the yaw of the body, at the place and
-//! time of the reference point; between headings X is straight in real and imaginary part, so that the force has no
-//! jump when the body turns. Roll and pitch do not change it (first order).
+//! `F(t) = Re sum X(b - yaw, w) a exp(i (k . x - w t + phase))` with the low-frequency place and heading of the body ([`low_frequency`]): in axes
+//! of that heading, at the place of the reference point there; between headings X is straight in real and imaginary part, so that the force has no
+//! jump when the body turns. First-order motion, roll and pitch among it, does not change it.
+//!
+//! [`low_frequency`]: crate::low_frequency
 
 use super::at::DatabaseLookup;
 use super::waves::{ByHeading, Group, groups};
 use crate::body_load::{BodyLoad, MovingLoad, Underway};
+use crate::low_frequency::{LowFrequency, Slow, dividing_period_of};
 use crate::sea::Sea;
 use crate::{Category, Load, carried};
 use nalgebra::Vector3;
@@ -22,12 +25,13 @@ pub struct Excitation {
     reference: Vector3<f64>,
     /// Waves of a direction, with amplitude times excitation: six real parts, then six imaginary ones.
     groups: Vec<(Group, ByHeading<12>)>,
+    slow: LowFrequency,
     /// The share of the sea's energy that is at frequencies beyond those of the database.
     pub outside: f64,
 }
 
 impl Excitation {
-    /// That of a database in a sea.
+    /// That of a database in a sea, with the dividing period of that sea.
     ///
     /// # Errors
     /// A database without excitation, or too many waves.
@@ -53,7 +57,13 @@ impl Excitation {
             }
         }
         let outside = if all > 0.0 { beyond / all } else { 0.0 };
-        Ok(Excitation { sea: Arc::clone(sea), reference: data.reference, groups: list, outside })
+        let slow = LowFrequency::new(dividing_period_of(Some(sea)));
+        Ok(Excitation { sea: Arc::clone(sea), reference: data.reference, groups: list, slow, outside })
+    }
+
+    /// The same with another dividing period (s).
+    pub fn with_dividing_period(self, dividing: f64) -> Self {
+        Excitation { slow: LowFrequency::new(dividing), ..self }
     }
 
     /// Force and moment about the reference point at a time (s) and a place of it (m, global), in axes turned by the yaw (rad).
@@ -68,14 +78,14 @@ impl Excitation {
         Ok(sum * self.sea.factor(time))
     }
 
-    /// The force on a body in a pose at a time (s): about its origin, global axes.
+    /// The force on a body at a low-frequency place and heading, at a time (s): about its origin, global axes.
     ///
     /// # Errors
     /// A heading in a gap of the database.
-    pub fn on(&self, pose: &Pose, time: f64) -> Result<Six, ClassError> {
-        let (arm, yaw) = (pose.axes * self.reference, yaw(pose));
-        let at = pose.origin + arm;
-        Ok(carried(&turned(&self.force(time, (at.x, at.y), yaw)?, yaw), arm))
+    pub fn on(&self, slow: &Slow, time: f64) -> Result<Six, ClassError> {
+        let arm = slow.axes() * self.reference;
+        let at = slow.origin + arm.xy();
+        Ok(carried(&turned(&self.force(time, (at.x, at.y), slow.heading)?, slow.heading), arm))
     }
 }
 
@@ -102,28 +112,38 @@ impl BodyLoad for Excitation {
     }
 
     fn states(&self) -> usize {
-        6
+        LowFrequency::STATES + 6
     }
 
     /// The force where the body is expected is that of the step.
     fn begin(&self, ahead: &Underway, state: &mut [f64]) -> Result<(), ClassError> {
-        let force = self.on(ahead.pose, ahead.time)?;
+        let Some((own, state)) = state.split_at_mut_checked(LowFrequency::STATES) else { return Ok(()) };
+        let force = self.on(&self.slow.ahead(ahead, own), ahead.time)?;
         state.iter_mut().zip(force.iter()).for_each(|(s, f)| *s = *f);
         Ok(())
     }
 
     fn held(&self, _: &Underway, state: &[f64]) -> Option<Six> {
-        Some(kept(state).wrench)
+        Some(own(state).wrench)
     }
 
     fn moving(&self, _: &Underway, state: &[f64]) -> Result<MovingLoad, ClassError> {
-        Ok(MovingLoad::of(kept(state)))
+        Ok(MovingLoad::of(own(state)))
     }
 
     fn add(&self, _: &Underway, state: &[f64], out: &mut MovingLoad) -> Result<(), ClassError> {
-        out.load.wrench += kept(state).wrench;
+        out.load.wrench += own(state).wrench;
         Ok(())
     }
+
+    fn commit(&self, at: &Underway, state: &mut [f64]) {
+        self.slow.commit(at, state.get_mut(..LowFrequency::STATES).unwrap_or_default());
+    }
+}
+
+/// The force that a step has kept behind the low-frequency place.
+fn own(state: &[f64]) -> Load {
+    kept(state.get(LowFrequency::STATES..).unwrap_or_default())
 }
 
 /// A force that a step has kept.

@@ -8,6 +8,9 @@
 //! Full QTF: `F = Re sum_mn Q(w_m, w_n) c_m conj(c_n)`, `c = a exp(i q)`. Q is straight in both frequencies between those of the table, which makes it
 //! `Re sum_pq Q_pq C_p conj(C_q)` over the frequencies of the table, with each wave shared between its two neighbours there. Pairs of waves of
 //! different directions take the QTF of the mean direction of the sea.
+//!
+//! The place and heading are those that the body has, first-order motion included: a force of second order changes with that in the third order
+//! only. A heading that lags would take damping from a body that drift turns back.
 
 use super::at::drift_at;
 use super::at::{around, between};

@@ -246,13 +246,13 @@ impl Layout {
         for body in 0..self.bodies.len() {
             for category in &self.categories {
                 let of_inertia = |i: usize| told.inertia.get(body).and_then(|t| t.get(i)).copied();
+                let sums = forces.categories.get(body);
+                let of_loads = sums.and_then(|c: &[Six; CATEGORIES]| c.get(place_of(*category))).copied();
                 let force = match category {
                     Category::Inertia => of_inertia(0),
-                    Category::AddedInertia => of_inertia(1),
+                    Category::AddedInertia => of_inertia(1).zip(of_loads).map(|(own, more)| own + more),
                     Category::Coriolis => of_inertia(2),
-                    other => {
-                        forces.categories.get(body).and_then(|c: &[Six; CATEGORIES]| c.get(place_of(*other))).copied()
-                    }
+                    _ => of_loads,
                 };
                 let at = self.category(body, *category).unwrap_or(0);
                 if let (Some(force), Some(place)) = (force, row.get_mut(at..at + 6)) {

@@ -54,6 +54,7 @@ impl Run {
         let Settings { dt, method, convergence, adaptive, .. } = &self.settings;
         made.numbers(&[*dt, convergence.tolerance, adaptive.unwrap_or(0.0)]);
         made.bytes(format!("{method:?} {:?}", self.actions).as_bytes());
+        made.numbers(self.model.parameters.dividing.as_slice());
         // they stand in what lines remember
         if books && self.system.links.iter().any(|l| l.element.moves()) {
             made.bytes(b"books");

@@ -1,0 +1,152 @@
+//! First-order loads of a database about the low-frequency place and heading: no drift where none is given.
+
+use crate::common;
+use crate::common::run as runs;
+
+use nalgebra::Complex;
+use runs::{Quiet, settings};
+use std::f64::consts::TAU;
+use windlass_hydro::Category;
+use windlass_model::Model;
+use windlass_solve::frequency::Linear;
+use windlass_solve::time::{History, Run};
+
+/// A hemisphere on soft linear springs, its centre of gravity off its axis so that it yaws; in an environment, with more records.
+fn ball(environment: &str, more: &str) -> Model {
+    let (mut session, screen, _folder) = common::session();
+    session.open(
+        "records",
+        format!(
+            "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n*GA 4 0 -3\n*GB -4 0 -3\n&DESCRIBE BODY BALL\n*CG 1 0 -3\n*A 4 0 -3\n*B -4 0 -3\n\
+             #WEIGHT *CG 21053 5 5 5\n#DAMP *CG 100 100 0 0 0 2000\n\
+             DATABASE BALL -CAPYTAINE {}/tests/data/hemisphere/hemisphere.nc -SYMMETRIC -HYDROSTATICS YES\n\
+             ~K GSPR BOTH X 11 1E6 Y 11 1E6 -LEN 0\nCONNECTOR KA ~K *A *GA\nCONNECTOR KB ~K *B *GB\n{more}\nEND\n&ENV {environment}\n",
+            env!("CARGO_MANIFEST_DIR")
+        ),
+    );
+    session.run();
+    assert_eq!(session.errors, 0, "{:?} {}", session.reports, screen.text());
+    session.job.model.clone()
+}
+
+fn run(model: &Model, (time, dt): (f64, f64)) -> Run {
+    let mut made = Run::new(model, settings(time, dt), vec![]).unwrap();
+    made.go(&mut Quiet).unwrap();
+    made
+}
+
+/// Mean and amplitude of the numbers from `at` on over the last instants.
+fn mean_and_amplitude(history: &History, at: usize, count: usize) -> (f64, f64) {
+    let series = history.series(at);
+    let last = &series[series.len() - count..];
+    let mean = last.iter().sum::<f64>() / count as f64;
+    (mean, last.iter().fold(0.0, |most: f64, v| most.max((v - mean).abs())))
+}
+
+#[test]
+fn free_body_in_a_regular_wave_does_not_drift() {
+    // linear radiation has mean 0, and a body without drift coefficients none: 20 whole periods of 7 s behind ramp and transient
+    let (dt, periods) = (0.1, 20);
+    for heading in [180.0, 135.0, 0.0] {
+        for height in [1.0, 2.0] {
+            let made = run(&ball(&format!("-SEA REGULAR {heading} {height} 7 -TIME 1050 {dt} -RAMP 100"), ""), (1050.0, dt));
+            let count = (7.0 / dt) as usize * periods;
+            let at = made.history.layout.category(0, Category::RadiationDrag).unwrap();
+            let all: Vec<(f64, f64)> = (0..6).map(|n| mean_and_amplitude(&made.history, at + n, count)).collect();
+            let kind = |n: usize| if n < 3 { &all[..3] } else { &all[3..] };
+            for (n, (mean, amplitude)) in all.iter().enumerate() {
+                // what is rounding beside the others has no mean of its own
+                let largest = kind(n).iter().fold(0.0f64, |most, a| most.max(a.1));
+                let allowed = 1e-4 * amplitude.max(1e-6 * largest);
+                assert!(mean.abs() <= allowed, "{heading} {height} {n}: {mean} of {amplitude}");
+            }
+            let place = made.history.layout.body(0);
+            let along = |n: usize| mean_and_amplitude(&made.history, place + n, count);
+            let amplitude = along(0).1.hypot(along(1).1);
+            for n in [0, 1] {
+                assert!(along(n).0.abs() <= 0.01 * amplitude, "{heading} {height} {n}: {} of {amplitude}", along(n).0);
+            }
+            assert!(amplitude > 0.1 * height);
+        }
+    }
+}
+
+/// The amplitude of a number of rows over the last whole periods, as a complex number: Re(a exp(-i w t)).
+fn harmonic(history: &History, at: usize, (period, count): (f64, usize)) -> Complex<f64> {
+    let rows: Vec<(f64, f64)> = history.rows().map(|row| (row[0], row[at])).collect();
+    let last = &rows[rows.len() - count..];
+    last.iter().map(|(t, v)| Complex::from_polar(2.0 * v / count as f64, TAU * t / period)).sum()
+}
+
+#[test]
+fn offset_and_slow_yaw_shift_phase_and_heading() {
+    // held 30 m down the wave the force comes 30 k later; turned by 20 degrees the round body feels it across by tan(20)
+    let excited = |place: &str, freedoms: &str| {
+        let model = ball(
+            "-SEA REGULAR 180 2 7 -TIME 140 0.1 -RAMP 20",
+            &format!("END\n&DESCRIBE BODY BALL -IGNORE {freedoms}\n&INSTATE -LOCATE BALL {place}\nMEDIT"),
+        );
+        let made = run(&model, (140.0, 0.1));
+        let at = made.history.layout.category(0, Category::Wave).unwrap();
+        [0, 1, 2].map(|n| harmonic(&made.history, at + n, (7.0, 700)))
+    };
+    let all = "X Y Z RX RY RZ";
+    let here = excited("0 0 0", all);
+    let k = (TAU / 7.0).powi(2) / 9.80665;
+    let there = excited("30 0 0", all);
+    for n in [0, 2] {
+        let turned = there[n] / here[n] * Complex::from_polar(1.0, -30.0 * k);
+        // the depth is infinite; gravity of the records against 9.80665: 1e-5 of 30 k
+        assert!((turned - 1.0).norm() < 1e-3, "{n}: {turned}");
+    }
+    // the force of a round body is along the wave whatever its heading
+    let yawed = excited("0 0 0 0 0 20", all);
+    assert!((yawed[0] / here[0] - 1.0).norm() < 1e-3 && yawed[1].norm() < 1e-3 * here[0].norm(), "{yawed:?}");
+}
+
+#[test]
+fn slow_yaw_in_calm_water_is_damped_as_given() {
+    // released from 5 degrees: I yaw'' + c yaw' + k yaw = 0 about the centre of gravity, c = 2000 kN m s, so that the amplitude falls by
+    // exp(-c t/(2 I)); nothing comes by the filter of the heading
+    let model = ball("-TIME 240 0.1", "END\n&DESCRIBE BODY BALL -IGNORE X Y Z RX RY\n&INSTATE -LOCATE BALL 0 0 0 0 0 5\nMEDIT");
+    let made = run(&model, (240.0, 0.1));
+    let yaw = made.history.series(made.history.layout.body(0) + 5);
+    // about the origin, which is held: the radius of 5 m and 1 m to the centre; by springs of 2 x 11 kN/m on arms of 4 m
+    let inertia = 21053.0 / 9.80665 * (25.0 + 1.0);
+    let damping = 2000.0 + 100.0;
+    let stiffness = 2.0 * 11.0 * 16.0;
+    let decay = damping / (2.0 * inertia);
+    let w = f64::sqrt(stiffness / inertia - decay * decay);
+    for (n, angle) in yaw.iter().enumerate().step_by(100) {
+        let t = 0.1 * n as f64;
+        let exact = 5f64.to_radians() * (-decay * t).exp() * ((w * t).cos() + decay / w * (w * t).sin());
+        // springs on arms of 4 m turned by 5 degrees are stiffer by their turn: a thousandth, and its phase over four periods
+        assert!((angle - exact).abs() < 0.02 * 5f64.to_radians(), "{t}: {angle} {exact}");
+    }
+}
+
+#[test]
+fn surge_of_a_moored_ball_in_a_sea_is_that_by_frequency() {
+    let model = ball("-SEA JONSWAP 180 2 9 -TIME 3600 0.2 -RAMP 100", "");
+    let made = run(&model, (3600.0, 0.2));
+    let surge: Vec<f64> = made.history.series(made.history.layout.body(0)).split_off(1500);
+    let mean = surge.iter().sum::<f64>() / surge.len() as f64;
+    // what is slower than 20 s: the mean of each 20 s
+    let slow: Vec<f64> = surge.chunks_exact(100).map(|c| c.iter().sum::<f64>() / 100.0 - mean).collect();
+    let deviation = |v: &[f64]| (v.iter().map(|x| x * x).sum::<f64>() / v.len() as f64).sqrt();
+    let whole = deviation(&surge.iter().map(|x| x - mean).collect::<Vec<f64>>());
+    let linear = Linear::of(&model).unwrap();
+    let (mut all, mut slower) = (0.0, 0.0);
+    for wave in &made.sea.as_ref().unwrap().components {
+        let toward = wave.toward[1].atan2(wave.toward[0]);
+        let surge = linear.operators(wave.frequency, &[toward]).unwrap()[0][0].norm() * wave.amplitude;
+        // a mean over 20 s leaves sin(10 w)/(10 w) of a wave
+        let left = (10.0 * wave.frequency).sin() / (10.0 * wave.frequency);
+        all += 0.5 * surge * surge;
+        slower += 0.5 * (surge * left).powi(2);
+    }
+    let (all, slower) = (f64::sqrt(all), f64::sqrt(slower));
+    // a record of 3300 s of 200 waves is as long as they take to come again by a half: some percent of either
+    assert!((whole / all - 1.0).abs() < 0.05, "{whole} {all}");
+    assert!((deviation(&slow) - slower).abs() < 0.05 * whole && mean.abs() < 0.01 * whole, "{} {slower} {mean} {whole}", deviation(&slow));
+}
