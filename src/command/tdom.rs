@@ -104,7 +104,7 @@ static SPEC: CommandSpec = CommandSpec {
             "period that divides motion: what is quicker is of first order, about the place and heading at which waves act on databases",
         )
         .owner(Owner::Ours)
-        .default("the period above which a hundredth of the energy of the sea is; 15 s without waves"),
+        .default("1.05 times the period above which a hundredth of the energy of the sea is; 15 s without waves"),
         OptionSpec::new("-CHECK", &[], "runs again with half the step and prints the difference of every result")
             .owner(Owner::Ours),
         OptionSpec::new("-STATISTICS", &[], "keeps statistics of every result and no instants: flat memory, no file")

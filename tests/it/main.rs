@@ -79,6 +79,7 @@ mod time {
     mod foretold_steps;
     mod frequency;
     mod line_scheme;
+    mod low_frequency_place;
     mod members_under_way;
     mod missing_added_mass;
     mod prcpost;

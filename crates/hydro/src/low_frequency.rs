@@ -10,7 +10,7 @@
 
 use super::body_load::Underway;
 use super::sea::Sea;
-use nalgebra::{Complex, Matrix3, Rotation3, UnitQuaternion, Vector2};
+use nalgebra::{Complex, Matrix3, Rotation3, UnitQuaternion, Vector2, Vector3};
 use std::f64::consts::{PI, TAU};
 use windlass_base::pose::Pose;
 use windlass_model::Model;
@@ -31,6 +31,8 @@ const AT_ONCE: f64 = 0.035_227_674_540_170_55;
 
 /// The share of a sea's energy that has longer periods than the dividing period.
 const LONGER_WAVES: f64 = 0.01;
+/// The frequency of the first zero of the filter over that of the dividing period: 1/cos(pi/10).
+const FIRST_ZERO: f64 = 1.051_462_224_238_267;
 /// The dividing period where there are no waves (s).
 const CALM: f64 = 15.0;
 
@@ -39,7 +41,8 @@ pub fn dividing_period(model: &Model, sea: Option<&Sea>) -> f64 {
     model.parameters.dividing.unwrap_or_else(|| dividing_period_of(sea))
 }
 
-/// The dividing period where none is given (s): that above which a hundredth of the energy of the sea is; 15 s without waves.
+/// The dividing period where none is given (s): 1.05 times that above which a hundredth of the energy of the sea is, so that the first zero of the
+/// filter is there; 15 s without waves.
 pub fn dividing_period_of(sea: Option<&Sea>) -> f64 {
     let mut list: Vec<(f64, f64)> =
         sea.iter().flat_map(|s| &s.components).map(|c| (c.frequency, c.amplitude * c.amplitude)).collect();
@@ -50,7 +53,7 @@ pub fn dividing_period_of(sea: Option<&Sea>) -> f64 {
         sum += energy;
         sum > LONGER_WAVES * whole
     });
-    found.map_or(CALM, |(frequency, _)| TAU / frequency)
+    found.map_or(CALM, |(frequency, _)| FIRST_ZERO * TAU / frequency)
 }
 
 /// The filter of one signal.
@@ -140,17 +143,20 @@ impl Slow {
         Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0)
     }
 
-    /// What gives of a rate of rotation (global axes) the rates of the small rotation by which a body in these axes (body to global) is turned from
-    /// those of the heading. The mean of such rates over whole periods is nothing, where that of the rotation itself is not: an axis that goes round
-    /// a cone turns the body.
+    /// The small rotation by which a body in these axes (body to global) is turned from those of the heading: its rotation vector, in axes of the
+    /// heading.
+    pub fn rotation(&self, axes: &Matrix3<f64>) -> Vector3<f64> {
+        UnitQuaternion::from(Rotation3::from_matrix_unchecked(self.axes().transpose() * axes)).scaled_axis()
+    }
+
+    /// What gives of a rate of rotation (global axes) the rates of [`Slow::rotation`] at a heading that stays. The mean of such rates over whole periods
+    /// is nothing, where that of the rate of rotation is not: an axis that goes round a cone turns the body.
     pub fn rates(&self, axes: &Matrix3<f64>) -> Matrix3<f64> {
-        let own = self.axes().transpose();
-        let turned = UnitQuaternion::from(Rotation3::from_matrix_unchecked(own * axes)).scaled_axis();
+        let turned = self.rotation(axes);
         let (angle, cross) = (turned.norm(), turned.cross_matrix());
         // the inverse of the left Jacobian of rotations; the factor is 1/12 at none
-        let factor =
-            if angle < 1e-3 { 1.0 / 12.0 } else { (1.0 - 0.5 * angle / (0.5 * angle).tan()) / (angle * angle) };
-        (Matrix3::identity() - cross * 0.5 + cross * cross * factor) * own
+        let factor = if angle < 1e-3 { 1.0 / 12.0 } else { (1.0 - 0.5 * angle / (0.5 * angle).tan()) / (angle * angle) };
+        (Matrix3::identity() - cross * 0.5 + cross * cross * factor) * self.axes().transpose()
     }
 }
 
@@ -210,7 +216,6 @@ impl LowFrequency {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nalgebra::Vector3;
     use windlass_base::pose::Six;
 
     /// What is left of a sine of a period (s), with steps of a length (s): in phase, and ahead by a quarter.

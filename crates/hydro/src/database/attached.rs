@@ -9,7 +9,7 @@ use crate::low_frequency::{LowFrequency, Slow, dividing_period};
 use crate::sea::Sea;
 use crate::steady::Steady;
 use crate::{Category, Load, in_pose, transferred};
-use nalgebra::{Matrix3, Matrix6};
+use nalgebra::{Matrix3, Matrix6, Vector3};
 use std::sync::Arc;
 use windlass_base::pose::{Pose, Six};
 use windlass_model::{
@@ -30,42 +30,65 @@ pub struct Brought {
 
 /// Linear motion about the low-frequency heading of a body, in a state of [`Linear::STATES`] values: the heading and the small rotations of the
 /// place expected at the end of a step are those of the step.
+///
+/// A step of time integrates the rate of rotation to the second order of its length, so that the mean of the rates of small rotations is off by as much
+/// of a product of two motions. The rates of a step have that of the step before added, by which its rotation went beyond the mean of its rates:
+/// their mean is that of the rotation itself.
 #[derive(Clone, Copy, Debug)]
 struct Linear {
     slow: LowFrequency,
 }
 
+/// Where a state of [`Linear`] has the heading, what gives rates of small rotations of that of rotation, what is added to them; and of the
+/// end of the last step whether there was one, the heading, the small rotation, its rates without what was added.
+const HEADING: usize = LowFrequency::STATES;
+const RATES: usize = HEADING + 1;
+const ADDED: usize = RATES + 9;
+const LAST: usize = ADDED + 3;
+
 impl Linear {
-    /// Behind the low-frequency place the heading, and what gives rates of small rotations of that of rotation.
-    const STATES: usize = LowFrequency::STATES + 10;
+    const STATES: usize = LAST + 8;
 
     fn begin(&self, ahead: &Underway, state: &mut [f64]) {
-        let Some((own, kept)) = state.split_at_mut_checked(LowFrequency::STATES) else { return };
+        let Some((own, kept)) = state.split_at_mut_checked(HEADING) else { return };
         let slow = self.slow.ahead(ahead, own);
         let rates = slow.rates(&ahead.pose.axes);
-        kept.iter_mut()
-            .zip(std::iter::once(&slow.heading).chain(rates.iter()))
-            .for_each(|(kept, value)| *kept = *value);
+        kept.iter_mut().zip(std::iter::once(&slow.heading).chain(rates.iter())).for_each(|(kept, value)| *kept = *value);
     }
 
     fn commit(&self, at: &Underway, state: &mut [f64]) {
-        self.slow.commit(at, state.get_mut(..LowFrequency::STATES).unwrap_or_default());
+        if state.len() < Linear::STATES {
+            return;
+        }
+        let slow = Slow { heading: state[HEADING], ..Slow::default() };
+        let (angle, rates) = (slow.rotation(&at.pose.axes), slow.rates(&at.pose.axes) * at.velocity.fixed_rows::<3>(3));
+        let last = |from: usize| Vector3::new(state[LAST + from], state[LAST + from + 1], state[LAST + from + 2]);
+        if state[LAST] > 0.0 && at.dt > 0.0 {
+            let turned = angle - last(2) + Vector3::z() * (slow.heading - state[LAST + 1]);
+            let added = turned / at.dt - (rates + last(5)) * 0.5;
+            state[ADDED..LAST].copy_from_slice(added.as_slice());
+        }
+        (state[LAST], state[LAST + 1]) = (1.0, slow.heading);
+        state[LAST + 2..LAST + 5].copy_from_slice(angle.as_slice());
+        state[LAST + 5..LAST + 8].copy_from_slice(rates.as_slice());
+        self.slow.commit(at, state.get_mut(..HEADING).unwrap_or_default());
     }
 
     /// The axes of the heading.
     fn axes(state: &[f64]) -> Matrix3<f64> {
-        Slow { heading: state.get(LowFrequency::STATES).copied().unwrap_or(0.0), ..Slow::default() }.axes()
+        Slow { heading: state.get(HEADING).copied().unwrap_or(0.0), ..Slow::default() }.axes()
     }
 
     /// From a rate of rotation (global axes) to rates of small rotations about the axes of the heading.
     fn rates(state: &[f64]) -> Matrix3<f64> {
-        Matrix3::from_iterator(state.iter().skip(LowFrequency::STATES + 1).copied().chain([0.0; 9]).take(9))
+        Matrix3::from_iterator(state.iter().skip(RATES).copied().chain([0.0; 9]).take(9))
     }
 
     /// The rates of the place and of small rotations, in axes of the heading.
     fn velocity(at: &Underway, state: &[f64]) -> Six {
         let along = Linear::axes(state).transpose() * at.velocity.fixed_rows::<3>(0);
-        let turning = Linear::rates(state) * at.velocity.fixed_rows::<3>(3);
+        let added = Vector3::from_iterator(state.iter().skip(ADDED).copied().chain([0.0; 3]).take(3));
+        let turning = Linear::rates(state) * at.velocity.fixed_rows::<3>(3) + added;
         Six::new(along.x, along.y, along.z, turning.x, turning.y, turning.z)
     }
 
@@ -180,6 +203,10 @@ impl BodyLoad for DampingLoad {
     fn begin(&self, ahead: &Underway, state: &mut [f64]) -> Result<(), ClassError> {
         self.linear.begin(ahead, state);
         Ok(())
+    }
+
+    fn held(&self, at: &Underway, state: &[f64]) -> Option<Six> {
+        Some(Linear::global(&-(self.damping * Linear::velocity(at, state)), state))
     }
 
     fn moving(&self, at: &Underway, state: &[f64]) -> Result<MovingLoad, ClassError> {

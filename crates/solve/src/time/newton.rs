@@ -25,7 +25,8 @@ impl Stepper {
             };
             if inertia.0 != body {
                 let own = mass * trial.acceleration + gyroscopic(&node.floating.mass, trial);
-                inertia = (body, own, mass[(0, 0)].max(mass[(2, 2)]));
+                let whole = |i: usize| mass[(i, i)] + forces.inertia[(6 * body + i, 6 * body + i)].max(0.0);
+                inertia = (body, own, whole(0).max(whole(2)));
             }
             let left = if row.heavy { forces.sum[row.at] - inertia.1[freedom] } else { forces.sum[row.at] };
             self.right[i] = left;
