@@ -287,7 +287,9 @@ pub(super) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<
                     shown(transient, Dim::Time, job.units),
                     shown(observed, Dim::Time, job.units)
                 );
-                return Err(Diagnostic::error(text, place(given, 2)).help("TTRA_SET is part of TOBSERV, at its beginning"));
+                return Err(
+                    Diagnostic::error(text, place(given, 2)).help("TTRA_SET is part of TOBSERV, at its beginning")
+                );
             }
             env.time = Some(TimeWindow {
                 observed,

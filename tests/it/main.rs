@@ -89,6 +89,7 @@ mod time {
     mod time_domain;
     mod time_runs;
     mod transient;
+    mod wave_mean;
 }
 
 /// AQWA decks run by the session.

@@ -72,12 +72,15 @@ pub enum Category {
     Wind,
     /// Viscous drag of current.
     ViscousDrag,
-    /// Waves of first order: excitation, and pressure and inertia on members.
+    /// Waves of first order: excitation, and pressure and inertia on members and hulls but for what is slow of these.
     Wave,
     /// Radiation and linear damping of the body's own motion.
     RadiationDrag,
     /// Wave drift: its mean, and in time what varies slowly.
     WaveDrift,
+    /// What is slow of the pressure and inertia of waves on hulls of Froude and Krylov and on members (ours): their mean, which is no drift
+    /// force, as the undisturbed waves alone make it.
+    WaveMean,
     /// What the sea bottom carries (ours).
     Bottom,
     /// Flexible connectors.
@@ -96,7 +99,7 @@ pub enum Category {
 
 impl Category {
     /// All, in the order of reports.
-    pub const ALL: [Category; 14] = [
+    pub const ALL: [Category; 15] = [
         Category::Weight,
         Category::Buoyancy,
         Category::Wind,
@@ -104,6 +107,7 @@ impl Category {
         Category::Wave,
         Category::RadiationDrag,
         Category::WaveDrift,
+        Category::WaveMean,
         Category::Bottom,
         Category::Applied,
         Category::FlexConnectors,
@@ -123,6 +127,7 @@ impl Category {
             Category::Wave => "WAVE",
             Category::RadiationDrag => "R_DRAG",
             Category::WaveDrift => "W_DRIFT",
+            Category::WaveMean => "W_MEAN",
             Category::Bottom => "BOTTOM",
             Category::FlexConnectors => "FLEX_CONNECTORS",
             Category::RigidConnectors => "RIGID_CONNECTORS",

@@ -12,7 +12,7 @@ use super::body_load::Underway;
 use super::sea::Sea;
 use nalgebra::{Complex, Matrix3, Rotation3, UnitQuaternion, Vector2, Vector3};
 use std::f64::consts::{PI, TAU};
-use windlass_base::pose::Pose;
+use windlass_base::pose::{Pose, Six};
 use windlass_model::Model;
 
 /// Poles and residues over the frequency of the dividing period, those of pairs twice, and what goes through at once: scipy's
@@ -121,6 +121,36 @@ fn integrals(z: Complex<f64>) -> [Complex<f64>; 2] {
     sums
 }
 
+/// Finds what is slow of a wrench, in a state of [`SlowWrench::STATES`] values that begins with zeros.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SlowWrench {
+    filter: LowPass,
+}
+
+impl SlowWrench {
+    /// Number of values it remembers.
+    pub const STATES: usize = 6 * LowPass::STATES;
+
+    /// With a dividing period (s).
+    pub fn new(dividing: f64) -> Self {
+        SlowWrench { filter: LowPass::new(dividing) }
+    }
+
+    /// A step (s) is accepted with a wrench at its end.
+    pub fn commit(&self, wrench: &Six, dt: f64, state: &mut [f64]) {
+        let (signals, _) = state.as_chunks_mut::<{ LowPass::STATES }>();
+        for (signal, value) in signals.iter_mut().zip(wrench.iter()) {
+            self.filter.advance(*value, dt, signal);
+        }
+    }
+
+    /// What was slow of it at the end of the last step.
+    pub fn slow(state: &[f64]) -> Six {
+        let (signals, _) = state.as_chunks::<{ LowPass::STATES }>();
+        Six::from_iterator(signals.iter().map(LowPass::slow).chain([0.0; 6]).take(6))
+    }
+}
+
 /// Where a body is but for its first-order motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Slow {
@@ -155,7 +185,8 @@ impl Slow {
         let turned = self.rotation(axes);
         let (angle, cross) = (turned.norm(), turned.cross_matrix());
         // the inverse of the left Jacobian of rotations; the factor is 1/12 at none
-        let factor = if angle < 1e-3 { 1.0 / 12.0 } else { (1.0 - 0.5 * angle / (0.5 * angle).tan()) / (angle * angle) };
+        let factor =
+            if angle < 1e-3 { 1.0 / 12.0 } else { (1.0 - 0.5 * angle / (0.5 * angle).tan()) / (angle * angle) };
         (Matrix3::identity() - cross * 0.5 + cross * cross * factor) * self.axes().transpose()
     }
 }
@@ -216,7 +247,6 @@ impl LowFrequency {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use windlass_base::pose::Six;
 
     /// What is left of a sine of a period (s), with steps of a length (s): in phase, and ahead by a quarter.
     fn left(dividing: f64, period: f64, dt: f64) -> Complex<f64> {

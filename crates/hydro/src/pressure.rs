@@ -17,6 +17,7 @@
 
 use super::buoyancy::skin;
 use super::hull::{Panel, Panelling, Surface};
+use super::low_frequency::{SlowWrench, dividing_period, dividing_period_of};
 use super::sea::{FilledGrid, PressureGrid, Sea, SeaAt};
 use super::{BodyLoad, Category, Load, MovingLoad, Underway};
 use nalgebra::Vector3;
@@ -45,6 +46,7 @@ pub struct WavePressure {
     panels: Vec<Pressed>,
     /// Weight of the water (N/m3).
     weight: f64,
+    slow: SlowWrench,
 }
 
 /// A node of the panels.
@@ -91,7 +93,9 @@ pub fn of(model: &Model, body: &Body, sea: Option<&Arc<Sea>>) -> Result<Option<W
         }
     }
     let pose = Pose::of(&body.place);
-    Ok((!surfaces.is_empty()).then(|| from_surfaces(sea, surfaces.into_iter(), &pose, 1.0)))
+    let slow = SlowWrench::new(dividing_period(model, Some(sea)));
+    let made = |surfaces: Vec<_>| WavePressure { slow, ..from_surfaces(sea, surfaces.into_iter(), &pose, 1.0) };
+    Ok((!surfaces.is_empty()).then(|| made(surfaces)))
 }
 
 /// Root mean square of the wave numbers (1/m) of a sea, by their energy.
@@ -141,7 +145,8 @@ fn from_surfaces(
     let extent = corners.reduce(|(low, high), (p, q)| (low.inf(&p), high.sup(&q))).map(|(low, high)| high - low);
     let grid = extent.and_then(|extent| PressureGrid::new(sea, [extent.norm(), extent.z], nodes.len()));
     let weight = sea.density * sea.gravity;
-    WavePressure { sea: Arc::clone(sea), grid, nodes, panels, weight }
+    let slow = SlowWrench::new(dividing_period_of(Some(sea)));
+    WavePressure { sea: Arc::clone(sea), grid, nodes, panels, weight, slow }
 }
 
 /// A force and its moment about the origin.
@@ -373,6 +378,9 @@ impl WavePressure {
     }
 }
 
+/// Of the state of [`WavePressure`] what the step has kept; behind it what is slow.
+const KEPT: usize = 6;
+
 impl BodyLoad for WavePressure {
     fn category(&self) -> Category {
         Category::Wave
@@ -384,7 +392,7 @@ impl BodyLoad for WavePressure {
     }
 
     fn states(&self) -> usize {
-        6
+        KEPT + SlowWrench::STATES
     }
 
     fn begin(&self, ahead: &Underway, state: &mut [f64]) -> Result<(), ClassError> {
@@ -399,13 +407,29 @@ impl BodyLoad for WavePressure {
     }
 
     fn moving(&self, _at: &Underway, state: &[f64]) -> Result<MovingLoad, ClassError> {
-        let wrench = Six::from_iterator(state.iter().copied().chain([0.0; 6]).take(6));
-        Ok(MovingLoad::of(Load { wrench, ..Load::none() }))
+        Ok(MovingLoad::of(Load { wrench: kept(state), ..Load::none() }))
     }
 
     fn held(&self, _at: &Underway, state: &[f64]) -> Option<Six> {
-        Some(Six::from_iterator(state.iter().copied().chain([0.0; 6]).take(6)))
+        Some(kept(state))
     }
+
+    fn other_categories(&self) -> &'static [Category] {
+        &[Category::WaveMean]
+    }
+
+    fn part(&self, _: Category, _: &Underway, state: &[f64]) -> Six {
+        SlowWrench::slow(state.get(KEPT..).unwrap_or_default())
+    }
+
+    fn commit(&self, at: &Underway, state: &mut [f64]) {
+        let wrench = kept(state);
+        self.slow.commit(&wrench, at.dt, state.get_mut(KEPT..).unwrap_or_default());
+    }
+}
+
+fn kept(state: &[f64]) -> Six {
+    Six::from_iterator(state.iter().copied().chain([0.0; KEPT]).take(KEPT))
 }
 
 #[cfg(test)]

@@ -4,8 +4,9 @@ use super::screening::quasi_static_lines;
 use super::time::{Counts, Followed, History, Method, POOR_PERIOD, Resolution, Run, Series, Swing, results};
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
+use windlass_hydro::Category;
 use windlass_hydro::low_frequency::dividing_period;
-use windlass_model::list_names;
+use windlass_model::{Body, LoadKind, Model, PartLoad, WaveAction, list_names};
 
 /// How a run stepped.
 fn scheme(run: &Run) -> String {
@@ -64,7 +65,8 @@ pub fn told(run: &Run) -> Table {
             table = table.fact("Reinforced At", time, Dim::Time);
         }
     }
-    if run.model.bodies.values().any(|b| b.database.is_some()) {
+    let means = run.history.layout.categories.contains(&Category::WaveMean);
+    if means || run.model.bodies.values().any(|b| b.database.is_some()) {
         table = table.fact("Dividing Period", dividing_period(&run.model, run.sea.as_deref()), Dim::Time);
     }
     let quasi_static = quasi_static_lines(run);
@@ -72,6 +74,11 @@ pub fn told(run: &Run) -> Table {
         table.note(format!("quasi-static lines, without inertia and drag of their own: {}", list_names(&quasi_static)));
     }
     table.notes.extend(run.model.caveats());
+    if let Some(names) = without_drift(&run.model).filter(|_| run.sea.is_some()) {
+        table.note(format!(
+            "{names}: -DIFTYPE FK is no drift force; its mean (W_MEAN of BODY_FORCE) is of the undisturbed waves alone, and #DRIFT gives drift"
+        ));
+    }
     if run.actions.is_empty() {
         return table;
     }
@@ -83,6 +90,22 @@ pub fn told(run: &Run) -> Table {
         }
     }
     table
+}
+
+/// The bodies under the pressure of waves on their hull that have no drift.
+fn without_drift(model: &Model) -> Option<String> {
+    let own = |body: &Body, part: &str| model.parts_of(body).any(|p| Model::key(&p.name) == Model::key(part));
+    let drifts = |body: &Body| {
+        let given = |l: &PartLoad| matches!(l.kind, LoadKind::Drift { .. }) && own(body, &l.part);
+        body.database.is_some() || model.loads.iter().any(given)
+    };
+    let pressed = |body: &&Body| {
+        let mut pieces = model.parts_of(body).flat_map(|part| part.pieces.iter());
+        pieces.any(|piece| piece.waves == WaveAction::Pressure)
+    };
+    let names: Vec<&str> =
+        model.bodies.values().filter(pressed).filter(|body| !drifts(body)).map(|b| b.name.as_str()).collect();
+    (!names.is_empty()).then(|| names.join(", "))
 }
 
 /// A number with three digits that count.

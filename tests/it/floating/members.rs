@@ -378,7 +378,7 @@ fn drag_under_way_is_told_in_its_own_category() {
     let (pose, velocity) = (Pose::default(), Six::zeros());
     let now = Underway { time: 0.0, dt: 0.0, pose: &pose, velocity: &velocity };
     load.begin(&now, &mut state).unwrap();
-    assert_eq!(load.other_categories(), [Category::ViscousDrag]);
+    assert_eq!(load.other_categories(), [Category::ViscousDrag, Category::WaveMean]);
     let drag = load.part(Category::ViscousDrag, &now, &state);
     let whole = load.moving(&now, &state).unwrap().load.wrench;
     // under the crest there is no acceleration along the wave: all of it is drag

@@ -39,12 +39,13 @@ struct Linear {
     slow: LowFrequency,
 }
 
-/// Where a state of [`Linear`] has the heading, what gives rates of small rotations of that of rotation, what is added to them; and of the
-/// end of the last step whether there was one, the heading, the small rotation, its rates without what was added.
+/// Where a state of [`Linear`] has the heading, what gives rates of small rotations of that of rotation, what is added to them in the step, and
+/// in the next one; and of the end of the last step whether there was one, the heading, the small rotation, its rates without what was added.
 const HEADING: usize = LowFrequency::STATES;
 const RATES: usize = HEADING + 1;
 const ADDED: usize = RATES + 9;
-const LAST: usize = ADDED + 3;
+const NEXT: usize = ADDED + 3;
+const LAST: usize = NEXT + 3;
 
 impl Linear {
     const STATES: usize = LAST + 8;
@@ -53,7 +54,12 @@ impl Linear {
         let Some((own, kept)) = state.split_at_mut_checked(HEADING) else { return };
         let slow = self.slow.ahead(ahead, own);
         let rates = slow.rates(&ahead.pose.axes);
-        kept.iter_mut().zip(std::iter::once(&slow.heading).chain(rates.iter())).for_each(|(kept, value)| *kept = *value);
+        kept.iter_mut()
+            .zip(std::iter::once(&slow.heading).chain(rates.iter()))
+            .for_each(|(kept, value)| *kept = *value);
+        if state.len() >= LAST {
+            state.copy_within(NEXT..LAST, ADDED);
+        }
     }
 
     fn commit(&self, at: &Underway, state: &mut [f64]) {
@@ -66,7 +72,7 @@ impl Linear {
         if state[LAST] > 0.0 && at.dt > 0.0 {
             let turned = angle - last(2) + Vector3::z() * (slow.heading - state[LAST + 1]);
             let added = turned / at.dt - (rates + last(5)) * 0.5;
-            state[ADDED..LAST].copy_from_slice(added.as_slice());
+            state[NEXT..LAST].copy_from_slice(added.as_slice());
         }
         (state[LAST], state[LAST + 1]) = (1.0, slow.heading);
         state[LAST + 2..LAST + 5].copy_from_slice(angle.as_slice());

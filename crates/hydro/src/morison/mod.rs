@@ -34,6 +34,7 @@ mod under_way;
 use super::grown;
 use super::growth::Growth;
 use super::hull::Tube;
+use super::low_frequency::{SlowWrench, dividing_period};
 use super::sea::Sea;
 use super::steady::{Medium, Steady};
 use super::{BodyLoad, Category, Load, MovingLoad, Underway};
@@ -62,6 +63,7 @@ pub struct Members {
     /// Heights at which the current begins to change otherwise (m, global), highest first.
     kinks: Vec<f64>,
     under_way: Option<UnderWay>,
+    slow: SlowWrench,
 }
 
 /// The members of a body: their load, where there is any, and their added mass about its origin (body axes) under the mean level where
@@ -97,7 +99,8 @@ pub fn of(
     let load = acts.then(|| {
         let kinks = kinks(&steady);
         let under_way = under_way.map(|sea| UnderWay::new(sea.cloned(), (&rods, &kinks), &steady, &added));
-        Members { rods, steady, kinks, under_way }
+        let slow = SlowWrench::new(dividing_period(model, sea.map(|sea| sea.as_ref())));
+        Members { rods, steady, kinks, under_way, slow }
     });
     Ok((load, added))
 }
@@ -235,37 +238,54 @@ impl BodyLoad for Members {
     }
 
     fn states(&self) -> usize {
-        self.under_way.as_ref().map_or(0, |way| way.states())
+        self.under_way.as_ref().map_or(0, |way| SlowWrench::STATES + way.states())
     }
 
     fn begin(&self, ahead: &Underway, state: &mut [f64]) -> Result<(), ClassError> {
-        if let Some(way) = &self.under_way {
-            way.begin(&self.rods, &self.steady, ahead, state);
+        if let (Some(way), Some(own)) = (&self.under_way, state.get_mut(SlowWrench::STATES..)) {
+            way.begin(&self.rods, &self.steady, ahead, own);
         }
         Ok(())
     }
 
     fn moving(&self, at: &Underway, state: &[f64]) -> Result<MovingLoad, ClassError> {
         match &self.under_way {
-            Some(way) => Members::checked(way.moving(&self.rods, at, state)),
+            Some(way) => Members::checked(way.moving(&self.rods, at, own(state))),
             None => self.load(at.pose).map(MovingLoad::of),
         }
     }
 
     fn inertia(&self, state: &[f64]) -> Option<Matrix6<f64>> {
-        self.under_way.as_ref().map(|_| UnderWay::inertia(state))
+        self.under_way.as_ref().map(|_| UnderWay::inertia(own(state)))
     }
 
     fn other_categories(&self) -> &'static [Category] {
-        if self.under_way.is_some() { &[Category::ViscousDrag] } else { &[] }
+        match &self.under_way {
+            Some(way) if way.has_waves() => &[Category::ViscousDrag, Category::WaveMean],
+            Some(_) => &[Category::ViscousDrag],
+            None => &[],
+        }
     }
 
     fn part(&self, category: Category, at: &Underway, state: &[f64]) -> Six {
         match (&self.under_way, category) {
-            (Some(way), Category::ViscousDrag) => way.drag(at, state).0,
+            (Some(way), Category::ViscousDrag) => way.drag(at, own(state)).0,
+            (Some(_), Category::WaveMean) => SlowWrench::slow(state),
             _ => Six::zeros(),
         }
     }
+
+    fn commit(&self, at: &Underway, state: &mut [f64]) {
+        let Some(way) = self.under_way.as_ref().filter(|way| way.has_waves()) else { return };
+        let waves = way.moving(&self.rods, at, own(state)).load.wrench - way.drag(at, own(state)).0;
+        let slow = state.get_mut(..SlowWrench::STATES).unwrap_or_default();
+        self.slow.commit(&waves, at.dt, slow);
+    }
+}
+
+/// What members remember behind what is slow.
+fn own(state: &[f64]) -> &[f64] {
+    state.get(SlowWrench::STATES..).unwrap_or_default()
 }
 
 /// The pieces of a body that displace water, and that waves move by no pressure: neither members nor of `-DIFTYPE FK`, nor part

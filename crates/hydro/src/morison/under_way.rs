@@ -104,6 +104,11 @@ impl UnderWay {
         UnderWay { sea, held: *held, level, weight, kinks: kinks.to_vec(), segments, stations, reach }
     }
 
+    /// Whether there is a sea.
+    pub(super) fn has_waves(&self) -> bool {
+        self.sea.is_some()
+    }
+
     pub(super) fn states(&self) -> usize {
         HEAD + SEGMENT * self.segments + EACH * self.stations
     }

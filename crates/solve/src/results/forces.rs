@@ -6,6 +6,7 @@ use super::{Event, Magnitude, columns, filled, headed, timed};
 use nalgebra::Vector3;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
+use windlass_hydro::Category;
 
 /// Adds the columns of a force and a moment.
 pub(super) fn wrench_columns(table: Table, group: &str) -> Table {
@@ -40,6 +41,12 @@ pub fn body_forces(run: &Run, bodies: &[usize], magnitude: Magnitude, events: &[
         }
     }
     table.note("TOTAL is with inertia: what the step left, and what holds freedoms that do not move");
+    if layout.categories.contains(&Category::WaveMean) {
+        table.note(
+            "W_MEAN is what is slow (TDOM -DIVIDING) of the force of undisturbed waves on members and hulls of -DIFTYPE FK: no drift force, which \
+             diffraction and radiation make; #DRIFT or DATABASE give it as W_DRIFT. The mean drag of members is in V_DRAG",
+        );
+    }
     filled((&run.history, events), table, &mut |row, made| {
         for body in bodies {
             let mut total = [Vector3::zeros(); 2];
