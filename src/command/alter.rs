@@ -226,6 +226,10 @@ fn change(model: &Model, made: &mut Connector, given: &Given, said: &mut Said) -
     if aim.is_some() && !made.active {
         return Ok(format!("inactive, passed over by {option}"));
     }
+    if matches!(aim, Some(Condition::Tension(_))) && begins_in_ground(model, made) {
+        let text = "its first end is in the ground, and the tension of a line is that at its first end";
+        return Err(ClassError::new(text).help("name the point on the body first in its CONNECTOR record"));
+    }
     let old = (model.first_length(made), made.anchor);
     let value = given.number(0).unwrap_or(0.0);
     let mut also = String::new();
@@ -283,6 +287,10 @@ fn change(model: &Model, made: &mut Connector, given: &Given, said: &mut Said) -
         model.element(made)?;
     }
     let placed_anew = option == "-ANCHOR" && old.1.is_some();
+    if model.moves(made) && matches!(option, "-L_HORIZONTAL" | "-L_TENSION") {
+        // found and proven by the dynamic line itself
+        return Ok(told(made, given, old, said));
+    }
     if adjustable(model, made)
         && (placed_anew || matches!(option, "-LENGTH" | "-L_DELTA" | "-L_HORIZONTAL" | "-L_TENSION"))
     {
@@ -318,6 +326,15 @@ fn line(model: &Model, connector: &Connector) -> Result<Box<dyn LineModel>, Clas
     let class = model.classes.get(&Model::key(&connector.class));
     let class = class.ok_or_else(|| ClassError::new(format!("its class {} is not defined", connector.class)))?;
     class.object.line(&model.placement(connector), &model.surroundings())
+}
+
+/// Whether a connector goes from the ground to a body.
+fn begins_in_ground(model: &Model, connector: &Connector) -> bool {
+    let on_body = |index: usize| {
+        let point = connector.points.get(index).and_then(|name| model.points.get(&Model::key(name)))?;
+        Some(model.body_of(point).is_some())
+    };
+    on_body(0) == Some(false) && on_body(1) == Some(true)
 }
 
 fn no_anchor() -> ClassError {

@@ -135,9 +135,12 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let settled = settle(&mut job.model, &options).map_err(|e| told(e, &job.model, call.args.span, job.units))?;
     let forces = tables::by_category(&settled.system, &settled.state, &|_| true)
         .map_err(|e| told(e, &job.model, call.args.span, job.units))?;
-    let mut over = Vec::new();
+    let (mut over, mut unknown) = (Vec::new(), Vec::new());
     for (name, summary) in settled.system.summaries(&settled.state) {
-        over.extend(summary.ok().and_then(|s| judged(name, &s, "&EQUI")));
+        match summary {
+            Ok(summary) => over.extend(judged(name, &summary, "&EQUI")),
+            Err(error) => unknown.push(format!("the tension of {name} is not known: {}", error.error.text(job.units))),
+        }
     }
     job.equilibrium = Options { ignored: Vec::new(), ..options };
     let mut list = vec![tables::rest(&job.model, &settled), forces];
@@ -158,5 +161,6 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     list.iter().for_each(|t| raise(job, t, call.args.span));
     warn_of_lines(job, call.args.span);
     warn_of_breaks(job, over, call.args.span);
+    unknown.into_iter().for_each(|text| job.warn(text, call.args.span));
     Ok(Effect::Done)
 }

@@ -132,7 +132,13 @@ fn found(model: &Model, connector: &Connector) -> Result<Found, ClassError> {
     let distance = (second - first).xy().norm();
     let is_on_body = |name: &String| model.points.get(&Model::key(name)).is_some_and(|p| model.body_of(p).is_some());
     let on_body = connector.points.iter().take(2).position(is_on_body).unwrap_or(0);
-    Ok(Found { forces: [force(0), force(1)], on_body, distance, summary: element.summary(&at, &committed)? })
+    let mut summary = element.summary(&at, &committed)?;
+    let is_line = model.classes.get(&Model::key(&connector.class)).is_some_and(|class| class.object.is_line());
+    if let (1, true, Some(tension)) = (on_body, is_line, &mut summary.tension) {
+        // that at the end on the body, as the force; a push is negative
+        *tension = force(1).iter().fold(0.0, |size: f64, f| size.hypot(*f)).copysign(*tension);
+    }
+    Ok(Found { forces: [force(0), force(1)], on_body, distance, summary })
 }
 
 /// The ten numbers of a row.

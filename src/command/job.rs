@@ -225,9 +225,11 @@ impl UserFiles {
         self.types.get(path).map(String::as_str)
     }
 
-    /// All files with their types.
+    /// All files with their types, in the order they were opened.
     pub fn iter(&self) -> impl Iterator<Item = (&str, &UserFile)> {
-        self.by_type.iter().map(|(kind, (_, file))| (kind.as_str(), file))
+        let mut all: Vec<_> = self.by_type.iter().collect();
+        all.sort_by_key(|(_, (order, _))| *order);
+        all.into_iter().map(|(kind, (_, file))| (kind.as_str(), file))
     }
 
     /// Takes away all files, in the order they were opened.

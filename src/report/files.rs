@@ -638,7 +638,9 @@ fn rename_new(from: &Dir, old: &OsStr, to: &Dir, new: &OsStr) -> std::io::Result
             done => return Ok(done?),
         }
     }
-    if is_there(to, new) { Err(ErrorKind::AlreadyExists.into()) } else { from.rename(old, to, new) }
+    // a second name is refused where there is one already
+    from.hard_link(old, to, new)?;
+    from.remove_file(old)
 }
 
 /// Whether something has this name, be it a link that leads nowhere.

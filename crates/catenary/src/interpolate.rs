@@ -4,6 +4,7 @@
 //! that elevation is interpolated from the rows' own. Monotone cubic: Fritsch and Carlson, SIAM
 //! Journal on Numerical Analysis 17 (1980), 238-246.
 
+use super::refused::LineError;
 use super::table::Row;
 
 /// One quantity against the distance.
@@ -104,9 +105,16 @@ pub struct FromTable {
 
 impl Interpolated {
     /// From the rows of [`super::table`].
-    pub fn new(rows: &[Row]) -> Interpolated {
+    ///
+    /// # Errors
+    /// [`LineError::Table`]: fewer than two rows, or distances that do not grow with the force.
+    pub fn new(rows: &[Row]) -> Result<Interpolated, LineError> {
         let of = |f: fn(&Row) -> f64| rows.iter().map(f).collect::<Vec<f64>>();
         let x = of(|r| r.state.x);
+        let growing = x.windows(2).take_while(|pair| pair[0] < pair[1]).count() + 1;
+        if rows.len() < 2 || growing < rows.len() {
+            return Err(LineError::Table(growing.min(rows.len())));
+        }
         // a fairlead on the bottom has a stiffness without end
         fn finite(v: f64) -> f64 {
             if v.is_finite() { v } else { 0.0 }
@@ -114,7 +122,7 @@ impl Interpolated {
         let curve = |f: &dyn Fn(&Row) -> f64| Curve::new(&x, rows.iter().map(|r| finite(f(r))).collect(), None);
         let place = |m: fn(&Row) -> [[f64; 2]; 2], i: usize, j: usize| curve(&|r: &Row| m(r)[i][j]);
         let coupling = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(i, j)| place(|r| r.state.coupling, i, j));
-        Interpolated {
+        Ok(Interpolated {
             force: Curve::new(&x, of(|r| r.state.force), Some(of(|r| 1.0 / r.state.dx_dh))),
             vertical: Curve::new(&x, of(|r| r.state.top_vertical), Some(of(|r| finite(r.state.stiffness[1][0])))),
             taken: curve(&|r| r.state.force - r.state.anchor_horizontal),
@@ -125,7 +133,7 @@ impl Interpolated {
             heave: place(|r| r.state.stiffness, 1, 1),
             coupling,
             x,
-        }
+        })
     }
 
     /// The interval that holds a distance (m): its number, its length (m), how far along it the distance is, from 0 to 1, and how

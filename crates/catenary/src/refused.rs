@@ -27,6 +27,9 @@ pub enum LineError {
     /// Breaking tensions that do not fit the segments.
     #[error("a table needs one positive breaking tension a segment and a positive largest force")]
     Breaks,
+    /// Too few rows, or rows whose distances do not grow: nothing to interpolate.
+    #[error("the table has {0} rows of growing distance, and needs two to be interpolated")]
+    Table(usize),
     /// The fairlead lies below the bottom.
     #[error("the fairlead lies {0:.3} m below the bottom")]
     BelowBottom(f64),

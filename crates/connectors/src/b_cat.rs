@@ -224,7 +224,7 @@ impl ConnectorClass for Catenary {
     }
 
     fn notices(&self, last: &Args, units: UnitSystem, around: &Surroundings) -> Vec<Diagnostic> {
-        section::bar_notice(&self.sections, last, units, around).into_iter().collect()
+        section::bar_notice(&self.sections, last, units, |s| (s.submerged(around), "in water")).into_iter().collect()
     }
 
     fn check_ends(&self, connector: &Connector, bodies: usize) -> Outcome<()> {

@@ -24,7 +24,7 @@ use windlass_model::{
 };
 
 /// The class type.
-pub static H_CAT: ClassKind = ClassKind { spec: &H_CAT_SPEC, segmented: true, build, idle: section::CATENARY_IDLE };
+pub static H_CAT: ClassKind = ClassKind { spec: &H_CAT_SPEC, segmented: true, build, idle: section::HANGING_IDLE };
 
 /// Options of lines between two places.
 pub const LINE_OPTIONS: &[OptionSpec] = &[
@@ -154,9 +154,11 @@ impl ConnectorClass for Hanging {
         "H_CAT"
     }
 
-    fn notices(&self, last: &Args, units: UnitSystem, around: &Surroundings) -> Vec<Diagnostic> {
+    fn notices(&self, last: &Args, units: UnitSystem, _: &Surroundings) -> Vec<Diagnostic> {
         if self.exact {
-            return section::bar_notice(&self.sections, last, units, around).into_iter().collect();
+            return section::bar_notice(&self.sections, last, units, |s| (s.in_air(), "in air, which H_CAT hangs by"))
+                .into_iter()
+                .collect();
         }
         let given = ["-WTPLEN", "-DENSITY", "-SPGRAVITY", "-TYPE"].iter().find_map(|name| last.option(name));
         let says = |given: &Given| {

@@ -129,7 +129,7 @@ impl LineElement {
             None => {
                 let (rows, _) = self.mooring.table(z)?;
                 let nearest = rows.first().map_or(0.0, |row| row.state.x);
-                let forces = Interpolated::new(&rows);
+                let forces = Interpolated::new(&rows)?;
                 Box::new(Last::Table(Box::new(TableAt { elevation: z, azimuth, nearest, forces })))
             }
         };

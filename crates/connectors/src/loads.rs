@@ -46,7 +46,8 @@ impl Mooring {
             loads.notes.push("nearer than the first row of its table, and solved exactly there".into());
             return Ok(loads);
         }
-        let FromTable { pulled, grounded, ratio, critical, beyond } = Interpolated::new(&rows).at(distance, &rows);
+        let forces = Interpolated::new(&rows).map_err(|e| self.error(&e))?;
+        let FromTable { pulled, grounded, ratio, critical, beyond } = forces.at(distance, &rows);
         let ([force, vertical], [anchor_horizontal, anchor_vertical]) = (pulled.fairlead, pulled.anchor);
         let mut notes = self.notes.clone();
         if !missing.is_empty() {

@@ -34,6 +34,19 @@ pub const CATENARY_IDLE: &[(&str, &str)] = &[
     ("-SEABED", DYNAMICS),
 ];
 
+/// The same of a hanging catenary, whose weight is that in air.
+pub const HANGING_IDLE: &[(&str, &str)] = &{
+    let mut all = [("", ""); CATENARY_IDLE.len() + 2];
+    let mut i = 0;
+    while i < CATENARY_IDLE.len() {
+        all[i] = CATENARY_IDLE[i];
+        i += 1;
+    }
+    all[i] = ("-BUOYDIAMETER", DYNAMICS);
+    all[i + 1] = ("-DISPLEN", DYNAMICS);
+    all
+};
+
 /// A segment of line, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LineSection {
@@ -245,19 +258,21 @@ pub fn short(value: f64, dim: Dim, units: UnitSystem) -> String {
     format!("{} {}", eight_figures(format!("{own:.3e}").parse().unwrap_or(own)), dim.label(units))
 }
 
-/// What is said of the first segment of a line that has a diameter alone: it weighs as much as a solid bar.
+/// What is said of the first segment of a line that has a diameter alone: it weighs as much as a solid bar. `weight` is that
+/// by which its class hangs (N/m), with the word of where it is so.
 pub fn bar_notice(
     sections: &[LineSection],
     last: &Args,
     units: UnitSystem,
-    around: &Surroundings,
+    weight: impl Fn(&LineSection) -> (f64, &'static str),
 ) -> Option<Diagnostic> {
     let (own, others) = sections.split_last()?;
     if !own.is_bar || own.thickness.is_some() || others.iter().any(|s| s.is_bar) {
         return None;
     }
-    let (od, weight) = (short(own.od, Dim::Section, units), short(own.submerged(around), Dim::ForcePerLength, units));
-    let mut text = format!("{od} without a weight is a solid steel bar, {weight} in water");
+    let (weight, there) = weight(own);
+    let (od, weight) = (short(own.od, Dim::Section, units), short(weight, Dim::ForcePerLength, units));
+    let mut text = format!("{od} without a weight is a solid steel bar, {weight} {there}");
     if !own.break_is_given {
         text.push_str(&format!(", break {}", short(own.breaking, Dim::Force, units)));
     }

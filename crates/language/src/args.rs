@@ -11,6 +11,7 @@ use super::select;
 use super::spec::{CommandSpec, Kind, OptionSpec, ValueSpec, expected};
 use super::token::Kind as Lex;
 use convert::{convert, take};
+use std::collections::BTreeMap;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::units::UnitSystem;
@@ -86,13 +87,15 @@ pub fn read(spec: &'static CommandSpec, command: Span, words: &[Word], units: Un
 /// # Errors
 /// The first such word.
 fn strays(spec: &CommandSpec, data: &[Value], behind: &[(&Word, &Given)]) -> Outcome<()> {
-    if spec.interleaved {
+    if spec.interleaved || behind.is_empty() {
         return Ok(());
     }
     let fixed = spec.data.len() - spec.repeat.min(spec.data.len());
+    // what was passed over before a word has its place too: the last of a span is the word's
+    let key = |span: Span| (span.source, span.start, span.end);
+    let places: BTreeMap<_, usize> = data.iter().enumerate().map(|(index, value)| (key(value.span), index)).collect();
     let kind_of = |word: &Word| {
-        // what was passed over before a word has its place too
-        let index = data.iter().rposition(|value| value.span == word.span)?;
+        let index = *places.get(&key(word.span))?;
         match spec.data.get(index) {
             Some(value) => Some((value, value.is_required())),
             None if spec.repeat > 0 => Some((spec.data.get(fixed + (index - fixed) % spec.repeat)?, false)),

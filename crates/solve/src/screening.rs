@@ -124,10 +124,20 @@ fn by_load(run: &Run) -> Vec<(usize, f64)> {
         let class = run.model.connectors.get(&Model::key(&link.name)).map(|c| Model::key(&c.class));
         let class = class.and_then(|class| run.model.classes.get(&class));
         let breaking = class.and_then(|c| c.fatigue_segments().first().map(|s| s.breaking)).filter(|b| *b > 0.0);
-        found.push((number, most.time, breaking.map_or(0.0, |b| most.value / b), most.value));
+        found.push((
+            number,
+            most.time,
+            to_six_digits(breaking.map_or(0.0, |b| most.value / b)),
+            to_six_digits(most.value),
+        ));
     }
     found.sort_by(|a, b| b.2.total_cmp(&a.2).then(b.3.total_cmp(&a.3)).then(a.0.cmp(&b.0)));
     found.into_iter().map(|(number, time, ..)| (number, time)).collect()
+}
+
+/// A number to six digits: lines that are loaded alike but for rounding keep their order.
+fn to_six_digits(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
 }
 
 /// Replays one line around the time of its largest tension (s).

@@ -232,10 +232,11 @@ fn a_connector_that_is_inactive_unsolved_or_no_line_stops_no_other() {
     };
     assert_eq!([solution("OFF"), solution("LOST"), solution("GS")], ["inactive", "none", "exact"]);
     assert_eq!(done.row("A").len(), 10);
-    // a spring of 10 m between points that lie apart by less pushes them apart, along the line between them
+    // a spring of 10 m between points that lie apart by less pushes them apart, along the line between them: its body, at its second
+    // end, away from the point on the ground
     let (row, chord) = (done.row("TIE"), 58f64.sqrt());
     let force = std::f64::consts::FRAC_PI_4 * 1e4 * 100.0 * (10.0 - chord) / 10.0;
-    for (got, want) in row[1..].iter().zip([force * 7.0 / chord, -force * 3.0 / chord, 0.0, -force]) {
+    for (got, want) in row[1..].iter().zip([-force * 7.0 / chord, force * 3.0 / chord, 0.0, -force]) {
         assert!(printed(*got, want), "{got} is not {want} in {row:?}");
     }
     assert!(done.said.iter().any(|m| m == "LOST: the other end of the line has no place"), "{:?}", done.said);

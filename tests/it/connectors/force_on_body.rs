@@ -24,3 +24,30 @@ fn connector_force_is_that_on_the_body_in_either_order_of_ends() {
     // Time FX, of both connectors
     assert_eq!(rows("0.50", 1), [20.0, 20.0], "{text}");
 }
+
+#[test]
+fn line_tension_is_that_on_the_body_in_either_order_of_ends() {
+    // an inextensible catenary of 60 m and 1 kN/m from (0, 0) up to (40, 30): sqrt(L2 - v2) = 2 a sinh(h/2a) by scipy
+    let records = "&DIMEN -DIMEN METERS K-NTS\n&ENV -DEPTH 100\nMEDIT\n*FIXED 0 0 0\n\
+         &DESCRIBE BODY B -IGNORE X Y Z RX RY RZ\n*P 40 0 30\n~H H_CAT 100 EXACT -LEN 60 -WTPL 1 -EMOD 1E9\n\
+         CONNECTOR K ~H *FIXED *P\nCONNECTOR L ~H *P *FIXED\nEND\n&STATUS F_CONNECTOR\n";
+    let (mut session, screen, _folder) = common::session();
+    session.open("test", records.to_string());
+    session.run();
+    assert_eq!(session.errors, 0, "{:?}", session.reports);
+    let text = screen.text();
+    for name in ["K", "L"] {
+        let row: Vec<&str> = text
+            .lines()
+            .map(str::trim)
+            .find(|l| l.starts_with(&format!("{name} ")))
+            .unwrap()
+            .split_whitespace()
+            .collect();
+        // Name Class Solution Distance FX FY FZ Ten Top, to the second decimal
+        assert_eq!((row[4], row[7]), ("-15.56", "49.97"), "{text}");
+    }
+    session.open("more", "&CONNECTOR K -L_TENSION 80\n".to_string());
+    session.run();
+    assert!(format!("{:?}", session.reports).contains("its first end is in the ground"), "{:?}", session.reports);
+}
