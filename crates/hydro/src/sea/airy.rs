@@ -51,8 +51,6 @@ struct Block {
     tanh: Eight,
     /// Wave number of the longest of them (1/m).
     longest: f64,
-    /// Whether the water is deep to the last digit for all of them.
-    deep: bool,
 }
 
 impl Lanes {
@@ -78,7 +76,6 @@ impl Lanes {
                 whole: each(&|c| -1.0 / (-2.0 * kd(c)).exp_m1()),
                 tanh: each(&|c| kd(c).tanh()),
                 longest: list.iter().map(|c| c.number).fold(f64::INFINITY, f64::min),
-                deep: list.iter().all(|c| kd(c) > DEEP),
             }
         };
         let variance: f64 = components.iter().map(|c| 0.5 * c.amplitude * c.amplitude).sum();
@@ -335,20 +332,15 @@ fn far_down<const SPREAD: bool, const N: usize>(
         }
         let (sin, cos) = sin_cos(&eight(|i| block.kx[i] * x + block.ky[i] * y));
         let decay = exp(&eight(|i| block.k[i] * height));
-        let (cosh, sinh) = if block.deep {
-            (decay, decay)
-        } else {
-            // as in added_up
-            let mirror = eight(|i| block.q[i] / (decay[i] * decay[i]).max(f64::MIN_POSITIVE));
-            let scale = eight(|i| decay[i] * block.whole[i]);
-            (eight(|i| scale[i] * (1.0 + mirror[i])), eight(|i| scale[i] * (1.0 - mirror[i])))
-        };
         for i in 0..8 {
             let (a_cos, a_sin) = (c[i] * cos[i] - s[i] * sin[i], s[i] * cos[i] + c[i] * sin[i]);
-            let (u, w) = (block.w[i] * cosh[i] * a_cos, block.w[i] * sinh[i] * a_sin);
-            let (u_rate, w_rate) =
-                (block.w[i] * (block.w[i] * cosh[i] * a_sin), block.w[i] * (block.w[i] * sinh[i] * a_cos));
-            sums[0][i] += cosh[i] * block.tanh[i] * a_cos;
+            // as in added_up
+            let mirror = block.q[i] / (decay[i] * decay[i]).max(f64::MIN_POSITIVE);
+            let scale = decay[i] * block.whole[i];
+            let (cosh, sinh) = (scale * (1.0 + mirror), scale * (1.0 - mirror));
+            let (u, w) = (block.w[i] * cosh * a_cos, block.w[i] * sinh * a_sin);
+            let (u_rate, w_rate) = (block.w[i] * (block.w[i] * cosh * a_sin), block.w[i] * (block.w[i] * sinh * a_cos));
+            sums[0][i] += cosh * block.tanh[i] * a_cos;
             if SPREAD {
                 sums[1][i] += u * block.x[i];
                 sums[2][i] += u * block.y[i];
