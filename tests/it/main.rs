@@ -86,6 +86,7 @@ mod time {
     mod prescribed;
     mod screening;
     mod step_accuracy;
+    mod stiff_ties;
     mod time_domain;
     mod time_runs;
     mod transient;

@@ -13,7 +13,7 @@ use windlass_model::{ClassRecord, ConnectorClass};
 /// The class type.
 pub static FIX: ClassKind = ClassKind { spec: &SPEC, segmented: false, build, idle: &[] };
 
-/// Stiffness of what is rigid (N/m, N m/rad): rounding of positions of a thousand metres, some 1E-13 m, stays below a newton.
+/// Stiffness of what is rigid (N/m, N m/rad). Engines hold the forces of so stiff a tie, so that rounding of positions makes none.
 pub const RIGID: f64 = 1e12;
 
 static SPEC: CommandSpec = CommandSpec {
@@ -22,7 +22,8 @@ static SPEC: CommandSpec = CommandSpec {
     options: &[o::IG_STIFF],
     detail: "Holds these degrees of freedom of the second end against the first as they stood when the connector was defined: place the \
              bodies first. Axes are those of the first node's body, turned by -EULER; global on ground. Rigid means 1.0E12 N/m and \
-             1.0E12 N m/rad: stiff, and small enough that rounding of positions stays below a newton. With one node it holds to the \
+             1.0E12 N m/rad. &EQUI and TDOM solve its force as an unknown, which rounding of positions does not feel; it is unloaded where a \
+             run begins, and what that shakes rings off within some twenty steps. With one node it holds to the \
              ground. Rotations are held in the time domain as well. Its force belongs to RIGID_CONNECTORS.",
     example: "MEDIT\n*P 0 0 0\n~HINGE FIX X Y Z\n~CLAMP FIX\nCONNECTOR H ~HINGE *P\nEND\n&STATUS CLASS ~HINGE",
     ..CommandSpec::new("FIX", "rigid restraint")

@@ -36,6 +36,14 @@ impl Elastic {
         Elastic { points }
     }
 
+    /// Its stiffness (N/m or N m/rad), where it is the same at every deflection.
+    pub fn constant_stiffness(&self) -> Option<f64> {
+        match self.points.as_slice() {
+            [(force, deflection)] => Some(force / deflection),
+            _ => None,
+        }
+    }
+
     /// A force by its own points (force, deflection): deflections grow, forces may fall; the origin is passed over.
     pub fn of_curve(curve: &[(f64, f64)]) -> Self {
         Elastic { points: curve.iter().copied().filter(|(_, y)| *y > 0.0).collect() }

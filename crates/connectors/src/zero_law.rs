@@ -189,6 +189,18 @@ impl ZeroLaw {
         self.groups.iter().map(Group::states).sum::<usize>() + stuck
     }
 
+    /// The largest stiffness (N/m, N m/rad) of a law that is linear and acts both ways everywhere, from springs alone.
+    pub fn linear_stiffness(&self) -> Option<f64> {
+        let plain = self.sense == Sense::Both
+            && self.contact == Contact::Whole
+            && self.friction == Friction::None
+            && self.dashpots.is_empty()
+            && !self.pushes_only
+            && self.groups.iter().all(|g| g.viscous.is_none());
+        let stiffnesses: Option<Vec<f64>> = self.groups.iter().map(|g| g.elastic.constant_stiffness()).collect();
+        stiffnesses.filter(|_| plain)?.into_iter().reduce(f64::max)
+    }
+
     /// Forces at a displacement and rotation `q`; the step is `None` in statics.
     pub fn answer(
         &self,

@@ -9,9 +9,15 @@
 use super::zero_law::{Answer, ZeroLaw};
 use nalgebra::{Matrix3, Matrix6, Rotation3, SMatrix, UnitQuaternion, Vector3, Vector6};
 use windlass_base::geometry::Place;
-use windlass_model::{ClassError, Connection, Element, Guess, Note, Response, Situation, SpringState, Summary};
+use windlass_model::{ClassError, Connection, Element, Guess, Note, Response, Situation, SpringState, Summary, Tie};
 
 type Wide = SMatrix<f64, 3, 12>;
+
+/// Stiffness (N/m, N m/rad) from which on an engine may hold the force of a linear spring: rounding of places a kilometre away is then
+/// a ten-thousandth of a newton.
+const STIFF: f64 = 1e9;
+/// Deflection that is rounding where the ends are near the origin (m, rad).
+const ROUNDING: f64 = 1e-13;
 
 /// A connector of a zero-length class.
 #[derive(Debug)]
@@ -124,6 +130,53 @@ impl ZeroLength {
         let motion = self.motion(at)?;
         let answer = self.law.answer(&motion.q, &motion.rate, at.step.map(|s| s.dt), committed, trial);
         Ok((motion, answer))
+    }
+
+    /// The wrenches on both ends, in their order, of forces in element axes.
+    fn wrenches_of(&self, motion: &Motion, force: &Vector6<f64>) -> [Vector6<f64>; 2] {
+        let theta = motion.q.fixed_rows::<3>(3).into_owned();
+        let (c, _) = coefficient(theta.norm_squared());
+        let turn = cross(&theta);
+        let back = Matrix3::identity() + turn * 0.5 + turn * turn * c;
+        let g = motion.axes * force.fixed_rows::<3>(0);
+        let moment = motion.axes * (back * force.fixed_rows::<3>(3));
+        let made = [join(&g, &(motion.apart.cross(&g) + moment)), join(&-g, &-moment)];
+        if self.holder == 0 { made } else { [made[1], made[0]] }
+    }
+
+    /// How displacement and rotation change with the motions of both ends, in their order.
+    fn deflected_by(&self, motion: &Motion) -> [Matrix6<f64>; 2] {
+        let rt = motion.axes.transpose();
+        let theta = motion.q.fixed_rows::<3>(3).into_owned();
+        let (c, _) = coefficient(theta.norm_squared());
+        let turn = cross(&theta);
+        let forth = Matrix3::identity() - turn * 0.5 + turn * turn * c;
+        let (mut held, mut other) = (Matrix6::zeros(), Matrix6::zeros());
+        held.fixed_view_mut::<3, 3>(0, 0).copy_from(&-rt);
+        held.fixed_view_mut::<3, 3>(0, 3).copy_from(&(rt * cross(&motion.apart)));
+        held.fixed_view_mut::<3, 3>(3, 3).copy_from(&-(forth * rt));
+        other.fixed_view_mut::<3, 3>(0, 0).copy_from(&rt);
+        other.fixed_view_mut::<3, 3>(3, 3).copy_from(&(forth * rt));
+        if self.holder == 0 { [held, other] } else { [other, held] }
+    }
+
+    fn held_tie(&self, at: &Situation, held: Option<&Vector6<f64>>, out: &mut Response) -> Result<Tie, ClassError> {
+        let motion = self.motion(at)?;
+        let mut answer = self.law.answer(&motion.q, &Vector3::zeros(), None, &[], &mut []);
+        let force = answer.force;
+        let held = held.copied().unwrap_or(force);
+        let more = force - held;
+        answer.force = held;
+        self.respond(&motion, &answer, out);
+        let slopes = self.deflected_by(&motion).map(|by| answer.slopes * by);
+        let far = at.ends.iter().map(|end| end.pose.origin.norm()).fold(0.0, f64::max);
+        let rounding = ROUNDING + 8.0 * f64::EPSILON * far;
+        let lack = |i: usize| {
+            let k = answer.slopes[(i, i)];
+            if k > 0.0 { (more[i].abs() / k - rounding).max(0.0) } else { 0.0 }
+        };
+        let gap = (0..6).map(lack).fold(0.0, f64::max);
+        Ok(Tie { force, slopes, excess: self.wrenches_of(&motion, &more), gap })
     }
 
     /// Writes forces and moments on both ends and their derivatives.
@@ -248,6 +301,10 @@ impl Element for ZeroLength {
         }
         let tension = self.listed.iter().any(|(dof, _)| *dof == 0).then(|| answer.force[0]);
         Ok(Summary { tension, ratio, solution: "exact", springs, notes, ..Summary::default() })
+    }
+
+    fn tie(&self, at: &Situation, held: Option<&Vector6<f64>>, out: &mut Response) -> Option<Result<Tie, ClassError>> {
+        self.law.linear_stiffness().filter(|k| *k >= STIFF).map(|_| self.held_tie(at, held, out))
     }
 
     fn rigid(&self) -> bool {

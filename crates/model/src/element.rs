@@ -13,6 +13,7 @@ use super::environment::Surroundings;
 use super::line::Placement;
 use super::note::Note;
 use super::scheme::SchemeWeights;
+use super::tie::Tie;
 use nalgebra::{Matrix3, Matrix6};
 use std::any::Any;
 use std::fmt::Debug;
@@ -178,6 +179,12 @@ pub trait Element: Debug + Send + Sync {
     /// Of an element from a body to the ground that remembers nothing and pulls with a force that the place of its first end alone
     /// changes: what [`Element::evaluate`] tells, with less work. `None` of all others.
     fn anchored(&self, _at: &Situation, _guess: &mut Guess) -> Option<Result<Anchored, ClassError>> {
+        None
+    }
+
+    /// Of a linear tie so stiff that rounding of places makes forces: its answer in `out` with a force that an engine holds in place of that of
+    /// its law, `None` for that of its law. `None` of all others.
+    fn tie(&self, _at: &Situation, _held: Option<&Six>, _out: &mut Response) -> Option<Result<Tie, ClassError>> {
         None
     }
 

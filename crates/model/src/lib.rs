@@ -38,6 +38,7 @@ mod prescribed;
 mod scheme;
 mod selector;
 mod tether;
+mod tie;
 
 pub use along::{LineBooks, LineMode, LineNode, LineSide, LineStress};
 pub use ambient::{Ambient, Contents, Filling, Flow};
@@ -68,6 +69,7 @@ pub use prescribed::{GivenMotion, PathRow, Prescription, ResponseRow, Responses,
 pub use scheme::SchemeWeights;
 pub use selector::Selector;
 pub use tether::{TetherConstraint, TetherEnds, TetherHold, TetherSection, TetherUse};
+pub use tie::Tie;
 
 use indexmap::IndexMap;
 use std::sync::Arc;

@@ -6,7 +6,7 @@
 //! (1998), 508-523). Each step is shortened until the forces along it have not turned around.
 
 use super::parts::{Part, parts};
-use super::search::Search;
+use super::search::{Search, Stand};
 use super::system::{Contribution, FREEDOMS, SolveError, State, System};
 use super::unknowns::{Turns, Unknowns, kept_turns};
 use nalgebra::DMatrix;
@@ -94,7 +94,7 @@ fn find(
 ) -> Result<Equilibrium, SolveError> {
     let mut search = Search::new(system, options, part);
     search.evaluate(state)?;
-    let mut best = (f64::INFINITY, state.poses.clone());
+    let mut best = (f64::INFINITY, Stand::of(state));
     let mut stale = 0;
     for steps in 0..=options.most {
         if system.is_interrupted() {
@@ -102,20 +102,20 @@ fn find(
         }
         // a junction is measured by what pulls at it now
         let unknowns = Unknowns::of(system, state, options, (turns, part));
-        let (worst, at) = unknowns.worst(&unknowns.residual(state), options);
+        let (worst, at) = search.worst(&unknowns, state);
         if worst.is_nan() {
             return Err(failure(system, state, &unknowns, at, options));
         }
         stale = if worst <= 0.5 * best.0 { 0 } else { stale + 1 };
         if worst < best.0 {
-            best = (worst, state.poses.clone());
+            best = (worst, Stand::of(state));
         }
         let polished = worst <= POLISH || unknowns.rows.is_empty();
         // within the tolerance the search goes on as long as it gets better
         let rounded = (best.0 <= FINE && stale >= STALE) || stale >= LONG_STALE || steps == options.most;
         if polished || (best.0 <= 1.0 && rounded) {
             if best.0 < worst {
-                state.poses = best.1;
+                best.1.restore(state);
                 search.evaluate(state)?;
             }
             let measure = unknowns.largest(&unknowns.residual(state));

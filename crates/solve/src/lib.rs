@@ -49,6 +49,7 @@ mod settle;
 mod system;
 pub mod tables;
 pub mod tethered;
+mod ties;
 pub mod time;
 mod unknowns;
 pub mod watch;

@@ -7,11 +7,14 @@
 use super::equilibrium::{LOOSE, Options};
 use super::parts::Part;
 use super::system::{SolveError, State, System};
+use super::ties::between;
 use super::unknowns::Unknowns;
 use nalgebra::{DMatrix, DVector};
 use windlass_base::dense::{Cholesky, DenseError, Lu, Stop};
-use windlass_base::pose::Pose;
+use windlass_base::pose::{Pose, Six};
 
+/// Deflection (m, rad) that the force held in a tie may leave unexplained at rest.
+const GAP: f64 = 1e-6;
 /// Bold steps that may lead nowhere better.
 const PATIENCE: usize = 5;
 /// Short steps in a row after which a search is bold, for the first time; twice as many each further time.
@@ -25,6 +28,25 @@ const RETREATS: usize = 40;
 /// Steps in a row without a place that has an answer, each with ten times the help of the one before, after which there is none.
 const BLOCKED: usize = 6;
 
+/// Where bodies are, and the forces of stiff ties there.
+#[derive(Clone, Debug)]
+pub(super) struct Stand {
+    poses: Vec<Pose>,
+    ties: Vec<Option<Six>>,
+}
+
+impl Stand {
+    pub fn of(state: &State) -> Self {
+        Stand { poses: state.poses.clone(), ties: state.ties.forces.clone() }
+    }
+
+    /// Puts a state there.
+    pub fn restore(self, state: &mut State) {
+        state.poses = self.poses;
+        state.ties.forces = self.ties;
+    }
+}
+
 /// A search on its way.
 pub(super) struct Search<'a> {
     pub system: &'a System,
@@ -37,7 +59,7 @@ pub(super) struct Search<'a> {
     /// Short steps in a row, and how many make the search bold.
     slow: [usize; 2],
     /// The place bold steps began at or the better one they found, what was left there, and the steps since.
-    bold: Option<(Vec<Pose>, f64, usize)>,
+    bold: Option<(Stand, f64, usize)>,
     /// Steps in a row without a place that has an answer.
     blocked: usize,
 }
@@ -49,38 +71,53 @@ impl<'a> Search<'a> {
 
     pub fn evaluate(&mut self, state: &mut State) -> Result<(), SolveError> {
         self.evaluations += 1;
+        state.ties.holds = true;
         self.system.evaluate_part(state, self.part)
+    }
+
+    /// The largest acceleration left over what is tolerated, or deflection of a tie that its force does not explain, and the unknown.
+    pub fn worst(&self, unknowns: &Unknowns, state: &State) -> (f64, usize) {
+        let (worst, at) = unknowns.worst(&unknowns.residual(state), self.options);
+        // a number that is none stays the worst
+        (if worst.is_nan() { worst } else { worst.max(state.ties.gap() / GAP) }, at)
     }
 
     /// Goes on from a place where `worst` is left: a step, or back to a better place.
     pub fn go(&mut self, unknowns: &Unknowns, state: &mut State, worst: f64) -> Result<(), SolveError> {
-        if let Some((poses, least, since)) = &mut self.bold {
+        if let Some((stand, least, since)) = &mut self.bold {
             if worst < *least {
                 (*least, *since) = (worst, 0);
-                poses.clone_from(&state.poses);
+                *stand = Stand::of(state);
             } else {
                 *since += 1;
             }
             if *since > PATIENCE {
-                state.poses.clone_from(poses);
+                stand.clone().restore(state);
                 self.bold = None;
                 self.slow = [0, self.slow[1].saturating_mul(2)];
                 self.help = 0.0;
                 return self.evaluate(state);
             }
         } else if self.slow[0] >= self.slow[1] {
-            self.bold = Some((state.poses.clone(), worst, 0));
+            self.bold = Some((Stand::of(state), worst, 0));
         }
         self.step(unknowns, state, worst)
     }
 
     fn step(&mut self, unknowns: &Unknowns, state: &mut State, worst: f64) -> Result<(), SolveError> {
         let residual = unknowns.residual(state);
+        let asked = &residual + unknowns.along(&state.ties.excess);
         let stop = || self.system.is_interrupted();
-        let made = direction(unknowns, &unknowns.stiffness(state), &residual, self.help, &stop);
+        let made = direction(unknowns, &unknowns.stiffness(state), &asked, self.help, &stop);
         let (step, needed) = made.map_err(|e| unknowns.unfactored(self.system, e))?;
         let work = residual.dot(&step).abs();
-        let from = state.poses.clone();
+        let from = Stand::of(state);
+        let motions = unknowns.motions(from.poses.len(), &step, 1.0);
+        let ties = state.ties.predict(&|body| motions.get(body).copied().unwrap_or_default());
+        let place = |state: &mut State, share: f64| {
+            state.poses = unknowns.moved(&from.poses, &step, share);
+            state.ties.forces = between(&from.ties, &ties, share);
+        };
         let longest = unknowns.limit(&step);
         // nothing holds back along a step that had to be limited: it is no measure of how far it is
         let blind = needed > 0.0 && longest < 1.0;
@@ -90,12 +127,12 @@ impl<'a> Search<'a> {
         let mut share = longest;
         let (mut error, mut trials, mut retreats) = (None, 0, 0);
         while trials < TRIALS && retreats < RETREATS {
-            state.poses = unknowns.moved(&from, &step, share);
+            place(state, share);
             match self.evaluate(state) {
                 Ok(()) => {
                     trials += 1;
                     let new = unknowns.residual(state);
-                    let (now, after) = (unknowns.worst(&new, self.options).0, new.dot(&step));
+                    let (now, after) = (self.worst(unknowns, state).0, new.dot(&step));
                     let fell = after.abs() <= 0.9 * work;
                     if bold || now < worst || (after >= -0.5 * work && (fell || behind.is_none())) {
                         self.taken(share / longest, needed, now / worst, blind);
@@ -109,7 +146,7 @@ impl<'a> Search<'a> {
                     }
                 }
                 Err(wrong) if wrong.error.lasting => {
-                    state.poses = from;
+                    from.restore(state);
                     return Err(wrong);
                 }
                 // a place without an answer is no place to go to: nearer ones may have one
@@ -127,13 +164,13 @@ impl<'a> Search<'a> {
             share = near + (far - near) * straight.clamp(0.05, 0.7);
         }
         if before.0 > 0.0 {
-            state.poses = unknowns.moved(&from, &step, before.0);
+            place(state, before.0);
             self.evaluate(state)?;
             self.taken(before.0 / longest, needed, 1.0, blind);
             self.blocked = 0;
             return Ok(());
         }
-        state.poses = from;
+        from.restore(state);
         self.blocked = if error.is_some() { self.blocked + 1 } else { 0 };
         if let Some(error) = error.filter(|_| self.blocked > BLOCKED) {
             return Err(error);

@@ -3,6 +3,7 @@
 use super::link::{Attachment, Link, arm, laid, link, pose_of};
 use super::modes::held;
 use super::parts::Part;
+use super::ties::Ties;
 use super::time::{Duties, Prescribed, prescribed};
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6};
 use std::sync::Arc;
@@ -97,6 +98,8 @@ pub struct State {
     pub stiffness: DMatrix<f64>,
     /// Largest force of a connector on each body (N): the measure of a body without weight.
     pub pull: Vec<f64>,
+    /// Stiff ties, whose forces a search holds.
+    pub(super) ties: Ties,
     guesses: Vec<Guess>,
     response: Response,
     trial: Vec<f64>,
@@ -215,6 +218,7 @@ impl System {
             state.stiffness = DMatrix::zeros(size, size);
         }
         state.pull.resize(self.nodes.len(), 0.0);
+        state.ties.begin(self.links.len(), self.nodes.len());
         state.guesses.resize_with(self.links.len(), || None);
         state.trial.resize(self.states.len(), 0.0);
         let belongs = |body: usize| part.is_none_or(|p| p.get(body).copied().unwrap_or(false));
@@ -242,7 +246,7 @@ impl System {
             at += wrench;
         }
         let (mut ends, mut arms) = (Vec::new(), Vec::new());
-        for (link, guess) in self.links.iter().zip(&mut state.guesses) {
+        for (index, (link, guess)) in self.links.iter().zip(&mut state.guesses).enumerate() {
             let joined = |end: &Attachment| matches!(end, Attachment::Body(body, _) if belongs(*body));
             if part.is_some() && !link.ends.iter().any(joined) {
                 continue;
@@ -252,11 +256,20 @@ impl System {
             let committed = self.states.get(link.states.clone()).unwrap_or_default();
             let trial = state.trial.get_mut(link.states.clone()).unwrap_or_default();
             let at = Situation { ends: &ends, step: None, surroundings: &self.surroundings };
-            link.element
-                .evaluate(&at, committed, trial, guess, &mut state.response)
-                .map_err(SolveError::of(&link.name))?;
             arms.clear();
             arms.extend(link.ends.iter().map(|end| arm(end, &state.poses)));
+            let held = state.ties.forces.get(index).and_then(Option::as_ref);
+            let tie = if state.ties.holds { link.element.tie(&at, held, &mut state.response) } else { None };
+            match tie {
+                Some(tie) => {
+                    let tie = tie.map_err(SolveError::of(&link.name))?;
+                    state.ties.take(index, tie, &state.response.stiffness, (&link.ends, &arms));
+                }
+                None => link
+                    .element
+                    .evaluate(&at, committed, trial, guess, &mut state.response)
+                    .map_err(SolveError::of(&link.name))?,
+            }
             let count = link.ends.len();
             for (i, ((end, wrench), own)) in link.ends.iter().zip(&state.response.wrench).zip(&arms).enumerate() {
                 let Attachment::Body(body, _) = end else { continue };

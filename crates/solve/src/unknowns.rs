@@ -59,7 +59,12 @@ impl<'a> Unknowns<'a> {
     }
 
     pub fn residual(&self, state: &State) -> DVector<f64> {
-        let along = |d: &Direction| d.iter().map(|(r, share)| share * state.residual[*r]).sum();
+        self.along(&state.residual)
+    }
+
+    /// Forces of the system, six a body, along the unknowns.
+    pub fn along(&self, forces: &DVector<f64>) -> DVector<f64> {
+        let along = |d: &Direction| d.iter().map(|(r, share)| share * forces[*r]).sum();
         DVector::from_iterator(self.rows.len(), self.rows.iter().map(along))
     }
 
@@ -114,8 +119,9 @@ impl<'a> Unknowns<'a> {
         })
     }
 
-    pub fn moved(&self, poses: &[Pose], step: &DVector<f64>, share: f64) -> Vec<Pose> {
-        let mut motions = vec![Six::zeros(); poses.len()];
+    /// The motion of each of so many bodies in a share of a step.
+    pub fn motions(&self, bodies: usize, step: &DVector<f64>, share: f64) -> Vec<Six> {
+        let mut motions = vec![Six::zeros(); bodies];
         for (direction, s) in self.rows.iter().zip(step.iter()) {
             for (row, part) in direction {
                 if let Some(motion) = motions.get_mut(row / 6) {
@@ -123,6 +129,11 @@ impl<'a> Unknowns<'a> {
                 }
             }
         }
+        motions
+    }
+
+    pub fn moved(&self, poses: &[Pose], step: &DVector<f64>, share: f64) -> Vec<Pose> {
+        let motions = self.motions(poses.len(), step, share);
         let turn = |body: usize, pose: Pose| match self.turns.get(body) {
             Some(turns) if turns.iter().any(Option::is_some) => turned_back(pose, turns),
             _ => pose,

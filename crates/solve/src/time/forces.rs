@@ -6,6 +6,7 @@ use super::inertia::of_added;
 use super::side_by_side::Alone;
 use crate::link::{Attachment, Link};
 use crate::system::{Node, SolveError, System};
+use crate::ties::Ties;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use std::ops::Range;
 use windlass_base::pose::{Pose, Six};
@@ -135,6 +136,8 @@ pub struct Forces {
     pub categories: Vec<[Six; CATEGORIES]>,
     /// Wrench on every end of every connector, in their order, about the end's point.
     pub wrenches: Vec<Six>,
+    /// Stiff ties, whose forces a step holds.
+    pub(super) ties: Ties,
     /// States of the connectors at the end of the step.
     pub trial: Vec<f64>,
     /// What solvers of the connectors remember.
@@ -176,6 +179,7 @@ impl Forces {
         self.categories.resize(system.nodes.len(), [Six::zeros(); CATEGORIES]);
         self.wrenches.clear();
         self.carried = false;
+        self.ties.begin(system.links.len(), system.nodes.len());
         self.moving = system.links.iter().any(|l| l.element.moves());
         self.guesses.resize_with(system.links.len(), || None);
         self.trial.clear();
@@ -318,9 +322,18 @@ impl Forces {
                 trial.copy_from_slice(&found.trial);
                 std::mem::swap(&mut self.response, &mut found.response);
             } else {
-                link.element
-                    .evaluate(&at, committed, trial, guess, &mut self.response)
-                    .map_err(SolveError::of(&link.name))?;
+                let held = self.ties.forces.get(index).and_then(Option::as_ref);
+                let tie = if self.ties.holds { link.element.tie(&at, held, &mut self.response) } else { None };
+                match tie {
+                    Some(tie) => {
+                        let tie = tie.map_err(SolveError::of(&link.name))?;
+                        self.ties.take(index, tie, &self.response.stiffness, (&link.ends, &self.arms));
+                    }
+                    None => link
+                        .element
+                        .evaluate(&at, committed, trial, guess, &mut self.response)
+                        .map_err(SolveError::of(&link.name))?,
+                }
             }
             self.wrenches.extend_from_slice(&self.response.wrench);
             let category = if link.element.rigid() { rigid } else { flexible };

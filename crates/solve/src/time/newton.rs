@@ -45,6 +45,27 @@ impl Stepper {
         most
     }
 
+    /// Adds to what is left what stiff ties have beyond the forces held in them: together they ask for a correction of both.
+    pub(super) fn ask(&mut self, forces: &Forces) {
+        for (i, row) in self.rows.iter().enumerate() {
+            self.right[i] += forces.ties.excess[row.at];
+        }
+    }
+
+    /// The forces of stiff ties follow the correction that was found.
+    pub(super) fn follow(&self, forces: &mut Forces, by_place: f64) {
+        if forces.ties.is_empty() {
+            return;
+        }
+        let mut motions = vec![Six::zeros(); self.trial.len()];
+        for (row, by) in self.rows.iter().zip(&self.moved) {
+            if let Some(motion) = motions.get_mut(row.at / 6) {
+                motion[row.at % 6] = if row.heavy { by * by_place } else { *by };
+            }
+        }
+        forces.ties.forces = forces.ties.predict(&|body| motions.get(body).copied().unwrap_or_default());
+    }
+
     /// What turning changes in the inertia of each body.
     pub(super) fn turn(&mut self, system: &System) {
         self.turned.clear();

@@ -341,6 +341,7 @@ impl Run {
     /// Forgets what solvers remember, so that a run that goes on from a snapshot finds the same digits.
     pub(super) fn forget(&mut self) {
         self.now.forces.guesses.clear();
+        self.now.forces.ties.forces.clear();
         self.now.forces.unsettle();
     }
 

@@ -12,6 +12,10 @@ use windlass_base::dense::{DenseError, Lu};
 use windlass_base::pose::Six;
 use windlass_model::ClassError;
 
+/// Square of the time (s2) over which stiff ties hold their ends together where a run begins: times their stiffness it is large against the
+/// inertia of anything that floats.
+const SETTLING: f64 = 1.0;
+
 /// When a step is solved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Convergence {
@@ -105,9 +109,14 @@ impl Stepper {
     /// # Errors
     /// A body or connector without an answer; a freedom without inertia in the mass matrix.
     pub fn balance(&mut self, system: &System, now: &mut Instant, dt: f64) -> Result<(), SolveError> {
+        // at a start stiff ties begin with the force of their law; an explicit step knows no other
+        now.forces.ties.holds = dt == 0.0;
+        now.forces.ties.forces.clear();
         now.forces.evaluate(system, &now.memory, &now.motions, (now.time, dt))?;
         self.weigh(system, &now.motions);
         self.choose(system, &now.forces);
+        let light: Vec<usize> = self.rows.iter().filter(|r| !r.heavy).map(|r| r.at / 6).collect();
+        now.forces.ties.keep(&|body| !light.contains(&body));
         let rows: Vec<usize> = self.rows.iter().filter(|r| r.heavy).map(|r| r.at).collect();
         let mut matrix = DMatrix::zeros(rows.len(), rows.len());
         let mut right = DVector::zeros(rows.len());
@@ -127,6 +136,18 @@ impl Stepper {
                 }
             }
         }
+        for (body, other, block) in now.forces.ties.blocks() {
+            let given = system.nodes.get(other).is_some_and(|n| n.prescribed.is_some());
+            let acceleration = now.motions.get(other).map_or(Six::zeros(), |m| m.acceleration);
+            for (i, at) in rows.iter().enumerate().filter(|(_, at)| **at / 6 == body) {
+                if given {
+                    right[i] -= SETTLING * block.row(at % 6).transpose().dot(&acceleration);
+                }
+                for (j, column) in rows.iter().enumerate().filter(|(_, column)| **column / 6 == other) {
+                    matrix[(i, j)] += SETTLING * block[(at % 6, column % 6)];
+                }
+            }
+        }
         let solved = Lu::new(matrix, &|| system.is_interrupted()).and_then(|lu| lu.solve(&right));
         let solved = solved.map_err(|e| match e {
             DenseError::Singular => self.singular(system, &rows),
@@ -140,6 +161,12 @@ impl Stepper {
             if let Some(motion) = now.motions.get_mut(at / 6) {
                 motion.acceleration[at % 6] = solved[i];
             }
+        }
+        if !now.forces.ties.is_empty() {
+            let accelerations: Vec<Six> = now.motions.iter().map(|m| m.acceleration * SETTLING).collect();
+            let ties = now.forces.ties.predict(&|body| accelerations.get(body).copied().unwrap_or_default());
+            now.forces.ties.forces = ties;
+            now.forces.evaluate(system, &now.memory, &now.motions, (now.time, dt))?;
         }
         for motion in &mut now.motions {
             (motion.auxiliary, motion.jerk) = (motion.acceleration, Six::zeros());
@@ -254,7 +281,10 @@ impl Stepper {
         let gain = scheme.gain();
         let (by_place, by_velocity) = (dt * dt * scheme.beta * gain, dt * scheme.gamma * gain);
         let parts = (self.trial.as_slice(), now.motions.as_slice(), self.over.as_slice());
-        let mut foretold = now.forces.foretell((&now.memory, dt), parts);
+        // what is foretold knows no forces held in ties
+        let mut foretold = now.forces.ties.is_empty() && now.forces.foretell((&now.memory, dt), parts);
+        now.forces.ties.holds = true;
+        let unexplained = wanted.tolerance * system.gravity * by_place;
         if foretold {
             let left = self.residual(system, &now.forces);
             // a trial that is expected to hold needs no correction: half, as what is foretold is off, too
@@ -278,7 +308,7 @@ impl Stepper {
             if !left.is_finite() {
                 return Err(not_finite(system, &now.forces.sum, time));
             }
-            if left <= wanted.tolerance * system.gravity {
+            if left <= wanted.tolerance * system.gravity && now.forces.ties.gap() <= unexplained {
                 // what is foretold is near, not balanced: with the matrix at hand what is left goes, too
                 if foretold && effort.evaluations == 1 && !now.forces.moving && self.solve_again(system).is_ok() {
                     self.correct_trial(system, &now.motions, dt, (gain, by_place, by_velocity));
@@ -291,7 +321,9 @@ impl Stepper {
             effort.iterations += 1;
             self.turn(system);
             self.jacobian(&now.forces, dt, by_place, by_velocity);
+            self.ask(&now.forces);
             self.solve(system).map_err(|e| self.unsolvable(system, e, left, (time, dt)))?;
+            self.follow(&mut now.forces, by_place);
             self.correct_trial(system, &now.motions, dt, (gain, by_place, by_velocity));
             self.weigh_again(system);
         }
