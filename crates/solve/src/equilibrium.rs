@@ -49,6 +49,17 @@ pub struct Equilibrium {
 
 /// A step ends where this share of the largest acceleration asked for is reached: Newton's last steps cost little.
 const POLISH: f64 = 1e-9;
+/// Eigenvalue (rad2/s2) below which a motion is not stable: it grows by e in a quarter of an hour. What lies between is what a solution within
+/// its tolerance leaves of nothing.
+const UNSTABLE: f64 = -1e-6;
+/// Share of the largest eigenvalue that rounding makes of the least.
+const EIGENVALUE_ROUNDING: f64 = 1e-11;
+
+/// Whether an eigenvalue of a system whose largest is given is that of a motion that is not stable (rad2/s2).
+pub(super) fn is_unstable(eigenvalue: f64, largest: f64) -> bool {
+    eigenvalue < UNSTABLE.min(-EIGENVALUE_ROUNDING * largest.abs())
+}
+
 /// Square of a natural frequency (rad2/s2) below which nothing holds a motion: a period of 17 hours.
 pub(super) const LOOSE: f64 = 1e-8;
 /// Share of the tolerance that rounding may leave, and steps without half as much left after which it has.
@@ -94,6 +105,7 @@ fn find(
 ) -> Result<Equilibrium, SolveError> {
     let mut search = Search::new(system, options, part);
     search.evaluate(state)?;
+    let start: Vec<f64> = state.poses.iter().map(|p| p.origin.z).collect();
     let mut best = (f64::INFINITY, Stand::of(state));
     let mut stale = 0;
     for steps in 0..=options.most {
@@ -124,7 +136,13 @@ fn find(
         if steps == options.most {
             return Err(failure(system, state, &unknowns, at, options));
         }
-        search.go(&unknowns, state, worst)?;
+        if let Err(error) = search.go(&unknowns, state, worst) {
+            let sunk = |body: usize| {
+                let down = *state.residual.get(6 * body + 2)? < 0.0;
+                down.then_some(start.get(body)? - state.poses.get(body)?.origin.z)
+            };
+            return Err(system.because_it_sinks(error, &sunk));
+        }
     }
     let unknowns = Unknowns::of(system, state, options, (turns, part));
     let (_, at) = unknowns.worst(&unknowns.residual(state), options);

@@ -40,6 +40,7 @@ pub mod offset;
 mod outline;
 mod parts;
 pub mod pretension;
+mod reason;
 pub mod results;
 pub mod run_tables;
 pub mod scene;

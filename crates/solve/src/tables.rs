@@ -1,5 +1,6 @@
 //! What engines found, as tables.
 
+use super::equilibrium::is_unstable;
 use super::modes::modes;
 use super::settle::Settled;
 use super::system::{Contribution, FREEDOMS, SolveError, State, System};
@@ -137,11 +138,13 @@ pub fn periods(system: &System, state: &State) -> Result<Table, SolveError> {
         .column("", "Period", Dim::Time, Digits::Usual)
         .column("Moves Most", "Body", Dim::None, Digits::Usual)
         .column("Moves Most", "Freedom", Dim::None, Digits::Usual);
-    for (index, mode) in modes(system, state)?.into_iter().enumerate() {
+    let list = modes(system, state)?;
+    let largest = list.iter().map(|m| m.eigenvalue.abs()).fold(0.0, f64::max);
+    for (index, mode) in list.into_iter().enumerate() {
         // a period of 17 hours holds nothing
         let held = mode.eigenvalue.abs() > 1e-8;
         let period = mode.period.filter(|_| held);
-        if held && mode.eigenvalue < 0.0 {
+        if is_unstable(mode.eigenvalue, largest) {
             let (body, freedom) = &mode.most;
             table.note(format!("warning: not stable: mode {} moves {body} in {freedom}", index + 1));
         }

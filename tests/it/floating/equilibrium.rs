@@ -88,6 +88,25 @@ fn damaged_stiffness_has_no_modes_and_names_its_place() {
 }
 
 #[test]
+fn top_heavy_body_is_called_unstable_where_that_shows() {
+    // on a pin a height h below its centre: the eigenvalue is -g h/(k2 + h2), of h = 1.5E-7 m -5.9E-8 rad2/s2, more than an hour to grow by e
+    for (height, warned) in [(1.5e-7, false), (0.05, true)] {
+        let records = format!(
+            "MEDIT\n*Q 0 0 0\n&DESCRIBE BODY TOP -IGNORE RZ\n*C 0 0 {height}\n*P 0 0 0\n#WEIGHT *C 1E6 5 5 5\n\
+             ~PIN FIX X Y Z\nCONNECTOR P ~PIN *Q *P\nEND"
+        );
+        let mut model = model(&records, &[]);
+        let found = settle(&mut model, &Options::default()).unwrap();
+        let list = modes(&found.system, &found.state).unwrap();
+        let want = -9.80665 * height / (25.0 + height * height);
+        // rounding of a stiffness of 1e12 N/m over 1e5 kg leaves some 1e-9 rad2/s2
+        assert!((list[0].eigenvalue - want).abs() < 1e-4 * want.abs() + 1e-8, "{} {want}", list[0].eigenvalue);
+        let table = windlass_solve::tables::periods(&found.system, &found.state).unwrap();
+        assert_eq!(format!("{table:?}").contains("not stable"), warned, "{height} {table:?}");
+    }
+}
+
+#[test]
 fn interrupted_equilibrium_ends_with_its_error() {
     let mut model = model(HUNG, &[("LOAD", [0.0, 0.0, 0.0], 1e5, [1.0, 1.0, 1.0])]);
     model.interrupt.store(true, std::sync::atomic::Ordering::Relaxed);

@@ -49,6 +49,8 @@ fn bodies_joined_by_fix_heave_as_one_and_share_their_weight() {
         let model = pair(weight, far, off, natural);
         // FIX gives way by its moment, up to 8 m of the weight, over 1e12 N m/rad; nothing holds the pair, and what the steps leave adds up
         let tilt = 1e-6 + 8.0 * weight / 1e12;
+        // a deflection that is rounding, as a step leaves it, rings on with 1e12 N/m under a rule that damps nothing
+        let ring = 4.0 * 1e12 * (1e-13 + 8.0 * f64::EPSILON * far);
         let convergence = Convergence { tolerance: 1e-9, ..Convergence::default() };
         let made = run(&model, Settings { method: trapezoidal(), convergence, ..settings(10.0, h) }, vec![]);
         assert_eq!(made.counts.cut, 0, "{weight} {far} {off}");
@@ -72,9 +74,12 @@ fn bodies_joined_by_fix_heave_as_one_and_share_their_weight() {
             // the tie carries the other body: m (g + a) with a = w2 swing - g, and its moment about the middle, 4 m away
             let carried = weight / G * natural * natural * swing;
             let (force, moment) = (row[wrench + 2], row[wrench + 4]);
-            assert!((force - carried).abs() < 2e-6 * weight, "{weight} {far} {off} at {time}: {force} {carried}");
             assert!(
-                (moment - -4.0 * carried).abs() < 1e-5 * weight,
+                (force - carried).abs() < 2e-6 * weight + ring,
+                "{weight} {far} {off} at {time}: {force} {carried}"
+            );
+            assert!(
+                (moment - -4.0 * carried).abs() < 2e-5 * weight + 10.0 * ring,
                 "{weight} {far} {off} at {time}: {moment} {carried}"
             );
         }

@@ -6,6 +6,7 @@ use super::operators::Operators;
 use super::quantity::{Derivative, Quantity};
 use super::response::{Point, Response};
 use super::statistics::{Extreme, Statistics};
+use crate::equilibrium::is_unstable;
 use crate::system::{FREEDOMS, SolveError};
 use std::f64::consts::TAU;
 use windlass_base::table::{Cell, Digits, Table};
@@ -248,11 +249,13 @@ pub fn modes(linear: &Linear) -> Result<[Table; 2], SolveError> {
         let group = if i < 3 { "Translation" } else { "Rotation" };
         shapes = shapes.column(group, name, Dim::None, Digits::Decimals(5));
     }
-    for (index, Natural { mode, damping, settled }) in natural(linear)?.into_iter().enumerate() {
+    let list = natural(linear)?;
+    let largest = list.iter().map(|n| n.mode.eigenvalue.abs()).fold(0.0, f64::max);
+    for (index, Natural { mode, damping, settled }) in list.into_iter().enumerate() {
         let period = mode.period.filter(|_| damping.is_some());
         let (body, freedom) = (mode.most.0.as_str(), mode.most.1);
         let told = format!("mode {} of {body} in {freedom}", index + 1);
-        if damping.is_none() && mode.eigenvalue < -1e-8 {
+        if is_unstable(mode.eigenvalue, largest) {
             periods.note(format!("warning: not stable: {told}"));
         }
         if !settled {

@@ -312,13 +312,28 @@ impl Run {
                         return Err(error);
                     }
                     if level >= HALVINGS {
-                        return Err(self.nearly_taken_in().unwrap_or(error));
+                        return Err(self.nearly_taken_in().unwrap_or_else(|| self.reason(error)));
                     }
                     self.counts.cut += 1;
                     level += 1;
                 }
             }
         }
+    }
+
+    /// What is behind a step without a solution, where that can be told.
+    fn reason(&self, error: SolveError) -> SolveError {
+        let poses: Vec<_> = self.now.motions.iter().map(|m| m.pose).collect();
+        if let Some(lacks) = self.system.without_inertia(&poses) {
+            let help = error.error.message.replace("{}", "..");
+            return SolveError { error: lacks.error.help(help), ..lacks };
+        }
+        let sunk = |body: usize| {
+            let motion = self.now.motions.get(body)?;
+            let began = self.origin.bodies.get_index(body)?.1.place.shift[2];
+            (motion.velocity[2] < 0.0).then_some(began - motion.pose.origin.z)
+        };
+        self.system.because_it_sinks(error, &sunk)
     }
 
     /// What a part of a step changes.

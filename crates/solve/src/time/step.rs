@@ -6,6 +6,7 @@
 use super::forces::{Forces, Memory, Motion};
 use super::inertia::{gyroscopic, inertia};
 use super::scheme::{Method, Scheme};
+use crate::reason::no_inertia;
 use crate::system::{FREEDOMS, SolveError, System};
 use nalgebra::{DMatrix, DVector, Matrix6, U6};
 use windlass_base::dense::{DenseError, Lu};
@@ -181,10 +182,7 @@ impl Stepper {
         let least = turning.min_by(|a, b| inertia(a).total_cmp(&inertia(b))).or(rows.first()).copied().unwrap_or(0);
         let freedom = FREEDOMS.get(least % 6).copied().unwrap_or_default();
         let name = system.nodes.get(least / 6).map(|n| n.name.clone()).unwrap_or_default();
-        let error = ClassError::new(format!("it has no inertia in {freedom}")).help(format!(
-            "give its #WEIGHT radii of gyration, or leave the freedom out: &DESCRIBE BODY {name} -IGNORE"
-        ));
-        SolveError { who: Some(name), error }
+        no_inertia(&name, freedom)
     }
 
     /// Takes a step of `dt` from `now` to its end. Nothing has changed when it fails.
