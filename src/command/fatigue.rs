@@ -11,6 +11,7 @@ use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::units::Dim;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
+use windlass_model::add_model_column;
 use windlass_solve::results::{self, Exposed};
 
 /// FATIGUE.
@@ -87,6 +88,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         .map_err(|e| Diagnostic::error(e.to_string(), args.span).help("without -ADD a scatter begins anew"))?;
     job.scatter = runs;
     if let Some(run) = &job.run {
+        add_model_column(&mut table, |name| run.model.idealisation(name));
         note_caveats(&run.model, std::slice::from_mut(&mut table));
     }
     job.menus.push(Menu::Disposition(Box::new(Disposition::new(table))));

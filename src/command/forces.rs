@@ -7,7 +7,7 @@ use windlass_base::pose::Six;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_hydro::ambient;
-use windlass_model::{ClassError, Connector, End, Model, Response, Situation, Summary};
+use windlass_model::{ClassError, Connector, End, Model, Response, Situation, Summary, add_model_column};
 use windlass_solve::results::fender_table;
 
 /// What one connector does between its ends.
@@ -68,6 +68,7 @@ pub fn forces(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem, ver
         push(&mut table, row);
     }
     table.notes = gathered(&notes);
+    add_model_column(&mut table, |name| model.idealisation(name));
     let springs = Some(springs).filter(|s| s.rows() > 0);
     let fenders = fender_table("Fenders", fenders.iter().map(|(name, state)| (*name, state, None)));
     std::iter::once(table).chain(springs).chain(Some(fenders).filter(|f| f.rows() > 0)).collect()

@@ -18,7 +18,7 @@ use windlass_base::values::Args;
 use windlass_base::values::Noun;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
-use windlass_model::{Environment, Model, Thing, find};
+use windlass_model::{DYNAMIC, Environment, Model, QUASI_STATIC, Thing, add_model_column, find};
 use windlass_solve::frequency::tables::{Told, body_statistics, operators, spectra, statistics};
 use windlass_solve::frequency::{Asked, Derivative, Extreme, Linear, Quantity, Response, in_sea};
 
@@ -123,6 +123,11 @@ fn what(derivative: Derivative) -> &'static str {
         Derivative::Velocity => "Velocity",
         Derivative::Acceleration => "Acceleration",
     }
+}
+
+/// How a connector is idealised here: a dynamic line follows the bodies as at rest.
+fn idealisation(model: &Model, name: &str) -> Option<&'static str> {
+    model.idealisation(name).map(|kind| if kind == DYNAMIC { QUASI_STATIC } else { kind })
 }
 
 /// Opens the disposition menu over a table.
@@ -294,7 +299,9 @@ fn told_statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {
                 return Err(Diagnostic::error(format!("a tension has no {}", given.name), given.span));
             }
             let list = tensions(job, &linear, call, 1, false)?;
-            statistics("Statistics: Forces of Connectors".into(), both, &list, how)
+            let mut table = statistics("Statistics: Forces of Connectors".into(), both, &list, how);
+            add_model_column(&mut table, |name| idealisation(&job.model, name));
+            table
         }
         _ => {
             if args.word(2).is_some() {

@@ -435,7 +435,7 @@ fn check(job: &Job, first: &Run) -> Result<Vec<Table>, SolveError> {
     let mut again = first.begun_again(|s| Settings { dt: s.dt / 2.0, store: s.store.saturating_mul(2), ..s })?;
     let mut going = Going::new(job, &again, None);
     again.go(&mut going)?;
-    Ok(run_tables::compared(&first.history, &again.history, first.settings.transient))
+    Ok(run_tables::compared(first, &again.history))
 }
 
 /// Who is told how a run goes: its file, the terminal, Ctrl-C.

@@ -11,7 +11,7 @@ use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::{Args, Given};
 use windlass_language::select::Owner;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
-use windlass_model::{Class, ClassError, Condition, Configuration, Connector, LineChange, Placement};
+use windlass_model::{Class, ClassError, Condition, Configuration, Connector, LineChange, Placement, QUASI_STATIC};
 
 /// -VARY.
 pub const VARY: OptionSpec = OptionSpec::new(
@@ -224,7 +224,8 @@ fn at(parameter: Parameter, value: f64, place: &Placement, held: Condition) -> (
 /// The table without rows: what is varied, what is held, the columns.
 fn empty(parameter: Parameter, class: &Class, connector: &Connector, place: &Placement, held: Condition) -> Table {
     let [_, _, fairlead] = place.fairlead;
-    let mut table = Table::new(format!("Line {} with Varied {}", connector.name, parameter.name()));
+    let title = format!("Line {} with Varied {}", connector.name, parameter.name());
+    let mut table = Table::new(title).fact("Model", QUASI_STATIC, Dim::None);
     if parameter != Parameter::Fairlead {
         table = table.fact("Fairlead Above Mean Water", fairlead, Dim::Length);
     }

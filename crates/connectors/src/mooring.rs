@@ -14,7 +14,7 @@ use windlass_catenary::{
 };
 use windlass_model::{
     AbsentRow, ClassError, ClassRecord, Condition, Configuration, Element, FoundLength, LineChange, LineLoads,
-    LineModel, Note, Placement,
+    LineModel, Note, Placement, QUASI_STATIC,
 };
 
 /// Points inside each segment in a shape table.
@@ -306,6 +306,7 @@ impl LineModel for Mooring {
     fn geometry(&self, connector: &str, condition: Condition) -> Result<Table, ClassError> {
         let state = self.state(condition)?;
         let mut out = Table::new(format!("Geometry of Line {connector}"))
+            .fact("Model", QUASI_STATIC, Dim::None)
             .fact("Horizontal Distance", state.x, Dim::Length)
             .fact("Horizontal Force", state.force, Dim::Force)
             .fact("Vertical Force", state.top_vertical, Dim::Force)

@@ -4,12 +4,14 @@ use super::mooring::Mooring;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
 use windlass_catenary::{Buoy, MissingRow, Row};
+use windlass_model::QUASI_STATIC;
 
 /// The twelve columns of reference/solve.md, CONN_DESIGN; a row without a configuration has its force alone.
 pub fn report(mooring: &Mooring, connector: &str, found: &[Row], missing: &[MissingRow]) -> Table {
     let rows = numbered(found, missing);
     let bottom = mooring.line.floor().map(|f| f.elevation).or(mooring.bottom);
     let mut out = Table::new(format!("Properties of Line {connector}"))
+        .fact("Model", QUASI_STATIC, Dim::None)
         .fact("Water Depth", bottom.map(|b| -b), Dim::Length)
         .fact("Fairlead Above Mean Water", mooring.fairlead(), Dim::Length)
         .fact("Length of First Segment", mooring.line.segments().first().map(|s| s.length), Dim::Length)

@@ -29,6 +29,7 @@ mod element;
 mod environment;
 mod fatigue;
 mod hull;
+mod idealisation;
 mod line;
 mod load;
 mod names;
@@ -60,6 +61,7 @@ pub use environment::{
 };
 pub use fatigue::{FatigueCurve, FatigueKind, FatigueSegment, FatigueSelection, ThicknessCorrection};
 pub use hull::{LinearHydrostatics, Member, Piece, Shape, WaveAction, box_panels};
+pub use idealisation::{DYNAMIC, MASSLESS, QUASI_STATIC, add_model_column};
 pub use line::{AbsentRow, Condition, Configuration, FoundLength, LineChange, LineLoads, LineModel, Placement};
 pub use load::{Fluid, LoadKind, Multipliers, PartLoad};
 pub use names::Thing;
@@ -231,13 +233,6 @@ impl Model {
     pub fn moves(&self, connector: &Connector) -> bool {
         let class = self.classes.get(&Model::key(&connector.class));
         connector.dynamics.is_some() || class.is_some_and(|c| c.object.moves())
-    }
-
-    /// Whether a connector is a line that at every instant has the shape of rest between its ends: a line whose own inertia and drag are
-    /// left out.
-    pub fn is_quasi_static(&self, connector: &Connector) -> bool {
-        let class = self.classes.get(&Model::key(&connector.class));
-        class.is_some_and(|c| c.object.is_line()) && !self.moves(connector)
     }
 
     /// The element a connector is to an engine, between its ends as they are, in water and air at rest.

@@ -6,7 +6,7 @@ use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
 use windlass_hydro::Category;
 use windlass_hydro::low_frequency::dividing_period;
-use windlass_model::{Body, LoadKind, Model, PartLoad, WaveAction, list_names};
+use windlass_model::{Body, LoadKind, Model, PartLoad, WaveAction, add_model_column, list_names};
 
 /// How a run stepped.
 fn scheme(run: &Run) -> String {
@@ -214,6 +214,9 @@ pub fn extremes(run: &Run) -> Vec<Table> {
                 push(&mut table, &series.name, cells.map(Cell::from));
             }
         }
+        if dim == Dim::Force {
+            add_model_column(&mut table, |series| model_of_series(&run.model, series));
+        }
         if table.rows() > 0 {
             tables.push(table);
         }
@@ -228,8 +231,14 @@ pub fn extremes(run: &Run) -> Vec<Table> {
     tables
 }
 
-/// What differs between a run and the same with half the step, behind a transient (s): a table for each dimension.
-pub fn compared(first: &History, second: &History, transient: f64) -> Vec<Table> {
+/// How the connector of a series of tension is idealised.
+fn model_of_series(model: &Model, series: &str) -> Option<&'static str> {
+    series.strip_suffix(" Tension").and_then(|name| model.idealisation(name))
+}
+
+/// What differs between a run and the same with half the step, behind its transient: a table for each dimension.
+pub fn compared(run: &Run, second: &History) -> Vec<Table> {
+    let (first, transient) = (&run.history, run.settings.transient);
     let all = results(&first.layout);
     let mut tables = Vec::new();
     for (title, dim) in KINDS {
@@ -249,6 +258,9 @@ pub fn compared(first: &History, second: &History, transient: f64) -> Vec<Table>
             let cells =
                 [Some(worst.1), worst.0, Some(one.most), Some(other.most), Some(one.deviation), Some(other.deviation)];
             push(&mut table, &series.name, cells.map(Cell::from));
+        }
+        if dim == Dim::Force {
+            add_model_column(&mut table, |series| model_of_series(&run.model, series));
         }
         if table.rows() > 0 {
             tables.push(table);

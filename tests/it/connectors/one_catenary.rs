@@ -100,7 +100,7 @@ fn device(option: &str) -> String {
 /// FX, -FZ and tension of the first connector.
 fn pull(text: &str) -> [f64; 3] {
     let line = text.lines().find(|l| l.trim_start().starts_with("A ")).unwrap();
-    let cells: Vec<f64> = line.split_whitespace().skip(3).map(|w| w.parse().unwrap()).collect();
+    let cells: Vec<f64> = line.split_whitespace().skip(3).filter_map(|w| w.parse().ok()).collect();
     [cells[1], -cells[3], cells[4]]
 }
 
@@ -137,7 +137,7 @@ fn anchor_on_a_slope_is_pulled_down_by_a_table_too() {
              CONNECTOR A ~C *F -ANC 0 690\nEND\n&STATUS F_CONNECTOR"
         ));
         let line = text.lines().find(|l| l.trim_start().starts_with("A ")).unwrap();
-        line.split_whitespace().skip(3).map(|w| w.parse().unwrap()).collect::<Vec<f64>>()
+        line.split_whitespace().skip(3).filter_map(|w| w.parse().ok()).collect::<Vec<f64>>()
     });
     for cells in both {
         let (vertical, horizontal) = (cells[7], cells[8]);
@@ -236,7 +236,7 @@ fn hanging_line_to_an_anchor_goes_to_the_depth_of_its_class() {
          END\n&STATUS F_CONNECTOR",
     );
     let line = text.lines().find(|l| l.trim_start().starts_with("L ")).unwrap();
-    let cells: Vec<f64> = line.split_whitespace().skip(3).map(|w| w.parse().unwrap()).collect();
+    let cells: Vec<f64> = line.split_whitespace().skip(3).filter_map(|w| w.parse().ok()).collect();
     let tension = std::f64::consts::FRAC_PI_4 * 1e6 / 499.0;
     for (got, want) in [(cells[1], 0.6 * tension), (-cells[3], 0.8 * tension), (cells[4], tension)] {
         assert!((got - want).abs() <= 0.006, "{got} is not {want}\n{text}");

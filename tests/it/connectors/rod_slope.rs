@@ -30,7 +30,7 @@ fn held_at(environment: &str, classes: &[String], distance: f64) -> (usize, Vec<
     let pulls = names.iter().map(|(name, _)| {
         let class = format!("~{name} ");
         let line = text.lines().rev().find(|l| l.contains(&class)).unwrap();
-        let numbers: Vec<f64> = line.split_whitespace().skip(4).map(|n| n.parse().unwrap()).collect();
+        let numbers: Vec<f64> = line.split_whitespace().skip(4).filter_map(|n| n.parse().ok()).collect();
         [numbers[0].hypot(numbers[1]), numbers[3]]
     });
     (warned, pulls.collect())

@@ -53,7 +53,7 @@ pub fn connector_forces(
     for columns_of in links.iter().filter_map(|l| layout.links.get(*l)) {
         let name = columns_of.name.as_str();
         if !several {
-            table = table.fact("Connector", name, Dim::None);
+            table = table.fact("Connector", name, Dim::None).fact("Model", run.model.idealisation(name), Dim::None);
         }
         let group = headed(several, name, "Force");
         table = columns(table, &group, &["FX", "FY", "FZ", "Mag."], Dim::Force).column(
@@ -78,6 +78,9 @@ pub fn connector_forces(
         ));
     }
     table.note("the force is that on the first end on a body");
+    if several {
+        table.notes.extend(idealisations(run, links));
+    }
     table.note(
         "Mag./Break is the largest tension of a segment over its own break; the length on the bottom is unstretched",
     );
@@ -99,6 +102,12 @@ pub fn connector_forces(
     })
 }
 
+/// How connectors of a run, by their numbers, are idealised.
+fn idealisations(run: &Run, links: &[usize]) -> Option<String> {
+    let layout = &run.history.layout;
+    run.model.idealisations(links.iter().filter_map(|link| layout.links.get(*link)).map(|link| link.name.as_str()))
+}
+
 /// An error of an instant, with its time.
 fn at_time(error: SolveError, row: &[f64]) -> SolveError {
     let time = row.first().copied().unwrap_or(0.0);
@@ -113,7 +122,8 @@ fn at_time(error: SolveError, row: &[f64]) -> SolveError {
 pub fn magnitudes(run: &Run, links: &[usize], magnitude: Magnitude, events: &[Event]) -> Result<Table, SolveError> {
     let layout = &run.history.layout;
     let names: Vec<&str> = links.iter().filter_map(|l| layout.links.get(*l)).map(|l| l.name.as_str()).collect();
-    let table = columns(timed("Magnitude of Connector Forces"), "Force Magnitude", &names, Dim::Force);
+    let mut table = columns(timed("Magnitude of Connector Forces"), "Force Magnitude", &names, Dim::Force);
+    table.notes.extend(idealisations(run, links));
     filled((&run.history, events), table, &mut |row, made| {
         made.extend(links.iter().map(|link| force(layout, *link, row).map_or(f64::NAN, |f| magnitude.of(&f))));
         Ok(())

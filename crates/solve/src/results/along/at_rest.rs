@@ -7,7 +7,7 @@ use crate::time::Duties;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
 use windlass_hydro::ambient;
-use windlass_model::{Element, End, Model, Situation};
+use windlass_model::{DYNAMIC, Element, End, Model, Situation};
 
 /// Tells of each line that moves by itself and whose name fits, between its ends where they stand: its name, its element, how its ends
 /// stand, and its state before anything has happened.
@@ -76,6 +76,7 @@ pub fn lines_at_rest(model: &Model, fits: &dyn Fn(&str) -> bool) -> Result<Vec<T
         let bends = element.bends();
         let mut table = Table::new("Line at Rest")
             .fact("Line", name, Dim::None)
+            .fact("Model", DYNAMIC, Dim::None)
             .column("", "Node", Dim::None, Digits::Usual)
             .column("", "Arc", Dim::Length, Digits::Usual);
         for axis in ["X", "Y", "Z"] {

@@ -6,7 +6,7 @@ use crate::system::SolveError;
 use crate::time::NodeRow;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
-use windlass_model::ClassError;
+use windlass_model::{ClassError, DYNAMIC};
 use windlass_signal::SeriesError;
 use windlass_signal::line::lrfd::{Factors, Resistance};
 use windlass_signal::line::working_stress::{self, DesignCase};
@@ -165,6 +165,7 @@ fn told(line: &Line, code: &Code, checked: &[Checked], worst: &[Option<Worst>]) 
     let by_code = checked.iter().any(|c| !matches!(c, Checked::Break(_)));
     let mut table = Table::new("Unity Checks Along a Line")
         .fact("Line", line.name, Dim::None)
+        .fact("Model", DYNAMIC, Dim::None)
         .fact("Code", if by_code { code.name() } else { Code::Break.name() }, Dim::None)
         .column("", "Node", Dim::None, Digits::Usual)
         .column("", "Arc", Dim::Length, Digits::Usual)

@@ -6,6 +6,7 @@ use crate::system::SolveError;
 use crate::time::{AlongEnvelope, Quantity};
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
+use windlass_model::DYNAMIC;
 use windlass_signal::line::envelope::Seen;
 
 /// Quantities told, with the head of their columns and the sign they have there.
@@ -46,6 +47,7 @@ pub fn envelope(line: &Line, events: &[Event]) -> Result<Table, SolveError> {
         .collect();
     let mut table = Table::new("Envelope Along a Line")
         .fact("Line", line.name, Dim::None)
+        .fact("Model", DYNAMIC, Dim::None)
         .column("", "Node", Dim::None, Digits::Usual)
         .column("", "Arc", Dim::Length, Digits::Usual);
     for (group, sign, _, dim) in &told {

@@ -6,7 +6,7 @@ use crate::system::SolveError;
 use crate::time::{BentRow, NodeRow};
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
-use windlass_model::ClassError;
+use windlass_model::{ClassError, DYNAMIC};
 
 /// A place along a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,6 +54,7 @@ pub fn shape(line: &Line, event: &Event) -> Result<Table, SolveError> {
     let time = row.first().copied().unwrap_or(f64::NAN);
     let mut table = Table::new("Along a Line at an Instant")
         .fact("Line", line.name, Dim::None)
+        .fact("Model", DYNAMIC, Dim::None)
         .fact("Time", time, Dim::Time)
         .column("", "Node", Dim::None, Digits::Usual)
         .column("", "Arc", Dim::Length, Digits::Usual);
@@ -81,7 +82,7 @@ pub fn shape(line: &Line, event: &Event) -> Result<Table, SolveError> {
 /// A node that the line has not, a distance beyond its ends at every event.
 pub fn histories(line: &Line, wanted: &[Where], events: &[Event]) -> Result<Table, SolveError> {
     let (run, bends) = (line.run, line.columns.bends);
-    let mut table = timed("Places Along a Line").fact("Line", line.name, Dim::None);
+    let mut table = timed("Places Along a Line").fact("Line", line.name, Dim::None).fact("Model", DYNAMIC, Dim::None);
     let mut places = Vec::new();
     for (index, place) in wanted.iter().enumerate() {
         let group = match place {

@@ -6,6 +6,7 @@ use crate::system::SolveError;
 use crate::time::NodeRow;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
+use windlass_model::DYNAMIC;
 
 /// The touchdown point over some events, from the first end: the first node on the bottom with its distance and tension, the point
 /// between it and the one before at which the line would begin to lie, and the unstretched length on the bottom.
@@ -13,7 +14,7 @@ use windlass_base::units::Dim;
 /// # Errors
 /// None of its own.
 pub fn touchdown(line: &Line, events: &[Event]) -> Result<Table, SolveError> {
-    let mut table = timed("Touchdown").fact("Line", line.name, Dim::None);
+    let mut table = timed("Touchdown").fact("Line", line.name, Dim::None).fact("Model", DYNAMIC, Dim::None);
     table = table.column("First Node on Bottom", "Node", Dim::None, Digits::Decimals(0));
     table = columns(table, "First Node on Bottom", &["Node Arc"], Dim::Length);
     table = columns(table, "First Node on Bottom", &["Tension"], Dim::Force);
