@@ -148,6 +148,10 @@ impl Run {
         };
         run.check_actions()?;
         run.prescribe()?;
+        let poses: Vec<_> = run.now.motions.iter().map(|m| m.pose).collect();
+        if let Some(lacks) = run.system.without_inertia(&poses) {
+            return Err(lacks);
+        }
         run.prepare()?;
         Ok(run)
     }
