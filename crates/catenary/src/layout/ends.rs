@@ -96,6 +96,10 @@ pub fn between_ends(line: &Line, x: f64, z: f64, last: Option<&State>) -> Result
         if lies && laid.short.value < -layout.fine {
             laid = heap_at_touchdown(&layout, x, z, &laid)?;
         }
+        // what hangs has no place for spare length but where it weighs nothing
+        if !lies && laid.short.value < -1e-9 * (layout.length + x) {
+            return Err(LineError::Undetermined);
+        }
     }
     layout.state(laid, [x, z], slack).map_err(|error| match (error, failed) {
         (LineError::Unproven { .. }, Some(reason)) => reason,
@@ -126,6 +130,11 @@ fn heap_at_touchdown(layout: &Layout, x: f64, z: f64, without: &Laid) -> Result<
     });
     match (best, failed) {
         (_, Some(error)) => Err(error),
+        (Some(laid), None) if laid.short.value.abs() > 1e-9 * (layout.length + x) => Err(LineError::NotConverged {
+            force: layout.least,
+            residual: laid.short.value.abs(),
+            iterations: laid.iterations,
+        }),
         (Some(laid), None) => Ok(laid),
         (None, None) => Err(LineError::SlackSlope),
     }

@@ -93,7 +93,7 @@ impl Layout<'_> {
                 below_bottom.extend((by > fine).then_some((number, by)));
             }
             let lifted = matches!(self.line.joints.get(number - 1), Some(Joint::Weight(w)) if *w < 0.0);
-            let highest = highest(segment, head, lifted);
+            let highest = highest(segment, head, if lifted { z } else { f64::NEG_INFINITY });
             above_surface.extend((highest > self.line.surface + fine).then_some((number, highest - self.line.surface)));
         }
         let skip = self.line.first_joint();
@@ -159,10 +159,10 @@ impl Layout<'_> {
     }
 }
 
-/// The highest place of a buoyant segment, and of the lower end of one that is lifted there.
-fn highest(segment: &Segment, part: &Stretch, lifted: bool) -> f64 {
+/// The highest place of a buoyant segment, which does not lie, and of its lower end `joint` (m) where that is lifted.
+fn highest(segment: &Segment, part: &Stretch, joint: f64) -> f64 {
     let [_, low, _, v] = part.low;
-    let mut highest = if lifted { low } else { f64::NEG_INFINITY };
+    let mut highest = joint;
     if segment.weight < 0.0 {
         highest = highest.max(low);
         if v > 0.0 && part.v < 0.0 {

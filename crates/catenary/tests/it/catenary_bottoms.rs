@@ -210,3 +210,22 @@ fn a_shape_has_one_point_at_the_touchdown_where_friction_takes_the_tension() {
     // both ends, nine inside, the touchdown
     assert_eq!(line.shape(&state, 9).len(), 12);
 }
+
+#[test]
+fn lifted_joint_above_the_surface_is_named_by_both_solvers() {
+    // 20 m of water; the first segment comes down, lies, and rises to a joint lifted by 50 kN; the second is whole, or in forty parts
+    let part = |length| Segment { length, weight: 500.0, ea: 6e8 };
+    let line = |parts: usize| {
+        let segments: Vec<Segment> =
+            std::iter::once(part(200.0)).chain(vec![part(60.0 / parts as f64); parts]).collect();
+        let joints: Vec<Joint> = std::iter::once(Joint::Weight(-5e4)).chain(vec![Joint::Free; parts - 1]).collect();
+        Line::new(segments, joints, -20.0, 0.0).unwrap().at_distance(170.0, 0.0).unwrap()
+    };
+    let (whole, cut) = (line(1), line(40));
+    assert!(whole.segments[0].grounded > 10.0 && whole.joints[0].z > 10.0, "{whole:?}");
+    let (&[(1, high)], &[(1, same)]) = (whole.above_surface.as_slice(), cut.above_surface.as_slice()) else {
+        panic!("{:?} {:?}", whole.above_surface, cut.above_surface)
+    };
+    close(high, whole.joints[0].z, 1e-9, "height");
+    close(same, high, 1e-6, "height");
+}
