@@ -51,7 +51,7 @@ static SPEC: CommandSpec = CommandSpec {
              &REP_SELECT -SN, stress with -THICK_SN; Palmgren and Miner's sum. CDR is that of all environments, each for its duration, and \
              Life when they come again for ever. A scatter is run one environment after the other: TDOM and FATIGUE, then TDOM and FATIGUE \
              -ADD for each further one. Tension below the fairlead is found at the turning points of that at the fairlead. TTRA_SET of \
-             &ENV -TIME is left out, other parts by -EVENTS. Governs marks the segment that seed 001 goes by: that with the largest tension over its \
+             &ENV -TIME is left out, other parts by -EVENTS. Governs marks the segment that MOSES goes by: that with the largest tension over its \
              break where its curve is one of tension, else that with the largest stress.",
     example: "MEDIT\n&DESCRIBE BODY BUOY -IGNORE Z RX RY RZ\n*P 0 0 0\n#WEIGHT *P 2000 10 10 10\n~W B_CAT 4 -LEN 1000 -C_SN CHAIN\n\
               ~W B_CAT 4 -LEN 3000 -DEP 500\nCONNECTOR A -ANC 0 3900 ~W *P\nCONNECTOR B -ANC 180 3900 ~W *P\nEND\n&REP_SELECT -SN WIRE\n\

@@ -23,7 +23,7 @@ static SPEC: CommandSpec = CommandSpec {
     detail: "Holds these degrees of freedom of the second end against the first as they stood when the connector was defined: place the \
              bodies first. Axes are those of the first node's body, turned by -EULER; global on ground. Rigid means 1.0E12 N/m and \
              1.0E12 N m/rad. &EQUI and TDOM solve its force as an unknown, which rounding of positions does not feel; it is unloaded where a \
-             run begins, and what that shakes rings off within some twenty steps. With one node it holds to the \
+             run begins: two bodies of 1000 kN each ring by 3.5 per cent of its force at first, by less than 0.2 after 1.3 s. With one node it holds to the \
              ground. Rotations are held in the time domain as well. Its force belongs to RIGID_CONNECTORS.",
     example: "MEDIT\n*P 0 0 0\n~HINGE FIX X Y Z\n~CLAMP FIX\nCONNECTOR H ~HINGE *P\nEND\n&STATUS CLASS ~HINGE",
     ..CommandSpec::new("FIX", "rigid restraint")

@@ -49,7 +49,8 @@ impl System {
 
 /// The error of a body without inertia in a degree of freedom.
 pub(super) fn no_inertia(name: &str, freedom: &str) -> SolveError {
-    let error = ClassError::new(format!("it has no inertia in {freedom}"))
-        .help(format!("give its #WEIGHT radii of gyration, or leave the freedom out: &DESCRIBE BODY {name} -IGNORE"));
+    let error = ClassError::new(format!("it has no inertia in {freedom}")).help(format!(
+        "give its #WEIGHT radii of gyration, or hold that degree of freedom: &DESCRIBE BODY {name} -IGNORE"
+    ));
     SolveError { who: Some(name.to_string()), error }
 }

@@ -223,8 +223,8 @@ struct EndMotion {
     growing: f64,
     /// Length of the first segment (m), where the run knew one.
     first_length: Option<f64>,
-    /// Which end is told of.
-    told: usize,
+    /// The end whose pull is compared.
+    pulled_end: usize,
 }
 
 impl EndMotion {
@@ -237,8 +237,9 @@ impl EndMotion {
     ) -> Result<Self, ClassError> {
         let layout = &run.history.layout;
         let known = link.ends.iter().position(Option::is_some);
-        let told = if link.ends.get(link.pulling).is_some_and(Option::is_some) { Some(link.pulling) } else { known };
-        let told = told.ok_or_else(|| ClassError::new("none of its ends is on a body"))?;
+        let pulled_end =
+            if link.ends.get(link.pulling).is_some_and(Option::is_some) { Some(link.pulling) } else { known };
+        let pulled_end = pulled_end.ok_or_else(|| ClassError::new("none of its ends is on a body"))?;
         let attached = connected(&run.model, connector);
         // the stored instants around the peak at which it acts without a gap
         let near = |row: &&[f64]| row.first().is_some_and(|t| (t - peak).abs() <= (PERIODS + GROWING + 1.0) * period);
@@ -280,7 +281,7 @@ impl EndMotion {
             mean,
             growing,
             first_length: lengths.first().copied(),
-            told,
+            pulled_end,
         })
     }
 
@@ -369,7 +370,7 @@ struct Twin {
     element: Box<dyn Element>,
     elements: usize,
     surroundings: Surroundings,
-    told: usize,
+    pulled_end: usize,
     time: f64,
     committed: Vec<f64>,
     trial: Vec<f64>,
@@ -411,7 +412,7 @@ impl Twin {
             elements: element.nodes().saturating_sub(1),
             element,
             surroundings,
-            told: motion.told,
+            pulled_end: motion.pulled_end,
             time: motion.begin,
             trial: committed.clone(),
             committed,
@@ -445,7 +446,7 @@ impl Twin {
                 Err(_) => level += 1,
             }
         }
-        let force = self.response.wrench.get(self.told).map_or(f64::NAN, |w| w.fixed_rows::<3>(0).norm());
+        let force = self.response.wrench.get(self.pulled_end).map_or(f64::NAN, |w| w.fixed_rows::<3>(0).norm());
         if force.is_finite() { Ok(force) } else { Err(ClassError::new("its tension is not finite")) }
     }
 }
@@ -499,15 +500,15 @@ pub fn remarks(screening: &Screening, units: UnitSystem) -> Vec<String> {
 
 /// What is wrong with taking a line quasi-statically, a sentence for each that is.
 pub fn warnings(screening: &Screening, units: UnitSystem) -> Vec<String> {
-    let told = |force: f64| format!("{:.0} {}", Dim::Force.from_si(force, units), Dim::Force.label(units));
+    let shown = |force: f64| format!("{:.0} {}", Dim::Force.from_si(force, units), Dim::Force.label(units));
     let one = |replay: &Replay| {
         format!(
             "{}: as a dynamic line it pulls {:.2} times as hard as the quasi-static line of this run, {} for {}: &CONNECTOR {} -DYNAMICS {} \
              runs it so",
             replay.line,
             replay.ratio(),
-            told(replay.dynamic.0),
-            told(replay.quasi_static),
+            shown(replay.dynamic.0),
+            shown(replay.quasi_static),
             replay.line,
             replay.elements
         )
