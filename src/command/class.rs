@@ -1,6 +1,7 @@
 //! `~NAME TYPE ...`: defines a class, or adds a segment to one.
 
 use super::{Call, Command, Effect, Job, Menu, plausible};
+use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::values::Args;
 use windlass_base::values::Noun;
@@ -43,9 +44,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     notices.extend(unknown_fatigue(&read, job));
     let record = ClassRecord { args: read, defaults: job.model.defaults };
     let key = Model::key(&name.text);
-    let mut records = vec![record];
     let mut remark = None;
-    let mut span = name.span;
     if let Some(class) = job.model.classes.get(&key) {
         if class.object.kind() != kind.spec.name {
             return Err(Diagnostic::error(format!("{} is a {} already", class.name, class.object.kind()), word.span)
@@ -62,8 +61,6 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
                 .other(class.span, "defined here")
                 .help("define all segments before the connector, or DELETE the connector first"));
             }
-            records = class.records.iter().cloned().chain(records).collect();
-            span = class.span;
         } else {
             remark = Some(match users.len() {
                 0 => format!("{} is replaced", class.name),
@@ -71,15 +68,25 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             });
         }
     }
-    let object = (kind.build)(&records)?;
-    if let Some(last) = records.last() {
-        notices.extend(object.notices(&last.args, job.units, &job.model.surroundings()));
-        notices.extend(plausible::friction(&last.args));
-        notices.extend(idle(job, kind, &last.args));
-    }
-    let ignored_stiffness = records.iter().any(|r| r.args.has("-IG_STIFF"));
-    let class = Class { name: name.text.to_string(), records, ignored_stiffness, object, span };
-    job.model.classes.insert(key, class);
+    let last = record.args.clone();
+    let object = match job.model.classes.get_mut(&key).filter(|_| kind.segmented) {
+        Some(class) => {
+            class.append(record, kind.build)?;
+            class.name = name.text.to_string();
+            Arc::clone(&class.object)
+        }
+        None => {
+            let object = (kind.build)(std::slice::from_ref(&record))?;
+            let ignored_stiffness = record.args.has("-IG_STIFF");
+            let (name, span, built) = (name.text.to_string(), name.span, Arc::clone(&object));
+            let class = Class { name, records: vec![record], ignored_stiffness, object: built, span };
+            job.model.classes.insert(key, class);
+            object
+        }
+    };
+    notices.extend(object.notices(&last, job.units, &job.model.surroundings()));
+    notices.extend(plausible::friction(&last));
+    notices.extend(idle(job, kind, &last));
     job.note_name(&name.text, name.span);
     job.notices.extend(notices);
     if let Some(text) = remark {

@@ -24,6 +24,7 @@ mod program {
 /// Springs, lines, pipes: forces and laws.
 mod connectors {
     mod along;
+    mod appended_segments;
     mod bathymetry_lines;
     mod closed_form_lines;
     mod connector_closed_form;

@@ -6,9 +6,9 @@
 use super::mooring::{Mooring, line_error, no_other_end};
 use super::moving::{JointMass, MovingLine, Part, Seabed, Strength, description};
 use super::options::aqwa;
-use super::{ClassKind, checks};
+use super::per_line::PerLineOptions;
+use super::{ClassKind, append_all, checks};
 use std::f64::consts::{FRAC_PI_4, PI};
-use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::table::{Cell, Digits, Table};
@@ -23,7 +23,8 @@ use windlass_model::{
 };
 
 /// The class type CATENARY: an AQWA catenary section with the joint at its end.
-pub static CATENARY: ClassKind = ClassKind { spec: &CATENARY_SPEC, segmented: true, build: build_catenary, idle: &[] };
+pub static CATENARY: ClassKind =
+    ClassKind { spec: &CATENARY_SPEC, segmented: true, build: append_all::<CatenaryClass>, idle: &[] };
 
 /// A number of an AQWA record.
 pub const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
@@ -125,8 +126,12 @@ struct CatenarySection {
     joint_span: Span,
 }
 
-#[derive(Debug)]
+/// Options of the whole line.
+const PER_LINE: [&str; 1] = ["-DEPANCHOR"];
+
+#[derive(Debug, Default)]
 struct CatenaryClass {
+    per_line: PerLineOptions,
     sections: Vec<CatenarySection>,
     depth: Option<f64>,
 }
@@ -163,15 +168,18 @@ fn joint(args: &Args) -> Outcome<(Option<(&'static str, f64)>, Span)> {
     }
 }
 
-fn build_catenary(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
-    let mut sections = Vec::new();
-    for record in records {
+impl ConnectorClass for CatenaryClass {
+    fn kind(&self) -> &'static str {
+        "CATENARY"
+    }
+
+    fn append(&mut self, record: &ClassRecord) -> Outcome<()> {
         let args = &record.args;
         let (joint, joint_span) = joint(args)?;
         let mass = args.number(0).unwrap_or(0.0);
         let area = args.number(1).unwrap_or(0.0);
         let option = |name: &str, default: f64| args.option_number(name).unwrap_or(default);
-        sections.push(CatenarySection {
+        let section = CatenarySection {
             mass,
             area,
             length: checks::length(args, "CATENARY")?,
@@ -191,15 +199,13 @@ fn build_catenary(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
                 .or(args.option("-CLUMP"))
                 .map(|g| [0, 1, 2, 3].map(|i| g.number(i).unwrap_or(0.0))),
             joint_span,
-        });
-    }
-    let depth = checks::once(records, "-DEPANCHOR")?.and_then(|g| g.number(0));
-    Ok(Arc::new(CatenaryClass { sections, depth }))
-}
-
-impl ConnectorClass for CatenaryClass {
-    fn kind(&self) -> &'static str {
-        "CATENARY"
+        };
+        self.per_line.check(args, &PER_LINE)?;
+        self.sections.push(section);
+        if self.per_line.take(args, &PER_LINE) {
+            self.depth = self.per_line.number("-DEPANCHOR");
+        }
+        Ok(())
     }
 
     fn check(&self) -> Outcome<()> {

@@ -8,9 +8,9 @@ use super::line_element::LineElement;
 use super::line_profile::LineProfile;
 use super::mooring::{Mooring, end_springs, line_error, parts, with_series};
 use super::moving::{self as m, Flexure, MovingLine, Seabed};
+use super::per_line::PerLineOptions;
 use super::section::{self, LineSection, properties};
-use super::{ClassKind, checks, options as o};
-use std::sync::Arc;
+use super::{ClassKind, append_all, checks, options as o};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::table::Table;
@@ -24,7 +24,8 @@ use windlass_model::{
 };
 
 /// The class type.
-pub static B_CAT: ClassKind = ClassKind { spec: &SPEC, segmented: true, build, idle: section::CATENARY_IDLE };
+pub static B_CAT: ClassKind =
+    ClassKind { spec: &SPEC, segmented: true, build: append_all::<Catenary>, idle: section::CATENARY_IDLE };
 
 static SPEC: CommandSpec = CommandSpec {
     data: &[
@@ -89,48 +90,23 @@ static SPEC: CommandSpec = CommandSpec {
 const PER_LINE: [&str; 9] =
     ["-DEPANCHOR", "-FRICTION", "-SLOPE", "-TAB_LIM", "-SEND", "-X_PY", "-X_DAMPING", "-CONVOLUTION", "-PISTON"];
 
-#[derive(Debug)]
+#[derive(Debug, Default)]
 struct Catenary {
+    per_line: PerLineOptions,
     flexures: Vec<Flexure>,
     seabed: Seabed,
     sections: Vec<LineSection>,
     places: Vec<Span>,
-    tabulated: bool,
+    /// The first `-TABLE`: forces are interpolated.
+    tabulated: Option<Span>,
+    /// The first EXACT.
+    exact: Option<Span>,
     depth: Option<f64>,
     friction: f64,
     slope: Option<f64>,
     limit: Option<f64>,
     springs: [Option<Law>; 2],
     devices: Devices,
-}
-
-fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
-    let sections = records.iter().map(|r| LineSection::read(r, "B_CAT", false)).collect::<Outcome<Vec<_>>>()?;
-    for name in PER_LINE {
-        checks::once(records, name)?;
-    }
-    let tabulated = records.iter().find_map(|r| r.args.option("-TABLE"));
-    let flag = records.iter().filter(|r| r.args.word(1) == Some("EXACT")).find_map(|r| r.args.data.get(1));
-    if let (Some(table), Some(flag)) = (tabulated, flag) {
-        return Err(Diagnostic::error("EXACT and -TABLE contradict each other", table.span)
-            .other(flag.span, "solved exactly")
-            .help("leave one of them out; without both the line is solved exactly"));
-    }
-    let number = |name: &str| checks::once(records, name).map(|g| g.and_then(|g| g.number(0)));
-    let flexures = records.iter().zip(&sections).map(|(r, s)| Flexure::read(r, s)).collect::<Outcome<Vec<_>>>()?;
-    Ok(Arc::new(Catenary {
-        flexures,
-        seabed: m::seabed(records)?,
-        sections,
-        places: records.iter().map(|r| r.args.option("-CLUMP").map_or(r.args.span, |c| c.span)).collect(),
-        tabulated: tabulated.is_some(),
-        depth: number("-DEPANCHOR")?,
-        friction: number("-FRICTION")?.unwrap_or(0.0),
-        slope: number("-SLOPE")?,
-        limit: number("-TAB_LIM")?,
-        springs: end_springs(records)?,
-        devices: Devices::read(records)?,
-    }))
 }
 
 impl Catenary {
@@ -196,7 +172,7 @@ impl Catenary {
             breaks: self.sections.iter().map(|s| s.breaking).collect(),
             breaks_given: self.sections.iter().map(|s| s.break_is_given).collect(),
             largest: self.limit.or(largest_break(&self.sections)).unwrap_or(0.0),
-            tabulated: self.tabulated,
+            tabulated: self.is_tabulated(),
             profile,
             place: place.clone(),
             surface: surroundings.tide,
@@ -210,6 +186,38 @@ impl Catenary {
 impl ConnectorClass for Catenary {
     fn kind(&self) -> &'static str {
         "B_CAT"
+    }
+
+    fn append(&mut self, record: &ClassRecord) -> Outcome<()> {
+        let args = &record.args;
+        let section = LineSection::read(record, "B_CAT", false)?;
+        self.per_line.check(args, &PER_LINE)?;
+        let tabulated = self.tabulated.or(args.option("-TABLE").map(|given| given.span));
+        let flag = args.data.get(1).filter(|value| value.word() == Some("EXACT"));
+        let exact = self.exact.or(flag.map(|value| value.span));
+        if let (Some(table), Some(flag)) = (tabulated, exact) {
+            return Err(Diagnostic::error("EXACT and -TABLE contradict each other", table)
+                .other(flag, "solved exactly")
+                .help("leave one of them out; without both the line is solved exactly"));
+        }
+        let flexure = Flexure::read(record, &section)?;
+        self.per_line.check(args, &[m::SEABED.name])?;
+        // nothing is refused from here on
+        self.sections.push(section);
+        self.flexures.push(flexure);
+        self.places.push(args.option("-CLUMP").map_or(args.span, |clump| clump.span));
+        (self.tabulated, self.exact) = (tabulated, exact);
+        if self.per_line.take(args, &PER_LINE) | self.per_line.take(args, &[m::SEABED.name]) {
+            let options = &self.per_line;
+            self.seabed = m::seabed(options);
+            self.depth = options.number("-DEPANCHOR");
+            self.friction = options.number("-FRICTION").unwrap_or(0.0);
+            self.slope = options.number("-SLOPE");
+            self.limit = options.number("-TAB_LIM");
+            self.springs = end_springs(options);
+            self.devices = Devices::read(options);
+        }
+        Ok(())
     }
 
     fn check(&self) -> Outcome<()> {
@@ -237,7 +245,7 @@ impl ConnectorClass for Catenary {
 
     fn properties(&self, name: &str, surroundings: &Surroundings) -> Table {
         let mut table = properties(name, "B_CAT", &self.sections, surroundings)
-            .fact("Solution", if self.tabulated { "table of thirty points (-TABLE)" } else { "exact" }, Dim::None)
+            .fact("Solution", if self.is_tabulated() { "table of thirty points (-TABLE)" } else { "exact" }, Dim::None)
             .fact("Depth at Anchor", self.depth.or(surroundings.depth), Dim::Length)
             .fact("Slope of Bottom", self.slope.unwrap_or(0.0), Dim::None)
             .fact("Friction of Bottom", self.friction, Dim::None)
@@ -277,7 +285,7 @@ impl ConnectorClass for Catenary {
     }
 
     fn is_tabulated(&self) -> bool {
-        self.tabulated
+        self.tabulated.is_some()
     }
 
     fn line(&self, place: &Placement, surroundings: &Surroundings) -> Result<Box<dyn LineModel>, ClassError> {

@@ -2,7 +2,7 @@
 
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::values::{Args, Given};
-use windlass_model::{ClassError, ClassRecord, Connection, Connector};
+use windlass_model::{ClassError, Connection, Connector};
 
 /// A P-Y curve: points (force N, deflection m) growing in both, as the seed asks.
 ///
@@ -70,28 +70,6 @@ pub fn piston(args: &Args) -> Outcome<()> {
         }
         _ => Ok(()),
     }
-}
-
-/// The last place an option that counts for the whole line was given; two unlike values are an error.
-///
-/// # Errors
-/// Unlike values on two records of the class, with both places.
-pub fn once<'a>(records: &'a [ClassRecord], name: &str) -> Outcome<Option<&'a Given>> {
-    let mut found: Option<&Given> = None;
-    for given in records.iter().filter_map(|r| r.args.option(name)) {
-        let contents = |g: &Given| g.values.iter().map(|v| v.content.clone()).collect::<Vec<_>>();
-        if let Some(first) = found
-            && contents(first) != contents(given)
-        {
-            return Err(Diagnostic::error(
-                format!("{name} holds for the whole line and is given two unlike values"),
-                given.span,
-            )
-            .other(first.span, "first given here"));
-        }
-        found = Some(given);
-    }
-    Ok(found)
 }
 
 /// The length of every segment must be defined (seed: "every segment's length must be defined for flexible classes").

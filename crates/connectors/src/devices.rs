@@ -5,21 +5,18 @@
 //! here along the chord between the two ends, against the rate of its length, on both ends alike, and only in time steps and while the
 //! line has a tension; it does not enter the tension that the piston controls.
 
-use super::checks;
 use super::extension::{Extended, Extension, Pull};
 use super::mooring::{convolution, no_curve};
+use super::per_line::PerLineOptions;
 use super::piston::{Does, Piston};
 use super::spring_law::Dashpot;
 use super::viscous::{Affine, Viscoelastic};
 use nalgebra::{Matrix3, Vector3};
-use windlass_base::diagnostic::Outcome;
 use windlass_base::span::Span;
-use windlass_model::{
-    ClassError, ClassRecord, Connection, Element, End, Guess, Note, Response, Situation, SpringState, Summary,
-};
+use windlass_model::{ClassError, Connection, Element, End, Guess, Note, Response, Situation, SpringState, Summary};
 
 /// The devices of a class.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Devices {
     /// -PISTON.
     pub piston: Option<Piston>,
@@ -33,17 +30,14 @@ pub struct Devices {
 pub const NOMINAL: &str = "here the piston of -PISTON stands at its nominal position";
 
 impl Devices {
-    /// Of the records of a class.
-    ///
-    /// # Errors
-    /// Options given twice with unlike values.
-    pub fn read(records: &[ClassRecord]) -> Outcome<Devices> {
-        let dashpot = checks::once(records, "-X_DAMPING")?.and_then(|given| {
+    /// Of a line's options.
+    pub fn read(options: &PerLineOptions) -> Devices {
+        let dashpot = options.option("-X_DAMPING").and_then(|given| {
             let most = given.number(2).unwrap_or(f64::INFINITY);
             Some(Dashpot { coefficient: given.number(0)?, exponent: given.number(1)?, most })
         });
-        let piston = checks::once(records, "-PISTON")?.and_then(Piston::read);
-        Ok(Devices { piston, dashpot, convolution: convolution(records)? })
+        let piston = options.option("-PISTON").and_then(Piston::read);
+        Devices { piston, dashpot, convolution: convolution(options) }
     }
 
     /// Whether there are none.

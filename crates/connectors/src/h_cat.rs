@@ -8,9 +8,9 @@ use super::extension::Extended;
 use super::line_element::LineElement;
 use super::mooring::{Mooring, end_springs, line_error, no_other_end, parts, with_series};
 use super::moving::{self as m, Flexure, MovingLine, Seabed};
+use super::per_line::PerLineOptions;
 use super::section::{self, LineSection, properties};
-use super::{ClassKind, checks, options as o};
-use std::sync::Arc;
+use super::{ClassKind, append_all, checks, options as o};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::table::Table;
@@ -24,7 +24,8 @@ use windlass_model::{
 };
 
 /// The class type.
-pub static H_CAT: ClassKind = ClassKind { spec: &H_CAT_SPEC, segmented: true, build, idle: section::HANGING_IDLE };
+pub static H_CAT: ClassKind =
+    ClassKind { spec: &H_CAT_SPEC, segmented: true, build: append_all::<Hanging>, idle: section::HANGING_IDLE };
 
 /// Options of lines between two places.
 pub const LINE_OPTIONS: &[OptionSpec] = &[
@@ -94,11 +95,12 @@ static H_CAT_SPEC: CommandSpec = CommandSpec {
 };
 
 /// Options that hold for the whole line.
-const PER_LINE: [&str; 9] =
+pub const PER_LINE: [&str; 9] =
     ["-SEND", "-X_PY", "-X_DAMPING", "-CONVOLUTION", "-PISTON", "-TAB_LIM", "-DEPANCHOR", "-FRICTION", "-SLOPE"];
 
-#[derive(Debug)]
+#[derive(Debug, Default)]
 struct Hanging {
+    per_line: PerLineOptions,
     flexures: Vec<Flexure>,
     seabed: Seabed,
     sections: Vec<LineSection>,
@@ -112,46 +114,44 @@ struct Hanging {
     bottom: bool,
 }
 
-/// Refuses spring buoys and options of the whole line given twice.
+/// Refuses spring buoys, and options of the whole line with another value than on the records before.
 ///
 /// # Errors
 /// Both, at their places.
-pub fn check_records(records: &[ClassRecord], kind: &str) -> Outcome<()> {
-    for record in records {
-        if let Some(clump) = record.args.option("-CLUMP").filter(|c| c.number(0).is_some_and(|w| w < 0.0)) {
-            let article = if kind.starts_with(['A', 'E', 'H', 'S']) { "an" } else { "a" };
-            return Err(
-                Diagnostic::error(format!("{article} {kind} takes no spring buoy"), clump.span).help("use B_CAT")
-            );
-        }
+pub fn check_record(before: &PerLineOptions, args: &Args, kind: &str) -> Outcome<()> {
+    if let Some(clump) = args.option("-CLUMP").filter(|c| c.number(0).is_some_and(|w| w < 0.0)) {
+        let article = if kind.starts_with(['A', 'E', 'H', 'S']) { "an" } else { "a" };
+        return Err(Diagnostic::error(format!("{article} {kind} takes no spring buoy"), clump.span).help("use B_CAT"));
     }
-    for name in PER_LINE {
-        checks::once(records, name)?;
-    }
-    Ok(())
-}
-
-fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
-    check_records(records, "H_CAT")?;
-    let sections = records.iter().map(|r| LineSection::read(r, "H_CAT", false)).collect::<Outcome<Vec<_>>>()?;
-    let flexures = records.iter().zip(&sections).map(|(r, s)| Flexure::read(r, s)).collect::<Outcome<Vec<_>>>()?;
-    Ok(Arc::new(Hanging {
-        flexures,
-        seabed: m::seabed(records)?,
-        sections,
-        places: records.iter().map(|r| r.args.span).collect(),
-        exact: records.iter().any(|r| r.args.word(1) == Some("EXACT")),
-        springs: end_springs(records)?,
-        devices: Devices::read(records)?,
-        limit: checks::once(records, "-TAB_LIM")?.and_then(|g| g.number(0)),
-        depth: checks::once(records, "-DEPANCHOR")?.and_then(|g| g.number(0)),
-        bottom: BOTTOM_OPTIONS.iter().any(|option| records.iter().any(|r| r.args.has(option.name))),
-    }))
+    before.check(args, &PER_LINE)
 }
 
 impl ConnectorClass for Hanging {
     fn kind(&self) -> &'static str {
         "H_CAT"
+    }
+
+    fn append(&mut self, record: &ClassRecord) -> Outcome<()> {
+        let args = &record.args;
+        check_record(&self.per_line, args, "H_CAT")?;
+        let section = LineSection::read(record, "H_CAT", false)?;
+        let flexure = Flexure::read(record, &section)?;
+        self.per_line.check(args, &[m::SEABED.name])?;
+        // nothing is refused from here on
+        self.sections.push(section);
+        self.flexures.push(flexure);
+        self.places.push(args.span);
+        self.exact |= args.word(1) == Some("EXACT");
+        self.bottom |= BOTTOM_OPTIONS.iter().any(|option| args.has(option.name));
+        if self.per_line.take(args, &PER_LINE) | self.per_line.take(args, &[m::SEABED.name]) {
+            let options = &self.per_line;
+            self.seabed = m::seabed(options);
+            self.springs = end_springs(options);
+            self.devices = Devices::read(options);
+            self.limit = options.number("-TAB_LIM");
+            self.depth = options.number("-DEPANCHOR");
+        }
+        Ok(())
     }
 
     fn notices(&self, last: &Args, units: UnitSystem, _: &Surroundings) -> Vec<Diagnostic> {

@@ -38,6 +38,7 @@ mod mooring;
 mod mooring_table;
 mod moving;
 mod options;
+mod per_line;
 mod piston;
 mod restraint;
 mod rod;
@@ -66,12 +67,21 @@ use windlass_model::{ClassRecord, ConnectorClass};
 pub struct ClassKind {
     /// The record's form behind the class name; its name is the type.
     pub spec: &'static CommandSpec,
-    /// True when a repeated class name adds a segment; else it replaces the class.
+    /// True when a repeated class name adds a segment ([`ConnectorClass::append`]); else it replaces the class.
     pub segmented: bool,
     /// Options that are read and kept and do nothing here, each with what they act with; empty where nothing is.
     pub idle: &'static [(&'static str, &'static str)],
     /// Builds the object from all records of the class so far, fairlead first.
     pub build: fn(&[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>>,
+}
+
+/// Builds a class of segments, record by record.
+fn append_all<C: ConnectorClass + Default + 'static>(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
+    let mut class = C::default();
+    for record in records {
+        class.append(record)?;
+    }
+    Ok(Arc::new(class))
 }
 
 impl PartialEq for ClassKind {

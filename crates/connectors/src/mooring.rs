@@ -1,11 +1,10 @@
 //! A mooring line between two places: what every class made of catenary segments answers.
 
-use super::checks;
 use super::line_element::LineElement;
 use super::line_profile::LineProfile;
 use super::mooring_table::{buoy_word, report};
+use super::per_line::PerLineOptions;
 use super::section::LineSection;
-use windlass_base::diagnostic::Outcome;
 use windlass_base::span::Span;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
@@ -13,8 +12,8 @@ use windlass_catenary::{
     Aim, Heap, Joint, Law, Line, LineError, MissingRow, Row, Segment, SegmentState, ShapePoint, State, table,
 };
 use windlass_model::{
-    AbsentRow, ClassError, ClassRecord, Condition, Configuration, Element, FoundLength, LineChange, LineLoads,
-    LineModel, Note, Placement, QUASI_STATIC,
+    AbsentRow, ClassError, Condition, Configuration, Element, FoundLength, LineChange, LineLoads, LineModel, Note,
+    Placement, QUASI_STATIC,
 };
 
 /// Points inside each segment in a shape table.
@@ -184,13 +183,10 @@ pub fn parts(
 }
 
 /// The springs of -SEND and -X_PY at the two ends; the curve is in series at the first.
-///
-/// # Errors
-/// Options given twice with unlike values, curves that do not rise.
-pub fn end_springs(records: &[ClassRecord]) -> Outcome<[Option<Law>; 2]> {
-    let send = checks::once(records, "-SEND")?;
+pub fn end_springs(options: &PerLineOptions) -> [Option<Law>; 2] {
+    let send = options.option("-SEND");
     let spring = |i: usize| send.and_then(|g| g.number(i)).map(Law::Linear);
-    let curve = checks::once(records, "-X_PY")?.map(|given| {
+    let curve = options.option("-X_PY").map(|given| {
         let numbers: Vec<f64> = given.values.iter().filter_map(|v| v.number()).collect();
         let points = numbers.chunks_exact(2).filter_map(|pair| pair.first().copied().zip(pair.get(1).copied()));
         Law::Curve(points.filter(|(p, y)| *p > 0.0 || *y > 0.0).collect())
@@ -199,7 +195,7 @@ pub fn end_springs(records: &[ClassRecord]) -> Outcome<[Option<Law>; 2]> {
         (Some(spring), Some(curve)) => Some(Law::Series(vec![spring, curve])),
         (spring, curve) => spring.or(curve),
     };
-    Ok([first, spring(1)])
+    [first, spring(1)]
 }
 
 /// The end springs with the long-term stiffness of a viscoelastic one in series at the first end (seed 001,
@@ -228,12 +224,9 @@ pub fn no_curve(name: &str, at: Span) -> ClassError {
 }
 
 /// The curve that -CONVOLUTION names, with its place.
-///
-/// # Errors
-/// Two unlike ones.
-pub fn convolution(records: &[ClassRecord]) -> Outcome<Option<(String, Span)>> {
-    let given = checks::once(records, "-CONVOLUTION")?;
-    Ok(given.and_then(|g| g.values.first().and_then(|v| v.word()).map(|name| (name.to_string(), g.span))))
+pub fn convolution(options: &PerLineOptions) -> Option<(String, Span)> {
+    let given = options.option("-CONVOLUTION")?;
+    given.values.first().and_then(|v| v.word()).map(|name| (name.to_string(), given.span))
 }
 
 /// A line whose other end is not known.

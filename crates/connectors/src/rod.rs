@@ -3,20 +3,20 @@
 //! Source: seed 001. MOSES treats rods as an assembly of large deflection tubular beam elements with inertia; the engine is `windlass_line_dynamics`.
 
 use super::moving::{self as m, Description, Flexure, Hold, MovingLine, Part, Seabed};
+use super::per_line::PerLineOptions;
 use super::section::{LineSection, properties};
-use super::{ClassKind, checks, options as o};
-use std::sync::Arc;
+use super::{ClassKind, append_all, checks, options as o};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
-use windlass_base::span::Span;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
+use windlass_base::values::Given;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, FatigueSegment, PipeLayout, Surroundings,
 };
 
 /// The class type.
-pub static ROD: ClassKind = ClassKind { spec: &ROD_SPEC, segmented: true, build, idle: &[] };
+pub static ROD: ClassKind = ClassKind { spec: &ROD_SPEC, segmented: true, build: append_all::<Rod>, idle: &[] };
 
 const NO_TORSION: &str = "a rod has no torsion";
 const NO_SHEAR: &str = "a rod does not deform in shear (Euler and Bernoulli)";
@@ -81,45 +81,23 @@ static ROD_SPEC: CommandSpec = CommandSpec {
 /// `-REFINE N`, without the limit of what other classes cut: how many elements are too many is told with the memory they take.
 const REFINE: OptionSpec =
     OptionSpec { values: &[ValueSpec::new("N", Kind::Integer, "number of elements").positive()], ..o::REFINE };
+/// Options of the whole line.
+const PER_LINE: [&str; 4] = ["-SEABED", "-FRICTION", "-SLOPE", "-DEPANCHOR"];
 /// Most elements of a line with its memory told: what the engine holds.
 const MOST: i64 = windlass_line_dynamics::MOST_ELEMENTS as i64;
 
-#[derive(Debug)]
+#[derive(Debug, Default)]
 struct Rod {
+    per_line: PerLineOptions,
+    /// Every `-CLAMP`: two at most.
+    clamps: Vec<Given>,
+    /// Elements of all segments.
+    elements: i64,
     sections: Vec<LineSection>,
     flexures: Vec<Flexure>,
     seabed: Seabed,
     holds: [Option<Hold>; 2],
     slam: bool,
-}
-
-fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
-    let sections = records.iter().map(|r| LineSection::read(r, "ROD", true)).collect::<Outcome<Vec<_>>>()?;
-    let elements = sections.iter().fold(0i64, |sum, s| sum.saturating_add(s.refine));
-    if let Some((record, section)) = records.iter().zip(&sections).find(|(_, s)| s.weight <= 0.0) {
-        let args = &record.args;
-        let given = ["-WTPLEN", "-DENSITY", "-SPGRAVITY"].iter().find_map(|name| args.option(name));
-        return Err(Diagnostic::error(
-            "a ROD needs weight: its mass is what it moves by",
-            given.map_or(args.span, |g| g.span),
-        )
-        .label(format!("{} N/m", section.weight)));
-    }
-    if elements > MOST {
-        let span = records.last().map_or(Span::default(), |r| r.args.option("-REFINE").map_or(r.args.span, |g| g.span));
-        let megabytes = elements as f64 * windlass_line_dynamics::BYTES_PER_ELEMENT / 1e6;
-        return Err(Diagnostic::error(format!("a ROD has at most {MOST} elements"), span)
-            .label(format!("with this segment it has {elements}, which would take about {megabytes:.0} MB")));
-    }
-    let flexures = records.iter().zip(&sections).map(|(r, s)| Flexure::read(r, s)).collect::<Outcome<Vec<_>>>()?;
-    let holds = m::holds(records, &flexures)?;
-    Ok(Arc::new(Rod {
-        sections,
-        flexures,
-        seabed: m::seabed(records)?,
-        holds,
-        slam: records.iter().any(|r| r.args.has("-SLAM")),
-    }))
 }
 
 impl Rod {
@@ -134,6 +112,38 @@ impl Rod {
 impl ConnectorClass for Rod {
     fn kind(&self) -> &'static str {
         "ROD"
+    }
+
+    fn append(&mut self, record: &ClassRecord) -> Outcome<()> {
+        let args = &record.args;
+        let section = LineSection::read(record, "ROD", true)?;
+        if section.weight <= 0.0 {
+            let given = ["-WTPLEN", "-DENSITY", "-SPGRAVITY"].iter().find_map(|name| args.option(name));
+            let span = given.map_or(args.span, |g| g.span);
+            return Err(Diagnostic::error("a ROD needs weight: its mass is what it moves by", span)
+                .label(format!("{} N/m", section.weight)));
+        }
+        let elements = self.elements.saturating_add(section.refine);
+        if elements > MOST {
+            let span = args.option("-REFINE").map_or(args.span, |g| g.span);
+            let megabytes = elements as f64 * windlass_line_dynamics::BYTES_PER_ELEMENT / 1e6;
+            return Err(Diagnostic::error(format!("a ROD has at most {MOST} elements"), span)
+                .label(format!("with this segment it has {elements}, which would take about {megabytes:.0} MB")));
+        }
+        let flexure = Flexure::read(record, &section)?;
+        let mut clamps = self.clamps.clone();
+        clamps.extend(args.all("-CLAMP").cloned());
+        let holds = m::holds(&clamps, [self.flexures.first().unwrap_or(&flexure), &flexure])?;
+        self.per_line.check(args, &PER_LINE)?;
+        // nothing is refused from here on
+        self.sections.push(section);
+        self.flexures.push(flexure);
+        (self.clamps, self.holds, self.elements) = (clamps, holds, elements);
+        self.slam |= args.has("-SLAM");
+        if self.per_line.take(args, &PER_LINE) {
+            self.seabed = m::seabed(&self.per_line);
+        }
+        Ok(())
     }
 
     fn check_ends(&self, connector: &Connector, bodies: usize) -> Outcome<()> {

@@ -4,11 +4,11 @@
 
 use super::chord::{Chord, ChordElement};
 use super::devices::Devices;
-use super::h_cat::{LINE_OPTIONS, check_records, hung};
+use super::h_cat::{LINE_OPTIONS, PER_LINE, check_record, hung};
 use super::mooring::{end_springs, with_series};
+use super::per_line::PerLineOptions;
 use super::section::{LineSection, properties, short};
-use super::{ClassKind, checks, options as o};
-use std::sync::Arc;
+use super::{ClassKind, append_all, checks, options as o};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::table::Table;
@@ -22,7 +22,8 @@ use windlass_model::{
 };
 
 /// The class type.
-pub static SL_ELEM: ClassKind = ClassKind { spec: &SL_ELEM_SPEC, segmented: true, build, idle: IDLE };
+pub static SL_ELEM: ClassKind =
+    ClassKind { spec: &SL_ELEM_SPEC, segmented: true, build: append_all::<Spring>, idle: IDLE };
 
 /// Options that do nothing in a spring along a chord.
 const IDLE: &[(&str, &str)] = &[
@@ -59,8 +60,9 @@ static SL_ELEM_SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("SL_ELEM", "spring along the chord between its ends")
 };
 
-#[derive(Debug)]
+#[derive(Debug, Default)]
 struct Spring {
+    per_line: PerLineOptions,
     sections: Vec<LineSection>,
     places: Vec<Span>,
     tension: bool,
@@ -70,32 +72,34 @@ struct Spring {
     notes: Vec<Note>,
 }
 
-fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
-    check_records(records, "SL_ELEM")?;
-    let sections = records.iter().map(|r| LineSection::read(r, "SL_ELEM", false)).collect::<Outcome<Vec<_>>>()?;
-    let mut notes = Vec::new();
-    if sections.iter().any(|s| s.clump != 0.0) {
-        notes.push("warning: -CLUMP does not act on an SL_ELEM, which is straight".into());
-    }
-    Ok(Arc::new(Spring {
-        places: records.iter().map(|r| r.args.span).collect(),
-        tension: records.iter().any(|r| r.args.word(1) == Some("TENSION")),
-        springs: end_springs(records)?,
-        devices: Devices::read(records)?,
-        limit: checks::once(records, "-TAB_LIM")?.and_then(|g| g.number(0)),
-        sections,
-        notes,
-    }))
-}
-
 impl ConnectorClass for Spring {
     fn kind(&self) -> &'static str {
         "SL_ELEM"
     }
 
+    fn append(&mut self, record: &ClassRecord) -> Outcome<()> {
+        let args = &record.args;
+        check_record(&self.per_line, args, "SL_ELEM")?;
+        let section = LineSection::read(record, "SL_ELEM", false)?;
+        // nothing is refused from here on
+        if section.clump != 0.0 && self.notes.is_empty() {
+            self.notes.push("warning: -CLUMP does not act on an SL_ELEM, which is straight".into());
+        }
+        self.sections.push(section);
+        self.places.push(args.span);
+        self.tension |= args.word(1) == Some("TENSION");
+        if self.per_line.take(args, &PER_LINE) {
+            self.springs = end_springs(&self.per_line);
+            self.devices = Devices::read(&self.per_line);
+            self.limit = self.per_line.number("-TAB_LIM");
+        }
+        Ok(())
+    }
+
     fn notices(&self, last: &Args, units: UnitSystem, around: &Surroundings) -> Vec<Diagnostic> {
-        let weight: f64 = self.sections.iter().map(|s| s.submerged(around) * s.length).sum();
-        if self.sections.len() > 1 || weight == 0.0 {
+        let [only] = self.sections.as_slice() else { return Vec::new() };
+        let weight = only.submerged(around) * only.length;
+        if weight == 0.0 {
             return Vec::new();
         }
         let text = format!("an SL_ELEM has no weight: {} in water are left out", short(weight, Dim::Force, units));

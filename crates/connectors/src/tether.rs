@@ -4,10 +4,9 @@
 
 use super::aqwa::{CA, LENGTH, number};
 use super::options::aqwa;
-use super::{ClassKind, checks};
+use super::{ClassKind, append_all, checks};
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::FRAC_PI_4;
-use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
@@ -19,7 +18,8 @@ use windlass_model::{
 };
 
 /// The class type TETHER: an AQWA tether/riser section.
-pub static TETHER: ClassKind = ClassKind { spec: &TETHER_SPEC, segmented: true, build: build_tether, idle: &[] };
+pub static TETHER: ClassKind =
+    ClassKind { spec: &TETHER_SPEC, segmented: true, build: append_all::<TetherClass>, idle: &[] };
 
 static TETHER_SPEC: CommandSpec = CommandSpec {
     owner: Owner::Aqwa,
@@ -68,12 +68,15 @@ static TETHER_SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("TETHER", "AQWA tether/riser section")
 };
 
-#[derive(Debug)]
+#[derive(Debug, Default)]
 struct TetherClass(Vec<TetherSection>);
 
-fn build_tether(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
-    let mut sections = Vec::new();
-    for record in records {
+impl ConnectorClass for TetherClass {
+    fn kind(&self) -> &'static str {
+        "TETHER"
+    }
+
+    fn append(&mut self, record: &ClassRecord) -> Outcome<()> {
         let args = &record.args;
         let (od, thickness) = (args.number(0).unwrap_or(0.0), args.number(1).unwrap_or(0.0));
         if 2.0 * thickness > od {
@@ -81,7 +84,7 @@ fn build_tether(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
         }
         let material = &record.defaults.material;
         let elements = args.option("-REFINE").and_then(|g| g.values.first()).and_then(|v| v.integer());
-        sections.push(TetherSection {
+        self.0.push(TetherSection {
             outer_diameter: od,
             wall_thickness: thickness,
             length: checks::length(args, "TETHER")?,
@@ -94,13 +97,7 @@ fn build_tether(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
                 .option("-LABEL")
                 .map(|g| [0, 1, 2, 3].map(|i| g.values.get(i).and_then(|v| v.integer()).unwrap_or(0))),
         });
-    }
-    Ok(Arc::new(TetherClass(sections)))
-}
-
-impl ConnectorClass for TetherClass {
-    fn kind(&self) -> &'static str {
-        "TETHER"
+        Ok(())
     }
 
     fn check_ends(&self, connector: &Connector, bodies: usize) -> Outcome<()> {

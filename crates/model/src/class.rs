@@ -43,6 +43,27 @@ pub struct Class {
 }
 
 impl Class {
+    /// Adds the segment of a further record. `build` makes the object anew where a copy of the model shares it.
+    ///
+    /// # Errors
+    /// As [`ConnectorClass::append`]; the class is then as it was.
+    pub fn append(
+        &mut self,
+        record: ClassRecord,
+        build: fn(&[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>>,
+    ) -> Outcome<()> {
+        match Arc::get_mut(&mut self.object) {
+            Some(object) => object.append(&record)?,
+            None => {
+                let all: Vec<ClassRecord> = self.records.iter().chain([&record]).cloned().collect();
+                self.object = build(&all)?;
+            }
+        }
+        self.ignored_stiffness |= record.args.has("-IG_STIFF");
+        self.records.push(record);
+        Ok(())
+    }
+
     /// What fatigue goes by in each segment, from the fairlead: one a record, with the curve of its `-C_SN`; none of a class
     /// without sections.
     pub fn fatigue_segments(&self) -> Vec<FatigueSegment> {
@@ -162,6 +183,14 @@ pub trait ConnectorClass: Debug + Send + Sync {
     /// What is missing or contradicts itself, at its place.
     fn check(&self) -> Outcome<()> {
         Ok(())
+    }
+
+    /// Adds the segment of a further record; one that is refused changes nothing.
+    ///
+    /// # Errors
+    /// What the record lacks, or how it contradicts those before it; a class type without segments.
+    fn append(&mut self, record: &ClassRecord) -> Outcome<()> {
+        Err(Diagnostic::error(format!("a class of type {} has no segments", self.kind()), record.args.span))
     }
 
     /// What the writer of the last record should know: notes and warnings at its words, values in these units.

@@ -1,12 +1,12 @@
 //! Parts of a line from the records of ROD, B_CAT and H_CAT.
 
 use super::describe::{Description, Hold, JointMass, Part, Seabed, Strength};
-use crate::checks;
+use crate::per_line::PerLineOptions;
 use crate::section::LineSection;
 use std::f64::consts::{FRAC_PI_4, PI};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::units::Dim;
-use windlass_base::values::Args;
+use windlass_base::values::{Args, Given};
 use windlass_language::select::Owner;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
 use windlass_line_dynamics::{Axial, Segment, Tube, Viscoelastic};
@@ -303,33 +303,29 @@ fn law(args: &Args, ea: f64) -> Outcome<Axial> {
     }
 }
 
-/// The bottom under a line, of its records.
-///
-/// # Errors
-/// An option of the line given twice.
-pub fn seabed(records: &[ClassRecord]) -> Outcome<Seabed> {
-    let number = |name: &str| checks::once(records, name).map(|g| g.and_then(|g| g.number(0)));
-    let own = checks::once(records, "-SEABED")?;
-    Ok(Seabed {
+/// The bottom under a line, of its options.
+pub fn seabed(options: &PerLineOptions) -> Seabed {
+    let own = options.option("-SEABED");
+    Seabed {
         stiffness: own.and_then(|g| g.number(0)),
         damping: own.and_then(|g| g.number(1)),
-        along: number("-FRICTION")?.unwrap_or(0.0),
+        along: options.number("-FRICTION").unwrap_or(0.0),
         across: own.and_then(|g| g.number(2)),
         // -SLOPE is positive where the depth increases toward the anchor
-        slope: number("-SLOPE")?,
-        depth: number("-DEPANCHOR")?,
+        slope: options.number("-SLOPE"),
+        depth: options.number("-DEPANCHOR"),
         with_anchor: false,
-    })
+    }
 }
 
-/// How the ends are held, of the records of a ROD.
+/// How the ends are held, of every `-CLAMP` of a ROD and of its first and last segment.
 ///
 /// # Errors
 /// An end held twice, or one that does not bend.
-pub fn holds(records: &[ClassRecord], flexures: &[Flexure]) -> Outcome<[Option<Hold>; 2]> {
+pub fn holds(clamps: &[Given], ends: [&Flexure; 2]) -> Outcome<[Option<Hold>; 2]> {
     let mut made = [None, None];
-    let bends = [flexures.first(), flexures.last()].map(|f| f.is_some_and(|f| f.bending > 0.0));
-    for given in records.iter().flat_map(|r| r.args.options.iter()).filter(|g| g.name == "-CLAMP") {
+    let bends = ends.map(|f| f.bending > 0.0);
+    for given in clamps {
         let word = given.word(0).unwrap_or_default();
         let hold = Hold { declination: given.number(1), stiffness: given.number(2) };
         if let (Some(value), true) = (given.values.get(1), hold.declination.is_some_and(|d| !(0.0..=PI).contains(&d))) {
