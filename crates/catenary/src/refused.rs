@@ -68,9 +68,6 @@ pub enum LineError {
     /// A weightless line with slack: any shape will do.
     #[error("a weightless line longer than the distance between its ends has no definite shape")]
     Undetermined,
-    /// A slack line with buoys over a slope: where its heaps lie depends on how it was laid.
-    #[error("a slack line with buoyant parts over a sloped bottom has no definite shape")]
-    SlackSlope,
     /// What is left of the distances between the ends is too large for an answer.
     #[error("no configuration found between the ends: {residual:.3e} N remain of a tension of {tension:.6e} N")]
     Unproven {

@@ -56,15 +56,7 @@ impl Line {
                 found => found,
             };
         }
-        match layout::between_ends(self, x, fairlead, last) {
-            // what has no tension feels no friction
-            Err(LineError::SlackSlope) if self.is_flat() => {
-                let smooth = self.floor.map(|f| super::line::Floor { friction: 0.0, ..f });
-                let found = self.clone().over(smooth)?.all_at_once(x, fairlead, None)?;
-                if found.slack { Ok(found) } else { Err(LineError::SlackSlope) }
-            }
-            found => found,
-        }
+        layout::between_ends(self, x, fairlead, last)
     }
 
     /// The line between two ends over a flat and smooth bottom, all its contacts at once.

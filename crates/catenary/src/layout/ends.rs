@@ -12,13 +12,21 @@ use crate::state::{Heap, State};
 const FORCE: usize = 0;
 const ASIDE: usize = 1;
 const ABOVE: usize = 2;
+/// Share of the length by which a line falls short where the search has closed in on a jump, and share within which it has.
+const JUMP: f64 = 1e-9;
 /// Steps of the search for the distance.
 const MOST_STEPS: usize = 200;
 
 impl Layout<'_> {
     fn top(&self, h: Var, x: f64, z: f64, near: Option<f64>) -> Top {
         let (u, z) = (Var::parameter(x, ASIDE, 1.0), Var::parameter(z, ABOVE, 1.0));
-        Top { h, u, z, near, heap: Var::fixed(0.0), hollow: None }
+        Top { h, u, z, near, heap: Var::fixed(0.0), hollow: None, hold: None }
+    }
+
+    /// The least force stands for none: what hangs under it is upright but for this (m).
+    fn aside(&self, laid: &Laid) -> f64 {
+        let hanging = laid.stretches.iter().filter(|s| s.manner == Manner::Hangs && s.h <= 2.0 * self.least);
+        hanging.map(|s| s.u - s.low[0]).sum()
     }
 
     /// By how much a fairlead lies below a bottom that carries the first piece (m).
@@ -47,6 +55,7 @@ pub fn between_ends(line: &Line, x: f64, z: f64, last: Option<&State>) -> Result
         _ => (0.3 * layout.weight).max(16.0 * least),
     };
     let mut best: Option<(f64, Laid)> = None;
+    let mut sides: [Option<f64>; 2] = [None, None];
     let mut failed = None;
     let mut hollow = None;
     let (_, steps) = rising_root(begin, x, |h| {
@@ -60,6 +69,7 @@ pub fn between_ends(line: &Line, x: f64, z: f64, last: Option<&State>) -> Result
                 }
                 // the least force already reaches so far
                 let limp = h <= least && short <= 0.0;
+                sides[usize::from(short <= 0.0)] = Some(h);
                 if limp || best.as_ref().is_none_or(|(_, b)| short.abs() <= b.short.value.abs()) {
                     best = Some((h, laid));
                 }
@@ -72,13 +82,21 @@ pub fn between_ends(line: &Line, x: f64, z: f64, last: Option<&State>) -> Result
             }
         }
     });
-    let Some((h, mut laid)) = best else {
+    let Some((mut h, mut laid)) = best else {
         return Err(failed.unwrap_or(LineError::NotConverged { force: begin, residual: f64::NAN, iterations: steps }));
     };
     laid.iterations += steps;
     let in_hollow = matches!(laid.heap, Some((Heap::Hollow(_), _)));
-    if let Some((force, sump)) = hollow.filter(|_| in_hollow || laid.short.value.abs() > 1e-9 * layout.length) {
+    if let Some((force, sump)) = hollow.filter(|_| in_hollow || laid.short.value.abs() > JUMP * layout.length) {
         laid = heap_in_hollow(&layout, [x, z], force, sump)?;
+    } else if laid.short.value.abs() > JUMP * layout.length
+        && let [Some(low), Some(high)] = sides
+        && (high - low).abs() <= JUMP * high
+    {
+        let top = |h: f64| layout.top(Var::parameter(h, FORCE, 1.0), x, z, None);
+        if let Some(found) = layout.between_folds(&top, &|h, by: f64| h * by.exp(), [low, high]) {
+            (h, laid) = found;
+        }
     }
     let slack = h <= 4.0 * least && laid.short.value <= 0.0;
     if slack {
@@ -97,7 +115,7 @@ pub fn between_ends(line: &Line, x: f64, z: f64, last: Option<&State>) -> Result
             laid = heap_at_touchdown(&layout, x, z, &laid)?;
         }
         // what hangs has no place for spare length but where it weighs nothing
-        if !lies && laid.short.value < -1e-9 * (layout.length + x) {
+        if !lies && laid.short.value < -1e-9 * (layout.length + x) - layout.aside(&laid) {
             return Err(LineError::Undetermined);
         }
     }
@@ -128,16 +146,16 @@ fn heap_at_touchdown(layout: &Layout, x: f64, z: f64, without: &Laid) -> Result<
             }
         }
     });
-    match (best, failed) {
-        (_, Some(error)) => Err(error),
-        (Some(laid), None) if laid.short.value.abs() > 1e-9 * (layout.length + x) => Err(LineError::NotConverged {
-            force: layout.least,
-            residual: laid.short.value.abs(),
-            iterations: laid.iterations,
-        }),
-        (Some(laid), None) => Ok(laid),
-        (None, None) => Err(LineError::SlackSlope),
+    let Some(laid) = best else {
+        let none = LineError::NotConverged { force: layout.least, residual: f64::NAN, iterations: 0 };
+        return Err(failed.unwrap_or(none));
+    };
+    let residual = laid.short.value.abs();
+    if residual <= 1e-9 * (layout.length + x) + layout.aside(&laid) {
+        return Ok(laid);
     }
+    let iterations = laid.iterations;
+    Err(failed.unwrap_or(LineError::NotConverged { force: layout.least, residual, iterations }))
 }
 
 /// The line whose spare length lies in a hollow: without tension it comes down to it from the one side, and hangs down to
@@ -157,6 +175,12 @@ fn heap_in_hollow(layout: &Layout, [x, z]: [f64; 2], force: f64, sump: f64) -> R
         _ => Point { value: layout.length, slope: f64::NAN },
     });
     let Some((h, above)) = near else { return Err(lost(f64::NAN)) };
+    beyond_hollow(layout, [x, z], h, sump, above)
+}
+
+/// The line that hangs down from the anchor to a hollow, on whose other side it is known.
+fn beyond_hollow(layout: &Layout, [x, z]: [f64; 2], h: f64, sump: f64, above: Laid) -> Result<Laid, LineError> {
+    let lost = |left| LineError::NotConverged { force: h, residual: left, iterations: MOST_STEPS };
     let mut best: Option<Laid> = None;
     rising_root(0.01 * layout.length, 0.0, |length| {
         let top = layout.top(Var::fixed(h), x, z, Some(above.top.value));
@@ -183,43 +207,59 @@ fn heap_in_hollow(layout: &Layout, [x, z]: [f64; 2], force: f64, sump: f64) -> R
 /// The line with a horizontal force at its fairlead, at elevation `z`.
 pub fn at_force(line: &Line, force: f64, z: f64) -> Result<State, LineError> {
     let layout = Layout::new(line, line.length(), z);
-    let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+    let top = |at: f64| layout.top(Var::parameter(force, FORCE, 1.0), at, z, None);
     let mut at = 0.9 * layout.length;
     let mut near = None;
+    let mut sides: [Option<f64>; 2] = [None, None];
     let mut best: Option<(f64, Laid)> = None;
+    let mut buried = f64::INFINITY;
     for _ in 0..MOST_STEPS {
+        let low = sides[1].unwrap_or(f64::NEG_INFINITY);
         if layout.buried(at, z).is_some() {
-            high = at;
-            at = if low.is_finite() { 0.5 * (low + high) } else { at - layout.length };
+            buried = at;
+            at = if low.is_finite() { 0.5 * (low + at) } else { at - layout.length };
             continue;
         }
-        let laid = layout.lay(&layout.top(Var::parameter(force, FORCE, 1.0), at, z, near))?;
+        let laid = layout.lay(&Top { near, ..top(at) })?;
         near = Some(laid.top.value);
         let (short, slope) = (laid.short.value, laid.short.by[ASIDE]);
-        if short > 0.0 {
-            high = at;
-        } else {
-            low = at;
-        }
         let better = best.as_ref().is_none_or(|(_, b)| short.abs() < b.short.value.abs());
         if better {
             best = Some((at, laid));
         }
+        sides[usize::from(short <= 0.0)] = Some(at);
+        let [above, below] = sides;
+        let (low, high) = (below.unwrap_or(f64::NEG_INFINITY), above.unwrap_or(f64::INFINITY).min(buried));
+        let left = best.as_ref().map_or(f64::INFINITY, |(_, b)| b.short.value.abs());
+        if left <= layout.fine || (!better && left <= 64.0 * layout.fine) {
+            break;
+        }
         let newton = at - short / slope;
-        let next = if newton > low && newton < high {
+        let bracketed = low.is_finite() && high.is_finite();
+        let next = if newton > low && newton < high && (better || !bracketed) {
             newton
-        } else if low.is_finite() && high.is_finite() {
+        } else if bracketed {
             0.5 * (low + high)
         } else {
             at - short
         };
-        if short.abs() <= layout.fine || !better || next == at || next.is_nan() {
+        if next == at || next.is_nan() || high - low <= layout.fine {
             break;
         }
         at = next;
     }
-    match best {
-        Some((x, laid)) => layout.state(laid, [x, z], false),
-        None => Err(LineError::NotConverged { force, residual: f64::NAN, iterations: MOST_STEPS }),
+    let Some((mut x, mut laid)) = best else {
+        return Err(LineError::NotConverged { force, residual: f64::NAN, iterations: MOST_STEPS });
+    };
+    if laid.short.value.abs() > JUMP * layout.length
+        && let [Some(high), Some(low)] = sides
+        && (high - low).abs() <= JUMP * layout.length
+        && let Some(found) = layout.between_folds(&top, &|at, by| at + by * layout.length, [high, low])
+    {
+        (x, laid) = found;
     }
+    if let Some((Heap::Hollow(sump), _)) = laid.heap {
+        laid = beyond_hollow(&layout, [x, z], force, sump, laid)?;
+    }
+    layout.state(laid, [x, z], false)
 }

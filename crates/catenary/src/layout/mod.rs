@@ -16,6 +16,7 @@
 //! `v` positive where the line rises toward the fairlead.
 
 mod ends;
+mod fold;
 mod path;
 mod span;
 mod states;
@@ -30,7 +31,7 @@ use super::line::Line;
 use super::profile::{Profile, Tilt};
 use super::refused::LineError;
 use super::state::Heap;
-use path::{End, Path};
+use path::{End, Path, Spare};
 use span::{Candidate, Kind};
 
 /// A point of the line.
@@ -115,11 +116,31 @@ pub(super) struct Laid {
     pub stretches: Vec<Stretch>,
     pub joints: Vec<JointAt>,
     pub heap: Option<(Heap, f64)>,
-    /// Whether something floats above the heap.
-    pub vague: bool,
+    /// Whether it has slid down to the anchor: `short` is that of the place without tension.
+    pub slid: bool,
+    /// The unknown of each span (N), and the gap of the span whose unknown is held.
+    pub unknowns: Vec<f64>,
+    pub gap: Option<Var>,
     /// Largest gap left at a landing (m).
     pub left: f64,
     pub iterations: usize,
+}
+
+impl Laid {
+    /// The line ends at a point. Where it has slid down to the anchor, only its tension from there on counts.
+    fn arrive(&mut self, at: &Point) {
+        if self.slid {
+            self.end = [at.h, at.v].map(|v| Var::fixed(v.value));
+        } else {
+            (self.short, self.end) = (at.u, [at.h, at.v]);
+        }
+    }
+
+    /// The line slides down to the anchor from a point where its tension ends.
+    fn slide(&mut self, from: &Point) {
+        (self.slid, self.short) = (true, from.u);
+        self.heap = Some((Heap::Anchor, 0.0));
+    }
 }
 
 /// Where a span begins.
@@ -160,6 +181,16 @@ pub(super) struct Top {
     pub heap: Var,
     /// A hollow of the bottom (distance from the anchor) in which a length lies in a heap.
     pub hollow: Option<(f64, Var)>,
+    pub hold: Option<Hold>,
+}
+
+/// A span whose unknown is given: what it lands on then is at a gap from it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Hold {
+    pub span: usize,
+    pub unknown: f64,
+    /// Whether the line is laid on behind it.
+    pub goes_on: bool,
 }
 
 impl<'a> Layout<'a> {
@@ -237,17 +268,21 @@ impl<'a> Layout<'a> {
     fn lay_with(&self, top: &Top, sunk: &mut [bool]) -> Result<Option<Laid>, LineError> {
         let mut laid = Laid { joints: vec![JointAt::default(); self.pulls.len()], ..Laid::default() };
         let mut origin = Origin::Fairlead;
-        let mut heap = (top.heap.value > 0.0).then_some(top.heap);
+        let mut spare = if top.heap.value > 0.0 { Spare::Length(top.heap) } else { Spare::None };
         if let Some(lying) = self.fairlead_on_bottom(top) {
             laid.top = lying.at.v;
-            origin = match self.begin(&lying, heap.take(), top.hollow, &mut laid)? {
-                Some(path) => Origin::Ground(path),
+            match self.begin(&lying, spare, top.hollow, &mut laid) {
+                Some(path) => origin = Origin::Ground(path),
                 None => return Ok(Some(laid)),
-            };
+            }
         }
         // every span begins further toward the anchor or sinks a buoy
         for _ in 0..=8 * (self.elements.len() + self.bottom.faces() + 2) {
-            let (departure, landing) = self.next_span(&origin, top, sunk, &mut laid)?;
+            let hold = top.hold.filter(|h| h.span == laid.unknowns.len());
+            let (departure, landing) = self.next_span(&origin, top, sunk, hold, &mut laid)?;
+            if hold.is_some_and(|h| !h.goes_on) {
+                return Ok(Some(laid));
+            }
             if let Kind::Held(joint) = landing.kind {
                 let before = landing.at;
                 let (low, high) = self.lifts(joint);
@@ -262,44 +297,39 @@ impl<'a> Layout<'a> {
                     }
                     continue;
                 }
-                self.record(&origin, &departure, &landing, sunk, &mut laid);
+                spare = self.record(&origin, &departure, &landing, sunk, &mut laid).unwrap_or(spare);
                 origin = Origin::Held { before, low, high };
                 continue;
             }
-            self.record(&origin, &departure, &landing, sunk, &mut laid);
+            spare = self.record(&origin, &departure, &landing, sunk, &mut laid).unwrap_or(spare);
             if matches!(landing.kind, Kind::End) {
-                (laid.short, laid.end) = (landing.at.u, [landing.at.h, landing.at.v]);
+                laid.arrive(&landing.at);
                 return Ok(Some(laid));
             }
-            origin = match self.begin(&landing, heap.take(), top.hollow, &mut laid)? {
-                Some(path) => Origin::Ground(path),
+            match self.begin(&landing, spare, top.hollow, &mut laid) {
+                Some(path) => origin = Origin::Ground(path),
                 None => return Ok(Some(laid)),
-            };
+            }
         }
         Err(LineError::NotConverged { force: top.h.value, residual: laid.left, iterations: laid.iterations })
     }
 
     /// Begins to lie; `None` when the line lies up to its end.
-    fn begin(
-        &self,
-        landing: &Candidate,
-        heap: Option<Var>,
-        hollow: Option<(f64, Var)>,
-        laid: &mut Laid,
-    ) -> Result<Option<Path>, LineError> {
-        let path = self.path(landing, heap, hollow, laid)?;
+    fn begin(&self, landing: &Candidate, spare: Spare, hollow: Option<(f64, Var)>, laid: &mut Laid) -> Option<Path> {
+        let path = self.path(landing, spare, hollow, laid);
+        if let End::Lifted = path.end {
+            return Some(path);
+        }
+        self.record_path(&path, None, laid);
         match path.end {
-            End::Lifted => return Ok(Some(path)),
-            End::Anchor(at) => {
-                (laid.short, laid.end) = (at.u, [at.h, at.v]);
-            }
-            End::Heap { at, sump } => {
+            End::Lifted => {}
+            End::Anchor(at) => laid.arrive(&at),
+            End::Hollow { at, sump } => {
                 laid.short = at.u + -sump;
                 laid.end = [Var::fixed(0.0); 2];
             }
         }
-        self.record_path(&path, None, laid);
-        Ok(None)
+        None
     }
 
     /// The landing of a fairlead that lies on the bottom itself.

@@ -5,7 +5,6 @@ use super::{Laid, Layout, Manner, Point, Stretch};
 use crate::dual::{UNKNOWN, Var};
 use crate::element::{Element, mean_strain, strain};
 use crate::profile::Tilt;
-use crate::refused::LineError;
 use crate::state::Heap;
 
 /// A piece of the path.
@@ -14,6 +13,8 @@ struct Piece {
     /// Weight that lies before it, and on it (N).
     before: f64,
     weight: f64,
+    /// What is left of the spare length: before a heap, behind any other piece.
+    spare: Spare,
     what: What,
 }
 
@@ -25,8 +26,30 @@ enum What {
     Support { joint: usize, at: Point, face: usize, along: Var, normal: Var, lift: f64 },
     /// A ridge; the line comes to it at an angle and could leave it along the next face.
     Turn { vertex: usize, at: Point, tension: Var, angle: Var },
-    /// Line in a heap.
-    Heap { from: Point, to: f64 },
+    /// The place from which the line slides down to the anchor, without tension.
+    Slide { from: Point },
+    /// Line in a heap: so much of it, from a point on.
+    Heap { from: Point, length: Var },
+}
+
+/// Length without tension that has to lie in a heap.
+#[derive(Clone, Copy, Debug)]
+pub enum Spare {
+    None,
+    Length(Var),
+    /// All that comes.
+    All,
+}
+
+impl Spare {
+    /// What is left when so much lies.
+    fn less(self, length: Var) -> Spare {
+        match self {
+            Spare::Length(left) if left.value > length.value => Spare::Length(left - length),
+            Spare::Length(_) => Spare::None,
+            other => other,
+        }
+    }
 }
 
 /// How the path ends.
@@ -36,8 +59,8 @@ pub enum End {
     Lifted,
     /// It lies up to its end.
     Anchor(Point),
-    /// Without tension: what is left slides down to a place at this distance from the anchor.
-    Heap { at: Point, sump: f64 },
+    /// Without tension: what is left slides down to a hollow at this distance from the anchor.
+    Hollow { at: Point, sump: f64 },
 }
 
 /// What lies.
@@ -47,6 +70,19 @@ pub struct Path {
     /// Weight of all of it (N).
     pub weight: f64,
     pub end: End,
+    /// The spare length that is left at its beginning and behind it.
+    begun: Spare,
+    spare: Spare,
+}
+
+/// What comes behind a piece of the path.
+enum Next {
+    /// The joint at the end of the line's piece.
+    Joint,
+    /// More of the same piece.
+    Piece,
+    /// Nothing: the path ends.
+    Stop,
 }
 
 /// A place on the path.
@@ -60,30 +96,29 @@ struct Cursor {
 const SHORTEST_SPAN: f64 = 1e-11;
 
 impl Path {
-    pub fn begins_with_heap(&self) -> bool {
-        self.pieces.iter().any(|p| matches!(p.what, What::Heap { .. }))
+    /// What is left of the spare length where the line leaves.
+    pub fn spare_at(&self, departure: &Departure) -> Spare {
+        match self.pieces.get(departure.piece) {
+            Some(Piece { what: What::Heap { from, .. }, spare, .. }) => spare.less(departure.point.s - from.s),
+            Some(piece) => piece.spare,
+            None => self.begun,
+        }
     }
 
     fn push(&mut self, weight: f64, what: What) {
         let weight = weight.max(0.0);
-        self.pieces.push(Piece { before: self.weight, weight, what });
+        self.pieces.push(Piece { before: self.weight, weight, spare: self.spare, what });
         self.weight += weight;
     }
 }
 
 impl Layout<'_> {
-    /// The path from a landing; `heap` is the length that lies in a heap there, `hollow` the place and length of one in a
-    /// hollow of the bottom.
-    pub fn path(
-        &self,
-        landing: &Candidate,
-        heap: Option<Var>,
-        hollow: Option<(f64, Var)>,
-        laid: &mut Laid,
-    ) -> Result<Path, LineError> {
-        let mut path = Path { pieces: Vec::new(), weight: 0.0, end: End::Lifted };
+    /// The path from a landing; `spare` lies in a heap there, and `hollow` is the place and length of a heap in a hollow
+    /// of the bottom.
+    pub fn path(&self, landing: &Candidate, spare: Spare, hollow: Option<(f64, Var)>, laid: &mut Laid) -> Path {
+        let mut path = Path { pieces: Vec::new(), weight: 0.0, end: End::Lifted, begun: spare, spare };
         let at = landing.at;
-        let mut cursor = match landing.kind {
+        let cursor = match landing.kind {
             Kind::Tangent(face) => Cursor { at, face, tension: along(self.bottom.tilt(face), &at) },
             Kind::Vertex(vertex) => {
                 let (h, v) = (at.h, at.v);
@@ -98,35 +133,29 @@ impl Layout<'_> {
                 let face = self.bottom.face(at.u.value);
                 self.support(&mut path, joint, at, face, above)
             }
-            Kind::Held(_) | Kind::End => return Ok(path),
+            Kind::Held(_) | Kind::End => return path,
         };
-        if let Some(length) = heap {
-            self.heaped(&mut path, &mut cursor, length)?;
-            laid.heap = Some((Heap::Touchdown, length.value));
+        if let Spare::Length(_) = spare {
+            laid.heap = laid.heap.or(Some((Heap::Touchdown, 0.0)));
         }
-        path.end = self.extend(&mut path, cursor);
-        if let (End::Heap { at, sump }, Some((place, length))) = (path.end, hollow)
-            && sump == place
-        {
-            let vertex = self.bottom.face(sump);
-            let (u, z) = self.bottom.vertex(vertex);
-            let at = Point { u: Var::fixed(u), z: Var::fixed(z), ..at };
-            let tension = Var::fixed(self.least);
-            let mut cursor = Cursor { at, face: vertex.saturating_sub(1), tension };
-            self.heaped(&mut path, &mut cursor, length)?;
-            laid.heap = Some((Heap::Hollow(sump), length.value));
-            path.end = self.extend(&mut path, cursor);
-        }
-        if let End::Heap { at, sump } = path.end {
-            let buoyant = self.elements.iter().skip(at.element).any(|e| e.weight() < 0.0)
-                || (at.element..self.pulls.len()).any(|j| self.lifts(j).1 > 0.0);
-            // what floats above a heap has no definite shape
-            laid.vague |= buoyant || self.raised();
+        self.extend(&mut path, cursor);
+        if let End::Hollow { at, sump } = path.end {
             let rest: f64 = self.elements.iter().skip(at.element).map(Element::length).sum();
-            let place = if sump == 0.0 { Heap::Anchor } else { Heap::Hollow(sump) };
-            laid.heap = Some((place, rest - at.s.value));
+            laid.heap = Some((Heap::Hollow(sump), rest - at.s.value));
+            if let Some((place, length)) = hollow
+                && sump == place
+            {
+                let vertex = self.bottom.face(sump);
+                let (u, z) = self.bottom.vertex(vertex);
+                let at = Point { u: Var::fixed(u), z: Var::fixed(z), ..at };
+                let cursor = Cursor { at, face: vertex.saturating_sub(1), tension: Var::fixed(self.least) };
+                laid.heap = Some((Heap::Hollow(sump), 0.0));
+                path.spare = Spare::Length(length);
+                path.end = End::Lifted;
+                self.extend(&mut path, cursor);
+            }
         }
-        Ok(path)
+        path
     }
 
     /// Whether the anchor is above the bottom.
@@ -134,76 +163,28 @@ impl Layout<'_> {
         self.line.anchor > self.bottom.elevation_of(0, 0.0) + self.fine
     }
 
-    fn extend(&self, path: &mut Path, mut cursor: Cursor) -> End {
+    /// Goes on with a path that could be lifted anywhere, up to where it must be or to its end.
+    fn extend(&self, path: &mut Path, mut cursor: Cursor) {
         loop {
-            let Some(element) = self.elements.get(cursor.at.element) else {
-                if self.raised() {
-                    return End::Lifted;
-                }
-                let tilt = self.bottom.tilt(cursor.face);
-                let at = Point { h: cursor.tension * tilt.cos, v: cursor.tension * tilt.sin, ..cursor.at };
-                return End::Anchor(at);
-            };
             let tilt = self.bottom.tilt(cursor.face);
-            if let Element::Length { segment, law, sees_bottom } = element {
+            let Some(element) = self.elements.get(cursor.at.element) else {
+                if !self.raised() {
+                    path.end = End::Anchor(forced(&cursor, tilt));
+                }
+                return;
+            };
+            if let Element::Length { segment, sees_bottom, .. } = element {
                 if segment.weight < 0.0 || !*sees_bottom {
-                    return End::Lifted;
+                    return;
                 }
-                let loss = segment.weight * (tilt.sin + self.friction * tilt.cos);
-                let mut length = -cursor.at.s + segment.length;
-                let limp = loss > 0.0 && cursor.tension.value <= self.least;
-                if limp && tilt.sin > self.friction * tilt.cos {
-                    return End::Heap { at: cursor.at, sump: self.sump(cursor.face) };
-                }
-                let mut spent = false;
-                if !limp && loss > 0.0 && (cursor.tension.value - self.least) < loss * length.value {
-                    (length, spent) = ((cursor.tension + -self.least) * (1.0 / loss), true);
-                }
-                let mut reached = self.lie(&cursor, length, limp);
-                let (edge, _) = self.bottom.extent(cursor.face);
-                let mut at_edge = false;
-                if reached.at.u.value < edge {
-                    // the length up to the vertex, and how it changes
-                    let rate = |c: &Cursor| {
-                        let e = if limp { 0.0 } else { strain(segment, law.as_ref(), c.tension.value).0 };
-                        tilt.cos * (1.0 + e)
-                    };
-                    let mut part = (cursor.at.u.value - edge) / rate(&cursor);
-                    for _ in 0..100 {
-                        let there = self.lie(&cursor, Var::fixed(part), limp);
-                        let off = there.at.u.value - edge;
-                        part = (part + off / rate(&there)).clamp(0.0, length.value);
-                        if off.abs() <= self.fine {
-                            break;
-                        }
-                    }
-                    let there = self.lie(&cursor, Var::fixed(part), limp);
-                    let by = rate(&there);
-                    length = Var { value: part, by: there.at.u.by.map(|b| b / by) };
-                    reached = self.lie(&cursor, length, limp);
-                    (at_edge, spent) = (true, false);
-                }
-                let what = What::Lie { from: cursor.at, face: cursor.face, tension: cursor.tension, length, limp };
-                path.push(segment.weight * length.value, what);
-                cursor = reached;
-                if at_edge {
-                    let vertex = cursor.face;
-                    if self.bottom.is_ridge(vertex) {
-                        let angle = Var::fixed(tilt.angle());
-                        cursor = self.turn(path, vertex, cursor.at, cursor.tension, angle);
-                    } else {
-                        let bend = tilt.angle() - self.bottom.tilt(vertex.saturating_sub(1)).angle();
-                        let span = cursor.tension.value * bend;
-                        if span > SHORTEST_SPAN * self.length * segment.weight {
-                            return End::Lifted;
-                        }
-                        cursor.face = vertex.saturating_sub(1);
-                    }
-                    continue;
-                }
-                if spent {
-                    cursor.tension = Var::fixed(self.least);
-                    continue;
+                let next = match path.spare {
+                    Spare::None => self.lie_on(path, &mut cursor),
+                    spare => self.heap(path, &mut cursor, spare),
+                };
+                match next {
+                    Next::Joint => {}
+                    Next::Piece => continue,
+                    Next::Stop => return,
                 }
             } else {
                 let hung = self.hang(&forced(&cursor, tilt), Var::fixed(0.0));
@@ -217,11 +198,101 @@ impl Layout<'_> {
             let (above, below) = self.lifts(joint);
             let lift = if self.step(joint).is_some_and(|z| cursor.at.z.value < z) { below } else { above };
             if lift > 0.0 {
-                return End::Lifted;
+                return;
             }
-            let at = forced(&cursor, tilt);
+            let at = forced(&cursor, self.bottom.tilt(cursor.face));
             cursor = self.support(path, joint, at, cursor.face, lift);
         }
+    }
+
+    /// Heaps the rest of a piece, or what is left of the spare length.
+    fn heap(&self, path: &mut Path, cursor: &mut Cursor, spare: Spare) -> Next {
+        let from = cursor.at;
+        let room = -from.s + self.element_length(from.element);
+        let (length, next) = match spare {
+            Spare::Length(left) if left.value < room.value => (left, Next::Piece),
+            _ => (room, Next::Joint),
+        };
+        let weight = self.elements.get(from.element).map_or(0.0, Element::weight_per_length);
+        path.push(weight * length.value, What::Heap { from, length });
+        path.spare = spare.less(length);
+        cursor.at.s = from.s + length;
+        cursor.tension = Var::fixed(self.least);
+        next
+    }
+
+    /// Lies on a face: up to the end of the piece, to the next face, or to where no tension is left.
+    fn lie_on(&self, path: &mut Path, cursor: &mut Cursor) -> Next {
+        let tilt = self.bottom.tilt(cursor.face);
+        let Some(Element::Length { segment, law, .. }) = self.elements.get(cursor.at.element) else {
+            return Next::Joint;
+        };
+        let loss = segment.weight * (tilt.sin + self.friction * tilt.cos);
+        let mut length = -cursor.at.s + segment.length;
+        let limp = loss > 0.0 && cursor.tension.value <= self.least;
+        if limp && tilt.sin > self.friction * tilt.cos {
+            let sump = self.sump(cursor.face);
+            if sump > 0.0 {
+                path.end = End::Hollow { at: cursor.at, sump };
+                return Next::Stop;
+            }
+            path.push(0.0, What::Slide { from: cursor.at });
+            path.spare = Spare::All;
+            let (u, z) = (Var::fixed(0.0), Var::fixed(self.bottom.elevation_of(0, 0.0)));
+            *cursor = Cursor { at: Point { u, z, ..cursor.at }, face: 0, tension: Var::fixed(self.least) };
+            return Next::Piece;
+        }
+        let mut spent = false;
+        if !limp && loss > 0.0 && (cursor.tension.value - self.least) < loss * length.value {
+            (length, spent) = ((cursor.tension + -self.least) * (1.0 / loss), true);
+        }
+        let mut reached = self.lie(cursor, length, limp);
+        let (edge, _) = self.bottom.extent(cursor.face);
+        let mut at_edge = false;
+        if reached.at.u.value < edge {
+            // the length up to the vertex, and how it changes
+            let rate = |c: &Cursor| {
+                let e = if limp { 0.0 } else { strain(segment, law.as_ref(), c.tension.value).0 };
+                tilt.cos * (1.0 + e)
+            };
+            let mut part = (cursor.at.u.value - edge) / rate(cursor);
+            for _ in 0..100 {
+                let there = self.lie(cursor, Var::fixed(part), limp);
+                let off = there.at.u.value - edge;
+                part = (part + off / rate(&there)).clamp(0.0, length.value);
+                if off.abs() <= self.fine {
+                    break;
+                }
+            }
+            let there = self.lie(cursor, Var::fixed(part), limp);
+            let by = rate(&there);
+            length = Var { value: part, by: there.at.u.by.map(|b| b / by) };
+            reached = self.lie(cursor, length, limp);
+            (at_edge, spent) = (true, false);
+        }
+        let what = What::Lie { from: cursor.at, face: cursor.face, tension: cursor.tension, length, limp };
+        path.push(segment.weight * length.value, what);
+        *cursor = reached;
+        if at_edge {
+            let vertex = cursor.face;
+            if self.bottom.is_ridge(vertex) {
+                let angle = Var::fixed(tilt.angle());
+                *cursor = self.turn(path, vertex, cursor.at, cursor.tension, angle);
+            } else {
+                let bend = tilt.angle() - self.bottom.tilt(vertex.saturating_sub(1)).angle();
+                let span = cursor.tension.value * bend;
+                if span > SHORTEST_SPAN * self.length * segment.weight {
+                    return Next::Stop;
+                }
+                cursor.face = vertex.saturating_sub(1);
+            }
+            return Next::Piece;
+        }
+        if spent {
+            cursor.tension = Var::fixed(self.least);
+            return Next::Piece;
+        }
+        Next::Joint
     }
 
     /// Along a face for a length.
@@ -254,16 +325,32 @@ impl Layout<'_> {
     fn support(&self, path: &mut Path, joint: usize, at: Point, face: usize, lift: f64) -> Cursor {
         let tilt = self.bottom.tilt(face);
         let (along, normal) = turned(tilt, at.h, at.v + lift);
-        let presses = -normal;
-        if presses.value > 0.0 {
-            path.push(presses.value, What::Support { joint, at, face, along, normal, lift });
-        } else {
-            path.push(0.0, What::Support { joint, at, face, along, normal: Var::fixed(0.0), lift });
-        }
-        let tension = if presses.value > 0.0 { along - presses * self.friction } else { along };
+        let presses = if normal.value < 0.0 { -normal } else { Var::fixed(0.0) };
+        let pulled = along - presses * self.friction;
+        let held = self.held_by_heap(path, pulled, presses);
+        path.push(presses.value, What::Support { joint, at, face, along: along - held, normal: -presses, lift });
+        let tension = pulled - held;
         let tension = if tension.value <= self.least { Var::fixed(self.least) } else { tension };
         let at = Point { element: joint + 1, s: Var::fixed(0.0), ..at };
         Cursor { at, face, tension }
+    }
+
+    /// What a heap holds of the force that pulls a joint down its face. A joint at the edge of a heap takes as much of the
+    /// spare length as a line of its weight, and is held by the share of that which is there: so no force is jumped over.
+    fn held_by_heap(&self, path: &mut Path, pulled: Var, presses: Var) -> Var {
+        match path.spare {
+            Spare::Length(left) if pulled.value > self.least => {
+                let all = presses * (self.length / self.weight);
+                path.spare = path.spare.less(all);
+                if left.value >= all.value {
+                    return pulled;
+                }
+                let share = left.value / all.value;
+                let by_left = pulled.value / all.value;
+                Var::function(pulled.value * share, [(pulled, share), (left, by_left), (all, -by_left * share)])
+            }
+            _ => Var::fixed(0.0),
+        }
     }
 
     /// A ridge, and the line beyond it along the next face.
@@ -296,59 +383,27 @@ impl Layout<'_> {
         if last == 0 { 0.0 } else { self.bottom.vertex(last).0 }
     }
 
-    /// A length of line in a heap at the beginning of a path.
-    fn heaped(&self, path: &mut Path, cursor: &mut Cursor, length: Var) -> Result<(), LineError> {
-        let mut left = length;
-        loop {
-            let Some(element) = self.elements.get(cursor.at.element) else { return Ok(()) };
-            if element.weight() < 0.0 {
-                return Err(LineError::SlackSlope);
-            }
-            let room = -cursor.at.s + element.length();
-            let part = if left.value < room.value { left } else { room };
-            let from = cursor.at;
-            cursor.at.s = from.s + part;
-            path.push(0.0, What::Heap { from, to: cursor.at.s.value });
-            cursor.tension = Var::fixed(self.least);
-            if left.value < room.value {
-                return Ok(());
-            }
-            left = left - room;
-            let joint = from.element;
-            if joint < self.pulls.len() {
-                let (above, below) = self.lifts(joint);
-                let lift = if self.step(joint).is_some_and(|z| cursor.at.z.value < z) { below } else { above };
-                if lift > 0.0 {
-                    return Err(LineError::SlackSlope);
-                }
-                let tilt = self.bottom.tilt(cursor.face);
-                let (at, face) = (cursor.at, cursor.face);
-                let none = Var::fixed(0.0);
-                path.push(
-                    0.0,
-                    What::Support { joint, at, face, along: none, normal: Var::fixed(lift * tilt.cos), lift },
-                );
-            }
-            cursor.at = Point { element: joint + 1, s: Var::fixed(0.0), ..cursor.at };
-        }
-    }
-
     /// The place where so much weight lies before, and the curve that leaves there.
     pub fn leave(&self, path: &Path, unknown: f64) -> Departure {
         let index = path.pieces.partition_point(|p| p.before <= unknown).max(1) - 1;
         let Some(piece) = path.pieces.get(index) else {
-            return Departure { point: Point { h: Var::fixed(f64::NAN), ..Point::default() }, face: None };
+            return Departure {
+                point: Point { h: Var::fixed(f64::NAN), ..Point::default() },
+                face: None,
+                piece: index,
+                unknown,
+            };
         };
         let share = (unknown - piece.before).clamp(0.0, piece.weight);
         match piece.what {
             What::Lie { from, face, tension, length, limp } => {
                 let weight = match self.elements.get(from.element) {
                     Some(Element::Length { segment, .. }) if segment.weight > 0.0 => segment.weight,
-                    _ => return self.departure(Cursor { at: from, face, tension }),
+                    _ => return self.departure(Cursor { at: from, face, tension }, (index, unknown)),
                 };
                 let arc = Var::parameter(from.s.value + (share / weight).min(length.value), UNKNOWN, 1.0 / weight);
                 let there = self.lie(&Cursor { at: from, face, tension }, arc - from.s, limp);
-                self.departure(Cursor { at: Point { s: arc, ..there.at }, ..there })
+                self.departure(Cursor { at: Point { s: arc, ..there.at }, ..there }, (index, unknown))
             }
             What::Support { joint, at, face, along, normal, .. } => {
                 let carried = Var::parameter(share, UNKNOWN, 1.0);
@@ -361,7 +416,7 @@ impl Layout<'_> {
                 let h = tension * tilt.cos - normal * tilt.sin;
                 let v = tension * tilt.sin + normal * tilt.cos;
                 let point = Point { element: joint + 1, s: Var::fixed(0.0), h, v, ..at };
-                Departure { point, face: Some(face) }
+                Departure { point, face: Some(face), piece: index, unknown }
             }
             What::Turn { vertex, at, tension, angle } => {
                 let slope = 1.0 / tension.value;
@@ -371,30 +426,38 @@ impl Layout<'_> {
                 let (sin, cos) = angle.value.sin_cos();
                 let h = Var::function(left.value * cos, [(left, cos), (angle, -left.value * sin)]);
                 let v = Var::function(left.value * sin, [(left, sin), (angle, left.value * cos)]);
-                Departure { point: Point { h, v, ..at }, face: Some(vertex.saturating_sub(1)) }
+                Departure { point: Point { h, v, ..at }, face: Some(vertex.saturating_sub(1)), piece: index, unknown }
             }
-            What::Heap { from, .. } => Departure { point: from, face: None },
+            What::Slide { from } => Departure { point: from, face: None, piece: index, unknown },
+            What::Heap { from, length, .. } => {
+                let cursor = Cursor { at: from, face: self.bottom.face(from.u.value), tension: Var::fixed(self.least) };
+                let weight = self.elements.get(from.element).map_or(0.0, Element::weight_per_length);
+                if weight <= 0.0 {
+                    return self.departure(cursor, (index, unknown));
+                }
+                let arc = Var::parameter(from.s.value + (share / weight).min(length.value), UNKNOWN, 1.0 / weight);
+                self.departure(Cursor { at: Point { s: arc, ..from }, ..cursor }, (index, unknown))
+            }
         }
     }
 
     /// A curve that leaves a face along it.
-    fn departure(&self, cursor: Cursor) -> Departure {
+    fn departure(&self, cursor: Cursor, (piece, unknown): (usize, f64)) -> Departure {
         let tilt = self.bottom.tilt(cursor.face);
-        Departure { point: forced(&cursor, tilt), face: Some(cursor.face) }
+        Departure { point: forced(&cursor, tilt), face: Some(cursor.face), piece, unknown }
     }
 
     /// Keeps what lies up to a departure, or all of it.
-    pub fn record_path(&self, path: &Path, departure: Option<&Point>, laid: &mut Laid) {
-        let leaves = |at: &Point| departure.is_some_and(|d| d.element == at.element);
-        for piece in &path.pieces {
+    pub fn record_path(&self, path: &Path, departure: Option<&Departure>, laid: &mut Laid) {
+        let until = departure.map_or(path.pieces.len(), |d| d.piece.saturating_add(1));
+        for (index, piece) in path.pieces.iter().enumerate().take(until) {
+            let here = departure.filter(|d| d.piece == index).map(|d| d.point);
             match piece.what {
                 What::Lie { from, face, tension, length, limp } => {
                     let tilt = self.bottom.tilt(face);
                     let start = Cursor { at: from, face, tension };
-                    let end = from.s.value + length.value;
-                    let stop = departure.filter(|d| leaves(&from) && d.s.value <= end);
-                    let length = stop.map_or(length, |d| d.s - from.s);
-                    if stop.is_some() && length.value <= 0.0 {
+                    let length = here.map_or(length, |d| d.s - from.s);
+                    if here.is_some() && length.value <= 0.0 {
                         return;
                     }
                     let low = self.lie(&start, length, limp);
@@ -406,14 +469,10 @@ impl Layout<'_> {
                     };
                     let (at, low) = (forced(&start, tilt), forced(&low, tilt));
                     laid.stretches.push(stretched(&at, &low, Manner::Lies { tilt, loss }));
-                    if stop.is_some() {
-                        return;
-                    }
                 }
                 What::Support { joint, at, face, normal, lift, .. } => {
                     // the curve may leave at the joint itself, which then carries what is missing
                     let tilt = self.bottom.tilt(face);
-                    let here = departure.filter(|d| d.element == joint + 1 && d.s.value == 0.0);
                     let carried = here.map_or(-normal.value, |d| {
                         let (_, q) = tilt.turned(d.h.value, d.v.value);
                         (q - normal.value).clamp(0.0, (-normal.value).max(0.0))
@@ -421,23 +480,17 @@ impl Layout<'_> {
                     self.keep_joint(joint, &at, (lift, carried), [false, false], laid);
                 }
                 What::Turn { .. } => {}
-                What::Heap { from, to } => {
-                    let low = Point { s: Var::fixed(to), ..from };
+                What::Slide { from } => laid.slide(&from),
+                What::Heap { from, length } => {
+                    let length = here.map_or(length.value, |d| d.s.value - from.s.value);
+                    if here.is_some() && length <= 0.0 {
+                        return;
+                    }
+                    if let Some((_, heaped)) = &mut laid.heap {
+                        *heaped += length;
+                    }
+                    let low = Point { s: from.s + length, ..from };
                     laid.stretches.push(heap_stretch(&from, &low));
-                }
-            }
-        }
-        if let (None, End::Heap { at, sump }) = (departure, path.end) {
-            let z = Var::fixed(self.bottom.elevation(sump));
-            for element in at.element..self.elements.len() {
-                let s = if element == at.element { at.s } else { Var::fixed(0.0) };
-                let from = Point { element, s, u: Var::fixed(sump), z, ..Point::default() };
-                let low = Point { s: Var::fixed(self.element_length(element)), ..from };
-                laid.stretches.push(heap_stretch(&from, &low));
-                if element < self.pulls.len() {
-                    let (lift, _) = self.lifts(element);
-                    let cos = self.bottom.tilt(self.bottom.face(sump)).cos;
-                    self.keep_joint(element, &from, (lift, -lift * cos), [false, false], laid);
                 }
             }
         }

@@ -1,6 +1,7 @@
 //! A span: the free curve that just touches what it must not pass.
 
-use super::{JointAt, Laid, Layout, Manner, Origin, Point, Stretch, Top};
+use super::path::Spare;
+use super::{Hold, JointAt, Laid, Layout, Manner, Origin, Point, Stretch, Top};
 use crate::dual::{UNKNOWN, Var};
 use crate::element::{Element, strain, stretch};
 use crate::law::Law;
@@ -50,6 +51,10 @@ impl Candidate {
 pub struct Departure {
     pub point: Point,
     pub face: Option<usize>,
+    /// The piece of the path in which it is.
+    pub piece: usize,
+    /// The unknown of its span (N).
+    pub unknown: f64,
 }
 
 /// Steps after which a search gives up.
@@ -65,12 +70,12 @@ impl Layout<'_> {
             Origin::Fairlead => {
                 let v = Var::parameter(unknown, UNKNOWN, 1.0);
                 let point = Point { element: 0, s: Var::fixed(0.0), u: top.u, z: top.z, h: top.h, v };
-                Departure { point, face: None }
+                Departure { point, face: None, piece: 0, unknown }
             }
             Origin::Held { before, .. } => {
                 let v = before.v + Var::parameter(unknown, UNKNOWN, 1.0);
                 let point = Point { element: before.element + 1, s: Var::fixed(0.0), v, ..*before };
-                Departure { point, face: None }
+                Departure { point, face: None, piece: 0, unknown }
             }
             Origin::Ground(path) => self.leave(path, unknown),
         }
@@ -82,8 +87,15 @@ impl Layout<'_> {
         origin: &Origin,
         top: &Top,
         sunk: &[bool],
+        hold: Option<Hold>,
         laid: &mut Laid,
     ) -> Result<(Departure, Candidate), LineError> {
+        if let Some(hold) = hold {
+            let departure = self.depart(origin, top, hold.unknown);
+            let landing = self.lowest(&departure, sunk);
+            laid.gap = Some(landing.gap);
+            return Ok(self.landed(origin, hold.unknown, departure, landing, laid));
+        }
         let (mut low, mut high, mut at) = match origin {
             Origin::Fairlead => {
                 let guess = 0.5 * self.weight + top.h.value * 0.1;
@@ -93,7 +105,7 @@ impl Layout<'_> {
             Origin::Ground(path) => (0.0, path.weight, path.weight),
         };
         let mut grow = self.weight + top.h.value;
-        let mut best: Option<(Departure, Candidate)> = None;
+        let mut best: Option<(f64, Departure, Candidate)> = None;
         let mut steps = 0;
         while steps < MOST_STEPS {
             steps += 1;
@@ -103,11 +115,11 @@ impl Layout<'_> {
             if gap.is_nan() {
                 break;
             }
-            let better = best.as_ref().is_none_or(|(_, b)| gap.abs() < b.gap.value.abs());
+            let better = best.as_ref().is_none_or(|(_, _, b)| gap.abs() < b.gap.value.abs());
             if better {
-                best = Some((departure, found));
+                best = Some((at, departure, found));
             }
-            let left = best.as_ref().map_or(f64::INFINITY, |(_, b)| b.gap.value.abs());
+            let left = best.as_ref().map_or(f64::INFINITY, |(_, _, b)| b.gap.value.abs());
             if left <= self.fine || (!better && left <= 64.0 * self.fine) {
                 break;
             }
@@ -134,31 +146,44 @@ impl Layout<'_> {
             at = next;
         }
         laid.iterations += steps;
-        let Some((departure, landing)) = best else {
+        let Some((unknown, departure, landing)) = best else {
             return Err(LineError::NotConverged { force: top.h.value, residual: f64::NAN, iterations: steps });
         };
-        let left = landing.gap.value.abs();
-        if let Origin::Ground(path) = origin
-            && path.begins_with_heap()
-            && left > 1e-9 * self.length
-        {
-            // what floats would have to leave from within the heap
-            return Err(LineError::SlackSlope);
-        }
-        laid.left = laid.left.max(left);
+        Ok(self.landed(origin, unknown, departure, landing, laid))
+    }
+
+    /// The span with the numbers that keep it in touch with what it lands on.
+    fn landed(
+        &self,
+        origin: &Origin,
+        unknown: f64,
+        departure: Departure,
+        landing: Candidate,
+        laid: &mut Laid,
+    ) -> (Departure, Candidate) {
+        laid.left = laid.left.max(landing.gap.value.abs());
         let zero = landing.gap;
         if matches!(origin, Origin::Fairlead) {
             laid.top = departure.point.v.solved(&zero);
         }
         let departure = Departure { point: departure.point.solved(&zero), ..departure };
-        Ok((departure, Candidate { at: landing.at.solved(&zero), ..landing }))
+        (Departure { unknown, ..departure }, Candidate { at: landing.at.solved(&zero), ..landing })
     }
 
     /// What a curve touches first when its unknown grows.
     pub fn limit(&self, from: &Departure, sunk: &[bool]) -> Candidate {
+        self.least_of(from, sunk, Candidate::room)
+    }
+
+    /// What a curve is the least above, or the furthest below.
+    fn lowest(&self, from: &Departure, sunk: &[bool]) -> Candidate {
+        self.least_of(from, sunk, |c| c.gap.value)
+    }
+
+    fn least_of(&self, from: &Departure, sunk: &[bool], size: impl Fn(&Candidate) -> f64) -> Candidate {
         let mut best: Option<Candidate> = None;
         let mut take = |candidate: Candidate| {
-            if best.as_ref().is_none_or(|b| candidate.room() < b.room()) {
+            if best.as_ref().is_none_or(|b| size(&candidate) < size(b)) {
                 best = Some(candidate);
             }
         };
@@ -232,10 +257,22 @@ impl Layout<'_> {
         }
     }
 
-    /// Keeps what hangs between a beginning and a landing.
-    pub fn record(&self, origin: &Origin, from: &Departure, to: &Candidate, sunk: &[bool], laid: &mut Laid) {
+    /// Keeps what hangs between a beginning and a landing; the spare length left behind what lies before it, if any does.
+    pub fn record(
+        &self,
+        origin: &Origin,
+        from: &Departure,
+        to: &Candidate,
+        sunk: &[bool],
+        laid: &mut Laid,
+    ) -> Option<Spare> {
+        let mut spare = None;
+        laid.unknowns.push(from.unknown);
         match origin {
-            Origin::Ground(path) => self.record_path(path, Some(&from.point), laid),
+            Origin::Ground(path) => {
+                self.record_path(path, Some(from), laid);
+                spare = Some(path.spare_at(from));
+            }
             Origin::Held { before, .. } => {
                 let lift = from.point.v.value - before.v.value;
                 self.keep_joint(before.element, before, (lift, 0.0), [true, false], laid);
@@ -257,6 +294,7 @@ impl Layout<'_> {
                 at = Point { element: element + 1, s: Var::fixed(0.0), v: low.v + lift, ..low };
             }
         }
+        spare
     }
 
     pub fn keep_joint(

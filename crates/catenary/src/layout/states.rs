@@ -14,9 +14,6 @@ impl Layout<'_> {
     pub fn state(&self, laid: Laid, [x, z]: [f64; 2], slack: bool) -> Result<State, LineError> {
         let [by_first, by_x, by_z, _] = laid.short.by;
         let Some(first) = laid.stretches.first().copied() else { return Err(LineError::Empty) };
-        if laid.vague {
-            return Err(LineError::SlackSlope);
-        }
         // the least tension stands for none
         let none = if slack { 64.0 } else { 2.0 } * self.least;
         let clean = |v: f64| if v.abs() <= none { 0.0 } else { v };

@@ -202,6 +202,58 @@ fn spare_length_heaps_in_a_hollow_without_friction() {
 }
 
 #[test]
+fn slack_line_with_buoy_on_a_slope_stands_above_its_heap() {
+    // 1000 N/m, EA 6e8 N, 30 kN of lift, fairlead 400 m from the anchor at z = -10, slope of 1 in 10. By scipy from Irvine 1981,
+    // contacts closed by hand: the loop under the buoy stands upright on a heap (first and third line), and in the second line
+    // the touchdowns at both sides of the buoy are roots of the way to the anchor
+    // first and second length, slope, V, H and V at the anchor, spare length, place and elevation of the buoy
+    type Case = (f64, f64, f64, [f64; 6]);
+    let cases: [Case; 3] = [
+        (200.0, 550.0, -0.1, [129985.91971723, 39800.16098059, -3980.01609806, 188.03245438, 0.0, -124.9998125]),
+        (
+            500.0,
+            250.0,
+            -0.1,
+            [129985.91971723, 37217.54857286, -3721.75485729, 214.11683970, 152.61570071, -118.20755232],
+        ),
+        (600.0, 150.0, 0.1, [83075.48443782, 0.0, 0.0, 290.91163817, 400.0, -84.9998125]),
+    ];
+    for (first, second, slope, want) in cases {
+        let part = |length| Segment { length, weight: 1000.0, ea: 6e8 };
+        let line = Line::new(vec![part(first), part(second)], vec![Joint::Weight(-30e3)], -100.0, 0.0).unwrap();
+        let line = line.over(Some(Floor { elevation: -100.0, slope, friction: 0.0 })).unwrap();
+        let state = line.at_distance(400.0, -10.0).unwrap_or_else(|e| panic!("{slope}: {e}"));
+        let (_, heap) = state.heap.unwrap();
+        let joint = state.joints[0];
+        let forces = [state.top_vertical, state.anchor_horizontal, state.anchor_vertical];
+        for (got, want) in forces.into_iter().chain([heap, joint.x, joint.z]).zip(want) {
+            close(got, want, 2e-3, &format!("{slope} {state:?}"));
+        }
+    }
+}
+
+#[test]
+fn clump_at_the_edge_of_a_heap_is_held_by_what_the_length_asks_for() {
+    // slope of 1 in 10 without friction, down to the fairlead: the second segment reaches from the anchor to the clump straight
+    // below the fairlead with less than w sin of the clump: (T0 + w sin L / 2) L / EA is what it has to stretch
+    let (second, ea) = (400.3, 6e6);
+    let part = |length| Segment { length, weight: 1000.0, ea };
+    let line = Line::new(vec![part(200.0), part(second)], vec![Joint::Weight(1e5)], -100.0, 0.0).unwrap();
+    let line = line.over(Some(Floor { elevation: -100.0, slope: -0.1, friction: 0.0 })).unwrap();
+    let state = line.at_distance(400.0, -10.0).unwrap();
+    let way = 400f64.hypot(40.0);
+    let (sin, cos) = (40.0 / way, 400.0 / way);
+    let least = (way - second) * ea / second - 0.5 * 1000.0 * sin * second;
+    assert!(least > 0.0 && least < 1e5 * sin);
+    close(state.segments[1].top_tension, least, 1e-2, "T at the clump");
+    close(state.anchor_horizontal, (least + 1000.0 * sin * second) * cos, 1e-2, "H at the anchor");
+    let hangs = state.top_vertical / 1000.0;
+    close(hangs + 0.5 * 1000.0 * hangs * hangs / ea, 130.0, 1e-6, "what hangs");
+    close(state.heap.unwrap().1, 200.0 - hangs, 1e-6, "heap");
+    close(state.joints[0].reaction, 1e5 * cos, 1e-2, "reaction");
+}
+
+#[test]
 fn a_shape_has_one_point_at_the_touchdown_where_friction_takes_the_tension() {
     let segment = Segment { length: 600.0, weight: 1200.0, ea: 6e8 };
     let line = Line::new(vec![segment], vec![], -100.0, 0.0).unwrap().over(flat(100.0, 0.8)).unwrap();

@@ -104,7 +104,7 @@ fn contradiction(
     const STEPS: usize = 4000;
     let state = match line.at_distance(x, fairlead) {
         Ok(state) => state,
-        Err(LineError::Undetermined | LineError::SlackSlope) => return Ok(()),
+        Err(LineError::Undetermined) => return Ok(()),
         Err(error) => return Err((true, error.to_string())),
     };
     let (sin, cos) = (floor.slope / floor.slope.hypot(1.0), 1.0 / floor.slope.hypot(1.0));
@@ -119,6 +119,10 @@ fn contradiction(
         _ => 0.0,
     };
     let heaped = heap > 0.0;
+    let fine = 1e-9 * stretched;
+    // what has slid down to the anchor lies in a heap there
+    let slides = matches!(state.heap, Some((Heap::Anchor, _)));
+    let mut slid = false;
     let (mut at, mut z) = (0.0, fairlead);
     let (mut h, mut v) = (state.segments[0].top_horizontal, state.segments[0].top_vertical);
     for (index, (s, got)) in line.segments().iter().zip(&state.segments).enumerate() {
@@ -151,8 +155,8 @@ fn contradiction(
             }
             // Coulomb friction toward the fairlead and the weight along the slope, down to nothing
             let loss = s.weight * (sin + floor.friction * cos);
-            let tension = if heap > 0.0 { 0.0 } else { h * cos + v * sin };
-            let in_heap = heap.min(got.grounded);
+            let tension = if heap > fine || slid { 0.0 } else { h * cos + v * sin };
+            let in_heap = if slid { got.grounded } else { heap.min(got.grounded) };
             heap -= in_heap;
             let grounded = got.grounded - in_heap;
             let under = if loss > 0.0 { (tension / loss).min(grounded) } else { grounded };
@@ -167,16 +171,18 @@ fn contradiction(
             let length = lies + stretch;
             at += length * cos;
             z -= length * sin;
+            if slides && !slid && left == 0.0 && under < grounded {
+                if (at - x).abs() > place {
+                    return wrong(format!("slides from {at}, not the anchor"));
+                }
+                slid = true;
+            }
             (h, v) = (left * cos, left * sin);
             if let Some(by) = hang(below.max(0.0), &mut at, &mut z, h, &mut v) {
                 return wrong(format!("segment {} is {by} m below the bottom after its rest", index + 1));
             }
         }
         let (Some(joint), Some(found)) = (joints.get(index), state.joints.get(index)) else { continue };
-        if rests && heap > 0.0 {
-            (h, v) = (0.0, 0.0);
-            continue;
-        }
         if (found.x - at).abs() > place || (found.z - z).abs() > place {
             return wrong(format!("joint {} at {at} {z}, not as {found:?}", index + 1));
         }
@@ -189,10 +195,18 @@ fn contradiction(
         if found.reaction < 0.0 || (found.reaction > 0.0 && !on_bottom) {
             return wrong(format!("joint {} at {z} is carried by no bottom {}: {found:?}", index + 1, bottom(at)));
         }
+        if (heap > fine || slid) && on_bottom {
+            // what carries in a heap is level
+            (h, v) = (0.0, v + lift + found.reaction / cos);
+            continue;
+        }
         // the bottom's reaction along its normal, and friction on it: no more than leaves the line beyond it upright
         let friction = (floor.friction * found.reaction).min((h - found.reaction * sin) / cos);
-        h += -found.reaction * sin - friction * cos;
-        v += lift + found.reaction * cos - friction * sin;
+        let pushed = (h - found.reaction * sin - friction * cos, v + lift + found.reaction * cos - friction * sin);
+        // a heap that ends here holds the joint with any force up to that
+        let next = state.segments.get(index + 1).map_or(pushed, |s| (s.top_horizontal, s.top_vertical));
+        let held = heaped && heap <= fine && rests && found.reaction > 0.0 && (0.0..pushed.0 + force).contains(&next.0);
+        (h, v) = if held { next } else { pushed };
     }
     if (at - x).abs() > place || (z - anchor).abs() > place {
         return wrong(format!("the anchor at {at} {z}, not {x} {anchor}: {state:?}"));

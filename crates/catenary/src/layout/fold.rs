@@ -1,0 +1,128 @@
+//! Solutions between two folds.
+//!
+//! Friction takes tension from what lies, so that the line that leaves the bottom further toward the anchor leaves it with
+//! less. The curve then need not sink: at one force (or at one place of the fairlead) a span may begin at several places.
+//! [`super::Layout::lay`] takes the last one. Where that one ends, at a fold, it goes over to another at a distance, and
+//! the end of the line jumps. The equilibria between are those of a line that begins its span between the two places: there
+//! the place is given, and the force (or the place of the fairlead) sought with which the span lands.
+
+use super::{Hold, Laid, Layout, Top};
+
+/// Difference of an unknown (share of all weights) that is a jump.
+const JUMP: f64 = 1e-9;
+/// Places between the two sides of a jump that are tried.
+const PLACES: usize = 24;
+/// First change of the parameter in search of a landing, the factor by which it grows, and how often.
+const FIRST_SHIFT: f64 = 1e-12;
+const SHIFT_FACTOR: f64 = 8.0;
+const MOST_SHIFTS: usize = 15;
+/// Steps of a bracketed search.
+const MOST_STEPS: usize = 200;
+
+impl Layout<'_> {
+    /// The line between the two sides of a jump, given by their parameters; `top` makes the fairlead of a parameter, `shifted`
+    /// moves a parameter by a share.
+    pub fn between_folds(
+        &self,
+        top: &impl Fn(f64) -> Top,
+        shifted: &impl Fn(f64, f64) -> f64,
+        sides: [f64; 2],
+    ) -> Option<(f64, Laid)> {
+        let [at, _] = sides;
+        let [first, second] = sides.map(|side| self.lay(&top(side)).ok());
+        let (first, second) = (first?, second?);
+        let mut pairs = first.unknowns.iter().zip(&second.unknowns).enumerate();
+        let (span, (from, to)) = pairs.find(|(_, (a, b))| (*a - *b).abs() > JUMP * self.weight)?;
+        let place = |share: f64| from + share * (to - from);
+        // how far the line falls short with the span beginning at a place, and its parameter there
+        let mut near = at;
+        let mut short = |share: f64| {
+            let unknown = place(share);
+            let parameter = self.parameter_of_landing(top, shifted, near, Hold { span, unknown, goes_on: false })?;
+            near = parameter;
+            let hold = Some(Hold { span, unknown, goes_on: true });
+            let laid = self.lay(&Top { hold, ..top(parameter) }).ok()?;
+            Some((parameter, laid))
+        };
+        let mut before = (0.0, first.short.value);
+        for step in 1..=PLACES {
+            let share = step as f64 / PLACES as f64;
+            let value = if step == PLACES { second.short.value } else { short(share)?.1.short.value };
+            if (value > 0.0) != (before.1 > 0.0) {
+                let mut best: Option<(f64, Laid)> = None;
+                bracketed_root(before, (share, value), |share| {
+                    let found = short(share)?;
+                    let value = found.1.short.value;
+                    if best.as_ref().is_none_or(|(_, b)| value.abs() < b.short.value.abs()) {
+                        best = Some(found);
+                    }
+                    Some(value)
+                });
+                return best;
+            }
+            before = (share, value);
+        }
+        None
+    }
+
+    /// The parameter, near one, with which a span that begins at a given place lands.
+    fn parameter_of_landing(
+        &self,
+        top: &impl Fn(f64) -> Top,
+        shifted: &impl Fn(f64, f64) -> f64,
+        near: f64,
+        hold: Hold,
+    ) -> Option<f64> {
+        let gap = |parameter: f64| {
+            let laid = self.lay(&Top { hold: Some(hold), ..top(parameter) }).ok()?;
+            laid.gap.map(|g| g.value).filter(|g| g.is_finite())
+        };
+        let start = (near, gap(near)?);
+        if start.1 == 0.0 {
+            return Some(near);
+        }
+        let mut ends = [start, start];
+        let mut shift = FIRST_SHIFT;
+        for _ in 0..MOST_SHIFTS {
+            for (end, sign) in ends.iter_mut().zip([-1.0, 1.0]) {
+                let at = shifted(near, sign * shift);
+                let Some(found) = gap(at) else { continue };
+                if (found > 0.0) != (end.1 > 0.0) {
+                    return Some(bracketed_root(*end, (at, found), gap));
+                }
+                *end = (at, found);
+            }
+            shift *= SHIFT_FACTOR;
+        }
+        None
+    }
+}
+
+/// A root between two arguments with values of unlike signs: false position that halves the value of an end that stays
+/// (Illinois), and halving where that is slow.
+fn bracketed_root(a: (f64, f64), b: (f64, f64), mut f: impl FnMut(f64) -> Option<f64>) -> f64 {
+    let ((mut a, mut at_a), (mut b, mut at_b)) = (a, b);
+    let mut best = if at_a.abs() < at_b.abs() { (a, at_a.abs()) } else { (b, at_b.abs()) };
+    for step in 0..MOST_STEPS {
+        let secant = b - at_b * (b - a) / (at_b - at_a);
+        let inside = secant > a.min(b) && secant < a.max(b);
+        let next = if inside && step % 3 != 2 { secant } else { 0.5 * (a + b) };
+        if next == a || next == b {
+            break;
+        }
+        let Some(value) = f(next) else { break };
+        if value.abs() < best.1 {
+            best = (next, value.abs());
+        }
+        if value == 0.0 {
+            break;
+        }
+        if (value > 0.0) == (at_b > 0.0) {
+            at_a *= 0.5;
+        } else {
+            (a, at_a) = (b, at_b);
+        }
+        (b, at_b) = (next, value);
+    }
+    best.0
+}
