@@ -6,16 +6,20 @@
 // the test of the program includes this file
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
+use std::collections::HashSet;
+use std::hash::{BuildHasher, BuildHasherDefault, DefaultHasher};
 use std::io::{Cursor, sink};
-use std::sync::OnceLock;
 use std::sync::atomic::Ordering;
 use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::{LazyLock, Mutex, OnceLock};
 use std::time::Duration;
 use windlass::command::{COMMANDS, Job, internal_names};
 use windlass::report::files::JobFolder;
 use windlass::report::output::Output;
 use windlass::report::run_log;
 use windlass::session::Session;
+use windlass_base::diagnostic::Diagnostic;
+use windlass_base::span::Span;
 use windlass_base::units::UnitSystem;
 use windlass_connectors::CLASSES;
 use windlass_hydro::database::rao::{self, RaoConvention};
@@ -25,7 +29,7 @@ use windlass_hydro::hull::{MeshKind, read_mesh};
 use windlass_language::args;
 use windlass_language::flow::{Interpreter, Step};
 use windlass_language::record::Record;
-use windlass_language::source::{Sources, Text};
+use windlass_language::source::{Sources, Text, floor_boundary};
 use windlass_language::token::Kind;
 use windlass_solve::time::Snapshot;
 
@@ -87,6 +91,29 @@ fn read_record(interpreter: &mut Interpreter, record: &Record) {
     }
 }
 
+/// Most messages that are remembered as rendered.
+const REMEMBERED: usize = 1 << 20;
+
+/// Whether this process has not rendered the message yet, with the line it points at. The same again shows nothing new, and rendering it
+/// takes most of the time of a deck.
+fn is_new(message: &Diagnostic, sources: &Sources) -> bool {
+    static RENDERED: LazyLock<Mutex<HashSet<u64>>> = LazyLock::new(Mutex::default);
+    let shown = |span: Span| {
+        let text = sources.get(span.source).map_or("", |source| &source.text);
+        let (start, end) = (floor_boundary(text, span.start as usize), floor_boundary(text, span.end as usize));
+        let from = text[..start].rfind('\n').map_or(0, |at| at + 1);
+        let to = text[end..].find('\n').map_or(text.len(), |at| end + at);
+        (text[from..to].to_string(), start - from, span.end - span.start)
+    };
+    let other = message.other.as_ref().map(|(span, text)| (shown(*span), text));
+    let key = (&message.message, &message.label, &message.help, message.span.map(shown), other);
+    let mut rendered = RENDERED.lock().expect("no thread fails here");
+    if rendered.len() >= REMEMBERED {
+        rendered.clear();
+    }
+    rendered.insert(BuildHasherDefault::<DefaultHasher>::default().hash_one(key))
+}
+
 /// An AQWA deck, with its echo, its tables and the records it amounts to.
 pub fn decks(data: &[u8]) {
     let text = Text::from_bytes(data.to_vec());
@@ -94,7 +121,7 @@ pub fn decks(data: &[u8]) {
     let mut sources = Sources::default();
     let id = sources.add("fuzzed", text, 1);
     let reading = windlass_aqwa::read(&sources, id);
-    for message in &reading.messages {
+    for message in reading.messages.iter().filter(|message| is_new(message, &sources)) {
         let _ = windlass_language::render::render(message, &sources, false);
     }
     let deck = &reading.deck;
