@@ -164,6 +164,13 @@ impl Line {
     /// # Errors
     /// Values that are not finite, negative friction, an anchor below the bottom, a pendant longer than the depth.
     pub fn over(self, floor: Option<Floor>) -> Result<Line, LineError> {
+        let profile = floor.map_or(Profile::plane(self.anchor, 0.0), |f| Profile::plane(f.elevation, f.slope));
+        let line = self.on(floor, profile)?;
+        line.check_pendants()?;
+        Ok(line)
+    }
+
+    fn on(self, floor: Option<Floor>, profile: Profile) -> Result<Line, LineError> {
         if let Some(Floor { elevation, slope, friction }) = floor {
             for (what, value, good) in [
                 ("the bottom's elevation", elevation, true),
@@ -178,7 +185,6 @@ impl Line {
                 return Err(LineError::AnchorBelow(elevation - self.anchor));
             }
         }
-        let profile = floor.map_or(Profile::plane(self.anchor, 0.0), |f| Profile::plane(f.elevation, f.slope));
         Line { floor, profile, ..self }.assembled()
     }
 
@@ -204,8 +210,7 @@ impl Line {
         }
         let profile = Profile::new(places);
         let floor = Floor { elevation, slope: profile.tilt(0).slope(), friction };
-        let line = self.over(Some(floor))?;
-        Line { profile, ..line }.assembled()
+        self.on(Some(floor), profile)
     }
 
     /// The elevation of the bottom at a distance from the anchor toward the fairlead (m), if there is one.
@@ -306,6 +311,19 @@ impl Line {
         usize::from(self.springs[0].is_some())
     }
 
+    /// Refuses pendants that would hold their joint below a flat bottom. Over any other the joint may be elsewhere.
+    pub(super) fn check_pendants(&self) -> Result<(), LineError> {
+        let depth = self.surface - self.datum();
+        let pulls = self.chain.pulls.iter().skip(self.first_joint());
+        for (index, (joint, pull)) in self.joints.iter().zip(pulls).enumerate() {
+            let Joint::SpringBuoy { depth: pendant, .. } = joint else { continue };
+            if *pendant > depth && pull.on_bottom && self.is_flat() {
+                return Err(LineError::Pendant { segment: index + 1, by: pendant - depth });
+            }
+        }
+        Ok(())
+    }
+
     /// Makes the chain that is solved.
     fn assembled(mut self) -> Result<Line, LineError> {
         // grounding between the fairlead and a spring buoy at the end of the first segment is not considered (seed 001,
@@ -325,9 +343,6 @@ impl Line {
                 Joint::Weight(w) => (-w, Vec::new()),
                 Joint::SpringBuoy { capacity, depth } => {
                     let held = surface - depth;
-                    if held < 0.0 && on_bottom && self.is_flat() {
-                        return Err(LineError::Pendant { segment: index + 1, by: -held });
-                    }
                     (*capacity, if *capacity > 0.0 { vec![(held, *capacity)] } else { Vec::new() })
                 }
                 Joint::Buoy { lift, weight } => (*lift, vec![(surface, lift + weight)]),

@@ -195,9 +195,10 @@ impl Line {
         lengths.take(1).any(|sees| sees)
     }
 
+    /// What a line made without [`Line::over`] has not been asked yet, and the fairlead.
     fn check_fairlead(&self, fairlead: f64) -> Result<(), LineError> {
         if fairlead.is_finite() {
-            return Ok(());
+            return self.check_pendants();
         }
         Err(LineError::Value { what: "the fairlead elevation", segment: 1, value: fairlead })
     }

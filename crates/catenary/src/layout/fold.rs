@@ -8,7 +8,7 @@
 
 use super::{Hold, Laid, Layout, Top};
 
-/// Difference of an unknown (share of all weights) that is a jump.
+/// Difference of what lies before a span (share of all weights) that is a jump.
 const JUMP: f64 = 1e-9;
 /// Places between the two sides of a jump that are tried.
 const PLACES: usize = 24;
@@ -20,27 +20,33 @@ const MOST_SHIFTS: usize = 15;
 const MOST_STEPS: usize = 200;
 
 impl Layout<'_> {
-    /// The line between the two sides of a jump, given by their parameters; `top` makes the fairlead of a parameter, `shifted`
-    /// moves a parameter by a share.
+    /// The line between the two sides of a jump, given by their parameters: the end falls short of the anchor at the first
+    /// and is beyond it at the second. `top` makes the fairlead of a parameter, `shifted` moves a parameter by a share.
     pub fn between_folds(
         &self,
         top: &impl Fn(f64) -> Top,
         shifted: &impl Fn(f64, f64) -> f64,
-        sides: [f64; 2],
+        [short_at, beyond_at]: [f64; 2],
     ) -> Option<(f64, Laid)> {
-        let [at, _] = sides;
-        let [first, second] = sides.map(|side| self.lay(&top(side)).ok());
-        let (first, second) = (first?, second?);
-        let mut pairs = first.unknowns.iter().zip(&second.unknowns).enumerate();
-        let (span, (from, to)) = pairs.find(|(_, (a, b))| (*a - *b).abs() > JUMP * self.weight)?;
+        let outward = (short_at - beyond_at).signum();
+        let (first_at, first) = self.side(top, shifted, short_at, outward, |short| short > 0.0)?;
+        let (second_at, second) = self.side(top, shifted, beyond_at, -outward, |short| short <= 0.0)?;
+        let mut pairs = first.left_at.iter().zip(&second.left_at).enumerate();
+        // where one side only just touches the bottom, none of it lies
+        let (span, from, to, at) = pairs.find_map(|(span, sides)| match sides {
+            (Some(a), Some(b)) => ((a - b).abs() > JUMP * self.weight).then_some((span, *a, *b, first_at)),
+            (Some(a), None) => Some((span, *a, 0.0, first_at)),
+            (None, Some(b)) => Some((span, 0.0, *b, second_at)),
+            (None, None) => None,
+        })?;
         let place = |share: f64| from + share * (to - from);
         // how far the line falls short with the span beginning at a place, and its parameter there
         let mut near = at;
         let mut short = |share: f64| {
-            let unknown = place(share);
-            let parameter = self.parameter_of_landing(top, shifted, near, Hold { span, unknown, goes_on: false })?;
+            let weight = place(share);
+            let parameter = self.parameter_of_landing(top, shifted, near, Hold { span, weight, goes_on: false })?;
             near = parameter;
-            let hold = Some(Hold { span, unknown, goes_on: true });
+            let hold = Some(Hold { span, weight, goes_on: true });
             let laid = self.lay(&Top { hold, ..top(parameter) }).ok()?;
             Some((parameter, laid))
         };
@@ -61,6 +67,27 @@ impl Layout<'_> {
                 return best;
             }
             before = (share, value);
+        }
+        None
+    }
+
+    /// The line at a side of a jump: at a parameter, or as little further out as leaves it there.
+    fn side(
+        &self,
+        top: &impl Fn(f64) -> Top,
+        shifted: &impl Fn(f64, f64) -> f64,
+        at: f64,
+        outward: f64,
+        is_there: impl Fn(f64) -> bool,
+    ) -> Option<(f64, Laid)> {
+        let mut shift = 0.0;
+        for _ in 0..MOST_SHIFTS {
+            let parameter = shifted(at, outward * shift);
+            let laid = self.lay(&top(parameter)).ok().filter(|l| is_there(l.short.value));
+            if let Some(laid) = laid {
+                return Some((parameter, laid));
+            }
+            shift = if shift == 0.0 { FIRST_SHIFT } else { SHIFT_FACTOR * shift };
         }
         None
     }

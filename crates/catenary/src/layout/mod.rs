@@ -118,8 +118,8 @@ pub(super) struct Laid {
     pub heap: Option<(Heap, f64)>,
     /// Whether it has slid down to the anchor: `short` is that of the place without tension.
     pub slid: bool,
-    /// The unknown of each span (N), and the gap of the span whose unknown is held.
-    pub unknowns: Vec<f64>,
+    /// The weight (N) that lies before each span that leaves the bottom, and the gap of the span whose place is held.
+    pub left_at: Vec<Option<f64>>,
     pub gap: Option<Var>,
     /// Largest gap left at a landing (m).
     pub left: f64,
@@ -184,11 +184,12 @@ pub(super) struct Top {
     pub hold: Option<Hold>,
 }
 
-/// A span whose unknown is given: what it lands on then is at a gap from it.
+/// A span that leaves the bottom at a given place: what it lands on is at a gap from it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Hold {
     pub span: usize,
-    pub unknown: f64,
+    /// Weight that lies before it (N).
+    pub weight: f64,
     /// Whether the line is laid on behind it.
     pub goes_on: bool,
 }
@@ -278,9 +279,9 @@ impl<'a> Layout<'a> {
         }
         // every span begins further toward the anchor or sinks a buoy
         for _ in 0..=8 * (self.elements.len() + self.bottom.faces() + 2) {
-            let hold = top.hold.filter(|h| h.span == laid.unknowns.len());
+            let hold = top.hold.filter(|h| h.span == laid.left_at.len());
             let (departure, landing) = self.next_span(&origin, top, sunk, hold, &mut laid)?;
-            if hold.is_some_and(|h| !h.goes_on) {
+            if laid.gap.is_some() && hold.is_some_and(|h| !h.goes_on) {
                 return Ok(Some(laid));
             }
             if let Kind::Held(joint) = landing.kind {

@@ -90,11 +90,11 @@ impl Layout<'_> {
         hold: Option<Hold>,
         laid: &mut Laid,
     ) -> Result<(Departure, Candidate), LineError> {
-        if let Some(hold) = hold {
-            let departure = self.depart(origin, top, hold.unknown);
+        if let (Some(hold), Origin::Ground(_)) = (hold, origin) {
+            let departure = self.depart(origin, top, hold.weight);
             let landing = self.lowest(&departure, sunk);
             laid.gap = Some(landing.gap);
-            return Ok(self.landed(origin, hold.unknown, departure, landing, laid));
+            return Ok(self.landed(origin, hold.weight, departure, landing, laid));
         }
         let (mut low, mut high, mut at) = match origin {
             Origin::Fairlead => {
@@ -267,7 +267,7 @@ impl Layout<'_> {
         laid: &mut Laid,
     ) -> Option<Spare> {
         let mut spare = None;
-        laid.unknowns.push(from.unknown);
+        laid.left_at.push(matches!(origin, Origin::Ground(_)).then_some(from.unknown));
         match origin {
             Origin::Ground(path) => {
                 self.record_path(path, Some(from), laid);

@@ -233,6 +233,38 @@ fn slack_line_with_buoy_on_a_slope_stands_above_its_heap() {
 }
 
 #[test]
+fn line_between_two_folds_of_friction_is_solved() {
+    // a light segment rises to an anchor above the bottom: the later it leaves the bottom the less tension friction has left it, and
+    // the higher it rises. scipy (fsolve from 1008 starts, one root), from Irvine 1981: both contacts and the anchor closed to 1e-10
+    let part = |length, weight, ea| Segment { length, weight, ea };
+    let parts = vec![part(360.3, 4250.0, 1.97e9), part(341.3, 1510.0, 7.5e8), part(126.0, 13.0, 2.8e9)];
+    let line = Line::new(parts, vec![Joint::Weight(-185.3e3), Joint::Free], -182.4, 0.0).unwrap();
+    let line = line.over(Some(Floor { elevation: -303.0, slope: -0.147, friction: 0.914 })).unwrap();
+    let state = line.at_distance(538.0, -46.0).unwrap();
+    close(state.force, 267_802.28263, 1e-2, "H");
+    close(state.top_vertical, 1_458_587.41372, 1e-2, "V");
+    close(state.anchor_horizontal, 4144.55699, 1e-2, "H at the anchor");
+    close(state.anchor_vertical, -14_450.84138, 1e-2, "V at the anchor");
+    close(state.grounded, 232.56958, 1e-4, "on the bottom");
+    close(state.joints[0].x, 167.95413, 1e-4, "buoy");
+}
+
+#[test]
+fn pendant_longer_than_the_depth_at_the_anchor_holds_over_deeper_water() {
+    // 120 m of pendant, 100 m of water at the anchor and 200 m from 100 m beyond it on: two catenaries of 500 and 300 N/m meet at
+    // a joint 120 m below the surface, all hanging free. scipy: the buoy's lift closes V, H closes the distance
+    let places = [(0.0, -100.0), (100.0, -200.0), (1000.0, -200.0)];
+    let part = |length, weight| Segment { length, weight, ea: 5e8 };
+    let buoy = Joint::SpringBuoy { capacity: 1e6, depth: 120.0 };
+    let line = Line::new(vec![part(300.0, 500.0), part(300.0, 300.0)], vec![buoy], -100.0, 0.0).unwrap();
+    let state = line.over_profile(&places, 0.0).unwrap().at_distance(560.0, -10.0).unwrap();
+    close(state.joints[0].z, -120.0, 1e-6, "held");
+    close(state.force, 125_969.442838, 1e-3, "H");
+    close(state.joints[0].lift, 54_332.568165, 1e-3, "buoy");
+    close(state.top_vertical, 131_734.477623, 1e-3, "V");
+}
+
+#[test]
 fn clump_at_the_edge_of_a_heap_is_held_by_what_the_length_asks_for() {
     // slope of 1 in 10 without friction, down to the fairlead: the second segment reaches from the anchor to the clump straight
     // below the fairlead with less than w sin of the clump: (T0 + w sin L / 2) L / EA is what it has to stretch

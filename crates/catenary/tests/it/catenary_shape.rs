@@ -142,7 +142,9 @@ fn the_line_with_a_given_tension_has_it_and_less_than_its_weight_is_refused() {
 #[test]
 fn a_pendant_longer_than_the_depth_and_a_law_that_falls_are_refused() {
     let buoy = Joint::SpringBuoy { capacity: 1e5, depth: 300.0 };
-    let error = Line::new(vec![CHAIN, CHAIN], vec![buoy], -250.0, 0.0).unwrap_err();
+    let line = Line::new(vec![CHAIN, CHAIN], vec![buoy], -250.0, 0.0).unwrap();
+    let error = line.at_distance(900.0, 0.0).unwrap_err();
+    assert_eq!(line.over(Some(Floor { elevation: -250.0, slope: 0.0, friction: 0.5 })).unwrap_err(), error);
     assert!(matches!(error, LineError::Pendant { segment: 1, .. }), "{error}");
     let line = Line::new(vec![CHAIN], vec![], -250.0, 0.0).unwrap();
     let falling = Law::Polynomial { ea: 1e8, k: [-5e9, 0.0, 0.0], most: 0.05 };
