@@ -241,12 +241,27 @@ fn line_between_two_folds_of_friction_is_solved() {
     let line = Line::new(parts, vec![Joint::Weight(-185.3e3), Joint::Free], -182.4, 0.0).unwrap();
     let line = line.over(Some(Floor { elevation: -303.0, slope: -0.147, friction: 0.914 })).unwrap();
     let state = line.at_distance(538.0, -46.0).unwrap();
-    close(state.force, 267_802.28263, 1e-2, "H");
-    close(state.top_vertical, 1_458_587.41372, 1e-2, "V");
+    close(state.force, 267802.28263, 1e-2, "H");
+    close(state.top_vertical, 1458587.41372, 1e-2, "V");
     close(state.anchor_horizontal, 4144.55699, 1e-2, "H at the anchor");
-    close(state.anchor_vertical, -14_450.84138, 1e-2, "V at the anchor");
+    close(state.anchor_vertical, -14450.84138, 1e-2, "V at the anchor");
     close(state.grounded, 232.56958, 1e-4, "on the bottom");
     close(state.joints[0].x, 167.95413, 1e-4, "buoy");
+}
+
+#[test]
+fn distance_of_a_force_is_found_on_a_slope_of_two_weights() {
+    // heavy chain, then a light rope of which 286 m carry tension; no friction. scipy (brentq, one root in the length that hangs)
+    let parts = vec![
+        Segment { length: 323.0, weight: 2772.0, ea: 1.376e9 },
+        Segment { length: 363.7, weight: 17.7, ea: 1.04e7 },
+    ];
+    let line = Line::new(parts, vec![Joint::Free], -294.2, 0.0).unwrap();
+    let line = line.over(Some(Floor { elevation: -294.2, slope: 0.0835, friction: 0.0 })).unwrap();
+    let state = line.at_horizontal_force(26_700.0, -60.8).unwrap();
+    close(state.x, 434.663283781, 1e-6, "distance");
+    close(state.top_vertical, 580660.7392, 1e-3, "V");
+    close(state.heap.unwrap().1, 77.529478105, 1e-6, "heap");
 }
 
 #[test]
