@@ -33,27 +33,44 @@ impl Layout<'_> {
         let (second_at, second) = self.side(top, shifted, beyond_at, -outward, |short| short <= 0.0)?;
         let mut pairs = first.left_at.iter().zip(&second.left_at).enumerate();
         // where one side only just touches the bottom, none of it lies
-        let (span, from, to, at) = pairs.find_map(|(span, sides)| match sides {
-            (Some(a), Some(b)) => ((a - b).abs() > JUMP * self.weight).then_some((span, *a, *b, first_at)),
-            (Some(a), None) => Some((span, *a, 0.0, first_at)),
-            (None, Some(b)) => Some((span, 0.0, *b, second_at)),
+        let (span, from, to, (at, side)) = pairs.find_map(|(span, sides)| match sides {
+            (Some(a), Some(b)) => ((a - b).abs() > JUMP * self.weight).then_some((span, *a, *b, (first_at, &first))),
+            (Some(a), None) => Some((span, *a, 0.0, (first_at, &first))),
+            (None, Some(b)) => Some((span, 0.0, *b, (second_at, &second))),
             (None, None) => None,
         })?;
-        let place = |share: f64| from + share * (to - from);
+        let lands_in = span.checked_sub(1).and_then(|before| side.lands_in.get(before).copied());
+        let shorts = [first.short.value, second.short.value];
+        let found = |lands_in: Option<usize>| {
+            let hold = Hold { span, weight: from, lands_in, goes_on: false };
+            let found = self.between_places(top, shifted, (hold, to), (at, shorts));
+            found.filter(|(_, laid)| laid.short.value.abs() <= JUMP * self.length)
+        };
+        found(None).or_else(|| lands_in.and_then(|piece| found(Some(piece))))
+    }
+
+    /// The line with a span that begins between the place of `hold` and another one, where the end falls short of the anchor by
+    /// `shorts`; `at` is the parameter at a side.
+    fn between_places(
+        &self,
+        top: &impl Fn(f64) -> Top,
+        shifted: &impl Fn(f64, f64) -> f64,
+        (hold, to): (Hold, f64),
+        (at, [short_at_first, short_at_last]): (f64, [f64; 2]),
+    ) -> Option<(f64, Laid)> {
         // how far the line falls short with the span beginning at a place, and its parameter there
         let mut near = at;
         let mut short = |share: f64| {
-            let weight = place(share);
-            let parameter = self.parameter_of_landing(top, shifted, near, Hold { span, weight, goes_on: false })?;
+            let hold = Hold { weight: hold.weight + share * (to - hold.weight), ..hold };
+            let parameter = self.parameter_of_landing(top, shifted, near, hold)?;
             near = parameter;
-            let hold = Some(Hold { span, weight, goes_on: true });
-            let laid = self.lay(&Top { hold, ..top(parameter) }).ok()?;
+            let laid = self.lay(&Top { hold: Some(Hold { goes_on: true, ..hold }), ..top(parameter) }).ok()?;
             Some((parameter, laid))
         };
-        let mut before = (0.0, first.short.value);
+        let mut before = (0.0, short_at_first);
         for step in 1..=PLACES {
             let share = step as f64 / PLACES as f64;
-            let value = if step == PLACES { second.short.value } else { short(share)?.1.short.value };
+            let value = if step == PLACES { short_at_last } else { short(share)?.1.short.value };
             if (value > 0.0) != (before.1 > 0.0) {
                 let mut best: Option<(f64, Laid)> = None;
                 bracketed_root(before, (share, value), |share| {

@@ -120,6 +120,8 @@ pub(super) struct Laid {
     pub slid: bool,
     /// The weight (N) that lies before each span that leaves the bottom, and the gap of the span whose place is held.
     pub left_at: Vec<Option<f64>>,
+    /// The piece of the line in which each span lands.
+    pub lands_in: Vec<usize>,
     pub gap: Option<Var>,
     /// Largest gap left at a landing (m).
     pub left: f64,
@@ -190,6 +192,8 @@ pub(super) struct Hold {
     pub span: usize,
     /// Weight that lies before it (N).
     pub weight: f64,
+    /// The piece of the line with which the span before it lands, whatever it would reach beyond; any where none is given.
+    pub lands_in: Option<usize>,
     /// Whether the line is laid on behind it.
     pub goes_on: bool,
 }
@@ -280,7 +284,7 @@ impl<'a> Layout<'a> {
         // every span begins further toward the anchor or sinks a buoy
         for _ in 0..=8 * (self.elements.len() + self.bottom.faces() + 2) {
             let hold = top.hold.filter(|h| h.span == laid.left_at.len());
-            let (departure, landing) = self.next_span(&origin, top, sunk, hold, &mut laid)?;
+            let (departure, landing) = self.next_span(&origin, top, sunk, &mut laid)?;
             if laid.gap.is_some() && hold.is_some_and(|h| !h.goes_on) {
                 return Ok(Some(laid));
             }

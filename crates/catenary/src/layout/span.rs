@@ -1,7 +1,7 @@
 //! A span: the free curve that just touches what it must not pass.
 
 use super::path::Spare;
-use super::{Hold, JointAt, Laid, Layout, Manner, Origin, Point, Stretch, Top};
+use super::{JointAt, Laid, Layout, Manner, Origin, Point, Stretch, Top};
 use crate::dual::{UNKNOWN, Var};
 use crate::element::{Element, strain, stretch};
 use crate::law::Law;
@@ -87,9 +87,10 @@ impl Layout<'_> {
         origin: &Origin,
         top: &Top,
         sunk: &[bool],
-        hold: Option<Hold>,
         laid: &mut Laid,
     ) -> Result<(Departure, Candidate), LineError> {
+        let span = laid.left_at.len();
+        let hold = top.hold.filter(|h| h.span == span);
         if let (Some(hold), Origin::Ground(_)) = (hold, origin) {
             let departure = self.depart(origin, top, hold.weight);
             let landing = self.lowest(&departure, sunk);
@@ -105,12 +106,13 @@ impl Layout<'_> {
             Origin::Ground(path) => (0.0, path.weight, path.weight),
         };
         let mut grow = self.weight + top.h.value;
+        let lands_in = top.hold.filter(|h| h.span == span + 1).and_then(|h| h.lands_in);
         let mut best: Option<(f64, Departure, Candidate)> = None;
         let mut steps = 0;
         while steps < MOST_STEPS {
             steps += 1;
             let departure = self.depart(origin, top, at);
-            let found = self.limit(&departure, sunk);
+            let found = self.least_of(&departure, sunk, lands_in, Candidate::room);
             let gap = found.gap.value;
             if gap.is_nan() {
                 break;
@@ -172,17 +174,28 @@ impl Layout<'_> {
 
     /// What a curve touches first when its unknown grows.
     pub fn limit(&self, from: &Departure, sunk: &[bool]) -> Candidate {
-        self.least_of(from, sunk, Candidate::room)
+        self.least_of(from, sunk, None, Candidate::room)
     }
 
     /// What a curve is the least above, or the furthest below.
     fn lowest(&self, from: &Departure, sunk: &[bool]) -> Candidate {
-        self.least_of(from, sunk, |c| c.gap.value)
+        self.least_of(from, sunk, None, |c| c.gap.value)
     }
 
-    fn least_of(&self, from: &Departure, sunk: &[bool], size: impl Fn(&Candidate) -> f64) -> Candidate {
+    /// The least candidate, of those up to a landing in a piece when that is given.
+    fn least_of(
+        &self,
+        from: &Departure,
+        sunk: &[bool],
+        lands_in: Option<usize>,
+        size: impl Fn(&Candidate) -> f64,
+    ) -> Candidate {
         let mut best: Option<Candidate> = None;
         let mut take = |candidate: Candidate| {
+            let (element, held) = (candidate.at.element, matches!(candidate.kind, Kind::Held(_) | Kind::End));
+            if lands_in.is_some_and(|last| element > last || (element == last && held)) {
+                return;
+            }
             if best.as_ref().is_none_or(|b| size(&candidate) < size(b)) {
                 best = Some(candidate);
             }
@@ -267,6 +280,7 @@ impl Layout<'_> {
         laid: &mut Laid,
     ) -> Option<Spare> {
         let mut spare = None;
+        laid.lands_in.push(to.at.element);
         laid.left_at.push(matches!(origin, Origin::Ground(_)).then_some(from.unknown));
         match origin {
             Origin::Ground(path) => {
