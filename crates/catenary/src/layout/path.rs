@@ -259,7 +259,7 @@ impl Layout<'_> {
             for _ in 0..100 {
                 let there = self.lie(cursor, Var::fixed(part), limp);
                 let off = there.at.u.value - edge;
-                part = (part + off / rate(&there)).clamp(0.0, length.value);
+                part = (part + off / rate(&there)).min(length.value).max(0.0);
                 if off.abs() <= self.fine {
                     break;
                 }

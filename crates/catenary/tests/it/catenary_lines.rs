@@ -166,7 +166,7 @@ fn contradiction(
             if state.slack && !heaped {
                 // a heap is where the state says that the joint or the anchor is
                 let end = state.joints.get(index).map_or(x, |j| j.x);
-                lies = ((end - at) / cos).clamp(0.0, lies + stretch) - stretch;
+                lies = ((end - at) / cos).min(lies + stretch).max(0.0) - stretch;
             }
             let length = lies + stretch;
             at += length * cos;
