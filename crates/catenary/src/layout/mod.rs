@@ -9,6 +9,13 @@
 //! beginning grows, or when it leaves the bottom later, so that each span is one safeguarded search; a curve that has
 //! been found stays a possible continuation of itself, so that there always is an answer.
 //!
+//! With friction a curve that leaves later can also rise, since it leaves with less tension: a span then has several
+//! beginnings, of which the last is taken, and the end of the line jumps at the force where that one is lost. `fold` finds
+//! the equilibria between the two sides of such a jump.
+//!
+//! Spare length without tension lies in a heap, which is level and moves no part of the line that lies in it: at the
+//! touchdown, in a hollow, or at the anchor where the bottom is too steep for friction.
+//!
 //! One search in the horizontal force (or in the distance) is left, which brings the end to the anchor. All numbers carry
 //! their derivatives by the horizontal force and by the place of the fairlead: the stiffness is that of the formulas.
 //!
