@@ -5,8 +5,8 @@
 //! the hydrostatics up to the mean level, which are the body's buoyancy, are taken off. All of it is found once a step, at the place expected
 //! at its end.
 //!
-//! Panels are triangles whose edges are no longer than `EDGE` over the root mean square wave number of the waves, and near the surface, with
-//! the body where it is at the start, than `EDGE_AT_SURFACE` over it. On a panel whose nodes are all below the mean level and the waves, the
+//! Panels are triangles whose edges are no longer than `EDGE` over the root mean square wave number of the pressure at their highest corner,
+//! and near the surface, with the body where it is at the start, than `EDGE_AT_SURFACE` over that of the waves. On a panel whose nodes are all below the mean level and the waves, the
 //! dynamic pressure alone is left; it is integrated by its values at the middles of the three edges, which is exact for a pressure of the
 //! second degree (Strang and Fix 1973, table 4.1). A panel that the surface cuts is taken as four triangles: the surface of the waves is a
 //! straight line across each, and below it the pressure is that of water at rest, by the elevations at the six nodes, with what the waves
@@ -25,11 +25,11 @@ use std::sync::Arc;
 use windlass_base::pose::{Pose, Six};
 use windlass_model::{Body, ClassError, Model, WaveAction};
 
-/// Longest edge of a panel times the root mean square wave number: the force of a wave on a submerged box errs by less than 5e-4, and with the
-/// fourth power of it.
+/// Longest edge of a panel times the root mean square wave number of the pressure on it: the force of a wave on a submerged box errs by less
+/// than 5e-4, and with the fourth power of it.
 const EDGE: f64 = 0.8;
 /// The same of a panel that waves may cut; there the error goes with the square.
-const EDGE_AT_SURFACE: f64 = 0.3;
+const EDGE_AT_SURFACE: f64 = 0.45;
 /// Standard deviations of the surface from the mean level within which waves may cut a panel.
 const NEAR: f64 = 3.0;
 /// Panels of a piece beyond which all their edges are longer.
@@ -57,6 +57,8 @@ struct Node {
     /// Force and moment about the body's origin of a unit pressure at it on all panels whose edge it halves, in body axes (m2, m3); zero for a
     /// corner.
     wrench: Six,
+    /// Whether it has one.
+    counts: bool,
 }
 
 /// A panel with the factor of its piece.
@@ -98,10 +100,12 @@ pub fn of(model: &Model, body: &Body, sea: Option<&Arc<Sea>>) -> Result<Option<W
     Ok((!surfaces.is_empty()).then(|| made(surfaces)))
 }
 
-/// Root mean square of the wave numbers (1/m) of a sea, by their energy.
-fn mean_number(sea: &Sea) -> f64 {
+/// Root mean square of the wave numbers (1/m) of the pressure of a sea at a height over the mean level (m, not above it), by its energy.
+fn mean_number(sea: &Sea, height: f64) -> f64 {
+    let longest = sea.components.iter().map(|c| c.number).fold(f64::INFINITY, f64::min);
     let [all, numbers] = sea.components.iter().fold([0.0; 2], |[all, numbers], c| {
-        let energy = c.amplitude * c.amplitude;
+        let pressure = c.amplitude * ((c.number - longest) * height).exp();
+        let energy = pressure * pressure;
         [all + energy, numbers + energy * c.number * c.number]
     });
     if all > 0.0 { (numbers / all).sqrt() } else { 0.0 }
@@ -115,19 +119,23 @@ fn from_surfaces(
     finer: f64,
 ) -> WavePressure {
     let near = NEAR * (0.5 * sea.components.iter().map(|c| c.amplitude * c.amplitude).sum::<f64>()).sqrt();
-    let at_surface = EDGE_AT_SURFACE / mean_number(sea) / finer;
+    let at_surface = EDGE_AT_SURFACE / mean_number(sea, 0.0) / finer;
+    let height = |place: &Vector3<f64>| pose.origin.z + (pose.axes * place).z - sea.level;
+    // a body that is raised by the waves takes its panels with it
+    let longest_at = |height: f64| EDGE / mean_number(sea, (height + near).min(0.0)) / finer;
     let limit = |corners: &[Vector3<f64>; 3]| {
-        let heights = corners.map(|corner| pose.origin.z + (pose.axes * corner).z - sea.level);
-        let [low, high] =
-            [heights.into_iter().fold(f64::INFINITY, f64::min), heights.into_iter().fold(f64::NEG_INFINITY, f64::max)];
-        if low < near && high > -near { at_surface } else { f64::INFINITY }
+        let [low, high] = corners
+            .iter()
+            .map(height)
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], z| [low.min(z), high.max(z)]);
+        if low < near && high > -near { at_surface } else { longest_at(high) }
     };
-    let longest = EDGE / mean_number(sea) / finer;
     let (mut nodes, mut panels): (Vec<Node>, Vec<Pressed>) = (Vec::new(), Vec::new());
     for (factor, surface) in surfaces {
-        let made = Panelling::new(&surface, longest, MOST).refined(&limit, MOST);
+        let lowest = surface.vertices.iter().map(height).fold(f64::INFINITY, f64::min);
+        let made = Panelling::new(&surface, longest_at(lowest), MOST).refined(&limit, MOST);
         let first = nodes.len() as u32;
-        nodes.extend(made.nodes.into_iter().map(|place| Node { place, wrench: Six::zeros() }));
+        nodes.extend(made.nodes.into_iter().map(|place| Node { place, wrench: Six::zeros(), counts: false }));
         panels.extend(made.panels.into_iter().map(|p| Pressed { panel: p.map(|n| n + first), factor }));
     }
     let place = |nodes: &[Node], n: u32| nodes.get(n as usize).map_or_else(Vector3::zeros, |node| node.place);
@@ -138,6 +146,7 @@ fn from_surfaces(
         for middle in middles {
             if let Some(node) = nodes.get_mut(*middle as usize) {
                 node.wrench += about_origin(&node.place, &third);
+                node.counts = true;
             }
         }
     }
@@ -170,22 +179,41 @@ struct Corner {
     kink: f64,
 }
 
-/// Gives the parts of a triangle on the two sides of where a value of its corners is zero: corners, share of the part that counts, and whether
-/// it is on the lower side. A quadrangle is cut along each of its diagonals, and each way counts half, so that a mirrored one gives the same.
-fn divide(corners: [Corner; 3], value: fn(&mut Corner) -> &mut f64, visit: &mut dyn FnMut([Corner; 3], f64, bool)) {
+/// What a panel is cut along: where it is zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Along {
+    Surface,
+    Kink,
+}
+
+/// The parts of a triangle on the two sides of a line: corners, share of the part that counts, and whether it is on the lower side.
+struct Parts {
+    list: [([Corner; 3], f64, bool); 5],
+    count: usize,
+}
+
+impl Parts {
+    fn iter(&self) -> impl Iterator<Item = &([Corner; 3], f64, bool)> {
+        self.list.iter().take(self.count)
+    }
+}
+
+/// The parts of a triangle on the two sides of where a value of its corners is zero. A quadrangle is cut along each of its diagonals, and each
+/// way counts half, so that a mirrored one gives the same.
+fn divide(corners: &[Corner; 3], along: Along) -> Parts {
+    let value = |c: &Corner| if along == Along::Surface { c.over } else { c.kink };
     let [a, b, c] = corners;
-    let values = [a, b, c].map(|mut x| *value(&mut x));
+    let whole = |below| Parts { list: [(*corners, 1.0, below); 5], count: 1 };
     // the corner that is alone on its side comes first
-    let [p, q, r] = match values.map(|x| x <= 0.0) {
-        [true, true, true] => return visit(corners, 1.0, true),
-        [false, false, false] => return visit(corners, 1.0, false),
+    let [p, q, r] = match [value(a) <= 0.0, value(b) <= 0.0, value(c) <= 0.0] {
+        [true, true, true] => return whole(true),
+        [false, false, false] => return whole(false),
         [true, false, false] | [false, true, true] => [a, b, c],
         [false, true, false] | [true, false, true] => [b, c, a],
         _ => [c, a, b],
     };
-    let cut = |mut p: Corner, mut q: Corner| {
-        let (at_p, at_q) = (*value(&mut p), *value(&mut q));
-        let share = at_p / (at_p - at_q);
+    let cut = |q: &Corner| {
+        let share = value(p) / (value(p) - value(q));
         let between = |a: f64, b: f64| a + (b - a) * share;
         let mut made = Corner {
             place: std::array::from_fn(|i| between(p.place[i], q.place[i])),
@@ -193,37 +221,43 @@ fn divide(corners: [Corner; 3], value: fn(&mut Corner) -> &mut f64, visit: &mut 
             extra: between(p.extra, q.extra),
             kink: between(p.kink, q.kink),
         };
-        *value(&mut made) = 0.0;
+        *(if along == Along::Surface { &mut made.over } else { &mut made.kink }) = 0.0;
         made
     };
-    let (pq, pr) = (cut(p, q), cut(p, r));
-    let below = { *value(&mut { p }) } <= 0.0;
-    visit([p, pq, pr], 1.0, below);
-    for part in [[pq, q, r], [pq, r, pr], [pq, q, pr], [q, r, pr]] {
-        visit(part, 0.5, !below);
-    }
+    let (pq, pr) = (cut(q), cut(r));
+    let below = value(p) <= 0.0;
+    let list = [
+        ([*p, pq, pr], 1.0, below),
+        ([pq, *q, *r], 0.5, !below),
+        ([pq, *r, pr], 0.5, !below),
+        ([pq, *q, pr], 0.5, !below),
+        ([*q, *r, pr], 0.5, !below),
+    ];
+    Parts { list, count: 5 }
 }
 
-/// The sum over the middles of the edges of a triangle of a pressure there: force per third of the area, and its moment, against the normal.
-fn by_middles(
-    corners: [[f64; 3]; 3],
-    near: &[Near; 6],
-    third: &Vector3<f64>,
-    pressure: impl Fn([f64; 3], usize) -> f64,
-) -> Six {
-    let [a, b, c] = corners;
-    let middle = |p: [f64; 3], q: [f64; 3]| -> [f64; 3] { std::array::from_fn(|i| 0.5 * (p[i] + q[i])) };
-    let mut sum = Six::zeros();
-    for (edge, place) in [middle(a, b), middle(b, c), middle(c, a)].into_iter().enumerate() {
-        let [u, v, w] = place;
-        let arm = near[0].arm * u + near[1].arm * v + near[2].arm * w;
-        sum -= about_origin(&arm, &(third * pressure(place, edge)));
+/// Integrals of a pressure over parts of a panel, times each of its barycentric coordinates, over the panel's area.
+#[derive(Clone, Copy, Debug, Default)]
+struct Moments([f64; 3]);
+
+impl Moments {
+    /// Adds those over a triangle, which counts by a share, by the pressure at the middles of its edges.
+    #[inline(always)]
+    fn add(&mut self, corners: &[Corner; 3], counts: f64, pressure: impl Fn(&[f64; 3], usize) -> f64) {
+        let third = share(corners) * counts / 3.0;
+        for (edge, [p, q]) in [[0, 1], [1, 2], [2, 0]].into_iter().enumerate() {
+            let place = std::array::from_fn(|i| 0.5 * (corners[p].place[i] + corners[q].place[i]));
+            let part = third * pressure(&place, edge);
+            for (sum, share) in self.0.iter_mut().zip(place) {
+                *sum += part * share;
+            }
+        }
     }
-    sum
 }
 
 /// The value at a place of a panel of a polynomial of the second degree with these values at the nodes.
-fn quadratic(values: &[f64; 6], [u, v, w]: [f64; 3]) -> f64 {
+#[inline(always)]
+fn quadratic(values: &[f64; 6], [u, v, w]: &[f64; 3]) -> f64 {
     let corners = values[0] * u * (2.0 * u - 1.0) + values[1] * v * (2.0 * v - 1.0) + values[2] * w * (2.0 * w - 1.0);
     corners + 4.0 * (values[3] * u * v + values[4] * v * w + values[5] * w * u)
 }
@@ -232,42 +266,70 @@ fn quadratic(values: &[f64; 6], [u, v, w]: [f64; 3]) -> f64 {
 /// the pressure of water at rest below the surface of the waves, which is of the second degree between the nodes, and linearly what the
 /// waves differ from it, up to where the stretching ends. What the mean level gives is linear.
 fn near_surface(near: &[Near; 6], weight: f64) -> Six {
-    let area = (near[1].arm - near[0].arm).cross(&(near[2].arm - near[0].arm)) * 0.5;
     let over = near.map(|n| n.over);
     // what is cut there is then at the surface, and not beside it by rounding
     let ends_at_surface = near.iter().all(|n| n.kink == n.over);
-    let mut sum = Six::zeros();
+    let mut sum = Moments::default();
+    let wet = |sum: &mut Moments, part: &[Corner; 3], counts: f64| {
+        let [a, b, c] = part;
+        let extra = [a.extra + b.extra, b.extra + c.extra, c.extra + a.extra];
+        sum.add(part, counts, |place, edge| 0.5 * extra[edge] - weight * quadratic(&over, place));
+    };
+    // beyond the end of the stretching there is no more than water at rest
+    let within = |c: &mut Corner, stretched: bool| {
+        if !stretched || c.kink == 0.0 {
+            c.extra = 0.0;
+        }
+        if ends_at_surface {
+            c.over = c.kink;
+        }
+    };
     for quarter in QUARTERS {
-        let corners = quarter.map(|n| {
+        let corner = |n: usize| {
             let Near { over, extra, kink, .. } = near[n];
             Corner { place: NODES[n], over, extra, kink }
-        });
-        divide(corners, |c| &mut c.kink, &mut |part, counts, stretched| {
-            let part = part.map(|c| Corner {
-                extra: if stretched && c.kink != 0.0 { c.extra } else { 0.0 },
-                over: if ends_at_surface { c.kink } else { c.over },
-                ..c
-            });
-            divide(part, |c| &mut c.over, &mut |part, half, wet| {
-                if wet {
-                    let third = area * (share(&part) * counts * half / 3.0);
-                    let [a, b, c] = part.map(|c| c.extra);
-                    let extra = [a + b, b + c, c + a];
-                    let pressure = |place, edge: usize| 0.5 * extra[edge] - weight * quadratic(&over, place);
-                    sum += by_middles(part.map(|c| c.place), near, &third, pressure);
-                }
-            });
-        });
-    }
-    let corners = [0, 1, 2].map(|n| Corner { place: NODES[n], over: near[n].height, extra: 0.0, kink: 0.0 });
-    divide(corners, |c| &mut c.over, &mut |part, half, wet| {
-        if wet {
-            let third = area * (share(&part) * half / 3.0);
-            let height = |[u, v, w]: [f64; 3]| near[0].height * u + near[1].height * v + near[2].height * w;
-            sum -= by_middles(part.map(|c| c.place), near, &third, |place, _| -weight * height(place));
+        };
+        let [a, b, c] = quarter;
+        let mut corners = [corner(a), corner(b), corner(c)];
+        if corners.iter().all(|c| c.over > 0.0) {
+            continue;
         }
-    });
-    sum
+        let below = corners.iter().filter(|c| c.kink <= 0.0).count();
+        if below == 0 || below == 3 {
+            corners.iter_mut().for_each(|c| within(c, below == 3));
+            if corners.iter().all(|c| c.over <= 0.0) {
+                wet(&mut sum, &corners, 1.0);
+                continue;
+            }
+            for (part, half, _) in divide(&corners, Along::Surface).iter().filter(|part| part.2) {
+                wet(&mut sum, part, *half);
+            }
+            continue;
+        }
+        for (part, counts, stretched) in divide(&corners, Along::Kink).iter() {
+            let mut part = *part;
+            part.iter_mut().for_each(|c| within(c, *stretched));
+            for (part, half, _) in divide(&part, Along::Surface).iter().filter(|part| part.2) {
+                wet(&mut sum, part, counts * half);
+            }
+        }
+    }
+    let corner = |n: usize| Corner { place: NODES[n], over: near[n].height, extra: 0.0, kink: 0.0 };
+    let corners = [corner(0), corner(1), corner(2)];
+    let at_rest = |[u, v, w]: &[f64; 3], _| weight * (near[0].height * u + near[1].height * v + near[2].height * w);
+    if corners.iter().all(|c| c.over <= 0.0) {
+        sum.add(&corners, 1.0, at_rest);
+    } else if corners.iter().any(|c| c.over <= 0.0) {
+        for (part, half, _) in divide(&corners, Along::Surface).iter().filter(|part| part.2) {
+            sum.add(part, *half, at_rest);
+        }
+    }
+    // against the normal
+    let area = (near[1].arm - near[0].arm).cross(&(near[2].arm - near[0].arm)) * -0.5;
+    let [u, v, w] = sum.0;
+    let about = near[0].arm * u + near[1].arm * v + near[2].arm * w;
+    let (force, moment) = (area * (u + v + w), about.cross(&area));
+    Six::new(force.x, force.y, force.z, moment.x, moment.y, moment.z)
 }
 
 /// The area of a triangle in barycentric coordinates, as a share of the panel's.
@@ -282,24 +344,38 @@ struct Around<'a> {
     sea: SeaAt<'a>,
     grid: Option<FilledGrid<'a>>,
     origin: Vector3<f64>,
-    level: f64,
+    /// Depth of the origin below the mean level (m).
+    sunk: f64,
     weight: f64,
 }
 
+/// How a node lies in the water of an instant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Lies {
+    /// Below the mean level and the waves.
+    Deep,
+    /// Near the surface.
+    Near,
+    /// Above the mean level and the waves near it.
+    Dry,
+}
+
 impl Around<'_> {
-    /// Whether the water is above an arm from the origin, at its mean level and with the waves of this instant near it.
-    fn is_deep(&self, arm: &Vector3<f64>) -> bool {
-        let height = self.origin.z + arm.z - self.level;
-        match &self.grid {
-            Some(grid) => height < -grid.highest(),
+    /// How a place at an arm from the origin lies, with the waves of this instant near it.
+    fn lies(&self, arm: &Vector3<f64>) -> Lies {
+        let height = arm.z - self.sunk;
+        let deep = match self.grid.as_ref().and_then(|grid| grid.bounds(arm)) {
+            Some([_, high]) if height > high.max(0.0) => return Lies::Dry,
+            Some([low, _]) => height < low.min(0.0),
             None if height < -self.sea.highest() => true,
             None => height < 0.0 && height < self.sea.elevation(self.origin.x + arm.x, self.origin.y + arm.y),
-        }
+        };
+        if deep { Lies::Deep } else { Lies::Near }
     }
 
     /// The surface and the pressure at an arm from the origin.
     fn near(&self, arm: &Vector3<f64>) -> Near {
-        let height = self.origin.z + arm.z - self.level;
+        let height = arm.z - self.sunk;
         let on_grid = self.grid.as_ref().and_then(|grid| {
             let elevation = grid.elevation(arm)?;
             let depth = -self.sea.stretched(height, elevation)[0];
@@ -317,7 +393,7 @@ impl Around<'_> {
 
     /// Dynamic pressure (Pa) at an arm from the origin that is deep.
     fn dynamic(&self, arm: &Vector3<f64>) -> f64 {
-        let height = self.origin.z + arm.z - self.level;
+        let height = arm.z - self.sunk;
         let on_grid = self.grid.as_ref().and_then(|grid| {
             let elevation = if self.sea.needs_elevation(height) { grid.elevation(arm)? } else { 0.0 };
             grid.head(arm, -self.sea.stretched(height, elevation)[0])
@@ -330,18 +406,16 @@ impl WavePressure {
     /// The force of the waves at a time in a pose, beyond that of the mean level.
     pub fn at(&self, time: f64, pose: &Pose) -> Six {
         let arms: Vec<Vector3<f64>> = self.nodes.iter().map(|node| pose.axes * node.place).collect();
-        let level = self.sea.level;
-        let lowest = level - pose.origin.z - arms.iter().map(|arm| arm.z).fold(f64::INFINITY, f64::min);
         let origin = pose.origin;
-        let grid = self.grid.as_ref().map(|grid| grid.fill(&self.sea, time, [origin.x, origin.y], &arms, lowest));
-        let around = Around { sea: self.sea.at(time), grid, origin, level, weight: self.weight };
-        let deep: Vec<bool> = arms.iter().map(|arm| around.is_deep(arm)).collect();
-        let is_deep = |n: &u32| deep.get(*n as usize).is_some_and(|deep| *deep);
+        let grid = self.grid.as_ref().map(|grid| grid.fill(&self.sea, time, origin, &arms));
+        let around =
+            Around { sea: self.sea.at(time), grid, origin, sunk: self.sea.level - origin.z, weight: self.weight };
+        let lies: Vec<Lies> = arms.iter().map(|arm| around.lies(arm)).collect();
         // of all that is deep, by the middles of the edges
         let mut pressures = vec![0.0; self.nodes.len()];
         let mut sum = Six::zeros();
-        for (((node, arm), deep), kept) in self.nodes.iter().zip(&arms).zip(&deep).zip(&mut pressures) {
-            if *deep && node.wrench != Six::zeros() {
+        for (((node, arm), lies), kept) in self.nodes.iter().zip(&arms).zip(&lies).zip(&mut pressures) {
+            if *lies == Lies::Deep && node.counts {
                 *kept = around.dynamic(arm);
                 sum += node.wrench * *kept;
             }
@@ -350,15 +424,23 @@ impl WavePressure {
         let (force, moment) = (turned(0), turned(3));
         let mut sum = Six::new(force.x, force.y, force.z, moment.x, moment.y, moment.z);
         // the other panels: what their deep middles gave is replaced
-        let mut nodes: Vec<Option<Near>> = vec![None; self.nodes.len()];
+        let (mut asked, mut known) = (Vec::new(), vec![0u32; self.nodes.len()]);
         for Pressed { panel, factor } in &self.panels {
-            if panel.iter().all(is_deep) {
+            let all = |how: Lies| panel.iter().all(|n| lies.get(*n as usize) == Some(&how));
+            // of a dry panel no middle is deep
+            if all(Lies::Deep) || all(Lies::Dry) {
                 continue;
             }
             let mut near = [Near::default(); 6];
             for (found, n) in near.iter_mut().zip(panel) {
-                let (Some(arm), Some(kept)) = (arms.get(*n as usize), nodes.get_mut(*n as usize)) else { continue };
-                *found = *kept.get_or_insert_with(|| around.near(arm));
+                let (Some(arm), Some(known)) = (arms.get(*n as usize), known.get_mut(*n as usize)) else { continue };
+                if *known == 0 {
+                    asked.push(around.near(arm));
+                    *known = asked.len() as u32;
+                }
+                if let Some(one) = asked.get(*known as usize - 1) {
+                    *found = *one;
+                }
             }
             let third = (near[1].arm - near[0].arm).cross(&(near[2].arm - near[0].arm)) / 6.0;
             let wet = near.iter().all(|n| n.over < 0.0 && n.height < 0.0);
@@ -370,7 +452,9 @@ impl WavePressure {
             for (node, n) in near.iter().zip(panel).skip(3) {
                 let counted = pressures.get(*n as usize).copied().unwrap_or_default();
                 let dynamic = if wet { node.extra + self.weight * (node.height - node.over) } else { 0.0 };
-                own += about_origin(&node.arm, &third) * (counted - dynamic);
+                if counted != dynamic {
+                    own += about_origin(&node.arm, &third) * (counted - dynamic);
+                }
             }
             sum += own * *factor;
         }
