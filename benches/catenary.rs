@@ -1,4 +1,4 @@
-//! The thirty-row table of the four-segment line of seed 001; the 2,000 single lines of shared/validation, cold and
+//! The thirty-row table of the four-segment line of [MOSES-FLEX example]; the 2,000 single lines of tests/data/catenary_2000.csv, cold and
 //! followed along a path.
 
 #![allow(missing_docs, clippy::unwrap_used)]

@@ -1,7 +1,7 @@
 //! Equilibria of a free body on eight lines, begun 10 m off. In a form that a program can read: name, equilibria a pass, least
 //! seconds a pass, tab between.
 //!
-//! The mooring is that of MoorPy in shared/peers/results.md, (c): eight chains of 900 m in 300 m of water; and the same in two
+//! The mooring is that which MoorPy is timed on (benches/moorpy.py): eight chains of 900 m in 300 m of water; and the same in two
 //! segments with a clump between. The body is a box whose hull is cut at the surface.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::print_stdout)]

@@ -5,7 +5,7 @@
 
 Makes target/moorpy-venv with MoorPy from PyPI, and prints a table:
 - the 2,000 single lines of tests/data/catenary_2000.csv, cold: lines a second, and how many are wrong;
-- a thirty-row force-distance table of the four-segment line of seed 001, its buoy sunk;
+- a thirty-row force-distance table of the four-segment line of [MOSES-FLEX example], its buoy sunk;
 - forces on a body on eight chains and their tensions at 200 offsets, the body held.
 The time of a pass is MoorPy's CPU time, and wall time for windlass; the least of the passes counts, since other work on
 the machine only ever adds.

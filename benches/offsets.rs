@@ -1,7 +1,7 @@
 //! 200 offsets of a body on eight lines, held there: forces on the body and tensions of the lines. In a form that a program
 //! can read: name, offsets a pass, least seconds a pass, tab between; then `row`, X (m), restoring force (N) of each.
 //!
-//! The mooring is that of MoorPy and MAP++ in shared/peers/results.md, (c): eight chains of 900 m in 300 m of water, 0 to 40 m off.
+//! The mooring is that which MoorPy is timed on (benches/moorpy.py): eight chains of 900 m in 300 m of water, 0 to 40 m off.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::print_stdout)]
 

@@ -1,5 +1,5 @@
 //! Rates of one segment between two ends, in a form that a program can read: name, solutions a pass, least seconds a
-//! pass, tab between. The 2,000 lines of shared/validation: cold; cold along a path; followed along it. The thirty-row tables of
+//! pass, tab between. The 2,000 lines of tests/data/catenary_2000.csv: cold; cold along a path; followed along it. The thirty-row tables of
 //! the four-segment line; the rows of that with its buoy sunk as `row`, X (m), H (N).
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::print_stdout)]

@@ -1,4 +1,4 @@
-//! Tethers in time: the two examples of seed 003 with statistics and fatigue, and a tether of 25 to 200 elements for three hours. In a form
+//! Tethers in time: the two examples of [AQWA-TETHER 8] with statistics and fatigue, and a tether of 25 to 200 elements for three hours. In a form
 //! that a program can read: name, records, least seconds of a run, tab between; then `real time`, how many times quicker than real time.
 //!
 //! Seconds are those of the processor, where the system tells them, else those of the clock.

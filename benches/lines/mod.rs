@@ -9,7 +9,7 @@ use windlass_catenary::{Bottom, Joint, Line, Segment};
 /// Steps of the path.
 pub const STEPS: usize = 100;
 
-/// A line of shared/validation whose fairlead goes once around an ellipse.
+/// A line of tests/data/catenary_2000.csv whose fairlead goes once around an ellipse.
 pub struct Moving {
     segment: Segment,
     x: f64,
@@ -63,7 +63,7 @@ impl Moving {
     }
 }
 
-/// The four-segment line of seed 001 with its spring buoy sunk and held: name, line, breaks.
+/// The four-segment line of [MOSES-FLEX example] with its spring buoy sunk and held: name, line, breaks.
 pub fn table_lines() -> Vec<(&'static str, Line, [f64; 4])> {
     let segment = |od: f64, length: f64, weight: f64, e: f64| Segment {
         length: length * FOOT,

@@ -1,7 +1,7 @@
 //! `&CONNECTOR`: what is changed of connectors that exist: whether they act, the length of their first segment, the
 //! place of their anchor; given, or solved for a force at the fairlead.
 //!
-//! Source: reference/model.md, &CONNECTOR.
+//! Source: [MOSES-REF conn_alter].
 
 use super::chosen::WARNING;
 use super::{Call, Command, Effect, Job};

@@ -1,6 +1,6 @@
 //! `&APPLY`: multipliers of loads.
 //!
-//! Source: reference/model.md, "Weights and loads": multipliers compound.
+//! Source: [MOSES-HELP general, modeling]: multipliers compound.
 
 use super::{Call, Command, Effect};
 use windlass_base::diagnostic::{Diagnostic, Outcome};

@@ -1,6 +1,6 @@
 //! `ASSEMBLY T-H_DEFINITION`: slings that meet in a hook below the tip of a boom.
 //!
-//! Source: reference/model.md, Assemblies, and the public page on sling assemblies of the MOSES manual (conn_sling).
+//! Source: [MOSES-REF conn_sling].
 
 use super::rigging::{self, Rigging};
 use super::{Call, Command, Effect, Job, Menu, junction};

@@ -1,6 +1,6 @@
 //! `&BUILDG`: a table from records or a file, for the disposition menu.
 //!
-//! Source: reference/solve.md, "Disposition menu". A file behind the option is ours.
+//! Source: [MOSES-REF men_buildg]. A file behind the option is ours.
 
 use super::device::{read_input, readable};
 use super::{Call, Command, Effect, Job, Menu};

@@ -1,6 +1,6 @@
 //! `&DATA`: curves and environments, a curve in one record or many of either in a menu.
 //!
-//! Source: reference/model.md, "Curves".
+//! Source: [MOSES-REF curv].
 
 use super::{Call, Command, Effect, Job, Menu};
 use windlass_base::diagnostic::{Diagnostic, Outcome};

@@ -18,7 +18,7 @@ pub static POINT: Command = Command { spec: &POINT_SPEC, edits: false, run: poin
 /// &INSTATE.
 pub static INSTATE: Command = Command { spec: &INSTATE_SPEC, edits: true, run: instate };
 
-/// Most bodies (reference/model.md).
+/// Most bodies [MOSES-REF bod_par].
 const MOST_BODIES: usize = 50;
 
 const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {

@@ -1,6 +1,6 @@
 //! The disposition menu: what can be done with a result.
 //!
-//! Source: reference/solve.md, "Disposition menu".
+//! Source: [MOSES-REF disp_men].
 
 use super::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::{Disposition, DispositionError, RowChoice};

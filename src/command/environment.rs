@@ -1,6 +1,6 @@
 //! `&ENV`: wind, waves, current, water.
 //!
-//! Source: reference/model.md, "Environment".
+//! Source: [MOSES-REF env].
 
 use super::plausible::shown;
 use super::{Call, Command, Effect, Job, ambient_options, plausible, probability, sea_options, wind_options};

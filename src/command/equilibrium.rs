@@ -1,6 +1,6 @@
 //! `&EQUI`: brings the bodies to rest.
 //!
-//! Source: reference/solve.md, "&EQUI".
+//! Source: [MOSES-REF equi].
 
 use super::chosen::{WARNING, note_caveats, raise};
 use super::disposition::{BOTH, HARD, send};

@@ -1,6 +1,6 @@
 //! MOVE and WATCH of the CONN_DESIGN menu: a body moved until a line breaks, and where a force takes it.
 //!
-//! Source: reference/solve.md, "CONN_DESIGN": MOVE body [angle]; its sixth column is the restoring force.
+//! Source: [MOSES-RUNS con_d]: MOVE body [angle]; its sixth column is the restoring force.
 
 use super::chosen::{note_caveats, raise};
 use super::equilibrium::told;

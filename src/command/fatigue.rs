@@ -1,6 +1,6 @@
 //! FATIGUE of the PRCPOST menu: damage of lines over a run and a scatter of environments.
 //!
-//! Source: reference/solve.md, "Fatigue of lines".
+//! Source: [MOSES-REF sn_def, sn_bind, fatigue].
 
 use super::chosen::note_caveats;
 use super::equilibrium::told;

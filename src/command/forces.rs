@@ -74,7 +74,7 @@ pub fn forces(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem, ver
     std::iter::once(table).chain(springs).chain(Some(fenders).filter(|f| f.rows() > 0)).collect()
 }
 
-/// The FOUNDATION check of seed 001: every spring of every foundation against its allowable, and the largest of each.
+/// The FOUNDATION check [MOSES-FLEX FOUNDATION]: every spring of every foundation against its allowable, and the largest of each.
 pub fn foundations(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem) -> Table {
     let mut table = spring_table("Foundation Check");
     let mut notes: Vec<(String, Vec<String>)> = Vec::new();

@@ -1,6 +1,6 @@
 //! The FREQ_RESPONSE menu: motions of unit waves, and those in a sea.
 //!
-//! Source: reference/solve.md, "Frequency domain".
+//! Source: [MOSES-REF freq_mot].
 
 use super::chosen::{WARNING, raise};
 use super::equilibrium::told;

@@ -1,6 +1,6 @@
 //! What the FREQ_RESPONSE menu shows of motions: of bodies, points and connectors, and their statistics.
 //!
-//! Source: reference/solve.md, "Frequency domain"; the forms of MOTION, CONFORCE and STATISTICS are ours.
+//! Source: [MOSES-REF freq_mot]; the forms of MOTION, CONFORCE and STATISTICS are ours.
 
 use super::chosen::{Chosen, raise};
 use super::environment::{self, A_SEA_OPTION, SEA_OPTION, SP_TYPE_OPTION, SPREAD_OPTION};

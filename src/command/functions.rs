@@ -1,6 +1,6 @@
 //! String functions about the model and the job: `&INFO`, `&POINT`, `&BODY`, `&CONNECTOR`, `&NAMES`, `&GET`, `&F_READ`.
 //!
-//! Source: reference/language.md section 7. An unknown point gives a null string, as there.
+//! Source: [MOSES-REF geom_sfun, ele]. An unknown point gives a null string, as there.
 
 use super::job::UserFile;
 use super::{COMMANDS, Job};

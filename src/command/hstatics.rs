@@ -1,6 +1,6 @@
 //! `HSTATICS`: curves of form, and the righting arm.
 //!
-//! Source: reference/solve.md, "Static process", for the menu and RARM; the forms of the records are ours.
+//! Source: [MOSES-REF static, hstatic], for the menu and RARM; the forms of the records are ours.
 
 use super::chosen::raise;
 use super::status::push;

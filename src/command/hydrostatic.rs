@@ -1,6 +1,6 @@
 //! `#HYDROSTATIC`: the buoyancy of a body by a constant stiffness.
 //!
-//! Source: reference/aqwa-cards.md, deck 7 (LSTF, BFEQ, ZCGE). The record is ours.
+//! Source: [AQWA-REF deck 7] (LSTF, BFEQ, ZCGE). The record is ours.
 
 use super::{Call, Command, Effect, Job};
 use nalgebra::{Matrix6, RowVector6};

@@ -1,6 +1,6 @@
 //! `#AREA`, `#PLATE`, `#TABLE`, `#DRIFT`: loads of wind, current and waves on a part; `#DRAG`, `#DAMP`, `#AMASS`: its matrices.
 //!
-//! Source: reference/model.md, "Weights and loads"; `#AREA *PT AX AY AZ` as in the sample sea_keep/cargo of Ultramarine. The
+//! Source: [MOSES-HELP lgroup]; `#AREA *PT AX AY AZ` as in [MOSES-RUNS sea_keep/cargo]. The
 //! order of the values of the others is ours: no source gives it.
 
 use super::{Call, Command, Effect, Job};

@@ -1,6 +1,6 @@
 //! Pieces of a hull: the options all of them take, `PANEL`, and what is checked when a piece is complete.
 //!
-//! Source: reference/model.md, "Hull".
+//! Source: [MOSES-REF pieces].
 
 use super::written::option_as_written;
 use super::{Call, Command, Effect, Job, member};

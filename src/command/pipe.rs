@@ -1,6 +1,6 @@
 //! `PIPE`: a pipe on rollers or davits.
 //!
-//! Source: reference/model.md, Assemblies, and the public page on pipe assemblies of the MOSES manual (conn_pipe).
+//! Source: [MOSES-REF conn_pipe].
 
 use super::{Call, Command, Effect, Job, Menu};
 use windlass_base::diagnostic::{Diagnostic, Outcome};

@@ -1,6 +1,6 @@
 //! The PRCPOST menu: tables of the last run.
 //!
-//! Source: reference/solve.md, "PRCPOST". In MOSES the events of a run are times, its increment is one of time, and what lies between
+//! Source: [MOSES-REF ppo_conn, ppo_bodies, ppo_afor]. In MOSES the events of a run are times, its increment is one of time, and what lies between
 //! two stored instants is on the straight line between them.
 
 use super::chosen::{Chosen, note_caveats};

@@ -1,6 +1,6 @@
 //! `&REP_SELECT`: the fatigue curves reports and lines go by, and the correction for thickness.
 //!
-//! Source: reference/solve.md, "Fatigue of lines".
+//! Source: [MOSES-REF sn_def, sn_bind, fatigue].
 
 use super::{Call, Command, Effect, Job};
 use windlass_base::diagnostic::{Diagnostic, Outcome};

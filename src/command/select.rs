@@ -1,6 +1,6 @@
 //! `&SELECT`: selectors, one in a record or many in a menu.
 //!
-//! Source: reference/language.md sections 10 and 11.
+//! Source: [MOSES-REF ams_cmd_menu, men_select].
 
 use super::{Call, Command, Effect, Job, Menu};
 use windlass_base::diagnostic::{Diagnostic, Outcome};

@@ -1,6 +1,6 @@
 //! The commands of the disposition menu that work on series: each makes a table and opens an inner disposition menu over it.
 //!
-//! Source: reference/solve.md, "Disposition menu", for SPECTRUM and FFT; the others are ours.
+//! Source: [MOSES-REF disp_men], for SPECTRUM and FFT; the others are ours.
 
 use super::disposition::{
     ANY_COLUMN, COLUMN, MAG_USE, MENU, RECORD, VALUES, chosen_for_statistics, here, refused, selectors,

@@ -1,6 +1,6 @@
 //! `STATISTIC` of the disposition menu: what columns amount to.
 //!
-//! Source: reference/solve.md, "Disposition menu". The independent column, the cycles and the options of ours are described in
+//! Source: [MOSES-REF disp_men]. The independent column, the cycles and the options of ours are described in
 //! its help.
 
 use super::disposition::{ANY_COLUMN, BOTH, COLUMN, HARD, MAG_USE, RECORD, VALUES};

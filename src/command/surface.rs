@@ -1,6 +1,6 @@
 //! `&SURFACE`: pieces as boxes, meshes of files, and round members.
 //!
-//! Source: reference/model.md, "Hull", for the names; it does not give the forms, which are ours and stand in the help.
+//! Source: [MOSES-REF surface], for the names; it does not give the forms, which are ours and stand in the help.
 
 use super::body_tables::pieces;
 use super::describe::PLACE;

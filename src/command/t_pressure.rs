@@ -1,6 +1,6 @@
 //! `T_PRESSURE`: what pipes of class ROD hold, and how warm they are.
 //!
-//! Seed 001 names the command and says what it gives; no source gives its form, which is ours and stands in its help.
+//! [MOSES-FLEX ROD] names the command and says what it gives; no source gives its form, which is ours and stands in its help.
 
 use super::status::push;
 use super::{Call, Command, Effect, Job};

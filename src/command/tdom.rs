@@ -1,6 +1,6 @@
 //! TDOM: the time domain.
 //!
-//! Source: reference/solve.md, "TDOM".
+//! Source: [MOSES-REF timdom].
 
 use super::equilibrium::{told, warn_of_breaks, warn_of_lines};
 use super::restart::go_on;

@@ -1,6 +1,6 @@
 //! The options of `CONNECTOR` that say how a tether is held.
 //!
-//! Source: seed 003, Appendix A (cards TSPA, TSPV, TCAP, TIFL, TIMP, TLOW, TEGR, TLAC, TROC, TLAV, TROV).
+//! Source: [AQWA-TETHER Appendix A] (cards TSPA, TSPV, TCAP, TIFL, TIMP, TLOW, TEGR, TLAC, TROC, TLAV, TROV).
 
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::units::Dim;
@@ -101,7 +101,7 @@ pub const GROUP: OptionSpec = option(
 )
 .default("1");
 
-/// Most constraints of a tether (seed 003, A.14).
+/// Most constraints of a tether [AQWA-TETHER A.14].
 const MOST_CONSTRAINTS: usize = 5;
 
 const OF_INSTALLED: [&str; 8] =

@@ -1,6 +1,6 @@
 //! `TETHER` and `STRUCTURE` of the PRCPOST menu: what a run of tethers came to.
 //!
-//! Source: seed 003, 2.1 to 2.3 and 7.3 to 7.10.
+//! Source: [AQWA-TETHER 2.1 to 2.3 and 7.3 to 7.10].
 
 use super::disposition::{BOTH, HARD, send};
 use super::{Call, Command, Effect, Job, Menu};
@@ -26,7 +26,7 @@ pub static STRUCTURE: Command = Command { spec: &STRUCTURE_SPEC, edits: false, r
 
 const WHAT: &[&str] = &["MOTIONS", "FORCES", "NODE", "END_OF", "ALONG", "STATISTICS", "RANGES", "FATIGUE", "EVENTS"];
 const OF_STRUCTURE: &[&str] = &["PAGES", "HISTORY", "HARMONICS"];
-/// Times on one graph (seed 003, 2.2).
+/// Times on one graph [AQWA-TETHER 2.2].
 const MOST_CURVES: usize = 20;
 
 const fn ours(name: &'static str, values: &'static [ValueSpec], help: &'static str) -> OptionSpec {
@@ -163,7 +163,7 @@ fn instants(run: &Tethered, args: &Args) -> Outcome<Vec<usize>> {
     Ok(list)
 }
 
-/// Those of them that are within a time of a tether's going slack: the listing of seed 003 then has all tethers.
+/// Those of them that are within a time of a tether's going slack: the listing of [AQWA-TETHER 8.2] then has all tethers.
 fn slack_alone(run: &Tethered, given: Option<&Given>, list: Vec<usize>) -> Vec<usize> {
     let Some(lasting) = given.and_then(|g| g.number(0)) else { return list };
     let slack = 1e-6 * run.settings.step;
@@ -206,7 +206,7 @@ fn tether_tables(job: &Job, args: &Args) -> Outcome<Vec<Table>> {
     };
     let wrong = |e: SeriesError| Diagnostic::error(e.to_string(), args.span);
     let towed_alone = || {
-        let text = format!("tether {name} is installed: ranges and fatigue are of towed tethers (seed 003, 3.7)");
+        let text = format!("tether {name} is installed: ranges and fatigue are of towed tethers [AQWA-TETHER 3.7]");
         if tether.towed { Ok(()) } else { Err(Diagnostic::error(text, args.place(1))) }
     };
     let some = || {

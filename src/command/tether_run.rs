@@ -1,6 +1,6 @@
 //! `TDOM -TETHERS`: tethers in time, with bending and dynamics of their own.
 //!
-//! Source: seed 003, chapters 1 to 4 and decks 16 and 17.
+//! Source: [AQWA-TETHER chapters 1 to 4]; [AQWA-REF decks 16, 17].
 
 use super::chosen::note_caveats;
 use super::equilibrium::told;

@@ -1,6 +1,6 @@
 //! `#WEIGHT` and `&WEIGHT`.
 //!
-//! Source: reference/model.md, "Weights and loads".
+//! Source: [MOSES-HELP lgroup, modeling].
 
 use super::{Call, Command, Effect, Job};
 use nalgebra::{Matrix3, Vector3};

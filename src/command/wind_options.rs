@@ -9,7 +9,7 @@ use windlass_language::select::Owner;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
 use windlass_model::{CurveKind, Environment, Formula, GustParts, Wind};
 
-/// Codes and laws of the mean wind; reference/model.md names no types, so these are the field's usual ones.
+/// Codes and laws of the mean wind; [MOSES-REF env] names no types, so these are the field's usual ones.
 const PROFILES: &[&str] = &["POWER", "LOGARITHMIC", "API", "NPD", "ISO", "ABS", "DNV"];
 /// Codes of a design wind.
 const DESIGN_WINDS: &[&str] = &["API", "NPD", "ISO", "ABS", "DNV"];

@@ -1,7 +1,7 @@
 //! Choosing columns of a table as the disposition menu does: a number, `a:b`, or a name with wild characters; in a report also the
 //! name of a group of columns.
 //!
-//! Source: reference/solve.md, "Disposition menu". The surplus columns it drops are those beyond what a command takes; a number
+//! Source: [MOSES-REF disp_men]. The surplus columns it drops are those beyond what a command takes; a number
 //! of no column is an error.
 
 use windlass_base::diagnostic::did_you_mean;

@@ -1,7 +1,7 @@
 //! The state of a disposition menu over any table: scales, shifts, chosen rows. Pure: it makes tables and texts, and the
 //! command floor disposes of them.
 //!
-//! Source: reference/solve.md, "Disposition menu". C_SCALE and C_SHIFT last until the menu ends and act on VIEW,
+//! Source: [MOSES-REF disp_men]. C_SCALE and C_SHIFT last until the menu ends and act on VIEW,
 //! STORE, PLOT, STATISTIC and SET_VARIABLE, not on the formatted REPORT. -RECORD counts rows, from 1.
 
 use super::columns::{Choose, NoSuchColumn, choose, reported};

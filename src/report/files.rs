@@ -1,6 +1,6 @@
 //! Files the program writes and touches: where they go, that they are whole, and that nothing is lost.
 //!
-//! Source: reference/language.md section 8. A relative name, with folders or without, is inside the job's own folder
+//! Source: [MOSES-REF lang_user_files]. A relative name, with folders or without, is inside the job's own folder
 //! (`ROOT.ans/` or `--out`); a name that begins with `./` or `../` and an absolute one mean what they mean to the shell.
 //! In the job's folder an earlier file is kept as `name.1`, `name.2`, ...; outside of it a file is made only with
 //! `--allow-files`, or for a record typed at a terminal whose user says yes, and nothing that exists is overwritten.

@@ -1,6 +1,6 @@
 //! The formatted report of a table.
 //!
-//! Layout after reference/solve.md, "Report page layout": a box with the program, date and titles; a spaced title
+//! Layout after [MOSES-RUNS windus]: a box with the program, date and titles; a spaced title
 //! between `+++`, underlined; the process and units line; facts; group heads `/---- text ----/`; heads, units, dashes,
 //! rows.
 

@@ -1,6 +1,6 @@
 //! Tables read back from text: what STORE wrote, or any series in columns.
 //!
-//! Source: reference/solve.md, "Disposition menu": `&BUILDG -BRIEF` reads labels, one per line, a blank, and rows of numbers;
+//! Source: [MOSES-REF men_buildg]: `&BUILDG -BRIEF` reads labels, one per line, a blank, and rows of numbers;
 //! `&BUILDG -CSV` a line of heads and rows. A head that ends in a unit in parentheses, as STORE writes it, gives its column
 //! that dimension, whatever units the user has now.
 

@@ -4,4 +4,5 @@
 
 mod coverage;
 mod crates;
+mod sources;
 mod specs;

@@ -26,6 +26,7 @@ mod connectors {
     mod along;
     mod appended_segments;
     mod bathymetry_lines;
+    mod class_records;
     mod closed_form_lines;
     mod connector_closed_form;
     mod element_laws;
@@ -51,13 +52,13 @@ mod connectors {
     mod rod_sections;
     mod rod_slope;
     mod rod_tethers;
-    mod seed_001_classes;
     mod springs_closed_form;
 }
 
 /// Loads on bodies, equilibrium, stiffness.
 mod floating {
     mod ambient;
+    mod aqwa_tether_platform;
     mod bodies;
     mod equilibrium;
     mod excursion;
@@ -67,7 +68,6 @@ mod floating {
     mod moving_streams;
     mod networks;
     mod piece_loads;
-    mod seed_003_platform;
     mod side_by_side;
     mod steady_loads;
     mod trial_places;
@@ -97,5 +97,5 @@ mod time {
 /// AQWA decks run by the session.
 mod aqwa {
     mod aqwa_decks;
-    mod seed_003_fatigue;
+    mod aqwa_tether_fatigue;
 }

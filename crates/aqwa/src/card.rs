@@ -4,7 +4,7 @@
 //! of the user's own; 7-10 the keyword; the rest are fields at fixed columns that may touch (`-52.630-329.73543`), so a
 //! card is cut by columns and never at blanks. A blank field is zero.
 //!
-//! Source: seed 003, Appendices A and B; reference/aqwa-cards.md, section 1.
+//! Source: [AQWA-TETHER Appendices A and B]; [AQWA-REF data_prep].
 
 use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::{SourceId, Span};

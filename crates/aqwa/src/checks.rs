@@ -1,5 +1,5 @@
-//! What can only be checked when all decks are read: whether what a card refers to is there, and what chapter 8 of
-//! seed 003 demands of a towed tether.
+//! What can only be checked when all decks are read: whether what a card refers to is there, and what
+//! [AQWA-TETHER 8.1] demands of a towed tether.
 
 use super::Deck;
 use super::card::Field;

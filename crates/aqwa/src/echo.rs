@@ -1,6 +1,6 @@
 //! The echo of the cards as the listing has it: every card with all fields of its deck's grid, blanks as zeros.
 //!
-//! Decks 1 to 4 are echoed when the option PRCE asks for it, the others always (so the listings of seed 003).
+//! Decks 1 to 4 are echoed when the option PRCE asks for it, the others always (so the listings of [AQWA-TETHER 8]).
 
 use super::Deck;
 use super::layout::Record;

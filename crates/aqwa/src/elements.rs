@@ -4,7 +4,7 @@
 //! column 21 on, groups in brackets: the number of elements to make, then for each node `(node, step)`, then the
 //! material group and the geometry group where the kind has them, each with a step of its own if wanted.
 //!
-//! Source: reference/aqwa-cards.md, section 5; seed 003, 8.1.2 and 8.2.2.
+//! Source: [AQWA-REF deck 2]; [AQWA-TETHER 8.1.2 and 8.2.2].
 
 use super::card::{integer, real};
 use super::layout::{Layout, Record};

@@ -1,6 +1,6 @@
 //! Springs at the ends of a tether: the TSPA and TSPV cards of deck 14.
 //!
-//! Source: seed 003, A.2 and 8.1.14.
+//! Source: [AQWA-TETHER A.2 and 8.1.14].
 
 use super::card::Field;
 use super::remarks::Remarks;

@@ -1,6 +1,6 @@
 //! Decks 6 to 10: frequencies and directions, stiffness and coefficients of the structures at their equilibrium.
 //!
-//! Source: seed 003, 6.2 and 8.1.7; reference/aqwa-cards.md, section 9.
+//! Source: [AQWA-TETHER 6.2 and 8.1.7]; [AQWA-REF decks 6 to 10].
 
 use super::card::Field;
 use super::layout::{Layout, Record, Slot, int, num};

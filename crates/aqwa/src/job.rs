@@ -1,6 +1,6 @@
 //! Deck 0: the JOB, TITLE, OPTIONS and RESTART lines.
 //!
-//! Source: seed 003, chapters 5, 6, 8.1.0 and 8.2.0; reference/aqwa-cards.md, section 3.
+//! Source: [AQWA-TETHER chapters 5, 6, 8.1.0 and 8.2.0]; [AQWA-REF deck 0].
 
 use super::card::{Line, integer};
 use super::reader::Reader;

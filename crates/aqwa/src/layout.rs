@@ -52,7 +52,7 @@ impl Slot {
 /// How a card is answered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Standing {
-    /// Its columns are confirmed by seed 003 or by public pages.
+    /// Its columns are confirmed by [AQWA-TETHER] or by public pages of [AQWA-REF].
     Sure,
     /// Its columns are from general knowledge: a note says what was assumed.
     Assumed,

@@ -18,14 +18,14 @@
 //! | 10, 11, 13 CURR, WIND | [`surroundings::Surroundings`], [`surroundings::Flow`] | current profile and wind; the model's directions are those they come FROM, so add 180 degrees |
 //! | 12 | [`surroundings::Held`] | fixed freedoms of a body |
 //! | 13 | [`waves::Waves`] | sea of spectral components, or regular wave (second order unless AIRY) |
-//! | 14 LINE, FORC, WNCH, POLY, COMP | [`lines::MooringLine`] | connectors of the classes that seed 002 names LINEAR ELASTIC, CATENARY, POLYNOMIAL and so on |
+//! | 14 LINE, FORC, WNCH, POLY, COMP | [`lines::MooringLine`] | connectors of the classes LINEAR_ELASTIC, CATENARY, POLYNOMIAL and so on |
 //! | 14 TELM .. TETH | [`tethers::Tether`] | a tether connector, towed or installed |
 //! | 15 | [`run::Start`] | position and velocity of the bodies at the start (of their centres of gravity) |
 //! | 16 | [`run::Steps`] | steps of the time domain: the first is the start |
 //! | 17 | [`run::Multipliers`] | multipliers of drag, added mass and slam |
 //! | 18 | [`printing::Printing`] | what the listing prints, and how often |
 //!
-//! Source: seed 003 (AQWATM-TETHER manual of 2006), reference/aqwa-cards.md.
+//! Sources: [AQWA-TETHER] (the AQWATM-TETHER manual of 2006) and [AQWA-REF].
 //!
 //! # Example
 //! ```

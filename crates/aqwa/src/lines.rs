@@ -3,7 +3,7 @@
 //! A property (POLY; COMP with its ECAT, ECAX, ECAH, ECAB, BUOY and CLMP cards) serves all NLIN cards that follow it, up
 //! to the next one. Sections are listed from the anchor upwards.
 //!
-//! Source: reference/aqwa-cards.md, section 14; seed 002, 5.8.3 for what a section holds.
+//! Source: [AQWA-REF deck 14]; [AQWA-CONN 5.8.3] for what a section holds.
 
 use super::card::Field;
 use super::layout::Record;

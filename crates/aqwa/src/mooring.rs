@@ -1,7 +1,7 @@
 //! Deck 14: mooring lines and tethers. This file has the cards and the walk through them; [`super::lines`] and
 //! [`super::tethers`] have what they make.
 //!
-//! Source: seed 003, Appendix A; reference/aqwa-cards.md, section 14.
+//! Source: [AQWA-TETHER Appendix A]; [AQWA-REF deck 14].
 
 use super::card::Field;
 use super::layout::{Layout, Record, Slot, int, num};

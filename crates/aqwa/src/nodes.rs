@@ -3,7 +3,7 @@
 //! A card holds a node, the number of nodes to generate, the step of their numbers, the coordinates of the first and
 //! the steps of the coordinates. Nodes are shared by all structures; each moves with the structure that refers to it.
 //!
-//! Source: reference/aqwa-cards.md, section 4; seed 003, 8.1.1 and the listing's card echo.
+//! Source: [AQWA-REF deck 1]; [AQWA-TETHER 8.1.1] and the listing's card echo.
 
 use super::card::Field;
 use super::layout::{Layout, Record, int, num};

@@ -1,6 +1,6 @@
 //! Deck 18: what is printed, and how often.
 //!
-//! Source: seed 003, Appendix B, 8.1.18 and 8.2.18; reference/aqwa-cards.md, section 18.
+//! Source: [AQWA-TETHER Appendix B, 8.1.18 and 8.2.18]; [AQWA-REF deck 18].
 
 use super::card::Field;
 use super::layout::{Layout, Record, Slot, int};

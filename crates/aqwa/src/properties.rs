@@ -1,6 +1,6 @@
 //! Decks 3 to 5: materials, geometries, and the water.
 //!
-//! Source: reference/aqwa-cards.md, sections 6 to 8; seed 003, 8.1.3 to 8.1.5 and the listing's card echo.
+//! Source: [AQWA-REF decks 3, 4, 5]; [AQWA-TETHER 8.1.3 to 8.1.5] and the listing's card echo.
 
 use super::card::Field;
 use super::elements::Shape;
@@ -11,7 +11,7 @@ use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::Span;
 
 /// Drag coefficient of a TUBE without a CONT card (assumed: the manual's page speaks of defaults, its values were not
-/// seen; both decks of seed 003 give these).
+/// seen; both decks of [AQWA-TETHER 8] give these).
 pub const DEFAULT_DRAG: f64 = 0.75;
 /// Added mass coefficient of a TUBE without a CONT card (assumed as [`DEFAULT_DRAG`]).
 pub const DEFAULT_ADDED_MASS: f64 = 1.0;

@@ -1,6 +1,6 @@
 //! Decks 15 to 17: where the structures start, the steps in time, and multipliers of the loads on Morison elements.
 //!
-//! Source: seed 003, 8.1.15 to 8.1.17 and the listings' card echoes; reference/aqwa-cards.md, sections 15 to 17.
+//! Source: [AQWA-TETHER 8.1.15 to 8.1.17] and the listings' card echoes; [AQWA-REF decks 15, 16, 17].
 
 use super::card::Field;
 use super::layout::{Layout, Record, Slot, int, num};

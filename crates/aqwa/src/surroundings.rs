@@ -2,7 +2,7 @@
 //!
 //! Directions are those TOWARDS which something travels, in degrees from +X towards +Y.
 //!
-//! Source: seed 003, 6.4 and the listing; reference/aqwa-cards.md, sections 2, 10 and 11.
+//! Source: [AQWA-TETHER 6.4] and the listing; [AQWA-REF decks 11, 12]; directions and phases by [W-DIRECTIONS].
 
 use super::card::Field;
 use super::layout::{Layout, Record, int, num};

@@ -3,7 +3,7 @@
 //! The cards of a tether come in any order; TETH closes it, and a TETH directly after another one copies the tether
 //! before it to other nodes. Elements go from the anchor (installed) or the trailing end (towed) to the vessel.
 //!
-//! Source: seed 003, Appendix A and 8.1.14, 8.2.14; the columns of TEGR, whose page A.7 is lost, from 8.2.14 and the
+//! Source: [AQWA-TETHER Appendix A, 8.1.14, 8.2.14]; the columns of TEGR, whose page A.7 is lost, from 8.2.14 and the
 //! listing's card echo.
 
 use super::card::Field;

@@ -4,8 +4,8 @@
 //! those towards which the waves travel, in degrees. PHAS is a card of this program: it gives the phases of the spectral
 //! lines, so that a sea whose listing prints them can be had again.
 //!
-//! Source: seed 003, 8.1.13 and 8.2.13, the listings' card echoes (gamma stands before alpha on JONS; the prose of 8.1.13
-//! has the names the other way round); reference/aqwa-cards.md, sections 12 and 13.
+//! Source: [AQWA-TETHER 8.1.13 and 8.2.13], the listings' card echoes (gamma stands before alpha on JONS; the prose of 8.1.13
+//! has the names the other way round); [AQWA-REF deck 13].
 
 use super::card::Field;
 use super::layout::{Layout, Record, Slot, int, num};

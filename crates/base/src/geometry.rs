@@ -1,6 +1,6 @@
 //! Positions and the placing of bodies and parts.
 //!
-//! Source: reference/model.md, "Bodies, parts, axes": yaw about Z, then pitch about Y, then roll about X, each about the
+//! Source: [MOSES-REF bod_par]: yaw about Z, then pitch about Y, then roll about X, each about the
 //! axes already turned.
 
 use nalgebra::{Matrix3, Rotation3, Vector3};

@@ -3,7 +3,7 @@
 //! Inside the program everything is SI (m, kg, s, N, rad, K). A number is converted once where a command reads it and
 //! once where a report writes it; both go through [`Dim::factor`].
 //!
-//! Source: reference/model.md, "Conventions and defaults"; reference/language.md section 12.
+//! Source: [W-UNITS]; [MOSES-REF dfl].
 
 use std::fmt;
 

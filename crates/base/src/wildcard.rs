@@ -1,6 +1,6 @@
 //! Patterns with wild characters.
 //!
-//! Source: reference/language.md section 11.
+//! Source: [MOSES-REF men_select].
 
 /// Whether a pattern with `@` (any run, also none) and `/` (exactly one character) fits a name, upper and lower case
 /// alike. Linear in both lengths for one `@`, their product at worst.

@@ -1,6 +1,6 @@
 //! Forces of a line from its table: a monotone cubic in the horizontal distance.
 //!
-//! Source: seed 001, the table of B_CAT; reference/solve.md for the rows. The rows are of one elevation of the fairlead; stiffness by
+//! Source: [MOSES-FLEX -TAB_LIM]; [W-TABLE] for the rows. The rows are of one elevation of the fairlead; stiffness by
 //! that elevation is interpolated from the rows' own. Monotone cubic: Fritsch and Carlson, SIAM
 //! Journal on Numerical Analysis 17 (1980), 238-246.
 

@@ -8,10 +8,10 @@ use super::segment::Reach;
 pub enum Law {
     /// Tension over stiffness (N, or N/m for a spring).
     Linear(f64),
-    /// Straight lines between points (tension N, elongation), after (0, 0); the last slope goes on (seed 001, `-X_PY`).
+    /// Straight lines between points (tension N, elongation), after (0, 0); the last slope goes on [MOSES-FLEX -X_PY].
     Curve(Vec<(f64, f64)>),
     /// T = EA(e) e with EA(e) = EA + k1 e + k2 e2 + k3 e3 up to the largest strain, beyond it EA grows with its slope
-    /// there (seed 002, catenary section; the secant reading is that of reference/model.md).
+    /// there ([AQWA-CONN 5.8.3.1]; the secant reading is [W-SECANT]).
     Polynomial {
         /// Stiffness without strain (N).
         ea: f64,
@@ -22,7 +22,7 @@ pub enum Law {
     },
     /// One after the other: their elongations add.
     Series(Vec<Law>),
-    /// Linear up to a tension that cannot be passed: beyond it the line yields (seed 002: no extrapolation beyond the
+    /// Linear up to a tension that cannot be passed: beyond it the line yields ([AQWA-CONN 5.8.3.1]: no extrapolation beyond the
     /// maximum tension). For definite answers it keeps a millionth of its stiffness.
     Capped {
         /// Stiffness (N).

@@ -10,7 +10,7 @@
 //! same at a fairlead that moves.
 //!
 //! Source of the formulas: the elastic catenary (Irvine, Cable Structures, 1981, section 1.4), written so that no
-//! difference of nearly equal numbers is formed; the spring buoy after seed 001, `-CLUMP`.
+//! difference of nearly equal numbers is formed; the spring buoy after [MOSES-FLEX -CLUMP].
 //!
 //! # Example
 //! A line of 235.04 m hangs between two points 200 m apart: sinh(1) = 235.04/200, so that H is its weight times 100 m.

@@ -46,8 +46,8 @@ pub enum Joint {
 pub struct Floor {
     /// Elevation under the anchor (m).
     pub elevation: f64,
-    /// Vertical over horizontal distance, positive when it rises from the anchor toward the fairlead (seed 001,
-    /// `-SLOPE`).
+    /// Vertical over horizontal distance, positive when it rises from the anchor toward the fairlead
+    /// [MOSES-FLEX -SLOPE].
     pub slope: f64,
     /// Friction coefficient, zero or more.
     pub friction: f64,
@@ -218,8 +218,8 @@ impl Line {
         self.floor.map(|_| self.profile.elevation(distance))
     }
 
-    /// The line with springs in series at the fairlead and at the anchor, stretching along the tension there (seed 001,
-    /// `-SEND` and `-X_PY`); `None` is rigid.
+    /// The line with springs in series at the fairlead and at the anchor, stretching along the tension there
+    /// [MOSES-FLEX -SEND, -X_PY]; `None` is rigid.
     ///
     /// # Errors
     /// A spring that does not stretch with its tension.
@@ -326,8 +326,8 @@ impl Line {
 
     /// Makes the chain that is solved.
     fn assembled(mut self) -> Result<Line, LineError> {
-        // grounding between the fairlead and a spring buoy at the end of the first segment is not considered (seed 001,
-        // `-CLUMP`)
+        // grounding between the fairlead and a spring buoy at the end of the first segment is not considered
+        // [MOSES-FLEX -CLUMP]
         let blind = matches!(self.joints.first(), Some(Joint::SpringBuoy { .. }));
         let sees = |index: usize| self.floor.is_some() && !(blind && index == 0);
         let surface = self.surface - self.datum();

@@ -1,6 +1,6 @@
 //! The thirty rows of `CONN_DESIGN TABLE`.
 //!
-//! Source: reference/solve.md, CONN_DESIGN: H_n = T (n/29)^2, n = 0..29, with T the table limit or the largest break
+//! Source: [W-TABLE]: H_n = T (n/29)^2, n = 0..29, with T the table limit or the largest break
 //! of all segments; row 0 uses 1.4e-4 T in place of zero.
 
 use super::line::Line;

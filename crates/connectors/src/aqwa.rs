@@ -1,7 +1,7 @@
 //! CATENARY: an AQWA catenary section with the joint at its end as a class. Its numbers are in kg, m, N whatever
 //! `&DIMEN` says.
 //!
-//! Source: seed 002, 5.8.3.1 and 5.8.3.2; defaults of EA, maximum tension and coefficients: reference/model.md.
+//! Source: [AQWA-CONN 5.8.3.1 and 5.8.3.2]; defaults of EA, maximum tension and coefficients: [AQWA-REF deck 14].
 
 use super::mooring::{Mooring, line_error, no_other_end};
 use super::moving::{JointMass, MovingLine, Part, Seabed, Strength, description};
@@ -138,7 +138,7 @@ struct CatenaryClass {
 
 impl CatenarySection {
     /// How it stretches: along the polynomial of -K up to the strain at the maximum tension and straight on; without -K
-    /// no tension beyond the maximum (seed 002, 5.8.3.1).
+    /// no tension beyond the maximum [AQWA-CONN 5.8.3.1].
     fn law(&self) -> Option<Law> {
         let Some(k) = self.coefficients else { return Some(Law::Capped { ea: self.ea, most: self.largest }) };
         let most = Law::Polynomial { ea: self.ea, k, most: f64::INFINITY }.stretch(self.largest).0;
@@ -283,7 +283,7 @@ impl ConnectorClass for CatenaryClass {
             weight: (s.mass - surroundings.water_density * s.area) * surroundings.gravity,
             ea: s.ea,
         });
-        // a buoy never knows the surface (seed 002, 5.8.3.2): a weight less than nothing
+        // a buoy never knows the surface [AQWA-CONN 5.8.3.2]: a weight less than nothing
         let joint =
             |s: &CatenarySection| s.joint.map_or(Joint::Free, |(_, net)| Joint::Weight(net * surroundings.gravity));
         let joints = self.sections.iter().take(count.saturating_sub(1)).map(joint);
@@ -318,7 +318,7 @@ impl ConnectorClass for CatenaryClass {
     }
 
     /// Cable dynamics: `rho Ca A` of added mass, `0.5 rho Cd V2 De` across and `0.5 rho Cx V2 De` along, EI, and no maximum tension
-    /// (seed 002, 5.8.3.1).
+    /// [AQWA-CONN 5.8.3.1].
     fn moving(&self, connection: &Connection, elements: usize) -> Result<Box<dyn Element>, ClassError> {
         let density = connection.surroundings.water_density;
         if let Some(dry) = self.sections.iter().find(|s| s.area == 0.0) {

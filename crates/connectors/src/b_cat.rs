@@ -1,7 +1,7 @@
 //! B_CAT: a catenary to ground, of one or more segments.
 //!
-//! Source: seed 001, "An B_CAT class describes a catenary line"; which options hold per segment and which per line:
-//! reference/model.md, last section.
+//! Source: [MOSES-FLEX B_CAT]; which options hold per segment and which per line:
+//! [W-PER-LINE].
 
 use super::devices::Devices;
 use super::line_element::LineElement;

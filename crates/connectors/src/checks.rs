@@ -4,7 +4,7 @@ use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::values::{Args, Given};
 use windlass_model::{ClassError, Connection, Connector};
 
-/// A P-Y curve: points (force N, deflection m) growing in both, as the seed asks.
+/// A P-Y curve: points (force N, deflection m) growing in both, as [MOSES-FLEX -X_PY] asks.
 ///
 /// # Errors
 /// A point with a force and no deflection or the other way round, two points with the same force, a force that does not grow, or a deflection that does not grow, at its value.

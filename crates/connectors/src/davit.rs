@@ -1,6 +1,6 @@
 //! DAVIT: a line from which a pipe hangs while it is laid.
 //!
-//! Source: seed 001: as a SLING.
+//! Source: [MOSES-FLEX DAVIT]: as a SLING.
 
 use super::ClassKind;
 use super::sling::{DATA, DETAIL, OPTIONS};

@@ -1,7 +1,7 @@
 //! What the options -PISTON, -CONVOLUTION and -X_DAMPING add to a line.
 //!
-//! Source: seed 001: a line is "a set of springs in series, a dashpot, and a hydraulic tension control device". Piston and viscoelastic
-//! spring lengthen the line at its first end, along its tension there (see [`Extension`]). The seed does not say where the dashpot acts:
+//! Source: [MOSES-FLEX], on lines other than ROD: a line is "a set of springs in series, a dashpot, and a hydraulic tension control device". Piston and viscoelastic
+//! spring lengthen the line at its first end, along its tension there (see [`Extension`]). The manual does not say where the dashpot acts:
 //! here along the chord between the two ends, against the rate of its length, on both ends alike, and only in time steps and while the
 //! line has a tension; it does not enter the tension that the piston controls.
 

@@ -1,6 +1,6 @@
 //! FIX: a restraint that holds chosen degrees of freedom rigidly.
 //!
-//! Source: reference/model.md, "Rigid". The reference restrains only translations in a simulation; here rotations are held as well.
+//! Source: [MOSES-REF cls_res]. The reference restrains only translations in a simulation; here rotations are held as well.
 
 use super::restraint::Restraining;
 use super::spring::Restraint;

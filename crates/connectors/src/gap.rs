@@ -1,6 +1,6 @@
 //! GAP: a rigid contact that only pushes, with friction.
 //!
-//! Source: reference/model.md, "Rigid": `GAP COEF`.
+//! Source: [MOSES-REF cls_res].
 
 use super::fix::RIGID;
 use super::restraint::Restraining;

@@ -1,6 +1,6 @@
 //! GSPR: a generalized spring in chosen degrees of freedom.
 //!
-//! Source: seed 001.
+//! Source: [MOSES-FLEX GSPR].
 
 use super::spring::Generalized;
 use super::{ClassKind, foundation, options as o};

@@ -1,6 +1,6 @@
 //! H_CAT: a hanging catenary between a body and ground or another body; it knows neither bottom nor surface.
 //!
-//! Source: seed 001; reference/model.md: weightless unless EXACT, then with its weight in air.
+//! Source: [MOSES-FLEX H_CAT]; [MOSES-HELP connect]: weightless unless EXACT, then with its weight in air.
 
 use super::chord::{Chord, ChordElement};
 use super::devices::Devices;

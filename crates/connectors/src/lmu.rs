@@ -1,6 +1,6 @@
 //! LMU: a pin in a cone.
 //!
-//! Source: seed 001 and its Figure 7. All three sizes are in inches or mm; OD(1) is the pin, OD(2) the mouth of the cone.
+//! Source: [MOSES-FLEX LMU, Figure 7]. All three sizes are in inches or mm; OD(1) is the pin, OD(2) the mouth of the cone.
 
 use super::foundation::OPTIONS;
 use super::spring::{Springs, no_anchor, restraint_table};

@@ -198,8 +198,8 @@ pub fn end_springs(options: &PerLineOptions) -> [Option<Law>; 2] {
     [first, spring(1)]
 }
 
-/// The end springs with the long-term stiffness of a viscoelastic one in series at the first end (seed 001,
-/// `-CONVOLUTION`; statics: reference/model.md).
+/// The end springs with the long-term stiffness of a viscoelastic one in series at the first end
+/// ([MOSES-FLEX -CONVOLUTION]; statics: [W-VISCOUS]).
 ///
 /// # Errors
 /// A curve that is not defined, or is no convolution.

@@ -6,7 +6,7 @@ use windlass_base::units::Dim;
 use windlass_catenary::{Buoy, MissingRow, Row};
 use windlass_model::QUASI_STATIC;
 
-/// The twelve columns of reference/solve.md, CONN_DESIGN; a row without a configuration has its force alone.
+/// The twelve columns of TABLE [MOSES-RUNS con_d]; a row without a configuration has its force alone.
 pub fn report(mooring: &Mooring, connector: &str, found: &[Row], missing: &[MissingRow]) -> Table {
     let rows = numbered(found, missing);
     let bottom = mooring.line.floor().map(|f| f.elevation).or(mooring.bottom);

@@ -1,6 +1,6 @@
 //! The options that several connector classes share, each declared once.
 //!
-//! Source: seeds 000/001; sizes in inches or mm, lengths in feet or metres, `bforce` the user's force.
+//! Source: [MOSES-FLEX]; sizes in inches or mm, lengths in feet or metres, `bforce` the user's force.
 
 use windlass_base::units::Dim;
 use windlass_base::values::Noun;

@@ -1,7 +1,7 @@
 //! A hydraulic piston that controls the tension of a line: where it stands at the end of a step.
 //!
-//! Source: seed 001, -PISTON. The piston is a rigid link of length s - LD between the first end and the line, along the tension: at its
-//! nominal position it adds nothing. Readings where the seed is silent: VLONG and VSHORT are the fastest it goes, so that a limit is held
+//! Source: [MOSES-FLEX -PISTON]. The piston is a rigid link of length s - LD between the first end and the line, along the tension: at its
+//! nominal position it adds nothing. Readings where the manual is silent: VLONG and VSHORT are the fastest it goes, so that a limit is held
 //! while it can follow and the tension departs from it while it cannot; of MAX the way back to LD is as fast as VSHORT allows without
 //! passing TMAX; in statics it has all the time it needs, and starts at LD.
 

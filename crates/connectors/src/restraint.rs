@@ -1,6 +1,6 @@
 //! What the restraints FIX, SPR and GAP share: no deflection as the ends stood when the connector was defined.
 //!
-//! Source: reference/model.md, "Rigid": the program sets the offset of the second end at definition.
+//! Source: [MOSES-REF cls_res]: the program sets the offset of the second end at definition.
 
 use super::checks;
 use super::spring::{Restraint, no_anchor, restraint_table};

@@ -1,6 +1,6 @@
 //! ROD: a line with bending stiffness and its own dynamics.
 //!
-//! Source: seed 001. MOSES treats rods as an assembly of large deflection tubular beam elements with inertia; the engine is `windlass_line_dynamics`.
+//! Source: [MOSES-FLEX ROD]. MOSES treats rods as an assembly of large deflection tubular beam elements with inertia; the engine is `windlass_line_dynamics`.
 
 use super::moving::{self as m, Description, Flexure, Hold, MovingLine, Part, Seabed};
 use super::per_line::PerLineOptions;
@@ -70,7 +70,7 @@ static ROD_SPEC: CommandSpec = CommandSpec {
         ("-MOMENT", "its ends are pinned, or held by -CLAMP; a moment at an end cannot be given"),
     ],
     detail: "Large-deflection tubular elements with inertia, first record at the first end. -REFINE cuts a segment into elements; \
-             the seed's 300 over all segments were MOSES' limit, here it is memory. The rod feels waves, current, wind, growth and bottom along itself, at rest without \
+             MOSES allows 300 over all segments, here memory is the limit. The rod feels waves, current, wind, growth and bottom along itself, at rest without \
              the waves. Its weight is that of -WTPLEN or of the wall, empty; what is in it comes by -T_PRESSURE of &ENV. -EI 0 makes a chain or rope, which \
              neither pushes nor bends; with a bore it keeps its wall: contents, heat and pressure act. -CLUMP is a weight in water, taken as a mass without volume; negative: a buoy without mass, CLEN above the line. -ROPE: a standard linear solid. Its ends turn freely but for -CLAMP. \
              Per line, on any record: -FRICTION, -SLOPE, -DEPANCHOR, -SEABED, -CLAMP. No convolution.",

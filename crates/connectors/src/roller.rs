@@ -1,6 +1,6 @@
 //! ROLLER: four physical rollers around a pipe.
 //!
-//! Source: seed 001. Gaps are in inches or mm; the second end is taken care of by the assembly.
+//! Source: [MOSES-FLEX ROLLER]. Gaps are in inches or mm; the second end is taken care of by the assembly.
 
 use super::spring::{Restraint, Springs, no_anchor, restraint_table, restraints};
 use super::zero_law::{Contact, Sense};

@@ -1,6 +1,6 @@
 //! The section of a line's segment: what its diameter, material and load options amount to.
 //!
-//! Source: seed 001 (B_CAT) and reference/model.md: AE and break use the full area pi/4 OD^2; the submerged weight per
+//! Source: [MOSES-FLEX B_CAT] and [W-SECTION]: AE and break use the full area pi/4 OD^2; the submerged weight per
 //! length is WTPLEN - DISPLEN - rho_w g pi/4 BUOYDIA^2. With -TYPE these come from the library of line types; an option
 //! given beside it overrides it.
 

@@ -1,6 +1,6 @@
 //! SL_ELEM: a spring along the chord between its ends, both ways or in tension only.
 //!
-//! Source: seed 001; reference/model.md.
+//! Source: [MOSES-FLEX SL_ELEM].
 
 use super::chord::{Chord, ChordElement};
 use super::devices::Devices;

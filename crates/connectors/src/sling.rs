@@ -1,6 +1,6 @@
 //! SLING: a line of a lifting assembly.
 //!
-//! Source: seed 001: the area is that of a solid circle of OD; the only other option is -EMODULUS.
+//! Source: [MOSES-FLEX SLING]: the area is that of a solid circle of OD; the only other option is -EMODULUS.
 
 use super::tie::TieClass;
 use super::{ClassKind, options as o};

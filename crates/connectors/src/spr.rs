@@ -1,6 +1,6 @@
 //! SPR: a restraint by springs in chosen degrees of freedom.
 //!
-//! Source: reference/model.md, "Rigid".
+//! Source: [MOSES-REF cls_res].
 
 use super::restraint::Restraining;
 use super::spring::restraints;

@@ -1,6 +1,6 @@
 //! What the zero-length classes share: reading their springs, and making the element of them.
 //!
-//! Source: seed 001.
+//! Source: [MOSES-FLEX GSPR].
 
 use super::mooring::no_curve;
 use super::spring_law::{Dashpot, Elastic, Group};

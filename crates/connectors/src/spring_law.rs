@@ -1,6 +1,6 @@
 //! The one-dimensional laws of a zero-length spring: springs in series, dashpots, friction against a velocity.
 //!
-//! Source: seed 001, -X_PY, -X_DAMPING, -FRICTION.
+//! Source: [MOSES-FLEX -X_PY, -X_DAMPING, -FRICTION].
 
 use super::viscous::{Affine, Viscoelastic};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
@@ -86,7 +86,7 @@ impl Dashpot {
 
     fn force(&self, speed: f64) -> Sized {
         let (c, ex) = (self.coefficient, self.exponent);
-        // below one the power is rounded off at rest, and stays below the seed's
+        // below one the power is rounded off at rest, and stays below the power
         let soft = if ex < 1.0 { speed.hypot(SLOW) } else { speed };
         let secant = c * soft.powf(ex - 1.0);
         if secant * speed > self.most {
@@ -210,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn a_dashpot_is_the_power_of_the_seed_up_to_its_largest_force() {
+    fn dashpot_force_is_power_law_up_to_its_limit() {
         let dashpot = Dashpot { coefficient: 5.0, exponent: 2.0, most: 40.0 };
         for (v, f) in [(0.0, 0.0), (2.0, 20.0), (-2.0, -20.0), (3.0, 40.0), (-9.0, -40.0)] {
             let (got, _) = dashpot.act(&Vector3::new(v, 7.0, 0.0), [true, false, false]);

@@ -1,6 +1,6 @@
 //! TETHER: an AQWA tether or riser section as a class. Its numbers are in kg, m, N whatever `&DIMEN` says.
 //!
-//! Source: seed 002, 5.8.3.3.
+//! Source: [AQWA-CONN 5.8.3.3].
 
 use super::aqwa::{CA, LENGTH, number};
 use super::options::aqwa;
@@ -172,7 +172,7 @@ fn second_moment(s: &TetherSection) -> f64 {
 /// -TETHERS. A towed tether exerts nothing on its vessel.
 ///
 /// The effective tension halfway is `EA/L0 (L - L0) + rho g (h_top + h_bottom)/2 A_e - (p + rho_i g (h_top + h_bottom)/2) A_i`, in which
-/// the depths h are below the mean level (validation/installed-tether.md, 2 and 4; internal fluid by the same balance). Each end
+/// the depths h are below the mean level ([W-INSTALLED 2, 4]; internal fluid by the same balance). Each end
 /// bears half of the weight in water. A slack tether keeps the tension with which it hangs from one end.
 #[derive(Clone, Debug, PartialEq)]
 struct Bar {

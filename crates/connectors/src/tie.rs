@@ -1,6 +1,6 @@
 //! A weightless line that only pulls, along the chord between its ends: what SLING and DAVIT are.
 //!
-//! Source: seed 001: lines whose force depends only upon the distance between the ends, of stiffness AE/L.
+//! Source: [MOSES-FLEX SLING]: lines whose force depends only upon the distance between the ends, of stiffness AE/L.
 
 use super::checks;
 use super::section::{LineSection, properties};

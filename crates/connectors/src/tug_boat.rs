@@ -1,6 +1,6 @@
 //! TUG_BOAT: a constant horizontal force.
 //!
-//! Source: reference/model.md (the names TUG_BOAT and -TUG ANG DIST); that the force is constant is our reading.
+//! Source: [MOSES-REF conn_rest] (the names TUG_BOAT and -TUG ANG DIST); that the force is constant is our reading.
 
 use super::ClassKind;
 use super::spring::no_anchor;

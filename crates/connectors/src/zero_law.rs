@@ -1,6 +1,6 @@
 //! The law of a zero-length spring in element axes: which part of a displacement deflects which spring, when none acts, friction, dashpots.
 //!
-//! Source: seed 001 (GSPR, FOUNDATION, LMU, ROLLER) and reference/model.md (GAP).
+//! Source: [MOSES-FLEX GSPR, FOUNDATION, LMU, ROLLER] and [MOSES-REF cls_res] (GAP).
 
 use super::spring_law::{Dashpot, Group, rubbing};
 use nalgebra::{Matrix3, Matrix6, Vector2, Vector3, Vector6};
@@ -96,7 +96,7 @@ impl Contact {
     }
 }
 
-/// Seed 001 with two of its signs mended: the side deformation is d = max(0, D_h - T max(0, LEN - D_v)), the vertical one
+/// [MOSES-FLEX LMU] with two of its signs mended: the side deformation is d = max(0, D_h - T max(0, LEN - D_v)), the vertical one
 /// c = max(0, D_v - LEN) + T d, a compression.
 fn in_cone(u: &Vector3<f64>, length: f64, tangent: f64) -> Option<Deflection> {
     let below = -u.x;
@@ -138,9 +138,9 @@ fn in_cone(u: &Vector3<f64>, length: f64, tangent: f64) -> Option<Deflection> {
 pub enum Friction {
     /// Nothing.
     None,
-    /// The lateral springs reach at most MU |Fx| (seed 001).
+    /// The lateral springs reach at most MU |Fx| [MOSES-FLEX -FRICTION].
     Limit(f64),
-    /// MU |Fx| against the velocity; no lateral springs (seed 001).
+    /// MU |Fx| against the velocity; no lateral springs [MOSES-FLEX -FRICTION].
     Rate(f64),
     /// Coulomb's: a stiff spring (N/m) from where it last stuck, at most MU |Fx|; its state is that place (Y, Z).
     Stick {

@@ -1,6 +1,6 @@
 //! Steady current over the depth.
 //!
-//! Source: reference/model.md, "Environment" and "Curves". Where they are silent: a C_PROFILE curve counts its depth from
+//! Source: [MOSES-REF env, curv]. Where they are silent: a C_PROFILE curve counts its depth from
 //! the actual surface, tide included, and is not stretched; it is straight between its points, and above the first and
 //! below the last the current is that of the point; below the bottom there is none.
 

@@ -1,6 +1,6 @@
 //! Marine growth on members: a thickness by elevation, and what it adds to a member.
 //!
-//! Source: reference/model.md, "Curves": the curve M_GROWTH gives the added outside diameter by elevation, twice the thickness.
+//! Source: [MOSES-REF curv]: the curve M_GROWTH gives the added outside diameter by elevation, twice the thickness.
 //! Our readings: elevations are global, above z = 0, tide left out, as growth stays where it has grown; it is straight between
 //! the points of the curve, and there is none above its highest and below its lowest elevation. Where bodies move it stays on them:
 //! whoever makes a load asks with the elevation at which the part stands then. Drag and inertia take the larger diameter; the density

@@ -61,7 +61,7 @@ use windlass_model::{Body, ClassError, Mass, Model};
 
 /// Categories of force that reports tell apart.
 ///
-/// Source: reference/model.md, "Weights and loads"; those that have no load yet come with the issues that bring them.
+/// Source: [MOSES-REF forces]. Some of them have no load yet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Category {
     /// Weights.

@@ -1,6 +1,6 @@
 //! Buoyancy by a constant stiffness about an upright equilibrium.
 //!
-//! Source: reference/aqwa-cards.md, deck 7: F = K (Xe - X) + B at the centre of gravity. X are the place of that point and the
+//! Source: [AQWA-REF deck 7]: F = K (Xe - X) + B at the centre of gravity. X are the place of that point and the
 //! roll, pitch and yaw of the body. Our reading: K stands in axes that turn with the yaw, since roll and pitch do; Xe is
 //! (0, 0, height) and upright with no yaw. The force is exact for these angles of any size, and so is its stiffness.
 

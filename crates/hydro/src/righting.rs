@@ -1,6 +1,6 @@
 //! Static stability: a body heeled at constant displacement, balanced in heave and trim.
 //!
-//! Source: reference/solve.md, "Static process": three degrees of freedom (heave and two angles), connectors left out.
+//! Source: [MOSES-REF static, hstatic]: three degrees of freedom (heave and two angles), connectors left out.
 
 use super::{Category, Floating};
 use nalgebra::{Matrix2, Vector2, Vector3};

@@ -4,7 +4,7 @@
 //! `m0 = Hs^2/16`; a regular wave is one energy `a^2/2`. Means over the sea are then plain sums. The formulas stand in
 //! [`super::sea::spectra`].
 //!
-//! reference/model.md: the PERIOD of ISSC is the mean period 2 pi m0/m1, and the curve of a user is rescaled to m0 with its
+//! [MOSES-REF env, curv]: the PERIOD of ISSC is the mean period 2 pi m0/m1, and the curve of a user is rescaled to m0 with its
 //! peak moved to the PERIOD. Our readings: that of JONSWAP, TORSETHAUGEN and of a curve is the peak period; `-SP_TYPE` says
 //! otherwise for ISSC and JONSWAP; OCHI is rescaled and moved as a curve is, by its highest peak; the curve is moved by one
 //! factor on all its frequencies; density of a P_SPECTRUM is over frequency too.

@@ -1,6 +1,6 @@
 //! How wind and current vary about their means, for bodies under way.
 //!
-//! Source: reference/model.md, "Environment" and "Curves". Where it is silent: a history is straight between its points and
+//! Source: [MOSES-REF env, curv]. Where it is silent: a history is straight between its points and
 //! keeps the values of its ends beyond them; that of wind takes the place of the speed of `-WIND`, with its direction and profile;
 //! that of current (ours) multiplies the current. All grow with the ramp of the environment from the means, on which statics stands.
 

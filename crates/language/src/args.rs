@@ -1,7 +1,7 @@
 //! Reading a record's words against its [`CommandSpec`]: data and options in any order, abbreviations, arity, types,
 //! ranges, and the one conversion to SI.
 //!
-//! Source: reference/language.md sections 1 and 2. An option takes its own known number of values; values that may be
+//! Source: [MOSES-REF ams_cmd_menu, men_select]. An option takes its own known number of values; values that may be
 //! left out or repeat are taken until a word of another type comes; the remaining words are positional data.
 
 mod convert;

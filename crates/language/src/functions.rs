@@ -1,6 +1,6 @@
 //! String functions that need no model: `&NUMBER`, `&FORMAT`, `&STRING`, `&TOKEN`, `&LOGICAL`, `&V_EXIST`.
 //!
-//! Source: reference/language.md section 7. Where that text leaves a choice, the reading is in `&HELP` of the function
+//! Source: [MOSES-REF lang_sfun, lang_number, lang_info]. Where that text leaves a choice, the reading is in `&HELP` of the function
 //! ([`HELP`]).
 
 use super::logic;

@@ -1,6 +1,6 @@
 //! Logical phrases: `%A .EQ. 3 .AND. .NOT. %DONE`.
 //!
-//! Source: reference/language.md section 5. `.EQ.` and `.NE.` compare any words (as numbers when both are numbers,
+//! Source: [MOSES-REF lang_loop_if]. `.EQ.` and `.NE.` compare any words (as numbers when both are numbers,
 //! else as text, upper and lower case alike); the other comparisons need numbers. `.NOT.` binds tighter than `.AND.`,
 //! that tighter than `.OR.`. A parenthesis that its own word does not match groups conditions: `(1 .EQ. 1)`; matched ones
 //! are arithmetic: `(1+2)*3`.

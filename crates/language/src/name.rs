@@ -1,6 +1,6 @@
 //! What a name may be: one rule for everything that gets a name.
 //!
-//! Source: reference/language.md sections 1 and 11; MOSES takes 8 characters, we take 64.
+//! Source: [MOSES-REF ams_cmd_menu, men_select]; MOSES takes 8 characters, we take 64.
 
 use windlass_base::diagnostic::{Diagnostic, Outcome, with_article};
 use windlass_base::printable::is_acted_on;

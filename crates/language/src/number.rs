@@ -4,7 +4,7 @@
 //! a number is an error and never 2.718. The operations are then carried out one by one, so that a division by zero is
 //! found even where the end result would be finite again.
 //!
-//! Source: reference/language.md section 3. `**` binds tighter than a sign and to the right, then `* /`, then `+ -`.
+//! Source: [MOSES-REF lang_number]. `**` binds tighter than a sign and to the right, then `* /`, then `+ -`.
 
 use meval::shunting_yard::to_rpn;
 use meval::tokenizer::{Operation, Token, tokenize};

@@ -1,6 +1,6 @@
 //! Choosing names: minimum uniqueness for keywords, wild characters for selectors.
 //!
-//! Source: reference/language.md sections 2 and 11.
+//! Source: [MOSES-REF men_select].
 
 use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use windlass_base::span::Span;

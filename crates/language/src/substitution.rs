@@ -1,6 +1,6 @@
 //! Textual substitution before a record is read: `%VAR%`, `%VAR`, `%(VAR)` and string functions `&NAME(...)`.
 //!
-//! Source: reference/language.md sections 4 and 7. The text put in is not looked at again, so that no value can make
+//! Source: [MOSES-REF lang_local, lang_sfun]. The text put in is not looked at again, so that no value can make
 //! the interpreter run in circles.
 
 use super::functions;

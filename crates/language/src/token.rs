@@ -1,6 +1,6 @@
 //! The one lexer: scripts, completion and the editor's colours all read words through it.
 //!
-//! Source: reference/language.md section 1. A comma or any run of blanks separates; two commas in a row leave an empty
+//! Source: [MOSES-REF ams_cmd_menu]. A comma or any run of blanks separates; two commas in a row leave an empty
 //! field; `$` where a word could start begins a comment; a lone `\` at the end continues the record; a `-` starts an
 //! option only when a letter follows. A word that holds blanks or commas is put in quotes.
 

@@ -1,6 +1,6 @@
 //! Variables: strings under names, global or local to a macro call.
 //!
-//! Source: reference/language.md section 4. A local hides a global or an outer local of the same name; `&SET` changes
+//! Source: [MOSES-REF lang_local]. A local hides a global or an outer local of the same name; `&SET` changes
 //! the variable that is visible under the name, and makes a global when there is none.
 
 use indexmap::IndexMap;

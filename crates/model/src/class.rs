@@ -33,7 +33,7 @@ pub struct Class {
     pub name: String,
     /// Its records in order.
     pub records: Vec<ClassRecord>,
-    /// Whether its stiffness is left out of what is told of the bodies beside the one of a connector (`-IG_STIFF`, seed 001);
+    /// Whether its stiffness is left out of what is told of the bodies beside the one of a connector [MOSES-FLEX -IG_STIFF];
     /// its force is not.
     pub ignored_stiffness: bool,
     /// What the records make.
@@ -252,7 +252,7 @@ pub trait ConnectorClass: Debug + Send + Sync {
         None
     }
 
-    /// Whether a FOUNDATION check reports its connectors: the ratio and the springs of their summaries (seed 001).
+    /// Whether a FOUNDATION check reports its connectors: the ratio and the springs of their summaries [MOSES-FLEX FOUNDATION].
     fn foundation(&self) -> bool {
         false
     }

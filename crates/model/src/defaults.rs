@@ -1,6 +1,6 @@
 //! Defaults of `&DEFAULT`, printed by `&STATUS DEFAULTS`.
 //!
-//! Source: reference/model.md, "Conventions and defaults".
+//! Source: [W-DEFAULTS].
 
 use windlass_base::units::{INCH, KIP, STANDARD_GRAVITY};
 
@@ -74,7 +74,7 @@ impl Default for Defaults {
 }
 
 impl Material {
-    /// Ultimate stress (Pa): as given, else yield / 0.6 (reference/model.md: the 1.66 of the page is 1/0.6 rounded).
+    /// Ultimate stress (Pa): as given, else yield / 0.6 ([MOSES-REF cls] rounds 1/0.6 to 1.66).
     pub fn ultimate(&self) -> f64 {
         self.ultimate_stress.unwrap_or(self.yield_stress / 0.6)
     }

@@ -1,6 +1,6 @@
 //! Environments of `&ENV`.
 //!
-//! Source: reference/model.md, "Environment". Directions are where wind, sea and current come from, from +X toward +Y.
+//! Source: [MOSES-REF env]. Directions are where wind, sea and current come from, from +X toward +Y.
 
 use windlass_base::span::Span;
 use windlass_base::values::Given;

@@ -38,7 +38,7 @@ pub struct FatigueCurve {
     pub span: Span,
 }
 
-/// The correction of stress ranges for thickness, `MIN((t / TO)**POWER, MAXCOR)` (reference/solve.md, "Fatigue of lines").
+/// The correction of stress ranges for thickness, `MIN((t / TO)**POWER, MAXCOR)` [MOSES-REF sn_def, sn_bind, fatigue].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ThicknessCorrection {
     /// TO (m).

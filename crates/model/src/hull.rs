@@ -28,7 +28,7 @@ pub enum Shape {
 
 /// A surface that water presses on, or a space within one that water fills.
 ///
-/// Source: reference/model.md, "Hull".
+/// Source: [MOSES-REF pieces].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Piece {
     /// Its name as written.
@@ -127,7 +127,7 @@ pub fn box_panels(low: Position, high: Position) -> Vec<Vec<Position>> {
 
 /// Buoyancy by a constant stiffness about an upright equilibrium.
 ///
-/// Source: reference/aqwa-cards.md, deck 7 (LSTF, BFEQ, ZCGE): F = K (Xe - X) + B at the centre of gravity.
+/// Source: [AQWA-REF deck 7] (LSTF, BFEQ, ZCGE): F = K (Xe - X) + B at the centre of gravity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinearHydrostatics {
     /// The point whose place and force are meant, in the body (m): as AQWA has it, the centre of gravity.

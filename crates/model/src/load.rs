@@ -1,6 +1,6 @@
 //! Loads of wind, current and waves that records put on parts, and the matrices of `#DRAG`, `#DAMP` and `#AMASS`.
 //!
-//! Source: reference/model.md, "Weights and loads". Everything is in the axes of its part; the floors above turn it into
+//! Source: [MOSES-REF load_g]; [MOSES-HELP lgroup]. Everything is in the axes of its part; the floors above turn it into
 //! forces.
 
 use indexmap::IndexMap;

@@ -1,6 +1,6 @@
 //! Selectors: sets of names by pattern.
 //!
-//! Source: reference/language.md section 11. First all that fit one of the patterns, then without those that fit an
+//! Source: [MOSES-REF men_select]. First all that fit one of the patterns, then without those that fit an
 //! exception.
 
 use super::Model;

@@ -1,6 +1,6 @@
 //! What a connector of class TETHER is: sections of tube, and how their two ends are held.
 //!
-//! Source: seed 002, 5.8.3.3 (sections); seed 003, Appendix A (what deck 14 says of a tether).
+//! Source: [AQWA-CONN 5.8.3.3] (sections); [AQWA-TETHER Appendix A] (what deck 14 says of a tether).
 
 /// A section of a tether: elements of one tube, from the fairlead.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,7 +25,7 @@ pub struct TetherSection {
     pub label: Option<[i64; 4]>,
 }
 
-/// Which of the two tethers of seed 003 it is.
+/// Which of the two tethers of [AQWA-TETHER 2] it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum TetherUse {
     /// Between a structure and its anchor, under tension.
@@ -84,7 +84,7 @@ pub struct TetherEnds {
 }
 
 impl TetherEnds {
-    /// Stiffness of a spring that is not given (seed 003, A.2 and 8.1.14), in N/m or N m/rad where the card's unit is a thousand.
+    /// Stiffness of a spring that is not given [AQWA-TETHER A.2 and 8.1.14], in N/m or N m/rad where the card's unit is a thousand.
     pub const STIFF: f64 = 1.0e18;
 
     /// How many tethers it stands for.

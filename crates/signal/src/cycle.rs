@@ -2,7 +2,7 @@
 //!
 //! The cycle from a start is sampled at equal times by cubics through four samples of the series; what it drifts from its start to its end is
 //! taken off as a straight line about the middle; the discrete Fourier sum gives mean and harmonics. Sixteen samples are those of AQWA
-//! (validation/installed-tether.md, 4: with sixty the higher harmonics are off).
+//! ([W-INSTALLED 4]: with sixty the higher harmonics are off).
 
 use super::harmonics::Harmonic;
 use super::{SeriesError, timed};

@@ -28,7 +28,7 @@ pub struct Options {
 }
 
 impl Default for Options {
-    /// Source: reference/solve.md, &EQUI.
+    /// Source: [MOSES-REF equi].
     fn default() -> Self {
         Options { most: 50, tolerance: [1e-3, 1e-3], ignored: Vec::new(), held: None }
     }

@@ -1,7 +1,7 @@
 //! One element of a tether in one plane: a beam with a cubic deflection. Unknowns are deflection and slope at its first end,
 //! then at its second; lengths are of the element, `a` is the fraction of it from the first end.
 //!
-//! Source: seed 003, 3.2 and 3.3, with its misprints mended (validation/towed-tether.md, last section): the third row of T is
+//! Source: [AQWA-TETHER 3.2 and 3.3], with its misprints mended [W-TOWED misprints]: the third row of T is
 //! `La(1-a)^2`, the last two are `-La^2(1-a)` in the plane of the slope; the lower rows of K follow from its symmetry. The
 //! geometric stiffness, which the manual uses and does not tell, is that of Przemieniecki, Theory of Matrix Structural
 //! Analysis (1968), (15.25).

@@ -1,26 +1,26 @@
 //! Peculiarities of another program, each with a name.
 //!
-//! Where the listings of seed 003 come from something that is no part of the theory, it is a switch here: on when a deck is to give the
-//! numbers of that program ([`Compatibility::aqwa_5_4`]), off natively. What each makes is told of the installed example of seed 003, 8.2,
-//! with that switch alone off (crates/tether/tests/it/seed_003_installed.rs holds them there).
+//! Where the listings of [AQWA-TETHER 8] come from something that is no part of the theory, it is a switch here: on when a deck is to give the
+//! numbers of that program ([`Compatibility::aqwa_5_4`]), off natively. What each makes is told of the installed example of [AQWA-TETHER 8.2],
+//! with that switch alone off (crates/tether/tests/it/aqwa_tether_installed.rs holds them there).
 
 /// How a structure with tethers goes from its two accelerations to the end of a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum VesselScheme {
-    /// `x' = x + v h + (2 a1 + a2) h^2/6`: the acceleration is straight over the step. The listing of seed 003 has it, and it is the better.
+    /// `x' = x + v h + (2 a1 + a2) h^2/6`: the acceleration is straight over the step. The listing of [AQWA-TETHER 8.2] has it, and it is the better.
     #[default]
     StraightAcceleration,
-    /// `x' = x + (v + v') h/2`, as the text of seed 003 has it (3.6). It damps: the heave of the example is 11 mm off at 5 s.
+    /// `x' = x + (v + v') h/2`, as [AQWA-TETHER 3.6] has it. It damps: the heave of the example is 11 mm off at 5 s.
     MeanVelocity,
 }
 
 /// Where the rotational springs at the ends of installed tethers are at rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum SpringReference {
-    /// Where the tether is vertical, and upright in the structure. The listing of seed 003 has it.
+    /// Where the tether is vertical, and upright in the structure. The listing of [AQWA-TETHER 8.2] has it.
     #[default]
     Vertical,
-    /// Along the axis that the tether has at the start of the run, as one may read the text of seed 003 (7.1): the moment at the top of the
+    /// Along the axis that the tether has at the start of the run, as one may read [AQWA-TETHER 7.1]: the moment at the top of the
     /// first tether at 6.5 s is then -391 kN m and not -1365 (printed: -1356), the surge up to 0.23 m another.
     InitialAxis,
 }
@@ -70,7 +70,7 @@ impl Compatibility {
         }
     }
 
-    /// AQWA 5.4, whose listings seed 003 holds.
+    /// AQWA 5.4, whose listings are in [AQWA-TETHER 8].
     pub const fn aqwa_5_4() -> Self {
         Compatibility {
             whole_element_kinematics: true,

@@ -1,4 +1,4 @@
-//! The description of a tether: what the data listing of seed 003 (7.1) tells of it before a run.
+//! The description of a tether: what the data listing [AQWA-TETHER 7.1] tells of it before a run.
 
 use super::line::Line;
 use windlass_base::table::{Cell, Digits, Table};

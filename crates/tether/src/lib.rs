@@ -1,4 +1,4 @@
-//! Tethers: chains of slender steel tubes under water, as the AQWATM-TETHER manual (seed 003) has them. Small deflections from
+//! Tethers: chains of slender steel tubes under water, as the AQWATM-TETHER manual [AQWA-TETHER] has them. Small deflections from
 //! a straight axis; two translations and two slopes a node; nothing moves or turns along the axis.
 //!
 //! Units: SI, or any consistent set (the manual's decks are in t, kN, m): gravity and the density of water are given, and

@@ -61,7 +61,7 @@ mod tests {
 
     #[test]
     fn the_main_body_of_the_manual_has_its_printed_section() {
-        // seed 003, figure 8 listing: area 0.1289, I 0.018801, external area 0.981
+        // [AQWA-TETHER 8.2 listing]: area 0.1289, I 0.018801, external area 0.981
         let tube = Tube { outer_diameter: 1.1176, wall_thickness: 0.038 };
         assert!((tube.area() - 0.1289).abs() < 5e-5);
         assert!((tube.second_moment() - 0.018_801).abs() < 5e-7);

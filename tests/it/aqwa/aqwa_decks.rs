@@ -1,7 +1,7 @@
-//! Decks run as records: the two examples of seed 003 through the session, against the listing and against scripts of the same cases,
+//! Decks run as records: the two examples of [AQWA-TETHER 8] through the session, against the listing and against scripts of the same cases,
 //! and how each card comes out as a record.
 //!
-//! Printed numbers: tests/data/{towed,installed}_tether.json; what can be met: validation/{towed,installed}-tether.md.
+//! Printed numbers: tests/data/{towed,installed}_tether.json; what can be met: [W-TOWED], [W-INSTALLED].
 
 use crate::common;
 
@@ -74,7 +74,7 @@ fn the_installed_deck_comes_to_the_printed_places_and_goes_slack_when_printed() 
         let at = run.times.iter().position(|t| (t - time).abs() < 1e-9).unwrap();
         for axis in 0..3 {
             let off = (structure.at(at, axis).unwrap() - number(&state["POSITION"][axis])).abs();
-            // issue 6, item 5
+            // required: 0.4 mm to 5 s, 6 mm to 25 s
             assert!(off < if time <= 5.0 { 4e-4 } else { 6e-3 }, "{axis} at {time} s: {off}");
         }
     }
@@ -104,7 +104,7 @@ fn the_towed_deck_with_the_printed_phases_comes_to_the_printed_places() {
         // the second quantity of a node is its height; listed from the vessel
         let off = |node: usize| tether.node_at(at, node, 1).unwrap() - number(&motion[13 - node][3]);
         let rms = ((0..14).map(|node| off(node).powi(2)).sum::<f64>() / 14.0).sqrt();
-        // issue 6, item 4: 0.025 m of 1.9 to 3.3 m
+        // required: 0.025 m of 1.9 to 3.3 m
         assert!(rms < 0.025, "{time} s: {rms}");
     }
 }
@@ -211,7 +211,7 @@ fn the_records_have_the_digits_of_the_cards() {
     let towed = lines(&records(&file("he01_phases.dat")).unwrap());
     assert!(towed.contains("-LEN 27.787 ") && towed.contains("-COMPONENTS 50 EQUAL_ENERGY 0.37 2.5"), "{towed}");
     assert!(towed.contains("0.0028 47.3536") && !towed.contains("-IMPACT"));
-    // validation/towed-tether.md, 3: 6.302 over all frequencies
+    // [W-TOWED 3]: 6.302 over all frequencies
     assert!(towed.contains("-SEA JONSWAP 0 6.302"), "{towed}");
 }
 

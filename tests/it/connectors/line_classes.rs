@@ -1,4 +1,4 @@
-//! The line classes of the seeds between their ends: forces, stiffness and every option that acts, against numbers not
+//! The line classes of [MOSES-FLEX] and [AQWA-CONN] between their ends: forces, stiffness and every option that acts, against numbers not
 //! made here, closed forms and differences.
 
 use crate::common;

@@ -1,4 +1,4 @@
-//! The set-down of scripts/lmu.cif on four leg mating units: by the formulas of the issue, and beside an independent solution
+//! The set-down of scripts/lmu.cif on four leg mating units: by the formulas of [MOSES-FLEX LMU], and beside an independent solution
 //! (tests/data/lmu_stages.py).
 
 use crate::common;

@@ -1,4 +1,4 @@
-//! Pistons, dashpots and viscoelastic springs of lines against numbers worked out by hand from the text of seed 001.
+//! Pistons, dashpots and viscoelastic springs of lines against numbers worked out by hand from [MOSES-FLEX -PISTON, -X_DAMPING, -CONVOLUTION].
 
 use crate::common;
 

@@ -136,7 +136,7 @@ fn the_force_of_a_hanging_rod_goes_to_that_of_the_exact_catenary_with_the_second
     }
 }
 
-/// A run of the chain of shared/validation/moordyn_chain900: its fairlead force (N) at each step.
+/// A run of the chain of tests/data/moordyn_chain900.csv: its fairlead force (N) at each step.
 fn chain(elements: usize, step: f64) -> Vec<f64> {
     let class = format!(
         "~CHAIN ROD 180 90 -LEN 900 -REFINE {elements} -EI 0 -EA 8.54E8 -WTPLEN 199*9.80665 -CD 1.333 0.639 -CA 1 0.5 \
@@ -160,7 +160,7 @@ fn the_fairlead_force_of_a_driven_chain_is_that_of_moordyn() {
         let errors: Vec<f64> = rows.iter().map(|(t, force)| at(run, *t) - force / range).collect();
         let most = errors.iter().fold(0.0, |m: f64, e| m.max(e.abs()));
         let rms = (errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64).sqrt();
-        // the issue's limits, in full already at 200 elements; MoorDyn with 100 segments is 0.33 % from MoorDyn with 200
+        // met already by 200 elements; MoorDyn with 100 segments is 0.33 % from MoorDyn with 200
         assert!(most < 0.01 && rms < 0.0015, "{} s: {most} {rms}", run.0);
     }
     // mesh and step are converged: 0.05 % of the range

@@ -1,7 +1,7 @@
-//! The towed and the installed tethers of seed 003 as rods, beside the listing and the tether engine: what agrees by how much, and
+//! The towed and the installed tethers of [AQWA-TETHER 8] as rods, beside the listing and the tether engine: what agrees by how much, and
 //! why the rest does not.
 //!
-//! The listing is that of AQWATM-TETHER 5.4 (shared/validation/towed-tether.md and installed-tether.md); the tether engine (crates/tether/src)
+//! The listing is that of AQWA 5.4 ([W-TOWED], [W-INSTALLED]); the tether engine (crates/tether/src)
 //! follows it, and without `AQWA` leaves out what looks like its faults. Both are beams of small deflections about a chord, cubic in
 //! each element with consistent mass; the rod is a chain of straight elements of lumped mass with hinges, of any deflection.
 
@@ -140,7 +140,7 @@ fn an_installed_rod_swings_as_the_tether_of_the_listing_does() {
     let listing = [1.2601, 2.6169, 4.2510, 6.2645, 9.3175, 11.9184];
     let share = |found: &[f64], of: &[f64]| -> Vec<f64> { found.iter().zip(of).map(|(f, o)| f / o - 1.0).collect() };
     let (own, of_three) = (tether_frequencies(24, 6), tether_frequencies(3, 6));
-    // the tether engine in the listing's three elements gives its frequencies (crates/tether/tests/it/seed_003_installed.rs says to what), but three cubic
+    // the tether engine in the listing's three elements gives its frequencies (crates/tether/tests/it/aqwa_tether_installed.rs says to what), but three cubic
     // elements are too stiff from the second mode on: by 0.2, 2.7, 6, 17 and 15 %, as 24 of them show
     assert!(share(&of_three, &listing).iter().all(|e| e.abs() < 1e-4), "{of_three:?}");
     assert!(share(&of_three, &own)[2] > 0.02 && share(&of_three, &own)[5] > 0.1, "{own:?}");

@@ -1,4 +1,4 @@
-//! Zero-length classes, slings, rollers, restraints and tugs against numbers worked out by hand from the text of seed 001.
+//! Zero-length classes, slings, rollers, restraints and tugs against numbers worked out by hand from [MOSES-FLEX].
 
 use crate::common;
 

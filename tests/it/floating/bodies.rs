@@ -1,5 +1,5 @@
 //! Bodies that float: weights, pieces, hydrostatics, and the initial configuration, against numbers by hand. The barge is that of
-//! the multi-point mooring sample of reference/model.md: a box of 400 x 100 x 20 ft with its origin at bow and keel.
+//! the multi-point mooring sample [W-SAMPLE]: a box of 400 x 100 x 20 ft with its origin at bow and keel.
 
 use crate::common;
 

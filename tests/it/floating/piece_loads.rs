@@ -1,5 +1,5 @@
 //! Wind and current on the pieces of a hull, against numbers derived by hand beside them. The barge is that of the multi-point
-//! mooring sample of reference/model.md: a box of 400 x 100 x 20 ft with its origin at bow and keel.
+//! mooring sample [W-SAMPLE]: a box of 400 x 100 x 20 ft with its origin at bow and keel.
 
 use crate::common;
 use crate::common::tangent;

@@ -9,7 +9,7 @@ use nalgebra::Matrix6;
 use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::Span;
 
-/// Friction along a tube: fixed in AQWA (reference/aqwa-cards.md, "TUBE").
+/// Friction along a tube: fixed in AQWA [AQWA-REF TUBE].
 const FRICTION: f64 = 0.016;
 /// Products of inertia beyond this share of the largest moment of inertia are no rounding.
 const ROUNDING: f64 = 1e-9;

@@ -2,5 +2,5 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod aqwa_tether_decks;
 mod columns;
-mod seed_003_decks;

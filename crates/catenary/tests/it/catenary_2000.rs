@@ -1,4 +1,4 @@
-//! The 2,000 random single lines of shared/validation, solved there by nested bracketing to 1e-12 of the length:
+//! The 2,000 random single lines of tests/data/catenary_2000.csv, solved by nested bracketing to 1e-12 of the length:
 //! forces within 1e-8 of the fairlead tension, the same regime, and a tangent that is the difference of the force.
 
 use windlass_catenary::{Bottom, EndForces, Segment};

@@ -1,4 +1,4 @@
-//! The example line that ends seeds 000/001 against the independent values of issue 2 (feet, kips; X within 0.1 ft,
+//! The example line that ends [MOSES-FLEX] against independent values (feet, kips; X within 0.1 ft,
 //! forces within 0.1 kips: the digits the values were given with).
 
 use windlass_base::units::{FOOT, KIP};

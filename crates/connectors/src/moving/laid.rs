@@ -1,7 +1,6 @@
 //! A pipe laid over rollers or davits down to the bottom.
 //!
-//! Source: seed 001 (ROLLER, DAVIT), reference/model.md, Assemblies, and the public page on pipe assemblies of the MOSES manual
-//! (conn_pipe). The pipe runs from the last support, the tensioner, over the first and down to the bottom, where it is held far beyond
+//! Source: [MOSES-FLEX ROLLER, DAVIT], [MOSES-REF conn_pipe]. The pipe runs from the last support, the tensioner, over the first and down to the bottom, where it is held far beyond
 //! the touchdown. It rolls through rollers, and hangs by davits from its own nodes.
 
 use nalgebra::{Matrix3, Vector3};

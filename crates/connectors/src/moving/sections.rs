@@ -12,7 +12,7 @@ use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
 use windlass_line_dynamics::{Axial, Segment, Tube, Viscoelastic};
 use windlass_model::{ClassError, ClassRecord, Surroundings};
 
-/// Drag, inline drag of the skin and added mass where nothing is given: those of AQWA's cable dynamics (seed 002, 5.8.3.1).
+/// Drag, inline drag of the skin and added mass where nothing is given: those of AQWA's cable dynamics [AQWA-CONN 5.8.3.1].
 const AQWA_CD: f64 = 1.0;
 /// `0.5 rho Cx V2 De`, per diameter.
 const AQWA_CX: f64 = 0.025;

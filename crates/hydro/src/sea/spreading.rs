@@ -1,6 +1,6 @@
 //! Directional spreading: the energy goes with cos(H - th)^EXP, within a quarter turn of the main direction H.
 //!
-//! Source: reference/model.md, "Environment". Each component has one direction, so that the energy of each frequency is where it
+//! Source: [MOSES-REF env]. Each component has one direction, so that the energy of each frequency is where it
 //! was. Directions come from the cumulative spreading function at the points of a golden-section sequence, u_i = 1/2 + i 0.618..
 //! modulo one: of low discrepancy in any run of neighbouring frequencies, the same for every seed.
 

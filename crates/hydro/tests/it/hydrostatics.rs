@@ -1,4 +1,4 @@
-//! Hydrostatics of boxes, spheres, tubes and the tension leg platform of seed 003 against closed forms; exact stiffness against
+//! Hydrostatics of boxes, spheres, tubes and the tension leg platform of [AQWA-TETHER 8.2] against closed forms; exact stiffness against
 //! differences; meshes that are wrong; mesh files.
 
 use nalgebra::{Matrix3, Vector3};
@@ -433,9 +433,9 @@ fn a_nearly_level_and_a_nearly_upright_tube_go_smoothly_to_the_limit() {
     }
 }
 
-// the platform of seed 003, 8.2
+// the platform of [AQWA-TETHER 8.2]
 
-/// Seed 003 section 8.2, figure 8.4: its 16 tubes, about the keel.
+/// [AQWA-TETHER 8.2, figure 8.4]: its 16 tubes, about the keel.
 fn platform() -> Vec<Tube> {
     let mut tubes = Vec::new();
     for (x, y) in [(40.0, 40.0), (-40.0, 40.0), (-40.0, -40.0), (40.0, -40.0)] {
@@ -460,7 +460,7 @@ fn floating(pose: &Pose) -> Wet {
 }
 
 #[test]
-fn the_platform_of_seed_003_has_its_buoyancy_in_closed_form_and_as_tubes() {
+fn the_platform_of_aqwa_tether_has_its_buoyancy_in_closed_form_and_as_tubes() {
     let gamma = 1.025 * 9.81;
     // the centre of gravity, 63.6 m above the keel, stands at -17.4 m (POS1): the keel at -81 m
     let pose = pose([-46.0, 0.0, -17.4 - 63.6], [0.0; 3]);

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod aqwa_tether_spectrum;
 mod hemisphere;
 mod hydro_databases;
 mod hydrostatics;
-mod seed_003_spectrum;

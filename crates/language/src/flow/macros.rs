@@ -1,6 +1,6 @@
 //! Macros: the picture in the header, and the variables a call makes.
 //!
-//! Source: reference/language.md section 6.
+//! Source: [MOSES-REF lang_macros].
 
 use crate::record::{Record, Word};
 use crate::select::{self, Choice, Owner};

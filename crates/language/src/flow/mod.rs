@@ -1,7 +1,7 @@
 //! The flow of records: files inserted into files, branches, loops and macros, down to one substituted record at a
 //! time for the session to execute.
 //!
-//! Source: reference/language.md sections 4 to 6 and 8.
+//! Source: [MOSES-REF lang_local, lang_loop_if, lang_macros, ams_root].
 
 mod control;
 mod frames;

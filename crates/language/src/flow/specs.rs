@@ -1,6 +1,6 @@
 //! The records that steer the interpreter itself: variables, branches, loops, macros.
 //!
-//! Source: reference/language.md sections 4 to 6.
+//! Source: [MOSES-REF lang_local, lang_loop_if, lang_macros].
 
 use crate::select::Owner;
 use crate::spec::{CommandSpec, Form};

@@ -1,4 +1,4 @@
-//! The chain of 900 m of shared/validation/moordyn_chain900, its driven fairlead, and what MoorDyn found.
+//! The chain of 900 m of tests/data/moordyn_chain900.csv, its driven fairlead, and what MoorDyn 2.7.2 [MOORDYN-2] found.
 
 use nalgebra::Vector3;
 use std::f64::consts::PI;

@@ -1,4 +1,4 @@
-//! A 900 m chain whose fairlead is driven in surge, against MoorDyn: shared/validation/moordyn_chain900.
+//! A 900 m chain whose fairlead is driven in surge, against MoorDyn 2.7.2 [MOORDYN-2]: tests/data/moordyn_chain900.csv.
 
 use crate::moordyn;
 
@@ -26,13 +26,13 @@ fn at(history: &[f64], step: f64, t: f64) -> f64 {
 fn the_fairlead_force_of_a_driven_chain_is_that_of_moordyn() {
     let (reference, range) = reference();
     let (rest, fine) = run(400, 0.0125);
-    // the exact catenary of moordyn_chain900.json; 400 elements and 3 mm of sinking in
+    // the exact catenary; 400 elements and 3 mm of sinking in
     assert!((rest / 1_248_715.534 - 1.0).abs() < 1e-4, "{rest}");
     let away = |step: f64, history: &[f64], t: f64, force: f64| (at(history, step, t) - force) / range;
     let errors: Vec<f64> = reference.iter().map(|(t, f)| away(0.0125, &fine, *t, *f)).collect();
     let most = errors.iter().fold(0.0, |m: f64, e| m.max(e.abs()));
     let rms = (errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64).sqrt();
-    // the limits; MoorDyn with 100 segments is 0.33 % from MoorDyn with 200
+    // MoorDyn with 100 segments is 0.33 % from MoorDyn with 200
     assert!(most < 0.01 && rms < 0.0015, "{most} {rms}");
     // mesh and step have converged: 0.05 % of the range
     let (_, medium) = run(300, 0.025);

@@ -1,4 +1,4 @@
-//! Rods without bending at rest, against the catenary engine and the random lines of shared/validation.
+//! Rods without bending at rest, against the catenary engine and the random lines of tests/data/catenary_2000.csv.
 
 use nalgebra::Vector3;
 use windlass_catenary as catenary;

@@ -182,7 +182,7 @@ mod tests {
 
     #[test]
     fn tension_curves_are_those_of_the_reference() {
-        // reference/model.md, last section: N R^M = K
+        // [API-RP-2SK]: N R^M = K
         assert!((named("CHAIN").cycles(0.1, 0.3).unwrap() - 1e6).abs() < 1e-3);
         assert_eq!(named("API_CHAIN"), named("chain"));
         assert!((named("API_STUDLESS").cycles(0.1, 0.0).unwrap() / 316e3 - 1.0).abs() < 1e-12);

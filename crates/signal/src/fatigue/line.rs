@@ -32,7 +32,7 @@ pub struct SegmentDamage {
 pub struct LineDamage {
     /// Its segments, from the fairlead.
     pub segments: Vec<SegmentDamage>,
-    /// Place in the list of the segment that seed 001 goes by: that with the largest tension over breaking tension where its
+    /// Place in the list of the segment that [MOSES-FLEX -C_SN] goes by: that with the largest tension over breaking tension where its
     /// curve is one of tension, else that with the largest stress.
     pub governing: usize,
     /// Place of the segment with the largest damage.
@@ -142,7 +142,7 @@ pub struct SegmentLife {
 }
 
 /// Damage and life of each segment of a line over a scatter of environments, with a design fatigue factor (at least 1). Each
-/// segment goes by its own curve; the governing one of seed 001 is told by [`LineDamage`].
+/// segment goes by its own curve; the governing one of [MOSES-FLEX -C_SN] is told by [`LineDamage`].
 ///
 /// # Errors
 /// No environment; records of unlike numbers of segments; a record or duration without length; a factor below 1.

@@ -1,6 +1,6 @@
 //! Fatigue at a node of a line: of a tube by the stress round its circumference, of a chain or rope by its tension.
 //!
-//! Cycles are those of rainflow, damage is Palmgren's and Miner's sum, as for the lines of seed 001 ([`crate::fatigue`]).
+//! Cycles are those of rainflow, damage is Palmgren's and Miner's sum, as for lines of the catenary classes ([`crate::fatigue`]).
 
 use crate::fatigue::{Curve, Loaded, line_damage, of_cycles};
 use crate::rainflow::{Cycle, cycles};

@@ -1,4 +1,4 @@
-//! Fatigue life and expected peak stress along a tether (seed 003, 3.7, 7.9, 7.10).
+//! Fatigue life and expected peak stress along a tether [AQWA-TETHER 3.7, 7.9, 7.10].
 
 use super::dripping::half_cycles;
 use super::global::spread;

@@ -1,4 +1,4 @@
-//! Global statistics of a tether record (seed 003, 7.5 to 7.8).
+//! Global statistics of a tether record [AQWA-TETHER 7.5 to 7.8].
 
 use crate::rainflow::reversals;
 use crate::{SeriesError, finite};

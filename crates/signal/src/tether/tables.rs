@@ -1,4 +1,4 @@
-//! The statistics, histogram and fatigue tables of a tether (seed 003, figures 7.5 to 7.10, 7.12 and 7.13), with the
+//! The statistics, histogram and fatigue tables of a tether [AQWA-TETHER figures 7.5 to 7.10, 7.12 and 7.13], with the
 //! columns and the order of that manual.
 
 use super::fatigue::{BINS, EndFatigue};

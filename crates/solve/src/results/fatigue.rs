@@ -1,6 +1,6 @@
 //! Fatigue of lines over a run, and over a scatter of environments.
 //!
-//! Source: reference/solve.md, "Fatigue of lines". Cycles are those of rainflow ([`windlass_signal::rainflow`]) of the tension at the upper
+//! Source: [MOSES-REF sn_def, sn_bind, fatigue]. Cycles are those of rainflow ([`windlass_signal::rainflow`]) of the tension at the upper
 //! end of each segment. At the fairlead that is the run's own; below, the line is shaped between its ends at the turning points of the
 //! tension at the fairlead, between which a line at rest in every instant has no others of note.
 

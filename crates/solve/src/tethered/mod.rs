@@ -4,7 +4,7 @@
 //! A towed tether runs alone: its vessel is taken as at rest. Installed tethers run with the one body that they are attached to, and with
 //! its other connectors.
 //!
-//! Source: seed 003, chapters 1 to 4.
+//! Source: [AQWA-TETHER chapters 1 to 4].
 
 mod case;
 mod history;
@@ -33,7 +33,7 @@ pub struct Settings {
     pub step: f64,
     /// Steps from one stored instant to the next.
     pub store: usize,
-    /// With the peculiarities of AQWA 5.4, of which seed 003 has listings.
+    /// With the peculiarities of AQWA 5.4, of which [AQWA-TETHER 8] has listings.
     pub compatible: bool,
     /// Factor on slam of a towed tether; 0 leaves it out.
     pub slam: f64,

@@ -25,7 +25,7 @@ pub fn names(model: &Model) -> Vec<String> {
     acts.map(|c| c.name.clone()).collect()
 }
 
-/// The description of a tether (seed 003, 7.1), and what was taken otherwise than it was given.
+/// The description of a tether [AQWA-TETHER 7.1], and what was taken otherwise than it was given.
 ///
 /// # Errors
 /// As [`case`]; a name that is no tether's.
@@ -57,7 +57,7 @@ pub fn described(model: &Model, name: &str) -> Result<Table, SolveError> {
     Ok(table)
 }
 
-/// A page for each of the lowest natural modes of a tether where it stands (seed 003, 7.2): frequency, period and the shape, of largest
+/// A page for each of the lowest natural modes of a tether where it stands [AQWA-TETHER 7.2]: frequency, period and the shape, of largest
 /// deflection one or, without one, of largest slope ten degrees. `compatible` keeps the peculiarities of AQWA.
 ///
 /// # Errors

@@ -1,4 +1,4 @@
-//! Statistics and fatigue of tethers (seed 003, 7.5 to 7.10, 7.12, 7.13).
+//! Statistics and fatigue of tethers [AQWA-TETHER 7.5 to 7.10, 7.12, 7.13].
 
 use super::Tethered;
 use super::history::{Quantity, TetherHistory};

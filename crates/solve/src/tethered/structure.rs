@@ -1,4 +1,4 @@
-//! Tables of the structure that tethers hold (seed 003, 8.2).
+//! Tables of the structure that tethers hold [AQWA-TETHER 8.2].
 
 use super::Tethered;
 use super::history::{Quantity, StructureHistory};
@@ -27,7 +27,7 @@ fn without_noise(value: f64, largest: f64) -> f64 {
 
 const SIX: [&str; 6] = ["X", "Y", "Z", "RX", "RY", "RZ"];
 
-/// The motion of the structure's centre of gravity and the forces on it at an instant (seed 003, 8.2): a motion or kind of force a row.
+/// The motion of the structure's centre of gravity and the forces on it at an instant [AQWA-TETHER 8.2]: a motion or kind of force a row.
 /// Two tables: one of motions with the points asked for, one of forces.
 pub fn structure(run: &Tethered, structure: &StructureHistory, instant: usize, points: &[usize]) -> [Table; 2] {
     let time = run.times.get(instant).copied();
@@ -105,7 +105,7 @@ pub fn structure_series(run: &Tethered, structure: &StructureHistory) -> Table {
     table
 }
 
-/// Mean, drift and the first harmonics of the structure's motions over one cycle (seed 003, 8.2.21): the cycle of a regular wave's period
+/// Mean, drift and the first harmonics of the structure's motions over one cycle [AQWA-TETHER 8.2.21]: the cycle of a regular wave's period
 /// from the first of the instants, or what lies between the first and the last of them. As the listing has it, `x = mean + sum A cos(n w t -
 /// phase)` by sixteen samples of the cycle, what it drifts taken off as a straight line about its middle.
 ///

@@ -1,4 +1,4 @@
-//! Tables of a run of tethers, in the columns of seed 003, 7.3 to 7.10.
+//! Tables of a run of tethers, in the columns of [AQWA-TETHER 7.3 to 7.10].
 
 use super::Tethered;
 use super::history::{Quantity, TetherHistory};

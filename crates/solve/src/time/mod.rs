@@ -1,6 +1,6 @@
 //! The time domain: bodies on connectors in wind, current and waves, step by step.
 //!
-//! Source: reference/solve.md, "TDOM". The equations are Newton's and Euler's about the origin of each body, in global axes:
+//! Source: [MOSES-REF timdom]. The equations are Newton's and Euler's about the origin of each body, in global axes:
 //! `M a = F(t, q, v) - gyroscopic(v)`; connectors and loads are evaluated at the end of each step.
 
 mod accuracy;

@@ -1,4 +1,4 @@
-//! The description of an installed tether (seed 003, 7.1 and 8.2): what it is made of and how it hangs at the start.
+//! The description of an installed tether [AQWA-TETHER 7.1 and 8.2]: what it is made of and how it hangs at the start.
 
 use super::axis::Axis;
 use super::tension::Axial;
@@ -66,7 +66,7 @@ impl Description {
         })
     }
 
-    /// The listing of it (seed 003, 7.1): the tether's number from 1, and what the nodes at anchor and attachment are called. A lower stop
+    /// The listing of it [AQWA-TETHER 7.1]: the tether's number from 1, and what the nodes at anchor and attachment are called. A lower stop
     /// that is not given is infinitely far down.
     pub fn listed<'a>(
         &self,

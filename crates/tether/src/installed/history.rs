@@ -21,7 +21,7 @@ const END: usize = 12;
 pub enum Keep {
     /// At the same states as the structure.
     Always,
-    /// From a tether's going slack on, for a time (s), at every state (TSLK of seed 003, A.6).
+    /// From a tether's going slack on, for a time (s), at every state (TSLK of [AQWA-TETHER A.6]).
     WhenSlack(f64),
 }
 

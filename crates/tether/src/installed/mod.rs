@@ -1,4 +1,4 @@
-//! Tethers between anchors on the bottom and a moving structure (seed 003, chapters 1 to 4, 7, 8.2 and appendix A).
+//! Tethers between anchors on the bottom and a moving structure [AQWA-TETHER chapters 1 to 4, 7, 8.2 and appendix A].
 //!
 //! The axis of a tether (TLA) runs straight from the anchor to the attachment and moves with it; X and Y across it are the global ones
 //! turned with the axis from the vertical. In each plane a chain of beams moves across the axis ([`bending`]); tension is static along it

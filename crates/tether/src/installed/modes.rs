@@ -1,7 +1,7 @@
 //! Natural modes of an installed tether in the tension it has where the structure is.
 //!
 //! `K` is bending, tension and the springs of the ends, `M` wall, contents and added mass; deflections at the ends are held. All as the run has
-//! them, of a straight tether (seed 003, 7.2 and 8.2.21; validation/installed-tether.md, 2).
+//! them, of a straight tether ([AQWA-TETHER 7.2 and 8.2.21]; [W-INSTALLED 2]).
 
 use super::axis::Axis;
 use super::bending::{Bending, Matrices};

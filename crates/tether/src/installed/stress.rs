@@ -1,4 +1,4 @@
-//! Stresses at an end of an element of an installed tether (seed 003, 2.3; the formulas of validation/installed-tether.md, 4).
+//! Stresses at an end of an element of an installed tether ([AQWA-TETHER 2.3]; the formulas of [W-INSTALLED 4]).
 //!
 //! With the wall's tension N, area A, second moment I, outer and inner radius R and r, the resultants V and M of shear and moment:
 //! - axial `N/A`, to which what an impact left is added; bending `M R/I`; their sum and difference are the largest and the smallest;
@@ -15,7 +15,7 @@ pub struct EndLoads {
     pub effective: f64,
     /// Tension of the wall (N).
     pub wall: f64,
-    /// Shear along X and along Y (N), as printed by seed 003: what the element does to its end.
+    /// Shear along X and along Y (N), as [AQWA-TETHER 8.2] prints it: what the element does to its end.
     pub shear: [f64; 2],
     /// Moments about X and about Y (N m), as printed.
     pub moment: [f64; 2],
@@ -93,7 +93,7 @@ mod tests {
 
     #[test]
     fn a_row_of_the_listing_gives_its_own_stresses() {
-        // seed 003, 8.2, tether 1 at 6.5 s, its top: kN and m; the depth of the top is (4.976 + 697.8)/(rho g A)
+        // [AQWA-TETHER 8.2], tether 1 at 6.5 s, its top: kN and m; the depth of the top is (4.976 + 697.8)/(rho g A)
         let wall = -697.8e3;
         let pressure = (4.976e3 - wall) / TUBE.external_area();
         let loads = EndLoads {

@@ -4,7 +4,7 @@
 //! they act on, the effective tension `T = N + p A - q a` of the wall's N (Sparks 1984, "The influence of tension, pressure and weight on pipe
 //! and riser deformations and stresses") grows by w times the cosine of the axis. The wall's stretch over the whole is that of the ends:
 //! `int N/EA ds + R/k at both ends = L - L0`, of which T at the anchor follows. Of a uniform tether it is
-//! `T = EA/L0 (L - L0) + rho g (h_top + h_bot)/2 A` in the middle (validation/installed-tether.md, 4). A cap that water does not press on
+//! `T = EA/L0 (L - L0) + rho g (h_top + h_bot)/2 A` in the middle [W-INSTALLED 4]. A cap that water does not press on
 //! takes `p A_cap` from what the end bears: `R = T - p A_cap`.
 //!
 //! A tether is slack when the anchor would have to push. It then hangs from the structure with nothing at its lower end; where that falls on

@@ -5,9 +5,9 @@ use nalgebra::Vector3;
 use windlass_base::units::Dim;
 use windlass_model::ClassError;
 
-/// The stiffness of an end that nothing gives way at (seed 003, A.2), in the units of its deck: N/m, N m/rad.
+/// The stiffness of an end that nothing gives way at [AQWA-TETHER A.2], in the units of its deck: N/m, N m/rad.
 pub const RIGID: f64 = 1e15;
-/// Constraints of a tether at most (seed 003, A.14).
+/// Constraints of a tether at most [AQWA-TETHER A.14].
 pub const MOST_CONSTRAINTS: usize = 5;
 /// Strain from which on a tether is taken for too short for its span: steel yields at a tenth of it.
 const MOST_STRAIN: f64 = 0.02;
@@ -52,7 +52,7 @@ impl DefaultTaken {
 }
 
 impl EndSprings {
-    /// The springs of a card (seed 003, A.2), the inline one and those against rotation about X and Y, and what was not taken as given.
+    /// The springs of a card [AQWA-TETHER A.2], the inline one and those against rotation about X and Y, and what was not taken as given.
     /// `None` is a card that is missing; blanks are zero.
     pub fn of_card(given: Option<[f64; 3]>) -> (Self, Vec<DefaultTaken>) {
         let Some([inline, x, y]) = given else { return (EndSprings::default(), vec![DefaultTaken::Missing]) };
@@ -75,7 +75,7 @@ impl EndSprings {
     }
 }
 
-/// What holds a node beside the ends (seed 003, A.14). Nodes count from 0 at the anchor.
+/// What holds a node beside the ends [AQWA-TETHER A.14]. Nodes count from 0 at the anchor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Constraint {
     /// A node stays at the place across the axis that it has when the tether is vertical over its anchor (TLAC).
@@ -123,7 +123,7 @@ pub struct InternalFluid {
     pub density: f64,
 }
 
-/// Stress of an impact: factor times velocity, decaying by half in each half life (seed 003, 3.8).
+/// Stress of an impact: factor times velocity, decaying by half in each half life [AQWA-TETHER 3.8].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Impact {
     /// Stress over velocity of impact (Pa s/m).

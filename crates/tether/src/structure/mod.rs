@@ -1,7 +1,7 @@
 //! The structure that installed tethers hold: what acts on it besides them, and its inertia.
 //!
 //! A structure is asked for its forces at a time, a place and a velocity ([`Structure`]). [`tubes::Tubes`] is one of round members under
-//! Morison's formula, as the tension leg platform of seed 003, 8.2; [`afloat::Afloat`] takes what the hydrodynamic floor makes of a body of
+//! Morison's formula, as the tension leg platform of [AQWA-TETHER 8.2]; [`afloat::Afloat`] takes what the hydrodynamic floor makes of a body of
 //! the model, so that hulls and hydrodynamic databases serve.
 
 pub mod afloat;

@@ -1,7 +1,7 @@
 //! A structure of round members under Morison's formula, as AQWA has it for tubes.
 //!
 //! Of a member with section A = pi D^2/4 and axis e, u and a being velocity and acceleration of the water, v that of the member, and n and s
-//! parts across and along the axis (validation/installed-tether.md, 3):
+//! parts across and along the axis [W-INSTALLED 3]:
 //! - hydrostatic: `rho g A` upward on each length of the axis that is under the surface as it is (the crossing of the axis; sections are
 //!   not cut);
 //! - Froude-Krylov: `rho A a_n` across, and `A (p_from - p_to)` along it, also taken where the surface cuts it: the dynamic pressure there
@@ -23,7 +23,7 @@ use windlass_base::pose::{Pose, Six};
 use windlass_hydro::{Underway, carried, cross};
 use windlass_model::ClassError;
 
-/// Friction along a tube that AQWA always counts (its reference, element TUBE; a fit to the listing of seed 003 gives 0.01600).
+/// Friction along a tube that AQWA always counts ([AQWA-REF TUBE]; a fit to the listing of [AQWA-TETHER 8.2] gives 0.01600).
 pub const AQWA_FRICTION: f64 = 0.016;
 
 /// Gauss points of two and of three on 0 to 1, with weights.

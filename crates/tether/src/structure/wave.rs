@@ -7,7 +7,7 @@
 //! - the acceleration of the water particle, whose `u . grad u` is `k (a w)^2 exp(2kz)` upward;
 //! - the pressure, `rho g a exp(kz) cos th - rho (a w)^2 exp(2kz)/2`.
 //!
-//! The profile goes on above the mean level as it is. It is the wave of the installed example of seed 003, 8.2 (its `STOKES2 (D/W)`).
+//! The profile goes on above the mean level as it is. It is the wave of the installed example of [AQWA-TETHER 8.2] (its `STOKES2 (D/W)`).
 
 use nalgebra::Vector3;
 use std::f64::consts::TAU;

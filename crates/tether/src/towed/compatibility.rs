@@ -1,7 +1,7 @@
-//! Peculiarities of the program behind the listing of seed 003, each of which can be switched.
+//! Peculiarities of the program behind the listing of [AQWA-TETHER 8.1], each of which can be switched.
 //!
 //! What each makes in the towed example of the manual (significant height 6.3 m, 375 s), told as what changes when it is
-//! switched off (`crates/tether/tests/it/seed_003_towed.rs` pins the first column):
+//! switched off (`crates/tether/tests/it/aqwa_tether_towed.rs` pins the first column):
 //!
 //! | switched off | error of the accelerations at the start (m/s2 of 2.86) | 2 x RMS of position | mean position | 2 x RMS of acceleration | 2 x RMS of moment |
 //! |--|--|--|--|--|--|
@@ -32,7 +32,7 @@ impl Compatibility {
         Compatibility { exit_slam: false, unstretched_crests: false, acceleration_of_step_before: false }
     }
 
-    /// All of them: the listing of seed 003 (AQWA-DRIFT with the tether enhancement), and every deck.
+    /// All of them: the listing of [AQWA-TETHER 8.1] (AQWA-DRIFT with the tether enhancement), and every deck.
     pub fn aqwa_5_4() -> Self {
         Compatibility { exit_slam: true, unstretched_crests: true, acceleration_of_step_before: true }
     }

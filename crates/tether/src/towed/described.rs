@@ -1,4 +1,4 @@
-//! The description of a towed tether (seed 003, 7.1).
+//! The description of a towed tether [AQWA-TETHER 7.1].
 
 use super::super::description::{Attachment, Configuration, Description};
 use super::Towed;

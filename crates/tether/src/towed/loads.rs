@@ -1,7 +1,7 @@
 //! Forces of gravity and water on the elements of a towed tether at one time, and the mass of the water they move.
 //!
 //! Each element is divided into integration lengths, each of these where the surface passes the top or the bottom of the
-//! tube, and each piece is integrated at four Gauss points with the actual surface (seed 003, 3.3 and 3.4).
+//! tube, and each piece is integrated at four Gauss points with the actual surface [AQWA-TETHER 3.3 and 3.4].
 
 use super::super::beam::{self, GAUSS, Matrix4, Vector4, add, deflection, dot, of_element, slope};
 use super::super::line::TetherElement;

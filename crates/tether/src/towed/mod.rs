@@ -1,6 +1,6 @@
 //! A towed tether: a chain of tubes on or near the surface, free but for soft springs at its ends, in waves and current.
 //!
-//! Source: seed 003, chapter 3, with the formulas of validation/towed-tether.md, which give the numbers of its listing. Force
+//! Source: [AQWA-TETHER chapter 3], with the formulas of [W-TOWED], which give the numbers of its listing. Force
 //! across the axis per length, with the surface `s` above the axis, on the wet part of the cross section:
 //! gravity, buoyancy, Froude-Krylov and wave inertia, drag, slam ([`wetted`], [`loads`]). Tension is zero (chapter 4). Wave and
 //! current act at the deflected place; motions along the axis do not exist.

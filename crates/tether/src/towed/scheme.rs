@@ -1,4 +1,4 @@
-//! The step in time: two stages, bending taken half ahead (seed 003, 3.6, with its misprints mended).
+//! The step in time: two stages, bending taken half ahead ([AQWA-TETHER 3.6], with its misprints mended).
 //!
 //! With b = 0.54 (0.5 is centred; more damps the highest modes):
 //! `M(t) a1 = F(t) - K (x + b v dt + b a1 dt^2/2)`, `v* = v + a1 dt`, `x* = x + (v + v*) dt/2`;

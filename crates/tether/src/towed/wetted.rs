@@ -6,7 +6,7 @@ use super::super::beam::GAUSS;
 
 /// The wet part of a cross section with the surface at a height over the axis; areas stand for displaced mass over density.
 ///
-/// Added mass as the program of seed 003 has it (validation/towed-tether.md, section 2): with h the submerged height over the
+/// Added mass as AQWA-DRIFT of 2006 has it [W-TOWED 2]: with h the submerged height over the
 /// diameter D and `c^2 = 4 D^2 h (1-h)` the waterline chord squared, across y that of a circle of diameter hD; along z that of
 /// half a flat plate of width c up to half depth, and what that lacks above it.
 #[derive(Clone, Copy, Debug, PartialEq)]

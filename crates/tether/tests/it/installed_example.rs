@@ -1,4 +1,4 @@
-//! The installed example of seed 003, 8.2: a tension leg platform of tubes on four groups of tethers, in SI.
+//! The installed example of [AQWA-TETHER 8.2]: a tension leg platform of tubes on four groups of tethers, in SI.
 
 #![allow(dead_code, clippy::unwrap_used)]
 

@@ -214,7 +214,7 @@ fn example_by(flow: &Flow, step: f64, states: usize) -> History {
     let mut history = History::new(1, Keep::Always);
     let pose = Pose::at([0.0, 0.0, -17.4]);
     let course = Course { pose, step, states, ..example::course() };
-    // anchors so deep that it rests upright at this height: 140,489 kN over sixteen (tests/it/floating/seed_003_platform.rs), of which 1,981 kN are of
+    // anchors so deep that it rests upright at this height: 140,489 kN over sixteen (tests/it/floating/aqwa_tether_platform.rs), of which 1,981 kN are of
     // the pressure on the middle of the tether
     let stretch = (140_489e3 / 16.0 - 1_981e3) / 1.044_058e8;
     let mut tethers = example::tethers();

@@ -2,10 +2,10 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod aqwa_tether_installed;
+mod aqwa_tether_towed;
 mod installed_afloat;
 mod installed_allocations;
 mod installed_example;
 mod installed_tethers;
-mod seed_003_installed;
-mod seed_003_towed;
 mod towed_closed_form;

@@ -1,4 +1,4 @@
-//! Motion of one installed tether across its axis, in both planes, by the two stages of the manual (seed 003, 3.6).
+//! Motion of one installed tether across its axis, in both planes, by the two stages of the manual [AQWA-TETHER 3.6].
 //!
 //! The axis moves with the attachment: unknowns are deflections from it and slopes against it, none at the ends. With the place x, the
 //! velocity v and the step h each stage solves `(M + b h^2/2 K) a = F - K (x + b h v)`; M is consistent with the added mass of a wholly
@@ -23,7 +23,7 @@ use held::Hold;
 use nalgebra::Vector3;
 use windlass_model::ClassError;
 
-/// How far a stage looks ahead with the stiffness (seed 003, 3.6: the best of its tests).
+/// How far a stage looks ahead with the stiffness ([AQWA-TETHER 3.6]: the best of its tests).
 pub const LOOK_AHEAD: f64 = 0.54;
 /// Rotational stiffness over 4 EI/L of its element from which on an end is held: it gives way by no more than rounding.
 const HELD: f64 = 1e6;

@@ -1,6 +1,6 @@
-//! The wave spectrum of the towed-tether listing of seed 003: fifty lines and the significant height.
+//! The wave spectrum of the towed-tether listing [AQWA-TETHER 8.1]: fifty lines and the significant height.
 //!
-//! Numbers and formulation: validation/towed-tether.md section 3. `tests/data/seed_003_spectrum.csv` holds the lines as printed.
+//! Numbers and formulation: [W-TOWED 3]. `tests/data/aqwa_tether_spectrum.csv` holds the lines as printed.
 
 use windlass_hydro::sea::components::bands;
 use windlass_hydro::sea::density::{Hump, Spectrum};
@@ -19,7 +19,7 @@ fn hump() -> Hump {
 
 /// Line, wave number, frequency, phase, ordinate.
 fn printed() -> Vec<Vec<f64>> {
-    let text = std::fs::read_to_string("../../tests/data/seed_003_spectrum.csv").unwrap();
+    let text = std::fs::read_to_string("../../tests/data/aqwa_tether_spectrum.csv").unwrap();
     let lines = text.lines().filter(|l| l.starts_with(|c: char| c.is_ascii_digit()));
     lines.map(|l| l.split(',').map(|w| w.parse().unwrap()).collect()).collect()
 }

@@ -1,4 +1,4 @@
-//! The installed tethers of seed 003, 8.2, against its listing (tests/data/installed_tether.json): t, kN, m and degrees there, SI here.
+//! The installed tethers of [AQWA-TETHER 8.2], against its listing (tests/data/installed_tether.json): t, kN, m and degrees there, SI here.
 
 use crate::installed_example as example;
 
@@ -108,7 +108,7 @@ fn the_twelve_periods_are_those_of_the_listing_and_the_shapes_with_them() {
         let moves = |key: &str| want["shape"].as_object().unwrap().values().any(|n| number(&n[key]).abs() > 0.01);
         let mode = &found[index - index % 2 + usize::from(!moves("RY"))];
         assert_eq!(format!("{:.2}", mode.mode.period().unwrap()), format!("{:.2}", number(&want["period"])));
-        // validation/installed-tether.md, 2: 4.5e-5 at most, which is less than one unit of single precision in the printed tension
+        // [W-INSTALLED 2]: 4.5e-5 at most, which is less than one unit of single precision in the printed tension
         assert!((mode.mode.frequency().unwrap() / number(&want["omega"]) - 1.0).abs() < 4.7e-5);
         let printed = |node: usize| {
             let shape = &want["shape"][(node + 1).to_string()];
@@ -148,7 +148,7 @@ fn the_forces_on_the_structure_are_those_of_the_listing_at_all_printed_times() {
             "{time} {pressure}"
         );
         let drag = off(forces.drag, "MORISON DRAG");
-        // at 25 s the listing's drag is 133 kN and 24,700 kN m off (validation/installed-tether.md, not matched 2)
+        // at 25 s the listing's drag is 133 kN and 24,700 kN m off [W-INSTALLED not matched]
         let [most, turning] = if time == 25.0 { [134.0, 24_800.0] } else { [12.5, 320.0] };
         assert!(drag[0].abs() < most && drag[2].abs() < 0.4 && drag[4].abs() < turning, "{time} {drag}");
         let acceleration = forces.acceleration().unwrap() - six(&state["ACCELERATION"]);
@@ -169,7 +169,7 @@ fn the_structure_goes_as_in_the_listing() {
             for (direction, want) in want.iter().enumerate() {
                 let off = (run.motion(order, direction)[10 * index] - want).abs();
                 let off = if direction > 2 { off.to_degrees() } else { off };
-                // issue 6, item 5: positions 0.4 mm to 5 s and 6 mm to 25 s; what else is as validation/installed-tether.md reached
+                // required: positions 0.4 mm to 5 s and 6 mm to 25 s; what else is as [W-INSTALLED 4] reached
                 let most = match (order, direction < 3) {
                     (0, true) => {
                         if time <= 5.0 {
@@ -229,7 +229,7 @@ fn the_tethers_are_where_the_listing_has_them_when_they_go_slack() {
             let node = row["node"].as_u64().unwrap() as usize - 1;
             let value = |motion: usize| RUN.node(tether, node, motion)[SLACK];
             let (position, velocity, acceleration) = (numbers(&row["pos"]), numbers(&row["vel"]), numbers(&row["acc"]));
-            // validation/installed-tether.md: 2.3 mm, 0.02 deg, 0.012 m/s
+            // [W-INSTALLED not matched]: 2.3 mm, 0.02 deg, 0.012 m/s
             assert!((value(0) - position[0]).abs() < 2.5e-3 && value(1).abs() < 1e-9, "{key} {node}");
             assert!((value(3).to_degrees() - position[3]).abs() < 0.025, "{key} {node} {}", value(3).to_degrees());
             assert!((value(4) - velocity[0]).abs() < 0.0125, "{key} {node} {}", value(4));
@@ -297,12 +297,12 @@ fn the_harmonics_of_the_structure_are_those_of_the_listing() {
             let found = Cycle::of(&times, &series, (0.0, 15.0), 4, AQWA_SAMPLES).unwrap();
             let want = &LISTING["harmonic"][name][axis];
             let printed: Vec<Vec<f64>> = want["harm"].as_array().unwrap().iter().map(numbers).collect();
-            // issue 6, item 5: surge and heave 1 % of the fundamental, pitch 0.001 in deg, deg/s, deg/s2
+            // required: surge and heave 1 % of the fundamental, pitch 0.001 in deg, deg/s, deg/s2
             let most = if turn { 1e-3 } else { 0.01 * printed[0][0] };
             assert!((found.mean - number(&want["mean"])).abs() < most, "{name} {axis} {found:?}");
             for (harmonic, printed) in found.harmonics.iter().zip(&printed) {
                 // NOT met by the fourth harmonic of the pitch acceleration, 0.0303 deg/s2 for 0.0291: after the slack phase the pitch
-                // acceleration is up to 0.005 deg/s2 off (validation/installed-tether.md, not matched 4)
+                // acceleration is up to 0.005 deg/s2 off [W-INSTALLED not matched]
                 let most = if (name, axis, harmonic.order) == ("ACCELERATION", "RY", 4) { 1.25e-3 } else { most };
                 assert!((harmonic.amplitude - printed[0]).abs() < most, "{name} {axis} {harmonic:?} {printed:?}");
                 // the listing takes the phase off; what is left counts by its amplitude

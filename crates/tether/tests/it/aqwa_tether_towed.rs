@@ -1,7 +1,7 @@
-//! The towed tether of seed 003: description, natural modes, and the run in an irregular sea, against the listing.
+//! The towed tether of [AQWA-TETHER 8.1]: description, natural modes, and the run in an irregular sea, against the listing.
 //!
-//! `tests/data/towed_tether.json` holds the printed numbers (of validation/towed-tether.json). Formulation and what of the
-//! listing cannot be met: validation/towed-tether.md. Units of the deck: t, kN, m, s.
+//! `tests/data/towed_tether.json` holds the printed numbers. Formulation and what of the
+//! listing cannot be met: [W-TOWED]. Units of the deck: t, kN, m, s.
 
 use serde_json::Value;
 use windlass_hydro::sea::Component;

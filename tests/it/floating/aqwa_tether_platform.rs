@@ -1,4 +1,4 @@
-//! The tension leg platform of seed 003, 8.2, at rest on its tethers, scripts/tlp.cif, against closed forms.
+//! The tension leg platform of [AQWA-TETHER 8.2], at rest on its tethers, scripts/tlp.cif, against closed forms.
 
 use crate::common;
 
@@ -34,7 +34,7 @@ fn it_rests_where_the_seed_has_it_with_buoyancy_less_weight_in_its_tethers() {
     let [x, y, z, ..] = model.bodies.get("TLP").unwrap().place.values();
     // the length of the script is rounded to 1e-6 m, the platform with it
     assert!(x == 0.0 && y == 0.0 && (z + 17.4).abs() < 3e-6, "{x} {y} {z}");
-    // 2.77742E6 kN, and the weight printed by the seed as 2.6369E6 kN
+    // 2.77742E6 kN, and the weight printed in [AQWA-TETHER 8.2] as 2.6369E6 kN
     let pretension = 1025.0 * G * VOLUME - MASS * G;
     assert!((pretension / 1e3 - 140_489.0).abs() < 0.5, "{pretension}");
     let list = found.system.contributions(&found.state.poses).unwrap();
@@ -96,7 +96,7 @@ fn its_periods_are_those_of_a_string_a_spring_and_a_coupled_pair() {
     for (mode, want) in list.iter().zip(want) {
         close(mode.eigenvalue, want);
     }
-    // the seed's surge without added mass, by hand: 2 pi sqrt(m l / T) = 141.2 s
+    // surge without added mass, by hand: 2 pi sqrt(m l / T) = 141.2 s
     close(2.0 * PI / (k(0, 0) / MASS).sqrt(), 2.0 * PI * (MASS * 264.0 / (VOLUME * 1025.0 * G - MASS * G)).sqrt());
 }
 

@@ -1,4 +1,4 @@
-//! Class records of seeds 000/001 and 002 as a user writes them: every option is read and listed back, defaults and
+//! Class records of [MOSES-FLEX] and [AQWA-CONN] as a user writes them: every option is read and listed back, defaults and
 //! worked examples give the numbers of the text.
 
 use crate::common;
@@ -80,7 +80,7 @@ fn every_option_of_every_class_type_is_read_and_listed_back() {
 }
 
 #[test]
-fn both_small_examples_of_the_seed_give_a_submerged_weight_of_ten() {
+fn both_small_examples_of_moses_give_a_submerged_weight_of_ten() {
     for options in ["-WTPLEN 10 -BUOYDIA 0", "-WTPLEN 15 -DISPLEN 5 -BUOYDIA 0"] {
         let (out, _) = run(&format!("MEDIT\n~L B_CAT 4 -LEN 100 {options}\nEND\n&STATUS CL_FLEX"));
         let row = out.lines().find(|l| l.trim_start().starts_with("1 ")).unwrap();
@@ -91,7 +91,7 @@ fn both_small_examples_of_the_seed_give_a_submerged_weight_of_ten() {
 #[test]
 fn weight_stiffness_and_break_come_from_the_solid_area_and_the_defaults() {
     // 4 in: A = 12.566 in2; 490.06 lb/ft3 -> 0.04277 kips/ft in air; sea water 63.99 lb/ft3 -> 0.03718 in water;
-    // E 29,000 ksi -> 364,425 kips; ultimate 60 ksi -> 753.98 kips (reference/model.md, defaults)
+    // E 29,000 ksi -> 364,425 kips; ultimate 60 ksi -> 753.98 kips [W-DEFAULTS]
     let (out, _) = run("MEDIT\n~L B_CAT 4 -LEN 100\nEND\n&STATUS CL_FLEX");
     let row: Vec<&str> = out.lines().find(|l| l.trim_start().starts_with("1 ")).unwrap().split_whitespace().collect();
     assert_eq!(&row[1..7], ["4.000", "100.00", "0.0428", "0.0372", "3.6442E+05", "753.98"], "{out}");
@@ -107,7 +107,7 @@ fn a_sling_has_the_stiffness_ae_over_l_and_only_emodulus() {
 }
 
 #[test]
-fn an_lmu_is_symmetric_by_default_and_has_the_cone_tangent_of_the_seed() {
+fn lmu_is_symmetric_by_default_and_has_the_cone_tangent_of_moses() {
     let (out, _) = run("MEDIT\n~L LMU 60 24 48 X 1 1\nEND\n&STATUS CL_FLEX");
     // (48 - 24) / (2 60)
     assert!(out.contains("Cone Tangent T                   = 0.2000"));

@@ -1,4 +1,4 @@
-//! The decks of seed 003: both examples against their listings, every card of Appendices A and B with its fields, the
+//! The decks of [AQWA-TETHER 8]: both examples against their listings, every card of Appendices A and B with its fields, the
 //! ways a card may be written, what is refused and where, and random text.
 
 use proptest::prelude::*;
@@ -65,7 +65,7 @@ fn compare_echo(name: &str, listing: &str, slips: &[(&str, &str)]) {
             echo.lines.iter().map(|line| format!("{}|{}", echo.title, join(line))).collect::<Vec<_>>()
         })
         .collect();
-    let theirs: Vec<String> = std::fs::read_to_string(format!("../../tests/data/seed_003_decks/{listing}"))
+    let theirs: Vec<String> = std::fs::read_to_string(format!("../../tests/data/aqwa_tether_decks/{listing}"))
         .unwrap()
         .lines()
         .filter(|line| !line.starts_with('#'))
@@ -139,7 +139,7 @@ fn nodes_are_generated_as_the_listings_have_them() {
     assert_eq!(towed.nodes[&999].position, [0.0; 3]);
     assert_eq!(towed.nodes.len(), 16);
     let installed = deck(&script("mint.dat"));
-    let mut rows = csv::Reader::from_path("../../tests/data/seed_003_decks/mint_coordinates.csv").unwrap();
+    let mut rows = csv::Reader::from_path("../../tests/data/aqwa_tether_decks/mint_coordinates.csv").unwrap();
     let rows: Vec<csv::StringRecord> = rows.records().map(Result::unwrap).collect();
     assert_eq!(rows.len(), installed.nodes.len());
     for (row, (number, node)) in rows.iter().zip(&installed.nodes) {
@@ -155,7 +155,7 @@ fn nodes_are_generated_as_the_listings_have_them() {
 #[test]
 fn elements_are_those_of_the_listing() {
     let installed = deck(&script("mint.dat"));
-    let mut rows = csv::Reader::from_path("../../tests/data/seed_003_decks/mint_elements.csv").unwrap();
+    let mut rows = csv::Reader::from_path("../../tests/data/aqwa_tether_decks/mint_elements.csv").unwrap();
     let rows: Vec<csv::StringRecord> = rows.records().map(Result::unwrap).collect();
     let elements = &installed.structures[0].elements;
     assert_eq!(rows.len(), elements.len());

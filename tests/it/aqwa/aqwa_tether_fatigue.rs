@@ -1,4 +1,4 @@
-//! The fatigue table of the towed tether's listing (seed 003, 8.1): from its own histogram, of which every number is printed there, and from
+//! The fatigue table of the towed tether's listing [AQWA-TETHER 8.1]: from its own histogram, of which every number is printed there, and from
 //! the run of its deck with the printed phases.
 
 #![allow(clippy::unwrap_used, clippy::expect_used)]
@@ -111,6 +111,6 @@ fn the_simulated_series_have_the_printed_lives_and_peaks() {
     let shortest = (9..11).map(|end| lives[end] / 86_400.0 / field(&listing, end, "lifedays") - 1.0);
     assert!(shortest.clone().all(|e| e.abs() < 0.02), "{:?}", shortest.collect::<Vec<_>>());
     assert!(worst_peak < 0.01, "{worst_peak}");
-    // lives go with the 3.5th power of ranges: validation/towed-tether.md found them within 5 %
+    // lives go with the 3.5th power of ranges: [W-TOWED 6] found them within 5 %
     assert!(worst_life < 0.05, "{worst_life}");
 }

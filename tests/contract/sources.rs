@@ -1,0 +1,108 @@
+//! Citations: every key cited stands in docs/bibliography.md, and nothing cites what a reader does not have.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+const BIBLIOGRAPHY: &str = "docs/bibliography.md";
+
+/// The text files of the tree, without what is built or found at run time.
+fn texts(folder: &Path, list: &mut Vec<(PathBuf, String)>) {
+    for entry in fs::read_dir(folder).unwrap().flatten() {
+        let path = entry.path();
+        let name = entry.file_name();
+        if path.is_dir() {
+            if !["target", ".git", "artifacts", "coverage"].iter().any(|built| name == *built) {
+                texts(&path, list);
+            }
+        } else if let Ok(text) = fs::read_to_string(&path) {
+            list.push((path.strip_prefix(".").unwrap_or(&path).to_path_buf(), text));
+        }
+    }
+}
+
+fn tree() -> Vec<(PathBuf, String)> {
+    let mut list = Vec::new();
+    texts(Path::new("."), &mut list);
+    list
+}
+
+/// The key that a text begins with, as `AQWA-TETHER`: capitals and digits in parts joined by hyphens.
+fn key(text: &str) -> Option<&str> {
+    let end = text.find(|c: char| !(c.is_ascii_uppercase() || c.is_ascii_digit() || c == '-'))?;
+    let key = &text[..end];
+    let ends = text[end..].starts_with([' ', ']', ';', ',', '\n']);
+    let mut parts = key.split('-');
+    let first = parts.next()?;
+    let begins = first == "W" || first.len() > 1 && first.starts_with(|c: char| c.is_ascii_uppercase());
+    let rest: Vec<&str> = parts.collect();
+    (ends && begins && !rest.is_empty() && rest.iter().all(|part| !part.is_empty())).then_some(key)
+}
+
+/// The keys of the citations of a text: `[KEY place]` or `[KEY place; KEY place]`.
+fn cited(text: &str) -> Vec<&str> {
+    let inside = text.match_indices('[').filter_map(|(at, _)| {
+        let rest = &text[at + 1..];
+        key(rest).and(rest.find(']').map(|end| &rest[..=end]))
+    });
+    let margin = |c: char| c.is_whitespace() || ['/', '!', '$', '#'].contains(&c);
+    inside.flat_map(|all| all.split(';').filter_map(move |one| key(one.trim_start_matches(margin)))).collect()
+}
+
+fn bibliography() -> Vec<String> {
+    let text = fs::read_to_string(BIBLIOGRAPHY).unwrap();
+    let entries = text.lines().filter_map(|line| line.strip_prefix("- **["));
+    entries.map(|entry| key(entry).unwrap_or_else(|| panic!("no key begins `{entry}`")).to_string()).collect()
+}
+
+#[test]
+fn every_cited_key_stands_in_the_bibliography() {
+    let keys: BTreeSet<String> = bibliography().into_iter().collect();
+    assert_eq!(keys.len(), bibliography().len(), "a key stands twice");
+    let mut missing = BTreeSet::new();
+    let mut count = 0;
+    for (path, text) in tree() {
+        for key in cited(&text) {
+            count += 1;
+            if !keys.contains(key) {
+                missing.insert(format!("{}: [{key}]", path.display()));
+            }
+        }
+    }
+    assert!(count > 300, "only {count} citations are found");
+    assert!(missing.is_empty(), "not in {BIBLIOGRAPHY}:\n{}", missing.into_iter().collect::<Vec<_>>().join("\n"));
+}
+
+/// Whether a text has `issue` or `issues` with a number behind it.
+fn numbers_an_issue(line: &str) -> bool {
+    line.match_indices("issue").any(|(at, word)| {
+        let before = line[..at].chars().next_back();
+        let rest = &line[at + word.len()..];
+        let rest = rest.strip_prefix('s').unwrap_or(rest);
+        let rest = rest.strip_prefix(" #").or(rest.strip_prefix(' '));
+        before.is_none_or(|c| !c.is_alphanumeric()) && rest.is_some_and(|r| r.starts_with(|c: char| c.is_ascii_digit()))
+    })
+}
+
+#[test]
+fn no_file_cites_documents_that_a_reader_does_not_have() {
+    // put together here, so that this file has none of them
+    let pages = ["model", "solve", "language", "aqwa-cards", "moses-commands", "studies", "diffraction", "ecosystem"];
+    let pages = pages.map(|page| format!("reference/{page}"));
+    let folders = ["shared", "validation"].map(|folder| format!("{folder}/"));
+    let others =
+        [["seed", " 00"].concat(), ["seeds", " 00"].concat(), ["seed", "_00"].concat(), ["design", ".md"].concat()];
+    let mut found = Vec::new();
+    for (path, text) in tree() {
+        let manual = path.starts_with("docs");
+        for (number, line) in text.lines().enumerate() {
+            let small = line.to_lowercase();
+            let has = |words: &[String]| words.iter().any(|word| small.contains(word));
+            let page = !manual && has(&pages) && !small.contains("docs/reference/");
+            if page || has(&folders) || has(&others) || numbers_an_issue(&small) {
+                found.push(format!("{}:{}: {}", path.display(), number + 1, line.trim()));
+            }
+        }
+    }
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
