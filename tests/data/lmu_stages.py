@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The set-down of scripts/lmu.cif solved apart from windlass: python3 tests/data/lmu_stages.py > tests/data/lmu_stages.csv
 
-Needs numpy and scipy (1.17.1 made the file). Forces by the formulas of the issue, no derivative of them anywhere: least squares on nine
+Needs numpy and scipy (1.17.1 made the file). Forces by the formulas of [MOSES-FLEX LMU], no derivative of them anywhere: least squares on nine
 equations of balance (deck: forces, and moments about its center of gravity; hook: forces), derivatives by differences.
 
 A leg: T = (OD(2) - OD(1)) / (2 LEN); D_v the depth of the tip below the mouth, D_h its distance from the axis; nothing for

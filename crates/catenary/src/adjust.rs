@@ -171,7 +171,7 @@ fn crossing(
     [mut at_a, mut at_b]: [f64; 2],
     off: &mut impl FnMut(f64) -> Option<f64>,
 ) -> Sample {
-    // the secant with halved weights of the end that stays (Dowell and Jarratt, BIT 11, 1971, 168-174), and a halving now and then
+    // the secant with halved weights of the end that stays [DOWELL-JARRATT-1971], and a halving now and then
     let mut best = if at_a.abs() < at_b.abs() { (a, at_a) } else { (b, at_b) };
     let mut stayed = 0;
     for turn in 0..MAX_STEPS {

@@ -4,7 +4,7 @@
 //! damped Newton iteration finds the one answer; nested one-dimensional searches stand behind it. Touching the bottom:
 //! with V = 0 at the touchdown, w z = (T - H) + (T2 - H2)/(2 EA) gives T from H in closed form, and one search in H is
 //! left. Friction takes `friction` times the weight on the bottom from the tension, down to zero (Coulomb, fully
-//! mobilised toward the fairlead; Jonkman, NREL/TP-500-41958, 2007, section 2.7.2).
+//! mobilised toward the fairlead) [JONKMAN-2007 2.7.2].
 
 use super::chain::Chain;
 use super::element::{Element, vertical_of_contact};
@@ -285,7 +285,7 @@ fn inverse_mean(a: f64, b: f64) -> f64 {
     if half.abs() < 1e-5 { 2.0 / (a + b) * (1.0 + half * half / 3.0) } else { (a / b).ln() / (a - b) }
 }
 
-/// Forces to begin with: the parabola of a taut line, or the catenary of Jonkman's start (same source) for a slack one.
+/// Forces to begin with: the parabola of a taut line, or the catenary of [JONKMAN-2007 2.7.2] for a slack one.
 fn guess(segment: &Segment, x: f64, z: f64) -> (f64, f64) {
     let Segment { length, weight, ea } = *segment;
     let chord = x.hypot(z);

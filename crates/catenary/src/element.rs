@@ -4,7 +4,7 @@
 //! The horizontal force H is the same all along such a line. What is left to find is the vertical force V at the upper
 //! end, which grows with the height.
 //!
-//! Source: Irvine 1981 (see [`super`]); contact: V = 0 at the touchdown.
+//! Source: [IRVINE-1981 1.4]; contact: V = 0 at the touchdown.
 
 use super::law::Law;
 use super::line::Segment;

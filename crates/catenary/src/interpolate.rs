@@ -1,8 +1,7 @@
 //! Forces of a line from its table: a monotone cubic in the horizontal distance.
 //!
 //! Source: [MOSES-FLEX -TAB_LIM]; [W-TABLE] for the rows. The rows are of one elevation of the fairlead; stiffness by
-//! that elevation is interpolated from the rows' own. Monotone cubic: Fritsch and Carlson, SIAM
-//! Journal on Numerical Analysis 17 (1980), 238-246.
+//! that elevation is interpolated from the rows' own. Monotone cubic: [FRITSCH-CARLSON-1980].
 
 use super::refused::LineError;
 use super::table::Row;

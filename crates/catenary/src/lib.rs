@@ -9,7 +9,7 @@
 //! down from the fairlead to the anchor. [`Segment::between`] for one segment in every regime, with or without a bottom, with friction, and [`Segment::follow`] for the
 //! same at a fairlead that moves.
 //!
-//! Source of the formulas: the elastic catenary (Irvine, Cable Structures, 1981, section 1.4), written so that no
+//! Source of the formulas: the elastic catenary [IRVINE-1981 1.4], written so that no
 //! difference of nearly equal numbers is formed; the spring buoy after [MOSES-FLEX -CLUMP].
 //!
 //! # Example

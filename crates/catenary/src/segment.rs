@@ -31,7 +31,7 @@ impl std::ops::AddAssign for Reach {
 /// A segment hanging free between a lower section with vertical force `low` and an upper one with `low + w L`.
 ///
 /// x = (H/w)(asinh(V1/H) - asinh(V0/H)) + H L/EA, z = (T1 - T0)/w + (V0 + V1) L/(2 EA)
-/// (Irvine 1981, eqs 1.36 and 1.37, in forces). With tan phi = V/H = sinh theta, half the change of theta has the
+/// ([IRVINE-1981 eqs 1.36 and 1.37], in forces). With tan phi = V/H = sinh theta, half the change of theta has the
 /// hyperbolic tangent u = |V1 - V0|/(T0 + T1); what follows is in forces divided by T0 + T1, and forms no difference of
 /// nearly equal numbers for a weightless, a very taut or a vertical segment.
 pub fn hanging(segment: &Segment, h: f64, low: f64) -> Reach {

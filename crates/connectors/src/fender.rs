@@ -1,6 +1,6 @@
 //! FENDER: a fender between its base and a flat face, by the points of the maker's force-deflection curve.
 //!
-//! Source: PIANC WG 33 (2002), which describes a fender by its rated deflection, its reaction and the energy absorbed, the area under the
+//! Source: [PIANC-WG33], which describes a fender by its rated deflection, its reaction and the energy absorbed, the area under the
 //! curve; Coulomb friction between panel and hull. The curve may fall between its points, as those of buckling fenders do. The face is an
 //! unbounded plane of the second end's body, so that the push acts where the fender stands, wherever the hull has moved along it.
 

@@ -2,7 +2,7 @@
 //!
 //! Source: [MOSES-FLEX -CONVOLUTION] and the reading [W-VISCOUS] of `&DATA CONVOLUTION`: the force is the integral of K(s) v(t - s) ds, v the rate of
 //! the deflection. With K(s) = K_inf + sum k_i exp(-s / tau_i) each branch has one force as its memory, and the step below is
-//! exact for a deflection that runs evenly over it (Simo and Hughes, Computational Inelasticity, 10.3).
+//! exact for a deflection that runs evenly over it [SIMO-HUGHES-1998 10.3].
 
 use nalgebra::{DMatrix, DVector};
 use windlass_base::dense::{Cholesky, never};

@@ -4,7 +4,7 @@
 //! The element axes R are fixed to the body of one end, the holder. With d from the holder's point to the other's, the displacement is
 //! u = R^T d - rest, the rotation theta the rotation vector of the relative turn since the definition. A law with forces s(u, theta, ..)
 //! conjugated to them exerts R s_u on the holder with the moment d x R s_u about its point, -R s_u on the other, and the moments
-//! +-R J^-T s_theta with J the left Jacobian of SO(3) (Simo and Vu-Quoc 1986; Sola et al. 2018, eq. 145): what the virtual work of s asks.
+//! +-R J^-T s_theta with J the left Jacobian of SO(3) [SIMO-VUQUOC-1986; SOLA-2018 eq. 145]: what the virtual work of s asks.
 
 use super::zero_law::{Answer, ZeroLaw};
 use nalgebra::{Matrix3, Matrix6, Rotation3, SMatrix, UnitQuaternion, Vector3, Vector6};

@@ -1,8 +1,8 @@
 //! `#DRIFT`: mean wave drift from a table of coefficients over the square of the wave amplitude, by period and heading.
 //!
-//! The mean in a sea is `2 * sum of S dw D(w)`, in a regular wave `D a^2` (Faltinsen, Sea Loads on Ships and Offshore
-//! Structures, 1990, section 5). D is straight over frequency between the periods given and constant beyond the first and the
-//! last; spreading of the sea is not regarded. The layout is that of MOSES's report of mean drift forces [MOSES-RUNS wav_drift].
+//! The mean in a sea is `2 * sum of S dw D(w)`, in a regular wave `D a^2` [FALTINSEN-1990 5]. D is straight over
+//! frequency between the periods given and constant beyond the first and the last; spreading of the sea is not
+//! regarded. The layout is that of MOSES's report of mean drift forces [MOSES-RUNS wav_drift].
 //!
 //! Under way the same coefficients make the slow drift of the waves that the sea then has, each in its own direction, by Newman's approximation
 //! ([`super::database::slow_drift`]): in a regular wave that is the mean, in a sea its mean is `sum a2 D`.

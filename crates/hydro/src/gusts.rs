@@ -32,17 +32,17 @@ pub enum Shape {
     /// API RP 2A-WSD, 20th edition, 2.3.2: `s^2/fp (1 + 1.5 f/fp)^(-5/3)`, s = 0.15 (z/20)^-0.125 U, fp = 0.025 U/z. (The 21st
     /// edition has that of NPD.)
     Api,
-    /// NPD (Froya; Andersen and Lovseth 1992; ISO 19901-1, A.7.4): `320 (U/10)^2 (z/10)^0.45 (1 + x^n)^(-5/(3n))`, n = 0.468,
+    /// NPD (Froya) [ANDERSEN-1992; ISO-19901-1 A.7.4]: `320 (U/10)^2 (z/10)^0.45 (1 + x^n)^(-5/(3n))`, n = 0.468,
     /// x = 172 f (z/10)^(2/3) (U/10)^-0.75.
     Froya,
-    /// Ochi and Shin (OTC 5736, 1988): `f S/u*^2` is 583 x up to x = f z/U = 0.003, `420 x^0.7 (1 + x^0.35)^-11.5` up to 0.1, then
+    /// [OCHI-SHIN-1988]: `f S/u*^2` is 583 x up to x = f z/U = 0.003, `420 x^0.7 (1 + x^0.35)^-11.5` up to 0.1, then
     /// `838 x (1 + x^0.35)^-11.5`.
     Ochi,
-    /// Harris (1971): `f S/(k U^2) = 4 x (2 + x^2)^(-5/6)`, x = 1800 f/U.
+    /// [HARRIS-1971]: `f S/(k U^2) = 4 x (2 + x^2)^(-5/6)`, x = 1800 f/U.
     Harris,
-    /// Davenport (1961): `f S/(k U^2) = 4 x^2 (1 + x^2)^(-4/3)`, x = 1200 f/U.
+    /// [DAVENPORT-1961]: `f S/(k U^2) = 4 x^2 (1 + x^2)^(-4/3)`, x = 1200 f/U.
     Davenport,
-    /// Kaimal and others (1972): `f S/u*^2 = 105 x (1 + 33 x)^(-5/3)`, x = f z/U.
+    /// [KAIMAL-1972]: `f S/u*^2 = 105 x (1 + 33 x)^(-5/3)`, x = f z/U.
     Kaimal,
 }
 
@@ -112,7 +112,7 @@ impl Shape {
     }
 }
 
-/// Drag coefficient of the sea's surface at 10 m under a mean speed (m/s), `(u*/U)^2`: Wu (1982), the k of Harris and Davenport.
+/// Drag coefficient of the sea's surface at 10 m under a mean speed (m/s), `(u*/U)^2` [WU-1982], the k of Harris and Davenport.
 pub fn drag_coefficient(speed: f64) -> f64 {
     1e-3 * (0.8 + 0.065 * speed)
 }
@@ -279,7 +279,7 @@ mod tests {
         // Davenport's reduced spectrum f S has its peak at x = sqrt(3), at 12 / 4^(4/3) = 1.8899 k U^2
         let f = 3f64.sqrt() * 20.0 / 1200.0;
         near(f * Shape::Davenport.density(f, 20.0), 12.0 * 4f64.powf(-4.0 / 3.0) * drag_coefficient(20.0) * 400.0);
-        // Wu (1982) at 20 m/s: 2.1e-3
+        // [WU-1982] at 20 m/s: 2.1e-3
         near(drag_coefficient(20.0), 2.1e-3);
     }
 }

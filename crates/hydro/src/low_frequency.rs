@@ -4,7 +4,7 @@
 //! place and heading; the first-order motion about it is not part of it. In the phase of the waves, or in the axes of the forces, that motion
 //! would make products of two first-order quantities: a mean force that no theory has, as its companions are missing.
 //!
-//! The filter is an inverse Chebyshev filter of the fifth order, 60 dB (Parks and Burrus, Digital Filter Design, 1987, section 7.2), with a zero that
+//! The filter is an inverse Chebyshev filter of the fifth order, 60 dB [PARKS-BURRUS-1987 7.2], with a zero that
 //! takes away its lag at constant speed. Of a sine it leaves 0.7 % at the dividing period T and at most 4 % below; one of 10 T comes through within
 //! 25 %, of 20 T within 6 %, a constant speed exactly. In between, motions of 2 to 5 T count up to two and a half times.
 

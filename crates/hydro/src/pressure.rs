@@ -8,7 +8,7 @@
 //! Panels are triangles whose edges are no longer than `EDGE` over the root mean square wave number of the pressure at their highest corner,
 //! and near the surface, with the body where it is at the start, than `EDGE_AT_SURFACE` over that of the waves. On a panel whose nodes are all below the mean level and the waves, the
 //! dynamic pressure alone is left; it is integrated by its values at the middles of the three edges, which is exact for a pressure of the
-//! second degree (Strang and Fix 1973, table 4.1). A panel that the surface cuts is taken as four triangles: the surface of the waves is a
+//! second degree [STRANG-FIX-1973 table 4.1]. A panel that the surface cuts is taken as four triangles: the surface of the waves is a
 //! straight line across each, and below it the pressure is that of water at rest, by the elevations at the six nodes, with what the waves
 //! differ from it linear in each triangle.
 //!

@@ -2,7 +2,7 @@
 //!
 //! What friction a line at rest has is not a matter of where it is: it depends on how it came there. As the exact
 //! catenary does, statics take it that a line that is held on the bottom at one end and leaves it toward the other has
-//! been drawn toward that other end (Jonkman, NREL/TP-500-41958, 2007, equations 2-36 to 2-38): every node on the bottom that it moved
+//! been drawn toward that other end [JONKMAN-2007 eq. 2-36 to 2-38]: every node on the bottom that it moved
 //! holds back with the whole of its friction. From the touchdown on the tension falls by mu w per length, down to
 //! nothing or to what the anchor holds; where there is no tension the line has not moved, and nothing holds back.
 //!

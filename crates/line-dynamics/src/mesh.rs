@@ -89,7 +89,7 @@ impl Element {
 /// directions, and the rod straight when free of load unless [`Rod::set_shape`] says otherwise; shear deformation and
 /// rotary inertia are left out, as a slender rod has none worth counting.
 ///
-/// Sources: geometry of the discrete rod after Bergou et al., Discrete Elastic Rods (ACM Trans. Graph. 27, 2008),
+/// Sources: geometry of the discrete rod after [BERGOU-2008],
 /// with the angle itself as measure of curvature, which closes a circle exactly; line properties in the sense of API
 /// RP 2SK.
 #[derive(Clone, Debug, PartialEq)]

@@ -34,7 +34,7 @@ pub struct Mode {
 impl Solver {
     /// The `count` slowest modes about a state of rest, with added mass and the stiffness of the bottom.
     ///
-    /// Subspace iteration (Bathe, Finite Element Procedures, section 11.6) with the band's factors, so the cost is
+    /// Subspace iteration [BATHE-1996 11.6] with the band's factors, so the cost is
     /// linear in the number of elements. The stiffness may be a little unsymmetric where a current turns with the
     /// rod: its symmetric part decides.
     ///

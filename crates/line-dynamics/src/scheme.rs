@@ -37,7 +37,7 @@ impl Default for Settings {
     }
 }
 
-/// The scheme's constants for one step length, in the form of Arnold and Bruels 2007, in which equilibrium holds at the end of the step.
+/// The scheme's constants for one step length, in the form of [ARNOLD-BRULS-2007], in which equilibrium holds at the end of the step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scheme {
     pub h: f64,

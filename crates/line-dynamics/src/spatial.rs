@@ -53,8 +53,8 @@ pub(super) fn energy(k: f64, kt: f64, e: &Side, f: &Side) -> f64 {
 /// Gradient of the energy and its derivative, with directors taken along by the shortest turn.
 ///
 /// With c = e.f and s = (e x f).(b_e + b_f), b the curvature at rest on each side, the bending energy is k/2
-/// (phi(c)^2 - phi/sin(phi) s); the twist turns by (e x f)/(1 + c).(de + df) as the edges turn (Bergou et al.,
-/// Discrete Elastic Rods, 2008, section 6). The derivative is that of the gradient itself, so Newton's iteration is
+/// (phi(c)^2 - phi/sin(phi) s); the twist turns by (e x f)/(1 + c).(de + df) as the edges turn
+/// [BERGOU-2008 6]. The derivative is that of the gradient itself, so Newton's iteration is
 /// exact.
 pub(super) fn spatial(k: f64, kt: f64, e: &Side, f: &Side) -> (Eight, SMatrix<f64, 8, 8>) {
     let (u, w) = (e.direction, f.direction);

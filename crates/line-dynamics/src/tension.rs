@@ -47,7 +47,7 @@ pub(super) struct Walls {
 }
 
 impl Walls {
-    /// Of a tube, heights over a datum (m, global): (1 - 2 nu)(p_e A_e - p_i A_i) (Sparks, Fundamentals of Marine Riser Mechanics, 2007, section 2.4).
+    /// Of a tube, heights over a datum (m, global): (1 - 2 nu)(p_e A_e - p_i A_i) [SPARKS-2007 2.4].
     #[inline(always)]
     pub fn of(tube: &Tube, gravity: f64, datum: f64) -> Self {
         let share = 1.0 - 2.0 * tube.poisson;

@@ -4,8 +4,7 @@
 //! and slopes are continuous over the whole grid. The slopes at a point are those of the parabola through it and its two neighbours
 //! (one-sided at an edge), the twists the same of the slopes: a plane, and any surface quadratic in x and in y, is met exactly. Beyond
 //! its edges the bottom keeps the height of the edge, and slopes along the edge only; the slope across it ends there.
-//! Source: de Boor, Bicubic spline interpolation, J. Math. and Phys. 41 (1962), for the cells; Bessel's parabolas for the slopes (de Boor, A Practical
-//! Guide to Splines, chapter IV).
+//! Source: [DEBOOR-1962] for the cells; Bessel's parabolas for the slopes [DEBOOR-1978 IV].
 
 use super::ClassError;
 use windlass_base::span::Span;

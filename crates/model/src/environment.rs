@@ -68,9 +68,9 @@ pub enum Stretching {
     /// Straight on from the mean level.
     #[default]
     Linear,
-    /// The profile of the mean level, moved to the surface (Wheeler 1970).
+    /// The profile of the mean level, moved to the surface [WHEELER-1970].
     Wheeler,
-    /// Between the two (Rodenbusch and Forristall 1986).
+    /// Between the two [RODENBUSCH-FORRISTALL-1986].
     Delta,
     /// The profile itself, also above the surface.
     Exponential,

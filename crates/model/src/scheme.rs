@@ -1,7 +1,7 @@
 //! The weights of an implicit time-stepping scheme, shared by bodies and dynamic lines of one run.
 //!
-//! The scheme is Newmark's and the generalised-alpha family in the form of Arnold and Bruels (Multibody System Dynamics 18, 2007, 185-203,
-//! equations 3-6): `(1 - am) b1 + am b0 = (1 - af) a1 + af a0`, `v1 = v0 + h ((1 - g) b0 + g b1)`, `q1 = q0 + h v0 + h2 ((1/2 - b) b0 + b b1)`,
+//! The scheme is Newmark's and the generalised-alpha family in the form of [ARNOLD-BRULS-2007 eq. 3 to 6]:
+//! `(1 - am) b1 + am b0 = (1 - af) a1 + af a0`, `v1 = v0 + h ((1 - g) b0 + g b1)`, `q1 = q0 + h v0 + h2 ((1/2 - b) b0 + b b1)`,
 //! in which b is the auxiliary acceleration. With am = af = 0 it is Newmark's.
 
 /// Weights of an implicit scheme.
@@ -19,7 +19,7 @@ pub struct SchemeWeights {
 
 impl SchemeWeights {
     /// The generalised-alpha scheme of a spectral radius at infinite frequency, 0 to 1: second order, unconditionally stable for
-    /// linear systems, least damping of low frequencies (Chung and Hulbert, Journal of Applied Mechanics 60, 1993, 371-375, eq. 25).
+    /// linear systems, least damping of low frequencies [CHUNG-HULBERT-1993 eq. 25].
     pub fn generalised(rho: f64) -> Self {
         let (alpha_m, alpha_f) = ((2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0));
         let gamma = 0.5 - alpha_m + alpha_f;

@@ -1,8 +1,8 @@
 //! Stiff ties, whose force an engine may hold as an unknown of its own.
 //!
 //! A tie of 1e12 N/m makes a newton of the rounding of places five kilometres from the origin. With its force held, places enter by the
-//! deflection alone, `q(places) - force / k`, which rounding changes by a picometre: the mixed form of an elastic constraint (Bathe, Finite
-//! Element Procedures, 2nd ed., section 4.4; Gear, Leimkuhler and Gupta, Journal of Computational and Applied Mathematics 12, 1985).
+//! deflection alone, `q(places) - force / k`, which rounding changes by a picometre: the mixed form of an elastic constraint
+//! [BATHE-1996 4.4; GEAR-1985].
 
 use nalgebra::Matrix6;
 use windlass_base::pose::Six;

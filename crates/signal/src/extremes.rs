@@ -44,7 +44,7 @@ fn number(duration: f64, period: f64) -> Result<f64, SeriesError> {
 
 /// Largest crest of a narrow-banded Gaussian process in a duration (s), crests being Rayleigh distributed: with
 /// N = duration / mean up-crossing period, mode `mean + s sqrt(2 ln N)` and mean `mean + s (sqrt(2 ln N) + 0.5772 / sqrt(2
-/// ln N))`. M. S. Longuet-Higgins (1952); DNV-RP-C205, "Extreme values".
+/// ln N))`. [LONGUET-HIGGINS-1952; DNV-RP-C205 Extreme values].
 ///
 /// # Errors
 /// A duration with fewer than two cycles; a deviation that is negative or not finite.
@@ -79,7 +79,7 @@ const SHAPES: (f64, f64) = (1e-2, 1e3);
 
 impl Weibull {
     /// The distribution of greatest likelihood with a known location: the exponent solves
-    /// `sum x^b ln x / sum x^b - 1/b = mean of ln x` (A. C. Cohen, Technometrics 7 (1965) 579), whose left side grows with b.
+    /// `sum x^b ln x / sum x^b - 1/b = mean of ln x` [COHEN-1965], whose left side grows with b.
     /// The location is the level whose up-crossings part the maxima (their mean, as for global maxima in DNV-RP-C205).
     ///
     /// # Errors
@@ -130,7 +130,7 @@ impl Weibull {
 
     /// Largest maximum in a duration (s), the maxima coming every `period` (s): with N of them, the mode of the largest is
     /// `location + scale (ln N)^(1/shape)` and its distribution tends to a Gumbel one with the scale
-    /// `scale / shape (ln N)^(1/shape - 1)`, which gives the mean (DNV-RP-C205, "Extreme values"; E. J. Gumbel 1958).
+    /// `scale / shape (ln N)^(1/shape - 1)`, which gives the mean [DNV-RP-C205 Extreme values; GUMBEL-1958].
     ///
     /// # Errors
     /// A duration with fewer than two cycles.
@@ -262,7 +262,7 @@ mod tests {
 
     #[test]
     fn the_largest_of_a_thousand_rayleigh_crests_is_three_point_seven_deviations() {
-        // sqrt(2 ln 1000) = 3.7169; 3.7169 + 0.5772/3.7169 = 3.8722 (Longuet-Higgins 1952)
+        // sqrt(2 ln 1000) = 3.7169; 3.7169 + 0.5772/3.7169 = 3.8722 [LONGUET-HIGGINS-1952]
         let e = rayleigh(10.0, 2.0, 10.0, 1e4).unwrap();
         assert!((e.most_probable - 17.4338).abs() < 1e-4, "{e:?}");
         assert!((e.expected - 17.7444).abs() < 1e-4, "{e:?}");

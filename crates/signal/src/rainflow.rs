@@ -1,4 +1,4 @@
-//! Rainflow counting, ASTM E1049-85 (2017), 5.4.4 "Rainflow Counting": ranges that no later reversal closes count as half
+//! Rainflow counting [ASTM-E1049 5.4.4]: ranges that no later reversal closes count as half
 //! cycles.
 
 use super::{SeriesError, finite};

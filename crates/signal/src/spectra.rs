@@ -88,7 +88,7 @@ impl Window {
     }
 }
 
-/// The density by Welch's method (P. D. Welch, IEEE Trans. AU-15 (1967) 70): segments of `length` samples that overlap by
+/// The density by Welch's method [WELCH-1967]: segments of `length` samples that overlap by
 /// half, each without its own mean, under a window, their squared transforms averaged; samples behind the last whole
 /// segment are left out.
 ///
@@ -135,9 +135,9 @@ pub struct SpectralMoments {
     pub mean_period: f64,
     /// Tz = 2 pi sqrt(m0 / m2), mean zero up-crossing period of a Gaussian process (s).
     pub zero_crossing_period: f64,
-    /// Bandwidth sqrt(1 - m2^2 / (m0 m4)) of D. E. Cartwright and M. S. Longuet-Higgins (1956): 0 narrow, 1 wide.
+    /// Bandwidth sqrt(1 - m2^2 / (m0 m4)) [CARTWRIGHT-1956]: 0 narrow, 1 wide.
     pub bandwidth: f64,
-    /// Width nu = sqrt(m0 m2 / m1^2 - 1) of M. S. Longuet-Higgins (1975), free of the fourth moment.
+    /// Width nu = sqrt(m0 m2 / m1^2 - 1) [LONGUET-HIGGINS-1975], free of the fourth moment.
     pub width: f64,
 }
 

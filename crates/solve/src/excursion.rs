@@ -197,8 +197,8 @@ impl<'a> Walk<'a> {
         SolveError { who, error: error.help("-DISTANCE says how far it is moved") }
     }
 
-    /// The excursion at which the first line breaks, between one that holds and one that does not: Ridders, IEEE
-    /// Transactions on Circuits and Systems 26 (1979), 979-980, which is exact for a tension that grows exponentially.
+    /// The excursion at which the first line breaks, between one that holds and one that does not:
+    /// [RIDDERS-1979], which is exact for a tension that grows exponentially.
     fn breaking(&mut self, holds: Moved, broken: Moved) -> Result<(Moved, End), SolveError> {
         let (mut low, mut high) = (holds, broken);
         for _ in 0..100 {

@@ -1,7 +1,7 @@
 //! The parts of a system that come to rest by themselves: bodies and junctions that connectors join, directly or one by another.
 //!
 //! What is not joined shares neither a step nor the help of a search, so that one part does not hold up another. The parts are found
-//! by joining sets (Tarjan, Journal of the ACM 22 (1975), 215-225).
+//! by joining sets [TARJAN-1975].
 
 use super::link::Attachment;
 use super::system::System;

@@ -83,7 +83,7 @@ pub fn first_length(model: &Model, connector: &Connector, wanted: Condition) -> 
         let (length, found) = if (near.1 - target).abs() < (far.1 - target).abs() { near } else { far };
         return if (found - target).abs() <= PROOF * target { Ok(length) } else { nothing(found) };
     }
-    // the secant with halved weights of the end that stays (Dowell and Jarratt, BIT 11, 1971, 168-174), and a halving now and then:
+    // the secant with halved weights of the end that stays [DOWELL-JARRATT-1971], and a halving now and then:
     // where the mesh changes the force jumps
     let (mut weights, mut stayed) = ([near.1 - target, far.1 - target], [false; 2]);
     for turn in 0..SOUGHT {

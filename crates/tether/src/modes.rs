@@ -1,7 +1,7 @@
 //! Natural modes of a tether in one plane: `K phi = w^2 M phi` in banded form.
 //!
-//! Each eigenvalue is enclosed by counting the negative pivots of `K - s M` (Sturm's sequence; Parlett, The Symmetric
-//! Eigenvalue Problem, 1998, 3.3), its shape found by inverse iteration, and the eigenvalue reckoned again from the energies of
+//! Each eigenvalue is enclosed by counting the negative pivots of `K - s M` (Sturm's sequence
+//! [PARLETT-1998 3.3]), its shape found by inverse iteration, and the eigenvalue reckoned again from the energies of
 //! the shape. The error of the last is the square of that of the shape, and the energy of bending leaves out rigid motion to
 //! the last digit, so that modes held by soft springs alone keep all their digits beside a stiffness a million times theirs.
 
@@ -255,7 +255,7 @@ mod tests {
 
     #[test]
     fn a_free_beam_has_two_rigid_modes_and_the_known_flexible_ones() {
-        // Blevins, Formulas for Natural Frequency and Mode Shape (1979), table 8-1: lambda 4.73004074, 7.85320462, 10.9956078
+        // [BLEVINS-1979 table 8-1]: lambda 4.73004074, 7.85320462, 10.9956078
         let found = uniform(40, 0.0, 0.0, &[], 5);
         assert!(found[0].eigenvalue.abs() < 1e-12 && found[1].eigenvalue.abs() < 1e-12);
         for (mode, lambda) in found[2..].iter().zip([4.730_040_74f64, 7.853_204_62, 10.995_607_8]) {
@@ -266,7 +266,7 @@ mod tests {
 
     #[test]
     fn a_beam_between_pins_under_tension_has_the_known_modes() {
-        // (n pi)^4 + T (n pi)^2: Blevins, 8.1.7
+        // (n pi)^4 + T (n pi)^2 [BLEVINS-1979 8.1.7]
         let found = uniform(40, 25.0, 0.0, &[0, 80], 4);
         for (mode, n) in found.iter().zip(1..) {
             let wave = PI * f64::from(n);

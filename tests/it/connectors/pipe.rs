@@ -64,7 +64,7 @@ fn the_pipe_rolls_over_its_rollers_and_the_bottom_lacks_its_weight_by_the_height
     let bottom = tension * leaves.x - w * (nodes[0].position.z + 50.0);
     assert!((sum[0] / bottom - 1.0).abs() < 2e-4, "{} {bottom} {leaves}", sum[0]);
     // between bottom and last roller it is a catenary but for the boundary layers: its arc by H and the height, and over the stinger
-    // its own length, some 36.4. The touchdown moves by sqrt(EI/H), 9.8 m, toward the vessel (Pedersen 1975); so much less pipe hangs,
+    // its own length, some 36.4. The touchdown moves by sqrt(EI/H), 9.8 m, toward the vessel [PEDERSEN-1975]; so much less pipe hangs,
     // and half of it at the top
     let (a, height): (f64, f64) = (bottom / w, 51.7);
     let arc = (height * height + 2.0 * height * a).sqrt();

@@ -147,7 +147,7 @@ fn a_line_that_is_let_go_comes_to_rest_on_the_bottom() {
 
 #[test]
 fn the_end_of_a_folded_chain_falls_with_gravity_and_then_faster() {
-    // Tomaszewski, Pieranski and Geminard (Am. J. Phys. 74, 2006): a chain folded tightly that keeps its energy is down in 0.847213 of
+    // [TOMASZEWSKI-2006]: a chain folded tightly that keeps its energy is down in 0.847213 of
     // the time of free fall
     let length = 20.0;
     let class = format!("~L ROD 20 10 -LEN {length} -REFINE 200 -EI 0 -EA 1E7 -WTPLEN 50 -BUOY 0 -CD 0 0 0 -CA 0");

@@ -1,5 +1,5 @@
-//! Round members in waves and current, against the integrals of linear theory over a pile (DNV-RP-C205, 6.5; Sarpkaya and Isaacson,
-//! Mechanics of Wave Forces on Offshore Structures, 1981, 4.2), and against statics.
+//! Round members in waves and current, against the integrals of linear theory over a pile
+//! [DNV-RP-C205 6.5; SARPKAYA-ISAACSON-1981 4.2], and against statics.
 
 use crate::common;
 use crate::common::tangent;

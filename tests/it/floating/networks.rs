@@ -1,7 +1,7 @@
 //! Networks of bodies, bridles, clumps, buoys and shared lines: forces at rest by catenaries in closed form that stand here.
 //!
 //! A line of unstretched length L, weight w a length and axial stiffness EA, whose upper end is pulled by H along and V up, reaches
-//! (Irvine, Cable Structures, 1981, section 2.3; with a part on a bottom without friction: Jonkman, NREL/TP-500-41958, eq. 2-35 to 2-38)
+//! ([IRVINE-1981 2.3]; with a part on a bottom without friction: [JONKMAN-2007 eq. 2-35 to 2-38])
 //!     x = H/w (asinh(V/H) - asinh((V - wL)/H)) + HL/EA                                    hanging freely
 //!     z = H/w (sqrt(1 + (V/H)^2) - sqrt(1 + ((V - wL)/H)^2)) + (VL - wL^2/2)/EA
 //!     x = L - V/w + H/w asinh(V/H) + HL/EA,  z = H/w (sqrt(1 + (V/H)^2) - 1) + V^2/(2 EA w)   with V < wL on the bottom

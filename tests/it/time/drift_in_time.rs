@@ -151,8 +151,8 @@ fn issc(w: f64, height: f64, mean_period: f64) -> f64 {
     4.0 * (height * height / 16.0) * b * w.powi(-5) * (-b / w.powi(4)).exp()
 }
 
-/// The spectrum of slow drift (N2 s/rad), 8 int S(w) S(w + mu) D(w + mu/2)^2 dw (Pinkster, Low Frequency Second Order Wave Exciting
-/// Forces on Floating Structures, 1980, eq. 3.36, with Newman's D of the middle), of D = `slope` w.
+/// The spectrum of slow drift (N2 s/rad), 8 int S(w) S(w + mu) D(w + mu/2)^2 dw ([PINKSTER-1980 eq. 3.36]
+/// with D of the middle frequency), of D = `slope` w.
 fn drift_spectrum(mu: f64, slope: f64, height: f64, mean_period: f64) -> f64 {
     let step = 2e-3;
     let at = |n: u32| {

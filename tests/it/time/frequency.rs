@@ -265,7 +265,7 @@ fn hemisphere(freedoms: &str, more: &str, rest: &str) -> Session {
     session
 }
 
-/// Hulme (1982), table 1: Ka, added mass over displaced mass, damping over displaced mass times frequency, in heave.
+/// [HULME-1982 table 1]: Ka, added mass over displaced mass, damping over displaced mass times frequency, in heave.
 const HULME: [(f64, f64, f64); 6] = [
     (0.2, 0.7938, 0.2793),
     (0.5, 0.5861, 0.3391),

@@ -48,7 +48,7 @@ fn damping(made: &Run, periods: [usize; 2], steps: f64) -> f64 {
 
 #[test]
 fn line_mode_is_damped_as_the_scheme_of_the_run_damps() {
-    // numpy's eigenvalues of the amplification matrix of Chung and Hulbert's own form (1993, eq. 5 to 8):
+    // numpy's eigenvalues of the amplification matrix of the form of [CHUNG-HULBERT-1993 eq. 5 to 8]:
     // M a[n+1-am] + K d[n+1-af] = 0 with Newmark's d and v; damping is -ln|z| / |ln z|
     for (method, steps, closed) in [
         (Scheme::generalised(0.2), 10.0, 0.022552),

@@ -223,7 +223,7 @@ fn the_heave_of_a_spar_in_still_water_has_its_period_and_never_gains_energy() {
     let cycles = passages.len() - 1;
     // the rule makes a period (w h)^2/12 = 8e-5 longer; friction of second degree changes it in the second order
     near((passages[cycles] - passages[0]) / cycles as f64, period, 2e-4);
-    // m x" + c |x'| x' + k x = 0 loses 4/3 c/m A^2 each half cycle (Faltinsen 1990, 7.1), so that 1/A grows by 8/3 c/m a cycle
+    // m x" + c |x'| x' + k x = 0 loses 4/3 c/m A^2 each half cycle [FALTINSEN-1990 7.1], so that 1/A grows by 8/3 c/m a cycle
     let c = 0.5 * RHO * friction * PI * diameter * draft;
     let last = (energy(rows.last().unwrap()) * 2.0 / stiffness).sqrt();
     let want = 1.0 / (1.0 / start + 10.0 * 8.0 / 3.0 * c / whole);

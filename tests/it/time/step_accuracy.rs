@@ -42,7 +42,7 @@ fn seen(history: &History) -> (f64, f64) {
 
 #[test]
 fn error_of_a_period_of_the_trapezoidal_rule_is_that_of_its_closed_form() {
-    // tan(W h/2) = w h/2 (Hughes, The Finite Element Method, 1987, section 9.1)
+    // tan(W h/2) = w h/2 [HUGHES-1987 9.1]
     for steps in [8.0, 12.0, 40.0] {
         let made = oscillated(trapezoidal(), steps, 60.0);
         let worst = made.followed_worst().unwrap();
@@ -59,7 +59,7 @@ fn error_of_a_period_of_the_trapezoidal_rule_is_that_of_its_closed_form() {
 
 #[test]
 fn error_and_damping_of_generalised_alpha_are_those_of_the_oscillation_itself() {
-    // beside it what numpy finds as eigenvalues of the matrix of Chung and Hulbert's own form of the scheme
+    // beside it what numpy finds as eigenvalues of the matrix of the scheme's form of [CHUNG-HULBERT-1993]
     for (rho, steps, period, damping) in
         [(0.2, 10.0, 0.080910, 0.022552), (0.2, 20.0, 0.023147, 0.003954), (0.5, 12.0, 0.032954, 0.002313)]
     {

@@ -40,7 +40,7 @@ fn energy_of_a_linear_spring_drifts_less_than_1e_9_over_a_thousand_periods_of_20
 
 #[test]
 fn the_trapezoidal_rule_oscillates_with_its_own_known_period() {
-    // tan(W h/2) = w h/2 (Hughes, The Finite Element Method, 1987, section 9.1): x = cos(W t) at the steps
+    // tan(W h/2) = w h/2 [HUGHES-1987 9.1]: x = cos(W t) at the steps
     let model = mass_on_a_spring("", 0.5);
     let h: f64 = 0.1;
     let made = run(&model, Settings { method: trapezoidal(), ..settings(50.0, h) }, vec![]);

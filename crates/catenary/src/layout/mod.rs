@@ -3,8 +3,8 @@
 //! With the horizontal force at the fairlead given, the line is found span by span. Of all curves that hang free from the
 //! fairlead, the first span is the steepest one that stays above the bottom: where it touches, the line begins to lie.
 //! What lies loses `w (sin + mu cos)` of tension a length toward the anchor (Coulomb, friction fully mobilised toward the
-//! fairlead; Jonkman, NREL/TP-500-41958, 2007, section 2.7.2), around a ridge the factor `exp(-mu angle)` (Euler and
-//! Eytelwein). It lies as far as it can: up to the last place from which the free rest of the line stays above the
+//! fairlead) [JONKMAN-2007 2.7.2], around a ridge the factor `exp(-mu angle)`
+//! [EYTELWEIN-1808]. It lies as far as it can: up to the last place from which the free rest of the line stays above the
 //! bottom. There the next span begins, and so on to the anchor. A curve sinks everywhere when its vertical force at the
 //! beginning grows, or when it leaves the bottom later, so that each span is one safeguarded search; a curve that has
 //! been found stays a possible continuation of itself, so that there always is an answer.

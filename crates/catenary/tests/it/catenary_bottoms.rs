@@ -65,7 +65,7 @@ fn friction_acts_between_touchdowns_that_a_light_segment_lifts() {
 
 #[test]
 fn the_bottom_is_seen_below_a_spring_buoy_farther_down() {
-    // scipy: 229.681 m hang, the buoy lifts V = 2500 N on either side of it, the rest lies with H; T + EA, H and V as in Irvine 1981
+    // scipy: 229.681 m hang, the buoy lifts V = 2500 N on either side of it, the rest lies with H; T + EA, H and V as in [IRVINE-1981]
     let ea = 2e11 * 0.25 * std::f64::consts::PI * 0.084 * 0.084;
     let part = Segment { length: 300.0, weight: 1200.0, ea };
     let buoy = Joint::SpringBuoy { capacity: 5000.0, depth: 0.0 };
@@ -203,7 +203,7 @@ fn spare_length_heaps_in_a_hollow_without_friction() {
 
 #[test]
 fn slack_line_with_buoy_on_a_slope_stands_above_its_heap() {
-    // 1000 N/m, EA 6e8 N, 30 kN of lift, fairlead 400 m from the anchor at z = -10, slope of 1 in 10. By scipy from Irvine 1981,
+    // 1000 N/m, EA 6e8 N, 30 kN of lift, fairlead 400 m from the anchor at z = -10, slope of 1 in 10. By scipy from [IRVINE-1981],
     // contacts closed by hand: the loop under the buoy stands upright on a heap (first and third line), and in the second line
     // the touchdowns at both sides of the buoy are roots of the way to the anchor
     // first and second length, slope, V, H and V at the anchor, spare length, place and elevation of the buoy
@@ -235,7 +235,7 @@ fn slack_line_with_buoy_on_a_slope_stands_above_its_heap() {
 #[test]
 fn line_between_two_folds_of_friction_is_solved() {
     // a light segment rises to an anchor above the bottom: the later it leaves the bottom the less tension friction has left it, and
-    // the higher it rises. scipy (fsolve from 1008 starts, one root), from Irvine 1981: both contacts and the anchor closed to 1e-10
+    // the higher it rises. scipy (fsolve from 1008 starts, one root), from [IRVINE-1981]: both contacts and the anchor closed to 1e-10
     let part = |length, weight, ea| Segment { length, weight, ea };
     let parts = vec![part(360.3, 4250.0, 1.97e9), part(341.3, 1510.0, 7.5e8), part(126.0, 13.0, 2.8e9)];
     let line = Line::new(parts, vec![Joint::Weight(-185.3e3), Joint::Free], -182.4, 0.0).unwrap();

@@ -12,7 +12,7 @@ fn line(segments: &[(f64, f64, f64)], joints: &[Joint], depth: f64) -> Line {
 
 #[test]
 fn a_nearly_rigid_grounded_line_is_the_closed_inelastic_catenary() {
-    // Irvine 1981, 1.2: s = sqrt(d (d + 2 H/w)), x = H/w acosh(1 + w d/H) + L - s, T = H + w d
+    // [IRVINE-1981 1.2]: s = sqrt(d (d + 2 H/w)), x = H/w acosh(1 + w d/H) + L - s, T = H + w d
     for (h, w, d, l) in [(5e5, 1500.0, 200.0, 1200.0), (3e4, 900.0, 80.0, 700.0), (2e6, 2000.0, 500.0, 3000.0)] {
         let state = line(&[(l, w, 1e18)], &[], d).at_horizontal_force(h, 0.0).unwrap();
         let s = (d * (d + 2.0 * h / w)).sqrt();

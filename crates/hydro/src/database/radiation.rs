@@ -1,7 +1,7 @@
 //! Radiation in time: the added mass at infinite frequency, and the memory of the water as a kernel.
 //!
-//! Cummins (1962): `F = -A_inf a - int_0^inf K(s) v(t - s) ds`. Ogilvie (1964), Recent progress toward the understanding and
-//! prediction of ship motions: `K(t) = 2/pi int_0^inf B(w) cos(w t) dw`, `A_inf = A(w) + 1/w int_0^inf K(t) sin(w t) dt`.
+//! [CUMMINS-1962]: `F = -A_inf a - int_0^inf K(s) v(t - s) ds`. [OGILVIE-1964]:
+//! `K(t) = 2/pi int_0^inf B(w) cos(w t) dw`, `A_inf = A(w) + 1/w int_0^inf K(t) sin(w t) dt`.
 
 use super::at::moved_matrix;
 use nalgebra::Matrix6;

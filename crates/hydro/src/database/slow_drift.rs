@@ -1,7 +1,6 @@
 //! Slow drift: second-order forces at the differences of frequencies.
 //!
-//! Newman (1974), Second-order, slowly-varying forces on vessels in irregular waves, with the arithmetic mean of two mean drifts
-//! (Faltinsen, Sea Loads on Ships and Offshore Structures, 1990, section 5): `F = sum_mn a_m a_n (D_m + D_n)/2 cos(q_m - q_n)`, with
+//! [NEWMAN-1974], with the arithmetic mean of two mean drifts [FALTINSEN-1990 5]: `F = sum_mn a_m a_n (D_m + D_n)/2 cos(q_m - q_n)`, with
 //! `q = k . x - w t + phase`. That double sum is the product of two single ones, `Re(sum a D exp(i q) conj(sum a exp(i q)))`: it holds for drift of either
 //! sign, has no sum of frequencies, and its mean is `sum a2 D`. Waves of several directions each take D of their own.
 //!

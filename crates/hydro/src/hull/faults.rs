@@ -211,7 +211,7 @@ impl Surface {
         parts.into_values().collect()
     }
 
-    /// How often it goes round a point: 1 inside, 0 outside (van Oosterom and Strackee 1983, solid angle of a triangle).
+    /// How often it goes round a point: 1 inside, 0 outside (solid angle of a triangle [VAN-OOSTEROM-1983]).
     fn winding(&self, at: Vector3<f64>) -> f64 {
         let angles = (0..self.faces.len()).filter_map(|n| self.corners(n)).map(|corners| {
             let [a, b, c] = corners.map(|p| p - at);

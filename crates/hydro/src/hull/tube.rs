@@ -62,7 +62,7 @@ impl Tube {
     }
 }
 
-/// The distance of two straight segments (Ericson, Real-Time Collision Detection, 2005, 5.1.9).
+/// The distance of two straight segments [ERICSON-2005 5.1.9].
 fn segment_distance([p, p_end]: &[Vector3<f64>; 2], [q, q_end]: &[Vector3<f64>; 2]) -> f64 {
     let (along, other, between) = (p_end - p, q_end - q, p - q);
     let (a, e, f) = (along.norm_squared(), other.norm_squared(), other.dot(&between));

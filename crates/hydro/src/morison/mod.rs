@@ -1,5 +1,5 @@
-//! Round members in waves and current, by Morison's formula (Morison, O'Brien, Johnson and Schaaf, Petroleum Transactions
-//! AIME 189, 1950, 149-154; in the form of relative velocity of DNV-RP-C205, 6.2.3).
+//! Round members in waves and current, by Morison's formula ([MORISON-1950]; in the form of relative
+//! velocity of [DNV-RP-C205 6.2.3]).
 //!
 //! Of a length of a member, with A = pi D^2/4, u and a the velocity and acceleration of the water without the member on its axis,
 //! v and b those of the member, and n and t their parts across and along the axis:

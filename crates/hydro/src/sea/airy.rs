@@ -1,6 +1,6 @@
 //! Linear waves added up: elevation, velocity, acceleration and pressure.
 //!
-//! Of a component (Faltinsen, Sea Loads on Ships and Offshore Structures, 1990, table 2.1), with q = k (toward . (x, y)) - w t + phase:
+//! Of a component [FALTINSEN-1990 table 2.1], with q = k (toward . (x, y)) - w t + phase:
 //! u = a w C cos q, w = a w S sin q, p = rho g a cosh(k(z+d))/cosh(kd) cos q; C and S are cosh and sinh of k(z+d) over sinh(kd).
 
 use super::eight::{Eight, exp, sin_cos};
@@ -16,7 +16,7 @@ const GONE: f64 = -40.0;
 /// At this power of e, and below, a wave is left out of what lines feel far down: a millionth of what it is at the mean level, twice
 /// that on a bottom.
 const FAINT: f64 = -13.815_510_557_964_274;
-/// The factor of delta stretching (Rodenbusch and Forristall 1986).
+/// The factor of delta stretching [RODENBUSCH-FORRISTALL-1986].
 const DELTA: f64 = 0.3;
 
 /// Components in blocks of eight, with what does not change.
@@ -211,7 +211,7 @@ impl<'a> SeaAt<'a> {
             Stretching::Exponential => [height, 0.0],
             Stretching::Linear => [height.min(0.0), height.max(0.0)],
             Stretching::Wheeler => {
-                // Wheeler (1970): the surface is taken for the mean level, the bottom stays
+                // [WHEELER-1970]: the surface is taken for the mean level, the bottom stays
                 let scale = sea.depth.map_or(1.0, |d| d / (d + elevation).max(f64::MIN_POSITIVE));
                 [((height - elevation) * scale).min(0.0), 0.0]
             }

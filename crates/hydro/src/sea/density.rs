@@ -1,8 +1,8 @@
 //! A spectrum as a density over frequency, with its integrals to working precision: moments, quantiles, bands.
 //!
 //! Every spectrum with a formula is a sum of humps `x^-N exp(-N/4 x^-4) gamma^exp(-(x-1)^2/(2 s^2))`, x = w/wp, s = 0.07 below
-//! and 0.09 above the peak: N = 5 is ISSC (gamma 1) and JONSWAP (DNV-RP-C205 3.5.5), N = 4 L + 1 that of Ochi and Hubble (1976),
-//! N = 4 that of Torsethaugen and Haver (2004). A curve of the user is straight between its points.
+//! and 0.09 above the peak: N = 5 is ISSC (gamma 1) and JONSWAP [DNV-RP-C205 3.5.5], N = 4 L + 1 that of [OCHI-HUBBLE-1976],
+//! N = 4 that of [TORSETHAUGEN-HAVER-2004]. A curve of the user is straight between its points.
 
 use windlass_base::units::Dim;
 use windlass_model::ClassError;

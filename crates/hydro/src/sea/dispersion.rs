@@ -19,7 +19,7 @@ pub fn wave_number(frequency: f64, depth: Option<f64>, gravity: f64) -> Result<f
     }
     let Some(depth) = depth else { return Ok(deep) };
     let y = deep * depth;
-    // Guo (2002), "Simple and explicit solution of wave dispersion equation": within 0.75 % over all depths
+    // [GUO-2002]: within 0.75 % over all depths
     let mut x = y / (1.0 - (-y.powf(1.245)).exp()).powf(0.4);
     if !sound(x) {
         x = y.sqrt();

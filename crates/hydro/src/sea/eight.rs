@@ -1,7 +1,7 @@
 //! Sines, cosines and exponentials of eight numbers at once, in loops the compiler turns into vector instructions: a sea of
 //! hundreds of components spends its time in them. They are the same on every machine, which those of a C library are not.
 //!
-//! Sources: the kernels and split constants of fdlibm (Sun Microsystems 1993; k_sin.c, k_cos.c, e_rem_pio2.c, e_exp.c), without
+//! Sources: the kernels and split constants of fdlibm ([FDLIBM-5], k_sin.c, k_cos.c, e_rem_pio2.c, e_exp.c), without
 //! their last half unit: errors are below 3e-16 of one.
 
 /// Eight numbers.

@@ -28,7 +28,7 @@ pub fn one_each(env: &Environment, components: &[Component]) -> Result<(), Class
 ///
 /// Reinforced at a time t_r: `phase = w t_r`, as zeta goes with `cos(.. - w t + phase)`. (MOSES writes the same with the other
 /// sign of the phase.) Seeded: uniform over a turn, from the upper 53 bits of PCG XSL RR 128/64 with the seed as state and
-/// `train` as stream (O'Neill 2014; rand_pcg promises these values for good), in the order of the frequencies.
+/// `train` as stream ([ONEILL-2014]; rand_pcg promises these values for good), in the order of the frequencies.
 pub fn phases(phasing: Phasing, train: u64, frequencies: impl Iterator<Item = f64>) -> Vec<f64> {
     match phasing {
         Phasing::Reinforced(time) => frequencies.map(|w| (w * time).rem_euclid(TAU)).collect(),

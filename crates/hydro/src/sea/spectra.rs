@@ -75,15 +75,15 @@ pub fn ochi_hubble(parts: [[f64; 3]; 2]) -> Result<Vec<Hump>, ClassError> {
     parts.into_iter().map(hump).collect()
 }
 
-/// The most probable six parameters of a significant height (m): Ochi and Hubble (1976), "On six-parameter wave spectra",
-/// table 2. Their heights come to 0.9986 of it.
+/// The most probable six parameters of a significant height (m): [OCHI-HUBBLE-1976 table 2].
+/// Their heights come to 0.9986 of it.
 pub fn most_probable(height: f64) -> [[f64; 3]; 2] {
     let fall = |a: f64, b: f64| a * (-b * height).exp();
     [[0.84 * height, fall(0.70, 0.046), 3.0], [0.54 * height, fall(1.15, 0.039), fall(1.54, 0.062)]]
 }
 
-/// Torsethaugen's two peaks, simplified (Torsethaugen and Haver 2004, "Simplified double peak spectral model for ocean waves";
-/// DNV-RP-C205 appendix A): of a significant height (m) and the peak period (s), for a fetch of 370 km.
+/// Torsethaugen's two peaks, simplified [TORSETHAUGEN-HAVER-2004; DNV-RP-C205 appendix A]:
+/// of a significant height (m) and the peak period (s), for a fetch of 370 km.
 ///
 /// # Errors
 /// A peak period beyond 25 s or so short that the sea is steeper than the model: below 2 sqrt(Hs).

@@ -1,6 +1,6 @@
 //! A regular wave by Stokes' theory to the fifth order, in any depth.
 //!
-//! Source: Fenton (1985), "A fifth-order Stokes theory for steady waves", J. Waterway Port Coastal Ocean Eng. 111(2), table 1; a
+//! Source: [FENTON-1985 table 1]; a
 //! lower order leaves out the higher powers of e = k H/2. The water has no mean Eulerian current, so the wave speed is Fenton's
 //! mean speed in the frame of the wave. Crest at k X - w t + phase = 0.
 
@@ -9,9 +9,9 @@ use nalgebra::Vector3;
 use windlass_base::units::Dim;
 use windlass_model::ClassError;
 
-/// Share of the length that a wave breaks at in deep water (Miche 1944): H = 0.142 L tanh(k d).
+/// Share of the length that a wave breaks at in deep water [MICHE-1944]: H = 0.142 L tanh(k d).
 const MICHE: f64 = 0.142;
-/// H L^2/d^3 up to which Stokes' series serves (Hedges 1995, "Regions of validity of analytical wave theories").
+/// H L^2/d^3 up to which Stokes' series serves [HEDGES-1995].
 const URSELL: f64 = 40.0;
 
 /// Refuses a wave higher than it can be.
@@ -256,7 +256,7 @@ mod tests {
 
     #[test]
     fn coefficients_are_those_of_fentons_table() {
-        // Fenton (1985) table 2: k d = 0.753982 (as quoted in the tests of AMR-Wind)
+        // [FENTON-1985 table 2]: k d = 0.753982 (as quoted in the tests of AMR-Wind)
         let kd = 0.753_982f64;
         let c = Coefficients::of(Some(kd));
         let a = |i: usize, j: usize| c.a[j - 1][i - 1] / (j as f64 * kd).cosh();
@@ -341,7 +341,7 @@ mod tests {
 
     #[test]
     fn a_deep_steep_wave_has_the_speed_and_crest_of_the_exact_one() {
-        // c^2 k/g = 1 + e^2 + e^4/2 + .. with e = k H/2 (Fenton 1985; Stokes 1880), k eta at the crest e + e^2/2 + ..
+        // c^2 k/g = 1 + e^2 + e^4/2 + .. with e = k H/2 [FENTON-1985; STOKES-1847], k eta at the crest e + e^2/2 + ..
         let wave = wave(5, 0.25, None);
         let e = 0.5 * wave.number * wave.height;
         let square = wave.frequency * wave.frequency / (GRAVITY * wave.number);

@@ -26,8 +26,7 @@ fn displaced(data: &Database) -> f64 {
     data.density * 2.0 / 3.0 * PI * RADIUS.powi(3)
 }
 
-/// Hulme, The wave forces acting on a floating hemisphere undergoing forced periodic oscillations, J. Fluid Mech. 121 (1982),
-/// table 1: Ka, added mass over displaced mass, damping over displaced mass times frequency, in heave.
+/// [HULME-1982 table 1]: Ka, added mass over displaced mass, damping over displaced mass times frequency, in heave.
 const HEAVE: [(f64, f64, f64); 25] = [
     (0.05, 0.8764, 0.1036),
     (0.1, 0.8627, 0.1816),

@@ -36,7 +36,7 @@ fn a_moment_of_two_pi_ei_over_l_bends_a_beam_into_a_circle() {
 
 #[test]
 fn a_cantilever_with_a_tip_load_takes_the_shape_of_the_elastica() {
-    // Mattiasson, Int. J. Numer. Meth. Eng. 17 (1981), table: P L^2 / EI, deflection w / L, shortening u / L
+    // [MATTIASSON-1981 table]: P L^2 / EI, deflection w / L, shortening u / L
     for (load, w, u) in [(1.0, 0.30172, 0.05643), (5.0, 0.71379, 0.38763), (10.0, 0.81061, 0.55500)] {
         let error = |elements: usize| {
             let (length, bending) = (1.0, 1.0);
@@ -123,7 +123,7 @@ fn a_clamped_and_tensioned_riser_bends_as_the_beam_with_tension() {
     assert!((found[0].shear / (0.5 * q * length) - 1.0).abs() < 0.02, "{}", found[0].shear);
 }
 
-/// The cantilever of Bathe and Bolourchi: an eighth of a circle of radius 100 in the x-y plane, a square of one by
+/// The cantilever of [BATHE-BOLOURCHI-1979]: an eighth of a circle of radius 100 in the x-y plane, a square of one by
 /// one, E = 1e7, G = E/2, clamped at the origin along y; its tip under a load along z.
 fn forty_five_degrees(elements: usize, load: f64) -> Vector3<f64> {
     let (radius, quarter) = (100.0, std::f64::consts::FRAC_PI_4);
@@ -162,8 +162,8 @@ fn the_forty_five_degree_bend_comes_to_the_published_places() {
     // unloaded it keeps its shape
     let still = forty_five_degrees(16, 0.0);
     assert!((still - Vector3::new(29.289_321_9, 70.710_678_1, 0.0)).norm() < 0.1, "{still}");
-    // Bathe and Bolourchi, Int. J. Numer. Meth. Eng. 14 (1979) 961: (22.5, 59.2, 39.5) at 300, (15.9, 47.2, 53.4) at
-    // 600; Simo and Vu-Quoc, Comp. Meth. Appl. Mech. Eng. 58 (1986) 79: (22.33, 58.84, 40.08) and (15.79, 47.23,
+    // [BATHE-BOLOURCHI-1979]: (22.5, 59.2, 39.5) at 300, (15.9, 47.2, 53.4) at
+    // 600; [SIMO-VUQUOC-1986]: (22.33, 58.84, 40.08) and (15.79, 47.23,
     // 53.37)
     for (load, published) in [(300.0, [22.33, 58.84, 40.08]), (600.0, [15.79, 47.23, 53.37])] {
         let (coarse, fine) = (forty_five_degrees(16, load), forty_five_degrees(64, load));

@@ -85,7 +85,7 @@ fn a_pull_runs_along_a_bar_at_the_speed_of_sound() {
 
 #[test]
 fn the_tip_of_a_folded_chain_falls_faster_than_a_stone() {
-    // Calkin and March, Am. J. Phys. 57 (1989) 154; Tomaszewski, Pieranski and Geminard, Am. J. Phys. 74 (2006) 776:
+    // [CALKIN-MARCH-1989; TOMASZEWSKI-2006]:
     // the chain folded tightly, one end let go, its tip has fallen the whole length after 0.8472 of the time of free
     // fall
     let env = |n: &str, d: f64| std::env::var(n).ok().and_then(|s| s.parse().ok()).unwrap_or(d);

@@ -241,7 +241,7 @@ fn a_polynomial_and_a_table_of_tension_hang_as_the_line_they_describe() {
 #[test]
 fn moments_along_a_helix_turn_against_the_untwisted_frame_by_its_torsion() {
     // a helix of radius r and rise c per radian: curvature r / (r^2 + c^2), torsion c / (r^2 + c^2); against a frame
-    // carried without twist the binormal turns by the torsion along the arc (Bishop, Am. Math. Monthly 82, 1975, 246)
+    // carried without twist the binormal turns by the torsion along the arc [BISHOP-1975]
     let (r, c, turns, elements, bending): (f64, f64, f64, usize, f64) = (3.0, 4.0, 1.5, 600, 2e5);
     let (speed, whole) = (r.hypot(c), 2.0 * std::f64::consts::PI * turns);
     let point = |s: f64| Vector3::new(r * s.cos(), r * s.sin(), c * s);

@@ -103,7 +103,7 @@ fn a_cylinder_pressed_through_the_surface_takes_up_the_momentum_of_its_added_mas
 
 #[test]
 fn a_cylinder_thrown_at_the_surface_shares_its_momentum_with_the_water() {
-    // von Karman 1929: m v0 = (m + m_a) v
+    // [VON-KARMAN-1929]: m v0 = (m + m_a) v
     let (length, diameter, mass, speed) = (10.0, 0.5, 150.0, 4.0);
     let segment = Segment { added_normal: 1.0, ..Segment::line(length, 4, mass, 1e8, diameter) };
     let rod = Rod::new("cylinder", vec![segment], vec![]).unwrap();

@@ -65,7 +65,7 @@ fn four_corners_make_a_plane_that_is_constant_beyond_its_edges() {
 
 #[test]
 fn a_smooth_bottom_is_met_with_the_third_power_of_the_spacing() {
-    // Bessel's slopes are off by h^2 z'''/6 at most, and so the surface by h^3 between the points (de Boor, chapter IV)
+    // Bessel's slopes are off by h^2 z'''/6 at most, and so the surface by h^3 between the points [DEBOOR-1978 IV]
     let height = |x: f64, y: f64| (x / 50.0).sin() + (y / 40.0).cos() * (x / 80.0).cos();
     let error = |count: u32| {
         let places: Vec<f64> = (0..=count).map(|i| 200.0 * f64::from(i) / f64::from(count)).collect();

@@ -1,7 +1,7 @@
 //! The rainflow of AQWATM-TETHER: one half cycle from each turning point to where its flow ends.
 //!
 //! The manual [AQWA-TETHER 3.7] says "rainflow method" and no more; the rules are those that reproduce the listing's fatigue
-//! table [W-TOWED 6]. They are not ASTM E1049's ([`crate::rainflow`]): there the
+//! table [W-TOWED 6]. They are not those of [ASTM-E1049] ([`crate::rainflow`]): there the
 //! effective stress ranges come out 2 to 5 % larger.
 
 use crate::rainflow::reversals;

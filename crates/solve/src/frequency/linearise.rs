@@ -1,8 +1,8 @@
 //! Linearisation of what is not linear in velocity, in a sea: the damping that a Gaussian velocity meets on the mean.
 //!
 //! Of a force f of a Gaussian velocity v, the linear damping that leaves the least square of the difference is `E[-df/dv]`
-//! (Kazakov 1965; Roberts and Spanos, Random Vibration and Statistical Linearization, 1990, section 5.3). For `c |v| v` that is
-//! `c sqrt(8/pi) sigma` (Borgman 1967, Spectral analysis of ocean wave forces on piling). The mean is taken over points
+//! [KAZAKOV-1965; ROBERTS-SPANOS-1990 5.3]. For `c |v| v` that is
+//! `c sqrt(8/pi) sigma` [BORGMAN-1967]. The mean is taken over points
 //! of equal probability, so that any connector and any load is linearised, alone or together.
 
 use super::linear::Linear;

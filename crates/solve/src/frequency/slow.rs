@@ -1,7 +1,7 @@
 //! Slow drift as a spectrum of forces, by Newman's approximation.
 //!
-//! Pinkster (1980), Low frequency second order wave exciting forces on floating structures, eq. 3.50 with Newman's (1974)
-//! approximation: `S_F(mu) = 8 int S(w) S(w + mu) D(w + mu/2)2 dw`. Pairs of waves of two directions take the mean of the drift in
+//! [PINKSTER-1980 eq. 3.50] with the approximation of [NEWMAN-1974]:
+//! `S_F(mu) = 8 int S(w) S(w + mu) D(w + mu/2)2 dw`. Pairs of waves of two directions take the mean of the drift in
 //! both, as in time; pairs of forces on one or several bodies have their cross spectra, with the phase of `k(w + mu) - k(w)`
 //! between the bodies.
 

@@ -1,7 +1,7 @@
 //! How well the steps of a run follow what moves in it.
 //!
 //! A scheme turns an undamped oscillation `x = cos(w t)` into one of another period, with damping of its own. Both are those of the
-//! eigenvalues of its amplification matrix at `w h` (Chung and Hulbert, Journal of Applied Mechanics 60, 1993, 371-375). The `w h` of a
+//! eigenvalues of its amplification matrix at `w h` [CHUNG-HULBERT-1993]. The `w h` of a
 //! freedom is measured as the run goes: the square root of `sum h (h a)^2 / sum h (v - mean v)^2`, exact of a sine. It does not
 //! follow what is between two instants: a load that comes and goes within a step is not seen.
 
@@ -73,8 +73,8 @@ impl Scheme {
         Distortion { period: angle / turn - 1.0, damping: decay / turn.hypot(decay) }
     }
 
-    /// Error of place of one step over `h^3` and the change of the acceleration with time: what Zienkiewicz and Xie (Earthquake
-    /// Engineering and Structural Dynamics 20, 1991, 871-887, eq. 12) have for Newmark's scheme, `beta - 1/6`, with the auxiliary
+    /// Error of place of one step over `h^3` and the change of the acceleration with time: what [ZIENKIEWICZ-XIE-1991 eq. 12]
+    /// has for Newmark's scheme, `beta - 1/6`, with the auxiliary
     /// acceleration standing `alpha_m - alpha_f` steps behind the acceleration.
     fn error_of_place(&self) -> f64 {
         // linear acceleration has no error of this order, but is not exact: it is judged as the trapezoidal rule
@@ -221,7 +221,7 @@ mod tests {
 
     #[test]
     fn a_scheme_has_the_period_and_damping_of_its_amplification_matrix() {
-        // eigenvalues by numpy of the matrix of Chung and Hulbert's own form, M a(n+1-am) + K d(n+1-af) = 0 with Newmark's d and v
+        // eigenvalues by numpy of the matrix of the form of [CHUNG-HULBERT-1993], M a(n+1-am) + K d(n+1-af) = 0 with Newmark's d and v
         for (rho, steps, period, damping) in [
             (0.9, 20.0, 0.008273, 0.000002),
             (0.9, 10.0, 0.032472, 0.000017),
@@ -237,7 +237,7 @@ mod tests {
                 "{rho} {steps} {made:?}"
             );
         }
-        // tan(W h/2) = w h/2 (Hughes, The Finite Element Method, 1987, section 9.1)
+        // tan(W h/2) = w h/2 [HUGHES-1987 9.1]
         for angle in [0.01f64, 0.5, 4.0] {
             let made = Scheme::newmark(0.25, 0.5).distortion(angle);
             let exact = angle / (2.0 * (0.5 * angle).atan()) - 1.0;

@@ -1,11 +1,11 @@
 //! How accelerations become velocities and places over a step.
 //!
-//! Implicit schemes are those of Newmark and the generalised-alpha family in the form of Arnold and Bruels (Multibody System
-//! Dynamics 18, 2007, 185-203, equations 3-6), which holds the balance of forces at the end of each step exactly and advances the
+//! Implicit schemes are those of Newmark and the generalised-alpha family in the form of
+//! [ARNOLD-BRULS-2007 eq. 3 to 6], which holds the balance of forces at the end of each step exactly and advances the
 //! motion by an auxiliary acceleration:
 //! `(1 - am) b1 + am b0 = (1 - af) a1 + af a0`, `v1 = v0 + h ((1 - g) b0 + g b1)`, `q1 = q0 + h v0 + h2 ((1/2 - b) b0 + b b1)`.
-//! With am = af = 0 that is Newmark's (b = a). Rotations are advanced by the rotation vector of the step (Bruels, Cardona and
-//! Arnold, Mechanism and Machine Theory 48, 2012, 121-137), which keeps the order.
+//! With am = af = 0 that is Newmark's (b = a). Rotations are advanced by the rotation vector of the step
+//! [BRULS-2012], which keeps the order.
 
 use windlass_base::pose::Six;
 use windlass_model::SchemeWeights;
@@ -57,7 +57,7 @@ impl Default for Method {
 
 impl Scheme {
     /// The generalised-alpha scheme of a spectral radius at infinite frequency, 0 to 1: second order, unconditionally stable for
-    /// linear systems, least damping of low frequencies (Chung and Hulbert, Journal of Applied Mechanics 60, 1993, 371-375, eq. 25).
+    /// linear systems, least damping of low frequencies [CHUNG-HULBERT-1993 eq. 25].
     pub fn generalised(rho: f64) -> Self {
         let SchemeWeights { alpha_m, alpha_f, beta, gamma } = SchemeWeights::generalised(rho);
         Scheme { alpha_m, alpha_f, beta, gamma }

@@ -4,7 +4,7 @@
 //! - axial `N/A`, to which what an impact left is added; bending `M R/I`; their sum and difference are the largest and the smallest;
 //! - shear `V R^2/I`: the thin wall's `V Q/(2 t I)` with `Q = 2 R^2 t`;
 //! - von Mises at both extreme fibres, outside and inside, of the axial and bending stress there and of the hoop and radial ones of Lame's
-//!   thick cylinder (Timoshenko, Strength of Materials, 1956, part II, 44); the shear stress, which is least there, is left out.
+//!   thick cylinder [TIMOSHENKO-1956 44]; the shear stress, which is least there, is left out.
 
 use crate::Tube;
 

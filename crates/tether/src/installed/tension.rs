@@ -1,8 +1,8 @@
 //! Tension of an installed tether, static along its length: effective and wall tension, slack, free hanging, lower stop.
 //!
 //! With s from the anchor, w the weight in water per length with what is inside, p and q the pressure outside and inside, A and a the areas
-//! they act on, the effective tension `T = N + p A - q a` of the wall's N (Sparks 1984, "The influence of tension, pressure and weight on pipe
-//! and riser deformations and stresses") grows by w times the cosine of the axis. The wall's stretch over the whole is that of the ends:
+//! they act on, the effective tension `T = N + p A - q a` of the wall's N [SPARKS-1984]
+//! grows by w times the cosine of the axis. The wall's stretch over the whole is that of the ends:
 //! `int N/EA ds + R/k at both ends = L - L0`, of which T at the anchor follows. Of a uniform tether it is
 //! `T = EA/L0 (L - L0) + rho g (h_top + h_bot)/2 A` in the middle [W-INSTALLED 4]. A cap that water does not press on
 //! takes `p A_cap` from what the end bears: `R = T - p A_cap`.

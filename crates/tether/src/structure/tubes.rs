@@ -8,7 +8,7 @@
 //!   is what the hydrostatic one has too much;
 //! - wave inertia: `rho Ca A a_n`, nothing along the axis; added mass: `rho Ca A` across;
 //! - drag: `1/2 rho Cd D |u_n - v_n| (u_n - v_n)` by three Gauss points, the water linear along the wet part; friction
-//!   `1/2 rho Cf pi D L |u_s - v_s| (u_s - v_s)`; Munk's moment `-rho Ca A L (u_s - v_s) e x (u_n - v_n)` (Munk 1924), with the means along it.
+//!   `1/2 rho Cf pi D L |u_s - v_s| (u_s - v_s)`; Munk's moment `-rho Ca A L (u_s - v_s) e x (u_n - v_n)` [MUNK-1924], with the means along it.
 //!
 //! The water is asked for at two Gauss points of the wet part.
 

@@ -1,7 +1,7 @@
 //! A regular wave of the second order in deep water.
 //!
-//! In deep water Stokes' second order has no potential of its own (Stokes 1847; Dean and Dalrymple, Water Wave Mechanics for Engineers and
-//! Scientists, 1991, 11.2): velocities are those of the first, `a w exp(kz) (cos th, sin th)` with `th = k X - w t + phase`, and the second
+//! In deep water Stokes' second order has no potential of its own
+//! [STOKES-1847; DEAN-DALRYMPLE-1991 11.2]: velocities are those of the first, `a w exp(kz) (cos th, sin th)` with `th = k X - w t + phase`, and the second
 //! order stands in
 //! - the surface, `a cos th + k a^2/2 cos 2 th`;
 //! - the acceleration of the water particle, whose `u . grad u` is `k (a w)^2 exp(2kz)` upward;
@@ -54,7 +54,7 @@ impl DeepWave {
         Ok(DeepWave { amplitude, frequency, met: frequency, number, toward, phase: 0.0, second: true })
     }
 
-    /// The same on a current (m/s, global): a point at rest meets `w + k . U` (Dean and Dalrymple 1991, 3.5).
+    /// The same on a current (m/s, global): a point at rest meets `w + k . U` [DEAN-DALRYMPLE-1991 3.5].
     pub fn carried(self, current: Vector3<f64>) -> Self {
         let along = self.toward[0] * current.x + self.toward[1] * current.y;
         DeepWave { met: self.frequency + self.number * along, ..self }
@@ -103,7 +103,7 @@ mod tests {
 
     #[test]
     fn it_is_the_second_order_of_fenton_but_for_the_third() {
-        // Fenton (1985) as hydro::sea::stokes has it, at order 2 in deep water; its wave number is that of order 2 or 3, so it is taken
+        // [FENTON-1985] as hydro::sea::stokes has it, at order 2 in deep water; its wave number is that of order 2 or 3, so it is taken
         let water = windlass_hydro::sea::Water { depth: None, level: 0.0, gravity: 9.81, density: 1025.0 };
         let mut own = DeepWave::new(1.0, 15.0, 0.0, 9.81).unwrap();
         let theirs = stokes::Stokes::of(2, (2.0, own.frequency), ([1.0, 0.0], 0.0), water).unwrap();

@@ -49,7 +49,7 @@ impl WetPart {
 }
 
 /// Where a function passes through zero between 0 and 1, of which `ends` are its values: below zero at 0 and not below at 1. Regula falsi in
-/// the form of Illinois (Dowell and Jarratt 1971).
+/// the form of Illinois [DOWELL-JARRATT-1971].
 fn crossing([mut low, mut high]: [f64; 2], value: impl Fn(f64) -> f64) -> f64 {
     let (mut a, mut b) = (0.0, 1.0);
     let mut last = 0;

@@ -15,10 +15,10 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Compatibility {
     /// Slam `dm/ds v^2` pushes up when the tube leaves the water, too. Natively it acts on entry alone: added mass that is
-    /// left behind takes its momentum along (von Karman 1929; DNV-RP-C205, 8.6).
+    /// left behind takes its momentum along [VON-KARMAN-1929; DNV-RP-C205 8.6].
     pub exit_slam: bool,
     /// Wave kinematics grow with `e^(kz)` above the mean level, too. Natively depths are stretched to the actual surface
-    /// (Wheeler 1970).
+    /// [WHEELER-1970].
     pub unstretched_crests: bool,
     /// The acceleration of a record belongs to the step that ends there (the first record: to the first stage of the first
     /// step), while its forces belong to the step that starts there. Natively both belong to the step that starts there, and

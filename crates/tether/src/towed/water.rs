@@ -192,7 +192,7 @@ impl Waters {
         Flow { velocity: [u + cx, v + cy, w], acceleration: [ax, ay, az] }
     }
 
-    /// The height at which the waves are taken for that of a place. Wheeler (1970): the actual surface is taken for the still
+    /// The height at which the waves are taken for that of a place [WHEELER-1970]: the actual surface is taken for the still
     /// one, the bottom stays; what is above the surface is as on it.
     #[inline]
     fn reach(&self, height: f64, elevation: f64) -> f64 {

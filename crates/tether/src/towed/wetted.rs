@@ -138,7 +138,7 @@ mod tests {
     fn half_a_tube_under_water_has_half_the_area_and_half_of_the_added_mass_along_z() {
         let (half, whole) = (Wetted::of(0.0, 2.0), Wetted::of(1.0, 2.0));
         assert!((half.area - PI / 2.0).abs() < 1e-15 && (whole.area - PI).abs() < 1e-15);
-        // a plate of the diameter has the added mass of the circle, half of it wet: Newman, Marine Hydrodynamics (1977), 4.15
+        // a plate of the diameter has the added mass of the circle, half of it wet: [NEWMAN-1977 4.15]
         assert!((half.added[1] - PI / 2.0).abs() < 1e-15 && (half.added[0] - PI / 4.0).abs() < 1e-15);
         assert_eq!(Wetted::of(-1.0, 2.0), Wetted { height: 0.0, area: 0.0, added: [0.0; 2], growth: 0.0, moment: 0.0 });
         // the centre of half a disc is 4 r / 3 pi off

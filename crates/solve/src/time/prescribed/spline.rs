@@ -6,8 +6,8 @@ use std::f64::consts::TAU;
 use windlass_base::units::Dim;
 use windlass_model::{ClassError, PathRow};
 
-/// The natural cubic spline through rows: its second derivative is continuous, and zero at both ends (de Boor, A Practical Guide to
-/// Splines, 1978, chapter IV).
+/// The natural cubic spline through rows: its second derivative is continuous, and zero at both ends
+/// [DEBOOR-1978 IV].
 #[derive(Debug)]
 pub(super) struct Spline {
     rows: Vec<PathRow>,
