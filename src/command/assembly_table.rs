@@ -6,7 +6,7 @@ use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_hydro::ambient;
 use windlass_model::{
-    Assembly, AssemblyKind, ClassError, Connector, End, LaidPipe, LineDuty, Model, Response, Situation, Summary,
+    Assembly, AssemblyKind, ClassError, Connector, End, LaidPipe, Model, Response, RunRequirement, Situation, Summary,
 };
 
 /// One table of the tip-hook sets: the hook, then its lines.
@@ -78,7 +78,7 @@ type OnSupports = (Vec<[f64; 3]>, Summary);
 /// The forces of a pipe on the nodes of its active supports (N), and what it tells of itself.
 fn on_supports(model: &Model, assembly: &Assembly) -> Result<Option<OnSupports>, ClassError> {
     let around = ambient(model, None)?;
-    let Some(LaidPipe { supports, element }) = model.pipe(assembly, Some(&around), LineDuty::default())? else {
+    let Some(LaidPipe { supports, element }) = model.pipe(assembly, Some(&around), RunRequirement::default())? else {
         return Ok(None);
     };
     let ends: Vec<End> = supports.iter().map(|c| End::still(model.end_pose(c, 0).unwrap_or_default())).collect();

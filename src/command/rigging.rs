@@ -8,7 +8,7 @@ use windlass_base::pose::Pose;
 use windlass_base::span::Span;
 use windlass_base::table::{Cell, Digits};
 use windlass_base::units::{Dim, UnitSystem};
-use windlass_connectors::hook::{Goal, Reach, hanging, hook};
+use windlass_connectors::hook::{Reach, SlingObjective, hanging, hook};
 use windlass_model::{Connector, Mass, Model};
 
 /// A tip-hook set that is being defined.
@@ -48,7 +48,7 @@ impl Rigging<'_> {
     /// Slings that do not meet.
     pub fn begin(&self, model: &Model) -> Outcome<Vector3<f64>> {
         let boom = self.reach(model, self.boom)?;
-        hook(&self.slings(model)?, Goal::Near(boom.node)).ok_or_else(|| self.too_short())
+        hook(&self.slings(model)?, SlingObjective::Near(boom.node)).ok_or_else(|| self.too_short())
     }
 
     /// Moves the body until its hook is the length of the boom's line below the boom; `turned` so that it hangs from it. The
@@ -72,7 +72,7 @@ impl Rigging<'_> {
             let upside = Rotation3::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI);
             (at, Rotation3::rotation_between(&(at - centre), &Vector3::z()).unwrap_or(upside))
         } else {
-            (hook(&slings, Goal::Along(Vector3::z())).ok_or_else(|| self.too_short())?, Rotation3::identity())
+            (hook(&slings, SlingObjective::Along(Vector3::z())).ok_or_else(|| self.too_short())?, Rotation3::identity())
         };
         let to = boom.node - Vector3::z() * boom.length;
         let moved = Pose { origin: to - turn * (at - pose.origin), axes: turn * pose.axes };

@@ -6,10 +6,10 @@
 //! left. Friction takes `friction` times the weight on the bottom from the tension, down to zero (Coulomb, fully
 //! mobilised toward the fairlead) [JONKMAN-2007 2.7.2].
 
-use super::chain::Chain;
 use super::element::{Element, vertical_of_contact};
 use super::end_forces::{Bottom, EndForces, Regime};
 use super::line::{LARGEST, Segment};
+use super::multi_segment::MultiSegmentLine;
 use super::refused::LineError;
 use super::search::{Point, rising_root};
 use super::segment::{Reach, hanging, lifted};
@@ -201,7 +201,7 @@ fn suspended(segment: &Segment, x: f64, z: f64) -> Result<EndForces, LineError> 
         return Ok(answer);
     }
     let elements = vec![Element::Length { segment: *segment, law: None, sees_bottom: false }];
-    let chain = Chain { elements, pulls: Vec::new(), least: 0.0 };
+    let chain = MultiSegmentLine { elements, pulls: Vec::new(), least: 0.0 };
     let (h, steps) = rising_root(h, x, |h| match chain.rest(h, z, 0.0, None) {
         Ok(rested) => Point { value: rested.x, slope: rested.x_by[0] },
         Err(_) => Point { value: f64::NAN, slope: f64::NAN },

@@ -6,17 +6,17 @@
 //!
 //! Source: [IRVINE-1981 1.4]; contact: V = 0 at the touchdown.
 
-use super::law::Law;
 use super::line::Segment;
 use super::segment::{Reach, hanging};
+use super::stretch_law::StretchLaw;
 
 /// A piece of a line.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Element {
     /// A length of line; `sees_bottom` when the bottom carries it.
-    Length { segment: Segment, law: Option<Law>, sees_bottom: bool },
+    Length { segment: Segment, law: Option<StretchLaw>, sees_bottom: bool },
     /// A spring without length or weight, which stretches along its tension.
-    Link(Law),
+    Link(StretchLaw),
 }
 
 impl Element {
@@ -103,7 +103,7 @@ impl Element {
 }
 
 /// A stretch of line of unstretched length `length`, with `h` and `v` at its lower end.
-pub fn stretch(segment: &Segment, law: Option<&Law>, length: f64, h: f64, v: f64) -> Reach {
+pub fn stretch(segment: &Segment, law: Option<&StretchLaw>, length: f64, h: f64, v: f64) -> Reach {
     let part = Segment { length, ..*segment };
     let mut reach = hanging(&part, h, v);
     if let Some(law) = law {
@@ -113,7 +113,7 @@ pub fn stretch(segment: &Segment, law: Option<&Law>, length: f64, h: f64, v: f64
 }
 
 /// A spring along its own tension: z = y(T) V/T.
-pub(super) fn linked(law: &Law, h: f64, v: f64) -> Reach {
+pub(super) fn linked(law: &StretchLaw, h: f64, v: f64) -> Reach {
     let tension = h.hypot(v);
     let (y, slope) = law.stretch(tension);
     let share = if tension > 0.0 { y / tension } else { slope };
@@ -129,12 +129,12 @@ pub(super) fn linked(law: &Law, h: f64, v: f64) -> Reach {
 }
 
 /// Strain at a tension, and its derivative.
-pub(super) fn strain(segment: &Segment, law: Option<&Law>, tension: f64) -> (f64, f64) {
+pub(super) fn strain(segment: &Segment, law: Option<&StretchLaw>, tension: f64) -> (f64, f64) {
     law.map_or((tension / segment.ea, 1.0 / segment.ea), |l| l.stretch(tension))
 }
 
 /// Mean strain between two tensions, and its derivative when both change.
-pub(super) fn mean_strain(segment: &Segment, law: Option<&Law>, a: f64, b: f64) -> (f64, f64) {
+pub(super) fn mean_strain(segment: &Segment, law: Option<&StretchLaw>, a: f64, b: f64) -> (f64, f64) {
     match law {
         None => (0.5 * (a + b) / segment.ea, 1.0 / segment.ea),
         Some(law) => law.mean(a, b),

@@ -24,36 +24,36 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+mod active_set;
 mod adjust;
 mod between;
-mod chain;
+mod contact_problem;
 mod dual;
 mod element;
 mod end_forces;
 mod follow;
 mod interpolate;
-mod law;
 mod layout;
 mod line;
-mod policy;
+mod multi_segment;
 mod profile;
 mod read;
 mod refused;
 mod search;
 mod segment;
-mod settle;
 mod shape;
 mod solve;
 mod state;
+mod stretch_law;
 mod table;
 
 pub use adjust::{Aim, Lengths};
 pub use end_forces::{Bottom, EndForces, Regime};
 pub use interpolate::{FromTable, Interpolated, Pulled};
-pub use law::Law;
 pub use line::{Floor, Joint, Line, Segment};
 pub use refused::LineError;
 pub use search::{Point, rising_root};
 pub use shape::ShapePoint;
 pub use state::{Buoy, Heap, JointState, SegmentState, State};
+pub use stretch_law::StretchLaw;
 pub use table::{MissingRow, ROWS, Row, first_force, table};

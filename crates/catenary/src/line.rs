@@ -1,11 +1,11 @@
 //! What a line is made of, and what is refused.
 
-use super::chain::{Chain, Pull};
 use super::element::Element;
 use super::end_forces::{Bottom, EndForces};
-use super::law::Law;
+use super::multi_segment::{MultiSegmentLine, Pull};
 use super::profile::{Profile, Tilt};
 use super::refused::LineError;
+use super::stretch_law::StretchLaw;
 
 /// A piece of line with the same properties all along.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,14 +57,14 @@ pub struct Floor {
 #[derive(Clone, Debug)]
 pub struct Line {
     pub(super) segments: Vec<Segment>,
-    pub(super) laws: Vec<Option<Law>>,
-    pub(super) springs: [Option<Law>; 2],
+    pub(super) laws: Vec<Option<StretchLaw>>,
+    pub(super) springs: [Option<StretchLaw>; 2],
     pub(super) joints: Vec<Joint>,
     pub(super) anchor: f64,
     pub(super) surface: f64,
     pub(super) floor: Option<Floor>,
     pub(super) profile: Profile,
-    pub(super) chain: Chain,
+    pub(super) chain: MultiSegmentLine,
 }
 
 /// Lengths (m) and forces (N) from which on the squares that are formed of them have no room in a double.
@@ -153,7 +153,7 @@ impl Line {
         }
         let floor = Floor { elevation: anchor, slope: 0.0, friction: 0.0 };
         let laws = vec![None; segments.len()];
-        let chain = Chain { elements: Vec::new(), pulls: Vec::new(), least: 0.0 };
+        let chain = MultiSegmentLine { elements: Vec::new(), pulls: Vec::new(), least: 0.0 };
         let springs = [None, None];
         let profile = Profile::plane(anchor, 0.0);
         Line { segments, laws, springs, joints, anchor, surface, floor: Some(floor), profile, chain }.assembled()
@@ -223,9 +223,9 @@ impl Line {
     ///
     /// # Errors
     /// A spring that does not stretch with its tension.
-    pub fn with_springs(self, springs: [Option<Law>; 2]) -> Result<Line, LineError> {
+    pub fn with_springs(self, springs: [Option<StretchLaw>; 2]) -> Result<Line, LineError> {
         if springs.iter().flatten().any(|law| !law.grows()) {
-            return Err(LineError::Law(1));
+            return Err(LineError::StretchLaw(1));
         }
         Line { springs, ..self }.assembled()
     }
@@ -234,12 +234,12 @@ impl Line {
     ///
     /// # Errors
     /// A law whose tension does not grow with the strain; another number of laws than segments.
-    pub fn with_laws(self, laws: Vec<Option<Law>>) -> Result<Line, LineError> {
+    pub fn with_laws(self, laws: Vec<Option<StretchLaw>>) -> Result<Line, LineError> {
         if laws.len() != self.segments.len() {
             return Err(LineError::Joints { segments: self.segments.len(), joints: laws.len() });
         }
         if let Some(bad) = laws.iter().position(|l| l.as_ref().is_some_and(|l| !l.grows())) {
-            return Err(LineError::Law(bad + 1));
+            return Err(LineError::StretchLaw(bad + 1));
         }
         Line { laws, ..self }.assembled()
     }
@@ -357,7 +357,7 @@ impl Line {
             elements.iter().map(|e| e.weight().abs()).sum::<f64>() + pulls.iter().map(|p| p.lift.abs()).sum::<f64>();
         let stiffest = self.segments.iter().fold(f64::INFINITY, |m, s| s.ea.min(m));
         let least = if weight > 0.0 { 1e-11 * weight } else { 1e-11 * stiffest };
-        self.chain = Chain { elements, pulls, least };
+        self.chain = MultiSegmentLine { elements, pulls, least };
         Ok(self)
     }
 

@@ -1,8 +1,8 @@
 //! What a rested chain means: the state of the line, proven.
 
-use super::chain::{Held, Rested, Stand};
 use super::element::{Element, stretch};
 use super::line::{Joint, Line, Segment};
+use super::multi_segment::{Held, JointStatus, LineSolution};
 use super::refused::LineError;
 use super::segment::hanging;
 use super::solve::PROOF;
@@ -10,7 +10,7 @@ use super::state::{Buoy, JointState, SegmentState, State};
 
 impl Line {
     /// The state of a rested chain; `wanted` is the distance that was asked for, if one was.
-    pub(super) fn state(&self, rested: Rested, wanted: Option<f64>, fairlead: f64) -> Result<State, LineError> {
+    pub(super) fn state(&self, rested: LineSolution, wanted: Option<f64>, fairlead: f64) -> Result<State, LineError> {
         let (Some(first), Some(last)) = (rested.held.first().copied(), rested.held.last().copied()) else {
             return Err(LineError::Empty);
         };
@@ -84,7 +84,7 @@ impl Line {
     }
 
     /// Ends of the pieces: distance from the fairlead and elevation (m).
-    fn places(&self, rested: &Rested, x: Option<f64>, fairlead: f64) -> Vec<(f64, f64)> {
+    fn places(&self, rested: &LineSolution, x: Option<f64>, fairlead: f64) -> Vec<(f64, f64)> {
         // a slack line lies straight from the anchor, what is too long in a heap at the touchdown
         let mut lies = x.unwrap_or(f64::INFINITY);
         lies -= rested.held.iter().map(|h| h.upper.x + h.lower.x).sum::<f64>();
@@ -111,12 +111,15 @@ impl Line {
     }
 
     /// The rested lengths of line, without the springs at the ends.
-    pub(super) fn lengths<'a>(&'a self, rested: &'a Rested) -> impl Iterator<Item = (usize, &'a Element, &'a Held)> {
+    pub(super) fn lengths<'a>(
+        &'a self,
+        rested: &'a LineSolution,
+    ) -> impl Iterator<Item = (usize, &'a Element, &'a Held)> {
         let parts = self.chain.elements.iter().zip(&rested.held).enumerate();
         parts.filter(|(_, (e, _))| matches!(e, Element::Length { .. })).map(|(i, (e, h))| (i, e, h))
     }
 
-    fn segment_states(&self, rested: &Rested, slack: Option<f64>) -> Vec<SegmentState> {
+    fn segment_states(&self, rested: &LineSolution, slack: Option<f64>) -> Vec<SegmentState> {
         self.lengths(rested)
             .map(|(_, _, h)| {
                 let clean = |force: (f64, f64)| slack.map_or(force, |least| still(force, least));
@@ -134,7 +137,7 @@ impl Line {
             .collect()
     }
 
-    fn joint_states(&self, rested: &Rested, places: &[(f64, f64)]) -> Vec<JointState> {
+    fn joint_states(&self, rested: &LineSolution, places: &[(f64, f64)]) -> Vec<JointState> {
         let first = self.first_joint();
         let state = |(j, joint): (usize, &Joint)| {
             let at = j + first;
@@ -143,9 +146,9 @@ impl Line {
             let (lift, reaction) = (value(&rested.lifts), value(&rested.reactions).max(0.0));
             let buoy = match (joint, rested.policy.stands.get(at)) {
                 (Joint::SpringBuoy { .. } | Joint::Buoy { .. }, Some(stand)) => Some(match stand {
-                    Stand::Free(0) | Stand::Bottom => Buoy::Sunk,
-                    Stand::Free(_) => Buoy::Slack,
-                    Stand::Step(_) => Buoy::Held,
+                    JointStatus::Free(0) | JointStatus::Bottom => Buoy::Sunk,
+                    JointStatus::Free(_) => Buoy::Slack,
+                    JointStatus::Step(_) => Buoy::Held,
                 }),
                 _ => None,
             };
@@ -157,7 +160,7 @@ impl Line {
     }
 
     /// Where the line, seen from the fairlead, first meets the bottom: distance from the fairlead and elevation (m).
-    fn touchdown(&self, rested: &Rested, places: &[(f64, f64)]) -> Option<(f64, f64)> {
+    fn touchdown(&self, rested: &LineSolution, places: &[(f64, f64)]) -> Option<(f64, f64)> {
         let (index, element, held) = self.lengths(rested).find(|(_, _, h)| h.ground > 0.0)?;
         let Element::Length { segment, law, .. } = element else { return None };
         let (x, z) = places.get(index).copied()?;
@@ -169,7 +172,7 @@ impl Line {
     }
 
     /// Segments that do not see the bottom and hang below it, with how far (m).
-    fn below_bottom(&self, rested: &Rested) -> Vec<(usize, f64)> {
+    fn below_bottom(&self, rested: &LineSolution) -> Vec<(usize, f64)> {
         if self.floor.is_none() {
             return Vec::new();
         }
@@ -192,7 +195,7 @@ impl Line {
 
     /// Buoyant segments, and segments that begin at a buoyant joint, that rise above the water surface, with how far
     /// (m).
-    fn above_surface(&self, rested: &Rested, places: &[(f64, f64)]) -> Vec<(usize, f64)> {
+    fn above_surface(&self, rested: &LineSolution, places: &[(f64, f64)]) -> Vec<(usize, f64)> {
         let scale = 1e-9 * (self.length() + self.anchor.abs());
         let mut list = Vec::new();
         for (number, (index, element, held)) in self.lengths(rested).enumerate() {

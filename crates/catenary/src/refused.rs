@@ -64,7 +64,7 @@ pub enum LineError {
     },
     /// A stretch law that does not grow.
     #[error("the tension of segment {0} does not grow with its strain")]
-    Law(usize),
+    StretchLaw(usize),
     /// A weightless line with slack: any shape will do.
     #[error("a weightless line longer than the distance between its ends has no definite shape")]
     Undetermined,

@@ -1,9 +1,9 @@
 //! The shape of a solved line: positions and tensions at any arc length.
 
-use super::chain::Held;
 use super::element::{Element, stretch};
 use super::layout::{Laid, Stretch, point};
 use super::line::Line;
+use super::multi_segment::Held;
 use super::state::State;
 
 /// A point of a line.

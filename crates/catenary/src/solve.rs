@@ -1,9 +1,9 @@
 //! The configuration of a whole line: at a given horizontal force or tension, or between two given ends.
 
-use super::chain::{Chain, Rested};
 use super::element::Element;
 use super::layout;
 use super::line::{LARGEST, Line};
+use super::multi_segment::{LineSolution, MultiSegmentLine};
 use super::refused::LineError;
 use super::search::{Point, rising_root};
 use super::state::State;
@@ -66,9 +66,9 @@ impl Line {
         let least = chain.least;
         let weight: f64 = chain.elements.iter().map(|e| e.weight().abs()).sum();
         let start = (0.3 * weight).max(16.0 * least);
-        let mut near: Option<Rested> = last.map(|s| s.rested.clone());
+        let mut near: Option<LineSolution> = last.map(|s| s.rested.clone());
         let mut failed = None;
-        let mut found: Option<Rested> = None;
+        let mut found: Option<LineSolution> = None;
         let begin = last.map_or(start, |last| {
             let h = last.rested.held.first().map_or(start, |held| held.h);
             // the reach changes with the force and with the height
@@ -103,7 +103,7 @@ impl Line {
         // little may hang: without horizontal force means little against that
         let (h, hanging) = rested.held.first().map_or((0.0, 0.0), |held| (held.h, held.v_hi.abs()));
         if rested.x >= x && h <= least && hanging > least && hanging * 1e-11 < least {
-            let finer = Chain { least: 1e-11 * hanging, ..chain.clone() };
+            let finer = MultiSegmentLine { least: 1e-11 * hanging, ..chain.clone() };
             let [top, bottom] = self.heights(fairlead);
             rested = finer.rest(finer.least, top, bottom, Some(&rested)).unwrap_or(rested);
         }
@@ -171,7 +171,7 @@ impl Line {
         [fairlead - self.datum(), self.anchor - self.datum()]
     }
 
-    fn rest(&self, h: f64, fairlead: f64, near: Option<&Rested>) -> Result<Rested, LineError> {
+    fn rest(&self, h: f64, fairlead: f64, near: Option<&LineSolution>) -> Result<LineSolution, LineError> {
         let [top, bottom] = self.heights(fairlead);
         if self.elements_see_bottom() && top < 0.0 {
             return Err(LineError::BelowBottom(-top));

@@ -1,7 +1,7 @@
 //! What a solved line looks like.
 
-use super::chain::Rested;
 use super::layout::Laid;
+use super::multi_segment::LineSolution;
 
 /// How a spring buoy stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -108,7 +108,7 @@ pub struct State {
     pub unbalance: f64,
     /// Ends of the chain's pieces: distance from the fairlead and elevation (m).
     pub(super) places: Vec<(f64, f64)>,
-    pub(super) rested: Rested,
+    pub(super) rested: LineSolution,
     /// The stretches of a line over a bottom that is not flat and smooth.
     pub(super) laid: Option<Box<Laid>>,
 }

@@ -3,8 +3,8 @@
 //!
 //! Source: [AQWA-CONN 5.8.3.1 and 5.8.3.2]; defaults of EA, maximum tension and coefficients: [AQWA-REF deck 14].
 
+use super::dynamic_line::{DynamicLine, JointMass, Part, Seabed, Strength, description};
 use super::mooring::{Mooring, line_error, no_other_end};
-use super::moving::{JointMass, MovingLine, Part, Seabed, Strength, description};
 use super::options::aqwa;
 use super::per_line::PerLineOptions;
 use super::{ClassKind, append_all, checks};
@@ -14,7 +14,7 @@ use windlass_base::span::Span;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
 use windlass_base::values::{Args, Given};
-use windlass_catenary::{Floor, Joint, Law, Line, Segment};
+use windlass_catenary::{Floor, Joint, Line, Segment, StretchLaw};
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_line_dynamics::{self as rod, Axial};
@@ -139,10 +139,10 @@ struct CatenaryClass {
 impl CatenarySection {
     /// How it stretches: along the polynomial of -K up to the strain at the maximum tension and straight on; without -K
     /// no tension beyond the maximum [AQWA-CONN 5.8.3.1].
-    fn law(&self) -> Option<Law> {
-        let Some(k) = self.coefficients else { return Some(Law::Capped { ea: self.ea, most: self.largest }) };
-        let most = Law::Polynomial { ea: self.ea, k, most: f64::INFINITY }.stretch(self.largest).0;
-        Some(Law::Polynomial { ea: self.ea, k, most })
+    fn law(&self) -> Option<StretchLaw> {
+        let Some(k) = self.coefficients else { return Some(StretchLaw::Capped { ea: self.ea, most: self.largest }) };
+        let most = StretchLaw::Polynomial { ea: self.ea, k, most: f64::INFINITY }.stretch(self.largest).0;
+        Some(StretchLaw::Polynomial { ea: self.ea, k, most })
     }
 }
 
@@ -368,7 +368,7 @@ impl ConnectorClass for CatenaryClass {
         let seabed = Seabed { depth: self.depth, with_anchor: true, ..Seabed::default() };
         let parts = self.sections.iter().map(part).collect();
         let made = description("CATENARY", parts, seabed, [None, None]);
-        Ok(Box::new(MovingLine::made(made, connection)?))
+        Ok(Box::new(DynamicLine::made(made, connection)?))
     }
 
     fn first_length(&self) -> Option<f64> {

@@ -4,10 +4,10 @@
 //! [W-PER-LINE].
 
 use super::devices::Devices;
+use super::dynamic_line::{self as m, DynamicLine, Flexure, Seabed};
 use super::line_element::LineElement;
 use super::line_profile::LineProfile;
 use super::mooring::{Mooring, end_springs, line_error, parts, with_series};
-use super::moving::{self as m, Flexure, MovingLine, Seabed};
 use super::per_line::PerLineOptions;
 use super::section::{self, LineSection, properties};
 use super::{ClassKind, append_all, checks, options as o};
@@ -16,7 +16,7 @@ use windlass_base::span::Span;
 use windlass_base::table::Table;
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::Args;
-use windlass_catenary::{Floor, Law, Line, LineError};
+use windlass_catenary::{Floor, Line, LineError, StretchLaw};
 use windlass_language::spec::{CommandSpec, Kind, ValueSpec};
 use windlass_model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, FatigueSegment, LineModel, Placement,
@@ -105,7 +105,7 @@ struct Catenary {
     friction: f64,
     slope: Option<f64>,
     limit: Option<f64>,
-    springs: [Option<Law>; 2],
+    springs: [Option<StretchLaw>; 2],
     devices: Devices,
 }
 
@@ -123,7 +123,7 @@ impl Catenary {
         &self,
         place: &Placement,
         surroundings: &Surroundings,
-        springs: [Option<Law>; 2],
+        springs: [Option<StretchLaw>; 2],
     ) -> Result<Mooring, ClassError> {
         let depth = match place.other {
             Some([_, _, anchor]) if place.to_ground => -anchor,
@@ -300,7 +300,7 @@ impl ConnectorClass for Catenary {
         let made = (self.sections.as_slice(), self.flexures.as_slice());
         let seabed = Seabed { with_anchor: true, ..self.seabed };
         let made = m::chain(("B_CAT", plain), made, seabed, elements, connection.surroundings)?;
-        Ok(Box::new(MovingLine::made(made, connection)?))
+        Ok(Box::new(DynamicLine::made(made, connection)?))
     }
 
     fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {

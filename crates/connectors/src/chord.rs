@@ -4,7 +4,7 @@ use super::extension::{Extended, Extension, Pull};
 use super::mooring::{Mooring, no_other_end, too_short, too_short_note};
 use nalgebra::{Matrix3, Vector3};
 use windlass_base::table::Table;
-use windlass_catenary::{Law, Point, rising_root};
+use windlass_catenary::{Point, StretchLaw, rising_root};
 use windlass_model::{
     AbsentRow, ClassError, Condition, Configuration, Element, End, FoundLength, Guess, LineChange, LineLoads,
     LineModel, Note, Response, Situation, Summary,
@@ -16,7 +16,7 @@ pub struct Chord {
     /// The line as a mooring: its tables, shapes and lengths under tension.
     pub line: Mooring,
     /// Springs in series with its segments.
-    pub springs: [Option<Law>; 2],
+    pub springs: [Option<StretchLaw>; 2],
     /// Whether it also pushes.
     pub pushes: bool,
     /// Weight in water that it leaves out (N).
@@ -46,13 +46,14 @@ impl Chord {
     }
 
     /// All that gives way, in series.
-    fn law(&self) -> Law {
-        let mut laws: Vec<Law> = self.line.line.segments().iter().map(|s| Law::Linear(s.ea / s.length)).collect();
+    fn law(&self) -> StretchLaw {
+        let mut laws: Vec<StretchLaw> =
+            self.line.line.segments().iter().map(|s| StretchLaw::Linear(s.ea / s.length)).collect();
         laws.extend(self.springs.iter().flatten().cloned());
-        Law::Series(laws)
+        StretchLaw::Series(laws)
     }
 
-    fn force_of(&self, law: &Law, elongation: f64) -> (f64, f64) {
+    fn force_of(&self, law: &StretchLaw, elongation: f64) -> (f64, f64) {
         if elongation < 0.0 && !self.pushes {
             return (0.0, 0.0);
         }
@@ -109,7 +110,7 @@ impl Chord {
 pub struct ChordElement {
     chord: Chord,
     /// All that gives way, in series.
-    law: Law,
+    law: StretchLaw,
 }
 
 impl ChordElement {
@@ -135,7 +136,7 @@ impl ChordElement {
     fn behind(&self, by: Extension, chord: f64) -> (f64, f64) {
         let elongation = chord - by.length - self.chord.line.line.length();
         if by.compliance > 0.0 {
-            let law = Law::Series(vec![self.law.clone(), Law::Linear(1.0 / by.compliance)]);
+            let law = StretchLaw::Series(vec![self.law.clone(), StretchLaw::Linear(1.0 / by.compliance)]);
             return self.chord.force_of(&law, elongation);
         }
         self.chord.force_of(&self.law, elongation)

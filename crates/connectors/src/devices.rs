@@ -8,7 +8,7 @@
 use super::extension::{Extended, Extension, Pull};
 use super::mooring::{convolution, no_curve};
 use super::per_line::PerLineOptions;
-use super::piston::{Does, Piston};
+use super::piston::{Piston, PistonState};
 use super::spring_law::Dashpot;
 use super::viscous::{Affine, Viscoelastic};
 use nalgebra::{Matrix3, Vector3};
@@ -84,7 +84,7 @@ struct DeviceElement {
 struct Found {
     pull: Pull,
     /// Position of the piston and what it does.
-    piston: Option<(f64, Does)>,
+    piston: Option<(f64, PistonState)>,
     /// Force against deflection of the viscoelastic spring.
     affine: Option<Affine>,
     /// All that lengthens the line.

@@ -4,10 +4,10 @@
 
 use super::chord::{Chord, ChordElement};
 use super::devices::Devices;
+use super::dynamic_line::{self as m, DynamicLine, Flexure, Seabed};
 use super::extension::Extended;
 use super::line_element::LineElement;
 use super::mooring::{Mooring, end_springs, line_error, no_other_end, parts, with_series};
-use super::moving::{self as m, Flexure, MovingLine, Seabed};
 use super::per_line::PerLineOptions;
 use super::section::{self, LineSection, properties};
 use super::{ClassKind, append_all, checks, options as o};
@@ -16,7 +16,7 @@ use windlass_base::span::Span;
 use windlass_base::table::Table;
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::{Args, Given};
-use windlass_catenary::{Law, Line};
+use windlass_catenary::{Line, StretchLaw};
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, FatigueSegment, LineModel, Placement,
@@ -106,7 +106,7 @@ struct Hanging {
     sections: Vec<LineSection>,
     places: Vec<Span>,
     exact: bool,
-    springs: [Option<Law>; 2],
+    springs: [Option<StretchLaw>; 2],
     devices: Devices,
     limit: Option<f64>,
     depth: Option<f64>,
@@ -216,7 +216,7 @@ impl ConnectorClass for Hanging {
         let plain = self.devices.is_none() && self.springs.iter().all(Option::is_none);
         let made = (self.sections.as_slice(), self.flexures.as_slice());
         let made = m::chain(("H_CAT", plain), made, self.seabed, elements, connection.surroundings)?;
-        Ok(Box::new(MovingLine::made(made, connection)?))
+        Ok(Box::new(DynamicLine::made(made, connection)?))
     }
 
     fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
@@ -255,7 +255,7 @@ impl Hanging {
         &self,
         place: &Placement,
         surroundings: &Surroundings,
-        springs: &[Option<Law>; 2],
+        springs: &[Option<StretchLaw>; 2],
     ) -> Result<Mooring, ClassError> {
         let weight = |s: &LineSection| if self.exact { s.in_air() } else { 0.0 };
         let mut line = hung(&self.sections, springs, place, surroundings, &self.places, weight)?;
@@ -273,7 +273,7 @@ impl Hanging {
 /// An end whose place is not known, values that make no line.
 pub fn hung(
     sections: &[LineSection],
-    springs: &[Option<Law>; 2],
+    springs: &[Option<StretchLaw>; 2],
     place: &Placement,
     surroundings: &Surroundings,
     places: &[Span],

@@ -17,27 +17,27 @@ pub struct Reach {
 
 /// Which place is looked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Goal {
+pub enum SlingObjective {
     /// The farthest along a direction of unit length.
     Along(Vector3<f64>),
     /// The nearest to a point (m).
     Near(Vector3<f64>),
 }
 
-impl Goal {
+impl SlingObjective {
     /// The direction to it.
     fn from(&self, at: Vector3<f64>) -> Vector3<f64> {
         match self {
-            Goal::Along(direction) => *direction,
-            Goal::Near(point) => point - at,
+            SlingObjective::Along(direction) => *direction,
+            SlingObjective::Near(point) => point - at,
         }
     }
 
     /// How far it is.
     fn left(&self, at: Vector3<f64>) -> f64 {
         match self {
-            Goal::Along(direction) => -direction.dot(&at),
-            Goal::Near(point) => (point - at).norm(),
+            SlingObjective::Along(direction) => -direction.dot(&at),
+            SlingObjective::Near(point) => (point - at).norm(),
         }
     }
 }
@@ -46,9 +46,9 @@ impl Goal {
 const ROUNDING: f64 = 1e-9;
 
 /// The best place in which no line is stretched; `None` where the lines do not reach one another.
-pub fn hook(lines: &[Reach], goal: Goal) -> Option<Vector3<f64>> {
+pub fn hook(lines: &[Reach], goal: SlingObjective) -> Option<Vector3<f64>> {
     let mut places = Vec::new();
-    if let Goal::Near(point) = goal {
+    if let SlingObjective::Near(point) = goal {
         places.push(point);
     }
     for (i, a) in lines.iter().enumerate() {
@@ -94,10 +94,10 @@ fn crossing(centre: Vector3<f64>, axis: Vector3<f64>, radius: f64, line: &Reach)
 pub fn hanging(lines: &[Reach], centre: Vector3<f64>, up: Vector3<f64>) -> Option<Vector3<f64>> {
     /// Most steps; each goes farther from the centre, and slings that meet in a point need two.
     const MOST: usize = 500;
-    let mut at = hook(lines, Goal::Along(up))?;
+    let mut at = hook(lines, SlingObjective::Along(up))?;
     for _ in 0..MOST {
         let Some(away) = (at - centre).try_normalize(0.0) else { break };
-        let next = hook(lines, Goal::Along(away))?;
+        let next = hook(lines, SlingObjective::Along(away))?;
         let moved = (next - at).norm();
         at = next;
         if moved <= 1e-13 * (at - centre).norm() {
@@ -119,28 +119,28 @@ mod tests {
 
     #[test]
     fn equal_slings_meet_above_the_middle() {
-        let at = hook(&lines([13.0; 4]), Goal::Along(Vector3::z())).unwrap();
+        let at = hook(&lines([13.0; 4]), SlingObjective::Along(Vector3::z())).unwrap();
         assert!((at - Vector3::new(0.0, 0.0, 12.0)).norm() < 1e-12, "{at}");
     }
 
     #[test]
     fn longer_slings_on_one_diagonal_are_slack() {
         // the short pair alone: still 12 above its middle
-        let at = hook(&lines([13.0, 13.5, 13.0, 13.5]), Goal::Along(Vector3::z())).unwrap();
+        let at = hook(&lines([13.0, 13.5, 13.0, 13.5]), SlingObjective::Along(Vector3::z())).unwrap();
         assert!((at - Vector3::new(0.0, 0.0, 12.0)).norm() < 1e-12, "{at}");
         // three that meet at (-1, 1, 12), within their triangle; the fourth is too long to matter
         let far = |x: f64, y: f64| ((x + 1.0).powi(2) + (y - 1.0).powi(2) + 144.0).sqrt();
         let lengths = [far(3.0, 4.0), far(-3.0, 4.0), far(-3.0, -4.0), 20.0];
-        let at = hook(&lines(lengths), Goal::Along(Vector3::z())).unwrap();
+        let at = hook(&lines(lengths), SlingObjective::Along(Vector3::z())).unwrap();
         assert!((at - Vector3::new(-1.0, 1.0, 12.0)).norm() < 1e-12, "{at}");
     }
 
     #[test]
     fn one_line_points_to_the_boom_and_a_short_one_reaches_nothing() {
         let one = [Reach { node: Vector3::zeros(), length: 5.0 }];
-        let at = hook(&one, Goal::Near(Vector3::new(30.0, 0.0, 40.0))).unwrap();
+        let at = hook(&one, SlingObjective::Near(Vector3::new(30.0, 0.0, 40.0))).unwrap();
         assert!((at - Vector3::new(3.0, 0.0, 4.0)).norm() < 1e-12, "{at}");
-        assert_eq!(hook(&lines([2.0; 4]), Goal::Along(Vector3::z())), None);
+        assert_eq!(hook(&lines([2.0; 4]), SlingObjective::Along(Vector3::z())), None);
     }
 
     #[test]

@@ -35,14 +35,14 @@ pub struct Source {
     /// The document, and the formula where it is one of several.
     pub text: String,
     /// How sure its numbers are.
-    pub sure: Sure,
+    pub sure: SourceConfidence,
     /// Where they were seen or checked.
     pub how: String,
 }
 
 /// How sure a number is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-pub enum Sure {
+pub enum SourceConfidence {
     /// The source itself was read.
     #[serde(rename = "verified")]
     Verified,
@@ -54,13 +54,13 @@ pub enum Sure {
     Memory,
 }
 
-impl Sure {
+impl SourceConfidence {
     /// The word in the file.
     pub fn word(self) -> &'static str {
         match self {
-            Sure::Verified => "verified",
-            Sure::SecondHand => "second hand",
-            Sure::Memory => "from memory",
+            SourceConfidence::Verified => "verified",
+            SourceConfidence::SecondHand => "second hand",
+            SourceConfidence::Memory => "from memory",
         }
     }
 }

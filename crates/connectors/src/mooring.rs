@@ -9,7 +9,7 @@ use windlass_base::span::Span;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
 use windlass_catenary::{
-    Aim, Heap, Joint, Law, Line, LineError, MissingRow, Row, Segment, SegmentState, ShapePoint, State, table,
+    Aim, Heap, Joint, Line, LineError, MissingRow, Row, Segment, SegmentState, ShapePoint, State, StretchLaw, table,
 };
 use windlass_model::{
     AbsentRow, ClassError, Condition, Configuration, Element, FoundLength, LineChange, LineLoads, LineModel, Note,
@@ -183,16 +183,16 @@ pub fn parts(
 }
 
 /// The springs of -SEND and -X_PY at the two ends; the curve is in series at the first.
-pub fn end_springs(options: &PerLineOptions) -> [Option<Law>; 2] {
+pub fn end_springs(options: &PerLineOptions) -> [Option<StretchLaw>; 2] {
     let send = options.option("-SEND");
-    let spring = |i: usize| send.and_then(|g| g.number(i)).map(Law::Linear);
+    let spring = |i: usize| send.and_then(|g| g.number(i)).map(StretchLaw::Linear);
     let curve = options.option("-X_PY").map(|given| {
         let numbers: Vec<f64> = given.values.iter().filter_map(|v| v.number()).collect();
         let points = numbers.chunks_exact(2).filter_map(|pair| pair.first().copied().zip(pair.get(1).copied()));
-        Law::Curve(points.filter(|(p, y)| *p > 0.0 || *y > 0.0).collect())
+        StretchLaw::Curve(points.filter(|(p, y)| *p > 0.0 || *y > 0.0).collect())
     });
     let first = match (spring(0), curve) {
-        (Some(spring), Some(curve)) => Some(Law::Series(vec![spring, curve])),
+        (Some(spring), Some(curve)) => Some(StretchLaw::Series(vec![spring, curve])),
         (spring, curve) => spring.or(curve),
     };
     [first, spring(1)]
@@ -204,15 +204,15 @@ pub fn end_springs(options: &PerLineOptions) -> [Option<Law>; 2] {
 /// # Errors
 /// A curve that is not defined, or is no convolution.
 pub fn with_series(
-    springs: &[Option<Law>; 2],
+    springs: &[Option<StretchLaw>; 2],
     curve: Option<&(String, Span)>,
     place: &Placement,
-) -> Result<[Option<Law>; 2], ClassError> {
+) -> Result<[Option<StretchLaw>; 2], ClassError> {
     let [first, last] = springs.clone();
     let Some((name, span)) = curve else { return Ok([first, last]) };
     let stiffness = place.series.ok_or_else(|| no_curve(name, *span))?;
-    let spring = Law::Linear(stiffness);
-    let first = first.map_or(spring.clone(), |law| Law::Series(vec![law, spring]));
+    let spring = StretchLaw::Linear(stiffness);
+    let first = first.map_or(spring.clone(), |law| StretchLaw::Series(vec![law, spring]));
     Ok([Some(first), last])
 }
 
@@ -240,7 +240,7 @@ pub fn no_other_end() -> ClassError {
 pub fn line_error(error: &LineError, places: &[Span]) -> ClassError {
     let segment = match error {
         LineError::Value { segment, value, .. } if value.abs() < 1e100 => Some(*segment),
-        LineError::Pendant { segment, .. } | LineError::Law(segment) => Some(*segment),
+        LineError::Pendant { segment, .. } | LineError::StretchLaw(segment) => Some(*segment),
         _ => None,
     };
     let (length, force) = (Dim::Length, Dim::Force);

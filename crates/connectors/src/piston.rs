@@ -37,7 +37,7 @@ pub struct Piston {
 
 /// What a piston does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Does {
+pub enum PistonState {
     /// The tension is within its limits; the piston stays, or is on its way back.
     Nothing,
     /// It holds TMAX.
@@ -54,31 +54,31 @@ pub enum Does {
     StopsShort,
 }
 
-impl Does {
+impl PistonState {
     /// Whether the tension is what a limit says, so that the line has no stiffness along it.
     pub fn holds(self) -> bool {
-        matches!(self, Does::HoldsMost | Does::HoldsLeast)
+        matches!(self, PistonState::HoldsMost | PistonState::HoldsLeast)
     }
 
     /// What a user is told.
     pub fn note(self) -> &'static str {
         match self {
-            Does::Nothing => {
+            PistonState::Nothing => {
                 "the piston is at rest or on its way to its nominal position, the tension within its limits"
             }
-            Does::HoldsMost => "the piston holds TMAX; the line has no stiffness along its tension",
-            Does::HoldsLeast => "the piston holds TMIN; the line has no stiffness along its tension",
-            Does::LagsMost => "warning: the piston cannot lengthen fast enough; the tension is beyond TMAX",
-            Does::LagsLeast => "warning: the piston cannot shorten fast enough; the tension is below TMIN",
-            Does::StopsLong => "warning: the piston is at the end of its stroke; the tension is beyond TMAX",
-            Does::StopsShort => "warning: the piston is at its shortest; the tension is below TMIN",
+            PistonState::HoldsMost => "the piston holds TMAX; the line has no stiffness along its tension",
+            PistonState::HoldsLeast => "the piston holds TMIN; the line has no stiffness along its tension",
+            PistonState::LagsMost => "warning: the piston cannot lengthen fast enough; the tension is beyond TMAX",
+            PistonState::LagsLeast => "warning: the piston cannot shorten fast enough; the tension is below TMIN",
+            PistonState::StopsLong => "warning: the piston is at the end of its stroke; the tension is beyond TMAX",
+            PistonState::StopsShort => "warning: the piston is at its shortest; the tension is below TMIN",
         }
     }
 }
 
 /// A place of the piston with the tension there (N) and its derivative by the position (N/m, not above zero).
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Met {
+struct OperatingPoint {
     position: f64,
     tension: f64,
     slope: f64,
@@ -111,32 +111,32 @@ impl Piston {
         before: f64,
         dt: Option<f64>,
         mut at: impl FnMut(f64) -> Result<(f64, f64), ClassError>,
-    ) -> Result<(f64, Does), ClassError> {
+    ) -> Result<(f64, PistonState), ClassError> {
         let from = dt.map_or(self.nominal, |_| before).clamp(0.0, self.stroke);
         let reach = |speed: f64| dt.map_or(f64::INFINITY, |dt| speed * dt);
         let longest = (from + reach(self.lengthening)).min(self.stroke);
         let shortest = (from - reach(self.shortening)).max(if self.both { 0.0 } else { self.nominal.min(from) });
-        let mut met = |position: f64| at(position).map(|(tension, slope)| Met { position, tension, slope });
+        let mut met = |position: f64| at(position).map(|(tension, slope)| OperatingPoint { position, tension, slope });
         // MAX stands as short as TMAX lets it
         let start = met(if self.both { from } else { shortest })?;
         if start.tension > self.most {
             let (found, held) = seek(&mut met, start, longest, self.most)?;
-            let stopped = if longest >= self.stroke { Does::StopsLong } else { Does::LagsMost };
-            return Ok((found, if held { Does::HoldsMost } else { stopped }));
+            let stopped = if longest >= self.stroke { PistonState::StopsLong } else { PistonState::LagsMost };
+            return Ok((found, if held { PistonState::HoldsMost } else { stopped }));
         }
         if self.both && start.tension < self.least {
             let (found, held) = seek(&mut met, start, shortest, self.least)?;
-            let stopped = if shortest <= 0.0 { Does::StopsShort } else { Does::LagsLeast };
-            return Ok((found, if held { Does::HoldsLeast } else { stopped }));
+            let stopped = if shortest <= 0.0 { PistonState::StopsShort } else { PistonState::LagsLeast };
+            return Ok((found, if held { PistonState::HoldsLeast } else { stopped }));
         }
-        Ok((start.position, Does::Nothing))
+        Ok((start.position, PistonState::Nothing))
     }
 }
 
 /// From a place whose tension is not the wanted one toward an end of the way: the position that has it, or the end.
 fn seek(
-    met: &mut impl FnMut(f64) -> Result<Met, ClassError>,
-    start: Met,
+    met: &mut impl FnMut(f64) -> Result<OperatingPoint, ClassError>,
+    start: OperatingPoint,
     end: f64,
     wanted: f64,
 ) -> Result<(f64, bool), ClassError> {
@@ -200,20 +200,20 @@ mod tests {
             ((s * 1e9).round() / 1e9, does)
         };
         // between the limits; held at TMAX; too fast; at the end of the stroke
-        assert_eq!(after(true, 1.0, 0.5), (1.0, Does::Nothing));
-        assert_eq!(after(true, 1.0, 1.0), (1.2, Does::HoldsMost));
-        assert_eq!(after(true, 1.0, 2.0), (1.5, Does::LagsMost));
-        assert_eq!(after(true, 2.8, 9.0), (3.0, Does::StopsLong));
+        assert_eq!(after(true, 1.0, 0.5), (1.0, PistonState::Nothing));
+        assert_eq!(after(true, 1.0, 1.0), (1.2, PistonState::HoldsMost));
+        assert_eq!(after(true, 1.0, 2.0), (1.5, PistonState::LagsMost));
+        assert_eq!(after(true, 2.8, 9.0), (3.0, PistonState::StopsLong));
         // TMIN: held; too fast; slack as well; shortest
-        assert_eq!(after(true, 1.0, 0.2), (0.9, Does::HoldsLeast));
-        assert_eq!(after(true, 1.0, -0.2), (0.75, Does::LagsLeast));
-        assert_eq!(after(true, 0.1, -5.0), (0.0, Does::StopsShort));
+        assert_eq!(after(true, 1.0, 0.2), (0.9, PistonState::HoldsLeast));
+        assert_eq!(after(true, 1.0, -0.2), (0.75, PistonState::LagsLeast));
+        assert_eq!(after(true, 0.1, -5.0), (0.0, PistonState::StopsShort));
         // MINMAX stays where it is, MAX goes back: as fast as it may, no shorter than LD, no tenser than TMAX
-        assert_eq!(after(true, 2.0, 1.5), (2.0, Does::Nothing));
-        assert_eq!(after(false, 2.0, 1.5), (1.75, Does::Nothing));
-        assert_eq!(after(false, 1.1, 0.5), (1.0, Does::Nothing));
-        assert_eq!(after(false, 2.0, 1.7), (1.9, Does::HoldsMost));
-        assert_eq!(after(false, 1.0, -0.5), (1.0, Does::Nothing));
+        assert_eq!(after(true, 2.0, 1.5), (2.0, PistonState::Nothing));
+        assert_eq!(after(false, 2.0, 1.5), (1.75, PistonState::Nothing));
+        assert_eq!(after(false, 1.1, 0.5), (1.0, PistonState::Nothing));
+        assert_eq!(after(false, 2.0, 1.7), (1.9, PistonState::HoldsMost));
+        assert_eq!(after(false, 1.0, -0.5), (1.0, PistonState::Nothing));
     }
 
     #[test]
@@ -222,11 +222,11 @@ mod tests {
             let (s, does) = Piston { both, ..PISTON }.stand(2.5, None, spring(stretch)).unwrap();
             ((s * 1e9).round() / 1e9, does)
         };
-        assert_eq!(at_rest(true, 0.5), (1.0, Does::Nothing));
-        assert_eq!(at_rest(true, 2.0), (2.2, Does::HoldsMost));
-        assert_eq!(at_rest(false, 9.0), (3.0, Does::StopsLong));
-        assert_eq!(at_rest(true, -0.4), (0.3, Does::HoldsLeast));
-        assert_eq!(at_rest(true, -2.0), (0.0, Does::StopsShort));
-        assert_eq!(at_rest(false, -2.0), (1.0, Does::Nothing));
+        assert_eq!(at_rest(true, 0.5), (1.0, PistonState::Nothing));
+        assert_eq!(at_rest(true, 2.0), (2.2, PistonState::HoldsMost));
+        assert_eq!(at_rest(false, 9.0), (3.0, PistonState::StopsLong));
+        assert_eq!(at_rest(true, -0.4), (0.3, PistonState::HoldsLeast));
+        assert_eq!(at_rest(true, -2.0), (0.0, PistonState::StopsShort));
+        assert_eq!(at_rest(false, -2.0), (1.0, PistonState::Nothing));
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! Source: [MOSES-FLEX ROD]. MOSES treats rods as an assembly of large deflection tubular beam elements with inertia; the engine is `windlass_line_dynamics`.
 
-use super::moving::{self as m, Description, Flexure, Hold, MovingLine, Part, Seabed};
+use super::dynamic_line::{self as m, Description, DynamicLine, Flexure, Hold, Part, Seabed};
 use super::per_line::PerLineOptions;
 use super::section::{LineSection, properties};
 use super::{ClassKind, append_all, checks, options as o};
@@ -182,7 +182,7 @@ impl ConnectorClass for Rod {
     }
 
     fn element(&self, connection: &Connection) -> Result<Box<dyn Element>, ClassError> {
-        Ok(Box::new(MovingLine::made(self.description(connection.surroundings), connection)?))
+        Ok(Box::new(DynamicLine::made(self.description(connection.surroundings), connection)?))
     }
 
     fn moving(&self, _: &Connection, _: usize) -> Result<Box<dyn Element>, ClassError> {
@@ -192,6 +192,6 @@ impl ConnectorClass for Rod {
 
     /// A pipe of the first segment's section, as long as it needs to be.
     fn pipe(&self, layout: PipeLayout) -> Result<Box<dyn Element>, ClassError> {
-        Ok(Box::new(MovingLine::laid(self.description(layout.surroundings), layout)?))
+        Ok(Box::new(DynamicLine::laid(self.description(layout.surroundings), layout)?))
     }
 }

@@ -14,7 +14,7 @@ use windlass_base::span::Span;
 use windlass_base::table::Table;
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::Args;
-use windlass_catenary::Law;
+use windlass_catenary::StretchLaw;
 use windlass_language::spec::{CommandSpec, Kind, ValueSpec};
 use windlass_model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, FatigueSegment, LineModel, Note,
@@ -66,7 +66,7 @@ struct Spring {
     sections: Vec<LineSection>,
     places: Vec<Span>,
     tension: bool,
-    springs: [Option<Law>; 2],
+    springs: [Option<StretchLaw>; 2],
     devices: Devices,
     limit: Option<f64>,
     notes: Vec<Note>,
@@ -157,7 +157,7 @@ impl Spring {
         &self,
         place: &Placement,
         surroundings: &Surroundings,
-        springs: [Option<Law>; 2],
+        springs: [Option<StretchLaw>; 2],
     ) -> Result<Chord, ClassError> {
         let straight: Vec<LineSection> = self.sections.iter().map(|s| LineSection { clump: 0.0, ..*s }).collect();
         let mut line = hung(&straight, &springs, place, surroundings, &self.places, |_| 0.0)?;

@@ -1,6 +1,8 @@
 //! Assemblies: connectors of a single node whose other ends an assembly takes care of.
 
-use super::{Ambient, Body, ClassError, Connection, Connector, Element, LineDuty, Model, SchemeWeights, Surroundings};
+use super::{
+    Ambient, Body, ClassError, Connection, Connector, Element, Model, RunRequirement, SchemeWeights, Surroundings,
+};
 use indexmap::IndexMap;
 use nalgebra::Vector3;
 use std::sync::Arc;
@@ -125,7 +127,7 @@ impl Model {
         &self,
         assembly: &Assembly,
         ambient: Option<&Arc<dyn Ambient>>,
-        duty: LineDuty,
+        duty: RunRequirement,
     ) -> Result<Option<LaidPipe<'_>>, ClassError> {
         let AssemblyKind::Pipe { class, supports, tension: (lower, upper) } = &assembly.kind else { return Ok(None) };
         let held = supports.iter().filter_map(|name| self.connectors.get(&Model::key(name)));
@@ -147,7 +149,7 @@ impl Model {
                 curve: &|name| self.curves.get(&Model::key(name)),
                 surroundings: &surroundings,
                 ambient: None,
-                duty: LineDuty::default(),
+                duty: RunRequirement::default(),
             })?);
             hang.push(if upper.is_none() { self.first_length(connector).unwrap_or(0.0) } else { 0.0 });
             nodes.push(node);

@@ -305,7 +305,7 @@ pub trait Element: Debug + Send + Sync {
 
 /// What a run asks of a line that moves by itself; nothing of the kind where there is no run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct LineDuty {
+pub struct RunRequirement {
     /// The longest its first segment becomes (m), where a winch pays it out.
     pub longest: Option<f64>,
     /// Whether the books of its energy and momentum are kept.
@@ -334,7 +334,7 @@ pub struct Connection<'a> {
     /// What surrounds it all along, where an engine tells.
     pub ambient: Option<&'a Arc<dyn Ambient>>,
     /// What a run asks of it.
-    pub duty: LineDuty,
+    pub duty: RunRequirement,
 }
 
 impl Debug for Connection<'_> {

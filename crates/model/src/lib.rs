@@ -52,7 +52,7 @@ pub use curve::{Curve, CurveKind};
 pub use database::{Amplitudes, AttachedDatabase, Database, DriftMethod, DriftTable, Qtf};
 pub use defaults::{Coordinates, Defaults, Material};
 pub use element::{
-    Anchored, Connection, Element, End, FenderState, Guess, LineDuty, Response, Situation, SpringState, Summary,
+    Anchored, Connection, Element, End, FenderState, Guess, Response, RunRequirement, Situation, SpringState, Summary,
     TimeStep,
 };
 pub use environment::{
@@ -253,7 +253,7 @@ impl Model {
         connector: &Connector,
         ambient: Option<&Arc<dyn Ambient>>,
     ) -> Result<Box<dyn Element>, ClassError> {
-        self.element_of_run(connector, ambient, LineDuty::default())
+        self.element_of_run(connector, ambient, RunRequirement::default())
     }
 
     /// The same in a run, with what that asks of a line that moves by itself.
@@ -264,7 +264,7 @@ impl Model {
         &self,
         connector: &Connector,
         ambient: Option<&Arc<dyn Ambient>>,
-        duty: LineDuty,
+        duty: RunRequirement,
     ) -> Result<Box<dyn Element>, ClassError> {
         let class = self.classes.get(&Model::key(&connector.class));
         let class = class.ok_or_else(|| ClassError::new(format!("there is no class {}", connector.class)))?;

@@ -1,7 +1,7 @@
 //! Connectors of a system: their elements, and what their ends are fixed to.
 
 use super::system::SolveError;
-use super::time::Duties;
+use super::time::RunRequirements;
 use nalgebra::{Matrix3, Vector3};
 use std::sync::Arc;
 use windlass_base::pose::Pose;
@@ -27,7 +27,7 @@ pub(super) struct Link {
 
 /// A connector of a model; its states go behind the others.
 pub(super) fn link(
-    (model, ambient, duties): (&Model, &Arc<dyn Ambient>, &Duties),
+    (model, ambient, duties): (&Model, &Arc<dyn Ambient>, &RunRequirements),
     connector: &Connector,
     states: &mut Vec<f64>,
 ) -> Result<Link, SolveError> {
@@ -41,7 +41,7 @@ pub(super) type Laid = (Box<dyn Element>, Vec<Attachment>);
 
 /// The pipe of an assembly of a model, where it has one that acts.
 pub(super) fn laid(
-    (model, ambient, duties): (&Model, &Arc<dyn Ambient>, &Duties),
+    (model, ambient, duties): (&Model, &Arc<dyn Ambient>, &RunRequirements),
     assembly: &Assembly,
 ) -> Result<Option<Laid>, SolveError> {
     let made = model.pipe(assembly, Some(ambient), duties.of(&assembly.name));

@@ -24,7 +24,7 @@ use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_hydro::ambient;
 use windlass_model::{
-    ClassError, Connector, Element, End, Guess, LineDuty, Model, Response, Situation, Surroundings, TimeStep,
+    ClassError, Connector, Element, End, Guess, Model, Response, RunRequirement, Situation, Surroundings, TimeStep,
     list_names,
 };
 use windlass_signal::statistics::crossings;
@@ -392,7 +392,7 @@ impl Twin {
                 name: link.name.clone(),
                 ..connector.clone()
             };
-            run.model.element_of_run(&twin, Some(&around), LineDuty::default())
+            run.model.element_of_run(&twin, Some(&around), RunRequirement::default())
         };
         let nothing = || ClassError::new("no instant around its largest tension is stored");
         let ends = motion.ends(motion.begin).ok_or_else(nothing)?;

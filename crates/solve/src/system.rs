@@ -4,7 +4,7 @@ use super::link::{Attachment, Link, arm, laid, link, pose_of};
 use super::modes::held;
 use super::parts::Part;
 use super::ties::Ties;
-use super::time::{Duties, Prescribed, prescribed};
+use super::time::{Prescribed, RunRequirements, prescribed};
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6};
 use std::sync::Arc;
 use windlass_base::dense::DenseError;
@@ -124,7 +124,7 @@ pub struct System {
     /// What surrounds connectors that feel it all along themselves.
     pub(super) ambient: Arc<dyn Ambient>,
     /// What a run asks of lines that move by themselves.
-    pub(super) duties: Duties,
+    pub(super) duties: RunRequirements,
     /// Acceleration of gravity (m/s2).
     pub gravity: f64,
     /// Forces and moments that act on bodies besides all others, about their origins, global axes; they keep their
@@ -144,14 +144,14 @@ impl System {
             Ok(Node::of(model, key, body, floating))
         };
         let nodes = model.bodies.iter().map(node).collect::<Result<Vec<_>, SolveError>>()?;
-        System::with(model, (nodes, None), left_out, Duties::default())
+        System::with(model, (nodes, None), left_out, RunRequirements::default())
     }
 
     /// The system of a model under way: bodies with what a sea does to them, lines as a run asks for them.
     ///
     /// # Errors
     /// As [`System::of`].
-    pub fn under_way(model: &Model, sea: Option<&Arc<Sea>>, duties: Duties) -> Result<Self, SolveError> {
+    pub fn under_way(model: &Model, sea: Option<&Arc<Sea>>, duties: RunRequirements) -> Result<Self, SolveError> {
         let nodes = moving_nodes(model, sea)?;
         System::with(model, (nodes, sea), &[], duties)
     }
@@ -160,7 +160,7 @@ impl System {
         model: &Model,
         (nodes, sea): (Vec<Node>, Option<&Arc<Sea>>),
         left_out: &[String],
-        duties: Duties,
+        duties: RunRequirements,
     ) -> Result<Self, SolveError> {
         let ambient = ambient(model, sea).map_err(SolveError::new)?;
         let mut states = Vec::new();

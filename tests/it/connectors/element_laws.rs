@@ -8,8 +8,8 @@ use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
 use windlass_connectors::CLASSES;
 use windlass_model::{
-    ClassError, Connection, Connector, Element, End, LineDuty, Model, Placement, Response, Situation, Surroundings,
-    TimeStep,
+    ClassError, Connection, Connector, Element, End, Model, Placement, Response, RunRequirement, Situation,
+    Surroundings, TimeStep,
 };
 
 /// What a force obeys beside being the same for the same.
@@ -256,7 +256,7 @@ impl Bench {
             curve: &curve,
             surroundings: &surroundings,
             ambient: None,
-            duty: LineDuty::default(),
+            duty: RunRequirement::default(),
         })
     }
 
@@ -338,7 +338,7 @@ fn every_class_that_has_an_element_is_under_the_laws() {
             curve: &|_| None,
             surroundings: &surroundings,
             ambient: None,
-            duty: LineDuty::default(),
+            duty: RunRequirement::default(),
         });
         assert!(made.is_err(), "{name} has an element and no case in tests/it/connectors/element_laws.rs");
     }

@@ -5,7 +5,7 @@ use crate::common;
 use windlass::session::Session;
 use windlass_base::diagnostic::Severity;
 use windlass_base::pose::{Pose, Six};
-use windlass_model::{Element, End, LineDuty, Model, PIPE, Response, Situation};
+use windlass_model::{Element, End, Model, PIPE, Response, RunRequirement, Situation};
 
 fn model(records: &str) -> Model {
     let (mut session, _screen, _folder): (Session, _, _) = common::session();
@@ -26,7 +26,7 @@ fn stinger(tension: f64) -> Model {
 }
 
 fn pipe(model: &Model) -> (Box<dyn Element>, Vec<End>) {
-    let laid = model.pipe(model.assemblies.get(PIPE).unwrap(), None, LineDuty::default()).unwrap().unwrap();
+    let laid = model.pipe(model.assemblies.get(PIPE).unwrap(), None, RunRequirement::default()).unwrap().unwrap();
     let (supports, element) = (laid.supports, laid.element);
     let ends = supports.iter().map(|c| End::still(model.end_pose(c, 0).unwrap())).collect();
     (element, ends)

@@ -5,7 +5,9 @@ use crate::common;
 use windlass::session::Session;
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
-use windlass_model::{Connection, Element, End, LineDuty, Model, Placement, Response, Situation, Summary, TimeStep};
+use windlass_model::{
+    Connection, Element, End, Model, Placement, Response, RunRequirement, Situation, Summary, TimeStep,
+};
 
 /// A spring between a point of a body and another, or the ground, as records define it.
 struct Joint {
@@ -39,7 +41,7 @@ impl Joint {
             curve: &curve,
             surroundings: &surroundings,
             ambient: None,
-            duty: LineDuty::default(),
+            duty: RunRequirement::default(),
         };
         let element = class.object.element(&made).unwrap();
         let state = vec![0.0; element.states()];
@@ -137,7 +139,7 @@ fn a_single_node_is_held_to_where_it_was_when_the_connector_was_defined() {
         curve: &|_| None,
         surroundings: &surroundings,
         ambient: None,
-        duty: LineDuty::default(),
+        duty: RunRequirement::default(),
     };
     let element = model.classes.values().next().unwrap().object.element(&made).unwrap();
     let mut out = Response::default();
@@ -302,7 +304,7 @@ fn a_curve_in_feet_is_a_moment_per_radian_in_feet_where_it_acts_in_a_rotation() 
         curve: &curve,
         surroundings: &surroundings,
         ambient: None,
-        duty: LineDuty::default(),
+        duty: RunRequirement::default(),
     };
     let element = model.classes.values().next().unwrap().object.element(&made).unwrap();
     let at = Situation { ends: &ends.map(End::still), step: None, surroundings: &surroundings };

@@ -11,7 +11,9 @@ use windlass_base::pose::{Pose, Six};
 use windlass_hydro::Category;
 use windlass_model::Model;
 use windlass_solve::System;
-use windlass_solve::time::{Convergence, Duties, Ending, Forces, Memory, Method, Motion, Run, Settings, Watcher};
+use windlass_solve::time::{
+    Convergence, Ending, Forces, Memory, Method, Motion, Run, RunRequirements, Settings, Watcher,
+};
 
 /// Takes rows and says nothing.
 struct Quiet;
@@ -109,7 +111,7 @@ fn damping_that_turns_with_its_body_has_that_in_its_stiffness() {
     let hull = format!("*CG 3 -2 5\n#WEIGHT *CG {weight} 4 5 6\n#DAMP *CG 1E4 3E4 2E4 3E6 1E6 5E6\n");
     let mut model = eight::model(&hull, &line, "");
     model.connectors.clear();
-    let system = System::under_way(&model, None::<&Arc<_>>, Duties::default()).unwrap();
+    let system = System::under_way(&model, None::<&Arc<_>>, RunRequirements::default()).unwrap();
     let memory = Memory::of(&system);
     let pose = Pose::default().moved(&Six::new(1.0, 2.0, -1.0, 0.4, -0.7, 1.1));
     let start = Motion { pose, velocity: Six::new(1.0, 2.0, -1.0, 0.3, -0.5, 0.2), ..Motion::default() };

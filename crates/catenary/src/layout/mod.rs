@@ -31,10 +31,10 @@ mod states;
 pub(super) use ends::{at_force, between_ends};
 pub(super) use states::point;
 
-use super::chain::Pull;
 use super::dual::Var;
 use super::element::{Element, linked, strain, stretch};
 use super::line::Line;
+use super::multi_segment::Pull;
 use super::profile::{Profile, Tilt};
 use super::refused::LineError;
 use super::state::Heap;

@@ -4,9 +4,9 @@ use super::path::Spare;
 use super::{JointAt, Laid, Layout, Manner, Origin, Point, Stretch, Top};
 use crate::dual::{UNKNOWN, Var};
 use crate::element::{Element, strain, stretch};
-use crate::law::Law;
 use crate::line::Segment;
 use crate::refused::LineError;
+use crate::stretch_law::StretchLaw;
 
 /// What a curve may touch.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -341,13 +341,13 @@ pub fn stretched(at: &Point, low: &Point, manner: Manner) -> Stretch {
 }
 
 /// How fast u falls along the line at a point (unstretched length).
-fn rate(segment: &Segment, law: Option<&Law>, at: &Point) -> f64 {
+fn rate(segment: &Segment, law: Option<&StretchLaw>, at: &Point) -> f64 {
     let tension = at.h.value.hypot(at.v.value);
     at.h.value / tension * (1.0 + strain(segment, law, tension).0)
 }
 
 /// The unstretched length below a point after which the line is `aside` nearer to the anchor.
-fn reach(segment: &Segment, law: Option<&Law>, from: &Point, length: f64, aside: f64) -> f64 {
+fn reach(segment: &Segment, law: Option<&StretchLaw>, from: &Point, length: f64, aside: f64) -> f64 {
     let (h, v) = (from.h.value, from.v.value);
     let (mut low, mut high) = (0.0, length);
     let mut s = 0.5 * length;

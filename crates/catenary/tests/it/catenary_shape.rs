@@ -1,6 +1,6 @@
 //! The shape of a line, springs at its ends, stretch laws, and the line found from a tension.
 
-use windlass_catenary::{Floor, Joint, Law, Line, LineError, Segment};
+use windlass_catenary::{Floor, Joint, Line, LineError, Segment, StretchLaw};
 
 const CHAIN: Segment = Segment { length: 800.0, weight: 1200.0, ea: 6e8 };
 const ROPE: Segment = Segment { length: 500.0, weight: 40.0, ea: 8e7 };
@@ -59,8 +59,8 @@ fn a_point_of_the_line_is_that_of_its_shape() {
 fn springs_in_series_add_their_stretch_along_the_line() {
     // weightless and straight: T = (chord - L)/(L/EA + 1/k1 + y(T)/T)
     let line = Line::new(vec![Segment { weight: 0.0, ..ROPE }], vec![], -400.0, 0.0).unwrap().over(None).unwrap();
-    let curve = Law::Curve(vec![(1e5, 0.5), (3e5, 1.0)]);
-    let sprung = line.with_springs([Some(Law::Linear(2e5)), Some(curve)]).unwrap();
+    let curve = StretchLaw::Curve(vec![(1e5, 0.5), (3e5, 1.0)]);
+    let sprung = line.with_springs([Some(StretchLaw::Linear(2e5)), Some(curve)]).unwrap();
     let state = sprung.at_distance(304.5, 0.0).unwrap();
     let t = state.top_tension;
     let y = if t <= 1e5 { 0.5 * t / 1e5 } else { 0.5 + 0.5 * (t - 1e5) / 2e5 };
@@ -73,7 +73,7 @@ fn springs_in_series_add_their_stretch_along_the_line() {
 fn a_spring_at_the_fairlead_makes_a_heavy_line_softer_by_its_own_flexibility() {
     let line = Line::new(vec![CHAIN], vec![], -250.0, 0.0).unwrap();
     let line_below = line.clone();
-    let sprung = line.with_springs([Some(Law::Linear(4e5)), None]).unwrap();
+    let sprung = line.with_springs([Some(StretchLaw::Linear(4e5)), None]).unwrap();
     let state = sprung.at_horizontal_force(8e5, 0.0).unwrap();
     let d = 10.0;
     let slope = (sprung.at_horizontal_force(8e5 + d, 0.0).unwrap().x
@@ -90,7 +90,7 @@ fn a_spring_at_the_fairlead_makes_a_heavy_line_softer_by_its_own_flexibility() {
 fn a_polynomial_stiffness_is_met_on_a_straight_line() {
     // T = (EA + k1 e + k2 e2 + k3 e3) e, secant reading
     let line = Line::new(vec![Segment { weight: 0.0, ..ROPE }], vec![], -300.0, 0.0).unwrap().over(None).unwrap();
-    let law = Law::Polynomial { ea: 8e7, k: [2e8, 3e9, 4e10], most: 0.05 };
+    let law = StretchLaw::Polynomial { ea: 8e7, k: [2e8, 3e9, 4e10], most: 0.05 };
     let line = line.with_laws(vec![Some(law)]).unwrap();
     for strain in [0.001, 0.02, 0.05, 0.07] {
         let chord = 500.0 * (1.0 + strain);
@@ -110,7 +110,7 @@ fn a_polynomial_stiffness_is_met_on_a_straight_line() {
 #[test]
 fn a_polynomial_without_coefficients_is_the_linear_law() {
     let line = Line::new(vec![CHAIN, ROPE], vec![Joint::Free], -250.0, 0.0).unwrap();
-    let law = |ea: f64| Some(Law::Polynomial { ea, k: [0.0; 3], most: 0.1 });
+    let law = |ea: f64| Some(StretchLaw::Polynomial { ea, k: [0.0; 3], most: 0.1 });
     let other = line.clone().with_laws(vec![law(6e8), law(8e7)]).unwrap();
     for h in [1e3, 1e5, 3e6] {
         let (a, b) = (line.at_horizontal_force(h, 0.0).unwrap(), other.at_horizontal_force(h, 0.0).unwrap());
@@ -121,7 +121,7 @@ fn a_polynomial_without_coefficients_is_the_linear_law() {
 #[test]
 fn a_line_yields_at_its_largest_tension() {
     let line = Line::new(vec![Segment { weight: 0.0, ..ROPE }], vec![], -300.0, 0.0).unwrap().over(None).unwrap();
-    let line = line.with_laws(vec![Some(Law::Capped { ea: 8e7, most: 1e6 })]).unwrap();
+    let line = line.with_laws(vec![Some(StretchLaw::Capped { ea: 8e7, most: 1e6 })]).unwrap();
     let state = line.at_distance(600.0, 0.0).unwrap();
     assert!((state.top_tension / 1e6 - 1.0).abs() < 5e-5, "{}", state.top_tension);
 }
@@ -147,8 +147,8 @@ fn a_pendant_longer_than_the_depth_and_a_law_that_falls_are_refused() {
     assert_eq!(line.over(Some(Floor { elevation: -250.0, slope: 0.0, friction: 0.5 })).unwrap_err(), error);
     assert!(matches!(error, LineError::Pendant { segment: 1, .. }), "{error}");
     let line = Line::new(vec![CHAIN], vec![], -250.0, 0.0).unwrap();
-    let falling = Law::Polynomial { ea: 1e8, k: [-5e9, 0.0, 0.0], most: 0.05 };
-    assert_eq!(line.with_laws(vec![Some(falling)]).unwrap_err(), LineError::Law(1));
+    let falling = StretchLaw::Polynomial { ea: 1e8, k: [-5e9, 0.0, 0.0], most: 0.05 };
+    assert_eq!(line.with_laws(vec![Some(falling)]).unwrap_err(), LineError::StretchLaw(1));
 }
 
 #[test]

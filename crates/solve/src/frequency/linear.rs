@@ -2,7 +2,7 @@
 
 use crate::modes::held;
 use crate::system::{FREEDOMS, SolveError, State, System, mass_block};
-use crate::time::{Duties, Forces, Memory, Motion};
+use crate::time::{Forces, Memory, Motion, RunRequirements};
 use nalgebra::{Complex, DMatrix, DVector, Matrix6};
 use std::f64::consts::TAU;
 use windlass_base::dense::{DenseError, Lu, SymmetricEigen, never};
@@ -333,7 +333,7 @@ fn calm(model: &Model) -> Result<System, SolveError> {
     let mut calm = model.clone();
     calm.bodies.values_mut().for_each(|b| b.database = None);
     calm.environment.gusts = None;
-    System::under_way(&calm, None, Duties::default())
+    System::under_way(&calm, None, RunRequirements::default())
 }
 
 /// What resists velocities, six a body.

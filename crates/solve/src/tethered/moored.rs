@@ -2,7 +2,7 @@
 
 use crate::link::{Attachment, Link, link, pose_of};
 use crate::system::SolveError;
-use crate::time::Duties;
+use crate::time::RunRequirements;
 use nalgebra::Vector3;
 use windlass_base::pose::{Pose, Six};
 use windlass_hydro::{Underway, ambient, carried};
@@ -44,7 +44,7 @@ impl Moored {
             if !super::case::sections(model, connector).is_empty() {
                 continue;
             }
-            let made = link((model, &ambient, &Duties::default()), connector, &mut states)?;
+            let made = link((model, &ambient, &RunRequirements::default()), connector, &mut states)?;
             if made.element.moves() {
                 let error = ClassError::new("a line that moves by itself cannot run beside tethers").at(connector.span);
                 let error = error.help("release it, or give a class without dynamics of its own");

@@ -4,11 +4,11 @@ use super::action::{Action, What};
 use super::course::Settings;
 use super::scheme::Method;
 use std::collections::{BTreeMap, BTreeSet};
-use windlass_model::{LineDuty, Model, SchemeWeights};
+use windlass_model::{Model, RunRequirement, SchemeWeights};
 
 /// What a run asks, by the keys of connectors; nothing where there is no run.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Duties {
+pub struct RunRequirements {
     /// Whether books of energy and momentum are kept.
     books: bool,
     /// The longest that winches make first segments (m).
@@ -19,7 +19,7 @@ pub struct Duties {
     scheme: Option<SchemeWeights>,
 }
 
-impl Duties {
+impl RunRequirements {
     /// Those of a run at its start.
     pub fn foreseen(model: &Model, actions: &[Action], settings: &Settings) -> Self {
         let Settings { observed, books, .. } = *settings;
@@ -39,7 +39,7 @@ impl Duties {
                 *most = if to.is_some() { most.max(paid) } else { *most + (paid - now).max(0.0) };
             }
         }
-        Duties { books, longest, freed: BTreeSet::new(), scheme }
+        RunRequirements { books, longest, freed: BTreeSet::new(), scheme }
     }
 
     /// Lets the first end of a line go, or holds it again; whether that is other than it was.
@@ -49,9 +49,9 @@ impl Duties {
     }
 
     /// What is asked of a connector.
-    pub fn of(&self, name: &str) -> LineDuty {
+    pub fn of(&self, name: &str) -> RunRequirement {
         let key = Model::key(name);
-        LineDuty {
+        RunRequirement {
             longest: self.longest.get(&key).copied(),
             books: self.books,
             freed: self.freed.contains(&key),

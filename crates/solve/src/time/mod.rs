@@ -32,7 +32,7 @@ pub use accuracy::{Accuracy, Distortion, Followed, POOR_DAMPING, POOR_PERIOD};
 pub use action::{Action, Watched, What, When};
 pub use along::{AlongColumns, AlongEnvelope, BentRow, NodeRow, Quantity};
 pub use course::{Counts, Ending, Settings, Watcher};
-pub use duties::Duties;
+pub use duties::RunRequirements;
 pub(crate) use ends::end_of;
 pub use forces::{Forces, Memory, Motion};
 pub use history::{History, Layout, LinkColumns, LinkEnds, OF_BODY};

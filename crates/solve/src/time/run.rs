@@ -4,7 +4,7 @@ use super::accuracy::Accuracy;
 use super::action::Action;
 use super::along::AlongEnvelope;
 use super::course::{Counts, Ending, Settings, Watcher};
-use super::duties::Duties;
+use super::duties::RunRequirements;
 use super::forces::{Memory, Motion};
 use super::history::{History, Layout, Told};
 use super::inertia::gyroscopic;
@@ -93,7 +93,7 @@ impl Run {
         model.check_added_mass().map_err(SolveError::new)?;
         let (origin, model) = (model.clone(), model.clone());
         let sea = Sea::of(&model, &model.environment).map_err(SolveError::new)?.map(Arc::new);
-        let duties = Duties::foreseen(&model, &actions, &settings);
+        let duties = RunRequirements::foreseen(&model, &actions, &settings);
         let system = System::under_way(&model, sea.as_ref(), duties)?;
         let mut links = system.link_ends();
         for name in actions.iter().filter_map(|a| a.when.connector()) {

@@ -3,7 +3,7 @@
 use super::{CLEARANCE, sections};
 use crate::link::{Attachment, connected, laid, pose_of};
 use crate::system::SolveError;
-use crate::time::Duties;
+use crate::time::RunRequirements;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
 use windlass_hydro::ambient;
@@ -42,7 +42,7 @@ pub(crate) fn standing(
         told(&connector.name, element.as_ref(), &connected(model, connector))?;
     }
     for assembly in model.assemblies.values().filter(|a| fits(&a.name)) {
-        if let Some((element, ends)) = laid((model, &around, &Duties::default()), assembly)? {
+        if let Some((element, ends)) = laid((model, &around, &RunRequirements::default()), assembly)? {
             told(&assembly.name, element.as_ref(), &ends)?;
         }
     }

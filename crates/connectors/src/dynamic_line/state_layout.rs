@@ -18,7 +18,7 @@ pub(super) struct Layout {
 
 /// A state as it stands in the engine's vector.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Kept<'a> {
+pub(super) struct StateView<'a> {
     /// Unstretched length (m), rate at which it grows (m/s) and part of each element.
     mesh: &'a [f64],
     /// What [`State::pack`] made of the motion.
@@ -29,10 +29,10 @@ pub(super) struct Kept<'a> {
     pub balance: Option<Balance>,
 }
 
-impl Kept<'_> {
+impl StateView<'_> {
     /// The same before its books are open.
     pub fn without_books(self) -> Self {
-        Kept { balance: None, ..self }
+        StateView { balance: None, ..self }
     }
 
     /// The elements of its mesh, as [`Rod::mesh`] tells them, but for their parts in place of segments: how many of these a part has
@@ -110,7 +110,7 @@ impl Layout {
     }
 
     /// Reads a state; none of one that has not begun.
-    pub fn read<'a>(&self, state: &'a [f64]) -> Result<Option<Kept<'a>>, ClassError> {
+    pub fn read<'a>(&self, state: &'a [f64]) -> Result<Option<StateView<'a>>, ClassError> {
         let wrong = || ClassError::new("the state of the line is not one of its own").lasting();
         let (head, rest) = state.split_at_checked(HEAD).ok_or_else(wrong)?;
         let [begun, elements, motion, paid] = head else { return Err(wrong()) };
@@ -121,6 +121,6 @@ impl Layout {
         let (elements, motion) = (*elements as usize, *motion as usize);
         let mesh = mesh.get(..EACH.saturating_mul(elements)).ok_or_else(wrong)?;
         let motion = all.get(..motion).ok_or_else(wrong)?;
-        Ok(Some(Kept { mesh, motion, paid: *paid, balance: self.balance(state) }))
+        Ok(Some(StateView { mesh, motion, paid: *paid, balance: self.balance(state) }))
     }
 }

@@ -9,11 +9,11 @@
 //! Axes: x from the anchor toward the fairlead, z upward from the bottom at the anchor. The bottom is flat and smooth, so
 //! that the horizontal force is the same all along.
 
+use super::active_set::ActiveSet;
+use super::contact_problem::ContactProblem;
 use super::element::Element;
-use super::policy::Policy;
 use super::refused::LineError;
 use super::segment::Reach;
-use super::settle::Problem;
 
 /// What pulls at a joint.
 #[derive(Clone, Debug, PartialEq, Default)]
@@ -35,7 +35,7 @@ impl Pull {
 
 /// The pieces of a line from the fairlead to the anchor.
 #[derive(Clone, Debug)]
-pub struct Chain {
+pub struct MultiSegmentLine {
     pub elements: Vec<Element>,
     /// Between the pieces.
     pub pulls: Vec<Pull>,
@@ -45,7 +45,7 @@ pub struct Chain {
 
 /// Where a joint stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stand {
+pub enum JointStatus {
     /// Free, with this many of its lift's steps passed.
     Free(usize),
     /// At a step of its lift.
@@ -79,11 +79,11 @@ pub struct Held {
 
 /// A chain at rest.
 #[derive(Clone, Debug, Default)]
-pub struct Rested {
+pub struct LineSolution {
     /// Heights of all the ends of the pieces, the fairlead's first (m above the bottom).
     pub z: Vec<f64>,
     pub held: Vec<Held>,
-    pub policy: Policy,
+    pub policy: ActiveSet,
     /// Lift at each joint (N, upward).
     pub lifts: Vec<f64>,
     /// Reaction of the bottom at each joint (N, upward).
@@ -103,14 +103,14 @@ pub struct Rested {
     pub iterations: usize,
 }
 
-impl Chain {
+impl MultiSegmentLine {
     /// Rests the chain with the horizontal force `h`, the ends at heights `top` and `bottom` (m); `near` is a policy to
     /// begin with.
     ///
     /// # Errors
     /// [`LineError::NotConverged`].
-    pub fn rest(&self, h: f64, top: f64, bottom: f64, near: Option<&Rested>) -> Result<Rested, LineError> {
-        let mut rested = Problem::new(self, h, top, bottom, near).settle()?;
+    pub fn rest(&self, h: f64, top: f64, bottom: f64, near: Option<&LineSolution>) -> Result<LineSolution, LineError> {
+        let mut rested = ContactProblem::new(self, h, top, bottom, near).settle()?;
         for (index, (dh, dtop)) in [(1.0, 0.0), (0.0, 1.0)].into_iter().enumerate() {
             let values = self.change(&rested, dh, dtop);
             let lists = [&mut rested.x_by, &mut rested.v_by, &mut rested.far_h_by, &mut rested.far_v_by];
@@ -124,10 +124,11 @@ impl Chain {
     }
 
     /// A chain to begin with that nothing holds up.
-    pub fn afloat(&self, h: f64) -> Rested {
+    pub fn afloat(&self, h: f64) -> LineSolution {
         let held = Held { h, ..Held::default() };
-        let policy = Policy { rests: vec![false; self.elements.len()], stands: vec![Stand::Free(0); self.pulls.len()] };
-        Rested { held: vec![held; self.elements.len()], policy, ..Rested::default() }
+        let policy =
+            ActiveSet { rests: vec![false; self.elements.len()], stands: vec![JointStatus::Free(0); self.pulls.len()] };
+        LineSolution { held: vec![held; self.elements.len()], policy, ..LineSolution::default() }
     }
 
     /// Unstretched length (m).
@@ -137,7 +138,7 @@ impl Chain {
 
     /// How the reach, V at the fairlead, H and V at the anchor change with the horizontal force and the height of the
     /// fairlead.
-    fn change(&self, rested: &Rested, dh: f64, dtop: f64) -> [f64; 4] {
+    fn change(&self, rested: &LineSolution, dh: f64, dtop: f64) -> [f64; 4] {
         let count = self.elements.len();
         let mut dv_hi = vec![0.0; count];
         let mut dv_lo = vec![0.0; count];

@@ -1,7 +1,7 @@
 //! Elements of a line, and those that a winch lets out or takes in.
 
-use super::around::LIGHT;
 use super::describe::{JointMass, Part};
+use super::environment::LIGHT;
 use nalgebra::Vector3;
 use std::f64::consts::PI;
 use windlass_base::units::Dim;

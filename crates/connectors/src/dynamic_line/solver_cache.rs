@@ -1,8 +1,8 @@
 //! What a line that moves by itself is made of, and what its solver remembers.
 
 use super::describe::Description;
-use super::laid::Laid;
 use super::mesh::Bands;
+use super::pipelay_supports::PipeLay;
 use nalgebra::Vector3;
 use std::sync::Arc;
 use windlass_line_dynamics::{self as rod, Ground, PlaneBottom, Rod, Settings, Solver, State};
@@ -36,14 +36,14 @@ pub(super) struct Base {
     /// Which ends can move.
     pub felt: [bool; 2],
     /// What it lies on, of a pipe; its ends are then those of its supports.
-    pub laid: Option<Laid>,
+    pub laid: Option<PipeLay>,
 }
 
 /// What a solver of a line remembers.
-pub(super) struct Warm {
+pub(super) struct SolverCache {
     pub base: Arc<Base>,
     pub rod: Rod,
-    /// What solves it, as long as [`Warm::fit`] is asked when the rod has become another.
+    /// What solves it, as long as [`SolverCache::fit`] is asked when the rod has become another.
     pub solver: Solver,
     /// Nodes that the solver has memory for.
     nodes: usize,
@@ -54,12 +54,12 @@ pub(super) struct Warm {
     pub flows: Vec<Flow>,
 }
 
-impl Warm {
+impl SolverCache {
     pub fn of(base: &Arc<Base>) -> Self {
         let rod = base.rod.clone();
         let (state, flows) = (State::default(), Vec::new());
         let nodes = rod.nodes();
-        Warm { base: base.clone(), solver: solver_of(base, &rod), nodes, rod, rest: None, state, flows }
+        SolverCache { base: base.clone(), solver: solver_of(base, &rod), nodes, rod, rest: None, state, flows }
     }
 
     /// Gives the rod another solver, if a winch has given it more nodes or fewer: of other lengths alone the solver remembers where it was.
@@ -80,7 +80,7 @@ fn solver_of(base: &Base, rod: &Rod) -> Solver {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::moving::{Seabed, description};
+    use crate::dynamic_line::{Seabed, description};
     use windlass_line_dynamics::{End, Segment, UniformFluid, World};
 
     #[test]
@@ -102,7 +102,7 @@ mod tests {
             felt: [true; 2],
             laid: None,
         };
-        let mut warm = Warm::of(&Arc::new(base));
+        let mut warm = SolverCache::of(&Arc::new(base));
         let fluid = UniformFluid::none();
         let world = World::new(&fluid, 9.81);
         let ends = [Vector3::zeros(), Vector3::new(8.0, 0.0, 0.0)];

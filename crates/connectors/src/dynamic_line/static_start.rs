@@ -1,6 +1,6 @@
 //! Where a line rests that has not rested near there before.
 
-use super::element::MovingLine;
+use super::element::DynamicLine;
 use super::mesh::told;
 use super::start;
 use nalgebra::Vector3;
@@ -26,7 +26,7 @@ impl Bottom for Between<'_> {
     }
 }
 
-impl MovingLine {
+impl DynamicLine {
     /// Where it comes to rest from its catenary, from a bow in the plane of its ends, or from one aside of that.
     pub(super) fn afar(
         &self,

@@ -1,19 +1,19 @@
 //! How a line that moves by itself is made of its class and the ends of its connector.
 
-use super::around::ground;
 use super::describe::{Description, Part};
-use super::element::MovingLine;
-use super::kept::Layout;
+use super::element::DynamicLine;
+use super::environment::ground;
 use super::mesh::{Cut, SHORT, attachments, few, mesh, told};
+use super::solver_cache::{Base, Held};
 use super::start;
-use super::warm::{Base, Held};
+use super::state_layout::Layout;
 use crate::mooring::no_other_end;
 use nalgebra::Vector3;
 use std::sync::Arc;
 use windlass_line_dynamics::{self as rod, Bottom, PlaneBottom, Rod, State};
 use windlass_model::{ClassError, Connection};
 
-impl MovingLine {
+impl DynamicLine {
     /// The line of a class between the ends of a connector.
     ///
     /// # Errors
@@ -90,7 +90,7 @@ impl MovingLine {
             felt: [true, !connection.to_ground],
             laid: None,
         };
-        Ok(MovingLine { base: Arc::new(base), layout, first, nominal })
+        Ok(DynamicLine { base: Arc::new(base), layout, first, nominal })
     }
 }
 

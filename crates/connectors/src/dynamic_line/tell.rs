@@ -1,10 +1,10 @@
 //! What a line that moves by itself tells of itself: its nodes, modes and books.
 
 use super::describe::Part;
-use super::element::MovingLine;
+use super::element::DynamicLine;
 use super::mesh::told;
 use super::modes;
-use super::warm::Warm;
+use super::solver_cache::SolverCache;
 use std::f64::consts::PI;
 use windlass_line_dynamics::{Settings, Solver};
 use windlass_model::{ClassError, Guess, LineBooks, LineMode, LineNode, LineSide, Note, Situation, Summary};
@@ -12,7 +12,7 @@ use windlass_model::{ClassError, Guess, LineBooks, LineMode, LineNode, LineSide,
 /// Longest elements at an end that is held, by sqrt(EI/T), of which nothing is said: moment there is then 3 % low.
 const COARSE: f64 = 0.5;
 
-impl MovingLine {
+impl DynamicLine {
     pub(super) fn tell_books(&self, state: &[f64]) -> Option<LineBooks> {
         let found = self.layout.balance(state)?;
         let (e, w) = (&found.energy, &found.work);
@@ -56,7 +56,7 @@ impl MovingLine {
             return self.tell_along(at, state, out);
         }
         let ends = self.held(at.ends, at.step.is_none())?;
-        let Warm { rod, state, flows, .. } = warm;
+        let SolverCache { rod, state, flows, .. } = warm;
         state.become_unpacked(rod, kept.motion).map_err(told)?;
         self.within((at, at.step.is_none(), kept.paid), flows, |world| rod.row(state, world, &ends, out));
         Ok(())
@@ -77,7 +77,7 @@ impl MovingLine {
         if !self.base.ground.rough() {
             return None;
         }
-        let mut warm = Warm::of(&self.base);
+        let mut warm = SolverCache::of(&self.base);
         let slid = self.rest(at, &mut warm).is_ok() && warm.solver.slid();
         slid.then_some(
             "friction of the bottom at rest is left out, but against sliding down a slope: no rest was found with it",

@@ -1,12 +1,12 @@
 //! How a pipe is laid: its course over the supports to the bottom, and its length.
 
-use super::around::ground;
 use super::describe::{Description, Part};
-use super::element::MovingLine;
-use super::kept::Layout;
-use super::laid::{Held, Laid, Tensioner};
+use super::element::DynamicLine;
+use super::environment::ground;
 use super::mesh::{Cut, few, mesh, told};
-use super::warm::{Base, Warm};
+use super::pipelay_supports::{Held, PipeLay, Tensioner};
+use super::solver_cache::{Base, SolverCache};
+use super::state_layout::Layout;
 use nalgebra::{Matrix3, Vector3};
 use std::sync::Arc;
 use windlass_base::pose::Pose;
@@ -30,7 +30,7 @@ const SHORT: f64 = 1e-3;
 const MOST_ASIDE: f64 = 0.5;
 
 /// Where a pipe goes before it comes to rest.
-struct Course {
+struct PipePath {
     /// Corners, from the tensioner (m).
     points: Vec<Vector3<f64>>,
     /// Point of each support, from the first to the tensioner.
@@ -41,9 +41,9 @@ struct Course {
     pulled: f64,
 }
 
-impl Course {
+impl PipePath {
     /// Straight from support to support; a catenary from the first to the bottom, and as much again on it.
-    fn of(part: &Part, layout: &PipeLayout, bottom: f64) -> Result<Course, ClassError> {
+    fn of(part: &Part, layout: &PipeLayout, bottom: f64) -> Result<PipePath, ClassError> {
         let around = layout.surroundings;
         let segment = part.grown(layout.ambient.map(|a| a.as_ref()), 0.5 * bottom);
         let weight = |density: f64| (segment.mass - density * segment.displaced) * around.gravity;
@@ -75,7 +75,7 @@ impl Course {
             let wanted = if segment.elements > 1 { (length / counted).ceil() } else { own };
             wanted.clamp(1.0, rod::MOST_ELEMENTS as f64) as usize
         };
-        let mut made = Course { points: vec![*last], at: Vec::new(), spans: Vec::new(), pulled };
+        let mut made = PipePath { points: vec![*last], at: Vec::new(), spans: Vec::new(), pulled };
         made.at.push(0);
         for pair in stations.windows(2).rev() {
             let [near, far] = pair else { continue };
@@ -129,7 +129,7 @@ impl Course {
     }
 }
 
-impl MovingLine {
+impl DynamicLine {
     /// A pipe laid over its supports: its first part's section, as long as it needs to be.
     ///
     /// # Errors
@@ -138,7 +138,7 @@ impl MovingLine {
         let PipeLayout { supports, nodes, surroundings, .. } = &layout;
         refused(&description, &layout)?;
         let part = description.parts.first().ok_or_else(|| ClassError::new("the class has no record"))?;
-        let mut course = Course::of(part, &layout, bottom(&description, &layout)?)?;
+        let mut course = PipePath::of(part, &layout, bottom(&description, &layout)?)?;
         course.settle_on(&layout);
         let held = holds(&layout, &course)?;
         // a riser goes down from its roller
@@ -150,7 +150,7 @@ impl MovingLine {
         let stretched = 1.0 + course.pulled / part.ea();
         course.spans.iter_mut().for_each(|(_, length)| *length /= stretched);
         for cut in 0.. {
-            let laid = Laid {
+            let laid = PipeLay {
                 supports: supports.clone(),
                 holds: held.clone(),
                 tensioner,
@@ -161,7 +161,7 @@ impl MovingLine {
             let line = along_course(&description, part, &layout, (&course, laid))?;
             let Some(tensioner) = tensioner.as_mut().filter(|t| t.stiffness == 0.0) else { return Ok(line) };
             // it is cut where the tensioner holds it as laid
-            let rest = line.rest(&at, &mut Warm::of(&line.base))?.state;
+            let rest = line.rest(&at, &mut SolverCache::of(&line.base))?.state;
             let end = ends.last().zip(rest.place(0));
             let short =
                 end.map_or(0.0, |(end, x)| (end.pose.axes * turn * tensioner.along).dot(&(x - end.pose.origin)));
@@ -209,8 +209,8 @@ fn along_course(
     description: &Description,
     part: &Part,
     layout: &PipeLayout,
-    (course, laid): (&Course, Laid),
-) -> Result<MovingLine, ClassError> {
+    (course, laid): (&PipePath, PipeLay),
+) -> Result<DynamicLine, ClassError> {
     let around = layout.surroundings;
     let sized = |(elements, length): &(usize, f64)| {
         let mut made = part.clone();
@@ -226,7 +226,7 @@ fn along_course(
     let mut mesh = mesh(&parts, first);
     cut.bands.lay(&mut mesh);
     let rod = Rod::with_mesh(layout.name, cut.segments, Vec::new(), &mesh).map_err(told)?;
-    Ok(MovingLine {
+    Ok(DynamicLine {
         layout: Layout::new(rod.nodes() - 1, State::packed(&rod) + 2, layout.books),
         first,
         nominal: first / elements as f64,
@@ -259,7 +259,7 @@ fn tensioner(layout: &PipeLayout, pulled: f64) -> Result<Option<Tensioner>, Clas
 }
 
 /// What each support holds: davits the nodes below them, rollers what crosses them, and the last of them the end.
-fn holds(layout: &PipeLayout, course: &Course) -> Result<Vec<Held>, ClassError> {
+fn holds(layout: &PipeLayout, course: &PipePath) -> Result<Vec<Held>, ClassError> {
     let last = layout.nodes.len().saturating_sub(1);
     let of =
         |(i, (node, at)): (usize, (&Pose, &usize))| match layout.nodes.get(i + 1).filter(|_| layout.upper.is_some()) {

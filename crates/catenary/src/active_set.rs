@@ -1,14 +1,14 @@
 //! Where a chain touches the bottom or is held, and the sections between such places.
 
-use super::chain::{Chain, Held, Stand};
 use super::element::Element;
+use super::multi_segment::{Held, JointStatus, MultiSegmentLine};
 use super::segment::Reach;
 
 /// Which pieces rest on the bottom, and how the joints stand.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Policy {
+pub struct ActiveSet {
     pub rests: Vec<bool>,
-    pub stands: Vec<Stand>,
+    pub stands: Vec<JointStatus>,
 }
 
 /// A run of line between two places of known height.
@@ -48,7 +48,7 @@ impl Section {
     }
 }
 
-impl Policy {
+impl ActiveSet {
     /// The sections of a chain of so many pieces, from the fairlead down.
     pub fn sections(&self, count: usize) -> Vec<Section> {
         let mut list = Vec::with_capacity(count);
@@ -58,7 +58,7 @@ impl Policy {
                 list.push(Section { from, begins_with_leg, to: i, ends_with_leg: true });
                 (from, begins_with_leg) = (i, true);
             }
-            let fast = self.stands.get(i).is_none_or(|s| !matches!(s, Stand::Free(_)));
+            let fast = self.stands.get(i).is_none_or(|s| !matches!(s, JointStatus::Free(_)));
             if fast {
                 list.push(Section { from, begins_with_leg, to: i, ends_with_leg: false });
                 (from, begins_with_leg) = (i + 1, false);
@@ -69,18 +69,18 @@ impl Policy {
 }
 
 /// A policy to begin with: joints that are not lifted, and the pieces between them, lie on the bottom.
-pub fn first_policy(chain: &Chain) -> Policy {
-    let stands: Vec<Stand> = chain
+pub fn first_policy(chain: &MultiSegmentLine) -> ActiveSet {
+    let stands: Vec<JointStatus> = chain
         .pulls
         .iter()
         .map(|p| match p.steps.is_empty() {
-            true if p.on_bottom && p.lift <= 0.0 => Stand::Bottom,
-            true => Stand::Free(0),
-            false => Stand::Step(0),
+            true if p.on_bottom && p.lift <= 0.0 => JointStatus::Bottom,
+            true => JointStatus::Free(0),
+            false => JointStatus::Step(0),
         })
         .collect();
-    let low = |j: Option<usize>| j.is_none_or(|j| stands.get(j).is_none_or(|s| *s == Stand::Bottom));
+    let low = |j: Option<usize>| j.is_none_or(|j| stands.get(j).is_none_or(|s| *s == JointStatus::Bottom));
     let rests = |(i, e): (usize, &Element)| e.can_rest() && low(i.checked_sub(1)) && low(Some(i)) && i > 0;
     let rests = chain.elements.iter().enumerate().map(rests).collect();
-    Policy { rests, stands }
+    ActiveSet { rests, stands }
 }

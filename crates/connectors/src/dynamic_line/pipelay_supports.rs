@@ -12,7 +12,7 @@ use windlass_model::{Element, End, Response, Situation, Surroundings};
 
 /// What a pipe lies on.
 #[derive(Clone, Debug)]
-pub(super) struct Laid {
+pub(super) struct PipeLay {
     /// The law of each support, between its node and a point of the pipe.
     pub supports: Arc<[Box<dyn Element>]>,
     pub holds: Vec<Held>,
@@ -69,7 +69,7 @@ impl Tensioner {
 
 /// A support where its end is, as the pipe feels it.
 #[derive(Debug)]
-pub(super) struct Felt<'a> {
+pub(super) struct SupportContact<'a> {
     law: &'a dyn Element,
     /// With what it has paid out (m).
     tensioner: Option<(&'a Tensioner, f64)>,
@@ -81,7 +81,7 @@ pub(super) struct Felt<'a> {
     room: RefCell<Response>,
 }
 
-impl Grip for Felt<'_> {
+impl Grip for SupportContact<'_> {
     fn answer(&self, at: &Vector3<f64>, _: &Vector3<f64>) -> Option<Gripped> {
         let Pose { origin, axes } = self.pose;
         let ends = [End::still(self.pose), End::still(Pose { origin: origin + at, axes })];
@@ -107,7 +107,7 @@ impl Grip for Felt<'_> {
     }
 }
 
-impl Felt<'_> {
+impl SupportContact<'_> {
     pub fn support(&self) -> Support<'_> {
         let Pose { origin, axes } = self.pose;
         let holds = match self.holds {
@@ -118,7 +118,7 @@ impl Felt<'_> {
     }
 }
 
-impl Laid {
+impl PipeLay {
     /// The support that is a tensioner.
     pub fn tensioner(&self) -> Option<usize> {
         self.tensioner.and_then(|_| self.supports.len().checked_sub(1))
@@ -132,11 +132,11 @@ impl Laid {
     }
 
     /// The supports where their ends are, its tensioner having paid out so much (m).
-    pub fn felt<'a>(&'a self, ends: &'a [End], around: &'a Surroundings, paid: f64) -> Vec<Felt<'a>> {
+    pub fn felt<'a>(&'a self, ends: &'a [End], around: &'a Surroundings, paid: f64) -> Vec<SupportContact<'a>> {
         let last = self.supports.len().saturating_sub(1);
         let laws = self.supports.iter().zip(&self.holds).enumerate();
         laws.zip(ends)
-            .map(|((i, (law, holds)), end)| Felt {
+            .map(|((i, (law, holds)), end)| SupportContact {
                 law: law.as_ref(),
                 tensioner: self.tensioner.as_ref().filter(|_| i == last).map(|t| (t, paid)),
                 holds: *holds,

@@ -1,11 +1,11 @@
 //! A line that moves by itself as an engine sees it.
 
 use super::answer::{on_ends, on_supports};
-use super::around::{Floor, Water};
-use super::kept::{Kept, Layout};
-use super::laid::{Felt, Laid};
+use super::environment::{Floor, Water};
 use super::mesh::{most_wound, told, wind};
-use super::warm::{Base, Held, Warm};
+use super::pipelay_supports::{PipeLay, SupportContact};
+use super::solver_cache::{Base, Held, SolverCache};
+use super::state_layout::{Layout, StateView};
 use nalgebra::Vector3;
 use std::cell::RefCell;
 use std::sync::Arc;
@@ -28,7 +28,7 @@ const NO_MEMORY: &str = "the line has no memory";
 
 /// A line between two ends.
 #[derive(Debug)]
-pub struct MovingLine {
+pub struct DynamicLine {
     pub(super) base: Arc<Base>,
     pub(super) layout: Layout,
     /// Length of the first part (m), and of its elements as the class has them.
@@ -47,15 +47,15 @@ pub(super) struct Rest {
     pub forces: EndForces,
 }
 
-impl MovingLine {
-    pub(super) fn warm<'a>(&self, guess: &'a mut Guess) -> Option<&'a mut Warm> {
+impl DynamicLine {
+    pub(super) fn warm<'a>(&self, guess: &'a mut Guess) -> Option<&'a mut SolverCache> {
         let fits = |g: &Box<dyn std::any::Any + Send>| {
-            g.downcast_ref::<Warm>().is_some_and(|w| Arc::ptr_eq(&w.base, &self.base))
+            g.downcast_ref::<SolverCache>().is_some_and(|w| Arc::ptr_eq(&w.base, &self.base))
         };
         if !guess.as_ref().is_some_and(fits) {
-            *guess = Some(Box::new(Warm::of(&self.base)));
+            *guess = Some(Box::new(SolverCache::of(&self.base)));
         }
-        guess.as_mut()?.downcast_mut::<Warm>()
+        guess.as_mut()?.downcast_mut::<SolverCache>()
     }
 
     /// The line's surroundings, at rest or under way, for what needs them, its tensioner having paid out so much (m); `flows` is room
@@ -73,7 +73,7 @@ impl MovingLine {
         let known = self.base.plane.is_some() || self.base.flat.is_some() || ambient.is_some_and(|a| a.charted());
         let bottom: Option<(&dyn rod::Bottom, Ground)> = known.then_some((&floor, self.base.ground));
         let felt = self.base.laid.as_ref().map(|laid| laid.felt(at.ends, around, paid)).unwrap_or_default();
-        let supports: Vec<_> = felt.iter().map(Felt::support).collect();
+        let supports: Vec<_> = felt.iter().map(SupportContact::support).collect();
         let slam = self.base.description.slam;
         let made = act(&World { bottom, slam, supports: &supports, ..World::new(&water, around.gravity) });
         *flows = water.flows.into_inner();
@@ -123,14 +123,14 @@ impl MovingLine {
     }
 
     /// Where it hangs at rest between ends.
-    pub(super) fn rest(&self, at: &Situation, warm: &mut Warm) -> Result<Rest, ClassError> {
+    pub(super) fn rest(&self, at: &Situation, warm: &mut SolverCache) -> Result<Rest, ClassError> {
         let ends = self.held(at.ends, true)?;
         if warm.rod != self.base.rod {
             warm.rod = self.base.rod.clone();
         }
         warm.fit();
         let places = places(at.ends);
-        let Warm { rod, solver, rest, flows, .. } = warm;
+        let SolverCache { rod, solver, rest, flows, .. } = warm;
         self.within((at, true, 0.0), flows, |world| {
             if let Some((bottom, _)) = &world.bottom.filter(|_| self.base.laid.is_none()) {
                 for (place, name) in places.iter().zip(["first", "second"]) {
@@ -162,7 +162,7 @@ impl MovingLine {
     }
 
     /// The rod of a mesh other than that of `rod`.
-    pub(super) fn meshed(&self, kept: &Kept, rod: &Rod) -> Result<Option<Rod>, ClassError> {
+    pub(super) fn meshed(&self, kept: &StateView, rod: &Rod) -> Result<Option<Rod>, ClassError> {
         let bands = &self.base.bands;
         if kept.mesh().eq(rod.each_of_mesh().map(|(rest, rate, segment)| (rest, rate, bands.part_of(segment)))) {
             return Ok(None);
@@ -188,7 +188,7 @@ impl MovingLine {
                 let state = State::unpack(other.as_ref().unwrap_or(base), kept.motion).map_err(told)?;
                 Ok((other, state, at.step.is_none()))
             }
-            None => Ok((None, self.rest(at, &mut Warm::of(&self.base))?.state, true)),
+            None => Ok((None, self.rest(at, &mut SolverCache::of(&self.base))?.state, true)),
         }
     }
 
@@ -197,23 +197,23 @@ impl MovingLine {
         &self,
         at: &Situation,
         (time, dt): (f64, f64),
-        kept: &Kept,
+        kept: &StateView,
         trial: &mut [f64],
-        warm: &mut Warm,
+        warm: &mut SolverCache,
         out: &mut Response,
     ) -> Result<(), ClassError> {
         let (ends, places) = (self.held(at.ends, false)?, places(at.ends));
         if let Some(rod) = self.meshed(kept, &warm.rod)? {
             warm.rod = rod;
         }
-        let Warm { rod, state, .. } = &mut *warm;
+        let SolverCache { rod, state, .. } = &mut *warm;
         state.become_unpacked(rod, kept.motion).map_err(told)?;
         state.time = time - dt;
         if dt > 0.0 {
             wind(rod, state, (self.first, self.nominal, dt), &self.base.bands)?;
         }
         warm.fit();
-        let Warm { rod, solver, state, flows, .. } = warm;
+        let SolverCache { rod, solver, state, flows, .. } = warm;
         let forces = self.within((at, false, kept.paid), flows, |world| {
             if dt > 0.0 {
                 let forces = solver.trial(rod, state, world, time, ends).map_err(told)?;
@@ -269,7 +269,7 @@ impl MovingLine {
     }
 }
 
-impl Element for MovingLine {
+impl Element for DynamicLine {
     fn states(&self) -> usize {
         self.layout.size()
     }
@@ -285,7 +285,7 @@ impl Element for MovingLine {
     fn under(&self, ambient: &Arc<dyn Ambient>) -> Option<Box<dyn Element>> {
         self.base.laid.as_ref()?;
         let base = Arc::new(Base { ambient: Some(ambient.clone()), ..Base::clone(&self.base) });
-        Some(Box::new(MovingLine { base, ..*self }))
+        Some(Box::new(DynamicLine { base, ..*self }))
     }
 
     fn caution(&self, at: &Situation) -> Option<&'static str> {
@@ -293,7 +293,7 @@ impl Element for MovingLine {
     }
 
     fn pulling_end(&self) -> usize {
-        self.base.laid.as_ref().and_then(Laid::tensioner).unwrap_or(0)
+        self.base.laid.as_ref().and_then(PipeLay::tensioner).unwrap_or(0)
     }
 
     fn pushes(&self) -> Option<f64> {
@@ -331,7 +331,7 @@ impl Element for MovingLine {
             return self.step(at, (step.time, step.dt), kept, trial, warm, out);
         }
         let (found, places) = (self.rest(at, warm)?, places(at.ends));
-        let Warm { rod, solver, flows, .. } = &mut *warm;
+        let SolverCache { rod, solver, flows, .. } = &mut *warm;
         self.within((at, true, 0.0), flows, |world| match self.base.laid {
             Some(_) => {
                 let loads = rod.on_supports(&found.state, world);

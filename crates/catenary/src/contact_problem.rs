@@ -1,20 +1,20 @@
 //! The search for the places where a chain touches the bottom or is held, and for the forces between them.
 
-use super::chain::{Chain, Held, Rested, Stand};
+use super::active_set::{ActiveSet, Section, first_policy};
 use super::element::Element;
-use super::policy::{Policy, Section, first_policy};
+use super::multi_segment::{Held, JointStatus, LineSolution, MultiSegmentLine};
 use super::refused::LineError;
 use super::segment::Reach;
 
 /// A chain to be rested at a given horizontal force.
-pub struct Problem<'a> {
-    chain: &'a Chain,
+pub struct ContactProblem<'a> {
+    chain: &'a MultiSegmentLine,
     top: f64,
     bottom: f64,
     /// Horizontal force (N), and that of what touches the bottom: no smaller than the chain's least one.
     h: f64,
     h_touching: f64,
-    policy: Policy,
+    policy: ActiveSet,
     /// Vertical forces of the last solution, to begin with.
     near: Vec<(f64, f64)>,
 }
@@ -25,10 +25,16 @@ const MOST_CHANGES: usize = 300;
 /// Newton steps after which a search gives up.
 const MOST_STEPS: usize = 200;
 
-impl<'a> Problem<'a> {
-    pub fn new(chain: &'a Chain, h: f64, top: f64, bottom: f64, near: Option<&Rested>) -> Problem<'a> {
+impl<'a> ContactProblem<'a> {
+    pub fn new(
+        chain: &'a MultiSegmentLine,
+        h: f64,
+        top: f64,
+        bottom: f64,
+        near: Option<&LineSolution>,
+    ) -> ContactProblem<'a> {
         let near = near.filter(|n| n.held.len() == chain.elements.len());
-        Problem {
+        ContactProblem {
             chain,
             top,
             bottom,
@@ -40,14 +46,14 @@ impl<'a> Problem<'a> {
     }
 
     /// Policy iteration.
-    pub fn settle(&mut self) -> Result<Rested, LineError> {
+    pub fn settle(&mut self) -> Result<LineSolution, LineError> {
         let mut iterations = 0;
         for change in 0..MOST_CHANGES {
             let rested = self.solve()?;
             iterations += rested.iterations;
             let next = self.better(&rested, change >= MANY);
             if next == self.policy {
-                return Ok(Rested { iterations, ..rested });
+                return Ok(LineSolution { iterations, ..rested });
             }
             self.near = vertical_forces(&rested);
             self.policy = next;
@@ -58,7 +64,7 @@ impl<'a> Problem<'a> {
     /// The height of a joint that stands fast.
     fn height(&self, joint: usize) -> f64 {
         match self.policy.stands.get(joint) {
-            Some(Stand::Step(k)) => self.step(joint, *k).unwrap_or(0.0),
+            Some(JointStatus::Step(k)) => self.step(joint, *k).unwrap_or(0.0),
             _ => 0.0,
         }
     }
@@ -69,9 +75,9 @@ impl<'a> Problem<'a> {
     }
 
     /// The chain under the present policy.
-    fn solve(&self) -> Result<Rested, LineError> {
+    fn solve(&self) -> Result<LineSolution, LineError> {
         let count = self.chain.elements.len();
-        let mut rested = Rested { policy: self.policy.clone(), ..Rested::default() };
+        let mut rested = LineSolution { policy: self.policy.clone(), ..LineSolution::default() };
         let start = |i: usize| {
             let rests = self.policy.rests.get(i).copied().unwrap_or(false);
             Held { h: if rests { self.h_touching } else { self.h }, rests, ..Held::default() }
@@ -103,8 +109,8 @@ impl<'a> Problem<'a> {
         for (i, held) in rested.held.iter().enumerate() {
             z = match self.policy.stands.get(i) {
                 None => self.bottom,
-                Some(Stand::Free(_)) if held.rests => -held.lower.z,
-                Some(Stand::Free(_)) => z - held.upper.z,
+                Some(JointStatus::Free(_)) if held.rests => -held.lower.z,
+                Some(JointStatus::Free(_)) => z - held.upper.z,
                 Some(_) => self.height(i),
             };
             rested.z.push(z);
@@ -113,8 +119,8 @@ impl<'a> Problem<'a> {
             let force = |h: Option<&Held>, f: fn(&Held) -> f64| h.map_or(0.0, f);
             let line = force(rested.held.get(j), |h| h.v_lo) - force(rested.held.get(j + 1), |h| h.v_hi);
             let (lift, reaction) = match self.policy.stands.get(j) {
-                Some(Stand::Free(k)) => (pull.passed(*k), 0.0),
-                Some(Stand::Step(_)) => (-line, 0.0),
+                Some(JointStatus::Free(k)) => (pull.passed(*k), 0.0),
+                Some(JointStatus::Step(_)) => (-line, 0.0),
                 _ => (pull.lift, -line - pull.lift),
             };
             rested.lifts.push(lift);
@@ -125,7 +131,7 @@ impl<'a> Problem<'a> {
     }
 
     /// The vertical force at the upper end of a section, from its drop.
-    fn solve_section(&self, section: &Section, drop: f64, rested: &mut Rested) -> Result<(), LineError> {
+    fn solve_section(&self, section: &Section, drop: f64, rested: &mut LineSolution) -> Result<(), LineError> {
         let elements = &self.chain.elements;
         let run: Vec<(usize, &Element)> =
             elements.iter().enumerate().skip(section.from).take(section.to + 1 - section.from).collect();
@@ -161,7 +167,8 @@ impl<'a> Problem<'a> {
                 };
                 z += part.z;
                 z_v += part.z_v;
-                if let (Some(Stand::Free(k)), Some(pull)) = (self.policy.stands.get(*i), self.chain.pulls.get(*i)) {
+                if let (Some(JointStatus::Free(k)), Some(pull)) = (self.policy.stands.get(*i), self.chain.pulls.get(*i))
+                {
                     v = held.v_lo + pull.passed(*k);
                 }
             }
@@ -230,7 +237,7 @@ impl<'a> Problem<'a> {
     }
 
     /// The policy that a solution asks for; `one` changes only what is furthest off.
-    fn better(&self, rested: &Rested, one: bool) -> Policy {
+    fn better(&self, rested: &LineSolution, one: bool) -> ActiveSet {
         let length = self.chain.length();
         let fine = 1e-12 * length;
         let largest = |m: f64, held: &Held| m.max(held.v_hi.abs()).max(held.v_lo.abs()).max(held.h);
@@ -238,7 +245,7 @@ impl<'a> Problem<'a> {
         let small = 1e-12 * size;
         // by how much a piece or joint is off, and what it becomes
         let mut pieces: Vec<(f64, usize)> = Vec::new();
-        let mut joints: Vec<(f64, usize, Stand)> = Vec::new();
+        let mut joints: Vec<(f64, usize, JointStatus)> = Vec::new();
         let end = |i: usize| rested.z.get(i).copied().unwrap_or(0.0);
         for (i, (element, held)) in self.chain.elements.iter().zip(&rested.held).enumerate() {
             if held.rests {
@@ -259,35 +266,35 @@ impl<'a> Problem<'a> {
             let step = |k: usize| self.step(j, k);
             let lift = rested.lifts.get(j).copied().unwrap_or(0.0);
             match *stand {
-                Stand::Free(k) => {
+                JointStatus::Free(k) => {
                     let floor = pull.on_bottom.then_some(0.0);
                     let under = k.checked_sub(1).and_then(step);
                     let (low, next) = match (under, floor) {
-                        (Some(u), Some(f)) if f > u => (f, Stand::Bottom),
-                        (Some(u), _) => (u, Stand::Step(k - 1)),
-                        (None, Some(f)) => (f, Stand::Bottom),
-                        (None, None) => (f64::NEG_INFINITY, Stand::Bottom),
+                        (Some(u), Some(f)) if f > u => (f, JointStatus::Bottom),
+                        (Some(u), _) => (u, JointStatus::Step(k - 1)),
+                        (None, Some(f)) => (f, JointStatus::Bottom),
+                        (None, None) => (f64::NEG_INFINITY, JointStatus::Bottom),
                     };
                     if height < low - fine {
                         joints.push(((low - height) / length, j, next));
                     } else if let Some(above) = step(k)
                         && height > above + fine
                     {
-                        joints.push(((height - above) / length, j, Stand::Step(k)));
+                        joints.push(((height - above) / length, j, JointStatus::Step(k)));
                     }
                 }
-                Stand::Bottom => {
+                JointStatus::Bottom => {
                     let reaction = rested.reactions.get(j).copied().unwrap_or(0.0);
                     if reaction < -small {
-                        joints.push((-reaction / size, j, Stand::Free(0)));
+                        joints.push((-reaction / size, j, JointStatus::Free(0)));
                     }
                 }
-                Stand::Step(k) => {
+                JointStatus::Step(k) => {
                     let (most, least) = (pull.passed(k), pull.passed(k + 1));
                     if lift > most + small {
-                        joints.push(((lift - most) / size, j, Stand::Free(k)));
+                        joints.push(((lift - most) / size, j, JointStatus::Free(k)));
                     } else if lift < least - small {
-                        joints.push(((least - lift) / size, j, Stand::Free(k + 1)));
+                        joints.push(((least - lift) / size, j, JointStatus::Free(k + 1)));
                     }
                 }
             }
@@ -320,6 +327,6 @@ impl<'a> Problem<'a> {
     }
 }
 
-fn vertical_forces(rested: &Rested) -> Vec<(f64, f64)> {
+fn vertical_forces(rested: &LineSolution) -> Vec<(f64, f64)> {
     rested.held.iter().map(|h| (h.v_hi, h.v_lo)).collect()
 }

@@ -3,24 +3,24 @@
 //! Source: [MOSES-FLEX ROD] and [AQWA-CONN 5.8.3] (cable dynamics of AQWA). A line is cut into elements, feels water, wind and bottom all
 //! along itself, and is held at its ends by bodies or the ground; what is between its ends is solved and condensed here.
 
-mod afar;
 mod answer;
-mod around;
 mod describe;
 mod element;
-mod kept;
-mod laid;
-mod laying;
+mod environment;
 mod made;
 mod mesh;
 mod modes;
+mod pipelay;
+mod pipelay_supports;
 mod sections;
+mod solver_cache;
 mod start;
+mod state_layout;
+mod static_start;
 mod tell;
-mod warm;
 
 pub use describe::{Description, Hold, JointMass, Part, Seabed, Strength};
-pub use element::MovingLine;
+pub use element::DynamicLine;
 pub use sections::{
     AX_DAMPING, CA, CD, CLAMP, CLUMP_DRAG, EA, EI, Flexure, ROPE, SEABED, SLAM, STRETCH, chain, description, holds,
     seabed,

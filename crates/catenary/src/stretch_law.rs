@@ -5,7 +5,7 @@ use super::segment::Reach;
 
 /// Elongation against tension: strain for a length of line, metres for a spring. It grows with the tension and is odd.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Law {
+pub enum StretchLaw {
     /// Tension over stiffness (N, or N/m for a spring).
     Linear(f64),
     /// Straight lines between points (tension N, elongation), after (0, 0); the last slope goes on [MOSES-FLEX -X_PY].
@@ -21,7 +21,7 @@ pub enum Law {
         most: f64,
     },
     /// One after the other: their elongations add.
-    Series(Vec<Law>),
+    Series(Vec<StretchLaw>),
     /// Linear up to a tension that cannot be passed: beyond it the line yields ([AQWA-CONN 5.8.3.1]: no extrapolation beyond the
     /// maximum tension). For definite answers it keeps a millionth of its stiffness.
     Capped {
@@ -32,22 +32,22 @@ pub enum Law {
     },
 }
 
-/// Share of the stiffness that is left beyond the largest tension of [`Law::Capped`].
+/// Share of the stiffness that is left beyond the largest tension of [`StretchLaw::Capped`].
 const LEFT: f64 = 1e-6;
 /// Newton steps of the inverse polynomial.
 const STEPS: usize = 100;
 
-impl Law {
+impl StretchLaw {
     /// Elongation at a tension >= 0, and its derivative.
     pub fn stretch(&self, tension: f64) -> (f64, f64) {
         match self {
-            Law::Linear(k) => (tension / k, 1.0 / k),
-            Law::Series(laws) => {
+            StretchLaw::Linear(k) => (tension / k, 1.0 / k),
+            StretchLaw::Series(laws) => {
                 laws.iter().map(|l| l.stretch(tension)).fold((0.0, 0.0), |a, b| (a.0 + b.0, a.1 + b.1))
             }
-            Law::Capped { ea, most } if tension <= *most => (tension / ea, 1.0 / ea),
-            Law::Capped { ea, most } => (most / ea + (tension - most) / (LEFT * ea), 1.0 / (LEFT * ea)),
-            Law::Curve(points) => {
+            StretchLaw::Capped { ea, most } if tension <= *most => (tension / ea, 1.0 / ea),
+            StretchLaw::Capped { ea, most } => (most / ea + (tension - most) / (LEFT * ea), 1.0 / (LEFT * ea)),
+            StretchLaw::Curve(points) => {
                 let mut from = (0.0, 0.0);
                 let mut last = (0.0, 0.0);
                 for to in points {
@@ -60,7 +60,7 @@ impl Law {
                 }
                 last
             }
-            Law::Polynomial { ea, .. } => {
+            StretchLaw::Polynomial { ea, .. } => {
                 // T(e) grows: Newton within a bracket
                 let (mut low, mut high) = (0.0, f64::INFINITY);
                 let mut e = tension / ea;
@@ -93,7 +93,7 @@ impl Law {
 
     /// Tension at a strain, and its derivative; for the polynomial, zero for the others.
     fn tension(&self, e: f64) -> (f64, f64) {
-        let Law::Polynomial { ea, k: [k1, k2, k3], most } = self else { return (0.0, 0.0) };
+        let StretchLaw::Polynomial { ea, k: [k1, k2, k3], most } = self else { return (0.0, 0.0) };
         let at = e.min(*most);
         let slope = k1 + at * (2.0 * k2 + at * 3.0 * k3);
         let stiffness = ea + at * (k1 + at * (k2 + at * k3)) + slope * (e - at);
@@ -103,22 +103,22 @@ impl Law {
     /// Whether the tension grows with the strain up to the largest one.
     pub fn grows(&self) -> bool {
         match self {
-            Law::Polynomial { most, .. } => (0..=200).all(|i| self.tension(most * f64::from(i) / 200.0).1 > 0.0),
-            Law::Curve(points) => {
+            StretchLaw::Polynomial { most, .. } => (0..=200).all(|i| self.tension(most * f64::from(i) / 200.0).1 > 0.0),
+            StretchLaw::Curve(points) => {
                 let before = std::iter::once(&(0.0, 0.0)).chain(points);
                 before.zip(points).all(|(a, b)| b.0 > a.0 && b.1 > a.1)
             }
-            Law::Linear(k) => *k > 0.0,
-            Law::Series(laws) => laws.iter().all(Law::grows),
-            Law::Capped { ea, most } => *ea > 0.0 && *most > 0.0,
+            StretchLaw::Linear(k) => *k > 0.0,
+            StretchLaw::Series(laws) => laws.iter().all(StretchLaw::grows),
+            StretchLaw::Capped { ea, most } => *ea > 0.0 && *most > 0.0,
         }
     }
 
     /// Where the law changes its form (N).
     fn kink(&self) -> Option<f64> {
         match self {
-            Law::Polynomial { most, .. } => Some(self.tension(*most).0),
-            Law::Capped { most, .. } => Some(*most),
+            StretchLaw::Polynomial { most, .. } => Some(self.tension(*most).0),
+            StretchLaw::Capped { most, .. } => Some(*most),
             _ => None,
         }
     }
