@@ -12,7 +12,7 @@ use windlass_base::values::Args;
 use windlass_base::values::Noun;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
-use windlass_model::Thing;
+use windlass_model::EntityKind;
 use windlass_solve::film::{Film, Take};
 use windlass_solve::results::Window;
 
@@ -112,7 +112,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         stop: &|| job.interrupted(),
     };
     let film = Film::of(run, &take);
-    chosen.check_used("what moves in the run", &[Thing::Connector, Thing::Body])?;
+    chosen.check_used("what moves in the run", &[EntityKind::Connector, EntityKind::Body])?;
     let span = events.map_or(args.span, |g| g.span);
     let film = film.map_err(|e| e.diagnostic(span, job.units))?;
     let title = match args.option_word("-HEADING") {

@@ -15,7 +15,7 @@ use windlass_language::name as rule;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Form, Kind, Opens, OptionSpec, ValueSpec};
 use windlass_model::bathymetry::{Bathymetry, MOST_POINTS, fits};
-use windlass_model::{Model, Thing};
+use windlass_model::{EntityKind, Model};
 
 /// &BATHYMETRY.
 pub static BATHYMETRY: Command = Command { spec: &SPEC, edits: false, run };
@@ -102,7 +102,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let (name, span) = (args.word(0).unwrap_or_default(), args.place(0));
     rule::check(name, None, "bathymetry", span)?;
-    job.model.free_name(name, &[Thing::Bathymetry], span)?;
+    job.model.free_name(name, &[EntityKind::Bathymetry], span)?;
     let sign = if args.has("-DEPTHS") { -1.0 } else { 1.0 };
     let Some(file) = args.option("-CSV").and_then(|given| given.values.first()) else {
         let (x, y, heights) = Default::default();

@@ -7,7 +7,7 @@ use windlass_base::span::Span;
 use windlass_base::table::Table;
 use windlass_base::values::Value;
 use windlass_base::wildcard::matches;
-use windlass_model::{Model, Thing};
+use windlass_model::{EntityKind, Model};
 
 /// Names, patterns and selectors; none given chooses all. It remembers which of them chose something.
 pub struct Chosen<'a> {
@@ -50,7 +50,7 @@ impl<'a> Chosen<'a> {
     ///
     /// # Errors
     /// The first such name, at its place, with near ones.
-    pub fn check(&self, what: &str, tables: &[Table], things: &[Thing]) -> Outcome<()> {
+    pub fn check(&self, what: &str, tables: &[Table], things: &[EntityKind]) -> Outcome<()> {
         let empty = tables.iter().all(|t| t.rows() == 0 && t.facts.is_empty());
         self.refuse(what, things, |used| empty || (self.asked.get() && !used))
     }
@@ -59,11 +59,11 @@ impl<'a> Chosen<'a> {
     ///
     /// # Errors
     /// The first such name, at its place, with near ones.
-    pub fn check_used(&self, what: &str, things: &[Thing]) -> Outcome<()> {
+    pub fn check_used(&self, what: &str, things: &[EntityKind]) -> Outcome<()> {
         self.refuse(what, things, |used| !used)
     }
 
-    fn refuse(&self, what: &str, things: &[Thing], wrong: impl Fn(bool) -> bool) -> Outcome<()> {
+    fn refuse(&self, what: &str, things: &[EntityKind], wrong: impl Fn(bool) -> bool) -> Outcome<()> {
         let unused = self.given.iter().find(|(_, _, used)| wrong(used.get()));
         unused.map_or(Ok(()), |(name, span, _)| {
             let mut error = Diagnostic::error(format!("nothing among {what} is called {name}"), *span);

@@ -13,7 +13,7 @@ use windlass_base::values::Args;
 use windlass_base::values::Noun;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
-use windlass_model::{AbsentRow, Class, Condition, Connector, Thing, find};
+use windlass_model::{AbsentRow, Class, Condition, Connector, EntityKind, find};
 
 /// TABLE.
 pub static TABLE: Command = Command { spec: &TABLE_SPEC, edits: false, run: table };
@@ -182,7 +182,7 @@ fn properties(job: &mut Job, call: &Call) -> Outcome<Effect> {
         let tables = status::classes(job, &|class| {
             if chosen.all() { class.object.is_line() } else { chosen.takes(&class.name) }
         });
-        chosen.check("the classes", &tables, &[Thing::Class])?;
+        chosen.check("the classes", &tables, &[EntityKind::Class])?;
         if tables.is_empty() {
             return Err(Diagnostic::error("no class of a line is defined yet", call.args.span));
         }

@@ -12,7 +12,7 @@ use windlass_language::name as rule;
 use windlass_language::record::Word;
 use windlass_language::select::{Owner, choose};
 use windlass_language::spec::{CommandSpec, Form, Kind, Opens, OptionSpec, ValueSpec};
-use windlass_model::{Curve, CurveKind, Model, Thing};
+use windlass_model::{Curve, CurveKind, EntityKind, Model};
 
 /// &DATA.
 pub static DATA: Command = Command { spec: &SPEC, edits: false, run };
@@ -260,7 +260,7 @@ fn define(job: &mut Job, call: &Call, kind: CurveKind) -> Outcome<Effect> {
     let args = &call.args;
     let (name, span) = (args.word(0).unwrap_or_default(), args.place(0));
     rule::check(name, None, "curve", span)?;
-    job.model.free_name(name, &[Thing::Curve], span)?;
+    job.model.free_name(name, &[EntityKind::Curve], span)?;
     let [(first, _), _] = kind.axes();
     let mut points: Vec<(f64, f64)> = Vec::new();
     for pair in args.data.get(1..).unwrap_or_default().chunks_exact(2) {

@@ -9,7 +9,7 @@ use windlass_base::units::Dim;
 use windlass_base::values::Noun;
 use windlass_language::name as rule;
 use windlass_language::spec::{CommandSpec, Form, Kind, OptionSpec, ValueSpec, joined};
-use windlass_model::{Body, Coordinates, GROUND, Model, Part, Point, Shape, Thing, find};
+use windlass_model::{Body, Coordinates, EntityKind, GROUND, Model, Part, Point, Shape, find};
 
 /// &DESCRIBE.
 pub static DESCRIBE: Command = Command { spec: &DESCRIBE_SPEC, edits: false, run: describe };
@@ -143,7 +143,8 @@ fn describe(job: &mut Job, call: &Call) -> Outcome<Effect> {
             Diagnostic::error(format!("`{name}` cannot name a body or part"), span).label("it is the ground's name")
         );
     }
-    let mine: &[Thing] = if args.word(0) == Some("BODY") { &[Thing::Body] } else { &[Thing::Body, Thing::Part] };
+    let mine: &[EntityKind] =
+        if args.word(0) == Some("BODY") { &[EntityKind::Body] } else { &[EntityKind::Body, EntityKind::Part] };
     model.free_name(&name, mine, span)?;
     if args.word(0) == Some("BODY") {
         if !model.bodies.contains_key(&key) {
@@ -200,7 +201,7 @@ fn interest(job: &mut Job, call: &Call) -> Outcome<Effect> {
         let (model, chosen) = (&job.model, Chosen::of(call, 1, &job.model));
         let points = model.points.iter().filter(|(_, p)| chosen.takes(&p.name));
         let marked = points.map(|(key, point)| (key.clone(), model.global(point))).collect();
-        chosen.check_used("the points", &[Thing::Point])?;
+        chosen.check_used("the points", &[EntityKind::Point])?;
         marked
     };
     for (key, at) in marked {

@@ -12,7 +12,7 @@ use windlass_base::values::{Args, Given};
 use windlass_language::name as rule;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
-use windlass_model::{Current, Curve, CurveKind, Environment, Formula, Model, Sea, Thing, TimeWindow, find};
+use windlass_model::{Current, Curve, CurveKind, EntityKind, Environment, Formula, Model, Sea, TimeWindow, find};
 
 /// &ENV.
 pub static ENV: Command = Command { spec: &ENV_SPEC, edits: false, run };
@@ -213,7 +213,7 @@ fn build(job: &Job, args: &Args) -> Outcome<Environment> {
     let name = args.word(0).unwrap_or_default();
     if !name.is_empty() {
         rule::check(name, None, "environment", args.place(0))?;
-        job.model.free_name(name, &[Thing::Environment], args.place(0))?;
+        job.model.free_name(name, &[EntityKind::Environment], args.place(0))?;
     }
     let kept = job.model.environments.get(&Model::key(name)).filter(|_| !name.is_empty());
     let mut env = kept.cloned().unwrap_or_else(|| Environment {

@@ -18,7 +18,7 @@ use windlass_base::values::Args;
 use windlass_base::values::Noun;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
-use windlass_model::{DYNAMIC, Environment, Model, QUASI_STATIC, Thing, add_model_column, find};
+use windlass_model::{DYNAMIC, EntityKind, Environment, Model, QUASI_STATIC, add_model_column, find};
 use windlass_solve::frequency::tables::{Told, body_statistics, operators, spectra, statistics};
 use windlass_solve::frequency::{Asked, Derivative, Extreme, Linear, Quantity, Response, in_sea};
 
@@ -218,7 +218,7 @@ fn point(job: &mut Job, call: &Call) -> Outcome<Effect> {
 fn tensions(job: &Job, linear: &Linear, call: &Call, from: usize, components: bool) -> Outcome<Vec<Told>> {
     let chosen = Chosen::of(call, from, &job.model);
     let names: Vec<String> = linear.connectors().filter(|name| chosen.takes(name)).map(str::to_string).collect();
-    chosen.check_used("the connectors that act", &[Thing::Connector])?;
+    chosen.check_used("the connectors that act", &[EntityKind::Connector])?;
     let span = call.args.span;
     let mut list = Vec::new();
     for name in &names {

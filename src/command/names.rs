@@ -10,7 +10,7 @@ use windlass_base::wildcard::{is_wild, matches};
 use windlass_language::name;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, ValueSpec};
-use windlass_model::{AssemblyKind, Model, Piece, Thing};
+use windlass_model::{AssemblyKind, EntityKind, Model, Piece};
 
 /// DELETE.
 pub static DELETE: Command = Command { spec: &DELETE_SPEC, edits: true, run: delete };
@@ -50,7 +50,7 @@ fn delete(job: &mut Job, call: &Call) -> Outcome<Effect> {
         let Some(pattern) = value.word() else { continue };
         let fits = |name: &str| name.eq_ignore_ascii_case(pattern) || (is_wild(pattern) && matches(pattern, name));
         let all = job.model.things();
-        let chosen: Vec<(Thing, String)> =
+        let chosen: Vec<(EntityKind, String)> =
             all.iter().filter(|(_, name)| fits(name)).map(|(thing, name)| (*thing, name.to_string())).collect();
         if chosen.is_empty() {
             let mut error = Diagnostic::error(format!("nothing is called {pattern}"), value.span);
@@ -76,28 +76,28 @@ fn delete(job: &mut Job, call: &Call) -> Outcome<Effect> {
 }
 
 /// Takes one thing out of the model, a body with its parts and points.
-fn remove(model: &mut Model, thing: Thing, name: &str) {
+fn remove(model: &mut Model, thing: EntityKind, name: &str) {
     let key = Model::key(name);
     match thing {
-        Thing::Connector => drop(model.connectors.shift_remove(&key)),
-        Thing::Class => drop(model.classes.shift_remove(&key)),
-        Thing::Point => drop(model.points.shift_remove(&key)),
-        Thing::Environment => drop(model.environments.shift_remove(&key)),
-        Thing::Curve => drop(model.curves.shift_remove(&key)),
-        Thing::Bathymetry => drop(model.bathymetries.shift_remove(&key)),
-        Thing::Filling => drop(model.fillings.shift_remove(&key)),
-        Thing::Selector => drop(model.selectors.shift_remove(&key)),
-        Thing::Part => {
+        EntityKind::Connector => drop(model.connectors.shift_remove(&key)),
+        EntityKind::Class => drop(model.classes.shift_remove(&key)),
+        EntityKind::Point => drop(model.points.shift_remove(&key)),
+        EntityKind::Environment => drop(model.environments.shift_remove(&key)),
+        EntityKind::Curve => drop(model.curves.shift_remove(&key)),
+        EntityKind::Bathymetry => drop(model.bathymetries.shift_remove(&key)),
+        EntityKind::Filling => drop(model.fillings.shift_remove(&key)),
+        EntityKind::Selector => drop(model.selectors.shift_remove(&key)),
+        EntityKind::Part => {
             model.loads.retain(|l| Model::key(&l.part) != key);
             model.multipliers.parts.shift_remove(&key);
             model.parts.shift_remove(&key);
         }
-        Thing::Piece => {
+        EntityKind::Piece => {
             let other = |piece: &Piece| !piece.name.eq_ignore_ascii_case(name);
             model.parts.values_mut().for_each(|part| part.pieces.retain(other));
         }
-        Thing::Assembly => model.take_apart(name),
-        Thing::Body => {
+        EntityKind::Assembly => model.take_apart(name),
+        EntityKind::Body => {
             let parts = &model.parts;
             let own = |part: &str| parts.get(&Model::key(part)).is_some_and(|p| Model::key(&p.body) == key);
             model.points.retain(|_, p| !own(&p.part));
@@ -120,8 +120,12 @@ fn rename(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (span, place) = (call.args.place(0), call.args.place(1));
     let model = &mut job.model;
     let known = model.things();
-    let renamed =
-        |t: &Thing| matches!(t, Thing::Connector | Thing::Class | Thing::Point | Thing::Body | Thing::Assembly);
+    let renamed = |t: &EntityKind| {
+        matches!(
+            t,
+            EntityKind::Connector | EntityKind::Class | EntityKind::Point | EntityKind::Body | EntityKind::Assembly
+        )
+    };
     let found = known.iter().find(|(t, name)| renamed(t) && name.eq_ignore_ascii_case(old)).map(|(t, _)| *t);
     if name::marker(old) != name::marker(new) {
         return Err(Diagnostic::error("the new name must have the same marker as the old one", place));
@@ -134,7 +138,7 @@ fn rename(job: &mut Job, call: &Call) -> Outcome<Effect> {
     };
     name::check(new, name::marker(old), thing.word(), place)?;
     taken(model, new, place)?;
-    if thing == Thing::Assembly {
+    if thing == EntityKind::Assembly {
         taken(model, &format!("*{new}"), place)?;
     }
     let (from, to) = (Model::key(old), Model::key(new));
@@ -144,11 +148,11 @@ fn rename(job: &mut Job, call: &Call) -> Outcome<Effect> {
         }
     };
     match thing {
-        Thing::Connector => {
+        EntityKind::Connector => {
             move_entry(&mut model.connectors, &from, to, |c| c.name = new.to_string());
             model.assemblies.values_mut().flat_map(|a| a.members_mut()).for_each(follow);
         }
-        Thing::Class => {
+        EntityKind::Class => {
             move_entry(&mut model.classes, &from, to, |c| c.name = new.to_string());
             model.connectors.values_mut().for_each(|c| follow(&mut c.class));
             for assembly in model.assemblies.values_mut() {
@@ -157,12 +161,12 @@ fn rename(job: &mut Job, call: &Call) -> Outcome<Effect> {
                 }
             }
         }
-        Thing::Point => {
+        EntityKind::Point => {
             move_entry(&mut model.points, &from, to, |p| p.name = new.to_string());
             model.connectors.values_mut().flat_map(|c| c.points.iter_mut()).for_each(follow);
         }
         sort => {
-            if sort == Thing::Assembly {
+            if sort == EntityKind::Assembly {
                 hook_renamed(model, &from, &to, new);
             }
             move_entry(&mut model.bodies, &from, to.clone(), |b| b.name = new.to_string());
@@ -202,7 +206,7 @@ fn hook_renamed(model: &mut Model, from: &str, to: &str, new: &str) {
 
 /// Sees that nothing has a name yet.
 fn taken(model: &Model, new: &str, place: Span) -> Outcome<()> {
-    match Thing::ALL.into_iter().find_map(|thing| model.defined(thing, new)) {
+    match EntityKind::ALL.into_iter().find_map(|thing| model.defined(thing, new)) {
         Some(span) => Err(Diagnostic::error(format!("{new} exists already"), place).other(span, "defined here")),
         None => Ok(()),
     }

@@ -10,7 +10,7 @@ use windlass_base::values::Args;
 use windlass_base::values::Noun;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
-use windlass_model::Thing;
+use windlass_model::EntityKind;
 use windlass_solve::scene::{Choice, Scene};
 
 /// &PICTURE.
@@ -177,7 +177,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let Some((scene, unshaped)) = Scene::of(&job.model, &choice) else {
         return Err(Diagnostic::error("interrupted", args.span));
     };
-    chosen.check_used("what can be drawn", &[Thing::Connector, Thing::Body])?;
+    chosen.check_used("what can be drawn", &[EntityKind::Connector, EntityKind::Body])?;
     let problems: Vec<(String, Vec<String>)> = unshaped
         .into_iter()
         .map(|(name, error)| {

@@ -16,7 +16,7 @@ use windlass_language::args;
 use windlass_language::name as rule;
 use windlass_language::spec::{CommandSpec, Form, Kind, OptionSpec, ValueSpec};
 use windlass_language::token::Kind as Lex;
-use windlass_model::{Model, Part, Piece, Shape, Thing, WaveAction, find};
+use windlass_model::{EntityKind, Model, Part, Piece, Shape, WaveAction, find};
 
 /// PANEL.
 pub static PANEL: Command = Command { spec: &PANEL_SPEC, edits: false, run: panel };
@@ -204,7 +204,7 @@ pub fn begun(job: &mut Job, args: &Args, name: &str, span: Span, shape: Shape) -
             .other(old.span, "defined here")
             .help(format!("DELETE {} first, or use another name", old.name)));
     }
-    model.free_name(name, &[Thing::Body, Thing::Part], span)?;
+    model.free_name(name, &[EntityKind::Body, EntityKind::Part], span)?;
     let own = args.options.iter().filter(|g| OPTIONS.iter().any(|o| o.name == g.name));
     for value in own.clone().flat_map(|g| g.named(Noun::Curve)) {
         if let Some(word) = value.word() {

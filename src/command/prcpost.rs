@@ -14,9 +14,9 @@ use windlass_base::units::Dim;
 use windlass_base::values::Noun;
 use windlass_base::values::{Args, Value};
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
-use windlass_model::{Model, Thing};
+use windlass_model::{EntityKind, Model};
 use windlass_solve::SolveError;
-use windlass_solve::results::{self, Event, Interest, Magnitude, Told, Window};
+use windlass_solve::results::{self, Event, Magnitude, Told, TrackedPoint, Window};
 use windlass_solve::time::Run;
 
 /// TRAJECTORY.
@@ -206,7 +206,7 @@ fn bodies(job: &Job, run: &Run, args: &Args) -> Outcome<Vec<usize>> {
     let chosen = Chosen::among(given.into_iter(), &job.model);
     let names = run.history.layout.bodies.iter();
     let mut list = places(&chosen, names.clone().map(|(name, _)| name.as_str()));
-    chosen.check_used("the bodies of the run", &[Thing::Body])?;
+    chosen.check_used("the bodies of the run", &[EntityKind::Body])?;
     if chosen.all() {
         // junctions are told by name: they are many
         let junction = |body: &usize| {
@@ -225,7 +225,7 @@ fn bodies(job: &Job, run: &Run, args: &Args) -> Outcome<Vec<usize>> {
 pub(super) fn connectors(job: &Job, run: &Run, call: &Call) -> Outcome<Vec<usize>> {
     let chosen = Chosen::of(call, 0, &job.model);
     let list = places(&chosen, run.history.layout.links.iter().map(|l| l.name.as_str()));
-    chosen.check_used("the connectors of the run", &[Thing::Connector, Thing::Assembly])?;
+    chosen.check_used("the connectors of the run", &[EntityKind::Connector, EntityKind::Assembly])?;
     if list.is_empty() {
         return Err(Diagnostic::error("no connector acts in the run", call.args.span));
     }
@@ -274,9 +274,9 @@ fn points(job: &mut Job, call: &Call) -> Outcome<Effect> {
                 Some(found.ok_or_else(missing)?)
             }
         };
-        list.push(Interest { name: point.name.clone(), body, at, marked: point.interest.unwrap_or_default() });
+        list.push(TrackedPoint { name: point.name.clone(), body, at, marked: point.interest.unwrap_or_default() });
     }
-    chosen.check_used("the points of interest", &[Thing::Point])?;
+    chosen.check_used("the points of interest", &[EntityKind::Point])?;
     if list.is_empty() {
         return Err(Diagnostic::error("no point is marked", args.span).help("&DESCRIBE INTEREST *POINT marks points"));
     }

@@ -23,7 +23,7 @@ use windlass_base::table::{Cell, Table};
 use windlass_base::values::Noun;
 use windlass_language::select::{Owner, choose};
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
-use windlass_model::{Class, Thing};
+use windlass_model::{Class, EntityKind};
 use windlass_solve::run_tables;
 
 /// &STATUS.
@@ -220,23 +220,23 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
 }
 
 /// The things whose names a kind of &STATUS takes.
-fn things(kind: &str) -> &'static [Thing] {
+fn things(kind: &str) -> &'static [EntityKind] {
     match kind {
-        "CONFIGURATION" | "FORCE" | "DATABASE" => &[Thing::Body],
-        "STIFFNESS" => &[Thing::Body, Thing::Connector],
-        "BODIES" | "LOADS" | "WEIGHT" => &[Thing::Body, Thing::Part],
-        "HYDROSTATICS" => &[Thing::Body],
-        "PIECES" => &[Thing::Piece, Thing::Body, Thing::Part],
-        "ASSEMBLIES" => &[Thing::Assembly],
-        "CL_FLEX" | "CLASSES" | "SN" => &[Thing::Class],
-        "G_CONNECTOR" | "F_CONNECTOR" | "FOUNDATION" | "TETHERS" | "TETHER_MODES" => &[Thing::Connector],
-        "ROD" | "ROD_MODES" => &[Thing::Connector, Thing::Assembly],
-        "CURVES" => &[Thing::Curve],
-        "BATHYMETRY" => &[Thing::Bathymetry],
-        "T_PRESSURE" => &[Thing::Filling],
-        "ENVIRONMENT" | "SEA_SPECTRUM" | "WIND_SPECTRUM" => &[Thing::Environment],
-        "POINTS" => &[Thing::Point],
-        "SELECTORS" => &[Thing::Selector],
+        "CONFIGURATION" | "FORCE" | "DATABASE" => &[EntityKind::Body],
+        "STIFFNESS" => &[EntityKind::Body, EntityKind::Connector],
+        "BODIES" | "LOADS" | "WEIGHT" => &[EntityKind::Body, EntityKind::Part],
+        "HYDROSTATICS" => &[EntityKind::Body],
+        "PIECES" => &[EntityKind::Piece, EntityKind::Body, EntityKind::Part],
+        "ASSEMBLIES" => &[EntityKind::Assembly],
+        "CL_FLEX" | "CLASSES" | "SN" => &[EntityKind::Class],
+        "G_CONNECTOR" | "F_CONNECTOR" | "FOUNDATION" | "TETHERS" | "TETHER_MODES" => &[EntityKind::Connector],
+        "ROD" | "ROD_MODES" => &[EntityKind::Connector, EntityKind::Assembly],
+        "CURVES" => &[EntityKind::Curve],
+        "BATHYMETRY" => &[EntityKind::Bathymetry],
+        "T_PRESSURE" => &[EntityKind::Filling],
+        "ENVIRONMENT" | "SEA_SPECTRUM" | "WIND_SPECTRUM" => &[EntityKind::Environment],
+        "POINTS" => &[EntityKind::Point],
+        "SELECTORS" => &[EntityKind::Selector],
         _ => &[],
     }
 }

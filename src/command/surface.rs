@@ -246,7 +246,7 @@ fn move_block(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let name = args.word(0).unwrap_or_default();
     let by = Place::new([1, 2, 3, 4, 5, 6].map(|i| args.number(i).unwrap_or(0.0)));
-    let known = job.model.names(windlass_model::Thing::Piece);
+    let known = job.model.names(windlass_model::EntityKind::Piece);
     let help = windlass_base::diagnostic::did_you_mean(name, known);
     let Some(Piece { shape, name, .. }) = job.model.piece_mut(name) else {
         let mut error = Diagnostic::error(format!("unknown piece {name}"), args.place(0));

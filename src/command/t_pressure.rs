@@ -11,7 +11,7 @@ use windlass_base::values::Noun;
 use windlass_language::name as rule;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
-use windlass_model::{Contents, Filling, Model, Thing};
+use windlass_model::{Contents, EntityKind, Filling, Model};
 
 /// T_PRESSURE.
 pub static T_PRESSURE: Command = Command { spec: &SPEC, edits: false, run };
@@ -71,7 +71,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let (name, span) = (args.word(0).unwrap_or_default(), args.place(0));
     rule::check(name, None, "set of T_PRESSURE data", span)?;
-    job.model.free_name(name, &[Thing::Filling], span)?;
+    job.model.free_name(name, &[EntityKind::Filling], span)?;
     if let (Some(first), Some(second)) = (args.option("-DENSITY"), args.option("-SPGRAVITY")) {
         let text = "the contents have a -DENSITY or a -SPGRAVITY";
         return Err(Diagnostic::error(text, second.span).other(first.span, "given here already"));

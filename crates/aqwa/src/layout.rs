@@ -51,7 +51,7 @@ impl Slot {
 
 /// How a card is answered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Standing {
+pub enum CardSupport {
     /// Its columns are confirmed by [AQWA-TETHER] or by public pages of [AQWA-REF].
     Sure,
     /// Its columns are from general knowledge: a note says what was assumed.
@@ -91,7 +91,7 @@ pub struct Layout {
     /// Whether the columns from 11 on are text that the deck itself takes apart (deck 2).
     pub text: bool,
     /// How it is answered.
-    pub standing: Standing,
+    pub standing: CardSupport,
     /// How often it may come; once unless said otherwise.
     pub repeats: Repeats,
 }
@@ -99,27 +99,27 @@ pub struct Layout {
 impl Layout {
     /// A card whose columns are sure.
     pub const fn new(keyword: &'static str, slots: &'static [Slot]) -> Self {
-        Layout { keyword, slots, text: false, standing: Standing::Sure, repeats: ONCE }
+        Layout { keyword, slots, text: false, standing: CardSupport::Sure, repeats: ONCE }
     }
 
     /// A card whose columns are assumed.
     pub const fn assumed(keyword: &'static str, slots: &'static [Slot]) -> Self {
-        Layout { keyword, slots, text: false, standing: Standing::Assumed, repeats: ONCE }
+        Layout { keyword, slots, text: false, standing: CardSupport::Assumed, repeats: ONCE }
     }
 
     /// A card that is refused for a reason.
     pub const fn refused(keyword: &'static str, reason: &'static str) -> Self {
-        Layout { keyword, slots: &[], text: true, standing: Standing::Refused(reason), repeats: ONCE }
+        Layout { keyword, slots: &[], text: true, standing: CardSupport::Refused(reason), repeats: ONCE }
     }
 
     /// A card that is passed over for a reason.
     pub const fn passed(keyword: &'static str, reason: &'static str) -> Self {
-        Layout { keyword, slots: &[], text: true, standing: Standing::Passed(reason), repeats: ONCE }
+        Layout { keyword, slots: &[], text: true, standing: CardSupport::Passed(reason), repeats: ONCE }
     }
 
     /// A card of text.
     pub const fn text(keyword: &'static str) -> Self {
-        Layout { keyword, slots: &[], text: true, standing: Standing::Sure, repeats: ONCE }
+        Layout { keyword, slots: &[], text: true, standing: CardSupport::Sure, repeats: ONCE }
     }
 
     /// The card may come any number of times.

@@ -186,11 +186,11 @@ pub enum Property {
 
 /// The walk through the cards of mooring lines.
 #[derive(Clone, Debug, Default)]
-pub struct Walk {
+pub struct LineCardParser {
     resistance: Option<Resistance>,
 }
 
-impl Walk {
+impl LineCardParser {
     /// Takes a card.
     pub fn take(
         &mut self,

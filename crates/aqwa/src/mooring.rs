@@ -5,7 +5,7 @@
 
 use super::card::Field;
 use super::layout::{Layout, Record, Slot, int, num};
-use super::lines::{MooringLine, Property, Walk};
+use super::lines::{LineCardParser, MooringLine, Property};
 use super::remarks::Remarks;
 use super::tethers::{Builder, Tether};
 use windlass_base::diagnostic::Diagnostic;
@@ -187,7 +187,7 @@ pub struct Mooring {
 pub fn read(records: &[Record], remarks: &mut Remarks) -> Mooring {
     let mut mooring = Mooring::default();
     let mut tether = Builder::default();
-    let mut walk = Walk::default();
+    let mut walk = LineCardParser::default();
     for record in records {
         mooring.span = record.span;
         match record.keyword.as_str() {

@@ -1,7 +1,7 @@
 //! Goes through the cards of a file deck by deck: headers, `END`, `NONE`, `FINI`, and cards whose decks are missing.
 
 use super::card::{Face, Line, Lines};
-use super::layout::{Layout, Record, Standing};
+use super::layout::{CardSupport, Layout, Record};
 use super::remarks::Remarks;
 use super::repeats;
 use windlass_base::diagnostic::{Diagnostic, did_you_mean};
@@ -292,19 +292,19 @@ impl<'a> Reader<'a> {
             return None;
         };
         match layout.standing {
-            Standing::Sure => {}
-            Standing::Assumed => self.remarks.once(&format!("{label} {}", layout.keyword), || {
+            CardSupport::Sure => {}
+            CardSupport::Assumed => self.remarks.once(&format!("{label} {}", layout.keyword), || {
                 Diagnostic::remark(
                     format!("{label}, {}: no source confirms the columns of this card", layout.keyword),
                     face.place,
                 )
                 .help(format!("assumed {}", layout.usage()))
             }),
-            Standing::Refused(reason) => {
+            CardSupport::Refused(reason) => {
                 self.remarks.add(Diagnostic::error(format!("{label}, {}: {reason}", layout.keyword), face.place));
                 return None;
             }
-            Standing::Passed(reason) => {
+            CardSupport::Passed(reason) => {
                 self.remarks.add(Diagnostic::warning(format!("{label}, {}: {reason}", layout.keyword), face.place));
                 return None;
             }

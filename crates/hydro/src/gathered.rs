@@ -30,12 +30,12 @@ pub struct Gathered {
 
 /// A load times its multiplier.
 #[derive(Debug)]
-struct Multiplied {
+struct ScaledLoad {
     load: Box<dyn BodyLoad>,
     factor: f64,
 }
 
-impl BodyLoad for Multiplied {
+impl BodyLoad for ScaledLoad {
     fn category(&self) -> Category {
         self.load.category()
     }
@@ -86,7 +86,7 @@ impl BodyLoad for Multiplied {
 
 /// A load times its multiplier.
 pub fn multiplied(load: Box<dyn BodyLoad>, factor: f64) -> Box<dyn BodyLoad> {
-    Box::new(Multiplied { load, factor })
+    Box::new(ScaledLoad { load, factor })
 }
 
 /// Where a part stands in its body.
@@ -161,7 +161,7 @@ pub fn of(model: &Model, body: &Body, sea: Option<Option<&Arc<Sea>>>) -> Result<
         let rest = sum.loads.split_off(first);
         sum.loads.extend(rest.into_iter().map(|load| {
             let factor = model.multipliers.of(load.category().name(), &part.name);
-            if factor == 1.0 { load } else { Box::new(Multiplied { load, factor }) }
+            if factor == 1.0 { load } else { Box::new(ScaledLoad { load, factor }) }
         }));
     }
     Ok(sum)

@@ -28,14 +28,14 @@ struct Ring {
 
 /// The buoyancy of rings.
 #[derive(Debug)]
-struct Buoyed {
+struct GrowthBuoyancy {
     rings: Vec<Ring>,
     around: Surroundings,
 }
 
 /// The weight of rings.
 #[derive(Debug)]
-struct Weighed {
+struct GrowthWeight {
     weight: f64,
     /// Their centre of gravity, in the body (m).
     centre: Vector3<f64>,
@@ -43,7 +43,7 @@ struct Weighed {
 
 /// What growth does to a body.
 #[derive(Debug, Default)]
-pub struct Grown {
+pub struct GrowthLoads {
     /// Its weight and buoyancy.
     pub loads: Vec<Box<dyn BodyLoad>>,
     /// Its inertia about the body's origin, body axes (kg, kg m, kg m2).
@@ -54,8 +54,8 @@ pub struct Grown {
 ///
 /// # Errors
 /// As [`Growth::of`].
-pub fn of(model: &Model, body: &Body) -> Result<Grown, ClassError> {
-    let mut made = Grown::default();
+pub fn of(model: &Model, body: &Body) -> Result<GrowthLoads, ClassError> {
+    let mut made = GrowthLoads::default();
     let Some(growth) = Growth::of(model, &model.environment)? else { return Ok(made) };
     let (pose, around) = (Pose::of(&body.place), model.surroundings());
     let mut all = Vec::new();
@@ -74,8 +74,8 @@ pub fn of(model: &Model, body: &Body) -> Result<Grown, ClassError> {
         made.mass += inertia(growth.density * ring.volume, ring.at);
     }
     let centre = all.iter().map(|r| r.at * r.volume).sum::<Vector3<f64>>() / volume;
-    made.loads.push(Box::new(Weighed { weight: growth.density * volume * around.gravity, centre }));
-    made.loads.push(Box::new(Buoyed { rings: all, around }));
+    made.loads.push(Box::new(GrowthWeight { weight: growth.density * volume * around.gravity, centre }));
+    made.loads.push(Box::new(GrowthBuoyancy { rings: all, around }));
     Ok(made)
 }
 
@@ -123,7 +123,7 @@ pub fn stations(growth: &Growth, pose: &Pose, [from, to]: [Vector3<f64>; 2], dia
     made
 }
 
-impl BodyLoad for Weighed {
+impl BodyLoad for GrowthWeight {
     fn category(&self) -> Category {
         Category::Weight
     }
@@ -133,7 +133,7 @@ impl BodyLoad for Weighed {
     }
 }
 
-impl BodyLoad for Buoyed {
+impl BodyLoad for GrowthBuoyancy {
     fn category(&self) -> Category {
         Category::Buoyancy
     }

@@ -37,9 +37,9 @@ pub trait World {
 }
 
 /// A world without functions, for a language used on its own.
-pub struct Nowhere;
+pub struct NoFunctions;
 
-impl World for Nowhere {
+impl World for NoFunctions {
     fn function_names(&self) -> &'static [&'static str] {
         &[]
     }
@@ -241,7 +241,7 @@ mod tests {
             variables.set(name, value).unwrap();
         }
         let record = Record::verbatim(text, Span::new(Default::default(), 0, text.len()));
-        substitute(&record, &variables, &mut Nowhere).map(|r| r.text().to_string()).map_err(|e| e.message)
+        substitute(&record, &variables, &mut NoFunctions).map(|r| r.text().to_string()).map_err(|e| e.message)
     }
 
     #[test]

@@ -64,7 +64,7 @@ pub use hull::{LinearHydrostatics, Member, Piece, Shape, WaveAction, box_panels}
 pub use idealisation::{DYNAMIC, MASSLESS, QUASI_STATIC, add_model_column};
 pub use line::{AbsentRow, Condition, Configuration, FoundLength, LineChange, LineLoads, LineModel, Placement};
 pub use load::{Fluid, LoadKind, Multipliers, PartLoad};
-pub use names::Thing;
+pub use names::EntityKind;
 pub use note::Note;
 pub use parameters::Parameters;
 pub use prescribed::{GivenMotion, PathRow, Prescription, ResponseRow, Responses, Sinusoid};

@@ -12,7 +12,7 @@ use windlass_base::values::Noun;
 
 /// A sort of thing that has a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Thing {
+pub enum EntityKind {
     /// A connector.
     Connector,
     /// A class.
@@ -39,104 +39,106 @@ pub enum Thing {
     Selector,
 }
 
-impl Thing {
+impl EntityKind {
     /// All sorts.
-    pub const ALL: [Thing; 12] = [
-        Thing::Connector,
-        Thing::Class,
-        Thing::Point,
-        Thing::Assembly,
-        Thing::Body,
-        Thing::Part,
-        Thing::Piece,
-        Thing::Environment,
-        Thing::Curve,
-        Thing::Bathymetry,
-        Thing::Filling,
-        Thing::Selector,
+    pub const ALL: [EntityKind; 12] = [
+        EntityKind::Connector,
+        EntityKind::Class,
+        EntityKind::Point,
+        EntityKind::Assembly,
+        EntityKind::Body,
+        EntityKind::Part,
+        EntityKind::Piece,
+        EntityKind::Environment,
+        EntityKind::Curve,
+        EntityKind::Bathymetry,
+        EntityKind::Filling,
+        EntityKind::Selector,
     ];
 
     /// The word for it.
     pub const fn word(self) -> &'static str {
         match self {
-            Thing::Connector => "connector",
-            Thing::Class => "class",
-            Thing::Point => "point",
-            Thing::Assembly => "assembly",
-            Thing::Body => "body",
-            Thing::Part => "part",
-            Thing::Piece => "piece",
-            Thing::Environment => "environment",
-            Thing::Curve => "curve",
-            Thing::Bathymetry => "bathymetry",
-            Thing::Filling => "set of T_PRESSURE data",
-            Thing::Selector => "selector",
+            EntityKind::Connector => "connector",
+            EntityKind::Class => "class",
+            EntityKind::Point => "point",
+            EntityKind::Assembly => "assembly",
+            EntityKind::Body => "body",
+            EntityKind::Part => "part",
+            EntityKind::Piece => "piece",
+            EntityKind::Environment => "environment",
+            EntityKind::Curve => "curve",
+            EntityKind::Bathymetry => "bathymetry",
+            EntityKind::Filling => "set of T_PRESSURE data",
+            EntityKind::Selector => "selector",
         }
     }
 }
 
 /// The sorts without a marker, which share one set of names.
-const UNMARKED: [Thing; 9] = [
-    Thing::Connector,
-    Thing::Assembly,
-    Thing::Body,
-    Thing::Part,
-    Thing::Piece,
-    Thing::Environment,
-    Thing::Curve,
-    Thing::Bathymetry,
-    Thing::Filling,
+const UNMARKED: [EntityKind; 9] = [
+    EntityKind::Connector,
+    EntityKind::Assembly,
+    EntityKind::Body,
+    EntityKind::Part,
+    EntityKind::Piece,
+    EntityKind::Environment,
+    EntityKind::Curve,
+    EntityKind::Bathymetry,
+    EntityKind::Filling,
 ];
 
 impl Model {
     /// The names of one sort, as written, in the order of their definition.
-    pub fn names(&self, thing: Thing) -> Vec<&str> {
+    pub fn names(&self, thing: EntityKind) -> Vec<&str> {
         match thing {
-            Thing::Connector => self.connectors.values().map(|c| c.name.as_str()).collect(),
-            Thing::Class => self.classes.values().map(|c| c.name.as_str()).collect(),
-            Thing::Point => self.points.values().map(|p| p.name.as_str()).collect(),
-            Thing::Assembly => self.assemblies.values().map(|a| a.name.as_str()).collect(),
-            Thing::Body => self.bodies.values().map(|b| b.name.as_str()).collect(),
-            Thing::Part => self.parts.values().map(|p| p.name.as_str()).collect(),
-            Thing::Piece => self.parts.values().flat_map(|p| p.pieces.iter().map(|s| s.name.as_str())).collect(),
-            Thing::Environment => self.environments.values().map(|e| e.name.as_str()).collect(),
-            Thing::Curve => self.curves.values().map(|c| c.name.as_str()).collect(),
-            Thing::Bathymetry => self.bathymetries.values().map(|b| b.name.as_str()).collect(),
-            Thing::Filling => self.fillings.values().map(|f| f.name.as_str()).collect(),
-            Thing::Selector => self.selectors.values().map(|s| s.name.as_str()).collect(),
+            EntityKind::Connector => self.connectors.values().map(|c| c.name.as_str()).collect(),
+            EntityKind::Class => self.classes.values().map(|c| c.name.as_str()).collect(),
+            EntityKind::Point => self.points.values().map(|p| p.name.as_str()).collect(),
+            EntityKind::Assembly => self.assemblies.values().map(|a| a.name.as_str()).collect(),
+            EntityKind::Body => self.bodies.values().map(|b| b.name.as_str()).collect(),
+            EntityKind::Part => self.parts.values().map(|p| p.name.as_str()).collect(),
+            EntityKind::Piece => self.parts.values().flat_map(|p| p.pieces.iter().map(|s| s.name.as_str())).collect(),
+            EntityKind::Environment => self.environments.values().map(|e| e.name.as_str()).collect(),
+            EntityKind::Curve => self.curves.values().map(|c| c.name.as_str()).collect(),
+            EntityKind::Bathymetry => self.bathymetries.values().map(|b| b.name.as_str()).collect(),
+            EntityKind::Filling => self.fillings.values().map(|f| f.name.as_str()).collect(),
+            EntityKind::Selector => self.selectors.values().map(|s| s.name.as_str()).collect(),
         }
     }
 
     /// Everything that has a name, each with its sort; a body's own part goes with the body, and so does a piece of its name; the
     /// hook of an assembly goes with it.
-    pub fn things(&self) -> Vec<(Thing, &str)> {
-        let list = Thing::ALL.into_iter().flat_map(|t| self.names(t).into_iter().map(move |name| (t, name)));
-        let taken = |thing: Thing, name: &str| match thing {
-            Thing::Body => self.assemblies.contains_key(&Model::key(name)),
-            Thing::Point => name.strip_prefix('*').is_some_and(|own| self.assemblies.contains_key(&Model::key(own))),
-            Thing::Part => self.bodies.contains_key(&Model::key(name)),
-            Thing::Piece => self.parts.contains_key(&Model::key(name)),
+    pub fn things(&self) -> Vec<(EntityKind, &str)> {
+        let list = EntityKind::ALL.into_iter().flat_map(|t| self.names(t).into_iter().map(move |name| (t, name)));
+        let taken = |thing: EntityKind, name: &str| match thing {
+            EntityKind::Body => self.assemblies.contains_key(&Model::key(name)),
+            EntityKind::Point => {
+                name.strip_prefix('*').is_some_and(|own| self.assemblies.contains_key(&Model::key(own)))
+            }
+            EntityKind::Part => self.bodies.contains_key(&Model::key(name)),
+            EntityKind::Piece => self.parts.contains_key(&Model::key(name)),
             _ => false,
         };
         list.filter(|(thing, name)| !taken(*thing, name)).collect()
     }
 
     /// Where a thing was defined; `None` when there is no such thing.
-    pub fn defined(&self, thing: Thing, name: &str) -> Option<Span> {
+    pub fn defined(&self, thing: EntityKind, name: &str) -> Option<Span> {
         let key = Model::key(name);
         match thing {
-            Thing::Connector => self.connectors.get(&key).map(|c| c.span),
-            Thing::Class => self.classes.get(&key).map(|c| c.span),
-            Thing::Point => self.points.get(&key).map(|p| p.span),
-            Thing::Assembly => self.assemblies.get(&key).map(|a| a.span),
-            Thing::Body => self.bodies.get(&key).map(|b| b.span),
-            Thing::Part => self.parts.get(&key).map(|p| p.span),
-            Thing::Piece => self.piece(name).map(|(_, piece)| piece.span),
-            Thing::Environment => self.environments.get(&key).map(|e| e.span),
-            Thing::Curve => self.curves.get(&key).map(|c| c.span),
-            Thing::Bathymetry => self.bathymetries.get(&key).map(|b| b.span),
-            Thing::Filling => self.fillings.get(&key).map(|f| f.span),
-            Thing::Selector => self.selectors.get(&key).map(|s| s.span),
+            EntityKind::Connector => self.connectors.get(&key).map(|c| c.span),
+            EntityKind::Class => self.classes.get(&key).map(|c| c.span),
+            EntityKind::Point => self.points.get(&key).map(|p| p.span),
+            EntityKind::Assembly => self.assemblies.get(&key).map(|a| a.span),
+            EntityKind::Body => self.bodies.get(&key).map(|b| b.span),
+            EntityKind::Part => self.parts.get(&key).map(|p| p.span),
+            EntityKind::Piece => self.piece(name).map(|(_, piece)| piece.span),
+            EntityKind::Environment => self.environments.get(&key).map(|e| e.span),
+            EntityKind::Curve => self.curves.get(&key).map(|c| c.span),
+            EntityKind::Bathymetry => self.bathymetries.get(&key).map(|b| b.span),
+            EntityKind::Filling => self.fillings.get(&key).map(|f| f.span),
+            EntityKind::Selector => self.selectors.get(&key).map(|s| s.span),
         }
     }
 
@@ -144,7 +146,7 @@ impl Model {
     ///
     /// # Errors
     /// A name that is taken, with the place of its definition.
-    pub fn free_name(&self, name: &str, mine: &[Thing], span: Span) -> Outcome<()> {
+    pub fn free_name(&self, name: &str, mine: &[EntityKind], span: Span) -> Outcome<()> {
         if mine.iter().any(|thing| self.defined(*thing, name).is_some()) {
             return Ok(());
         }
@@ -159,33 +161,33 @@ impl Model {
     }
 
     /// The names of what cannot do without a thing.
-    pub fn users(&self, thing: Thing, name: &str) -> Vec<&str> {
+    pub fn users(&self, thing: EntityKind, name: &str) -> Vec<&str> {
         let key = Model::key(name);
         match thing {
-            Thing::Class => {
+            EntityKind::Class => {
                 let made_of =
                     |a: &&Assembly| matches!(&a.kind, AssemblyKind::Pipe { class, .. } if Model::key(class) == key);
                 let pipes = self.assemblies.values().filter(made_of).map(|a| a.name.as_str());
                 self.users_of_class(name).into_iter().chain(pipes).collect()
             }
-            Thing::Point => self.users_of_point(name),
-            Thing::Body => {
+            EntityKind::Point => self.users_of_point(name),
+            EntityKind::Body => {
                 let own = self.points.values().filter(|p| self.body_of(p).is_some_and(|b| Model::key(&b.name) == key));
                 own.flat_map(|p| self.users_of_point(&p.name)).collect()
             }
-            Thing::Part => {
+            EntityKind::Part => {
                 self.points.values().filter(|p| Model::key(&p.part) == key).map(|p| p.name.as_str()).collect()
             }
-            Thing::Curve => self.users_of_curve(&key),
-            Thing::Bathymetry => self.environments_with(|e| e.bathymetry.as_ref(), &key),
-            Thing::Filling => self.environments_with(|e| e.filling.as_ref(), &key),
-            Thing::Selector => {
+            EntityKind::Curve => self.users_of_curve(&key),
+            EntityKind::Bathymetry => self.environments_with(|e| e.bathymetry.as_ref(), &key),
+            EntityKind::Filling => self.environments_with(|e| e.filling.as_ref(), &key),
+            EntityKind::Selector => {
                 let names = |list: &[String]| list.iter().any(|n| Model::key(n) == key);
                 let users = self.selectors.values().filter(|s| names(&s.select) || names(&s.except));
                 users.map(|s| s.name.as_str()).collect()
             }
-            Thing::Connector => self.assembly_of(name).map(|a| a.name.as_str()).into_iter().collect(),
-            Thing::Environment | Thing::Piece | Thing::Assembly => Vec::new(),
+            EntityKind::Connector => self.assembly_of(name).map(|a| a.name.as_str()).into_iter().collect(),
+            EntityKind::Environment | EntityKind::Piece | EntityKind::Assembly => Vec::new(),
         }
     }
 

@@ -57,5 +57,5 @@ pub mod watch;
 
 pub use equilibrium::{Equilibrium, Options, equilibrium};
 pub use modes::{Mode, modes};
-pub use settle::{Settled, settle};
+pub use settle::{EquilibriumResult, settle};
 pub use system::{Contribution, FREEDOMS, Node, SolveError, State, System};

@@ -11,7 +11,7 @@ const MOST: usize = 12;
 
 /// A model at rest.
 #[derive(Debug)]
-pub struct Settled {
+pub struct EquilibriumResult {
     /// How it was found.
     pub found: Equilibrium,
     /// The system there.
@@ -24,7 +24,7 @@ pub struct Settled {
 ///
 /// # Errors
 /// As [`equilibrium`]; the model is then where the last solution had it: callers keep a copy.
-pub fn settle(model: &mut Model, options: &Options) -> Result<Settled, SolveError> {
+pub fn settle(model: &mut Model, options: &Options) -> Result<EquilibriumResult, SolveError> {
     let start: Vec<Place> = model.bodies.values().map(|b| b.place).collect();
     let made = |model: &Model| {
         let mut system = System::of(model, &[])?;
@@ -67,5 +67,5 @@ pub fn settle(model: &mut Model, options: &Options) -> Result<Settled, SolveErro
     for (body, place) in model.bodies.values_mut().zip(start) {
         body.previous = place;
     }
-    Ok(Settled { found, system, state })
+    Ok(EquilibriumResult { found, system, state })
 }

@@ -2,7 +2,7 @@
 
 use super::equilibrium::is_unstable;
 use super::modes::modes;
-use super::settle::Settled;
+use super::settle::EquilibriumResult;
 use super::system::{Contribution, FREEDOMS, SolveError, State, System};
 use nalgebra::{Matrix6, Vector3};
 use windlass_base::geometry::Position;
@@ -31,7 +31,7 @@ fn push(table: &mut Table, row: Vec<Cell>) {
 const STALLED: f64 = 1e-6;
 
 /// Where the bodies are at rest, and what is left on them.
-pub fn rest(model: &Model, settled: &Settled) -> Table {
+pub fn rest(model: &Model, settled: &EquilibriumResult) -> Table {
     let mut table = Table::new("Equilibrium")
         .fact("Steps", settled.found.steps, Dim::None)
         .fact("Evaluations", settled.found.evaluations, Dim::None)

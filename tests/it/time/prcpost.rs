@@ -12,7 +12,7 @@ use windlass_hydro::sea::{Component, Sea, Water};
 use windlass_model::{FatigueSelection, Model, Stretching};
 use windlass_signal::fatigue::{find, of_cycles};
 use windlass_signal::rainflow::cycles;
-use windlass_solve::results::{self, Exposed, Interest, Magnitude, Told, Window};
+use windlass_solve::results::{self, Exposed, Magnitude, Told, TrackedPoint, Window};
 use windlass_solve::time::{Action, Ending, Run, What, When};
 
 fn run(model: &Model, (observed, dt): (f64, f64), start: &[(usize, Six)], actions: Vec<Action>) -> Run {
@@ -94,8 +94,8 @@ fn points_of_interest_move_with_their_body_under_the_wave_of_the_run() {
     // (10, 20, 5) + (3, -4, 1)
     assert_eq!(point.interest, Some([13.0, 16.0, 6.0]));
     let marked = point.interest.unwrap();
-    let on_body = Interest { name: "*P".into(), body: Some(0), at: point.at, marked };
-    let fixed = Interest { name: "*G".into(), body: None, at: [100.0, 50.0, 3.0], marked: [100.0, 50.0, 3.0] };
+    let on_body = TrackedPoint { name: "*P".into(), body: Some(0), at: point.at, marked };
+    let fixed = TrackedPoint { name: "*G".into(), body: None, at: [100.0, 50.0, 3.0], marked: [100.0, 50.0, 3.0] };
     let window = Window { begin: 0.0, end: Some(99.0), increment: Some(0.2) };
     let events = results::events(&made.history, Some(&window)).unwrap();
     let table = results::points(&made, &[on_body, fixed], (false, Magnitude::default()), &events).unwrap();

@@ -5,7 +5,7 @@ use crate::Deck;
 use crate::waves::{Form, RegularWave, Spectrum, Waves};
 use std::f64::consts::{PI, TAU};
 use windlass_base::diagnostic::Diagnostic;
-use windlass_hydro::sea::density::{Hump, Spectrum as Density};
+use windlass_hydro::sea::density::{SpectralPeak, Spectrum as Density};
 
 /// Name of the curve of a spectrum without a formula in the language.
 const CURVE: &str = "DECK_13";
@@ -101,7 +101,7 @@ fn form(deck: &Deck, sea: &Spectrum, from: f64, out: &mut Script) -> Option<Vec<
         }
         Form::Jonswap { gamma, alpha, peak } => {
             let gravity = out.scale.length(deck.global.gravity);
-            let hump = Hump::of_alpha(*alpha, *peak, *gamma, gravity);
+            let hump = SpectralPeak::of_alpha(*alpha, *peak, *gamma, gravity);
             let energy = Density::of_humps(vec![hump], None).moment(0);
             out.remark(&format!(
                 "JONS: alpha {}, gamma {}, peak frequency {} rad/s",

@@ -21,7 +21,7 @@ const USUAL_STEP: f64 = 0.1;
 
 /// What a database brings.
 #[derive(Debug)]
-pub struct Brought {
+pub struct DatabaseLoads {
     /// Its loads.
     pub loads: Vec<Box<dyn BodyLoad>>,
     /// Added mass at infinite frequency about the body's origin, of a body at rest; under way it is among the loads.
@@ -269,7 +269,7 @@ pub fn of(
     body: &Body,
     under_way: Option<Option<&Arc<Sea>>>,
     damping: &mut Matrix6<f64>,
-) -> Result<Option<Brought>, ClassError> {
+) -> Result<Option<DatabaseLoads>, ClassError> {
     let Some(attached) = &body.database else { return Ok(None) };
     let data = attached.data.as_ref();
     drift_once(model, body, attached)?;
@@ -311,7 +311,7 @@ pub fn of(
         let factor = model.multipliers.of(load.category().name(), &body.name);
         if factor == 1.0 { load } else { crate::gathered::multiplied(load, factor) }
     });
-    Ok(Some(Brought { loads: loads.chain(carried).collect(), added_mass }))
+    Ok(Some(DatabaseLoads { loads: loads.chain(carried).collect(), added_mass }))
 }
 
 /// Sees that no records give the drift that the database brings.

@@ -21,7 +21,7 @@ const DELTA: f64 = 0.3;
 
 /// Components in blocks of eight, with what does not change.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Lanes {
+pub(super) struct WaveLanes {
     blocks: Vec<Block>,
     /// The one direction of travel of a long-crested sea.
     toward: Option<[f64; 2]>,
@@ -53,7 +53,7 @@ struct Block {
     longest: f64,
 }
 
-impl Lanes {
+impl WaveLanes {
     /// Those of components in a depth (m).
     pub(super) fn of(components: &[Component], depth: Option<f64>) -> Self {
         let block = |list: &[Component]| {
@@ -79,7 +79,7 @@ impl Lanes {
             }
         };
         let variance: f64 = components.iter().map(|c| 0.5 * c.amplitude * c.amplitude).sum();
-        Lanes {
+        WaveLanes {
             blocks: components.chunks(8).map(block).collect(),
             toward: components.first().map(|c| c.toward).filter(|first| components.iter().all(|c| c.toward == *first)),
             stretch: 2.0 * variance.sqrt(),

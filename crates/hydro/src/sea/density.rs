@@ -22,7 +22,7 @@ const PANELS: [usize; 2] = [200, 80];
 
 /// One hump of a spectrum.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hump {
+pub struct SpectralPeak {
     /// Peak frequency (rad/s).
     pub peak: f64,
     /// N: the density falls with the frequency to the power -N; greater than 2, else there is no mean frequency.
@@ -33,17 +33,17 @@ pub struct Hump {
     pub scale: f64,
 }
 
-impl Hump {
+impl SpectralPeak {
     /// The hump of an energy m0 (m2).
     pub fn of_energy(energy: f64, peak: f64, exponent: f64, gamma: f64) -> Self {
-        let unit = Hump { peak: 1.0, exponent, gamma, scale: 1.0 };
+        let unit = SpectralPeak { peak: 1.0, exponent, gamma, scale: 1.0 };
         let whole = Spectrum::of_humps(vec![unit], None).moment(0);
-        Hump { peak, exponent, gamma, scale: energy / (whole * peak) }
+        SpectralPeak { peak, exponent, gamma, scale: energy / (whole * peak) }
     }
 
     /// JONSWAP by Phillips' constant: `alpha g^2 w^-5 exp(-1.25 (wp/w)^4) gamma^..`.
     pub fn of_alpha(alpha: f64, peak: f64, gamma: f64, gravity: f64) -> Self {
-        Hump { peak, exponent: 5.0, gamma, scale: alpha * gravity * gravity * peak.powi(-5) }
+        SpectralPeak { peak, exponent: 5.0, gamma, scale: alpha * gravity * gravity * peak.powi(-5) }
     }
 
     /// Density (m2 s) at a frequency (rad/s).
@@ -75,7 +75,7 @@ struct Panel {
 /// A spectrum of waves over frequency.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spectrum {
-    humps: Vec<Hump>,
+    humps: Vec<SpectralPeak>,
     /// Frequency (rad/s), density (m2 s).
     curve: Vec<(f64, f64)>,
     panels: Vec<Panel>,
@@ -83,7 +83,7 @@ pub struct Spectrum {
 
 impl Spectrum {
     /// The sum of humps, between two frequencies (rad/s) or over all.
-    pub fn of_humps(humps: Vec<Hump>, limits: Option<[f64; 2]>) -> Self {
+    pub fn of_humps(humps: Vec<SpectralPeak>, limits: Option<[f64; 2]>) -> Self {
         let mut knots = Vec::with_capacity(humps.len() * (PANELS[0] + PANELS[1] + 1));
         let grow = |a: f64, b: f64, i: usize, n: usize| a * (b / a).powf(i as f64 / n as f64);
         for hump in &humps {
@@ -287,7 +287,7 @@ impl Spectrum {
             let points = self.curve.iter().map(|(w, s)| (w * factor, s * density)).collect();
             return Spectrum::of_curve(points, limits).with_energy();
         }
-        let scale = |h: &Hump| Hump { peak: h.peak * factor, scale: h.scale * density, ..*h };
+        let scale = |h: &SpectralPeak| SpectralPeak { peak: h.peak * factor, scale: h.scale * density, ..*h };
         Spectrum::of_humps(self.humps.iter().map(scale).collect(), limits).with_energy()
     }
 

@@ -98,13 +98,13 @@ pub struct Sea {
     /// The Stokes wave it is. Its only component is then the Airy wave of the same height, frequency and wave number, for what
     /// is linear in the waves; elevation and kinematics are Stokes'.
     pub stokes: Option<stokes::Stokes>,
-    lanes: airy::Lanes,
+    lanes: airy::WaveLanes,
 }
 
 impl Sea {
     /// A sea of Airy waves, their phases taken as they are; see [`Sea::of`] for that of an environment.
     pub fn airy(components: Vec<Component>, water: Water, ramp: f64, stretching: Stretching) -> Self {
-        let lanes = airy::Lanes::of(&components, water.depth);
+        let lanes = airy::WaveLanes::of(&components, water.depth);
         let Water { depth, level, gravity, density } = water;
         Sea {
             components,

@@ -1,6 +1,6 @@
 //! Spectra with a formula, each in one place, from heights in m and periods in s.
 
-use super::density::{Hump, Spectrum};
+use super::density::{SpectralPeak, Spectrum};
 use std::f64::consts::TAU;
 use windlass_base::units::Dim;
 use windlass_model::ClassError;
@@ -31,15 +31,15 @@ impl PeriodType {
 }
 
 /// ISSC (gamma 1) or JONSWAP.
-pub fn jonswap(height: f64, period: f64, kind: PeriodType, gamma: f64) -> Vec<Hump> {
-    let unit = Spectrum::of_humps(vec![Hump::of_energy(1.0, 1.0, 5.0, gamma)], None);
+pub fn jonswap(height: f64, period: f64, kind: PeriodType, gamma: f64) -> Vec<SpectralPeak> {
+    let unit = Spectrum::of_humps(vec![SpectralPeak::of_energy(1.0, 1.0, 5.0, gamma)], None);
     // w = x wp: a period of the unit spectrum becomes the one asked for
     let peak = match kind {
         PeriodType::Peak => period,
         PeriodType::Mean => period * unit.moment(1),
         PeriodType::ZeroCrossing => period * unit.moment(2).sqrt(),
     };
-    vec![Hump::of_energy(height * height / 16.0, TAU / peak, 5.0, gamma)]
+    vec![SpectralPeak::of_energy(height * height / 16.0, TAU / peak, 5.0, gamma)]
 }
 
 /// The peakedness of JONSWAP where none is given: 5 up to Tp/sqrt(Hs) = 3.6, exp(5.75 - 1.15 Tp/sqrt(Hs)) up to 5, 1 beyond
@@ -62,7 +62,7 @@ pub fn usual_gamma(height: f64, period: f64, kind: PeriodType) -> f64 {
 ///
 /// # Errors
 /// A shape of a quarter or less: there is no mean frequency.
-pub fn ochi_hubble(parts: [[f64; 3]; 2]) -> Result<Vec<Hump>, ClassError> {
+pub fn ochi_hubble(parts: [[f64; 3]; 2]) -> Result<Vec<SpectralPeak>, ClassError> {
     let hump = |[height, peak, shape]: [f64; 3]| {
         if shape <= 0.25 || !shape.is_finite() {
             return Err(ClassError::new(format!(
@@ -70,7 +70,7 @@ pub fn ochi_hubble(parts: [[f64; 3]; 2]) -> Result<Vec<Hump>, ClassError> {
             ))
             .help("its most probable shape is above 0.25 up to a significant height of 29 m"));
         }
-        Ok(Hump::of_energy(height * height / 16.0, peak, 4.0 * shape + 1.0, 1.0))
+        Ok(SpectralPeak::of_energy(height * height / 16.0, peak, 4.0 * shape + 1.0, 1.0))
     };
     parts.into_iter().map(hump).collect()
 }
@@ -87,7 +87,7 @@ pub fn most_probable(height: f64) -> [[f64; 3]; 2] {
 ///
 /// # Errors
 /// A peak period beyond 25 s or so short that the sea is steeper than the model: below 2 sqrt(Hs).
-pub fn torsethaugen(height: f64, period: f64) -> Result<Vec<Hump>, ClassError> {
+pub fn torsethaugen(height: f64, period: f64) -> Result<Vec<SpectralPeak>, ClassError> {
     let fetch = 6.6 * height.cbrt();
     let (shortest, longest) = (2.0 * height.sqrt(), 25.0);
     if period < shortest.min(fetch) || period > longest || fetch >= longest {
@@ -108,9 +108,9 @@ pub fn torsethaugen(height: f64, period: f64) -> Result<Vec<Hump>, ClassError> {
         let share = 0.6 + 0.4 * (-(near / 0.3).powi(2)).exp();
         (share * height, steep(height, fetch) * (1.0 + 6.0 * near), rest(share), 6.6 * rest(share).cbrt())
     };
-    let mut humps = vec![Hump::of_energy(first * first / 16.0, TAU / period, 4.0, gamma.max(1.0))];
+    let mut humps = vec![SpectralPeak::of_energy(first * first / 16.0, TAU / period, 4.0, gamma.max(1.0))];
     if second > 1e-6 * height {
-        humps.push(Hump::of_energy(second * second / 16.0, TAU / second_period, 4.0, 1.0));
+        humps.push(SpectralPeak::of_energy(second * second / 16.0, TAU / second_period, 4.0, 1.0));
     }
     Ok(humps)
 }

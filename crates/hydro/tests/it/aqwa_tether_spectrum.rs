@@ -3,7 +3,7 @@
 //! Numbers and formulation: [W-TOWED 3]. `tests/data/aqwa_tether_spectrum.csv` holds the lines as printed.
 
 use windlass_hydro::sea::components::bands;
-use windlass_hydro::sea::density::{Hump, Spectrum};
+use windlass_hydro::sea::density::{SpectralPeak, Spectrum};
 use windlass_hydro::sea::dispersion::wave_number;
 use windlass_model::Division;
 
@@ -13,8 +13,8 @@ const GRAVITY: f64 = 9.81;
 const LIMITS: [f64; 2] = [0.37, 2.5];
 
 /// JONSWAP by gamma 5.2273, alpha 0.01146, peak 0.6411 rad/s: the JONS card.
-fn hump() -> Hump {
-    Hump::of_alpha(0.01146, 0.6411, 5.2273, GRAVITY)
+fn hump() -> SpectralPeak {
+    SpectralPeak::of_alpha(0.01146, 0.6411, 5.2273, GRAVITY)
 }
 
 /// Line, wave number, frequency, phase, ordinate.

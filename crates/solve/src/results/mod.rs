@@ -19,7 +19,7 @@ pub use fatigue::{Exposed, line_damages, scatter};
 pub use fenders::{FenderPeak, fender_peaks, fender_table};
 pub use forces::body_forces;
 pub use motions::{Told, trajectory};
-pub use points::{Interest, points};
+pub use points::{TrackedPoint, points};
 
 use super::system::SolveError;
 use super::time::History;

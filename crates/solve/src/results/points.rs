@@ -11,7 +11,7 @@ use windlass_base::units::Dim;
 
 /// A point that is told of.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Interest {
+pub struct TrackedPoint {
     /// Its name as written.
     pub name: String,
     /// The number of its body in the run; none in the ground.
@@ -30,7 +30,7 @@ pub struct Interest {
 /// Rows that make no table.
 pub fn points(
     run: &Run,
-    chosen: &[Interest],
+    chosen: &[TrackedPoint],
     (local, magnitude): (bool, Magnitude),
     events: &[Event],
 ) -> Result<Table, SolveError> {

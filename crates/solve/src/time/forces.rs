@@ -1,9 +1,9 @@
 //! What acts on bodies under way, and how it changes with their places and velocities.
 
 use super::ends::end_of;
-use super::foretelling::Foretelling;
+use super::force_predictor::ForcePredictor;
 use super::inertia::of_added;
-use super::side_by_side::Alone;
+use super::parallel::LineTask;
 use crate::link::{Attachment, Link};
 use crate::system::{Node, SolveError, System};
 use crate::ties::Ties;
@@ -142,13 +142,13 @@ pub struct Forces {
     pub trial: Vec<f64>,
     /// What solvers of the connectors remember.
     pub(super) guesses: Vec<Guess>,
-    foretelling: Foretelling,
+    foretelling: ForcePredictor,
     /// Whether a connector has inertia of its own.
     pub(super) moving: bool,
     /// Whether a load adds to the inertia of its body.
     carried: bool,
     /// Those of them, evaluated side by side.
-    pub(super) alone: Vec<Alone>,
+    pub(super) alone: Vec<LineTask>,
     made: MovingLoad,
     response: Response,
     pub(super) ends: Vec<End>,

@@ -45,7 +45,7 @@ impl Course {
 
 /// What the next step is foretold by.
 #[derive(Debug, Default)]
-pub(super) struct Foretelling {
+pub(super) struct ForcePredictor {
     /// Steps of one length in a row at the end of which there was balance.
     count: usize,
     /// That length (s).
@@ -60,7 +60,7 @@ pub(super) struct Foretelling {
     start: DVector<f64>,
 }
 
-impl Foretelling {
+impl ForcePredictor {
     /// Nothing foretells the next step.
     pub(super) fn forget(&mut self) {
         (self.count, self.known) = (0, 0);
@@ -76,7 +76,7 @@ impl Foretelling {
         self.count += 1;
     }
 
-    /// With that of a step, its -d(sum)/d(acceleration) of what moves by itself: before [`Foretelling::take`].
+    /// With that of a step, its -d(sum)/d(acceleration) of what moves by itself: before [`ForcePredictor::take`].
     pub(super) fn take_inertia(&mut self, dt: f64, inertia: &DMatrix<f64>) {
         let again = (dt - self.step).abs() <= SAME * dt && self.inertia.last.shape() == inertia.shape();
         self.inertia.take(inertia, if again { self.count } else { 0 });
@@ -157,7 +157,7 @@ mod tests {
     #[test]
     fn forces_whose_stiffness_is_a_parabola_in_time_are_foretold_exactly() {
         let (stiffness, damping) = (|t: f64| 3.0 + 2.0 * t + 5.0 * t * t, |t: f64| 1.0 - t + 0.5 * t * t);
-        let mut made = Foretelling::default();
+        let mut made = ForcePredictor::default();
         let whole = |value: f64| DMatrix::from_diagonal_element(6, 6, value);
         for t in [-0.2, -0.1, 0.0] {
             made.take(0.1, &whole(stiffness(t)), &whole(damping(t)));
@@ -187,7 +187,7 @@ mod tests {
             let at = motion(t);
             DVector::repeat(6, own(t) - 3.0 * place(t) - 2.0 * at.velocity[0] - 5.0 * at.acceleration[0])
         };
-        let mut made = Foretelling::default();
+        let mut made = ForcePredictor::default();
         let dt = 0.1;
         for step in 0..5 {
             let t = f64::from(step) * dt;

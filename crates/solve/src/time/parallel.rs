@@ -7,7 +7,7 @@ use windlass_model::{ClassError, End, Guess, Response, Situation, TimeStep};
 
 /// One of them, with what its evaluation needs and finds.
 #[derive(Default)]
-pub(super) struct Alone {
+pub(super) struct LineTask {
     /// Its number among the connectors.
     pub link: usize,
     pub ends: Vec<End>,
@@ -17,7 +17,7 @@ pub(super) struct Alone {
     pub failed: Option<ClassError>,
 }
 
-impl std::fmt::Debug for Alone {
+impl std::fmt::Debug for LineTask {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Alone").field("link", &self.link).field("ends", &self.ends).finish_non_exhaustive()
     }
@@ -31,7 +31,7 @@ impl Forces {
             return;
         }
         let moving = || system.links.iter().enumerate().filter(|(_, l)| l.element.moves());
-        self.alone.resize_with(moving().count(), Alone::default);
+        self.alone.resize_with(moving().count(), LineTask::default);
         let mut alone = std::mem::take(&mut self.alone);
         for (one, (index, link)) in alone.iter_mut().zip(moving()) {
             self.place_ends(link, motions);
@@ -52,8 +52,8 @@ impl Forces {
 }
 
 /// Evaluates them at the end of a step; `step` as of [`Situation`].
-fn evaluate(system: &System, lines: &mut [Alone], step: Option<TimeStep>) {
-    let one = |line: &mut Alone| {
+fn evaluate(system: &System, lines: &mut [LineTask], step: Option<TimeStep>) {
+    let one = |line: &mut LineTask| {
         let Some(link) = system.links.get(line.link) else { return };
         let at = Situation { ends: &line.ends, step, surroundings: &system.surroundings };
         let committed = system.states.get(link.states.clone()).unwrap_or_default();
