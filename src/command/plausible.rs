@@ -18,7 +18,7 @@ const FASTEST_CURRENT: f64 = 5.0;
 const DEEPEST: f64 = 10_935.0;
 /// Fresh water at its lightest to brine (kg/m3).
 const WATER: [f64; 2] = [900.0, 1300.0];
-/// Coefficients of chain on soil go up to 1.0 to 1.5 (API RP 2SK gives 1.0 for chain, 0.6 for wire).
+/// Coefficients of chain on soil go up to 1.0 to 1.5 ([API-RP-2SK] gives 1.0 for chain, 0.6 for wire).
 const MOST_FRICTION: f64 = 2.0;
 
 /// A value as the user wrote it, to four figures, with its unit.
@@ -28,7 +28,7 @@ pub(super) fn shown(value: f64, dim: Dim, units: UnitSystem) -> String {
     format!("{} {}", eight_figures(short), dim.label(units)).trim_end().to_string()
 }
 
-/// The steepness 2 pi Hs / (g Tp2) that a sea state does not exceed (DNV-RP-C205 3.5.4): 1/15 up to a peak period of 8 s, 1/25 from 15 s.
+/// The steepness 2 pi Hs / (g Tp2) that a sea state does not exceed [DNV-RP-C205 3.5.4]: 1/15 up to a peak period of 8 s, 1/25 from 15 s.
 fn steepest(peak: f64) -> f64 {
     let share = ((peak - 8.0) / 7.0).clamp(0.0, 1.0);
     (1.0 - share) / 15.0 + share / 25.0
@@ -101,7 +101,7 @@ fn breaking(model: &Model, env: &Environment, sea: &Sea, units: UnitSystem) -> O
     let depth = around.depth.map(|d| d + around.tide);
     let peak = TAU / found.peak();
     let k = wave_number(found.peak(), depth, around.gravity).ok()?;
-    // Miche (1944)
+    // [MICHE-1944]
     let highest = 0.142 * TAU / k * depth.map_or(1.0, |d| (k * d).tanh());
     let height = shown(sea.height, Dim::Length, units);
     if sea.height > highest {

@@ -243,7 +243,7 @@ mod tests {
 
     #[test]
     fn chain_breaks_as_the_makers_table_to_the_rules_says() {
-        // pilotfits.com/products/offshore-mooring-chain (to DNV-OS-E302, IACS W22): whole kN, rounded up or to nearest
+        // pilotfits.com/products/offshore-mooring-chain (to [DNV-OS-E302; IACS-W22]): whole kN, rounded up or to nearest
         for (grade, rows) in [
             ("R3", [(0.034, 1065.0), (0.050, 2230.0), (0.070, 4196.0)]),
             ("R3S", [(0.034, 1189.0), (0.050, 2490.0), (0.070, 4686.0)]),
@@ -267,7 +267,7 @@ mod tests {
         // MoorPy's fits to four makers: 20.0e3 and 21.9e3 d**2 kg/m; 1 % is their difference from OrcaFlex
         near("CHAIN_R4", "mass", named("CHAIN_R4").mass.at(0.084), 20.0e3 * 0.084 * 0.084, 0.01);
         near("CHAIN_R4_STUD", "mass", named("CHAIN_R4_STUD").mass.at(0.084), 21.9e3 * 0.084 * 0.084, 1e-9);
-        // DNV-OS-E301 (ckunte.net/2015/ea; 5.6e10 for studlink by MoorPy): E on the area of both legs. OrcaFlex is older
+        // [DNV-OS-E301] (ckunte.net/2015/ea; 5.6e10 for studlink by MoorPy): E on the area of both legs. OrcaFlex is older
         // and, for studlink, 15 % stiffer
         let legs = 2.0 * FRAC_PI_4 * 0.084 * 0.084;
         near("CHAIN_R4", "AE", named("CHAIN_R4").ea.at(0.084), (5.45 - 0.0025 * 84.0) * 1e10 * legs, 0.04);
@@ -307,8 +307,8 @@ mod tests {
 
     #[test]
     fn fibre_rope_agrees_with_published_tables() {
-        // 8-strand polyester, 48 mm: 1.74 kg/m (engineeringtoolbox.com); DIN 83331 36.7 t (OCIMF Mooring Equipment
-        // Guidelines, Table 6.5). Makers exceed the standards: 12 %
+        // 8-strand polyester, 48 mm: 1.74 kg/m (engineeringtoolbox.com); DIN 83331 36.7 t
+        // [OCIMF-MEG2 table 6.5]. Makers exceed the standards: 12 %
         let rope = named("POLYESTER");
         near("POLYESTER", "mass", rope.mass.at(0.048), 1.74, 0.06);
         near("POLYESTER", "break", rope.breaking.at(0.048), 36.7 * 9806.65, 0.12);

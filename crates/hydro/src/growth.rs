@@ -4,7 +4,7 @@
 //! Our readings: elevations are global, above z = 0, tide left out, as growth stays where it has grown; it is straight between
 //! the points of the curve, and there is none above its highest and below its lowest elevation. Where bodies move it stays on them:
 //! whoever makes a load asks with the elevation at which the part stands then. Drag and inertia take the larger diameter; the density
-//! of the growth in air is 1325 kg/m3 unless given (NORSOK N-003, marine growth, and DNV; from memory of them).
+//! of the growth in air is 1325 kg/m3 unless given ([NORSOK-N-003; DNV-RP-C205], from memory of them).
 
 use std::f64::consts::FRAC_PI_4;
 use windlass_model::{ClassError, CurveKind, Environment, Model};

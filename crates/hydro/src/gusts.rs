@@ -29,7 +29,7 @@ const HEIGHT: f64 = super::wind::REFERENCE;
 /// A formula of gusts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
-    /// API RP 2A-WSD, 20th edition, 2.3.2: `s^2/fp (1 + 1.5 f/fp)^(-5/3)`, s = 0.15 (z/20)^-0.125 U, fp = 0.025 U/z. (The 21st
+    /// [API-RP-2A 2.3.2], 20th edition: `s^2/fp (1 + 1.5 f/fp)^(-5/3)`, s = 0.15 (z/20)^-0.125 U, fp = 0.025 U/z. (The 21st
     /// edition has that of NPD.)
     Api,
     /// NPD (Froya) [ANDERSEN-1992; ISO-19901-1 A.7.4]: `320 (U/10)^2 (z/10)^0.45 (1 + x^n)^(-5/(3n))`, n = 0.468,

@@ -163,7 +163,7 @@ mod tests {
 
     #[test]
     fn periods_of_jonswap_are_those_of_dnv() {
-        // DNV-RP-C205 3.5.5.5: Tz/Tp = 0.6673 + 0.05037 g - 0.00623 g^2 + 0.0003341 g^3, T1/Tp = 0.7303 + 0.04936 g
+        // [DNV-RP-C205 3.5.5.5]: Tz/Tp = 0.6673 + 0.05037 g - 0.00623 g^2 + 0.0003341 g^3, T1/Tp = 0.7303 + 0.04936 g
         // - 0.006556 g^2 + 0.0003610 g^3: fits, good to some 0.5 %
         for gamma in [1.0, 2.0, 3.3, 5.0] {
             let waves = Waves::peaked(4.0, 10.0, PeriodType::Peak, gamma);

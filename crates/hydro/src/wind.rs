@@ -14,7 +14,7 @@ pub const REFERENCE: f64 = 10.0;
 /// Below this height (m) the wind is that of this height: the formulas do not hold among the waves.
 pub const LOWEST: f64 = 1.0;
 
-/// Height of the surface layer of API RP 2A (m).
+/// Height of the surface layer of [API-RP-2A] (m).
 const SURFACE_LAYER: f64 = 20.0;
 
 /// How the mean wind grows with height.
@@ -44,7 +44,7 @@ enum Gust {
 
 /// Middle of each band of height of the ABS rules (m) and its coefficient of pressure.
 ///
-/// Source: ABS MODU Rules Part 3 Chapter 1, height coefficients (bands of 50 ft; the same as 46 CFR 174.055, Table (a)).
+/// Source: [ABS-MODU], height coefficients (bands of 50 ft; the same as 46 CFR 174.055, Table (a)).
 const ABS_BANDS: [(f64, f64); 18] = [
     (7.62, 1.00),
     (22.86, 1.10),
@@ -146,7 +146,7 @@ impl Gust {
         match self {
             Gust::None => (1.0, 0.0),
             Gust::Api(g) => {
-                // turbulence intensity of API RP 2A
+                // turbulence intensity of [API-RP-2A]
                 let exponent: f64 = if z <= SURFACE_LAYER { -0.125 } else { -0.275 };
                 let intensity = 0.15 * (z / SURFACE_LAYER).powf(exponent);
                 (1.0 + g * intensity, g * intensity * exponent / z)
@@ -165,12 +165,12 @@ impl Gust {
 
 /// The profile of a name.
 ///
-/// - POWER: exponent 1/7 unless given (DNV-RP-C205 2.3.2.9 has 0.12 to 0.14 for open sea).
-/// - LOGARITHMIC: DNV-RP-C205 2.3.2.5 with the roughness of Charnock, `z0 = Ac/g (0.4 U10 / ln(10/z0))^2`, Ac 0.014.
-/// - API: API RP 2A-WSD, 20th edition, 2.3.2: power of 0.125, hourly mean. Later editions have the formula of ISO.
-/// - NPD: Froya wind, DNV-RP-C205 2.3.2.13: C = 0.0573 sqrt(1 + 0.148 U), hourly mean.
-/// - ISO: ISO 19901-1:2005, A.7.3: C = 0.0573 sqrt(1 + 0.15 U), hourly mean.
-/// - DNV: DNV-RP-C205 2.3.2.11: C = 0.137, mean over 10 minutes.
+/// - POWER: exponent 1/7 unless given ([DNV-RP-C205 2.3.2.9] has 0.12 to 0.14 for open sea).
+/// - LOGARITHMIC: [DNV-RP-C205 2.3.2.5] with the roughness of Charnock, `z0 = Ac/g (0.4 U10 / ln(10/z0))^2`, Ac 0.014.
+/// - API: [API-RP-2A 2.3.2], 20th edition: power of 0.125, hourly mean. Later editions have the formula of ISO.
+/// - NPD: Froya wind [DNV-RP-C205 2.3.2.13]: C = 0.0573 sqrt(1 + 0.148 U), hourly mean.
+/// - ISO: [ISO-19901-1 A.7.3]: C = 0.0573 sqrt(1 + 0.15 U), hourly mean.
+/// - DNV: [DNV-RP-C205 2.3.2.11]: C = 0.137, mean over 10 minutes.
 /// - ABS: MODU Rules, mean over one minute; its steps are joined by straight lines between the middles of the bands.
 fn law(kind: &str, exponent: Option<f64>, speed: f64) -> Result<Profile, ClassError> {
     match (kind, exponent) {
@@ -202,7 +202,7 @@ fn roughness(speed: f64) -> f64 {
 
 /// The conversion of a design wind.
 ///
-/// - API: API RP 2A-WSD, 20th edition, 2.3.2: `1 + g(t) I(z)`, `g = 3 + ln((3/t)^0.6)` for t up to 60 s.
+/// - API: [API-RP-2A 2.3.2], 20th edition: `1 + g(t) I(z)`, `g = 3 + ln((3/t)^0.6)` for t up to 60 s.
 /// - NPD, ISO: `1 - 0.41 Iu(z) ln(t/3600)`, `Iu = 0.06 (1 + 0.043 U) (z/10)^-0.22`, for t up to an hour.
 /// - DNV: `U(T, z) = U10 (1 + 0.137 ln(z/10) - 0.047 ln(T/600))`.
 /// - ABS: none.

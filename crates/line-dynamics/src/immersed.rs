@@ -20,8 +20,8 @@ pub(super) struct HalfLoad {
 ///
 /// Effective-tension form: the pressure of the fluid on the sides acts as the displaced fluid's weight and inertia,
 /// in full along all axes. Drag 1/2 rho Cd D |u_n| u_n across and 1/2 rho Cx pi D |u_t| u_t along the rod, u the
-/// velocity relative to the fluid; added mass likewise, normal and tangential (Morison et al. 1950; DNV-RP-C205
-/// section 6.2).
+/// velocity relative to the fluid; added mass likewise, normal and tangential [MORISON-1950;
+/// DNV-RP-C205 6.2].
 #[inline(always)]
 pub(super) fn half_load(
     half: &Element,
@@ -68,7 +68,7 @@ pub(super) fn half_load(
 }
 
 /// Drag of wind on half an element of direction `t` if all of it were dry: 1/2 rho Cd D |u_n| u_n across it, u the
-/// velocity relative to the air (DNV-RP-C205 section 5, wind loads; the cross-flow principle as for Morison's drag).
+/// velocity relative to the air ([DNV-RP-C205 5]; the cross-flow principle as for Morison's drag).
 /// Its `by_acceleration` is zero.
 #[inline]
 pub(super) fn wind_load(half: &Element, t: &Vector3<f64>, fluid: &Fluid, velocity: &Vector3<f64>) -> HalfLoad {
@@ -147,8 +147,8 @@ pub(super) fn entry(own: f64, middle: f64, diameter: f64, rising: [f64; 2]) -> O
 /// Slam on half an element whose wet share grows at `rate` (1/s), as a load to be overcome: the momentum of the added
 /// mass that it takes up, d(m_a)/dt u, with its derivatives by velocity and direction, the rate as it is.
 ///
-/// Water entry by the momentum of the added mass (von Karman, NACA TN 321, 1929; Faltinsen, Sea Loads, 1990, section
-/// 9.2; DNV-RP-H103 (2011) section 3.2.9, C_s = 2 / (rho A_p) dA33/dh; DNV-RP-C205 section 8): on entry alone, as water that is left behind
+/// Water entry by the momentum of the added mass ([VON-KARMAN-1929; FALTINSEN-1990 9.2;
+/// DNV-RP-H103 3.2.9; DNV-RP-C205 8], C_s = 2 / (rho A_p) dA33/dh): on entry alone, as water that is left behind
 /// gives nothing back.
 pub(super) fn slam_load(
     half: &Element,

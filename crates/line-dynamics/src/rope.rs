@@ -10,9 +10,8 @@ use nalgebra::Vector3;
 /// relaxation time.
 ///
 /// The strain by which the damper has yielded is the mean strain of the last relaxation times, and the slow tension at
-/// it the mean tension, by which the dynamic stiffness goes: EA_d = a + b T_mean (API RP 2SM, Design, Manufacture,
-/// Installation and Maintenance of Synthetic Fiber Ropes; DNV-RP-E305; the pair of static and dynamic stiffness after
-/// Falkenberg, Ahjem and Yang, OTC-27761, 2017). In statics the slow law is left. Where the slow law is the stiffer of
+/// it the mean tension, by which the dynamic stiffness goes: EA_d = a + b T_mean ([API-RP-2SM; DNV-RP-E305];
+/// the pair of static and dynamic stiffness after [FALKENBERG-2017]). In statics the slow law is left. Where the slow law is the stiffer of
 /// the two it acts alone.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Viscoelastic {

@@ -8,8 +8,8 @@
 //!
 //! Such a step is made again by implicit Euler, which knows of the past the speed alone. Its step from x with speed v
 //! minimises m (y - x - h v)^2 / (2 h^2) + potential(y), so with a convex potential, as tension, gravity and bottom of
-//! a line that cannot push are, no step of any length makes energy; that is why it is the scheme of impacts (Acary and
-//! Brogliato, Numerical Methods for Nonsmooth Dynamical Systems, Springer 2008, chapter 10). It is of the first order,
+//! a line that cannot push are, no step of any length makes energy; that is why it is the scheme of impacts
+//! [BROGLIATO-2008 10]. It is of the first order,
 //! but a motion that the step follows never comes to it, and so keeps its order.
 
 use super::ends::End;

@@ -80,7 +80,7 @@ const SHAPES: (f64, f64) = (1e-2, 1e3);
 impl Weibull {
     /// The distribution of greatest likelihood with a known location: the exponent solves
     /// `sum x^b ln x / sum x^b - 1/b = mean of ln x` [COHEN-1965], whose left side grows with b.
-    /// The location is the level whose up-crossings part the maxima (their mean, as for global maxima in DNV-RP-C205).
+    /// The location is the level whose up-crossings part the maxima (their mean, as for global maxima in [DNV-RP-C205]).
     ///
     /// # Errors
     /// Fewer maxima than [`FEWEST_MAXIMA`], a maximum at or below the level, maxima that are all alike.

@@ -5,7 +5,7 @@
 //! is the independent one.
 //!
 //! # Example
-//! The series of ASTM E1049-85, figure 6:
+//! The series of [ASTM-E1049 figure 6]:
 //! ```
 //! let cycles = windlass_signal::rainflow::cycles(&[-2.0, 1.0, -3.0, 5.0, -1.0, 3.0, -4.0, 4.0, -2.0])?;
 //! let of_range = |range: f64| cycles.iter().filter(|c| c.range == range).map(|c| c.count).sum::<f64>();

@@ -132,7 +132,7 @@ mod tests {
 
     #[test]
     fn the_example_of_the_standard_is_counted_as_printed() {
-        // ASTM E1049-85, Fig. 6: A -2, B 1, C -3, D 5, E -1, F 3, G -4, H 4, I -2
+        // [ASTM-E1049 figure 6]: A -2, B 1, C -3, D 5, E -1, F 3, G -4, H 4, I -2
         let found = cycles(&[-2.0, 1.0, -3.0, 5.0, -1.0, 3.0, -4.0, 4.0, -2.0]).unwrap();
         let want = [(3.0, 0.5), (4.0, 1.5), (6.0, 0.5), (8.0, 1.0), (9.0, 0.5)];
         for (range, count) in want {

@@ -1,7 +1,6 @@
 //! Statistics of a series that is not kept: one pass, flat memory.
 //!
-//! Moments by the stable updates of T. B. Terriberry (2008) as given by P. Pebay, "Formulas for Robust, One-Pass Parallel
-//! Computation of Covariances and Arbitrary-Order Statistical Moments", SAND2008-6212, eqs. 1.1 to 1.6 for one value.
+//! Moments by the stable updates of T. B. Terriberry (2008) as given by [PEBAY-2008 eqs. 1.1 to 1.6] for one value.
 
 use super::SeriesError;
 use super::statistics::{Peak, meeting, shape};

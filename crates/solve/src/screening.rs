@@ -1,7 +1,7 @@
 //! Quasi-static lines of a run, replayed as dynamic lines.
 //!
 //! A quasi-static line has the shape of rest between its ends at every instant: its own inertia and the drag of the water on it are left
-//! out. Where they matter, tensions are larger by up to several times (DNV-OS-E301, ch. 2, sec. 2; API RP 2SK, 5.4). After a run the most
+//! out. Where they matter, tensions are larger by up to several times [DNV-OS-E301 ch. 2 sec. 2; API-RP-2SK 5.4]. After a run the most
 //! loaded of these lines are run again as dynamic lines, one by one, with their ends moved as the run had them, in the water of the run.
 //!
 //! - Which: the [`REPLAYED`] lines with the largest tension over break behind the transient, of those whose class has dynamics.

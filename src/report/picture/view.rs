@@ -193,8 +193,8 @@ pub fn round_length(most: f64) -> f64 {
     [5.0, 2.0, 1.0].into_iter().map(|m| m * power).find(|l| *l <= most * (1.0 + 1e-12)).unwrap_or(power)
 }
 
-/// The convex hull of points, counterclockwise from the leftmost; points on its edges are left out (monotone chain,
-/// Andrew 1979).
+/// The convex hull of points, counterclockwise from the leftmost; points on its edges are left out (monotone chain
+/// [ANDREW-1979]).
 pub fn hull(mut points: Vec<(i32, i32)>) -> Vec<(i32, i32)> {
     points.sort_unstable();
     points.dedup();

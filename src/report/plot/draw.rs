@@ -10,7 +10,7 @@ use plotters::element::{Circle, PathElement, Rectangle, Text};
 use plotters::prelude::{BLACK, ChartContext, Color, DrawingBackend, RGBColor, WHITE};
 use plotters::series::LineSeries;
 
-/// Colours that stay apart for colour-blind eyes (Okabe and Ito 2008), in fixed order.
+/// Colours that stay apart for colour-blind eyes [OKABE-ITO-2008], in fixed order.
 pub const COLOURS: [RGBColor; 7] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),

@@ -66,7 +66,7 @@ fn spectrum_tables_print_the_density_at_their_frequency() {
         let want = 11.25 * ratio.powi(5) / (TAU / 10.0) * (-1.25 * ratio.powi(4)).exp();
         assert!((density(period, 6) - want).abs() <= 5.1e-5, "{period}: {} {want}", density(period, 6));
     }
-    // API RP 2A, 20th edition, at 10 m, over rad/s; the formula stands in steps of its logarithm, off by 2e-5; printed to three
+    // [API-RP-2A], 20th edition, at 10 m, over rad/s; the formula stands in steps of its logarithm, off by 2e-5; printed to three
     let speed = 40.0 * 1852.0 / 3600.0;
     let (deviation, peak) = (0.15 * 0.5f64.powf(-0.125) * speed, 0.0025 * speed);
     for (period, seconds) in [("300.000", 300.0), ("100.000", 100.0), ("20.000", 20.0)] {

@@ -304,7 +304,7 @@ fn a_body_whose_freedoms_are_all_left_out_is_moved_free_as_it_is_held() {
 
 #[test]
 fn a_body_on_eight_chains_is_held_with_the_forces_moorpy_gives() {
-    // MoorPy 1.3.0 over the mooring of benches/offsets.rs (benches/moorpy.py); at rest it leaves 0.94 N and 0.31 N m
+    // MoorPy 1.3.0 [MOORPY-1] over the mooring of benches/offsets.rs (benches/moorpy.py); at rest it leaves 0.94 N and 0.31 N m
     let section = FRAC_PI_4 * 0.18 * 0.18;
     let (modulus, weight) = (8.54e8 / section / 1e6, (199.0 - 1025.0 * section) * 9.80665);
     let mut records = "MEDIT\n&DESCRIBE BODY SHIP\n".to_string();

@@ -1,4 +1,4 @@
-//! Equilibria of a free body on eight chains beside MoorPy 1.3.0, an independent program: tests/data/moorpy_equilibrium.csv, which
+//! Equilibria of a free body on eight chains beside MoorPy 1.3.0 [MOORPY-1], an independent program: tests/data/moorpy_equilibrium.csv, which
 //! benches/moorpy_equilibrium.py made. One segment a line, and two with a clump between; surge loads up to where the lines are taut.
 
 use crate::common;

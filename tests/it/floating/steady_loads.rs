@@ -77,11 +77,11 @@ fn oblique_wind_acts_on_each_area_with_its_component_and_the_whole_speed() {
 
 #[test]
 fn published_wind_profiles_have_their_values() {
-    // power law, 1/7: (50/10)^(1/7) = 1.2584989; API RP 2A 20th: 5^0.125 = 1.2228445
+    // power law, 1/7: (50/10)^(1/7) = 1.2584989; [API-RP-2A], 20th edition: 5^0.125 = 1.2228445
     near(wind_at("&ENV -WIND 60 0", 50.0), 60.0 * KNOT * 1.258_498_95, 1e-8);
     near(wind_at("&ENV -WIND 60 0 -W_PROFILE API", 50.0), 60.0 * KNOT * 1.222_844_55, 1e-8);
     near(wind_at("&ENV -WIND 60 0 -W_PROFILE POWER 0.1", 100.0), 60.0 * KNOT * 1.258_925_41, 1e-8);
-    // ISO 19901-1: C = 0.0573 sqrt(1 + 0.15 x 30.866667) = 0.1359593; 1 + C ln 5 = 1.2188180
+    // [ISO-19901-1]: C = 0.0573 sqrt(1 + 0.15 x 30.866667) = 0.1359593; 1 + C ln 5 = 1.2188180
     near(wind_at("&ENV -WIND 60 0 -W_PROFILE ISO", 50.0), 60.0 * KNOT * 1.218_818_0, 1e-7);
     // DNV: 1 + 0.137 ln 5 = 1.2204930
     near(wind_at("&ENV -WIND 60 0 -W_PROFILE DNV", 50.0), 60.0 * KNOT * 1.220_493, 1e-6);

@@ -203,7 +203,7 @@ fn a_spline_goes_through_its_rows_and_bends_without_a_jump() {
 
 #[test]
 fn the_spline_of_a_sine_errs_by_the_fourth_power_of_its_step() {
-    // natural cubic spline through a sine that bends nowhere at its ends: error (5/384) h^4 (Hall 1968)
+    // natural cubic spline through a sine that bends nowhere at its ends: error (5/384) h^4 [HALL-1968]
     let worst = |count: u32| {
         let h = TAU / f64::from(count);
         let file: String =

@@ -173,7 +173,7 @@ fn elevation(shape: &[Vector3<f64>], share: f64) -> f64 {
 const NEXT_TO_NOTHING: f64 = 1e-9;
 /// Height over which what has neither volume nor drag nor added mass meets the surface (m): nothing asks for it.
 const NO_HEIGHT: f64 = 1.0;
-/// Drag coefficient of a sphere below the critical Reynolds number (DNV-RP-C205, appendix E).
+/// Drag coefficient of a sphere below the critical Reynolds number [DNV-RP-C205 appendix E].
 const SPHERE_CD: f64 = 0.5;
 /// Added mass of a sphere as a share of what it displaces (Lamb, Hydrodynamics, section 92).
 const SPHERE_CA: f64 = 0.5;

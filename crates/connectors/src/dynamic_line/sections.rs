@@ -18,7 +18,7 @@ const AQWA_CD: f64 = 1.0;
 const AQWA_CX: f64 = 0.025;
 /// Added mass across the line.
 const AQWA_CA: f64 = 1.0;
-/// Drag of the wind on a cylinder (DNV-RP-C205, 5.4.3: infinitely long, circular, rough or below the critical Reynolds number).
+/// Drag of the wind on a cylinder ([DNV-RP-C205 5.4.3]: infinitely long, circular, rough or below the critical Reynolds number).
 const WIND_CD: f64 = 1.2;
 
 const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {

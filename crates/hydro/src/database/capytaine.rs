@@ -1,6 +1,6 @@
 //! Data sets of Capytaine in NetCDF, classic or version 4 (HDF5): what `capytaine.io.xarray.export_dataset` writes.
 //!
-//! Source: documentation of Capytaine 3, "Conventions" and "Export outputs": amplitudes go with exp(-i w t) and the wave is `exp(i k (x cos b + y sin b))`, as here;
+//! Source: [CAPYTAINE-3 Conventions, Export outputs]: amplitudes go with exp(-i w t) and the wave is `exp(i k (x cos b + y sin b))`, as here;
 //! phases refer to the origin, rotations and moments to `rotation_center`; SI and radians. Complex numbers stand on a
 //! dimension `complex` of two. `omega` holds zero and infinity as well. A variable that a data set lacks is left out here.
 

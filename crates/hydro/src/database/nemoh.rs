@@ -1,7 +1,7 @@
 //! Results of NEMOH 2 and 3: `Nemoh.cal`, `RadiationCoefficients.tec`, `ExcitationForce.tec`, and where they are there `KH.dat`
 //! (hydrostatic stiffness) and `Hydrostatics.dat` (displaced volume).
 //!
-//! Source: documentation of NEMOH 3, "Output files", and the writers of both versions (Results.f90). A zone of the radiation file is one motion, its
+//! Source: [NEMOH-3 Output files] and the writers of both versions (Results.f90). A zone of the radiation file is one motion, its
 //! columns added mass and damping of each force; a zone of the excitation file one heading, its columns modulus and phase of
 //! each force. The first line tells the unit of frequency: rad/s, Hz or s. NEMOH writes with exp(-i w t), as is done here (documentation of Capytaine,
 //! "Conventions"). Phases are in rad where none exceeds pi, else in degrees: the documentation says degrees, what the versions known write is rad.

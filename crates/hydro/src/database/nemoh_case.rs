@@ -1,6 +1,6 @@
 //! `Nemoh.cal`: what NEMOH was asked to compute.
 //!
-//! Source: documentation of NEMOH 3, "Main input file Nemoh.cal"; version 2 has the same lines.
+//! Source: [NEMOH-3 Main input file Nemoh.cal]; version 2 has the same lines.
 
 use super::rows::{DatabaseError, SourceFile, number, separates};
 use nalgebra::Vector3;

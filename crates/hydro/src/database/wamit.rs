@@ -1,7 +1,7 @@
 //! Files of WAMIT: `.1` added mass and damping, `.3` (or `.2`) excitation, `.4` motions, `.8` and `.9` mean drift, `.12d`
 //! difference-frequency forces, `.hst` hydrostatics.
 //!
-//! Source: WAMIT User Manual 7, chapters 3 and 4 (forms of the numeric output, and how it is made dimensionless with the length ULEN):
+//! Source: [WAMIT-7 3, 4] (forms of the numeric output, and how it is made dimensionless with the length ULEN):
 //! `A = A' rho L^k`, `B = B' rho L^k w` with k = 3 for two translations, 4 for one and one rotation, 5 for two rotations;
 //! `X = X' rho g L^m` with m = 2 for forces, 3 for moments; motions `x'` and `x' / L`; `C = C' rho g L^(k-1)`, so that
 //! C33 goes with L^2 and C44 with L^4; drift and QTF `rho g L` and `rho g L^2`. Periods are in s: zero is infinite frequency, negative is zero frequency.

@@ -1,6 +1,6 @@
 //! Difference-frequency forces of a WAMIT `.12d`: rows `PER1 PER2 BETA1 BETA2 I Mod Pha Re Im`.
 //!
-//! Source: WAMIT User Manual 7, second-order output: `F(t) = Re sum_ij F_ij a_i conj(a_j) exp(+i (w_i - w_j) t)`, `F_ji = conj(F_ij)`,
+//! Source: [WAMIT-7 second-order output]: `F(t) = Re sum_ij F_ij a_i conj(a_j) exp(+i (w_i - w_j) t)`, `F_ji = conj(F_ij)`,
 //! made dimensionless by `rho g L` (forces) and `rho g L^2` (moments). The file gives each pair once or twice.
 
 use super::rows::{DatabaseError, SourceFile, axis, heading, place, same_frequency, same_heading};

@@ -32,9 +32,9 @@ pub struct Curve {
     pub branches: Vec<Branch>,
     /// Range below which there is no damage; 0 for none.
     pub limit: f64,
-    /// What log10 of a gains for each unit of mean tension over breaking tension (API RP 2SK, wire rope); negative.
+    /// What log10 of a gains for each unit of mean tension over breaking tension ([API-RP-2SK], wire rope); negative.
     pub mean_slope: f64,
-    /// Cross-sections of the nominal diameter that bear the tension: 2 of the legs of a chain's link (DNV-OS-E301), else 1.
+    /// Cross-sections of the nominal diameter that bear the tension: 2 of the legs of a chain's link [DNV-OS-E301], else 1.
     pub legs: f64,
     /// Whether its numbers are not confirmed by their source or by two who quote it.
     pub unconfirmed: bool,

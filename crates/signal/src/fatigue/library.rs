@@ -190,7 +190,7 @@ mod tests {
         assert!((named("WIRE").cycles(0.1, 0.3).unwrap() / wire - 1.0).abs() < 1e-12);
         let spiral = 10f64.powf(3.25 - 3.43 * 0.3) / 0.1f64.powf(5.05);
         assert!((named("API_SPIRAL").cycles(0.1, 0.3).unwrap() / spiral - 1.0).abs() < 1e-12);
-        // DNV-OS-E301: studless chain 6.0e10 S^-3
+        // [DNV-OS-E301]: studless chain 6.0e10 S^-3
         let studless = named("DNV_STUDLESS");
         assert!((studless.cycles(100.0, 0.0).unwrap() / 6.0e4 - 1.0).abs() < 1e-3 && studless.legs == 2.0);
         assert!(find("NOTHING", &FatigueSelection::default()).is_none());

@@ -49,8 +49,8 @@ fn summed(
 }
 
 /// Damage in a second of a narrow-banded process: up-crossings a second times the mean of 1/N over Rayleigh ranges. On one
-/// branch: `sqrt(m2/m0)/(2 pi) (2 sqrt(2 m0))^m Gamma(1 + m/2) / a` (J. W. Miles 1954; DNV-RP-C203, "Closed form fatigue
-/// damage").
+/// branch: `sqrt(m2/m0)/(2 pi) (2 sqrt(2 m0))^m Gamma(1 + m/2) / a` [MILES-1954; DNV-RP-C203 Closed form
+/// fatigue damage].
 ///
 /// # Errors
 /// Moments that are not greater than zero.
@@ -65,8 +65,7 @@ pub fn narrow_band(m: &Moments, curve: &Curve, mean: f64) -> Result<f64, SeriesE
     Ok(rate * summed(curve, mean, integral)?)
 }
 
-/// Damage in a second by the density of rainflow ranges of T. Dirlik, "Application of Computers in Fatigue Analysis", thesis,
-/// University of Warwick (1985): an exponential and two Rayleigh densities weighted by the moments.
+/// Damage in a second by the density of rainflow ranges of [DIRLIK-1985]: an exponential and two Rayleigh densities weighted by the moments.
 ///
 /// # Errors
 /// Moments that are not greater than zero, or that no process has.

@@ -34,8 +34,8 @@ pub struct Envelope {
 }
 
 impl Envelope {
-    /// Takes a sample of each quantity, always in the same order. Mean and deviation by the update of B. P. Welford
-    /// (Technometrics 4, 1962, 419-420).
+    /// Takes a sample of each quantity, always in the same order. Mean and deviation by the update of
+    /// [WELFORD-1962].
     ///
     /// # Errors
     /// An infinite sample; those before it are taken.

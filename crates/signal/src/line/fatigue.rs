@@ -173,7 +173,7 @@ mod tests {
         let found = node_damage(&node, None, &Round { points: 12, ..Round::default() }).unwrap();
         let range = 2e5 * 0.15 / (std::f64::consts::PI / 64.0 * (0.3f64.powi(4) - 0.26f64.powi(4)));
         assert!((found.largest / range - 1.0).abs() < 1e-12);
-        // S-N curve D in sea water with free corrosion: log10 a 11.687, slope 3 (DNV-RP-C203)
+        // S-N curve D in sea water with free corrosion: log10 a 11.687, slope 3 [DNV-RP-C203]
         let want = 50.0 * (range * 1e-6).powi(3) / 10f64.powf(11.687);
         assert!((found.damage / want - 1.0).abs() < 1e-12, "{found:?}");
         let degrees = found.angle.unwrap().to_degrees();
@@ -219,7 +219,7 @@ mod tests {
         let tension = record(1e5, 1e6);
         let node = NodeRecord { segment: &segment, curve: &curve, tension: &tension, bends: None };
         let found = node_damage(&node, None, &Round::default()).unwrap();
-        // API RP 2SK: K 1000, M 3
+        // [API-RP-2SK]: K 1000, M 3
         assert!((found.damage / (50.0 * 0.04f64.powi(3) / 1000.0) - 1.0).abs() < 1e-12);
         assert!((found.largest - 0.04).abs() < 1e-12 && found.angle.is_none());
     }

@@ -1,11 +1,11 @@
-//! Combined loading of a riser by DNV-ST-F201, "Dynamic risers" (DNV-OS-F201 until 2017), load and resistance factor design.
+//! Combined loading of a riser by [DNV-ST-F201] (DNV-OS-F201 until 2017), load and resistance factor design.
 //!
 //! Confirmed by what others publish of the standard: the cubic of collapse with its elastic and plastic pressures and the least
-//! ovality 0.005 (DNV-ST-F101 2017, 5.4.4 with eqs. 5.12 and 5.14, the same formulas, as PDover2t has them; Y. Bai, "Pipelines and Risers", 2001, eq. 2.20); the bursting
+//! ovality 0.005 ([DNV-ST-F101 5.4.4, eqs. 5.12 and 5.14], the same formulas, as [PDOVER2T-PY] has them; [BAI-2001 eq. 2.20]); the bursting
 //! pressure; gamma_m 1.15, gamma_SC 1.26 of class High, gamma_F 1.1 and gamma_E 1.3 with 1/gamma_E where the environment relieves
 //! (manual of Flexcom); where the standard has them: t2 in section 5 C203, tables 5-2 and 5-5, f0 in section 5 G201 (manual of OrcaFlex,
 //! edition of October 2010). Not confirmed by its text, which could not be read: the two forms of combined loading as they are
-//! here, which are those known of its editions 2001 to 2018, the formula of alpha_c with its bound 1.20 (that of DNV-OS-F101 2000), and
+//! here, which are those known of its editions 2001 to 2018, the formula of alpha_c with its bound 1.20 (that of [DNV-OS-F101], 2000), and
 //! gamma_SC 1.04 and 1.14.
 
 use super::Tube;
@@ -46,7 +46,7 @@ pub struct Factors {
     pub functional: f64,
     /// gamma_E on what the environment adds, or its inverse where that is worse.
     pub environmental: f64,
-    /// alpha_fab, on the plastic collapse pressure: 1 of seamless pipe, 0.85 of UOE pipe (DNV-OS-F101 2012, table 5-5), 0.925 of UO
+    /// alpha_fab, on the plastic collapse pressure: 1 of seamless pipe, 0.85 of UOE pipe ([DNV-OS-F101 table 5-5], 2012), 0.925 of UO
     /// pipe (not confirmed).
     pub fabrication: f64,
     /// f0, (largest less least diameter) over diameter.
@@ -84,7 +84,7 @@ pub struct Resistance {
 }
 
 /// Collapse pressure (Pa) of an elastic and a plastic one (Pa): the root below both of
-/// `(p_c - p_el)(p_c^2 - p_p^2) = p_c p_el p_p f0 D/t`, as DNV-ST-F101 5.4.4 solves it.
+/// `(p_c - p_el)(p_c^2 - p_p^2) = p_c p_el p_p f0 D/t`, as [DNV-ST-F101 5.4.4] solves it.
 pub fn collapse(elastic: f64, plastic: f64, ovality: f64, slenderness: f64) -> f64 {
     // measured by the larger one, so that no cube is too large
     let scale = elastic.max(plastic);
@@ -190,7 +190,7 @@ mod tests {
 
     #[test]
     fn a_pipe_collapses_as_another_program_has_it() {
-        // PDover2t, examples/DNVGL-ST-F101_pipe_collapse_external_pressure.ipynb: UOE pipe, printed to 0.1 Pa
+        // [PDOVER2T-PY], examples/DNVGL-ST-F101_pipe_collapse_external_pressure.ipynb: UOE pipe, printed to 0.1 Pa
         let factors = Factors { fabrication: 0.85, ..Factors::default() };
         let found = Resistance::of(X65, factors).unwrap();
         assert!((found.collapse - 10_831_164.1).abs() < 0.1, "{}", found.collapse);

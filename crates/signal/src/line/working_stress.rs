@@ -1,8 +1,8 @@
-//! Stress of a riser by API RP 2RD, first edition (June 1998), working stress design.
+//! Stress of a riser by [API-RP-2RD], working stress design.
 //!
 //! Confirmed by what others publish of it: the stresses of plain pipe, radial, hoop and axial with the moment at the middle of the wall,
 //! and their von Mises stress (manual of Flexcom, "Von Mises Stress, API-2RD Method"); the basic allowable C_a of 2/3 of the yield stress, and
-//! usage 0.67, 0.8 and 1.0 for operating, extreme and survival loads (Y. Bai, "Pipelines and Risers", 2001, table 21.2). Its text
+//! usage 0.67, 0.8 and 1.0 for operating, extreme and survival loads [BAI-2001 table 21.2]. Its text
 //! could not be read, so equation numbers are not given.
 
 use super::{Acting, Tube};

@@ -144,7 +144,7 @@ fn mean_damping(linear: &Linear, spread: &DMatrix<f64>, order: &[usize]) -> Resu
 }
 
 /// Steps of a sequence of low discrepancy in so many dimensions: powers of the inverse of the root of `x^(d+1) = x + 1`
-/// (Roberts 2018, the generalised golden section).
+/// (the generalised golden section [ROBERTS-2018]).
 fn steps(dimensions: usize) -> Vec<f64> {
     let mut root: f64 = 1.5;
     for _ in 0..100 {

@@ -1,7 +1,7 @@
 //! Statistics of a Gaussian response.
 //!
 //! Maxima of a narrow-banded Gaussian process have Rayleigh's distribution [LONGUET-HIGGINS-1952]: of N of them the most probable
-//! largest is `sigma sqrt(2 ln N)` (DNV-RP-C205, 3.5.11), with `N = duration / Tz`, `Tz = 2 pi sqrt(m0/m2)`.
+//! largest is `sigma sqrt(2 ln N)` [DNV-RP-C205 3.5.11], with `N = duration / Tz`, `Tz = 2 pi sqrt(m0/m2)`.
 
 use super::quantity::{Derivative, Quantity};
 use super::response::{Point, Response};
