@@ -14,7 +14,7 @@ use windlass_model::{Assembly, AssemblyKind, Body, Connector, Model, find};
 /// ASSEMBLY.
 pub static ASSEMBLY: Command = Command { spec: &SPEC, edits: true, run };
 
-/// Most slings of a hook (the manual's page).
+/// Most slings of a hook [MOSES-REF conn_sling].
 const MOST: usize = 4;
 
 static SPEC: CommandSpec = CommandSpec {

@@ -13,7 +13,7 @@ use windlass_base::span::Span;
 
 const ENDS: [Slot; 4] = [int("structure 1", 11), int("node 1", 16), int("structure 2", 21), int("node 2", 26)];
 const UNSEEN: &str = "this card is not read; give the line with the classes of the model";
-const NOT_YET: &str = "pre-processing of tethers is not available in the manual's program (A.13) nor here";
+const NOT_YET: &str = "pre-processing of tethers is not available in AQWA 5.4 [AQWA-TETHER A.13] nor here";
 
 /// The card that closes a tether.
 const TETHER: &[&str] = &["TETH"];

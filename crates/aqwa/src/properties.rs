@@ -10,7 +10,7 @@ use indexmap::IndexMap;
 use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::Span;
 
-/// Drag coefficient of a TUBE without a CONT card (assumed: the manual's page speaks of defaults, its values were not
+/// Drag coefficient of a TUBE without a CONT card (assumed: [AQWA-REF deck 4] speaks of defaults, its values were not
 /// seen; both decks of [AQWA-TETHER 8] give these).
 pub const DEFAULT_DRAG: f64 = 0.75;
 /// Added mass coefficient of a TUBE without a CONT card (assumed as [`DEFAULT_DRAG`]).

@@ -181,7 +181,7 @@ impl Builder {
                 }
             }
             "TPSH" => {
-                // columns 31-40 in the manual of 2006, 11-15 in later ones
+                // columns 31-40 in [AQWA-TETHER A.5], 11-15 in [AQWA-REF deck 14]
                 let hours = if record.real(31).given { value(31) } else { record.int(11).value as f64 };
                 if hours < 0.0 {
                     remarks.add(Diagnostic::error("deck 14, TPSH: hours are not below 0", record.span));

@@ -3,7 +3,7 @@
 //!
 //! Source: [AQWA-TETHER 3.2 and 3.3], with its misprints mended [W-TOWED misprints]: the third row of T is
 //! `La(1-a)^2`, the last two are `-La^2(1-a)` in the plane of the slope; the lower rows of K follow from its symmetry. The
-//! geometric stiffness, which the manual uses and does not tell, is that of
+//! geometric stiffness, which the listing has and the manual does not mention, is that of
 //! [PRZEMIENIECKI-1968 eq. 15.25].
 
 use super::banded::Banded;

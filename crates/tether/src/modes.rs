@@ -15,7 +15,7 @@ const HALVINGS: usize = 200;
 /// Inverse iterations at most, and the change of the shape that ends them.
 const ITERATIONS: usize = 12;
 const STILL: f64 = 1e-14;
-/// Slope (rad) that counts as much as unit deflection when a shape is scaled: the manual's ten degrees (7.2).
+/// Slope (rad) that counts as much as unit deflection when a shape is scaled: ten degrees [AQWA-TETHER 7.2].
 const TEN_DEGREES: f64 = PI / 18.0;
 
 /// The problem of one plane.
@@ -46,7 +46,7 @@ pub enum Plane {
     Z,
 }
 
-/// A mode of the whole tether, scaled as the manual's listing (7.2).
+/// A mode of the whole tether, scaled as in the listing [AQWA-TETHER 7.2].
 #[derive(Clone, Debug, PartialEq)]
 pub struct NaturalMode {
     /// Its plane.

@@ -430,7 +430,7 @@ fn cards_not_yet_available_are_answered_so() {
     for keyword in ["TSTE", "TTIM", "TRAO"] {
         let said = reading.messages.iter().find(|m| m.message.contains(keyword)).unwrap();
         assert_eq!(said.severity, Severity::Warning);
-        assert!(said.message.contains("not available in the manual's program (A.13)"));
+        assert!(said.message.contains("not available in AQWA 5.4 [AQWA-TETHER A.13]"));
     }
 }
 

@@ -13,7 +13,7 @@ use super::{Towed, run::End};
 use windlass_base::units::Dim;
 use windlass_model::ClassError;
 
-/// The value of b that the manual found best.
+/// The value of b that [AQWA-TETHER 3.6] found best.
 pub const USUAL_B: f64 = 0.54;
 
 /// Deflections and slopes of the nodes in the planes y and z, and their rates.
