@@ -28,7 +28,7 @@ fn platform() -> Model {
 }
 
 #[test]
-fn it_rests_where_the_seed_has_it_with_buoyancy_less_weight_in_its_tethers() {
+fn platform_at_rest_has_buoyancy_less_weight_in_its_tethers() {
     let mut model = platform();
     let found = settle(&mut model, &Options::default()).unwrap();
     let [x, y, z, ..] = model.bodies.get("TLP").unwrap().place.values();
