@@ -75,7 +75,8 @@ pub fn dirlik(m: &Moments, curve: &Curve, mean: f64) -> Result<f64, SeriesError>
     let peaks = (m4 / m2).sqrt() / TAU;
     let gamma2 = m2 / (m0 * m4).sqrt();
     let x = m1 / m0 * (m2 / m4).sqrt();
-    if gamma2 > 1.0 + 1e-9 || x > gamma2.sqrt() + 1e-6 {
+    // m1^2 <= m0 m2 and m2^2 <= m0 m4 (Cauchy and Schwarz)
+    if gamma2 > 1.0 + 1e-9 || x > gamma2 * (1.0 + 1e-6) {
         return Err(SeriesError::Refused("no process has these spectral moments".into()));
     }
     // of a process of one frequency the weights are 0/0; it is narrow-banded
@@ -149,6 +150,14 @@ mod tests {
         let found = narrow_band(&m, &curve, 0.0).unwrap();
         // a step of the sum lies across the jump between branches; their printed ordinates differ by 1e-3 there
         assert!((found / want - 1.0).abs() < 1e-5, "{found} {want}");
+    }
+
+    #[test]
+    fn dirlik_of_moments_that_no_process_has_is_refused() {
+        let curve = named("DNV_D_FREE");
+        // of a process m1^2 <= m0 m2: 0.9025 is more than 0.81
+        assert!(dirlik(&[1.0, 0.95, 0.81, 1.0], &curve, 0.0).is_err());
+        assert!(dirlik(&[1.0, 0.89, 0.81, 1.0], &curve, 0.0).is_ok());
     }
 
     #[test]
