@@ -10,7 +10,7 @@ use windlass_language::name as rule;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{Model, PIPE, find, line_name};
-use windlass_solve::FREEDOMS;
+use windlass_solve::DOFS;
 use windlass_solve::time::{Action, Watched, What, When};
 
 /// &ACTION.
@@ -24,7 +24,7 @@ const FORCE: ValueSpec = ValueSpec::new(
 );
 const BODY: ValueSpec = ValueSpec::new("BODY", Kind::Name(Noun::Body), "body");
 const DOF: ValueSpec =
-    ValueSpec::new("DOF", Kind::Choice(&FREEDOMS), "freedom of its origin, roll, pitch and yaw as RX RY RZ");
+    ValueSpec::new("DOF", Kind::Choice(&DOFS), "degree of freedom of its origin, roll, pitch and yaw as RX RY RZ");
 const LIMIT: ValueSpec = ValueSpec::new("V", Kind::Number(Dim::None), "a length, or an angle in degrees");
 const POINT: ValueSpec = ValueSpec::new("*PT", Kind::Name(Noun::Point), "point of a body");
 const HEIGHT: ValueSpec = ValueSpec::new("Z", Kind::Number(Dim::Length), "height above the mean water level");
@@ -42,8 +42,8 @@ static SPEC: CommandSpec = CommandSpec {
         OptionSpec::new("-AT", &[ValueSpec::new("T", Kind::Number(Dim::Time), "time").not_negative()], "at a time"),
         OptionSpec::new("-TENSION", &[LINE, FORCE], "when the tension of a line is first above F"),
         OptionSpec::new("-SLACK", &[LINE, FORCE], "when the tension of a line is first below F"),
-        OptionSpec::new("-ABOVE", &[BODY, DOF, LIMIT], "when a freedom of a body is first above V"),
-        OptionSpec::new("-BELOW", &[BODY, DOF, LIMIT], "when a freedom of a body is first below V"),
+        OptionSpec::new("-ABOVE", &[BODY, DOF, LIMIT], "when a degree of freedom of a body is first above V"),
+        OptionSpec::new("-BELOW", &[BODY, DOF, LIMIT], "when a degree of freedom of a body is first below V"),
         OptionSpec::new("-HIGH", &[POINT, HEIGHT], "when a point is first higher than Z"),
         OptionSpec::new("-LOW", &[POINT, HEIGHT], "when a point is first lower than Z"),
         OptionSpec::new("-RELEASE", LINES, "connectors act no more: they break or are let go").repeating(1),
@@ -130,11 +130,11 @@ fn when(model: &Model, given: &Given, units: UnitSystem) -> Outcome<When> {
         Some(pipe) if pipe.name == PIPE => Ok(Watched::Tension(pipe.name.clone())),
         _ => find(&model.connectors, name, "connector", place).map(|c| Watched::Tension(c.name.clone())),
     };
-    let freedom = || -> Outcome<(Watched, f64)> {
+    let dof = || -> Outcome<(Watched, f64)> {
         let body = find(&model.bodies, name, "body", place)?;
-        let freedom = FREEDOMS.iter().position(|f| Some(*f) == given.word(1)).unwrap_or(0);
-        let dim = if freedom < 3 { Dim::Length } else { Dim::Angle };
-        Ok((Watched::Freedom(body.name.clone(), freedom), dim.to_si(number(2), units)))
+        let dof = DOFS.iter().position(|f| Some(*f) == given.word(1)).unwrap_or(0);
+        let dim = if dof < 3 { Dim::Length } else { Dim::Angle };
+        Ok((Watched::Dof(body.name.clone(), dof), dim.to_si(number(2), units)))
     };
     let point = || {
         let found = find(&model.points, name, "point", place)?;
@@ -147,8 +147,8 @@ fn when(model: &Model, given: &Given, units: UnitSystem) -> Outcome<When> {
         "-AT" => When::At(number(0)),
         "-TENSION" => When::Above(line()?, number(1)),
         "-SLACK" => When::Below(line()?, number(1)),
-        "-ABOVE" => freedom().map(|(watched, value)| When::Above(watched, value))?,
-        "-BELOW" => freedom().map(|(watched, value)| When::Below(watched, value))?,
+        "-ABOVE" => dof().map(|(watched, value)| When::Above(watched, value))?,
+        "-BELOW" => dof().map(|(watched, value)| When::Below(watched, value))?,
         "-HIGH" => When::Above(point()?, number(1)),
         _ => When::Below(point()?, number(1)),
     })

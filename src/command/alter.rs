@@ -66,7 +66,7 @@ static SPEC: CommandSpec = CommandSpec {
             "-DYNAMICS",
             &[ValueSpec::new("N", Kind::Integer, "elements of the whole line, at least one a segment; 0: none")
                 .within(0.0, 100_000.0)],
-            "makes a line of B_CAT, H_CAT or CATENARY move by itself, as a ROD does",
+            "makes a line of B_CAT, H_CAT or CATENARY dynamic, as a ROD is",
         )
         .owner(Owner::Ours)
         .many(),
@@ -220,7 +220,7 @@ fn change(model: &Model, made: &mut Connector, given: &Given, said: &mut Said) -
         model.element(made)?;
         return Ok(made
             .dynamics
-            .map_or("without dynamics of its own".into(), |n| format!("moves by itself, in {n} elements")));
+            .map_or("without dynamics of its own".into(), |n| format!("dynamic line of {n} elements")));
     }
     let aim = aim(given);
     if aim.is_some() && !made.active {

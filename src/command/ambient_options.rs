@@ -53,7 +53,7 @@ pub(super) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<
 /// A plane bottom that a line lies on whatever the environment says.
 #[derive(Clone, Copy, PartialEq)]
 enum Plane {
-    /// Through the anchor, of a line that does not move by itself.
+    /// Through the anchor, of a line that is not dynamic.
     Anchor,
     /// As -SLOPE of the class says, of one that does.
     Slope,

@@ -67,7 +67,7 @@ static SPEC: CommandSpec = CommandSpec {
              ends in #t=12.5&view=top opens there. A file ending in .vtk is a series for ParaView: FILE_0000.vtk and so on, one an instant, and \
              FILE.vtk.series, which opens them with their times. In it points carry the tension (N) and its share of the break, and the cell \
              array owner numbers lines from 1 up and bodies from -1 down; all is in metres. \
-             A line that moves by itself is where its nodes were. Each other line hangs in the shape that is solved exactly between its ends at the instant; one without a solution is straight, which is said. \
+             A dynamic line is where its nodes were. Each other line hangs in the shape that is solved exactly between its ends at the instant; one without a solution is straight, which is said. \
              Between stored instants bodies are interpolated. A film has at most 2000 instants and 4 million numbers, and 60000 triangles: \
              beyond, instants are left out evenly and hulls become boxes, which is said. On the page places are kept to 1/65535 of the \
              extent, tensions to 1/65535 of the largest. A relative file name is inside the job's folder: &HELP &FILE.",

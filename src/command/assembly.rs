@@ -37,7 +37,7 @@ static SPEC: CommandSpec = CommandSpec {
         OptionSpec::new("-DEACTIVATE", &[], "the sets defined before no longer act"),
     ],
     detail: "All connectors are of class type SLING, of a single node, and defined before; the nodes of the ELs are on one body, that of BHE \
-             on another or on ground. The hook is a point without weight with three freedoms that &EQUI solves with the bodies; it makes \
+             on another or on ground. The hook is a point without weight with three degrees of freedom that &EQUI solves with the bodies; it makes \
              the point *NAME, the second end of every line. &STATUS ASSEMBLIES tells where it is and what its lines bear; &CONNECTOR changes \
              their -LENGTH and activity; DELETE NAME takes the set apart. \
              -INITIAL of the first set: the hook is put the length of BHE straight below the boom, and the body so that the hook is at \

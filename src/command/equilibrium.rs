@@ -16,7 +16,7 @@ use windlass_base::values::Noun;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{Model, find};
 use windlass_solve::results::along::cautions;
-use windlass_solve::{FREEDOMS, Options, SolveError, settle, tables};
+use windlass_solve::{DOFS, Options, SolveError, settle, tables};
 
 /// &EQUI.
 pub static EQUI: Command = Command { spec: &SPEC, edits: true, run };
@@ -43,14 +43,14 @@ static SPEC: CommandSpec = CommandSpec {
             "-IGNORE",
             &[
                 ValueSpec::new("BODY", Kind::Name(Noun::Body), "body"),
-                ValueSpec::new("DOF", Kind::Choice(&FREEDOMS), "a freedom that does not move in this solution"),
+                ValueSpec::new("DOF", Kind::Choice(&DOFS), "a degree of freedom that does not move in this solution"),
                 MORE,
                 MORE,
                 MORE,
                 MORE,
                 MORE,
             ],
-            "holds freedoms of a body, this time",
+            "holds degrees of freedom of a body, this time",
         )
         .many(),
         HARD,
@@ -69,15 +69,15 @@ static SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("&EQUI", "finds the equilibrium of bodies and connectors")
 };
 
-const MORE: ValueSpec = ValueSpec::new("DOF", Kind::Choice(&FREEDOMS), "a further one").or("no more");
+const MORE: ValueSpec = ValueSpec::new("DOF", Kind::Choice(&DOFS), "a further one").or("no more");
 
-/// The freedoms one -IGNORE holds, each with the number of its body.
+/// The degrees of freedom one -IGNORE holds, each with the number of its body.
 fn ignored(model: &Model, given: &Given) -> Outcome<Vec<(usize, usize)>> {
     let place = given.values.first().map_or(given.span, |v| v.span);
     let body = find(&model.bodies, given.word(0).unwrap_or_default(), "body", place)?;
     let index = model.bodies.get_index_of(&Model::key(&body.name)).unwrap_or(0);
     let words = given.values.iter().skip(1).filter_map(|v| v.word());
-    Ok(words.filter_map(|w| FREEDOMS.iter().position(|f| *f == w)).map(|f| (index, f)).collect())
+    Ok(words.filter_map(|w| DOFS.iter().position(|f| *f == w)).map(|f| (index, f)).collect())
 }
 
 /// What a record asks for, beside what was asked for before.
@@ -108,7 +108,7 @@ pub(super) fn told(wrong: SolveError, model: &Model, span: Span, units: UnitSyst
     error.diagnostic(span, units)
 }
 
-/// Warns of what is to be known of lines that move by themselves where they rest.
+/// Warns of what is to be known of dynamic lines where they rest.
 pub(super) fn warn_of_lines(job: &mut Job, span: Span) {
     let mut texts: IndexMap<&str, Vec<String>> = IndexMap::new();
     for (name, text) in cautions(&job.model) {

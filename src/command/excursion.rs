@@ -49,8 +49,9 @@ const REMOVE: OptionSpec = OptionSpec::new(
 )
 .repeating(1)
 .owner(Owner::Ours);
-const FREE: OptionSpec =
-    OptionSpec::new("-FREE", &[], "all other freedoms of all bodies come to rest").owner(Owner::Ours).default("held");
+const FREE: OptionSpec = OptionSpec::new("-FREE", &[], "all other degrees of freedom of all bodies come to rest")
+    .owner(Owner::Ours)
+    .default("held");
 
 static MOVE_SPEC: CommandSpec = CommandSpec {
     opens: Opens::Menu("DISPOSITION"),
@@ -83,7 +84,7 @@ static MOVE_SPEC: CommandSpec = CommandSpec {
         .owner(Owner::Ours),
     ],
     detail: "The body is moved from where it stands along a horizontal direction, in equal steps up to the excursion at which \
-             the first line breaks (the last row), or to -DISTANCE. Its other freedoms and the other bodies stay as they are; \
+             the first line breaks (the last row), or to -DISTANCE. Its other degrees of freedom and the other bodies stay as they are; \
              with -FREE they come to rest at every excursion, and what acts on them (weight and the like) then counts. Forces \
              are those of the connectors on the body: Restoring along the direction, positive when it pushes back; \
              Transverse toward its left; Vertical upward; moments about the body's origin along global axes. Ten and T/TB are \
@@ -111,7 +112,7 @@ static WATCH_SPEC: CommandSpec = CommandSpec {
     options: &[ANGLES.default("0 360 15"), FREE, REMOVE],
     detail: "Where the body comes to rest under the force, beside all that acts on it in the environment in force, for each \
              direction the force comes from (from +X toward +Y, as of wind and current in &ENV). The body moves in X, Y \
-             and about Z, and all else stays; with -FREE all bodies come to rest in all freedoms. Excursions are from where the \
+             and about Z, and all else stays; with -FREE all bodies come to rest in all degrees of freedom. Excursions are from where the \
              body stands. With -REMOVE the lines do not act, and the last columns are of the intact mooring. PLOT X Y draws \
              the path of its origin, PLOT From Excursion -POLAR the excursion by direction. Nothing in the model is changed. \
              The result goes to the disposition menu.",

@@ -199,7 +199,7 @@ fn motion(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let linear = found(job, args.span)?.linear().cloned();
     let Some(linear) = linear else { return Ok(Effect::Done) };
     let (index, name) = body(job, &linear, args.word(0), args.place(0))?;
-    let list = Told::freedoms(&linear, index);
+    let list = Told::dofs(&linear, index);
     let made = shown(job, format!("Motion of {name}"), &list, Derivative::Place, args.span)?;
     Ok(dispose(job, made, args.span))
 }

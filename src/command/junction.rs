@@ -45,7 +45,7 @@ static SPEC: CommandSpec = CommandSpec {
         )
         .default("0"),
     ],
-    detail: "A point with three freedoms that &EQUI solves with the bodies: the knot of a bridle or a Y-line, a buoy between two \
+    detail: "A point with three degrees of freedom that &EQUI solves with the bodies: the knot of a bridle or a Y-line, a buoy between two \
              lines, a clump weight where three meet. It makes the point *NAME, which connectors name as any other; lines between it and a \
              body or another junction are H_CAT, its lines to anchors B_CAT. X Y Z is where the solution begins; &INSTATE moves it by \
              its NAME. The sea bottom carries it within 10 mm of the depth of &ENV, without friction. The sphere of \

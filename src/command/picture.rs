@@ -79,7 +79,7 @@ static SPEC: CommandSpec = CommandSpec {
     ],
     detail: "Draws the system as it stands now: bodies as their hull pieces, each as its convex \
              outline with its sharp edges, or as the convex outline of their points where they have none, mooring lines in the shape they \
-             hang in between their ends, those that move by themselves by their nodes at rest, other connectors straight, with anchors, fairleads, touchdowns and joints. Both \
+             hang in between their ends, dynamic lines by their nodes at rest, other connectors straight, with anchors, fairleads, touchdowns and joints. Both \
              directions of a view have the same scale, but for heights with -EXAGGERATE. The viewer of an elevation looks \
              horizontally from the direction of -FROM: from -90 (-Y) X runs to the right. SIDE and PORT look from -Y, \
              STARBOARD from +Y, BOW from -X and STERN from +X, X taken to run aft and Y to starboard. In an elevation the \

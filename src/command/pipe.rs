@@ -43,7 +43,7 @@ static SPEC: CommandSpec = CommandSpec {
              pipe leaves beyond the first, away from the last, and lies on the bottom of &ENV -DEPTH; a vessel that lays toward -X has its first \
              roller farthest aft. There is one: &PIPE/ASSEMBLY. It starts as a catenary with the weight in water of OD, T and the options of the \
              class, above the water in air, and is then brought to rest as a ROD of the first segment of its class: it feels water, wind and \
-             bottom all along, and in TDOM it moves by itself. It is as long as it needs to be; its elements are as long as -LEN over -REFINE, \
+             bottom all along, and in TDOM it is a dynamic line. It is as long as it needs to be; its elements are as long as -LEN over -REFINE, \
              or without -REFINE an eighth of a span on the supports and a quarter of sqrt(EI/H) beyond. It rolls through its rollers, which push it at \
              right angles and take nothing along it, and hangs by its davits from nodes of its own; as these lean toward what pulls them, less than \
              TLOWER is left at rest. The bottom has no friction on it at rest. The last roller is the tensioner and holds \

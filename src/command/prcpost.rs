@@ -139,7 +139,7 @@ static C_LENGTH_SPEC: CommandSpec = CommandSpec {
 static BODY_FORCE_SPEC: CommandSpec = CommandSpec {
     options: &[BODY, EVENTS, MAG_DEFINE],
     detail: "Of each body the forces of every category and the moments about its origin, global axes; inertia is a force among them. TOTAL \
-             is their sum: what the steps left, and in freedoms of -IGNORE what holds the body. REPORT WIND TOTAL prints two categories.",
+             is their sum: what the steps left, and in degrees of freedom of -IGNORE what holds the body. REPORT WIND TOTAL prints two categories.",
     ..spec("BODY_FORCE", BODIES, "forces on bodies by category")
 };
 

@@ -15,7 +15,7 @@ use windlass_base::values::{Args, Given};
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{ClassError, GivenMotion, Model, Prescription, Sinusoid, find};
-use windlass_solve::FREEDOMS;
+use windlass_solve::DOFS;
 use windlass_solve::time::prescribed;
 
 /// PRESCRIBE.
@@ -34,14 +34,14 @@ static SPEC: CommandSpec = CommandSpec {
             &[
                 ValueSpec::new(
                     "DOF",
-                    Kind::Choice(&FREEDOMS),
-                    "freedom of its origin, roll, pitch and yaw as RX RY RZ",
+                    Kind::Choice(&DOFS),
+                    "degree of freedom of its origin, roll, pitch and yaw as RX RY RZ",
                 ),
                 ValueSpec::new("AMP", Kind::Number(Dim::None), "amplitude: a length, or an angle in degrees"),
                 ValueSpec::new("PERIOD", Kind::Number(Dim::Time), "period").positive(),
                 ValueSpec::new("PHASE", Kind::Number(Dim::Angle), "phase at the time zero").or("0"),
             ],
-            "AMP sin(2 pi t / PERIOD + PHASE) in a freedom; several add up",
+            "AMP sin(2 pi t / PERIOD + PHASE) in a degree of freedom; several add up",
         )
         .many(),
         OptionSpec::new(
@@ -125,10 +125,10 @@ fn kind(args: &Args) -> Outcome<&Given> {
 
 fn sinusoids(job: &Job, args: &Args) -> GivenMotion {
     let one = |given: &Given| {
-        let freedom = FREEDOMS.iter().position(|f| Some(*f) == given.word(0)).unwrap_or(0);
-        let dim = if freedom < 3 { Dim::Length } else { Dim::Angle };
+        let dof = DOFS.iter().position(|f| Some(*f) == given.word(0)).unwrap_or(0);
+        let dim = if dof < 3 { Dim::Length } else { Dim::Angle };
         let number = |i: usize| given.number(i).unwrap_or(0.0);
-        Sinusoid { freedom, amplitude: dim.to_si(number(1), job.units), period: number(2), phase: number(3) }
+        Sinusoid { dof, amplitude: dim.to_si(number(1), job.units), period: number(2), phase: number(3) }
     };
     let list = args.options.iter().filter(|g| g.name == "-SINUSOID").map(one).collect();
     GivenMotion::Sinusoids { list, ramp: args.option_number("-RAMP").unwrap_or(0.0) }
@@ -156,8 +156,8 @@ pub fn motions(model: &Model, fits: &dyn Fn(&str) -> bool) -> Option<Table> {
         match &given.motion {
             GivenMotion::Sinusoids { list, ramp } => {
                 for sine in list {
-                    let amplitude = |angle: bool| Cell::from((angle == (sine.freedom > 2)).then_some(sine.amplitude));
-                    let freedom = FREEDOMS.get(sine.freedom).copied().unwrap_or_default();
+                    let amplitude = |angle: bool| Cell::from((angle == (sine.dof > 2)).then_some(sine.amplitude));
+                    let dof = DOFS.get(sine.dof).copied().unwrap_or_default();
                     let (length, angle) = (amplitude(false), amplitude(true));
                     let ramp = Cell::from((*ramp > 0.0).then_some(*ramp));
                     push(
@@ -165,7 +165,7 @@ pub fn motions(model: &Model, fits: &dyn Fn(&str) -> bool) -> Option<Table> {
                         vec![
                             name(),
                             "sinusoid".into(),
-                            freedom.into(),
+                            dof.into(),
                             length,
                             angle,
                             sine.period.into(),

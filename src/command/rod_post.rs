@@ -1,4 +1,4 @@
-//! `ROD` of the PRCPOST menu: what a run came to along a line that moves by itself.
+//! `ROD` of the PRCPOST menu: what a run came to along a dynamic line.
 
 use super::chosen::raise;
 use super::disposition::{BOTH, HARD, send};
@@ -124,7 +124,7 @@ static SPEC: CommandSpec = CommandSpec {
         HARD,
         BOTH,
     ],
-    detail: "Of a ROD, or a line that &CONNECTOR -DYNAMICS lets move by itself, in the last TDOM. Nodes count from 1 at the first end, those that \
+    detail: "Of a ROD, or a line that &CONNECTOR -DYNAMICS makes dynamic, in the last TDOM. Nodes count from 1 at the first end, those that \
              TDOM -ALONG has kept. ENVELOPE has for each node the least, mean and most of the run; of a run with -STATISTICS it alone is told. AT is \
              the line at instants with its forces, NODE its nodes over time, with -ARC any place. TOUCHDOWN is the first node on the bottom and where \
              between it and the one before the line comes down. SUPPORTS has the forces of a pipe on each of its rollers or davits. FATIGUE counts rainflow cycles: of a tube with a curve of stress, by the stress at \
@@ -134,7 +134,7 @@ static SPEC: CommandSpec = CommandSpec {
              pressure outside the root of the criterion is told. Where two segments meet both are judged, and the one that comes off worse is told. \
              Pressure outside is that of the waves at the depth. M1 and M2 are the parts of the moment about two directions across the line.",
     example: EXAMPLE,
-    ..CommandSpec::new("ROD", "results along a line that moves by itself")
+    ..CommandSpec::new("ROD", "results along a dynamic line")
 };
 
 const EXAMPLE: &str = "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n&DESCRIBE BODY SHIP -IGNORE X Y Z RX RY RZ\n*T 0 0 -5\n#WEIGHT *T 1000 5 5 5\n*E 150 0 -100\n\

@@ -20,7 +20,7 @@ pub(super) fn tables(job: &Job, args: &Args, kind: &str, fits: &dyn Fn(&str) -> 
     };
     let tables = found.map_err(|e| told(e, &job.model, args.span, job.units))?;
     if tables.is_empty() {
-        return Err(Diagnostic::error("the model has no such line that acts and moves by itself", args.span)
+        return Err(Diagnostic::error("the model has no such active dynamic line", args.span)
             .help("a connector of class type ROD is one, or a line with &CONNECTOR -DYNAMICS"));
     }
     Ok(tables)

@@ -50,8 +50,8 @@ const KINDS: &[(&str, Owner, &str)] = &[
         "the wave components of the seas of the environment in force, or of one kept under a name",
     ),
     ("RUN", Owner::Ours, "how the last run went"),
-    ("ROD", Owner::Ours, "lines that move by themselves, at rest between their ends as they stand"),
-    ("ROD_MODES", Owner::Ours, "how lines that move by themselves swing about that, -NUMBER modes of each"),
+    ("ROD", Owner::Ours, "dynamic lines, at rest between their ends as they stand"),
+    ("ROD_MODES", Owner::Ours, "how dynamic lines swing about that, -NUMBER modes of each"),
     ("TETHERS", Owner::Ours, "what tethers are made of and hang on, as TDOM -TETHERS has them"),
     ("TETHER_MODES", Owner::Ours, "natural modes of tethers where they stand, -NUMBER of each"),
     ("CLASSES", Owner::Ours, "the same as CL_FLEX"),
@@ -97,7 +97,7 @@ static SPEC: CommandSpec = CommandSpec {
         OptionSpec::new(
             "-NUMBER",
             &[ValueSpec::new("N", Kind::Integer, "how many").within(1.0, 1000.0)],
-            "modes of each tether or line that moves by itself",
+            "modes of each tether or dynamic line",
         )
         .owner(Owner::Ours)
         .default("6"),

@@ -109,12 +109,12 @@ static SPEC: CommandSpec = CommandSpec {
             .owner(Owner::Ours),
         OptionSpec::new("-STATISTICS", &[], "keeps statistics of every result and no instants: flat memory, no file")
             .owner(Owner::Ours),
-        OptionSpec::new("-BALANCE", &[], "prints the books of energy and momentum of lines that move by themselves")
+        OptionSpec::new("-BALANCE", &[], "prints the books of energy and momentum of dynamic lines")
             .owner(Owner::Ours),
         OptionSpec::new(
             "-ALONG",
             &[ValueSpec::new("N", Kind::Integer, "every Nth; 0: none").within(0.0, 1e6)],
-            "keeps every Nth node of lines that move by themselves, counted from their second ends, and both ends",
+            "keeps every Nth node of dynamic lines, counted from their second ends, and both ends",
         )
         .owner(Owner::Ours)
         .default("1: all nodes"),

@@ -356,7 +356,7 @@ fn output(deck: &Deck, remarks: &mut Remarks) {
                     format!("deck 14, TEIG: a tether has at most {most} modes here; all are printed"),
                     modes.span,
                 )
-                .help("there are four freedoms at each node (A.3)"),
+                .help("there are four degrees of freedom at each node (A.3)"),
             );
         }
     }

@@ -46,7 +46,7 @@ pub const OPTIONS: &[(&str, &str)] = &[
     ("PPEL", "properties of each element are printed"),
     ("PBIS", "forces of each step of an iteration are printed"),
     ("PFLH", "low and high frequency results apart"),
-    ("PRAF", "inactive freedoms are printed"),
+    ("PRAF", "inactive degrees of freedom are printed"),
     ("PRAS", "spectra of articulation reactions"),
     ("PRFS", "spectra of forces"),
     ("PRCS", "withdrawn"),

@@ -16,7 +16,7 @@
 //! | 5 | [`properties::Global`] | depth, density, gravity of the environment |
 //! | 7 | [`hydrostatics::Hydrostatics`] | linear stiffness of a body about (X, Y, ZCGE) with buoyancy BFEQ, as of a hydrodynamic database |
 //! | 10, 11, 13 CURR, WIND | [`surroundings::Surroundings`], [`surroundings::Flow`] | current profile and wind; the model's directions are those they come FROM, so add 180 degrees |
-//! | 12 | [`surroundings::Held`] | fixed freedoms of a body |
+//! | 12 | [`surroundings::Held`] | fixed degrees of freedom of a body |
 //! | 13 | [`waves::Waves`] | sea of spectral components, or regular wave (second order unless AIRY) |
 //! | 14 LINE, FORC, WNCH, POLY, COMP | [`lines::MooringLine`] | connectors of the classes LINEAR_ELASTIC, CATENARY, POLYNOMIAL and so on |
 //! | 14 TELM .. TETH | [`tethers::Tether`] | a tether connector, towed or installed |

@@ -1,4 +1,4 @@
-//! Decks 11 and 12: current, wind, and the freedoms that are held.
+//! Decks 11 and 12: current, wind, and the degrees of freedom that are held.
 //!
 //! Directions are those TOWARDS which something travels, in degrees from +X towards +Y.
 //!
@@ -22,7 +22,7 @@ const ARTICULATION: &str = "articulations are not read from a deck; join the bod
 
 /// Cards of deck 12.
 pub const CONSTRAINTS: &[Layout] = &[
-    Layout::assumed("DACF", &[int("structure", 11), int("freedom", 16)]).by(&[11, 16]),
+    Layout::assumed("DACF", &[int("structure", 11), int("degree of freedom", 16)]).by(&[11, 16]),
     Layout::refused("DCON", ARTICULATION),
     Layout::refused("FDCN", ARTICULATION),
     Layout::refused("KFCN", ARTICULATION),
@@ -64,13 +64,13 @@ pub struct Surroundings {
     pub profile: Vec<Layer>,
 }
 
-/// A freedom of a structure that is held (DACF).
+/// A degree of freedom of a structure that is held (DACF).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Held {
     /// The structure.
     pub structure: Field<i64>,
-    /// The freedom, 1 to 6.
-    pub freedom: Field<i64>,
+    /// The degree of freedom, 1 to 6.
+    pub dof: Field<i64>,
 }
 
 /// The current and wind of the cards of deck 11.
@@ -118,18 +118,18 @@ pub fn read(records: &[Record], remarks: &mut Remarks) -> Surroundings {
     found
 }
 
-/// The freedoms held by the cards of deck 12.
+/// The degrees of freedom held by the cards of deck 12.
 pub fn read_constraints(records: &[Record], remarks: &mut Remarks) -> Vec<Held> {
     let mut list = Vec::new();
     for record in records {
-        let (structure, freedom) = (record.int(11), record.int(16));
-        if (1..=6).contains(&freedom.value) {
-            list.push(Held { structure, freedom });
+        let (structure, dof) = (record.int(11), record.int(16));
+        if (1..=6).contains(&dof.value) {
+            list.push(Held { structure, dof });
         } else {
             remarks.add(
                 Diagnostic::error(
-                    format!("deck 12, DACF, columns 16-20: {} is no freedom", freedom.value),
-                    freedom.span,
+                    format!("deck 12, DACF, columns 16-20: {} is no degree of freedom", dof.value),
+                    dof.span,
                 )
                 .label("1 to 6 belongs here: X, Y, Z, RX, RY, RZ"),
             );

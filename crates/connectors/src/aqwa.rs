@@ -97,7 +97,7 @@ static CATENARY_SPEC: CommandSpec = CommandSpec {
             .default("depth of &ENV"),
     ],
     detail: "An AQWA catenary section, in kg, m and N in every unit system; one record a section, fairlead first. Buoys \
-             always have the same buoyancy and do not know where the surface is; those of a line that &CONNECTOR -DYNAMICS lets move by itself \
+             always have the same buoyancy and do not know where the surface is; those of a line that &CONNECTOR -DYNAMICS makes dynamic \
              lose it as they come out of the water.",
     example: "MEDIT\n~CHAIN CATENARY 170 0.0217 -LEN 600 -EA 7.0E8 -CLUMP 20000 2500\n~CHAIN CATENARY 170 0.0217 -LEN 300\nEND\n\
               &STATUS CLASS ~CHAIN",

@@ -186,7 +186,7 @@ impl ConnectorClass for Rod {
     }
 
     fn moving(&self, _: &Connection, _: usize) -> Result<Box<dyn Element>, ClassError> {
-        Err(ClassError::new("a ROD moves by itself already")
+        Err(ClassError::new("a ROD is a dynamic line already")
             .help("-REFINE of its class says into how many elements it is cut"))
     }
 

@@ -330,12 +330,12 @@ impl Solver {
             for (j, from) in held.iter().enumerate() {
                 let Some(from) = from else { continue };
                 blocks[count * j + j] += from.own(rates);
-                for freedom in 0..6 {
+                for dof in 0..6 {
                     right.fill(0.0);
                     for (row, node) in from.meeting.nodes().enumerate().filter(|(_, node)| !given(*node)) {
                         let load = from.by_support(row, rates);
                         for axis in 0..3 {
-                            right[stride * node + axis] -= load[(axis, freedom)];
+                            right[stride * node + axis] -= load[(axis, dof)];
                         }
                     }
                     self.work.solve(&mut right);
@@ -343,7 +343,7 @@ impl Solver {
                     for (i, on) in held.iter().enumerate() {
                         let Some(on) = on else { continue };
                         let change = on.by_rod(moved, weights);
-                        let mut column = blocks[count * i + j].column_mut(freedom);
+                        let mut column = blocks[count * i + j].column_mut(dof);
                         column += change;
                     }
                 }

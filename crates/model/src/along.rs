@@ -1,4 +1,4 @@
-//! What a line that moves by itself tells of its nodes, and of how it swings.
+//! What a dynamic line tells of its nodes, and of how it swings.
 
 use nalgebra::Vector3;
 
@@ -15,7 +15,7 @@ pub struct LineStress {
     pub von_mises: f64,
 }
 
-/// The books of energy and momentum of a line that moves by itself, since its run began.
+/// The books of energy and momentum of a dynamic line, since its run began.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LineBooks {
     /// Energy now: of motion, of stretch and bending, of height in air, in what it lies on (J).

@@ -242,7 +242,7 @@ pub trait ConnectorClass: Debug + Send + Sync {
         false
     }
 
-    /// Whether its lines that move by themselves lie on a plane bottom that the class slopes.
+    /// Whether its dynamic lines lie on a plane bottom that the class slopes.
     fn slopes(&self) -> bool {
         false
     }
@@ -273,12 +273,12 @@ pub trait ConnectorClass: Debug + Send + Sync {
         Err(ClassError::new(format!("a connector of class type {} exerts no force", self.kind())))
     }
 
-    /// Whether its connectors move by themselves, as [`Element::moves`] tells of what they make.
+    /// Whether its connectors are dynamic lines, as [`Element::moves`] tells of what they make.
     fn moves(&self) -> bool {
         false
     }
 
-    /// A connector of this class as a line that moves by itself, cut into about so many elements.
+    /// A connector of this class as a dynamic line, cut into about so many elements.
     ///
     /// # Errors
     /// A class without dynamics of its own, or values that make no such line.
@@ -311,8 +311,7 @@ pub trait ConnectorClass: Debug + Send + Sync {
     fn line(&self, _: &Placement, _: &Surroundings) -> Result<Box<dyn LineModel>, ClassError> {
         let kind = self.kind();
         if self.moves() {
-            let error =
-                ClassError::new(format!("a line of class type {kind} moves by itself: it has no table to go by"));
+            let error = ClassError::new(format!("a line of class type {kind} is a dynamic line: it has no table"));
             return Err(error.help("MOVE and &CONNECTOR -L_HORIZONTAL and -L_TENSION take it as it is"));
         }
         Err(ClassError::new(format!("a connector of class type {kind} is no mooring line")))

@@ -51,7 +51,7 @@ pub struct Connector {
     pub euler: Option<[f64; 3]>,
     /// Length of its first segment in place of the class's (m), where `&CONNECTOR` gave one.
     pub first_length: Option<f64>,
-    /// Into how many elements it is cut as a line that moves by itself, where `&CONNECTOR -DYNAMICS` says so of a class that does
+    /// Into how many elements it is cut as a dynamic line, where `&CONNECTOR -DYNAMICS` says so of a class that does
     /// not by itself.
     pub dynamics: Option<usize>,
     /// Whether it acts.

@@ -238,7 +238,7 @@ pub trait Element: Debug + Send + Sync {
         false
     }
 
-    /// Whether it moves by itself: it has inertia between its ends, its wrench depends on their accelerations, and its state in
+    /// Whether it is a dynamic line: it has inertia between its ends, its wrench depends on their accelerations, and its state in
     /// a run begins where it hangs at rest.
     fn moves(&self) -> bool {
         false
@@ -303,7 +303,7 @@ pub trait Element: Debug + Send + Sync {
     }
 }
 
-/// What a run asks of a line that moves by itself; nothing of the kind where there is no run.
+/// What a run asks of a dynamic line; nothing of the kind where there is no run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RunRequirement {
     /// The longest its first segment becomes (m), where a winch pays it out.

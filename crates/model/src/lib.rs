@@ -229,7 +229,7 @@ impl Model {
             .then(|| format!("forces interpolated in tables of thirty points (-TABLE), not solved: {shown}"))
     }
 
-    /// Whether a connector moves by itself: its class does, or `&CONNECTOR -DYNAMICS` says so.
+    /// Whether a connector is a dynamic line: its class does, or `&CONNECTOR -DYNAMICS` says so.
     pub fn moves(&self, connector: &Connector) -> bool {
         let class = self.classes.get(&Model::key(&connector.class));
         connector.dynamics.is_some() || class.is_some_and(|c| c.object.moves())
@@ -256,7 +256,7 @@ impl Model {
         self.element_of_run(connector, ambient, RunRequirement::default())
     }
 
-    /// The same in a run, with what that asks of a line that moves by itself.
+    /// The same in a run, with what that asks of a dynamic line.
     ///
     /// # Errors
     /// As [`Model::element_in`].

@@ -17,7 +17,7 @@ pub struct Prescription {
 pub enum GivenMotion {
     /// Sines about where the body stands when a run begins.
     Sinusoids {
-        /// The sines; those of one freedom add up.
+        /// The sines; those of one degree of freedom add up.
         list: Vec<Sinusoid>,
         /// Time over which they grow from nothing (s); 0: they are there at once.
         ramp: f64,
@@ -31,11 +31,11 @@ pub enum GivenMotion {
 /// A time (s) with x, y, z (m) and roll, pitch, yaw (rad).
 pub type PathRow = (f64, [f64; 6]);
 
-/// `amplitude sin(2 pi t / period + phase)` in one freedom.
+/// `amplitude sin(2 pi t / period + phase)` in one degree of freedom.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sinusoid {
-    /// The freedom: x, y, z, roll, pitch, yaw from 0 on, global axes and the body's angles.
-    pub freedom: usize,
+    /// The degree of freedom: x, y, z, roll, pitch, yaw from 0 on, global axes and the body's angles.
+    pub dof: usize,
     /// Amplitude (m or rad).
     pub amplitude: f64,
     /// Period (s).

@@ -68,7 +68,7 @@ impl System {
         })
     }
 
-    /// Whether a connector of this name moves by itself.
+    /// Whether a connector of this name is a dynamic line.
     pub(super) fn moves(&self, name: &str) -> bool {
         self.links.iter().any(|l| l.element.moves() && l.name.eq_ignore_ascii_case(name))
     }

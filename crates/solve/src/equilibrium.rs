@@ -7,7 +7,7 @@
 
 use super::parts::{Part, parts};
 use super::search::{Search, Stand};
-use super::system::{Contribution, FREEDOMS, SolveError, State, System};
+use super::system::{Contribution, DOFS, SolveError, State, System};
 use super::unknowns::{Turns, Unknowns, kept_turns};
 use nalgebra::DMatrix;
 use windlass_base::dense::SymmetricEigen;
@@ -21,7 +21,7 @@ pub struct Options {
     pub most: usize,
     /// Largest acceleration left, as a share of gravity: of translation, and of rotation times the radius of gyration.
     pub tolerance: [f64; 2],
-    /// Freedoms that do not move in this solution: number of the body, number of the freedom.
+    /// Degrees of freedom that do not move in this solution: number of the body, number of the degree of freedom.
     pub ignored: Vec<(usize, usize)>,
     /// A body that does not move along a horizontal direction, from +X toward +Y (rad): across it, it does.
     pub held: Option<(usize, f64)>,
@@ -43,7 +43,7 @@ pub struct Equilibrium {
     pub evaluations: usize,
     /// Largest acceleration left, as a share of gravity.
     pub measure: f64,
-    /// Freedoms that nothing holds, with their bodies, as written.
+    /// Degrees of freedom that nothing holds, with their bodies, as written.
     pub loose: Vec<(String, String)>,
 }
 
@@ -71,14 +71,13 @@ const LONG_STALE: usize = 12;
 /// Brings the bodies of a state to rest.
 ///
 /// # Errors
-/// A place on the way that cannot be evaluated; no equilibrium within the steps: the body and freedom that is left, and
+/// A place on the way that cannot be evaluated; no equilibrium within the steps: the body and degree of freedom that is left, and
 /// what acts on it most; a direction that nothing holds, with a force in it.
 pub fn equilibrium(system: &System, state: &mut State, options: &Options) -> Result<Equilibrium, SolveError> {
     weighed(system, options)?;
     let turns = kept_turns(system, state, options);
-    let free = |body: usize, freedom: usize| {
-        system.nodes.get(body).and_then(|n| n.free.get(freedom)) == Some(&true)
-            && !options.ignored.contains(&(body, freedom))
+    let free = |body: usize, dof: usize| {
+        system.nodes.get(body).and_then(|n| n.free.get(dof)) == Some(&true) && !options.ignored.contains(&(body, dof))
     };
     let moves = |part: &Part| part.iter().enumerate().any(|(body, own)| *own && (0..6).any(|f| free(body, f)));
     let parts: Vec<Part> = parts(system).into_iter().filter(moves).collect();
@@ -152,8 +151,7 @@ fn find(
 /// Sees that every body that is to come to rest has weight, unless it moves in the horizontal plane alone.
 fn weighed(system: &System, options: &Options) -> Result<(), SolveError> {
     for (body, node) in system.nodes.iter().enumerate() {
-        let free =
-            |freedom: usize| node.free.get(freedom) == Some(&true) && !options.ignored.contains(&(body, freedom));
+        let free = |dof: usize| node.free.get(dof) == Some(&true) && !options.ignored.contains(&(body, dof));
         if !node.junction && node.floating.mass.mass <= 0.0 && (2..5).any(free) {
             let name = &node.name;
             let error = ClassError::new("it has no weight").help(format!(
@@ -168,7 +166,7 @@ fn weighed(system: &System, options: &Options) -> Result<(), SolveError> {
 /// A way (m) that no body goes to its equilibrium.
 const MILE: f64 = 5000.0;
 
-/// Freedoms along which nothing holds a body.
+/// Degrees of freedom along which nothing holds a body.
 fn loose(system: &System, unknowns: &Unknowns, state: &State) -> Result<Vec<(String, String)>, SolveError> {
     let stiffness = unknowns.stiffness(state);
     let root = unknowns.inertia.map(|d| 1.0 / d.sqrt());
@@ -186,22 +184,22 @@ fn loose(system: &System, unknowns: &Unknowns, state: &State) -> Result<Vec<(Str
     found.dedup();
     let name = |i: usize| {
         let body = system.nodes.get(unknowns.body(i)).map_or(String::new(), |n| n.name.clone());
-        (body, FREEDOMS.get(unknowns.freedom(i)).copied().unwrap_or_default().to_string())
+        (body, DOFS.get(unknowns.dof(i)).copied().unwrap_or_default().to_string())
     };
     Ok(found.into_iter().map(name).collect())
 }
 
 /// The error of bodies that do not come to rest.
 fn failure(system: &System, state: &State, unknowns: &Unknowns, at: usize, options: &Options) -> SolveError {
-    let (body, freedom) = (unknowns.body(at), unknowns.freedom(at));
+    let (body, dof) = (unknowns.body(at), unknowns.dof(at));
     let name = system.nodes.get(body).map_or(String::new(), |n| n.name.clone());
-    let dim = if freedom >= 3 { Dim::Moment } else { Dim::Force };
+    let dim = if dof >= 3 { Dim::Moment } else { Dim::Force };
     let left = unknowns.residual(state).get(at).copied().unwrap_or(f64::NAN);
-    let word = FREEDOMS.get(freedom).copied().unwrap_or_default();
+    let word = DOFS.get(dof).copied().unwrap_or_default();
     let mut values = vec![(left, dim)];
     let mut acting: Vec<(f64, String)> = Vec::new();
     for Contribution { body: on, connector, category, load } in system.contributions(&state.poses).unwrap_or_default() {
-        let value = load.wrench[freedom];
+        let value = load.wrench[dof];
         if on == body && value != 0.0 {
             let who = connector.unwrap_or_else(|| category.name().to_string());
             match acting.iter_mut().find(|(_, name)| *name == who) {
@@ -217,13 +215,13 @@ fn failure(system: &System, state: &State, unknowns: &Unknowns, at: usize, optio
     let mut free = loose(system, unknowns, state).unwrap_or_default();
     // nor does what holds so little that the body would go a mile
     let held = unknowns.stiffness(state)[(at, at)];
-    if freedom < 3 && left.abs() > held.abs() * MILE {
+    if dof < 3 && left.abs() > held.abs() * MILE {
         free.push((name.clone(), word.to_string()));
     }
     let error = match free.iter().filter(|(who, _)| *who == name).map(|(_, f)| f.as_str()).collect::<Vec<_>>() {
         list if list.contains(&word) => {
             ClassError::of(format!("nothing holds it in {word}, and {{}} is left there: {told}"), &values)
-                .help(format!("moor it, or leave the freedom out: -IGNORE {name} {word}"))
+                .help(format!("moor it, or leave the degree of freedom out: -IGNORE {name} {word}"))
         }
         _ => {
             ClassError::of(format!("no equilibrium in {} steps: {{}} is left in {word}: {told}", options.most), &values)

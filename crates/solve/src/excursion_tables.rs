@@ -2,7 +2,7 @@
 
 use super::excursion;
 use super::excursion::{End, Moved, Path, Walk, worst};
-use super::system::{FREEDOMS, SolveError, System, without_rounding};
+use super::system::{DOFS, SolveError, System, without_rounding};
 use super::watch::{Circle, Watched};
 use windlass_base::geometry::Place;
 use windlass_base::pose::Pose;
@@ -249,7 +249,7 @@ pub fn circle((asked, force): (&Asked, f64), systems: &Systems, found: &Circle, 
         Digits::Usual,
     );
     let Circle { names, places } = found;
-    let [x, y, ..] = FREEDOMS;
+    let [x, y, ..] = DOFS;
     for name in [x, y] {
         table = table.column("Location", name, Dim::Length, Digits::Usual);
     }

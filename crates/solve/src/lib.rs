@@ -58,4 +58,4 @@ pub mod watch;
 pub use equilibrium::{Equilibrium, Options, equilibrium};
 pub use modes::{Mode, modes};
 pub use settle::{EquilibriumResult, settle};
-pub use system::{Contribution, FREEDOMS, Node, SolveError, State, System};
+pub use system::{Contribution, DOFS, Node, SolveError, State, System};

@@ -1,6 +1,6 @@
 //! Small motions about a place: the eigenvalues of the stiffness against the mass, and natural periods.
 
-use super::system::{FREEDOMS, SolveError, State, System};
+use super::system::{DOFS, SolveError, State, System};
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
 use windlass_base::dense::{Cholesky, DenseError, Lu, Stop, SymmetricEigen, eigenvalues, least_squares};
@@ -14,13 +14,13 @@ pub struct Mode {
     pub beside: f64,
     /// Undamped natural period (s), where it is stable.
     pub period: Option<f64>,
-    /// The freedom that moves most: body and freedom, as written.
+    /// The degree of freedom that moves most: body and degree of freedom, as written.
     pub most: (String, &'static str),
     /// Its motion, six a body, largest 1 with rotations times 1 m.
     pub shape: DVector<f64>,
 }
 
-/// The modes of the freedoms that move, lowest eigenvalue first. Freedoms of bodies without mass follow the others.
+/// The modes of the degrees of freedom that move, lowest eigenvalue first. Degrees of freedom of bodies without mass follow the others.
 ///
 /// # Errors
 /// A mass or stiffness that is not finite, with its body and degree of freedom; eigenvalues that do not converge; an interrupt.
@@ -77,7 +77,7 @@ pub(super) fn modes_with(
             eigenvalue,
             beside,
             period: (eigenvalue > 0.0).then(|| TAU / eigenvalue.sqrt()),
-            most: (body, FREEDOMS.get(most % 6).copied().unwrap_or_default()),
+            most: (body, DOFS.get(most % 6).copied().unwrap_or_default()),
             shape,
         }
     };

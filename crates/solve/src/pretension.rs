@@ -1,4 +1,4 @@
-//! The length of the first segment of a line that moves by itself, with which its first end bears a force at rest.
+//! The length of the first segment of a dynamic line, with which its first end bears a force at rest.
 
 use super::system::SolveError;
 use windlass_base::units::Dim;

@@ -1,7 +1,7 @@
 //! Reasons behind a solution that was not found: what a user changes, where a connector or a step alone tells what gave up.
 
 use super::link::Attachment;
-use super::system::{FREEDOMS, SolveError, System};
+use super::system::{DOFS, SolveError, System};
 use windlass_base::pose::Pose;
 use windlass_base::units::Dim;
 use windlass_model::ClassError;
@@ -41,15 +41,15 @@ impl System {
             let added = node.floating.added(pose);
             let least = mass.mass * NO_RADIUS * NO_RADIUS;
             let lacks = |axis: usize| node.moves(3 + axis) && own[(axis, axis)] + added[(3 + axis, 3 + axis)] <= least;
-            let freedom = FREEDOMS.get(3 + (0..3).find(|axis| lacks(*axis))?).copied().unwrap_or_default();
-            Some(no_inertia(&node.name, freedom))
+            let dof = DOFS.get(3 + (0..3).find(|axis| lacks(*axis))?).copied().unwrap_or_default();
+            Some(no_inertia(&node.name, dof))
         })
     }
 }
 
 /// The error of a body without inertia in a degree of freedom.
-pub(super) fn no_inertia(name: &str, freedom: &str) -> SolveError {
-    let error = ClassError::new(format!("it has no inertia in {freedom}")).help(format!(
+pub(super) fn no_inertia(name: &str, dof: &str) -> SolveError {
+    let error = ClassError::new(format!("it has no inertia in {dof}")).help(format!(
         "give its #WEIGHT radii of gyration, or hold that degree of freedom: &DESCRIBE BODY {name} -IGNORE"
     ));
     SolveError { who: Some(name.to_string()), error }

@@ -39,17 +39,17 @@ pub fn told(run: &Run) -> Table {
         .fact("Evaluations", evaluations, Dim::None);
     let Resolution { natural, wave, .. } = &run.resolution;
     let steps = |period: f64| shown(period / run.settings.dt);
-    if let Some(Swing { body, freedom, period }) = natural.first() {
-        let text = format!("{} s ({body} {freedom}), {} steps", shown(*period), steps(*period));
+    if let Some(Swing { body, dof, period }) = natural.first() {
+        let text = format!("{} s ({body} {dof}), {} steps", shown(*period), steps(*period));
         table = table.fact("Shortest Natural Period", text, Dim::None);
     }
     if let Some(period) = wave {
         table = table.fact("Shortest Waves", format!("{} s, {} steps", shown(*period), steps(*period)), Dim::None);
     }
-    if let Some(Followed { body, freedom, period, distortion }) = run.followed_worst() {
+    if let Some(Followed { body, dof, period, distortion }) = run.followed_worst() {
         let (error, ..) = run.accuracy.largest;
         let [longer, damping] = [distortion.period, distortion.damping].map(percent);
-        let text = format!("{longer} of {} s ({body} {freedom}), damping {damping} of critical", shown(period));
+        let text = format!("{longer} of {} s ({body} {dof}), damping {damping} of critical", shown(period));
         table = table.fact("Largest Error of a Step", error, Dim::Length).fact(
             "Largest Error of a Period",
             text,
@@ -170,12 +170,12 @@ pub fn warnings_of_step(run: &Run) -> Vec<String> {
     }
     // stiffer modes than waves excite follow their forces as in statics
     let excited = |swing: &&Swing| wave.is_some_and(|wave| swing.period >= 0.5 * wave);
-    if let Some((Swing { body, freedom, period }, remedy)) =
+    if let Some((Swing { body, dof, period }, remedy)) =
         natural.iter().find(excited).and_then(|swing| poor(swing.period).map(|r| (swing, r)))
     {
         let by = percent(method.distortion(*period, dt).period);
         list.push(format!(
-            "a step of {} s is too long for the natural period of {body} in {freedom}, {} s: the scheme errs by {by} of it; {remedy}",
+            "a step of {} s is too long for the natural period of {body} in {dof}, {} s: the scheme errs by {by} of it; {remedy}",
             shown(dt),
             shown(*period)
         ));
@@ -185,11 +185,10 @@ pub fn warnings_of_step(run: &Run) -> Vec<String> {
 
 /// What the steps of a run were too long for, as it saw itself.
 pub fn warning_of_accuracy(run: &Run) -> Option<String> {
-    let Followed { body, freedom, period, distortion } =
-        run.followed_worst().filter(|w| w.distortion.measure() > 1.0)?;
+    let Followed { body, dof, period, distortion } = run.followed_worst().filter(|w| w.distortion.measure() > 1.0)?;
     let [longer, damping] = [distortion.period, distortion.damping].map(percent);
     Some(format!(
-        "the steps were too long for the motion of {body} in {freedom}: of its period of {} s the scheme errs by {longer} and damps {damping} of critical; a step of at most {} s follows it, and -CHECK shows the difference",
+        "the steps were too long for the motion of {body} in {dof}: of its period of {} s the scheme errs by {longer} and damps {damping} of critical; a step of at most {} s follows it, and -CHECK shows the difference",
         shown(period),
         shown(run.settings.method.longest_step(period))
     ))
@@ -304,7 +303,7 @@ fn push(table: &mut Table, name: &str, cells: impl IntoIterator<Item = Cell>) {
     }
 }
 
-/// The books of energy and momentum of lines that move by themselves, where the run kept them.
+/// The books of energy and momentum of dynamic lines, where the run kept them.
 pub fn books(run: &Run) -> Option<Table> {
     let kept = run.books();
     if kept.is_empty() {

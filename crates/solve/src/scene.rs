@@ -206,7 +206,7 @@ fn shape(model: &Model, connector: &Connector) -> Drawn {
     }
 }
 
-/// The nodes of a line that moves by itself, at rest in the mean current.
+/// The nodes of a dynamic line, at rest in the mean current.
 fn at_rest(model: &Model, connector: &Connector) -> Result<Vec<Position>, SolveError> {
     let mut nodes = Vec::new();
     standing(model, &|name| name == connector.name, |_, element, at, state| {

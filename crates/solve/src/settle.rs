@@ -29,8 +29,8 @@ pub fn settle(model: &mut Model, options: &Options) -> Result<EquilibriumResult,
     let made = |model: &Model| {
         let mut system = System::of(model, &[])?;
         // what does not move in this solution is not told as free either
-        for (body, freedom) in &options.ignored {
-            if let Some(free) = system.nodes.get_mut(*body).and_then(|n| n.free.get_mut(*freedom)) {
+        for (body, dof) in &options.ignored {
+            if let Some(free) = system.nodes.get_mut(*body).and_then(|n| n.free.get_mut(*dof)) {
                 *free = false;
             }
         }

@@ -15,7 +15,7 @@ use windlass_hydro::{Category, Floating, Load, ambient, carried, transferred, tu
 use windlass_model::{Ambient, Body, ClassError, End, Guess, Mass, Model, Response, Situation, Surroundings};
 
 /// Degrees of freedom of a body, in order.
-pub const FREEDOMS: [&str; 6] = ["X", "Y", "Z", "RX", "RY", "RZ"];
+pub const DOFS: [&str; 6] = ["X", "Y", "Z", "RX", "RY", "RZ"];
 
 /// Why a system could not be made or solved.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,7 +48,7 @@ pub struct Node {
     pub floating: Floating,
     /// Whether it is a point where connectors meet, which may be without weight.
     pub junction: bool,
-    /// Which of its freedoms move.
+    /// Which of its degrees of freedom move.
     pub free: [bool; 6],
     /// Whether it has linear damping.
     pub damped: bool,
@@ -62,15 +62,15 @@ impl Node {
     fn of(model: &Model, key: &str, body: &Body, floating: Floating) -> Self {
         // what moves as it is given stands still for forces
         let idle = model.idle_hook(body) || body.prescribed.is_some();
-        let free = FREEDOMS.map(|f| !idle && !body.ignored.iter().any(|i| i == f));
+        let free = DOFS.map(|f| !idle && !body.ignored.iter().any(|i| i == f));
         let (damped, added) = (floating.damping != Matrix6::zeros(), floating.added_mass != Matrix6::zeros());
         let (name, key, junction) = (body.name.clone(), key.to_string(), body.junction.is_some());
         Node { name, key, floating, junction, free, damped, added, prescribed: None }
     }
 
-    /// Whether a freedom moves as forces make it.
-    pub fn moves(&self, freedom: usize) -> bool {
-        self.prescribed.is_none() && self.free.get(freedom).copied().unwrap_or(false)
+    /// Whether a degree of freedom moves as forces make it.
+    pub fn moves(&self, dof: usize) -> bool {
+        self.prescribed.is_none() && self.free.get(dof).copied().unwrap_or(false)
     }
 }
 
@@ -123,7 +123,7 @@ pub struct System {
     pub(super) surroundings: Surroundings,
     /// What surrounds connectors that feel it all along themselves.
     pub(super) ambient: Arc<dyn Ambient>,
-    /// What a run asks of lines that move by themselves.
+    /// What a run asks of dynamic lines.
     pub(super) duties: RunRequirements,
     /// Acceleration of gravity (m/s2).
     pub gravity: f64,
@@ -183,7 +183,7 @@ impl System {
         Ok(System { nodes, links, states, surroundings, ambient, duties, gravity, applied: Vec::new() })
     }
 
-    /// Connectors that move by themselves begin a run in these states, given for all connectors.
+    /// Dynamic lines begin a run in these states, given for all connectors.
     pub(super) fn begin_moving(&mut self, states: &[f64]) {
         for link in self.links.iter().filter(|l| l.element.moves()) {
             if let (Some(to), Some(from)) = (self.states.get_mut(link.states.clone()), states.get(link.states.clone()))
@@ -364,8 +364,8 @@ impl System {
             DenseError::NotFinite { row, .. } => {
                 let at = rows.get(row).copied().unwrap_or(0);
                 let name = self.nodes.get(at / 6).map(|n| n.name.clone());
-                let freedom = FREEDOMS.get(at % 6).copied().unwrap_or_default();
-                SolveError { who: name, error: ClassError::new(format!("the {what} in {freedom} is not finite")) }
+                let dof = DOFS.get(at % 6).copied().unwrap_or_default();
+                SolveError { who: name, error: ClassError::new(format!("the {what} in {dof} is not finite")) }
             }
             DenseError::Interrupted => SolveError::new(ClassError::new("interrupted").lasting()),
             other => SolveError::new(ClassError::new(format!("the {what} has no factors: {other}"))),

@@ -3,7 +3,7 @@
 use super::equilibrium::is_unstable;
 use super::modes::modes;
 use super::settle::EquilibriumResult;
-use super::system::{Contribution, FREEDOMS, SolveError, State, System};
+use super::system::{Contribution, DOFS, SolveError, State, System};
 use nalgebra::{Matrix6, Vector3};
 use windlass_base::geometry::Position;
 use windlass_base::pose::Six;
@@ -65,9 +65,8 @@ pub fn rest(model: &Model, settled: &EquilibriumResult) -> Table {
             settled.found.measure
         ));
     }
-    for (body, freedom) in &settled.found.loose {
-        table
-            .note(format!("warning: nothing holds {body} in {freedom} where it rests: other places there are as good"));
+    for (body, dof) in &settled.found.loose {
+        table.note(format!("warning: nothing holds {body} in {dof} where it rests: other places there are as good"));
     }
     table
 }
@@ -145,14 +144,14 @@ pub fn periods(system: &System, state: &State) -> Result<Table, SolveError> {
         let held = mode.eigenvalue.abs() > 1e-8;
         let period = mode.period.filter(|_| held);
         if is_unstable(mode.eigenvalue, largest) {
-            let (body, freedom) = &mode.most;
-            table.note(format!("warning: not stable: mode {} moves {body} in {freedom}", index + 1));
+            let (body, dof) = &mode.most;
+            table.note(format!("warning: not stable: mode {} moves {body} in {dof}", index + 1));
         }
         // what half a hundredth of critical damping does not hold
         if mode.beside.abs() > 1e-2 * mode.eigenvalue.abs().max(1e-6) {
-            let (body, freedom) = &mode.most;
+            let (body, dof) = &mode.most;
             table.note(format!(
-                "warning: mode {} of {body} in {freedom} is coupled by forces without an energy: without damping it grows",
+                "warning: mode {} of {body} in {dof} is coupled by forces without an energy: without damping it grows",
                 index + 1
             ));
         }
@@ -236,7 +235,7 @@ pub fn stiffnesses(
 fn stiffness(title: &str, matrix: &Matrix6<f64>) -> [Table; 2] {
     let mut forces = Table::new(format!("{title}: Forces")).column("", "Force", Dim::None, Digits::Usual);
     let mut moments = Table::new(format!("{title}: Moments")).column("", "Moment", Dim::None, Digits::Usual);
-    for (index, name) in FREEDOMS.into_iter().enumerate() {
+    for (index, name) in DOFS.into_iter().enumerate() {
         let (group, force, moment) = if index < 3 {
             ("Translation", Dim::ForcePerLength, Dim::Force)
         } else {

@@ -1,4 +1,4 @@
-//! The unknowns of an equilibrium: freedoms that move, what they weigh, and how a step in them moves the bodies.
+//! The unknowns of an equilibrium: degrees of freedom that move, what they weigh, and how a step in them moves the bodies.
 
 use super::equilibrium::Options;
 use super::parts::Part;
@@ -39,18 +39,18 @@ impl<'a> Unknowns<'a> {
             let about = own.inertia.trace() / 3.0 - mass * own.centre.norm_squared() * 2.0 / 3.0;
             let radius = if about > 1e-12 * mass { (about / mass).sqrt() } else { 1.0 };
             let weighs = if node.junction { own.mass.max(JUNCTION * pull).max(1e-3) } else { mass };
-            for (freedom, free) in node.free.iter().enumerate() {
-                if !free || options.ignored.contains(&(body, freedom)) {
+            for (dof, free) in node.free.iter().enumerate() {
+                if !free || options.ignored.contains(&(body, dof)) {
                     continue;
                 }
                 match options.held {
-                    Some((held, angle)) if held == body && freedom < 2 => match across(body, angle, &node.free) {
-                        Some(direction) if freedom == 1 => rows.push(direction),
+                    Some((held, angle)) if held == body && dof < 2 => match across(body, angle, &node.free) {
+                        Some(direction) if dof == 1 => rows.push(direction),
                         _ => continue,
                     },
-                    _ => rows.push([(6 * body + freedom, 1.0), (6 * body + freedom, 0.0)]),
+                    _ => rows.push([(6 * body + dof, 1.0), (6 * body + dof, 0.0)]),
                 }
-                let turning = freedom >= 3;
+                let turning = dof >= 3;
                 inertia.push(if turning { mass * radius * radius } else { mass });
                 measure.push(if turning { weighs * radius * system.gravity } else { weighs * system.gravity });
             }
@@ -82,7 +82,7 @@ impl<'a> Unknowns<'a> {
     pub fn worst(&self, residual: &DVector<f64>, options: &Options) -> (f64, usize) {
         let [shift, turn] = options.tolerance;
         let share = |(i, (r, m)): (usize, (&f64, &f64))| {
-            let tolerance = if self.freedom(i) >= 3 { turn } else { shift };
+            let tolerance = if self.dof(i) >= 3 { turn } else { shift };
             (r.abs() / m / tolerance, i)
         };
         residual.iter().zip(self.measure.iter()).enumerate().map(share).fold((0.0, 0), |worst, one| {
@@ -96,7 +96,7 @@ impl<'a> Unknowns<'a> {
         residual.iter().zip(self.measure.iter()).fold(0.0, |most: f64, (r, m)| most.max(r.abs() / m))
     }
 
-    pub fn freedom(&self, unknown: usize) -> usize {
+    pub fn dof(&self, unknown: usize) -> usize {
         self.rows.get(unknown).map_or(0, |[(r, _), _]| r % 6)
     }
 
@@ -114,7 +114,7 @@ impl<'a> Unknowns<'a> {
     pub fn limit(&self, step: &DVector<f64>) -> f64 {
         let [far, turn] = LONGEST;
         step.iter().enumerate().fold(1.0, |share: f64, (i, s)| {
-            let most = if self.freedom(i) >= 3 { turn } else { far };
+            let most = if self.dof(i) >= 3 { turn } else { far };
             share.min(most / s.abs().max(1e-300))
         })
     }

@@ -42,8 +42,8 @@ pub fn watch(
     directions: &[f64],
 ) -> Result<Circle, SolveError> {
     let connectors = Connectors::on(system, body)?;
-    let moves = |b: usize, freedom: usize| free || (b == body && [0, 1, 5].contains(&freedom));
-    let all = (0..system.nodes.len()).flat_map(|b| (0..6).map(move |freedom| (b, freedom)));
+    let moves = |b: usize, dof: usize| free || (b == body && [0, 1, 5].contains(&dof));
+    let all = (0..system.nodes.len()).flat_map(|b| (0..6).map(move |dof| (b, dof)));
     let ignored = all.filter(|(b, f)| !moves(*b, *f)).collect();
     // from one direction to the next is far for a body that hangs on stiff lines
     let options = Rest { ignored, most: MOST, ..Rest::default() };

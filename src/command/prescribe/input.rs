@@ -61,11 +61,11 @@ pub(super) fn responses(job: &Job, file: (&str, Span), symmetric: bool) -> Outco
         }
         let heading = Dim::Angle.to_si(heading, job.units);
         let mut values = [(0.0, 0.0); 6];
-        for (freedom, (value, pair)) in values.iter_mut().zip(row[2..].chunks_exact(2)).enumerate() {
+        for (dof, (value, pair)) in values.iter_mut().zip(row[2..].chunks_exact(2)).enumerate() {
             let (amplitude, lag) = (pair.first().copied().unwrap_or(0.0), pair.last().copied().unwrap_or(0.0));
             // degrees a long unit of length
             let angle = Dim::Angle.to_si(amplitude, job.units) / job.units.metres();
-            *value = (if freedom < 3 { amplitude } else { angle }, Dim::Angle.to_si(lag, job.units));
+            *value = (if dof < 3 { amplitude } else { angle }, Dim::Angle.to_si(lag, job.units));
         }
         let made = ResponseRow { frequency: TAU / period, values };
         match headings.iter_mut().find(|(h, _)| *h == heading) {

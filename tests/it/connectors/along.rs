@@ -1,4 +1,4 @@
-//! Results along lines that move by themselves: against the catenary, and against themselves kept in other ways.
+//! Results along dynamic lines: against the catenary, and against themselves kept in other ways.
 
 use crate::common::run;
 

@@ -273,7 +273,7 @@ fn exactly_the_classes_that_make_lines_say_so() {
         let place = Placement { other: Some([9.0, 0.0, -9.0]), ..Placement::default() };
         let line = class.object.line(&place, &session.job.model.surroundings());
         let none =
-            line.is_err_and(|e| ["is no mooring line", "moves by itself"].iter().any(|why| e.message.contains(why)));
+            line.is_err_and(|e| ["is no mooring line", "is a dynamic line"].iter().any(|why| e.message.contains(why)));
         assert_eq!(class.object.is_line(), !none, "{}", kind.spec.name);
     }
 }

@@ -36,7 +36,7 @@ fn every_stage_is_that_of_an_independent_solution() {
         let row = row.unwrap();
         let number = |i: usize| row[i].parse::<f64>().unwrap();
         let model = stage(&row[0].parse::<f64>().unwrap().to_string());
-        // one part in a million of the 8,000 kN that hang there; the least stiff freedom, yaw, asks for no more
+        // one part in a million of the 8,000 kN that hang there; the least stiff degree of freedom, yaw, asks for no more
         let close = |got: f64, want: f64, what: &str| {
             assert!((got - want).abs() < 5e-6 + 1e-6 * want.abs(), "{} m, {what}: {got} is not {want}", &row[0]);
         };
@@ -130,7 +130,7 @@ fn a_pin_on_the_axis_and_on_the_ground_of_its_cone_is_held_sideways() {
     let mut state = system.state(&model);
     system.evaluate(&mut state).unwrap();
     // about the origin, in the plane of the tips; yaw: 4 K_h r2, r2 = 136 m2; roll: 4 K_v 36 m2
-    for (freedom, want) in [
+    for (dof, want) in [
         (0, 4.0 * 8e6),
         (1, 4.0 * 8e6),
         (2, 4.0 * 5e7),
@@ -138,7 +138,7 @@ fn a_pin_on_the_axis_and_on_the_ground_of_its_cone_is_held_sideways() {
         (4, 4.0 * 5e7 * 100.0),
         (5, 4.0 * 8e6 * 136.0),
     ] {
-        let got = state.stiffness[(freedom, freedom)];
-        assert!((got / want - 1.0).abs() < 1e-9, "{freedom}: {got} is not {want}");
+        let got = state.stiffness[(dof, dof)];
+        assert!((got / want - 1.0).abs() < 1e-9, "{dof}: {got} is not {want}");
     }
 }

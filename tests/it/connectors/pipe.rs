@@ -83,11 +83,11 @@ fn its_stiffness_is_the_difference_of_the_forces_on_all_rollers() {
     let (element, ends) = pipe(&model);
     let out = answer(&model, element.as_ref(), &ends);
     let size = out.stiffness.iter().map(|k| k.amax()).fold(0.0, f64::max);
-    for (end, freedom) in (0..ends.len()).flat_map(|e| (0..6).map(move |f| (e, f))) {
+    for (end, dof) in (0..ends.len()).flat_map(|e| (0..6).map(move |f| (e, f))) {
         let step = 1e-4;
         let moved = |sign: f64| {
             let mut motion = Six::zeros();
-            motion[freedom] = sign * step;
+            motion[dof] = sign * step;
             let mut ends = ends.clone();
             let pose: Pose = ends[end].pose.moved(&motion);
             ends[end] = End::still(pose);
@@ -96,9 +96,9 @@ fn its_stiffness_is_the_difference_of_the_forces_on_all_rollers() {
         let (plus, minus) = (moved(1.0), moved(-1.0));
         for row in 0..ends.len() {
             let slope = -(plus[row] - minus[row]) / (2.0 * step);
-            let own = out.stiffness[ends.len() * row + end].column(freedom).into_owned();
+            let own = out.stiffness[ends.len() * row + end].column(dof).into_owned();
             // the pipe is solved to some 1e-9 m, against a step of 1e-5
-            assert!((slope - own).amax() < 1e-3 * size, "{row} {end} {freedom}: {slope} {own}");
+            assert!((slope - own).amax() < 1e-3 * size, "{row} {end} {dof}: {slope} {own}");
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Marine growth on lines that move by themselves, at rest and in runs, against closed forms; and an environment that comes with it or
+//! Marine growth on dynamic lines, at rest and in runs, against closed forms; and an environment that comes with it or
 //! without it while a run goes on.
 
 use crate::common;

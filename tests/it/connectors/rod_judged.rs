@@ -1,4 +1,4 @@
-//! What lines that move by themselves are judged by: pressures under waves, both sides of where segments meet, tension at their ends.
+//! What dynamic lines are judged by: pressures under waves, both sides of where segments meet, tension at their ends.
 
 use crate::common;
 use crate::common::run as runs;

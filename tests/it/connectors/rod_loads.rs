@@ -1,4 +1,4 @@
-//! What the options of a line that moves by itself do to its loads, against closed forms: taut lines held at both ends, on which
+//! What the options of a dynamic line do to its loads, against closed forms: taut lines held at both ends, on which
 //! loads add up.
 
 use crate::common;

@@ -169,8 +169,8 @@ fn the_fairlead_force_of_a_driven_chain_is_that_of_moordyn() {
 }
 
 /// Time from passage to passage through a level, upward, on average over all of them (s).
-fn period(run: &Run, freedom: usize, level: f64) -> f64 {
-    let (times, values) = (run.history.times(), run.history.series(run.history.layout.body(0) + freedom));
+fn period(run: &Run, dof: usize, level: f64) -> f64 {
+    let (times, values) = (run.history.times(), run.history.series(run.history.layout.body(0) + dof));
     let passages: Vec<f64> = times
         .windows(2)
         .zip(values.windows(2))

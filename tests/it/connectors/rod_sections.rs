@@ -1,4 +1,4 @@
-//! Sections of lines that move by themselves: both sides of a junction, tubes that do not bend, tensions at ends, and the bottom under
+//! Sections of dynamic lines: both sides of a junction, tubes that do not bend, tensions at ends, and the bottom under
 //! them, against closed forms and against the same line laid the other way.
 
 use crate::common;

@@ -154,10 +154,10 @@ fn an_installed_rod_swings_as_the_tether_of_the_listing_does() {
     assert!((fine[0] / listing[0] - 1.0).abs() < 4e-4, "{fine:?}");
 }
 
-/// Period of a freedom of the platform that &STATUS MODES prints.
-fn period(text: &str, freedom: &str) -> f64 {
+/// Period of a degree of freedom of the platform that &STATUS MODES prints.
+fn period(text: &str, dof: &str) -> f64 {
     let mut rows = text.lines().map(|l| l.split_whitespace().collect::<Vec<_>>());
-    let row = rows.rfind(|r| r.len() == 6 && r[4] == "S1" && r[5] == freedom).unwrap();
+    let row = rows.rfind(|r| r.len() == 6 && r[4] == "S1" && r[5] == dof).unwrap();
     row[1].parse().unwrap()
 }
 
@@ -166,8 +166,8 @@ fn a_platform_on_rods_has_the_periods_of_one_on_bars_but_for_the_bending_of_its_
     let (session, text) = done(&(platform("1 0.1") + &rods(60, 0.0) + "&EQUI\n&STATUS MODES\n"));
     let (_, bars) = done(&(platform("1 0.1") + &tethers(3) + "&EQUI\n&STATUS MODES\n"));
     // heave, roll and pitch are on EA alone
-    for freedom in ["Z", "RX", "RY"] {
-        assert!((period(&text, freedom) / period(&bars, freedom) - 1.0).abs() < 1e-3, "{freedom}");
+    for dof in ["Z", "RX", "RY"] {
+        assert!((period(&text, dof) / period(&bars, dof) - 1.0).abs() < 1e-3, "{dof}");
     }
     // upright the rods are nearly slack, 1.5 MN, and surge sways them against their springs: a beam under tension T between two springs
     // k against turning has K = T / (L - 2 k s/(T s + k c/b)), b = sqrt(EI/T), s and c the hyperbolic sine and cosine of L/2b
@@ -203,8 +203,8 @@ static RODS: LazyLock<Motion> = LazyLock::new(|| of_rods(0.05).0);
 static TETHERS: LazyLock<Motion> = LazyLock::new(|| of_tethers(0.05, 12, "").0);
 
 /// Largest difference of two motions from a time to another.
-fn apart(a: &Motion, b: &Motion, freedom: usize, [from, to]: [f64; 2]) -> f64 {
-    let both = a.0.iter().zip(a.1[freedom].iter().zip(&b.1[freedom]));
+fn apart(a: &Motion, b: &Motion, dof: usize, [from, to]: [f64; 2]) -> f64 {
+    let both = a.0.iter().zip(a.1[dof].iter().zip(&b.1[dof]));
     both.filter(|(t, _)| (from..=to).contains(*t)).map(|(_, (p, q))| (p - q).abs()).fold(0.0, f64::max)
 }
 
@@ -212,7 +212,7 @@ fn apart(a: &Motion, b: &Motion, freedom: usize, [from, to]: [f64; 2]) -> f64 {
 fn rods_move_the_platform_as_tethers_do_until_a_tether_goes_slack() {
     // before the first slack of any length, at 6.25 s, the platform has gone 13 m and swung twice on its tethers: surge, heave and pitch.
     // What is left: the shear and the inertia of the tethers, which the tether engine keeps from the platform, 0.5 % of its mass; and 2.5 mm
-    // of heave, of 3.9 m, that the damping of runs with lines that move by themselves takes (-RHO 0.2 for 0.9)
+    // of heave, of 3.9 m, that the damping of runs with dynamic lines takes (-RHO 0.2 for 0.9)
     let before = [0, 1, 2].map(|f| apart(&RODS, &TETHERS, f, [0.0, 6.2]));
     assert!(before[0] < 3e-3 && before[1] < 7e-3 && before[2] < 0.003f64.to_radians(), "{before:?}");
     // then the tethers of one side are without tension for 0.8 s. Those of AQWA let go; a rod goes on to push, as it has no time to

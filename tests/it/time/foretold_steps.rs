@@ -67,10 +67,10 @@ fn a_moored_body_in_waves_goes_where_it_goes_with_every_step_solved_to_the_last_
     let at = usual.history.layout.body(0);
     let (mut most, mut reach) = (0.0f64, 0.0f64);
     for (row, other) in usual.history.rows().zip(tight.history.rows()) {
-        for freedom in 0..6 {
-            let lever = if freedom < 3 { 1.0 } else { GYRATION };
-            most = most.max(lever * (row[at + freedom] - other[at + freedom]).abs());
-            reach = reach.max(lever * row[at + freedom].abs());
+        for dof in 0..6 {
+            let lever = if dof < 3 { 1.0 } else { GYRATION };
+            most = most.max(lever * (row[at + dof] - other[at + dof]).abs());
+            reach = reach.max(lever * row[at + dof].abs());
         }
     }
     // 1e-7 g left in every step and always the same way would be 0.02 m after 200 s; what is left has its sign by chance and goes
@@ -86,12 +86,12 @@ fn what_is_told_of_a_foretold_step_is_in_balance_to_the_tolerance() {
     let made = run(&moored(true), 100.0, tolerance);
     let layout = &made.history.layout;
     for row in made.history.rows() {
-        for freedom in 0..6 {
+        for dof in 0..6 {
             let forces = Category::ALL.into_iter().filter_map(|c| layout.category(0, c));
-            let left: f64 = forces.map(|at| row[at + freedom]).sum();
+            let left: f64 = forces.map(|at| row[at + dof]).sum();
             // of the body's mass alone, less than that of the water with it; forces of 1e9 N rounded are 1e-6 N
-            let allowed = tolerance * GRAVITY * MASS * if freedom < 3 { 1.0 } else { GYRATION };
-            assert!(left.abs() <= allowed, "{} s: {left:e} of {allowed:e} in {freedom}", row[0]);
+            let allowed = tolerance * GRAVITY * MASS * if dof < 3 { 1.0 } else { GYRATION };
+            assert!(left.abs() <= allowed, "{} s: {left:e} of {allowed:e} in {dof}", row[0]);
         }
     }
 }

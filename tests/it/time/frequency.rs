@@ -96,9 +96,9 @@ fn an_oscillator_moves_with_amplitude_and_lag_of_its_closed_form() {
     let (_, _, motions) = found.each().next().unwrap();
     let lag = w * w / G * (30.0 * (from + PI).cos() - 20.0 * (from + PI).sin());
     let force = Complex::from_polar(7e5, 40f64.to_radians() + lag);
-    for (freedom, stiffness, damping) in [(0, 3e5, 5e4 + RADIATED), (2, 8e5, 9e4 + RADIATED)] {
+    for (dof, stiffness, damping) in [(0, 3e5, 5e4 + RADIATED), (2, 8e5, 9e4 + RADIATED)] {
         let want = oscillator(force, stiffness, damping, w);
-        assert!((motions[freedom] - want).norm() < 1e-9 * want.norm(), "{freedom} {} {want}", motions[freedom]);
+        assert!((motions[dof] - want).norm() < 1e-9 * want.norm(), "{dof} {} {want}", motions[dof]);
     }
     // the acceleration of a point of an unturned body is that of its origin
     let [_, _, z] = Quantity::point(&linear, 0, nalgebra::Vector3::new(3.0, 4.0, 5.0));
@@ -165,7 +165,7 @@ fn a_body_that_rides_on_the_waves_has_the_height_and_period_of_the_sea() {
     data.frequencies.iter_mut().for_each(|w| *w *= 10.0);
     data.excitation.iter_mut().flatten().for_each(|x| x[2] = Complex::new(1e15, 0.0));
     let (linear, made) = seen(&model, &Asked::default());
-    let z = Quantity::freedom(&linear, 0, 2);
+    let z = Quantity::dof(&linear, 0, 2);
     let told = Statistics::of(&made, &z, Derivative::Place);
     // the energy is exact; what is above 15 times the frequency of the peak is counted there, which takes 0.3 % of the second moment
     assert!((told.significant() / 2.0 - 1.0).abs() < 1e-6, "{told:?}");
@@ -190,7 +190,7 @@ fn a_spread_sea_moves_a_body_by_the_mean_square_over_its_directions() {
         };
         data.excitation = data.headings.iter().map(one).collect();
         let (linear, made) = seen(&model, &Asked::default());
-        Statistics::of(&made, &Quantity::freedom(&linear, 0, 0), Derivative::Place).deviation
+        Statistics::of(&made, &Quantity::dof(&linear, 0, 0), Derivative::Place).deviation
     };
     let ratio = of("-SPREAD 2") / of("");
     // eleven directions of equal shares
@@ -204,7 +204,7 @@ fn slow_drift_of_a_rectangular_spectrum_is_that_of_pinkster_by_hand() {
     let mut model = model("#DAMP *C 50 0 90 0 0 0\n", &format!("{curve}&ENV -SEA BOX 180 4 {}", TAU / low));
     attach(&mut model, DriftMethod::Newman);
     let (linear, made) = seen(&model, &Asked { spectral: true, ..Asked::default() });
-    let x = Quantity::freedom(&linear, 0, 0);
+    let x = Quantity::dof(&linear, 0, 0);
     // S = 1 m2 over 0.3 rad/s; S_F = 8 S2 D2 (high - low - mu)
     let s = 1.0 / (high - low);
     assert!(made.slow.len() > 50);
@@ -231,7 +231,7 @@ fn a_quadratic_dashpot_is_linearised_as_borgman_has_it() {
     attach(&mut model, DriftMethod::None);
     let (mut linear, made) = seen(&model, &Asked { spectral: true, ..Asked::default() });
     assert!(made.rounds > 1);
-    let z = Quantity::freedom(&linear, 0, 2);
+    let z = Quantity::dof(&linear, 0, 2);
     let velocity = Statistics::of(&made, &z, Derivative::Velocity).deviation;
     let (_, damping) = linear.inertia_and_damping(1.0);
     let want = RADIATED + 4e5 * (8.0 / PI).sqrt() * velocity;
@@ -250,15 +250,15 @@ fn a_quadratic_dashpot_is_linearised_as_borgman_has_it() {
 
 const RADIUS: f64 = 10.0;
 
-/// The hemisphere of tests/data, afloat; `more` are records of MEDIT, `freedoms` those left out.
-fn hemisphere(freedoms: &str, more: &str, rest: &str) -> Session {
+/// The hemisphere of tests/data, afloat; `more` are records of MEDIT, `dofs` those left out.
+fn hemisphere(dofs: &str, more: &str, rest: &str) -> Session {
     let (mut session, _, _folder) = common::session();
     let file = format!("{}/tests/data/hemisphere/hemisphere.nc", env!("CARGO_MANIFEST_DIR"));
     let weight = 1.025 * G * 2.0 / 3.0 * PI * RADIUS.powi(3);
     run(
         &mut session,
         &format!(
-            "&DIMEN -DIMEN METERS K-NTS\n&ENV -DEPTH 100\nMEDIT\n&DESCRIBE BODY BALL {freedoms}\n*CG 0 0 -3\n#WEIGHT *CG {weight} 5 5 5\n\
+            "&DIMEN -DIMEN METERS K-NTS\n&ENV -DEPTH 100\nMEDIT\n&DESCRIBE BODY BALL {dofs}\n*CG 0 0 -3\n#WEIGHT *CG {weight} 5 5 5\n\
              DATABASE BALL -CAPYTAINE {file} -HYDROSTATICS YES -DRIFT NONE\n{more}END\n{rest}"
         ),
     );
@@ -334,13 +334,13 @@ fn a_moored_hemisphere_in_small_waves_moves_in_time_as_in_the_frequency_domain()
     let times = history.times();
     let from = times.len() - (12.0 * period / step) as usize;
     let fit = |values: &[f64]| harmonic(&times[from..], &values[from..], w);
-    for freedom in 0..5 {
-        let own = motions[freedom] * 0.1;
-        let (amplitude, lag) = fit(&history.series(history.layout.body(0) + freedom));
-        println!("{freedom} {} {amplitude} {} {lag}", own.norm(), own.arg());
+    for dof in 0..5 {
+        let own = motions[dof] * 0.1;
+        let (amplitude, lag) = fit(&history.series(history.layout.body(0) + dof));
+        println!("{dof} {} {amplitude} {} {lag}", own.norm(), own.arg());
         // half a percent: the step of 0.1 s, the memory's length, the square of a wave of 0.1 m
-        assert!((amplitude / own.norm() - 1.0).abs() < 5e-3, "{freedom}: {amplitude} {}", own.norm());
-        assert!((lag - own.arg() + PI).rem_euclid(TAU) - PI < 0.02, "{freedom}: {lag} {}", own.arg());
+        assert!((amplitude / own.norm() - 1.0).abs() < 5e-3, "{dof}: {amplitude} {}", own.norm());
+        assert!((lag - own.arg() + PI).rem_euclid(TAU) - PI < 0.02, "{dof}: {lag} {}", own.arg());
     }
     for n in 0..4 {
         let (_, size) = Quantity::tension(&linear, &format!("L{n}")).unwrap().unwrap();

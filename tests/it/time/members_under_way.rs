@@ -147,11 +147,11 @@ fn a_member_meets_the_current_of_the_time() {
     near(at(&*members(&ramped, None), 30.0, &Pose::default(), &Six::zeros())[0], want * 1.5 * 1.5, 1e-12);
 }
 
-/// Time, place and velocity of one freedom of the only body in a run by the trapezoidal rule.
-fn run(model: &Model, (observed, dt): (f64, f64), freedom: usize) -> Vec<[f64; 3]> {
+/// Time, place and velocity of one degree of freedom of the only body in a run by the trapezoidal rule.
+fn run(model: &Model, (observed, dt): (f64, f64), dof: usize) -> Vec<[f64; 3]> {
     let settings = Settings { method: trapezoidal(), ..settings(observed, dt) };
     let run = runs::run(model, settings, vec![]);
-    let first = run.history.layout.body(0) + freedom;
+    let first = run.history.layout.body(0) + dof;
     run.history.rows().map(|row| [row[0], row[first], row[first + 6]]).collect()
 }
 
@@ -245,9 +245,9 @@ fn a_member_that_waves_wet_and_bare_converges_in_time_with_the_second_order() {
         [row[at], row[at + 2]]
     };
     let [coarse, middle, fine] = [0.1, 0.05, 0.025].map(place);
-    for freedom in 0..2 {
-        let [first, second] = [(coarse, middle), (middle, fine)].map(|(a, b)| (a[freedom] - b[freedom]).abs());
+    for dof in 0..2 {
+        let [first, second] = [(coarse, middle), (middle, fine)].map(|(a, b)| (a[dof] - b[dof]).abs());
         // 4 of the second order, 2 of the first; and what is left is small
-        assert!(first / second > 3.0 && second < 5e-3, "{freedom}: {first} {second}");
+        assert!(first / second > 3.0 && second < 5e-3, "{dof}: {first} {second}");
     }
 }

@@ -53,7 +53,7 @@ fn error_of_a_period_of_the_trapezoidal_rule_is_that_of_its_closed_form() {
         let bound = 2.0 / (2.0 * TAU * 60.0) + 2.0 / (60.0 * steps);
         assert!((worst.distortion.period / exact - 1.0).abs() < bound, "{steps} {worst:?} {exact}");
         assert!((worst.period / (TAU / 2.0) - 1.0).abs() < 2e-3, "{worst:?}");
-        assert_eq!((worst.body.as_str(), worst.freedom), ("CART", "X"));
+        assert_eq!((worst.body.as_str(), worst.dof), ("CART", "X"));
     }
 }
 
@@ -121,7 +121,7 @@ fn natural_periods_at_the_start_are_those_of_springs_and_masses() {
     // 2 rad/s
     let made = oscillated(Method::default(), 20.0, 1.0);
     let [only] = made.resolution.natural.as_slice() else { panic!("{:?}", made.resolution) };
-    assert!((only.period - TAU / 2.0).abs() < 1e-9 && only.freedom == "X");
+    assert!((only.period - TAU / 2.0).abs() < 1e-9 && only.dof == "X");
 }
 
 #[test]

@@ -15,7 +15,7 @@ const FRICTION: f64 = 0.016;
 const ROUNDING: f64 = 1e-9;
 /// Tubes of less than this share of the mass of their structure have a nominal mass.
 const NOMINAL: f64 = 1e-10;
-const FREEDOMS: [&str; 6] = ["X", "Y", "Z", "RX", "RY", "RZ"];
+const DOFS: [&str; 6] = ["X", "Y", "Z", "RX", "RY", "RZ"];
 const ROWS: [&str; 6] = ["-KX", "-KY", "-KZ", "-KRX", "-KRY", "-KRZ"];
 
 /// Name of the body of a structure.
@@ -117,26 +117,26 @@ fn mass(deck: &Deck, of: &Structure, out: &mut Script) -> MassProperties {
     deck.mass_properties(&Structure { elements, ..of.clone() })
 }
 
-/// The freedoms that are held, as an option.
+/// The degrees of freedom that are held, as an option.
 fn held(deck: &Deck, of: &Structure, nominal: bool, out: &mut Script) -> String {
     if nominal {
         out.remark("a towed tether runs by itself: its nominal vessel is held where it is");
-        return format!(" -IGNORE {}", FREEDOMS.join(" "));
+        return format!(" -IGNORE {}", DOFS.join(" "));
     }
     let given: Vec<_> = deck.held.iter().filter(|held| held.structure.value == of.number).collect();
     if let (Some(first), false) = (given.first(), deck.mooring.tethers.is_empty()) {
         out.refuse(
             Diagnostic::error(
-                "deck 12, DACF: a structure that tethers hold moves in all freedoms here",
-                first.freedom.span,
+                "deck 12, DACF: a structure that tethers hold moves in all degrees of freedom here",
+                first.dof.span,
             )
             .help("the engine of tethers holds none; a stiff GSPR of the model to the ground does"),
         );
     }
-    let mut freedoms: Vec<usize> = given.iter().filter_map(|h| usize::try_from(h.freedom.value - 1).ok()).collect();
-    freedoms.sort_unstable();
-    freedoms.dedup();
-    let names: Vec<&str> = freedoms.iter().filter_map(|freedom| FREEDOMS.get(*freedom).copied()).collect();
+    let mut dofs: Vec<usize> = given.iter().filter_map(|h| usize::try_from(h.dof.value - 1).ok()).collect();
+    dofs.sort_unstable();
+    dofs.dedup();
+    let names: Vec<&str> = dofs.iter().filter_map(|dof| DOFS.get(*dof).copied()).collect();
     if names.is_empty() { String::new() } else { format!(" -IGNORE {}", names.join(" ")) }
 }
 

@@ -677,7 +677,7 @@ fn what_is_printed_of_tethers_is_said_where_it_is_not_what_was_asked() {
         assert!(!reading.failed);
         reading.messages.iter().map(|m| m.message.clone()).collect::<Vec<_>>().join("\n")
     };
-    // four nodes of four freedoms
+    // four nodes of four degrees of freedom
     assert!(!said("TEIG   16", "TEIG   15").contains("TEIG"));
     assert!(said("TEIG   16", "TEIG   17").contains("a tether has at most 16 modes here"));
     assert!(said("    18PTEN    1\n", "").contains("no PTEN card: nothing is printed of the tethers"));

@@ -1,4 +1,4 @@
-//! What a line that moves by itself is made of, as its class says.
+//! What a dynamic line is made of, as its class says.
 
 use std::f64::consts::FRAC_PI_4;
 use windlass_line_dynamics::{Axial, Segment};
@@ -75,7 +75,7 @@ pub struct Hold {
     pub stiffness: Option<f64>,
 }
 
-/// A line that moves by itself.
+/// A dynamic line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Description {
     /// The class type, for messages.

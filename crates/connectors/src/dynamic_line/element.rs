@@ -1,4 +1,4 @@
-//! A line that moves by itself as an engine sees it.
+//! A dynamic line as an engine sees it.
 
 use super::answer::{on_ends, on_supports};
 use super::environment::{Floor, Water};

@@ -1,4 +1,4 @@
-//! How a line that moves by itself is made of its class and the ends of its connector.
+//! How a dynamic line is made of its class and the ends of its connector.
 
 use super::describe::{Description, Part};
 use super::element::DynamicLine;

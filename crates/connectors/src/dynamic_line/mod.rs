@@ -1,4 +1,4 @@
-//! Lines that move by themselves: what classes say of them, and the rod of `windlass_line_dynamics` as an element of an engine.
+//! Dynamic lines: what classes say of them, and the rod of `windlass_line_dynamics` as an element of an engine.
 //!
 //! Source: [MOSES-FLEX ROD] and [AQWA-CONN 5.8.3] (cable dynamics of AQWA). A line is cut into elements, feels water, wind and bottom all
 //! along itself, and is held at its ends by bodies or the ground; what is between its ends is solved and condensed here.

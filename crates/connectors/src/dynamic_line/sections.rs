@@ -357,7 +357,7 @@ pub fn holds(clamps: &[Given], ends: [&Flexure; 2]) -> Outcome<[Option<Hold>; 2]
 /// The line of sections without bending, cut into about so many elements by their lengths.
 ///
 /// # Errors
-/// Springs or devices at its ends, which a line that moves by itself does not have.
+/// Springs or devices at its ends, which a dynamic line does not have.
 pub fn chain(
     (kind, plain): (&'static str, bool),
     (sections, flexures): (&[LineSection], &[Flexure]),

@@ -1,4 +1,4 @@
-//! What a line that moves by itself is made of, and what its solver remembers.
+//! What a dynamic line is made of, and what its solver remembers.
 
 use super::describe::Description;
 use super::mesh::Bands;

@@ -1,4 +1,4 @@
-//! What a line that moves by itself tells of itself: its nodes, modes and books.
+//! What a dynamic line tells of itself: its nodes, modes and books.
 
 use super::describe::Part;
 use super::element::DynamicLine;

@@ -342,19 +342,19 @@ fn what_supports_feel_follows_their_motion_as_its_differences() {
     assert!(tangent.velocity.is_empty());
     let size = tangent.position.iter().map(|k| k.amax()).fold(0.0, f64::max);
     let step = 1e-4;
-    for (j, freedom) in (0..3).flat_map(|j| (0..6).map(move |f| (j, f))) {
+    for (j, dof) in (0..3).flat_map(|j| (0..6).map(move |f| (j, f))) {
         let moved = |sign: f64| {
             let mut motion = [[0.0; 6]; 3];
-            motion[j][freedom] = sign * step;
+            motion[j][dof] = sign * step;
             on_three(&motion).0
         };
         let (plus, minus) = (moved(1.0), moved(-1.0));
         for i in 0..3 {
             for row in 0..6 {
                 let slope = (plus[i][row / 3][row % 3] - minus[i][row / 3][row % 3]) / (2.0 * step);
-                let own = tangent.position[3 * i + j][(row, freedom)];
+                let own = tangent.position[3 * i + j][(row, dof)];
                 // positions of rest are found to a part in 1e9 of the weight, 9 kN, against a step of 1e-4
-                assert!((slope - own).abs() < 1e-4 * size, "{i} {row} {j} {freedom}: {slope} {own} {size}");
+                assert!((slope - own).abs() < 1e-4 * size, "{i} {row} {j} {dof}: {slope} {own} {size}");
             }
         }
     }

@@ -1,4 +1,4 @@
-//! What a line that moves by itself comes to along itself: unity checks of its sections, fatigue at its nodes, envelopes.
+//! What a dynamic line comes to along itself: unity checks of its sections, fatigue at its nodes, envelopes.
 
 pub mod envelope;
 pub mod fatigue;

@@ -39,7 +39,7 @@ pub struct Strand {
     pub(super) bottom: Option<f64>,
     /// Why it was last without a shape.
     pub(super) error: Option<String>,
-    /// Whether it moves by itself and the run kept none of its nodes.
+    /// Whether it is a dynamic line and the run kept none of its nodes.
     pub(super) nodeless: bool,
     /// What it is made of, of one whose nodes were kept.
     sections: Vec<Section>,
@@ -151,7 +151,7 @@ impl Strand {
     }
 }
 
-/// A line that moves by itself as its nodes were, a number of points evenly along its length, straight between nodes; `None` where none
+/// A dynamic line as its nodes were, a number of points evenly along its length, straight between nodes; `None` where none
 /// of them is there.
 fn moved(along: &AlongColumns, row: &[f64], sections: &[Section], count: usize) -> Option<Shape> {
     let nodes: Vec<_> = along.nodes(row).map(|(_, node)| node).collect();

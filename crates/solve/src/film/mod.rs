@@ -1,6 +1,6 @@
 //! A run as a film: bodies, and lines in the shape they hang in, at a number of instants.
 //!
-//! A line that moves by itself is where its nodes were, which the run kept. The shapes of others are solved exactly between the ends at the
+//! A dynamic line is where its nodes were, which the run kept. The shapes of others are solved exactly between the ends at the
 //! instant, whatever the forces of the run came from, as those of a [`Scene`](super::scene::Scene) are.
 
 mod between;

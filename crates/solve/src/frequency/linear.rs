@@ -1,7 +1,7 @@
 //! The linear equations of motion about a place, and the motions of unit waves.
 
 use crate::modes::held;
-use crate::system::{FREEDOMS, SolveError, State, System, mass_block};
+use crate::system::{DOFS, SolveError, State, System, mass_block};
 use crate::time::{Forces, Memory, Motion, RunRequirements};
 use nalgebra::{Complex, DMatrix, DVector, Matrix6};
 use std::f64::consts::TAU;
@@ -57,9 +57,9 @@ pub struct Linear {
     pub(super) damping: DMatrix<f64>,
     /// What a sea adds to it by linearisation.
     pub(super) linearised: DMatrix<f64>,
-    /// Motions of all freedoms by those that have inertia; held ones do not move, massless ones follow.
+    /// Motions of all degrees of freedom by those that have inertia; held ones do not move, massless ones follow.
     follow: DMatrix<f64>,
-    /// The freedoms that have inertia.
+    /// The degrees of freedom that have inertia.
     heavy: Vec<usize>,
     pub(super) floats: Vec<Option<Floats>>,
     /// Depth with the tide (m).
@@ -165,7 +165,7 @@ impl Linear {
         let moving: Vec<_> = self.connectors().filter(moves).collect();
         if !moving.is_empty() {
             let text = format!(
-                "{}: what moves by itself follows the bodies here as at rest, without dynamics of its own",
+                "{}: a dynamic line follows the bodies here as at rest, without dynamics of its own",
                 moving.join(", ")
             );
             self.notes.push(text);
@@ -287,7 +287,7 @@ impl Linear {
             let error = ClassError::of(text, &[(TAU / frequency, Dim::Time)]).help("#DAMP gives a body damping");
             let name = |row: usize| {
                 let node = self.system.nodes.get(row / 6)?;
-                Some(format!("{} in {}", node.name, FREEDOMS.get(row % 6)?))
+                Some(format!("{} in {}", node.name, DOFS.get(row % 6)?))
             };
             return Err(match row.and_then(name) {
                 Some(who) => SolveError::new(ClassError { message: format!("{who}: {}", error.message), ..error }),
@@ -354,7 +354,7 @@ fn damping(
     }
 }
 
-/// The freedoms that have inertia, and the motions of all freedoms by theirs.
+/// The degrees of freedom that have inertia, and the motions of all degrees of freedom by theirs.
 fn followed(system: &System, state: &State) -> Result<(Vec<usize>, DMatrix<f64>), SolveError> {
     let mass = system.mass_matrix(&state.poses);
     let moves = |i: &usize| system.nodes.get(i / 6).is_some_and(|n| n.moves(i % 6));

@@ -47,10 +47,10 @@ pub struct Quantity {
 pub type Pull = ([Quantity; 3], Option<Quantity>);
 
 impl Quantity {
-    /// A freedom of the origin of a body.
-    pub fn freedom(linear: &Linear, body: usize, freedom: usize) -> Self {
+    /// A degree of freedom of the origin of a body.
+    pub fn dof(linear: &Linear, body: usize, dof: usize) -> Self {
         let size = 6 * linear.system.nodes.len();
-        let place = DVector::from_fn(size, |i, _| if i == 6 * body + freedom { 1.0 } else { 0.0 });
+        let place = DVector::from_fn(size, |i, _| if i == 6 * body + dof { 1.0 } else { 0.0 });
         Quantity { mean: 0.0, place, rate: DVector::zeros(size) }
     }
 
@@ -59,7 +59,7 @@ impl Quantity {
         let pose = linear.poses.get(body).copied().unwrap_or_default();
         let (arm, start) = (pose.axes * at, pose.point(at));
         [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| {
-            let mut made = Quantity { mean: start.dot(&axis), ..Quantity::freedom(linear, body, 0) };
+            let mut made = Quantity { mean: start.dot(&axis), ..Quantity::dof(linear, body, 0) };
             // axis . (turn x arm) = turn . (arm x axis)
             let turn = arm.cross(&axis);
             let six = [axis.x, axis.y, axis.z, turn.x, turn.y, turn.z];

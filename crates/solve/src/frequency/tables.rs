@@ -7,7 +7,7 @@ use super::quantity::{Derivative, Quantity};
 use super::response::{Point, Response};
 use super::statistics::{Extreme, Statistics};
 use crate::equilibrium::is_unstable;
-use crate::system::{FREEDOMS, SolveError};
+use crate::system::{DOFS, SolveError};
 use std::f64::consts::TAU;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
@@ -29,13 +29,13 @@ impl Told {
         Told { name: name.into(), dim, quantity }
     }
 
-    /// The six freedoms of a body's origin.
-    pub fn freedoms(linear: &Linear, body: usize) -> Vec<Self> {
+    /// The six degrees of freedom of a body's origin.
+    pub fn dofs(linear: &Linear, body: usize) -> Vec<Self> {
         let one = |(i, name): (usize, &&str)| {
             let dim = if i < 3 { Dim::Length } else { Dim::Angle };
-            Told::new(*name, dim, Quantity::freedom(linear, body, i))
+            Told::new(*name, dim, Quantity::dof(linear, body, i))
         };
-        FREEDOMS.iter().enumerate().map(one).collect()
+        DOFS.iter().enumerate().map(one).collect()
     }
 }
 
@@ -204,7 +204,7 @@ pub fn statistics(
     table
 }
 
-/// Statistics of the six freedoms of a body: along each axis, and about it.
+/// Statistics of the six degrees of freedom of a body: along each axis, and about it.
 pub fn body_statistics(
     title: String,
     (linear, response): (&Linear, &Response),
@@ -216,8 +216,8 @@ pub fn body_statistics(
     let mut table = statistic_columns(table, "Rotation", "R ", derived(Dim::Angle, derivative));
     for (axis, name) in ["X", "Y", "Z"].into_iter().enumerate() {
         let mut row = vec![Cell::from(name)];
-        for freedom in [axis, axis + 3] {
-            let quantity = Quantity::freedom(linear, body, freedom);
+        for dof in [axis, axis + 3] {
+            let quantity = Quantity::dof(linear, body, dof);
             row.extend(statistic_cells(&Statistics::of(response, &quantity, derivative), extreme));
         }
         push(&mut table, row);
@@ -245,7 +245,7 @@ pub fn modes(linear: &Linear) -> Result<[Table; 2], SolveError> {
         Dim::None,
         Digits::Usual,
     );
-    for (i, name) in FREEDOMS.into_iter().enumerate() {
+    for (i, name) in DOFS.into_iter().enumerate() {
         let group = if i < 3 { "Translation" } else { "Rotation" };
         shapes = shapes.column(group, name, Dim::None, Digits::Decimals(5));
     }
@@ -253,8 +253,8 @@ pub fn modes(linear: &Linear) -> Result<[Table; 2], SolveError> {
     let largest = list.iter().map(|n| n.mode.eigenvalue.abs()).fold(0.0, f64::max);
     for (index, Natural { mode, damping, settled }) in list.into_iter().enumerate() {
         let period = mode.period.filter(|_| damping.is_some());
-        let (body, freedom) = (mode.most.0.as_str(), mode.most.1);
-        let told = format!("mode {} of {body} in {freedom}", index + 1);
+        let (body, dof) = (mode.most.0.as_str(), mode.most.1);
+        let told = format!("mode {} of {body} in {dof}", index + 1);
         if is_unstable(mode.eigenvalue, largest) {
             periods.note(format!("warning: not stable: {told}"));
         }
@@ -270,7 +270,7 @@ pub fn modes(linear: &Linear) -> Result<[Table; 2], SolveError> {
                 frequency.into(),
                 damping.into(),
                 Cell::from(body),
-                Cell::from(freedom),
+                Cell::from(dof),
             ],
         );
         for (number, node) in linear.system.nodes.iter().enumerate() {

@@ -24,7 +24,7 @@ pub(super) fn add(row: &[f64], from: Option<usize>, sum: &mut [Vector3<f64>; 2])
 }
 
 /// The forces on some bodies of a run by category, and their sum, about the origins of the bodies, global axes. Inertia is one of
-/// them, as a force: the sum is what a step left, and in a freedom that does not move what holds it.
+/// them, as a force: the sum is what a step left, and in a degree of freedom that does not move what holds it.
 ///
 /// # Errors
 /// None of its own.
@@ -40,7 +40,7 @@ pub fn body_forces(run: &Run, bodies: &[usize], magnitude: Magnitude, events: &[
             table = wrench_columns(table, &headed(several, name, group));
         }
     }
-    table.note("TOTAL is with inertia: what the step left, and what holds freedoms that do not move");
+    table.note("TOTAL is with inertia: what the step left, and what holds degrees of freedom that do not move");
     if layout.categories.contains(&Category::WaveMean) {
         table.note(
             "W_MEAN is what is slow (TDOM -DIVIDING) of the force of undisturbed waves on members and hulls of -DIFTYPE FK: no drift force, which \

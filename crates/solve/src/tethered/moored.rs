@@ -46,7 +46,7 @@ impl Moored {
             }
             let made = link((model, &ambient, &RunRequirements::default()), connector, &mut states)?;
             if made.element.moves() {
-                let error = ClassError::new("a line that moves by itself cannot run beside tethers").at(connector.span);
+                let error = ClassError::new("a dynamic line cannot run beside tethers").at(connector.span);
                 let error = error.help("release it, or give a class without dynamics of its own");
                 return Err(SolveError { who: Some(connector.name.clone()), error });
             }

@@ -34,10 +34,10 @@ pub fn structure(run: &Tethered, structure: &StructureHistory, instant: usize, p
     let title = |what: &str| format!("{what} of Structure {}", structure.body);
     let mut out = [title("Motions"), title("Forces")]
         .map(|t| Table::new(t).fact("Time", time, Dim::Time).column("", "Freedom", Dim::None, Digits::Usual));
-    let at = |kind: usize, freedom: usize| {
+    let at = |kind: usize, dof: usize| {
         let all = (0..6).filter_map(|f| structure.at(instant, 6 * kind + f));
         let largest = all.fold(0.0, |most: f64, v| most.max(v.abs()));
-        Cell::from(structure.at(instant, 6 * kind + freedom).map(|v| without_noise(v, largest)))
+        Cell::from(structure.at(instant, 6 * kind + dof).map(|v| without_noise(v, largest)))
     };
     // the six of a motion have two dimensions: metres and degrees stand in columns of their own
     let [motions, forces] = &mut out;
@@ -49,9 +49,9 @@ pub fn structure(run: &Tethered, structure: &StructureHistory, instant: usize, p
     let pushed: Vec<usize> = (3..12).collect();
     let head = |name: &str, dim, digits, cells| Column { name: name.into(), group: String::new(), dim, digits, cells };
     forces.columns.push(head("Kind", Dim::None, Digits::Usual, kinds(&pushed)));
-    for (freedom, name) in SIX.iter().enumerate() {
-        let (dim, digits) = six(3)[freedom / 3];
-        let cells = pushed.iter().map(|k| at(*k, freedom)).collect();
+    for (dof, name) in SIX.iter().enumerate() {
+        let (dim, digits) = six(3)[dof / 3];
+        let cells = pushed.iter().map(|k| at(*k, dof)).collect();
         forces.columns.push(head(name, dim, digits, cells));
     }
     motions.columns.push(head("Freedom", Dim::None, Digits::Usual, SIX.map(text).to_vec()));
@@ -88,9 +88,9 @@ pub fn structure_series(run: &Tethered, structure: &StructureHistory) -> Table {
     let head = Quantity { code: "", group: "", name: "Time", dim: Dim::Time, digits: SECONDS };
     table.columns.push(column(&head, run.times.iter().map(|t| Cell::Number(*t)).collect()));
     for ((kind, name), code) in StructureHistory::KINDS.iter().enumerate().zip(CODES) {
-        for (freedom, axis) in SIX.iter().enumerate() {
-            let (dim, digits) = six(kind)[freedom / 3];
-            let cells = structure.series(6 * kind + freedom).into_iter().map(Cell::Number).collect();
+        for (dof, axis) in SIX.iter().enumerate() {
+            let (dim, digits) = six(kind)[dof / 3];
+            let cells = structure.series(6 * kind + dof).into_iter().map(Cell::Number).collect();
             table.columns.push(Column { name: format!("{code}{axis}"), group: (*name).into(), dim, digits, cells });
         }
     }
@@ -137,16 +137,16 @@ pub fn harmonics(
     }
     for (kind, motion) in StructureHistory::KINDS.iter().enumerate().take(3) {
         let mut cycles = Vec::new();
-        for freedom in 0..SIX.len() {
-            let values = structure.series(6 * kind + freedom);
+        for dof in 0..SIX.len() {
+            let values = structure.series(6 * kind + dof);
             cycles.push(Cycle::of(&run.times, &values, (start, period), 4, AQWA_SAMPLES)?);
         }
         let largest = cycles.iter().fold(0.0, |most: f64, c| most.max(c.mean.abs()).max(c.drift.abs()));
-        for ((freedom, axis), found) in SIX.iter().enumerate().zip(&cycles) {
+        for ((dof, axis), found) in SIX.iter().enumerate().zip(&cycles) {
             // one column holds metres and degrees: numbers without a dimension, in metres and degrees
             let told = |value: f64| {
                 let value = without_noise(value, largest);
-                if freedom < 3 { value } else { value.to_degrees() }
+                if dof < 3 { value } else { value.to_degrees() }
             };
             let mut row = vec![text(motion), text(axis), told(found.mean).into(), told(found.drift).into()];
             for harmonic in &found.harmonics {

@@ -2,12 +2,12 @@
 //!
 //! A scheme turns an undamped oscillation `x = cos(w t)` into one of another period, with damping of its own. Both are those of the
 //! eigenvalues of its amplification matrix at `w h` [CHUNG-HULBERT-1993]. The `w h` of a
-//! freedom is measured as the run goes: the square root of `sum h (h a)^2 / sum h (v - mean v)^2`, exact of a sine. It does not
+//! degree of freedom is measured as the run goes: the square root of `sum h (h a)^2 / sum h (v - mean v)^2`, exact of a sine. It does not
 //! follow what is between two instants: a load that comes and goes within a step is not seen.
 
 use super::forces::Motion;
 use super::scheme::{Method, Scheme};
-use crate::system::{FREEDOMS, Node, System, mass_block};
+use crate::system::{DOFS, Node, System, mass_block};
 use nalgebra::Matrix3;
 use std::f64::consts::TAU;
 use windlass_base::dense::{eigenvalues, never};
@@ -17,7 +17,7 @@ use windlass_base::pose::Six;
 pub const POOR_PERIOD: f64 = 0.05;
 /// Damping of a scheme, as a share of critical, above which a step is too long: it takes a ninth of an amplitude a cycle.
 pub const POOR_DAMPING: f64 = 0.02;
-/// Share of the largest velocity of its body from which on a freedom is judged (rotations times the radius of gyration): below
+/// Share of the largest velocity of its body from which on a degree of freedom is judged (rotations times the radius of gyration): below
 /// it has less than a ten-thousandth of the energy.
 const COUNTS: f64 = 1e-2;
 /// The same of the largest velocity of all bodies.
@@ -118,13 +118,13 @@ impl Method {
     }
 }
 
-/// A freedom and what the steps of a run make of its motion.
+/// A degree of freedom and what the steps of a run make of its motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Followed {
     /// The body, as written.
     pub body: String,
-    /// The freedom.
-    pub freedom: &'static str,
+    /// The degree of freedom.
+    pub dof: &'static str,
     /// The period of its motion (s).
     pub period: f64,
     /// What the scheme makes of that.
@@ -137,7 +137,7 @@ pub struct Accuracy {
     /// Largest error of place of a step (m), as far as the change of the acceleration tells; when (s) and the number of the body.
     pub largest: (f64, f64, usize),
     time: f64,
-    /// Of each freedom: the integrals of v, v^2, a^2 and (h a)^2.
+    /// Of each degree of freedom: the integrals of v, v^2, a^2 and (h a)^2.
     sums: Vec<[f64; 4]>,
 }
 
@@ -161,7 +161,7 @@ impl Accuracy {
         }
     }
 
-    /// The freedom that its scheme follows worst, of those that move enough to count; none where nothing moves.
+    /// The degree of freedom that its scheme follows worst, of those that move enough to count; none where nothing moves.
     pub(super) fn worst(&self, system: &System, motions: &[Motion], method: &Method) -> Option<Followed> {
         // integrals of the squares of the velocity without its mean
         let moved = |[v, vv, ..]: &[f64; 4]| if self.time > 0.0 { (vv - v * v / self.time).max(0.0) } else { 0.0 };
@@ -182,8 +182,8 @@ impl Accuracy {
             }
             let square = moved(self.sums.get(at)?);
             let distortion = method.errs_as().distortion((haha / square).sqrt());
-            let freedom = FREEDOMS.get(at % 6)?;
-            Some(Followed { body: node.name.clone(), freedom, period: TAU * (square / aa).sqrt(), distortion })
+            let dof = DOFS.get(at % 6)?;
+            Some(Followed { body: node.name.clone(), dof, period: TAU * (square / aa).sqrt(), distortion })
         };
         let worse = |a: Followed, b: Followed| if b.distortion.measure() > a.distortion.measure() { b } else { a };
         (0..self.sums.len()).filter_map(of).reduce(worse)
@@ -203,7 +203,7 @@ impl Accuracy {
     }
 }
 
-/// What makes a velocity of each freedom: 1 of translations, the radii of gyration of rotations (m); 0 where nothing has inertia.
+/// What makes a velocity of each degree of freedom: 1 of translations, the radii of gyration of rotations (m); 0 where nothing has inertia.
 fn arms(node: &Node, motion: &Motion) -> Six {
     let mass = mass_block(&node.floating.mass, &motion.pose) + node.floating.added(&motion.pose);
     let heaviest = (0..3).map(|i| mass[(i, i)]).fold(0.0, f64::max);

@@ -8,8 +8,8 @@ use windlass_model::{Body, ClassError, Model};
 pub enum Watched {
     /// The tension of a connector: the size of the force at the end that pulls, its first one but of a pipe (N); negative where it pushes.
     Tension(String),
-    /// A freedom of a body's origin (m; roll, pitch and yaw in rad).
-    Freedom(String, usize),
+    /// A degree of freedom of a body's origin (m; roll, pitch and yaw in rad).
+    Dof(String, usize),
     /// The height of a point of a body above the mean water level (m), by its name.
     Height(String),
 }

@@ -1,4 +1,4 @@
-//! What a run keeps of a line that moves by itself: some numbers of each of its nodes.
+//! What a run keeps of a dynamic line: some numbers of each of its nodes.
 //!
 //! A line that a winch lengthens has more nodes later. Nodes are numbered so that 1 is the first end, and each node of the line keeps
 //! its number while it lasts, as counted from the second end; a place whose node is not there holds no numbers.

@@ -21,7 +21,7 @@ impl Stepper {
         self.choose(system, &now.forces);
         if let Some(row) = self.rows.iter().find(|r| !r.heavy) {
             let name = system.nodes.get(row.at / 6).map(|n| n.name.clone());
-            let error = ClassError::new("-NEWMARK NO needs inertia in every freedom that moves")
+            let error = ClassError::new("-NEWMARK NO needs inertia in every degree of freedom that moves")
                 .help("give it weight, or leave -NEWMARK out");
             return Err(SolveError { who: name, error });
         }

@@ -27,9 +27,9 @@ pub struct Settings {
     pub adaptive: Option<f64>,
     /// Keeps rows. Without, only who is told of them has them.
     pub keep: bool,
-    /// Of the nodes of lines that move by themselves every so manieth is kept; 0: none.
+    /// Of the nodes of dynamic lines every so manieth is kept; 0: none.
     pub along: usize,
-    /// Keeps the books of energy and momentum of lines that move by themselves.
+    /// Keeps the books of energy and momentum of dynamic lines.
     pub books: bool,
     /// Time that statistics leave out at the beginning (s).
     pub transient: f64,

@@ -1,4 +1,4 @@
-//! What a run asks of its lines that move by themselves: they are made for it.
+//! What a run asks of its dynamic lines: they are made for it.
 
 use super::action::{Action, What};
 use super::course::Settings;

@@ -200,10 +200,10 @@ impl Run {
                 }
                 None
             }
-            Watched::Freedom(body, freedom) => {
+            Watched::Dof(body, dof) => {
                 let index = self.model.bodies.get_index_of(&Model::key(body))?;
                 let place = self.now.motions.get(index)?.pose.place(self.near.get(index)?);
-                place.shift.iter().chain(&place.turn).nth(*freedom).copied()
+                place.shift.iter().chain(&place.turn).nth(*dof).copied()
             }
             Watched::Height(point) => {
                 let (body, at): (usize, Position) = point_in_body(&self.model, point).ok()?;
@@ -276,7 +276,7 @@ impl Run {
             What::Release(names) => {
                 for name in names {
                     self.winches.retain(|(n, ..)| !n.eq_ignore_ascii_case(name));
-                    // a line that moves by itself is let go at its first end, and falls
+                    // a dynamic line is let go at its first end, and falls
                     let falls = self.system.moves(name);
                     if let Some(connector) = self.model.connectors.get_mut(&Model::key(name)) {
                         connector.active = falls;

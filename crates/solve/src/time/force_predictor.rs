@@ -4,7 +4,7 @@
 //! K1 and C1 continued from the ends of the last three steps by a parabola. What is foretold is a trial's first correction only:
 //! the forces of a step are always evaluated.
 //!
-//! What moves by itself changes its pull without its ends, and by their accelerations: `- (M0 + M1)/2 (a1 - a0)` more, and by how much
+//! A dynamic line changes its pull without its ends, and by their accelerations: `- (M0 + M1)/2 (a1 - a0)` more, and by how much
 //! all this was off in the last steps, continued by a parabola, too.
 
 use super::forces::Motion;
@@ -76,7 +76,7 @@ impl ForcePredictor {
         self.count += 1;
     }
 
-    /// With that of a step, its -d(sum)/d(acceleration) of what moves by itself: before [`ForcePredictor::take`].
+    /// With that of a step, its -d(sum)/d(acceleration) of dynamic lines: before [`ForcePredictor::take`].
     pub(super) fn take_inertia(&mut self, dt: f64, inertia: &DMatrix<f64>) {
         let again = (dt - self.step).abs() <= SAME * dt && self.inertia.last.shape() == inertia.shape();
         self.inertia.take(inertia, if again { self.count } else { 0 });

@@ -1,6 +1,6 @@
 //! What a run keeps: a row of numbers for every stored instant, in the order of a layout that does not change during the run.
 //!
-//! A row holds the motions of the bodies, the wrenches of the connectors, and the nodes of lines that move by themselves. What else is told of an instant (line on the bottom,
+//! A row holds the motions of the bodies, the wrenches of the connectors, and the nodes of dynamic lines. What else is told of an instant (line on the bottom,
 //! pull on the anchor, share of the break) follows from these when it is asked for.
 
 use super::along::AlongColumns;
@@ -57,7 +57,7 @@ pub struct LinkEnds {
 pub struct Layout {
     /// Bodies as written, each with its key in the model.
     pub bodies: Vec<(String, String)>,
-    /// Which freedoms of each body move: the others stay as they are.
+    /// Which degrees of freedom of each body move: the others stay as they are.
     pub moves: Vec<[bool; 6]>,
     /// Connectors.
     pub links: Vec<LinkColumns>,

@@ -17,7 +17,7 @@ impl Stepper {
         let mut most: f64 = 0.0;
         let mut inertia = (usize::MAX, Six::zeros(), 1.0);
         for (i, row) in self.rows.iter().enumerate() {
-            let (body, freedom) = (row.at / 6, row.at % 6);
+            let (body, dof) = (row.at / 6, row.at % 6);
             let (Some(node), Some(trial), Some(mass)) =
                 (system.nodes.get(body), self.trial.get(body), self.masses.get(body))
             else {
@@ -28,12 +28,12 @@ impl Stepper {
                 let whole = |i: usize| mass[(i, i)] + forces.inertia[(6 * body + i, 6 * body + i)].max(0.0);
                 inertia = (body, own, whole(0).max(whole(2)));
             }
-            let left = if row.heavy { forces.sum[row.at] - inertia.1[freedom] } else { forces.sum[row.at] };
+            let left = if row.heavy { forces.sum[row.at] - inertia.1[dof] } else { forces.sum[row.at] };
             self.right[i] = left;
             let measure = if row.heavy {
-                let own = mass[(freedom, freedom)] + forces.inertia[(row.at, row.at)].max(0.0);
+                let own = mass[(dof, dof)] + forces.inertia[(row.at, row.at)].max(0.0);
                 // of a rotation, times the radius of gyration
-                if freedom < 3 { own } else { (own * inertia.2.max(f64::MIN_POSITIVE)).sqrt() }
+                if dof < 3 { own } else { (own * inertia.2.max(f64::MIN_POSITIVE)).sqrt() }
             } else {
                 let pull = forces.pull.get(body).copied().unwrap_or(0.0);
                 pull.max(1.0) / system.gravity
@@ -147,15 +147,15 @@ impl Stepper {
             let (Some(trial), Some(over)) = (self.trial.get_mut(row.at / 6), self.over.get_mut(row.at / 6)) else {
                 continue;
             };
-            let freedom = row.at % 6;
+            let dof = row.at % 6;
             if row.heavy {
-                trial.acceleration[freedom] += by;
-                trial.auxiliary[freedom] += by * gain;
-                trial.velocity[freedom] += by * by_velocity;
-                over[freedom] += by * by_place;
+                trial.acceleration[dof] += by;
+                trial.auxiliary[dof] += by * gain;
+                trial.velocity[dof] += by * by_velocity;
+                over[dof] += by * by_place;
             } else {
-                over[freedom] += by;
-                trial.velocity[freedom] = over[freedom] / dt;
+                over[dof] += by;
+                trial.velocity[dof] = over[dof] / dt;
             }
         }
         self.pose(system, start);

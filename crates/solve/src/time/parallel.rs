@@ -1,4 +1,4 @@
-//! Lines that move by themselves, evaluated side by side: each by itself, so that the number of threads changes nothing.
+//! Dynamic lines, evaluated side by side: each by itself, so that the number of threads changes nothing.
 
 use super::forces::{Forces, Motion};
 use crate::system::System;
@@ -24,7 +24,7 @@ impl std::fmt::Debug for LineTask {
 }
 
 impl Forces {
-    /// Evaluates the connectors that move by themselves.
+    /// Evaluates the dynamic lines.
     pub(super) fn connect_moving(&mut self, system: &System, motions: &[Motion], (time, dt): (f64, f64)) {
         if !self.moving {
             self.alone.clear();

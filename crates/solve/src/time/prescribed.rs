@@ -46,7 +46,7 @@ pub fn prescribed(body: &Body, sea: Option<&Arc<Sea>>) -> Result<Option<Box<dyn 
 /// x, y, z (m) and roll, pitch, yaw (rad), with their first and second derivatives in time.
 pub(super) type Freedoms = [[f64; 6]; 3];
 
-/// The motion of six freedoms.
+/// The motion of six degrees of freedom.
 ///
 /// The axes are those of yaw about z, pitch about y and roll about x, each about the axes already turned. With e1 the body's x axis, e2 the
 /// y axis after the yaw alone and e3 the vertical, the rotation is `roll' e1 + pitch' e2 + yaw' e3`; e2 turns with the yaw and e1 with
@@ -99,17 +99,17 @@ pub(super) fn product(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 impl Prescribed for Swinging {
     fn at(&self, time: f64) -> Result<Motion, ClassError> {
         let grown = ramp(time, self.ramp);
-        let mut freedoms = [self.place.values(), [0.0; 6], [0.0; 6]];
+        let mut dofs = [self.place.values(), [0.0; 6], [0.0; 6]];
         for sine in &self.list {
             let frequency = TAU / sine.period;
             let (sin, cos) = (frequency * time + sine.phase).sin_cos();
             let own = [sin, frequency * cos, -frequency * frequency * sin].map(|v| v * sine.amplitude);
-            for (sums, value) in freedoms.iter_mut().zip(product(grown, own)) {
-                if let Some(sum) = sums.get_mut(sine.freedom) {
+            for (sums, value) in dofs.iter_mut().zip(product(grown, own)) {
+                if let Some(sum) = sums.get_mut(sine.dof) {
                     *sum += value;
                 }
             }
         }
-        Ok(moved(&freedoms))
+        Ok(moved(&dofs))
     }
 }

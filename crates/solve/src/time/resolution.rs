@@ -7,7 +7,7 @@ use windlass_model::GivenMotion;
 
 /// Share of the energy of a sea that its shortest waves hold, whose longest is what a step has to follow.
 const SHORTEST_WAVES: f64 = 0.1;
-/// Freedoms up to which modes are always found.
+/// Degrees of freedom up to which modes are always found.
 const FEW: usize = 60;
 /// Steps of a run that cost more than twenty times its modes, of however many bodies: both grow with the cube of their number.
 const MANY_STEPS: f64 = 2000.0;
@@ -17,8 +17,8 @@ const MANY_STEPS: f64 = 2000.0;
 pub struct Swing {
     /// The body that moves most, as written.
     pub body: String,
-    /// Its freedom.
-    pub freedom: &'static str,
+    /// Its degree of freedom.
+    pub dof: &'static str,
     /// Its period (s).
     pub period: f64,
 }
@@ -71,7 +71,7 @@ impl Run {
         let mut list: Vec<Swing> = modes_with(&self.system, &mass, &forces.stiffness)
             .unwrap_or_default()
             .into_iter()
-            .filter_map(|m| m.period.map(|period| Swing { body: m.most.0, freedom: m.most.1, period }))
+            .filter_map(|m| m.period.map(|period| Swing { body: m.most.0, dof: m.most.1, period }))
             .collect();
         list.sort_by(|a, b| a.period.total_cmp(&b.period));
         list

@@ -190,7 +190,7 @@ impl Run {
         // with the accelerations found, which what has inertia of its own feels
         let Instant { time, motions, memory, forces } = &mut self.now;
         forces.evaluate(&self.system, memory, motions, (*time, 0.0))?;
-        // what moves by itself begins where it hangs
+        // a dynamic line begins where it hangs
         self.system.begin_moving(&self.now.forces.trial);
         self.resolution = self.resolve();
         Ok(())

@@ -36,11 +36,11 @@ pub enum Method {
 /// Spectral radius at infinite frequency of the default scheme.
 const RHO: f64 = 0.9;
 
-/// That with lines that move by themselves: their own.
+/// That with dynamic lines: their own.
 const RHO_OF_LINES: f64 = 0.2;
 
 impl Method {
-    /// The scheme of runs with lines that move by themselves.
+    /// The scheme of runs with dynamic lines.
     ///
     /// A stiff line that goes slack within a step leaves its last pull in the acceleration with which the next step begins. With a
     /// spectral radius near one that throws what hangs on it up, faster from bounce to bounce; damped as the line is itself it does not.

@@ -24,7 +24,7 @@ impl Run {
         self.system.links.iter().any(|l| l.element.moves())
     }
 
-    /// The books of the lines that move by themselves, by name, where they are kept.
+    /// The books of the dynamic lines, by name, where they are kept.
     pub fn books(&self) -> Vec<(String, LineBooks)> {
         let of = |link: &Link| {
             let state = self.system.states.get(link.states.clone()).unwrap_or_default();

@@ -2,7 +2,7 @@
 
 use super::history::Layout;
 use super::pushing::Pushing;
-use crate::system::FREEDOMS;
+use crate::system::DOFS;
 use nalgebra::Vector3;
 use windlass_base::units::Dim;
 use windlass_signal::SeriesError;
@@ -33,15 +33,15 @@ impl Series {
     }
 }
 
-/// The results a run is judged by: places and angles of the bodies in the freedoms that move, tensions of the connectors.
+/// The results a run is judged by: places and angles of the bodies in the degrees of freedom that move, tensions of the connectors.
 pub fn results(layout: &Layout) -> Vec<Series> {
     let mut list = Vec::new();
     for (body, (name, _)) in layout.bodies.iter().enumerate() {
         let at = layout.body(body);
         let moves = layout.moves.get(body).copied().unwrap_or([true; 6]);
-        for (i, freedom) in FREEDOMS.iter().enumerate().filter(|(i, _)| moves.get(*i) == Some(&true)) {
+        for (i, dof) in DOFS.iter().enumerate().filter(|(i, _)| moves.get(*i) == Some(&true)) {
             let dim = if i < 3 { Dim::Length } else { Dim::Angle };
-            list.push(Series { name: format!("{name} {freedom}"), dim, columns: at + i..at + i + 1, pushing: None });
+            list.push(Series { name: format!("{name} {dof}"), dim, columns: at + i..at + i + 1, pushing: None });
         }
     }
     for (link, columns) in layout.links.iter().enumerate() {

@@ -1,13 +1,13 @@
 //! One step of time: Newton's iteration on the accelerations at its end.
 //!
-//! Unknowns are the accelerations of the freedoms that move. A freedom without inertia (a junction without weight) has none: its
+//! Unknowns are the accelerations of the degrees of freedom that move. A degree of freedom without inertia (a junction without weight) has none: its
 //! unknown is its motion over the step, and it stands where nothing is left on it, as in statics.
 
 use super::forces::{Forces, Memory, Motion};
 use super::inertia::{gyroscopic, inertia};
 use super::scheme::{Method, Scheme};
 use crate::reason::no_inertia;
-use crate::system::{FREEDOMS, SolveError, System};
+use crate::system::{DOFS, SolveError, System};
 use nalgebra::{DMatrix, DVector, Matrix6, U6};
 use windlass_base::dense::{DenseError, Lu};
 use windlass_base::pose::Six;
@@ -22,7 +22,7 @@ const SETTLING: f64 = 1.0;
 pub struct Convergence {
     /// Most iterations before the step is cut.
     pub most: usize,
-    /// Largest acceleration left, as a share of gravity (rotations times the radius of gyration); of a freedom without inertia the
+    /// Largest acceleration left, as a share of gravity (rotations times the radius of gyration); of a degree of freedom without inertia the
     /// largest force left, as a share of the largest force of a connector on it.
     pub tolerance: f64,
 }
@@ -58,7 +58,7 @@ pub struct Effort {
 /// A row of the unknowns.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Row {
-    /// Body and freedom: six a body.
+    /// Body and degree of freedom: six a body.
     pub(super) at: usize,
     /// Whether it has inertia.
     pub(super) heavy: bool,
@@ -88,12 +88,12 @@ impl Stepper {
         for (body, node) in system.nodes.iter().enumerate() {
             let Some(mass) = self.masses.get(body) else { continue };
             let largest = mass.diagonal().amax();
-            for freedom in 0..6 {
-                if node.moves(freedom) {
-                    let at = 6 * body + freedom;
+            for dof in 0..6 {
+                if node.moves(dof) {
+                    let at = 6 * body + dof;
                     // what hangs on it may have inertia where it has none itself
                     let carried = forces.inertia.get((at, at)).copied().unwrap_or(0.0);
-                    let heavy = mass[(freedom, freedom)] > 1e-12 * largest || carried > 1e-12 * largest;
+                    let heavy = mass[(dof, dof)] > 1e-12 * largest || carried > 1e-12 * largest;
                     self.rows.push(Row { at, heavy });
                 }
             }
@@ -108,7 +108,7 @@ impl Stepper {
     /// The accelerations that balance the forces at an instant, whose forces are evaluated here.
     ///
     /// # Errors
-    /// A body or connector without an answer; a freedom without inertia in the mass matrix.
+    /// A body or connector without an answer; a degree of freedom without inertia in the mass matrix.
     pub fn balance(&mut self, system: &System, now: &mut Instant, dt: f64) -> Result<(), SolveError> {
         // at a start stiff ties begin with the force of their law; an explicit step knows no other
         now.forces.ties.holds = dt == 0.0;
@@ -175,14 +175,14 @@ impl Stepper {
         Ok(())
     }
 
-    /// The error of a mass matrix that cannot be solved: the freedom with the least inertia.
+    /// The error of a mass matrix that cannot be solved: the degree of freedom with the least inertia.
     fn singular(&self, system: &System, rows: &[usize]) -> SolveError {
         let inertia = |at: &usize| self.masses.get(at / 6).map_or(0.0, |m| m[(at % 6, at % 6)]);
         let turning = rows.iter().filter(|at| *at % 6 >= 3);
         let least = turning.min_by(|a, b| inertia(a).total_cmp(&inertia(b))).or(rows.first()).copied().unwrap_or(0);
-        let freedom = FREEDOMS.get(least % 6).copied().unwrap_or_default();
+        let dof = DOFS.get(least % 6).copied().unwrap_or_default();
         let name = system.nodes.get(least / 6).map(|n| n.name.clone()).unwrap_or_default();
-        no_inertia(&name, freedom)
+        no_inertia(&name, dof)
     }
 
     /// Takes a step of `dt` from `now` to its end. Nothing has changed when it fails.
@@ -255,7 +255,7 @@ impl Stepper {
         self.trial.extend_from_slice(&now.motions);
         self.over.clear();
         self.over.resize(now.motions.len(), Six::zeros());
-        // as of the last trial: which freedoms have inertia does not turn with the axes
+        // as of the last trial: which degrees of freedom have inertia does not turn with the axes
         if self.masses.len() != system.nodes.len() {
             self.weigh(system, &now.motions);
         }
@@ -373,14 +373,12 @@ impl Stepper {
     }
 }
 
-/// The error of a step without a solution: the freedom that is worst, six a body, and what is left there (m/s2).
+/// The error of a step without a solution: the degree of freedom that is worst, six a body, and what is left there (m/s2).
 pub(super) fn unsolved(system: &System, (at, left): (usize, f64), (time, dt): (f64, f64), what: &str) -> SolveError {
     let name = system.nodes.get(at / 6).map(|n| n.name.clone());
-    let freedom = FREEDOMS.get(at % 6).copied().unwrap_or_default();
-    let text = format!(
-        "no balance at {time} s with a step of {dt} s: {what} {:.2e} g, most in {freedom}",
-        left / system.gravity
-    );
+    let dof = DOFS.get(at % 6).copied().unwrap_or_default();
+    let text =
+        format!("no balance at {time} s with a step of {dt} s: {what} {:.2e} g, most in {dof}", left / system.gravity);
     SolveError { who: name, error: ClassError::new(text) }
 }
 
@@ -388,6 +386,6 @@ pub(super) fn unsolved(system: &System, (at, left): (usize, f64), (time, dt): (f
 pub(super) fn not_finite(system: &System, sum: &DVector<f64>, time: f64) -> SolveError {
     let at = sum.iter().position(|v| !v.is_finite()).unwrap_or(0);
     let name = system.nodes.get(at / 6).map(|n| n.name.clone());
-    let error = ClassError::new(format!("the force in {} is no number at {time} s", FREEDOMS[at % 6]));
+    let error = ClassError::new(format!("the force in {} is no number at {time} s", DOFS[at % 6]));
     SolveError { who: name, error }
 }

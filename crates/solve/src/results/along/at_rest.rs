@@ -9,7 +9,7 @@ use windlass_base::units::Dim;
 use windlass_hydro::ambient;
 use windlass_model::{DYNAMIC, Element, End, Model, Situation};
 
-/// Tells of each line that moves by itself and whose name fits, between its ends where they stand: its name, its element, how its ends
+/// Tells of each dynamic line and whose name fits, between its ends where they stand: its name, its element, how its ends
 /// stand, and its state before anything has happened.
 ///
 /// # Errors
@@ -49,7 +49,7 @@ pub(crate) fn standing(
     Ok(())
 }
 
-/// What is to be known of the lines that move by themselves where they rest between their ends as they stand: their names with the text.
+/// What is to be known of the dynamic lines where they rest between their ends as they stand: their names with the text.
 pub fn cautions(model: &Model) -> Vec<(String, &'static str)> {
     let mut made = Vec::new();
     // of others nothing is to be said
@@ -62,7 +62,7 @@ pub fn cautions(model: &Model) -> Vec<(String, &'static str)> {
     told.map_or_else(|_| Vec::new(), |()| made)
 }
 
-/// The lines that move by themselves and whose names fit, at rest between their ends as they stand: a table each, a row a node.
+/// The dynamic lines and whose names fit, at rest between their ends as they stand: a table each, a row a node.
 ///
 /// # Errors
 /// A line that has no answer there.

@@ -1,4 +1,4 @@
-//! What a run found along a line that moves by itself, as tables by node and over time.
+//! What a run found along a dynamic line, as tables by node and over time.
 //!
 //! Nodes are numbered from 1 at the first end, as many as were ever there and are kept: -ALONG of TDOM keeps fewer, and a winch makes new
 //! ones behind the first end.

@@ -7,7 +7,7 @@ use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
 use windlass_model::{LineMode, LineNode, Model};
 
-/// The slowest natural modes of the lines that move by themselves and whose names fit, about where they rest between their ends as
+/// The slowest natural modes of the dynamic lines and whose names fit, about where they rest between their ends as
 /// these stand: for each line a table, a row a mode, and with `shapes` behind it one of each mode, a row a node.
 ///
 /// # Errors

@@ -14,7 +14,7 @@ use windlass_model::{ClassError, ResponseRow, Responses};
 pub(super) struct Riding {
     place: Place,
     sea: Option<Arc<Sea>>,
-    /// Of each wave its frequency (rad/s), and of each freedom the factors of cos(w t) and sin(w t) (m, rad).
+    /// Of each wave its frequency (rad/s), and of each degree of freedom the factors of cos(w t) and sin(w t) (m, rad).
     waves: Vec<(f64, [(f64, f64); 6])>,
 }
 
@@ -149,13 +149,13 @@ impl Prescribed for Riding {
             }
         }
         let (grown, mean) = (self.grown(time), self.place.values());
-        let mut freedoms: Freedoms = [[0.0; 6]; 3];
+        let mut dofs: Freedoms = [[0.0; 6]; 3];
         for i in 0..6 {
             let [value, rate, second] = super::product(grown, [sums[0][i], sums[1][i], sums[2][i]]);
-            freedoms[0][i] = mean[i] + value;
-            freedoms[1][i] = rate;
-            freedoms[2][i] = second;
+            dofs[0][i] = mean[i] + value;
+            dofs[1][i] = rate;
+            dofs[2][i] = second;
         }
-        Ok(moved(&freedoms))
+        Ok(moved(&dofs))
     }
 }

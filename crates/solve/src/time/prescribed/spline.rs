@@ -27,9 +27,9 @@ impl Spline {
         let mut before: Option<[f64; 6]> = None;
         for (_, values) in &mut rows {
             if let Some(before) = before {
-                for freedom in [3, 5] {
-                    let turns = ((before[freedom] - values[freedom]) / TAU).round();
-                    values[freedom] += turns * TAU;
+                for dof in [3, 5] {
+                    let turns = ((before[dof] - values[dof]) / TAU).round();
+                    values[dof] += turns * TAU;
                 }
             }
             before = Some(*values);
@@ -82,14 +82,14 @@ impl Prescribed for Spline {
         };
         let long = b.0 - a.0;
         let (p, q) = ((b.0 - time) / long, (time - a.0) / long);
-        let mut freedoms: Freedoms = [[0.0; 6]; 3];
+        let mut dofs: Freedoms = [[0.0; 6]; 3];
         for i in 0..6 {
             let (from, to, m, n) = (a.1[i], b.1[i], m[i], n[i]);
             let bend = long * long / 6.0;
-            freedoms[0][i] = p * from + q * to + ((p * p * p - p) * m + (q * q * q - q) * n) * bend;
-            freedoms[1][i] = (to - from) / long + ((3.0 * q * q - 1.0) * n - (3.0 * p * p - 1.0) * m) * long / 6.0;
-            freedoms[2][i] = p * m + q * n;
+            dofs[0][i] = p * from + q * to + ((p * p * p - p) * m + (q * q * q - q) * n) * bend;
+            dofs[1][i] = (to - from) / long + ((3.0 * q * q - 1.0) * n - (3.0 * p * p - 1.0) * m) * long / 6.0;
+            dofs[2][i] = p * m + q * n;
         }
-        Ok(moved(&freedoms))
+        Ok(moved(&dofs))
     }
 }
