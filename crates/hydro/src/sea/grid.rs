@@ -413,7 +413,7 @@ impl FilledTrain<'_> {
         let down = (depth - layer.layer.top) / layer.layer.spacing + BEFORE as f64;
         let (station, x) = layer.station(along)?;
         let level = (down as usize).checked_sub(BEFORE)?;
-        (level + POINTS <= layer.levels).then(|| Found { layer: index, station, level, x, z: down - level as f64 })
+        (level + POINTS <= layer.levels).then_some(Found { layer: index, station, level, x, z: down - level as f64 })
     }
 
     fn head(&self, arm: &Vector3<f64>, depth: f64) -> Option<f64> {
