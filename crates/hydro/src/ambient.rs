@@ -53,19 +53,21 @@ impl Ambient for Around {
         let sea = self.sea.as_ref().map(|sea| sea.at(time));
         let level = self.steady.around.tide;
         let weight = self.sea.as_ref().map_or(1.0, |sea| (sea.density * sea.gravity).max(f64::MIN_POSITIVE));
-        for (place, out) in places.iter().zip(out) {
+        for (place, out) in places.iter().zip(&mut *out) {
             *out = Flow::still(level);
             if !self.steady.still(Medium::Water) {
                 out.velocity = streams.velocity(Medium::Water, place.z).0;
             }
             out.wind = streams.velocity(Medium::Air, place.z).0;
-            if let Some(sea) = &sea {
-                let found = sea.wetted_line(*place);
+        }
+        if let Some(sea) = &sea {
+            sea.wetted_lines(places, |index, found| {
+                let Some(out) = out.get_mut(index) else { return };
                 out.velocity += found.velocity;
                 out.acceleration += found.acceleration;
                 out.surface += found.elevation;
                 out.head = found.pressure / weight - found.elevation;
-            }
+            });
         }
     }
 

@@ -103,13 +103,25 @@ pub(super) fn largest(change: &[f64], stride: usize, arm: f64) -> f64 {
 /// the same all along each half.
 const ASIDE: f64 = 1e-3;
 
-/// Asks the fluid at the nodes of a trial again where one of them has left its place since, at the same time.
+/// Asks the fluid again at those nodes of a trial that have left their places since, at the same time.
 pub(super) fn sample_again(world: &World, trial: &mut Trial, shortest: f64) {
+    if world.fluid.uniform() {
+        return;
+    }
     let aside = ASIDE * shortest;
     // a place that is no number is far away
-    let near = |(x, asked): (&Vector3<f64>, &Vector3<f64>)| (x - asked).norm_squared() <= aside * aside;
-    if !world.fluid.uniform() && !trial.x.iter().zip(&trial.asked).all(near) {
-        sample(world, trial.time, trial);
+    let near = |x: &Vector3<f64>, asked: &Vector3<f64>| (x - asked).norm_squared() <= aside * aside;
+    let Trial { time, x, fluid, asked, .. } = trial;
+    let mut begin = 0;
+    while begin < x.len() {
+        // those beside each other together
+        let run = x[begin..].iter().zip(&asked[begin..]).take_while(|(x, asked)| !near(x, asked)).count();
+        let places = begin..begin + run;
+        if run > 0 {
+            world.fluid.fill(&x[places.clone()], *time, &mut fluid[places.clone()]);
+            asked[places.clone()].copy_from_slice(&x[places]);
+        }
+        begin += run + 1;
     }
 }
 

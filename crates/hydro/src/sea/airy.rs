@@ -3,7 +3,8 @@
 //! Of a component [FALTINSEN-1990 table 2.1], with q = k (toward . (x, y)) - w t + phase:
 //! u = a w C cos q, w = a w S sin q, p = rho g a cosh(k(z+d))/cosh(kd) cos q; C and S are cosh and sinh of k(z+d) over sinh(kd).
 
-use super::eight::{Eight, exp, sin_cos};
+use super::eight::{Eight, FAR, exp, sin_cos};
+use super::far_down::{FarDown, Places};
 use super::{Component, Kinematics, Sea};
 use multiversion::multiversion;
 use nalgebra::Vector3;
@@ -13,9 +14,6 @@ use windlass_model::Stretching;
 const DEEP: f64 = 20.0;
 /// At this power of e, and below, nothing of a wave is left in sixteen digits.
 const GONE: f64 = -40.0;
-/// At this power of e, and below, a wave is left out of what lines feel far down: a millionth of what it is at the mean level, twice
-/// that on a bottom.
-const FAINT: f64 = -13.815_510_557_964_274;
 /// The factor of delta stretching [RODENBUSCH-FORRISTALL-1986].
 const DELTA: f64 = 0.3;
 
@@ -29,6 +27,8 @@ pub(super) struct WaveLanes {
     stretch: f64,
     /// The sum of the amplitudes: the surface is never farther from the mean level (m).
     highest: f64,
+    /// The same as they are felt below that.
+    far: FarDown,
 }
 
 /// Eight components; those that fill up the last block have no amplitude.
@@ -79,12 +79,43 @@ impl WaveLanes {
             }
         };
         let variance: f64 = components.iter().map(|c| 0.5 * c.amplitude * c.amplitude).sum();
+        let toward = components.first().map(|c| c.toward).filter(|first| components.iter().all(|c| c.toward == *first));
         WaveLanes {
             blocks: components.chunks(8).map(block).collect(),
-            toward: components.first().map(|c| c.toward).filter(|first| components.iter().all(|c| c.toward == *first)),
+            far: FarDown::new(components, depth, toward.is_some(), FAR),
+            toward,
             stretch: 2.0 * variance.sqrt(),
             highest: components.iter().map(|c| c.amplitude.abs()).sum(),
         }
+    }
+}
+
+/// Places far down, up to eight, until their waves are added up together.
+#[derive(Clone, Debug, Default)]
+struct Gathered {
+    indices: [usize; 8],
+    places: Places,
+    count: usize,
+}
+
+impl Gathered {
+    /// Takes a place at a height over the mean level (m); of waves that all go one way its way along them is enough.
+    fn push(&mut self, index: usize, at: &Vector3<f64>, height: f64, toward: Option<[f64; 2]>) {
+        let [x, y] = toward.map_or([at.x, at.y], |[x, y]| [at.x * x + at.y * y, 0.0]);
+        let i = self.count;
+        self.indices[i] = index;
+        (self.places.x[i], self.places.y[i], self.places.height[i]) = (x, y, height);
+        self.count += 1;
+    }
+
+    /// The places, those that are missing like the first.
+    fn filled(&mut self, count: usize) -> &Places {
+        let Places { x, y, height } = &mut self.places;
+        for of in [x, y, height] {
+            let (own, missing) = of.split_at_mut(count);
+            missing.fill(own[0]);
+        }
+        &self.places
     }
 }
 
@@ -158,28 +189,61 @@ impl<'a> SeaAt<'a> {
         self.inside(at, height.min(elevation), elevation)
     }
 
-    /// The same for lines, of which most lies far down. Where no wave comes down to a place the surface above it is taken at the mean level,
-    /// the head of the pressure over it; waves that are less than a millionth of what they are at the mean level are left out. Velocity,
-    /// acceleration and pressure err by no more than twice this share of the sums of those that the left out waves have there.
-    pub fn wetted_line(&self, at: Vector3<f64>) -> Kinematics {
+    /// The same at many places, told one by one by their indices, for lines, of which most lies far down. Where no wave comes down to a
+    /// place the surface above it is taken at the mean level, the head of the pressure over it; waves that are less than a millionth of
+    /// what they are at the mean level are left out, and the mirror term of finite depth where it is less than a thousand-millionth.
+    /// Velocity, acceleration and pressure err by no more than twice these shares of the sums of those that the left out waves have there,
+    /// and by 2e-9 of the others.
+    pub fn wetted_lines(&self, places: &[Vector3<f64>], mut take: impl FnMut(usize, Kinematics)) {
         let sea = self.sea;
-        let height = at.z - sea.level;
-        if sea.stokes.is_some() || sea.stretching != Stretching::Linear || height >= -sea.lanes.highest {
-            return self.wetted(at);
-        }
-        let height = sea.depth.map_or(height, |d| height.max(-d));
-        let lanes = &sea.lanes;
-        let [pressure, u, v, w, u_rate, v_rate, w_rate] = match lanes.toward {
-            Some([x, y]) => {
-                let [pressure, u, w, u_rate, w_rate] =
-                    far_down::<false, 5>(&lanes.blocks, &self.phasors, [at.x, at.y], height);
-                [pressure, u * x, u * y, w, u_rate * x, u_rate * y, w_rate]
+        let (reach, near) = (sea.lanes.far.reach, -sea.lanes.highest);
+        let airy = sea.stokes.is_none() && sea.stretching == Stretching::Linear;
+        let mut groups = [Gathered::default(), Gathered::default()];
+        for (index, at) in places.iter().enumerate() {
+            let height = at.z - sea.level;
+            // a place that is no number is not far down
+            if !(airy && height < near && at.x.abs() + at.y.abs() <= reach) {
+                take(index, self.wetted(*at));
+                continue;
             }
-            None => far_down::<true, 7>(&lanes.blocks, &self.phasors, [at.x, at.y], height),
+            let bottom = sea.depth.map_or(f64::NEG_INFINITY, |d| -d);
+            let lies = height <= bottom;
+            let group = &mut groups[usize::from(lies)];
+            group.push(index, at, height.max(bottom), sea.lanes.toward);
+            if group.count == 8 {
+                self.far_down(group, lies, &mut take);
+            }
+        }
+        let [above, lying] = &mut groups;
+        self.far_down(above, false, &mut take);
+        self.far_down(lying, true, &mut take);
+    }
+
+    /// The water at places far down, which are then taken off their list.
+    fn far_down(&self, group: &mut Gathered, lies: bool, take: &mut impl FnMut(usize, Kinematics)) {
+        let count = std::mem::take(&mut group.count);
+        if count == 0 {
+            return;
+        }
+        let (sea, far, places) = (self.sea, &self.sea.lanes.far, group.filled(count));
+        let [pressure, u, v, w, u_rate, v_rate, w_rate] = match (sea.lanes.toward.is_none(), lies) {
+            (true, true) => far.sums_on_bottom::<true>(self.time, places),
+            (true, false) => far.sums::<true>(self.time, places),
+            (false, true) => far.sums_on_bottom::<false>(self.time, places),
+            (false, false) => far.sums::<false>(self.time, places),
         };
-        let velocity = Vector3::new(u, v, w);
-        let acceleration = Vector3::new(u_rate, v_rate, w_rate) + velocity * self.growth;
-        Kinematics { velocity, acceleration, pressure: pressure * sea.density * sea.gravity, elevation: 0.0 }
+        let weight = sea.density * sea.gravity * self.factor;
+        for (i, index) in group.indices.iter().enumerate().take(count) {
+            let (velocity, rate) = match sea.lanes.toward {
+                Some([x, y]) => {
+                    (Vector3::new(u[i] * x, u[i] * y, w[i]), Vector3::new(u_rate[i] * x, u_rate[i] * y, w_rate[i]))
+                }
+                None => (Vector3::new(u[i], v[i], w[i]), Vector3::new(u_rate[i], v_rate[i], w_rate[i])),
+            };
+            let velocity = velocity * self.factor;
+            let acceleration = rate * self.factor + velocity * self.growth;
+            take(*index, Kinematics { velocity, acceleration, pressure: pressure[i] * weight, elevation: 0.0 });
+        }
     }
 
     /// The same, but above the surface it goes on as its formula does, where that has an end of its own.
@@ -311,49 +375,6 @@ fn added_up(blocks: &[Block], phasors: &[[Eight; 2]], [x, y]: [f64; 2], [height,
             sums[5][i] += u * rate * block.x[i];
             sums[6][i] += u * rate * block.y[i];
             sums[7][i] -= w * block.w[i] * a_cos;
-        }
-    }
-    sums.map(|lanes| lanes.iter().sum::<f64>())
-}
-
-/// Pressure over rho g, velocity and acceleration along the waves and up, added up over the waves that reach down to a height over the mean
-/// level (m) at a place; with `SPREAD` both along x and y instead of along the waves.
-#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn far_down<const SPREAD: bool, const N: usize>(
-    blocks: &[Block],
-    phasors: &[[Eight; 2]],
-    [x, y]: [f64; 2],
-    height: f64,
-) -> [f64; N] {
-    let mut sums = [[0.0; 8]; N];
-    for (block, [c, s]) in blocks.iter().zip(phasors) {
-        if block.longest * height < FAINT {
-            continue;
-        }
-        let (sin, cos) = sin_cos(&eight(|i| block.kx[i] * x + block.ky[i] * y));
-        let decay = exp(&eight(|i| block.k[i] * height));
-        for i in 0..8 {
-            let (a_cos, a_sin) = (c[i] * cos[i] - s[i] * sin[i], s[i] * cos[i] + c[i] * sin[i]);
-            // as in added_up
-            let mirror = block.q[i] / (decay[i] * decay[i]).max(f64::MIN_POSITIVE);
-            let scale = decay[i] * block.whole[i];
-            let (cosh, sinh) = (scale * (1.0 + mirror), scale * (1.0 - mirror));
-            let (u, w) = (block.w[i] * cosh * a_cos, block.w[i] * sinh * a_sin);
-            let (u_rate, w_rate) = (block.w[i] * (block.w[i] * cosh * a_sin), block.w[i] * (block.w[i] * sinh * a_cos));
-            sums[0][i] += cosh * block.tanh[i] * a_cos;
-            if SPREAD {
-                sums[1][i] += u * block.x[i];
-                sums[2][i] += u * block.y[i];
-                sums[3][i] += w;
-                sums[4][i] += u_rate * block.x[i];
-                sums[5][i] += u_rate * block.y[i];
-                sums[6][i] -= w_rate;
-            } else {
-                sums[1][i] += u;
-                sums[2][i] += w;
-                sums[3][i] += u_rate;
-                sums[4][i] -= w_rate;
-            }
         }
     }
     sums.map(|lanes| lanes.iter().sum::<f64>())

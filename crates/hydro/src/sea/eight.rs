@@ -8,9 +8,9 @@
 pub type Eight = [f64; 8];
 
 /// Added to a number and subtracted again it rounds to a whole one, which then stands in the lowest bits.
-const ROUND: f64 = 6_755_399_441_055_744.0;
+pub(super) const ROUND: f64 = 6_755_399_441_055_744.0;
 /// Up to here an angle loses nothing when whole quarter turns are subtracted.
-const FAR: f64 = 1.0e6;
+pub(super) const FAR: f64 = 1.0e6;
 /// A quarter turn in three parts; 33 bits each, so that their whole multiples are exact.
 const QUARTER: [f64; 3] = [1.570_796_326_734_125_6, 6.077_100_506_303_966e-11, 2.022_266_248_795_950_6e-21];
 const SIN: [f64; 6] = [

@@ -8,6 +8,7 @@ pub mod components;
 pub mod density;
 pub mod dispersion;
 pub mod eight;
+mod far_down;
 mod grid;
 mod made;
 pub mod phases;

@@ -1,0 +1,252 @@
+//! Linear waves far below the surface, at eight places at once and wave by wave, as the nodes of lines ask for them.
+//!
+//! The formulas are those of [`super::airy`]. A wave goes through half turns and powers of two, so that whole numbers of both come off
+//! without a remainder; what is left goes through polynomials.
+
+use super::Component;
+use super::eight::{Eight, ROUND};
+use multiversion::multiversion;
+use std::f64::consts::{FRAC_1_PI, LOG2_E};
+
+/// At this power of two, and below, a wave is left out: a millionth of what it is at the mean level, twice that on a bottom.
+const FAINT: f64 = -19.931_568_569_324_174;
+/// At this power of two, and below, the wave that a bottom throws back is left out: a thousand-millionth.
+const MIRRORED: f64 = -29.897_352_853_986_26;
+/// Sine and cosine of r half turns, and two to a power f, by the squares of r and by f, lowest power first, with |r| and |f| up to a half:
+/// Chebyshev's series cut off, written out in powers. They are within 3e-11, 3e-10 and 5e-11.
+const SIN: [f64; 6] = [
+    3.141_592_653_536_132,
+    -5.167_712_764_593,
+    2.550_163_317_938_427,
+    -0.599_252_186_531_583,
+    0.082_050_350_201_472_47,
+    -0.007_028_303_855_203_096,
+];
+const COS: [f64; 6] = [
+    0.999_999_999_779_154,
+    -4.934_802_136_928_946,
+    4.058_709_154_763_134,
+    -1.335_211_949_390_550_3,
+    0.234_937_068_595_086_5,
+    -0.024_395_932_097_550_446,
+];
+const POWER: [f64; 8] = [
+    0.999_999_999_959_561_8,
+    0.693_147_180_556_832_4,
+    0.240_226_512_134_980_92,
+    0.055_504_109_063_258_665,
+    0.009_618_025_613_318_034,
+    0.001_333_347_847_368_541_4,
+    0.000_154_697_292_141_182_96,
+    0.000_015_303_701_136_569_35,
+];
+
+/// The waves of a sea.
+#[derive(Clone, Debug, Default)]
+pub(super) struct FarDown {
+    waves: Vec<Wave>,
+    /// Farthest from x = y = 0 at which the phase of the shortest wave is known (m).
+    pub reach: f64,
+}
+
+/// A wave, with what does not change.
+#[derive(Clone, Copy, Debug)]
+struct Wave {
+    /// Half turns a metre along x and y; the first alone holds all of them where all waves go one way.
+    turns: [f64; 2],
+    /// Half turns at x = y = 0 and no time, and how many go by a second.
+    phase: f64,
+    rate: f64,
+    /// Powers of two a metre of height, and those of the wave thrown back at the mean level.
+    number: f64,
+    mirror: f64,
+    /// cosh(k(z+d)) exp(-kd) where the bottom is.
+    bottom: f64,
+    /// Pressure over rho g, velocity along x and y and up, acceleration alike, at its crest or a quarter turn beside it, of a decay of one.
+    sizes: [f64; 7],
+}
+
+/// Eight places: x and y, or the way along the waves where all go one way, and the height over the mean level (m).
+#[derive(Clone, Debug, Default)]
+pub(super) struct Places {
+    pub x: Eight,
+    pub y: Eight,
+    pub height: Eight,
+}
+
+impl FarDown {
+    /// The waves of components in a depth (m), of which all go one way if there is one; a phase is known up to so many radians.
+    pub fn new(components: &[Component], depth: Option<f64>, one_way: bool, known: f64) -> Self {
+        let wave = |c: &Component| {
+            let kd = depth.map_or(f64::INFINITY, |d| c.number * d);
+            let whole = -1.0 / (-2.0 * kd).exp_m1();
+            let speed = c.amplitude * c.frequency * whole;
+            let along = if one_way { [1.0, 0.0] } else { c.toward };
+            let [x, y] = along.map(|share| share * speed);
+            let (number, mirror) = (c.number * LOG2_E, -2.0 * kd * LOG2_E);
+            // as the sums make it of the height of the bottom
+            let bottom = depth.map_or(0.0, |d| {
+                let power = number * -d;
+                decay(power, 0, FAINT) + decay(mirror - power, 0, MIRRORED)
+            });
+            Wave {
+                turns: along.map(|share| share * c.number * FRAC_1_PI),
+                phase: c.phase * FRAC_1_PI,
+                rate: c.frequency * FRAC_1_PI,
+                number,
+                mirror,
+                bottom,
+                sizes: [
+                    c.amplitude * whole * kd.tanh(),
+                    x,
+                    y,
+                    speed,
+                    c.frequency * x,
+                    c.frequency * y,
+                    -c.frequency * speed,
+                ],
+            }
+        };
+        let shortest = components.iter().map(|c| c.number).fold(f64::MIN_POSITIVE, f64::max);
+        FarDown { waves: components.iter().map(wave).collect(), reach: known / shortest }
+    }
+
+    /// Pressure over rho g, velocity along x, y and up, and acceleration alike, of waves of full height at a time (s), each added up over
+    /// the waves that reach down there.
+    pub fn sums<const SPREAD: bool>(&self, time: f64, places: &Places) -> [Eight; 7] {
+        added_up::<SPREAD, false>(&self.waves, time, places)
+    }
+
+    /// The same on the bottom, whose height is that of all places.
+    pub fn sums_on_bottom<const SPREAD: bool>(&self, time: f64, places: &Places) -> [Eight; 7] {
+        added_up::<SPREAD, true>(&self.waves, time, places)
+    }
+}
+
+/// Two to a power, with the sign of half turns that `turned` has in its lowest bit; zero below a least power.
+#[inline(always)]
+fn decay(power: f64, turned: u64, least: f64) -> f64 {
+    let shifted = power + ROUND;
+    let f = power - (shifted - ROUND);
+    let scale = f64::from_bits((shifted.to_bits().wrapping_add(1023) << 52) ^ (turned << 63));
+    let value = polynomial(&POWER, f) * scale;
+    if power >= least { value } else { 0.0 }
+}
+
+#[inline(always)]
+fn polynomial<const N: usize>(factors: &[f64; N], at: f64) -> f64 {
+    let mut sum = factors[N - 1];
+    let mut i = N - 1;
+    while i > 0 {
+        i -= 1;
+        sum = sum * at + factors[i];
+    }
+    sum
+}
+
+/// Adds up waves that go many ways if `SPREAD`, on the bottom if `LYING`: cosine and sine times what is left of each.
+///
+/// What comes out at a place is the same whatever the other places are: a wave that is left out at one of them is left out there
+/// alone.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn added_up<const SPREAD: bool, const LYING: bool>(waves: &[Wave], time: f64, places: &Places) -> [Eight; 7] {
+    let (mut highest, mut lowest) = (places.height[0], places.height[0]);
+    for height in &places.height {
+        highest = highest.max(*height);
+        lowest = lowest.min(*height);
+    }
+    let mut sums = [[0.0; 8]; 7];
+    for wave in waves {
+        if wave.number * highest < FAINT {
+            continue;
+        }
+        let phase = wave.phase - wave.rate * time;
+        let mirrored = wave.mirror - wave.number * lowest >= MIRRORED;
+        if LYING {
+            add::<SPREAD, true, false>(wave, phase, places, &mut sums);
+        } else if mirrored {
+            add::<SPREAD, false, true>(wave, phase, places, &mut sums);
+        } else {
+            add::<SPREAD, false, false>(wave, phase, places, &mut sums);
+        }
+    }
+    sums
+}
+
+/// Adds a wave of a phase (half turns) at x = y = 0, with what the bottom throws back of it if `MIRROR`.
+#[inline(always)]
+fn add<const SPREAD: bool, const LYING: bool, const MIRROR: bool>(
+    wave: &Wave,
+    phase: f64,
+    places: &Places,
+    sums: &mut [Eight; 7],
+) {
+    for i in 0..8 {
+        let mut turns = places.x[i] * wave.turns[0];
+        if SPREAD {
+            turns += places.y[i] * wave.turns[1];
+        }
+        turns += phase;
+        let shifted = turns + ROUND;
+        let r = turns - (shifted - ROUND);
+        let z = r * r;
+        let (sin, cos) = (r * polynomial(&SIN, z), polynomial(&COS, z));
+        let turned = shifted.to_bits();
+        if LYING {
+            let cosh = f64::from_bits(wave.bottom.to_bits() ^ (turned << 63));
+            let (c, s) = (cosh * cos, cosh * sin);
+            sums[0][i] += wave.sizes[0] * c;
+            sums[1][i] += wave.sizes[1] * c;
+            sums[4][i] += wave.sizes[4] * s;
+            if SPREAD {
+                sums[2][i] += wave.sizes[2] * c;
+                sums[5][i] += wave.sizes[5] * s;
+            }
+            continue;
+        }
+        let power = wave.number * places.height[i];
+        let own = decay(power, turned, FAINT);
+        let (mut cosh, mut sinh) = (own, own);
+        if MIRROR {
+            let back = decay(wave.mirror - power, turned, MIRRORED);
+            // where the wave itself is left out, so is what comes back of it
+            let back = if power >= FAINT { back } else { 0.0 };
+            (cosh, sinh) = (own + back, own - back);
+        }
+        let (c, s) = (cosh * cos, cosh * sin);
+        sums[0][i] += wave.sizes[0] * c;
+        sums[1][i] += wave.sizes[1] * c;
+        sums[3][i] += wave.sizes[3] * (sinh * sin);
+        sums[4][i] += wave.sizes[4] * s;
+        if SPREAD {
+            sums[2][i] += wave.sizes[2] * c;
+            sums[5][i] += wave.sizes[5] * s;
+        }
+        sums[6][i] += wave.sizes[6] * (sinh * cos);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    #[test]
+    fn sines_and_powers_far_down_are_those_of_the_standard_library() {
+        for i in -1_000..=1_000 {
+            let r = f64::from(i) * 5e-4;
+            let (sin, cos) = (PI * r).sin_cos();
+            assert!((r * polynomial(&SIN, r * r) - sin).abs() < 3e-11, "{r}");
+            assert!((polynomial(&COS, r * r) - cos).abs() < 3e-10, "{r}");
+            for whole in [-19, -7, 0] {
+                let power = r + f64::from(whole);
+                let (found, wanted) = (decay(power, 0, -20.0), power.exp2());
+                assert!((found / wanted - 1.0).abs() < 7e-11, "{power}: {found}");
+                assert_eq!(decay(power, 7, -20.0), -found);
+            }
+        }
+        assert_eq!(decay(-20.5, 0, -20.0), 0.0);
+        assert_eq!(decay(-1e300, 0, FAINT), 0.0);
+        assert_eq!(decay(f64::NEG_INFINITY, 0, MIRRORED), 0.0);
+    }
+}
