@@ -1,11 +1,11 @@
 //! What a line feels all along itself: waves, current, wind, marine growth, the bottom, and what a pipe holds.
 
 use super::growth::Growth;
-use super::sea::Sea;
+use super::sea::{Prepared, Sea, SeaAt};
 use super::steady::{Medium, Steady};
 use nalgebra::Vector3;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 use windlass_model::{Ambient, Bathymetry, ClassError, Contents, Flow, Model};
 
 /// Water, wind and bottom of the environment in force.
@@ -13,6 +13,8 @@ use windlass_model::{Ambient, Bathymetry, ClassError, Contents, Flow, Model};
 struct Around {
     steady: Steady,
     sea: Option<Arc<Sea>>,
+    /// The sea as it was last asked about: lines ask one after the other at the same time.
+    prepared: Mutex<Option<Prepared>>,
     growth: Option<Growth>,
     /// The bottom, where it is not flat.
     bottom: Option<Arc<Bathymetry>>,
@@ -44,13 +46,20 @@ pub fn ambient(model: &Model, sea: Option<&Arc<Sea>>) -> Result<Arc<dyn Ambient>
         },
     };
     let interrupt = Arc::clone(&model.interrupt);
-    Ok(Arc::new(Around { steady, sea: sea.cloned(), growth: Growth::of(model, env)?, bottom, contents, interrupt }))
+    let (sea, growth) = (sea.cloned(), Growth::of(model, env)?);
+    Ok(Arc::new(Around { steady, sea, prepared: Mutex::default(), growth, bottom, contents, interrupt }))
 }
 
 impl Ambient for Around {
     fn flow(&self, time: f64, places: &[Vector3<f64>], out: &mut [Flow]) {
         let streams = self.steady.at(time);
-        let sea = self.sea.as_ref().map(|sea| sea.at(time));
+        let prepared = || self.prepared.lock().unwrap_or_else(PoisonError::into_inner);
+        // another thread that comes meanwhile prepares its own
+        let last = prepared().take();
+        let sea = self.sea.as_ref().map(|sea| match last {
+            Some(last) => sea.at_again(time, last),
+            None => sea.at(time),
+        });
         let level = self.steady.around.tide;
         let weight = self.sea.as_ref().map_or(1.0, |sea| (sea.density * sea.gravity).max(f64::MIN_POSITIVE));
         for (place, out) in places.iter().zip(&mut *out) {
@@ -69,6 +78,7 @@ impl Ambient for Around {
                 out.head = found.pressure / weight - found.elevation;
             });
         }
+        *prepared() = sea.map(SeaAt::prepared);
     }
 
     fn mean(&self, places: &[Vector3<f64>], out: &mut [Flow]) {

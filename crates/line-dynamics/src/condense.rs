@@ -51,8 +51,10 @@ pub(super) struct Near {
     pub together: [Columns; 2],
     /// Whether the columns of each end are there.
     pub ready: [bool; 2],
-    /// The tangent by them of the ends that were felt, of a rod that nothing clamps.
-    pub condensed: Option<([bool; 2], EndTangent)>,
+    /// The tangent of the ends that were felt last.
+    pub condensed: Option<Box<EndTangent>>,
+    /// These ends, where it is the tangent by the columns that are there: of a rod that nothing clamps.
+    pub felt: Option<[bool; 2]>,
     /// How far a node may have moved since the matrix was factored (m).
     pub moved: f64,
 }
@@ -66,7 +68,14 @@ const CLOSE: f64 = 1e-3;
 impl Near {
     pub fn new() -> Self {
         let none = [[[0.0; WIDEST]; 3]; 2];
-        Near { columns: [none; 3], together: none, ready: [false; 2], condensed: None, moved: f64::INFINITY }
+        Near {
+            columns: [none; 3],
+            together: none,
+            ready: [false; 2],
+            condensed: None,
+            felt: None,
+            moved: f64::INFINITY,
+        }
     }
 }
 
@@ -76,45 +85,46 @@ impl Solver {
     /// step that was cut it is that of its last part.
     ///
     /// None where there is no trial, or the system cannot be solved, as it could in the trial.
-    pub fn end_tangent(&mut self, rod: &Rod, world: &World) -> Option<EndTangent> {
+    pub fn end_tangent(&mut self, rod: &Rod, world: &World) -> Option<&EndTangent> {
         self.nearby(world, |solver, world, _| solver.linearise(rod, world, true, [true; 2]))?;
-        Some(self.condense(rod, [true; 2]))
+        self.condense(rod, [true; 2])
     }
 
     /// The same by the factors the trial has left, as long as its nodes have moved by less than a thousandth of the
     /// shortest element since, with friction by its secant: for a body's Newton iteration, which converges by it as
     /// well, at a quarter of the cost. The trial's forces stay what they are.
-    pub fn end_tangent_at_hand(&mut self, rod: &Rod, world: &World) -> Option<EndTangent> {
+    pub fn end_tangent_at_hand(&mut self, rod: &Rod, world: &World) -> Option<&EndTangent> {
         self.end_tangent_felt(rod, world, [true; 2])
     }
 
     /// The same, of which only the rows and columns of some ends are asked for, A and B: an end in the ground feels nothing and
     /// does not move. The others are zero. That of end A alone costs next to nothing.
-    pub fn end_tangent_felt(&mut self, rod: &Rod, world: &World, felt: [bool; 2]) -> Option<EndTangent> {
+    pub fn end_tangent_felt(&mut self, rod: &Rod, world: &World, felt: [bool; 2]) -> Option<&EndTangent> {
         self.nearby(world, |solver, world, _| solver.linearise(rod, world, false, felt))?;
-        Some(self.condense(rod, felt))
+        self.condense(rod, felt)
     }
 
     /// Condenses the matrix at hand to the ends that are asked about.
-    fn condense(&mut self, rod: &Rod, felt: [bool; 2]) -> EndTangent {
+    fn condense(&mut self, rod: &Rod, felt: [bool; 2]) -> Option<&EndTangent> {
         let clamps = [0, 1].map(|side| clamp(rod, &self.trial, side));
         let pinned = clamps.iter().all(Option::is_none);
-        if let (true, Some((_, made))) = (pinned, self.near.condensed.filter(|(ends, _)| *ends == felt)) {
-            return made;
+        if pinned && self.near.felt == Some(felt) {
+            return self.near.condensed.as_deref();
         }
-        let mut made = [Twelve::zeros(); 3];
+        let mut made = self.near.condensed.take().unwrap_or_default();
+        let EndTangent { position, velocity, acceleration } = &mut *made;
+        let mut kinds = [position, velocity, acceleration];
+        kinds.iter_mut().for_each(|kind| kind.fill(0.0));
         for side in (0..2).filter(|side| felt[*side]) {
             let held = self.trial.ends[side].motion.is_some();
             match &clamps[side] {
-                Some(_) => self.feel::<6>((side, felt), &clamps, &mut made),
-                None if held => self.feel::<3>((side, felt), &clamps, &mut made),
+                Some(_) => self.feel::<6>((side, felt), &clamps, &mut kinds),
+                None if held => self.feel::<3>((side, felt), &clamps, &mut kinds),
                 None => {}
             }
         }
-        let [position, velocity, acceleration] = made;
-        let made = EndTangent { position, velocity, acceleration };
-        self.near.condensed = pinned.then_some((felt, made));
-        made
+        (self.near.condensed, self.near.felt) = (Some(made), pinned.then_some(felt));
+        self.near.condensed.as_deref()
     }
 
     /// Sees to factors of the matrix where the last trial ended, or unless `exact` near enough, and to the columns of
@@ -184,7 +194,7 @@ impl Solver {
 
     /// Keeps of a matrix that has just been assembled what is asked of it later: the rows and columns of the ends.
     pub(super) fn keep_matrix(&mut self) {
-        (self.near.ready, self.near.condensed) = ([false; 2], None);
+        (self.near.ready, self.near.felt) = ([false; 2], None);
         self.work.keep_rows();
         let place = [0, self.change.len() - self.work.stride()];
         for (columns, place) in self.near.together.iter_mut().zip(place) {
@@ -202,7 +212,7 @@ impl Solver {
         &mut self,
         (side, felt): (usize, [bool; 2]),
         clamps: &[Option<Clamp>; 2],
-        made: &mut [Twelve; 3],
+        made: &mut [&mut Twelve; 3],
     ) {
         let stride = self.work.stride();
         let size = self.change.len();

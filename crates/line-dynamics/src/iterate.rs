@@ -15,33 +15,46 @@ const LEAST: f64 = 0.1;
 /// The change that an iteration has made, and the work of what was out of balance on the way of it (J).
 #[derive(Clone, Debug)]
 pub(super) struct Made {
-    pub change: Vec<f64>,
-    pub work: f64,
+    change: Vec<f64>,
+    work: f64,
+    /// Whether there is one.
+    known: bool,
 }
 
 impl Made {
     pub fn new(size: usize) -> Self {
-        Made { change: vec![0.0; size], work: 0.0 }
+        Made { change: vec![0.0; size], work: 0.0, known: false }
     }
 
     pub fn forget(&mut self) {
-        self.change.fill(0.0);
+        self.known = false;
     }
 
     /// Cuts a change short that takes back the one before by half or more, as if there were no end to that: between elements that are
     /// slack at one of the two places and taut at the other. It ends where what is out of balance does no work on the way from one to the
     /// other, were its work a line in between: the least of the energy there.
     fn settle(&mut self, residual: &[f64], change: &mut [f64]) {
-        let along = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-        if along(change, &self.change) < -0.5 * along(&self.change, &self.change) {
-            let here = along(residual, &self.change);
+        if self.known && product(change, &self.change) < -0.5 * product(&self.change, &self.change) {
+            let here = product(residual, &self.change);
             let share = here / (here - self.work);
             let share = if share > LEAST && share < 1.0 - LEAST { share } else { 0.5 };
             change.iter_mut().for_each(|c| *c *= share);
         }
         self.change.copy_from_slice(change);
-        self.work = along(residual, change);
+        (self.work, self.known) = (product(residual, change), true);
     }
+}
+
+/// Scalar product of two lists, summed four at a time so that no sum waits for the one before it.
+fn product(a: &[f64], b: &[f64]) -> f64 {
+    let ((fours, rest), (others, left)) = (a.as_chunks::<4>(), b.as_chunks::<4>());
+    let mut sums = [0.0; 4];
+    for (a, b) in fours.iter().zip(others) {
+        for ((sum, a), b) in sums.iter_mut().zip(a).zip(b) {
+            *sum += a * b;
+        }
+    }
+    sums.iter().sum::<f64>() + rest.iter().zip(left).map(|(a, b)| a * b).sum::<f64>()
 }
 
 impl Solver {
@@ -94,9 +107,8 @@ impl Solver {
         let size = largest(&self.change, self.work.stride(), rod.shortest());
         self.made.settle(self.work.residuals(), &mut self.change);
         self.work.carry_ends(&self.change);
-        // a maximum would pass over a value that is no number
-        let sum: f64 = self.change.iter().sum();
-        if !sum.is_finite() {
+        // without a way out of the loop it goes many at a time
+        if !self.change.iter().fold(true, |finite, c| finite & c.is_finite()) {
             return Err(Failure { node: self.work.worst(known).0, why: "a force is no number" });
         }
         Ok(size)

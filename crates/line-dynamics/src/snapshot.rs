@@ -128,15 +128,21 @@ impl State {
         let (nodes, elements) = from[HEAD..].split_at(PER_NODE * rod.nodes());
         let (directors, yielded) = elements.split_at(if rod.twists() { 3 * rod.elements.len() } else { 0 });
         (self.time, self.origin) = (from[0], Vector3::new(from[1], from[2], from[3]));
-        let lists =
-            [&mut self.position, &mut self.velocity, &mut self.acceleration, &mut self.averaged, &mut self.stuck];
-        for (first, list) in lists.into_iter().enumerate() {
-            let three = |n: &[f64]| Vector3::from_column_slice(&n[3 * first..3 * first + 3]);
-            list.clear();
-            list.extend(nodes.chunks_exact(PER_NODE).map(three));
+        let count = rod.nodes();
+        for list in
+            [&mut self.position, &mut self.velocity, &mut self.acceleration, &mut self.averaged, &mut self.stuck]
+        {
+            list.resize(count, Vector3::zeros());
         }
-        self.bedding.clear();
-        self.bedding.extend(nodes.chunks_exact(PER_NODE).map(|n| n[PER_NODE - 1]));
+        self.bedding.resize(count, 0.0);
+        let motions = self.position.iter_mut().zip(&mut self.velocity).zip(&mut self.acceleration);
+        let lists = motions.zip(&mut self.averaged).zip(&mut self.stuck).zip(&mut self.bedding);
+        let (nodes, _) = nodes.as_chunks::<PER_NODE>();
+        for ((((((x, v), a), averaged), s), bedding), node) in lists.zip(nodes) {
+            let three = |first: usize| Vector3::new(node[first], node[first + 1], node[first + 2]);
+            (*x, *v, *a, *averaged, *s) = (three(0), three(3), three(6), three(9), three(12));
+            *bedding = node[PER_NODE - 1];
+        }
         self.director.clear();
         self.director.extend(directors.chunks_exact(3).map(Vector3::from_column_slice));
         self.yielded.clear();

@@ -89,12 +89,17 @@ pub(super) fn turn(
 /// Largest change of the unknowns (m), of which there are `stride` a node: a turn of an element counts by the way of what
 /// stands off it by `arm` (m). Infinite where one is no number.
 pub(super) fn largest(change: &[f64], stride: usize, arm: f64) -> f64 {
-    let larger = |most: f64, size: f64| if size.is_nan() { f64::INFINITY } else { most.max(size) };
-    change.chunks_exact(stride).fold(0.0, |most, node| {
-        let (moves, turns) = node.split_at(3.min(node.len()));
-        let most = moves.iter().fold(most, |most, c| larger(most, c.abs()));
-        turns.iter().fold(most, |most, c| larger(most, arm * c.abs()))
-    })
+    // some nodes at once, whole ones for strides of 3 and 4: no unknown waits for the one before it
+    let arms: [f64; 12] = std::array::from_fn(|i| if i % stride < 3 { 1.0 } else { arm });
+    let (mut most, mut whole) = ([0.0; 12], true);
+    for nodes in change.chunks(arms.len()) {
+        for ((most, c), arm) in most.iter_mut().zip(nodes).zip(&arms) {
+            let size = arm * c.abs();
+            whole &= !size.is_nan();
+            *most = if size > *most { size } else { *most };
+        }
+    }
+    if whole { most.iter().fold(0.0, |most: f64, size| most.max(*size)) } else { f64::INFINITY }
 }
 
 /// How far a node may be from where the fluid was asked, as a share of the shortest element, until it is asked again.

@@ -69,8 +69,9 @@ impl DynamicLine {
         let around = at.surroundings;
         let ambient = self.base.ambient.as_deref();
         let water = Water { ambient, around, mean, flows: RefCell::new(std::mem::take(flows)) };
-        let floor = Floor { plane: self.base.plane, ambient, flat: self.base.flat.unwrap_or(f64::NEG_INFINITY) };
-        let known = self.base.plane.is_some() || self.base.flat.is_some() || ambient.is_some_and(|a| a.charted());
+        let charted = ambient.filter(|a| a.charted());
+        let floor = Floor { plane: self.base.plane, charted, flat: self.base.flat.unwrap_or(f64::NEG_INFINITY) };
+        let known = self.base.plane.is_some() || self.base.flat.is_some() || charted.is_some();
         let bottom: Option<(&dyn rod::Bottom, Ground)> = known.then_some((&floor, self.base.ground));
         let felt = self.base.laid.as_ref().map(|laid| laid.felt(at.ends, around, paid)).unwrap_or_default();
         let supports: Vec<_> = felt.iter().map(SupportContact::support).collect();
@@ -222,7 +223,7 @@ impl DynamicLine {
                     on_supports(out, &rod.on_supports(state, world), solver.support_tangent(rod, world).as_ref())?;
                 } else {
                     let felt = solver.end_tangent_felt(rod, world, self.base.felt);
-                    on_ends(out, &self.on_holders(forces, &places, world), felt.as_ref(), true)?;
+                    on_ends(out, &self.on_holders(forces, &places, world), felt, true)?;
                 }
                 Ok::<_, ClassError>(forces)
             } else {
@@ -339,7 +340,7 @@ impl Element for DynamicLine {
             }
             None => {
                 let forces = self.on_holders(found.forces, &places, world);
-                on_ends(out, &forces, solver.end_tangent(rod, world).as_ref(), false)
+                on_ends(out, &forces, solver.end_tangent(rod, world), false)
             }
         })?;
         let mut state = found.state;

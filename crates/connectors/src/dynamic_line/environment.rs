@@ -64,7 +64,8 @@ impl FluidField for Water<'_> {
 #[derive(Debug)]
 pub(super) struct Floor<'a> {
     pub plane: Option<PlaneBottom>,
-    pub ambient: Option<&'a dyn Ambient>,
+    /// The environment, where its bottom is a grid.
+    pub charted: Option<&'a dyn Ambient>,
     pub flat: f64,
 }
 
@@ -72,10 +73,7 @@ impl Bottom for Floor<'_> {
     fn height(&self, x: f64, y: f64) -> (f64, [f64; 2]) {
         match &self.plane {
             Some(plane) => plane.height(x, y),
-            None => {
-                let grid = self.ambient.filter(|a| a.charted());
-                grid.and_then(|a| a.bottom(x, y)).unwrap_or((self.flat, [0.0; 2]))
-            }
+            None => self.charted.and_then(|a| a.bottom(x, y)).unwrap_or((self.flat, [0.0; 2])),
         }
     }
 }

@@ -132,7 +132,31 @@ pub struct SeaAt<'a> {
     phasors: Vec<[Eight; 2]>,
 }
 
+/// What a sea at one time was prepared for, without the sea: for the next who asks for it at that time.
+#[derive(Clone, Debug)]
+pub struct Prepared {
+    time: f64,
+    factor: f64,
+    growth: f64,
+    phasors: Vec<[Eight; 2]>,
+}
+
 impl<'a> SeaAt<'a> {
+    /// A sea at a time (s), in what was prepared for it at some time.
+    pub(super) fn again(sea: &'a Sea, time: f64, Prepared { time: then, factor, growth, phasors }: Prepared) -> Self {
+        let mut made = SeaAt { sea, time: then, factor, growth, phasors };
+        if then != time {
+            made.move_to(time);
+        }
+        made
+    }
+
+    /// What it was prepared for.
+    pub fn prepared(self) -> Prepared {
+        let SeaAt { time, factor, growth, phasors, .. } = self;
+        Prepared { time, factor, growth, phasors }
+    }
+
     /// A sea at a time (s).
     pub(super) fn of(sea: &'a Sea, time: f64) -> Self {
         let mut made =

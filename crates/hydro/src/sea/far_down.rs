@@ -10,7 +10,7 @@ use std::f64::consts::{FRAC_1_PI, LOG2_E};
 
 /// At this power of two, and below, a wave is left out: a millionth of what it is at the mean level, twice that on a bottom.
 const FAINT: f64 = -19.931_568_569_324_174;
-/// At this power of two, and below, the wave that a bottom throws back is left out: a thousand-millionth.
+/// At this power of two, and below, the mirror term of finite depth is left out: a thousand-millionth of the wave at the mean level.
 const MIRRORED: f64 = -29.897_352_853_986_26;
 /// Sine and cosine of r half turns, and two to a power f, by the squares of r and by f, lowest power first, with |r| and |f| up to a half:
 /// Chebyshev's series cut off, written out in powers. They are within 3e-11, 3e-10 and 5e-11.
@@ -57,9 +57,11 @@ struct Wave {
     /// Half turns at x = y = 0 and no time, and how many go by a second.
     phase: f64,
     rate: f64,
-    /// Powers of two a metre of height, and those of the wave thrown back at the mean level.
+    /// Powers of two a metre of height.
     number: f64,
+    /// The mirror term of finite depth at the mean level, exp(-2kd), and its power of two.
     mirror: f64,
+    twice: f64,
     /// cosh(k(z+d)) exp(-kd) where the bottom is.
     bottom: f64,
     /// Pressure over rho g, velocity along x and y and up, acceleration alike, at its crest or a quarter turn beside it, of a decay of one.
@@ -83,11 +85,12 @@ impl FarDown {
             let speed = c.amplitude * c.frequency * whole;
             let along = if one_way { [1.0, 0.0] } else { c.toward };
             let [x, y] = along.map(|share| share * speed);
-            let (number, mirror) = (c.number * LOG2_E, -2.0 * kd * LOG2_E);
+            let (number, mirror, twice) = (c.number * LOG2_E, (-2.0 * kd).exp(), -2.0 * kd * LOG2_E);
             // as the sums make it of the height of the bottom
             let bottom = depth.map_or(0.0, |d| {
                 let power = number * -d;
-                decay(power, 0, FAINT) + decay(mirror - power, 0, MIRRORED)
+                let [own, back] = decays(power, 0);
+                felt(own, power, FAINT) + felt(back * mirror, twice - power, MIRRORED)
             });
             Wave {
                 turns: along.map(|share| share * c.number * FRAC_1_PI),
@@ -95,6 +98,7 @@ impl FarDown {
                 rate: c.frequency * FRAC_1_PI,
                 number,
                 mirror,
+                twice,
                 bottom,
                 sizes: [
                     c.amplitude * whole * kd.tanh(),
@@ -123,13 +127,23 @@ impl FarDown {
     }
 }
 
-/// Two to a power, with the sign of half turns that `turned` has in its lowest bit; zero below a least power.
+/// Two to a power and to the negative power, with the sign of half turns that `turned` has in its lowest bit.
 #[inline(always)]
-fn decay(power: f64, turned: u64, least: f64) -> f64 {
+fn decays(power: f64, turned: u64) -> [f64; 2] {
     let shifted = power + ROUND;
     let f = power - (shifted - ROUND);
-    let scale = f64::from_bits((shifted.to_bits().wrapping_add(1023) << 52) ^ (turned << 63));
-    let value = polynomial(&POWER, f) * scale;
+    let (whole, square) = (shifted.to_bits(), f * f);
+    let even = polynomial(&[POWER[0], POWER[2], POWER[4], POWER[6]], square);
+    let odd = f * polynomial(&[POWER[1], POWER[3], POWER[5], POWER[7]], square);
+    let sign = turned << 63;
+    let own = f64::from_bits((whole.wrapping_add(1023) << 52) ^ sign);
+    let back = f64::from_bits((1023_u64.wrapping_sub(whole) << 52) ^ sign);
+    [(even + odd) * own, (even - odd) * back]
+}
+
+/// What is left of a wave at a power of two: nothing below a least power.
+#[inline(always)]
+fn felt(value: f64, power: f64, least: f64) -> f64 {
     if power >= least { value } else { 0.0 }
 }
 
@@ -161,7 +175,7 @@ fn added_up<const SPREAD: bool, const LYING: bool>(waves: &[Wave], time: f64, pl
             continue;
         }
         let phase = wave.phase - wave.rate * time;
-        let mirrored = wave.mirror - wave.number * lowest >= MIRRORED;
+        let mirrored = wave.twice - wave.number * lowest >= MIRRORED;
         if LYING {
             add::<SPREAD, true, false>(wave, phase, places, &mut sums);
         } else if mirrored {
@@ -173,8 +187,12 @@ fn added_up<const SPREAD: bool, const LYING: bool>(waves: &[Wave], time: f64, pl
     sums
 }
 
-/// Adds a wave of a phase (half turns) at x = y = 0, with what the bottom throws back of it if `MIRROR`.
+/// Adds a wave of a phase (half turns) at x = y = 0, with its mirror term of finite depth if `MIRROR`.
 #[inline(always)]
+#[expect(
+    clippy::needless_range_loop,
+    reason = "a lane is a place of several lists, and closures keep the loop from wide vectors"
+)]
 fn add<const SPREAD: bool, const LYING: bool, const MIRROR: bool>(
     wave: &Wave,
     phase: f64,
@@ -205,12 +223,12 @@ fn add<const SPREAD: bool, const LYING: bool, const MIRROR: bool>(
             continue;
         }
         let power = wave.number * places.height[i];
-        let own = decay(power, turned, FAINT);
+        let [own, back] = decays(power, turned);
+        let own = felt(own, power, FAINT);
         let (mut cosh, mut sinh) = (own, own);
         if MIRROR {
-            let back = decay(wave.mirror - power, turned, MIRRORED);
-            // where the wave itself is left out, so is what comes back of it
-            let back = if power >= FAINT { back } else { 0.0 };
+            // where the wave itself is left out, so is its mirror term
+            let back = felt(felt(back * wave.mirror, wave.twice - power, MIRRORED), power, FAINT);
             (cosh, sinh) = (own + back, own - back);
         }
         let (c, s) = (cosh * cos, cosh * sin);
@@ -240,13 +258,13 @@ mod tests {
             assert!((polynomial(&COS, r * r) - cos).abs() < 3e-10, "{r}");
             for whole in [-19, -7, 0] {
                 let power = r + f64::from(whole);
-                let (found, wanted) = (decay(power, 0, -20.0), power.exp2());
-                assert!((found / wanted - 1.0).abs() < 7e-11, "{power}: {found}");
-                assert_eq!(decay(power, 7, -20.0), -found);
+                let [found, inverse] = decays(power, 0);
+                let wanted = power.exp2();
+                assert!((found / wanted - 1.0).abs() < 7e-11 && (inverse * wanted - 1.0).abs() < 7e-11, "{power}");
+                assert_eq!(decays(power, 7), [-found, -inverse]);
             }
         }
-        assert_eq!(decay(-20.5, 0, -20.0), 0.0);
-        assert_eq!(decay(-1e300, 0, FAINT), 0.0);
-        assert_eq!(decay(f64::NEG_INFINITY, 0, MIRRORED), 0.0);
+        assert_eq!(felt(f64::NAN, -1e300, FAINT), 0.0);
+        assert_eq!(felt(f64::INFINITY, f64::NEG_INFINITY, MIRRORED), 0.0);
     }
 }

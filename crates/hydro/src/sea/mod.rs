@@ -19,7 +19,7 @@ pub mod stokes;
 use nalgebra::Vector3;
 use windlass_model::Stretching;
 
-pub use airy::SeaAt;
+pub use airy::{Prepared, SeaAt};
 pub use grid::{FilledGrid, PressureGrid};
 pub use made::Train;
 
@@ -137,6 +137,11 @@ impl Sea {
     /// The sea at one time (s), prepared for many places.
     pub fn at(&self, time: f64) -> SeaAt<'_> {
         SeaAt::of(self, time)
+    }
+
+    /// The same, in what was prepared of this sea for some time: nothing is found again where that is this one.
+    pub fn at_again(&self, time: f64, prepared: Prepared) -> SeaAt<'_> {
+        SeaAt::again(self, time, prepared)
     }
 
     /// Height of the surface above the mean level (m).

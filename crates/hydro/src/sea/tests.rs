@@ -237,7 +237,9 @@ fn kinematics_of_lines_far_down_keep_their_bounds_by_each_wave() {
                 velocity += (along * q.cos() + up * q.sin()) * (c.amplitude * w / (k * depth).sinh());
                 rate += (along * q.sin() - up * q.cos()) * (c.amplitude * w * w / (k * depth).sinh());
                 let share = if (k * height).exp() < 1e-6 { 2e-6 } else { 2e-9 };
-                [0, 1, 2].map(|power: i32| bounds[power as usize] += share * c.amplitude * w.powi(power));
+                for (power, bound) in (0..).zip(&mut bounds) {
+                    *bound += share * c.amplitude * w.powi(power);
+                }
             }
             assert!((found.velocity - velocity).norm() < bounds[1], "{height}: {} {velocity}", found.velocity);
             assert!((found.acceleration - rate).norm() < bounds[2], "{height}: {} {rate}", found.acceleration);

@@ -63,10 +63,10 @@ fn a_second_trial_of_a_step_takes_an_iteration_and_ends_where_the_first_would() 
             };
             solver.trial(&rod, &state, &world, t, [End::pinned(A), clamp(guess, 0.001)]).unwrap();
             if i % 2 == 0 {
-                let near = solver.end_tangent_at_hand(&rod, &world).unwrap();
+                let near = *solver.end_tangent_at_hand(&rod, &world).unwrap();
                 let b = |t: &EndTangent| t.by_position(20.0, 400.0).fixed_view::<6, 6>(6, 6).into_owned();
                 let exact = solver.end_tangent(&rod, &world).unwrap();
-                apart = apart.max(b(&near).metric_distance(&b(&exact)) / b(&exact).norm());
+                apart = apart.max(b(&near).metric_distance(&b(exact)) / b(exact).norm());
             }
             let made = solver.trial(&rod, &state, &world, t, [End::pinned(A), clamp(to, 0.0)]).unwrap();
             iterations += made.iterations;

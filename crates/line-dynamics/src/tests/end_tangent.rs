@@ -153,7 +153,7 @@ fn end_tangent_is_the_difference_of_end_forces_and_moments() {
                 let mut fresh = Solver::new(&case.rod, Settings { tolerance: 1e-12, ..Settings::default() });
                 let solver = if again { solver } else { &mut fresh };
                 let made = solver.trial(&case.rod, &state, &world, 0.1, case.moved(change)).unwrap();
-                (outputs(&made), solver.end_tangent(&case.rod, &world).unwrap())
+                (outputs(&made), *solver.end_tangent(&case.rod, &world).unwrap())
             };
             let whole = at(&[[Vector3::zeros(); 4]; 2], &mut solver).1;
             for (kind, tangent) in [whole.position, whole.velocity, whole.acceleration].iter().enumerate() {
@@ -173,7 +173,7 @@ fn static_end_stiffness_is_the_difference_of_forces_and_moments_at_rest() {
         let mut state = case.state.clone();
         let mut solver = Solver::new(&case.rod, Settings::default());
         solver.statics(&case.rod, &mut state, &world, case.moved(&[[Vector3::zeros(); 4]; 2])).unwrap();
-        let whole = solver.end_tangent(&case.rod, &world).unwrap();
+        let whole = *solver.end_tangent(&case.rod, &world).unwrap();
         let at = |change: &Change| {
             outputs(&solver.statics(&case.rod, &mut state.clone(), &world, case.moved(change)).unwrap())
         };

@@ -110,21 +110,23 @@ impl AlongColumns {
             };
             let Some(node) = found else { continue };
             let LineNode { arc, position, effective, shear, moment, clearance, pressures, .. } = node;
-            // of a line that tells its moment alone, all of it is about one direction
-            let bends = if node.bends == [0.0; 2] { [*moment, 0.0] } else { node.bends };
             let clearance = if clearance.is_finite() { *clearance } else { f64::NAN };
             let told = [*arc, position.x, position.y, position.z, clearance, *effective];
-            let behind = node.behind();
-            let mises = [node.before.unwrap_or(behind), behind].map(|side| side.von_mises());
-            let wall = node.worse().wall;
-            let bent = [wall, *shear, bends[0], bends[1], mises[0], mises[1], pressures[0], pressures[1]];
-            if told.iter().enumerate().any(|(i, v)| i != 4 && !v.is_finite())
-                || (self.bends && bent.iter().any(|v| !v.is_finite()))
-            {
-                return Err(ClassError::new(format!("what node {number} tells is no number")));
+            let mut whole = told.iter().enumerate().all(|(i, v)| i == 4 || v.is_finite());
+            let (first, rest) = place.split_at_mut(OF_NODE);
+            first.copy_from_slice(&told);
+            if self.bends {
+                // of a line that tells its moment alone, all of it is about one direction
+                let bends = if node.bends == [0.0; 2] { [*moment, 0.0] } else { node.bends };
+                let behind = node.behind();
+                let mises = [node.before.unwrap_or(behind), behind].map(|side| side.von_mises());
+                let wall = node.worse().wall;
+                let bent = [wall, *shear, bends[0], bends[1], mises[0], mises[1], pressures[0], pressures[1]];
+                whole &= bent.iter().all(|v| v.is_finite());
+                rest.copy_from_slice(&bent);
             }
-            for (to, from) in place.iter_mut().zip(told.into_iter().chain(bent)) {
-                *to = from;
+            if !whole {
+                return Err(ClassError::new(format!("what node {number} tells is no number")));
             }
         }
         Ok(())
