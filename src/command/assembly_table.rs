@@ -1,38 +1,68 @@
 //! `&STATUS ASSEMBLIES`: where hooks are and what their lines bear.
 
-use super::status::push;
 use nalgebra::Vector3;
-use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::table::{Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_hydro::ambient;
 use windlass_model::{
     Assembly, AssemblyKind, ClassError, Connector, End, LaidPipe, Model, Response, RunRequirement, Situation, Summary,
 };
 
+/// What a row of the tip-hook sets shows: the hook of a set, or one of its lines.
+struct HookRow<'m> {
+    /// The set, on the row of its hook.
+    set: Option<&'m str>,
+    /// Where the hook or the node of a line is (m, global).
+    place: [f64; 3],
+    /// The line; `None` on the row of the hook.
+    line: Option<HookLine<'m>>,
+}
+
+/// A line of a tip-hook set.
+struct HookLine<'m> {
+    name: &'m str,
+    role: &'static str,
+    status: &'static str,
+    /// Unstretched length (m).
+    unstretched: Option<f64>,
+    /// From the node to the hook (m).
+    apart: Vector3<f64>,
+    /// What it bears; `None` where it is inactive or has no solution.
+    summary: Option<Summary>,
+}
+
 /// One table of the tip-hook sets: the hook, then its lines.
 pub fn assemblies(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem) -> Vec<Table> {
-    let mut table = Table::new("Tip-Hook Sets")
-        .column("", "Set", Dim::None, Digits::Usual)
-        .column("", "Element", Dim::None, Digits::Usual)
-        .column("", "Role", Dim::None, Digits::Usual)
-        .column("", "Status", Dim::None, Digits::Usual);
-    for name in ["X", "Y", "Z"] {
-        table = table.column("Hook or Node", name, Dim::Length, Digits::Usual);
-    }
-    let mut table = table
-        .column("Length", "Unstretched", Dim::Length, Digits::Decimals(4))
-        .column("Length", "Distance", Dim::Length, Digits::Decimals(4))
-        .column("", "Tension", Dim::Force, Digits::Usual)
-        .column("", "T/TB", Dim::None, Digits::Decimals(3))
-        .column("To Vertical", "Angle", Dim::Angle, Digits::Usual);
-    let mut pipes = Vec::new();
+    let mut table = Table::new("Tip-Hook Sets");
+    let (mut rows, mut pipes) = (Vec::new(), Vec::new());
     for assembly in model.assemblies.values().filter(|a| fits(&a.name)) {
         match &assembly.kind {
-            AssemblyKind::TipHook { .. } => rows(&mut table, model, assembly, units),
+            AssemblyKind::TipHook { boom, .. } => rows.extend(hook_rows(&mut table, model, assembly, boom, units)),
             AssemblyKind::Pipe { .. } => pipes.push(pipe(model, assembly, units)),
         }
     }
-    Some(table).filter(|t| t.rows() > 0 || pipes.is_empty()).into_iter().chain(pipes).collect()
+    if rows.is_empty() && !pipes.is_empty() {
+        return pipes;
+    }
+    let summary = |row: &'_ HookRow| row.line.as_ref().and_then(|l| l.summary.as_ref().map(|s| (s.tension, s.ratio)));
+    let table = table
+        .with_rows(&rows)
+        .text("Set", |row| row.set)
+        .text("Element", |row| row.line.as_ref().map(|l| l.name))
+        .text("Role", |row| row.line.as_ref().map_or("HOOK", |l| l.role))
+        .text("Status", |row| row.line.as_ref().map(|l| l.status))
+        .columns("Hook or Node", ["X", "Y", "Z"], Dim::Length, Digits::Usual, |row| row.place)
+        .column("Length", "Unstretched", Dim::Length, Digits::Decimals(4), |row| {
+            row.line.as_ref().and_then(|l| l.unstretched)
+        })
+        .column("Length", "Distance", Dim::Length, Digits::Decimals(4), |row| row.line.as_ref().map(|l| l.apart.norm()))
+        .column("", "Tension", Dim::Force, Digits::Usual, |row| summary(row).and_then(|(tension, _)| tension))
+        .column("", "T/TB", Dim::None, Digits::Decimals(3), |row| summary(row).and_then(|(_, ratio)| ratio))
+        .column("To Vertical", "Angle", Dim::Angle, Digits::Usual, |row| {
+            row.line.as_ref().map(|l| l.apart.xy().norm().atan2(l.apart.z.abs()))
+        })
+        .build();
+    std::iter::once(table).chain(pipes).collect()
 }
 
 /// The table of a pipe: what it exerts on its supports.
@@ -43,13 +73,6 @@ fn pipe(model: &Model, assembly: &Assembly, units: UnitSystem) -> Table {
         table = table.fact("Tension at the Top", summary.tension, Dim::Force);
         table = table.fact("Length on Bottom", summary.grounded, Dim::Length);
     }
-    table = table.column("", "Element", Dim::None, Digits::Usual).column("", "Status", Dim::None, Digits::Usual);
-    for name in ["X", "Y", "Z"] {
-        table = table.column("Node", name, Dim::Length, Digits::Usual);
-    }
-    for name in ["FX", "FY", "FZ"] {
-        table = table.column("Force on Node", name, Dim::Force, Digits::Usual);
-    }
     let mut forces = match found {
         Ok(found) => found.map(|(forces, _)| forces).unwrap_or_default(),
         Err(error) => {
@@ -58,18 +81,20 @@ fn pipe(model: &Model, assembly: &Assembly, units: UnitSystem) -> Table {
         }
     }
     .into_iter();
-    for name in assembly.members() {
-        let Some(connector) = model.connectors.get(&Model::key(name)) else { continue };
-        let status = if connector.active { "Active" } else { "Inactive" };
-        let mut row: Vec<Cell> = vec![name.as_str().into(), status.into()];
-        row.extend(model.end(connector, 0).unwrap_or_default().map(Cell::Number));
-        match forces.next().filter(|_| connector.active) {
-            Some(force) => row.extend(force.map(Cell::Number)),
-            None => row.extend([const { Cell::Missing }; 3]),
-        }
-        push(&mut table, row);
-    }
+    let members = assembly.members().filter_map(|name| Some((name, model.connectors.get(&Model::key(name))?)));
+    let supports: Vec<_> =
+        members.map(|(name, connector)| (name, connector, forces.next().filter(|_| connector.active))).collect();
     table
+        .with_rows(&supports)
+        .text("Element", |(name, _, _)| *name)
+        .text("Status", |(_, connector, _)| if connector.active { "Active" } else { "Inactive" })
+        .columns("Node", ["X", "Y", "Z"], Dim::Length, Digits::Usual, |(_, connector, _)| {
+            model.end(connector, 0).unwrap_or_default()
+        })
+        .columns("Force on Node", ["FX", "FY", "FZ"], Dim::Force, Digits::Usual, |(_, _, force)| {
+            force.map_or([None; 3], |f| f.map(Some))
+        })
+        .build()
 }
 
 /// Forces on nodes (N), and a summary.
@@ -91,33 +116,38 @@ fn on_supports(model: &Model, assembly: &Assembly) -> Result<Option<OnSupports>,
     Ok(Some((forces, element.summary(&at, &state)?)))
 }
 
-fn rows(table: &mut Table, model: &Model, assembly: &Assembly, units: UnitSystem) {
-    let AssemblyKind::TipHook { boom, .. } = &assembly.kind else { return };
+/// The rows of a set: its hook, then its lines.
+fn hook_rows<'m>(
+    table: &mut Table,
+    model: &'m Model,
+    assembly: &'m Assembly,
+    boom: &str,
+    units: UnitSystem,
+) -> Vec<HookRow<'m>> {
     let hook = model.bodies.get(&Model::key(&assembly.name)).map(|b| b.place.shift).unwrap_or_default();
-    let mut row = vec![Cell::from(assembly.name.as_str()), Cell::Missing, "HOOK".into(), Cell::Missing];
-    row.extend(hook.map(Cell::Number));
-    row.extend([const { Cell::Missing }; 5]);
-    push(table, row);
+    let mut rows = vec![HookRow { set: Some(&assembly.name), place: hook, line: None }];
     for name in assembly.members() {
         let Some(connector) = model.connectors.get(&Model::key(name)) else { continue };
         let [node, end] = model.end_poses(connector).map(|p| p.origin);
-        let role = if name == boom { "BOOM" } else { "SLING" };
-        let status = if connector.active { "Active" } else { "Inactive" };
-        let mut row = vec![Cell::Missing, name.as_str().into(), role.into(), status.into()];
-        row.extend(node.iter().map(|v| Cell::Number(*v)));
-        row.extend([model.first_length(connector).into(), Cell::Number((end - node).norm())]);
-        match connector.active.then(|| borne(model, connector)) {
-            Some(Ok(summary)) => row.extend([summary.tension.into(), summary.ratio.into()]),
+        let summary = match connector.active.then(|| borne(model, connector)) {
+            Some(Ok(summary)) => Some(summary),
             Some(Err(error)) => {
                 table.note_absent(format!("{name}: {}", error.text(units)));
-                row.extend([Cell::Missing, Cell::Missing]);
+                None
             }
-            None => row.extend([Cell::Missing, Cell::Missing]),
-        }
-        let apart: Vector3<f64> = end - node;
-        row.push(Cell::Number(apart.xy().norm().atan2(apart.z.abs())));
-        push(table, row);
+            None => None,
+        };
+        let line = HookLine {
+            name,
+            role: if name == boom { "BOOM" } else { "SLING" },
+            status: if connector.active { "Active" } else { "Inactive" },
+            unstretched: model.first_length(connector),
+            apart: end - node,
+            summary,
+        };
+        rows.push(HookRow { set: None, place: node.into(), line: Some(line) });
     }
+    rows
 }
 
 /// What a line bears between its ends.

@@ -1,7 +1,6 @@
 //! `&BATHYMETRY`: the bottom over a grid, by records or from a file.
 
 use super::number_rows::rows;
-use super::status::push;
 use super::{Call, Command, Effect, Job, Menu};
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -204,32 +203,19 @@ pub fn made(job: &mut Job, soundings: Soundings, at: Option<Span>) -> Outcome<()
 
 /// The bottoms whose names fit.
 pub(super) fn table(model: &Model, fits: &dyn Fn(&str) -> bool) -> Table {
-    let mut table = Table::new("Bathymetry").column("", "Name", Dim::None, Digits::Usual);
-    for (group, names) in [("Columns", ["Least X", "Greatest X"]), ("Rows", ["Least Y", "Greatest Y"])] {
-        table = table.column(group, "Number", Dim::None, Digits::Usual);
-        for name in names {
-            table = table.column(group, name, Dim::Length, Digits::Usual);
-        }
-    }
-    for name in ["Least", "Greatest"] {
-        table = table.column("Depth", name, Dim::Length, Digits::Usual);
-    }
-    for bottom in model.bathymetries.values().filter(|b| fits(&b.name)) {
-        let ([[x0, x1], [y0, y1]], [columns, rows]) = (bottom.extent(), bottom.size());
-        let [deepest, highest] = bottom.heights();
-        let row = vec![
-            bottom.name.as_str().into(),
-            columns.into(),
-            x0.into(),
-            x1.into(),
-            rows.into(),
-            y0.into(),
-            y1.into(),
-            (-highest).into(),
-            (-deepest).into(),
-        ];
-        push(&mut table, row);
-    }
+    let bottoms: Vec<_> = model.bathymetries.values().filter(|b| fits(&b.name)).collect();
+    let mut table = Table::new("Bathymetry")
+        .with_rows(&bottoms)
+        .text("Name", |bottom| &bottom.name)
+        .column("Columns", "Number", Dim::None, Digits::Usual, |bottom| bottom.size()[0])
+        .columns("Columns", ["Least X", "Greatest X"], Dim::Length, Digits::Usual, |bottom| bottom.extent()[0])
+        .column("Rows", "Number", Dim::None, Digits::Usual, |bottom| bottom.size()[1])
+        .columns("Rows", ["Least Y", "Greatest Y"], Dim::Length, Digits::Usual, |bottom| bottom.extent()[1])
+        .columns("Depth", ["Least", "Greatest"], Dim::Length, Digits::Usual, |bottom| {
+            let [deepest, highest] = bottom.heights();
+            [-highest, -deepest]
+        })
+        .build();
     if let Some(named) = &model.environment.bathymetry {
         table.note(format!("the environment in force has {}", named.kind));
     }

@@ -1,10 +1,9 @@
 //! Tables of `&STATUS` about bodies: weights, pieces of hulls, hydrostatics.
 
 use super::chosen::WARNING;
-use super::status::push;
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use windlass_base::pose::{Pose, Six};
-use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::table::{Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_hydro::hull::Hydrostatics;
 use windlass_hydro::{Category, Floating, Hull};
@@ -13,43 +12,50 @@ use windlass_model::{Body, ClassError, Mass, Model, Shape};
 /// Whether a body or part is chosen.
 type Fits<'a> = &'a dyn Fn(&str) -> bool;
 
-fn text(table: Table, name: &str) -> Table {
-    table.column("", name, Dim::None, Digits::Usual)
+/// The weight of a part, or of a whole body.
+struct WeightRow<'m> {
+    body: &'m str,
+    part: &'m str,
+    /// Records of weight.
+    items: usize,
+    mass: Mass,
 }
 
 /// Weight, centre and radii of each part and each body.
 pub fn weights(model: &Model, fits: Fits) -> Table {
-    let mut table = text(text(Table::new("Weights"), "Body"), "Part");
-    table = table.column("", "Items", Dim::None, Digits::Usual).column("", "Weight", Dim::Force, Digits::Usual);
-    for name in ["X", "Y", "Z"] {
-        table = table.column("Center of Gravity", name, Dim::Length, Digits::Usual);
-    }
-    for name in ["KX", "KY", "KZ"] {
-        table = table.column("Radii of Gyration", name, Dim::Length, Digits::Usual);
-    }
+    let mut table = Table::new("Weights");
     let gravity = model.defaults.gravity;
-    let row = |body: &str, part: Cell, count: usize, mass: &Mass, table: &mut Table| {
-        let there = |x: Option<f64>| Cell::from(x.filter(|_| mass.mass != 0.0));
-        let mut cells = vec![Cell::from(body), part, count.into(), (mass.mass * gravity).into()];
-        cells.extend(mass.centre.iter().map(|x| there(Some(*x))));
-        cells.extend(mass.radii().map(there));
-        push(table, cells);
-    };
+    let mut rows = Vec::new();
     for body in model.bodies.values() {
         let parts: Vec<_> = model.parts_of(body).collect();
         let whole = fits(&body.name);
         for part in parts.iter().filter(|p| (whole || fits(&p.name)) && !p.weights.is_empty()) {
             let mass = Mass::of(std::iter::once(*part), gravity);
-            row(&body.name, part.name.as_str().into(), part.weights.len(), &mass, &mut table);
+            rows.push(WeightRow { body: &body.name, part: &part.name, items: part.weights.len(), mass });
         }
         if whole {
             let mass = Mass::of(parts.iter().copied(), gravity);
-            row(&body.name, "(whole)".into(), parts.iter().map(|p| p.weights.len()).sum(), &mass, &mut table);
             note_mass(&mut table, body, &mass);
+            let items = parts.iter().map(|p| p.weights.len()).sum();
+            rows.push(WeightRow { body: &body.name, part: "(whole)", items, mass });
         }
     }
     table.note("Centers are in the system of the body; radii of gyration are about axes through the center, along those of the body");
+    // nothing has no center
+    let there = |row: &WeightRow, x: Option<f64>| x.filter(|_| row.mass.mass != 0.0);
     table
+        .with_rows(&rows)
+        .text("Body", |row| row.body)
+        .text("Part", |row| row.part)
+        .column("", "Items", Dim::None, Digits::Usual, |row| row.items)
+        .column("", "Weight", Dim::Force, Digits::Usual, |row| row.mass.mass * gravity)
+        .columns("Center of Gravity", ["X", "Y", "Z"], Dim::Length, Digits::Usual, |row| {
+            <[f64; 3]>::from(row.mass.centre).map(|x| there(row, Some(x)))
+        })
+        .columns("Radii of Gyration", ["KX", "KY", "KZ"], Dim::Length, Digits::Usual, |row| {
+            row.mass.radii().map(|k| there(row, k))
+        })
+        .build()
 }
 
 fn note_mass(table: &mut Table, body: &Body, mass: &Mass) {
@@ -67,40 +73,29 @@ fn note_mass(table: &mut Table, body: &Body, mass: &Mass) {
 
 /// Pieces with their permeability, volume and reach.
 pub fn pieces(model: &Model, fits: Fits) -> Table {
-    let mut table = text(text(text(text(Table::new("Pieces"), "Body"), "Part"), "Piece"), "Form");
-    table = table.column("", "Perm.", Dim::None, Digits::Decimals(3));
-    for (group, names) in [("From", ["X", "Y", "Z"]), ("To", ["X", "Y", "Z"])] {
-        for name in names {
-            table = table.column(group, name, Dim::Length, Digits::Usual);
-        }
-    }
-    for (group, what) in [("Wind", "CS"), ("Current", "CS")] {
-        table = table.column(group, what, Dim::None, Digits::Usual);
-    }
-    for part in model.parts.values() {
-        for piece in &part.pieces {
-            if !(fits(&piece.name) || fits(&part.name) || fits(&part.body)) {
-                continue;
-            }
-            let form = match &piece.shape {
-                Shape::Panels(panels) => format!("{} panels", panels.len()),
-                Shape::Block { .. } => "box".into(),
-                Shape::Tube { .. } => "tube".into(),
-            };
-            let mut cells =
-                vec![part.body.as_str().into(), part.name.as_str().into(), piece.name.as_str().into(), form.into()];
-            cells.push(Cell::from(piece.permeability));
-            let [low, high] = piece.shape.extent().map_or([None, None], |[a, b]| [Some(a), Some(b)]);
-            cells.extend(
-                [low, high]
-                    .into_iter()
-                    .flat_map(|at| [0, 1, 2].map(|i| Cell::from(at.and_then(|a| a.get(i).copied())))),
-            );
-            cells.extend([piece.cs_wind, piece.cs_current].map(|cs| Cell::from(cs.map(|x| x.to_string()).join(" "))));
-            push(&mut table, cells);
-        }
-    }
-    table
+    let all = model.parts.values().flat_map(|part| part.pieces.iter().map(move |piece| (part, piece)));
+    let chosen: Vec<_> =
+        all.filter(|(part, piece)| fits(&piece.name) || fits(&part.name) || fits(&part.body)).collect();
+    let end = |shape: &Shape, end: usize| {
+        shape.extent().and_then(|extent| extent.get(end).copied()).map_or([None; 3], |at| at.map(Some))
+    };
+    let shield = |cs: [f64; 3]| cs.map(|x| x.to_string()).join(" ");
+    Table::new("Pieces")
+        .with_rows(&chosen)
+        .text("Body", |(part, _)| &part.body)
+        .text("Part", |(part, _)| &part.name)
+        .text("Piece", |(_, piece)| &piece.name)
+        .text("Form", |(_, piece)| match &piece.shape {
+            Shape::Panels(panels) => format!("{} panels", panels.len()),
+            Shape::Block { .. } => "box".into(),
+            Shape::Tube { .. } => "tube".into(),
+        })
+        .column("", "Perm.", Dim::None, Digits::Decimals(3), |(_, piece)| piece.permeability)
+        .columns("From", ["X", "Y", "Z"], Dim::Length, Digits::Usual, |(_, piece)| end(&piece.shape, 0))
+        .columns("To", ["X", "Y", "Z"], Dim::Length, Digits::Usual, |(_, piece)| end(&piece.shape, 1))
+        .column("Wind", "CS", Dim::None, Digits::Usual, |(_, piece)| shield(piece.cs_wind))
+        .column("Current", "CS", Dim::None, Digits::Usual, |(_, piece)| shield(piece.cs_current))
+        .build()
 }
 
 /// Hydrostatics of each body in the present configuration: what it displaces, and the stiffness of weight and buoyancy.
@@ -109,8 +104,8 @@ pub fn hydrostatics(model: &Model, fits: Fits, units: UnitSystem) -> Vec<Table> 
     bodies
         .flat_map(|body| {
             of_body(model, body).unwrap_or_else(|error| {
-                let mut table = text(Table::new(format!("Hydrostatics of {}", body.name)), "Quantity");
-                push(&mut table, vec!["none".into()]);
+                let title = format!("Hydrostatics of {}", body.name);
+                let mut table = Table::new(title).with_rows(&["none"]).text("Quantity", |word| *word).build();
                 table.note_absent(format!("{}: {}", body.name, error.text(units)));
                 vec![table]
             })
@@ -211,21 +206,25 @@ fn about_point(stiffness: &Matrix6<f64>, wrench: &Six, arm: Vector3<f64>) -> Mat
 }
 
 /// Three rows of a stiffness: those of the force, or from 3 those of the moment.
-fn stiffness_rows(mut table: Table, matrix: &Matrix6<f64>, first: usize) -> Table {
+fn stiffness_rows(table: Table, matrix: &Matrix6<f64>, first: usize) -> Table {
     let names = ["X", "Y", "Z", "RX", "RY", "RZ"];
     let (by_shift, by_turn) =
         if first == 0 { (Dim::ForcePerLength, Dim::Force) } else { (Dim::Force, Dim::MomentPerRadian) };
-    table = text(table, if first == 0 { "Force" } else { "Moment" });
-    for (n, name) in names.into_iter().enumerate() {
-        let (group, dim) = if n < 3 { ("By Translation", by_shift) } else { ("By Rotation, a Radian", by_turn) };
-        table = table.column(group, name, dim, Digits::Scientific(6));
-    }
-    for (n, name) in names.into_iter().enumerate().skip(first).take(3) {
-        let mut row = vec![Cell::from(name)];
-        let size = [0, 3].map(|half| matrix.fixed_view::<3, 3>(first, half).amax());
-        let whole = size[0].max(size[1]);
-        row.extend(matrix.row(n).iter().map(|x| Cell::Number(settled(*x, whole))));
-        push(&mut table, row);
-    }
+    let size = [0, 3].map(|half| matrix.fixed_view::<3, 3>(first, half).amax());
+    let whole = size[0].max(size[1]);
+    let rows: Vec<(&str, [f64; 6])> = names
+        .into_iter()
+        .enumerate()
+        .skip(first)
+        .take(3)
+        .map(|(n, name)| (name, [0, 1, 2, 3, 4, 5].map(|i| settled(matrix[(n, i)], whole))))
+        .collect();
     table
+        .with_rows(&rows)
+        .text(if first == 0 { "Force" } else { "Moment" }, |(name, _)| *name)
+        .columns("By Translation", ["X", "Y", "Z"], by_shift, Digits::Scientific(6), |(_, [x, y, z, ..])| [*x, *y, *z])
+        .columns("By Rotation, a Radian", ["RX", "RY", "RZ"], by_turn, Digits::Scientific(6), |(_, [.., x, y, z])| {
+            [*x, *y, *z]
+        })
+        .build()
 }

@@ -1,6 +1,6 @@
 //! The tables of `&STATUS CURVES`.
 
-use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_connectors::viscous::Viscoelastic;
 use windlass_model::{Curve, Model};
@@ -19,32 +19,24 @@ pub fn chart(table: &Table) -> bool {
     !table.title.starts_with(FIT)
 }
 
-fn push(table: &mut Table, row: Vec<Cell>) {
-    let fits = table.push(row);
-    debug_assert!(fits.is_ok(), "a row of a curve must fit its table");
-}
-
 fn points(curve: &Curve) -> Table {
     let [a, b] = curve.kind.axes();
-    let mut table = Table::new(format!("Curve {}", curve.name))
+    Table::new(format!("Curve {}", curve.name))
         .fact("Type", curve.kind.name(), Dim::None)
-        .column("", a.0, a.1, Digits::Usual)
-        .column("", b.0, b.1, Digits::Usual);
-    for (x, y) in &curve.points {
-        push(&mut table, vec![(*x).into(), (*y).into()]);
-    }
-    table
+        .with_rows(&curve.points)
+        .column("", a.0, a.1, Digits::Usual, |(x, _)| *x)
+        .column("", b.0, b.1, Digits::Usual, |(_, y)| *y)
+        .build()
 }
 
 fn exponentials(curve: &Curve) -> Option<Table> {
     let fit = Viscoelastic::fit(curve)?;
-    let mut table = Table::new(format!("{FIT} {}", curve.name))
+    let table = Table::new(format!("{FIT} {}", curve.name))
         .fact("Long-Term Stiffness", fit.law.long_term, Dim::ForcePerLength)
         .fact("Largest Error / Stiffness", fit.error, Dim::None)
-        .column("", "Relaxation Time", Dim::Time, Digits::Usual)
-        .column("", "Stiffness", Dim::ForcePerLength, Digits::Usual);
-    for branch in &fit.law.branches {
-        push(&mut table, vec![branch.time.into(), branch.stiffness.into()]);
-    }
+        .with_rows(&fit.law.branches)
+        .column("", "Relaxation Time", Dim::Time, Digits::Usual, |branch| branch.time)
+        .column("", "Stiffness", Dim::ForcePerLength, Digits::Usual, |branch| branch.stiffness)
+        .build();
     Some(table)
 }

@@ -1,9 +1,8 @@
 //! `&STATUS DATABASE`: the hydrodynamic databases of bodies.
 
-use super::status::push;
 use nalgebra::{Complex, Matrix6};
 use std::f64::consts::TAU;
-use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::table::{Cell, Digits, Table, TableBuilder};
 use windlass_base::units::Dim;
 use windlass_hydro::database::Amplitudes;
 use windlass_hydro::database::checks::MODES;
@@ -14,25 +13,13 @@ use windlass_model::{AttachedDatabase, Body, DriftMethod, Model};
 /// What is below this share of the largest of its kind is rounding.
 const NOTHING: f64 = 1e-9;
 
+/// A body with its database, and the memory of its radiation where there is one.
+type BodyDatabase<'m> = (&'m Body, &'m AttachedDatabase, Option<f64>);
+
 /// One table of what the databases are, then those of each body: radiation, excitation or motions, drift.
 pub(super) fn tables(model: &Model, fits: &dyn Fn(&str) -> bool) -> Vec<Table> {
-    let mut whole = Table::new("Hydrodynamic Databases").column("", "Body", Dim::None, Digits::Usual).column(
-        "",
-        "Source",
-        Dim::None,
-        Digits::Usual,
-    );
-    for name in ["X", "Y", "Z"] {
-        whole = whole.column("Reference", name, Dim::Length, Digits::Usual);
-    }
-    whole = whole
-        .column("", "Depth", Dim::Length, Digits::Usual)
-        .column("Frequencies", "Number", Dim::None, Digits::Usual)
-        .column("Frequencies", "From", Dim::Frequency, Digits::Decimals(4))
-        .column("Frequencies", "To", Dim::Frequency, Digits::Decimals(4))
-        .column("", "Headings", Dim::None, Digits::Usual)
-        .column("", "Memory", Dim::Time, Digits::Usual)
-        .column("", "Drift", Dim::None, Digits::Usual);
+    let mut whole = Table::new("Hydrodynamic Databases");
+    let mut rows: Vec<BodyDatabase> = Vec::new();
     let mut tables = Vec::new();
     for (body, attached) in model.bodies.values().filter_map(|b| b.database.as_ref().map(|d| (b, d))) {
         if !fits(&body.name) {
@@ -40,13 +27,7 @@ pub(super) fn tables(model: &Model, fits: &dyn Fn(&str) -> bool) -> Vec<Table> {
         }
         let data = &attached.data;
         let radiation = Radiation::of(data).ok().flatten();
-        let memory = radiation.as_ref().map(|r| attached.memory.unwrap_or_else(|| r.memory()));
-        let mut row: Vec<Cell> = vec![body.name.as_str().into(), data.source.as_str().into()];
-        row.extend(data.reference.iter().map(|v| Cell::Number(*v)));
-        row.extend([data.depth.into(), data.frequencies.len().into(), data.frequencies.first().copied().into()]);
-        row.extend([data.frequencies.last().copied().into(), data.headings.len().into(), memory.into()]);
-        row.push(drift_word(attached).into());
-        push(&mut whole, row);
+        rows.push((body, attached, radiation.as_ref().map(|r| attached.memory.unwrap_or_else(|| r.memory()))));
         data.remarks.iter().for_each(|text| whole.note(format!("{}: {text}", body.name)));
         if let Some(stray) = radiation.as_ref().and_then(|r| r.estimated) {
             let text = format!("{}: added mass at infinite frequency by Ogilvie's relation", body.name);
@@ -62,6 +43,25 @@ pub(super) fn tables(model: &Model, fits: &dyn Fn(&str) -> bool) -> Vec<Table> {
         tables.extend(data.motions.iter().map(|m| by_wave("Motions", m, [Dim::None, Dim::None])));
         tables.extend(drift(body, attached));
     }
+    let whole = whole
+        .with_rows(&rows)
+        .text("Body", |(body, ..)| &body.name)
+        .text("Source", |(_, attached, _)| &attached.data.source)
+        .columns("Reference", ["X", "Y", "Z"], Dim::Length, Digits::Usual, |(_, attached, _)| {
+            <[f64; 3]>::from(attached.data.reference)
+        })
+        .column("", "Depth", Dim::Length, Digits::Usual, |(_, attached, _)| attached.data.depth)
+        .column("Frequencies", "Number", Dim::None, Digits::Usual, |(_, attached, _)| attached.data.frequencies.len())
+        .column("Frequencies", "From", Dim::Frequency, Digits::Decimals(4), |(_, attached, _)| {
+            attached.data.frequencies.first().copied()
+        })
+        .column("Frequencies", "To", Dim::Frequency, Digits::Decimals(4), |(_, attached, _)| {
+            attached.data.frequencies.last().copied()
+        })
+        .column("", "Headings", Dim::None, Digits::Usual, |(_, attached, _)| attached.data.headings.len())
+        .column("", "Memory", Dim::Time, Digits::Usual, |(.., memory)| *memory)
+        .text("Drift", |(_, attached, _)| drift_word(attached))
+        .build();
     std::iter::once(whole).chain(tables).collect()
 }
 
@@ -79,33 +79,45 @@ fn drift_word(attached: &AttachedDatabase) -> &'static str {
 
 /// Diagonals of added mass and damping by frequency, about the body's origin.
 fn radiated(body: &Body, attached: &AttachedDatabase, radiation: &Radiation) -> Table {
-    let mut table = Table::new(format!("Radiation of {}", body.name))
-        .column("", "Frequency", Dim::Frequency, Digits::Decimals(4))
-        .column("", "Period", Dim::Time, Digits::Decimals(3));
-    for group in ["Added Mass, SI", "Damping, SI"] {
-        for name in MODES {
-            table = table.column(group, name, Dim::None, Digits::Scientific(4));
-        }
-    }
     let data = &attached.data;
-    for w in &data.frequencies {
-        let (Some(added), Some(damping)) = (data.added_mass_at(*w), data.damping_at(*w)) else { continue };
-        let mut row: Vec<Cell> = vec![(*w).into(), (TAU / w).into()];
-        row.extend(diagonal(&added).chain(diagonal(&damping)));
-        push(&mut table, row);
-    }
-    let mut row: Vec<Cell> = vec!["infinite".into(), 0.0.into()];
-    row.extend(diagonal(&radiation.infinite).chain((0..6).map(|_| Cell::Missing)));
-    push(&mut table, row);
+    let at = |w: f64| Some((Some(w), data.added_mass_at(w)?, Some(data.damping_at(w)?)));
+    let mut rows: Vec<_> = data.frequencies.iter().filter_map(|w| at(*w)).collect();
+    rows.push((None, radiation.infinite, None));
+    let mut table = Table::new(format!("Radiation of {}", body.name))
+        .with_rows(&rows)
+        .column("", "Frequency", Dim::Frequency, Digits::Decimals(4), |(w, ..)| {
+            w.map_or(Cell::from("infinite"), Cell::Number)
+        })
+        .column("", "Period", Dim::Time, Digits::Decimals(3), |(w, ..)| w.map_or(0.0, |w| TAU / w))
+        .columns("Added Mass, SI", MODES, Dim::None, Digits::Scientific(4), |(_, added, _)| diagonal(added))
+        .columns("Damping, SI", MODES, Dim::None, Digits::Scientific(4), |(.., damping)| {
+            damping.as_ref().map_or([None; 6], |damping| diagonal(damping).map(Some))
+        })
+        .build();
     table.note("diagonals, about the body's origin; kg, kg m2, N s/m, N m s");
     table
 }
 
 /// The diagonal of a matrix, without what rounding leaves.
-fn diagonal(matrix: &Matrix6<f64>) -> impl Iterator<Item = Cell> {
+fn diagonal(matrix: &Matrix6<f64>) -> [f64; 6] {
     let largest = matrix.diagonal().amax();
-    let values = matrix.diagonal().map(|v| if v.abs() > NOTHING * largest { v } else { 0.0 });
-    (0..6).map(move |i| Cell::Number(values[i]))
+    matrix.diagonal().map(|v| if v.abs() > NOTHING * largest { v } else { 0.0 }).into()
+}
+
+/// Values by heading and frequency as rows: the heading, the frequency, the values.
+fn by_frequency<'d, V>(headings: &'d [f64], frequencies: &'d [f64], values: &'d [Vec<V>]) -> Vec<(f64, f64, &'d V)> {
+    let by_heading = headings.iter().zip(values);
+    by_heading
+        .flat_map(|(heading, of_heading)| frequencies.iter().zip(of_heading).map(|(w, v)| (*heading, *w, v)))
+        .collect()
+}
+
+/// The columns of heading, frequency and period.
+fn wave_columns<V>(table: TableBuilder<'_, (f64, f64, V)>) -> TableBuilder<'_, (f64, f64, V)> {
+    table
+        .column("", "Heading", Dim::Angle, Digits::Usual, |(heading, ..)| *heading)
+        .column("", "Frequency", Dim::Frequency, Digits::Decimals(4), |(_, w, _)| *w)
+        .column("", "Period", Dim::Time, Digits::Decimals(3), |(_, w, _)| TAU / w)
 }
 
 /// Amplitudes and phases by heading and frequency, as they were read.
@@ -115,28 +127,27 @@ fn amplitudes(
     values: &[Vec<Amplitudes>],
     [force, moment]: [Dim; 2],
 ) -> Table {
-    let mut table = Table::new(title)
-        .column("", "Heading", Dim::Angle, Digits::Usual)
-        .column("", "Frequency", Dim::Frequency, Digits::Decimals(4))
-        .column("", "Period", Dim::Time, Digits::Decimals(3));
-    for (n, name) in MODES.iter().enumerate() {
-        let dim = if n < 3 { force } else { moment };
-        table = table.column("Amplitude", name, dim, Digits::Scientific(4));
-    }
-    for name in MODES {
-        table = table.column("Lag behind Crest", name, Dim::Angle, Digits::Usual);
-    }
-    for (heading, of_heading) in headings.iter().zip(values) {
-        for (w, six) in frequencies.iter().zip(of_heading) {
-            let mut row: Vec<Cell> = vec![(*heading).into(), (*w).into(), (TAU / w).into()];
-            let largest = six.iter().map(|x| x.norm()).fold(0.0, f64::max);
-            // what is nothing but rounding has no phase
-            let sound = |x: &Complex<f64>| x.norm() > NOTHING * largest;
-            row.extend(six.iter().map(|x| Cell::Number(if sound(x) { x.norm() } else { 0.0 })));
-            row.extend(six.iter().map(|x| Cell::from(sound(x).then(|| x.arg()))));
-            push(&mut table, row);
-        }
-    }
+    let rows = by_frequency(headings, frequencies, values);
+    // what is nothing but rounding has no phase
+    let sound = |six: &Amplitudes| {
+        let largest = six.iter().map(|x| x.norm()).fold(0.0, f64::max);
+        six.map(|x| Some(x).filter(|x| x.norm() > NOTHING * largest))
+    };
+    let size = |x: Option<Complex<f64>>| x.map_or(0.0, |x| x.norm());
+    let [surge, sway, heave, roll, pitch, yaw] = MODES;
+    let mut table = wave_columns(Table::new(title).with_rows(&rows))
+        .columns("Amplitude", [surge, sway, heave], force, Digits::Scientific(4), |(.., six)| {
+            let [x, y, z, ..] = sound(six);
+            [x, y, z].map(size)
+        })
+        .columns("Amplitude", [roll, pitch, yaw], moment, Digits::Scientific(4), |(.., six)| {
+            let [.., x, y, z] = sound(six);
+            [x, y, z].map(size)
+        })
+        .columns("Lag behind Crest", MODES, Dim::Angle, Digits::Usual, |(.., six)| {
+            sound(six).map(|x| x.map(|x| x.arg()))
+        })
+        .build();
     table.note("about the reference point, over wave amplitude; headings are where waves travel toward in the body");
     table
 }
@@ -145,20 +156,10 @@ fn amplitudes(
 fn drift(body: &Body, attached: &AttachedDatabase) -> Option<Table> {
     let data = &attached.data;
     let drift = data.drift.clone().or_else(|| data.qtf.as_ref().map(mean_drift))?;
-    let mut table = Table::new(format!("Mean Drift of {}", body.name))
-        .column("", "Heading", Dim::Angle, Digits::Usual)
-        .column("", "Frequency", Dim::Frequency, Digits::Decimals(4))
-        .column("", "Period", Dim::Time, Digits::Decimals(3));
-    for name in MODES {
-        table = table.column("Over Amplitude^2, SI", name, Dim::None, Digits::Scientific(4));
-    }
-    for (heading, of_heading) in drift.headings.iter().zip(&drift.values) {
-        for (w, six) in drift.frequencies.iter().zip(of_heading) {
-            let mut row: Vec<Cell> = vec![(*heading).into(), (*w).into(), (TAU / w).into()];
-            row.extend(six.map(Cell::Number));
-            push(&mut table, row);
-        }
-    }
+    let rows = by_frequency(&drift.headings, &drift.frequencies, &drift.values);
+    let mut table = wave_columns(Table::new(format!("Mean Drift of {}", body.name)).with_rows(&rows))
+        .columns("Over Amplitude^2, SI", MODES, Dim::None, Digits::Scientific(4), |(.., six)| **six)
+        .build();
     table.note("N/m2 and N/m, about the reference point; headings are where waves travel toward in the body");
     Some(table)
 }

@@ -2,10 +2,9 @@
 
 use super::Job;
 use super::help::wrap;
-use super::status::push;
-use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
-use windlass_model::{FatigueKind, Model};
+use windlass_model::{FatigueKind, FatigueSegment, Model};
 use windlass_signal::fatigue::{Curve, find, library};
 
 /// The tables for what follows SN: names of curves or classes, or patterns.
@@ -29,66 +28,74 @@ pub fn tables(job: &Job, fits: &dyn Fn(&str) -> bool, all: bool) -> Vec<Table> {
 
 /// The curves of `&REP_SELECT -SN`, as they were given.
 fn points(model: &Model, fits: &dyn Fn(&str) -> bool) -> Table {
-    let mut table = Table::new("Fatigue Curves Defined")
-        .column("", "Name", Dim::None, Digits::Usual)
-        .column("", "Type", Dim::None, Digits::Usual)
-        .column("Range", "Stress", Dim::Stress, Digits::Usual)
-        .column("Range", "Tension / Break", Dim::None, Digits::Decimals(4))
-        .column("", "Cycles", Dim::None, Digits::Scientific(5));
-    for curve in model.fatigue.curves.values().filter(|c| fits(&c.name)) {
-        for (index, (range, cycles)) in curve.points.iter().enumerate() {
-            let first = |text: &str| if index == 0 { Cell::from(text) } else { Cell::Missing };
-            let (stress, tension) = match curve.kind {
-                FatigueKind::Stress => (Cell::Number(*range), Cell::Missing),
-                FatigueKind::Tension => (Cell::Missing, Cell::Number(*range)),
-            };
-            push(&mut table, vec![first(&curve.name), first(curve.kind.name()), stress, tension, (*cycles).into()]);
-        }
-    }
-    table
+    let curves = model.fatigue.curves.values().filter(|c| fits(&c.name));
+    let rows: Vec<_> = curves
+        .flat_map(|curve| {
+            curve
+                .points
+                .iter()
+                .enumerate()
+                .map(move |(i, (range, cycles))| ((i == 0).then_some(curve), curve.kind, *range, *cycles))
+        })
+        .collect();
+    Table::new("Fatigue Curves Defined")
+        .with_rows(&rows)
+        .text("Name", |(first, ..)| first.map(|c| c.name.as_str()))
+        .text("Type", |(first, ..)| first.map(|c| c.kind.name()))
+        .column("Range", "Stress", Dim::Stress, Digits::Usual, |(_, kind, range, _)| {
+            (*kind == FatigueKind::Stress).then_some(*range)
+        })
+        .column("Range", "Tension / Break", Dim::None, Digits::Decimals(4), |(_, kind, range, _)| {
+            (*kind == FatigueKind::Tension).then_some(*range)
+        })
+        .column("", "Cycles", Dim::None, Digits::Scientific(5), |(.., cycles)| *cycles)
+        .build()
+}
+
+/// A segment of a line class with the curve it goes by.
+struct SegmentRow<'m> {
+    /// The class, on the row of its first segment.
+    class: Option<&'m str>,
+    /// From 1.
+    number: usize,
+    segment: FatigueSegment,
+    /// The name of the curve.
+    name: Option<String>,
+    curve: Option<Curve>,
 }
 
 /// What each segment of a line class goes by.
 fn segments(model: &Model, fits: &dyn Fn(&str) -> bool) -> Option<Table> {
-    let mut table = Table::new("Fatigue Curves of Segments")
-        .column("", "Class", Dim::None, Digits::Usual)
-        .column("", "Segment", Dim::None, Digits::Usual)
-        .column("", "Length", Dim::Length, Digits::Usual)
-        .column("", "OD", Dim::Section, Digits::Usual)
-        .column("", "Break", Dim::Force, Digits::Usual)
-        .column("", "Curve", Dim::None, Digits::Usual)
-        .column("", "Type", Dim::None, Digits::Usual)
-        .column("", "From", Dim::None, Digits::Usual);
-    let mut unknown = Vec::new();
+    let (mut rows, mut unknown) = (Vec::new(), Vec::new());
     for class in model.classes.values().filter(|c| fits(&c.name)) {
-        for (index, segment) in class.fatigue_segments().iter().enumerate() {
-            let name = model.fatigue.curve_of(segment);
-            let curve = name.and_then(|n| find(n, &model.fatigue));
-            if let (Some(name), None) = (name, &curve) {
-                unknown.push(format!(
-                    "warning: {} segment {}: there is no fatigue curve {name}",
-                    class.name,
-                    index + 1
-                ));
+        for (index, segment) in class.fatigue_segments().into_iter().enumerate() {
+            let name = model.fatigue.curve_of(&segment).map(str::to_string);
+            let curve = name.as_deref().and_then(|n| find(n, &model.fatigue));
+            let number = index + 1;
+            if let (Some(name), None) = (&name, &curve) {
+                unknown.push(format!("warning: {} segment {number}: there is no fatigue curve {name}", class.name));
             }
-            let from = match (&segment.curve, name) {
-                (Some(_), _) => "-C_SN",
-                (None, Some(_)) => "&REP_SELECT",
-                (None, None) => "none",
-            };
-            let row = vec![
-                if index == 0 { class.name.as_str().into() } else { Cell::Missing },
-                (index + 1).into(),
-                segment.length.into(),
-                segment.od.into(),
-                segment.breaking.into(),
-                name.map_or(Cell::Missing, Cell::from),
-                curve.map_or(Cell::Missing, |c| c.kind.name().into()),
-                from.into(),
-            ];
-            push(&mut table, row);
+            rows.push(SegmentRow { class: (index == 0).then_some(&class.name), number, segment, name, curve });
         }
     }
+    if rows.is_empty() {
+        return None;
+    }
+    let mut table = Table::new("Fatigue Curves of Segments")
+        .with_rows(&rows)
+        .text("Class", |row| row.class)
+        .column("", "Segment", Dim::None, Digits::Usual, |row| row.number)
+        .column("", "Length", Dim::Length, Digits::Usual, |row| row.segment.length)
+        .column("", "OD", Dim::Section, Digits::Usual, |row| row.segment.od)
+        .column("", "Break", Dim::Force, Digits::Usual, |row| row.segment.breaking)
+        .text("Curve", |row| row.name.as_deref())
+        .text("Type", |row| row.curve.as_ref().map(|c| c.kind.name()))
+        .text("From", |row| match (&row.segment.curve, &row.name) {
+            (Some(_), _) => "-C_SN",
+            (None, Some(_)) => "&REP_SELECT",
+            (None, None) => "none",
+        })
+        .build();
     if let Some(thickness) = model.fatigue.thickness {
         table = table.fact("Thickness Correction TO", thickness.reference, Dim::Section).fact(
             "                     POWER",
@@ -100,54 +107,44 @@ fn segments(model: &Model, fits: &dyn Fn(&str) -> bool) -> Option<Table> {
         }
     }
     table.notes.extend(unknown);
-    (table.rows() > 0).then_some(table)
+    Some(table)
 }
 
 /// The curves of the library.
 fn shipped(fits: &dyn Fn(&str) -> bool) -> Table {
-    let mut table = Table::new("Fatigue Curves of the Library")
-        .column("", "Name", Dim::None, Digits::Usual)
-        .column("", "Type", Dim::None, Digits::Usual)
-        .column("First Branch", "m", Dim::None, Digits::Decimals(2))
-        .column("First Branch", "log a", Dim::None, Digits::Decimals(4))
-        .column("First Branch", "Down To", Dim::None, Digits::Decimals(3))
-        .column("Second Branch", "m", Dim::None, Digits::Decimals(2))
-        .column("Second Branch", "log a", Dim::None, Digits::Decimals(4))
-        .column("", "Limit", Dim::None, Digits::Decimals(1))
-        .column("", "By Mean", Dim::None, Digits::Decimals(2))
-        .column("", "Legs", Dim::None, Digits::Decimals(0))
-        .column("", "Thick.", Dim::None, Digits::Decimals(2))
-        .column("", "Source", Dim::None, Digits::Usual)
-        .column("", "What", Dim::None, Digits::Usual);
+    let chosen = library().curves.iter().filter(|c| fits(&c.name) || c.aliases.iter().any(|a| fits(a)));
+    let rows: Vec<_> = chosen.map(|shipped| (shipped, shipped.curve())).collect();
     let mut used: Vec<&str> = Vec::new();
-    let some = |v: f64| if v == 0.0 { Cell::Missing } else { Cell::Number(v) };
-    for shipped in library().curves.iter().filter(|c| fits(&c.name) || c.aliases.iter().any(|a| fits(a))) {
-        let curve = shipped.curve();
+    for (shipped, _) in &rows {
         if !used.contains(&shipped.source.as_str()) {
             used.push(&shipped.source);
         }
-        let number = used.iter().position(|key| *key == shipped.source).map_or(0, |i| i + 1);
-        let (first, second) = (curve.branches.first(), curve.branches.get(1));
-        let mark = if curve.unconfirmed { " ?" } else { "" };
-        let aliases =
-            if shipped.aliases.is_empty() { String::new() } else { format!(" ({})", shipped.aliases.join(", ")) };
-        let row = vec![
-            shipped.name.as_str().into(),
-            curve.kind.name().into(),
-            first.map(|b| b.slope).into(),
-            first.map(|b| b.log_a).into(),
-            some(first.map_or(0.0, |b| b.from)),
-            second.map(|b| b.slope).into(),
-            second.map(|b| b.log_a).into(),
-            some(curve.limit),
-            some(curve.mean_slope),
-            curve.legs.into(),
-            some(shipped.thickness_exponent),
-            format!("{number}{mark}").into(),
-            format!("{}{aliases}", shipped.what).into(),
-        ];
-        push(&mut table, row);
     }
+    let some = |v: f64| (v != 0.0).then_some(v);
+    let mut table = Table::new("Fatigue Curves of the Library")
+        .with_rows(&rows)
+        .text("Name", |(shipped, _)| &shipped.name)
+        .text("Type", |(_, curve)| curve.kind.name())
+        .column("First Branch", "m", Dim::None, Digits::Decimals(2), |(_, c)| c.branches.first().map(|b| b.slope))
+        .column("First Branch", "log a", Dim::None, Digits::Decimals(4), |(_, c)| c.branches.first().map(|b| b.log_a))
+        .column("First Branch", "Down To", Dim::None, Digits::Decimals(3), |(_, c)| {
+            c.branches.first().and_then(|b| some(b.from))
+        })
+        .column("Second Branch", "m", Dim::None, Digits::Decimals(2), |(_, c)| c.branches.get(1).map(|b| b.slope))
+        .column("Second Branch", "log a", Dim::None, Digits::Decimals(4), |(_, c)| c.branches.get(1).map(|b| b.log_a))
+        .column("", "Limit", Dim::None, Digits::Decimals(1), |(_, curve)| some(curve.limit))
+        .column("", "By Mean", Dim::None, Digits::Decimals(2), |(_, curve)| some(curve.mean_slope))
+        .column("", "Legs", Dim::None, Digits::Decimals(0), |(_, curve)| curve.legs)
+        .column("", "Thick.", Dim::None, Digits::Decimals(2), |(shipped, _)| some(shipped.thickness_exponent))
+        .text("Source", |(shipped, curve)| {
+            let number = used.iter().position(|key| *key == shipped.source).map_or(0, |i| i + 1);
+            format!("{number}{}", if curve.unconfirmed { " ?" } else { "" })
+        })
+        .text("What", |(shipped, _)| match shipped.aliases.as_slice() {
+            [] => shipped.what.clone(),
+            aliases => format!("{} ({})", shipped.what, aliases.join(", ")),
+        })
+        .build();
     table
         .note("log10 N = log a - m log10 S: S is a stress range in MPa, or a tension range over the breaking tension.");
     table.note("Down To: range at which the second branch begins; Limit: range without damage below it; By Mean: what log a gains");

@@ -1,13 +1,12 @@
 //! `&STATUS F_CONNECTOR`: the forces of the connectors between their ends as they are.
 
 use super::chosen::{WARNING, gathered};
-use super::status::push;
 use super::verdict::{Verdict, judged};
 use windlass_base::pose::Six;
-use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::table::{Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_hydro::ambient;
-use windlass_model::{ClassError, Connector, End, Model, Response, Situation, Summary, add_model_column};
+use windlass_model::{ClassError, Connector, End, Model, Response, Situation, SpringState, Summary, add_model_column};
 use windlass_solve::results::fender_table;
 
 /// What one connector does between its ends.
@@ -24,24 +23,9 @@ struct Found {
 /// One row a connector, and a second table with the springs of those that have some. Those that are inactive or without a
 /// solution have no forces. Tensions beyond a break go to `verdict`.
 pub fn forces(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem, verdict: &mut Verdict) -> Vec<Table> {
-    let mut table = Table::new("Connector Forces")
-        .column("", "Name", Dim::None, Digits::Usual)
-        .column("", "Class", Dim::None, Digits::Usual)
-        .column("", "Solution", Dim::None, Digits::Usual)
-        .column("Horizontal", "Distance", Dim::Length, Digits::Usual);
-    for name in ["FX", "FY", "FZ"] {
-        table = table.column("Force on Body", name, Dim::Force, Digits::Usual);
-    }
-    let mut table = table
-        .column("Tension", "Ten Top", Dim::Force, Digits::Usual)
-        .column("Tension", "Max T/TB", Dim::None, Digits::Decimals(3))
-        .column("Tension", "Crit. Seg", Dim::None, Digits::Usual)
-        .column("Anchor", "V. Pull", Dim::Force, Digits::Usual)
-        .column("Anchor", "H. Pull", Dim::Force, Digits::Usual)
-        .column("On Bottom", "Unstretched", Dim::Length, Digits::Usual);
+    let mut table = Table::new("Connector Forces");
     let mut notes: Vec<(String, Vec<String>)> = Vec::new();
-    let mut springs = spring_table("Springs of Connectors");
-    let mut fenders = Vec::new();
+    let (mut rows, mut springs, mut fenders) = (Vec::new(), Vec::new(), Vec::new());
     for connector in model.connectors.values().filter(|c| fits(&c.name)) {
         let (solution, found) = match connector.active {
             false => ("inactive", None),
@@ -60,23 +44,47 @@ pub fn forces(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem, ver
         };
         if let Some(found) = &found {
             verdict.over_break.extend(judged(&connector.name, &found.summary, "&STATUS F_CONNECTOR"));
-            spring_rows(&mut springs, connector, &found.summary);
+            springs.extend(spring_rows(connector, &found.summary));
             fenders.extend(found.summary.fender.map(|state| (connector.name.as_str(), state)));
         }
-        let mut row: Vec<Cell> = vec![connector.name.as_str().into(), connector.class.as_str().into(), solution.into()];
-        row.extend(numbers(found.as_ref()));
-        push(&mut table, row);
+        rows.push((connector, solution, found));
     }
     table.notes = gathered(&notes);
+    let mut table = force_columns(table, &rows);
     add_model_column(&mut table, |name| model.idealisation(name));
-    let springs = Some(springs).filter(|s| s.rows() > 0);
+    let springs = Some(spring_table("Springs of Connectors", &springs)).filter(|s| s.rows() > 0);
     let fenders = fender_table("Fenders", fenders.iter().map(|(name, state)| (*name, state, None)));
     std::iter::once(table).chain(springs).chain(Some(fenders).filter(|f| f.rows() > 0)).collect()
 }
 
+/// The columns of the forces: a connector, the word of its solution, what it does if it has one.
+fn force_columns(table: Table, rows: &[(&Connector, &str, Option<Found>)]) -> Table {
+    table
+        .with_rows(rows)
+        .text("Name", |(connector, ..)| &connector.name)
+        .text("Class", |(connector, ..)| &connector.class)
+        .text("Solution", |(_, solution, _)| *solution)
+        .column("Horizontal", "Distance", Dim::Length, Digits::Usual, |(.., f)| f.as_ref().map(|f| f.distance))
+        .columns("Force on Body", ["FX", "FY", "FZ"], Dim::Force, Digits::Usual, |(.., f)| {
+            f.as_ref().map_or([None; 3], |f| f.on_body().map(Some))
+        })
+        .column("Tension", "Ten Top", Dim::Force, Digits::Usual, |(.., f)| f.as_ref().and_then(|f| f.summary.tension))
+        .column("Tension", "Max T/TB", Dim::None, Digits::Decimals(3), |(.., f)| {
+            f.as_ref().and_then(|f| f.summary.ratio)
+        })
+        .column("Tension", "Crit. Seg", Dim::None, Digits::Usual, |(.., f)| f.as_ref().and_then(|f| f.summary.critical))
+        .columns("Anchor", ["V. Pull", "H. Pull"], Dim::Force, Digits::Usual, |(.., f)| {
+            f.as_ref().and_then(Found::anchor_pull).map_or([None; 2], |pull| pull.map(Some))
+        })
+        .column("On Bottom", "Unstretched", Dim::Length, Digits::Usual, |(.., f)| {
+            f.as_ref().and_then(|f| f.summary.grounded)
+        })
+        .build()
+}
+
 /// The FOUNDATION check [MOSES-FLEX FOUNDATION]: every spring of every foundation against its allowable, and the largest of each.
 pub fn foundations(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem) -> Table {
-    let mut table = spring_table("Foundation Check");
+    let (mut springs, mut absent) = (Vec::new(), 0);
     let mut notes: Vec<(String, Vec<String>)> = Vec::new();
     let mut largest: Option<(f64, &str)> = None;
     let foundation = |c: &&Connector| {
@@ -85,7 +93,7 @@ pub fn foundations(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem
     for connector in model.connectors.values().filter(foundation).filter(|c| c.active) {
         match found(model, connector) {
             Ok(mut found) => {
-                spring_rows(&mut table, connector, &found.summary);
+                springs.extend(spring_rows(connector, &found.summary));
                 let ratio = found.summary.ratio.unwrap_or(0.0);
                 if largest.is_none_or(|(most, _)| ratio > most) {
                     largest = Some((ratio, &connector.name));
@@ -93,12 +101,12 @@ pub fn foundations(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem
                 notes.push((connector.name.clone(), told(&mut found.summary, units)));
             }
             Err(error) => {
-                table.absent += 1;
+                absent += 1;
                 notes.push((connector.name.clone(), vec![format!("{WARNING}{}", error.text(units))]));
             }
         }
     }
-    table.notes = gathered(&notes);
+    let mut table = Table { absent, notes: gathered(&notes), ..spring_table("Foundation Check", &springs) };
     if let Some((ratio, name)) = largest {
         table = table.fact("Largest Unity", ratio, Dim::None).fact("Of", name, Dim::None);
     }
@@ -142,51 +150,56 @@ fn found(model: &Model, connector: &Connector) -> Result<Found, ClassError> {
     Ok(Found { forces: [force(0), force(1)], on_body, distance, summary })
 }
 
-/// The ten numbers of a row.
-fn numbers(found: Option<&Found>) -> [Cell; 10] {
-    let Some(Found { forces, on_body, distance, summary }) = found else { return [const { Cell::Missing }; 10] };
-    let [fx, fy, fz] = forces.get(*on_body).copied().unwrap_or_default();
-    // what holds the far end of the line
-    let [ax, ay, az] = forces.get(1 - on_body).copied().unwrap_or_default();
-    let line = |value: f64| if summary.tension.is_some() { Cell::from(value) } else { Cell::Missing };
-    [
-        (*distance).into(),
-        fx.into(),
-        fy.into(),
-        fz.into(),
-        summary.tension.into(),
-        summary.ratio.into(),
-        summary.critical.into(),
-        // no pull is zero without a sign
-        line(az + 0.0),
-        line(ax.hypot(ay)),
-        summary.grounded.into(),
-    ]
-}
-
-fn spring_table(title: &str) -> Table {
-    Table::new(title)
-        .column("", "Name", Dim::None, Digits::Usual)
-        .column("", "DF", Dim::None, Digits::Usual)
-        .column("Translation", "Deflection", Dim::Length, Digits::Decimals(4))
-        .column("Translation", "Force", Dim::Force, Digits::Usual)
-        .column("Translation", "Allowable", Dim::Force, Digits::Usual)
-        .column("Rotation", "Angle", Dim::Angle, Digits::Decimals(4))
-        .column("Rotation", "Moment", Dim::Moment, Digits::Usual)
-        .column("Rotation", "Allow. Moment", Dim::Moment, Digits::Usual)
-        .column("", "Unity", Dim::None, Digits::Decimals(3))
-}
-
-fn spring_rows(table: &mut Table, connector: &Connector, summary: &Summary) {
-    for spring in &summary.springs {
-        let own: [Cell; 3] = [spring.deflection.into(), spring.force.into(), spring.allowable.into()];
-        let none = || [const { Cell::Missing }; 3];
-        let unity = spring.allowable.map(|a| spring.force.abs() / a);
-        let mut row: Vec<Cell> = vec![connector.name.as_str().into(), spring.dof.as_str().into()];
-        let turns = spring.dof.starts_with('R');
-        row.extend(if turns { none() } else { own.clone() });
-        row.extend(if turns { own } else { none() });
-        row.push(unity.into());
-        push(table, row);
+impl Found {
+    /// The force on the end that is on a body (N).
+    fn on_body(&self) -> [f64; 3] {
+        self.forces.get(self.on_body).copied().unwrap_or_default()
     }
+
+    /// Vertical and horizontal pull of a line at its far end (N).
+    fn anchor_pull(&self) -> Option<[f64; 2]> {
+        self.summary.tension?;
+        let [x, y, z] = self.forces.get(1 - self.on_body).copied().unwrap_or_default();
+        // no pull is zero without a sign
+        Some([z + 0.0, x.hypot(y)])
+    }
+}
+
+/// A spring of a connector, along an axis or about it.
+struct SpringRow<'m> {
+    connector: &'m str,
+    spring: SpringState,
+}
+
+impl SpringRow<'_> {
+    /// Deflection, force and allowable, for a spring that turns or for one that does not.
+    fn values(&self, turns: bool) -> [Option<f64>; 3] {
+        let spring = &self.spring;
+        if spring.dof.starts_with('R') == turns {
+            [Some(spring.deflection), Some(spring.force), spring.allowable]
+        } else {
+            [None; 3]
+        }
+    }
+}
+
+fn spring_rows<'m>(connector: &'m Connector, summary: &Summary) -> impl Iterator<Item = SpringRow<'m>> {
+    summary.springs.iter().map(|spring| SpringRow { connector: &connector.name, spring: spring.clone() })
+}
+
+fn spring_table(title: &str, rows: &[SpringRow]) -> Table {
+    Table::new(title)
+        .with_rows(rows)
+        .text("Name", |row| row.connector)
+        .text("DF", |row| &row.spring.dof)
+        .column("Translation", "Deflection", Dim::Length, Digits::Decimals(4), |row| row.values(false)[0])
+        .column("Translation", "Force", Dim::Force, Digits::Usual, |row| row.values(false)[1])
+        .column("Translation", "Allowable", Dim::Force, Digits::Usual, |row| row.values(false)[2])
+        .column("Rotation", "Angle", Dim::Angle, Digits::Decimals(4), |row| row.values(true)[0])
+        .column("Rotation", "Moment", Dim::Moment, Digits::Usual, |row| row.values(true)[1])
+        .column("Rotation", "Allow. Moment", Dim::Moment, Digits::Usual, |row| row.values(true)[2])
+        .column("", "Unity", Dim::None, Digits::Decimals(3), |row| {
+            row.spring.allowable.map(|a| row.spring.force.abs() / a)
+        })
+        .build()
 }

@@ -3,14 +3,13 @@
 //! Source: [MOSES-REF static, hstatic], for the menu and RARM; the forms of the records are ours.
 
 use super::chosen::raise;
-use super::status::push;
 use super::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::Place;
 use windlass_base::pose::Pose;
 use windlass_base::span::Span;
-use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_base::values::Noun;
 use windlass_hydro::hull::Hydrostatics;
@@ -104,46 +103,38 @@ fn cform(job: &mut Job, call: &Call) -> Outcome<Effect> {
             .help("PGEN, &SURFACE and &DESCRIBE PIECE give one")
     })?;
     let mass = Mass::of(job.model.parts_of(body), job.model.defaults.gravity);
-    let mut table = Table::new(format!("Curves of Form of {}", body.name));
-    for (group, name, dim) in [
-        ("", "Draft", Dim::Length),
-        ("", "Displ.", Dim::Force),
-        ("", "Volume", Dim::Volume),
-        ("", "KB", Dim::Length),
-        ("", "LCB", Dim::Length),
-        ("Waterplane", "Area", Dim::Area),
-        ("Waterplane", "LCF", Dim::Length),
-        ("Metacenter", "KMT", Dim::Length),
-        ("Metacenter", "KML", Dim::Length),
-        ("Change", "Immersion", Dim::ForcePerLength),
-        ("Change", "Trim 1 Deg", Dim::Moment),
-        ("", "Wet Area", Dim::Area),
-    ] {
-        table = table.column(group, name, dim, Digits::Usual);
-    }
     let (first, step) = (args.number(0).unwrap_or_default(), args.number(1).unwrap_or_default());
-    for n in 0..args.integer(2).unwrap_or(1) {
-        let draft = first + step * n as f64;
+    let at_draft = |draft: f64| {
         let mut place = Place { turn: [0.0, 0.0, body.place.turn[2]], ..body.place };
         place.shift[2] = -draft;
         let pose = Pose::of(&place);
-        let found = Hydrostatics::of(&hull.wet(&pose), &pose, mass.centre, hull.water_weight());
-        let mut row = vec![Cell::from(draft)];
-        match found {
-            None => row.extend([const { Cell::Missing }; 11]),
-            Some(h) => {
-                let in_body = |x: f64, y: f64| pose.local([x, y, 0.0].into()).x;
-                let centre = h.centre_of_buoyancy;
-                let high = if mass.mass > 0.0 { h.gm_l } else { h.bm_l };
-                let flotation = h.centre_of_flotation.map(|[x, y]| in_body(x, y));
-                row.extend([h.displacement, h.volume, h.kb, in_body(centre.x, centre.y), h.plane_area].map(Cell::from));
-                row.push(flotation.into());
-                let change = [h.plane_area * hull.water_weight(), h.displacement * high * 1f64.to_radians()];
-                row.extend([h.kb + h.bm_t, h.kb + h.bm_l, change[0], change[1], h.wetted_area].map(Cell::from));
-            }
-        }
-        push(&mut table, row);
-    }
+        (draft, pose, Hydrostatics::of(&hull.wet(&pose), &pose, mass.centre, hull.water_weight()))
+    };
+    let rows: Vec<_> = (0..args.integer(2).unwrap_or(1)).map(|n| at_draft(first + step * n as f64)).collect();
+    let high = |h: &Hydrostatics| if mass.mass > 0.0 { h.gm_l } else { h.bm_l };
+    let table = Table::new(format!("Curves of Form of {}", body.name))
+        .with_rows(&rows)
+        .column("", "Draft", Dim::Length, Digits::Usual, |(draft, ..)| *draft)
+        .column("", "Displ.", Dim::Force, Digits::Usual, |(.., h)| h.map(|h| h.displacement))
+        .column("", "Volume", Dim::Volume, Digits::Usual, |(.., h)| h.map(|h| h.volume))
+        .column("", "KB", Dim::Length, Digits::Usual, |(.., h)| h.map(|h| h.kb))
+        .column("", "LCB", Dim::Length, Digits::Usual, |(_, pose, h)| {
+            h.map(|h| pose.local([h.centre_of_buoyancy.x, h.centre_of_buoyancy.y, 0.0].into()).x)
+        })
+        .column("Waterplane", "Area", Dim::Area, Digits::Usual, |(.., h)| h.map(|h| h.plane_area))
+        .column("Waterplane", "LCF", Dim::Length, Digits::Usual, |(_, pose, h)| {
+            h.and_then(|h| h.centre_of_flotation).map(|[x, y]| pose.local([x, y, 0.0].into()).x)
+        })
+        .column("Metacenter", "KMT", Dim::Length, Digits::Usual, |(.., h)| h.map(|h| h.kb + h.bm_t))
+        .column("Metacenter", "KML", Dim::Length, Digits::Usual, |(.., h)| h.map(|h| h.kb + h.bm_l))
+        .column("Change", "Immersion", Dim::ForcePerLength, Digits::Usual, |(.., h)| {
+            h.map(|h| h.plane_area * hull.water_weight())
+        })
+        .column("Change", "Trim 1 Deg", Dim::Moment, Digits::Usual, |(.., h)| {
+            h.map(|h| h.displacement * high(&h) * 1f64.to_radians())
+        })
+        .column("", "Wet Area", Dim::Area, Digits::Usual, |(.., h)| h.map(|h| h.wetted_area))
+        .build();
     Ok(dispose(job, table, span))
 }
 
@@ -154,19 +145,9 @@ fn rarm(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let floating = Floating::of(&job.model, body).map_err(told)?;
     let weight = floating.mass.mass * job.model.defaults.gravity;
     let mut table = Table::new(format!("Righting Arms of {}", body.name)).fact("Weight", weight, Dim::Force);
-    for (name, dim, digits) in [
-        ("Roll", Dim::Angle, Digits::Usual),
-        ("Arm", Dim::Length, Digits::Decimals(4)),
-        ("Moment", Dim::Moment, Digits::Usual),
-        ("Area", Dim::Length, Digits::Decimals(4)),
-        ("Draft", Dim::Length, Digits::Usual),
-        ("Trim", Dim::Angle, Digits::Usual),
-    ] {
-        table = table.column("", name, dim, digits);
-    }
     let step = args.number(0).unwrap_or_default();
     let mut place = Place { turn: [0.0, 0.0, body.place.turn[2]], ..body.place };
-    let (mut area, mut before) = (0.0, None);
+    let (mut area, mut before, mut rows) = (0.0, None, Vec::new());
     for n in 0..=args.integer(1).unwrap_or(1) {
         let roll = step * n as f64;
         place.turn[0] = roll;
@@ -181,11 +162,18 @@ fn rarm(job: &mut Job, call: &Call) -> Outcome<Effect> {
         area += before.map_or(0.0, |arm: f64| 0.5 * (arm + found.arm) * step);
         before = Some(found.arm);
         place = found.place;
-        let small = |x: f64| if x.abs() < 1e-9 { 0.0 } else { x };
-        let row =
-            [roll, small(found.arm), small(found.arm) * weight, small(area), -place.shift[2], small(place.turn[1])];
-        push(&mut table, row.map(Cell::from).to_vec());
+        rows.push((roll, found.arm, area, place));
     }
     table.note("Area in length times radians; draft is that of the body's origin");
+    let small = |x: f64| if x.abs() < 1e-9 { 0.0 } else { x };
+    let table = table
+        .with_rows(&rows)
+        .column("", "Roll", Dim::Angle, Digits::Usual, |(roll, ..)| *roll)
+        .column("", "Arm", Dim::Length, Digits::Decimals(4), |(_, arm, ..)| small(*arm))
+        .column("", "Moment", Dim::Moment, Digits::Usual, |(_, arm, ..)| small(*arm) * weight)
+        .column("", "Area", Dim::Length, Digits::Decimals(4), |(_, _, area, _)| small(*area))
+        .column("", "Draft", Dim::Length, Digits::Usual, |(.., place)| -place.shift[2])
+        .column("", "Trim", Dim::Angle, Digits::Usual, |(.., place)| small(place.turn[1]))
+        .build();
     Ok(dispose(job, table, span))
 }

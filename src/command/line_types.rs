@@ -2,7 +2,6 @@
 
 use super::Job;
 use super::help::wrap;
-use super::status::push;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::table::{Digits, Table};
@@ -51,14 +50,12 @@ fn named(job: &Job, types: &[LineType], word: &str, place: Span) -> Outcome<Vec<
 /// All types with the diameters their formulas are held for.
 fn list(types: &[LineType]) -> Table {
     let mut table = Table::new("Line Types")
-        .column("", "Name", Dim::None, Digits::Usual)
-        .column("Nominal Diameter", "From", Dim::Section, Digits::Usual)
-        .column("Nominal Diameter", "To", Dim::Section, Digits::Usual)
-        .column("", "What", Dim::None, Digits::Usual);
-    for t in types {
-        let (least, most) = (t.diameter.least, t.diameter.most);
-        push(&mut table, vec![t.name.as_str().into(), least.into(), most.into(), t.what.as_str().into()]);
-    }
+        .with_rows(types)
+        .text("Name", |t| &t.name)
+        .column("Nominal Diameter", "From", Dim::Section, Digits::Usual, |t| t.diameter.least)
+        .column("Nominal Diameter", "To", Dim::Section, Digits::Usual, |t| t.diameter.most)
+        .text("What", |t| &t.what)
+        .build();
     table.note(
         "-TYPE NAME D on B_CAT, H_CAT and SL_ELEM uses one; &STATUS LINE_TYPES D gives the values at a diameter,",
     );
@@ -69,36 +66,26 @@ fn list(types: &[LineType]) -> Table {
 /// The values of all types at a nominal diameter (m).
 fn values(types: &[LineType], diameter: f64, job: &Job) -> Table {
     let around = job.model.surroundings();
+    let used = used_sources(types);
+    let chosen: Vec<&LineType> = types.iter().filter(|t| t.has_values(diameter)).collect();
+    let submerged = |t: &LineType| t.submerged_mass(diameter, around.water_density) * around.gravity;
     let mut table = Table::new("Line Types at a Diameter")
         .fact("Nominal Diameter", diameter, Dim::Section)
         .fact("Water Density", around.water_density, Dim::Density)
-        .column("", "Name", Dim::None, Digits::Usual)
-        .column("Diameter of", "Volume", Dim::Section, Digits::Usual)
-        .column("", "Mass", Dim::MassPerLength, Digits::Usual)
-        .column("Weight / Length", "Air", Dim::ForcePerLength, Digits::Usual)
-        .column("Weight / Length", "Water", Dim::ForcePerLength, Digits::Usual)
-        .column("", "AE", Dim::Force, Digits::Scientific(5))
-        .column("", "Break", Dim::Force, Digits::Usual)
-        .column("", "In Range", Dim::None, Digits::Usual)
-        .column("", "Sources", Dim::None, Digits::Usual);
-    let used = used_sources(types);
-    for t in types.iter().filter(|t| t.has_values(diameter)) {
-        let mass = t.mass.at(diameter);
-        let sources: Vec<String> =
-            used_sources(std::slice::from_ref(t)).iter().filter_map(|key| number_of(&used, key)).collect();
-        let row = vec![
-            t.name.as_str().into(),
-            t.volume_diameter(diameter).into(),
-            mass.into(),
-            (mass * around.gravity).into(),
-            (t.submerged_mass(diameter, around.water_density) * around.gravity).into(),
-            t.ea.at(diameter).into(),
-            t.breaking.at(diameter).into(),
-            if t.covers(diameter) { "yes" } else { "no" }.into(),
-            sources.join(" ").into(),
-        ];
-        push(&mut table, row);
-    }
+        .with_rows(&chosen)
+        .text("Name", |t| &t.name)
+        .column("Diameter of", "Volume", Dim::Section, Digits::Usual, |t| t.volume_diameter(diameter))
+        .column("", "Mass", Dim::MassPerLength, Digits::Usual, |t| t.mass.at(diameter))
+        .column("Weight / Length", "Air", Dim::ForcePerLength, Digits::Usual, |t| t.mass.at(diameter) * around.gravity)
+        .column("Weight / Length", "Water", Dim::ForcePerLength, Digits::Usual, |t| submerged(t))
+        .column("", "AE", Dim::Force, Digits::Scientific(5), |t| t.ea.at(diameter))
+        .column("", "Break", Dim::Force, Digits::Usual, |t| t.breaking.at(diameter))
+        .text("In Range", |t| if t.covers(diameter) { "yes" } else { "no" })
+        .text("Sources", |t| {
+            let own = used_sources(std::slice::from_ref(*t));
+            own.iter().filter_map(|key| number_of(&used, key)).collect::<Vec<_>>().join(" ")
+        })
+        .build();
     tell_sources(&mut table, types);
     table
 }

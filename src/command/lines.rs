@@ -177,12 +177,12 @@ impl Tally {
 
     /// The lines by regime, and how many rows were solved and refused.
     fn summary(&self, name: &str, place: &Place, job: &Job) -> String {
-        let mut table =
-            Table::new("").column("", "Regime", Dim::None, Digits::Usual).column("", "Lines", Dim::None, Digits::Usual);
-        for (regime, lines) in &self.regimes {
-            // the row has one cell a column, made just above
-            let _ = table.push(vec![(*regime).into(), (*lines).into()]);
-        }
+        let regimes: Vec<_> = self.regimes.iter().collect();
+        let table = Table::new("")
+            .with_rows(&regimes)
+            .text("Regime", |(regime, _)| **regime)
+            .column("", "Lines", Dim::None, Digits::Usual, |(_, lines)| **lines)
+            .build();
         let mut text = if self.solved > 0 { page::grid(&table, job.units) } else { Vec::new() };
         text.push(format!("{name}: {} rows solved, {} refused", self.solved, self.refused));
         text.push(format!("wrote {}", place.path().display()));

@@ -1,12 +1,11 @@
 //! `&STATUS LOADS`: the loads of wind, current and waves that records have put on parts, and what they come to.
 
 use super::Job;
-use super::status::push;
 use windlass_base::pose::{Pose, Six};
-use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_hydro::{Category, Floating};
-use windlass_model::{Body, ClassError, Fluid, LoadKind, Model};
+use windlass_model::{Body, ClassError, Fluid, LoadKind, Model, PartLoad};
 
 /// One table of the records, one of the forces on each body as it stands.
 pub(super) fn loads(job: &Job, fits: &dyn Fn(&str) -> bool) -> Vec<Table> {
@@ -15,38 +14,33 @@ pub(super) fn loads(job: &Job, fits: &dyn Fn(&str) -> bool) -> Vec<Table> {
         let body = model.parts.get(&Model::key(part)).map_or("", |p| p.body.as_str());
         fits(part) || fits(body)
     };
+    let loads: Vec<&PartLoad> = model.loads.iter().filter(|l| chosen(&l.part)).collect();
     let mut records = Table::new("Loads of Wind, Current and Waves")
-        .column("", "Part", Dim::None, Digits::Usual)
-        .column("", "Record", Dim::None, Digits::Usual)
-        .column("", "Acts in", Dim::None, Digits::Usual);
-    for name in ["X", "Y", "Z"] {
-        records = records.column("Point in Part", name, Dim::Length, Digits::Usual);
-    }
-    for name in ["X", "Y", "Z"] {
-        records = records.column("Area x Coefficient", name, Dim::Area, Digits::Usual);
-    }
-    records = records.column("", "Headings", Dim::None, Digits::Usual).column("", "Heading", Dim::Angle, Digits::Usual);
-    for load in model.loads.iter().filter(|l| chosen(&l.part)) {
-        let acts = match (&load.kind, load.fluid) {
+        .with_rows(&loads)
+        .text("Part", |load| &load.part)
+        .text("Record", |load| load.kind.name())
+        .text("Acts in", |load| match (&load.kind, load.fluid) {
             (LoadKind::Drift { .. }, _) => "waves",
             (LoadKind::Drag(_) | LoadKind::Damping(_) | LoadKind::AddedMass(_), _) => "water",
             (_, Fluid::ByHeight) => "by height",
             (_, Fluid::Air) => "air",
             (_, Fluid::Water) => "water",
-        };
-        let mut row: Vec<Cell> = vec![load.part.as_str().into(), load.kind.name().into(), acts.into()];
-        row.extend(load.at.map(Cell::Number));
-        let (areas, headings, heading) = match &load.kind {
-            LoadKind::Area(areas) => (Some(*areas), None, None),
-            LoadKind::Plate { area, normal } => (Some(normal.map(|n| area * n.abs())), None, None),
-            LoadKind::Coefficients { rows, .. } => (None, Some(rows.len()), None),
-            LoadKind::Drift { heading, .. } => (None, None, Some(*heading)),
-            LoadKind::Drag(_) | LoadKind::Damping(_) | LoadKind::AddedMass(_) => (None, None, None),
-        };
-        row.extend([0, 1, 2].map(|i| Cell::from(areas.and_then(|a| a.get(i).copied()))));
-        row.extend([headings.into(), heading.into()]);
-        push(&mut records, row);
-    }
+        })
+        .columns("Point in Part", ["X", "Y", "Z"], Dim::Length, Digits::Usual, |load| load.at)
+        .columns("Area x Coefficient", ["X", "Y", "Z"], Dim::Area, Digits::Usual, |load| match &load.kind {
+            LoadKind::Area(areas) => areas.map(Some),
+            LoadKind::Plate { area, normal } => normal.map(|n| Some(area * n.abs())),
+            _ => [None; 3],
+        })
+        .column("", "Headings", Dim::None, Digits::Usual, |load| match &load.kind {
+            LoadKind::Coefficients { rows, .. } => Some(rows.len()),
+            _ => None,
+        })
+        .column("", "Heading", Dim::Angle, Digits::Usual, |load| match &load.kind {
+            LoadKind::Drift { heading, .. } => Some(*heading),
+            _ => None,
+        })
+        .build();
     for (name, factor) in model.multipliers.categories.iter().chain(&model.multipliers.parts) {
         records.note(format!("&APPLY multiplies loads of {name} by {factor}"));
     }
@@ -56,35 +50,27 @@ pub(super) fn loads(job: &Job, fits: &dyn Fn(&str) -> bool) -> Vec<Table> {
 /// Force and moment of each category on each body that has such loads, about its origin.
 fn forces(job: &Job, chosen: &dyn Fn(&str) -> bool) -> Table {
     let model = &job.model;
-    let mut table = Table::new("Steady Forces").column("", "Body", Dim::None, Digits::Usual).column(
-        "",
-        "Category",
-        Dim::None,
-        Digits::Usual,
-    );
-    for name in ["FX", "FY", "FZ"] {
-        table = table.column("Force, Global", name, Dim::Force, Digits::Usual);
-    }
-    for name in ["MX", "MY", "MZ"] {
-        table = table.column("Moment about the Origin", name, Dim::Moment, Digits::Usual);
-    }
+    let mut table = Table::new("Steady Forces");
     let loaded = |b: &&Body| {
         let mut parts = model.parts_of(b);
         parts.any(|p| !p.pieces.is_empty() || model.loads.iter().any(|l| Model::key(&l.part) == Model::key(&p.name)))
     };
+    let mut rows: Vec<(&str, Category, Six)> = Vec::new();
     for body in model.bodies.values().filter(|b| chosen(&b.name)).filter(loaded) {
         match sums(model, body) {
-            Ok(list) => {
-                for (category, wrench) in list {
-                    let mut row: Vec<Cell> = vec![body.name.as_str().into(), category.name().into()];
-                    row.extend(wrench.iter().map(|v| Cell::Number(*v)));
-                    push(&mut table, row);
-                }
-            }
+            Ok(list) => rows.extend(list.into_iter().map(|(category, wrench)| (body.name.as_str(), category, wrench))),
             Err(error) => table.note_absent(format!("{}: {}", body.name, error.text(job.units))),
         }
     }
     table
+        .with_rows(&rows)
+        .text("Body", |(body, ..)| *body)
+        .text("Category", |(_, category, _)| category.name())
+        .columns("Force, Global", ["FX", "FY", "FZ"], Dim::Force, Digits::Usual, |(.., w)| [w[0], w[1], w[2]])
+        .columns("Moment about the Origin", ["MX", "MY", "MZ"], Dim::Moment, Digits::Usual, |(.., w)| {
+            [w[3], w[4], w[5]]
+        })
+        .build()
 }
 
 fn sums(model: &Model, body: &Body) -> Result<Vec<(Category, Six)>, ClassError> {

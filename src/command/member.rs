@@ -1,7 +1,6 @@
 //! The options that make a TUBE a member in waves and current, and the table of members.
 
 use super::body_tables::settled;
-use super::status::push;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
@@ -9,7 +8,7 @@ use windlass_base::values::Args;
 use windlass_hydro::morison;
 use windlass_language::select::Owner;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
-use windlass_model::{ClassError, Member, Model, Shape, WaveAction};
+use windlass_model::{ClassError, Member, Model, Part, Piece, Shape, WaveAction};
 
 const fn factor(
     name: &'static str,
@@ -92,45 +91,46 @@ pub fn coefficients(args: &Args, permeability: f64) -> Outcome<Member> {
 
 /// Members with their coefficients; `None` without any.
 pub fn members(model: &Model, fits: &dyn Fn(&str) -> bool) -> Option<Table> {
-    let mut table = Table::new("Members");
-    for name in ["Body", "Part", "Piece"] {
-        table = table.column("", name, Dim::None, Digits::Usual);
-    }
-    table = table.column("", "OD", Dim::Section, Digits::Usual).column("", "Length", Dim::Length, Digits::Usual);
-    for (group, name) in
-        [("Across", "CD"), ("Along", "CDA"), ("Across", "CA"), ("CAA of End", "1"), ("CAA of End", "2")]
-    {
-        table = table.column(group, name, Dim::None, Digits::Usual);
-    }
-    let mut any = false;
-    for part in model.parts.values() {
-        for piece in part.pieces.iter().filter(|p| fits(&p.name) || fits(&part.name) || fits(&part.body)) {
+    let all = model.parts.values().flat_map(|part| part.pieces.iter().map(move |piece| (part, piece)));
+    let chosen = all.filter(|(part, p)| fits(&p.name) || fits(&part.name) || fits(&part.body));
+    let rows: Vec<MemberRow> = chosen
+        .filter_map(|(part, piece)| {
             let (Some(member), Shape::Tube { ends: [a, b], diameter }) = (&piece.member, &piece.shape) else {
-                continue;
+                return None;
             };
             let length = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
-            let inert = piece.waves != WaveAction::Database;
-            let told = |c: f64| if inert { Cell::from(c) } else { Cell::from("database") };
-            push(
-                &mut table,
-                vec![
-                    part.body.as_str().into(),
-                    part.name.as_str().into(),
-                    piece.name.as_str().into(),
-                    (*diameter).into(),
-                    length.into(),
-                    member.drag.into(),
-                    member.friction.into(),
-                    told(member.added),
-                    told(member.end_added[0]),
-                    told(member.end_added[1]),
-                ],
-            );
-            any = true;
-        }
-    }
+            Some(MemberRow { part, piece, member, diameter: *diameter, length })
+        })
+        .collect();
+    let added = |row: &MemberRow, c: f64| match row.piece.waves {
+        WaveAction::Database => Cell::from("database"),
+        _ => Cell::from(c),
+    };
+    let mut table = Table::new("Members")
+        .with_rows(&rows)
+        .text("Body", |row| &row.part.body)
+        .text("Part", |row| &row.part.name)
+        .text("Piece", |row| &row.piece.name)
+        .column("", "OD", Dim::Section, Digits::Usual, |row| row.diameter)
+        .column("", "Length", Dim::Length, Digits::Usual, |row| row.length)
+        .column("Across", "CD", Dim::None, Digits::Usual, |row| row.member.drag)
+        .column("Along", "CDA", Dim::None, Digits::Usual, |row| row.member.friction)
+        .column("Across", "CA", Dim::None, Digits::Usual, |row| added(row, row.member.added))
+        .columns("CAA of End", ["1", "2"], Dim::None, Digits::Usual, |row| row.member.end_added.map(|c| added(row, c)))
+        .build();
     table.note("By Morison's formula: CD and CA on the diameter, CDA on the skin, CAA on the half sphere over an end");
-    any.then_some(table)
+    (!rows.is_empty()).then_some(table)
+}
+
+/// A tube with the coefficients of Morison's formula.
+struct MemberRow<'m> {
+    part: &'m Part,
+    piece: &'m Piece,
+    member: &'m Member,
+    /// Outer diameter (m).
+    diameter: f64,
+    /// Between the ends (m).
+    length: f64,
 }
 
 /// The added mass of the members of each body under the mean level where it stands, about its origin in its own axes.
@@ -140,38 +140,35 @@ pub fn members(model: &Model, fits: &dyn Fn(&str) -> bool) -> Option<Table> {
 pub fn added_mass(model: &Model, fits: &dyn Fn(&str) -> bool) -> Result<Vec<Table>, ClassError> {
     let power = |length: i8| Dim::Derived { force: 1, length, seconds: 2 };
     let names = ["X", "Y", "Z", "RX", "RY", "RZ"];
-    let mut halves = ["Added Mass of Members", "Added Moment of Inertia of Members"].map(|title| {
-        Table::new(title).column("", "Body", Dim::None, Digits::Usual).column("", "DF", Dim::None, Digits::Usual)
-    });
-    for (half, table) in halves.iter_mut().enumerate() {
-        for (n, name) in names.into_iter().enumerate() {
-            let length = half + n / 3;
-            let dim = power(if length == 0 {
-                -1
-            } else if length == 1 {
-                0
-            } else {
-                1
-            });
-            let group = if n < 3 { "By Acceleration" } else { "By Angular Acceleration" };
-            *table = std::mem::take(table).column(group, name, dim, Digits::Scientific(5));
-        }
-    }
+    let mut halves: [Vec<(&str, &str, [f64; 6])>; 2] = [Vec::new(), Vec::new()];
     for body in model.bodies.values().filter(|b| fits(&b.name)) {
         let (_, added) = morison::of(model, body, None)?;
         let whole = added.amax();
         if whole == 0.0 {
             continue;
         }
-        for (n, name) in names.into_iter().enumerate() {
-            let mut row: Vec<Cell> = vec![body.name.as_str().into(), name.into()];
-            row.extend(added.row(n).iter().map(|x| Cell::from(settled(*x, whole))));
-            if let Some(table) = halves.get_mut(n / 3) {
-                push(table, row);
-            }
+        for (half, first) in halves.iter_mut().zip([0, 3]) {
+            half.extend(names.into_iter().enumerate().skip(first).take(3).map(|(n, name)| {
+                (body.name.as_str(), name, [0, 1, 2, 3, 4, 5].map(|i| settled(added[(n, i)], whole)))
+            }));
         }
     }
-    let [_, last] = &mut halves;
+    let [masses, inertias] = halves;
+    let table = |title: &str, rows: &[(&str, &str, [f64; 6])], [by_shift, by_turn]: [i8; 2]| {
+        Table::new(title)
+            .with_rows(rows)
+            .text("Body", |(body, ..)| *body)
+            .text("DF", |(_, name, _)| *name)
+            .columns("By Acceleration", ["X", "Y", "Z"], power(by_shift), Digits::Scientific(5), |(.., m)| {
+                [m[0], m[1], m[2]]
+            })
+            .columns("By Angular Acceleration", ["RX", "RY", "RZ"], power(by_turn), Digits::Scientific(5), |(.., m)| {
+                [m[3], m[4], m[5]]
+            })
+            .build()
+    };
+    let mut last = table("Added Moment of Inertia of Members", &inertias, [0, 1]);
     last.note("about the body's origin, in its axes, under the mean level where it stands");
-    Ok(halves.into_iter().filter(|table| table.rows() > 0).collect())
+    let tables = [table("Added Mass of Members", &masses, [-1, 0]), last];
+    Ok(tables.into_iter().filter(|table| table.rows() > 0).collect())
 }

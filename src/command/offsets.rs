@@ -1,31 +1,25 @@
 //! The part of `&STATUS G_CONNECTOR` that few connectors need: offsets of their ends and angles of their axes.
 
-use super::status::push;
-use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_model::Model;
 
 /// -GO1, -GO2 and -EULER of the connectors that have one of them; `None` when none has.
 pub fn offsets(model: &Model, fits: &dyn Fn(&str) -> bool) -> Option<Table> {
-    let mut table = Table::new("Offsets and Element Axes").column("", "Name", Dim::None, Digits::Usual);
-    for (group, names, dim) in [
-        ("-GO1", ["X", "Y", "Z"], Dim::Length),
-        ("-GO2", ["X", "Y", "Z"], Dim::Length),
-        ("-EULER", ["RX", "RY", "RZ"], Dim::Angle),
-    ] {
-        for name in names {
-            table = table.column(group, name, dim, Digits::Usual);
-        }
-    }
+    let mut rows = Vec::new();
     for connector in model.connectors.values().filter(|c| fits(&c.name)) {
         let [first, second] = connector.offsets.map(|at| (at != [0.0; 3]).then_some(at));
         let given = [first, second, connector.euler];
         if given.iter().any(Option::is_some) {
-            let cells =
-                given.into_iter().flat_map(|g| [0, 1, 2].map(|i| Cell::from(g.and_then(|g| g.get(i).copied()))));
-            let row = std::iter::once(Cell::from(connector.name.as_str())).chain(cells).collect();
-            push(&mut table, row);
+            rows.push((connector.name.as_str(), given));
         }
     }
-    (table.rows() > 0).then_some(table)
+    let cells = |values: Option<[f64; 3]>| values.map_or([None; 3], |v| v.map(Some));
+    let table = Table::new("Offsets and Element Axes")
+        .with_rows(&rows)
+        .text("Name", |(name, _)| *name)
+        .columns("-GO1", ["X", "Y", "Z"], Dim::Length, Digits::Usual, |(_, [first, _, _])| cells(*first))
+        .columns("-GO2", ["X", "Y", "Z"], Dim::Length, Digits::Usual, |(_, [_, second, _])| cells(*second))
+        .columns("-EULER", ["RX", "RY", "RZ"], Dim::Angle, Digits::Usual, |(_, [_, _, euler])| cells(*euler));
+    (!rows.is_empty()).then(|| table.build())
 }

@@ -2,13 +2,12 @@
 
 mod input;
 
-use super::status::push;
 use super::{Call, Command, Effect, Job};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::Place;
-use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_base::values::Noun;
 use windlass_base::values::{Args, Given};
@@ -136,63 +135,65 @@ fn sinusoids(job: &Job, args: &Args) -> GivenMotion {
 
 /// Motions that bodies are given; `None` where none is.
 pub fn motions(model: &Model, fits: &dyn Fn(&str) -> bool) -> Option<Table> {
-    let mut table = Table::new("Prescribed Motions");
-    for name in ["Body", "By", "Freedom"] {
-        table = table.column("", name, Dim::None, Digits::Usual);
-    }
-    table = table.column("Amplitude", "Length", Dim::Length, Digits::Usual);
-    table = table.column("Amplitude", "Angle", Dim::Angle, Digits::Usual);
-    table = table.column("", "Period", Dim::Time, Digits::Usual).column("", "Phase", Dim::Angle, Digits::Usual);
-    table = table.column("", "Rows", Dim::None, Digits::Usual);
-    for name in ["From", "To"] {
-        table = table.column("", name, Dim::Time, Digits::Usual);
-    }
-    let mut any = false;
-    let none = || Cell::from(None::<f64>);
+    let mut rows = Vec::new();
     for body in model.bodies.values().filter(|b| fits(&b.name)) {
         let Some(given) = &body.prescribed else { continue };
-        any = true;
-        let name = || Cell::from(body.name.as_str());
+        let motion = |by, dof| MotionRow { body: &body.name, by, dof, ..MotionRow::default() };
         match &given.motion {
-            GivenMotion::Sinusoids { list, ramp } => {
-                for sine in list {
-                    let amplitude = |angle: bool| Cell::from((angle == (sine.dof > 2)).then_some(sine.amplitude));
-                    let dof = DOFS.get(sine.dof).copied().unwrap_or_default();
-                    let (length, angle) = (amplitude(false), amplitude(true));
-                    let ramp = Cell::from((*ramp > 0.0).then_some(*ramp));
-                    push(
-                        &mut table,
-                        vec![
-                            name(),
-                            "sinusoid".into(),
-                            dof.into(),
-                            length,
-                            angle,
-                            sine.period.into(),
-                            sine.phase.into(),
-                            none(),
-                            none(),
-                            ramp,
-                        ],
-                    );
-                }
-            }
+            GivenMotion::Sinusoids { list, ramp } => rows.extend(list.iter().map(|sine| MotionRow {
+                length: (sine.dof <= 2).then_some(sine.amplitude),
+                angle: (sine.dof > 2).then_some(sine.amplitude),
+                period: Some(sine.period),
+                phase: Some(sine.phase),
+                to: (*ramp > 0.0).then_some(*ramp),
+                ..motion("sinusoid", DOFS.get(sine.dof).copied().unwrap_or_default())
+            })),
             GivenMotion::Responses(responses) => {
-                let rows: usize = responses.headings.iter().map(|(_, r)| r.len()).sum();
+                let count = responses.headings.iter().map(|(_, r)| r.len()).sum();
                 let periods = responses.headings.iter().flat_map(|(_, r)| r.iter().map(|r| TAU / r.frequency));
                 let (least, most) = periods.fold((f64::INFINITY, 0.0f64), |(a, b), p| (a.min(p), b.max(p)));
-                let mut cells = vec![name(), "responses".into(), "all".into(), none(), none(), none(), none()];
-                cells.extend([rows.into(), least.into(), most.into()]);
-                push(&mut table, cells);
+                let (from, to) = (Some(least), Some(most));
+                rows.push(MotionRow { rows: Some(count), from, to, ..motion("responses", "all") });
             }
-            GivenMotion::Path(rows) => {
-                let at = |row: Option<&windlass_model::PathRow>| Cell::from(row.map(|r| r.0));
-                let mut cells = vec![name(), "file".into(), "all".into(), none(), none(), none(), none()];
-                cells.extend([rows.len().into(), at(rows.first()), at(rows.last())]);
-                push(&mut table, cells);
+            GivenMotion::Path(path) => {
+                let (from, to) = (path.first().map(|r| r.0), path.last().map(|r| r.0));
+                rows.push(MotionRow { rows: Some(path.len()), from, to, ..motion("file", "all") });
             }
         }
     }
+    let mut table = Table::new("Prescribed Motions")
+        .with_rows(&rows)
+        .text("Body", |row| row.body)
+        .text("By", |row| row.by)
+        .text("Freedom", |row| row.dof)
+        .column("Amplitude", "Length", Dim::Length, Digits::Usual, |row| row.length)
+        .column("Amplitude", "Angle", Dim::Angle, Digits::Usual, |row| row.angle)
+        .column("", "Period", Dim::Time, Digits::Usual, |row| row.period)
+        .column("", "Phase", Dim::Angle, Digits::Usual, |row| row.phase)
+        .column("", "Rows", Dim::None, Digits::Usual, |row| row.rows)
+        .column("", "From", Dim::Time, Digits::Usual, |row| row.from)
+        .column("", "To", Dim::Time, Digits::Usual, |row| row.to)
+        .build();
     table.note("From and To: times of a file, periods of responses; of sinusoids To is the time over which they grow");
-    any.then_some(table)
+    (!rows.is_empty()).then_some(table)
+}
+
+/// What a row of the prescribed motions shows: a sinusoid, the responses or the file of a body.
+#[derive(Default)]
+struct MotionRow<'m> {
+    body: &'m str,
+    by: &'static str,
+    dof: &'static str,
+    /// Amplitude of a translation (m).
+    length: Option<f64>,
+    /// Amplitude of a rotation (rad).
+    angle: Option<f64>,
+    /// Period (s) and phase (rad) of a sinusoid.
+    period: Option<f64>,
+    phase: Option<f64>,
+    /// Rows of the responses or of the file.
+    rows: Option<usize>,
+    /// The range of a file's times, of periods of responses, of a ramp (s).
+    from: Option<f64>,
+    to: Option<f64>,
 }

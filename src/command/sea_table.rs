@@ -1,7 +1,6 @@
 //! `&STATUS SEA_SPECTRUM`: the wave components of the seas of an environment, and their spectra to plot.
 
 use super::Job;
-use super::status::push;
 use std::f64::consts::{PI, TAU};
 use windlass_base::diagnostic::Outcome;
 use windlass_base::span::Span;
@@ -21,7 +20,7 @@ pub(super) fn spectra(job: &Job, chosen: Option<&dyn Fn(&str) -> bool>, at: Span
         match sea(job, env, at)? {
             Some(sea) => tables.extend(sea.trains.iter().map(|train| components(env, &sea, train))),
             None => {
-                let mut table = Table::new(title("Sea Spectrum", env, None)).fact("Components", 0, Dim::None);
+                let mut table = Table::new(title("Sea Spectrum", env, None)).fact("Components", 0usize, Dim::None);
                 table.note("there are no waves: -SEA of &ENV gives them");
                 tables.push(table);
             }
@@ -99,35 +98,34 @@ fn components(env: &Environment, sea: &Sea, train: &Train) -> Table {
         .fact("Sum of Amplitudes", highest, Dim::Length)
         .fact("Phases", phasing(sea), Dim::None)
         .fact("Ramp", sea.ramp, Dim::Time)
-        .fact("Above the Mean Level", above(sea), Dim::None)
-        .column("", "No.", Dim::None, Digits::Usual)
-        .column("", "Period", Dim::Time, Digits::Decimals(3))
-        .column("", "Frequency", Dim::Frequency, Digits::Decimals(4))
-        .column("", "Amplitude", Dim::Length, Digits::Decimals(3))
-        .column("", "From", Dim::Angle, Digits::Usual)
-        .column("", "Phase", Dim::Angle, Digits::Usual)
-        .column("", "Density", Dim::SpectralDensity, Digits::Decimals(4))
-        .column("Stands For", "From", Dim::Frequency, Digits::Decimals(4))
-        .column("Stands For", "To", Dim::Frequency, Digits::Decimals(4))
-        .column("Stands For", "Mean Density", Dim::SpectralDensity, Digits::Decimals(4));
-    for (index, wave) in waves.iter().enumerate() {
-        let band = train.bands.get(index).zip(train.spectrum.as_ref());
-        let [x, y] = wave.toward;
-        let row = vec![
-            (index + 1).into(),
-            (TAU / wave.frequency).into(),
-            wave.frequency.into(),
-            wave.amplitude.into(),
-            turn((-y).atan2(-x)).into(),
-            turn(wave.phase).into(),
-            band.map(|(_, spectrum)| spectrum.density(wave.frequency)).into(),
-            band.map(|(band, _)| band.low).into(),
-            band.map(|(band, _)| band.high).filter(|high| high.is_finite()).into(),
-            band.and_then(|(band, _)| band.mean_density()).into(),
-        ];
-        push(&mut table, row);
-    }
+        .fact("Above the Mean Level", above(sea), Dim::None);
+    let rows: Vec<_> = waves
+        .iter()
+        .enumerate()
+        .map(|(index, wave)| (index + 1, wave, train.bands.get(index).zip(train.spectrum.as_ref())))
+        .collect();
     table
+        .with_rows(&rows)
+        .column("", "No.", Dim::None, Digits::Usual, |(number, ..)| *number)
+        .column("", "Period", Dim::Time, Digits::Decimals(3), |(_, wave, _)| TAU / wave.frequency)
+        .column("", "Frequency", Dim::Frequency, Digits::Decimals(4), |(_, wave, _)| wave.frequency)
+        .column("", "Amplitude", Dim::Length, Digits::Decimals(3), |(_, wave, _)| wave.amplitude)
+        .column("", "From", Dim::Angle, Digits::Usual, |(_, wave, _)| {
+            let [x, y] = wave.toward;
+            turn((-y).atan2(-x))
+        })
+        .column("", "Phase", Dim::Angle, Digits::Usual, |(_, wave, _)| turn(wave.phase))
+        .column("", "Density", Dim::SpectralDensity, Digits::Decimals(4), |(_, wave, band)| {
+            band.map(|(_, spectrum)| spectrum.density(wave.frequency))
+        })
+        .column("Stands For", "From", Dim::Frequency, Digits::Decimals(4), |(.., band)| band.map(|(band, _)| band.low))
+        .column("Stands For", "To", Dim::Frequency, Digits::Decimals(4), |(.., band)| {
+            band.map(|(band, _)| band.high).filter(|high| high.is_finite())
+        })
+        .column("Stands For", "Mean Density", Dim::SpectralDensity, Digits::Decimals(4), |(.., band)| {
+            band.and_then(|(band, _)| band.mean_density())
+        })
+        .build()
 }
 
 /// An angle from 0 to a turn; one that a rounding error keeps just below a turn is 0.
@@ -159,12 +157,10 @@ fn above(sea: &Sea) -> &'static str {
 fn density(env: &Environment, train: &Train) -> Option<Table> {
     let spectrum = train.spectrum.as_ref()?;
     let [low, high] = SHOWN.map(|share| spectrum.quantile(share));
-    let mut table = Table::new(title("Wave Spectrum", env, Some(train)))
-        .column("", "Frequency", Dim::Frequency, Digits::Usual)
-        .column("", "Density", Dim::SpectralDensity, Digits::Usual);
-    for i in 0..POINTS {
-        let frequency = low + (high - low) * i as f64 / (POINTS - 1) as f64;
-        push(&mut table, vec![frequency.into(), spectrum.density(frequency).into()]);
-    }
-    Some(table)
+    let frequencies: Vec<f64> = (0..POINTS).map(|i| low + (high - low) * i as f64 / (POINTS - 1) as f64).collect();
+    let table = Table::new(title("Wave Spectrum", env, Some(train)))
+        .with_rows(&frequencies)
+        .column("", "Frequency", Dim::Frequency, Digits::Usual, |frequency| *frequency)
+        .column("", "Density", Dim::SpectralDensity, Digits::Usual, |frequency| spectrum.density(*frequency));
+    Some(table.build())
 }

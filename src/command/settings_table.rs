@@ -1,7 +1,6 @@
 //! `&STATUS DIMENSIONS` and `DEFAULTS`.
 
 use super::Job;
-use super::status::push;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_model::{Coordinates, Model};
@@ -9,14 +8,7 @@ use windlass_model::{Coordinates, Model};
 /// Units.
 pub(super) fn dimensions(job: &Job) -> Table {
     let (length, force) = job.units.words();
-    let mut table = Table::new("Dimensions")
-        .fact("Length", length, Dim::None)
-        .fact("Force", force, Dim::None)
-        .fact("Units Saved", job.saved_units.len(), Dim::None)
-        .column("", "Quantity", Dim::None, Digits::Usual)
-        .column("", "Unit", Dim::None, Digits::Usual)
-        .column("", "In SI", Dim::None, Digits::Scientific(10));
-    for (name, dim) in [
+    let quantities = [
         ("length", Dim::Length),
         ("section size", Dim::Section),
         ("force", Dim::Force),
@@ -27,10 +19,16 @@ pub(super) fn dimensions(job: &Job) -> Table {
         ("angle", Dim::Angle),
         ("velocity", Dim::Velocity),
         ("wind speed", Dim::WindSpeed),
-    ] {
-        push(&mut table, vec![name.into(), dim.label(job.units).into(), dim.factor(job.units).into()]);
-    }
-    table
+    ];
+    Table::new("Dimensions")
+        .fact("Length", length, Dim::None)
+        .fact("Force", force, Dim::None)
+        .fact("Units Saved", job.saved_units.len(), Dim::None)
+        .with_rows(&quantities)
+        .text("Quantity", |(name, _)| *name)
+        .text("Unit", |(_, dim)| dim.label(job.units))
+        .column("", "In SI", Dim::None, Digits::Scientific(10), |(_, dim)| dim.factor(job.units))
+        .build()
 }
 
 /// Defaults.

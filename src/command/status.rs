@@ -19,7 +19,7 @@ use crate::report::disposition::Disposition;
 use crate::report::page;
 use crate::report::plot::Chart;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
-use windlass_base::table::{Cell, Table};
+use windlass_base::table::Table;
 use windlass_base::values::Noun;
 use windlass_language::select::{Owner, choose};
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
@@ -239,12 +239,6 @@ fn things(kind: &str) -> &'static [EntityKind] {
         "SELECTORS" => &[EntityKind::Selector],
         _ => &[],
     }
-}
-
-/// Appends a row; the callers give one cell a column.
-pub(super) fn push(table: &mut Table, row: Vec<Cell>) {
-    let fits = table.push(row);
-    debug_assert!(fits.is_ok(), "a status row must fit its table");
 }
 
 /// The property tables of the classes that fit, with their records as they were given.

@@ -2,7 +2,6 @@
 //!
 //! [MOSES-FLEX ROD] names the command and says what it gives; no source gives its form, which is ours and stands in its help.
 
-use super::status::push;
 use super::{Call, Command, Effect, Job};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::table::{Digits, Table};
@@ -99,17 +98,15 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
 
 /// The data whose names fit.
 pub(super) fn table(model: &Model, fits: &dyn Fn(&str) -> bool) -> Table {
+    let fillings: Vec<&Filling> = model.fillings.values().filter(|f| fits(&f.name)).collect();
     let mut table = Table::new("Temperature and Pressure of Pipes")
-        .column("", "Name", Dim::None, Digits::Usual)
-        .column("", "Warmer by", Dim::TemperatureRise, Digits::Usual)
-        .column("", "Pressure", Dim::Stress, Digits::Decimals(3))
-        .column("", "at Z", Dim::Length, Digits::Usual)
-        .column("Contents", "Density", Dim::Density, Digits::Usual);
-    for filling in model.fillings.values().filter(|f| fits(&f.name)) {
-        let Contents { warmer, pressure, at, density } = filling.contents;
-        let row = vec![filling.name.as_str().into(), warmer.into(), pressure.into(), at.into(), density.into()];
-        push(&mut table, row);
-    }
+        .with_rows(&fillings)
+        .text("Name", |filling| &filling.name)
+        .column("", "Warmer by", Dim::TemperatureRise, Digits::Usual, |filling| filling.contents.warmer)
+        .column("", "Pressure", Dim::Stress, Digits::Decimals(3), |filling| filling.contents.pressure)
+        .column("", "at Z", Dim::Length, Digits::Usual, |filling| filling.contents.at)
+        .column("Contents", "Density", Dim::Density, Digits::Usual, |filling| filling.contents.density)
+        .build();
     if let Some(named) = &model.environment.filling {
         table.note(format!("the environment in force has {}", named.kind));
     }

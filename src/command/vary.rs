@@ -2,11 +2,10 @@
 
 use super::Job;
 use super::chosen::gathered;
-use super::status::push;
 use crate::report::format::number_in_full;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
-use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::table::{Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::{Args, Given};
 use windlass_language::select::Owner;
@@ -144,8 +143,8 @@ pub fn tabulate(
         let text = format!("{} cannot hold while the {} is varied", other.name, parameter.name().to_lowercase());
         return Err(Diagnostic::error(text, other.span).other(vary.span, "varied here"));
     }
-    let mut table = empty(parameter, class, connector, &place, held);
-    let (mut notes, mut missing, mut first): (Vec<_>, Missing, _) = (Vec::new(), Vec::new(), None);
+    let (mut rows, mut notes, mut missing) = (Vec::new(), Vec::new(), Missing::new());
+    let mut first: Option<(ClassError, Span)> = None;
     for (given, span) in vary.values.iter().filter_map(|v| Some((v.number()?, v.span))) {
         let value = value(parameter, given, span, job)?;
         let named = format!("{} {} {unit}", parameter.name(), number_in_full(given));
@@ -156,23 +155,22 @@ pub fn tabulate(
             None => line,
         };
         let found = line.and_then(|line| line.configuration(condition));
-        let mut row = vec![Cell::Number(value)];
         match found {
             Ok(found) => {
-                row.extend(numbers(&found));
                 notes.push((named, found.notes.iter().map(|note| note.text(job.units)).collect()));
+                rows.push((value, Some(found)));
             }
             Err(error) => {
-                row.extend([const { Cell::Missing }; 9]);
                 missing.push((format!("{named}: {}", error.text(job.units)), span));
                 first = first.or(Some((error, span)));
+                rows.push((value, None));
             }
         }
-        push(&mut table, row);
     }
     if let (true, Some((error, span))) = (notes.is_empty(), first) {
         return Err(without(error, span, connector, job.units));
     }
+    let mut table = with_columns(facts(parameter, class, connector, &place, held), parameter, &rows);
     table.notes = gathered(&notes);
     if place.bathymetry.is_some() && matches!(parameter, Parameter::Depth | Parameter::Slope) {
         table.note("the line lies on a plane through its anchor here, not on the bathymetry");
@@ -221,8 +219,8 @@ fn at(parameter: Parameter, value: f64, place: &Placement, held: Condition) -> (
     }
 }
 
-/// The table without rows: what is varied, what is held, the columns.
-fn empty(parameter: Parameter, class: &Class, connector: &Connector, place: &Placement, held: Condition) -> Table {
+/// The table without columns: what is varied, what is held.
+fn facts(parameter: Parameter, class: &Class, connector: &Connector, place: &Placement, held: Condition) -> Table {
     let [_, _, fairlead] = place.fairlead;
     let title = format!("Line {} with Varied {}", connector.name, parameter.name());
     let mut table = Table::new(title).fact("Model", QUASI_STATIC, Dim::None);
@@ -243,30 +241,25 @@ fn empty(parameter: Parameter, class: &Class, connector: &Connector, place: &Pla
         };
     }
     table
-        .column("Varied", parameter.name(), parameter.dim(), Digits::Usual)
-        .column("", "X", Dim::Length, Digits::Usual)
-        .column("Horizontal", "Force", Dim::Force, Digits::Usual)
-        .column("Vertical", "V. Force", Dim::Force, Digits::Usual)
-        .column("Tension", "Ten Top", Dim::Force, Digits::Usual)
-        .column("Tension", "Max T/TB", Dim::None, Digits::Decimals(3))
-        .column("Tension", "Crit. Seg", Dim::None, Digits::Usual)
-        .column("Anchor", "V. Pull", Dim::Force, Digits::Usual)
-        .column("Anchor", "H. Pull", Dim::Force, Digits::Usual)
-        .column("", "Line on Bottom", Dim::Length, Digits::Usual)
 }
 
-/// The columns behind the value.
-fn numbers(found: &Configuration) -> [Cell; 9] {
-    let [horizontal, vertical] = found.anchor;
-    [
-        found.distance.into(),
-        found.horizontal.into(),
-        found.vertical.into(),
-        found.tension.into(),
-        found.ratio.into(),
-        found.critical.into(),
-        vertical.into(),
-        horizontal.into(),
-        found.on_bottom.into(),
-    ]
+/// The columns: the value, and the configuration it has, if any.
+fn with_columns(table: Table, parameter: Parameter, rows: &[(f64, Option<Configuration>)]) -> Table {
+    table
+        .with_rows(rows)
+        .column("Varied", parameter.name(), parameter.dim(), Digits::Usual, |(value, _)| *value)
+        .column("", "X", Dim::Length, Digits::Usual, |(_, c)| c.as_ref().map(|c| c.distance))
+        .column("Horizontal", "Force", Dim::Force, Digits::Usual, |(_, c)| c.as_ref().map(|c| c.horizontal))
+        .column("Vertical", "V. Force", Dim::Force, Digits::Usual, |(_, c)| c.as_ref().map(|c| c.vertical))
+        .column("Tension", "Ten Top", Dim::Force, Digits::Usual, |(_, c)| c.as_ref().map(|c| c.tension))
+        .column("Tension", "Max T/TB", Dim::None, Digits::Decimals(3), |(_, c)| c.as_ref().map(|c| c.ratio))
+        .column("Tension", "Crit. Seg", Dim::None, Digits::Usual, |(_, c)| c.as_ref().map(|c| c.critical))
+        .columns("Anchor", ["V. Pull", "H. Pull"], Dim::Force, Digits::Usual, |(_, c)| {
+            c.as_ref().map_or([None; 2], |c| {
+                let [horizontal, vertical] = c.anchor;
+                [Some(vertical), Some(horizontal)]
+            })
+        })
+        .column("", "Line on Bottom", Dim::Length, Digits::Usual, |(_, c)| c.as_ref().map(|c| c.on_bottom))
+        .build()
 }

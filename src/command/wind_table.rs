@@ -2,7 +2,6 @@
 
 use super::Job;
 use super::sea_table::{chosen_environments, turn};
-use super::status::push;
 use std::f64::consts::TAU;
 use windlass_base::diagnostic::Outcome;
 use windlass_base::span::Span;
@@ -22,7 +21,7 @@ pub(super) fn spectra(job: &Job, chosen: Option<&dyn Fn(&str) -> bool>, at: Span
         match gusts(job, env, at)? {
             Some(gusts) => tables.push(components(job, env, &gusts)),
             None => {
-                let mut table = Table::new(title("Gusts", env)).fact("Components", 0, Dim::None);
+                let mut table = Table::new(title("Gusts", env)).fact("Components", 0usize, Dim::None);
                 table.note("there are no gusts: -WIND and -W_SPECTRUM of &ENV give them");
                 tables.push(table);
             }
@@ -62,7 +61,8 @@ fn title(what: &str, env: &Environment) -> String {
 fn components(job: &Job, env: &Environment, gusts: &Gusts) -> Table {
     let division = if env.gust_periods.is_empty() { "of equal energy" } else { "about the periods of -W_PERIOD" };
     let deviation = gusts.deviation();
-    let mut table = Table::new(title("Gusts", env))
+    let bands: Vec<_> = gusts.bands.iter().zip(&gusts.phases).enumerate().collect();
+    Table::new(title("Gusts", env))
         .fact("Spectrum", gusts.name.as_str(), Dim::None)
         .fact("Mean Speed at 10 m", gusts.mean, Dim::WindSpeed)
         .fact("Standard Deviation of Components", deviation, Dim::WindSpeed)
@@ -71,42 +71,29 @@ fn components(job: &Job, env: &Environment, gusts: &Gusts) -> Table {
         .fact("Components", format!("{} {division}", gusts.bands.len()), Dim::None)
         .fact("Phases", format!("random, seed {}", gusts.seed), Dim::None)
         .fact("Ramp", env.ramp.unwrap_or(job.model.defaults.ramp), Dim::Time)
-        .column("", "No.", Dim::None, Digits::Usual)
-        .column("", "Period", Dim::Time, Digits::Decimals(3))
-        .column("", "Frequency", Dim::Frequency, Digits::Decimals(5))
-        .column("", "Amplitude", Dim::WindSpeed, Digits::Decimals(3))
-        .column("", "Phase", Dim::Angle, Digits::Usual)
-        .column("", "Density", DENSITY, Digits::Decimals(3))
-        .column("Stands For", "From", Dim::Frequency, Digits::Decimals(5))
-        .column("Stands For", "To", Dim::Frequency, Digits::Decimals(5))
-        .column("Stands For", "Mean Density", DENSITY, Digits::Decimals(3));
-    for (index, (band, phase)) in gusts.bands.iter().zip(&gusts.phases).enumerate() {
-        let row = vec![
-            (index + 1).into(),
-            (TAU / band.frequency).into(),
-            band.frequency.into(),
-            (2.0 * band.energy).sqrt().into(),
-            turn(*phase).into(),
-            gusts.spectrum.density(band.frequency).into(),
-            band.low.into(),
-            Some(band.high).filter(|high| high.is_finite()).into(),
-            band.mean_density().into(),
-        ];
-        push(&mut table, row);
-    }
-    table
+        .with_rows(&bands)
+        .column("", "No.", Dim::None, Digits::Usual, |(index, _)| index + 1)
+        .column("", "Period", Dim::Time, Digits::Decimals(3), |(_, (band, _))| TAU / band.frequency)
+        .column("", "Frequency", Dim::Frequency, Digits::Decimals(5), |(_, (band, _))| band.frequency)
+        .column("", "Amplitude", Dim::WindSpeed, Digits::Decimals(3), |(_, (band, _))| (2.0 * band.energy).sqrt())
+        .column("", "Phase", Dim::Angle, Digits::Usual, |(_, (_, phase))| turn(**phase))
+        .column("", "Density", DENSITY, Digits::Decimals(3), |(_, (band, _))| gusts.spectrum.density(band.frequency))
+        .column("Stands For", "From", Dim::Frequency, Digits::Decimals(5), |(_, (band, _))| band.low)
+        .column("Stands For", "To", Dim::Frequency, Digits::Decimals(5), |(_, (band, _))| {
+            Some(band.high).filter(|high| high.is_finite())
+        })
+        .column("Stands For", "Mean Density", DENSITY, Digits::Decimals(3), |(_, (band, _))| band.mean_density())
+        .build()
 }
 
 fn density(env: &Environment, gusts: &Gusts) -> Table {
     let high = gusts.spectrum.quantile(SHOWN);
     let low = gusts.spectrum.range()[0].max(1e-3 * high);
-    let mut table = Table::new(title("Gust Spectrum", env))
-        .column("", "Frequency", Dim::Frequency, Digits::Usual)
-        .column("", "Density", DENSITY, Digits::Usual);
-    for i in 0..POINTS {
-        // close where it is steep
-        let frequency = low * (high / low).powf(i as f64 / (POINTS - 1) as f64);
-        push(&mut table, vec![frequency.into(), gusts.spectrum.density(frequency).into()]);
-    }
-    table
+    // close where it is steep
+    let frequencies: Vec<f64> = (0..POINTS).map(|i| low * (high / low).powf(i as f64 / (POINTS - 1) as f64)).collect();
+    Table::new(title("Gust Spectrum", env))
+        .with_rows(&frequencies)
+        .column("", "Frequency", Dim::Frequency, Digits::Usual, |frequency| *frequency)
+        .column("", "Density", DENSITY, Digits::Usual, |frequency| gusts.spectrum.density(*frequency))
+        .build()
 }

@@ -4,7 +4,7 @@ use windlass_base::table::{Cell, Column, Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_signal::SeriesError;
 use windlass_signal::extremes::rayleigh;
-use windlass_signal::statistics::{self, Crossings, Moments, Peak};
+use windlass_signal::statistics::{self, Crossings, Moments};
 use windlass_signal::tables::{self, Record};
 
 /// Count, mean, standard deviation, and the extremes with the value of the independent column where they occur.
@@ -14,46 +14,54 @@ use windlass_signal::tables::{self, Record};
 pub fn table(table: &Table, independent: Option<usize>, columns: &[usize]) -> Table {
     let at = independent.and_then(|i| table.columns.get(i));
     let (at_name, at_dim) = at.map_or(("Row".to_string(), Dim::None), |c| (format!("at {}", c.name), c.dim));
-    let mut out = Table::new(format!("Statistics of {}", table.title))
-        .column("", "Column", Dim::None, Digits::Usual)
-        .column("", "Unit", Dim::None, Digits::Usual)
-        .column("", "Count", Dim::None, Digits::Usual);
-    for name in ["Mean", "Std. Dev.", "Minimum", "Maximum"] {
-        out = out.column("", name, Dim::None, Digits::Scientific(6));
-        if name.ends_with("imum") {
-            let digits = if at.is_some() { Digits::Usual } else { Digits::Decimals(0) };
-            out = out.column("", &at_name, at_dim, digits);
-        }
-    }
-    for column in columns.iter().filter_map(|i| table.columns.get(*i)) {
-        let values: Vec<(usize, f64)> =
-            column.cells.iter().enumerate().filter_map(|(row, cell)| Some((row, cell.number()?))).collect();
+    let at_digits = if at.is_some() { Digits::Usual } else { Digits::Decimals(0) };
+    let place = |extreme: Option<(usize, f64)>| match (extreme, at) {
+        (Some((row, _)), Some(c)) => c.cells.get(row).cloned().unwrap_or(Cell::Missing),
+        (Some((row, _)), None) => Cell::from(row + 1),
+        (None, _) => Cell::Missing,
+    };
+    let rows: Vec<Extent> = columns.iter().filter_map(|i| table.columns.get(*i)).map(Extent::new).collect();
+    Table::new(format!("Statistics of {}", table.title))
+        .with_rows(&rows)
+        .text("Column", |row| super::columns::long_name(row.column))
+        .text("Unit", |_| Cell::Missing)
+        .column("", "Count", Dim::None, Digits::Usual, |row| row.count)
+        .column("", "Mean", Dim::None, Digits::Scientific(6), |row| row.moments.map(|(mean, _)| mean))
+        .column("", "Std. Dev.", Dim::None, Digits::Scientific(6), |row| row.moments.map(|(_, deviation)| deviation))
+        .column("", "Minimum", Dim::None, Digits::Scientific(6), |row| row.low.map(|(_, value)| value))
+        .column("", &at_name, at_dim, at_digits, |row| place(row.low))
+        .column("", "Maximum", Dim::None, Digits::Scientific(6), |row| row.high.map(|(_, value)| value))
+        .column("", &at_name, at_dim, at_digits, |row| place(row.high))
+        .build()
+}
+
+/// What the numbers of a column come to.
+struct Extent<'t> {
+    column: &'t Column,
+    /// Cells with a number.
+    count: usize,
+    /// Mean and standard deviation, of a column with numbers.
+    moments: Option<(f64, f64)>,
+    /// Row and value of the least number, and of the greatest.
+    low: Option<(usize, f64)>,
+    high: Option<(usize, f64)>,
+}
+
+impl<'t> Extent<'t> {
+    fn new(column: &'t Column) -> Self {
+        let numbered = column.cells.iter().enumerate();
+        let values: Vec<(usize, f64)> = numbered.filter_map(|(row, cell)| Some((row, cell.number()?))).collect();
         let count = values.len();
         let mean = values.iter().map(|(_, v)| v).sum::<f64>() / count as f64;
         let variance = values.iter().map(|(_, v)| (v - mean).powi(2)).sum::<f64>() / count as f64;
-        let low = values.iter().copied().min_by(|a, b| a.1.total_cmp(&b.1));
-        let high = values.iter().copied().max_by(|a, b| a.1.total_cmp(&b.1));
-        let place = |extreme: Option<(usize, f64)>| match (extreme, at) {
-            (Some((row, _)), Some(c)) => c.cells.get(row).cloned().unwrap_or(Cell::Missing),
-            (Some((row, _)), None) => Cell::from(row + 1),
-            (None, _) => Cell::Missing,
-        };
-        let number = |v: f64| if count == 0 { Cell::Missing } else { Cell::Number(v) };
-        let row = vec![
-            Cell::Text(super::columns::long_name(column)),
-            Cell::Missing,
-            Cell::from(count),
-            number(mean),
-            number(variance.sqrt()),
-            low.map(|l| l.1).into(),
-            place(low),
-            high.map(|h| h.1).into(),
-            place(high),
-        ];
-        // the row has one cell a column, made just above
-        let _ = out.push(row);
+        Extent {
+            column,
+            count,
+            moments: (count > 0).then(|| (mean, variance.sqrt())),
+            low: values.iter().copied().min_by(|a, b| a.1.total_cmp(&b.1)),
+            high: values.iter().copied().max_by(|a, b| a.1.total_cmp(&b.1)),
+        }
     }
-    out
 }
 
 /// The same in user units, for printing: each described column keeps its own unit, named in the `Unit` column.
@@ -125,38 +133,30 @@ fn independent(table: &Table) -> Dim {
 /// # Errors
 /// A value that is not finite or too large.
 pub fn cycles(table: &Table, units: UnitSystem) -> Result<Table, SeriesError> {
-    let mut out = Table::new("Shape and Cycles about the Mean")
-        .column("", "Column", Dim::None, Digits::Usual)
-        .column("", "Unit", Dim::None, Digits::Usual)
-        .column("", "RMS", Dim::None, Digits::Scientific(6))
-        .column("", "Skewness", Dim::None, Digits::Decimals(4))
-        .column("", "Kurtosis", Dim::None, Digits::Decimals(4))
-        .column("", "Cycles", Dim::None, Digits::Usual)
-        .column("", "Period", independent(table), Digits::Decimals(4));
-    for name in ["2 Std. Dev.", "1/3 Range", "1/10 Range"] {
-        out = out.column("", name, Dim::None, Digits::Scientific(6));
-    }
-    let mut dims = Vec::new();
+    let (mut rows, mut dims) = (Vec::new(), Vec::new());
     for series in described(table) {
-        let known = series.known()?;
-        let moments = |of: fn(&Moments) -> f64| Cell::from(known.as_ref().map(|(m, _)| of(m)));
-        let crossings = known.as_ref().and_then(|(_, c)| c.as_ref());
         dims.push(series.column.dim);
-        let row = vec![
-            Cell::Text(super::columns::long_name(series.column)),
-            Cell::Missing,
-            moments(|m| m.rms),
-            moments(|m| m.skewness),
-            moments(|m| m.kurtosis),
-            crossings.map(|c| c.waves.len()).into(),
-            crossings.and_then(Crossings::period).into(),
-            moments(|m| 2.0 * m.deviation),
-            crossings.and_then(|c| c.mean_of_highest(1.0 / 3.0)).into(),
-            crossings.and_then(|c| c.mean_of_highest(0.1)).into(),
-        ];
-        // the row has one cell a column, made just above
-        let _ = out.push(row);
+        let known = series.known()?;
+        let (moments, crossings) = known.map_or((None, None), |(moments, crossings)| (Some(moments), crossings));
+        rows.push((series.column, moments, crossings));
     }
+    let out = Table::new("Shape and Cycles about the Mean")
+        .with_rows(&rows)
+        .text("Column", |(column, ..)| super::columns::long_name(column))
+        .text("Unit", |_| Cell::Missing)
+        .column("", "RMS", Dim::None, Digits::Scientific(6), |(_, m, _)| m.as_ref().map(|m| m.rms))
+        .column("", "Skewness", Dim::None, Digits::Decimals(4), |(_, m, _)| m.as_ref().map(|m| m.skewness))
+        .column("", "Kurtosis", Dim::None, Digits::Decimals(4), |(_, m, _)| m.as_ref().map(|m| m.kurtosis))
+        .column("", "Cycles", Dim::None, Digits::Usual, |(.., c)| c.as_ref().map(|c| c.waves.len()))
+        .column("", "Period", independent(table), Digits::Decimals(4), |(.., c)| c.as_ref().and_then(Crossings::period))
+        .column("", "2 Std. Dev.", Dim::None, Digits::Scientific(6), |(_, m, _)| m.as_ref().map(|m| 2.0 * m.deviation))
+        .column("", "1/3 Range", Dim::None, Digits::Scientific(6), |(.., c)| {
+            c.as_ref().and_then(|c| c.mean_of_highest(1.0 / 3.0))
+        })
+        .column("", "1/10 Range", Dim::None, Digits::Scientific(6), |(.., c)| {
+            c.as_ref().and_then(|c| c.mean_of_highest(0.1))
+        })
+        .build();
     Ok(by_row(out, &["RMS", "2 Std. Dev.", "1/3 Range", "1/10 Range"], &dims, units))
 }
 
@@ -168,14 +168,7 @@ pub fn expected_extremes(table: &Table, duration: f64, units: UnitSystem) -> Res
     if table.columns.len() < 2 || independent(table) != Dim::Time {
         return Err(SeriesError::Refused("-DURATION asks for a first column of time".into()));
     }
-    let mut out = Table::new(format!("Extremes in {} hours by Rayleigh", duration / 3600.0))
-        .column("", "Column", Dim::None, Digits::Usual)
-        .column("", "Unit", Dim::None, Digits::Usual);
-    let names = ["Prob. Max.", "Exp. Max.", "Prob. Min.", "Exp. Min."];
-    for name in names {
-        out = out.column("", name, Dim::None, Digits::Scientific(6));
-    }
-    let mut dims = Vec::new();
+    let (mut rows, mut dims) = (Vec::new(), Vec::new());
     for series in described(table) {
         let name = super::columns::long_name(series.column);
         let Some((m, Some(period))) = series.known()?.map(|(m, c)| (m, c.and_then(|c| c.period()))) else {
@@ -183,11 +176,16 @@ pub fn expected_extremes(table: &Table, duration: f64, units: UnitSystem) -> Res
         };
         let above = rayleigh(0.0, m.deviation, period, duration)?;
         let (most, expected) = (above.most_probable, above.expected);
-        let values = [m.mean + most, m.mean + expected, m.mean - most, m.mean - expected];
         dims.push(series.column.dim);
-        // the row has one cell a column, made just above
-        let _ = out.push([Cell::Text(name), Cell::Missing].into_iter().chain(values.map(Cell::Number)).collect());
+        rows.push((name, [m.mean + most, m.mean + expected, m.mean - most, m.mean - expected]));
     }
+    let names = ["Prob. Max.", "Exp. Max.", "Prob. Min.", "Exp. Min."];
+    let out = Table::new(format!("Extremes in {} hours by Rayleigh", duration / 3600.0))
+        .with_rows(&rows)
+        .text("Column", |(name, _)| name)
+        .text("Unit", |_| Cell::Missing)
+        .columns("", names, Dim::None, Digits::Scientific(6), |(_, values)| *values)
+        .build();
     Ok(by_row(out, &names, &dims, units))
 }
 
@@ -196,7 +194,7 @@ pub fn expected_extremes(table: &Table, duration: f64, units: UnitSystem) -> Res
 /// # Errors
 /// A first column that does not grow; a value that is not finite.
 pub fn peaks(table: &Table) -> Result<Table, SeriesError> {
-    let mut out = Table::new("Maxima and Minima between Crossings of the Mean");
+    let mut columns = Vec::new();
     let at = independent(table);
     for series in described(table) {
         let name = super::columns::long_name(series.column);
@@ -204,19 +202,11 @@ pub fn peaks(table: &Table) -> Result<Table, SeriesError> {
             return Err(SeriesError::Refused(format!("the peaks of {name} need a first column that grows")));
         };
         for (head, peaks) in [("Maximum", &found.maxima), ("Minimum", &found.minima)] {
-            for (head, dim, of) in
-                [("at", at, (|p| p.time) as fn(&Peak) -> f64), (head, series.column.dim, |p: &Peak| p.value)]
-            {
-                out = out.column(&name, head, dim, Digits::Usual);
-                if let Some(column) = out.columns.last_mut() {
-                    column.cells = peaks.iter().map(|p| Cell::Number(of(p))).collect();
-                }
-            }
+            columns.push(Column::new(&name, "at", at, Digits::Usual, peaks.iter().map(|p| p.time)));
+            columns.push(Column::new(&name, head, series.column.dim, Digits::Usual, peaks.iter().map(|p| p.value)));
         }
     }
-    let rows = out.columns.iter().map(|c| c.cells.len()).max().unwrap_or(0);
-    out.columns.iter_mut().for_each(|c| c.cells.resize(rows, Cell::Missing));
-    Ok(out)
+    Ok(Table::from_columns("Maxima and Minima between Crossings of the Mean", columns))
 }
 
 /// What each series of a record comes to by the moments of its spectrum, in user units.
@@ -224,32 +214,26 @@ pub fn peaks(table: &Table) -> Result<Table, SeriesError> {
 /// # Errors
 /// As [`tables::moments`].
 pub fn spectral(record: &Record, length: Option<usize>, units: UnitSystem) -> Result<Table, SeriesError> {
-    let mut out = Table::new("Moments of the Spectrum")
-        .column("", "Column", Dim::None, Digits::Usual)
-        .column("", "Unit", Dim::None, Digits::Usual)
-        .column("", "Std. Dev.", Dim::None, Digits::Scientific(6));
-    for name in ["Tp", "T1", "Tz"] {
-        out = out.column("", name, Dim::Time, Digits::Decimals(4));
-    }
-    for name in ["Bandwidth", "Width"] {
-        out = out.column("", name, Dim::None, Digits::Decimals(4));
-    }
-    let powers = ["m0", "m1", "m2", "m4"];
-    for name in powers {
-        out = out.column("", name, Dim::None, Digits::Scientific(6));
-    }
-    let mut dims = Vec::new();
-    for ((name, found), series) in tables::moments(record, length)?.into_iter().zip(&record.series) {
-        let square = |m: f64| Cell::Number(series.dim.from_si(series.dim.from_si(m, units), units));
-        dims.push(series.dim);
-        let [m0, ..] = found.m;
-        let mut row = vec![Cell::Text(name), Cell::Missing, Cell::Number(m0.sqrt())];
-        let rest = [found.peak_period, found.mean_period, found.zero_crossing_period, found.bandwidth, found.width];
-        row.extend(rest.map(Cell::Number));
-        row.extend(found.m.map(square));
-        // the row has one cell a column, made just above
-        let _ = out.push(row);
-    }
+    let dims: Vec<Dim> = record.series.iter().map(|s| s.dim).collect();
+    let rows: Vec<_> = tables::moments(record, length)?.into_iter().zip(&dims).collect();
+    let square = |dim: &Dim, m: f64| dim.from_si(dim.from_si(m, units), units);
+    let out = Table::new("Moments of the Spectrum")
+        .with_rows(&rows)
+        .text("Column", |((name, _), _)| name)
+        .text("Unit", |_| Cell::Missing)
+        .column("", "Std. Dev.", Dim::None, Digits::Scientific(6), |((_, found), _)| {
+            let [m0, ..] = found.m;
+            m0.sqrt()
+        })
+        .column("", "Tp", Dim::Time, Digits::Decimals(4), |((_, found), _)| found.peak_period)
+        .column("", "T1", Dim::Time, Digits::Decimals(4), |((_, found), _)| found.mean_period)
+        .column("", "Tz", Dim::Time, Digits::Decimals(4), |((_, found), _)| found.zero_crossing_period)
+        .column("", "Bandwidth", Dim::None, Digits::Decimals(4), |((_, found), _)| found.bandwidth)
+        .column("", "Width", Dim::None, Digits::Decimals(4), |((_, found), _)| found.width)
+        .columns("", ["m0", "m1", "m2", "m4"], Dim::None, Digits::Scientific(6), |((_, found), dim)| {
+            found.m.map(|m| square(dim, m))
+        })
+        .build();
     Ok(by_row(out, &["Std. Dev."], &dims, units))
 }
 
@@ -259,10 +243,11 @@ mod tests {
 
     #[test]
     fn mean_deviation_and_extremes_with_their_places() {
-        let mut t = Table::new("t").column("", "X", Dim::None, Digits::Usual).column("", "Y", Dim::None, Digits::Usual);
-        for (x, y) in [(10.0, 1.0), (20.0, 5.0), (30.0, 3.0)] {
-            t.push(vec![x.into(), y.into()]).unwrap();
-        }
+        let t = Table::new("t")
+            .with_rows(&[(10.0, 1.0), (20.0, 5.0), (30.0, 3.0)])
+            .column("", "X", Dim::None, Digits::Usual, |(x, _)| *x)
+            .column("", "Y", Dim::None, Digits::Usual, |(_, y)| *y)
+            .build();
         let s = table(&t, Some(0), &[1]);
         let values: Vec<Option<f64>> = s.row(0).iter().map(|c| c.number()).collect();
         assert_eq!(values[3], Some(3.0));
@@ -273,13 +258,14 @@ mod tests {
     #[test]
     fn cycles_extremes_and_peaks_of_a_sine_in_feet() {
         let us = UnitSystem::default();
-        let mut t =
-            Table::new("t").column("", "Time", Dim::Time, Digits::Usual).column("", "Z", Dim::Length, Digits::Usual);
-        for i in 0..=1000 {
-            let time = 0.1 * f64::from(i);
-            let z = 3.0 + 2.0 * (std::f64::consts::TAU * time / 10.0 + 0.5).sin();
-            t.push(vec![time.into(), Dim::Length.to_si(z, us).into()]).unwrap();
-        }
+        let times: Vec<f64> = (0..=1000).map(|i| 0.1 * f64::from(i)).collect();
+        let mut t = Table::new("t")
+            .with_rows(&times)
+            .column("", "Time", Dim::Time, Digits::Usual, |time| *time)
+            .column("", "Z", Dim::Length, Digits::Usual, |time| {
+                Dim::Length.to_si(3.0 + 2.0 * (std::f64::consts::TAU * time / 10.0 + 0.5).sin(), us)
+            })
+            .build();
         let number = |t: &Table, name: &str| t.get(name).unwrap().numbers()[0];
         let c = cycles(&t, us).unwrap();
         // the samples miss the crest by half a step of 0.1 s at most

@@ -111,7 +111,7 @@ impl Session {
         }
         let unit = deck.units().map_or("", |units| units.name);
         // a deck always makes its tables (their rows are made with them)
-        for table in deck.data_tables().unwrap_or_default() {
+        for table in deck.data_tables() {
             lines.push(format!("\n {} ({unit})\n", table.title));
             lines.extend(page::grid(&table, self.job.units));
         }

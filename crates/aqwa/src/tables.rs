@@ -1,8 +1,9 @@
 //! The tables of the listing that show the data of decks 1 to 5, in the units of the deck.
 
 use super::Deck;
-use super::elements::{Shape, Structure};
-use windlass_base::table::{Cell, Digits, Table, TableError};
+use super::elements::{Element, Shape, Structure};
+use super::properties::Geometry;
+use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 
 const WHOLE: Digits = Digits::Decimals(0);
@@ -12,75 +13,59 @@ const FIVE: Digits = Digits::Scientific(5);
 impl Deck {
     /// The tables of the listing for decks 1 to 5: coordinates, the elements of each structure, materials, geometries,
     /// global parameters, and mass and inertia of each structure.
-    ///
-    /// # Errors
-    /// Never from a deck; [`TableError`] if a row did not fit its table.
-    pub fn data_tables(&self) -> Result<Vec<Table>, TableError> {
-        let mut list = vec![self.coordinates()?];
-        for structure in &self.structures {
-            list.push(topology(structure)?);
-        }
-        list.push(self.material_table()?);
-        list.push(self.geometry_table()?);
-        list.push(self.global_table());
-        for structure in &self.structures {
-            list.push(self.mass_table(structure)?);
-        }
-        Ok(list)
+    pub fn data_tables(&self) -> Vec<Table> {
+        let mut list = vec![self.coordinates()];
+        list.extend(self.structures.iter().map(topology));
+        list.extend([self.material_table(), self.geometry_table(), self.global_table()]);
+        list.extend(self.structures.iter().map(|structure| self.mass_table(structure)));
+        list
     }
 
-    fn coordinates(&self) -> Result<Table, TableError> {
-        let mut table = Table::new("Coordinate Data")
-            .column("Input", "Sequence", Dim::None, WHOLE)
-            .column("Node", "Number", Dim::None, WHOLE)
-            .column("", "X", Dim::None, PLACE)
-            .column("", "Y", Dim::None, PLACE)
-            .column("", "Z", Dim::None, PLACE);
-        for (index, (number, node)) in self.nodes.iter().enumerate() {
-            let [x, y, z] = node.position;
-            table.push(vec![(index + 1).into(), Cell::Integer(*number), x.into(), y.into(), z.into()])?;
-        }
-        Ok(table)
+    fn coordinates(&self) -> Table {
+        let nodes: Vec<_> = self.nodes.iter().enumerate().collect();
+        Table::new("Coordinate Data")
+            .with_rows(&nodes)
+            .column("Input", "Sequence", Dim::None, WHOLE, |(index, _)| index + 1)
+            .column("Node", "Number", Dim::None, WHOLE, |(_, (number, _))| **number)
+            .columns("", ["X", "Y", "Z"], Dim::None, PLACE, |(_, (_, node))| node.position)
+            .build()
     }
 
-    fn material_table(&self) -> Result<Table, TableError> {
-        let mut table = Table::new("Material Properties")
-            .column("Group", "Number", Dim::None, WHOLE)
-            .column("", "Density/Param 1", Dim::None, FIVE)
-            .column("", "Param 2", Dim::None, FIVE)
-            .column("", "Param 3", Dim::None, FIVE);
-        for (number, material) in &self.materials {
-            let mut row = vec![Cell::Integer(*number)];
-            row.extend(material.properties.map(|field| Cell::Number(field.value)));
-            table.push(row)?;
-        }
-        Ok(table)
+    fn material_table(&self) -> Table {
+        let materials: Vec<_> = self.materials.iter().collect();
+        Table::new("Material Properties")
+            .with_rows(&materials)
+            .column("Group", "Number", Dim::None, WHOLE, |(number, _)| **number)
+            .columns("", ["Density/Param 1", "Param 2", "Param 3"], Dim::None, FIVE, |(_, material)| {
+                material.properties.map(|field| field.value)
+            })
+            .build()
     }
 
-    fn geometry_table(&self) -> Result<Table, TableError> {
-        let mut table = Table::new("Geometric Properties")
-            .column("Input", "Sequence", Dim::None, WHOLE)
-            .column("Group", "Number", Dim::None, WHOLE)
-            .column("Element", "Type", Dim::None, WHOLE);
-        for name in ["1", "2", "3", "4", "5", "6"] {
-            table = table.column("Geometric Parameter", name, Dim::None, FIVE);
-        }
-        table = table.column("Drag", "Cd", Dim::None, Digits::Decimals(2)).column(
-            "Added Mass",
-            "Cm",
-            Dim::None,
-            Digits::Decimals(2),
-        );
-        for (index, geometry) in self.geometries.values().enumerate() {
-            let mut row: Vec<Cell> =
-                vec![(index + 1).into(), Cell::Integer(geometry.group), geometry.shape.keyword().into()];
-            row.extend(geometry.parameters.map(|field| Cell::Number(field.value)));
-            let mass = geometry.shape == Shape::PointMass;
-            row.push(Cell::Number(if mass { 0.0 } else { geometry.drag() }));
-            row.push(Cell::Number(if mass { 0.0 } else { geometry.added_mass() }));
-            table.push(row)?;
-        }
-        Ok(table)
+    fn geometry_table(&self) -> Table {
+        let geometries: Vec<_> = self.geometries.values().enumerate().collect();
+        let is_mass = |geometry: &Geometry| geometry.shape == Shape::PointMass;
+        Table::new("Geometric Properties")
+            .with_rows(&geometries)
+            .column("Input", "Sequence", Dim::None, WHOLE, |(index, _)| index + 1)
+            .column("Group", "Number", Dim::None, WHOLE, |(_, geometry)| geometry.group)
+            .column("Element", "Type", Dim::None, WHOLE, |(_, geometry)| geometry.shape.keyword())
+            .columns("Geometric Parameter", ["1", "2", "3", "4", "5", "6"], Dim::None, FIVE, |(_, geometry)| {
+                geometry.parameters.map(|field| field.value)
+            })
+            .column(
+                "Drag",
+                "Cd",
+                Dim::None,
+                Digits::Decimals(2),
+                |(_, geometry)| {
+                    if is_mass(geometry) { 0.0 } else { geometry.drag() }
+                },
+            )
+            .column("Added Mass", "Cm", Dim::None, Digits::Decimals(2), |(_, geometry)| {
+                if is_mass(geometry) { 0.0 } else { geometry.added_mass() }
+            })
+            .build()
     }
 
     fn global_table(&self) -> Table {
@@ -90,24 +75,19 @@ impl Deck {
             .fact("Acceleration due to Gravity", self.global.gravity, Dim::None)
     }
 
-    fn mass_table(&self, structure: &Structure) -> Result<Table, TableError> {
+    fn mass_table(&self, structure: &Structure) -> Table {
         let found = self.mass_properties(structure);
         let gravity = self.global.gravity;
+        let mut rows: Vec<(&str, usize, f64)> =
+            found.kinds.iter().map(|kind| (kind.shape.keyword(), kind.count, kind.mass)).collect();
+        rows.push(("Total", found.kinds.iter().map(|kind| kind.count).sum(), found.mass));
         let mut table = Table::new(format!("Mass and Inertia Properties of Structure {}", structure.number))
-            .column("Element", "Type", Dim::None, WHOLE)
-            .column("Number of", "Elements", Dim::None, WHOLE)
-            .column("", "Mass", Dim::None, FIVE)
-            .column("", "Weight", Dim::None, FIVE);
-        for kind in &found.kinds {
-            table.push(vec![
-                kind.shape.keyword().into(),
-                kind.count.into(),
-                kind.mass.into(),
-                (kind.mass * gravity).into(),
-            ])?;
-        }
-        let count: usize = found.kinds.iter().map(|kind| kind.count).sum();
-        table.push(vec!["Total".into(), count.into(), found.mass.into(), (found.mass * gravity).into()])?;
+            .with_rows(&rows)
+            .column("Element", "Type", Dim::None, WHOLE, |(kind, _, _)| *kind)
+            .column("Number of", "Elements", Dim::None, WHOLE, |(_, count, _)| *count)
+            .column("", "Mass", Dim::None, FIVE, |(_, _, mass)| *mass)
+            .column("", "Weight", Dim::None, FIVE, |(_, _, mass)| mass * gravity)
+            .build();
         for (name, value) in ["X", "Y", "Z"].into_iter().zip(found.centre) {
             table = table.fact(&format!("Centre of Gravity {name}"), value, Dim::None);
         }
@@ -118,24 +98,21 @@ impl Deck {
                 table = table.fact(&name, *value, Dim::None);
             }
         }
-        Ok(table)
+        table
     }
 }
 
-fn topology(structure: &Structure) -> Result<Table, TableError> {
-    let mut table = Table::new(format!("Element Topology for Structure {}", structure.number))
-        .column("Element", "Number", Dim::None, WHOLE)
-        .column("Element", "Type", Dim::None, WHOLE);
-    for name in ["1", "2", "3", "4"] {
-        table = table.column("Node Number", name, Dim::None, WHOLE);
-    }
-    table = table.column("Material", "Number", Dim::None, WHOLE).column("Geometry", "Number", Dim::None, WHOLE);
-    for (index, element) in structure.elements.iter().enumerate() {
-        let mut row: Vec<Cell> = vec![(index + 1).into(), element.shape.keyword().into()];
-        row.extend((0..4).map(|k| Cell::Integer(element.nodes.get(k).copied().unwrap_or(0))));
-        row.push(Cell::Integer(element.material));
-        row.push(Cell::Integer(element.geometry));
-        table.push(row)?;
-    }
-    Ok(table)
+fn topology(structure: &Structure) -> Table {
+    let elements: Vec<(usize, &Element)> = structure.elements.iter().enumerate().collect();
+    Table::new(format!("Element Topology for Structure {}", structure.number))
+        .with_rows(&elements)
+        .column("Element", "Number", Dim::None, WHOLE, |(index, _)| index + 1)
+        .column("Element", "Type", Dim::None, WHOLE, |(_, element)| element.shape.keyword())
+        .columns("Node Number", ["1", "2", "3", "4"], Dim::None, WHOLE, |(_, element)| {
+            // an element with fewer nodes is listed with 0 in their place
+            [0, 1, 2, 3].map(|k| element.nodes.get(k).copied().unwrap_or(0))
+        })
+        .column("Material", "Number", Dim::None, WHOLE, |(_, element)| element.material)
+        .column("Geometry", "Number", Dim::None, WHOLE, |(_, element)| element.geometry)
+        .build()
 }

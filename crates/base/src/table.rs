@@ -93,6 +93,18 @@ impl From<usize> for Cell {
     }
 }
 
+impl From<i64> for Cell {
+    fn from(value: i64) -> Self {
+        Cell::Integer(value)
+    }
+}
+
+impl From<&String> for Cell {
+    fn from(value: &String) -> Self {
+        Cell::Text(value.clone())
+    }
+}
+
 impl From<&str> for Cell {
     fn from(value: &str) -> Self {
         Cell::Text(value.to_string())
@@ -121,6 +133,18 @@ impl Table {
     pub fn column(mut self, group: &str, name: &str, dim: Dim, digits: Digits) -> Self {
         self.columns.push(Column { name: name.into(), group: group.into(), dim, digits, cells: Vec::new() });
         self
+    }
+
+    /// A table of complete columns. Columns shorter than the longest end in missing cells.
+    pub fn from_columns(title: impl Into<String>, mut columns: Vec<Column>) -> Self {
+        let rows = columns.iter().map(|c| c.cells.len()).max().unwrap_or(0);
+        columns.iter_mut().for_each(|c| c.cells.resize(rows, Cell::Missing));
+        Table { title: title.into(), columns, ..Table::default() }
+    }
+
+    /// Begins the columns of a table whose rows these are.
+    pub fn with_rows<R>(self, rows: &[R]) -> TableBuilder<'_, R> {
+        TableBuilder { table: self, rows }
     }
 
     /// Adds a fact to the sub-header; returns the table for chaining.
@@ -170,7 +194,93 @@ impl Table {
     }
 }
 
+/// A table under construction: its rows are known, its columns are added one by one, each with the cell it takes from a
+/// row. A row with a cell too many or too few cannot exist.
+///
+/// ```
+/// use windlass_base::table::{Digits, Table};
+/// use windlass_base::units::Dim;
+///
+/// let lines = [("A", 500.0, [1e3, 2e3]), ("B", 600.0, [3e3, 4e3])];
+/// let table = Table::new("Lines")
+///     .with_rows(&lines)
+///     .text("Name", |(name, _, _)| *name)
+///     .column("", "Length", Dim::Length, Digits::Usual, |(_, length, _)| *length)
+///     .columns("Tension", ["Top", "Anchor"], Dim::Force, Digits::Usual, |(_, _, tension)| *tension)
+///     .build();
+/// assert_eq!(table.rows(), 2);
+/// assert_eq!(table.columns[3].numbers(), [2e3, 4e3]);
+/// ```
+#[derive(Debug)]
+pub struct TableBuilder<'r, R> {
+    table: Table,
+    rows: &'r [R],
+}
+
+impl<'r, R> TableBuilder<'r, R> {
+    /// Adds a column under a group head (empty text for none) with the cell of each row, SI.
+    pub fn column<C: Into<Cell>>(
+        mut self,
+        group: &str,
+        name: &str,
+        dim: Dim,
+        digits: Digits,
+        cell: impl FnMut(&'r R) -> C,
+    ) -> Self {
+        self.table.columns.push(Column::new(group, name, dim, digits, self.rows.iter().map(cell)));
+        self
+    }
+
+    /// Adds a column of words, under no group head.
+    pub fn text<C: Into<Cell>>(self, name: &str, cell: impl FnMut(&'r R) -> C) -> Self {
+        self.column("", name, Dim::None, Digits::Usual, cell)
+    }
+
+    /// Adds columns of one group, dimension and digits with the cells of each row, SI: the components of a vector.
+    pub fn columns<C: Into<Cell>, const N: usize>(
+        mut self,
+        group: &str,
+        names: [&str; N],
+        dim: Dim,
+        digits: Digits,
+        mut cells: impl FnMut(&'r R) -> [C; N],
+    ) -> Self {
+        let mut columns =
+            names.map(|name| Column { name: name.into(), group: group.into(), dim, digits, cells: Vec::new() });
+        for row in self.rows {
+            for (column, cell) in columns.iter_mut().zip(cells(row)) {
+                column.cells.push(cell.into());
+            }
+        }
+        self.table.columns.extend(columns);
+        self
+    }
+
+    /// Adds a fact to the sub-header; returns the table for chaining.
+    pub fn fact(mut self, name: &str, value: impl Into<Cell>, dim: Dim) -> Self {
+        self.table = self.table.fact(name, value, dim);
+        self
+    }
+
+    /// The table with the columns added so far.
+    pub fn build(self) -> Table {
+        self.table
+    }
+}
+
 impl Column {
+    /// A column under a group head (empty text for none) with its cells, SI.
+    pub fn new(
+        group: &str,
+        name: &str,
+        dim: Dim,
+        digits: Digits,
+        cells: impl IntoIterator<Item = impl Into<Cell>>,
+    ) -> Self {
+        let cells = cells.into_iter().map(Into::into).collect();
+        Column { name: name.into(), group: group.into(), dim, digits, cells }
+    }
+
     /// The numbers of the column, SI; cells without one are skipped.
     pub fn numbers(&self) -> Vec<f64> {
         self.cells.iter().filter_map(Cell::number).collect()

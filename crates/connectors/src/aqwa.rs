@@ -11,7 +11,7 @@ use super::{ClassKind, append_all, checks};
 use std::f64::consts::{FRAC_PI_4, PI};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
-use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_base::values::{Args, Given};
 use windlass_catenary::{Floor, Joint, Line, Segment, StretchLaw};
@@ -222,44 +222,29 @@ impl ConnectorClass for CatenaryClass {
     }
 
     fn properties(&self, name: &str, surroundings: &Surroundings) -> Table {
-        let mut table = Table::new(format!("Class {name}"))
+        let sections: Vec<(usize, &CatenarySection)> = self.sections.iter().enumerate().collect();
+        Table::new(format!("Class {name}"))
             .fact("Type", "CATENARY (AQWA, in kg, m, N)", Dim::None)
-            .column("", "Section", Dim::None, Digits::Usual)
-            .column("", "Length", Dim::Metres, Digits::Usual)
-            .column("", "Mass/L", Dim::MassPerLength, Digits::Usual)
-            .column("", "Area", Dim::SquareMetres, Digits::Usual)
-            .column("", "W/L in Water", Dim::None, Digits::Decimals(2))
-            .column("", "EA", Dim::Newtons, Digits::Scientific(5))
-            .column("", "Max. Tension", Dim::Newtons, Digits::Scientific(5))
-            .column("", "EI", Dim::NewtonSquareMetres, Digits::Scientific(4))
-            .column("Coefficients", "Ca", Dim::None, Digits::Decimals(3))
-            .column("Coefficients", "Cd", Dim::None, Digits::Decimals(3))
-            .column("Coefficients", "Cx", Dim::None, Digits::Decimals(3))
-            .column("", "De", Dim::Metres, Digits::Decimals(4))
-            .column("Joint", "Type", Dim::None, Digits::Usual)
-            .column("Joint", "Net Weight", Dim::Newtons, Digits::Usual);
-        for (index, s) in self.sections.iter().enumerate() {
-            let water = (s.mass - surroundings.water_density * s.area) * surroundings.gravity;
-            let row: Vec<Cell> = vec![
-                (index + 1).into(),
-                s.length.into(),
-                s.mass.into(),
-                s.area.into(),
-                water.into(),
-                s.ea.into(),
-                s.largest.into(),
-                s.ei.into(),
-                s.ca.into(),
-                s.cd.into(),
-                s.cx.into(),
-                s.diameter.into(),
-                s.joint.map(|j| j.0).into(),
-                s.joint.map(|j| j.1 * surroundings.gravity).into(),
-            ];
-            // the row has one cell a column, made just above
-            let _ = table.push(row);
-        }
-        table
+            .with_rows(&sections)
+            .column("", "Section", Dim::None, Digits::Usual, |(index, _)| index + 1)
+            .column("", "Length", Dim::Metres, Digits::Usual, |(_, s)| s.length)
+            .column("", "Mass/L", Dim::MassPerLength, Digits::Usual, |(_, s)| s.mass)
+            .column("", "Area", Dim::SquareMetres, Digits::Usual, |(_, s)| s.area)
+            .column("", "W/L in Water", Dim::None, Digits::Decimals(2), |(_, s)| {
+                (s.mass - surroundings.water_density * s.area) * surroundings.gravity
+            })
+            .column("", "EA", Dim::Newtons, Digits::Scientific(5), |(_, s)| s.ea)
+            .column("", "Max. Tension", Dim::Newtons, Digits::Scientific(5), |(_, s)| s.largest)
+            .column("", "EI", Dim::NewtonSquareMetres, Digits::Scientific(4), |(_, s)| s.ei)
+            .column("Coefficients", "Ca", Dim::None, Digits::Decimals(3), |(_, s)| s.ca)
+            .column("Coefficients", "Cd", Dim::None, Digits::Decimals(3), |(_, s)| s.cd)
+            .column("Coefficients", "Cx", Dim::None, Digits::Decimals(3), |(_, s)| s.cx)
+            .column("", "De", Dim::Metres, Digits::Decimals(4), |(_, s)| s.diameter)
+            .column("Joint", "Type", Dim::None, Digits::Usual, |(_, s)| s.joint.map(|j| j.0))
+            .column("Joint", "Net Weight", Dim::Newtons, Digits::Usual, |(_, s)| {
+                s.joint.map(|j| j.1 * surroundings.gravity)
+            })
+            .build()
     }
 
     fn anchor_depth(&self, surroundings: &Surroundings) -> Option<f64> {

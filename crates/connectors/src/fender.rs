@@ -14,7 +14,7 @@ use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::Place;
 use windlass_base::span::Span;
-use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_base::values::Args;
 use windlass_language::select::Owner;
@@ -214,17 +214,15 @@ impl ConnectorClass for Fender {
             table = table.fact("Friction", mu, Dim::None);
         }
         let [x, y, z] = self.normal.into();
-        table = table
-            .fact("Normal", format!("{x:.3} {y:.3} {z:.3}"), Dim::None)
-            .column("", "Deflection", Dim::Length, Digits::Decimals(4))
-            .column("", "Reaction", Dim::Force, Digits::Usual)
-            .column("", "Energy", Dim::Moment, Digits::Usual);
-        for (reaction, deflection) in self.curve.iter() {
-            let energy = reaction_and_energy(&self.curve, *deflection).1;
-            // the row has one cell a column, made just above
-            let _ = table.push([*deflection, *reaction, energy].map(Cell::from).into());
-        }
         table
+            .fact("Normal", format!("{x:.3} {y:.3} {z:.3}"), Dim::None)
+            .with_rows(&self.curve)
+            .column("", "Deflection", Dim::Length, Digits::Decimals(4), |(_, deflection)| *deflection)
+            .column("", "Reaction", Dim::Force, Digits::Usual, |(reaction, _)| *reaction)
+            .column("", "Energy", Dim::Moment, Digits::Usual, |(_, deflection)| {
+                reaction_and_energy(&self.curve, *deflection).1
+            })
+            .build()
     }
 
     fn first_length(&self) -> Option<f64> {

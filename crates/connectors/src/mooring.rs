@@ -6,7 +6,7 @@ use super::mooring_table::{buoy_word, report};
 use super::per_line::PerLineOptions;
 use super::section::LineSection;
 use windlass_base::span::Span;
-use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_catenary::{
     Aim, Heap, Joint, Line, LineError, MissingRow, Row, Segment, SegmentState, ShapePoint, State, StretchLaw, table,
@@ -311,25 +311,25 @@ impl LineModel for Mooring {
         if let Some((x, z)) = state.touchdown {
             out = out.fact("Touchdown at X", x, Dim::Length).fact("Touchdown at Z", z, Dim::Length);
         }
-        let mut out = out
-            .column("", "X", Dim::Length, Digits::Usual)
-            .column("", "Z", Dim::Length, Digits::Usual)
-            .column("", "Arc Length", Dim::Length, Digits::Usual)
-            .column("", "Segment", Dim::None, Digits::Usual)
-            .column("", "Tension", Dim::Force, Digits::Usual)
-            .column("Force", "Horizontal", Dim::Force, Digits::Usual)
-            .column("Force", "Vertical", Dim::Force, Digits::Usual)
-            .column("", "Angle", Dim::Angle, Digits::Usual)
-            .column("", "T/Break", Dim::None, Digits::Decimals(3))
-            .column("", "Bottom", Dim::Length, Digits::Usual)
-            .column("", "Surface", Dim::Length, Digits::Usual)
-            .column("", "Touchdown", Dim::Length, Digits::Usual)
-            .column("", "Joint", Dim::Length, Digits::Usual);
         let shape = self.line.shape(&state, SHAPE_POINTS);
-        for (index, point) in shape.iter().enumerate() {
-            // the row has one cell a column, made just above
-            let _ = out.push(self.shape_row(&state, point, shape.get(index + 1)));
-        }
+        let points: Vec<ProfilePoint> =
+            shape.iter().enumerate().map(|(i, point)| self.profile_point(&state, point, shape.get(i + 1))).collect();
+        let mut out = out
+            .with_rows(&points)
+            .column("", "X", Dim::Length, Digits::Usual, |p| p.point.x)
+            .column("", "Z", Dim::Length, Digits::Usual, |p| p.point.z)
+            .column("", "Arc Length", Dim::Length, Digits::Usual, |p| p.point.arc)
+            .column("", "Segment", Dim::None, Digits::Usual, |p| p.point.segment)
+            .column("", "Tension", Dim::Force, Digits::Usual, |p| p.point.tension())
+            .column("Force", "Horizontal", Dim::Force, Digits::Usual, |p| p.point.horizontal)
+            .column("Force", "Vertical", Dim::Force, Digits::Usual, |p| p.point.vertical)
+            .column("", "Angle", Dim::Angle, Digits::Usual, |p| p.point.angle())
+            .column("", "T/Break", Dim::None, Digits::Decimals(3), |p| p.breaking.map(|b| p.point.tension() / b))
+            .column("", "Bottom", Dim::Length, Digits::Usual, |p| p.bottom)
+            .column("", "Surface", Dim::Length, Digits::Usual, |_| self.surface)
+            .column("", "Touchdown", Dim::Length, Digits::Usual, |p| p.is_touchdown.then_some(p.point.z))
+            .column("", "Joint", Dim::Length, Digits::Usual, |p| p.is_joint.then_some(p.point.z))
+            .build();
         out.notes.extend(state.joints.iter().enumerate().filter_map(|(i, j)| {
             j.buoy.map(|b| format!("the buoy at the end of segment {} is {}", i + 1, buoy_word(b)))
         }));
@@ -398,31 +398,31 @@ impl Mooring {
         AbsentRow { number: row.number, error: self.error(&row.error) }
     }
 
-    fn shape_row(&self, state: &State, point: &ShapePoint, next: Option<&ShapePoint>) -> Vec<Cell> {
-        let bottom = self.line.bottom_at(state.x - point.x).or(self.bottom);
+    fn profile_point(&self, state: &State, point: &ShapePoint, next: Option<&ShapePoint>) -> ProfilePoint {
         let near = |x: f64, z: f64| (point.x - x).abs() + (point.z - z).abs() <= 1e-9 * (self.line.length() + x.abs());
-        let touchdown = state.touchdown.is_some_and(|(x, z)| near(x, z));
-        let joint = next.is_some_and(|n| n.segment > point.segment);
-        let limit = self.breaks.get(point.segment.saturating_sub(1)).copied();
         // less than what a solution is proven to is no force
         let force = |f: f64| if f.abs() <= 1e-9 * state.top_tension { 0.0 } else { f };
-        let point = ShapePoint { horizontal: force(point.horizontal), vertical: force(point.vertical), ..*point };
-        vec![
-            point.x.into(),
-            point.z.into(),
-            point.arc.into(),
-            point.segment.into(),
-            point.tension().into(),
-            point.horizontal.into(),
-            point.vertical.into(),
-            point.angle().into(),
-            limit.map(|l| point.tension() / l).into(),
-            bottom.into(),
-            self.surface.into(),
-            touchdown.then_some(point.z).into(),
-            joint.then_some(point.z).into(),
-        ]
+        ProfilePoint {
+            point: ShapePoint { horizontal: force(point.horizontal), vertical: force(point.vertical), ..*point },
+            breaking: self.breaks.get(point.segment.saturating_sub(1)).copied(),
+            bottom: self.line.bottom_at(state.x - point.x).or(self.bottom),
+            is_touchdown: state.touchdown.is_some_and(|(x, z)| near(x, z)),
+            is_joint: next.is_some_and(|n| n.segment > point.segment),
+        }
     }
+}
+
+/// A point of the table of a line's geometry.
+struct ProfilePoint {
+    point: ShapePoint,
+    /// Breaking tension of its segment (N).
+    breaking: Option<f64>,
+    /// Elevation of the bottom under it (m).
+    bottom: Option<f64>,
+    /// Whether the line touches the bottom here.
+    is_touchdown: bool,
+    /// Whether a segment ends here.
+    is_joint: bool,
 }
 
 /// Stretch beyond which a line over its break is too short for its ends: steel breaks below 0.02, nylon above 0.2, and that has its break

@@ -1,61 +1,46 @@
 //! The thirty rows of a mooring line as the table of `CONN_DESIGN TABLE`.
 
 use super::mooring::Mooring;
-use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
-use windlass_catenary::{Buoy, MissingRow, Row};
+use windlass_catenary::{Buoy, JointState, MissingRow, Row};
 use windlass_model::QUASI_STATIC;
 
 /// The twelve columns of TABLE [MOSES-RUNS con_d]; a row without a configuration has its force alone.
 pub fn report(mooring: &Mooring, connector: &str, found: &[Row], missing: &[MissingRow]) -> Table {
     let rows = numbered(found, missing);
     let bottom = mooring.line.floor().map(|f| f.elevation).or(mooring.bottom);
+    let force_of = |number: usize| missing.iter().find(|m| m.number == number).map(|m| m.force);
+    let outcomes: Vec<Result<&Row, Option<f64>>> =
+        rows.iter().enumerate().map(|(index, row)| row.ok_or_else(|| force_of(index + 1))).collect();
     let mut out = Table::new(format!("Properties of Line {connector}"))
         .fact("Model", QUASI_STATIC, Dim::None)
         .fact("Water Depth", bottom.map(|b| -b), Dim::Length)
         .fact("Fairlead Above Mean Water", mooring.fairlead(), Dim::Length)
         .fact("Length of First Segment", mooring.line.segments().first().map(|s| s.length), Dim::Length)
-        .column("", "X", Dim::Length, Digits::Usual)
-        .column("Horizontal", "Force", Dim::Force, Digits::Usual)
-        .column("Horizontal", "DF/DX", Dim::ForcePerLength, Digits::Decimals(3))
-        .column("Tension", "Ten Top", Dim::Force, Digits::Usual)
-        .column("Tension", "Max T/TB", Dim::None, Digits::Decimals(3))
-        .column("Tension", "Cri Break", Dim::Force, Digits::Usual)
-        .column("Tension", "Crit. Seg", Dim::None, Digits::Usual)
-        .column("Anchor", "V. Pull", Dim::Force, Digits::Usual)
-        .column("Anchor", "H. Pull", Dim::Force, Digits::Usual)
-        .column("", "Line on Bottom", Dim::Length, Digits::Usual)
-        .column("1st Connection", "Height Ab Anchor", Dim::Length, Digits::Usual)
-        .column("1st Connection", "Net Force Applied", Dim::Force, Digits::Usual);
-    for (number, row) in rows.iter().enumerate() {
-        let Some(row) = row else {
-            let force = missing.iter().find(|m| m.number == number + 1).map(|m| m.force);
-            let mut cells = vec![Cell::Missing; 12];
-            if let Some(cell) = cells.get_mut(1) {
-                *cell = force.into();
-            }
-            let _ = out.push(cells);
-            continue;
-        };
-        let s = &row.state;
-        let joint = s.joints.first();
-        let cells: Vec<Cell> = vec![
-            s.x.into(),
-            s.force.into(),
-            (1.0 / s.dx_dh).into(),
-            s.top_tension.into(),
-            row.ratio.into(),
-            row.critical_break.into(),
-            row.critical.into(),
-            s.anchor_vertical.into(),
-            s.anchor_horizontal.into(),
-            s.grounded_stretched.into(),
-            joint.map(|j| j.z - mooring.line.anchor()).into(),
-            joint.map(|j| j.lift).into(),
-        ];
-        // the row has one cell a column, made just above
-        let _ = out.push(cells);
-    }
+        .with_rows(&outcomes)
+        .column("", "X", Dim::Length, Digits::Usual, |row| row.ok().map(|r| r.state.x))
+        .column("Horizontal", "Force", Dim::Force, Digits::Usual, |row| match row {
+            Ok(row) => Some(row.state.force),
+            Err(force) => *force,
+        })
+        .column("Horizontal", "DF/DX", Dim::ForcePerLength, Digits::Decimals(3), |row| {
+            row.ok().map(|r| 1.0 / r.state.dx_dh)
+        })
+        .column("Tension", "Ten Top", Dim::Force, Digits::Usual, |row| row.ok().map(|r| r.state.top_tension))
+        .column("Tension", "Max T/TB", Dim::None, Digits::Decimals(3), |row| row.ok().map(|r| r.ratio))
+        .column("Tension", "Cri Break", Dim::Force, Digits::Usual, |row| row.ok().map(|r| r.critical_break))
+        .column("Tension", "Crit. Seg", Dim::None, Digits::Usual, |row| row.ok().map(|r| r.critical))
+        .column("Anchor", "V. Pull", Dim::Force, Digits::Usual, |row| row.ok().map(|r| r.state.anchor_vertical))
+        .column("Anchor", "H. Pull", Dim::Force, Digits::Usual, |row| row.ok().map(|r| r.state.anchor_horizontal))
+        .column("", "Line on Bottom", Dim::Length, Digits::Usual, |row| row.ok().map(|r| r.state.grounded_stretched))
+        .column("1st Connection", "Height Ab Anchor", Dim::Length, Digits::Usual, |row| {
+            row.ok().and_then(first_joint).map(|j| j.z - mooring.line.anchor())
+        })
+        .column("1st Connection", "Net Force Applied", Dim::Force, Digits::Usual, |row| {
+            row.ok().and_then(first_joint).map(|j| j.lift)
+        })
+        .build();
     let is = |which: fn(&Row) -> bool| move |row: &Option<&Row>| row.is_some_and(which);
     if let Some(first) = rows.iter().position(is(|r| r.ratio > 1.0)) {
         out.note(format!("{} beyond the breaking tension (Max T/TB above 1)", rows_from(first, rows.len() - 1)));
@@ -76,6 +61,11 @@ pub fn report(mooring: &Mooring, connector: &str, found: &[Row], missing: &[Miss
         ));
     }
     out
+}
+
+/// The joint next to the fairlead.
+fn first_joint(row: &Row) -> Option<&JointState> {
+    row.state.joints.first()
 }
 
 /// The rows of a table in their order, those without a configuration among them.

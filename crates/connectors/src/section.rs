@@ -9,7 +9,7 @@ use super::line_types::{LineType, library};
 use std::f64::consts::FRAC_PI_4;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
-use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::table::{Digits, Table};
 use windlass_base::units::{Dim, UnitSystem, eight_figures};
 use windlass_base::values::{Args, Given};
 use windlass_language::select::{Owner, choose};
@@ -283,46 +283,28 @@ pub fn bar_notice(
 
 /// The `&STATUS CLASS` table of a line: one row a segment.
 pub fn properties(name: &str, kind: &str, sections: &[LineSection], surroundings: &Surroundings) -> Table {
-    let mut table = Table::new(format!("Class {name}"))
+    let rows: Vec<(usize, &LineSection)> = sections.iter().enumerate().collect();
+    let table = Table::new(format!("Class {name}"))
         .fact("Type", kind, Dim::None)
-        .column("", "Segment", Dim::None, Digits::Usual)
-        .column("", "OD", Dim::Section, Digits::Usual)
-        .column("", "Length", Dim::Length, Digits::Usual)
-        .column("Weight / Length", "Air", Dim::ForcePerLength, Digits::Usual)
-        .column("Weight / Length", "Water", Dim::ForcePerLength, Digits::Usual)
-        .column("", "AE", Dim::Force, Digits::Scientific(5))
-        .column("", "Break", Dim::Force, Digits::Usual)
-        .column("", "Elements", Dim::None, Digits::Usual)
-        .column("End of Segment", "Clump", Dim::Force, Digits::Usual)
-        .column("End of Segment", "Pendant", Dim::Length, Digits::Usual);
-    let typed = sections.iter().any(|s| s.of_type.is_some());
-    if typed {
-        table = table.column("", "Type", Dim::None, Digits::Usual);
-        for name in ["Buoyancy", "Drag", "Add. Mass", "Wind"] {
-            table = table.column("Diameter for", name, Dim::Section, Digits::Usual);
-        }
-    }
-    for (index, s) in sections.iter().enumerate() {
-        let pendant = if s.clump < 0.0 { Cell::Number(s.pendant) } else { Cell::Missing };
-        let mut row: Vec<Cell> = vec![
-            (index + 1).into(),
-            s.od.into(),
-            s.length.into(),
-            s.in_air().into(),
-            s.submerged(surroundings).into(),
-            s.ea.into(),
-            s.breaking.into(),
-            Cell::Integer(s.refine),
-            s.clump.into(),
-            pendant,
-        ];
-        if typed {
-            let of = |value: fn(&OfType) -> f64| Cell::from(s.of_type.as_ref().map(value));
-            row.push(s.of_type.map(|t| t.line_type.name.as_str()).into());
-            row.extend([s.buoyancy_diameter.into(), of(|t| t.drag), of(|t| t.added_mass), of(|t| t.wind)]);
-        }
-        // the row has one cell a column, made just above
-        let _ = table.push(row);
+        .with_rows(&rows)
+        .column("", "Segment", Dim::None, Digits::Usual, |(index, _)| index + 1)
+        .column("", "OD", Dim::Section, Digits::Usual, |(_, s)| s.od)
+        .column("", "Length", Dim::Length, Digits::Usual, |(_, s)| s.length)
+        .column("Weight / Length", "Air", Dim::ForcePerLength, Digits::Usual, |(_, s)| s.in_air())
+        .column("Weight / Length", "Water", Dim::ForcePerLength, Digits::Usual, |(_, s)| s.submerged(surroundings))
+        .column("", "AE", Dim::Force, Digits::Scientific(5), |(_, s)| s.ea)
+        .column("", "Break", Dim::Force, Digits::Usual, |(_, s)| s.breaking)
+        .column("", "Elements", Dim::None, Digits::Usual, |(_, s)| s.refine)
+        .column("End of Segment", "Clump", Dim::Force, Digits::Usual, |(_, s)| s.clump)
+        .column("End of Segment", "Pendant", Dim::Length, Digits::Usual, |(_, s)| (s.clump < 0.0).then_some(s.pendant));
+    if sections.iter().all(|s| s.of_type.is_none()) {
+        return table.build();
     }
     table
+        .text("Type", |(_, s)| s.of_type.map(|t| t.line_type.name.as_str()))
+        .column("Diameter for", "Buoyancy", Dim::Section, Digits::Usual, |(_, s)| s.buoyancy_diameter)
+        .column("Diameter for", "Drag", Dim::Section, Digits::Usual, |(_, s)| s.of_type.map(|t| t.drag))
+        .column("Diameter for", "Add. Mass", Dim::Section, Digits::Usual, |(_, s)| s.of_type.map(|t| t.added_mass))
+        .column("Diameter for", "Wind", Dim::Section, Digits::Usual, |(_, s)| s.of_type.map(|t| t.wind))
+        .build()
 }

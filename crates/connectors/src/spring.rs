@@ -11,7 +11,7 @@ use super::{checks, options as o};
 use nalgebra::{Matrix3, Vector3};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
-use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::table::{Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::Args;
 use windlass_model::{ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, Surroundings};
@@ -332,24 +332,17 @@ pub fn no_anchor(kind: &str, connector: &Connector) -> Outcome<()> {
 
 /// The `&STATUS CLASS` table of restraints.
 pub fn restraint_table(name: &str, kind: &str, restraints: &[Restraint]) -> Table {
-    let mut table = Table::new(format!("Class {name}"))
+    let turns = |r: &Restraint| r.dof.len() != 1;
+    let value = |r: &Restraint, turned: bool, value: Option<f64>| value.filter(|_| turns(r) == turned);
+    Table::new(format!("Class {name}"))
         .fact("Type", kind, Dim::None)
-        .column("", "DF", Dim::None, Digits::Usual)
-        .column("Translation", "Stiffness", Dim::ForcePerLength, Digits::Usual)
-        .column("Translation", "Allowable", Dim::Force, Digits::Usual)
-        .column("Rotation", "Rot. Stiffness", Dim::MomentPerRadian, Digits::Usual)
-        .column("Rotation", "Rot. Allowable", Dim::Moment, Digits::Usual);
-    for r in restraints {
-        let (stiffness, allowable) = (Cell::Number(r.stiffness), Cell::from(r.allowable));
-        let none = || Cell::Missing;
-        let mut row = vec![Cell::Text(r.dof.clone())];
-        if r.dof.len() == 1 {
-            row.extend([stiffness, allowable, none(), none()]);
-        } else {
-            row.extend([none(), none(), stiffness, allowable]);
-        }
-        // the row has one cell a column, made just above
-        let _ = table.push(row);
-    }
-    table
+        .with_rows(restraints)
+        .text("DF", |r| &r.dof)
+        .column("Translation", "Stiffness", Dim::ForcePerLength, Digits::Usual, |r| value(r, false, Some(r.stiffness)))
+        .column("Translation", "Allowable", Dim::Force, Digits::Usual, |r| value(r, false, r.allowable))
+        .column("Rotation", "Rot. Stiffness", Dim::MomentPerRadian, Digits::Usual, |r| {
+            value(r, true, Some(r.stiffness))
+        })
+        .column("Rotation", "Rot. Allowable", Dim::Moment, Digits::Usual, |r| value(r, true, r.allowable))
+        .build()
 }

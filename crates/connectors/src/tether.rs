@@ -8,7 +8,7 @@ use super::{ClassKind, append_all, checks};
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::FRAC_PI_4;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
-use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
@@ -105,37 +105,26 @@ impl ConnectorClass for TetherClass {
     }
 
     fn properties(&self, name: &str, surroundings: &Surroundings) -> Table {
-        let mut table = Table::new(format!("Class {name}"))
+        let sections: Vec<(usize, &TetherSection)> = self.0.iter().enumerate().collect();
+        Table::new(format!("Class {name}"))
             .fact("Type", "TETHER (AQWA, in kg, m, N)", Dim::None)
-            .column("", "Section", Dim::None, Digits::Usual)
-            .column("", "OD", Dim::Metres, Digits::Decimals(4))
-            .column("", "T", Dim::Metres, Digits::Decimals(4))
-            .column("", "Length", Dim::Metres, Digits::Usual)
-            .column("", "Elements", Dim::None, Digits::Usual)
-            .column("", "Mass/L", Dim::MassPerLength, Digits::Usual)
-            .column("", "Displaced/L", Dim::MassPerLength, Digits::Usual)
-            .column("", "EA", Dim::Newtons, Digits::Scientific(5))
-            .column("", "EI", Dim::NewtonSquareMetres, Digits::Scientific(5))
-            .column("Coefficients", "Ca", Dim::None, Digits::Decimals(3))
-            .column("Coefficients", "Cd", Dim::None, Digits::Decimals(3));
-        for (index, s) in self.0.iter().enumerate() {
-            let row: Vec<Cell> = vec![
-                (index + 1).into(),
-                s.outer_diameter.into(),
-                s.wall_thickness.into(),
-                s.length.into(),
-                s.elements.into(),
-                (s.density * area(s)).into(),
-                (surroundings.water_density * outer(s)).into(),
-                (s.youngs_modulus * area(s)).into(),
-                (s.youngs_modulus * second_moment(s)).into(),
-                s.added_mass.into(),
-                s.drag.into(),
-            ];
-            // the row has one cell a column, made just above
-            let _ = table.push(row);
-        }
-        table
+            .with_rows(&sections)
+            .column("", "Section", Dim::None, Digits::Usual, |(index, _)| index + 1)
+            .column("", "OD", Dim::Metres, Digits::Decimals(4), |(_, s)| s.outer_diameter)
+            .column("", "T", Dim::Metres, Digits::Decimals(4), |(_, s)| s.wall_thickness)
+            .column("", "Length", Dim::Metres, Digits::Usual, |(_, s)| s.length)
+            .column("", "Elements", Dim::None, Digits::Usual, |(_, s)| s.elements)
+            .column("", "Mass/L", Dim::MassPerLength, Digits::Usual, |(_, s)| s.density * area(s))
+            .column("", "Displaced/L", Dim::MassPerLength, Digits::Usual, |(_, s)| {
+                surroundings.water_density * outer(s)
+            })
+            .column("", "EA", Dim::Newtons, Digits::Scientific(5), |(_, s)| s.youngs_modulus * area(s))
+            .column("", "EI", Dim::NewtonSquareMetres, Digits::Scientific(5), |(_, s)| {
+                s.youngs_modulus * second_moment(s)
+            })
+            .column("Coefficients", "Ca", Dim::None, Digits::Decimals(3), |(_, s)| s.added_mass)
+            .column("Coefficients", "Cd", Dim::None, Digits::Decimals(3), |(_, s)| s.drag)
+            .build()
     }
 
     fn first_length(&self) -> Option<f64> {

@@ -6,7 +6,7 @@ use super::system::{DOFS, SolveError, System, without_rounding};
 use super::watch::{Circle, Watched};
 use windlass_base::geometry::Place;
 use windlass_base::pose::Pose;
-use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::table::{Digits, Table, TableBuilder};
 use windlass_base::units::{Dim, UnitSystem};
 
 /// The system without the lines that are removed, and the one with them where some are.
@@ -35,18 +35,13 @@ pub struct Asked<'a> {
     pub units: UnitSystem,
 }
 
-fn push(table: &mut Table, row: Vec<Cell>) {
-    let fits = table.push(row);
-    debug_assert!(fits.is_ok(), "a row must fit its table");
-}
-
 /// What rounding leaves of a sum whose terms are as large as `scale` is nothing.
-fn sum(value: f64, scale: f64) -> Cell {
-    Cell::Number(if value.abs() <= 1e-11 * scale { 0.0 } else { value })
+fn sum(value: f64, scale: f64) -> f64 {
+    if value.abs() <= 1e-11 * scale { 0.0 } else { value }
 }
 
 /// Restoring, transverse and vertical force.
-fn resolved(moved: &Moved, direction: f64) -> [Cell; 3] {
+fn resolved(moved: &Moved, direction: f64) -> [f64; 3] {
     let scale = moved.lines.iter().filter_map(|l| l.tension).fold(0.0, |sum, t| sum + t.abs());
     excursion::resolved(&moved.wrench, direction).map(|force| sum(force, scale))
 }
@@ -58,26 +53,35 @@ fn headed(title: String, asked: &Asked, systems: &Systems) -> Table {
     if systems.removed.is_empty() { table } else { table.fact("Removed", systems.removed.join(" "), Dim::None) }
 }
 
-fn forces(table: Table) -> Table {
-    table
-        .column("Force of Connectors", "Restoring", Dim::Force, Digits::Usual)
-        .column("Force of Connectors", "Transverse", Dim::Force, Digits::Usual)
-        .column("Force of Connectors", "Vertical", Dim::Force, Digits::Usual)
+/// The columns of restoring, transverse and vertical force.
+fn forces<'r, R>(table: TableBuilder<'r, R>, resolved: impl Fn(&'r R) -> [f64; 3]) -> TableBuilder<'r, R> {
+    let names = ["Restoring", "Transverse", "Vertical"];
+    table.columns("Force of Connectors", names, Dim::Force, Digits::Usual, resolved)
 }
 
-fn critical(table: Table) -> Table {
-    table.column("Critical Line", "Max T/TB", Dim::None, Digits::Decimals(3)).column(
-        "Critical Line",
-        "Line",
-        Dim::None,
-        Digits::Usual,
-    )
+/// The line that is used most, and its T/break.
+#[derive(Default)]
+struct Critical {
+    ratio: Option<f64>,
+    line: Option<String>,
 }
 
-/// Largest T/break and the name of the line that has it.
-fn critical_cells(worst: Option<(f64, usize)>, names: &[String]) -> [Cell; 2] {
-    let name = worst.and_then(|(_, line)| names.get(line)).map(String::as_str);
-    [worst.map(|(ratio, _)| ratio).into(), name.into()]
+impl Critical {
+    fn new(worst: Option<(f64, usize)>, names: &[String]) -> Self {
+        let line = worst.and_then(|(_, line)| names.get(line)).cloned();
+        Critical { ratio: worst.map(|(ratio, _)| ratio), line }
+    }
+
+    /// The columns of the critical line.
+    fn columns<'r, R>(table: TableBuilder<'r, R>, critical: impl Fn(&'r R) -> &'r Critical) -> TableBuilder<'r, R> {
+        table.column("Critical Line", "Max T/TB", Dim::None, Digits::Decimals(3), |row| critical(row).ratio).column(
+            "Critical Line",
+            "Line",
+            Dim::None,
+            Digits::Usual,
+            |row| critical(row).line.as_deref(),
+        )
+    }
 }
 
 fn degrees(angle: f64) -> String {
@@ -115,62 +119,73 @@ pub fn along(systems: &Systems, asked: &Asked, rows: usize) -> Result<Table, Sol
     let names = walk.names();
     let (list, end) = walk.rows(rows)?;
     let title = format!("Excursion of {} toward {} degrees", asked.name, degrees(path.direction));
-    let mut table = headed(title, asked, systems).column("", "Excursion", Dim::Length, Digits::Usual);
-    for name in ["X", "Y", "Z"] {
-        table = table.column("Location", name, Dim::Length, Digits::Usual);
-    }
-    table = forces(table.column("Location", "Heading", Dim::Angle, Digits::Usual));
-    for name in ["MX", "MY", "MZ"] {
-        table = table.column("Moment of Connectors", name, Dim::Moment, Digits::Usual);
-    }
-    table = critical(table);
-    for name in &names {
-        table = table.column("Tension", &format!("Ten {name}"), Dim::Force, Digits::Usual);
-    }
-    for name in &names {
-        table = table.column("T/TB", &format!("T/TB {name}"), Dim::None, Digits::Decimals(3));
-    }
     let mut intact = systems.intact.as_ref().map(|system| Walk::new(system, start, path)).transpose()?;
+    let all = intact.as_ref().map_or(Vec::new(), Walk::names);
+    let mut rows = Vec::new();
+    for moved in &list {
+        let there = intact.as_mut().and_then(|walk| walk.at(moved.excursion).ok());
+        rows.push(AlongRow {
+            moved,
+            place: moved.poses.get(path.body).map_or(*asked.place, |p| without_rounding(p.place(asked.place))),
+            critical: Critical::new(moved.worst(), &names),
+            intact_force: there.as_ref().map(|there| {
+                let [force, ..] = resolved(there, path.direction);
+                force
+            }),
+            intact: there.map(|there| Critical::new(there.worst(), &all)).unwrap_or_default(),
+        });
+    }
+    let table = headed(title, asked, systems)
+        .with_rows(&rows)
+        .column("", "Excursion", Dim::Length, Digits::Usual, |row| row.moved.excursion)
+        .columns("Location", ["X", "Y", "Z"], Dim::Length, Digits::Usual, |row| {
+            let ([x, y, z], rest) = (row.place.shift, row.moved.excursion);
+            [sum(x, rest), sum(y, rest), z]
+        })
+        .column("Location", "Heading", Dim::Angle, Digits::Usual, |row| row.place.turn[2]);
+    let table = forces(table, |row| resolved(row.moved, path.direction)).columns(
+        "Moment of Connectors",
+        ["MX", "MY", "MZ"],
+        Dim::Moment,
+        Digits::Usual,
+        |row| {
+            let wrench = &row.moved.wrench;
+            let most = wrench.fixed_rows::<3>(3).amax();
+            [wrench[3], wrench[4], wrench[5]].map(|moment| sum(moment, most))
+        },
+    );
+    let mut table = Critical::columns(table, |row| &row.critical);
+    for (index, name) in names.iter().enumerate() {
+        table = table.column("Tension", &format!("Ten {name}"), Dim::Force, Digits::Usual, |row| {
+            row.moved.lines.get(index).and_then(|line| line.tension)
+        });
+    }
+    for (index, name) in names.iter().enumerate() {
+        table = table.column("T/TB", &format!("T/TB {name}"), Dim::None, Digits::Decimals(3), |row| {
+            row.moved.lines.get(index).and_then(|line| line.ratio)
+        });
+    }
     if intact.is_some() {
         table = table
-            .column("Intact", "Intact Force", Dim::Force, Digits::Usual)
-            .column("Intact", "Intact T/TB", Dim::None, Digits::Decimals(3))
-            .column("Intact", "Intact Line", Dim::None, Digits::Usual);
+            .column("Intact", "Intact Force", Dim::Force, Digits::Usual, |row| row.intact_force)
+            .column("Intact", "Intact T/TB", Dim::None, Digits::Decimals(3), |row| row.intact.ratio)
+            .column("Intact", "Intact Line", Dim::None, Digits::Usual, |row| row.intact.line.as_deref());
     }
-    let all = intact.as_ref().map_or(Vec::new(), Walk::names);
-    for moved in &list {
-        let mut row = row(moved, &names, asked);
-        if let Some(intact) = &mut intact {
-            match intact.at(moved.excursion) {
-                Ok(there) => {
-                    let [force, ..] = resolved(&there, path.direction);
-                    row.push(force);
-                    row.extend(critical_cells(there.worst(), &all));
-                }
-                Err(_) => row.extend([const { Cell::Missing }; 3]),
-            }
-        }
-        push(&mut table, row);
-    }
+    let mut table = table.build();
     table.notes.extend(note(&end, &names, list.last().map_or(0.0, |m| m.excursion), units));
     table.note("the restoring force pushes back along the direction; the transverse force is toward its left");
     table.note("moments are about the body's origin, along global axes");
     Ok(table)
 }
 
-fn row(moved: &Moved, names: &[String], asked: &Asked) -> Vec<Cell> {
-    let Moved { excursion, poses, wrench, lines } = moved;
-    let place = poses.get(asked.path.body).map_or(*asked.place, |p| without_rounding(p.place(asked.place)));
-    let [x, y, z, _, _, heading] = place.values();
-    let mut row = vec![Cell::Number(*excursion), sum(x, *excursion), sum(y, *excursion)];
-    row.extend([z, heading].map(Cell::Number));
-    row.extend(resolved(moved, asked.path.direction));
-    let most = wrench.fixed_rows::<3>(3).amax();
-    row.extend([wrench[3], wrench[4], wrench[5]].map(|moment| sum(moment, most)));
-    row.extend(critical_cells(moved.worst(), names));
-    row.extend(lines.iter().map(|l| Cell::from(l.tension)));
-    row.extend(lines.iter().map(|l| Cell::from(l.ratio)));
-    row
+/// A place of a body that is moved in one direction.
+struct AlongRow<'m> {
+    moved: &'m Moved,
+    place: Place,
+    critical: Critical,
+    /// The restoring force (N) and the critical line of the intact mooring there.
+    intact_force: Option<f64>,
+    intact: Critical,
 }
 
 /// Several directions: a row each, where its path ends, and at each of the excursions `at` (m) with its name in heads.
@@ -179,23 +194,7 @@ fn row(moved: &Moved, names: &[String], asked: &Asked) -> Vec<Cell> {
 /// As [`Walk::end`].
 pub fn around(systems: &Systems, asked: &Asked, directions: &[f64], at: &[(f64, String)]) -> Result<Table, SolveError> {
     let title = format!("Excursions of {}", asked.name);
-    let mut table = headed(title, asked, systems).column("", "Direction", Dim::Angle, Digits::Usual).column(
-        "At the End",
-        "Excursion",
-        Dim::Length,
-        Digits::Usual,
-    );
-    table = critical(forces(table));
-    for (_, name) in at {
-        table = table.column("Restoring", &format!("Force {name}"), Dim::Force, Digits::Usual);
-        table = table.column("Max T/TB", &format!("T/TB {name}"), Dim::None, Digits::Decimals(3));
-    }
-    if systems.intact.is_some() {
-        table = table
-            .column("Intact", "Intact Exc.", Dim::Length, Digits::Usual)
-            .column("Intact", "Intact Force", Dim::Force, Digits::Usual)
-            .column("Intact", "Intact Line", Dim::None, Digits::Usual);
-    }
+    let mut rows = Vec::new();
     let mut lost = None;
     for direction in directions {
         let path = Path { direction: *direction, ..asked.path };
@@ -208,28 +207,57 @@ pub fn around(systems: &Systems, asked: &Asked, directions: &[f64], at: &[(f64, 
             lost = note(&end, &names, last.excursion, asked.units)
                 .map(|text| format!("{text} (toward {} degrees)", degrees(*direction)));
         }
-        let mut row = vec![Cell::Number(*direction), last.excursion.into()];
-        row.extend(resolved(&last, *direction));
-        row.extend(critical_cells(last.worst(), &names));
+        let mut forces_at = Vec::new();
         for (excursion, _) in at {
             walk.back();
-            match if *excursion <= last.excursion { walk.at(*excursion).ok() } else { None } {
-                Some(there) => {
-                    let [force, ..] = resolved(&there, *direction);
-                    row.extend([force, there.worst().map(|(ratio, _)| ratio).into()]);
-                }
-                None => row.extend([const { Cell::Missing }; 2]),
+            let there = if *excursion <= last.excursion { walk.at(*excursion).ok() } else { None };
+            forces_at.push(there.map(|there| {
+                let [force, ..] = resolved(&there, *direction);
+                (force, there.worst().map(|(ratio, _)| ratio))
+            }));
+        }
+        let intact = match &systems.intact {
+            Some(system) => {
+                let mut walk = Walk::new(system, asked.start, path)?;
+                let (last, _) = walk.end()?;
+                let [force, ..] = resolved(&last, *direction);
+                Some((last.excursion, force, Critical::new(last.worst(), &walk.names()).line))
             }
-        }
-        if let Some(system) = &systems.intact {
-            let mut walk = Walk::new(system, asked.start, path)?;
-            let (last, _) = walk.end()?;
-            let [force, ..] = resolved(&last, *direction);
-            let [_, line] = critical_cells(last.worst(), &walk.names());
-            row.extend([last.excursion.into(), force, line]);
-        }
-        push(&mut table, row);
+            None => None,
+        };
+        rows.push(DirectionRow {
+            direction: *direction,
+            excursion: last.excursion,
+            force: resolved(&last, *direction),
+            critical: Critical::new(last.worst(), &names),
+            forces_at,
+            intact,
+        });
     }
+    let table = headed(title, asked, systems)
+        .with_rows(&rows)
+        .column("", "Direction", Dim::Angle, Digits::Usual, |row| row.direction)
+        .column("At the End", "Excursion", Dim::Length, Digits::Usual, |row| row.excursion);
+    let mut table = Critical::columns(forces(table, |row| row.force), |row| &row.critical);
+    for (index, (_, name)) in at.iter().enumerate() {
+        let there = |row: &DirectionRow| row.forces_at.get(index).copied().flatten();
+        table = table
+            .column("Restoring", &format!("Force {name}"), Dim::Force, Digits::Usual, |row| {
+                there(row).map(|(force, _)| force)
+            })
+            .column("Max T/TB", &format!("T/TB {name}"), Dim::None, Digits::Decimals(3), |row| {
+                there(row).and_then(|(_, ratio)| ratio)
+            });
+    }
+    if systems.intact.is_some() {
+        table = table
+            .column("Intact", "Intact Exc.", Dim::Length, Digits::Usual, |row| row.intact.as_ref().map(|i| i.0))
+            .column("Intact", "Intact Force", Dim::Force, Digits::Usual, |row| row.intact.as_ref().map(|i| i.1))
+            .column("Intact", "Intact Line", Dim::None, Digits::Usual, |row| {
+                row.intact.as_ref().and_then(|(.., line)| line.as_deref())
+            });
+    }
+    let mut table = table.build();
     table.notes.extend(lost);
     table.note("directions in which the body is moved, from +X toward +Y; PLOT Direction Excursion -POLAR draws them");
     if at.iter().any(|(excursion, _)| table.get("Excursion").is_some_and(|c| c.numbers().iter().any(|e| e < excursion)))
@@ -239,34 +267,33 @@ pub fn around(systems: &Systems, asked: &Asked, directions: &[f64], at: &[(f64, 
     Ok(table)
 }
 
+/// Where the path in one direction ends.
+struct DirectionRow {
+    /// From +X toward +Y (rad).
+    direction: f64,
+    /// How far the body has gone (m), with the force and the critical line there.
+    excursion: f64,
+    force: [f64; 3],
+    critical: Critical,
+    /// Restoring force (N) and largest T/break at each of the excursions asked for.
+    forces_at: Vec<Option<(f64, Option<f64>)>>,
+    /// Excursion (m), restoring force (N) and critical line of the intact mooring.
+    intact: Option<(f64, f64, Option<String>)>,
+}
+
 /// The places of a watch circle, with those of the intact mooring beside them where lines are removed.
 pub fn circle((asked, force): (&Asked, f64), systems: &Systems, found: &Circle, intact: Option<&Circle>) -> Table {
     let title = format!("Watch Circle of {}", asked.name);
-    let mut table = headed(title, asked, systems).fact("Force", force, Dim::Force).column(
-        "Force",
-        "From",
-        Dim::Angle,
-        Digits::Usual,
-    );
     let Circle { names, places } = found;
-    let [x, y, ..] = DOFS;
-    for name in [x, y] {
-        table = table.column("Location", name, Dim::Length, Digits::Usual);
-    }
-    table = table
-        .column("", "Excursion", Dim::Length, Digits::Usual)
-        .column("", "Heading", Dim::Angle, Digits::Usual)
-        .column("Critical Line", "Tension", Dim::Force, Digits::Usual);
-    table = critical(table);
-    if intact.is_some() {
-        table = table
-            .column("Intact", "Intact X", Dim::Length, Digits::Usual)
-            .column("Intact", "Intact Y", Dim::Length, Digits::Usual)
-            .column("Intact", "Intact Exc.", Dim::Length, Digits::Usual);
-    }
     let start = asked.start.get(asked.path.body).copied().unwrap_or_default();
     let gone = |pose: &Pose| (pose.origin.x - start.origin.x).hypot(pose.origin.y - start.origin.y);
+    let at = |pose: &Pose| {
+        // as far as the solution goes
+        let rest = 1e2 * gone(pose);
+        [sum(pose.origin.x, rest), sum(pose.origin.y, rest), gone(pose)]
+    };
     let mut broken: Vec<String> = Vec::new();
+    let mut rows = Vec::new();
     for (index, Watched { direction, pose, lines }) in places.iter().enumerate() {
         let most = worst(lines);
         if let Some((_, line)) = most.filter(|(ratio, _)| *ratio > 1.0)
@@ -274,25 +301,50 @@ pub fn circle((asked, force): (&Asked, f64), systems: &Systems, found: &Circle, 
         {
             broken.push(name.clone());
         }
-        let heading = without_rounding(pose.place(asked.place)).turn[2];
-        let tension = most.and_then(|(_, line)| lines.get(line)).and_then(|l| l.tension);
-        let at = |pose: &Pose| {
-            // as far as the solution goes
-            let rest = 1e2 * gone(pose);
-            [sum(pose.origin.x, rest), sum(pose.origin.y, rest), gone(pose).into()]
-        };
-        let mut row = vec![Cell::Number(*direction)];
-        row.extend(at(pose));
-        row.extend([sum(heading, 1.0), tension.into()]);
-        row.extend(critical_cells(most, names));
-        if let Some(other) = intact {
-            row.extend(other.places.get(index).map_or([const { Cell::Missing }; 3], |w| at(&w.pose)));
-        }
-        push(&mut table, row);
+        rows.push(CircleRow {
+            direction: *direction,
+            place: at(pose),
+            heading: sum(without_rounding(pose.place(asked.place)).turn[2], 1.0),
+            tension: most.and_then(|(_, line)| lines.get(line)).and_then(|l| l.tension),
+            critical: Critical::new(most, names),
+            intact: intact.and_then(|other| other.places.get(index)).map(|w| at(&w.pose)),
+        });
     }
+    let [x, y, ..] = DOFS;
+    let table = headed(title, asked, systems)
+        .fact("Force", force, Dim::Force)
+        .with_rows(&rows)
+        .column("Force", "From", Dim::Angle, Digits::Usual, |row| row.direction)
+        .columns("Location", [x, y], Dim::Length, Digits::Usual, |row| [row.place[0], row.place[1]])
+        .column("", "Excursion", Dim::Length, Digits::Usual, |row| row.place[2])
+        .column("", "Heading", Dim::Angle, Digits::Usual, |row| row.heading)
+        .column("Critical Line", "Tension", Dim::Force, Digits::Usual, |row| row.tension);
+    let mut table = Critical::columns(table, |row| &row.critical);
+    if intact.is_some() {
+        let names = ["Intact X", "Intact Y", "Intact Exc."];
+        table = table.columns("Intact", names, Dim::Length, Digits::Usual, |row| {
+            row.intact.map_or([None; 3], |place| place.map(Some))
+        });
+    }
+    let mut table = table.build();
     for name in broken {
         table.note(format!("warning: line {name} is beyond its breaking tension under the force"));
     }
     table.note("the force comes from the direction, from +X toward +Y; excursions are from where the body stands");
     table
+}
+
+/// A place of a watch circle.
+struct CircleRow {
+    /// Where the force comes from (rad).
+    direction: f64,
+    /// X, Y and excursion (m).
+    place: [f64; 3],
+    /// (rad)
+    heading: f64,
+    /// Of the critical line (N).
+    tension: Option<f64>,
+    critical: Critical,
+    /// X, Y and excursion of the intact mooring (m).
+    intact: Option<[f64; 3]>,
 }

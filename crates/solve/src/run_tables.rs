@@ -2,7 +2,7 @@
 
 use super::screening::quasi_static_lines;
 use super::time::{Counts, Followed, History, Method, POOR_PERIOD, Resolution, Run, Series, Swing, results};
-use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_hydro::Category;
 use windlass_hydro::low_frequency::dividing_period;
@@ -82,14 +82,12 @@ pub fn told(run: &Run) -> Table {
     if run.actions.is_empty() {
         return table;
     }
-    let mut table = table.column("", "Action", Dim::None, Digits::Usual).column("", "Time", Dim::Time, Digits::Usual);
-    for (action, fired) in run.actions.iter().zip(&run.fired) {
-        let cells = vec![action.name.as_str().into(), Cell::from(*fired)];
-        if table.push(cells).is_err() {
-            table.note("an action is left out");
-        }
-    }
+    let actions: Vec<_> = run.actions.iter().zip(&run.fired).collect();
     table
+        .with_rows(&actions)
+        .text("Action", |(action, _)| &action.name)
+        .column("", "Time", Dim::Time, Digits::Usual, |(_, fired)| **fired)
+        .build()
 }
 
 /// The bodies under the pressure of waves on their hull that have no drift.
@@ -198,21 +196,18 @@ pub fn warning_of_accuracy(run: &Run) -> Option<String> {
 pub fn extremes(run: &Run) -> Vec<Table> {
     let mut tables = Vec::new();
     for (title, dim) in KINDS {
+        let of_dim = run.statistics.all().filter(|(s, _)| s.dim == dim);
+        let rows: Vec<_> = of_dim.filter_map(|(series, running)| Some((series, running.summary()?))).collect();
         let mut table = Table::new(title)
-            .column("", "Result", Dim::None, Digits::Usual)
-            .column("", "Mean", dim, Digits::Usual)
-            .column("", "Std. Dev.", dim, Digits::Usual)
-            .column("Minimum", "Least", dim, Digits::Usual)
-            .column("Minimum", "At", Dim::Time, Digits::Usual)
-            .column("Maximum", "Most", dim, Digits::Usual)
-            .column("Maximum", "At ", Dim::Time, Digits::Usual);
-        for (series, running) in run.statistics.all().filter(|(s, _)| s.dim == dim) {
-            if let Some(m) = running.summary() {
-                let (least, most) = (m.minimum, m.maximum);
-                let cells = [m.mean, m.deviation, least.value, least.time, most.value, most.time];
-                push(&mut table, &series.name, cells.map(Cell::from));
-            }
-        }
+            .with_rows(&rows)
+            .text("Result", |(series, _)| &series.name)
+            .column("", "Mean", dim, Digits::Usual, |(_, m)| m.mean)
+            .column("", "Std. Dev.", dim, Digits::Usual, |(_, m)| m.deviation)
+            .column("Minimum", "Least", dim, Digits::Usual, |(_, m)| m.minimum.value)
+            .column("Minimum", "At", Dim::Time, Digits::Usual, |(_, m)| m.minimum.time)
+            .column("Maximum", "Most", dim, Digits::Usual, |(_, m)| m.maximum.value)
+            .column("Maximum", "At ", Dim::Time, Digits::Usual, |(_, m)| m.maximum.time)
+            .build();
         if dim == Dim::Force {
             add_model_column(&mut table, |series| model_of_series(&run.model, series));
         }
@@ -241,23 +236,29 @@ pub fn compared(run: &Run, second: &History) -> Vec<Table> {
     let all = results(&first.layout);
     let mut tables = Vec::new();
     for (title, dim) in KINDS {
+        let rows: Vec<Difference> = all
+            .iter()
+            .filter(|s| s.dim == dim)
+            .map(|series| {
+                let pairs = first.rows().zip(second.rows()).filter(|(row, _)| is_behind(row, transient));
+                let differences = pairs.map(|(a, b)| (a.first().copied(), (series.value(a) - series.value(b)).abs()));
+                let (time, size) = differences.fold((None, -1.0), |worst, at| if at.1 > worst.1 { at } else { worst });
+                let moments = [first, second].map(|history| Moments::of(history, series, transient));
+                Difference { name: &series.name, size, time, moments }
+            })
+            .collect();
         let mut table = Table::new(format!("{title} with Half the Step"))
-            .column("", "Result", Dim::None, Digits::Usual)
-            .column("Largest Difference", "Size", dim, Digits::Scientific(3))
-            .column("Largest Difference", "At", Dim::Time, Digits::Usual)
-            .column("Maximum", "Full Step", dim, Digits::Usual)
-            .column("Maximum", "Half Step", dim, Digits::Usual)
-            .column("Std. Dev.", "Full Step ", dim, Digits::Usual)
-            .column("Std. Dev.", "Half Step ", dim, Digits::Usual);
-        for series in all.iter().filter(|s| s.dim == dim) {
-            let pairs = first.rows().zip(second.rows()).filter(|(row, _)| is_behind(row, transient));
-            let differences = pairs.map(|(a, b)| (a.first().copied(), (series.value(a) - series.value(b)).abs()));
-            let worst = differences.fold((None, -1.0), |worst, at| if at.1 > worst.1 { at } else { worst });
-            let (one, other) = (Moments::of(first, series, transient), Moments::of(second, series, transient));
-            let cells =
-                [Some(worst.1), worst.0, Some(one.most), Some(other.most), Some(one.deviation), Some(other.deviation)];
-            push(&mut table, &series.name, cells.map(Cell::from));
-        }
+            .with_rows(&rows)
+            .text("Result", |row| row.name)
+            .column("Largest Difference", "Size", dim, Digits::Scientific(3), |row| row.size)
+            .column("Largest Difference", "At", Dim::Time, Digits::Usual, |row| row.time)
+            .columns("Maximum", ["Full Step", "Half Step"], dim, Digits::Usual, |row| {
+                row.moments.each_ref().map(|m| m.most)
+            })
+            .columns("Std. Dev.", ["Full Step ", "Half Step "], dim, Digits::Usual, |row| {
+                row.moments.each_ref().map(|m| m.deviation)
+            })
+            .build();
         if dim == Dim::Force {
             add_model_column(&mut table, |series| model_of_series(&run.model, series));
         }
@@ -295,12 +296,14 @@ impl Moments {
     }
 }
 
-/// Adds the row of a result.
-fn push(table: &mut Table, name: &str, cells: impl IntoIterator<Item = Cell>) {
-    let row = std::iter::once(Cell::from(name)).chain(cells).collect();
-    if table.push(row).is_err() {
-        table.note(format!("{name} is left out"));
-    }
+/// What differs in a result between a run and the same with half the step.
+struct Difference<'r> {
+    name: &'r str,
+    /// The largest difference of an instant, and when (s).
+    size: f64,
+    time: Option<f64>,
+    /// Of the run, and of that with half the step.
+    moments: [Moments; 2],
 }
 
 /// The books of energy and momentum of dynamic lines, where the run kept them.
@@ -311,25 +314,25 @@ pub fn books(run: &Run) -> Option<Table> {
     }
     let energy = Dim::Derived { force: 1, length: 1, seconds: 0 };
     let impulse = Dim::Derived { force: 1, length: 0, seconds: 1 };
-    let mut table = Table::new("Books of Lines".to_string()).column("", "Line", Dim::None, Digits::Usual);
-    for name in ["Motion", "Stretch", "Height", "Bottom"] {
-        table = table.column("Energy Now", name, energy, Digits::Scientific(3));
-    }
-    for name in ["1st End", "2nd End", "Water", "Damping", "Bottom"] {
-        table = table.column("Work Done by", name, energy, Digits::Scientific(3));
-    }
-    table = table
-        .column("Not in the Books", "Energy", energy, Digits::Scientific(2))
-        .column("Not in the Books", "of Most", Dim::None, Digits::Scientific(2))
-        .column("Not in the Books", "Momentum", impulse, Digits::Scientific(2));
-    for (name, b) in kept {
-        let mut row: Vec<Cell> = vec![name.as_str().into()];
-        row.extend(b.energy.iter().chain(&b.work).map(|v| Cell::Number(*v)));
-        let share = if b.turnover > 0.0 { b.energy_error / b.turnover } else { 0.0 };
-        row.extend([b.energy_error, share, b.momentum_error.norm()].map(Cell::Number));
-        // the row has one cell a column, made just above
-        let _ = table.push(row);
-    }
+    let mut table = Table::new("Books of Lines")
+        .with_rows(&kept)
+        .text("Line", |(name, _)| name)
+        .columns("Energy Now", ["Motion", "Stretch", "Height", "Bottom"], energy, Digits::Scientific(3), |(_, b)| {
+            b.energy
+        })
+        .columns(
+            "Work Done by",
+            ["1st End", "2nd End", "Water", "Damping", "Bottom"],
+            energy,
+            Digits::Scientific(3),
+            |(_, b)| b.work,
+        )
+        .column("Not in the Books", "Energy", energy, Digits::Scientific(2), |(_, b)| b.energy_error)
+        .column("Not in the Books", "of Most", Dim::None, Digits::Scientific(2), |(_, b)| {
+            if b.turnover > 0.0 { b.energy_error / b.turnover } else { 0.0 }
+        })
+        .column("Not in the Books", "Momentum", impulse, Digits::Scientific(2), |(_, b)| b.momentum_error.norm())
+        .build();
     table.note("energy that is in no book was damped by the scheme (negative) or is the error of its steps; a winch adds mass that the books do not follow");
     Some(table)
 }

@@ -20,7 +20,7 @@ use nalgebra::Vector3;
 use std::f64::consts::TAU;
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
-use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::table::{Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_hydro::ambient;
 use windlass_model::{
@@ -453,33 +453,27 @@ impl Twin {
 
 /// The replays as a table; none where nothing was replayed.
 pub fn table(screening: &Screening) -> Option<Table> {
-    let mut table = Table::new("Screening of Quasi-Static Lines")
-        .column("", "Line", Dim::None, Digits::Usual)
-        .column("Window", "From", Dim::Time, Digits::Usual)
-        .column("Window", "To", Dim::Time, Digits::Usual)
-        .column("", "Period", Dim::Time, Digits::Usual)
-        .column("", "Elements", Dim::None, Digits::Usual)
-        .column("", "Steps", Dim::None, Digits::Usual)
-        .column("Largest Tension", "Quasi-Static", Dim::Force, Digits::Usual)
-        .column("Largest Tension", "Dynamic", Dim::Force, Digits::Usual)
-        .column("Largest Tension", "At", Dim::Time, Digits::Usual)
-        .column("", "Ratio", Dim::None, Digits::Decimals(3));
-    for replay in &screening.replays {
-        let Replay { line, window: [from, to], period, elements, steps, quasi_static, dynamic } = replay;
-        let mut row: Vec<Cell> = vec![line.as_str().into()];
-        row.extend([*from, *to, *period].map(Cell::from));
-        row.extend([Cell::from(*elements), Cell::from(*steps)]);
-        row.extend([*quasi_static, dynamic.0, dynamic.1, replay.ratio()].map(Cell::from));
-        if table.push(row).is_err() {
-            table.note(format!("{line} is left out"));
-        }
+    if screening.replays.is_empty() {
+        return None;
     }
+    let mut table = Table::new("Screening of Quasi-Static Lines")
+        .with_rows(&screening.replays)
+        .text("Line", |replay| &replay.line)
+        .columns("Window", ["From", "To"], Dim::Time, Digits::Usual, |replay| replay.window)
+        .column("", "Period", Dim::Time, Digits::Usual, |replay| replay.period)
+        .column("", "Elements", Dim::None, Digits::Usual, |replay| replay.elements)
+        .column("", "Steps", Dim::None, Digits::Usual, |replay| replay.steps)
+        .column("Largest Tension", "Quasi-Static", Dim::Force, Digits::Usual, |replay| replay.quasi_static)
+        .column("Largest Tension", "Dynamic", Dim::Force, Digits::Usual, |replay| replay.dynamic.0)
+        .column("Largest Tension", "At", Dim::Time, Digits::Usual, |replay| replay.dynamic.1)
+        .column("", "Ratio", Dim::None, Digits::Decimals(3), Replay::ratio)
+        .build();
     table.note(
         "replayed as dynamic lines: those with the largest tension over break, ten periods around that tension, ends moved as in the run",
     );
     table
         .note("the period is the energy period of the waves, without waves the mean up-crossing period of the tension");
-    (!screening.replays.is_empty()).then_some(table)
+    Some(table)
 }
 
 /// The lines that could not be replayed, a sentence for each reason.

@@ -1,30 +1,30 @@
 //! What engines found, as tables.
 
 use super::equilibrium::is_unstable;
-use super::modes::modes;
+use super::modes::{Mode, modes};
 use super::settle::EquilibriumResult;
 use super::system::{Contribution, DOFS, SolveError, State, System};
 use nalgebra::{Matrix6, Vector3};
-use windlass_base::geometry::Position;
+use windlass_base::geometry::{Place, Position};
 use windlass_base::pose::Six;
-use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::table::{Digits, Table, TableBuilder};
 use windlass_base::units::Dim;
 use windlass_hydro::{Category, Load};
 use windlass_model::Model;
 
 const COMPONENTS: [&str; 6] = ["FX", "FY", "FZ", "MX", "MY", "MZ"];
 
-fn with_components(mut table: Table) -> Table {
-    for (index, name) in COMPONENTS.into_iter().enumerate() {
-        let (group, dim) = if index < 3 { ("Force", Dim::Force) } else { ("Moment", Dim::Moment) };
-        table = table.column(group, name, dim, Digits::Usual);
-    }
-    table
-}
-
-fn push(table: &mut Table, row: Vec<Cell>) {
-    let fits = table.push(row);
-    debug_assert!(fits.is_ok(), "a row must fit its table");
+/// The columns of a force and a moment.
+fn with_components<'r, R>(table: TableBuilder<'r, R>, wrench: impl Fn(&'r R) -> &'r Six) -> TableBuilder<'r, R> {
+    let [fx, fy, fz, mx, my, mz] = COMPONENTS;
+    let part = |row: &'r R, first: usize| [0, 1, 2].map(|i| wrench(row)[first + i]);
+    table.columns("Force", [fx, fy, fz], Dim::Force, Digits::Usual, |row| part(row, 0)).columns(
+        "Moment",
+        [mx, my, mz],
+        Dim::Moment,
+        Digits::Usual,
+        |row| part(row, 3),
+    )
 }
 
 /// Acceleration left, as a share of gravity, that is more than rounding.
@@ -32,33 +32,38 @@ const STALLED: f64 = 1e-6;
 
 /// Where the bodies are at rest, and what is left on them.
 pub fn rest(model: &Model, settled: &EquilibriumResult) -> Table {
+    let rows: Vec<RestRow> = settled
+        .system
+        .nodes
+        .iter()
+        .enumerate()
+        .filter_map(|(index, node)| {
+            let left = settled.state.residual.rows(6 * index, 6);
+            let moving = |from: usize| {
+                let held = left.iter().zip(node.free).skip(from).take(3).filter(|(_, free)| *free);
+                held.fold(0.0_f64, |sum, (v, _)| sum.hypot(*v))
+            };
+            let (force, mass) = (moving(0), node.floating.mass.mass);
+            Some(RestRow {
+                name: &node.name,
+                place: model.bodies.get(&node.key)?.place,
+                force,
+                moment: moving(3),
+                share: (mass > 0.0).then(|| force / (mass * settled.system.gravity)),
+            })
+        })
+        .collect();
     let mut table = Table::new("Equilibrium")
         .fact("Steps", settled.found.steps, Dim::None)
         .fact("Evaluations", settled.found.evaluations, Dim::None)
-        .column("", "Body", Dim::None, Digits::Usual);
-    for name in ["X", "Y", "Z"] {
-        table = table.column("Location", name, Dim::Length, Digits::Usual);
-    }
-    for name in ["Roll", "Pitch", "Yaw"] {
-        table = table.column("Rotation", name, Dim::Angle, Digits::Usual);
-    }
-    for (name, dim) in [("Force", Dim::Force), ("Moment", Dim::Moment), ("Accel/g", Dim::None)] {
-        table = table.column("Left", name, dim, Digits::Scientific(2));
-    }
-    for (index, node) in settled.system.nodes.iter().enumerate() {
-        let Some(body) = model.bodies.get(&node.key) else { continue };
-        let left = settled.state.residual.rows(6 * index, 6);
-        let moving = |from: usize| {
-            let held = left.iter().zip(node.free).skip(from).take(3).filter(|(_, free)| *free);
-            held.fold(0.0_f64, |sum, (v, _)| sum.hypot(*v))
-        };
-        let mass = node.floating.mass.mass;
-        let share = if mass > 0.0 { Cell::from(moving(0) / (mass * settled.system.gravity)) } else { Cell::Missing };
-        let mut row = vec![Cell::from(node.name.as_str())];
-        row.extend(body.place.values().map(Cell::Number));
-        row.extend([moving(0).into(), moving(3).into(), share]);
-        push(&mut table, row);
-    }
+        .with_rows(&rows)
+        .text("Body", |row| row.name)
+        .columns("Location", ["X", "Y", "Z"], Dim::Length, Digits::Usual, |row| row.place.shift)
+        .columns("Rotation", ["Roll", "Pitch", "Yaw"], Dim::Angle, Digits::Usual, |row| row.place.turn)
+        .column("Left", "Force", Dim::Force, Digits::Scientific(2), |row| row.force)
+        .column("Left", "Moment", Dim::Moment, Digits::Scientific(2), |row| row.moment)
+        .column("Left", "Accel/g", Dim::None, Digits::Scientific(2), |row| row.share)
+        .build();
     if settled.found.measure > STALLED {
         table.note(format!(
             "warning: the search came no nearer: {:.1e} of gravity is left, within the tolerance; -TOLERANCE asks for less",
@@ -71,20 +76,24 @@ pub fn rest(model: &Model, settled: &EquilibriumResult) -> Table {
     table
 }
 
+/// A body at rest.
+struct RestRow<'m> {
+    name: &'m str,
+    place: Place,
+    /// The force (N) and the moment (N m) left on its degrees of freedom.
+    force: f64,
+    moment: f64,
+    /// The acceleration left over gravity, of a body with mass.
+    share: Option<f64>,
+}
+
 /// The forces on each body that fits, by category, about its origin, global axes.
 ///
 /// # Errors
 /// A connector that cannot be evaluated.
 pub fn by_category(system: &System, state: &State, fits: &dyn Fn(&str) -> bool) -> Result<Table, SolveError> {
     let all = system.contributions(&state.poses)?;
-    let table =
-        Table::new("Forces on Bodies by Category").fact("Moments About", "the origins of the bodies", Dim::None);
-    let mut table = with_components(table.column("", "Body", Dim::None, Digits::Usual).column(
-        "",
-        "Category",
-        Dim::None,
-        Digits::Usual,
-    ));
+    let mut rows: Vec<(&str, &str, Six)> = Vec::new();
     for (body, node) in system.nodes.iter().enumerate().filter(|(_, n)| fits(&n.name)) {
         let (mut total, mut size) = (Six::zeros(), Six::zeros());
         for category in Category::ALL {
@@ -97,12 +106,17 @@ pub fn by_category(system: &System, state: &State, fits: &dyn Fn(&str) -> bool) 
             });
             if any {
                 total += sum;
-                push(&mut table, wrench_row(&node.name, category.name(), &without_rounding(&sum, &size)));
+                rows.push((&node.name, category.name(), without_rounding(&sum, &size)));
             }
         }
-        push(&mut table, wrench_row(&node.name, "TOTAL", &without_rounding(&total, &size)));
+        rows.push((&node.name, "TOTAL", without_rounding(&total, &size)));
     }
-    Ok(table)
+    let table = Table::new("Forces on Bodies by Category")
+        .fact("Moments About", "the origins of the bodies", Dim::None)
+        .with_rows(&rows)
+        .text("Body", |(body, ..)| *body)
+        .text("Category", |(_, category, _)| *category);
+    Ok(with_components(table, |(.., wrench)| wrench).build())
 }
 
 /// What is less than a solution leaves of the largest force or moment is nothing.
@@ -120,29 +134,15 @@ fn without_rounding(wrench: &Six, size: &Six) -> Six {
     kept
 }
 
-fn wrench_row(body: &str, what: &str, wrench: &Six) -> Vec<Cell> {
-    let mut row = vec![Cell::from(body), Cell::from(what)];
-    row.extend(wrench.iter().map(|v| Cell::Number(*v)));
-    row
-}
-
 /// Eigenvalues of the stiffness against the mass, and natural periods.
 ///
 /// # Errors
 /// As [`modes`].
 pub fn periods(system: &System, state: &State) -> Result<Table, SolveError> {
-    let mut table = Table::new("Natural Periods")
-        .column("", "Mode", Dim::None, Digits::Usual)
-        .column("", "Eigenvalue", Dim::None, Digits::Scientific(5))
-        .column("", "Period", Dim::Time, Digits::Usual)
-        .column("Moves Most", "Body", Dim::None, Digits::Usual)
-        .column("Moves Most", "Freedom", Dim::None, Digits::Usual);
+    let mut table = Table::new("Natural Periods");
     let list = modes(system, state)?;
     let largest = list.iter().map(|m| m.eigenvalue.abs()).fold(0.0, f64::max);
-    for (index, mode) in list.into_iter().enumerate() {
-        // a period of 17 hours holds nothing
-        let held = mode.eigenvalue.abs() > 1e-8;
-        let period = mode.period.filter(|_| held);
+    for (index, mode) in list.iter().enumerate() {
         if is_unstable(mode.eigenvalue, largest) {
             let (body, dof) = &mode.most;
             table.note(format!("warning: not stable: mode {} moves {body} in {dof}", index + 1));
@@ -155,20 +155,29 @@ pub fn periods(system: &System, state: &State) -> Result<Table, SolveError> {
                 index + 1
             ));
         }
-        push(
-            &mut table,
-            vec![
-                (index + 1).into(),
-                if held { mode.eigenvalue } else { 0.0 }.into(),
-                period.into(),
-                mode.most.0.into(),
-                mode.most.1.into(),
-            ],
-        );
     }
     table.note(
         "eigenvalues in rad2/s2, of the stiffness against mass and the added mass of #AMASS and members; undamped",
     );
+    // a period of 17 hours holds nothing
+    let held = |mode: &Mode| mode.eigenvalue.abs() > 1e-8;
+    let rows: Vec<_> = list.iter().enumerate().collect();
+    let table = table
+        .with_rows(&rows)
+        .column("", "Mode", Dim::None, Digits::Usual, |(index, _)| index + 1)
+        .column(
+            "",
+            "Eigenvalue",
+            Dim::None,
+            Digits::Scientific(5),
+            |(_, mode)| {
+                if held(mode) { mode.eigenvalue } else { 0.0 }
+            },
+        )
+        .column("", "Period", Dim::Time, Digits::Usual, |(_, mode)| mode.period.filter(|_| held(mode)))
+        .column("Moves Most", "Body", Dim::None, Digits::Usual, |(_, mode)| &mode.most.0)
+        .column("Moves Most", "Freedom", Dim::None, Digits::Usual, |(_, mode)| mode.most.1)
+        .build();
     Ok(table)
 }
 
@@ -233,21 +242,23 @@ pub fn stiffnesses(
 
 /// A six by six stiffness: rows are forces, columns motions.
 fn stiffness(title: &str, matrix: &Matrix6<f64>) -> [Table; 2] {
-    let mut forces = Table::new(format!("{title}: Forces")).column("", "Force", Dim::None, Digits::Usual);
-    let mut moments = Table::new(format!("{title}: Moments")).column("", "Moment", Dim::None, Digits::Usual);
-    for (index, name) in DOFS.into_iter().enumerate() {
-        let (group, force, moment) = if index < 3 {
-            ("Translation", Dim::ForcePerLength, Dim::Force)
-        } else {
-            ("Rotation", Dim::Force, Dim::MomentPerRadian)
-        };
-        forces = forces.column(group, name, force, Digits::Scientific(6));
-        moments = moments.column(group, name, moment, Digits::Scientific(6));
-    }
-    for (row, name) in COMPONENTS.into_iter().enumerate() {
-        let mut cells = vec![Cell::from(name)];
-        cells.extend(matrix.row(row).iter().map(|v| Cell::Number(*v)));
-        push(if row < 3 { &mut forces } else { &mut moments }, cells);
-    }
-    [forces, moments]
+    let rows: Vec<(&str, [f64; 6])> = COMPONENTS
+        .into_iter()
+        .enumerate()
+        .map(|(row, name)| (name, [0, 1, 2, 3, 4, 5].map(|column| matrix[(row, column)])))
+        .collect();
+    let (forces, moments) = rows.split_at(3);
+    let [x, y, z, rx, ry, rz] = DOFS;
+    let half = |what: &str, rows: &[(&str, [f64; 6])], [by_shift, by_turn]: [Dim; 2]| {
+        Table::new(format!("{title}: {what}s"))
+            .with_rows(rows)
+            .text(what, |(name, _)| *name)
+            .columns("Translation", [x, y, z], by_shift, Digits::Scientific(6), |(_, [x, y, z, ..])| [*x, *y, *z])
+            .columns("Rotation", [rx, ry, rz], by_turn, Digits::Scientific(6), |(_, [.., x, y, z])| [*x, *y, *z])
+            .build()
+    };
+    [
+        half("Force", forces, [Dim::ForcePerLength, Dim::Force]),
+        half("Moment", moments, [Dim::Force, Dim::MomentPerRadian]),
+    ]
 }

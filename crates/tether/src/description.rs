@@ -1,6 +1,7 @@
 //! The description of a tether: what the data listing [AQWA-TETHER 7.1] tells of it before a run.
 
-use super::line::Line;
+use super::TetherElement;
+use super::line::{Label, Line};
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
 
@@ -58,6 +59,15 @@ pub struct Description<'a> {
     pub group: i64,
 }
 
+/// A node with the element below it.
+struct DescriptionRow<'t> {
+    /// From 0 at the anchor or the trailing end.
+    node: usize,
+    element: Option<&'t TetherElement>,
+    /// The end of the tether that the node is.
+    end: Option<usize>,
+}
+
 impl Description<'_> {
     /// Distance between its ends at the start (m).
     pub fn initial_distance(&self) -> f64 {
@@ -99,50 +109,41 @@ impl Description<'_> {
         let towed = self.configuration == Configuration::Towed;
         let second = if towed { Dim::ForcePerLength } else { Dim::MomentPerRadian };
         let names = if towed { ["Along", "Y", "Z"] } else { ["Inline", "X Rot", "Y Rot"] };
-        let mut out = self
-            .facts(Table::new(format!("Description of Tether {}", self.number)))
-            .column("", "Tether Node", Dim::None, Digits::Usual)
-            .column("", "Distance", Dim::Length, Digits::Decimals(1))
-            .column("Element", "Node 1", Dim::None, Digits::Usual)
-            .column("Element", "Node 2", Dim::None, Digits::Usual)
-            .column("Element", "Material", Dim::None, Digits::Usual)
-            .column("Element", "Geometry", Dim::None, Digits::Usual)
-            .column("Section", "Area", Dim::Area, Digits::Decimals(4))
-            .column("Section", "2nd Moment", QUARTIC, Digits::Decimals(6))
-            .column("Section", "EI", BENDING, Digits::Scientific(4))
-            .column("Section", "EA", Dim::Force, Digits::Scientific(4))
-            .column("Outside Area", "Cap", Dim::Area, Digits::Decimals(3))
-            .column("Outside Area", "Diameter", Dim::Area, Digits::Decimals(3))
-            .column("Spring", names[0], Dim::ForcePerLength, Digits::Scientific(3))
-            .column("Spring", names[1], second, Digits::Scientific(3))
-            .column("Spring", names[2], second, Digits::Scientific(3));
         let last = self.line.nodes() - 1;
-        for node in (0..=last).rev() {
-            let end = if node == 0 { Some(0) } else { (node == last).then_some(1) };
-            let element = self.line.elements().get(node);
-            let of = |value: &dyn Fn(&super::TetherElement) -> Cell| element.map_or(Cell::Missing, value);
-            let spring = |i: usize| Cell::from(end.map(|e| self.springs[e][i]));
-            let row = vec![
-                (node + 1).into(),
-                self.line.distances()[node].into(),
-                of(&|e| Cell::Integer(e.label.nodes[0])),
-                of(&|e| Cell::Integer(e.label.nodes[1])),
-                of(&|e| Cell::Integer(e.label.material)),
-                of(&|e| Cell::Integer(e.label.geometry)),
-                of(&|e| e.tube().area().into()),
-                of(&|e| e.tube().second_moment().into()),
-                of(&|e| e.bending_stiffness().into()),
-                of(&|e| e.axial_stiffness().into()),
-                end.map(|e| self.caps[e]).into(),
-                of(&|e| e.tube().external_area().into()),
-                spring(0),
-                spring(1),
-                spring(2),
-            ];
-            // the row has one cell a column, made just above
-            let _ = out.push(row);
-        }
-        out
+        let nodes: Vec<DescriptionRow> = (0..=last)
+            .rev()
+            .map(|node| DescriptionRow {
+                node,
+                element: self.line.elements().get(node),
+                end: if node == 0 { Some(0) } else { (node == last).then_some(1) },
+            })
+            .collect();
+        let label = |row: &DescriptionRow, value: fn(&Label) -> i64| row.element.map(|e| value(&e.label));
+        self.facts(Table::new(format!("Description of Tether {}", self.number)))
+            .with_rows(&nodes)
+            .column("", "Tether Node", Dim::None, Digits::Usual, |row| row.node + 1)
+            .column("", "Distance", Dim::Length, Digits::Decimals(1), |row| self.line.distances()[row.node])
+            .column("Element", "Node 1", Dim::None, Digits::Usual, |row| label(row, |l| l.nodes[0]))
+            .column("Element", "Node 2", Dim::None, Digits::Usual, |row| label(row, |l| l.nodes[1]))
+            .column("Element", "Material", Dim::None, Digits::Usual, |row| label(row, |l| l.material))
+            .column("Element", "Geometry", Dim::None, Digits::Usual, |row| label(row, |l| l.geometry))
+            .column("Section", "Area", Dim::Area, Digits::Decimals(4), |row| row.element.map(|e| e.tube().area()))
+            .column("Section", "2nd Moment", QUARTIC, Digits::Decimals(6), |row| {
+                row.element.map(|e| e.tube().second_moment())
+            })
+            .column("Section", "EI", BENDING, Digits::Scientific(4), |row| row.element.map(|e| e.bending_stiffness()))
+            .column("Section", "EA", Dim::Force, Digits::Scientific(4), |row| row.element.map(|e| e.axial_stiffness()))
+            .column("Outside Area", "Cap", Dim::Area, Digits::Decimals(3), |row| row.end.map(|e| self.caps[e]))
+            .column("Outside Area", "Diameter", Dim::Area, Digits::Decimals(3), |row| {
+                row.element.map(|e| e.tube().external_area())
+            })
+            .column("Spring", names[0], Dim::ForcePerLength, Digits::Scientific(3), |row| {
+                row.end.map(|e| self.springs[e][0])
+            })
+            .columns("Spring", [names[1], names[2]], second, Digits::Scientific(3), |row| {
+                row.end.map_or([None; 2], |e| [Some(self.springs[e][1]), Some(self.springs[e][2])])
+            })
+            .build()
     }
 
     /// The facts under the table of the listing, in its order.

@@ -1,5 +1,6 @@
 //! The frequency domain as tables.
 
+use super::Motions;
 use super::linear::Linear;
 use super::natural::{Natural, natural};
 use super::operators::Operators;
@@ -7,9 +8,9 @@ use super::quantity::{Derivative, Quantity};
 use super::response::{Point, Response};
 use super::statistics::{Extreme, Statistics};
 use crate::equilibrium::is_unstable;
-use crate::system::{DOFS, SolveError};
+use crate::system::{DOFS, Node, SolveError};
 use std::f64::consts::TAU;
-use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::table::{Digits, Table, TableBuilder};
 use windlass_base::units::Dim;
 
 /// A quantity with its name and what it measures.
@@ -37,11 +38,6 @@ impl Told {
         };
         DOFS.iter().enumerate().map(one).collect()
     }
-}
-
-fn push(table: &mut Table, row: Vec<Cell>) {
-    let fits = table.push(row);
-    debug_assert!(fits.is_ok(), "a row must fit its table");
 }
 
 /// The dimension of a derivative.
@@ -75,25 +71,25 @@ pub fn operators(
     list: &[Told],
     (derivative, amplitude): (Derivative, f64),
 ) -> Table {
+    let rows: Vec<_> = operators.each().collect();
     let mut table = Table::new(title)
         .fact("Wave Amplitude", amplitude, Dim::Length)
-        .column("", "Heading", Dim::Angle, Digits::Usual)
-        .column("", "Period", Dim::Time, Digits::Usual)
-        .column("", "Frequency", Dim::Frequency, Digits::Usual);
-    for told in list {
+        .with_rows(&rows)
+        .column("", "Heading", Dim::Angle, Digits::Usual, |(heading, ..)| *heading)
+        .column("", "Period", Dim::Time, Digits::Usual, |(_, frequency, _)| TAU / frequency)
+        .column("", "Frequency", Dim::Frequency, Digits::Usual, |(_, frequency, _)| *frequency);
+    for Told { name, dim, quantity } in list {
+        let value =
+            |(_, frequency, motions): &(f64, f64, &Motions)| quantity.of(motions, *frequency, derivative) * amplitude;
         table = table
-            .column(&told.name, &format!("{} Amp", told.name), derived(told.dim, derivative), Digits::Scientific(5))
-            .column(&told.name, &format!("{} Phase", told.name), Dim::Angle, Digits::Usual);
+            .column(name, &format!("{name} Amp"), derived(*dim, derivative), Digits::Scientific(5), |row| {
+                value(row).norm()
+            })
+            .column(name, &format!("{name} Phase"), Dim::Angle, Digits::Usual, |row| {
+                Some(value(row)).filter(|v| v.norm() > 0.0).map(|v| v.arg())
+            });
     }
-    for (heading, frequency, motions) in operators.each() {
-        let mut row: Vec<Cell> = vec![heading.into(), (TAU / frequency).into(), frequency.into()];
-        for told in list {
-            let value = told.quantity.of(motions, frequency, derivative) * amplitude;
-            let phase = if value.norm() > 0.0 { Cell::from(value.arg()) } else { Cell::Missing };
-            row.extend([value.norm().into(), phase]);
-        }
-        push(&mut table, row);
-    }
+    let mut table = table.build();
     table.note("heading is where the waves come from; phase is the lag behind the crest at the global origin");
     linear.notes.iter().for_each(|n| table.note(n.clone()));
     table
@@ -106,22 +102,24 @@ pub fn spectra(
     list: &[Told],
     derivative: Derivative,
 ) -> Table {
-    let mut table = Table::new(title)
-        .column("", "Frequency", Dim::Frequency, Digits::Usual)
-        .column("", "Period", Dim::Time, Digits::Usual)
-        .column("Density", "Wave", Dim::SpectralDensity, Digits::Usual);
-    for told in list {
-        table = table.column("Density", &told.name, density(told.dim, derivative), Digits::Scientific(5));
-    }
     let slow = response.slow.iter().map(|p| (p, false));
-    let bands: Vec<(&Point, bool)> = slow.chain(response.waves.iter().map(|p| (p, true))).collect();
-    for (point, waves) in bands {
-        let Some(width) = point.width else { continue };
-        let wave = if waves { Cell::from(point.energy / width) } else { Cell::Missing };
-        let mut row: Vec<Cell> = vec![point.frequency.into(), (TAU / point.frequency).into(), wave];
-        row.extend(list.iter().map(|t| Cell::from(point.variance(&t.quantity, derivative) / width)));
-        push(&mut table, row);
+    let bands = slow.chain(response.waves.iter().map(|p| (p, true)));
+    let rows: Vec<(&Point, bool, f64)> =
+        bands.filter_map(|(point, is_wave)| Some((point, is_wave, point.width?))).collect();
+    let mut table = Table::new(title)
+        .with_rows(&rows)
+        .column("", "Frequency", Dim::Frequency, Digits::Usual, |(point, ..)| point.frequency)
+        .column("", "Period", Dim::Time, Digits::Usual, |(point, ..)| TAU / point.frequency)
+        .column("Density", "Wave", Dim::SpectralDensity, Digits::Usual, |(point, is_wave, width)| {
+            is_wave.then_some(point.energy / width)
+        });
+    for Told { name, dim, quantity } in list {
+        let dim = density(*dim, derivative);
+        table = table.column("Density", name, dim, Digits::Scientific(5), |(point, _, width)| {
+            point.variance(quantity, derivative) / width
+        });
     }
+    let mut table = table.build();
     notes(&mut table, linear, response);
     table
 }
@@ -136,20 +134,22 @@ fn notes(table: &mut Table, linear: &Linear, response: &Response) {
     linear.notes.iter().for_each(|n| table.note(n.clone()));
 }
 
-/// The columns of statistics.
-fn statistic_columns(mut table: Table, group: &str, prefix: &str, dim: Dim) -> Table {
-    for (name, dim) in [
-        ("Mean", dim),
-        ("RMS Wave", dim),
-        ("RMS Slow", dim),
-        ("RMS", dim),
-        ("Signif.", dim),
-        ("Maximum", dim),
-        ("Tz", Dim::Time),
-    ] {
-        table = table.column(group, &format!("{prefix}{name}"), dim, Digits::Usual);
-    }
+/// The columns of statistics, with the extreme asked for as the maximum.
+fn statistic_columns<'r, R>(
+    table: TableBuilder<'r, R>,
+    (group, prefix): (&str, &str),
+    (dim, extreme): (Dim, Extreme),
+    made: impl Fn(&'r R) -> &'r Statistics,
+) -> TableBuilder<'r, R> {
+    let named = |name: &str| format!("{prefix}{name}");
     table
+        .column(group, &named("Mean"), dim, Digits::Usual, |row| made(row).mean)
+        .column(group, &named("RMS Wave"), dim, Digits::Usual, |row| made(row).waves)
+        .column(group, &named("RMS Slow"), dim, Digits::Usual, |row| made(row).slow)
+        .column(group, &named("RMS"), dim, Digits::Usual, |row| made(row).deviation)
+        .column(group, &named("Signif."), dim, Digits::Usual, |row| made(row).significant())
+        .column(group, &named("Maximum"), dim, Digits::Usual, |row| made(row).extreme(extreme))
+        .column(group, &named("Tz"), Dim::Time, Digits::Usual, |row| made(row).period)
 }
 
 /// A table of statistics that says what its maxima are.
@@ -170,18 +170,6 @@ fn told_of(extreme: Extreme) -> &'static str {
     }
 }
 
-fn statistic_cells(made: &Statistics, extreme: Extreme) -> [Cell; 7] {
-    [
-        made.mean.into(),
-        made.waves.into(),
-        made.slow.into(),
-        made.deviation.into(),
-        made.significant().into(),
-        made.extreme(extreme).into(),
-        made.period.into(),
-    ]
-}
-
 /// Statistics of quantities of one dimension, a row each. The maximum is the extreme asked for.
 pub fn statistics(
     title: String,
@@ -190,14 +178,10 @@ pub fn statistics(
     (derivative, extreme): (Derivative, Extreme),
 ) -> Table {
     let dim = list.first().map_or(Dim::None, |t| derived(t.dim, derivative));
-    let table = titled(title, extreme).column("", "Result", Dim::None, Digits::Usual);
-    let mut table = statistic_columns(table, "", "", dim);
-    for told in list {
-        let made = Statistics::of(response, &told.quantity, derivative);
-        let mut row = vec![Cell::from(told.name.as_str())];
-        row.extend(statistic_cells(&made, extreme));
-        push(&mut table, row);
-    }
+    let rows: Vec<(&str, Statistics)> =
+        list.iter().map(|told| (told.name.as_str(), Statistics::of(response, &told.quantity, derivative))).collect();
+    let table = titled(title, extreme).with_rows(&rows).text("Result", |(name, _)| *name);
+    let mut table = statistic_columns(table, ("", ""), (dim, extreme), |(_, made)| made).build();
     let told = told_of(extreme);
     table.note(format!("significant and {told} are amplitudes about the mean; Tz is of both, waves and slow drift"));
     notes(&mut table, linear, response);
@@ -211,17 +195,13 @@ pub fn body_statistics(
     body: usize,
     (derivative, extreme): (Derivative, Extreme),
 ) -> Table {
-    let table = titled(title, extreme).column("", "Axis", Dim::None, Digits::Usual);
-    let table = statistic_columns(table, "Translation", "", derived(Dim::Length, derivative));
-    let mut table = statistic_columns(table, "Rotation", "R ", derived(Dim::Angle, derivative));
-    for (axis, name) in ["X", "Y", "Z"].into_iter().enumerate() {
-        let mut row = vec![Cell::from(name)];
-        for dof in [axis, axis + 3] {
-            let quantity = Quantity::dof(linear, body, dof);
-            row.extend(statistic_cells(&Statistics::of(response, &quantity, derivative), extreme));
-        }
-        push(&mut table, row);
-    }
+    let of_dof = |dof: usize| Statistics::of(response, &Quantity::dof(linear, body, dof), derivative);
+    let rows: Vec<_> =
+        ["X", "Y", "Z"].into_iter().enumerate().map(|(axis, name)| (name, of_dof(axis), of_dof(axis + 3))).collect();
+    let [shift, turn] = [Dim::Length, Dim::Angle].map(|dim| (derived(dim, derivative), extreme));
+    let table = titled(title, extreme).with_rows(&rows).text("Axis", |(name, ..)| *name);
+    let table = statistic_columns(table, ("Translation", ""), shift, |(_, made, _)| made);
+    let mut table = statistic_columns(table, ("Rotation", "R "), turn, |(.., made)| made).build();
     table.note(format!("significant and {} are amplitudes about the place at rest", told_of(extreme)));
     notes(&mut table, linear, response);
     table
@@ -232,27 +212,10 @@ pub fn body_statistics(
 /// # Errors
 /// As [`crate::modes`].
 pub fn modes(linear: &Linear) -> Result<[Table; 2], SolveError> {
-    let mut periods = Table::new("Natural Periods")
-        .column("", "Mode", Dim::None, Digits::Usual)
-        .column("", "Period", Dim::Time, Digits::Usual)
-        .column("", "Frequency", Dim::Frequency, Digits::Usual)
-        .column("Damping", "Ratio", Dim::None, Digits::Scientific(4))
-        .column("Moves Most", "Body", Dim::None, Digits::Usual)
-        .column("Moves Most", "Freedom", Dim::None, Digits::Usual);
-    let mut shapes = Table::new("Mode Shapes").column("", "Mode", Dim::None, Digits::Usual).column(
-        "",
-        "Body",
-        Dim::None,
-        Digits::Usual,
-    );
-    for (i, name) in DOFS.into_iter().enumerate() {
-        let group = if i < 3 { "Translation" } else { "Rotation" };
-        shapes = shapes.column(group, name, Dim::None, Digits::Decimals(5));
-    }
+    let mut periods = Table::new("Natural Periods");
     let list = natural(linear)?;
     let largest = list.iter().map(|n| n.mode.eigenvalue.abs()).fold(0.0, f64::max);
-    for (index, Natural { mode, damping, settled }) in list.into_iter().enumerate() {
-        let period = mode.period.filter(|_| damping.is_some());
+    for (index, Natural { mode, settled, .. }) in list.iter().enumerate() {
         let (body, dof) = (mode.most.0.as_str(), mode.most.1);
         let told = format!("mode {} of {body} in {dof}", index + 1);
         if is_unstable(mode.eigenvalue, largest) {
@@ -261,26 +224,32 @@ pub fn modes(linear: &Linear) -> Result<[Table; 2], SolveError> {
         if !settled {
             periods.note(format!("warning: {told} finds no period that agrees with its added mass"));
         }
-        let frequency = period.map(|t| TAU / t);
-        push(
-            &mut periods,
-            vec![
-                (index + 1).into(),
-                period.into(),
-                frequency.into(),
-                damping.into(),
-                Cell::from(body),
-                Cell::from(dof),
-            ],
-        );
-        for (number, node) in linear.system.nodes.iter().enumerate() {
-            let mut row = vec![(index + 1).into(), Cell::from(node.name.as_str())];
-            row.extend((0..6).map(|i| Cell::from(mode.shape.get(6 * number + i).copied())));
-            push(&mut shapes, row);
-        }
     }
     periods.note("periods are undamped, with added mass at the period of each mode; the ratio is to critical damping");
-    shapes.note("largest motion 1; rotations in radians a metre");
     linear.notes.iter().for_each(|n| periods.note(n.clone()));
+    let period = |n: &Natural| n.mode.period.filter(|_| n.damping.is_some());
+    let rows: Vec<(usize, &Natural)> = list.iter().enumerate().collect();
+    let periods = periods
+        .with_rows(&rows)
+        .column("", "Mode", Dim::None, Digits::Usual, |(index, _)| index + 1)
+        .column("", "Period", Dim::Time, Digits::Usual, |(_, n)| period(n))
+        .column("", "Frequency", Dim::Frequency, Digits::Usual, |(_, n)| period(n).map(|t| TAU / t))
+        .column("Damping", "Ratio", Dim::None, Digits::Scientific(4), |(_, n)| n.damping)
+        .column("Moves Most", "Body", Dim::None, Digits::Usual, |(_, n)| &n.mode.most.0)
+        .column("Moves Most", "Freedom", Dim::None, Digits::Usual, |(_, n)| n.mode.most.1)
+        .build();
+    let nodes = linear.system.nodes.iter().enumerate();
+    let of_mode = |(index, n)| nodes.clone().map(move |(number, node)| (index, n, number, node));
+    let rows: Vec<(usize, &Natural, usize, &Node)> = rows.iter().copied().flat_map(of_mode).collect();
+    let [x, y, z, rx, ry, rz] = DOFS;
+    let moves = |n: &Natural, first: usize| [0, 1, 2].map(|i| n.mode.shape.get(first + i).copied());
+    let mut shapes = Table::new("Mode Shapes")
+        .with_rows(&rows)
+        .column("", "Mode", Dim::None, Digits::Usual, |(index, ..)| index + 1)
+        .text("Body", |(.., node)| &node.name)
+        .columns("Translation", [x, y, z], Dim::None, Digits::Decimals(5), |(_, n, number, _)| moves(n, 6 * number))
+        .columns("Rotation", [rx, ry, rz], Dim::None, Digits::Decimals(5), |(_, n, number, _)| moves(n, 6 * number + 3))
+        .build();
+    shapes.note("largest motion 1; rotations in radians a metre");
     Ok([periods, shapes])
 }

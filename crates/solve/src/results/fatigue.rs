@@ -7,14 +7,16 @@
 use super::super::link::{connected, pose_of};
 use super::super::system::SolveError;
 use super::super::time::Run;
+use super::Event;
 use super::connectors::{force, poses};
-use super::{Event, columns};
 use windlass_base::pose::Pose;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
 use windlass_model::{Class, ClassError, Condition, Connector, FatigueSelection, Model, Placement};
 use windlass_signal::SeriesError;
-use windlass_signal::fatigue::{Curve, Exposure, LineDamage, Loaded, find, line_damage, line_life};
+use windlass_signal::fatigue::{
+    Curve, Exposure, LineDamage, Loaded, SegmentDamage, SegmentLife, find, line_damage, line_life,
+};
 
 /// A run in a scatter of environments.
 #[derive(Clone, Debug, PartialEq)]
@@ -142,20 +144,10 @@ pub fn scatter(runs: &[Exposed], factor: f64) -> Result<Table, SeriesError> {
     let mut table = Table::new("Fatigue of Lines")
         .fact("Environments", runs.len(), Dim::None)
         .fact("Duration", days, Dim::Days)
-        .fact("Design Fatigue Factor", factor, Dim::None)
-        .column("", "Line", Dim::None, Digits::Usual)
-        .column("", "Segment", Dim::None, Digits::Usual)
-        .column("", "Curve", Dim::None, Digits::Usual);
-    for name in ["Mean T/TB", "Max T/TB"] {
-        table = table.column("Last Run", name, Dim::None, Digits::Decimals(3));
-    }
-    table = columns(table, "Last Run", &["Cycles"], Dim::None);
-    for (group, name) in [("Last Run", "Damage"), ("All Environments", "CDR"), ("All Environments", "Life, Years")] {
-        table = table.column(group, name, Dim::None, Digits::Scientific(4));
-    }
-    let mut table = table.column("", "Governs", Dim::None, Digits::Usual);
-    let Some(last) = runs.last() else { return Ok(table) };
-    for (name, own) in &last.lines {
+        .fact("Design Fatigue Factor", factor, Dim::None);
+    let mut rows: Vec<ScatterRow> = Vec::new();
+    let lines = runs.last().map_or(&[][..], |last| &last.lines);
+    for (name, own) in lines {
         let of = |run: &Exposed| -> Option<(f64, f64, LineDamage)> {
             let found = run.lines.iter().find(|(n, _)| n == name)?;
             Some((run.record, run.duration, found.1.clone()))
@@ -168,30 +160,38 @@ pub fn scatter(runs: &[Exposed], factor: f64) -> Result<Table, SeriesError> {
             .map(|(record, duration, line)| Exposure { line, record: *record, duration: *duration })
             .collect();
         for (index, (segment, life)) in own.segments.iter().zip(line_life(&exposures, factor)?).enumerate() {
-            let governs = if index == own.governing { "yes" } else { "" };
-            let row = vec![
-                name.as_str().into(),
-                segment.segment.into(),
-                life.curve.into(),
-                segment.mean.into(),
-                segment.most_used.into(),
-                segment.cycles.into(),
-                segment.damage.into(),
-                life.damage.into(),
-                life.years.into(),
-                governs.into(),
-            ];
-            if table.push(row).is_err() {
-                table.note(format!("{name} is left out"));
-            }
+            rows.push(ScatterRow { line: name, governs: index == own.governing, segment, life });
             if segment.unconfirmed {
                 table.note(format!("the numbers of curve {} are not confirmed: &STATUS SN", segment.curve));
             }
         }
     }
     table.notes.dedup();
-    table.note(
-        "CDR is the sum over the environments of the damage of each record times duration over length of the record",
-    );
+    if !runs.is_empty() {
+        table.note(
+            "CDR is the sum over the environments of the damage of each record times duration over length of the record",
+        );
+    }
+    let table = table
+        .with_rows(&rows)
+        .text("Line", |row| row.line)
+        .column("", "Segment", Dim::None, Digits::Usual, |row| row.segment.segment)
+        .text("Curve", |row| &row.life.curve)
+        .column("Last Run", "Mean T/TB", Dim::None, Digits::Decimals(3), |row| row.segment.mean)
+        .column("Last Run", "Max T/TB", Dim::None, Digits::Decimals(3), |row| row.segment.most_used)
+        .column("Last Run", "Cycles", Dim::None, Digits::Usual, |row| row.segment.cycles)
+        .column("Last Run", "Damage", Dim::None, Digits::Scientific(4), |row| row.segment.damage)
+        .column("All Environments", "CDR", Dim::None, Digits::Scientific(4), |row| row.life.damage)
+        .column("All Environments", "Life, Years", Dim::None, Digits::Scientific(4), |row| row.life.years)
+        .text("Governs", |row| if row.governs { "yes" } else { "" })
+        .build();
     Ok(table)
+}
+
+/// A segment of a line: what the last run did to it, and what all runs leave of its life.
+struct ScatterRow<'r> {
+    line: &'r str,
+    governs: bool,
+    segment: &'r SegmentDamage,
+    life: SegmentLife,
 }

@@ -4,7 +4,7 @@ use super::connectors::poses;
 use crate::link::{connected, pose_of};
 use crate::system::SolveError;
 use crate::time::Run;
-use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_model::{End, FenderState, Model, Situation};
 
@@ -55,31 +55,15 @@ pub fn fender_peaks(run: &Run) -> Result<Vec<FenderPeak>, SolveError> {
 /// The table of fenders in a situation; the time of each is given where it is one of a run.
 pub fn fender_table<'a>(title: &str, rows: impl IntoIterator<Item = (&'a str, &'a FenderState, Option<f64>)>) -> Table {
     let energy = Dim::Derived { force: 1, length: 1, seconds: 0 };
-    let mut rows = rows.into_iter().peekable();
-    let timed = rows.peek().is_some_and(|(.., time)| time.is_some());
-    let mut table = Table::new(title)
-        .column("", "Name", Dim::None, Digits::Usual)
-        .column("Deflection", "Size", Dim::Length, Digits::Decimals(4))
-        .column("Deflection", "of Rated", Dim::None, Digits::Decimals(3))
-        .column("", "Reaction", Dim::Force, Digits::Usual)
-        .column("Energy", "Absorbed", energy, Digits::Usual)
-        .column("Energy", "of Rated ", Dim::None, Digits::Decimals(3));
-    if timed {
-        table = table.column("", "At", Dim::Time, Digits::Usual);
-    }
-    for (name, s, time) in rows {
-        let mut row: Vec<Cell> = vec![
-            name.into(),
-            s.deflection.into(),
-            (s.deflection / s.rated).into(),
-            s.reaction.into(),
-            s.energy.into(),
-            (s.energy / s.rated_energy).into(),
-        ];
-        row.extend(time.filter(|_| timed).map(Cell::from));
-        if table.push(row).is_err() {
-            table.note(format!("{name} is left out"));
-        }
-    }
-    table
+    let rows: Vec<(&str, &FenderState, Option<f64>)> = rows.into_iter().collect();
+    let timed = rows.first().is_some_and(|(.., time)| time.is_some());
+    let table = Table::new(title)
+        .with_rows(&rows)
+        .text("Name", |(name, ..)| *name)
+        .column("Deflection", "Size", Dim::Length, Digits::Decimals(4), |(_, s, _)| s.deflection)
+        .column("Deflection", "of Rated", Dim::None, Digits::Decimals(3), |(_, s, _)| s.deflection / s.rated)
+        .column("", "Reaction", Dim::Force, Digits::Usual, |(_, s, _)| s.reaction)
+        .column("Energy", "Absorbed", energy, Digits::Usual, |(_, s, _)| s.energy)
+        .column("Energy", "of Rated ", Dim::None, Digits::Decimals(3), |(_, s, _)| s.energy / s.rated_energy);
+    if timed { table.column("", "At", Dim::Time, Digits::Usual, |(.., time)| *time).build() } else { table.build() }
 }

@@ -3,7 +3,7 @@
 use super::case::{Kind, case, sections};
 use super::{Settings, case::Installed};
 use crate::SolveError;
-use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_model::{ClassError, Model};
 use windlass_tether::installed::description::Description;
@@ -88,22 +88,18 @@ pub fn natural(model: &Model, name: &str, number: usize, compatible: bool) -> Re
     };
     let mut tables = Vec::new();
     for (index, (frequency, period, rows)) in pages.into_iter().enumerate() {
-        let mut table = Table::new(format!("Mode {} of Tether {name}", index + 1))
+        let nodes: Vec<_> = rows.iter().enumerate().rev().collect();
+        let [u, v, ru, rv] = heads;
+        let table = Table::new(format!("Mode {} of Tether {name}", index + 1))
             .fact("Frequency", frequency, Dim::Frequency)
             .fact("Frequency in Hertz", frequency.map(|w| w / std::f64::consts::TAU), Dim::None)
             .fact("Period", period, Dim::Time)
-            .column("", "Node", Dim::None, Digits::Usual)
-            .column("", "Height", Dim::Length, Digits::Decimals(2))
-            .column("Displacement", heads[0], Dim::None, Digits::Decimals(4))
-            .column("Displacement", heads[1], Dim::None, Digits::Decimals(4))
-            .column("Slope", heads[2], Dim::Angle, Digits::Decimals(4))
-            .column("Slope", heads[3], Dim::Angle, Digits::Decimals(4));
-        for (node, (height, shape)) in rows.iter().enumerate().rev() {
-            let mut row: Vec<Cell> = vec![(node + 1).into(), (*height).into()];
-            row.extend(shape.iter().map(|v| Cell::from(*v)));
-            // the row has one cell a column, made just above
-            let _ = table.push(row);
-        }
+            .with_rows(&nodes)
+            .column("", "Node", Dim::None, Digits::Usual, |(node, _)| node + 1)
+            .column("", "Height", Dim::Length, Digits::Decimals(2), |(_, (height, _))| *height)
+            .columns("Displacement", [u, v], Dim::None, Digits::Decimals(4), |(_, (_, shape))| [shape[0], shape[1]])
+            .columns("Slope", [ru, rv], Dim::Angle, Digits::Decimals(4), |(_, (_, shape))| [shape[2], shape[3]])
+            .build();
         tables.push(table);
     }
     Ok(tables)

@@ -1,8 +1,8 @@
 //! Tables of the structure that tethers hold [AQWA-TETHER 8.2].
 
 use super::Tethered;
-use super::history::{Quantity, StructureHistory};
-use super::tables::{SECONDS, column, text};
+use super::history::StructureHistory;
+use super::tables::SECONDS;
 use windlass_base::table::{Cell, Column, Digits, Table};
 use windlass_base::units::Dim;
 use windlass_signal::SeriesError;
@@ -32,51 +32,37 @@ const SIX: [&str; 6] = ["X", "Y", "Z", "RX", "RY", "RZ"];
 pub fn structure(run: &Tethered, structure: &StructureHistory, instant: usize, points: &[usize]) -> [Table; 2] {
     let time = run.times.get(instant).copied();
     let title = |what: &str| format!("{what} of Structure {}", structure.body);
-    let mut out = [title("Motions"), title("Forces")]
-        .map(|t| Table::new(t).fact("Time", time, Dim::Time).column("", "Freedom", Dim::None, Digits::Usual));
     let at = |kind: usize, dof: usize| {
         let all = (0..6).filter_map(|f| structure.at(instant, 6 * kind + f));
         let largest = all.fold(0.0, |most: f64, v| most.max(v.abs()));
         Cell::from(structure.at(instant, 6 * kind + dof).map(|v| without_noise(v, largest)))
     };
-    // the six of a motion have two dimensions: metres and degrees stand in columns of their own
-    let [motions, forces] = &mut out;
-    motions.columns.clear();
-    forces.columns.clear();
-    let kinds =
-        |rows: &[usize]| rows.iter().map(|k| text(StructureHistory::KINDS.get(*k).copied().unwrap_or(""))).collect();
-    let moved = [0, 1, 2, 12];
+    let named = |title: String| Table::new(title).fact("Time", time, Dim::Time);
+    let kind_name = |kind: &usize| StructureHistory::KINDS.get(*kind).copied().unwrap_or("");
     let pushed: Vec<usize> = (3..12).collect();
-    let head = |name: &str, dim, digits, cells| Column { name: name.into(), group: String::new(), dim, digits, cells };
-    forces.columns.push(head("Kind", Dim::None, Digits::Usual, kinds(&pushed)));
+    let mut forces = named(title("Forces")).with_rows(&pushed).text("Kind", kind_name);
     for (dof, name) in SIX.iter().enumerate() {
         let (dim, digits) = six(3)[dof / 3];
-        let cells = pushed.iter().map(|k| at(*k, dof)).collect();
-        forces.columns.push(head(name, dim, digits, cells));
+        forces = forces.column("", name, dim, digits, |kind| at(*kind, dof));
     }
-    motions.columns.push(head("Freedom", Dim::None, Digits::Usual, SIX.map(text).to_vec()));
-    for kind in moved {
-        let name = StructureHistory::KINDS.get(kind).copied().unwrap_or("");
-        for (part, range) in [(0, 0..3), (1, 3..6)] {
-            let (dim, digits) = six(kind)[part];
-            let value = |f: usize| {
-                if range.contains(&f) { at(kind, f) } else { Cell::Missing }
-            };
-            let cells = (0..6).map(value).collect();
-            motions
-                .columns
-                .push(Column { group: name.into(), ..head(["Linear", "Angular"][part], dim, digits, cells) });
+    // the six of a motion have two dimensions: metres and degrees stand in columns of their own
+    let dofs: Vec<(usize, &str)> = SIX.into_iter().enumerate().collect();
+    let mut motions = named(title("Motions")).with_rows(&dofs).text("Freedom", |(_, name)| *name);
+    for kind in [0, 1, 2, 12] {
+        for ((dim, digits), (part, range)) in six(kind).into_iter().zip([("Linear", 0..3), ("Angular", 3..6)]) {
+            motions = motions.column(kind_name(&kind), part, dim, digits, |(dof, _)| {
+                if range.contains(dof) { at(kind, *dof) } else { Cell::Missing }
+            });
         }
     }
     let behind = 6 * StructureHistory::KINDS.len();
     for point in points {
         let name = structure.points.get(*point).map_or("", String::as_str);
-        let cells =
-            (0..6).map(|f| if f < 3 { structure.at(instant, behind + 3 * point + f).into() } else { Cell::Missing });
-        let column = head("Point", Dim::Length, Digits::Decimals(3), cells.collect());
-        motions.columns.push(Column { group: name.into(), ..column });
+        motions = motions.column(name, "Point", Dim::Length, Digits::Decimals(3), |(dof, _)| {
+            if *dof < 3 { structure.at(instant, behind + 3 * point + dof) } else { None }
+        });
     }
-    out
+    [motions.build(), forces.build()]
 }
 
 /// What the columns of each kind are called before their axis, in the order of [`StructureHistory::KINDS`].
@@ -84,25 +70,22 @@ const CODES: [&str; 13] = ["", "V", "A", "G", "H", "D", "FK", "WI", "DF", "GY", 
 
 /// Everything of the structure over time.
 pub fn structure_series(run: &Tethered, structure: &StructureHistory) -> Table {
-    let mut table = Table::new(format!("Structure {} in Time", structure.body));
-    let head = Quantity { code: "", group: "", name: "Time", dim: Dim::Time, digits: SECONDS };
-    table.columns.push(column(&head, run.times.iter().map(|t| Cell::Number(*t)).collect()));
+    let mut columns = vec![Column::new("", "Time", Dim::Time, SECONDS, run.times.iter().copied())];
     for ((kind, name), code) in StructureHistory::KINDS.iter().enumerate().zip(CODES) {
         for (dof, axis) in SIX.iter().enumerate() {
             let (dim, digits) = six(kind)[dof / 3];
-            let cells = structure.series(6 * kind + dof).into_iter().map(Cell::Number).collect();
-            table.columns.push(Column { name: format!("{code}{axis}"), group: (*name).into(), dim, digits, cells });
+            let values = structure.series(6 * kind + dof);
+            columns.push(Column::new(name, &format!("{code}{axis}"), dim, digits, values));
         }
     }
     for (index, point) in structure.points.iter().enumerate() {
         for (axis, name) in SIX.iter().take(3).enumerate() {
-            let cells = structure.series(6 * StructureHistory::KINDS.len() + 3 * index + axis);
-            let cells = cells.into_iter().map(Cell::Number).collect();
+            let values = structure.series(6 * StructureHistory::KINDS.len() + 3 * index + axis);
             let (dim, digits) = six(0)[0];
-            table.columns.push(Column { name: (*name).into(), group: point.clone(), dim, digits, cells });
+            columns.push(Column::new(point, name, dim, digits, values));
         }
     }
-    table
+    Table::from_columns(format!("Structure {} in Time", structure.body), columns)
 }
 
 /// Mean, drift and the first harmonics of the structure's motions over one cycle [AQWA-TETHER 8.2.21]: the cycle of a regular wave's period
@@ -120,21 +103,7 @@ pub fn harmonics(
     let time = |place: Option<&usize>| place.and_then(|i| run.times.get(*i)).copied().unwrap_or_default();
     let (start, end) = (time(instants.first()), time(instants.last()));
     let period = period.unwrap_or(end - start);
-    let mut table = Table::new(format!("Harmonics of Structure {}", structure.body))
-        .fact("Start", start, Dim::Time)
-        .fact("Period", period, Dim::Time)
-        .column("", "Motion", Dim::None, Digits::Usual)
-        .column("", "Freedom", Dim::None, Digits::Usual)
-        .column("", "Mean", Dim::None, Digits::Decimals(4))
-        .column("", "Drift", Dim::None, Digits::Decimals(4));
-    for order in ["1", "2", "3", "4"] {
-        table = table.column(order, "Amplitude", Dim::None, Digits::Decimals(4)).column(
-            order,
-            "Phase",
-            Dim::Angle,
-            Digits::Decimals(1),
-        );
-    }
+    let mut rows = Vec::new();
     for (kind, motion) in StructureHistory::KINDS.iter().enumerate().take(3) {
         let mut cycles = Vec::new();
         for dof in 0..SIX.len() {
@@ -143,21 +112,53 @@ pub fn harmonics(
         }
         let largest = cycles.iter().fold(0.0, |most: f64, c| most.max(c.mean.abs()).max(c.drift.abs()));
         for ((dof, axis), found) in SIX.iter().enumerate().zip(&cycles) {
-            // one column holds metres and degrees: numbers without a dimension, in metres and degrees
-            let told = |value: f64| {
-                let value = without_noise(value, largest);
-                if dof < 3 { value } else { value.to_degrees() }
-            };
-            let mut row = vec![text(motion), text(axis), told(found.mean).into(), told(found.drift).into()];
-            for harmonic in &found.harmonics {
-                let amplitude = told(harmonic.amplitude);
-                let phase = if amplitude > 0.0 { Cell::Number(-harmonic.phase) } else { Cell::Missing };
-                row.extend([amplitude.into(), phase]);
-            }
-            // the row has one cell a column
-            let _ = table.push(row);
+            rows.push(HarmonicRow { motion, dof, axis, largest, found: found.clone() });
         }
     }
+    let mut table = Table::new(format!("Harmonics of Structure {}", structure.body))
+        .fact("Start", start, Dim::Time)
+        .fact("Period", period, Dim::Time)
+        .with_rows(&rows)
+        .text("Motion", |row| row.motion)
+        .text("Freedom", |row| row.axis)
+        .column("", "Mean", Dim::None, Digits::Decimals(4), |row| row.shown(row.found.mean))
+        .column("", "Drift", Dim::None, Digits::Decimals(4), |row| row.shown(row.found.drift));
+    for (order, head) in ["1", "2", "3", "4"].into_iter().enumerate() {
+        table = table.column(head, "Amplitude", Dim::None, Digits::Decimals(4), |row| row.amplitude(order)).column(
+            head,
+            "Phase",
+            Dim::Angle,
+            Digits::Decimals(1),
+            |row| {
+                row.amplitude(order).filter(|amplitude| *amplitude > 0.0)?;
+                row.found.harmonics.get(order).map(|harmonic| -harmonic.phase)
+            },
+        );
+    }
+    let mut table = table.build();
     table.note("lengths in metres, angles in degrees; x = mean + sum A cos(n w t - phase)");
     Ok(table)
+}
+
+/// The harmonics of one of the six of a motion.
+struct HarmonicRow<'r> {
+    motion: &'r str,
+    axis: &'r str,
+    dof: usize,
+    /// The largest mean or drift of the six: what is rounding beside it is nothing.
+    largest: f64,
+    found: Cycle,
+}
+
+impl HarmonicRow<'_> {
+    /// A value in metres or degrees: one column holds both, as numbers without a dimension.
+    fn shown(&self, value: f64) -> f64 {
+        let value = without_noise(value, self.largest);
+        if self.dof < 3 { value } else { value.to_degrees() }
+    }
+
+    /// The amplitude of a harmonic, the first from 0.
+    fn amplitude(&self, order: usize) -> Option<f64> {
+        self.found.harmonics.get(order).map(|harmonic| self.shown(harmonic.amplitude))
+    }
 }

@@ -9,12 +9,9 @@ use windlass_tether::installed::Change;
 
 pub(super) const SECONDS: Digits = Digits::Decimals(2);
 
-pub(super) fn text(word: &str) -> Cell {
-    Cell::Text(word.into())
-}
-
-pub(super) fn column(of: &Quantity, cells: Vec<Cell>) -> Column {
-    Column { name: of.name.into(), group: of.group.into(), dim: of.dim, digits: of.digits, cells }
+/// A column of a quantity, with its values.
+fn column(of: &Quantity, cells: impl IntoIterator<Item = impl Into<Cell>>) -> Column {
+    Column::new(of.group, of.name, of.dim, of.digits, cells)
 }
 
 /// How a run went.
@@ -39,71 +36,64 @@ pub fn told(run: &Tethered) -> Table {
 
 /// What happened: tethers that went slack, that struck, whose lower end fell on its stop. Empty without rows.
 pub fn events(run: &Tethered) -> Table {
-    let mut table = Table::new("Slack and Impact")
-        .column("", "Time", Dim::Time, SECONDS)
-        .column("", "Tether", Dim::None, Digits::Usual)
-        .column("", "Event", Dim::None, Digits::Usual)
-        .column("", "Velocity", Dim::Velocity, Digits::Decimals(3))
-        .column("", "Stress", STRESS, Digits::Scientific(4))
-        .column("", "Drop", Dim::Length, Digits::Decimals(3));
-    for event in &run.happened {
-        let (what, numbers) = match event.change {
-            Change::Slack => ("slack", [None; 3]),
-            Change::Impact { velocity, stress } => ("impact", [Some(velocity), Some(stress), None]),
-            Change::LowerStop { drop } => ("on the lower stop", [None, None, Some(drop)]),
-        };
-        let [velocity, stress, drop] = numbers.map(Cell::from);
-        let row = vec![event.time.into(), text(&event.tether), text(what), velocity, stress, drop];
-        // the row has one cell a column, made just above
-        let _ = table.push(row);
-    }
-    table
+    Table::new("Slack and Impact")
+        .with_rows(&run.happened)
+        .column("", "Time", Dim::Time, SECONDS, |event| event.time)
+        .text("Tether", |event| &event.tether)
+        .text("Event", |event| match event.change {
+            Change::Slack => "slack",
+            Change::Impact { .. } => "impact",
+            Change::LowerStop { .. } => "on the lower stop",
+        })
+        .column("", "Velocity", Dim::Velocity, Digits::Decimals(3), |event| match event.change {
+            Change::Impact { velocity, .. } => Some(velocity),
+            _ => None,
+        })
+        .column("", "Stress", STRESS, Digits::Scientific(4), |event| match event.change {
+            Change::Impact { stress, .. } => Some(stress),
+            _ => None,
+        })
+        .column("", "Drop", Dim::Length, Digits::Decimals(3), |event| match event.change {
+            Change::LowerStop { drop } => Some(drop),
+            _ => None,
+        })
+        .build()
 }
 
 /// Positions, velocities and accelerations of the nodes at some instants, from the vessel down (7.3).
 pub fn motions(run: &Tethered, tether: &TetherHistory, instants: &[usize]) -> Table {
+    let quantities = tether.of_a_node();
+    let along = quantities.len() - 1;
+    let nodes = || (0..tether.line.nodes()).rev();
+    let rows: Vec<(usize, usize)> = instants.iter().flat_map(|i| nodes().map(move |node| (*i, node))).collect();
     let mut table = Table::new(format!("Motions of Tether {}", tether.name))
-        .column("", "Time", Dim::Time, SECONDS)
-        .column("", "Node", Dim::None, Digits::Usual);
-    let of = tether.of_a_node();
-    let along = of.len() - 1;
-    let order: Vec<usize> = std::iter::once(along).chain(0..along).collect();
-    table.columns.extend(order.iter().filter_map(|q| of.get(*q)).map(|q| column(q, Vec::new())));
-    for instant in instants {
-        for node in (0..tether.line.nodes()).rev() {
-            let mut row = vec![Cell::from(run.times.get(*instant).copied()), (node + 1).into()];
-            row.extend(order.iter().map(|q| Cell::from(tether.node_at(*instant, node, *q))));
-            // the row has one cell a column
-            let _ = table.push(row);
-        }
+        .with_rows(&rows)
+        .column("", "Time", Dim::Time, SECONDS, |(instant, _)| run.times.get(*instant).copied())
+        .column("", "Node", Dim::None, Digits::Usual, |(_, node)| node + 1);
+    for (q, of) in std::iter::once(along).chain(0..along).filter_map(|q| quantities.get(q).map(|of| (q, of))) {
+        table =
+            table.column(of.group, of.name, of.dim, of.digits, |(instant, node)| tether.node_at(*instant, *node, q));
     }
-    table
+    table.build()
 }
 
 /// Forces and stresses at both ends of the elements at some instants, the upper or vessel's end of each first (7.4, 7.11).
 pub fn forces(run: &Tethered, tether: &TetherHistory, instants: &[usize]) -> Table {
-    let mut table = Table::new(format!("Forces and Stresses of Tether {}", tether.name))
-        .column("", "Time", Dim::Time, SECONDS)
-        .column("", "Elem", Dim::None, Digits::Usual)
-        .column("", "Node", Dim::None, Digits::Usual)
-        .column("", "Along", Dim::Length, Digits::Decimals(1));
-    table.columns.extend(tether.of_an_end().iter().map(|q| column(q, Vec::new())));
+    let ends = || (0..2 * tether.line.elements().len()).rev();
+    let rows: Vec<(usize, usize)> = instants.iter().flat_map(|i| ends().map(move |end| (*i, end))).collect();
     let along = tether.of_a_node().len() - 1;
-    for instant in instants {
-        for end in (0..2 * tether.line.elements().len()).rev() {
-            let node = end.div_ceil(2);
-            let mut row = vec![
-                Cell::from(run.times.get(*instant).copied()),
-                (end / 2 + 1).into(),
-                (node + 1).into(),
-                tether.node_at(*instant, node, along).into(),
-            ];
-            row.extend((0..tether.of_an_end().len()).map(|q| Cell::from(tether.end_at(*instant, end, q))));
-            // the row has one cell a column
-            let _ = table.push(row);
-        }
+    let mut table = Table::new(format!("Forces and Stresses of Tether {}", tether.name))
+        .with_rows(&rows)
+        .column("", "Time", Dim::Time, SECONDS, |(instant, _)| run.times.get(*instant).copied())
+        .column("", "Elem", Dim::None, Digits::Usual, |(_, end)| end / 2 + 1)
+        .column("", "Node", Dim::None, Digits::Usual, |(_, end)| end.div_ceil(2) + 1)
+        .column("", "Along", Dim::Length, Digits::Decimals(1), |(instant, end)| {
+            tether.node_at(*instant, end.div_ceil(2), along)
+        });
+    for (q, of) in tether.of_an_end().iter().enumerate() {
+        table = table.column(of.group, of.name, of.dim, of.digits, |(instant, end)| tether.end_at(*instant, *end, q));
     }
-    table
+    table.build()
 }
 
 /// What a history in time is of.
@@ -121,20 +111,16 @@ pub fn series(run: &Tethered, tether: &TetherHistory, of: Of) -> Table {
         Of::Node(node) => (format!("Node {}", node + 1), tether.of_a_node()),
         Of::End(end) => (format!("Element {}, End {}", end / 2 + 1, end % 2 + 1), tether.of_an_end()),
     };
-    let mut table = Table::new(format!("{what} of Tether {}", tether.name));
-    let times = run.times.iter().map(|t| Cell::Number(*t)).collect();
-    let head = Quantity { code: "", group: "", name: "Time", dim: Dim::Time, digits: SECONDS };
-    table.columns.push(column(&head, times));
+    let mut columns = vec![Column::new("", "Time", Dim::Time, SECONDS, run.times.iter().copied())];
     for (index, quantity) in list.iter().enumerate() {
         let values = match of {
             Of::Node(node) => tether.node(node, index),
             Of::End(end) => tether.end(end, index),
         };
         // in one table of all of them, codes tell them apart
-        let cells = values.into_iter().map(Cell::Number).collect();
-        table.columns.push(Column { name: quantity.code.into(), ..column(quantity, cells) });
+        columns.push(Column { name: quantity.code.into(), ..column(quantity, values) });
     }
-    table
+    Table::from_columns(format!("{what} of Tether {}", tether.name), columns)
 }
 
 /// One quantity along the tether at some instants, with the least and the largest of the whole run (2.2, 2.3).
@@ -151,29 +137,23 @@ pub fn along(
         if at_nodes { (0..tether.line.nodes()).collect() } else { (0..2 * tether.line.elements().len()).collect() };
     let distance = |place: &usize| {
         let node = if at_nodes { *place } else { place.div_ceil(2) };
-        Cell::from(tether.line.distances().get(node).copied())
+        tether.line.distances().get(node).copied()
     };
-    let mut table = Table::new(format!("{} {} along Tether {}", quantity.group, quantity.name, tether.name));
-    let head = Quantity { code: "", group: "", name: "Distance", dim: Dim::Length, digits: Digits::Decimals(2) };
-    table.columns.push(column(&head, places.iter().map(distance).collect()));
+    let value = |instant: usize, place: usize| match at_nodes {
+        true => tether.node_at(instant, place, index),
+        false => tether.end_at(instant, place, index),
+    };
+    let whole = |place: &usize| if at_nodes { tether.node(*place, index) } else { tether.end(*place, index) };
+    let Quantity { dim, digits, .. } = *quantity;
+    let mut table = Table::new(format!("{} {} along Tether {}", quantity.group, quantity.name, tether.name))
+        .with_rows(&places)
+        .column("", "Distance", Dim::Length, Digits::Decimals(2), distance);
     for instant in instants {
-        let value = |place: &usize| {
-            if at_nodes { tether.node_at(*instant, *place, index) } else { tether.end_at(*instant, *place, index) }
-        };
-        let cells = places.iter().map(|p| Cell::from(value(p))).collect();
         let time = run.times.get(*instant).copied().unwrap_or_default();
-        table.columns.push(Column { name: format!("{time:.2} s"), ..column(quantity, cells) });
+        table = table.column(quantity.group, &format!("{time:.2} s"), dim, digits, |place| value(*instant, *place));
     }
-    let all = |place: &usize| if at_nodes { tether.node(*place, index) } else { tether.end(*place, index) };
-    let folded = |least: bool| {
-        let of = |place: &usize| {
-            let values = all(place).into_iter();
-            Cell::from(if least { values.reduce(f64::min) } else { values.reduce(f64::max) })
-        };
-        places.iter().map(of).collect()
-    };
-    for (name, least) in [("Least", true), ("Largest", false)] {
-        table.columns.push(Column { name: name.into(), ..column(quantity, folded(least)) });
-    }
-    Some(table)
+    let table = table
+        .column(quantity.group, "Least", dim, digits, |place| whole(place).into_iter().reduce(f64::min))
+        .column(quantity.group, "Largest", dim, digits, |place| whole(place).into_iter().reduce(f64::max));
+    Some(table.build())
 }

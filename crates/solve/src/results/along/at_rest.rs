@@ -4,10 +4,10 @@ use super::{CLEARANCE, sections};
 use crate::link::{Attachment, connected, laid, pose_of};
 use crate::system::SolveError;
 use crate::time::RunRequirements;
-use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_hydro::ambient;
-use windlass_model::{DYNAMIC, Element, End, Model, Situation};
+use windlass_model::{DYNAMIC, Element, End, LineNode, Model, Situation};
 
 /// Tells of each dynamic line and whose name fits, between its ends where they stand: its name, its element, how its ends
 /// stand, and its state before anything has happened.
@@ -73,52 +73,48 @@ pub fn lines_at_rest(model: &Model, fits: &dyn Fn(&str) -> bool) -> Result<Vec<T
         element.along(at, state, &mut nodes).map_err(SolveError::of(name))?;
         let sections = sections(model, name);
         let tube = sections.iter().any(|s| s.tube.is_some());
-        let bends = element.bends();
+        let rows: Vec<(usize, &LineNode)> = nodes.iter().enumerate().collect();
+        let finite = |v: f64| v.is_finite().then_some(v + 0.0);
         let mut table = Table::new("Line at Rest")
             .fact("Line", name, Dim::None)
             .fact("Model", DYNAMIC, Dim::None)
-            .column("", "Node", Dim::None, Digits::Usual)
-            .column("", "Arc", Dim::Length, Digits::Usual);
-        for axis in ["X", "Y", "Z"] {
-            table = table.column("", axis, Dim::Length, Digits::Usual);
-        }
-        table = table.column("", "Clearance", Dim::Length, CLEARANCE);
-        table = table.column("", "Tension", Dim::Force, Digits::Usual);
-        if bends {
+            .with_rows(&rows)
+            .column("", "Node", Dim::None, Digits::Usual, |(index, _)| index + 1)
+            .column("", "Arc", Dim::Length, Digits::Usual, |(_, node)| finite(node.arc))
+            .columns("", ["X", "Y", "Z"], Dim::Length, Digits::Usual, |(_, node)| {
+                <[f64; 3]>::from(node.position).map(finite)
+            })
+            .column("", "Clearance", Dim::Length, CLEARANCE, |(_, node)| finite(node.clearance))
+            .column("", "Tension", Dim::Force, Digits::Usual, |(_, node)| finite(node.effective));
+        if element.bends() {
+            let per_length = Dim::Derived { force: 0, length: -1, seconds: 0 };
             table = table
-                .column("", "Shear", Dim::Force, Digits::Usual)
-                .column("", "Moment", Dim::Moment, Digits::Usual)
-                .column("", "Curvature", Dim::Derived { force: 0, length: -1, seconds: 0 }, Digits::Scientific(4));
+                .column("", "Shear", Dim::Force, Digits::Usual, |(_, node)| node.shear)
+                .column("", "Moment", Dim::Moment, Digits::Usual, |(_, node)| node.moment)
+                .column("", "Curvature", per_length, Digits::Scientific(4), |(_, node)| node.curvature);
         }
         if tube {
-            table = table.column("", "Wall", Dim::Force, Digits::Usual);
-            for kind in ["Axial", "Bending", "Hoop", "Von Mises"] {
-                table = table.column("Stress", kind, Dim::Stress, Digits::Usual);
-            }
+            let names = ["Axial", "Bending", "Hoop", "Von Mises"];
+            table = table.column("", "Wall", Dim::Force, Digits::Usual, |(_, node)| node.worse().wall).columns(
+                "Stress",
+                names,
+                Dim::Stress,
+                Digits::Usual,
+                |(_, node)| {
+                    let stress = node.worse().stress;
+                    stress.map_or([None; 4], |s| [s.axial, s.bending, s.hoop, s.von_mises].map(Some))
+                },
+            );
         }
-        let mut table = table.column("", "Used", Dim::None, Digits::Decimals(3));
-        for (index, node) in nodes.iter().enumerate() {
-            let mut cells: Vec<Cell> = vec![(index + 1).into()];
-            let place = [node.arc, node.position.x, node.position.y, node.position.z, node.clearance, node.effective];
-            cells.extend(place.map(|v| if v.is_finite() { Cell::Number(v + 0.0) } else { Cell::Missing }));
-            if bends {
-                cells.extend([node.shear, node.moment, node.curvature].map(Cell::from));
-            }
-            if tube {
-                let worse = node.worse();
-                cells.push(worse.wall.into());
-                let stress = worse.stress.map(|s| [s.axial, s.bending, s.hoop, s.von_mises]);
-                cells.extend((0..4).map(|i| Cell::from(stress.and_then(|s| s.get(i).copied()))));
-            }
-            let used = node.sides().filter_map(|side| {
-                let stress = side.stress.map(|s| s.von_mises);
-                Some(sections.get(side.segment)?.used(node.effective, stress))
-            });
-            cells.push(used.reduce(f64::max).into());
-            let text =
-                |e: windlass_base::table::TableError| SolveError::new(windlass_model::ClassError::new(e.to_string()));
-            table.push(cells).map_err(text)?;
-        }
+        let mut table = table
+            .column("", "Used", Dim::None, Digits::Decimals(3), |(_, node)| {
+                let used = node.sides().filter_map(|side| {
+                    let stress = side.stress.map(|s| s.von_mises);
+                    Some(sections.get(side.segment)?.used(node.effective, stress))
+                });
+                used.reduce(f64::max)
+            })
+            .build();
         table.note("between its ends where they stand, in the mean current, without waves");
         table.note(if tube {
             "Used is von Mises stress over yield stress of a tube, tension over breaking tension of other sections"

@@ -3,7 +3,7 @@
 use super::at_rest::standing;
 use crate::system::SolveError;
 use nalgebra::Vector3;
-use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_model::{LineMode, LineNode, Model};
 
@@ -25,10 +25,10 @@ pub fn natural_modes(
         let modes = element.swings(at, state, number).map_err(&wrong)?;
         let mut nodes = Vec::new();
         element.along(at, state, &mut nodes).map_err(&wrong)?;
-        tables.push(periods(name, &nodes, &modes)?);
+        tables.push(periods(name, &nodes, &modes));
         if shapes {
             for (index, mode) in modes.iter().enumerate() {
-                tables.push(shape(name, index + 1, &nodes, mode)?);
+                tables.push(shape(name, index + 1, &nodes, mode));
             }
         }
         Ok(())
@@ -36,38 +36,32 @@ pub fn natural_modes(
     Ok(tables)
 }
 
-fn text(error: windlass_base::table::TableError) -> SolveError {
-    SolveError::new(windlass_model::ClassError::new(error.to_string()))
-}
-
 /// Periods, where each mode moves most, and which way.
-fn periods(name: &str, nodes: &[LineNode], modes: &[LineMode]) -> Result<Table, SolveError> {
+fn periods(name: &str, nodes: &[LineNode], modes: &[LineMode]) -> Table {
+    // the node that moves most; of equals the first: which of two like bows is larger by a thousandth tells nothing
+    let most = |mode: &LineMode| {
+        let size = |i: usize| mode.shape.get(i).map_or(0.0, Vector3::norm);
+        (0..nodes.len()).fold(0, |most, i| if size(i) > size(most) * 1.001 { i } else { most })
+    };
+    let rows: Vec<_> = modes.iter().enumerate().map(|(index, mode)| (index + 1, mode, most(mode))).collect();
     let mut table = Table::new("Natural Modes of a Line")
         .fact("Line", name, Dim::None)
-        .column("", "Mode", Dim::None, Digits::Usual)
-        .column("", "Period", Dim::Time, Digits::Decimals(3))
-        .column("", "Frequency", Dim::Frequency, Digits::Decimals(4))
-        .column("Most", "Node", Dim::None, Digits::Usual);
-    for at in ["Arc", "X", "Y", "Z"] {
-        table = table.column("Most", at, Dim::Length, Digits::Usual);
-    }
-    for way in ["Along", "In Plane", "Across"] {
-        table = table.column("Share of Motion", way, Dim::None, Digits::Decimals(3));
-    }
-    for (index, mode) in modes.iter().enumerate() {
-        let size = |i: usize| mode.shape.get(i).map_or(0.0, Vector3::norm);
-        // of equals the first: which of two like bows is larger by a thousandth tells nothing
-        let most = (0..nodes.len()).fold(0, |most, i| if size(i) > size(most) * 1.001 { i } else { most });
-        let mut row: Vec<Cell> = vec![(index + 1).into(), mode.period().into(), mode.frequency.into()];
-        row.push((most + 1).into());
-        let place = nodes.get(most).map(|n| [n.arc, n.position.x, n.position.y, n.position.z]);
-        row.extend((0..4).map(|i| Cell::from(place.and_then(|p| p.get(i).map(|v| clean(*v))))));
-        row.extend(shares(nodes, &mode.shape).map(|s| Cell::from(if s < 5e-4 { 0.0 } else { s })));
-        table.push(row).map_err(text)?;
-    }
+        .with_rows(&rows)
+        .column("", "Mode", Dim::None, Digits::Usual, |(number, ..)| *number)
+        .column("", "Period", Dim::Time, Digits::Decimals(3), |(_, mode, _)| mode.period())
+        .column("", "Frequency", Dim::Frequency, Digits::Decimals(4), |(_, mode, _)| mode.frequency)
+        .column("Most", "Node", Dim::None, Digits::Usual, |(.., most)| most + 1)
+        .columns("Most", ["Arc", "X", "Y", "Z"], Dim::Length, Digits::Usual, |(.., most)| {
+            let place = |n: &LineNode| [n.arc, n.position.x, n.position.y, n.position.z].map(|v| Some(clean(v)));
+            nodes.get(*most).map_or([None; 4], place)
+        })
+        .columns("Share of Motion", ["Along", "In Plane", "Across"], Dim::None, Digits::Decimals(3), |(_, mode, _)| {
+            shares(nodes, &mode.shape).map(|s| if s < 5e-4 { 0.0 } else { s })
+        })
+        .build();
     table.note("about rest between its ends where they stand and are held, in the mean current, with added mass, without damping");
     table.note("Along, In Plane and Across are along the line, in the vertical plane of its ends (of X where these are above each other) and across it");
-    Ok(table)
+    table
 }
 
 /// How much of a motion is along the line, across it in the vertical plane of the ends, and out of that plane: parts of the sum of
@@ -102,24 +96,20 @@ fn clean(place: f64) -> f64 {
 }
 
 /// The shape of one mode.
-fn shape(name: &str, number: usize, nodes: &[LineNode], mode: &LineMode) -> Result<Table, SolveError> {
-    let mut table = Table::new(format!("Shape of Mode {number} of a Line"))
+fn shape(name: &str, number: usize, nodes: &[LineNode], mode: &LineMode) -> Table {
+    let rows: Vec<_> = nodes.iter().zip(&mode.shape).enumerate().collect();
+    Table::new(format!("Shape of Mode {number} of a Line"))
         .fact("Line", name, Dim::None)
         .fact("Period", mode.period(), Dim::Time)
-        .column("", "Node", Dim::None, Digits::Usual)
-        .column("", "Arc", Dim::Length, Digits::Usual);
-    for at in ["X", "Y", "Z"] {
-        table = table.column("Place", at, Dim::Length, Digits::Usual);
-    }
-    for way in ["X", "Y", "Z"] {
-        table = table.column("Motion", way, Dim::None, Digits::Decimals(4));
-    }
-    for (index, (node, moved)) in nodes.iter().zip(&mode.shape).enumerate() {
-        let mut row: Vec<Cell> = vec![(index + 1).into(), node.arc.into()];
-        row.extend(node.position.iter().map(|v| Cell::from(clean(*v))));
-        // what is nothing but rounding is nothing
-        row.extend(moved.iter().map(|v| Cell::from(if v.abs() < 5e-5 { 0.0 } else { *v })));
-        table.push(row).map_err(text)?;
-    }
-    Ok(table)
+        .with_rows(&rows)
+        .column("", "Node", Dim::None, Digits::Usual, |(index, _)| index + 1)
+        .column("", "Arc", Dim::Length, Digits::Usual, |(_, (node, _))| node.arc)
+        .columns("Place", ["X", "Y", "Z"], Dim::Length, Digits::Usual, |(_, (node, _))| {
+            <[f64; 3]>::from(node.position).map(clean)
+        })
+        .columns("Motion", ["X", "Y", "Z"], Dim::None, Digits::Decimals(4), |(_, (_, moved))| {
+            // what is nothing but rounding is nothing
+            <[f64; 3]>::from(**moved).map(|v| if v.abs() < 5e-5 { 0.0 } else { v })
+        })
+        .build()
 }
