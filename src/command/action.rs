@@ -31,43 +31,45 @@ const HEIGHT: ValueSpec = ValueSpec::new("Z", Kind::Number(Dim::Length), "height
 const LINES: &[ValueSpec] = &[ValueSpec::new(":SEL", Kind::Name(Noun::Selector), "connector, pattern or selector")];
 
 /// Options that say when.
-const WHEN: [&str; 7] = ["-AT", "-TENSION", "-SLACK", "-ABOVE", "-BELOW", "-HIGH", "-LOW"];
+const WHEN: [OptionSpec; 7] = [AT, TENSION, SLACK, ABOVE, BELOW, HIGH, LOW];
 /// Options that say what.
-const WHAT: [&str; 5] = ["-RELEASE", "-ACTIVATE", "-WINCH", "-ENVIRONMENT", "-STOP"];
+const WHAT: [OptionSpec; 5] = [RELEASE, ACTIVATE, WINCH, ENVIRONMENT, STOP];
+
+const AT: OptionSpec =
+    OptionSpec::new("-AT", &[ValueSpec::new("T", Kind::Number(Dim::Time), "time").not_negative()], "at a time");
+const TENSION: OptionSpec = OptionSpec::new("-TENSION", &[LINE, FORCE], "when the tension of a line is first above F");
+const SLACK: OptionSpec = OptionSpec::new("-SLACK", &[LINE, FORCE], "when the tension of a line is first below F");
+const ABOVE: OptionSpec =
+    OptionSpec::new("-ABOVE", &[BODY, DOF, LIMIT], "when a degree of freedom of a body is first above V");
+const BELOW: OptionSpec =
+    OptionSpec::new("-BELOW", &[BODY, DOF, LIMIT], "when a degree of freedom of a body is first below V");
+const HIGH: OptionSpec = OptionSpec::new("-HIGH", &[POINT, HEIGHT], "when a point is first higher than Z");
+const LOW: OptionSpec = OptionSpec::new("-LOW", &[POINT, HEIGHT], "when a point is first lower than Z");
+const RELEASE: OptionSpec =
+    OptionSpec::new("-RELEASE", LINES, "connectors act no more: they break or are let go").repeating(1);
+const ACTIVATE: OptionSpec = OptionSpec::new("-ACTIVATE", LINES, "connectors that are inactive act").repeating(1);
+const WINCH: OptionSpec = OptionSpec::new(
+    "-WINCH",
+    &[
+        ValueSpec::new(":SEL", Kind::Name(Noun::Selector), "connector, pattern or selector"),
+        ValueSpec::new("RATE", Kind::Number(Dim::Velocity), "length a second, positive pays out, 0 stops it"),
+        ValueSpec::new("LENGTH", Kind::Number(Dim::Length), "length at which it stops").or("goes on").positive(),
+    ],
+    "the first segment of connectors gets longer or shorter",
+);
+const ENVIRONMENT: OptionSpec = OptionSpec::new(
+    "-ENVIRONMENT",
+    &[ValueSpec::new("NAME", Kind::Name(Noun::Environment), "environment")],
+    "its wind, waves and current from then on; the water must be the same",
+);
+const STOP: OptionSpec = OptionSpec::new("-STOP", &[], "the run ends");
+const DELETE: OptionSpec = OptionSpec::new("-DELETE", &[], "forgets the action");
+const CLEAR: OptionSpec = OptionSpec::new("-CLEAR", &[], "forgets all actions");
 
 static SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
     data: &[ValueSpec::new("NAME", Kind::Name(Noun::New), "name of the action").or("none: with -CLEAR")],
-    options: &[
-        OptionSpec::new("-AT", &[ValueSpec::new("T", Kind::Number(Dim::Time), "time").not_negative()], "at a time"),
-        OptionSpec::new("-TENSION", &[LINE, FORCE], "when the tension of a line is first above F"),
-        OptionSpec::new("-SLACK", &[LINE, FORCE], "when the tension of a line is first below F"),
-        OptionSpec::new("-ABOVE", &[BODY, DOF, LIMIT], "when a degree of freedom of a body is first above V"),
-        OptionSpec::new("-BELOW", &[BODY, DOF, LIMIT], "when a degree of freedom of a body is first below V"),
-        OptionSpec::new("-HIGH", &[POINT, HEIGHT], "when a point is first higher than Z"),
-        OptionSpec::new("-LOW", &[POINT, HEIGHT], "when a point is first lower than Z"),
-        OptionSpec::new("-RELEASE", LINES, "connectors act no more: they break or are let go").repeating(1),
-        OptionSpec::new("-ACTIVATE", LINES, "connectors that are inactive act").repeating(1),
-        OptionSpec::new(
-            "-WINCH",
-            &[
-                ValueSpec::new(":SEL", Kind::Name(Noun::Selector), "connector, pattern or selector"),
-                ValueSpec::new("RATE", Kind::Number(Dim::Velocity), "length a second, positive pays out, 0 stops it"),
-                ValueSpec::new("LENGTH", Kind::Number(Dim::Length), "length at which it stops")
-                    .or("goes on")
-                    .positive(),
-            ],
-            "the first segment of connectors gets longer or shorter",
-        ),
-        OptionSpec::new(
-            "-ENVIRONMENT",
-            &[ValueSpec::new("NAME", Kind::Name(Noun::Environment), "environment")],
-            "its wind, waves and current from then on; the water must be the same",
-        ),
-        OptionSpec::new("-STOP", &[], "the run ends"),
-        OptionSpec::new("-DELETE", &[], "forgets the action"),
-        OptionSpec::new("-CLEAR", &[], "forgets all actions"),
-    ],
+    options: &[AT, TENSION, SLACK, ABOVE, BELOW, HIGH, LOW, RELEASE, ACTIVATE, WINCH, ENVIRONMENT, STOP, DELETE, CLEAR],
     detail: "Says what happens in runs of TDOM, from then on in every one; an action happens once a run. One option says when, one says \
              what. A time is met exactly: a step is cut there. A step in which a condition comes true is cut in halves until it is met \
              within a 64th of the step. Connectors that come to act are made between their ends as these stand at \
@@ -81,7 +83,7 @@ static SPEC: CommandSpec = CommandSpec {
 
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
-    if args.has("-CLEAR") {
+    if args.has(&CLEAR) {
         job.actions.clear();
         return Ok(Effect::Done);
     }
@@ -91,7 +93,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             Diagnostic::error("an action needs a name", args.span).help("form: &ACTION NAME -AT 100 -RELEASE A")
         );
     }
-    if args.has("-DELETE") {
+    if args.has(&DELETE) {
         let before = job.actions.len();
         job.actions.retain(|a| !a.name.eq_ignore_ascii_case(name));
         if job.actions.len() == before {
@@ -110,15 +112,16 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
 }
 
 /// The one option of a list that is given.
-fn only<'a>(args: &'a Args, names: &[&str], of: &str) -> Outcome<&'a Given> {
-    let mut given = args.options.iter().filter(|g| names.contains(&g.name));
+fn only<'a>(args: &'a Args, options: &[OptionSpec], of: &str) -> Outcome<&'a Given> {
+    let mut given = args.options.iter().filter(|given| given.is_any(options));
     match (given.next(), given.next()) {
         (Some(one), None) => Ok(one),
         (Some(one), Some(other)) => {
-            let text = format!("{} and {} both say {of}", one.name, other.name);
+            let text = format!("{} and {} both say {of}", one.name(), other.name());
             Err(Diagnostic::error(text, other.span).other(one.span, "first given here").help("give two actions"))
         }
-        _ => Err(Diagnostic::error(format!("the action does not say {of}"), args.span).help(names.join(", "))),
+        _ => Err(Diagnostic::error(format!("the action does not say {of}"), args.span)
+            .help(options.iter().map(|option| option.name).collect::<Vec<_>>().join(", "))),
     }
 }
 
@@ -143,13 +146,13 @@ fn when(model: &Model, given: &Given, units: UnitSystem) -> Outcome<When> {
             None => Err(Diagnostic::error(format!("point {name} belongs to no body"), place)),
         }
     };
-    Ok(match given.name {
-        "-AT" => When::At(number(0)),
-        "-TENSION" => When::Above(line()?, number(1)),
-        "-SLACK" => When::Below(line()?, number(1)),
-        "-ABOVE" => dof().map(|(watched, value)| When::Above(watched, value))?,
-        "-BELOW" => dof().map(|(watched, value)| When::Below(watched, value))?,
-        "-HIGH" => When::Above(point()?, number(1)),
+    Ok(match given {
+        _ if given.is(&AT) => When::At(number(0)),
+        _ if given.is(&TENSION) => When::Above(line()?, number(1)),
+        _ if given.is(&SLACK) => When::Below(line()?, number(1)),
+        _ if given.is(&ABOVE) => dof().map(|(watched, value)| When::Above(watched, value))?,
+        _ if given.is(&BELOW) => dof().map(|(watched, value)| When::Below(watched, value))?,
+        _ if given.is(&HIGH) => When::Above(point()?, number(1)),
         _ => When::Below(point()?, number(1)),
     })
 }
@@ -159,11 +162,11 @@ fn what(model: &Model, given: &Given) -> Outcome<What> {
         let keys = selected(model, given.values.get(..count).unwrap_or(&given.values))?;
         Ok(keys.iter().filter_map(|k| model.connectors.get(k)).map(|c| c.name.clone()).collect())
     };
-    Ok(match given.name {
-        "-RELEASE" => What::Release(names(usize::MAX)?),
-        "-ACTIVATE" => What::Activate(names(usize::MAX)?),
-        "-WINCH" => What::Winch(names(1)?, given.number(1).unwrap_or(0.0), given.number(2)),
-        "-ENVIRONMENT" => {
+    Ok(match given {
+        _ if given.is(&RELEASE) => What::Release(names(usize::MAX)?),
+        _ if given.is(&ACTIVATE) => What::Activate(names(usize::MAX)?),
+        _ if given.is(&WINCH) => What::Winch(names(1)?, given.number(1).unwrap_or(0.0), given.number(2)),
+        _ if given.is(&ENVIRONMENT) => {
             let (name, place) =
                 (given.word(0).unwrap_or_default(), given.values.first().map_or(given.span, |v| v.span));
             What::Environment(find(&model.environments, name, "environment", place)?.name.clone())

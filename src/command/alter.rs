@@ -35,44 +35,47 @@ const HORIZONTAL: &[ValueSpec] =
     &[number("F", Dim::Force, "horizontal force at the fairlead, present configuration").positive()];
 const TENSION: &[ValueSpec] = &[number("F", Dim::Force, "tension at the fairlead, present configuration").positive()];
 
+const LENGTH: OptionSpec = OptionSpec::new(
+    "-LENGTH",
+    &[number("L", Dim::Length, "its length, unstretched").positive()],
+    "gives the first segment this length",
+)
+.many();
+const L_DELTA: OptionSpec =
+    OptionSpec::new("-L_DELTA", &[number("DL", Dim::Length, "added to it")], "makes the first segment longer").many();
+const L_HORIZONTAL: OptionSpec =
+    OptionSpec::new("-L_HORIZONTAL", HORIZONTAL, "solves the length of the first segment").many();
+const L_TENSION: OptionSpec = OptionSpec::new("-L_TENSION", TENSION, "solves the length of the first segment").many();
+const ANCHOR: OptionSpec = OptionSpec::new(
+    "-ANCHOR",
+    &[
+        number("X", Dim::Length, "global X"),
+        number("Y", Dim::Length, "global Y"),
+        number("Z", Dim::Length, "global Z, negative below the mean water surface"),
+    ],
+    "puts the anchor there",
+)
+.many();
+const A_HORIZONTAL: OptionSpec =
+    OptionSpec::new("-A_HORIZONTAL", HORIZONTAL, "solves the place of the anchor along its direction").many();
+const A_TENSION: OptionSpec =
+    OptionSpec::new("-A_TENSION", TENSION, "solves the place of the anchor along its direction").many();
+const DYNAMICS: OptionSpec = OptionSpec::new(
+    "-DYNAMICS",
+    &[ValueSpec::new("N", Kind::Integer, "elements of the whole line, at least one a segment; 0: none")
+        .within(0.0, 100_000.0)],
+    "makes a line of B_CAT, H_CAT or CATENARY dynamic, as a ROD is",
+)
+.owner(Owner::Ours)
+.many();
+const ACTIVE: OptionSpec = OptionSpec::new("-ACTIVE", &[], "the connector acts").many();
+const INACTIVE: OptionSpec = OptionSpec::new("-INACTIVE", &[], "the connector does not act").many();
+
 static SPEC: CommandSpec = CommandSpec {
     data: &[ValueSpec::new(":SEL", Kind::Name(Noun::Selector), "connector, pattern or selector")],
     repeat: 1,
     interleaved: true,
-    options: &[
-        OptionSpec::new(
-            "-LENGTH",
-            &[number("L", Dim::Length, "its length, unstretched").positive()],
-            "gives the first segment this length",
-        )
-        .many(),
-        OptionSpec::new("-L_DELTA", &[number("DL", Dim::Length, "added to it")], "makes the first segment longer")
-            .many(),
-        OptionSpec::new("-L_HORIZONTAL", HORIZONTAL, "solves the length of the first segment").many(),
-        OptionSpec::new("-L_TENSION", TENSION, "solves the length of the first segment").many(),
-        OptionSpec::new(
-            "-ANCHOR",
-            &[
-                number("X", Dim::Length, "global X"),
-                number("Y", Dim::Length, "global Y"),
-                number("Z", Dim::Length, "global Z, negative below the mean water surface"),
-            ],
-            "puts the anchor there",
-        )
-        .many(),
-        OptionSpec::new("-A_HORIZONTAL", HORIZONTAL, "solves the place of the anchor along its direction").many(),
-        OptionSpec::new("-A_TENSION", TENSION, "solves the place of the anchor along its direction").many(),
-        OptionSpec::new(
-            "-DYNAMICS",
-            &[ValueSpec::new("N", Kind::Integer, "elements of the whole line, at least one a segment; 0: none")
-                .within(0.0, 100_000.0)],
-            "makes a line of B_CAT, H_CAT or CATENARY dynamic, as a ROD is",
-        )
-        .owner(Owner::Ours)
-        .many(),
-        OptionSpec::new("-ACTIVE", &[], "the connector acts").many(),
-        OptionSpec::new("-INACTIVE", &[], "the connector does not act").many(),
-    ],
+    options: &[LENGTH, L_DELTA, L_HORIZONTAL, L_TENSION, ANCHOR, A_HORIZONTAL, A_TENSION, DYNAMICS, ACTIVE, INACTIVE],
     detail: "An option acts on the names before it: those since the option before, else the same as that one's. Options act in \
              the order given; if one connector cannot be solved, or its line has no \
              configuration behind a change, the record changes nothing. -L_HORIZONTAL and -L_TENSION take the length nearest to the present one and name the others that give the force. Lengths are those of the connector: \
@@ -132,7 +135,7 @@ fn groups(args: &Args) -> Outcome<Vec<(&Given, &[Value])>> {
         }
         let names = args.data.get(from..to).unwrap_or_default();
         if names.is_empty() {
-            let text = format!("no connector is named before {}", given.name);
+            let text = format!("no connector is named before {}", given.name());
             return Err(Diagnostic::error(text, given.span).help(FORM));
         }
         made.push((given, names));
@@ -199,21 +202,20 @@ impl Said {
 /// What an option asks for at the fairlead.
 fn aim(given: &Given) -> Option<Condition> {
     let force = given.number(0)?;
-    match given.name {
-        "-L_HORIZONTAL" | "-A_HORIZONTAL" => Some(Condition::Horizontal(force)),
-        "-L_TENSION" | "-A_TENSION" => Some(Condition::Tension(force)),
+    match given {
+        _ if given.is(&L_HORIZONTAL) || given.is(&A_HORIZONTAL) => Some(Condition::Horizontal(force)),
+        _ if given.is(&L_TENSION) || given.is(&A_TENSION) => Some(Condition::Tension(force)),
         _ => None,
     }
 }
 
 /// Changes one connector by one option; what is said of it.
 fn change(model: &Model, made: &mut Connector, given: &Given, said: &mut Said) -> Result<String, ClassError> {
-    let option = given.name;
-    if let "-ACTIVE" | "-INACTIVE" = option {
-        made.active = option == "-ACTIVE";
+    if given.is(&ACTIVE) || given.is(&INACTIVE) {
+        made.active = given.is(&ACTIVE);
         return Ok(if made.active { "active" } else { "inactive" }.into());
     }
-    if option == "-DYNAMICS" {
+    if given.is(&DYNAMICS) {
         let elements = given.values.first().and_then(|v| v.integer()).and_then(|n| usize::try_from(n).ok());
         made.dynamics = elements.filter(|n| *n > 0);
         // what makes no such line is refused here, not in a run
@@ -224,7 +226,7 @@ fn change(model: &Model, made: &mut Connector, given: &Given, said: &mut Said) -
     }
     let aim = aim(given);
     if aim.is_some() && !made.active {
-        return Ok(format!("inactive, passed over by {option}"));
+        return Ok(format!("inactive, passed over by {}", given.name()));
     }
     if matches!(aim, Some(Condition::Tension(_))) && begins_in_ground(model, made) {
         let text = "its first end is in the ground, and the tension of a line is that at its first end";
@@ -233,9 +235,11 @@ fn change(model: &Model, made: &mut Connector, given: &Given, said: &mut Said) -
     let old = (model.first_length(made), made.anchor);
     let value = given.number(0).unwrap_or(0.0);
     let mut also = String::new();
-    match (option, aim) {
-        ("-LENGTH", _) => made.first_length = Some(value),
-        ("-L_DELTA", _) => {
+    let lengthened = given.is(&LENGTH) || given.is(&L_DELTA);
+    let pulled = given.is(&L_HORIZONTAL) || given.is(&L_TENSION);
+    match aim {
+        _ if given.is(&LENGTH) => made.first_length = Some(value),
+        _ if given.is(&L_DELTA) => {
             if !adjustable(model, made) {
                 line(model, made)?;
             }
@@ -246,17 +250,17 @@ fn change(model: &Model, made: &mut Connector, given: &Given, said: &mut Said) -
             }
             made.first_length = Some(length);
         }
-        ("-L_HORIZONTAL" | "-L_TENSION", Some(aim)) if model.moves(made) => {
+        Some(aim) if pulled && model.moves(made) => {
             made.first_length = Some(pretension::first_length(model, made, aim).map_err(|e| e.error)?);
         }
-        ("-L_HORIZONTAL" | "-L_TENSION", Some(aim)) => {
+        Some(aim) if pulled => {
             line(model, made)?;
             placed(model, made)?;
             let found = line(model, made)?.first_length(aim)?;
             made.first_length = Some(found.length);
             also = others(&found, said);
         }
-        ("-ANCHOR", _) => {
+        _ if given.is(&ANCHOR) => {
             alone(made)?;
             let [y, z] = [1, 2].map(|i| given.number(i).unwrap_or(0.0));
             move_anchor(model, made, [value, y]);
@@ -264,7 +268,7 @@ fn change(model: &Model, made: &mut Connector, given: &Given, said: &mut Said) -
                 anchor.elevation = Some(z);
             }
         }
-        (_, Some(aim)) => {
+        Some(aim) => {
             alone(made)?;
             let made_of = line(model, made)?;
             let anchor = made.anchor.ok_or_else(no_anchor)?;
@@ -280,20 +284,18 @@ fn change(model: &Model, made: &mut Connector, given: &Given, said: &mut Said) -
             let [ux, uy] = if apart > 0.0 { along } else { [cos, sin] };
             move_anchor(model, made, [x + distance * ux, y + distance * uy]);
         }
-        _ => {}
+        None => {}
     }
-    if model.moves(made) && matches!(option, "-LENGTH" | "-L_DELTA") {
+    if model.moves(made) && lengthened {
         // what makes no such line is refused here, not in a run
         model.element(made)?;
     }
-    let placed_anew = option == "-ANCHOR" && old.1.is_some();
-    if model.moves(made) && matches!(option, "-L_HORIZONTAL" | "-L_TENSION") {
+    let placed_anew = given.is(&ANCHOR) && old.1.is_some();
+    if model.moves(made) && pulled {
         // found and proven by the dynamic line itself
         return Ok(told(made, given, old, said));
     }
-    if adjustable(model, made)
-        && (placed_anew || matches!(option, "-LENGTH" | "-L_DELTA" | "-L_HORIZONTAL" | "-L_TENSION"))
-    {
+    if adjustable(model, made) && (placed_anew || lengthened || pulled) {
         return Ok(told(made, given, old, said));
     }
     let found = line(model, made)?;
@@ -375,7 +377,7 @@ fn move_anchor(model: &Model, connector: &mut Connector, at: [f64; 2]) {
 /// The new length or place beside the old one.
 fn told(made: &Connector, given: &Given, old: (Option<f64>, Option<Anchor>), said: &Said) -> String {
     let length = |l: f64| said.digits(l, Dim::Length);
-    match made.anchor.filter(|_| given.name.starts_with("-A")) {
+    match made.anchor.filter(|_| [ANCHOR, A_HORIZONTAL, A_TENSION].iter().any(|option| given.is(option))) {
         Some(anchor) => {
             let [x, y] = anchor.at.map(length);
             let z = anchor.elevation.map_or(String::new(), |z| format!(" {}", length(z)));
@@ -401,7 +403,7 @@ fn forces(
 ) -> Result<String, ClassError> {
     let Some([_, _, anchor]) = model.placement(made).other else { return Ok(String::new()) };
     let aim = aim(given);
-    if let ("-ANCHOR", Some(depth)) = (given.name, model.anchor_depth(made))
+    if let (true, Some(depth)) = (given.is(&ANCHOR), model.anchor_depth(made))
         && (depth + anchor).abs() > 1e-3 * depth
     {
         let (own, other) = (said.measured(-anchor, Dim::Length), said.measured(depth, Dim::Length));

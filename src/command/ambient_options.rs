@@ -36,12 +36,12 @@ pub(super) const T_PRESSURE: OptionSpec = OptionSpec::new(
 pub(super) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<()> {
     let name = given.word(0).unwrap_or_default();
     let span = given.values.first().map_or(given.span, |v| v.span);
-    match given.name {
-        "-BATHYMETRY" => {
+    match given {
+        _ if given.is(&BATHYMETRY) => {
             find(&job.model.bathymetries, name, "bathymetry", span)?;
             env.bathymetry = Some(formula(given));
         }
-        "-T_PRESSURE" => {
+        _ if given.is(&T_PRESSURE) => {
             find(&job.model.fillings, name, "set of T_PRESSURE data", span)?;
             env.filling = Some(formula(given));
         }

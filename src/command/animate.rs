@@ -24,6 +24,35 @@ const POINTS: usize = 40;
 /// Most bytes of all the files of a series.
 const LARGEST: usize = 1 << 30;
 
+const EVENTS: OptionSpec = OptionSpec::new(
+    "-EVENTS",
+    &[
+        ValueSpec::new("BEG", Kind::Number(Dim::Time), "time of the first instant"),
+        ValueSpec::new("END", Kind::Number(Dim::Time), "time of the last; one behind the run is its end")
+            .or("the end of the run"),
+        ValueSpec::new("INC", Kind::Number(Dim::Time), "time from one to the next; 0: the stored instants")
+            .or("the stored instants")
+            .not_negative(),
+    ],
+    "the instants that are shown",
+)
+.owner(Owner::Ours)
+.default("all stored instants");
+const POINTS_OPTION: OptionSpec = OptionSpec::new(
+    "-POINTS",
+    &[ValueSpec::new("N", Kind::Integer, "points").within(2.0, 400.0)],
+    "points of each mooring line",
+)
+.owner(Owner::Ours)
+.default("40");
+const HEADING: OptionSpec = OptionSpec::new(
+    "-HEADING",
+    &[ValueSpec::new("TEXT", Kind::Text, "title, in quotes when it holds blanks")],
+    "title of the film",
+)
+.owner(Owner::Ours)
+.default("that of &TITLE");
+
 static SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
     data: &[
@@ -31,36 +60,7 @@ static SPEC: CommandSpec = CommandSpec {
         ValueSpec::new("NAME", Kind::Name(Noun::Selector), "connector or body, pattern or selector").or("all"),
     ],
     repeat: 1,
-    options: &[
-        OptionSpec::new(
-            "-EVENTS",
-            &[
-                ValueSpec::new("BEG", Kind::Number(Dim::Time), "time of the first instant"),
-                ValueSpec::new("END", Kind::Number(Dim::Time), "time of the last; one behind the run is its end")
-                    .or("the end of the run"),
-                ValueSpec::new("INC", Kind::Number(Dim::Time), "time from one to the next; 0: the stored instants")
-                    .or("the stored instants")
-                    .not_negative(),
-            ],
-            "the instants that are shown",
-        )
-        .owner(Owner::Ours)
-        .default("all stored instants"),
-        OptionSpec::new(
-            "-POINTS",
-            &[ValueSpec::new("N", Kind::Integer, "points").within(2.0, 400.0)],
-            "points of each mooring line",
-        )
-        .owner(Owner::Ours)
-        .default("40"),
-        OptionSpec::new(
-            "-HEADING",
-            &[ValueSpec::new("TEXT", Kind::Text, "title, in quotes when it holds blanks")],
-            "title of the film",
-        )
-        .owner(Owner::Ours)
-        .default("that of &TITLE"),
-    ],
+    options: &[EVENTS, POINTS_OPTION, HEADING],
     detail: "Shows the last TDOM. A file ending in .html is one page for any browser, with nothing to be fetched from elsewhere: bodies as \
              their hulls, or as a box about their points, connectors coloured by tension over break or by tension, the waves of the run, \
              bottom and anchors; it plays, turns, shifts and zooms by mouse, finger and keys (space, arrows, Home, End), and an address that \
@@ -100,9 +100,9 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (name, form) = form(args)?;
     let run =
         job.run.as_ref().ok_or_else(|| Diagnostic::error("there is no run yet", args.span).help("TDOM makes one"))?;
-    let events = args.option("-EVENTS");
+    let events = args.option(&EVENTS);
     let event = |n: usize| events.and_then(|g| g.number(n));
-    let points = args.option("-POINTS").and_then(|g| g.values.first()).and_then(|v| v.integer());
+    let points = args.option(&POINTS_OPTION).and_then(|g| g.values.first()).and_then(|v| v.integer());
     let chosen = Chosen::of(call, 1, &job.model);
     let take = Take {
         connector: &|c| chosen.takes(c),
@@ -115,7 +115,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     chosen.check_used("what moves in the run", &[EntityKind::Connector, EntityKind::Body])?;
     let span = events.map_or(args.span, |g| g.span);
     let film = film.map_err(|e| e.diagnostic(span, job.units))?;
-    let title = match args.option_word("-HEADING") {
+    let title = match args.option_word(&HEADING) {
         Some(heading) => heading,
         None if job.titles[0].is_empty() => "Time Domain",
         None => &job.titles[0],

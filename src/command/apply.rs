@@ -16,19 +16,19 @@ const VALUE: ValueSpec = ValueSpec::new("VALUE", Kind::Number(Dim::None), "multi
 const CATEGORY: &[ValueSpec] =
     &[ValueSpec::new("CATEGORY", Kind::Choice(&["WIND", "V_DRAG", "W_DRIFT"]), "category of force"), VALUE];
 
+const FRACTION: OptionSpec = OptionSpec::new("-FRACTION", &[], "values are fractions").default("as with -FRACTION");
+const PERCENT: OptionSpec = OptionSpec::new("-PERCENT", &[], "values are percent");
+const CATEGORY_OPTION: OptionSpec = OptionSpec::new("-CATEGORY", CATEGORY, "multiplier of a category of force").many();
+const FORCE: OptionSpec = OptionSpec::new("-FORCE", CATEGORY, "the same as -CATEGORY").many();
+const LOAD_GROUP: OptionSpec = OptionSpec::new(
+    "-LOAD_GROUP",
+    &[ValueSpec::new("PART", Kind::Name(Noun::Part), "body or part: each has a group of its name"), VALUE],
+    "multiplier of the loads of a part",
+)
+.many();
+
 static SPEC: CommandSpec = CommandSpec {
-    options: &[
-        OptionSpec::new("-FRACTION", &[], "values are fractions").default("as with -FRACTION"),
-        OptionSpec::new("-PERCENT", &[], "values are percent"),
-        OptionSpec::new("-CATEGORY", CATEGORY, "multiplier of a category of force").many(),
-        OptionSpec::new("-FORCE", CATEGORY, "the same as -CATEGORY").many(),
-        OptionSpec::new(
-            "-LOAD_GROUP",
-            &[ValueSpec::new("PART", Kind::Name(Noun::Part), "body or part: each has a group of its name"), VALUE],
-            "multiplier of the loads of a part",
-        )
-        .many(),
-    ],
+    options: &[FRACTION, PERCENT, CATEGORY_OPTION, FORCE, LOAD_GROUP],
     detail: "Each record sets multipliers anew; a load has the product of that of its category and that of its part: 0.5 of \
              both leave a quarter. They act on wind (WIND), current (V_DRAG) and mean wave drift (W_DRIFT); the other \
              categories have no multiplier yet. The sources do not tell -CATEGORY and -FORCE apart.",
@@ -38,7 +38,7 @@ static SPEC: CommandSpec = CommandSpec {
 
 fn run(job: &mut super::Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
-    let unit = match (args.has("-FRACTION"), args.option("-PERCENT")) {
+    let unit = match (args.has(&FRACTION), args.option(&PERCENT)) {
         (true, Some(given)) => {
             return Err(Diagnostic::error("-FRACTION and -PERCENT contradict each other", given.span));
         }
@@ -48,7 +48,7 @@ fn run(job: &mut super::Job, call: &Call) -> Outcome<Effect> {
     let mut made = job.model.multipliers.clone();
     for given in &args.options {
         let (Some(name), Some(value)) = (given.word(0), given.number(1)) else { continue };
-        if given.name == "-LOAD_GROUP" {
+        if given.is(&LOAD_GROUP) {
             let span = given.values.first().map_or(given.span, |v| v.span);
             find(&job.model.parts, name, "part", span)?;
             made.parts.insert(Model::key(name), value * unit);

@@ -17,6 +17,12 @@ pub static ASSEMBLY: Command = Command { spec: &SPEC, edits: true, run };
 /// Most slings of a hook [MOSES-REF conn_sling].
 const MOST: usize = 4;
 
+const INITIAL: OptionSpec =
+    OptionSpec::new("-INITIAL", &[], "moves the body under the boom; of a later set, takes the sag out of its lines");
+const ORIENT: OptionSpec = OptionSpec::new("-ORIENT", &[], "gives the body a system by the order of its slings");
+const VERTICAL: OptionSpec = OptionSpec::new("-VERTICAL", &[], "with -INITIAL: turns the body so that it hangs");
+const DEACTIVATE: OptionSpec = OptionSpec::new("-DEACTIVATE", &[], "the sets defined before no longer act");
+
 static SPEC: CommandSpec = CommandSpec {
     menus: &["INMODEL", "MEDIT"],
     data: &[
@@ -26,16 +32,7 @@ static SPEC: CommandSpec = CommandSpec {
         ValueSpec::new("EL", Kind::Name(Noun::Connector), "SLING from the hook to the body; up to four"),
     ],
     repeat: 1,
-    options: &[
-        OptionSpec::new(
-            "-INITIAL",
-            &[],
-            "moves the body under the boom; of a later set, takes the sag out of its lines",
-        ),
-        OptionSpec::new("-ORIENT", &[], "gives the body a system by the order of its slings"),
-        OptionSpec::new("-VERTICAL", &[], "with -INITIAL: turns the body so that it hangs"),
-        OptionSpec::new("-DEACTIVATE", &[], "the sets defined before no longer act"),
-    ],
+    options: &[INITIAL, ORIENT, VERTICAL, DEACTIVATE],
     detail: "All connectors are of class type SLING, of a single node, and defined before; the nodes of the ELs are on one body, that of BHE \
              on another or on ground. The hook is a point without weight with three degrees of freedom that &EQUI solves with the bodies; it makes \
              the point *NAME, the second end of every line. &STATUS ASSEMBLIES tells where it is and what its lines bear; &CONNECTOR changes \
@@ -87,21 +84,21 @@ pub fn build_assembly(job: &mut Job, args: &Args) -> Outcome<()> {
     }
     let [boom, slings @ ..] = members.as_slice() else { return Ok(()) };
     let body = one_body(model, boom, slings, args)?;
-    if let (Some(given), false) = (args.option("-VERTICAL"), args.has("-INITIAL")) {
+    if let (Some(given), false) = (args.option(&VERTICAL), args.has(&INITIAL)) {
         return Err(Diagnostic::error("-VERTICAL needs -INITIAL: it turns the body that -INITIAL moves", given.span));
     }
     let body = body.name.clone();
     let (boom, slings) = (boom.name.clone(), slings.iter().map(|c| c.name.clone()).collect::<Vec<_>>());
-    if let Some(given) = args.option("-ORIENT") {
+    if let Some(given) = args.option(&ORIENT) {
         rigging::orient(&mut job.model, &body, &slings, given.span)?;
     }
     let sets = |a: &Assembly| matches!(a.kind, AssemblyKind::TipHook { .. });
     let first = !job.model.assemblies.values().any(sets);
     let rigging = Rigging { body: &body, boom: &boom, slings: &slings, span: args.span, units: job.units };
-    let hook = match (args.has("-INITIAL"), first) {
-        (true, true) => rigging.move_body(&mut job.model, args.has("-VERTICAL"))?,
+    let hook = match (args.has(&INITIAL), first) {
+        (true, true) => rigging.move_body(&mut job.model, args.has(&VERTICAL))?,
         (true, false) => {
-            if let Some(given) = args.option("-VERTICAL") {
+            if let Some(given) = args.option(&VERTICAL) {
                 let text = "-VERTICAL turns the body, which stays where it is for a further set";
                 return Err(Diagnostic::error(text, given.span));
             }
@@ -111,7 +108,7 @@ pub fn build_assembly(job: &mut Job, args: &Args) -> Outcome<()> {
         }
         (false, _) => rigging.begin(&job.model)?,
     };
-    if args.has("-DEACTIVATE") {
+    if args.has(&DEACTIVATE) {
         let model = &mut job.model;
         for member in model.assemblies.values().filter(|a| sets(a)).flat_map(Assembly::members) {
             if let Some(connector) = model.connectors.get_mut(&Model::key(member)) {

@@ -27,23 +27,19 @@ const fn length(name: &'static str, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(Dim::Length), help)
 }
 
+const CSV: OptionSpec = OptionSpec::new(
+    "-CSV",
+    &[ValueSpec::new("FILE", Kind::File, "file of rows x, y, z; looked for where it says, then beside the script")],
+    "reads the points from a file instead of records",
+);
+const DEPTHS: OptionSpec = OptionSpec::new("-DEPTHS", &[], "heights are depths below z = 0, positive downward")
+    .default("elevations, global z, negative below the mean level");
+
 static SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
-    opens: Opens::WithoutOption("BATHYMETRY", "-CSV"),
+    opens: Opens::WithoutOption("BATHYMETRY", &CSV),
     data: &[ValueSpec::new("NAME", Kind::Name(Noun::New), "name of the bottom, for -BATHYMETRY of &ENV")],
-    options: &[
-        OptionSpec::new(
-            "-CSV",
-            &[ValueSpec::new(
-                "FILE",
-                Kind::File,
-                "file of rows x, y, z; looked for where it says, then beside the script",
-            )],
-            "reads the points from a file instead of records",
-        ),
-        OptionSpec::new("-DEPTHS", &[], "heights are depths below z = 0, positive downward")
-            .default("elevations, global z, negative below the mean level"),
-    ],
+    options: &[CSV, DEPTHS],
     detail: "The bottom as heights over a grid of x and y in global axes, whose spacing may vary. By records: X has the places of the columns, \
              then each Y a place and the heights along it, one for each X, and END makes the grid; places grow. With -CSV the points may stand in \
              any order, a line each, and a line of heads may come first; every x has one point at every y. All are in the units in force. Between the points \
@@ -102,8 +98,8 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (name, span) = (args.word(0).unwrap_or_default(), args.place(0));
     rule::check(name, None, "bathymetry", span)?;
     job.model.free_name(name, &[EntityKind::Bathymetry], span)?;
-    let sign = if args.has("-DEPTHS") { -1.0 } else { 1.0 };
-    let Some(file) = args.option("-CSV").and_then(|given| given.values.first()) else {
+    let sign = if args.has(&DEPTHS) { -1.0 } else { 1.0 };
+    let Some(file) = args.option(&CSV).and_then(|given| given.values.first()) else {
         let (x, y, heights) = Default::default();
         let begun = Soundings { name: name.to_string(), sign, x, y, heights, refused: None, span };
         job.menus.push(Menu::Soundings(Box::new(begun)));

@@ -16,12 +16,12 @@ pub static BUILDG: Command = Command { spec: &SPEC, edits: false, run };
 
 const FILE: ValueSpec = ValueSpec::new("FILE", Kind::File, "file name").or("the records that follow, up to END");
 
+const CSV: OptionSpec = OptionSpec::new("-CSV", &[FILE], "comma-separated values: a line of heads, then rows");
+const BRIEF: OptionSpec = OptionSpec::new("-BRIEF", &[FILE], "labels, one a line, then rows of numbers");
+
 static SPEC: CommandSpec = CommandSpec {
     opens: Opens::AtMostElse("BUILDG", 1, "DISPOSITION"),
-    options: &[
-        OptionSpec::new("-CSV", &[FILE], "comma-separated values: a line of heads, then rows"),
-        OptionSpec::new("-BRIEF", &[FILE], "labels, one a line, then rows of numbers"),
-    ],
+    options: &[CSV, BRIEF],
     detail: "With a FILE it reads that and opens the disposition menu; without one the records that follow are the table, and \
              END opens the menu. A head that ends in a unit in parentheses, as STORE writes it, gives its column that unit, \
              whatever units are in force. With -CSV a first line of nothing but numbers is a row; with -BRIEF the rows begin \
@@ -52,7 +52,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         return Err(Diagnostic::error("&BUILDG asks for -CSV or -BRIEF", args.span)
             .help("form: &BUILDG -CSV [FILE] or &BUILDG -BRIEF [FILE]"));
     };
-    let brief = given.name == "-BRIEF";
+    let brief = given.is(&BRIEF);
     let Some(file) = given.values.first() else {
         job.menus.push(Menu::Building(Box::new(Building { brief, text: String::new(), span: args.span })));
         return Ok(Effect::Done);

@@ -10,6 +10,7 @@ use windlass_language::args;
 use windlass_language::name;
 use windlass_language::select::choose;
 use windlass_language::spec::{CommandSpec, Form};
+use windlass_model::options::{C_SN, IG_STIFF};
 use windlass_model::{Class, ClassRecord, Curve, CurveKind, Model, find};
 
 /// ~CLASS.
@@ -77,7 +78,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         }
         None => {
             let object = (kind.build)(std::slice::from_ref(&record))?;
-            let ignored_stiffness = record.args.has("-IG_STIFF");
+            let ignored_stiffness = record.args.option_if_declared(&IG_STIFF).is_some();
             let (name, span, built) = (name.text.to_string(), name.span, Arc::clone(&object));
             let class = Class { name, records: vec![record], ignored_stiffness, object: built, span };
             job.model.classes.insert(key, class);
@@ -117,14 +118,14 @@ fn idle(job: &mut Job, kind: &'static ClassKind, args: &Args) -> Vec<Diagnostic>
     let mut made = Vec::new();
     for (option, with) in kind.idle {
         let Some(given) = args.option(option) else { continue };
-        let said = (kind.spec.name, *option);
+        let said = (kind.spec.name, option.name);
         if job.idle_said.contains(&said) {
             continue;
         }
         job.idle_said.push(said);
         let text = match *with {
-            "" => format!("{option} does nothing in {} (said once)", kind.spec.name),
-            with => format!("{option} of {} acts with {with} alone (said once)", kind.spec.name),
+            "" => format!("{} does nothing in {} (said once)", option.name, kind.spec.name),
+            with => format!("{} of {} acts with {with} alone (said once)", option.name, kind.spec.name),
         };
         made.push(*Diagnostic::remark(text, given.span));
     }
@@ -133,7 +134,7 @@ fn idle(job: &mut Job, kind: &'static ClassKind, args: &Args) -> Vec<Diagnostic>
 
 /// What is said of a fatigue curve that nothing defines yet.
 fn unknown_fatigue(args: &Args, job: &Job) -> Option<Diagnostic> {
-    let value = args.option("-C_SN").and_then(|given| given.values.first())?;
+    let value = args.option_if_declared(&C_SN).and_then(|given| given.values.first())?;
     let name = value.word().filter(|w| windlass_signal::fatigue::find(w, &job.model.fatigue).is_none())?;
     let text = format!("{name} is kept as the name of an S-N curve that is not defined here");
     let made = Diagnostic::remark(text, value.span);

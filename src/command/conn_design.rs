@@ -107,18 +107,18 @@ fn named<'a>(job: &'a Job, args: &Args) -> Outcome<(&'a Connector, &'a Class)> {
 fn condition(args: &Args) -> Outcome<Condition> {
     let mut given = args.options.iter().filter_map(|g| {
         let value = g.number(0)?;
-        let made = match g.name {
-            "-HORIZONTAL" => Condition::Horizontal(value),
-            "-TENSION" => Condition::Tension(value),
-            "-VERTICAL" => Condition::Vertical(value),
-            "-DISTANCE" => Condition::Distance(value),
+        let made = match g {
+            _ if g.is(&HORIZONTAL) => Condition::Horizontal(value),
+            _ if g.is(&TENSION) => Condition::Tension(value),
+            _ if g.is(&VERTICAL) => Condition::Vertical(value),
+            _ if g.is(&DISTANCE) => Condition::Distance(value),
             _ => return None,
         };
         Some((g, made))
     });
     match (given.next(), given.next()) {
         (Some((first, _)), Some((second, _))) => {
-            let text = format!("{} and {} cannot hold at once", first.name, second.name);
+            let text = format!("{} and {} cannot hold at once", first.name(), second.name());
             Err(Diagnostic::error(text, second.span).other(first.span, "first given here"))
         }
         (Some((_, made)), None) => Ok(made),
@@ -139,14 +139,14 @@ fn table(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (connector, class) = named(job, args)?;
     let name = class.name.clone();
     let held = condition(args)?;
-    if let Some(vary) = args.option("-VARY") {
+    if let Some(vary) = args.option(&vary::VARY) {
         let (made, missing) = vary::tabulate(job, (connector, class), vary, held, args)?;
         let effect = dispose(job, &name, made, span);
         missing.into_iter().for_each(|(text, place)| job.warn(text, place));
         return Ok(effect);
     }
     if let Some(option) = args.options.first() {
-        return Err(Diagnostic::error(format!("{} of TABLE goes with -VARY", option.name), option.span)
+        return Err(Diagnostic::error(format!("{} of TABLE goes with -VARY", option.name()), option.span)
             .help("GEOMETRY shows a line in one configuration"));
     }
     let line = class.object.line(&job.model.placement(connector), &job.model.surroundings());

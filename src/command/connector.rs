@@ -21,6 +21,31 @@ const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
 const OFFSET: &[ValueSpec] =
     &[number("X", Dim::Length, "offset"), number("Y", Dim::Length, "offset"), number("Z", Dim::Length, "offset")];
 
+const ANCHOR: OptionSpec = OptionSpec::new(
+    "-ANCHOR",
+    &[
+        number("THET", Dim::Angle, "direction from the fairlead, from +X toward +Y"),
+        number("DTA", Dim::Length, "horizontal distance from fairlead to anchor").not_negative(),
+    ],
+    "where the anchor lies, in the present configuration",
+);
+const TUG: OptionSpec = OptionSpec::new(
+    "-TUG",
+    &[
+        number("ANG", Dim::Angle, "direction it pulls toward, from +X toward +Y"),
+        number("DIST", Dim::Length, "distance of the tug, where it is drawn").not_negative(),
+    ],
+    "where the tug of a TUG_BOAT is",
+);
+const GO1: OptionSpec = OptionSpec::new("-GO1", OFFSET, "offset of the first end from its point");
+const GO2: OptionSpec = OptionSpec::new("-GO2", OFFSET, "offset of the second end from its point");
+const EULER: OptionSpec = OptionSpec::new(
+    "-EULER",
+    &[number("RX", Dim::Angle, "about X"), number("RY", Dim::Angle, "about Y"), number("RZ", Dim::Angle, "about Z")],
+    "angles of the element axes",
+)
+.default("body axes of the first node");
+
 static CONNECTOR_SPEC: CommandSpec = CommandSpec {
     menus: &["INMODEL", "MEDIT"],
     data: &[
@@ -30,34 +55,11 @@ static CONNECTOR_SPEC: CommandSpec = CommandSpec {
         ValueSpec::new("*N2", Kind::Name(Noun::Point), "its second point").or("ground"),
     ],
     options: &[
-        OptionSpec::new(
-            "-ANCHOR",
-            &[
-                number("THET", Dim::Angle, "direction from the fairlead, from +X toward +Y"),
-                number("DTA", Dim::Length, "horizontal distance from fairlead to anchor").not_negative(),
-            ],
-            "where the anchor lies, in the present configuration",
-        ),
-        OptionSpec::new(
-            "-TUG",
-            &[
-                number("ANG", Dim::Angle, "direction it pulls toward, from +X toward +Y"),
-                number("DIST", Dim::Length, "distance of the tug, where it is drawn").not_negative(),
-            ],
-            "where the tug of a TUG_BOAT is",
-        ),
-        OptionSpec::new("-GO1", OFFSET, "offset of the first end from its point"),
-        OptionSpec::new("-GO2", OFFSET, "offset of the second end from its point"),
-        OptionSpec::new(
-            "-EULER",
-            &[
-                number("RX", Dim::Angle, "about X"),
-                number("RY", Dim::Angle, "about Y"),
-                number("RZ", Dim::Angle, "about Z"),
-            ],
-            "angles of the element axes",
-        )
-        .default("body axes of the first node"),
+        ANCHOR,
+        TUG,
+        GO1,
+        GO2,
+        EULER,
         tether::INSTALLED,
         tether::TOWED,
         tether::V_SPRINGS,
@@ -117,7 +119,7 @@ pub fn build_connector(job: &mut Job, args: &Args) -> Outcome<()> {
         on_bodies += usize::from(model.body_of(point).is_some());
         points.push(point);
     }
-    let vector = |option: &str| {
+    let vector = |option: &OptionSpec| {
         let numbers = args.option(option).map(|g| g.numbers()).unwrap_or_default();
         [0, 1, 2].map(|i| numbers.get(i).copied().unwrap_or(0.0))
     };
@@ -127,12 +129,12 @@ pub fn build_connector(job: &mut Job, args: &Args) -> Outcome<()> {
         points: points.iter().map(|p| p.name.clone()).collect(),
         anchor: None,
         tug: args
-            .option("-TUG")
+            .option(&TUG)
             .map(|g| Tug { direction: g.number(0).unwrap_or(0.0), distance: g.number(1).unwrap_or(0.0) }),
         tether: tether::read(args)?,
-        offsets: [vector("-GO1"), vector("-GO2")],
+        offsets: [vector(&GO1), vector(&GO2)],
         defined: Default::default(),
-        euler: args.has("-EULER").then(|| vector("-EULER")),
+        euler: args.has(&EULER).then(|| vector(&EULER)),
         first_length: None,
         dynamics: None,
         active: true,
@@ -141,7 +143,7 @@ pub fn build_connector(job: &mut Job, args: &Args) -> Outcome<()> {
     let first = model.end_pose(&made, 0).unwrap_or_default();
     let ground = Pose { axes: Pose::default().axes, ..first };
     made.defined = [first, model.end_pose(&made, 1).unwrap_or(ground)];
-    made.anchor = args.option("-ANCHOR").map(|given| {
+    made.anchor = args.option(&ANCHOR).map(|given| {
         let (direction, distance) = (given.number(0).unwrap_or(0.0), given.number(1).unwrap_or(0.0));
         let [x, y, _] = model.end(&made, 0).unwrap_or_default();
         let (cos, sin) = unit_vector(direction);

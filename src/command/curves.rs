@@ -219,12 +219,14 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
 /// Exponentials where `-NDOF` says nothing.
 const EXPONENTIALS: i64 = 5;
 
-const NDOF: &[OptionSpec] = &[OptionSpec::new(
+const NDOF_OPTION: OptionSpec = OptionSpec::new(
     "-NDOF",
     &[ValueSpec::new("M", Kind::Integer, "number of exponentials").within(1.0, 20.0)],
     "exponentials fitted to the curve",
 )
-.default("5")];
+.default("5");
+
+const NDOF: &[OptionSpec] = &[NDOF_OPTION];
 
 static BY_TIME: CommandSpec = CommandSpec {
     data: &pairs(CurveKind::ConvolutionTime),
@@ -275,7 +277,8 @@ fn define(job: &mut Job, call: &Call, kind: CurveKind) -> Outcome<Effect> {
     if points.len() < 2 {
         return Err(Diagnostic::error("a curve has at least two points", span));
     }
-    let exponentials = args.option("-NDOF").and_then(|g| g.values.first()?.integer()).unwrap_or(EXPONENTIALS);
+    let exponentials =
+        args.option_if_declared(&NDOF_OPTION).and_then(|g| g.values.first()?.integer()).unwrap_or(EXPONENTIALS);
     let exponentials = usize::try_from(exponentials).unwrap_or(1);
     let made = Curve { name: name.to_string(), kind, points, exponentials, metres: job.units.metres(), span };
     if let Some(fit) = Viscoelastic::fit(&made).filter(|fit| fit.error > POOR) {

@@ -44,82 +44,98 @@ const fn ours(name: &'static str, values: &'static [ValueSpec], help: &'static s
 }
 const YES_NO: &[ValueSpec] = &[ValueSpec::new("YES/NO", Kind::Choice(&["YES", "NO"]), "yes or no").or("YES")];
 
+const WAMIT: OptionSpec = ours(
+    "-WAMIT",
+    &[ValueSpec::new("ROOT", Kind::File, "name of the files without their endings")],
+    "reads ROOT.1, .3, .4, .8, .9, .12d, .hst, those that there are",
+);
+const ULEN: OptionSpec = ours(
+    "-ULEN",
+    &[number("L", Dim::Length, "length").positive()],
+    "length by which WAMIT made its output dimensionless",
+)
+.default("one metre");
+const NEMOH: OptionSpec =
+    ours("-NEMOH", &[ValueSpec::new("FOLDER", Kind::File, "folder of Nemoh.cal")], "reads results of NEMOH 2 or 3");
+const CAPYTAINE: OptionSpec = ours(
+    "-CAPYTAINE",
+    &[ValueSpec::new("FILE", Kind::File, "NetCDF file, classic or version 4")],
+    "reads a data set of Capytaine",
+);
+const RAO: OptionSpec = ours(
+    "-RAO",
+    &[ValueSpec::new("FILE", Kind::File, "text or CSV file")],
+    "reads a table of motions, with the columns of OrcaFlex",
+);
+const PHASE: OptionSpec = ours(
+    "-PHASE",
+    &[ValueSpec::new("LAG/LEAD", Kind::Choice(&["LAG", "LEAD"]), "sense")],
+    "whether phases of -RAO lag behind the crest or lead it",
+)
+.default("LAG");
+const ROTATION: OptionSpec = ours(
+    "-ROTATION",
+    &[ValueSpec::new("DEG/RAD", Kind::Choice(&["DEG", "RAD"]), "unit")],
+    "unit of rotations of -RAO a metre of wave amplitude",
+)
+.default("DEG");
+const INDEX: OptionSpec = ours(
+    "-INDEX",
+    &[ValueSpec::new("N", Kind::Integer, "number").within(1.0, 1000.0)],
+    "which body of a source of several, from 1",
+);
+const AT: OptionSpec = ours(
+    "-AT",
+    &[
+        number("X", Dim::Length, "in the body"),
+        number("Y", Dim::Length, "in the body"),
+        number("Z", Dim::Length, "in the body"),
+    ],
+    "where the origin of the source stands in the body; its axes are those of the body",
+)
+.default("the body's origin");
+const SYMMETRIC: OptionSpec =
+    ours("-SYMMETRIC", YES_NO, "adds the headings of the other side of a body with port like starboard").default("NO");
+const INFINITE: OptionSpec = ours(
+    "-INFINITE",
+    YES_NO,
+    "uses the added mass at infinite frequency of the source; NO finds it by Ogilvie's relation",
+)
+.default("YES, where the source has it");
+const MEMORY: OptionSpec = ours("-MEMORY", &[number("T", Dim::Time, "length").positive()], "memory of radiated waves")
+    .default("60 s, or up to 300 s until the kernel has died away");
+const DRIFT: OptionSpec = ours(
+    "-DRIFT",
+    &[ValueSpec::new("METHOD", Kind::Choice(&["NEWMAN", "MEAN", "QTF", "NONE"]), "method")],
+    "slow drift in time: by Newman's approximation, the mean only, by the QTF of the source, or none",
+)
+.default("QTF where the source has one, else NEWMAN");
+const HYDROSTATICS: OptionSpec = ours(
+    "-HYDROSTATICS",
+    YES_NO,
+    "whether the hydrostatic stiffness of the source bears the body, which then has no hull",
+)
+.default("NO");
+
 static SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
     menus: &["INMODEL", "MEDIT"],
     data: &[ValueSpec::new("BODY", Kind::Name(Noun::Body), "the body")],
     options: &[
-        ours(
-            "-WAMIT",
-            &[ValueSpec::new("ROOT", Kind::File, "name of the files without their endings")],
-            "reads ROOT.1, .3, .4, .8, .9, .12d, .hst, those that there are",
-        ),
-        ours(
-            "-ULEN",
-            &[number("L", Dim::Length, "length").positive()],
-            "length by which WAMIT made its output dimensionless",
-        )
-        .default("one metre"),
-        ours("-NEMOH", &[ValueSpec::new("FOLDER", Kind::File, "folder of Nemoh.cal")], "reads results of NEMOH 2 or 3"),
-        ours(
-            "-CAPYTAINE",
-            &[ValueSpec::new("FILE", Kind::File, "NetCDF file, classic or version 4")],
-            "reads a data set of Capytaine",
-        ),
-        ours(
-            "-RAO",
-            &[ValueSpec::new("FILE", Kind::File, "text or CSV file")],
-            "reads a table of motions, with the columns of OrcaFlex",
-        ),
-        ours(
-            "-PHASE",
-            &[ValueSpec::new("LAG/LEAD", Kind::Choice(&["LAG", "LEAD"]), "sense")],
-            "whether phases of -RAO lag behind the crest or lead it",
-        )
-        .default("LAG"),
-        ours(
-            "-ROTATION",
-            &[ValueSpec::new("DEG/RAD", Kind::Choice(&["DEG", "RAD"]), "unit")],
-            "unit of rotations of -RAO a metre of wave amplitude",
-        )
-        .default("DEG"),
-        ours(
-            "-INDEX",
-            &[ValueSpec::new("N", Kind::Integer, "number").within(1.0, 1000.0)],
-            "which body of a source of several, from 1",
-        ),
-        ours(
-            "-AT",
-            &[
-                number("X", Dim::Length, "in the body"),
-                number("Y", Dim::Length, "in the body"),
-                number("Z", Dim::Length, "in the body"),
-            ],
-            "where the origin of the source stands in the body; its axes are those of the body",
-        )
-        .default("the body's origin"),
-        ours("-SYMMETRIC", YES_NO, "adds the headings of the other side of a body with port like starboard")
-            .default("NO"),
-        ours(
-            "-INFINITE",
-            YES_NO,
-            "uses the added mass at infinite frequency of the source; NO finds it by Ogilvie's relation",
-        )
-        .default("YES, where the source has it"),
-        ours("-MEMORY", &[number("T", Dim::Time, "length").positive()], "memory of radiated waves")
-            .default("60 s, or up to 300 s until the kernel has died away"),
-        ours(
-            "-DRIFT",
-            &[ValueSpec::new("METHOD", Kind::Choice(&["NEWMAN", "MEAN", "QTF", "NONE"]), "method")],
-            "slow drift in time: by Newman's approximation, the mean only, by the QTF of the source, or none",
-        )
-        .default("QTF where the source has one, else NEWMAN"),
-        ours(
-            "-HYDROSTATICS",
-            YES_NO,
-            "whether the hydrostatic stiffness of the source bears the body, which then has no hull",
-        )
-        .default("NO"),
+        WAMIT,
+        ULEN,
+        NEMOH,
+        CAPYTAINE,
+        RAO,
+        PHASE,
+        ROTATION,
+        INDEX,
+        AT,
+        SYMMETRIC,
+        INFINITE,
+        MEMORY,
+        DRIFT,
+        HYDROSTATICS,
     ],
     detail: "One of -WAMIT, -NEMOH, -CAPYTAINE and -RAO is given; a second DATABASE of a body replaces the first. The matrices make added \
              mass at infinite frequency and a memory of radiated waves, the excitation wave forces by the heading of the body, \
@@ -138,16 +154,16 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (key, name) = (Model::key(&body.name), body.name.clone());
     let mass = Mass::of(job.model.parts_of(body), job.model.defaults.gravity).mass;
     let (source, mut data) = read(job, args)?;
-    let at = args.option("-AT").map_or([0.0; 3], |g| [0, 1, 2].map(|i| g.number(i).unwrap_or(0.0)));
+    let at = args.option(&AT).map_or([0.0; 3], |g| [0, 1, 2].map(|i| g.number(i).unwrap_or(0.0)));
     data.reference += Vector3::from(at);
-    if yes(args, "-SYMMETRIC", false) {
+    if yes(args, &SYMMETRIC, false) {
         data = mirrored(data);
     }
-    if !yes(args, "-INFINITE", true) {
+    if !yes(args, &INFINITE, true) {
         data.infinite = None;
     }
     let drift = method(args, &data)?;
-    let hydrostatics = yes(args, "-HYDROSTATICS", false);
+    let hydrostatics = yes(args, &HYDROSTATICS, false);
     if hydrostatics && data.hydrostatics.is_none() {
         return Err(Diagnostic::error(format!("{} has no hydrostatics", data.source), source)
             .help("leave out -HYDROSTATICS YES, and give the body a hull or #HYDROSTATIC"));
@@ -172,7 +188,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     if let Some(text) = unlike(&data, mass) {
         job.warn(format!("{name}: {text}"), source);
     }
-    let memory = args.option_number("-MEMORY");
+    let memory = args.option_number(&MEMORY);
     let made = AttachedDatabase { data: Arc::new(data), at, memory, drift, hydrostatics, span: args.span };
     let old = job.model.bodies.get_mut(&key).and_then(|b| b.database.replace(made));
     if old.is_some() {
@@ -208,13 +224,13 @@ fn unlike(data: &Database, mass: f64) -> Option<String> {
 }
 
 /// Whether an option says yes.
-fn yes(args: &Args, name: &str, usual: bool) -> bool {
-    args.option(name).map_or(usual, |g| g.word(0) != Some("NO"))
+fn yes(args: &Args, option: &OptionSpec, usual: bool) -> bool {
+    args.option(option).map_or(usual, |g| g.word(0) != Some("NO"))
 }
 
 /// How slow drift is found.
 fn method(args: &Args, data: &Database) -> Outcome<DriftMethod> {
-    let Some(given) = args.option("-DRIFT") else {
+    let Some(given) = args.option(&DRIFT) else {
         return Ok(if data.qtf.is_some() { DriftMethod::Full } else { DriftMethod::Newman });
     };
     let lacks = |what: &str| Diagnostic::error(format!("{} has no {what}", data.source), given.span);
@@ -230,8 +246,8 @@ fn method(args: &Args, data: &Database) -> Outcome<DriftMethod> {
 
 /// Reads the source that is given, with its place.
 fn read(job: &Job, args: &Args) -> Outcome<(Span, Database)> {
-    const SOURCES: [&str; 4] = ["-WAMIT", "-NEMOH", "-CAPYTAINE", "-RAO"];
-    let mut given = args.options.iter().filter(|g| SOURCES.contains(&g.name));
+    const SOURCES: [OptionSpec; 4] = [WAMIT, NEMOH, CAPYTAINE, RAO];
+    let mut given = args.options.iter().filter(|given| given.is_any(&SOURCES));
     let Some(source) = given.next() else {
         return Err(Diagnostic::error("DATABASE lacks its source", args.span)
             .help("form: DATABASE BODY -WAMIT ROOT | -NEMOH FOLDER | -CAPYTAINE FILE | -RAO FILE"));
@@ -242,14 +258,14 @@ fn read(job: &Job, args: &Args) -> Outcome<(Span, Database)> {
     let name = source.word(0).unwrap_or_default();
     let span = source.values.first().map_or(source.span, |v| v.span);
     let body = args
-        .option("-INDEX")
+        .option(&INDEX)
         .and_then(|g| g.values.first())
         .and_then(|v| v.integer())
         .and_then(|n| usize::try_from(n).ok());
     let around = job.model.surroundings();
     let (density, gravity, depth) = (around.water_density, around.gravity, around.depth);
-    let made = match source.name {
-        "-WAMIT" => {
+    let made = match source {
+        _ if source.is(&WAMIT) => {
             let files = files(job, WAMIT_ENDINGS.iter().map(|e| format!("{name}.{e}")), span)?;
             if files.is_empty() {
                 return Err(Diagnostic::error(
@@ -257,10 +273,10 @@ fn read(job: &Job, args: &Args) -> Outcome<(Span, Database)> {
                     span,
                 ));
             }
-            let length = args.option_number("-ULEN").unwrap_or(1.0);
+            let length = args.option_number(&ULEN).unwrap_or(1.0);
             wamit::read(name, &files, &WamitScale { length, density, gravity, depth, body })
         }
-        "-NEMOH" => {
+        _ if source.is(&NEMOH) => {
             let n = body.unwrap_or(1) - 1;
             let inner = ["results", "Results"]
                 .iter()
@@ -276,13 +292,13 @@ fn read(job: &Job, args: &Args) -> Outcome<(Span, Database)> {
             let names = std::iter::once(format!("{name}/Nemoh.cal")).chain(inner).chain(hull);
             nemoh::read(name, &files(job, names, span)?, body)
         }
-        "-CAPYTAINE" => {
+        _ if source.is(&CAPYTAINE) => {
             capytaine::read(name, &bytes(job, &super::device::readable(job, name, span)?, name, span)?, body)
         }
         _ => {
             let file = text(job, &super::device::readable(job, name, span)?, name, span)?;
-            let lag = args.option_word("-PHASE") != Some("LEAD");
-            let degrees = args.option_word("-ROTATION") != Some("RAD");
+            let lag = args.option_word(&PHASE) != Some("LEAD");
+            let degrees = args.option_word(&ROTATION) != Some("RAD");
             rao::read(name, &file, &RaoConvention { lag, degrees, density, gravity, depth })
         }
     };

@@ -6,7 +6,7 @@ use super::{Call, Command, Effect, Job};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::{Place, Position, unit_vector};
 use windlass_base::units::Dim;
-use windlass_base::values::Noun;
+use windlass_base::values::{Given, Noun};
 use windlass_language::name as rule;
 use windlass_language::spec::{CommandSpec, Form, Kind, OptionSpec, ValueSpec, joined};
 use windlass_model::{Body, Coordinates, EntityKind, GROUND, Model, Part, Point, Shape, find};
@@ -36,16 +36,16 @@ pub(super) const PLACE: [ValueSpec; 6] = [
 const BODY: ValueSpec = ValueSpec::new("BODY", Kind::Name(Noun::Body), "body");
 const LOCATION: &[ValueSpec] = &[BODY, PLACE[0], PLACE[1], PLACE[2], PLACE[3], PLACE[4], PLACE[5]];
 
+const MOVE: OptionSpec = OptionSpec::new("-MOVE", &PLACE, "places a part in its body");
+const IGNORE: OptionSpec = OptionSpec::new(
+    "-IGNORE",
+    &[ValueSpec::new("DOF", Kind::Choice(&["X", "Y", "Z", "RX", "RY", "RZ"]), "degree of freedom")],
+    "degrees of freedom of a body left out",
+)
+.repeating(1);
+
 /// What a body or a part takes.
-const OWN: &[OptionSpec] = &[
-    OptionSpec::new("-MOVE", &PLACE, "places a part in its body"),
-    OptionSpec::new(
-        "-IGNORE",
-        &[ValueSpec::new("DOF", Kind::Choice(&["X", "Y", "Z", "RX", "RY", "RZ"]), "degree of freedom")],
-        "degrees of freedom of a body left out",
-    )
-    .repeating(1),
-];
+const OWN: &[OptionSpec] = &[MOVE, IGNORE];
 static DESCRIBE_OPTIONS: [OptionSpec; OWN.len() + OPTIONS.len()] = joined(OWN, &OPTIONS);
 
 static DESCRIBE_SPEC: CommandSpec = CommandSpec {
@@ -80,23 +80,23 @@ static POINT_SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("*POINT", "X Y Z: defines a point")
 };
 
-static INSTATE_SPEC: CommandSpec = CommandSpec {
-    options: &[
-        OptionSpec::new("-LOCATE", LOCATION, "places a body").many(),
-        OptionSpec::new("-MOVE", LOCATION, "moves a body from where it is").many(),
-        OptionSpec::new(
-            "-CONDITION",
-            &[
-                BODY.or("the body described last"),
-                number("DRAFT", Dim::Length, "draft of the body's origin below the mean surface").or("0"),
-                number("ROLL", Dim::Angle, "roll").or("0"),
-                number("TRIM", Dim::Angle, "trim: the pitch").or("0"),
-            ],
-            "sets draft, roll and trim of a body",
-        )
-        .many(),
-        OptionSpec::new("-PREVIOUS", &[], "puts every body back to where it was before"),
+const LOCATE: OptionSpec = OptionSpec::new("-LOCATE", LOCATION, "places a body").many();
+const MOVE_BODY: OptionSpec = OptionSpec::new("-MOVE", LOCATION, "moves a body from where it is").many();
+const CONDITION: OptionSpec = OptionSpec::new(
+    "-CONDITION",
+    &[
+        BODY.or("the body described last"),
+        number("DRAFT", Dim::Length, "draft of the body's origin below the mean surface").or("0"),
+        number("ROLL", Dim::Angle, "roll").or("0"),
+        number("TRIM", Dim::Angle, "trim: the pitch").or("0"),
     ],
+    "sets draft, roll and trim of a body",
+)
+.many();
+const PREVIOUS: OptionSpec = OptionSpec::new("-PREVIOUS", &[], "puts every body back to where it was before");
+
+static INSTATE_SPEC: CommandSpec = CommandSpec {
+    options: &[LOCATE, MOVE_BODY, CONDITION, PREVIOUS],
     detail: "Options act in the order given. Angles: yaw about Z, then pitch about Y, then roll about X, about the axes already turned. \
              -CONDITION leaves x, y and yaw; with x aft, y to starboard and z up a roll lifts the starboard side and a trim sinks the stern. \
              -MOVE adds to the six numbers of &STATUS CONFIGURATION, angles to angles, so that moving back by the same numbers restores them \
@@ -117,14 +117,14 @@ fn describe(job: &mut Job, call: &Call) -> Outcome<Effect> {
     if let Some(surplus) = args.data.get(2) {
         return Err(Diagnostic::error("&DESCRIBE takes one name", surplus.span).help("only INTEREST takes several"));
     }
-    let of = |option: &str| match option {
-        "-MOVE" => "PART",
-        "-IGNORE" => "BODY",
+    let of = |given: &Given| match given {
+        _ if given.is(&MOVE) => "PART",
+        _ if given.is(&IGNORE) => "BODY",
         _ => "PIECE",
     };
-    if let Some(given) = args.options.iter().find(|g| of(g.name) != kind) {
-        let whose = of(given.name).to_ascii_lowercase();
-        let error = Diagnostic::error(format!("{} belongs to a {whose}", given.name), given.span);
+    if let Some(given) = args.options.iter().find(|given| of(given) != kind) {
+        let whose = of(given).to_ascii_lowercase();
+        let error = Diagnostic::error(format!("{} belongs to a {whose}", given.name()), given.span);
         return Err(if whose == "part" && kind == "BODY" {
             error.help("&INSTATE -LOCATE places a body")
         } else {
@@ -167,11 +167,11 @@ fn describe(job: &mut Job, call: &Call) -> Outcome<Effect> {
             model.bodies.insert(key.clone(), body);
             model.parts.insert(key.clone(), Part::new(&name, &name, place, span));
         }
-        if let (Some(given), Some(body)) = (args.option("-IGNORE"), model.bodies.get_mut(&key)) {
+        if let (Some(given), Some(body)) = (args.option(&IGNORE), model.bodies.get_mut(&key)) {
             body.ignored = given.values.iter().filter_map(|v| v.word()).map(str::to_string).collect();
         }
     } else {
-        let place = args.option("-MOVE").map(|g| place_of(&g.values));
+        let place = args.option(&MOVE).map(|g| place_of(&g.values));
         match model.parts.get_mut(&key) {
             Some(part) => part.place = place.unwrap_or(part.place),
             None => {
@@ -195,7 +195,7 @@ fn describe(job: &mut Job, call: &Call) -> Outcome<Effect> {
 fn interest(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     if let Some(given) = args.options.first() {
-        return Err(Diagnostic::error(format!("{} does not belong to INTEREST", given.name), given.span));
+        return Err(Diagnostic::error(format!("{} does not belong to INTEREST", given.name()), given.span));
     }
     let marked: Vec<(String, Position)> = {
         let (model, chosen) = (&job.model, Chosen::of(call, 1, &job.model));
@@ -261,7 +261,7 @@ fn point(job: &mut Job, call: &Call) -> Outcome<Effect> {
 fn instate(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let model = &mut job.model;
     let before: Vec<Place> = model.bodies.values().map(|b| b.place).collect();
-    if let (Some(given), true) = (call.args.option("-PREVIOUS"), call.args.options.len() > 1) {
+    if let (Some(given), true) = (call.args.option(&PREVIOUS), call.args.options.len() > 1) {
         return Err(Diagnostic::error("-PREVIOUS stands alone", given.span));
     }
     for given in &call.args.options {
@@ -269,14 +269,14 @@ fn instate(job: &mut Job, call: &Call) -> Outcome<Effect> {
             find(&model.bodies, name, "body", given.values.first().map_or(given.span, |v| v.span))
                 .map(|b| Model::key(&b.name))
         });
-        match given.name {
-            "-PREVIOUS" => {
+        match given {
+            _ if given.is(&PREVIOUS) => {
                 for body in model.bodies.values_mut() {
                     std::mem::swap(&mut body.place, &mut body.previous);
                 }
                 return Ok(Effect::Done);
             }
-            "-CONDITION" => {
+            _ if given.is(&CONDITION) => {
                 let key = body.transpose()?.or_else(|| model.current_body().map(|b| Model::key(&b.name)));
                 let body = key.and_then(|key| model.bodies.get_mut(&key)).ok_or_else(|| {
                     Diagnostic::error("no body is described yet", given.span).help("&DESCRIBE BODY describes one")
@@ -286,13 +286,13 @@ fn instate(job: &mut Job, call: &Call) -> Outcome<Effect> {
                 body.place.shift[2] = -at(0);
                 body.place.turn = [at(1), at(2), body.place.turn[2]];
             }
-            name => {
+            _ => {
                 let Some(key) = body.transpose()? else { continue };
                 let place = place_of(given.values.get(1..).unwrap_or_default());
                 if let Some(body) = model.bodies.get_mut(&key) {
                     let values = body.place.values();
                     let moved = [0, 1, 2, 3, 4, 5].map(|i| values[i] + place.values()[i]);
-                    body.place = if name == "-LOCATE" { place } else { Place::new(moved) };
+                    body.place = if given.is(&LOCATE) { place } else { Place::new(moved) };
                 }
             }
         }

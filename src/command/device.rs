@@ -20,62 +20,86 @@ const fn unused(name: &'static str) -> OptionSpec {
     OptionSpec::new(name, &[ANY], "read and without effect: windlass has no such device")
 }
 
+const BATCH: OptionSpec = OptionSpec::new("-BATCH", &[YES_NO], "stops at the first error").default("NO");
+const LIMERROR: OptionSpec = OptionSpec::new(
+    "-LIMERROR",
+    &[ValueSpec::new("N", Kind::Integer, "errors").within(1.0, 1e9)],
+    "errors after which a script ends",
+)
+.default("10");
+const SET_DATE: OptionSpec =
+    OptionSpec::new("-SET_DATE", &[ValueSpec::new("DATE", Kind::Text, "date as printed")], "date of reports")
+        .default("today");
+const OECHO: OptionSpec = OptionSpec::new("-OECHO", &[YES_NO], "shows the records as they are executed").default("NO");
+const MECHO: OptionSpec =
+    OptionSpec::new("-MECHO", &[YES_NO], "the same: shows the records as they are executed").default("NO");
+const SILENT: OptionSpec =
+    OptionSpec::new("-SILENT", &[YES_NO], "prints nothing on the screen but messages").default("NO");
+const NAME_FIGURE: OptionSpec =
+    OptionSpec::new("-NAME_FIGURE", &[ValueSpec::new("NAME", Kind::Text, "prefix")], "prefix of the names of figures")
+        .default("FIGURE");
+const FIG_NUM: OptionSpec = OptionSpec::new(
+    "-FIG_NUM",
+    &[ValueSpec::new("N", Kind::Integer, "number").within(1.0, 1e6)],
+    "number of the next figure",
+)
+.default("1");
+const AUXIN: OptionSpec = OptionSpec::new("-AUXIN", &[FILE], "file INMODEL reads instead of ROOT.DAT");
+const IAUXIN: OptionSpec = OptionSpec::new("-IAUXIN", &[FILE], "the same as -AUXIN");
+const COMIN: OptionSpec = OptionSpec::new("-COMIN", &[FILE], "reads commands from a file next");
+const ICOMIN: OptionSpec = OptionSpec::new("-ICOMIN", &[FILE], "the same as -COMIN");
+const RECORDS: OptionSpec = OptionSpec::new(
+    "-RECORDS",
+    &[ValueSpec::new("N", Kind::Integer, "records").within(1.0, 1e15)],
+    "records a run may execute",
+)
+.default("2000000")
+.owner(Owner::Ours);
+const PLOT_SIZE: OptionSpec = OptionSpec::new(
+    "-PLOT_SIZE",
+    &[
+        ValueSpec::new("COLUMNS", Kind::Integer, "columns").within(40.0, 200.0),
+        ValueSpec::new("LINES", Kind::Integer, "lines").within(10.0, 100.0),
+    ],
+    "size of plots in the terminal",
+)
+.default("the terminal's width, else 90; 26")
+.owner(Owner::Ours);
+const US_DATE: OptionSpec = unused("-US_DATE");
+const CONT_ENTRY: OptionSpec = unused("-CONT_ENTRY");
+const G_DEFAULT: OptionSpec = unused("-G_DEFAULT");
+const IDISPLAY: OptionSpec = unused("-IDISPLAY");
+const CLIENT: OptionSpec = unused("-CLIENT");
+const FN_LOWER: OptionSpec = unused("-FN_LOWER");
+const LICENSE: OptionSpec = unused("-LICENSE");
+const PROJ_ID: OptionSpec = unused("-PROJ_ID");
+const PRIMARY: OptionSpec = unused("-PRIMARY");
+
 static SPEC: CommandSpec = CommandSpec {
     options: &[
-        OptionSpec::new("-BATCH", &[YES_NO], "stops at the first error").default("NO"),
-        OptionSpec::new(
-            "-LIMERROR",
-            &[ValueSpec::new("N", Kind::Integer, "errors").within(1.0, 1e9)],
-            "errors after which a script ends",
-        )
-        .default("10"),
-        OptionSpec::new("-SET_DATE", &[ValueSpec::new("DATE", Kind::Text, "date as printed")], "date of reports")
-            .default("today"),
-        OptionSpec::new("-OECHO", &[YES_NO], "shows the records as they are executed").default("NO"),
-        OptionSpec::new("-MECHO", &[YES_NO], "the same: shows the records as they are executed").default("NO"),
-        OptionSpec::new("-SILENT", &[YES_NO], "prints nothing on the screen but messages").default("NO"),
-        OptionSpec::new(
-            "-NAME_FIGURE",
-            &[ValueSpec::new("NAME", Kind::Text, "prefix")],
-            "prefix of the names of figures",
-        )
-        .default("FIGURE"),
-        OptionSpec::new(
-            "-FIG_NUM",
-            &[ValueSpec::new("N", Kind::Integer, "number").within(1.0, 1e6)],
-            "number of the next figure",
-        )
-        .default("1"),
-        OptionSpec::new("-AUXIN", &[FILE], "file INMODEL reads instead of ROOT.DAT"),
-        OptionSpec::new("-IAUXIN", &[FILE], "the same as -AUXIN"),
-        OptionSpec::new("-COMIN", &[FILE], "reads commands from a file next"),
-        OptionSpec::new("-ICOMIN", &[FILE], "the same as -COMIN"),
-        OptionSpec::new(
-            "-RECORDS",
-            &[ValueSpec::new("N", Kind::Integer, "records").within(1.0, 1e15)],
-            "records a run may execute",
-        )
-        .default("2000000")
-        .owner(Owner::Ours),
-        OptionSpec::new(
-            "-PLOT_SIZE",
-            &[
-                ValueSpec::new("COLUMNS", Kind::Integer, "columns").within(40.0, 200.0),
-                ValueSpec::new("LINES", Kind::Integer, "lines").within(10.0, 100.0),
-            ],
-            "size of plots in the terminal",
-        )
-        .default("the terminal's width, else 90; 26")
-        .owner(Owner::Ours),
-        unused("-US_DATE"),
-        unused("-CONT_ENTRY"),
-        unused("-G_DEFAULT"),
-        unused("-IDISPLAY"),
-        unused("-CLIENT"),
-        unused("-FN_LOWER"),
-        unused("-LICENSE"),
-        unused("-PROJ_ID"),
-        unused("-PRIMARY"),
+        BATCH,
+        LIMERROR,
+        SET_DATE,
+        OECHO,
+        MECHO,
+        SILENT,
+        NAME_FIGURE,
+        FIG_NUM,
+        AUXIN,
+        IAUXIN,
+        COMIN,
+        ICOMIN,
+        RECORDS,
+        PLOT_SIZE,
+        US_DATE,
+        CONT_ENTRY,
+        G_DEFAULT,
+        IDISPLAY,
+        CLIENT,
+        FN_LOWER,
+        LICENSE,
+        PROJ_ID,
+        PRIMARY,
     ],
     detail: "File names keep their case; quotes take blanks. -SET_DATE takes its date in quotes when it holds blanks.",
     example: "&DEVICE -LIMERROR 5 -SET_DATE 2026-11-21",
@@ -90,26 +114,26 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         let on = given.word(0).is_none_or(|w| w != "NO");
         let whole = given.values.first().and_then(|v| v.integer()).unwrap_or(0);
         let word = given.word(0).unwrap_or_default();
-        match given.name {
-            "-BATCH" => settings.batch = on,
-            "-LIMERROR" => settings.error_limit = whole,
-            "-SET_DATE" => settings.date = Some(word.to_string()),
-            "-OECHO" | "-MECHO" => settings.echo = on,
-            "-SILENT" => settings.silent = on,
-            "-NAME_FIGURE" => settings.figure_name = word.to_string(),
-            "-FIG_NUM" => settings.figure_number = whole,
-            "-AUXIN" | "-IAUXIN" => settings.auxiliary = Some(beside_root(job, word)),
-            "-COMIN" | "-ICOMIN" => {
+        match given {
+            _ if given.is(&BATCH) => settings.batch = on,
+            _ if given.is(&LIMERROR) => settings.error_limit = whole,
+            _ if given.is(&SET_DATE) => settings.date = Some(word.to_string()),
+            _ if given.is(&OECHO) || given.is(&MECHO) => settings.echo = on,
+            _ if given.is(&SILENT) => settings.silent = on,
+            _ if given.is(&NAME_FIGURE) => settings.figure_name = word.to_string(),
+            _ if given.is(&FIG_NUM) => settings.figure_number = whole,
+            _ if given.is(&AUXIN) || given.is(&IAUXIN) => settings.auxiliary = Some(beside_root(job, word)),
+            _ if given.is(&COMIN) || given.is(&ICOMIN) => {
                 let path = existing(job, word, given.values.first().map_or(given.span, |v| v.span))?;
                 effect = Effect::Insert { name: word.to_string(), path, tag: super::PLAIN };
             }
-            "-RECORDS" => effect = Effect::Budget(u64::try_from(whole).unwrap_or(u64::MAX)),
-            "-PLOT_SIZE" => {
+            _ if given.is(&RECORDS) => effect = Effect::Budget(u64::try_from(whole).unwrap_or(u64::MAX)),
+            _ if given.is(&PLOT_SIZE) => {
                 let size =
                     |i: usize| given.values.get(i).and_then(|v| v.integer()).and_then(|n| usize::try_from(n).ok());
                 settings.plot_size = size(0).zip(size(1));
             }
-            other => remarks.push((format!("{other} has no effect in windlass"), given.span)),
+            _ => remarks.push((format!("{} has no effect in windlass", given.name()), given.span)),
         }
     }
     job.settings = settings;

@@ -145,11 +145,11 @@ pub(super) fn refused(args: &Args, error: &DispositionError) -> Box<Diagnostic> 
     let named = match error {
         // the last of that name: a file or variable before the columns may have it too
         DispositionError::Column(c) => {
-            let given = args.option("-VALUES").map_or(&[][..], |g| &g.values);
+            let given = args.option_if_declared(&VALUES).map_or(&[][..], |g| &g.values);
             args.data.iter().rev().chain(given).find(|v| v.word() == Some(&c.name)).map(|v| v.span)
         }
-        DispositionError::Rows { .. } => args.option("-RECORD").map(|g| g.span),
-        DispositionError::NoRow => args.option("-VALUES").map(|g| g.span),
+        DispositionError::Rows { .. } => args.option_if_declared(&RECORD).map(|g| g.span),
+        DispositionError::NoRow => args.option_if_declared(&VALUES).map(|g| g.span),
         DispositionError::NotOne { .. } => Some(args.place(0)),
         _ => None,
     };
@@ -164,8 +164,8 @@ pub(super) fn selectors(args: &Args, from: usize) -> Vec<&str> {
 fn rows(args: &Args) -> RowChoice {
     let whole = |g: &Given, i: usize| g.values.get(i).and_then(|v| v.integer()).unwrap_or(0);
     RowChoice {
-        record: args.option("-RECORD").map(|g| (whole(g, 0), whole(g, 1))),
-        values: args.option("-VALUES").map(|g| {
+        record: args.option_if_declared(&RECORD).map(|g| (whole(g, 0), whole(g, 1))),
+        values: args.option_if_declared(&VALUES).map(|g| {
             (g.word(0).unwrap_or_default().to_string(), g.number(1).unwrap_or(0.0), g.number(2).unwrap_or(0.0))
         }),
         from: None,
@@ -179,7 +179,7 @@ pub(super) fn chosen(job: &Job, args: &Args, from: usize) -> Outcome<Table> {
 
 /// The same for statistics, which leave the transient of a run out unless -RECORD or -VALUES choose rows; with what is to be said of that.
 pub(super) fn chosen_for_statistics(job: &Job, args: &Args) -> Outcome<(Table, Option<String>)> {
-    let chosen = args.has("-RECORD") || args.has("-VALUES");
+    let chosen = args.has(&RECORD) || args.has(&VALUES);
     let from = here(job, args.span)?.transient().filter(|_| !chosen);
     let table = chosen_rows(job, args, 0, &RowChoice { from, ..rows(args) })?;
     let said =
@@ -191,7 +191,7 @@ fn chosen_rows(job: &Job, args: &Args, from: usize, rows: &RowChoice) -> Outcome
     let d = here(job, args.span)?;
     let result = d.columns(&selectors(args, from)).and_then(|c| d.extract(&c, rows, true, job.units));
     let mut table = result.map_err(|e| refused(args, &e))?;
-    if args.has("-MAG_USE") {
+    if args.option_if_declared(&MAG_USE).is_some() {
         for cell in table.columns.iter_mut().flat_map(|c| c.cells.iter_mut()) {
             if let windlass_base::table::Cell::Number(value) = cell {
                 *value = value.abs();
@@ -203,13 +203,17 @@ fn chosen_rows(job: &Job, args: &Args, from: usize, rows: &RowChoice) -> Outcome
 
 /// Sends text where -HARD and -BOTH say.
 pub(super) fn send(job: &mut Job, args: &Args, text: &str) -> Outcome<()> {
-    let hard = args.has("-HARD") || args.has("-BOTH");
-    let heading = args.option_word("-HEADING").map(|h| format!("{h}\n\n")).unwrap_or_default();
+    let hard = args.has(&HARD) || args.has(&BOTH);
+    let heading = args
+        .option_if_declared(&HEADING)
+        .and_then(|given| given.word(0))
+        .map(|h| format!("{h}\n\n"))
+        .unwrap_or_default();
     let text = format!("{heading}{text}");
     if hard {
         job.output.hard(&text).map_err(|e| Diagnostic::error(e.to_string(), args.span))?;
     }
-    if !hard || args.has("-BOTH") {
+    if !hard || args.has(&BOTH) {
         job.say(&text);
     }
     Ok(())

@@ -12,6 +12,7 @@ use windlass_base::values::{Args, Given};
 use windlass_language::name as rule;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_model::options::{PHASES, W_SPECTRUM};
 use windlass_model::{Current, Curve, CurveKind, EntityKind, Environment, Formula, Model, Sea, TimeWindow, find};
 
 /// &ENV.
@@ -21,9 +22,6 @@ pub static NAMED_ENV: Command = Command { spec: &NAMED_SPEC, edits: false, run: 
 
 pub(super) const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(dim), help)
-}
-pub(super) const fn text(name: &'static str, help: &'static str) -> ValueSpec {
-    ValueSpec::new(name, Kind::Text, help)
 }
 pub(super) const fn curve(help: &'static str) -> ValueSpec {
     ValueSpec::new("NAME", Kind::Name(Noun::Curve), help)
@@ -56,15 +54,83 @@ pub(super) const SPREAD_OPTION: OptionSpec =
     OptionSpec::new("-SPREAD", &[number("EXP", Dim::None, "exponent").positive()], "spreading cos(H - th)**EXP")
         .default("200: long-crested");
 
-const OPTIONS: &[OptionSpec] = &[
-    OptionSpec::new("-DURATION", &[number("D", Dim::Days, "days").not_negative()], "days, for fatigue"),
+/// `-DURATION`.
+pub(super) const DURATION: OptionSpec =
+    OptionSpec::new("-DURATION", &[number("D", Dim::Days, "days").not_negative()], "days, for fatigue");
+/// `-WATER`.
+pub(super) const WATER: OptionSpec =
     OptionSpec::new("-WATER", &[number("RHO", Dim::Density, "density").positive()], "density of the water")
-        .default("&DEFAULT"),
-    OptionSpec::new(
-        "-SPGWATER",
-        &[number("SG", Dim::None, "specific gravity").positive()],
-        "specific gravity of the water",
-    ),
+        .default("&DEFAULT");
+/// `-SPGWATER`.
+pub(super) const SPGWATER: OptionSpec = OptionSpec::new(
+    "-SPGWATER",
+    &[number("SG", Dim::None, "specific gravity").positive()],
+    "specific gravity of the water",
+);
+/// `-S_PERIOD`.
+pub(super) const S_PERIOD: OptionSpec =
+    OptionSpec::new("-S_PERIOD", PERIODS, "periods of the sea's components").repeating(1);
+const MD_PERIOD: OptionSpec =
+    OptionSpec::new("-MD_PERIOD", PERIODS, "periods of the mean drift: kept and shown, without effect").repeating(1);
+/// `-TIME`.
+pub(super) const TIME: OptionSpec = OptionSpec::new(
+    "-TIME",
+    &[
+        number("TOBSERV", Dim::Time, "time observed").positive(),
+        number("DELTA_TIME", Dim::Time, "time step").positive(),
+        number("TTRA_SET", Dim::Time, "time set aside for the transient: statistics leave it out")
+            .or("0")
+            .not_negative(),
+        ValueSpec::new("NCYCLES", Kind::Integer, "cycles: kept and shown, without effect").or("1").within(1.0, 1e6),
+    ],
+    "time window",
+);
+/// `-RAMP`.
+pub(super) const RAMP: OptionSpec =
+    OptionSpec::new("-RAMP", &[number("T", Dim::Time, "time").not_negative()], "ramp of the loads").default("&DEFAULT");
+/// `-T_REINFORCE`.
+pub(super) const T_REINFORCE: OptionSpec = OptionSpec::new(
+    "-T_REINFORCE",
+    &[number("TB", Dim::Time, "time")],
+    "time at which all wave components are in phase",
+);
+/// `-CURRENT`.
+pub(super) const CURRENT: OptionSpec = OptionSpec::new(
+    "-CURRENT",
+    &[
+        ValueSpec::new("V", Kind::Text, "velocity (zero or more), or name of a C_PROFILE curve"),
+        number("DIR", Dim::Angle, "direction it comes from"),
+    ],
+    "current: V DIR, or NAME1 DIR1 NAME2 DIR2 ..",
+)
+.repeating(2)
+.default("none");
+const C_HISTORY: OptionSpec =
+    OptionSpec::new("-C_HISTORY", &[curve("C_HISTORY curve")], "factor of the current over time").owner(Owner::Ours);
+/// `-TIDE`.
+pub(super) const TIDE: OptionSpec =
+    OptionSpec::new("-TIDE", &[number("CHANGE", Dim::Length, "rise of the water level")], "tide").default("0");
+/// `-DEPTH`.
+pub(super) const DEPTH: OptionSpec =
+    OptionSpec::new("-DEPTH", &[number("D", Dim::Length, "depth").positive()], "water depth").default("&DEFAULT");
+const M_GROWTH: OptionSpec = OptionSpec::new(
+    "-M_GROWTH",
+    &[curve("M_GROWTH curve"), number("RHO", Dim::Density, "density of the growth").or("1325 kg/m3").positive()],
+    "marine growth",
+);
+const USE_MEAN: OptionSpec = OptionSpec::new(
+    "-USE_MEAN",
+    &[ValueSpec::new("YES/NO", Kind::Choice(&["YES", "NO"]), "on or off").or("YES")],
+    "uses mean values: kept and shown, without effect",
+);
+/// `-E_PERIOD`.
+pub(super) const E_PERIOD: OptionSpec =
+    OptionSpec::new("-E_PERIOD", PERIODS, "periods of the waves in SRESPONSE, where it gives none").repeating(1);
+
+const OPTIONS: &[OptionSpec] = &[
+    DURATION,
+    WATER,
+    SPGWATER,
     probability::PROBABILITY,
     SEA_OPTION,
     A_SEA_OPTION,
@@ -72,63 +138,31 @@ const OPTIONS: &[OptionSpec] = &[
     SPREAD_OPTION,
     sea_options::COMPONENTS,
     sea_options::SEED,
-    sea_options::PHASES,
+    PHASES,
     sea_options::STRETCHING,
     sea_options::STOKES,
-    OptionSpec::new("-S_PERIOD", PERIODS, "periods of the sea's components").repeating(1),
-    OptionSpec::new("-MD_PERIOD", PERIODS, "periods of the mean drift: kept and shown, without effect").repeating(1),
-    OptionSpec::new(
-        "-TIME",
-        &[
-            number("TOBSERV", Dim::Time, "time observed").positive(),
-            number("DELTA_TIME", Dim::Time, "time step").positive(),
-            number("TTRA_SET", Dim::Time, "time set aside for the transient: statistics leave it out")
-                .or("0")
-                .not_negative(),
-            ValueSpec::new("NCYCLES", Kind::Integer, "cycles: kept and shown, without effect").or("1").within(1.0, 1e6),
-        ],
-        "time window",
-    ),
-    OptionSpec::new("-RAMP", &[number("T", Dim::Time, "time").not_negative()], "ramp of the loads").default("&DEFAULT"),
-    OptionSpec::new(
-        "-T_REINFORCE",
-        &[number("TB", Dim::Time, "time")],
-        "time at which all wave components are in phase",
-    ),
+    S_PERIOD,
+    MD_PERIOD,
+    TIME,
+    RAMP,
+    T_REINFORCE,
     wind_options::WIND,
     wind_options::PROFILE,
     wind_options::DESIGN,
-    wind_options::SPECTRUM,
+    W_SPECTRUM,
     wind_options::HISTORY,
     wind_options::PERIOD,
     wind_options::COMPONENTS,
     wind_options::CORRELATION,
-    OptionSpec::new(
-        "-CURRENT",
-        &[
-            ValueSpec::new("V", Kind::Text, "velocity (zero or more), or name of a C_PROFILE curve"),
-            number("DIR", Dim::Angle, "direction it comes from"),
-        ],
-        "current: V DIR, or NAME1 DIR1 NAME2 DIR2 ..",
-    )
-    .repeating(2)
-    .default("none"),
-    OptionSpec::new("-C_HISTORY", &[curve("C_HISTORY curve")], "factor of the current over time").owner(Owner::Ours),
-    OptionSpec::new("-TIDE", &[number("CHANGE", Dim::Length, "rise of the water level")], "tide").default("0"),
-    OptionSpec::new("-DEPTH", &[number("D", Dim::Length, "depth").positive()], "water depth").default("&DEFAULT"),
-    OptionSpec::new(
-        "-M_GROWTH",
-        &[curve("M_GROWTH curve"), number("RHO", Dim::Density, "density of the growth").or("1325 kg/m3").positive()],
-        "marine growth",
-    ),
+    CURRENT,
+    C_HISTORY,
+    TIDE,
+    DEPTH,
+    M_GROWTH,
     ambient_options::BATHYMETRY,
     ambient_options::T_PRESSURE,
-    OptionSpec::new(
-        "-USE_MEAN",
-        &[ValueSpec::new("YES/NO", Kind::Choice(&["YES", "NO"]), "on or off").or("YES")],
-        "uses mean values: kept and shown, without effect",
-    ),
-    OptionSpec::new("-E_PERIOD", PERIODS, "periods of the waves in SRESPONSE, where it gives none").repeating(1),
+    USE_MEAN,
+    E_PERIOD,
 ];
 
 static ENV_SPEC: CommandSpec = CommandSpec {
@@ -192,7 +226,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     }
     doubt(job, &made, &call.args);
     job.model.environment = made;
-    ambient_options::planes(job, call.args.option("-BATHYMETRY"));
+    ambient_options::planes(job, call.args.option(&ambient_options::BATHYMETRY));
     Ok(Effect::Done)
 }
 
@@ -224,7 +258,7 @@ fn build(job: &Job, args: &Args) -> Outcome<Environment> {
     sea_options::one_phasing(args)?;
     for given in &args.options {
         apply(job, &mut env, given)?;
-        env.options.retain(|g| g.name != given.name);
+        env.options.retain(|g| !g.is(given.option));
         env.options.push(given.clone());
     }
     leaves_water(job, args, &env)?;
@@ -234,7 +268,7 @@ fn build(job: &Job, args: &Args) -> Outcome<Environment> {
 /// Sees that depth and tide leave water, where this record gives one of them.
 fn leaves_water(job: &Job, args: &Args, env: &Environment) -> Outcome<()> {
     let around = job.model.surroundings_in(env);
-    let Some(given) = args.option("-TIDE").or(args.option("-DEPTH")) else { return Ok(()) };
+    let Some(given) = args.option(&TIDE).or(args.option(&DEPTH)) else { return Ok(()) };
     match around.depth {
         Some(depth) if depth + around.tide <= 0.0 => {
             let shown = |length: f64| Dim::Length.from_si(length, job.units);
@@ -249,7 +283,7 @@ fn leaves_water(job: &Job, args: &Args, env: &Environment) -> Outcome<()> {
 pub(super) fn periods(given: &Given) -> Outcome<()> {
     for (index, value) in given.values.iter().enumerate() {
         if let Some(first) = given.values.iter().take(index).find(|v| v.content == value.content) {
-            return Err(Diagnostic::error(format!("{} has the same period twice", given.name), value.span)
+            return Err(Diagnostic::error(format!("{} has the same period twice", given.name()), value.span)
                 .other(first.span, "first given here"));
         }
     }
@@ -266,17 +300,17 @@ fn place(given: &Given, index: usize) -> Span {
 /// An option that contradicts itself, or names what is not there.
 pub(super) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<()> {
     let at = |i: usize| given.number(i);
-    match given.name {
-        "-WATER" => env.water_density = at(0),
-        "-SPGWATER" => env.water_density = at(0).map(|s| 1000.0 * s),
-        "-DEPTH" => env.depth = at(0),
-        "-TIDE" => env.tide = at(0),
-        "-RAMP" => env.ramp = at(0),
-        "-SPREAD" => env.spreading = at(0),
-        "-SP_TYPE" => env.sea_period = Some(formula(given)),
-        "-SEA" => env.sea = Some(sea(job, given)?),
-        "-A_SEA" => env.added_sea = Some(sea(job, given)?),
-        "-TIME" => {
+    match given {
+        _ if given.is(&WATER) => env.water_density = at(0),
+        _ if given.is(&SPGWATER) => env.water_density = at(0).map(|s| 1000.0 * s),
+        _ if given.is(&DEPTH) => env.depth = at(0),
+        _ if given.is(&TIDE) => env.tide = at(0),
+        _ if given.is(&RAMP) => env.ramp = at(0),
+        _ if given.is(&SPREAD_OPTION) => env.spreading = at(0),
+        _ if given.is(&SP_TYPE_OPTION) => env.sea_period = Some(formula(given)),
+        _ if given.is(&SEA_OPTION) => env.sea = Some(sea(job, given)?),
+        _ if given.is(&A_SEA_OPTION) => env.added_sea = Some(sea(job, given)?),
+        _ if given.is(&TIME) => {
             let (observed, step) = (at(0).unwrap_or(0.0), at(1).unwrap_or(0.0));
             if step > observed {
                 return Err(Diagnostic::error("the time step is longer than the time observed", place(given, 1)));
@@ -298,14 +332,14 @@ pub(super) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<
                 cycles: given.values.get(3).and_then(|v| v.integer()),
             });
         }
-        "-CURRENT" => env.current = Some(current(job, given)?),
-        "-S_PERIOD" | "-MD_PERIOD" | "-E_PERIOD" => periods(given)?,
-        "-PROBABILITY" => probability::check(given)?,
-        "-C_HISTORY" => {
+        _ if given.is(&CURRENT) => env.current = Some(current(job, given)?),
+        _ if given.is(&S_PERIOD) || given.is(&MD_PERIOD) || given.is(&E_PERIOD) => periods(given)?,
+        _ if given.is(&probability::PROBABILITY) => probability::check(given)?,
+        _ if given.is(&C_HISTORY) => {
             known_curve(job, given, 0, CurveKind::CurrentHistory)?;
             env.current_history = Some(formula(given));
         }
-        "-M_GROWTH" => {
+        _ if given.is(&M_GROWTH) => {
             known_curve(job, given, 0, CurveKind::MarineGrowth)?;
             env.growth = Some(formula(given));
         }

@@ -2,7 +2,9 @@
 
 use super::Job;
 use super::chosen::WARNING;
+use super::environment;
 use super::sea_table::phasing;
+use super::wind_options;
 use super::wind_table;
 use super::written::option_as_written;
 use windlass_base::table::{Cell, Table};
@@ -10,6 +12,7 @@ use windlass_base::units::Dim;
 use windlass_hydro::gusts::Gusts;
 use windlass_hydro::spectrum::gamma_of;
 use windlass_hydro::steady::Steady;
+use windlass_language::spec::OptionSpec;
 use windlass_model::{Current, Environment, Sea};
 
 /// The environment in force, or those kept under a name that is chosen.
@@ -131,12 +134,23 @@ fn environment(job: &Job, env: &Environment) -> Table {
 
 /// The options kept that have no line of their own above, as they were given.
 fn others(mut table: Table, env: &Environment, job: &Job) -> Table {
-    const SHOWN: [&str; 11] =
-        ["-WATER", "-SPGWATER", "-DEPTH", "-TIDE", "-RAMP", "-SEA", "-A_SEA", "-SPREAD", "-WIND", "-CURRENT", "-TIME"];
-    for given in env.options.iter().filter(|g| !SHOWN.contains(&g.name)) {
+    const SHOWN: [OptionSpec; 11] = [
+        environment::WATER,
+        environment::SPGWATER,
+        environment::DEPTH,
+        environment::TIDE,
+        environment::RAMP,
+        environment::SEA_OPTION,
+        environment::A_SEA_OPTION,
+        environment::SPREAD_OPTION,
+        wind_options::WIND,
+        environment::CURRENT,
+        environment::TIME,
+    ];
+    for given in env.options.iter().filter(|given| !given.is_any(&SHOWN)) {
         let text = option_as_written(given, job.units);
         let values = text.split_once(' ').map_or("", |(_, values)| values);
-        table = table.fact(given.name, values, Dim::None);
+        table = table.fact(given.name(), values, Dim::None);
     }
     table
 }

@@ -24,38 +24,36 @@ pub static EQUI: Command = Command { spec: &SPEC, edits: true, run };
 const TOLERANCE: ValueSpec =
     ValueSpec::new("T", Kind::Number(Dim::None), "largest acceleration left, as a share of gravity").within(1e-12, 1.0);
 
-static SPEC: CommandSpec = CommandSpec {
-    options: &[
-        OptionSpec::new("-DEFAULTS", &[], "forgets what was given before"),
-        OptionSpec::new(
-            "-ITER_MAX",
-            &[ValueSpec::new("N", Kind::Integer, "steps").within(1.0, 100_000.0)],
-            "most steps of the solution",
-        )
-        .default("50"),
-        OptionSpec::new(
-            "-TOLERANCE",
-            &[TOLERANCE, ValueSpec { name: "R", ..TOLERANCE }.or("the same: rotation, times the radius of gyration")],
-            "largest accelerations left",
-        )
-        .default("0.001"),
-        OptionSpec::new(
-            "-IGNORE",
-            &[
-                ValueSpec::new("BODY", Kind::Name(Noun::Body), "body"),
-                ValueSpec::new("DOF", Kind::Choice(&DOFS), "a degree of freedom that does not move in this solution"),
-                MORE,
-                MORE,
-                MORE,
-                MORE,
-                MORE,
-            ],
-            "holds degrees of freedom of a body, this time",
-        )
-        .many(),
-        HARD,
-        BOTH,
+const DEFAULTS: OptionSpec = OptionSpec::new("-DEFAULTS", &[], "forgets what was given before");
+const ITER_MAX: OptionSpec = OptionSpec::new(
+    "-ITER_MAX",
+    &[ValueSpec::new("N", Kind::Integer, "steps").within(1.0, 100_000.0)],
+    "most steps of the solution",
+)
+.default("50");
+const TOLERANCE_OPTION: OptionSpec = OptionSpec::new(
+    "-TOLERANCE",
+    &[TOLERANCE, ValueSpec { name: "R", ..TOLERANCE }.or("the same: rotation, times the radius of gyration")],
+    "largest accelerations left",
+)
+.default("0.001");
+const IGNORE: OptionSpec = OptionSpec::new(
+    "-IGNORE",
+    &[
+        ValueSpec::new("BODY", Kind::Name(Noun::Body), "body"),
+        ValueSpec::new("DOF", Kind::Choice(&DOFS), "a degree of freedom that does not move in this solution"),
+        MORE,
+        MORE,
+        MORE,
+        MORE,
+        MORE,
     ],
+    "holds degrees of freedom of a body, this time",
+)
+.many();
+
+static SPEC: CommandSpec = CommandSpec {
+    options: &[DEFAULTS, ITER_MAX, TOLERANCE_OPTION, IGNORE, HARD, BOTH],
     detail: "All bodies and active connectors in the environment in force. Newton's iteration with the analytic stiffness goes on as \
              far as rounding lets it, of each group of bodies and junctions that connectors join by itself and then of all; what is left is reported, and must be less than the tolerance, which is a \
              share of gravity: 0.001 means a force of a thousandth of the body's weight. Far from rest, or where the stiffness is not \
@@ -83,16 +81,16 @@ fn ignored(model: &Model, given: &Given) -> Outcome<Vec<(usize, usize)>> {
 /// What a record asks for, beside what was asked for before.
 fn options(job: &Job, call: &Call) -> Outcome<Options> {
     let args = &call.args;
-    let before = if args.has("-DEFAULTS") { Options::default() } else { job.equilibrium.clone() };
+    let before = if args.has(&DEFAULTS) { Options::default() } else { job.equilibrium.clone() };
     let mut made = Options { ignored: Vec::new(), ..before };
-    if let Some(most) = args.option("-ITER_MAX").and_then(|g| g.values.first()).and_then(|v| v.integer()) {
+    if let Some(most) = args.option(&ITER_MAX).and_then(|g| g.values.first()).and_then(|v| v.integer()) {
         made.most = usize::try_from(most).unwrap_or(made.most);
     }
-    if let Some(given) = args.option("-TOLERANCE") {
+    if let Some(given) = args.option(&TOLERANCE_OPTION) {
         let shift = given.number(0).unwrap_or(made.tolerance[0]);
         made.tolerance = [shift, given.number(1).unwrap_or(shift)];
     }
-    for given in args.all("-IGNORE") {
+    for given in args.all(&IGNORE) {
         made.ignored.extend(ignored(&job.model, given)?);
     }
     Ok(made)

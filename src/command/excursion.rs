@@ -53,36 +53,33 @@ const FREE: OptionSpec = OptionSpec::new("-FREE", &[], "all other degrees of fre
     .owner(Owner::Ours)
     .default("held");
 
+const DISTANCE: OptionSpec = OptionSpec::new(
+    "-DISTANCE",
+    &[ValueSpec::new("D", Kind::Number(Dim::Length), "excursion").positive()],
+    "no farther than this, also when no line breaks",
+)
+.owner(Owner::Ours);
+const ROWS: OptionSpec = OptionSpec::new(
+    "-ROWS",
+    &[ValueSpec::new("N", Kind::Integer, "rows").within(2.0, 10_000.0)],
+    "rows of one direction",
+)
+.owner(Owner::Ours)
+.default("30");
+const AT: OptionSpec = OptionSpec::new(
+    "-AT",
+    &[ValueSpec::new("D", Kind::Number(Dim::Length), "excursion").not_negative()],
+    "of several directions: the restoring force at these excursions too",
+)
+.repeating(1)
+.owner(Owner::Ours);
+
 static MOVE_SPEC: CommandSpec = CommandSpec {
     opens: Opens::Menu("DISPOSITION"),
     menus: &["CONN_DESIGN"],
     data: &[BODY, ANGLE.or("0, and more of them: one row a direction")],
     repeat: 1,
-    options: &[
-        ANGLES,
-        FREE,
-        REMOVE,
-        OptionSpec::new(
-            "-DISTANCE",
-            &[ValueSpec::new("D", Kind::Number(Dim::Length), "excursion").positive()],
-            "no farther than this, also when no line breaks",
-        )
-        .owner(Owner::Ours),
-        OptionSpec::new(
-            "-ROWS",
-            &[ValueSpec::new("N", Kind::Integer, "rows").within(2.0, 10_000.0)],
-            "rows of one direction",
-        )
-        .owner(Owner::Ours)
-        .default("30"),
-        OptionSpec::new(
-            "-AT",
-            &[ValueSpec::new("D", Kind::Number(Dim::Length), "excursion").not_negative()],
-            "of several directions: the restoring force at these excursions too",
-        )
-        .repeating(1)
-        .owner(Owner::Ours),
-    ],
+    options: &[ANGLES, FREE, REMOVE, DISTANCE, ROWS, AT],
     detail: "The body is moved from where it stands along a horizontal direction, in equal steps up to the excursion at which \
              the first line breaks (the last row), or to -DISTANCE. Its other degrees of freedom and the other bodies stay as they are; \
              with -FREE they come to rest at every excursion, and what acts on them (weight and the like) then counts. Forces \
@@ -132,7 +129,7 @@ fn body<'a>(job: &'a Job, args: &Args) -> Outcome<(&'a Body, usize)> {
 
 /// The directions of -ANGLES.
 fn range(args: &Args) -> Outcome<Option<Vec<f64>>> {
-    let Some(given) = args.option("-ANGLES") else { return Ok(None) };
+    let Some(given) = args.option(&ANGLES) else { return Ok(None) };
     let (Some(from), Some(to), Some(step)) = (given.number(0), given.number(1), given.number(2)) else {
         return Ok(None);
     };
@@ -149,7 +146,7 @@ fn range(args: &Args) -> Outcome<Option<Vec<f64>>> {
 /// The system without the lines of -REMOVE, and the intact one beside it.
 fn systems(job: &Job, args: &Args) -> Outcome<Systems> {
     let mut removed: Vec<String> = Vec::new();
-    for value in args.option("-REMOVE").map_or(&[][..], |g| &g.values) {
+    for value in args.option(&REMOVE).map_or(&[][..], |g| &g.values) {
         let Some(word) = value.word() else { continue };
         let connector = find(&job.model.connectors, word, "connector", value.span)?;
         if !connector.active {
@@ -182,29 +179,29 @@ fn moved(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (body, index) = body(job, args)?;
     let given: Vec<f64> = args.data.iter().skip(1).filter_map(|v| v.number()).collect();
     let several = range(args)?;
-    if let (Some(option), false) = (args.option("-ANGLES"), given.is_empty()) {
+    if let (Some(option), false) = (args.option(&ANGLES), given.is_empty()) {
         return Err(
             Diagnostic::error("directions are given twice", option.span).other(args.place(1), "first given here")
         );
     }
     let one = several.is_none() && given.len() < 2;
-    let unused = if one { "-AT" } else { "-ROWS" };
-    if let Some(option) = args.option(unused) {
+    let unused = if one { AT } else { ROWS };
+    if let Some(option) = args.option(&unused) {
         let of = if one { "several directions" } else { "one direction" };
-        return Err(Diagnostic::error(format!("{unused} goes with {of}"), option.span));
+        return Err(Diagnostic::error(format!("{} goes with {of}", unused.name), option.span));
     }
     let systems = systems(job, args)?;
     let directions = several.unwrap_or(given);
     let direction = directions.first().copied().unwrap_or(0.0);
-    let path = Path { body: index, direction, free: args.has("-FREE"), most: args.option_number("-DISTANCE") };
+    let path = Path { body: index, direction, free: args.has(&FREE), most: args.option_number(&DISTANCE) };
     let start = poses(job);
     let asked = Asked { name: &body.name, place: &body.place, start: &start, path, units: job.units };
     let made = if one {
-        let rows = args.option("-ROWS").and_then(|g| g.values.first()).and_then(|v| v.integer());
+        let rows = args.option(&ROWS).and_then(|g| g.values.first()).and_then(|v| v.integer());
         along(&systems, &asked, rows.and_then(|n| usize::try_from(n).ok()).unwrap_or(30))
     } else {
         let at: Vec<(f64, String)> = args
-            .option("-AT")
+            .option(&AT)
             .map_or(&[][..], |g| &g.values)
             .iter()
             .filter_map(|v| v.number())
@@ -223,7 +220,7 @@ fn watched(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let around = (0..=24).map(|n| (15.0 * f64::from(n)).to_radians());
     let directions = range(args)?.unwrap_or_else(|| around.collect());
     let mut systems = systems(job, args)?;
-    let (free, start) = (args.has("-FREE"), poses(job));
+    let (free, start) = (args.has(&FREE), poses(job));
     let wrong = |e: SolveError| told(e, &job.model, args.place(0), job.units);
     let asked_for = (index, force, free);
     let found = watch(&mut systems.system, &start, asked_for, &directions).map_err(wrong)?;

@@ -3,6 +3,7 @@
 //! Source: [MOSES-REF sn_def, sn_bind, fatigue].
 
 use super::chosen::note_caveats;
+use super::environment;
 use super::equilibrium::told;
 use super::prcpost::{CONNECTORS, asked_behind_transient, connectors};
 use super::{Call, Command, Effect, Job, Menu};
@@ -17,36 +18,37 @@ use windlass_solve::results::{self, Exposed};
 /// FATIGUE.
 pub static FATIGUE: Command = Command { spec: &SPEC, edits: false, run };
 
+const EVENTS: OptionSpec = OptionSpec::new(
+    "-EVENTS",
+    &[
+        ValueSpec::new("BEG", Kind::Number(Dim::Time), "time of the first event"),
+        ValueSpec::new("END", Kind::Number(Dim::Time), "time of the last").or("the end of the run"),
+    ],
+    "the part of the run that is counted; its stored instants",
+)
+.default("all of it but TTRA_SET");
+const DURATION: OptionSpec = OptionSpec::new(
+    "-DURATION",
+    &[ValueSpec::new("D", Kind::Number(Dim::Days), "days").positive()],
+    "how long the environment of the run lasts",
+)
+.default("the -DURATION of its &ENV");
+const ADD: OptionSpec =
+    OptionSpec::new("-ADD", &[], "adds the run to those FATIGUE was given before, instead of beginning anew");
+const DFF: OptionSpec = OptionSpec::new(
+    "-DFF",
+    &[ValueSpec::new("F", Kind::Number(Dim::None), "factor").within(1.0, 1000.0)],
+    "design fatigue factor: life is divided by it",
+)
+.default("1");
+
 static SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
     opens: Opens::Menu("DISPOSITION"),
     menus: &["PRCPOST"],
     data: CONNECTORS,
     repeat: 1,
-    options: &[
-        OptionSpec::new(
-            "-EVENTS",
-            &[
-                ValueSpec::new("BEG", Kind::Number(Dim::Time), "time of the first event"),
-                ValueSpec::new("END", Kind::Number(Dim::Time), "time of the last").or("the end of the run"),
-            ],
-            "the part of the run that is counted; its stored instants",
-        )
-        .default("all of it but TTRA_SET"),
-        OptionSpec::new(
-            "-DURATION",
-            &[ValueSpec::new("D", Kind::Number(Dim::Days), "days").positive()],
-            "how long the environment of the run lasts",
-        )
-        .default("the -DURATION of its &ENV"),
-        OptionSpec::new("-ADD", &[], "adds the run to those FATIGUE was given before, instead of beginning anew"),
-        OptionSpec::new(
-            "-DFF",
-            &[ValueSpec::new("F", Kind::Number(Dim::None), "factor").within(1.0, 1000.0)],
-            "design fatigue factor: life is divided by it",
-        )
-        .default("1"),
-    ],
+    options: &[EVENTS, DURATION, ADD, DFF],
     detail: "Rainflow cycles of the tension at the upper end of each segment, each by the curve of -C_SN of its class or by the last of \
              &REP_SELECT -SN, stress with -THICK_SN; Palmgren and Miner's sum. CDR is that of all environments, each for its duration, and \
              Life when they come again for ever. A scatter is run one environment after the other: TDOM and FATIGUE, then TDOM and FATIGUE \
@@ -63,15 +65,15 @@ static SPEC: CommandSpec = CommandSpec {
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let (run, events) = asked_behind_transient(job, args)?;
-    let span = args.option("-EVENTS").map_or(args.span, |g| g.span);
+    let span = args.option(&EVENTS).map_or(args.span, |g| g.span);
     let time = |event: Option<&results::Event>| event.and_then(|e| e.time(&run.history)).unwrap_or(0.0);
     let record = time(events.last()) - time(events.first());
     if record <= 0.0 {
         return Err(Diagnostic::error("fatigue needs more than one instant", span));
     }
     let env = &run.model.environment;
-    let of_env = env.options.iter().find(|g| g.name == "-DURATION").and_then(|g| g.number(0));
-    let duration = args.option_number("-DURATION").or(of_env).filter(|d| *d > 0.0).ok_or_else(|| {
+    let of_env = env.options.iter().find(|given| given.is(&environment::DURATION)).and_then(|g| g.number(0));
+    let duration = args.option_number(&DURATION).or(of_env).filter(|d| *d > 0.0).ok_or_else(|| {
         Diagnostic::error("how long the environment lasts is not said", args.span).help("-DURATION, here or of &ENV")
     })?;
     let lines = results::line_damages(run, &connectors(job, run, call)?, &job.model.fatigue, &events)
@@ -81,9 +83,9 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             .help("lines, rods and elastic elements have them"));
     }
     let own = Exposed { environment: env.name.clone(), record, duration, lines };
-    let mut runs = if args.has("-ADD") { job.scatter.clone() } else { Vec::new() };
+    let mut runs = if args.has(&ADD) { job.scatter.clone() } else { Vec::new() };
     runs.push(own);
-    let factor = args.option_number("-DFF").unwrap_or(1.0);
+    let factor = args.option_number(&DFF).unwrap_or(1.0);
     let mut table = results::scatter(&runs, factor)
         .map_err(|e| Diagnostic::error(e.to_string(), args.span).help("without -ADD a scatter begins anew"))?;
     job.scatter = runs;

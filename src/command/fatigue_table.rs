@@ -4,6 +4,7 @@ use super::Job;
 use super::help::wrap;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
+use windlass_model::options::C_SN;
 use windlass_model::{FatigueKind, FatigueSegment, Model};
 use windlass_signal::fatigue::{Curve, find, library};
 
@@ -91,7 +92,7 @@ fn segments(model: &Model, fits: &dyn Fn(&str) -> bool) -> Option<Table> {
         .text("Curve", |row| row.name.as_deref())
         .text("Type", |row| row.curve.as_ref().map(|c| c.kind.name()))
         .text("From", |row| match (&row.segment.curve, &row.name) {
-            (Some(_), _) => "-C_SN",
+            (Some(_), _) => C_SN.name,
             (None, Some(_)) => "&REP_SELECT",
             (None, None) => "none",
         })

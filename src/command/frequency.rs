@@ -3,6 +3,7 @@
 //! Source: [MOSES-REF freq_mot].
 
 use super::chosen::{WARNING, raise};
+use super::environment;
 use super::equilibrium::told;
 use super::{Call, Command, Effect, Job, Menu, probability};
 use crate::report::page;
@@ -76,18 +77,17 @@ const PERIOD: OptionSpec = OptionSpec::new(
 )
 .repeating(1);
 
+const HEADING: OptionSpec = OptionSpec::new(
+    "-HEADING",
+    &[ValueSpec::new("H", Kind::Number(Dim::Angle), "where the waves come from, from +X toward +Y")],
+    "headings",
+)
+.repeating(1)
+.default("those of the first body's database");
+
 static RAO_SPEC: CommandSpec = CommandSpec {
     menus: &["FREQ_RESPONSE"],
-    options: &[
-        PERIOD.default("those of the databases"),
-        OptionSpec::new(
-            "-HEADING",
-            &[ValueSpec::new("H", Kind::Number(Dim::Angle), "where the waves come from, from +X toward +Y")],
-            "headings",
-        )
-        .repeating(1)
-        .default("those of the first body's database"),
-    ],
+    options: &[PERIOD.default("those of the databases"), HEADING],
     detail: "Motions in waves of unit amplitude, at each heading and period. Damping is that of radiated waves, #DAMP, #DRAG and \
              connectors, as it is at rest: what grows with the velocity has none. A new sea may then be given with STATISTICS. Slow drift \
              has no part in it.",
@@ -150,7 +150,7 @@ fn linear(job: &Job, model: &Model, span: Span) -> Outcome<Linear> {
 
 /// Frequencies of the periods of a record (rad/s).
 fn frequencies(args: &Args) -> Vec<f64> {
-    args.option("-PERIOD").map_or(Vec::new(), |g| g.numbers().iter().map(|t| TAU / t).collect())
+    args.option(&PERIOD).map_or(Vec::new(), |g| g.numbers().iter().map(|t| TAU / t).collect())
 }
 
 fn rao(job: &mut Job, call: &Call) -> Outcome<Effect> {
@@ -160,7 +160,7 @@ fn rao(job: &mut Job, call: &Call) -> Outcome<Effect> {
     if periods.is_empty() {
         periods = linear.frequencies();
     }
-    let headings = args.option("-HEADING").map_or_else(|| linear.headings(), |g| g.numbers());
+    let headings = args.option(&HEADING).map_or_else(|| linear.headings(), |g| g.numbers());
     let made = Operators::of(&linear, &periods, &headings).map_err(|e| told(e, &job.model, args.span, job.units))?;
     let mut table = Table::new("Motions in Unit Waves").fact("Periods", periods.len(), Dim::None).fact(
         "Headings",
@@ -203,7 +203,7 @@ fn sresponse(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let mut linear = linear(job, &model, args.span)?;
     let mut frequencies = frequencies(args);
     if frequencies.is_empty() {
-        let of_env = model.environment.options.iter().find(|g| g.name == "-E_PERIOD");
+        let of_env = model.environment.options.iter().find(|given| given.is(&environment::E_PERIOD));
         frequencies = of_env.map_or(Vec::new(), |g| g.numbers().iter().map(|t| TAU / t).collect());
     }
     frequencies.sort_by(f64::total_cmp);

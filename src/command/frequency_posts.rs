@@ -69,6 +69,14 @@ static FORCE_SPEC: CommandSpec = CommandSpec {
     example: concat!(heaving!(), "RAO\nCONFORCE LINE\nREPORT\nEND\nEND"),
     ..CommandSpec::new("CONFORCE", "forces of connectors")
 };
+const DURATION_OPTION: OptionSpec = OptionSpec::new(
+    "-DURATION",
+    &[ValueSpec::new("T", Kind::Number(Dim::Time), "time").positive()],
+    "time of the most probable maximum",
+)
+.default("by -PROBABILITY of &ENV, else 10800: three hours")
+.owner(Owner::Ours);
+
 static STATISTICS_SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
     menus: &["FREQ_RESPONSE"],
@@ -79,21 +87,7 @@ static STATISTICS_SPEC: CommandSpec = CommandSpec {
             .or("the first body; all connectors"),
     ],
     repeat: 1,
-    options: &[
-        VELOCITY,
-        ACCELERATION,
-        OptionSpec::new(
-            "-DURATION",
-            &[ValueSpec::new("T", Kind::Number(Dim::Time), "time").positive()],
-            "time of the most probable maximum",
-        )
-        .default("by -PROBABILITY of &ENV, else 10800: three hours")
-        .owner(Owner::Ours),
-        SEA_OPTION,
-        A_SEA_OPTION,
-        SPREAD_OPTION,
-        SP_TYPE_OPTION,
-    ],
+    options: &[VELOCITY, ACCELERATION, DURATION_OPTION, SEA_OPTION, A_SEA_OPTION, SPREAD_OPTION, SP_TYPE_OPTION],
     detail: "Standard deviations at the frequencies of the waves, of slow drift and of both; twice that is the significant amplitude; the most \
              probable maximum is Rayleigh's, by the number of zero up-crossings in the duration. After RAO the sea is that of the \
              environment in force, or the one given here; after SRESPONSE it is that of SRESPONSE. Accelerations are global and \
@@ -106,7 +100,7 @@ static STATISTICS_SPEC: CommandSpec = CommandSpec {
 };
 
 fn derivative(args: &Args) -> Outcome<Derivative> {
-    match (args.option("-VELOCITY"), args.option("-ACCELERATION")) {
+    match (args.option(&VELOCITY), args.option(&ACCELERATION)) {
         (Some(first), Some(second)) => {
             Err(Diagnostic::error("-VELOCITY and -ACCELERATION cannot hold at once", second.span)
                 .other(first.span, "first given here"))
@@ -248,11 +242,11 @@ fn force(job: &mut Job, call: &Call) -> Outcome<Effect> {
 /// The sea a record of STATISTICS gives, in the environment in force.
 fn sea(job: &Job, args: &Args) -> Outcome<Environment> {
     let mut env = job.model.environment.clone();
-    if let Some(given) = args.option("-SEA") {
+    if let Some(given) = args.option(&SEA_OPTION) {
         env.added_sea = None;
         environment::apply(job, &mut env, given)?;
     }
-    for given in ["-A_SEA", "-SPREAD", "-SP_TYPE"].iter().filter_map(|name| args.option(name)) {
+    for given in [A_SEA_OPTION, SPREAD_OPTION, SP_TYPE_OPTION].iter().filter_map(|option| args.option(option)) {
         environment::apply(job, &mut env, given)?;
     }
     Ok(env)
@@ -260,10 +254,10 @@ fn sea(job: &Job, args: &Args) -> Outcome<Environment> {
 
 /// The response that statistics are made of.
 fn response(job: &Job, args: &Args) -> Outcome<(Arc<Linear>, Response)> {
-    let given = ["-SEA", "-A_SEA", "-SPREAD", "-SP_TYPE"].iter().find_map(|name| args.option(name));
+    let given = [SEA_OPTION, A_SEA_OPTION, SPREAD_OPTION, SP_TYPE_OPTION].iter().find_map(|option| args.option(option));
     match (found(job, args.span)?, given) {
         (Found::Spectral(..), Some(given)) => Err(Diagnostic::error(
-            format!("{} cannot follow SRESPONSE, whose sea is in its damping and drift", given.name),
+            format!("{} cannot follow SRESPONSE, whose sea is in its damping and drift", given.name()),
             given.span,
         )
         .help("SRESPONSE ENV takes another environment; a new sea may follow RAO")),
@@ -284,7 +278,7 @@ fn told_statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {
         Found::Spectral(.., extreme) => *extreme,
         _ => probability::extreme(&job.model.environment),
     };
-    let given = args.option_number("-DURATION").map(Extreme::MostProbable);
+    let given = args.option_number(&DURATION_OPTION).map(Extreme::MostProbable);
     let extreme = given.or(of_env).unwrap_or(Extreme::MostProbable(DURATION));
     let (linear, made) = response(job, args)?;
     let (both, how) = ((linear.as_ref(), &made), (derivative, extreme));
@@ -295,8 +289,8 @@ fn told_statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {
             statistics(format!("Statistics: {of} of {name}"), both, &list, how)
         }
         Some("TENSION") => {
-            if let Some(given) = args.option("-VELOCITY").or(args.option("-ACCELERATION")) {
-                return Err(Diagnostic::error(format!("a tension has no {}", given.name), given.span));
+            if let Some(given) = args.option(&VELOCITY).or(args.option(&ACCELERATION)) {
+                return Err(Diagnostic::error(format!("a tension has no {}", given.name()), given.span));
             }
             let list = tensions(job, &linear, call, 1, false)?;
             let mut table = statistics("Statistics: Forces of Connectors".into(), both, &list, how);

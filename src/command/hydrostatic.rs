@@ -34,11 +34,28 @@ const MOMENT_ROW: &[ValueSpec] = &[
     number("RY", Dim::MomentPerRadian, "by pitch"),
     number("RZ", Dim::MomentPerRadian, "by yaw"),
 ];
-const ROWS: [&str; 6] = ["-KX", "-KY", "-KZ", "-KRX", "-KRY", "-KRZ"];
+const ROWS: [OptionSpec; 6] = [KX, KY, KZ, KRX, KRY, KRZ];
 
 const fn ours(name: &'static str, values: &'static [ValueSpec], help: &'static str) -> OptionSpec {
     OptionSpec::new(name, values, help).owner(Owner::Ours)
 }
+
+const BUOYANCY: OptionSpec = ours(
+    "-BUOYANCY",
+    &[number("B", Dim::Force, "upward force").not_negative()],
+    "buoyancy when the body floats at rest: BFEQ",
+);
+const ZCGE: OptionSpec = ours(
+    "-ZCGE",
+    &[number("Z", Dim::Length, "height in the global system")],
+    "height of the point when the body floats at rest",
+);
+const KX: OptionSpec = ours("-KX", FORCE_ROW, "row of the force in x");
+const KY: OptionSpec = ours("-KY", FORCE_ROW, "row of the force in y");
+const KZ: OptionSpec = ours("-KZ", FORCE_ROW, "row of the force in z");
+const KRX: OptionSpec = ours("-KRX", MOMENT_ROW, "row of the roll moment");
+const KRY: OptionSpec = ours("-KRY", MOMENT_ROW, "row of the pitch moment");
+const KRZ: OptionSpec = ours("-KRZ", MOMENT_ROW, "row of the yaw moment");
 
 static SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
@@ -49,24 +66,7 @@ static SPEC: CommandSpec = CommandSpec {
         number("K44", Dim::MomentPerRadian, "stiffness of roll").or("0, or as -KRX"),
         number("K55", Dim::MomentPerRadian, "stiffness of pitch").or("0, or as -KRY"),
     ],
-    options: &[
-        ours(
-            "-BUOYANCY",
-            &[number("B", Dim::Force, "upward force").not_negative()],
-            "buoyancy when the body floats at rest: BFEQ",
-        ),
-        ours(
-            "-ZCGE",
-            &[number("Z", Dim::Length, "height in the global system")],
-            "height of the point when the body floats at rest",
-        ),
-        ours("-KX", FORCE_ROW, "row of the force in x"),
-        ours("-KY", FORCE_ROW, "row of the force in y"),
-        ours("-KZ", FORCE_ROW, "row of the force in z"),
-        ours("-KRX", MOMENT_ROW, "row of the roll moment"),
-        ours("-KRY", MOMENT_ROW, "row of the pitch moment"),
-        ours("-KRZ", MOMENT_ROW, "row of the yaw moment"),
-    ],
+    options: &[BUOYANCY, ZCGE, KX, KY, KZ, KRX, KRY, KRZ],
     detail: "The linear hydrostatics of an AQWA deck (LSTF, BFEQ, ZCGE) instead of a hull: F = K (Xe - X) + B at the point, where X are its place \
              and the roll, pitch and yaw, Xe is (0, 0, ZCGE) upright without yaw, and B acts upward. K stands in axes that turn with the \
              yaw of the body. -BUOYANCY and -ZCGE must be there. For a body in balance B is its weight less what else bears it. The three \
@@ -84,17 +84,17 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         Diagnostic::error(format!("{} is a point of the ground, which does not float", point.name), args.place(0))
             .other(point.span, "defined here")
     })?;
-    let lacking = ["-BUOYANCY", "-ZCGE"].into_iter().find(|name| !args.has(name));
-    if let Some(name) = lacking {
-        return Err(Diagnostic::error(format!("#HYDROSTATIC lacks {name}"), args.span)
+    let lacking = [BUOYANCY, ZCGE].into_iter().find(|option| !args.has(option));
+    if let Some(option) = lacking {
+        return Err(Diagnostic::error(format!("#HYDROSTATIC lacks {}", option.name), args.span)
             .help("form: #HYDROSTATIC *PT K33 K44 K55 -BUOYANCY B -ZCGE Z"));
     }
     let mut stiffness = Matrix6::zeros();
-    for (n, name) in ROWS.into_iter().enumerate() {
+    for (n, row) in ROWS.into_iter().enumerate() {
         let single = if (2..5).contains(&n) { args.number(n - 1) } else { None };
-        match (args.option(name), single) {
+        match (args.option(&row), single) {
             (Some(given), Some(_)) => {
-                return Err(Diagnostic::error(format!("{name} is given twice"), given.span)
+                return Err(Diagnostic::error(format!("{} is given twice", row.name), given.span)
                     .other(args.place(n - 1), "first given here"));
             }
             (Some(given), None) => {
@@ -106,8 +106,8 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let part = model.parts.get(&Model::key(&point.part));
     let made = LinearHydrostatics {
         at: part.map_or(point.at, |p| p.place.apply(point.at)),
-        height: args.option_number("-ZCGE").unwrap_or_default(),
-        buoyancy: args.option_number("-BUOYANCY").unwrap_or_default(),
+        height: args.option_number(&ZCGE).unwrap_or_default(),
+        buoyancy: args.option_number(&BUOYANCY).unwrap_or_default(),
         stiffness,
         span: args.span,
     };

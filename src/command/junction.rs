@@ -22,6 +22,16 @@ const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(dim), help)
 }
 
+const WEIGHT: OptionSpec =
+    OptionSpec::new("-WEIGHT", &[number("W", Dim::Force, "weight in air").not_negative()], "weight of what is there")
+        .default("0");
+const DISPLACEMENT: OptionSpec = OptionSpec::new(
+    "-DISPLACEMENT",
+    &[number("B", Dim::Force, "buoyancy when it is all under water").not_negative()],
+    "a buoy: a sphere of this largest buoyancy",
+)
+.default("0");
+
 static SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
     menus: &["INMODEL", "MEDIT"],
@@ -31,20 +41,7 @@ static SPEC: CommandSpec = CommandSpec {
         number("Y", Dim::Length, "global Y").or("0"),
         number("Z", Dim::Length, "global Z, negative below the surface").or("0"),
     ],
-    options: &[
-        OptionSpec::new(
-            "-WEIGHT",
-            &[number("W", Dim::Force, "weight in air").not_negative()],
-            "weight of what is there",
-        )
-        .default("0"),
-        OptionSpec::new(
-            "-DISPLACEMENT",
-            &[number("B", Dim::Force, "buoyancy when it is all under water").not_negative()],
-            "a buoy: a sphere of this largest buoyancy",
-        )
-        .default("0"),
-    ],
+    options: &[WEIGHT, DISPLACEMENT],
     detail: "A point with three degrees of freedom that &EQUI solves with the bodies: the knot of a bridle or a Y-line, a buoy between two \
              lines, a clump weight where three meet. It makes the point *NAME, which connectors name as any other; lines between it and a \
              body or another junction are H_CAT, its lines to anchors B_CAT. X Y Z is where the solution begins; &INSTATE moves it by \
@@ -59,8 +56,8 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let name = args.word(0).unwrap_or_default();
     let at = [1, 2, 3].map(|i| args.number(i).unwrap_or(0.0));
-    let displacement = args.option_number("-DISPLACEMENT").unwrap_or(0.0);
-    let weight = args.option_number("-WEIGHT").unwrap_or(0.0);
+    let displacement = args.option_number(&DISPLACEMENT).unwrap_or(0.0);
+    let weight = args.option_number(&WEIGHT).unwrap_or(0.0);
     free(&job.model, name, "junction", args.place(0))?;
     insert(&mut job.model, name, at, [weight, displacement], args.place(0));
     job.note_name(name, args.place(0));

@@ -118,16 +118,16 @@ static AREA_SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("#AREA", "area in wind or current")
 };
 
+const CD: OptionSpec =
+    OptionSpec::new("-CD", &[number("CD", Dim::None, "drag coefficient").not_negative()], "drag coefficient")
+        .default("1")
+        .owner(Owner::Ours);
+
 static PLATE_SPEC: CommandSpec = CommandSpec {
     menus: MENUS,
     data: &[POINT, POINT, POINT, ValueSpec { name: "*PT", help: "a further corner", ..POINT }.or("none")],
     repeat: 1,
-    options: &[
-        OptionSpec::new("-CD", &[number("CD", Dim::None, "drag coefficient").not_negative()], "drag coefficient")
-            .default("1")
-            .owner(Owner::Ours),
-        FLUID,
-    ],
+    options: &[CD, FLUID],
     detail: "Corners in order round the plate, at least three, not on one line. The drag 1/2 rho CD A |w.n| (w.n) is along the \
              normal alone, on the centre of the area; the sense of the normal does not matter. Wind or current as with #AREA, by \
              the height of the centre.",
@@ -236,7 +236,7 @@ fn place(job: &Job, args: &Args, index: usize) -> Outcome<(String, Position)> {
 }
 
 fn keep(job: &mut Job, args: &Args, (part, at): (String, Position), kind: LoadKind) -> Outcome<Effect> {
-    let fluid = match args.option_word("-FLUID") {
+    let fluid = match args.option_if_declared(&FLUID).and_then(|given| given.word(0)) {
         Some("AIR") => Fluid::Air,
         Some(_) => Fluid::Water,
         None => Fluid::ByHeight,
@@ -277,7 +277,7 @@ fn plate(job: &mut Job, call: &Call) -> Outcome<Effect> {
             .help("give it as several plates"));
     }
     let moment: Vector3<f64> = triangles().map(|(b, c, area)| (first + b + c) / 3.0 * area.dot(&normal)).sum();
-    let drag = args.option_number("-CD").unwrap_or(1.0);
+    let drag = args.option_number(&CD).unwrap_or(1.0);
     let kind = LoadKind::Plate { area: drag * size, normal: normal.into() };
     keep(job, args, (part, (moment / size).into()), kind)
 }
@@ -301,7 +301,7 @@ fn table(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let place = place(job, args, 0)?;
     let rows = sevens(args.data.get(1..).unwrap_or_default())?;
-    let symmetric = args.has("-SYMMETRIC");
+    let symmetric = args.has(&SYMMETRIC);
     ByHeading::new(&rows, symmetric).map_err(|e| e.diagnostic(args.span, job.units))?;
     against(job, args, rows.iter().map(|(heading, six)| (*heading, six)));
     keep(job, args, place, LoadKind::Coefficients { rows, symmetric })
@@ -321,7 +321,7 @@ fn drift(job: &mut Job, call: &Call) -> Outcome<Effect> {
             .other(old.span, "given here"));
     }
     against(job, args, rows.iter().map(|(_, six)| (heading, six)));
-    keep(job, args, place, LoadKind::Drift { heading, rows, symmetric: args.has("-SYMMETRIC") })
+    keep(job, args, place, LoadKind::Drift { heading, rows, symmetric: args.has(&SYMMETRIC) })
 }
 
 /// Notes the first force that is against what comes from its heading: signs or headings are easily taken the other way.
@@ -339,7 +339,7 @@ fn against<'a>(job: &mut Job, args: &Args, mut rows: impl Iterator<Item = (f64, 
 /// The matrix of a record: its diagonal, or whole.
 fn values(args: &Args) -> Outcome<Matrix6<f64>> {
     let given = (1..args.data.len()).any(|i| args.number(i).is_some());
-    match args.option("-MATRIX").map(Given::numbers) {
+    match args.option(&FULL_RATE).map(Given::numbers) {
         Some(_) if given => Err(Diagnostic::error("-MATRIX and a diagonal contradict each other", args.place(1))),
         Some(all) => Ok(Matrix6::from_row_iterator(all.into_iter().chain(std::iter::repeat(0.0)).take(36))),
         None if !given => Err(Diagnostic::error("a matrix without values", args.span)

@@ -1,6 +1,7 @@
 //! The options that make a TUBE a member in waves and current, and the table of members.
 
 use super::body_tables::settled;
+use super::piece;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
@@ -36,13 +37,14 @@ const CAA: [ValueSpec; 2] = [
         .not_negative(),
 ];
 
+const CD_OPTION: OptionSpec =
+    factor("-CD", &CD, "drag coefficient", "1; 0 with -CS_CURRENT, and of what displaces no water");
+const CDA_OPTION: OptionSpec = factor("-CDA", &CDA, "coefficient of skin friction", "0.016; 0 where CD is 0");
+const CA_OPTION: OptionSpec = factor("-CA", &CA, "coefficient of added mass", "1; 0 of what displaces no water");
+const CAA_OPTION: OptionSpec = factor("-CAA", &CAA, "coefficient of added mass of the ends", "0");
+
 /// What a TUBE takes besides what every piece takes.
-pub const OPTIONS: [OptionSpec; 4] = [
-    factor("-CD", &CD, "drag coefficient", "1; 0 with -CS_CURRENT, and of what displaces no water"),
-    factor("-CDA", &CDA, "coefficient of skin friction", "0.016; 0 where CD is 0"),
-    factor("-CA", &CA, "coefficient of added mass", "1; 0 of what displaces no water"),
-    factor("-CAA", &CAA, "coefficient of added mass of the ends", "0"),
-];
+pub const OPTIONS: [OptionSpec; 4] = [CD_OPTION, CDA_OPTION, CA_OPTION, CAA_OPTION];
 
 /// What the help of TUBE says.
 pub const READING: &str = "A round member with flat ends between two points of the body; it displaces the water of its whole section. \
@@ -61,30 +63,30 @@ pub const READING: &str = "A round member with flat ends between two points of t
 /// # Errors
 /// Two sorts of drag; coefficients of an interior.
 pub fn coefficients(args: &Args, permeability: f64) -> Outcome<Member> {
-    let given = |name: &str| args.option(name).and_then(|g| g.number(0));
-    let own = OPTIONS.iter().find_map(|o| args.option(o.name).filter(|g| g.number(0).is_some_and(|c| c != 0.0)));
+    let given = |option: &OptionSpec| args.option(option).and_then(|g| g.number(0));
+    let own = OPTIONS.iter().find_map(|option| args.option(option).filter(|g| g.number(0).is_some_and(|c| c != 0.0)));
     if let Some(own) = own.filter(|_| permeability < 0.0) {
         return Err(Diagnostic::error(
-            format!("{} is of what stands in the water, and an interior does not", own.name),
+            format!("{} is of what stands in the water, and an interior does not", own.name()),
             own.span,
         ));
     }
-    let areas = args.option("-CS_CURRENT");
-    if let (Some(areas), Some(drag)) = (areas, args.option("-CD").or(args.option("-CDA"))) {
-        let text = format!("-CS_CURRENT and {} are both the drag of the tube", drag.name);
+    let areas = args.option(&piece::CS_CURRENT);
+    if let (Some(areas), Some(drag)) = (areas, args.option(&CD_OPTION).or(args.option(&CDA_OPTION))) {
+        let text = format!("-CS_CURRENT and {} are both the drag of the tube", drag.name());
         return Err(Diagnostic::error(text, drag.span)
             .other(areas.span, "given here too")
             .help("leave one of them out"));
     }
     let wet = permeability > 0.0;
     let (drag, added) = (if wet && areas.is_none() { 1.0 } else { 0.0 }, if wet { 1.0 } else { 0.0 });
-    let cd = given("-CD").unwrap_or(drag);
+    let cd = given(&CD_OPTION).unwrap_or(drag);
     let friction = if cd > 0.0 { 0.016 } else { 0.0 };
     Ok(Member {
         drag: cd,
-        friction: given("-CDA").unwrap_or(friction),
-        added: given("-CA").unwrap_or(added),
-        end_added: [given("-CAA"), args.option("-CAA").and_then(|g| g.number(1)).or(given("-CAA"))]
+        friction: given(&CDA_OPTION).unwrap_or(friction),
+        added: given(&CA_OPTION).unwrap_or(added),
+        end_added: [given(&CAA_OPTION), args.option(&CAA_OPTION).and_then(|g| g.number(1)).or(given(&CAA_OPTION))]
             .map(|caa| caa.unwrap_or(0.0)),
     })
 }

@@ -22,15 +22,17 @@ pub static PRCPOST: Command = Command { spec: &PRCPOST_SPEC, edits: false, run: 
 /// CONN_DESIGN.
 pub static CONN_DESIGN: Command = Command { spec: &CONN_DESIGN_SPEC, edits: false, run: conn_design };
 
+const AQWA: OptionSpec = OptionSpec::new(
+    "-AQWA",
+    &[ValueSpec::new("FILE", Kind::File, "the deck; looked for where it says, then beside the script")],
+    "reads the model of an AQWA deck",
+)
+.owner(Owner::Ours);
+
 static INMODEL_SPEC: CommandSpec = CommandSpec {
     opens: Opens::UnlessFile("INMODEL"),
     menus: &["MAIN"],
-    options: &[OptionSpec::new(
-        "-AQWA",
-        &[ValueSpec::new("FILE", Kind::File, "the deck; looked for where it says, then beside the script")],
-        "reads the model of an AQWA deck",
-    )
-    .owner(Owner::Ours)],
+    options: &[AQWA],
     detail: "Reads model descriptions from ROOT.DAT, or from the file of &DEVICE -AUXIN; without either the records follow \
              up to END. A CONNECTOR may name classes and points that are defined later. -AQWA reads decks 1 to 17 of a deck of \
              AQWA cards instead: its structures become bodies S1, S2 .. with their centers of gravity as origins, its nodes points *S1_1010 or, in \
@@ -85,8 +87,8 @@ pub fn opened_by(job: &Job, spec: &CommandSpec, words: &[Word]) -> Option<&'stat
 }
 
 /// Whether a word is an option, in full or not.
-fn stands_for(word: &Word, option: &str) -> bool {
-    word.text.len() >= 3 && option.starts_with(&word.text.to_ascii_uppercase())
+fn stands_for(word: &Word, option: &OptionSpec) -> bool {
+    word.text.len() >= 3 && option.name.starts_with(&word.text.to_ascii_uppercase())
 }
 
 /// The file INMODEL reads: that of `&DEVICE -AUXIN`, there or not, else ROOT.DAT when there is one.
@@ -97,7 +99,7 @@ fn model_file(job: &Job) -> Option<PathBuf> {
 }
 
 fn inmodel(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    if let Some(value) = call.args.option("-AQWA").and_then(|given| given.values.first()) {
+    if let Some(value) = call.args.option(&AQWA).and_then(|given| given.values.first()) {
         let name = value.word().unwrap_or_default();
         return Ok(Effect::Deck { name: name.to_string(), path: existing(job, name, value.span)? });
     }

@@ -36,23 +36,23 @@ static PGEN_SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("PGEN", "makes a piece of sections, up to END")
 };
 
+const RECTANGLE: OptionSpec = OptionSpec::new(
+    "-RECTANGLE",
+    &[number("ZBOT", "bottom"), number("ZTOP", "top"), number("BEAM", "whole breadth").positive()],
+    "a rectangular section, at every X given",
+);
+const CARTESIAN: OptionSpec = OptionSpec::new(
+    "-CARTESIAN",
+    &[number("Y", "half-breadth").not_negative(), number("Z", "height")],
+    "points of the section, at every X given",
+)
+.repeating(2);
+
 static PLANE_SPEC: CommandSpec = CommandSpec {
     menus: &["PGEN"],
     data: &[number("X", "where the section is; without an option its points follow: Y1 Z1 Y2 Z2 ..")],
     repeat: 1,
-    options: &[
-        OptionSpec::new(
-            "-RECTANGLE",
-            &[number("ZBOT", "bottom"), number("ZTOP", "top"), number("BEAM", "whole breadth").positive()],
-            "a rectangular section, at every X given",
-        ),
-        OptionSpec::new(
-            "-CARTESIAN",
-            &[number("Y", "half-breadth").not_negative(), number("Z", "height")],
-            "points of the section, at every X given",
-        )
-        .repeating(2),
-    ],
+    options: &[RECTANGLE, CARTESIAN],
     detail: "PLANE X Y1 Z1 Y2 Z2 .. is the section at X by points of its half with y >= 0, from the keel up; PLANE X1 X2 .. \
              -CARTESIAN Y1 Z1 .. and -RECTANGLE give the same section at several X. X grows, or falls, from section to \
              section. Where the first point lies beside y = 0 the bottom is flat from there to its mirror image, and the deck \
@@ -87,7 +87,10 @@ fn pgen(job: &mut Job, call: &Call) -> Outcome<Effect> {
                     .help("form: PGEN NAME -OPTIONS, or &DESCRIBE PIECE NAME -OPTIONS and then PGEN")
             })?;
             if let Some(given) = args.options.first() {
-                return Err(Diagnostic::error(format!("{} belongs to &DESCRIBE PIECE {name}", given.name), given.span));
+                return Err(Diagnostic::error(
+                    format!("{} belongs to &DESCRIBE PIECE {name}", given.name()),
+                    given.span,
+                ));
             }
             Err(name)
         }
@@ -113,9 +116,11 @@ fn plane(job: &mut Job, call: &Call) -> Outcome<Effect> {
         [one] => {
             let at = args.data.iter().filter_map(|v| Some((v.number()?, v.span))).collect();
             let given = one.numbers();
-            let outline = match (one.name, given.as_slice()) {
-                ("-RECTANGLE", [bottom, top, beam]) if bottom < top => vec![[0.5 * beam, *bottom], [0.5 * beam, *top]],
-                ("-RECTANGLE", _) => return Err(Diagnostic::error("ZTOP must be greater than ZBOT", one.span)),
+            let outline = match given.as_slice() {
+                [bottom, top, beam] if one.is(&RECTANGLE) && bottom < top => {
+                    vec![[0.5 * beam, *bottom], [0.5 * beam, *top]]
+                }
+                _ if one.is(&RECTANGLE) => return Err(Diagnostic::error("ZTOP must be greater than ZBOT", one.span)),
                 _ => pairs(&given),
             };
             (at, outline)

@@ -18,6 +18,48 @@ pub static PICTURE: Command = Command { spec: &SPEC, edits: false, run };
 
 const YES_NO: ValueSpec = ValueSpec::new("YES/NO", Kind::Choice(&["YES", "NO"]), "shown or not").or("YES");
 
+const NO: OptionSpec = OptionSpec::new("-NO", &[], "accepted: nothing is asked before drawing").owner(Owner::Ours);
+const HARD: OptionSpec = OptionSpec::new("-HARD", &[], "to the next figure file, FIGUREn.svg").owner(Owner::Ours);
+const FILE: OptionSpec = OptionSpec::new(
+    "-FILE",
+    &[ValueSpec::new("FILE", Kind::File, "file name; .svg, or that of -FORMAT, is added when it has no ending")],
+    "to a file ending in .svg or .png",
+)
+.owner(Owner::Ours);
+const FORMAT: OptionSpec = OptionSpec::new(
+    "-FORMAT",
+    &[ValueSpec::new("FORMAT", Kind::Choice(&["SVG", "PNG", "TERMINAL"]), "form of the picture")],
+    "SVG or PNG: to the next figure file, or the file of -FILE",
+)
+.default("TERMINAL")
+.owner(Owner::Ours);
+const FROM: OptionSpec = OptionSpec::new(
+    "-FROM",
+    &[ValueSpec::new("ANGLE", Kind::Number(Dim::Angle), "direction to the viewer, from +X toward +Y")],
+    "where the viewer of ELEVATION, ISO or BOTH stands",
+)
+.default("-90; of ISO -60")
+.owner(Owner::Ours);
+const EXAGGERATE: OptionSpec = OptionSpec::new(
+    "-EXAGGERATE",
+    &[ValueSpec::new("FACTOR", Kind::Number(Dim::None), "factor").within(0.1, 100.0)],
+    "draws heights so many times as large",
+)
+.default("1")
+.owner(Owner::Ours);
+const NAMES: OptionSpec =
+    OptionSpec::new("-NAMES", &[YES_NO], "names of bodies, connectors and points").default("YES").owner(Owner::Ours);
+const INACTIVE: OptionSpec = OptionSpec::new("-INACTIVE", &[YES_NO], "connectors that do not act, in a light stroke")
+    .default("YES")
+    .owner(Owner::Ours);
+const HEADING: OptionSpec = OptionSpec::new(
+    "-HEADING",
+    &[ValueSpec::new("TEXT", Kind::Text, "title, in quotes when it holds blanks")],
+    "title of the picture",
+)
+.default("that of &TITLE")
+.owner(Owner::Ours);
+
 static SPEC: CommandSpec = CommandSpec {
     data: &[
         ValueSpec::new(
@@ -29,54 +71,7 @@ static SPEC: CommandSpec = CommandSpec {
         ValueSpec::new("NAME", Kind::Name(Noun::Selector), "connector or body, pattern or selector").or("all"),
     ],
     repeat: 1,
-    options: &[
-        OptionSpec::new("-NO", &[], "accepted: nothing is asked before drawing").owner(Owner::Ours),
-        OptionSpec::new("-HARD", &[], "to the next figure file, FIGUREn.svg").owner(Owner::Ours),
-        OptionSpec::new(
-            "-FILE",
-            &[ValueSpec::new(
-                "FILE",
-                Kind::File,
-                "file name; .svg, or that of -FORMAT, is added when it has no ending",
-            )],
-            "to a file ending in .svg or .png",
-        )
-        .owner(Owner::Ours),
-        OptionSpec::new(
-            "-FORMAT",
-            &[ValueSpec::new("FORMAT", Kind::Choice(&["SVG", "PNG", "TERMINAL"]), "form of the picture")],
-            "SVG or PNG: to the next figure file, or the file of -FILE",
-        )
-        .default("TERMINAL")
-        .owner(Owner::Ours),
-        OptionSpec::new(
-            "-FROM",
-            &[ValueSpec::new("ANGLE", Kind::Number(Dim::Angle), "direction to the viewer, from +X toward +Y")],
-            "where the viewer of ELEVATION, ISO or BOTH stands",
-        )
-        .default("-90; of ISO -60")
-        .owner(Owner::Ours),
-        OptionSpec::new(
-            "-EXAGGERATE",
-            &[ValueSpec::new("FACTOR", Kind::Number(Dim::None), "factor").within(0.1, 100.0)],
-            "draws heights so many times as large",
-        )
-        .default("1")
-        .owner(Owner::Ours),
-        OptionSpec::new("-NAMES", &[YES_NO], "names of bodies, connectors and points")
-            .default("YES")
-            .owner(Owner::Ours),
-        OptionSpec::new("-INACTIVE", &[YES_NO], "connectors that do not act, in a light stroke")
-            .default("YES")
-            .owner(Owner::Ours),
-        OptionSpec::new(
-            "-HEADING",
-            &[ValueSpec::new("TEXT", Kind::Text, "title, in quotes when it holds blanks")],
-            "title of the picture",
-        )
-        .default("that of &TITLE")
-        .owner(Owner::Ours),
-    ],
+    options: &[NO, HARD, FILE, FORMAT, FROM, EXAGGERATE, NAMES, INACTIVE, HEADING],
     detail: "Draws the system as it stands now: bodies as their hull pieces, each as its convex \
              outline with its sharp edges, or as the convex outline of their points where they have none, mooring lines in the shape they \
              hang in between their ends, dynamic lines by their nodes at rest, other connectors straight, with anchors, fairleads, touchdowns and joints. Both \
@@ -107,14 +102,14 @@ fn views(args: &Args) -> Outcome<Vec<View>> {
         "STERN" => Some(Some(0.0)),
         _ => None,
     };
-    let from = args.option("-FROM");
+    let from = args.option(&FROM);
     if let (Some(given), Some(_)) = (from, fixed) {
         return Err(Diagnostic::error(
             format!("{word} is seen from where it says: -FROM goes with ELEVATION, ISO or BOTH"),
             given.span,
         ));
     }
-    let exaggerate = args.option("-EXAGGERATE");
+    let exaggerate = args.option(&EXAGGERATE);
     if let (Some(given), Some(None)) = (exaggerate, fixed) {
         return Err(Diagnostic::error("a plan shows no heights to exaggerate", given.span));
     }
@@ -131,26 +126,26 @@ fn views(args: &Args) -> Outcome<Vec<View>> {
 
 /// The file a record asks for, and whether its name takes the number of a figure; `None` for the terminal.
 fn file(job: &Job, args: &Args) -> Outcome<Option<(String, bool)>> {
-    let format = args.option("-FORMAT");
+    let format = args.option(&FORMAT);
     let ending = match format.and_then(|g| g.word(0)) {
         Some("PNG") => Some("png"),
         Some("SVG") => Some("svg"),
         Some(_) => None,
-        None if args.has("-HARD") || args.has("-FILE") => Some("svg"),
+        None if args.has(&HARD) || args.has(&FILE) => Some("svg"),
         None => return Ok(None),
     };
     let Some(ending) = ending else {
-        let other = ["-FILE", "-HARD"].iter().find_map(|name| args.option(name));
+        let other = [FILE, HARD].iter().find_map(|option| args.option(option));
         return match (other, format) {
             (Some(other), Some(format)) => Err(Diagnostic::error(
-                format!("a picture for the terminal goes to no file: {}", other.name),
+                format!("a picture for the terminal goes to no file: {}", other.name()),
                 other.span,
             )
             .other(format.span, "the terminal is asked for here")),
             _ => Ok(None),
         };
     };
-    let Some(given) = args.option("-FILE") else {
+    let Some(given) = args.option(&FILE) else {
         return Ok(Some((format!("{}{}.{ending}", job.settings.figure_name, job.settings.figure_number), true)));
     };
     let name = given.word(0).unwrap_or_default();
@@ -167,8 +162,8 @@ fn file(job: &Job, args: &Args) -> Outcome<Option<(String, bool)>> {
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let (views, file) = (views(args)?, file(job, args)?);
-    let yes = |name: &str| args.option_word(name).is_none_or(|w| w != "NO");
-    let (chosen, light) = (Chosen::of(call, 1, &job.model), yes("-INACTIVE"));
+    let yes = |option: &OptionSpec| args.option_word(option).is_none_or(|w| w != "NO");
+    let (chosen, light) = (Chosen::of(call, 1, &job.model), yes(&INACTIVE));
     let choice = Choice {
         connector: &|c| (chosen.takes(&c.name)) && (c.active || light),
         body: &|b| chosen.takes(&b.name),
@@ -186,8 +181,8 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             (name, vec![format!("{WARNING}{how}: {}", error.text(job.units))])
         })
         .collect();
-    let title = args.option_word("-HEADING").unwrap_or(&job.titles[0]).to_string();
-    let picture = Picture { title, scene, views, names: yes("-NAMES"), units: job.units };
+    let title = args.option_word(&HEADING).unwrap_or(&job.titles[0]).to_string();
+    let picture = Picture { title, scene, views, names: yes(&NAMES), units: job.units };
     let wrong = |error: PlotError| match error {
         PlotError::Empty => Diagnostic::error("there is nothing to draw: no body and no connector", args.span)
             .help("-INACTIVE NO leaves out what does not act; &STATUS counts what the model holds"),
@@ -196,7 +191,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     match file {
         Some((name, numbered)) => {
             let (bytes, left_out) = picture.file(&name).map_err(wrong)?;
-            let span = args.option("-FILE").map_or(args.span, |g| g.span);
+            let span = args.option(&FILE).map_or(args.span, |g| g.span);
             let path = job.output.folder.write(&name, &bytes).map_err(|e| super::file::refused(&e, span))?;
             job.settings.figure_number += i64::from(numbered);
             job.say(&format!("wrote {}", path.display()));

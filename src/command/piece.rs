@@ -33,19 +33,20 @@ const FACTORS: &[ValueSpec] = &[
 const CS: &str = "1 1 1; 0 0 0 of a piece that displaces no water";
 const FACTOR: &[ValueSpec] = &[number("F", Dim::None, "factor").not_negative()];
 
-/// What every piece takes, however its surface is given.
-pub const OPTIONS: [OptionSpec; 12] = [
-    OptionSpec::new(
-        "-PERMEABILITY",
-        &[number("P", Dim::None, "1 exterior, -1 interior open to the sea, or a fraction").within(-1.0, 1.0)],
-        "share of the volume that displaces water",
-    )
-    .default("1"),
-    OptionSpec::new("-CS_WIND", FACTORS, "shape coefficients of the wind force along the part's x y z").default(CS),
+const PERMEABILITY: OptionSpec = OptionSpec::new(
+    "-PERMEABILITY",
+    &[number("P", Dim::None, "1 exterior, -1 interior open to the sea, or a fraction").within(-1.0, 1.0)],
+    "share of the volume that displaces water",
+)
+.default("1");
+const CS_WIND: OptionSpec =
+    OptionSpec::new("-CS_WIND", FACTORS, "shape coefficients of the wind force along the part's x y z").default(CS);
+/// `-CS_CURRENT`.
+pub(super) const CS_CURRENT: OptionSpec =
     OptionSpec::new("-CS_CURRENT", FACTORS, "shape coefficients of the current force along the part's x y z")
-        .default(CS),
-    OptionSpec::new("-OBSTACLE", &[], "stops what moves against it; kept"),
-    OptionSpec::new(
+        .default(CS);
+const OBSTACLE: OptionSpec = OptionSpec::new("-OBSTACLE", &[], "stops what moves against it; kept");
+const DIFTYPE: OptionSpec = OptionSpec::new(
         "-DIFTYPE",
         &[ValueSpec::new(
             "TYPE",
@@ -54,25 +55,42 @@ pub const OPTIONS: [OptionSpec; 12] = [
         )],
         "what waves do to it",
     )
-    .default("NONE: a TUBE is a member, any other piece feels no waves"),
-    OptionSpec::new(
-        "-CS_VELOCITY",
-        &[ValueSpec::new("NAME", Kind::Name(Noun::Curve), "curve of factors by velocity")],
-        "factors of drag by velocity; kept",
-    ),
-    OptionSpec::new("-DD_MULT", FACTOR, "factor of drift damping; kept"),
-    OptionSpec::new(
-        "-AMASS",
-        &[
-            number("M", Dim::None, "factor of added mass").not_negative(),
-            ValueSpec::new("CURVE", Kind::Name(Noun::Curve), "curve of pressures").or("none"),
-        ],
-        "added mass; kept",
-    ),
-    OptionSpec::new("-TANAKA", FACTOR, "factor of Tanaka's roll damping; kept"),
-    OptionSpec::new("-ROLL_DAMPING", FACTOR, "factor of roll damping; kept"),
-    OptionSpec::new("-COLOR", &[ValueSpec::new("NAME", Kind::Text, "colour")], "colour in pictures; kept"),
-    OptionSpec::new("-TEXTURE", &[ValueSpec::new("NAME", Kind::Text, "texture")], "texture in pictures; kept"),
+    .default("NONE: a TUBE is a member, any other piece feels no waves");
+const CS_VELOCITY: OptionSpec = OptionSpec::new(
+    "-CS_VELOCITY",
+    &[ValueSpec::new("NAME", Kind::Name(Noun::Curve), "curve of factors by velocity")],
+    "factors of drag by velocity; kept",
+);
+const DD_MULT: OptionSpec = OptionSpec::new("-DD_MULT", FACTOR, "factor of drift damping; kept");
+const AMASS: OptionSpec = OptionSpec::new(
+    "-AMASS",
+    &[
+        number("M", Dim::None, "factor of added mass").not_negative(),
+        ValueSpec::new("CURVE", Kind::Name(Noun::Curve), "curve of pressures").or("none"),
+    ],
+    "added mass; kept",
+);
+const TANAKA: OptionSpec = OptionSpec::new("-TANAKA", FACTOR, "factor of Tanaka's roll damping; kept");
+const ROLL_DAMPING: OptionSpec = OptionSpec::new("-ROLL_DAMPING", FACTOR, "factor of roll damping; kept");
+const COLOR: OptionSpec =
+    OptionSpec::new("-COLOR", &[ValueSpec::new("NAME", Kind::Text, "colour")], "colour in pictures; kept");
+const TEXTURE: OptionSpec =
+    OptionSpec::new("-TEXTURE", &[ValueSpec::new("NAME", Kind::Text, "texture")], "texture in pictures; kept");
+
+/// What every piece takes, however its surface is given.
+pub const OPTIONS: [OptionSpec; 12] = [
+    PERMEABILITY,
+    CS_WIND,
+    CS_CURRENT,
+    OBSTACLE,
+    DIFTYPE,
+    CS_VELOCITY,
+    DD_MULT,
+    AMASS,
+    TANAKA,
+    ROLL_DAMPING,
+    COLOR,
+    TEXTURE,
 ];
 
 /// How pieces are read, for the help of the commands that make them.
@@ -205,32 +223,32 @@ pub fn begun(job: &mut Job, args: &Args, name: &str, span: Span, shape: Shape) -
             .help(format!("DELETE {} first, or use another name", old.name)));
     }
     model.free_name(name, &[EntityKind::Body, EntityKind::Part], span)?;
-    let own = args.options.iter().filter(|g| OPTIONS.iter().any(|o| o.name == g.name));
+    let own = args.options.iter().filter(|given| given.is_any(&OPTIONS));
     for value in own.clone().flat_map(|g| g.named(Noun::Curve)) {
         if let Some(word) = value.word() {
             find(&model.curves, word, "curve", value.span)?;
         }
     }
-    let acting = ["-PERMEABILITY", "-CS_WIND", "-CS_CURRENT", "-DIFTYPE"];
-    let kept: Vec<_> = own.filter(|g| !acting.contains(&g.name)).cloned().collect();
+    let acting = [PERMEABILITY, CS_WIND, CS_CURRENT, DIFTYPE];
+    let kept: Vec<_> = own.filter(|given| !given.is_any(&acting)).cloned().collect();
     if !kept.is_empty() {
         let list: Vec<String> = kept.iter().map(|g| option_as_written(g, job.units)).collect();
         job.remark(format!("kept, without effect yet: {}", list.join(" ")), span);
     }
-    let permeability = args.option_number("-PERMEABILITY").unwrap_or(1.0);
+    let permeability = args.option_number(&PERMEABILITY).unwrap_or(1.0);
     let member = matches!(shape, Shape::Tube { .. }).then(|| member::coefficients(args, permeability)).transpose()?;
-    let waves = match args.option_word("-DIFTYPE") {
+    let waves = match args.option_word(&DIFTYPE) {
         Some("3DDIF") => WaveAction::Database,
         Some("FK") if member.is_none() => WaveAction::Pressure,
         _ => WaveAction::ByForm,
     };
     let usual = if permeability > 0.0 { [1.0; 3] } else { [0.0; 3] };
     // a member's drag is its own, unless -CS_CURRENT says other
-    let by_area = member.is_none() || args.has("-CS_CURRENT");
-    let mut factors = |option: &str| {
+    let by_area = member.is_none() || args.has(&CS_CURRENT);
+    let mut factors = |option: &OptionSpec| {
         let given = args.option(option).map(|g| (g.span, [0, 1, 2].map(|i| g.number(i).unwrap_or(1.0))));
         if let Some((at, _)) = given.filter(|(_, cs)| permeability < 0.0 && *cs != [0.0; 3]) {
-            job.remark(format!("an interior takes no wind and no current: {option} of {name} is 0 0 0"), at);
+            job.remark(format!("an interior takes no wind and no current: {} of {name} is 0 0 0", option.name), at);
             return usual;
         }
         given.map_or(usual, |(_, cs)| cs)
@@ -239,8 +257,8 @@ pub fn begun(job: &mut Job, args: &Args, name: &str, span: Span, shape: Shape) -
         name: name.to_string(),
         permeability,
         shape,
-        cs_wind: factors("-CS_WIND"),
-        cs_current: if by_area { factors("-CS_CURRENT") } else { [0.0; 3] },
+        cs_wind: factors(&CS_WIND),
+        cs_current: if by_area { factors(&CS_CURRENT) } else { [0.0; 3] },
         member,
         waves,
         kept,

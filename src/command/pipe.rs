@@ -18,6 +18,17 @@ const MOST: usize = 100;
 /// How far a support may be from the global X axis (m).
 const BESIDE: f64 = 1e-3;
 
+const PIPE_TENSION: OptionSpec = OptionSpec::new(
+    "-PIPE_TENSION",
+    &[
+        ValueSpec::new("TLOWER", Kind::Number(Dim::Force), "least tension; on davits the nominal one").positive(),
+        ValueSpec::new("TUPPER", Kind::Number(Dim::Force), "largest tension of the tensioner")
+            .or("of rollers only")
+            .positive(),
+    ],
+    "limits of the tensioner, or the tension at the first davit",
+);
+
 static SPEC: CommandSpec = CommandSpec {
     menus: &["INMODEL", "MEDIT"],
     data: &[
@@ -29,16 +40,7 @@ static SPEC: CommandSpec = CommandSpec {
         ),
     ],
     repeat: 1,
-    options: &[OptionSpec::new(
-        "-PIPE_TENSION",
-        &[
-            ValueSpec::new("TLOWER", Kind::Number(Dim::Force), "least tension; on davits the nominal one").positive(),
-            ValueSpec::new("TUPPER", Kind::Number(Dim::Force), "largest tension of the tensioner")
-                .or("of rollers only")
-                .positive(),
-        ],
-        "limits of the tensioner, or the tension at the first davit",
-    )],
+    options: &[PIPE_TENSION],
     detail: "The supports are single-node connectors with their nodes above the global X axis (Y = 0) when PIPE is read, in order along it. The \
              pipe leaves beyond the first, away from the last, and lies on the bottom of &ENV -DEPTH; a vessel that lays toward -X has its first \
              roller farthest aft. There is one: &PIPE/ASSEMBLY. It starts as a catenary with the weight in water of OD, T and the options of the \
@@ -118,7 +120,7 @@ fn build(model: &mut Model, args: &Args) -> Outcome<()> {
         let text = "a pipe hangs from two davits or more";
         return Err(Diagnostic::error(text, args.place(1)).help("a single roller makes a vertical riser of it"));
     }
-    let Some(given) = args.option("-PIPE_TENSION") else {
+    let Some(given) = args.option(&PIPE_TENSION) else {
         return Err(Diagnostic::error("PIPE lacks -PIPE_TENSION", args.span).help("form: -PIPE_TENSION TLOWER TUPPER"));
     };
     let (lower, upper) = (given.number(0).unwrap_or(0.0), given.number(1));

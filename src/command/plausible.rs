@@ -1,13 +1,17 @@
 //! What no sea, wind or current on record comes near, and friction that no soil has: warned of at the record.
 
+use super::environment::{A_SEA_OPTION, CURRENT, DEPTH, SEA_OPTION, SP_TYPE_OPTION, SPGWATER, WATER as WATER_OPTION};
+use super::wind_options::WIND;
 use std::f64::consts::TAU;
 use windlass_base::diagnostic::{Diagnostic, Severity};
 use windlass_base::span::Span;
 use windlass_base::units::{Dim, KNOT, UnitSystem, eight_figures};
 use windlass_base::values::Args;
+use windlass_connectors::options::FRICTION;
 use windlass_hydro::sea::Sea as Waves;
 use windlass_hydro::sea::dispersion::wave_number;
 use windlass_hydro::spectrum;
+use windlass_language::spec::OptionSpec;
 use windlass_model::{Current, Environment, Model, Sea};
 
 /// The highest wind over a minute on record, 185 knots (m/s): hurricane Patricia, 2015 (NOAA, National Hurricane Center, EP202015).
@@ -38,17 +42,17 @@ fn steepest(peak: f64) -> f64 {
 pub(super) fn doubts(model: &Model, env: &Environment, args: &Args, units: UnitSystem) -> Vec<Diagnostic> {
     let mut made = Vec::new();
     let mut warn = |text: String, at: Span| made.push(*Diagnostic::warning(text, at));
-    let given = |name: &str| {
-        let given = args.option(name)?;
+    let given = |option: &OptionSpec| {
+        let given = args.option(option)?;
         let value = given.values.first()?;
         Some((value.number()?, value.span))
     };
-    if let Some((depth, at)) = given("-DEPTH").filter(|(depth, _)| *depth > DEEPEST) {
+    if let Some((depth, at)) = given(&DEPTH).filter(|(depth, _)| *depth > DEEPEST) {
         let (depth, deepest) = (shown(depth, Dim::Length, units), shown(DEEPEST, Dim::Length, units));
         warn(format!("a depth of {depth}: the deepest ocean has {deepest}"), at);
     }
-    for name in ["-WATER", "-SPGWATER"] {
-        let Some((_, at)) = given(name) else { continue };
+    for option in [WATER_OPTION, SPGWATER] {
+        let Some((_, at)) = given(&option) else { continue };
         let density = model.surroundings_in(env).water_density;
         if !(WATER[0]..=WATER[1]).contains(&density) {
             let text =
@@ -56,11 +60,11 @@ pub(super) fn doubts(model: &Model, env: &Environment, args: &Args, units: UnitS
             warn(text, at);
         }
     }
-    if let Some((speed, at)) = given("-WIND").filter(|(speed, _)| *speed > HIGHEST_WIND) {
+    if let Some((speed, at)) = given(&WIND).filter(|(speed, _)| *speed > HIGHEST_WIND) {
         let speed = shown(speed, Dim::WindSpeed, units);
         warn(format!("a wind of {speed}: the highest on record over a minute had 185 knots"), at);
     }
-    if let Some(option) = args.option("-CURRENT") {
+    if let Some(option) = args.option(&CURRENT) {
         let fastest = match &env.current {
             Some(Current::Uniform { velocity, .. }) => *velocity,
             Some(Current::Profiles(list)) => list
@@ -76,8 +80,8 @@ pub(super) fn doubts(model: &Model, env: &Environment, args: &Args, units: UnitS
             warn(format!("a current of {speed}: the Gulf Stream reaches {gulf}, tidal races four times as much"), at);
         }
     }
-    for (name, sea) in [("-SEA", &env.sea), ("-A_SEA", &env.added_sea)] {
-        if let Some(sea) = sea.as_ref().filter(|_| args.has(name) || args.has("-DEPTH") || args.has("-SP_TYPE"))
+    for (option, sea) in [(SEA_OPTION, &env.sea), (A_SEA_OPTION, &env.added_sea)] {
+        if let Some(sea) = sea.as_ref().filter(|_| args.has(&option) || args.has(&DEPTH) || args.has(&SP_TYPE_OPTION))
             && let Some(doubt) = breaking(model, env, sea, units)
         {
             made.push(doubt);
@@ -124,7 +128,7 @@ fn breaking(model: &Model, env: &Environment, sea: &Sea, units: UnitSystem) -> O
 
 /// What is said of a coefficient of friction of a class that nothing has.
 pub(super) fn friction(args: &Args) -> Option<Diagnostic> {
-    let value = args.option("-FRICTION")?.values.first()?;
+    let value = args.option_if_declared(&FRICTION)?.values.first()?;
     let mu = value.number().filter(|mu| *mu > MOST_FRICTION)?;
     let text =
         format!("a coefficient of friction of {}: chain on soil has 0.6 to 1.5, wire 0.3 to 0.6", eight_figures(mu));

@@ -86,14 +86,10 @@ const fn spec(name: &'static str, data: &'static [ValueSpec], help: &'static str
     }
 }
 
+const CG: OptionSpec = OptionSpec::new("-CG", &[], "of the centre of gravity").default("of the origin of the body");
+
 static TRAJECTORY_SPEC: CommandSpec = CommandSpec {
-    options: &[
-        BODY,
-        EVENTS,
-        MAG_DEFINE,
-        OptionSpec::new("-CG", &[], "of the centre of gravity").default("of the origin of the body"),
-        LOCAL,
-    ],
+    options: &[BODY, EVENTS, MAG_DEFINE, CG, LOCAL],
     detail: "Of each body its location, velocity, acceleration, clearance of the bottom and displacement from the start of the run; \
              REPORT LOCATION, VELOCITY, ACCELERATION, BOTTOM or DISPLACEMENT prints one of these groups. Locations and angles are those of \
              &STATUS CONFIGURATION, angles without jumps; rates of turning are about the axes X, Y, Z. The clearance is the height of the \
@@ -154,7 +150,7 @@ pub(super) fn last_run(job: &Job, span: Span) -> Outcome<&Run> {
 /// The run a record is about, and its events.
 pub(super) fn asked<'a>(job: &'a Job, args: &Args) -> Outcome<(&'a Run, Vec<Event>)> {
     let run = last_run(job, args.span)?;
-    let given = args.option("-EVENTS");
+    let given = args.option(&EVENTS);
     let window = given.and_then(|g| Some((g.number(0)?, g.number(1), g.number(2))));
     let window = window.map(|(begin, end, increment)| Window { begin, end, increment });
     let span = given.map_or(args.span, |g| g.span);
@@ -179,19 +175,19 @@ pub(super) fn asked_behind_transient<'a>(job: &'a Job, args: &Args) -> Outcome<(
 
 /// How much of the beginning of the last run statistics of a result leave out (s): nothing where -EVENTS chooses instants.
 pub(super) fn transient_of(job: &Job, args: &Args) -> f64 {
-    let run = job.run.as_ref().filter(|_| !args.has("-EVENTS"));
+    let run = job.run.as_ref().filter(|_| !args.has(&EVENTS));
     run.map_or(0.0, |run| run.settings.transient)
 }
 
 /// What magnitudes are of.
 fn magnitude(args: &Args) -> Magnitude {
-    let Some(given) = args.option("-MAG_DEFINE") else { return Magnitude::default() };
+    let Some(given) = args.option(&MAG_DEFINE) else { return Magnitude::default() };
     let named = |axis: &str| given.values.iter().any(|v| v.word() == Some(axis));
     Magnitude(["X", "Y", "Z"].map(named))
 }
 
 fn local(args: &Args) -> bool {
-    args.option("-LOCAL").is_some_and(|g| g.word(0) != Some("NO"))
+    args.option(&LOCAL).is_some_and(|g| g.word(0) != Some("NO"))
 }
 
 /// The places among some names of those that a record chooses.
@@ -202,7 +198,7 @@ fn places<'n>(chosen: &Chosen, names: impl Iterator<Item = &'n str>) -> Vec<usiz
 /// The bodies of a run that a record chooses, by data and -BODY.
 fn bodies(job: &Job, run: &Run, args: &Args) -> Outcome<Vec<usize>> {
     let given: Vec<&Value> =
-        args.data.iter().chain(args.option("-BODY").map_or(&[][..], |g| g.values.as_slice())).collect();
+        args.data.iter().chain(args.option(&BODY).map_or(&[][..], |g| g.values.as_slice())).collect();
     let chosen = Chosen::among(given.into_iter(), &job.model);
     let names = run.history.layout.bodies.iter();
     let mut list = places(&chosen, names.clone().map(|(name, _)| name.as_str()));
@@ -246,7 +242,7 @@ fn dispose(job: &mut Job, made: Result<Table, SolveError>, args: &Args) -> Outco
 fn trajectory(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let (run, events) = asked(job, args)?;
-    let how = Told { centre: args.has("-CG"), local: local(args), magnitude: magnitude(args) };
+    let how = Told { centre: args.has(&CG), local: local(args), magnitude: magnitude(args) };
     let made = results::trajectory(run, &bodies(job, run, args)?, &how, &events);
     dispose(job, made, args)
 }

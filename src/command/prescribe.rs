@@ -23,37 +23,34 @@ pub static PRESCRIBE: Command = Command { spec: &SPEC, edits: false, run };
 const FILE: [ValueSpec; 1] =
     [ValueSpec::new("FILE", Kind::File, "CSV file; looked for beside the script, or where it says")];
 
+const SINUSOID: OptionSpec = OptionSpec::new(
+    "-SINUSOID",
+    &[
+        ValueSpec::new("DOF", Kind::Choice(&DOFS), "degree of freedom of its origin, roll, pitch and yaw as RX RY RZ"),
+        ValueSpec::new("AMP", Kind::Number(Dim::None), "amplitude: a length, or an angle in degrees"),
+        ValueSpec::new("PERIOD", Kind::Number(Dim::Time), "period").positive(),
+        ValueSpec::new("PHASE", Kind::Number(Dim::Angle), "phase at the time zero").or("0"),
+    ],
+    "AMP sin(2 pi t / PERIOD + PHASE) in a degree of freedom; several add up",
+)
+.many();
+const RAMP: OptionSpec = OptionSpec::new(
+    "-RAMP",
+    &[ValueSpec::new("T", Kind::Number(Dim::Time), "time").not_negative()],
+    "time over which sinusoids grow from nothing",
+)
+.default("0: they are there at once");
+const RAO: OptionSpec = OptionSpec::new("-RAO", &FILE, "responses to the waves of the sea");
+const SYMMETRIC: OptionSpec =
+    OptionSpec::new("-SYMMETRIC", &[], "the responses of -RAO are of one side: those of the other are mirrored");
+const FILE_OPTION: OptionSpec = OptionSpec::new("-FILE", &FILE, "places at times");
+const FREE: OptionSpec = OptionSpec::new("-FREE", &[], "forces move it again");
+
 static SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
     menus: &["INMODEL", "MEDIT"],
     data: &[ValueSpec::new("BODY", Kind::Name(Noun::Body), "the body")],
-    options: &[
-        OptionSpec::new(
-            "-SINUSOID",
-            &[
-                ValueSpec::new(
-                    "DOF",
-                    Kind::Choice(&DOFS),
-                    "degree of freedom of its origin, roll, pitch and yaw as RX RY RZ",
-                ),
-                ValueSpec::new("AMP", Kind::Number(Dim::None), "amplitude: a length, or an angle in degrees"),
-                ValueSpec::new("PERIOD", Kind::Number(Dim::Time), "period").positive(),
-                ValueSpec::new("PHASE", Kind::Number(Dim::Angle), "phase at the time zero").or("0"),
-            ],
-            "AMP sin(2 pi t / PERIOD + PHASE) in a degree of freedom; several add up",
-        )
-        .many(),
-        OptionSpec::new(
-            "-RAMP",
-            &[ValueSpec::new("T", Kind::Number(Dim::Time), "time").not_negative()],
-            "time over which sinusoids grow from nothing",
-        )
-        .default("0: they are there at once"),
-        OptionSpec::new("-RAO", &FILE, "responses to the waves of the sea"),
-        OptionSpec::new("-SYMMETRIC", &[], "the responses of -RAO are of one side: those of the other are mirrored"),
-        OptionSpec::new("-FILE", &FILE, "places at times"),
-        OptionSpec::new("-FREE", &[], "forces move it again"),
-    ],
+    options: &[SINUSOID, RAMP, RAO, SYMMETRIC, FILE_OPTION, FREE],
     detail: "The body moves in TDOM as it is told, whatever pulls at it; its connectors and everything on them feel that. In equilibria it \
              stands where it is. -SINUSOID and -RAO move it about the place where it stands when the run begins, in global axes; angles add to \
              roll, pitch and yaw. A row of the -RAO file is a heading from which waves come (degrees, from the body's x axis toward \
@@ -71,7 +68,7 @@ static SPEC: CommandSpec = CommandSpec {
 };
 
 /// Options that say how a body moves.
-const KINDS: [&str; 4] = ["-SINUSOID", "-RAO", "-FILE", "-FREE"];
+const KINDS: [OptionSpec; 4] = [SINUSOID, RAO, FILE_OPTION, FREE];
 
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
@@ -81,16 +78,18 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     }
     let key = Model::key(&body.name);
     let kind = kind(args)?;
-    for (name, of) in [("-RAMP", "-SINUSOID"), ("-SYMMETRIC", "-RAO")] {
-        if let Some(given) = args.option(name).filter(|_| kind.name != of) {
-            return Err(Diagnostic::error(format!("{name} belongs to {of}"), given.span));
+    for (option, of) in [(RAMP, SINUSOID), (SYMMETRIC, RAO)] {
+        if let Some(given) = args.option(&option).filter(|_| !kind.is(&of)) {
+            return Err(Diagnostic::error(format!("{} belongs to {}", option.name, of.name), given.span));
         }
     }
     let file = (kind.word(0).unwrap_or_default(), kind.values.first().map_or(kind.span, |v| v.span));
-    let motion = match kind.name {
-        "-FREE" => None,
-        "-RAO" => Some(GivenMotion::Responses(Arc::new(input::responses(job, file, args.has("-SYMMETRIC"))?))),
-        "-FILE" => Some(GivenMotion::Path(Arc::new(input::path(job, file)?))),
+    let motion = match kind {
+        _ if kind.is(&FREE) => None,
+        _ if kind.is(&RAO) => {
+            Some(GivenMotion::Responses(Arc::new(input::responses(job, file, args.has(&SYMMETRIC))?)))
+        }
+        _ if kind.is(&FILE_OPTION) => Some(GivenMotion::Path(Arc::new(input::path(job, file)?))),
         _ => Some(sinusoids(job, args)),
     };
     let mut moved = body.clone();
@@ -109,13 +108,14 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
 
 /// The one option that says how the body moves; of several sinusoids the first.
 fn kind(args: &Args) -> Outcome<&Given> {
-    let mut given = args.options.iter().filter(|g| KINDS.contains(&g.name));
+    let mut given = args.options.iter().filter(|given| given.is_any(&KINDS));
     let Some(first) = given.next() else {
-        return Err(Diagnostic::error("the record does not say how the body moves", args.span).help(KINDS.join(", ")));
+        return Err(Diagnostic::error("the record does not say how the body moves", args.span)
+            .help(KINDS.map(|option| option.name).join(", ")));
     };
-    match given.find(|g| g.name != first.name) {
+    match given.find(|given| !given.is(first.option)) {
         Some(other) => {
-            let text = format!("{} and {} are two motions of one body", first.name, other.name);
+            let text = format!("{} and {} are two motions of one body", first.name(), other.name());
             Err(Diagnostic::error(text, other.span).other(first.span, "first given here"))
         }
         None => Ok(first),
@@ -129,8 +129,8 @@ fn sinusoids(job: &Job, args: &Args) -> GivenMotion {
         let number = |i: usize| given.number(i).unwrap_or(0.0);
         Sinusoid { dof, amplitude: dim.to_si(number(1), job.units), period: number(2), phase: number(3) }
     };
-    let list = args.options.iter().filter(|g| g.name == "-SINUSOID").map(one).collect();
-    GivenMotion::Sinusoids { list, ramp: args.option_number("-RAMP").unwrap_or(0.0) }
+    let list = args.options.iter().filter(|g| g.is(&SINUSOID)).map(one).collect();
+    GivenMotion::Sinusoids { list, ramp: args.option_number(&RAMP).unwrap_or(0.0) }
 }
 
 /// Motions that bodies are given; `None` where none is.

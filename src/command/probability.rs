@@ -7,12 +7,11 @@ use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
 use windlass_model::Environment;
 use windlass_solve::frequency::Extreme;
 
-const NAME: &str = "-PROBABILITY";
 const STATISTICS: &[&str] = &["RMS", "SIGNIFICANT", "MAXIMUM", "TIME", "PROBABILITY"];
 
 /// The option.
 pub(super) const PROBABILITY: OptionSpec = OptionSpec::new(
-    NAME,
+    "-PROBABILITY",
     &[
         ValueSpec::new("STAT", Kind::Choice(STATISTICS), "statistic"),
         ValueSpec::new("DATA", Kind::Number(Dim::None), "its value").or("1; 3 h of MAXIMUM; 10800 s of TIME; 0.001"),
@@ -50,5 +49,5 @@ pub(super) fn check(given: &Given) -> Outcome<()> {
 
 /// The extreme that an environment asks for.
 pub(super) fn extreme(env: &Environment) -> Option<Extreme> {
-    env.options.iter().rev().find(|g| g.name == NAME).and_then(|given| read(given).ok())
+    env.options.iter().rev().find(|given| given.is(&PROBABILITY)).and_then(|given| read(given).ok())
 }

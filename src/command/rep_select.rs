@@ -15,32 +15,32 @@ use windlass_signal::fatigue::{Curve, find};
 /// &REP_SELECT.
 pub static REP_SELECT: Command = Command { spec: &SPEC, edits: false, run };
 
-static SPEC: CommandSpec = CommandSpec {
-    options: &[
-        OptionSpec::new(
-            "-SN",
-            &[
-                ValueSpec::new("CURVE", Kind::Name(Noun::New), "name of a curve"),
-                ValueSpec::new("TYPE", Kind::Choice(&["STRESS", "TENSION"]), "what S is").or("a curve that is known"),
-                ValueSpec::new("S", Kind::Number(Dim::None), "range: stress (ksi or MPa), or tension / break")
-                    .or("none")
-                    .positive(),
-                ValueSpec::new("N", Kind::Number(Dim::None), "cycles to failure").or("none").positive(),
-            ],
-            "chooses a curve, and with points defines it",
-        )
-        .repeating(2)
-        .many(),
-        OptionSpec::new(
-            "-THICK_SN",
-            &[
-                ValueSpec::new("TO", Kind::Number(Dim::Section), "reference thickness").positive(),
-                ValueSpec::new("POWER", Kind::Number(Dim::None), "exponent").not_negative(),
-                ValueSpec::new("MAXCOR", Kind::Number(Dim::None), "largest factor").or("no bound").positive(),
-            ],
-            "corrects stress ranges for thickness",
-        ),
+const SN: OptionSpec = OptionSpec::new(
+    "-SN",
+    &[
+        ValueSpec::new("CURVE", Kind::Name(Noun::New), "name of a curve"),
+        ValueSpec::new("TYPE", Kind::Choice(&["STRESS", "TENSION"]), "what S is").or("a curve that is known"),
+        ValueSpec::new("S", Kind::Number(Dim::None), "range: stress (ksi or MPa), or tension / break")
+            .or("none")
+            .positive(),
+        ValueSpec::new("N", Kind::Number(Dim::None), "cycles to failure").or("none").positive(),
     ],
+    "chooses a curve, and with points defines it",
+)
+.repeating(2)
+.many();
+const THICK_SN: OptionSpec = OptionSpec::new(
+    "-THICK_SN",
+    &[
+        ValueSpec::new("TO", Kind::Number(Dim::Section), "reference thickness").positive(),
+        ValueSpec::new("POWER", Kind::Number(Dim::None), "exponent").not_negative(),
+        ValueSpec::new("MAXCOR", Kind::Number(Dim::None), "largest factor").or("no bound").positive(),
+    ],
+    "corrects stress ranges for thickness",
+);
+
+static SPEC: CommandSpec = CommandSpec {
+    options: &[SN, THICK_SN],
     detail: "-SN CURVE chooses a curve of the library (&STATUS SN lists them) or one defined before; -SN CURVE TYPE S1 N1 S2 N2 \
              .. defines one by at least two points, ranges falling while cycles grow, straight in the logarithms between and \
              beyond them. The curves chosen replace those chosen before. A segment of a line goes by its -C_SN, else by the \
@@ -57,7 +57,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     }
     let mut selection = job.model.fatigue.clone();
     let mut chosen = Vec::new();
-    for given in args.all("-SN") {
+    for given in args.all(&SN) {
         let name = given.word(0).unwrap_or_default();
         let place = given.values.first().map_or(given.span, |v| v.span);
         if given.values.len() > 1 {
@@ -78,7 +78,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     if !chosen.is_empty() {
         selection.chosen = chosen;
     }
-    if let Some(given) = args.option("-THICK_SN") {
+    if let Some(given) = args.option(&THICK_SN) {
         let number = |i: usize| given.number(i);
         selection.thickness = Some(ThicknessCorrection {
             reference: number(0).unwrap_or(1.0),

@@ -15,16 +15,16 @@ pub static CTYPE: Command = Command { spec: &CTYPE_SPEC, edits: false, run: cent
 /// CUTYPE.
 pub static CUTYPE: Command = Command { spec: &CUTYPE_SPEC, edits: false, run: headline };
 
+const HARD: OptionSpec = OptionSpec::new("-HARD", &[], "to the report file");
+const BOTH: OptionSpec = OptionSpec::new("-BOTH", &[], "to the screen and the report file");
+
 static REPORT_SPEC: CommandSpec = CommandSpec {
     opens: Opens::Menu("REPORT"),
     data: &[
         ValueSpec::new("H1", Kind::Text, "first heading").or("none"),
         ValueSpec::new("H2", Kind::Text, "second heading").or("none"),
     ],
-    options: &[
-        OptionSpec::new("-HARD", &[], "to the report file"),
-        OptionSpec::new("-BOTH", &[], "to the screen and the report file"),
-    ],
+    options: &[HARD, BOTH],
     detail: "TYPE, CTYPE and CUTYPE write lines; END_REPORT closes.",
     example: "&REPORT 'Summary of lines'\nTYPE one line\nEND_REPORT",
     ..CommandSpec::new("&REPORT", "opens a report")
@@ -43,8 +43,8 @@ static CTYPE_SPEC: CommandSpec = writer("CTYPE", "writes a line, centred");
 static CUTYPE_SPEC: CommandSpec = writer("CUTYPE", "writes a line, centred and underlined");
 
 fn open(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    let both = call.args.has("-BOTH");
-    let hard = call.args.has("-HARD") || both;
+    let both = call.args.has(&BOTH);
+    let hard = call.args.has(&HARD) || both;
     job.menus.push(Menu::Report { screen: !hard || both, hard });
     let heads: Vec<String> = call.args.data.iter().filter_map(|v| v.word()).map(str::to_string).collect();
     for head in heads {

@@ -38,92 +38,89 @@ const fn plain(name: &'static str, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(Dim::None), help)
 }
 
+const EVENTS: OptionSpec = ours(
+    "-EVENTS",
+    &[
+        ValueSpec::new("BEG", Kind::Number(Dim::Time), "time of the first instant"),
+        ValueSpec::new("END", Kind::Number(Dim::Time), "time of the last").or("the end of the run"),
+        ValueSpec::new("INC", Kind::Number(Dim::Time), "time from one to the next; 0: the stored instants")
+            .or("the stored instants")
+            .not_negative(),
+    ],
+    "the instants that are told or counted",
+)
+.default("all stored instants; ENVELOPE, FATIGUE and CHECK leave out those before TTRA_SET");
+const ARC: OptionSpec = ours(
+    "-ARC",
+    &[ValueSpec::new("S", Kind::Number(Dim::Length), "unstretched distance from the first end").not_negative()],
+    "places of NODE, beside its nodes",
+)
+.repeating(1);
+const CODE: OptionSpec = ours(
+    "-CODE",
+    &[ValueSpec::new("C", Kind::Choice(CODES), "F201: DNV-ST-F201, 2RD: API RP 2RD, BREAK: tension over break")],
+    "what CHECK checks tubes by; other sections go by tension over break",
+)
+.default("F201");
+const SAFETY_OPTION: OptionSpec =
+    ours("-SAFETY", &[ValueSpec::new("C", Kind::Choice(SAFETY), "safety class")], "safety class of F201")
+        .default("NORMAL");
+const FACTORS: OptionSpec = ours(
+    "-FACTORS",
+    &[
+        plain("GF", "gamma_F, on what acts at rest").positive(),
+        plain("GE", "gamma_E, on what the environment adds").or("1.3").positive(),
+        plain("GM", "gamma_m, on resistance").or("1.15").positive(),
+    ],
+    "factors of F201; a load that relieves takes the inverse",
+)
+.default("1.1 1.3 1.15");
+const PIPE: OptionSpec = ours(
+    "-PIPE",
+    &[
+        plain("F0", "ovality, at least 0.005").within(0.0, 0.1),
+        plain("AFAB", "fabrication factor: 1 seamless, 0.925 UO, 0.85 UOE").or("1").within(0.1, 1.0),
+    ],
+    "how round the tubes of F201 are and how they were made",
+)
+.default("0.005 1");
+const CASE: OptionSpec =
+    ours("-CASE", &[ValueSpec::new("C", Kind::Choice(CASES), "design case")], "design case of 2RD: 1, 1.2 or 1.5")
+        .default("OPERATING");
+const CORROSION: OptionSpec = ours(
+    "-CORROSION",
+    &[ValueSpec::new("T", Kind::Number(Dim::Section), "of the wall").not_negative()],
+    "what CHECK takes from the walls",
+)
+.default("0");
+const POINTS: OptionSpec = ours(
+    "-POINTS",
+    &[ValueSpec::new("N", Kind::Integer, "points").within(1.0, MOST_POINTS as f64)],
+    "points round a tube at which FATIGUE looks",
+)
+.default("8");
+const SCF: OptionSpec =
+    ours("-SCF", &[plain("F", "factor on stress").positive()], "stress concentration of tubes in FATIGUE").default("1");
+const DFF: OptionSpec =
+    ours("-DFF", &[plain("F", "factor").within(1.0, 1000.0)], "design fatigue factor: life is divided by it")
+        .default("1");
+const DISPOSE: OptionSpec = ours(
+    "-DISPOSE",
+    &[ValueSpec::new("N", Kind::Integer, "which of its tables").or("1").within(1.0, 1e6)],
+    "opens the disposition menu over a table instead of printing",
+);
+
 static SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
     menus: &["PRCPOST"],
-    opens: Opens::WithOption("DISPOSITION", "-DISPOSE"),
+    opens: Opens::WithOption("DISPOSITION", &DISPOSE),
     data: &[
         ValueSpec::new("NAME", Kind::Name(Noun::Line), "a line of the run; &PIPE that of a pipe assembly"),
         ValueSpec::new("WHAT", Kind::Choice(WHAT), "what to tell of").or("ENVELOPE"),
         plain("N", "times of AT (s), numbers of NODE").or("the last instant; node 1"),
     ],
     repeat: 1,
-    options: &[
-        ours(
-            "-EVENTS",
-            &[
-                ValueSpec::new("BEG", Kind::Number(Dim::Time), "time of the first instant"),
-                ValueSpec::new("END", Kind::Number(Dim::Time), "time of the last").or("the end of the run"),
-                ValueSpec::new("INC", Kind::Number(Dim::Time), "time from one to the next; 0: the stored instants")
-                    .or("the stored instants")
-                    .not_negative(),
-            ],
-            "the instants that are told or counted",
-        )
-        .default("all stored instants; ENVELOPE, FATIGUE and CHECK leave out those before TTRA_SET"),
-        ours(
-            "-ARC",
-            &[ValueSpec::new("S", Kind::Number(Dim::Length), "unstretched distance from the first end").not_negative()],
-            "places of NODE, beside its nodes",
-        )
-        .repeating(1),
-        ours(
-            "-CODE",
-            &[ValueSpec::new(
-                "C",
-                Kind::Choice(CODES),
-                "F201: DNV-ST-F201, 2RD: API RP 2RD, BREAK: tension over break",
-            )],
-            "what CHECK checks tubes by; other sections go by tension over break",
-        )
-        .default("F201"),
-        ours("-SAFETY", &[ValueSpec::new("C", Kind::Choice(SAFETY), "safety class")], "safety class of F201")
-            .default("NORMAL"),
-        ours(
-            "-FACTORS",
-            &[
-                plain("GF", "gamma_F, on what acts at rest").positive(),
-                plain("GE", "gamma_E, on what the environment adds").or("1.3").positive(),
-                plain("GM", "gamma_m, on resistance").or("1.15").positive(),
-            ],
-            "factors of F201; a load that relieves takes the inverse",
-        )
-        .default("1.1 1.3 1.15"),
-        ours(
-            "-PIPE",
-            &[
-                plain("F0", "ovality, at least 0.005").within(0.0, 0.1),
-                plain("AFAB", "fabrication factor: 1 seamless, 0.925 UO, 0.85 UOE").or("1").within(0.1, 1.0),
-            ],
-            "how round the tubes of F201 are and how they were made",
-        )
-        .default("0.005 1"),
-        ours("-CASE", &[ValueSpec::new("C", Kind::Choice(CASES), "design case")], "design case of 2RD: 1, 1.2 or 1.5")
-            .default("OPERATING"),
-        ours(
-            "-CORROSION",
-            &[ValueSpec::new("T", Kind::Number(Dim::Section), "of the wall").not_negative()],
-            "what CHECK takes from the walls",
-        )
-        .default("0"),
-        ours(
-            "-POINTS",
-            &[ValueSpec::new("N", Kind::Integer, "points").within(1.0, MOST_POINTS as f64)],
-            "points round a tube at which FATIGUE looks",
-        )
-        .default("8"),
-        ours("-SCF", &[plain("F", "factor on stress").positive()], "stress concentration of tubes in FATIGUE")
-            .default("1"),
-        ours("-DFF", &[plain("F", "factor").within(1.0, 1000.0)], "design fatigue factor: life is divided by it")
-            .default("1"),
-        ours(
-            "-DISPOSE",
-            &[ValueSpec::new("N", Kind::Integer, "which of its tables").or("1").within(1.0, 1e6)],
-            "opens the disposition menu over a table instead of printing",
-        ),
-        HARD,
-        BOTH,
-    ],
+    options: &[EVENTS, ARC, CODE, SAFETY_OPTION, FACTORS, PIPE, CASE, CORROSION, POINTS, SCF, DFF, DISPOSE, HARD, BOTH],
     detail: "Of a ROD, or a line that &CONNECTOR -DYNAMICS makes dynamic, in the last TDOM. Nodes count from 1 at the first end, those that \
              TDOM -ALONG has kept. ENVELOPE has for each node the least, mean and most of the run; of a run with -STATISTICS it alone is told. AT is \
              the line at instants with its forces, NODE its nodes over time, with -ARC any place. TOUCHDOWN is the first node on the bottom and where \
@@ -145,7 +142,7 @@ const EXAMPLE: &str = "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n&DESCRIBE BODY SHIP -I
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let tables = tables(job, args)?;
-    if let Some(given) = args.option("-DISPOSE") {
+    if let Some(given) = args.option(&DISPOSE) {
         let wanted = given.values.first().and_then(|v| v.integer()).unwrap_or(1);
         let index = usize::try_from(wanted - 1).unwrap_or(0);
         let Some(table) = tables.get(index).cloned() else {
@@ -173,7 +170,7 @@ fn tables(job: &Job, args: &Args) -> Outcome<Vec<Table>> {
         return at(job, args, &line);
     }
     // of a run without rows its own envelope is told
-    let bare = what == "ENVELOPE" && run.history.is_empty() && !args.has("-EVENTS");
+    let bare = what == "ENVELOPE" && run.history.is_empty() && !args.has(&EVENTS);
     let sums_up = ["ENVELOPE", "FATIGUE", "CHECK"].contains(&what);
     let events = match sums_up {
         _ if bare => Vec::new(),
@@ -186,13 +183,13 @@ fn tables(job: &Job, args: &Args) -> Outcome<Vec<Table>> {
         "TOUCHDOWN" => along::touchdown(&line, &events),
         "SUPPORTS" => along::supports(&line, Magnitude::default(), &events),
         "FATIGUE" => {
-            let points = args.option("-POINTS").and_then(|g| g.values.first()).and_then(|v| v.integer());
+            let points = args.option(&POINTS).and_then(|g| g.values.first()).and_then(|v| v.integer());
             let usual = Round::default();
             let round = Round {
                 points: points.and_then(|n| usize::try_from(n).ok()).unwrap_or(usual.points),
-                concentration: args.option_number("-SCF").unwrap_or(usual.concentration),
+                concentration: args.option_number(&SCF).unwrap_or(usual.concentration),
             };
-            let factor = args.option_number("-DFF").unwrap_or(1.0);
+            let factor = args.option_number(&DFF).unwrap_or(1.0);
             along::fatigue_along(&line, &job.model.fatigue, (&round, factor), &events)
         }
         _ => along::check(&line, &code(args), &events),
@@ -202,41 +199,41 @@ fn tables(job: &Job, args: &Args) -> Outcome<Vec<Table>> {
 
 /// Options that belong to another of the tables.
 fn refuse_what_does_not_go(args: &Args, what: &str) -> Outcome<()> {
-    const OF: [(&str, &str); 10] = [
-        ("-ARC", "NODE"),
-        ("-CODE", "CHECK"),
-        ("-SAFETY", "CHECK"),
-        ("-FACTORS", "CHECK"),
-        ("-PIPE", "CHECK"),
-        ("-CASE", "CHECK"),
-        ("-CORROSION", "CHECK"),
-        ("-POINTS", "FATIGUE"),
-        ("-SCF", "FATIGUE"),
-        ("-DFF", "FATIGUE"),
+    const OF: [(OptionSpec, &str); 10] = [
+        (ARC, "NODE"),
+        (CODE, "CHECK"),
+        (SAFETY_OPTION, "CHECK"),
+        (FACTORS, "CHECK"),
+        (PIPE, "CHECK"),
+        (CASE, "CHECK"),
+        (CORROSION, "CHECK"),
+        (POINTS, "FATIGUE"),
+        (SCF, "FATIGUE"),
+        (DFF, "FATIGUE"),
     ];
-    for (name, of) in OF {
-        if let Some(given) = args.option(name).filter(|_| what != of) {
-            return Err(Diagnostic::error(format!("{name} goes with {of}, not with {what}"), given.span));
+    for (option, of) in OF {
+        if let Some(given) = args.option(&option).filter(|_| what != of) {
+            return Err(Diagnostic::error(format!("{} goes with {of}, not with {what}", option.name), given.span));
         }
     }
-    let code = args.option("-CODE").and_then(|g| g.word(0)).unwrap_or("F201");
-    const BY: [(&str, &[&str]); 5] = [
-        ("-SAFETY", &["F201"]),
-        ("-FACTORS", &["F201"]),
-        ("-PIPE", &["F201"]),
-        ("-CASE", &["2RD"]),
-        ("-CORROSION", &["F201", "2RD"]),
+    let code = args.option(&CODE).and_then(|g| g.word(0)).unwrap_or("F201");
+    const BY: [(OptionSpec, &[&str]); 5] = [
+        (SAFETY_OPTION, &["F201"]),
+        (FACTORS, &["F201"]),
+        (PIPE, &["F201"]),
+        (CASE, &["2RD"]),
+        (CORROSION, &["F201", "2RD"]),
     ];
-    for (name, codes) in BY {
-        if let Some(given) = args.option(name).filter(|_| !codes.contains(&code)) {
-            let text = format!("{name} goes with -CODE {}, not with {code}", codes.join(" and "));
+    for (option, codes) in BY {
+        if let Some(given) = args.option(&option).filter(|_| !codes.contains(&code)) {
+            let text = format!("{} goes with -CODE {}, not with {code}", option.name, codes.join(" and "));
             return Err(Diagnostic::error(text, given.span));
         }
     }
     if args.data.len() > 2 && !["AT", "NODE"].contains(&what) {
         return Err(Diagnostic::error(format!("{what} takes no numbers"), args.place(2)));
     }
-    match args.option("-EVENTS") {
+    match args.option(&EVENTS) {
         Some(given) if what == "AT" => {
             Err(Diagnostic::error("AT names its instants itself: -EVENTS does not go with it", given.span))
         }
@@ -284,7 +281,7 @@ fn places(args: &Args, line: &Line) -> Outcome<Vec<Where>> {
         }
         list.push(Where::Node(value as usize));
     }
-    list.extend(args.option("-ARC").map(Given::numbers).unwrap_or_default().into_iter().map(Where::Arc));
+    list.extend(args.option(&ARC).map(Given::numbers).unwrap_or_default().into_iter().map(Where::Arc));
     if list.is_empty() {
         list.push(Where::Node(1));
     }
@@ -297,12 +294,12 @@ fn places(args: &Args, line: &Line) -> Outcome<Vec<Where>> {
 
 /// What CHECK checks by.
 fn code(args: &Args) -> Code {
-    let word = |name: &str| args.option(name).and_then(|g| g.word(0));
-    let corroded = args.option_number("-CORROSION").unwrap_or(0.0);
-    let number = |name: &str, index: usize| args.option(name).and_then(|g| g.number(index));
-    match word("-CODE") {
+    let word = |option: &OptionSpec| args.option(option).and_then(|g| g.word(0));
+    let corroded = args.option_number(&CORROSION).unwrap_or(0.0);
+    let number = |option: &OptionSpec, index: usize| args.option(option).and_then(|g| g.number(index));
+    match word(&CODE) {
         Some("2RD") => {
-            let case = match word("-CASE") {
+            let case = match word(&CASE) {
                 Some("EXTREME") => DesignCase::Extreme,
                 Some("SURVIVAL") => DesignCase::Survival,
                 _ => DesignCase::Operating,
@@ -312,18 +309,18 @@ fn code(args: &Args) -> Code {
         Some("BREAK") => Code::Break,
         _ => {
             let usual = Factors::default();
-            let class = match word("-SAFETY") {
+            let class = match word(&SAFETY_OPTION) {
                 Some("LOW") => SafetyClass::Low,
                 Some("HIGH") => SafetyClass::High,
                 _ => SafetyClass::Normal,
             };
             let factors = Factors {
                 class,
-                functional: number("-FACTORS", 0).unwrap_or(usual.functional),
-                environmental: number("-FACTORS", 1).unwrap_or(usual.environmental),
-                material: number("-FACTORS", 2).unwrap_or(usual.material),
-                ovality: number("-PIPE", 0).unwrap_or(usual.ovality),
-                fabrication: number("-PIPE", 1).unwrap_or(usual.fabrication),
+                functional: number(&FACTORS, 0).unwrap_or(usual.functional),
+                environmental: number(&FACTORS, 1).unwrap_or(usual.environmental),
+                material: number(&FACTORS, 2).unwrap_or(usual.material),
+                ovality: number(&PIPE, 0).unwrap_or(usual.ovality),
+                fabrication: number(&PIPE, 1).unwrap_or(usual.fabrication),
             };
             Code::Lrfd(factors, corroded)
         }

@@ -2,6 +2,7 @@
 
 use super::Job;
 use super::equilibrium::told;
+use super::status;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::table::Table;
 use windlass_base::values::Args;
@@ -12,10 +13,10 @@ use windlass_solve::results::along::{lines_at_rest, natural_modes};
 /// # Errors
 /// No such line, one that has no answer where its ends stand, or one that has fewer modes.
 pub(super) fn tables(job: &Job, args: &Args, kind: &str, fits: &dyn Fn(&str) -> bool) -> Outcome<Vec<Table>> {
-    let number = args.option("-NUMBER").and_then(|g| g.values.first()).and_then(|v| v.integer());
+    let number = args.option(&status::NUMBER).and_then(|g| g.values.first()).and_then(|v| v.integer());
     let number = number.and_then(|n| usize::try_from(n).ok()).unwrap_or(6);
     let found = match kind {
-        "ROD_MODES" => natural_modes(&job.model, fits, number, args.has("-SHAPE")),
+        "ROD_MODES" => natural_modes(&job.model, fits, number, args.has(&status::SHAPE)),
         _ => lines_at_rest(&job.model, fits),
     };
     let tables = found.map_err(|e| told(e, &job.model, args.span, job.units))?;

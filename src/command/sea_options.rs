@@ -1,17 +1,19 @@
 //! The options of `&ENV` that make wave components of its seas.
 
+use super::environment;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::units::Dim;
 use windlass_base::values::{Args, Given};
 use windlass_language::select::Owner;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
+use windlass_model::options::PHASES;
 use windlass_model::{Components, Division, Environment, Phasing, Stretching};
 
 const BY_WIDTH: &str = "EQUAL_FREQUENCY";
 const DIVISIONS: &[&str] = &["EQUAL_ENERGY", BY_WIDTH];
 const STRETCHINGS: &[&str] = &["LINEAR", "WHEELER", "DELTA", "EXPONENTIAL"];
 /// The options of which the last one holds.
-const PHASINGS: [&str; 3] = ["-T_REINFORCE", "-SEED", "-PHASES"];
+const PHASINGS: [OptionSpec; 3] = [environment::T_REINFORCE, SEED, PHASES];
 
 /// -COMPONENTS.
 pub(super) const COMPONENTS: OptionSpec = OptionSpec::new(
@@ -36,16 +38,6 @@ pub(super) const SEED: OptionSpec = OptionSpec::new(
 .default("1, without -T_REINFORCE")
 .owner(Owner::Ours);
 
-/// -PHASES.
-pub(super) const PHASES: OptionSpec = OptionSpec::new(
-    "-PHASES",
-    &[ValueSpec::new("P", Kind::Number(Dim::Angle), "phase, one a component")],
-    "phases of the wave components",
-)
-.repeating(1)
-.default("random, of -SEED")
-.owner(Owner::Ours);
-
 /// -STRETCHING.
 pub(super) const STRETCHING: OptionSpec = OptionSpec::new(
     "-STRETCHING",
@@ -67,14 +59,14 @@ pub(super) const STOKES: OptionSpec = OptionSpec::new(
 /// Takes one of these options, or one of MOSES's on the components.
 pub(super) fn apply(env: &mut Environment, given: &Given) -> Outcome<()> {
     let whole = |i: usize| given.values.get(i).and_then(|v| v.integer()).and_then(|n| u64::try_from(n).ok());
-    match given.name {
-        "-COMPONENTS" => env.components = Some(components(given)?),
-        "-S_PERIOD" => env.sea_periods = given.numbers(),
-        "-PHASES" => env.sea_phases = given.numbers(),
-        "-SEED" => env.phasing = whole(0).map(Phasing::Seeded),
-        "-T_REINFORCE" => env.phasing = given.number(0).map(Phasing::Reinforced),
-        "-STOKES" => env.stokes = whole(0).and_then(|n| u8::try_from(n).ok()),
-        "-STRETCHING" => {
+    match given {
+        _ if given.is(&COMPONENTS) => env.components = Some(components(given)?),
+        _ if given.is(&environment::S_PERIOD) => env.sea_periods = given.numbers(),
+        _ if given.is(&PHASES) => env.sea_phases = given.numbers(),
+        _ if given.is(&SEED) => env.phasing = whole(0).map(Phasing::Seeded),
+        _ if given.is(&environment::T_REINFORCE) => env.phasing = given.number(0).map(Phasing::Reinforced),
+        _ if given.is(&STOKES) => env.stokes = whole(0).and_then(|n| u8::try_from(n).ok()),
+        _ if given.is(&STRETCHING) => {
             env.stretching = Some(match given.word(0) {
                 Some("WHEELER") => Stretching::Wheeler,
                 Some("DELTA") => Stretching::Delta,
@@ -84,9 +76,9 @@ pub(super) fn apply(env: &mut Environment, given: &Given) -> Outcome<()> {
         }
         _ => return Ok(()),
     }
-    if PHASINGS.contains(&given.name) {
-        env.options.retain(|g| !PHASINGS.contains(&g.name));
-        if given.name == "-PHASES" {
+    if given.is_any(&PHASINGS) {
+        env.options.retain(|g| !g.is_any(&PHASINGS));
+        if given.is(&PHASES) {
             env.phasing = None;
         } else {
             env.sea_phases.clear();
@@ -97,10 +89,10 @@ pub(super) fn apply(env: &mut Environment, given: &Given) -> Outcome<()> {
 
 /// Refuses two ways to make phases in one record.
 pub(super) fn one_phasing(args: &Args) -> Outcome<()> {
-    let mut given = PHASINGS.iter().filter_map(|name| args.option(name));
+    let mut given = PHASINGS.iter().filter_map(|option| args.option(option));
     match (given.next(), given.next()) {
         (Some(one), Some(other)) => {
-            let text = format!("phases come from {} or from {}, not from both", one.name, other.name);
+            let text = format!("phases come from {} or from {}, not from both", one.name(), other.name());
             Err(Diagnostic::error(text, other.span).other(one.span, "the other one"))
         }
         _ => Ok(()),

@@ -17,10 +17,10 @@ pub static SELECTOR: Command = Command { spec: &SELECTOR_SPEC, edits: false, run
 
 const NAMES: &[ValueSpec] = &[ValueSpec::new("NAME", Kind::Name(Noun::Selector), "name, pattern or selector")];
 
-const OPTIONS: &[OptionSpec] = &[
-    OptionSpec::new("-SELECT", NAMES, "names taken in").repeating(1),
-    OptionSpec::new("-EXCEPT", NAMES, "names taken out again").repeating(1),
-];
+const SELECT_OPTION: OptionSpec = OptionSpec::new("-SELECT", NAMES, "names taken in").repeating(1);
+const EXCEPT: OptionSpec = OptionSpec::new("-EXCEPT", NAMES, "names taken out again").repeating(1);
+
+const OPTIONS: &[OptionSpec] = &[SELECT_OPTION, EXCEPT];
 
 static SPEC: CommandSpec = CommandSpec {
     opens: Opens::AtMost("SELECT", 0),
@@ -65,11 +65,11 @@ const FORM: &str = "form: &SELECT :NAME -SELECT NAME .. -EXCEPT NAME ..";
 
 fn define(job: &mut Job, call: &Call, name: &str, span: Span) -> Outcome<Effect> {
     rule::check(name, Some(':'), "selector", span)?;
-    if !call.args.has("-SELECT") {
+    if !call.args.has(&SELECT_OPTION) {
         return Err(Diagnostic::error("-SELECT is missing: a selector without names selects nothing", span).help(FORM));
     }
     let key = Model::key(name);
-    let list = |option: &str| -> Vec<String> {
+    let list = |option: &OptionSpec| -> Vec<String> {
         call.args
             .option(option)
             .map_or(Vec::new(), |g| g.values.iter().filter_map(|v| v.word()).map(str::to_string).collect())
@@ -82,7 +82,7 @@ fn define(job: &mut Job, call: &Call, name: &str, span: Span) -> Outcome<Effect>
             find(&job.model.selectors, used, "selector", value.span)?;
         }
     }
-    let made = Selector { name: name.to_string(), select: list("-SELECT"), except: list("-EXCEPT"), span };
+    let made = Selector { name: name.to_string(), select: list(&SELECT_OPTION), except: list(&EXCEPT), span };
     job.model.selectors.insert(key, made);
     Ok(Effect::Done)
 }

@@ -127,8 +127,8 @@ pub static EXTREMES: Command = Command {
     edits: false,
     run: |job, call| {
         open(job, call, |record, args| {
-            let duration = 3600.0 * args.option_number("-DURATION").unwrap_or(3.0);
-            tables::extremes(record, Extremes { duration, blocks: whole(args, "-BLOCKS"), lows: args.has("-MINIMA") })
+            let duration = 3600.0 * args.option_number(&DURATION).unwrap_or(3.0);
+            tables::extremes(record, Extremes { duration, blocks: whole(args, &BLOCKS), lows: args.has(&LOWS) })
         })
     },
 };
@@ -143,7 +143,7 @@ pub static EXCEEDANCE: Command = Command {
         ..spec("EXCEEDANCE", "shares of values and maxima above levels")
     },
     edits: false,
-    run: |job, call| open(job, call, |record, args| tables::exceedance(record, whole(args, "-LEVELS").unwrap_or(50))),
+    run: |job, call| open(job, call, |record, args| tables::exceedance(record, whole(args, &LEVELS).unwrap_or(50))),
 };
 /// HISTOGRAM.
 pub static HISTOGRAM: Command = Command {
@@ -155,7 +155,7 @@ pub static HISTOGRAM: Command = Command {
         ..spec("HISTOGRAM", "values counted into bins")
     },
     edits: false,
-    run: |job, call| open(job, call, |record, args| tables::histogram(record, whole(args, "-BINS").unwrap_or(20))),
+    run: |job, call| open(job, call, |record, args| tables::histogram(record, whole(args, &BINS).unwrap_or(20))),
 };
 /// RAINFLOW.
 pub static RAINFLOW: Command = Command {
@@ -170,8 +170,8 @@ pub static RAINFLOW: Command = Command {
     edits: false,
     run: |job, call| {
         open(job, call, |record, args| {
-            let bins = if args.has("-CYCLES") { 0 } else { whole(args, "-BINS").unwrap_or(20) };
-            tables::rainflow(record, bins, whole(args, "-MEANS").unwrap_or(1))
+            let bins = if args.has(&CYCLES) { 0 } else { whole(args, &BINS).unwrap_or(20) };
+            tables::rainflow(record, bins, whole(args, &MEANS).unwrap_or(1))
         })
     },
 };
@@ -189,9 +189,9 @@ pub static HARMONIC: Command = Command {
     run: |job, call| {
         open(job, call, |record, args| {
             let asked = Analysis {
-                period: args.option_number("-PERIOD"),
-                orders: whole(args, "-ORDERS").unwrap_or(3),
-                cycles: whole(args, "-LAST"),
+                period: args.option_number(&PERIOD),
+                orders: whole(args, &ORDERS).unwrap_or(3),
+                cycles: whole(args, &LAST),
             };
             tables::harmonics(record, asked)
         })
@@ -199,8 +199,8 @@ pub static HARMONIC: Command = Command {
 };
 
 /// A whole number given with an option.
-fn whole(args: &Args, name: &str) -> Option<usize> {
-    args.option(name).and_then(|g| g.values.first()?.integer()).and_then(|n| usize::try_from(n).ok())
+fn whole(args: &Args, option: &OptionSpec) -> Option<usize> {
+    args.option(option).and_then(|g| g.values.first()?.integer()).and_then(|n| usize::try_from(n).ok())
 }
 
 /// The record of the columns chosen, and what is to be said of the rows left out.
@@ -233,7 +233,7 @@ fn enter(job: &mut Job, table: Table) {
 fn spectrum(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let (record, without) = record(job, args)?;
-    let length = whole(args, "-SEGMENT");
+    let length = whole(args, &SEGMENT);
     let mut table = tables::density(&record, length).map_err(|e| wrong(args, &e))?;
     let moments = statistic::spectral(&record, length, job.units).map_err(|e| wrong(args, &e))?;
     let mut text = format!("{}\n\n{}", moments.title, page::grid(&moments, job.units).join("\n"));

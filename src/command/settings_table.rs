@@ -1,6 +1,7 @@
 //! `&STATUS DIMENSIONS` and `DEFAULTS`.
 
 use super::Job;
+use super::units;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_model::{Coordinates, Model};
@@ -35,9 +36,9 @@ pub(super) fn dimensions(job: &Job) -> Table {
 pub(super) fn defaults(model: &Model) -> Table {
     let d = &model.defaults;
     let mode = match d.coordinates {
-        Coordinates::Rectangular => "-RECT",
-        Coordinates::Cylindrical => "-CYLINDER",
-        Coordinates::Spherical => "-SPHERICAL",
+        Coordinates::Rectangular => units::RECT.name,
+        Coordinates::Cylindrical => units::CYLINDER.name,
+        Coordinates::Spherical => units::SPHERICAL.name,
     };
     Table::new("Defaults")
         .fact("Density of Material", d.material.density, Dim::Density)

@@ -17,23 +17,19 @@ use windlass_signal::SeriesError;
 /// STATISTIC.
 pub static STATISTIC: Command = Command { spec: &SPEC, edits: false, run: statistics };
 
+const DURATION: OptionSpec = OptionSpec::new(
+    "-DURATION",
+    &[ValueSpec::new("HOURS", Kind::Number(Dim::None), "hours").positive()],
+    "largest and smallest value in this time, by Rayleigh",
+)
+.owner(Owner::Ours);
+const PEAKS: OptionSpec =
+    OptionSpec::new("-PEAKS", &[], "lists the maxima and minima between crossings of the mean").owner(Owner::Ours);
+
 static SPEC: CommandSpec = CommandSpec {
     data: &[COLUMN, ANY_COLUMN],
     repeat: 1,
-    options: &[
-        RECORD,
-        VALUES,
-        HARD,
-        BOTH,
-        MAG_USE,
-        OptionSpec::new(
-            "-DURATION",
-            &[ValueSpec::new("HOURS", Kind::Number(Dim::None), "hours").positive()],
-            "largest and smallest value in this time, by Rayleigh",
-        )
-        .owner(Owner::Ours),
-        OptionSpec::new("-PEAKS", &[], "lists the maxima and minima between crossings of the mean").owner(Owner::Ours),
-    ],
+    options: &[RECORD, VALUES, HARD, BOTH, MAG_USE, DURATION, PEAKS],
     detail: "The first column is the independent one; the extremes are given with their place in it. Kurtosis is the excess \
              over 3. Where the independent column grows, cycles are counted from an up-crossing of the mean to the next: \
              Period is their mean length, 1/3 Range the mean of the highest third of their crest-to-trough ranges \
@@ -51,12 +47,12 @@ fn statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let mut parts = vec![statistic::in_units(&table, independent, &described, job.units)];
     let wrong = |e: SeriesError| Diagnostic::error(e.to_string(), args.span);
     parts.push(statistic::cycles(&table, job.units).map_err(wrong)?);
-    if let Some(given) = args.option("-DURATION") {
+    if let Some(given) = args.option(&DURATION) {
         let duration = 3600.0 * given.number(0).unwrap_or_default();
         let refused = |e: SeriesError| Diagnostic::error(e.to_string(), given.span);
         parts.push(statistic::expected_extremes(&table, duration, job.units).map_err(refused)?);
     }
-    if args.has("-PEAKS") {
+    if args.has(&PEAKS) {
         parts.push(statistic::peaks(&table).map_err(wrong)?);
     }
     let text = |t: &Table| format!("{}\n\n{}", t.title, page::grid(t, job.units).join("\n"));

@@ -79,6 +79,31 @@ pub fn kinds() -> impl Iterator<Item = (&'static str, Owner, &'static str)> + Cl
     KINDS.iter().map(|(name, owner, _)| (*name, *owner, *name))
 }
 
+const PLOT: OptionSpec =
+    OptionSpec::new("-PLOT", &[], "plots curves, or the spectra of SEA_SPECTRUM and WIND_SPECTRUM");
+/// `-NUMBER`.
+pub(super) const NUMBER: OptionSpec = OptionSpec::new(
+    "-NUMBER",
+    &[ValueSpec::new("N", Kind::Integer, "how many").within(1.0, 1000.0)],
+    "modes of each tether or dynamic line",
+)
+.owner(Owner::Ours)
+.default("6");
+/// `-SHAPE`.
+pub(super) const SHAPE: OptionSpec =
+    OptionSpec::new("-SHAPE", &[], "a table of the shape of each mode of ROD_MODES behind that of their periods")
+        .owner(Owner::Ours);
+/// `-AQWA`.
+pub(super) const AQWA: OptionSpec =
+    OptionSpec::new("-AQWA", &[], "modes of tethers with the peculiarities of AQWA, as TDOM -TETHERS AQWA")
+        .owner(Owner::Ours);
+const DISPOSE: OptionSpec = OptionSpec::new(
+    "-DISPOSE",
+    &[ValueSpec::new("N", Kind::Integer, "which of its tables").or("1").within(1.0, 1e6)],
+    "opens the disposition menu over a table instead of printing",
+)
+.owner(Owner::Ours);
+
 static SPEC: CommandSpec = CommandSpec {
     data: &[
         ValueSpec::new("WHAT", Kind::Text, "what to tell of, as listed below").or("a summary"),
@@ -90,30 +115,8 @@ static SPEC: CommandSpec = CommandSpec {
         .or("all"),
     ],
     repeat: 1,
-    opens: Opens::WithOption("DISPOSITION", "-DISPOSE"),
-    options: &[
-        OptionSpec::new("-PLOT", &[], "plots curves, or the spectra of SEA_SPECTRUM and WIND_SPECTRUM"),
-        body_status::ABOUT,
-        OptionSpec::new(
-            "-NUMBER",
-            &[ValueSpec::new("N", Kind::Integer, "how many").within(1.0, 1000.0)],
-            "modes of each tether or dynamic line",
-        )
-        .owner(Owner::Ours)
-        .default("6"),
-        OptionSpec::new("-SHAPE", &[], "a table of the shape of each mode of ROD_MODES behind that of their periods")
-            .owner(Owner::Ours),
-        OptionSpec::new("-AQWA", &[], "modes of tethers with the peculiarities of AQWA, as TDOM -TETHERS AQWA")
-            .owner(Owner::Ours),
-        OptionSpec::new(
-            "-DISPOSE",
-            &[ValueSpec::new("N", Kind::Integer, "which of its tables").or("1").within(1.0, 1e6)],
-            "opens the disposition menu over a table instead of printing",
-        )
-        .owner(Owner::Ours),
-        HARD,
-        BOTH,
-    ],
+    opens: Opens::WithOption("DISPOSITION", &DISPOSE),
+    options: &[PLOT, body_status::ABOUT, NUMBER, SHAPE, AQWA, DISPOSE, HARD, BOTH],
     detail: "Alone it counts what the model holds. ENVIRONMENT alone is the one in force, with a NAME the one kept \
              under it. LINE_TYPES lists the chains and ropes that -TYPE of a line \
              class knows; LINE_TYPES 3 gives their values at a nominal diameter, LINE_TYPES CHAIN_R4 the formulas of one. \
@@ -188,7 +191,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         note_caveats(model, &mut tables);
     }
     job.verdict.over_break.append(&mut verdict.over_break);
-    if let Some(given) = args.option("-DISPOSE") {
+    if let Some(given) = args.option(&DISPOSE) {
         let wanted = given.values.first().and_then(|v| v.integer()).unwrap_or(1);
         let index = usize::try_from(wanted - 1).unwrap_or(0);
         let Some(table) = tables.get(index).cloned() else {
@@ -202,7 +205,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let head = job.page_head();
     let mut text = tables.iter().map(|t| page::render(t, job.units, &head)).collect::<Vec<_>>().join("\n");
     let charts: Vec<Table> = match kind {
-        _ if !args.has("-PLOT") => Vec::new(),
+        _ if !args.has(&PLOT) => Vec::new(),
         "CURVES" => tables.iter().filter(|t| chart(t)).cloned().collect(),
         "SEA_SPECTRUM" => sea_table::densities(job, (!chosen.all()).then_some(&fits), args.place(0))?,
         "WIND_SPECTRUM" => wind_table::densities(job, (!chosen.all()).then_some(&fits), args.place(0))?,

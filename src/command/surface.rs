@@ -67,24 +67,24 @@ static BLOCK_SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("BLOCK", "a box, or a surface of panels")
 };
 
+const FORMAT: OptionSpec = OptionSpec::new(
+    "-FORMAT",
+    &[ValueSpec::new("FORMAT", Kind::Choice(&["STL", "GDF", "OBJ"]), "format of the file")],
+    "format of the file",
+)
+.owner(Owner::Ours)
+.default("as the ending of its name says");
+const SCALE: OptionSpec = OptionSpec::new(
+    "-SCALE",
+    &[number("S", Dim::None, "long length units of &DIMEN in a unit of the file").positive()],
+    "size of the file's unit",
+)
+.owner(Owner::Ours)
+.default("1");
+const MOVE: OptionSpec = OptionSpec::new("-MOVE", &PLACE, "places the mesh in the part").owner(Owner::Ours);
+
 /// What a mesh of a file takes besides.
-const OF_FILE: &[OptionSpec] = &[
-    OptionSpec::new(
-        "-FORMAT",
-        &[ValueSpec::new("FORMAT", Kind::Choice(&["STL", "GDF", "OBJ"]), "format of the file")],
-        "format of the file",
-    )
-    .owner(Owner::Ours)
-    .default("as the ending of its name says"),
-    OptionSpec::new(
-        "-SCALE",
-        &[number("S", Dim::None, "long length units of &DIMEN in a unit of the file").positive()],
-        "size of the file's unit",
-    )
-    .owner(Owner::Ours)
-    .default("1"),
-    OptionSpec::new("-MOVE", &PLACE, "places the mesh in the part").owner(Owner::Ours),
-];
+const OF_FILE: &[OptionSpec] = &[FORMAT, SCALE, MOVE];
 static MESH_OPTIONS: [OptionSpec; OPTIONS.len() + OF_FILE.len()] = joined(&OPTIONS, OF_FILE);
 
 static MESH_SPEC: CommandSpec = CommandSpec {
@@ -194,7 +194,7 @@ fn mesh(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let Some(name) = args.word(1) else { return panels_follow(job, args, Menu::Mesh) };
     let span = args.place(1);
     let panels = mesh_of(job, args, name, span)?;
-    let scale = Dim::Length.to_si(args.option_number("-SCALE").unwrap_or(1.0), job.units);
+    let scale = Dim::Length.to_si(args.option_number(&SCALE).unwrap_or(1.0), job.units);
     let largest = panels.iter().flatten().flatten().fold(0.0_f64, |most, x| most.max((scale * x).abs()));
     if largest > Dim::Length.most() {
         let text = format!("{name} cannot be used: a coordinate of {largest:e} m is no ship's");
@@ -202,7 +202,7 @@ fn mesh(job: &mut Job, call: &Call) -> Outcome<Effect> {
     }
     let scaled = panels.into_iter().map(|p| p.into_iter().map(|at| at.map(|x| scale * x)).collect()).collect();
     let by = args
-        .option("-MOVE")
+        .option(&MOVE)
         .map_or(Place::default(), |g| Place::new([0, 1, 2, 3, 4, 5].map(|i| g.number(i).unwrap_or(0.0))));
     whole(job, args, Shape::Panels(scaled).moved(&by))
 }
@@ -211,7 +211,7 @@ fn mesh(job: &mut Job, call: &Call) -> Outcome<Effect> {
 fn mesh_of(job: &Job, args: &Args, name: &str, span: Span) -> Outcome<Vec<Vec<Position>>> {
     let path = existing(job, name, span)?;
     let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_uppercase()).unwrap_or_default();
-    let kind = match args.option_word("-FORMAT").unwrap_or(&ending) {
+    let kind = match args.option_word(&FORMAT).unwrap_or(&ending) {
         "STL" => MeshKind::Stl,
         "GDF" => MeshKind::Gdf,
         "OBJ" => MeshKind::Obj,

@@ -22,6 +22,31 @@ const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(dim), help)
 }
 
+const LAID: OptionSpec = OptionSpec::new(
+    "-LAID",
+    &[number("TEMP", Dim::TemperatureRise, "temperature")],
+    "temperature at which the pipe was laid, without strain",
+)
+.owner(Owner::Ours)
+.default("0: TEMP of the data is a rise");
+const DENSITY: OptionSpec =
+    OptionSpec::new("-DENSITY", &[number("RHO", Dim::Density, "density").not_negative()], "density of the contents")
+        .owner(Owner::Ours)
+        .default("0");
+const SPGRAVITY: OptionSpec = OptionSpec::new(
+    "-SPGRAVITY",
+    &[number("SG", Dim::None, "specific gravity").not_negative()],
+    "the same over that of fresh water, 1000 kg/m3",
+)
+.owner(Owner::Ours);
+const AT: OptionSpec = OptionSpec::new(
+    "-AT",
+    &[number("Z", Dim::Length, "elevation, global")],
+    "where PRESSURE holds; below it the weight of the contents adds to it",
+)
+.owner(Owner::Ours)
+.default("0: at the mean water level");
+
 static SPEC: CommandSpec = CommandSpec {
     menus: &["INMODEL", "MEDIT"],
     data: &[
@@ -29,35 +54,7 @@ static SPEC: CommandSpec = CommandSpec {
         number("TEMP", Dim::TemperatureRise, "temperature of the pipe"),
         number("PRESSURE", Dim::Stress, "pressure of the contents above the atmosphere's").or("0"),
     ],
-    options: &[
-        OptionSpec::new(
-            "-LAID",
-            &[number("TEMP", Dim::TemperatureRise, "temperature")],
-            "temperature at which the pipe was laid, without strain",
-        )
-        .owner(Owner::Ours)
-        .default("0: TEMP of the data is a rise"),
-        OptionSpec::new(
-            "-DENSITY",
-            &[number("RHO", Dim::Density, "density").not_negative()],
-            "density of the contents",
-        )
-        .owner(Owner::Ours)
-        .default("0"),
-        OptionSpec::new(
-            "-SPGRAVITY",
-            &[number("SG", Dim::None, "specific gravity").not_negative()],
-            "the same over that of fresh water, 1000 kg/m3",
-        )
-        .owner(Owner::Ours),
-        OptionSpec::new(
-            "-AT",
-            &[number("Z", Dim::Length, "elevation, global")],
-            "where PRESSURE holds; below it the weight of the contents adds to it",
-        )
-        .owner(Owner::Ours)
-        .default("0: at the mean water level"),
-    ],
+    options: &[LAID, DENSITY, SPGRAVITY, AT],
     detail: "-T_PRESSURE NAME of &ENV puts the data in force, for all pipes of class ROD. Temperatures are in degrees F with feet and C with \
              metres, as -ALPHA is per degree: only the rise of TEMP over -LAID counts, times -ALPHA a strain that the pipe wants to have. Pressure is in \
              ksi or MPa over the atmosphere's. At an elevation z the pressure is PRESSURE + RHO g (Z - z). A name given again is redefined. \
@@ -71,7 +68,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (name, span) = (args.word(0).unwrap_or_default(), args.place(0));
     rule::check(name, None, "set of T_PRESSURE data", span)?;
     job.model.free_name(name, &[EntityKind::Filling], span)?;
-    if let (Some(first), Some(second)) = (args.option("-DENSITY"), args.option("-SPGRAVITY")) {
+    if let (Some(first), Some(second)) = (args.option(&DENSITY), args.option(&SPGRAVITY)) {
         let text = "the contents have a -DENSITY or a -SPGRAVITY";
         return Err(Diagnostic::error(text, second.span).other(first.span, "given here already"));
     }
@@ -81,12 +78,12 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         let text = format!("PRESSURE is over the atmosphere's, and {least:.4} is that of nothing");
         return Err(Diagnostic::error(text, args.place(2)).label("less than none"));
     }
-    let weight = args.option_number("-SPGRAVITY").map(|s| 1000.0 * s);
+    let weight = args.option_number(&SPGRAVITY).map(|s| 1000.0 * s);
     let contents = Contents {
-        warmer: args.number(1).unwrap_or(0.0) - args.option_number("-LAID").unwrap_or(0.0),
+        warmer: args.number(1).unwrap_or(0.0) - args.option_number(&LAID).unwrap_or(0.0),
         pressure,
-        at: args.option_number("-AT").unwrap_or(0.0),
-        density: args.option_number("-DENSITY").or(weight).unwrap_or(0.0),
+        at: args.option_number(&AT).unwrap_or(0.0),
+        density: args.option_number(&DENSITY).or(weight).unwrap_or(0.0),
     };
     let made = Filling { name: name.to_string(), contents, span };
     if job.model.fillings.insert(Model::key(name), made).is_some() {

@@ -39,88 +39,123 @@ const fn yes_no(help: &'static str) -> ValueSpec {
     ValueSpec::new("YES/NO", Kind::Choice(YES_NO), help)
 }
 
-static SPEC: CommandSpec = CommandSpec {
-    menus: &["MAIN"],
-    options: &[
-        OptionSpec::new("-NO_CAPSIZE", &[yes_no("YES goes on")], "goes on beyond a roll or pitch of 90 degrees")
-            .default("NO: the run ends there"),
-        OptionSpec::new("-EQUI", &[], "begins at the equilibrium with the mean forces, as &EQUI finds it"),
-        OptionSpec::new(
-            "-NEWMARK",
-            &[
-                yes_no("NO is the predictor and corrector"),
-                ValueSpec::new("BETA", Kind::Number(Dim::None), "beta")
-                    .or("that of generalised-alpha")
-                    .within(1e-3, 1.0),
-                ValueSpec::new("ALPHA", Kind::Number(Dim::None), "gamma of the books").or("0.5").within(0.0, 2.0),
-            ],
-            "the scheme of bodies and dynamic lines; with NO dynamic lines keep generalised-alpha with spectral radius 0.2",
-        )
-        .default("generalised-alpha with spectral radius 0.9; 0.2 with dynamic lines"),
-        OptionSpec::new(
-            "-CONVERGE",
-            &[
-                ValueSpec::new("NUMB", Kind::Integer, "most iterations of a step").within(1.0, 1000.0),
-                ValueSpec::new("TOL", Kind::Number(Dim::None), "largest acceleration left, as a share of gravity")
-                    .or("1E-7")
-                    .within(1e-14, 0.1),
-            ],
-            "when a step is solved",
-        )
-        .default("20 1E-7"),
-        OptionSpec::new(
-            "-RESTART",
-            &[ValueSpec::new("T", Kind::Number(Dim::Time), "time").or("where the run ended").not_negative()],
-            "goes on with the run that was kept, from the last snapshot at or before a time",
-        ),
-        OptionSpec::new(
-            "-RESET",
-            &[ValueSpec::new("T", Kind::Number(Dim::Time), "time").not_negative()],
-            "begins with the bodies as they were in the run at a time, at rest or moving, and time zero",
-        ),
-        OptionSpec::new(
-            "-STORE",
-            &[ValueSpec::new("INCR", Kind::Integer, "steps").within(1.0, 1e9)],
-            "steps from one stored instant to the next",
-        )
-        .default("1"),
-        OptionSpec::new(
-            "-RHO",
-            &[ValueSpec::new("R", Kind::Number(Dim::None), "spectral radius at infinite frequency").within(0.0, 1.0)],
-            "generalised-alpha with another spectral radius, of bodies and dynamic lines: 1 damps nothing, 0 damps most",
-        )
-        .owner(Owner::Ours)
-        .default("0.9; 0.2 with dynamic lines"),
-        OptionSpec::new(
-            "-ADAPTIVE",
-            &[ValueSpec::new("TOL", Kind::Number(Dim::Length), "largest error of place in a step").positive()],
-            "halves steps where they err more; rotations count times 10 m",
-        )
-        .owner(Owner::Ours)
-        .default("steps are as given"),
-        OptionSpec::new(
+/// `-NO_CAPSIZE`.
+pub(super) const NO_CAPSIZE: OptionSpec =
+    OptionSpec::new("-NO_CAPSIZE", &[yes_no("YES goes on")], "goes on beyond a roll or pitch of 90 degrees")
+        .default("NO: the run ends there");
+/// `-EQUI`.
+pub(super) const EQUI: OptionSpec =
+    OptionSpec::new("-EQUI", &[], "begins at the equilibrium with the mean forces, as &EQUI finds it");
+/// `-NEWMARK`.
+pub(super) const NEWMARK: OptionSpec = OptionSpec::new(
+    "-NEWMARK",
+    &[
+        yes_no("NO is the predictor and corrector"),
+        ValueSpec::new("BETA", Kind::Number(Dim::None), "beta").or("that of generalised-alpha").within(1e-3, 1.0),
+        ValueSpec::new("ALPHA", Kind::Number(Dim::None), "gamma of the books").or("0.5").within(0.0, 2.0),
+    ],
+    "the scheme of bodies and dynamic lines; with NO dynamic lines keep generalised-alpha with spectral radius 0.2",
+)
+.default("generalised-alpha with spectral radius 0.9; 0.2 with dynamic lines");
+/// `-CONVERGE`.
+pub(super) const CONVERGE: OptionSpec = OptionSpec::new(
+    "-CONVERGE",
+    &[
+        ValueSpec::new("NUMB", Kind::Integer, "most iterations of a step").within(1.0, 1000.0),
+        ValueSpec::new("TOL", Kind::Number(Dim::None), "largest acceleration left, as a share of gravity")
+            .or("1E-7")
+            .within(1e-14, 0.1),
+    ],
+    "when a step is solved",
+)
+.default("20 1E-7");
+/// `-RESTART`.
+pub(super) const RESTART: OptionSpec = OptionSpec::new(
+    "-RESTART",
+    &[ValueSpec::new("T", Kind::Number(Dim::Time), "time").or("where the run ended").not_negative()],
+    "goes on with the run that was kept, from the last snapshot at or before a time",
+);
+/// `-RESET`.
+pub(super) const RESET: OptionSpec = OptionSpec::new(
+    "-RESET",
+    &[ValueSpec::new("T", Kind::Number(Dim::Time), "time").not_negative()],
+    "begins with the bodies as they were in the run at a time, at rest or moving, and time zero",
+);
+/// `-STORE`.
+pub(super) const STORE: OptionSpec = OptionSpec::new(
+    "-STORE",
+    &[ValueSpec::new("INCR", Kind::Integer, "steps").within(1.0, 1e9)],
+    "steps from one stored instant to the next",
+)
+.default("1");
+/// `-RHO`.
+pub(super) const RHO: OptionSpec = OptionSpec::new(
+    "-RHO",
+    &[ValueSpec::new("R", Kind::Number(Dim::None), "spectral radius at infinite frequency").within(0.0, 1.0)],
+    "generalised-alpha with another spectral radius, of bodies and dynamic lines: 1 damps nothing, 0 damps most",
+)
+.owner(Owner::Ours)
+.default("0.9; 0.2 with dynamic lines");
+/// `-ADAPTIVE`.
+pub(super) const ADAPTIVE: OptionSpec = OptionSpec::new(
+    "-ADAPTIVE",
+    &[ValueSpec::new("TOL", Kind::Number(Dim::Length), "largest error of place in a step").positive()],
+    "halves steps where they err more; rotations count times 10 m",
+)
+.owner(Owner::Ours)
+.default("steps are as given");
+const DIVIDING: OptionSpec = OptionSpec::new(
             "-DIVIDING",
             &[ValueSpec::new("T", Kind::Number(Dim::Time), "period").positive()],
             "period that divides motion: what is quicker is of first order, about the place and heading at which waves act on databases",
         )
         .owner(Owner::Ours)
-        .default("1.05 times the period above which a hundredth of the energy of the sea is; 15 s without waves"),
-        OptionSpec::new("-CHECK", &[], "runs again with half the step and prints the difference of every result")
-            .owner(Owner::Ours),
-        OptionSpec::new("-STATISTICS", &[], "keeps statistics of every result and no instants: flat memory, no file")
-            .owner(Owner::Ours),
-        OptionSpec::new("-BALANCE", &[], "prints the books of energy and momentum of dynamic lines")
-            .owner(Owner::Ours),
-        OptionSpec::new(
-            "-ALONG",
-            &[ValueSpec::new("N", Kind::Integer, "every Nth; 0: none").within(0.0, 1e6)],
-            "keeps every Nth node of dynamic lines, counted from their second ends, and both ends",
-        )
-        .owner(Owner::Ours)
-        .default("1: all nodes"),
-        OptionSpec::new("-SCREEN", &[yes_no("NO leaves it out")], "replays the three most loaded quasi-static lines as dynamic lines after the run")
-            .owner(Owner::Ours)
-            .default("YES"),
+        .default("1.05 times the period above which a hundredth of the energy of the sea is; 15 s without waves");
+/// `-CHECK`.
+pub(super) const CHECK: OptionSpec =
+    OptionSpec::new("-CHECK", &[], "runs again with half the step and prints the difference of every result")
+        .owner(Owner::Ours);
+/// `-STATISTICS`.
+pub(super) const STATISTICS: OptionSpec =
+    OptionSpec::new("-STATISTICS", &[], "keeps statistics of every result and no instants: flat memory, no file")
+        .owner(Owner::Ours);
+const BALANCE: OptionSpec =
+    OptionSpec::new("-BALANCE", &[], "prints the books of energy and momentum of dynamic lines").owner(Owner::Ours);
+/// `-ALONG`.
+pub(super) const ALONG: OptionSpec = OptionSpec::new(
+    "-ALONG",
+    &[ValueSpec::new("N", Kind::Integer, "every Nth; 0: none").within(0.0, 1e6)],
+    "keeps every Nth node of dynamic lines, counted from their second ends, and both ends",
+)
+.owner(Owner::Ours)
+.default("1: all nodes");
+/// `-SCREEN`.
+pub(super) const SCREEN: OptionSpec = OptionSpec::new(
+    "-SCREEN",
+    &[yes_no("NO leaves it out")],
+    "replays the three most loaded quasi-static lines as dynamic lines after the run",
+)
+.owner(Owner::Ours)
+.default("YES");
+
+static SPEC: CommandSpec = CommandSpec {
+    menus: &["MAIN"],
+    options: &[
+        NO_CAPSIZE,
+        EQUI,
+        NEWMARK,
+        CONVERGE,
+        RESTART,
+        RESET,
+        STORE,
+        RHO,
+        ADAPTIVE,
+        DIVIDING,
+        CHECK,
+        STATISTICS,
+        BALANCE,
+        ALONG,
+        SCREEN,
         tether_run::TETHERS,
         tether_run::SLAM,
         tether_run::TOW,
@@ -174,8 +209,8 @@ fn settings(job: &Job, args: &Args) -> Outcome<Settings> {
         return Err(Diagnostic::error(text, args.span)
             .help("the loads would come at once: a longer -RAMP, a shorter step, or -RAMP 0 to have them at once"));
     }
-    let said = |name: &str| args.option(name).and_then(|g| g.word(0)).is_some_and(|w| w == "YES");
-    let method = match args.option("-NEWMARK") {
+    let said = |option: &OptionSpec| args.option(option).and_then(|g| g.word(0)).is_some_and(|w| w == "YES");
+    let method = match args.option(&NEWMARK) {
         Some(given) if given.word(0) == Some("NO") => Method::Corrector,
         Some(given) => match given.number(1) {
             Some(beta) => {
@@ -188,17 +223,17 @@ fn settings(job: &Job, args: &Args) -> Outcome<Settings> {
             None => usual(&job.model),
         },
         None => {
-            args.option_number("-RHO").map_or_else(|| usual(&job.model), |r| Method::Implicit(Scheme::generalised(r)))
+            args.option_number(&RHO).map_or_else(|| usual(&job.model), |r| Method::Implicit(Scheme::generalised(r)))
         }
     };
     let mut convergence = Convergence::default();
-    if let Some(given) = args.option("-CONVERGE") {
+    if let Some(given) = args.option(&CONVERGE) {
         let most = given.values.first().and_then(|v| v.integer()).and_then(|n| usize::try_from(n).ok());
         convergence.most = most.unwrap_or(convergence.most);
         convergence.tolerance = given.number(1).unwrap_or(convergence.tolerance);
     }
-    let whole = |name: &str| {
-        let given = args.option(name).and_then(|g| g.values.first()).and_then(|v| v.integer());
+    let whole = |option: &OptionSpec| {
+        let given = args.option(option).and_then(|g| g.values.first()).and_then(|v| v.integer());
         given.and_then(|n| usize::try_from(n).ok()).unwrap_or(1)
     };
     Ok(Settings {
@@ -206,12 +241,12 @@ fn settings(job: &Job, args: &Args) -> Outcome<Settings> {
         dt: window.step,
         method,
         convergence,
-        store: whole("-STORE"),
-        capsize: said("-NO_CAPSIZE"),
-        adaptive: args.option_number("-ADAPTIVE"),
-        keep: !args.has("-STATISTICS"),
-        along: whole("-ALONG"),
-        books: args.has("-BALANCE"),
+        store: whole(&STORE),
+        capsize: said(&NO_CAPSIZE),
+        adaptive: args.option_number(&ADAPTIVE),
+        keep: !args.has(&STATISTICS),
+        along: whole(&ALONG),
+        books: args.has(&BALANCE),
         transient: window.transient.unwrap_or(0.0),
     })
 }
@@ -220,16 +255,16 @@ fn settings(job: &Job, args: &Args) -> Outcome<Settings> {
 fn begun(job: &mut Job, args: &Args, settings: Settings) -> Outcome<(Run, Option<RunLog>)> {
     let wrong = |e, job: &Job| told(e, &job.model, args.span, job.units);
     let mut model = job.model.clone();
-    model.parameters.dividing = args.option_number("-DIVIDING");
+    model.parameters.dividing = args.option_number(&DIVIDING);
     let mut velocities = Vec::new();
     let mut began = None;
-    if let Some(given) = args.option("-RESET") {
+    if let Some(given) = args.option(&RESET) {
         let time = given.number(0).unwrap_or(0.0);
         velocities = reset(job, &mut model, time)
             .ok_or_else(|| Diagnostic::error("there is no run of these bodies to begin from", given.span))?;
         began = Some(format!("as the run before had the bodies at {} s", Dim::Time.from_si(time, job.units)));
     }
-    if args.has("-EQUI") {
+    if args.has(&EQUI) {
         let options = job.equilibrium.clone();
         settle(&mut model, &options).map_err(|e| wrong(e, job))?;
         began = Some("at the equilibrium with the mean forces, as &EQUI finds it".into());
@@ -247,7 +282,7 @@ fn begun(job: &mut Job, args: &Args, settings: Settings) -> Outcome<(Run, Option
     let folder = &mut job.output.folder;
     let path = folder.folder.join(FILE);
     let refused = |text: String| Diagnostic::error(text, args.span);
-    let Some(again) = args.option("-RESTART") else {
+    let Some(again) = args.option(&RESTART) else {
         let file = folder.create(FILE).map_err(|e| refused(e.to_string()))?;
         let log = RunLog::begin(file, path, made.fingerprint(), made.history.layout.width);
         return Ok((made, Some(log.map_err(|e| refused(e.to_string()))?)));
@@ -274,8 +309,8 @@ fn reset(job: &Job, model: &mut Model, time: f64) -> Option<Vec<(usize, Six)>> {
 
 /// Warns of a scheme that damps dynamic lines too little.
 fn warn_of_throwing(job: &mut Job, args: &Args, method: &Method) {
-    let Some(given) = args.option("-RHO").or(args.option("-NEWMARK")) else { return };
-    let damps = given.name == "-RHO" && given.number(0).is_some_and(|r| r <= 0.2);
+    let Some(given) = args.option(&RHO).or(args.option(&NEWMARK)) else { return };
+    let damps = given.is(&RHO) && given.number(0).is_some_and(|r| r <= 0.2);
     if damps || usual(&job.model) != Method::with_moving_lines() {
         return;
     }
@@ -320,11 +355,11 @@ fn warn_of_late_actions(job: &mut Job, made: &Run, span: Span) {
 
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (args, span) = (&call.args, call.args.span);
-    if args.has("-TETHERS") {
+    if args.has(&tether_run::TETHERS) {
         return tether_run::run(job, args);
     }
-    if let Some(given) = args.option("-SLAM").or(args.option("-TOW")) {
-        return Err(Diagnostic::error(format!("{} goes with -TETHERS", given.name), given.span));
+    if let Some(given) = args.option(&tether_run::SLAM).or(args.option(&tether_run::TOW)) {
+        return Err(Diagnostic::error(format!("{} goes with -TETHERS", given.name()), given.span));
     }
     let settings = settings(job, args)?;
     if job.model.bodies.is_empty() {
@@ -368,7 +403,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     }
     tables.extend(screening::table(&screening));
     let checked = match &ended {
-        Ok(_) if args.has("-CHECK") => Some(check(job, &made)),
+        Ok(_) if args.has(&CHECK) => Some(check(job, &made)),
         _ => None,
     };
     if let Some(Ok(list)) = &checked {
@@ -418,7 +453,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
 
 /// The quasi-static lines of a run that ended, replayed as dynamic lines; or why not, where there are such lines.
 fn screened(job: &Job, args: &Args, made: &Run, ending: Option<&Ending>) -> Result<Screening, Option<&'static str>> {
-    let off = args.option("-SCREEN").and_then(|g| g.word(0)) == Some("NO");
+    let off = args.option(&SCREEN).and_then(|g| g.word(0)) == Some("NO");
     let reason = match ending {
         _ if screening::quasi_static_lines(made).is_empty() => return Err(None),
         _ if off => "-SCREEN NO",

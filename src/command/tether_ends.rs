@@ -104,12 +104,11 @@ pub const GROUP: OptionSpec = option(
 /// Most constraints of a tether [AQWA-TETHER A.14].
 const MOST_CONSTRAINTS: usize = 5;
 
-const OF_INSTALLED: [&str; 8] =
-    ["-INSTALLED", "-V_SPRINGS", "-A_SPRINGS", "-CAPS", "-FLUID", "-IMPACT", "-LOW_STOP", "-CONSTRAINT"];
-const OF_TOWED: [&str; 3] = ["-TOWED", "-V_MOORING", "-A_MOORING"];
+const OF_INSTALLED: [OptionSpec; 8] = [INSTALLED, V_SPRINGS, A_SPRINGS, CAPS, FLUID, IMPACT, LOW_STOP, CONSTRAINT];
+const OF_TOWED: [OptionSpec; 3] = [TOWED, V_MOORING, A_MOORING];
 
-fn first_of<'a>(args: &'a Args, names: &[&str]) -> Option<&'a Given> {
-    names.iter().find_map(|name| args.option(name))
+fn first_of<'a>(args: &'a Args, options: &[OptionSpec]) -> Option<&'a Given> {
+    options.iter().find_map(|option| args.option(option))
 }
 
 /// How a record holds its tether; `None` when it says nothing of one.
@@ -119,31 +118,31 @@ fn first_of<'a>(args: &'a Args, names: &[&str]) -> Option<&'a Given> {
 pub fn read(args: &Args) -> Outcome<Option<TetherEnds>> {
     let (installed, towed) = (first_of(args, &OF_INSTALLED), first_of(args, &OF_TOWED));
     if let (Some(one), Some(other)) = (installed, towed) {
-        let text = format!("{} is of a towed tether, {} of an installed one", other.name, one.name);
+        let text = format!("{} is of a towed tether, {} of an installed one", other.name(), one.name());
         return Err(Diagnostic::error(text, other.span).other(one.span, "given here"));
     }
-    if installed.is_none() && towed.is_none() && !args.has("-GROUP") {
+    if installed.is_none() && towed.is_none() && !args.has(&GROUP) {
         return Ok(None);
     }
-    let three = |name: &str| {
-        let numbers = args.option(name)?.numbers();
+    let three = |option: &OptionSpec| {
+        let numbers = args.option(option)?.numbers();
         Some([0, 1, 2].map(|i| numbers.get(i).copied().unwrap_or(0.0)))
     };
-    let two = |name: &str| args.option(name).map(|g| [0, 1].map(|i| g.number(i).unwrap_or(0.0)));
+    let two = |option: &OptionSpec| args.option(option).map(|g| [0, 1].map(|i| g.number(i).unwrap_or(0.0)));
     let swapped = |[first, second]: [f64; 2]| [second, first];
     let (used, springs) = if towed.is_some() {
-        (TetherUse::Towed, [three("-V_MOORING"), three("-A_MOORING")])
+        (TetherUse::Towed, [three(&V_MOORING), three(&A_MOORING)])
     } else {
-        (TetherUse::Installed, [three("-V_SPRINGS"), three("-A_SPRINGS")])
+        (TetherUse::Installed, [three(&V_SPRINGS), three(&A_SPRINGS)])
     };
-    let group = args.option("-GROUP").and_then(|g| g.values.first()).and_then(|v| v.integer());
+    let group = args.option(&GROUP).and_then(|g| g.values.first()).and_then(|v| v.integer());
     Ok(Some(TetherEnds {
         used,
         springs,
-        caps: two("-CAPS").map(swapped).unwrap_or_default(),
-        fluid: two("-FLUID").unwrap_or_default(),
-        impact: two("-IMPACT"),
-        low_stop: args.option_number("-LOW_STOP"),
+        caps: two(&CAPS).map(swapped).unwrap_or_default(),
+        fluid: two(&FLUID).unwrap_or_default(),
+        impact: two(&IMPACT),
+        low_stop: args.option_number(&LOW_STOP),
         constraints: constraints(args)?,
         group: group.and_then(|n| usize::try_from(n).ok()).unwrap_or(1),
     }))
@@ -151,7 +150,7 @@ pub fn read(args: &Args) -> Outcome<Option<TetherEnds>> {
 
 fn constraints(args: &Args) -> Outcome<Vec<TetherConstraint>> {
     let mut found = Vec::new();
-    for given in args.all("-CONSTRAINT") {
+    for given in args.all(&CONSTRAINT) {
         let gap = given.number(2);
         if gap.is_some_and(|g| g > 0.0) && given.word(0) != Some("LATERAL_VESSEL") {
             return Err(Diagnostic::error("only LATERAL_VESSEL has a gap", given.span));

@@ -48,47 +48,43 @@ const DISPOSE: OptionSpec = ours(
     "opens the disposition menu over a table instead of printing",
 );
 
+const SLACK: OptionSpec = ours(
+    "-SLACK",
+    &[ValueSpec::new("T", Kind::Number(Dim::Time), "time told from each time a tether goes slack").not_negative()],
+    "only instants after a tether of the run went slack",
+);
+const AT: OptionSpec =
+    ours("-AT", &[ValueSpec::new("T", Kind::Number(Dim::Time), "times, twenty at most")], "instants of ALONG")
+        .repeating(1)
+        .default("the last");
+const SN: OptionSpec = ours(
+    "-SN",
+    &[
+        ValueSpec::new("SCF", Kind::Number(Dim::None), "stress concentration factor").positive(),
+        ValueSpec::new("A", Kind::Number(Dim::None), "intercept of N = A / R**m, R in kN/m2").positive(),
+        ValueSpec::new("M", Kind::Number(Dim::None), "slope").positive(),
+    ],
+    "fatigue curve",
+)
+.default("1.24 1.3367E24 3.5");
+const HOURS: OptionSpec = ours(
+    "-HOURS",
+    &[ValueSpec::new("H", Kind::Number(Dim::None), "hours").positive()],
+    "time in which the peak stress is expected",
+)
+.default("3");
+
 static TETHER_SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
     menus: &["PRCPOST"],
-    opens: Opens::WithOption("DISPOSITION", "-DISPOSE"),
+    opens: Opens::WithOption("DISPOSITION", &DISPOSE),
     data: &[
         ValueSpec::new("NAME", Kind::Name(Noun::Connector), "a tether of the run"),
         ValueSpec::new("WHAT", Kind::Choice(WHAT), "what to tell of"),
         ValueSpec::new("N", Kind::Text, "number of the node or the element, or what ALONG is of")
             .or("1, and 2 of STATISTICS"),
     ],
-    options: &[
-        EVENTS,
-        ours(
-            "-SLACK",
-            &[ValueSpec::new("T", Kind::Number(Dim::Time), "time told from each time a tether goes slack")
-                .not_negative()],
-            "only instants after a tether of the run went slack",
-        ),
-        ours("-AT", &[ValueSpec::new("T", Kind::Number(Dim::Time), "times, twenty at most")], "instants of ALONG")
-            .repeating(1)
-            .default("the last"),
-        ours(
-            "-SN",
-            &[
-                ValueSpec::new("SCF", Kind::Number(Dim::None), "stress concentration factor").positive(),
-                ValueSpec::new("A", Kind::Number(Dim::None), "intercept of N = A / R**m, R in kN/m2").positive(),
-                ValueSpec::new("M", Kind::Number(Dim::None), "slope").positive(),
-            ],
-            "fatigue curve",
-        )
-        .default("1.24 1.3367E24 3.5"),
-        ours(
-            "-HOURS",
-            &[ValueSpec::new("H", Kind::Number(Dim::None), "hours").positive()],
-            "time in which the peak stress is expected",
-        )
-        .default("3"),
-        DISPOSE,
-        HARD,
-        BOTH,
-    ],
+    options: &[EVENTS, SLACK, AT, SN, HOURS, DISPOSE, HARD, BOTH],
     detail: "Of a tether that TDOM -TETHERS has run. MOTIONS and FORCES are pages at instants, NODE and END_OF have one node or one \
              end of an element over time (END_OF 5 is the lower end of element 3, 6 its upper end), ALONG one quantity along the tether, with the least and the \
              largest of the run: Y Z RY RZ (X Y RX RY of an installed tether), the same with V or A before them for velocities and accelerations, and \
@@ -109,7 +105,7 @@ const EXAMPLE: &str = "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n*E -100 0 -0.5\n&DESCR
 static STRUCTURE_SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
     menus: &["PRCPOST"],
-    opens: Opens::WithOption("DISPOSITION", "-DISPOSE"),
+    opens: Opens::WithOption("DISPOSITION", &DISPOSE),
     data: &[
         ValueSpec::new("WHAT", Kind::Choice(OF_STRUCTURE), "what to tell of").or("PAGES"),
         ValueSpec::new("*P", Kind::Name(Noun::Point), "points of the structure whose places are told").or("none"),
@@ -136,7 +132,7 @@ fn last_run(job: &Job, span: Span) -> Outcome<&Tethered> {
 /// The places of the stored instants that a record asks for.
 fn instants(run: &Tethered, args: &Args) -> Outcome<Vec<usize>> {
     let slack = 1e-6 * run.settings.step;
-    let (begin, end, increment) = match args.option("-EVENTS") {
+    let (begin, end, increment) = match args.option(&EVENTS) {
         None => (f64::NEG_INFINITY, f64::INFINITY, 0.0),
         Some(given) => {
             (given.number(0).unwrap_or(0.0), given.number(1).unwrap_or(f64::INFINITY), given.number(2).unwrap_or(0.0))
@@ -157,7 +153,7 @@ fn instants(run: &Tethered, args: &Args) -> Outcome<Vec<usize>> {
         }
     }
     if list.is_empty() {
-        let span = args.option("-EVENTS").map_or(args.span, |g| g.span);
+        let span = args.option(&EVENTS).map_or(args.span, |g| g.span);
         return Err(Diagnostic::error("no stored instant is between these times", span));
     }
     Ok(list)
@@ -176,7 +172,7 @@ fn slack_alone(run: &Tethered, given: Option<&Given>, list: Vec<usize>) -> Vec<u
 }
 
 fn window(run: &Tethered, args: &Args) -> Statistics {
-    let given = args.option("-EVENTS");
+    let given = args.option(&EVENTS);
     let from = given.and_then(|g| g.number(0)).unwrap_or(run.settings.transient);
     let to = given.and_then(|g| g.number(1)).unwrap_or(f64::INFINITY);
     Statistics::between(run, from, to)
@@ -210,7 +206,7 @@ fn tether_tables(job: &Job, args: &Args) -> Outcome<Vec<Table>> {
         if tether.towed { Ok(()) } else { Err(Diagnostic::error(text, args.place(1))) }
     };
     let some = || {
-        let list = slack_alone(run, args.option("-SLACK"), instants(run, args)?);
+        let list = slack_alone(run, args.option(&SLACK), instants(run, args)?);
         Ok::<_, Box<Diagnostic>>(list)
     };
     Ok(match args.word(1).unwrap_or_default() {
@@ -246,12 +242,12 @@ fn tether_tables(job: &Job, args: &Args) -> Outcome<Vec<Table>> {
 /// Curve and hours of FATIGUE.
 fn asked(args: &Args) -> Asked {
     let usual = Endurance::KILONEWTONS;
-    let curve = args.option("-SN").map_or(usual, |g| Endurance {
+    let curve = args.option(&SN).map_or(usual, |g| Endurance {
         concentration: g.number(0).unwrap_or(usual.concentration),
         intercept: g.number(1).unwrap_or(usual.intercept),
         slope: g.number(2).unwrap_or(usual.slope),
     });
-    let hours = args.option_number("-HOURS").unwrap_or(3.0);
+    let hours = args.option_number(&HOURS).unwrap_or(3.0);
     Asked { duration: 1.0, curve: curve.scaled(1000.0), peak_time: hours * 3600.0 }
 }
 
@@ -261,10 +257,10 @@ fn along(run: &Tethered, tether: &TetherHistory, args: &Args) -> Outcome<Table> 
     let word = args.word(2).unwrap_or("Y");
     let code = choose(word, args.place(2), "quantity of the tether", codes())?;
     let found = [true, false].into_iter().find_map(|n| Some((n, quantities(n).iter().position(|q| q.code == code)?)));
-    let times = args.option("-AT").map(Given::numbers).unwrap_or_default();
+    let times = args.option(&AT).map(Given::numbers).unwrap_or_default();
     if times.len() > MOST_CURVES {
         let text = format!("{} instants: {MOST_CURVES} at most on one graph", times.len());
-        return Err(Diagnostic::error(text, args.option("-AT").map_or(args.span, |g| g.span)));
+        return Err(Diagnostic::error(text, args.option(&AT).map_or(args.span, |g| g.span)));
     }
     let far = |place: &usize, time: f64| (run.times.get(*place).copied().unwrap_or_default() - time).abs();
     let nearest = |time: &f64| (0..run.times.len()).min_by(|a, b| far(a, *time).total_cmp(&far(b, *time)));
@@ -318,14 +314,14 @@ fn period(job: &Job) -> Option<f64> {
 
 /// Prints tables, or opens the disposition menu over one.
 fn out(job: &mut Job, args: &Args, tables: Vec<Table>) -> Outcome<Effect> {
-    if let Some(given) = args.option("-DISPOSE") {
+    if let Some(given) = args.option(&DISPOSE) {
         let wanted = given.values.first().and_then(|v| v.integer()).unwrap_or(1);
         let index = usize::try_from(wanted - 1).unwrap_or(0);
         let Some(table) = tables.get(index).cloned() else {
             let text = format!("there is no table {wanted} here: there are {}", tables.len());
             return Err(Diagnostic::error(text, given.span));
         };
-        let run = job.tethered.as_ref().filter(|_| !args.has("-EVENTS"));
+        let run = job.tethered.as_ref().filter(|_| !args.has(&EVENTS));
         let transient = run.map_or(0.0, |run| run.settings.transient);
         job.menus.push(Menu::Disposition(Box::new(Disposition::new(table).behind(transient))));
         return Ok(Effect::Done);

@@ -4,6 +4,7 @@
 
 use super::chosen::note_caveats;
 use super::equilibrium::told;
+use super::tdom;
 use super::{Effect, Job};
 use crate::report::page;
 use std::sync::Arc;
@@ -46,19 +47,19 @@ pub const TOW: OptionSpec = OptionSpec::new(
 .default("0: it stays");
 
 /// Options of TDOM that a run of tethers does not take.
-const NOT_TAKEN: [&str; 12] = [
-    "-NO_CAPSIZE",
-    "-EQUI",
-    "-NEWMARK",
-    "-CONVERGE",
-    "-RESTART",
-    "-RESET",
-    "-RHO",
-    "-ADAPTIVE",
-    "-CHECK",
-    "-STATISTICS",
-    "-ALONG",
-    "-SCREEN",
+const NOT_TAKEN: [OptionSpec; 12] = [
+    tdom::NO_CAPSIZE,
+    tdom::EQUI,
+    tdom::NEWMARK,
+    tdom::CONVERGE,
+    tdom::RESTART,
+    tdom::RESET,
+    tdom::RHO,
+    tdom::ADAPTIVE,
+    tdom::CHECK,
+    tdom::STATISTICS,
+    tdom::ALONG,
+    tdom::SCREEN,
 ];
 
 /// Runs the tethers of the model.
@@ -67,17 +68,17 @@ const NOT_TAKEN: [&str; 12] = [
 /// No -TIME, an option that does not go with it, what the engine refuses.
 pub fn run(job: &mut Job, args: &Args) -> Outcome<Effect> {
     let span = args.span;
-    if let Some(given) = NOT_TAKEN.iter().find_map(|name| args.option(name)) {
-        let text = format!("{} does not go with -TETHERS", given.name);
+    if let Some(given) = NOT_TAKEN.iter().find_map(|option| args.option(option)) {
+        let text = format!("{} does not go with -TETHERS", given.name());
         return Err(Diagnostic::error(text, given.span).help("tethers run by a scheme of two stages with fixed steps"));
     }
     let Some(window) = job.model.environment.time else {
         return Err(Diagnostic::error("the environment has no -TIME: how long, and with which step", span)
             .help("&ENV NAME -TIME TOBSERV DELTA_TIME"));
     };
-    let compatible = args.option("-TETHERS").and_then(|g| g.word(0)) == Some("AQWA");
-    let store = args.option("-STORE").and_then(|g| g.values.first()).and_then(|v| v.integer());
-    let tow = args.option("-TOW").map(|given| {
+    let compatible = args.option(&TETHERS).and_then(|g| g.word(0)) == Some("AQWA");
+    let store = args.option(&tdom::STORE).and_then(|g| g.values.first()).and_then(|v| v.integer());
+    let tow = args.option(&TOW).map(|given| {
         let (speed, (cos, sin)) = (given.number(0).unwrap_or(0.0), unit_vector(given.number(1).unwrap_or(0.0)));
         [speed * cos, speed * sin]
     });
@@ -86,7 +87,7 @@ pub fn run(job: &mut Job, args: &Args) -> Outcome<Effect> {
         step: window.step,
         store: store.and_then(|n| usize::try_from(n).ok()).unwrap_or(1),
         compatible,
-        slam: args.option_number("-SLAM").unwrap_or(0.0),
+        slam: args.option_number(&SLAM).unwrap_or(0.0),
         tow: tow.unwrap_or_default(),
         transient: window.transient.unwrap_or(0.0),
     };

@@ -2,6 +2,7 @@
 
 use super::Job;
 use super::equilibrium::told;
+use super::status;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::table::Table;
 use windlass_base::values::Args;
@@ -18,14 +19,14 @@ pub(super) fn tables(job: &Job, args: &Args, kind: &str, fits: &dyn Fn(&str) -> 
         return Err(Diagnostic::error("the model has no such tether that acts", args.span)
             .help("a connector of class type TETHER is one"));
     }
-    let number = args.option("-NUMBER").and_then(|g| g.values.first()).and_then(|v| v.integer());
+    let number = args.option(&status::NUMBER).and_then(|g| g.values.first()).and_then(|v| v.integer());
     let number = number.and_then(|n| usize::try_from(n).ok()).unwrap_or(6);
     let mut tables = Vec::new();
     for name in names {
         if kind == "TETHERS" {
             tables.push(tethered::described(&job.model, &name).map_err(wrong)?);
         } else {
-            tables.extend(tethered::natural(&job.model, &name, number, args.has("-AQWA")).map_err(wrong)?);
+            tables.extend(tethered::natural(&job.model, &name, number, args.has(&status::AQWA)).map_err(wrong)?);
         }
     }
     Ok(tables)

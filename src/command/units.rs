@@ -12,19 +12,19 @@ pub static DIMEN: Command = Command { spec: &DIMEN_SPEC, edits: false, run: dime
 /// &DEFAULT.
 pub static DEFAULT: Command = Command { spec: &DEFAULT_SPEC, edits: false, run: default };
 
-static DIMEN_SPEC: CommandSpec = CommandSpec {
-    options: &[
-        OptionSpec::new("-SAVE", &[], "keeps the present units for -REMEMBER"),
-        OptionSpec::new(
-            "-DIMEN",
-            &[
-                ValueSpec::new("LENGTH", Kind::Choice(&["FEET", "METERS"]), "length unit"),
-                ValueSpec::new("FORCE", Kind::Choice(FORCES), "force unit"),
-            ],
-            "sets the units of all that follows",
-        ),
-        OptionSpec::new("-REMEMBER", &[], "goes back to the units saved last"),
+const SAVE: OptionSpec = OptionSpec::new("-SAVE", &[], "keeps the present units for -REMEMBER");
+const DIMEN_OPTION: OptionSpec = OptionSpec::new(
+    "-DIMEN",
+    &[
+        ValueSpec::new("LENGTH", Kind::Choice(&["FEET", "METERS"]), "length unit"),
+        ValueSpec::new("FORCE", Kind::Choice(FORCES), "force unit"),
     ],
+    "sets the units of all that follows",
+);
+const REMEMBER: OptionSpec = OptionSpec::new("-REMEMBER", &[], "goes back to the units saved last");
+
+static DIMEN_SPEC: CommandSpec = CommandSpec {
+    options: &[SAVE, DIMEN_OPTION, REMEMBER],
     detail: "FEET go with KIPS, L-TONS and S-TONS (sections in inches, stress in ksi), METERS with K-NTS and M-TONS (mm, \
              MPa); KN, N and NEWTONS are ours. The model is kept in SI: changing units never changes it.",
     example: "&DIMEN -SAVE -DIMEN METERS K-NTS\n&STATUS DIMENSIONS\n&DIMEN -REMEMBER",
@@ -37,9 +37,9 @@ fn dimen(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let mut units = job.units;
     let mut saved = job.saved_units.clone();
     for given in &call.args.options {
-        match given.name {
-            "-SAVE" => saved.push(units),
-            "-REMEMBER" => {
+        match given {
+            _ if given.is(&SAVE) => saved.push(units),
+            _ if given.is(&REMEMBER) => {
                 units = saved.pop().ok_or_else(|| {
                     Diagnostic::error("no units have been saved", given.span).help("&DIMEN -SAVE saves them")
                 })?;
@@ -74,41 +74,68 @@ const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(dim), help)
 }
 
+const SAVE_DEFAULTS: OptionSpec = OptionSpec::new("-SAVE", &[], "keeps the present defaults for -REMEMBER");
+const REMEMBER_DEFAULTS: OptionSpec = OptionSpec::new("-REMEMBER", &[], "goes back to the defaults saved last");
+const SPGRAVITY: OptionSpec = OptionSpec::new(
+    "-SPGRAVITY",
+    &[number("SPGR", Dim::None, "specific gravity").positive()],
+    "specific gravity of materials",
+);
+const DENSITY: OptionSpec =
+    OptionSpec::new("-DENSITY", &[number("RHO", Dim::Density, "density").positive()], "density of materials");
+const EMODULUS: OptionSpec =
+    OptionSpec::new("-EMODULUS", &[number("EMOD", Dim::Stress, "Young's modulus").positive()], "Young's modulus");
+const POI_RAT: OptionSpec =
+    OptionSpec::new("-POI_RAT", &[number("POIRAT", Dim::None, "Poisson's ratio").within(0.0, 0.5)], "Poisson's ratio");
+const ALPHA: OptionSpec =
+    OptionSpec::new("-ALPHA", &[number("ALPHA", Dim::ThermalExpansion, "thermal expansion")], "thermal expansion");
+const FYIELD: OptionSpec =
+    OptionSpec::new("-FYIELD", &[number("FYIELD", Dim::Stress, "yield stress").positive()], "yield stress");
+const TENSTR: OptionSpec =
+    OptionSpec::new("-TENSTR", &[number("TENSTR", Dim::Stress, "ultimate stress").positive()], "ultimate stress")
+        .default("yield / 0.6");
+const WATER: OptionSpec =
+    OptionSpec::new("-WATER", &[number("RHO", Dim::Density, "density").positive()], "density of sea water");
+const SPGWATER: OptionSpec = OptionSpec::new(
+    "-SPGWATER",
+    &[number("SG", Dim::None, "specific gravity").positive()],
+    "specific gravity of sea water",
+);
+const DEPTH: OptionSpec = OptionSpec::new("-DEPTH", &[number("DEPTH", Dim::Length, "depth").positive()], "water depth");
+const RAMP: OptionSpec =
+    OptionSpec::new("-RAMP", &[number("T", Dim::Time, "time").not_negative()], "ramp of time-domain runs");
+/// `-RECT`.
+pub(super) const RECT: OptionSpec = OptionSpec::new("-RECT", &[], "points are given by x y z");
+/// `-CYLINDER`.
+pub(super) const CYLINDER: OptionSpec = OptionSpec::new("-CYLINDER", &[], "points are given by radius, angle, z");
+/// `-SPHERICAL`.
+pub(super) const SPHERICAL: OptionSpec =
+    OptionSpec::new("-SPHERICAL", &[], "points are given by radius, angle, angle above the plane");
+const AIR: OptionSpec =
+    OptionSpec::new("-AIR", &[number("RHO", Dim::Density, "density").positive()], "density of air").owner(Owner::Ours);
+const GRAVITY: OptionSpec =
+    OptionSpec::new("-GRAVITY", &[number("G", Dim::Acceleration, "gravity").positive()], "gravity").owner(Owner::Ours);
+
 static DEFAULT_SPEC: CommandSpec = CommandSpec {
     options: &[
-        OptionSpec::new("-SAVE", &[], "keeps the present defaults for -REMEMBER"),
-        OptionSpec::new("-REMEMBER", &[], "goes back to the defaults saved last"),
-        OptionSpec::new(
-            "-SPGRAVITY",
-            &[number("SPGR", Dim::None, "specific gravity").positive()],
-            "specific gravity of materials",
-        ),
-        OptionSpec::new("-DENSITY", &[number("RHO", Dim::Density, "density").positive()], "density of materials"),
-        OptionSpec::new("-EMODULUS", &[number("EMOD", Dim::Stress, "Young's modulus").positive()], "Young's modulus"),
-        OptionSpec::new(
-            "-POI_RAT",
-            &[number("POIRAT", Dim::None, "Poisson's ratio").within(0.0, 0.5)],
-            "Poisson's ratio",
-        ),
-        OptionSpec::new("-ALPHA", &[number("ALPHA", Dim::ThermalExpansion, "thermal expansion")], "thermal expansion"),
-        OptionSpec::new("-FYIELD", &[number("FYIELD", Dim::Stress, "yield stress").positive()], "yield stress"),
-        OptionSpec::new("-TENSTR", &[number("TENSTR", Dim::Stress, "ultimate stress").positive()], "ultimate stress")
-            .default("yield / 0.6"),
-        OptionSpec::new("-WATER", &[number("RHO", Dim::Density, "density").positive()], "density of sea water"),
-        OptionSpec::new(
-            "-SPGWATER",
-            &[number("SG", Dim::None, "specific gravity").positive()],
-            "specific gravity of sea water",
-        ),
-        OptionSpec::new("-DEPTH", &[number("DEPTH", Dim::Length, "depth").positive()], "water depth"),
-        OptionSpec::new("-RAMP", &[number("T", Dim::Time, "time").not_negative()], "ramp of time-domain runs"),
-        OptionSpec::new("-RECT", &[], "points are given by x y z"),
-        OptionSpec::new("-CYLINDER", &[], "points are given by radius, angle, z"),
-        OptionSpec::new("-SPHERICAL", &[], "points are given by radius, angle, angle above the plane"),
-        OptionSpec::new("-AIR", &[number("RHO", Dim::Density, "density").positive()], "density of air")
-            .owner(Owner::Ours),
-        OptionSpec::new("-GRAVITY", &[number("G", Dim::Acceleration, "gravity").positive()], "gravity")
-            .owner(Owner::Ours),
+        SAVE_DEFAULTS,
+        REMEMBER_DEFAULTS,
+        SPGRAVITY,
+        DENSITY,
+        EMODULUS,
+        POI_RAT,
+        ALPHA,
+        FYIELD,
+        TENSTR,
+        WATER,
+        SPGWATER,
+        DEPTH,
+        RAMP,
+        RECT,
+        CYLINDER,
+        SPHERICAL,
+        AIR,
+        GRAVITY,
     ],
     detail: "What holds where a record gives no value; &STATUS DEFAULTS lists all. Defaults hold for classes defined after.",
     example: "&DEFAULT -SAVE -EMODULUS 12000\n&STATUS DEFAULTS\n&DEFAULT -REMEMBER",
@@ -121,28 +148,28 @@ fn default(job: &mut Job, call: &Call) -> Outcome<Effect> {
     for given in &call.args.options {
         let value = given.number(0).unwrap_or(0.0);
         let material = &mut defaults.material;
-        match given.name {
-            "-SAVE" => saved.push(defaults),
-            "-REMEMBER" => {
+        match given {
+            _ if given.is(&SAVE_DEFAULTS) => saved.push(defaults),
+            _ if given.is(&REMEMBER_DEFAULTS) => {
                 defaults = saved.pop().ok_or_else(|| {
                     Diagnostic::error("no defaults have been saved", given.span).help("&DEFAULT -SAVE saves them")
                 })?;
             }
-            "-SPGRAVITY" => material.density = 1000.0 * value,
-            "-DENSITY" => material.density = value,
-            "-EMODULUS" => material.emodulus = value,
-            "-POI_RAT" => material.poisson = value,
-            "-ALPHA" => material.expansion = value,
-            "-FYIELD" => material.yield_stress = value,
-            "-TENSTR" => material.ultimate_stress = Some(value),
-            "-WATER" => defaults.water_density = value,
-            "-SPGWATER" => defaults.water_density = 1000.0 * value,
-            "-DEPTH" => defaults.depth = Some(value),
-            "-RAMP" => defaults.ramp = value,
-            "-RECT" => defaults.coordinates = Coordinates::Rectangular,
-            "-CYLINDER" => defaults.coordinates = Coordinates::Cylindrical,
-            "-SPHERICAL" => defaults.coordinates = Coordinates::Spherical,
-            "-AIR" => defaults.air_density = value,
+            _ if given.is(&SPGRAVITY) => material.density = 1000.0 * value,
+            _ if given.is(&DENSITY) => material.density = value,
+            _ if given.is(&EMODULUS) => material.emodulus = value,
+            _ if given.is(&POI_RAT) => material.poisson = value,
+            _ if given.is(&ALPHA) => material.expansion = value,
+            _ if given.is(&FYIELD) => material.yield_stress = value,
+            _ if given.is(&TENSTR) => material.ultimate_stress = Some(value),
+            _ if given.is(&WATER) => defaults.water_density = value,
+            _ if given.is(&SPGWATER) => defaults.water_density = 1000.0 * value,
+            _ if given.is(&DEPTH) => defaults.depth = Some(value),
+            _ if given.is(&RAMP) => defaults.ramp = value,
+            _ if given.is(&RECT) => defaults.coordinates = Coordinates::Rectangular,
+            _ if given.is(&CYLINDER) => defaults.coordinates = Coordinates::Cylindrical,
+            _ if given.is(&SPHERICAL) => defaults.coordinates = Coordinates::Spherical,
+            _ if given.is(&AIR) => defaults.air_density = value,
             _ => defaults.gravity = value,
         }
     }

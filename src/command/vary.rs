@@ -138,9 +138,9 @@ pub fn tabulate(
     let (unit, around) = (parameter.dim().label(job.units), job.model.surroundings());
     let place = job.model.placement(connector);
     if parameter.is_condition()
-        && let Some(other) = args.options.iter().find(|g| g.name != vary.name)
+        && let Some(other) = args.options.iter().find(|given| !given.is(vary.option))
     {
-        let text = format!("{} cannot hold while the {} is varied", other.name, parameter.name().to_lowercase());
+        let text = format!("{} cannot hold while the {} is varied", other.name(), parameter.name().to_lowercase());
         return Err(Diagnostic::error(text, other.span).other(vary.span, "varied here"));
     }
     let (mut rows, mut notes, mut missing) = (Vec::new(), Vec::new(), Missing::new());

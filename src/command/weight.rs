@@ -43,30 +43,30 @@ static ITEM_SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("#WEIGHT", "a weight at a point")
 };
 
-static SPEC: CommandSpec = CommandSpec {
-    options: &[
-        OptionSpec::new(
-            "-TOTAL",
-            &[
-                BODY,
-                number("W", Dim::Force, "total weight").positive(),
-                number("XCG", Dim::Length, "x of the centre of gravity, in the body"),
-                number("YCG", Dim::Length, "y of it"),
-                number("ZCG", Dim::Length, "z of it"),
-                RADII[0].or("what a point weight makes it"),
-                RADII[1].or("what a point weight makes it"),
-                RADII[2].or("what a point weight makes it"),
-            ],
-            "adds to a body the one weight that makes its total this",
-        )
-        .many(),
-        OptionSpec::new(
-            "-MARGIN",
-            &[BODY, number("PERCENT", Dim::None, "percentage of each weight that is added").within(-100.0, 1000.0)],
-            "makes every weight of a body larger by a percentage; several compound",
-        )
-        .many(),
+const TOTAL: OptionSpec = OptionSpec::new(
+    "-TOTAL",
+    &[
+        BODY,
+        number("W", Dim::Force, "total weight").positive(),
+        number("XCG", Dim::Length, "x of the centre of gravity, in the body"),
+        number("YCG", Dim::Length, "y of it"),
+        number("ZCG", Dim::Length, "z of it"),
+        RADII[0].or("what a point weight makes it"),
+        RADII[1].or("what a point weight makes it"),
+        RADII[2].or("what a point weight makes it"),
     ],
+    "adds to a body the one weight that makes its total this",
+)
+.many();
+const MARGIN: OptionSpec = OptionSpec::new(
+    "-MARGIN",
+    &[BODY, number("PERCENT", Dim::None, "percentage of each weight that is added").within(-100.0, 1000.0)],
+    "makes every weight of a body larger by a percentage; several compound",
+)
+.many();
+
+static SPEC: CommandSpec = CommandSpec {
+    options: &[TOTAL, MARGIN],
     detail: "Options act in the order given. -TOTAL: radii of gyration are those of the whole body about axes through its centre of \
              gravity, along those of the body; one weight is added to the body's own part with the weight, the place and the radii that are \
              missing. Where the weights there already weigh more than the total, or have more inertia about its centre, nothing can be \
@@ -124,8 +124,8 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     for given in &call.args.options {
         let place = given.values.first().map_or(given.span, |v| v.span);
         let body = find(&job.model.bodies, given.word(0).unwrap_or_default(), "body", place)?.clone();
-        match given.name {
-            "-TOTAL" => {
+        match given {
+            _ if given.is(&TOTAL) => {
                 let made = missing(job, given, &Mass::of(job.model.parts_of(&body), job.model.defaults.gravity))?;
                 if let [Some(x), Some(y), Some(z)] = [5, 6, 7].map(|i| given.number(i))
                     && let Some(text) = no_body_has([x, y, z], job.units)

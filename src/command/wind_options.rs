@@ -1,12 +1,13 @@
 //! The options of `&ENV` on wind.
 
 use super::Job;
-use super::environment::{PERIODS, curve, formula, known_curve, number, periods, spectrum, text};
+use super::environment::{PERIODS, curve, formula, known_curve, number, periods, spectrum};
 use windlass_base::diagnostic::Outcome;
 use windlass_base::units::Dim;
 use windlass_base::values::Given;
 use windlass_language::select::Owner;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
+use windlass_model::options::W_SPECTRUM;
 use windlass_model::{CurveKind, Environment, Formula, GustParts, Wind};
 
 /// Codes and laws of the mean wind; [MOSES-REF env] names no types, so these are the field's usual ones.
@@ -45,13 +46,6 @@ pub(super) const DESIGN: OptionSpec = OptionSpec::new(
     "design wind",
 );
 
-/// -W_SPECTRUM.
-pub(super) const SPECTRUM: OptionSpec = OptionSpec::new(
-    "-W_SPECTRUM",
-    &[text("TYPE", "API, NPD, ISO, OCHI, HARRIS, DAVENPORT, KAIMAL, or a spectrum curve")],
-    "gust spectrum",
-);
-
 /// -W_HISTORY.
 pub(super) const HISTORY: OptionSpec = OptionSpec::new("-W_HISTORY", &[curve("W_HISTORY curve")], "wind history");
 
@@ -81,30 +75,30 @@ pub(super) const CORRELATION: OptionSpec = OptionSpec::new(
 
 /// Takes one of these options.
 pub(super) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<()> {
-    match given.name {
-        "-WIND" => {
+    match given {
+        _ if given.is(&WIND) => {
             env.wind = given.number(0).zip(given.number(1)).map(|(speed, direction)| Wind { speed, direction });
         }
-        "-W_PROFILE" => env.wind_profile = Some(formula(given)),
-        "-W_DESIGN" => env.design_wind = Some(formula(given)),
-        "-W_SPECTRUM" => {
+        _ if given.is(&PROFILE) => env.wind_profile = Some(formula(given)),
+        _ if given.is(&DESIGN) => env.design_wind = Some(formula(given)),
+        _ if given.is(&W_SPECTRUM) => {
             spectrum(job, given, &GUSTS)?;
             let named = formula(given);
             env.gusts = Some(Formula { kind: named.kind.to_ascii_uppercase(), ..named });
         }
-        "-W_PERIOD" => {
+        _ if given.is(&PERIOD) => {
             periods(given)?;
             env.gust_periods = given.numbers();
         }
-        "-W_COMPONENTS" => {
+        _ if given.is(&COMPONENTS) => {
             let number = given.values.first().and_then(|v| v.integer()).and_then(|n| usize::try_from(n).ok());
             env.gust_parts = number.map(|number| GustParts { number, intensity: given.number(1), span: given.span });
         }
-        "-W_HISTORY" => {
+        _ if given.is(&HISTORY) => {
             known_curve(job, given, 0, CurveKind::WindHistory)?;
             env.wind_history = Some(formula(given));
         }
-        "-W_MD_CORRELATION" => {
+        _ if given.is(&CORRELATION) => {
             env.drift_correlation = Some(Formula { kind: String::new(), value: given.number(0), span: given.span });
         }
         _ => {}

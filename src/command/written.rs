@@ -6,7 +6,7 @@ use windlass_base::values::{Given, Value};
 
 /// An option as a record would give it now: values in the present units.
 pub fn option_as_written(given: &Given, units: UnitSystem) -> String {
-    let mut words = vec![given.name.to_string()];
+    let mut words = vec![given.name().to_string()];
     words.extend(as_written(&given.values, units));
     words.join(" ")
 }

@@ -355,7 +355,7 @@ impl Session {
         let span = words.first().map_or(Span::default(), |w| w.span);
         let args = match command.spec.form {
             Form::Words => args::read(command.spec, span, words.get(1..).unwrap_or_default(), self.job.units)?,
-            Form::Text => Args { span, data: Vec::new(), options: Vec::new() },
+            Form::Text => Args::empty(span),
         };
         let call = Call { record, words, args };
         let open = self.job.menus.len();

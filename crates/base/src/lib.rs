@@ -24,6 +24,7 @@ pub mod geometry;
 pub mod pose;
 pub mod printable;
 pub mod span;
+pub mod spec;
 pub mod table;
 pub mod units;
 pub mod values;

@@ -1,6 +1,7 @@
 //! The values of a record, whatever their form was: SI numbers, words and names, each with its place.
 
 use crate::span::Span;
+use crate::spec::{OptionSpec, ValueKey};
 use crate::units::Dim;
 use std::sync::Arc;
 
@@ -66,8 +67,8 @@ pub struct Value {
 /// An option as given in a record.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Given {
-    /// Full name of the option.
-    pub name: &'static str,
+    /// Its declaration.
+    pub option: &'static OptionSpec,
     /// Where its name stands.
     pub span: Span,
     /// Its values.
@@ -81,6 +82,8 @@ pub struct Given {
 pub struct Args {
     /// Where the command word stands.
     pub span: Span,
+    /// The options its command takes.
+    pub declared: &'static [OptionSpec],
     /// Positional data.
     pub data: Vec<Value>,
     /// Options in the order given.
@@ -124,15 +127,74 @@ impl Value {
     }
 }
 
+/// What a value is looked up by.
+pub trait Key<T: ?Sized> {
+    /// Its place among the values.
+    fn index_in(&self, option: &OptionSpec) -> usize;
+}
+
+impl<T: ?Sized> Key<T> for ValueKey<T> {
+    fn index_in(&self, option: &OptionSpec) -> usize {
+        debug_assert!(
+            option.values.get(self.index).is_some_and(|value| value.name == self.name),
+            "{} is looked up in {}, which has it not",
+            self.name,
+            option.name
+        );
+        self.index
+    }
+}
+
+impl<T: ?Sized> Key<T> for usize {
+    fn index_in(&self, _: &OptionSpec) -> usize {
+        *self
+    }
+}
+
 impl Given {
-    /// A value by its position.
-    pub fn number(&self, index: usize) -> Option<f64> {
-        self.values.get(index).and_then(Value::number)
+    /// Whether this option was given.
+    pub fn is(&self, option: &OptionSpec) -> bool {
+        self.option.name == option.name
     }
 
-    /// A word by its position.
-    pub fn word(&self, index: usize) -> Option<&str> {
-        self.values.get(index).and_then(Value::word)
+    /// Whether one of these options was given.
+    pub fn is_any(&self, options: &[OptionSpec]) -> bool {
+        options.iter().any(|option| self.is(option))
+    }
+
+    /// Full name of the option, for messages.
+    pub fn name(&self) -> &'static str {
+        self.option.name
+    }
+
+    /// A value of the option; `None` when it is left out.
+    pub fn value<T: ?Sized>(&self, key: impl Key<T>) -> Option<&Value> {
+        self.values.get(key.index_in(self.option))
+    }
+
+    /// A number; `None` when it is left out.
+    pub fn number(&self, key: impl Key<f64>) -> Option<f64> {
+        self.value(key).and_then(Value::number)
+    }
+
+    /// Numbers; zeros for those that are left out.
+    pub fn numbers_or_zero<const N: usize>(&self, keys: [ValueKey<f64>; N]) -> [f64; N] {
+        keys.map(|key| self.number(key).unwrap_or(0.0))
+    }
+
+    /// A whole number; `None` when it is left out.
+    pub fn integer(&self, key: impl Key<i64>) -> Option<i64> {
+        self.value(key).and_then(Value::integer)
+    }
+
+    /// A word; `None` when it is left out.
+    pub fn word(&self, key: impl Key<str>) -> Option<&str> {
+        self.value(key).and_then(Value::word)
+    }
+
+    /// Where a value stands, or the option when it is left out.
+    pub fn place<T: ?Sized>(&self, key: impl Key<T>) -> Span {
+        self.value(key).map_or(self.span, |value| value.span)
     }
 
     /// The values that name a thing of this sort.
@@ -167,36 +229,83 @@ impl Args {
         self.data.get(index).map_or(self.span, |v| v.span)
     }
 
-    /// An option by its full name, if given (the last, when given more than once).
-    pub fn option(&self, name: &str) -> Option<&Given> {
-        self.options.iter().rev().find(|g| g.name == name)
+    /// A record without words to read.
+    pub fn empty(span: Span) -> Self {
+        Args { span, declared: &[], data: Vec::new(), options: Vec::new() }
     }
 
-    /// Every occurrence of an option.
-    pub fn all<'a>(&'a self, name: &'a str) -> impl Iterator<Item = &'a Given> {
-        self.options.iter().filter(move |g| g.name == name)
+    /// An option, if given (the last, when given more than once). The command must declare it.
+    pub fn option(&self, option: &OptionSpec) -> Option<&Given> {
+        self.all(option).next_back()
+    }
+
+    /// An option that only some of the commands which this record may be of take; none where its command does not.
+    pub fn option_if_declared(&self, option: &OptionSpec) -> Option<&Given> {
+        self.options.iter().rev().find(|given| given.is(option))
+    }
+
+    /// The first number of such an option.
+    pub fn number_if_declared(&self, option: &OptionSpec) -> Option<f64> {
+        self.option_if_declared(option).and_then(|given| given.number(0))
+    }
+
+    /// Every occurrence of an option. The command must declare it.
+    pub fn all<'a>(&'a self, option: &OptionSpec) -> impl DoubleEndedIterator<Item = &'a Given> + use<'a> {
+        debug_assert!(self.declares(option), "{} is looked up in a record that does not take it", option.name);
+        let name = option.name;
+        self.options.iter().filter(move |given| given.option.name == name)
+    }
+
+    /// Whether the command takes this option.
+    fn declares(&self, option: &OptionSpec) -> bool {
+        self.declared.iter().any(|declared| declared.name == option.name)
     }
 
     /// True when an option is given.
-    pub fn has(&self, name: &str) -> bool {
-        self.option(name).is_some()
+    pub fn has(&self, option: &OptionSpec) -> bool {
+        self.option(option).is_some()
     }
 
     /// The first number of an option.
-    pub fn option_number(&self, name: &str) -> Option<f64> {
-        self.option(name).and_then(|g| g.number(0))
+    pub fn option_number(&self, option: &OptionSpec) -> Option<f64> {
+        self.option(option).and_then(|given| given.number(0))
     }
 
     /// The first word of an option.
-    pub fn option_word(&self, name: &str) -> Option<&str> {
-        self.option(name).and_then(|g| g.word(0))
+    pub fn option_word(&self, option: &OptionSpec) -> Option<&str> {
+        self.option(option).and_then(|given| given.word(0))
     }
 
     /// A switch: `-NAME` or `-NAME YES` is true, `-NAME NO` false, absent the default.
-    pub fn switch(&self, name: &str, default: bool) -> bool {
-        match self.option(name) {
+    pub fn switch(&self, option: &OptionSpec, default: bool) -> bool {
+        match self.option(option) {
             None => default,
             Some(given) => given.word(0).is_none_or(|w| !w.eq_ignore_ascii_case("NO")),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TAKEN: OptionSpec = OptionSpec::new("-TAKEN", &[], "an option");
+    const OTHER: OptionSpec = OptionSpec::new("-OTHER", &[], "an option of another command");
+
+    #[test]
+    fn option_of_the_command_is_found_where_given() {
+        let (span, declared) = (Span::default(), &[TAKEN]);
+        let given = Given { option: &TAKEN, span, values: Vec::new(), after: 0 };
+        let args = Args { span, declared, data: Vec::new(), options: vec![given] };
+        assert!(args.has(&TAKEN) && !Args { options: Vec::new(), ..args.clone() }.has(&TAKEN));
+        assert!(args.option_if_declared(&OTHER).is_none());
+    }
+
+    #[test]
+    #[cfg(debug_assertions)]
+    #[should_panic(expected = "-OTHER is looked up in a record that does not take it")]
+    fn option_of_another_command_cannot_be_looked_up() {
+        let args = Args { declared: &[TAKEN], ..Args::empty(Span::default()) };
+        args.has(&OTHER);
     }
 }

@@ -45,57 +45,58 @@ const JOINT: &[ValueSpec] = &[
     number("CDA", Dim::SquareMetres, "drag coefficient times area").or("0").not_negative(),
 ];
 
+const EA: OptionSpec = aqwa("-EA", &[number("EA", Dim::Newtons, "stiffness").positive()], "axial stiffness")
+    .default("5.0E6 times mass per length");
+const TMAX: OptionSpec = aqwa(
+    "-TMAX",
+    &[number("TMAX", Dim::Newtons, "maximum expected tension").positive()],
+    "highest tension of the database",
+)
+.default("5.0E4 times mass per length");
+const K: OptionSpec = aqwa(
+    "-K",
+    &[
+        number("k1", Dim::Newtons, "coefficient of strain"),
+        number("k2", Dim::Newtons, "coefficient of strain squared").or("0"),
+        number("k3", Dim::Newtons, "coefficient of strain cubed").or("0"),
+    ],
+    "axial stiffness coefficients: EA(e) = EA + k1 e + k2 e2 + k3 e3",
+);
+const EI: OptionSpec = aqwa(
+    "-EI",
+    &[number("EI", Dim::NewtonSquareMetres, "bending stiffness").not_negative()],
+    "bending stiffness (cable dynamics)",
+)
+.default("0");
+const CD: OptionSpec = aqwa(
+    "-CD",
+    &[number("Cd", Dim::None, "transverse drag coefficient").not_negative()],
+    "transverse drag 0.5 rho Cd V2 De",
+)
+.default("1.0");
+const DE: OptionSpec =
+    aqwa("-DE", &[number("De", Dim::Metres, "equivalent diameter for drag").positive()], "diameter for drag")
+        .default("that of AREA");
+const CX: OptionSpec = aqwa(
+    "-CX",
+    &[number("Cx", Dim::None, "longitudinal drag coefficient").not_negative()],
+    "inline drag 0.5 rho Cx V2 De",
+)
+.default("0.025");
+const BUOY: OptionSpec = aqwa("-BUOY", JOINT, "buoy at the end of the section: structural mass smaller than displaced");
+const CLUMP: OptionSpec =
+    aqwa("-CLUMP", JOINT, "clump weight at the end of the section: structural mass larger than displaced");
+const DEPANCHOR: OptionSpec =
+    aqwa("-DEPANCHOR", &[number("DEPTH", Dim::Metres, "depth of the anchor").positive()], "depth at the anchor")
+        .default("depth of &ENV");
+
 static CATENARY_SPEC: CommandSpec = CommandSpec {
     owner: Owner::Aqwa,
     data: &[
         number("MASS", Dim::MassPerLength, "mass per unit length").positive(),
         number("AREA", Dim::SquareMetres, "equivalent cross-sectional area").or("0").not_negative(),
     ],
-    options: &[
-        LENGTH,
-        aqwa("-EA", &[number("EA", Dim::Newtons, "stiffness").positive()], "axial stiffness")
-            .default("5.0E6 times mass per length"),
-        aqwa(
-            "-TMAX",
-            &[number("TMAX", Dim::Newtons, "maximum expected tension").positive()],
-            "highest tension of the database",
-        )
-        .default("5.0E4 times mass per length"),
-        aqwa(
-            "-K",
-            &[
-                number("k1", Dim::Newtons, "coefficient of strain"),
-                number("k2", Dim::Newtons, "coefficient of strain squared").or("0"),
-                number("k3", Dim::Newtons, "coefficient of strain cubed").or("0"),
-            ],
-            "axial stiffness coefficients: EA(e) = EA + k1 e + k2 e2 + k3 e3",
-        ),
-        aqwa(
-            "-EI",
-            &[number("EI", Dim::NewtonSquareMetres, "bending stiffness").not_negative()],
-            "bending stiffness (cable dynamics)",
-        )
-        .default("0"),
-        CA,
-        aqwa(
-            "-CD",
-            &[number("Cd", Dim::None, "transverse drag coefficient").not_negative()],
-            "transverse drag 0.5 rho Cd V2 De",
-        )
-        .default("1.0"),
-        aqwa("-DE", &[number("De", Dim::Metres, "equivalent diameter for drag").positive()], "diameter for drag")
-            .default("that of AREA"),
-        aqwa(
-            "-CX",
-            &[number("Cx", Dim::None, "longitudinal drag coefficient").not_negative()],
-            "inline drag 0.5 rho Cx V2 De",
-        )
-        .default("0.025"),
-        aqwa("-BUOY", JOINT, "buoy at the end of the section: structural mass smaller than displaced"),
-        aqwa("-CLUMP", JOINT, "clump weight at the end of the section: structural mass larger than displaced"),
-        aqwa("-DEPANCHOR", &[number("DEPTH", Dim::Metres, "depth of the anchor").positive()], "depth at the anchor")
-            .default("depth of &ENV"),
-    ],
+    options: &[LENGTH, EA, TMAX, K, EI, CA, CD, DE, CX, BUOY, CLUMP, DEPANCHOR],
     detail: "An AQWA catenary section, in kg, m and N in every unit system; one record a section, fairlead first. Buoys \
              always have the same buoyancy and do not know where the surface is; those of a line that &CONNECTOR -DYNAMICS makes dynamic \
              lose it as they come out of the water.",
@@ -127,7 +128,7 @@ struct CatenarySection {
 }
 
 /// Options of the whole line.
-const PER_LINE: [&str; 1] = ["-DEPANCHOR"];
+const PER_LINE: [OptionSpec; 1] = [DEPANCHOR];
 
 #[derive(Debug, Default)]
 struct CatenaryClass {
@@ -148,7 +149,7 @@ impl CatenarySection {
 
 fn joint(args: &Args) -> Outcome<(Option<(&'static str, f64)>, Span)> {
     let net = |given: &Given| given.number(0).unwrap_or(0.0) - given.number(1).unwrap_or(0.0);
-    let (buoy, clump) = (args.option("-BUOY"), args.option("-CLUMP"));
+    let (buoy, clump) = (args.option(&BUOY), args.option(&CLUMP));
     match (buoy, clump) {
         (Some(buoy), Some(clump)) => {
             Err(Diagnostic::error("a joint is either a buoy or a clump weight", clump.span)
@@ -178,32 +179,32 @@ impl ConnectorClass for CatenaryClass {
         let (joint, joint_span) = joint(args)?;
         let mass = args.number(0).unwrap_or(0.0);
         let area = args.number(1).unwrap_or(0.0);
-        let option = |name: &str, default: f64| args.option_number(name).unwrap_or(default);
+        let option = |option: &OptionSpec, default: f64| args.option_number(option).unwrap_or(default);
         let section = CatenarySection {
             mass,
             area,
             length: checks::length(args, "CATENARY")?,
-            ea: option("-EA", 5.0e6 * mass),
-            largest: option("-TMAX", 5.0e4 * mass),
-            largest_is_given: args.has("-TMAX"),
-            coefficients: args.option("-K").map(|g| [0, 1, 2].map(|i| g.number(i).unwrap_or(0.0))),
+            ea: option(&EA, 5.0e6 * mass),
+            largest: option(&TMAX, 5.0e4 * mass),
+            largest_is_given: args.has(&TMAX),
+            coefficients: args.option(&K).map(|g| [0, 1, 2].map(|i| g.number(i).unwrap_or(0.0))),
             span: args.span,
-            ca: option("-CA", 1.0),
-            cd: option("-CD", 1.0),
-            diameter: option("-DE", (area / FRAC_PI_4).sqrt()),
-            cx: option("-CX", 0.025),
-            ei: option("-EI", 0.0),
+            ca: option(&CA, 1.0),
+            cd: option(&CD, 1.0),
+            diameter: option(&DE, (area / FRAC_PI_4).sqrt()),
+            cx: option(&CX, 0.025),
+            ei: option(&EI, 0.0),
             joint,
             joint_mass: args
-                .option("-BUOY")
-                .or(args.option("-CLUMP"))
+                .option(&BUOY)
+                .or(args.option(&CLUMP))
                 .map(|g| [0, 1, 2, 3].map(|i| g.number(i).unwrap_or(0.0))),
             joint_span,
         };
         self.per_line.check(args, &PER_LINE)?;
         self.sections.push(section);
         if self.per_line.take(args, &PER_LINE) {
-            self.depth = self.per_line.number("-DEPANCHOR");
+            self.depth = self.per_line.number(&DEPANCHOR);
         }
         Ok(())
     }

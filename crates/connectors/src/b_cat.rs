@@ -17,7 +17,7 @@ use windlass_base::table::Table;
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::Args;
 use windlass_catenary::{Floor, Line, LineError, StretchLaw};
-use windlass_language::spec::{CommandSpec, Kind, ValueSpec};
+use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, FatigueSegment, LineModel, Placement,
     Surroundings,
@@ -87,8 +87,8 @@ static SPEC: CommandSpec = CommandSpec {
 };
 
 /// Options that hold for the whole line.
-const PER_LINE: [&str; 9] =
-    ["-DEPANCHOR", "-FRICTION", "-SLOPE", "-TAB_LIM", "-SEND", "-X_PY", "-X_DAMPING", "-CONVOLUTION", "-PISTON"];
+const PER_LINE: [OptionSpec; 9] =
+    [o::DEPANCHOR, o::FRICTION, o::SLOPE, o::TAB_LIM, o::SEND, o::X_PY, o::X_DAMPING_LINE, o::CONVOLUTION, o::PISTON];
 
 #[derive(Debug, Default)]
 struct Catenary {
@@ -192,7 +192,7 @@ impl ConnectorClass for Catenary {
         let args = &record.args;
         let section = LineSection::read(record, "B_CAT", false)?;
         self.per_line.check(args, &PER_LINE)?;
-        let tabulated = self.tabulated.or(args.option("-TABLE").map(|given| given.span));
+        let tabulated = self.tabulated.or(args.option(&o::TABLE).map(|given| given.span));
         let flag = args.data.get(1).filter(|value| value.word() == Some("EXACT"));
         let exact = self.exact.or(flag.map(|value| value.span));
         if let (Some(table), Some(flag)) = (tabulated, exact) {
@@ -201,19 +201,19 @@ impl ConnectorClass for Catenary {
                 .help("leave one of them out; without both the line is solved exactly"));
         }
         let flexure = Flexure::read(record, &section)?;
-        self.per_line.check(args, &[m::SEABED.name])?;
+        self.per_line.check(args, &[m::SEABED])?;
         // nothing is refused from here on
         self.sections.push(section);
         self.flexures.push(flexure);
-        self.places.push(args.option("-CLUMP").map_or(args.span, |clump| clump.span));
+        self.places.push(args.option(&o::CLUMP).map_or(args.span, |clump| clump.span));
         (self.tabulated, self.exact) = (tabulated, exact);
-        if self.per_line.take(args, &PER_LINE) | self.per_line.take(args, &[m::SEABED.name]) {
+        if self.per_line.take(args, &PER_LINE) | self.per_line.take(args, &[m::SEABED]) {
             let options = &self.per_line;
             self.seabed = m::seabed(options);
-            self.depth = options.number("-DEPANCHOR");
-            self.friction = options.number("-FRICTION").unwrap_or(0.0);
-            self.slope = options.number("-SLOPE");
-            self.limit = options.number("-TAB_LIM");
+            self.depth = options.number(&o::DEPANCHOR);
+            self.friction = options.number(&o::FRICTION).unwrap_or(0.0);
+            self.slope = options.number(&o::SLOPE);
+            self.limit = options.number(&o::TAB_LIM);
             self.springs = end_springs(options);
             self.devices = Devices::read(options);
         }

@@ -1,5 +1,6 @@
 //! Checks that several classes share.
 
+use super::options as o;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::values::{Args, Given};
 use windlass_model::{ClassError, Connection, Connector};
@@ -16,22 +17,25 @@ pub fn py_curve(given: &Given) -> Outcome<Vec<(f64, f64)>> {
         if let Some((last_force, last_deflection)) = points.last() {
             if force <= *last_force {
                 return Err(Diagnostic::error(
-                    format!("the forces of {} must grow from point to point", given.name),
+                    format!("the forces of {} must grow from point to point", given.name()),
                     p.span,
                 )
                 .label("not larger than the one before"));
             }
             if deflection <= *last_deflection {
                 return Err(Diagnostic::error(
-                    format!("the deflections of {} must grow with the force", given.name),
+                    format!("the deflections of {} must grow with the force", given.name()),
                     y.span,
                 )
                 .label("not larger than the one before"));
             }
         }
         if (force == 0.0) != (deflection == 0.0) {
-            return Err(Diagnostic::error(format!("{} begins at zero force and zero deflection", given.name), p.span)
-                .label("one of the two is zero alone"));
+            return Err(Diagnostic::error(
+                format!("{} begins at zero force and zero deflection", given.name()),
+                p.span,
+            )
+            .label("one of the two is zero alone"));
         }
         points.push((force, deflection));
     }
@@ -43,8 +47,8 @@ pub fn py_curve(given: &Given) -> Outcome<Vec<(f64, f64)>> {
 /// # Errors
 /// As [`py_curve`].
 pub fn py_curves(args: &Args) -> Outcome<()> {
-    for name in ["-X_PY", "-Y_PY", "-Z_PY"] {
-        if let Some(given) = args.option(name) {
+    for option in [o::X_PY, o::Y_PY, o::Z_PY] {
+        if let Some(given) = args.option_if_declared(&option) {
             py_curve(given)?;
         }
     }
@@ -56,7 +60,7 @@ pub fn py_curves(args: &Args) -> Outcome<()> {
 /// # Errors
 /// What contradicts itself, at its value.
 pub fn piston(args: &Args) -> Outcome<()> {
-    let Some(given) = args.option("-PISTON") else { return Ok(()) };
+    let Some(given) = args.option_if_declared(&o::PISTON) else { return Ok(()) };
     let at = |index: usize| given.values.get(index).map_or(given.span, |v| v.span);
     if let (Some(stroke), Some(nominal)) = (given.number(1), given.number(2))
         && nominal > stroke
@@ -77,7 +81,7 @@ pub fn piston(args: &Args) -> Outcome<()> {
 /// # Errors
 /// A record without `-LEN`.
 pub fn length(args: &Args, kind: &str) -> Outcome<f64> {
-    args.option_number("-LEN").ok_or_else(|| {
+    args.option_number(&o::LEN).ok_or_else(|| {
         Diagnostic::error(format!("{kind} lacks -LEN: every segment's length must be defined"), args.span)
             .help("form: -LEN L")
     })

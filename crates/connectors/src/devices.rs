@@ -7,6 +7,7 @@
 
 use super::extension::{Extended, Extension, Pull};
 use super::mooring::{convolution, no_curve};
+use super::options as o;
 use super::per_line::PerLineOptions;
 use super::piston::{Piston, PistonState};
 use super::spring_law::Dashpot;
@@ -32,11 +33,11 @@ pub const NOMINAL: &str = "here the piston of -PISTON stands at its nominal posi
 impl Devices {
     /// Of a line's options.
     pub fn read(options: &PerLineOptions) -> Devices {
-        let dashpot = options.option("-X_DAMPING").and_then(|given| {
+        let dashpot = options.option(&o::X_DAMPING_LINE).and_then(|given| {
             let most = given.number(2).unwrap_or(f64::INFINITY);
             Some(Dashpot { coefficient: given.number(0)?, exponent: given.number(1)?, most })
         });
-        let piston = options.option("-PISTON").and_then(Piston::read);
+        let piston = options.option(&o::PISTON).and_then(Piston::read);
         Devices { piston, dashpot, convolution: convolution(options) }
     }
 

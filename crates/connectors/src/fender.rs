@@ -31,6 +31,31 @@ const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(dim), help)
 }
 
+const NORMAL: OptionSpec = OptionSpec::new(
+    "-NORMAL",
+    &[
+        number("X", Dim::None, "along element X"),
+        number("Y", Dim::None, "along element Y"),
+        number("Z", Dim::None, "along element Z"),
+    ],
+    "direction in which the second end is pushed, in the element axes",
+)
+.owner(Owner::Ours)
+.default("1 0 0");
+const RATED: OptionSpec = OptionSpec::new(
+    "-RATED",
+    &[number("Y", Dim::Length, "deflection").positive()],
+    "rated deflection, beyond which reports warn",
+)
+.owner(Owner::Ours)
+.default("that of the last point");
+const FRICTION: OptionSpec = OptionSpec::new(
+    "-FRICTION",
+    &[number("MU", Dim::None, "coefficient of friction").within(0.0, 2.0)],
+    "friction of the panel on the face, against the velocity; zero in statics",
+)
+.default("0");
+
 static SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
     data: &[
@@ -39,34 +64,7 @@ static SPEC: CommandSpec = CommandSpec {
         number("Y", Dim::Length, "deflection").not_negative(),
     ],
     repeat: 2,
-    options: &[
-        OptionSpec::new(
-            "-NORMAL",
-            &[
-                number("X", Dim::None, "along element X"),
-                number("Y", Dim::None, "along element Y"),
-                number("Z", Dim::None, "along element Z"),
-            ],
-            "direction in which the second end is pushed, in the element axes",
-        )
-        .owner(Owner::Ours)
-        .default("1 0 0"),
-        OptionSpec::new(
-            "-RATED",
-            &[number("Y", Dim::Length, "deflection").positive()],
-            "rated deflection, beyond which reports warn",
-        )
-        .owner(Owner::Ours)
-        .default("that of the last point"),
-        OptionSpec::new(
-            "-FRICTION",
-            &[number("MU", Dim::None, "coefficient of friction").within(0.0, 2.0)],
-            "friction of the panel on the face, against the velocity; zero in statics",
-        )
-        .default("0"),
-        o::X_DAMPING,
-        o::IG_STIFF,
-    ],
+    options: &[NORMAL, RATED, FRICTION, o::X_DAMPING, o::IG_STIFF],
     detail: "From a base, the first point, to a flat face that the second point lies on and whose body carries it. P Y: the maker's curve from \
              zero, deflections growing; the reaction may fall between two points, and beyond the last one its slope goes on. The fender \
              is deflected by H less the distance of the face from the base along the normal, and never pulls. The element axes are \
@@ -98,31 +96,31 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
     let height = args.number(0).unwrap_or(0.0);
     let curve = points(args, height)?;
     let last = curve.last().map_or(0.0, |(_, y)| *y);
-    let rated = args.option_number("-RATED").unwrap_or(last);
-    if let Some(given) = args.option("-RATED").filter(|_| rated > last) {
+    let rated = args.option_number(&RATED).unwrap_or(last);
+    if let Some(given) = args.option(&RATED).filter(|_| rated > last) {
         return Err(Diagnostic::error("the rated deflection lies beyond the last point of the curve", given.span)
             .help("give the points of the curve up to there"));
     }
     if reaction_and_energy(&curve, rated).1 <= 0.0 {
-        let at = args.option("-RATED").map_or(record.args.span, |given| given.span);
+        let at = args.option(&RATED).map_or(record.args.span, |given| given.span);
         return Err(Diagnostic::error("the fender absorbs no energy up to its rated deflection", at)
             .help("the first reaction of the curve stands before the rated deflection"));
     }
     let mut normal = Vector3::x();
-    if let Some(given) = args.option("-NORMAL") {
+    if let Some(given) = args.option(&NORMAL) {
         let at = |i: usize| given.number(i).unwrap_or(0.0);
         normal = Vector3::new(at(0), at(1), at(2))
             .try_normalize(f64::MIN_POSITIVE)
             .ok_or_else(|| Diagnostic::error("-NORMAL has no direction: all three values are zero", given.span))?;
     }
-    let friction = args.option_number("-FRICTION").filter(|mu| *mu > 0.0).map_or(Friction::None, Friction::Rate);
+    let friction = args.option_number(&FRICTION).filter(|mu| *mu > 0.0).map_or(Friction::None, Friction::Rate);
     Ok(Arc::new(Fender {
         curve: Arc::new(curve),
         height,
         rated,
         normal,
         friction,
-        dashpot: Dashpot::read(args, "-X_DAMPING"),
+        dashpot: Dashpot::read(args, &o::X_DAMPING),
     }))
 }
 

@@ -94,9 +94,8 @@ static H_CAT_SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("H_CAT", "hanging catenary")
 };
 
-/// Options that hold for the whole line.
-pub const PER_LINE: [&str; 9] =
-    ["-SEND", "-X_PY", "-X_DAMPING", "-CONVOLUTION", "-PISTON", "-TAB_LIM", "-DEPANCHOR", "-FRICTION", "-SLOPE"];
+/// Options that hold for the whole line, in this class and in SL_ELEM.
+pub const PER_LINE: [OptionSpec; 6] = [o::SEND, o::X_PY, o::X_DAMPING_LINE, o::CONVOLUTION, o::PISTON, o::TAB_LIM];
 
 #[derive(Debug, Default)]
 struct Hanging {
@@ -119,7 +118,7 @@ struct Hanging {
 /// # Errors
 /// Both, at their places.
 pub fn check_record(before: &PerLineOptions, args: &Args, kind: &str) -> Outcome<()> {
-    if let Some(clump) = args.option("-CLUMP").filter(|c| c.number(0).is_some_and(|w| w < 0.0)) {
+    if let Some(clump) = args.option(&o::CLUMP).filter(|c| c.number(0).is_some_and(|w| w < 0.0)) {
         let article = if kind.starts_with(['A', 'E', 'H', 'S']) { "an" } else { "a" };
         return Err(Diagnostic::error(format!("{article} {kind} takes no spring buoy"), clump.span).help("use B_CAT"));
     }
@@ -136,20 +135,24 @@ impl ConnectorClass for Hanging {
         check_record(&self.per_line, args, "H_CAT")?;
         let section = LineSection::read(record, "H_CAT", false)?;
         let flexure = Flexure::read(record, &section)?;
-        self.per_line.check(args, &[m::SEABED.name])?;
+        self.per_line.check(args, &BOTTOM_OPTIONS)?;
+        self.per_line.check(args, &[m::SEABED])?;
         // nothing is refused from here on
         self.sections.push(section);
         self.flexures.push(flexure);
         self.places.push(args.span);
         self.exact |= args.word(1) == Some("EXACT");
-        self.bottom |= BOTTOM_OPTIONS.iter().any(|option| args.has(option.name));
-        if self.per_line.take(args, &PER_LINE) | self.per_line.take(args, &[m::SEABED.name]) {
+        self.bottom |= BOTTOM_OPTIONS.iter().any(|option| args.has(option));
+        if self.per_line.take(args, &PER_LINE)
+            | self.per_line.take(args, &BOTTOM_OPTIONS)
+            | self.per_line.take(args, &[m::SEABED])
+        {
             let options = &self.per_line;
             self.seabed = m::seabed(options);
             self.springs = end_springs(options);
             self.devices = Devices::read(options);
-            self.limit = options.number("-TAB_LIM");
-            self.depth = options.number("-DEPANCHOR");
+            self.limit = options.number(&o::TAB_LIM);
+            self.depth = options.number(&o::DEPANCHOR);
         }
         Ok(())
     }
@@ -160,9 +163,9 @@ impl ConnectorClass for Hanging {
                 .into_iter()
                 .collect();
         }
-        let given = ["-WTPLEN", "-DENSITY", "-SPGRAVITY", "-TYPE"].iter().find_map(|name| last.option(name));
+        let given = [o::WTPLEN, o::DENSITY, o::SPGRAVITY, o::TYPE].iter().find_map(|option| last.option(option));
         let says = |given: &Given| {
-            let text = format!("{} is not used: an H_CAT without EXACT is weightless", given.name);
+            let text = format!("{} is not used: an H_CAT without EXACT is weightless", given.name());
             *Diagnostic::remark(text, given.span)
                 .help("~NAME H_CAT OD EXACT has its weight; a dynamic line has it always")
         };

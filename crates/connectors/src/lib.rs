@@ -37,7 +37,7 @@ mod lmu;
 mod loads;
 mod mooring;
 mod mooring_table;
-mod options;
+pub mod options;
 mod per_line;
 mod piston;
 mod restraint;
@@ -60,7 +60,7 @@ pub use section::type_notices;
 
 use std::sync::Arc;
 use windlass_base::diagnostic::Outcome;
-use windlass_language::spec::CommandSpec;
+use windlass_language::spec::{CommandSpec, OptionSpec};
 use windlass_model::{ClassRecord, ConnectorClass};
 
 /// A type of class a user can name in a `~NAME TYPE ...` record.
@@ -70,7 +70,7 @@ pub struct ClassKind {
     /// True when a repeated class name adds a segment ([`ConnectorClass::append`]); else it replaces the class.
     pub segmented: bool,
     /// Options that are read and kept and do nothing here, each with what they act with; empty where nothing is.
-    pub idle: &'static [(&'static str, &'static str)],
+    pub idle: &'static [(OptionSpec, &'static str)],
     /// Builds the object from all records of the class so far, fairlead first.
     pub build: fn(&[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>>,
 }

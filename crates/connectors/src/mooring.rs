@@ -3,6 +3,7 @@
 use super::line_element::LineElement;
 use super::line_profile::LineProfile;
 use super::mooring_table::{buoy_word, report};
+use super::options as o;
 use super::per_line::PerLineOptions;
 use super::section::LineSection;
 use windlass_base::span::Span;
@@ -184,9 +185,9 @@ pub fn parts(
 
 /// The springs of -SEND and -X_PY at the two ends; the curve is in series at the first.
 pub fn end_springs(options: &PerLineOptions) -> [Option<StretchLaw>; 2] {
-    let send = options.option("-SEND");
+    let send = options.option(&o::SEND);
     let spring = |i: usize| send.and_then(|g| g.number(i)).map(StretchLaw::Linear);
-    let curve = options.option("-X_PY").map(|given| {
+    let curve = options.option(&o::X_PY).map(|given| {
         let numbers: Vec<f64> = given.values.iter().filter_map(|v| v.number()).collect();
         let points = numbers.chunks_exact(2).filter_map(|pair| pair.first().copied().zip(pair.get(1).copied()));
         StretchLaw::Curve(points.filter(|(p, y)| *p > 0.0 || *y > 0.0).collect())
@@ -225,7 +226,7 @@ pub fn no_curve(name: &str, at: Span) -> ClassError {
 
 /// The curve that -CONVOLUTION names, with its place.
 pub fn convolution(options: &PerLineOptions) -> Option<(String, Span)> {
-    let given = options.option("-CONVOLUTION")?;
+    let given = options.option(&o::CONVOLUTION)?;
     given.values.first().and_then(|v| v.word()).map(|name| (name.to_string(), given.span))
 }
 

@@ -6,6 +6,7 @@ use windlass_base::units::Dim;
 use windlass_base::values::Noun;
 use windlass_language::select::Owner;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
+pub use windlass_model::options::{C_SN, EI, EMODULUS, FYIELD, IG_STIFF, POI_RAT, TENSTR};
 
 const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(dim), help)
@@ -60,9 +61,6 @@ pub const REFINE: OptionSpec = OptionSpec::new(
     "subdivides the segment into N elements",
 )
 .default("one element");
-/// `-IG_STIFF`.
-pub const IG_STIFF: OptionSpec =
-    OptionSpec::new("-IG_STIFF", &[], "leaves the connector's stiffness out of the results of other bodies");
 /// `-SYMMETRIC YES/NO`.
 pub const SYMMETRIC: OptionSpec = OptionSpec::new(
     "-SYMMETRIC",
@@ -119,10 +117,6 @@ pub const FRICTION_MU: OptionSpec = OptionSpec::new(
     &[number("MU", Dim::None, "coefficient of friction").not_negative()],
     "limits the lateral force by the element x force",
 );
-/// `-EMODULUS`.
-pub const EMODULUS: OptionSpec =
-    OptionSpec::new("-EMODULUS", &[number("EMOD", Dim::Stress, "Young's modulus").positive()], "Young's modulus")
-        .default("&DEFAULT");
 /// `-SEND KE1 KE2`.
 pub const SEND: OptionSpec = OptionSpec::new(
     "-SEND",
@@ -142,25 +136,10 @@ pub const SPGRAVITY: OptionSpec = OptionSpec::new(
 pub const DENSITY: OptionSpec =
     OptionSpec::new("-DENSITY", &[number("RHO", Dim::Density, "density").positive()], "density of the material")
         .default("&DEFAULT");
-/// `-POI_RAT`.
-pub const POI_RAT: OptionSpec =
-    OptionSpec::new("-POI_RAT", &[number("POIRAT", Dim::None, "Poisson's ratio").within(0.0, 0.5)], "Poisson's ratio")
-        .default("&DEFAULT");
 /// `-ALPHA`.
 pub const ALPHA: OptionSpec =
     OptionSpec::new("-ALPHA", &[number("ALPHA", Dim::ThermalExpansion, "thermal expansion")], "thermal expansion")
         .default("&DEFAULT");
-/// `-FYIELD`.
-pub const FYIELD: OptionSpec =
-    OptionSpec::new("-FYIELD", &[number("FYIELD", Dim::Stress, "yield stress").positive()], "yield stress")
-        .default("&DEFAULT");
-/// `-TENSTR`.
-pub const TENSTR: OptionSpec = OptionSpec::new(
-    "-TENSTR",
-    &[number("TENSTR", Dim::Stress, "ultimate stress").positive()],
-    "ultimate tensile stress",
-)
-.default("yield / 0.6");
 /// `-WTPLEN`.
 pub const WTPLEN: OptionSpec = OptionSpec::new(
     "-WTPLEN",
@@ -196,12 +175,6 @@ pub const B_TENSION: OptionSpec = OptionSpec::new(
     "breaking tension of the segment",
 )
 .default("area times ultimate stress");
-/// `-C_SN`.
-pub const C_SN: OptionSpec = OptionSpec::new(
-    "-C_SN",
-    &[ValueSpec::new("CSN", Kind::Text, "CHAIN, WIRE, or the name of an SN curve")],
-    "fatigue curve of the segment",
-);
 /// `-TAB_LIM`.
 pub const TAB_LIM: OptionSpec = OptionSpec::new(
     "-TAB_LIM",

@@ -2,6 +2,7 @@
 
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::values::{Args, Given};
+use windlass_language::spec::OptionSpec;
 
 /// The options of a whole line that its records have given so far, each where it was given last.
 #[derive(Clone, Debug, Default)]
@@ -10,17 +11,17 @@ pub struct PerLineOptions {
 }
 
 impl PerLineOptions {
-    /// Compares the options of these names on a further record with those before it.
+    /// Compares these options on a further record with those before it.
     ///
     /// # Errors
     /// Unlike values, with both places.
-    pub fn check(&self, args: &Args, names: &[&str]) -> Outcome<()> {
-        for name in names {
-            let (Some(first), Some(given)) = (self.option(name), args.option(name)) else { continue };
+    pub fn check(&self, args: &Args, options: &[OptionSpec]) -> Outcome<()> {
+        for option in options {
+            let (Some(first), Some(given)) = (self.option(option), args.option(option)) else { continue };
             let (before, now) = (first.values.iter(), given.values.iter());
             if !before.map(|v| &v.content).eq(now.map(|v| &v.content)) {
                 return Err(Diagnostic::error(
-                    format!("{name} holds for the whole line and is given two unlike values"),
+                    format!("{} holds for the whole line and is given two unlike values", option.name),
                     given.span,
                 )
                 .other(first.span, "first given here"));
@@ -29,24 +30,24 @@ impl PerLineOptions {
         Ok(())
     }
 
-    /// Takes over the options of these names from a record; true when it has any.
-    pub fn take(&mut self, args: &Args, names: &[&str]) -> bool {
+    /// Takes over these options from a record; true when it has any.
+    pub fn take(&mut self, args: &Args, options: &[OptionSpec]) -> bool {
         let mut taken = false;
-        for given in names.iter().filter_map(|name| args.option(name)) {
-            self.given.retain(|g| g.name != given.name);
+        for given in options.iter().filter_map(|option| args.option(option)) {
+            self.given.retain(|g| !g.is(given.option));
             self.given.push(given.clone());
             taken = true;
         }
         taken
     }
 
-    /// An option by its full name, if given.
-    pub fn option(&self, name: &str) -> Option<&Given> {
-        self.given.iter().find(|g| g.name == name)
+    /// An option, if given.
+    pub fn option(&self, option: &OptionSpec) -> Option<&Given> {
+        self.given.iter().find(|given| given.is(option))
     }
 
     /// The first number of an option.
-    pub fn number(&self, name: &str) -> Option<f64> {
-        self.option(name).and_then(|g| g.number(0))
+    pub fn number(&self, option: &OptionSpec) -> Option<f64> {
+        self.option(option).and_then(|g| g.number(0))
     }
 }

@@ -49,7 +49,7 @@ static ROD_SPEC: CommandSpec = CommandSpec {
         o::DEPANCHOR,
         m::CD,
         m::CA,
-        m::EI,
+        o::EI,
         m::EA,
         m::STRETCH,
         m::AX_DAMPING,
@@ -82,7 +82,7 @@ static ROD_SPEC: CommandSpec = CommandSpec {
 const REFINE: OptionSpec =
     OptionSpec { values: &[ValueSpec::new("N", Kind::Integer, "number of elements").positive()], ..o::REFINE };
 /// Options of the whole line.
-const PER_LINE: [&str; 4] = ["-SEABED", "-FRICTION", "-SLOPE", "-DEPANCHOR"];
+const PER_LINE: [OptionSpec; 4] = [m::SEABED, o::FRICTION, o::SLOPE, o::DEPANCHOR];
 /// Most elements of a line with its memory told: what the engine holds.
 const MOST: i64 = windlass_line_dynamics::MOST_ELEMENTS as i64;
 
@@ -118,28 +118,28 @@ impl ConnectorClass for Rod {
         let args = &record.args;
         let section = LineSection::read(record, "ROD", true)?;
         if section.weight <= 0.0 {
-            let given = ["-WTPLEN", "-DENSITY", "-SPGRAVITY"].iter().find_map(|name| args.option(name));
+            let given = [o::WTPLEN, o::DENSITY, o::SPGRAVITY].iter().find_map(|option| args.option(option));
             let span = given.map_or(args.span, |g| g.span);
             return Err(Diagnostic::error("a ROD needs weight: its mass is what it moves by", span)
                 .label(format!("{} N/m", section.weight)));
         }
         let elements = self.elements.saturating_add(section.refine);
         if elements > MOST {
-            let span = args.option("-REFINE").map_or(args.span, |g| g.span);
+            let span = args.option(&o::REFINE).map_or(args.span, |g| g.span);
             let megabytes = elements as f64 * windlass_line_dynamics::BYTES_PER_ELEMENT / 1e6;
             return Err(Diagnostic::error(format!("a ROD has at most {MOST} elements"), span)
                 .label(format!("with this segment it has {elements}, which would take about {megabytes:.0} MB")));
         }
         let flexure = Flexure::read(record, &section)?;
         let mut clamps = self.clamps.clone();
-        clamps.extend(args.all("-CLAMP").cloned());
+        clamps.extend(args.all(&m::CLAMP).cloned());
         let holds = m::holds(&clamps, [self.flexures.first().unwrap_or(&flexure), &flexure])?;
         self.per_line.check(args, &PER_LINE)?;
         // nothing is refused from here on
         self.sections.push(section);
         self.flexures.push(flexure);
         (self.clamps, self.holds, self.elements) = (clamps, holds, elements);
-        self.slam |= args.has("-SLAM");
+        self.slam |= args.has(&m::SLAM);
         if self.per_line.take(args, &PER_LINE) {
             self.seabed = m::seabed(&self.per_line);
         }

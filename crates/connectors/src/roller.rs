@@ -21,23 +21,21 @@ const fn gap(name: &'static str, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(Dim::Section), help).not_negative()
 }
 
+const Y_ROLLER: OptionSpec = OptionSpec::new(
+    "-Y_ROLLER",
+    &[gap("Y-", "gap on the negative side"), gap("Y+", "gap on the positive side")],
+    "gaps of the side rollers",
+);
+const Z_ROLLER: OptionSpec = OptionSpec::new(
+    "-Z_ROLLER",
+    &[gap("Z-", "gap below"), gap("Z+", "gap above")],
+    "gaps of the lower and upper roller",
+);
+
 static SPEC: CommandSpec = CommandSpec {
     data: &[o::SENSE, o::DF, o::SPV, o::AF],
     repeat: 3,
-    options: &[
-        o::Y_PY,
-        o::Z_PY,
-        OptionSpec::new(
-            "-Y_ROLLER",
-            &[gap("Y-", "gap on the negative side"), gap("Y+", "gap on the positive side")],
-            "gaps of the side rollers",
-        ),
-        OptionSpec::new(
-            "-Z_ROLLER",
-            &[gap("Z-", "gap below"), gap("Z+", "gap above")],
-            "gaps of the lower and upper roller",
-        ),
-    ],
+    options: &[o::Y_PY, o::Z_PY, Y_ROLLER, Z_ROLLER],
     detail: "Pipe Y is lateral and Z upward: the axes of the node's body, turned by -EULER of the connector. -Y_ROLLER Y- Y+ and -Z_ROLLER \
              Z- Z+: the pipe moves freely by so much on each side of the node; beyond, the physical roller there pushes it back with \
              the SPV of Y or Z (1.0E9 N/m where none is given). With neither, lateral motion is restrained and the pipe cannot go below \
@@ -64,7 +62,7 @@ struct Roller {
 fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
     let Some(record) = records.last() else { return Err(Diagnostic::error("a class needs a record", Span::default())) };
     let args = &record.args;
-    let gaps = |name: &str| args.option(name).and_then(|g| Some([g.number(0)?, g.number(1)?]));
+    let gaps = |option: &OptionSpec| args.option(option).and_then(|g| Some([g.number(0)?, g.number(1)?]));
     let given = restraints(args, 1, 3)?;
     match args.word(0) {
         Some("TENSION") => {
@@ -85,7 +83,7 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
         }
     }
     let springs = Springs::of(args, all, false, Vec::new())?;
-    Ok(Arc::new(Roller { given, springs, sides: gaps("-Y_ROLLER"), heights: gaps("-Z_ROLLER") }))
+    Ok(Arc::new(Roller { given, springs, sides: gaps(&Y_ROLLER), heights: gaps(&Z_ROLLER) }))
 }
 
 impl Roller {

@@ -4,8 +4,9 @@
 //! length is WTPLEN - DISPLEN - rho_w g pi/4 BUOYDIA^2. With -TYPE these come from the library of line types; an option
 //! given beside it overrides it.
 
-use super::checks;
+use super::dynamic_line as m;
 use super::line_types::{LineType, library};
+use super::{checks, options as o};
 use std::f64::consts::FRAC_PI_4;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
@@ -13,6 +14,7 @@ use windlass_base::table::{Digits, Table};
 use windlass_base::units::{Dim, UnitSystem, eight_figures};
 use windlass_base::values::{Args, Given};
 use windlass_language::select::{Owner, choose};
+use windlass_language::spec::OptionSpec;
 use windlass_model::{ClassRecord, FatigueSegment, Surroundings};
 
 /// Density against which a specific gravity is given: fresh water (kg/m3).
@@ -21,29 +23,28 @@ const FRESH_WATER: f64 = 1000.0;
 /// With what options of dynamic lines act.
 const DYNAMICS: &str = "&CONNECTOR -DYNAMICS";
 /// Options of the catenaries that do nothing by themselves.
-pub const CATENARY_IDLE: &[(&str, &str)] = &[
-    ("-POI_RAT", ""),
-    ("-ALPHA", ""),
-    ("-REFINE", DYNAMICS),
-    ("-DRAGDIAMETER", DYNAMICS),
-    ("-WINDDIAMETER", DYNAMICS),
-    ("-AMASDIAMETER", DYNAMICS),
-    ("-CD", DYNAMICS),
-    ("-CA", DYNAMICS),
-    ("-AX_DAMPING", DYNAMICS),
-    ("-SEABED", DYNAMICS),
+pub const CATENARY_IDLE: &[(OptionSpec, &str)] = &[
+    (o::POI_RAT, ""),
+    (o::ALPHA, ""),
+    (o::REFINE, DYNAMICS),
+    (o::DRAGDIAMETER, DYNAMICS),
+    (o::WINDDIAMETER, DYNAMICS),
+    (o::AMASDIAMETER, DYNAMICS),
+    (m::CD, DYNAMICS),
+    (m::CA, DYNAMICS),
+    (m::AX_DAMPING, DYNAMICS),
+    (m::SEABED, DYNAMICS),
 ];
 
 /// The same of a hanging catenary, whose weight is that in air.
-pub const HANGING_IDLE: &[(&str, &str)] = &{
-    let mut all = [("", ""); CATENARY_IDLE.len() + 2];
+pub const HANGING_IDLE: &[(OptionSpec, &str)] = &{
+    let mut all = [(o::DISPLEN, DYNAMICS); CATENARY_IDLE.len() + 2];
     let mut i = 0;
     while i < CATENARY_IDLE.len() {
         all[i] = CATENARY_IDLE[i];
         i += 1;
     }
-    all[i] = ("-BUOYDIAMETER", DYNAMICS);
-    all[i + 1] = ("-DISPLEN", DYNAMICS);
+    all[i] = (o::BUOYDIAMETER, DYNAMICS);
     all
 };
 
@@ -107,16 +108,16 @@ impl OfType {
         Ok(Some(OfType {
             line_type,
             diameter,
-            drag: args.option_number("-DRAGDIAMETER").unwrap_or(drag),
-            added_mass: args.option_number("-AMASDIAMETER").unwrap_or(line_type.volume_diameter(diameter)),
-            wind: args.option_number("-WINDDIAMETER").unwrap_or(drag),
+            drag: args.number_if_declared(&o::DRAGDIAMETER).unwrap_or(drag),
+            added_mass: args.number_if_declared(&o::AMASDIAMETER).unwrap_or(line_type.volume_diameter(diameter)),
+            wind: args.number_if_declared(&o::WINDDIAMETER).unwrap_or(drag),
         }))
     }
 }
 
 /// The type a record names, and its nominal diameter (m).
 fn typed(args: &Args) -> Outcome<Option<(&'static LineType, f64)>> {
-    let Some(given) = args.option("-TYPE") else { return Ok(None) };
+    let Some(given) = args.option_if_declared(&o::TYPE) else { return Ok(None) };
     let (Some(name), Some(diameter)) = (given.values.first(), given.number(1)) else { return Ok(None) };
     let names = library().types.iter().map(|t| (t.name.as_str(), Owner::Ours, t));
     Ok(Some((choose(name.word().unwrap_or_default(), name.span, "line type", names)?, diameter)))
@@ -124,25 +125,25 @@ fn typed(args: &Args) -> Outcome<Option<(&'static LineType, f64)>> {
 
 /// Where D of `-TYPE` stands.
 fn diameter_place(args: &Args) -> Span {
-    args.option("-TYPE").and_then(|g| g.values.get(1)).map_or(args.span, |v| v.span)
+    args.option_if_declared(&o::TYPE).and_then(|g| g.values.get(1)).map_or(args.span, |v| v.span)
 }
 
 /// What a record with `-TYPE` should tell its writer: a diameter outside the range of the formulas, and which options
 /// override the type. Diameters are told in the user's `units`.
 pub fn type_notices(args: &Args, units: UnitSystem) -> Vec<Diagnostic> {
-    const OVERRIDE: [(&str, &str); 12] = [
-        ("-WTPLEN", "weight"),
-        ("-SPGRAVITY", "weight, of the solid area"),
-        ("-DENSITY", "weight, of the solid area"),
-        ("-DISPLEN", "buoyancy"),
-        ("-BUOYDIAMETER", "buoyancy"),
-        ("-EMODULUS", "AE, of the solid area"),
-        ("-FYIELD", "break, of the solid area"),
-        ("-TENSTR", "break, of the solid area"),
-        ("-B_TENSION", "break"),
-        ("-DRAGDIAMETER", "drag"),
-        ("-WINDDIAMETER", "wind"),
-        ("-AMASDIAMETER", "added mass"),
+    const OVERRIDE: [(OptionSpec, &str); 12] = [
+        (o::WTPLEN, "weight"),
+        (o::SPGRAVITY, "weight, of the solid area"),
+        (o::DENSITY, "weight, of the solid area"),
+        (o::DISPLEN, "buoyancy"),
+        (o::BUOYDIAMETER, "buoyancy"),
+        (o::EMODULUS, "AE, of the solid area"),
+        (o::FYIELD, "break, of the solid area"),
+        (o::TENSTR, "break, of the solid area"),
+        (o::B_TENSION, "break"),
+        (o::DRAGDIAMETER, "drag"),
+        (o::WINDDIAMETER, "wind"),
+        (o::AMASDIAMETER, "added mass"),
     ];
     let Ok(Some((line_type, diameter))) = typed(args) else { return Vec::new() };
     let mut notices = Vec::new();
@@ -156,8 +157,8 @@ pub fn type_notices(args: &Args, units: UnitSystem) -> Vec<Diagnostic> {
         notices.push(*Diagnostic::warning(text, diameter_place(args)));
     }
     let given: Vec<(&Given, &str)> =
-        OVERRIDE.iter().filter_map(|(name, what)| args.option(name).map(|g| (g, *what))).collect();
-    let listed: Vec<String> = given.iter().map(|(g, what)| format!("{} ({what})", g.name)).collect();
+        OVERRIDE.iter().filter_map(|(option, what)| args.option_if_declared(option).map(|g| (g, *what))).collect();
+    let listed: Vec<String> = given.iter().map(|(g, what)| format!("{} ({what})", g.name())).collect();
     if let Some(first) = given.iter().map(|(g, _)| g.span).min_by_key(|s| s.start) {
         let verb = if given.len() == 1 { "overrides" } else { "override" };
         notices.push(*Diagnostic::remark(format!("{} {verb} what {} gives", listed.join(", "), line_type.name), first));
@@ -195,36 +196,42 @@ impl LineSection {
         checks::py_curves(args)?;
         checks::piston(args)?;
         let area = FRAC_PI_4 * (od * od - thickness.map_or(0.0, |t| (od - 2.0 * t).powi(2)));
-        let number = |name: &str| args.option_number(name);
+        let number = |option: &OptionSpec| args.number_if_declared(option);
         let solid_weight = |density: f64| density * record.defaults.gravity * area;
-        let density = number("-DENSITY").or(number("-SPGRAVITY").map(|s| s * FRESH_WATER));
-        let ultimate = number("-TENSTR").or(number("-FYIELD").map(|y| y / 0.6));
+        let density = number(&o::DENSITY).or(number(&o::SPGRAVITY).map(|s| s * FRESH_WATER));
+        let ultimate = number(&o::TENSTR).or(number(&o::FYIELD).map(|y| y / 0.6));
         // the type's value, where the record has one
         let from_type = |of: fn(&LineType, f64) -> f64| of_type.map(|t| of(t.line_type, t.diameter));
-        let weight = number("-WTPLEN")
+        let weight = number(&o::WTPLEN)
             .or(density.map(solid_weight))
             .or(from_type(|t, d| t.mass.at(d)).map(|mass| mass * record.defaults.gravity))
             .unwrap_or(solid_weight(material.density));
-        let ea = number("-EMODULUS").map(|e| e * area).or(from_type(|t, d| t.ea.at(d)));
-        let breaking = number("-B_TENSION").or(ultimate.map(|u| u * area)).or(from_type(|t, d| t.breaking.at(d)));
+        let ea = number(&o::EMODULUS).map(|e| e * area).or(from_type(|t, d| t.ea.at(d)));
+        let breaking = number(&o::B_TENSION).or(ultimate.map(|u| u * area)).or(from_type(|t, d| t.breaking.at(d)));
         // a displacement given stands for the type's, else it would count twice
-        let displaced = from_type(LineType::volume_diameter).map(|d| if args.has("-DISPLEN") { 0.0 } else { d });
-        let clump = args.option("-CLUMP");
+        let displaced = from_type(LineType::volume_diameter)
+            .map(|d| if args.option_if_declared(&o::DISPLEN).is_some() { 0.0 } else { d });
+        let clump = args.option_if_declared(&o::CLUMP);
         Ok(LineSection {
             od,
             thickness,
             length,
             ea: ea.unwrap_or(material.emodulus * area),
             weight,
-            displacement: number("-DISPLEN").unwrap_or(0.0),
-            buoyancy_diameter: number("-BUOYDIAMETER").or(displaced).unwrap_or(od),
+            displacement: number(&o::DISPLEN).unwrap_or(0.0),
+            buoyancy_diameter: number(&o::BUOYDIAMETER).or(displaced).unwrap_or(od),
             breaking: breaking.unwrap_or(material.ultimate() * area),
             break_is_given: breaking.is_some(),
             clump: clump.and_then(|c| c.number(0)).unwrap_or(0.0),
             pendant: clump.and_then(|c| c.number(1)).unwrap_or(0.0),
-            refine: args.option("-REFINE").and_then(|g| g.values.first()).and_then(|v| v.integer()).unwrap_or(1),
+            refine: args
+                .option_if_declared(&o::REFINE)
+                .and_then(|g| g.values.first())
+                .and_then(|v| v.integer())
+                .unwrap_or(1),
             of_type,
-            is_bar: of_type.is_none() && ["-WTPLEN", "-DENSITY", "-SPGRAVITY"].iter().all(|name| !args.has(name)),
+            is_bar: of_type.is_none()
+                && [o::WTPLEN, o::DENSITY, o::SPGRAVITY].iter().all(|option| args.option_if_declared(option).is_none()),
         })
     }
 

@@ -4,6 +4,7 @@
 
 use super::chord::{Chord, ChordElement};
 use super::devices::Devices;
+use super::dynamic_line as m;
 use super::h_cat::{LINE_OPTIONS, PER_LINE, check_record, hung};
 use super::mooring::{end_springs, with_series};
 use super::per_line::PerLineOptions;
@@ -15,7 +16,7 @@ use windlass_base::table::Table;
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::Args;
 use windlass_catenary::StretchLaw;
-use windlass_language::spec::{CommandSpec, Kind, ValueSpec};
+use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{
     ClassError, ClassRecord, Connection, Connector, ConnectorClass, Element, FatigueSegment, LineModel, Note,
     Placement, Surroundings,
@@ -26,23 +27,23 @@ pub static SL_ELEM: ClassKind =
     ClassKind { spec: &SL_ELEM_SPEC, segmented: true, build: append_all::<Spring>, idle: IDLE };
 
 /// Options that do nothing in a spring along a chord.
-const IDLE: &[(&str, &str)] = &[
-    ("-WTPLEN", ""),
-    ("-DISPLEN", ""),
-    ("-DENSITY", ""),
-    ("-SPGRAVITY", ""),
-    ("-BUOYDIAMETER", ""),
-    ("-DRAGDIAMETER", ""),
-    ("-WINDDIAMETER", ""),
-    ("-AMASDIAMETER", ""),
-    ("-POI_RAT", ""),
-    ("-ALPHA", ""),
-    ("-REFINE", ""),
-    ("-CLUMP", ""),
-    ("-CD", ""),
-    ("-CA", ""),
-    ("-AX_DAMPING", ""),
-    ("-SEABED", ""),
+const IDLE: &[(OptionSpec, &str)] = &[
+    (o::WTPLEN, ""),
+    (o::DISPLEN, ""),
+    (o::DENSITY, ""),
+    (o::SPGRAVITY, ""),
+    (o::BUOYDIAMETER, ""),
+    (o::DRAGDIAMETER, ""),
+    (o::WINDDIAMETER, ""),
+    (o::AMASDIAMETER, ""),
+    (o::POI_RAT, ""),
+    (o::ALPHA, ""),
+    (o::REFINE, ""),
+    (o::CLUMP, ""),
+    (m::CD, ""),
+    (m::CA, ""),
+    (m::AX_DAMPING, ""),
+    (m::SEABED, ""),
 ];
 
 static SL_ELEM_SPEC: CommandSpec = CommandSpec {
@@ -91,7 +92,7 @@ impl ConnectorClass for Spring {
         if self.per_line.take(args, &PER_LINE) {
             self.springs = end_springs(&self.per_line);
             self.devices = Devices::read(&self.per_line);
-            self.limit = self.per_line.number("-TAB_LIM");
+            self.limit = self.per_line.number(&o::TAB_LIM);
         }
         Ok(())
     }

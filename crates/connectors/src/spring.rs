@@ -71,9 +71,10 @@ fn index(dof: &str) -> Option<usize> {
 /// # Errors
 /// A Z property beside -SYMMETRIC.
 fn symmetric(args: &Args, list: &[Restraint], default: bool) -> Outcome<bool> {
-    let on = args.switch("-SYMMETRIC", default);
-    let has_z = list.iter().any(|r| r.dof.ends_with('Z')) || args.has("-Z_PY") || args.has("-Z_DAMPING");
-    if let Some(given) = args.option("-SYMMETRIC").filter(|_| on)
+    let on = args.switch(&o::SYMMETRIC, default);
+    let has_z = list.iter().any(|r| r.dof.ends_with('Z'))
+        || [o::Z_PY, o::Z_DAMPING].iter().any(|option| args.option_if_declared(option).is_some());
+    if let Some(given) = args.option(&o::SYMMETRIC).filter(|_| on)
         && has_z
     {
         return Err(Diagnostic::error("with -SYMMETRIC only the Y properties are given; Z follows", given.span));
@@ -98,7 +99,7 @@ fn restrained(list: &[Restraint], dof: &str, symmetric: bool, at: Span) -> Outco
 /// Another degree of freedom, or one given twice, at its word.
 fn convolutions(args: &Args, list: &[Restraint], symmetric: bool) -> Outcome<Vec<(usize, String, Span)>> {
     let mut seen: Vec<(usize, String, Span)> = Vec::new();
-    for given in args.all("-CONVOLUTION") {
+    for given in args.all(&o::CONVOLUTION_DF) {
         let (Some(value), Some(name)) = (given.values.first(), given.values.get(1)) else { continue };
         let (Some(dof), Some(name_word)) = (value.word(), name.word()) else { continue };
         restrained(list, dof, symmetric, value.span)?;
@@ -137,14 +138,14 @@ impl Springs {
         convolutions: Vec<(usize, String, Span)>,
     ) -> Outcome<Self> {
         let mut curves = [None, None, None];
-        for ((name, dof), slot) in [("-X_PY", "X"), ("-Y_PY", "Y"), ("-Z_PY", "Z")].into_iter().zip(&mut curves) {
-            let Some(given) = args.option(name) else { continue };
+        for ((option, dof), slot) in [(o::X_PY, "X"), (o::Y_PY, "Y"), (o::Z_PY, "Z")].into_iter().zip(&mut curves) {
+            let Some(given) = args.option_if_declared(&option) else { continue };
             let points = checks::py_curve(given)?;
             restrained(&list, dof, symmetric, given.span)?;
             *slot = Some(points);
         }
-        let dashpots = ["-X_DAMPING", "-Y_DAMPING", "-Z_DAMPING"].map(|name| Dashpot::read(args, name));
-        let friction = args.option_number("-FRICTION");
+        let dashpots = [o::X_DAMPING, o::Y_DAMPING, o::Z_DAMPING].map(|option| Dashpot::read(args, &option));
+        let friction = args.number_if_declared(&o::FRICTION_MU);
         Ok(Springs { restraints: list, symmetric, curves, dashpots, convolutions, friction })
     }
 
@@ -251,7 +252,7 @@ impl Generalized {
             kind,
             sense: Sense::of(args.word(0)),
             springs: Springs::read(args, 1, false)?,
-            offset: args.option_number("-LEN").unwrap_or(0.0),
+            offset: args.number_if_declared(&o::LEN_OFFSET).unwrap_or(0.0),
             foundation: false,
         })
     }
@@ -283,11 +284,11 @@ impl ConnectorClass for Generalized {
     fn notices(&self, args: &Args, _: UnitSystem, _: &Surroundings) -> Vec<Diagnostic> {
         let mut made = Vec::new();
         let has_x = self.springs.restraints.iter().any(|r| r.dof == "X");
-        if let Some(given) = args.option("-LEN").filter(|_| !has_x && self.offset > 0.0) {
+        if let Some(given) = args.option_if_declared(&o::LEN_OFFSET).filter(|_| !has_x && self.offset > 0.0) {
             let text = format!("-LEN of {} offsets element X, which has no spring: it does nothing", self.kind);
             made.push(*Diagnostic::warning(text, given.span));
         }
-        if let Some(given) = args.option("-X_DAMPING").filter(|_| self.sense == Sense::Compression) {
+        if let Some(given) = args.option_if_declared(&o::X_DAMPING).filter(|_| self.sense == Sense::Compression) {
             let text = "this dashpot pulls while the ends part faster than the spring pushes";
             made.push(*Diagnostic::remark(text, given.span).help("a FENDER never pulls"));
         }

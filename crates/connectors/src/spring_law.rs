@@ -5,6 +5,7 @@
 use super::viscous::{Affine, Viscoelastic};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 use windlass_base::values::Args;
+use windlass_language::spec::OptionSpec;
 
 /// Velocity below which a dashpot of an exponent below one is linear (m/s): its slope is without bound at rest.
 const SLOW: f64 = 1e-3;
@@ -78,8 +79,8 @@ pub struct Dashpot {
 
 impl Dashpot {
     /// That of an option `Co Ex Fo`.
-    pub fn read(args: &Args, name: &str) -> Option<Dashpot> {
-        let given = args.option(name)?;
+    pub fn read(args: &Args, option: &OptionSpec) -> Option<Dashpot> {
+        let given = args.option_if_declared(option)?;
         let most = given.number(2).unwrap_or(f64::INFINITY);
         Some(Dashpot { coefficient: given.number(0)?, exponent: given.number(1)?, most })
     }

@@ -21,48 +21,44 @@ use windlass_model::{
 pub static TETHER: ClassKind =
     ClassKind { spec: &TETHER_SPEC, segmented: true, build: append_all::<TetherClass>, idle: &[] };
 
+const REFINE: OptionSpec = aqwa(
+    "-REFINE",
+    &[ValueSpec::new("N", Kind::Integer, "number of elements").within(1.0, 10_000.0)],
+    "number of elements",
+)
+.default("1");
+const DENSITY: OptionSpec =
+    aqwa("-DENSITY", &[number("RHO", Dim::KilogramsPerCubicMetre, "density").positive()], "density of the material")
+        .default("7850");
+const EMODULUS: OptionSpec =
+    aqwa("-EMODULUS", &[number("E", Dim::Pascals, "Young's modulus").positive()], "Young's modulus")
+        .default("&DEFAULT");
+const CD: OptionSpec = aqwa(
+    "-CD",
+    &[number("Cd", Dim::None, "transverse drag coefficient").not_negative()],
+    "transverse drag 0.5 rho Cd V2 OD",
+)
+.default("0.75");
+const LABEL: OptionSpec = OptionSpec::new(
+    "-LABEL",
+    &[
+        ValueSpec::new("N1", Kind::Integer, "the node nearer to the anchor"),
+        ValueSpec::new("N2", Kind::Integer, "the node nearer to the vessel"),
+        ValueSpec::new("MATE", Kind::Integer, "its material group"),
+        ValueSpec::new("GEOM", Kind::Integer, "its geometry group"),
+    ],
+    "what the tables call its nodes and groups; of a section of one element",
+)
+.owner(Owner::Ours)
+.default("numbers from 1 at the anchor");
+
 static TETHER_SPEC: CommandSpec = CommandSpec {
     owner: Owner::Aqwa,
     data: &[
         number("OD", Dim::Metres, "outer diameter").positive(),
         number("T", Dim::Metres, "wall thickness").positive(),
     ],
-    options: &[
-        LENGTH,
-        aqwa(
-            "-REFINE",
-            &[ValueSpec::new("N", Kind::Integer, "number of elements").within(1.0, 10_000.0)],
-            "number of elements",
-        )
-        .default("1"),
-        aqwa(
-            "-DENSITY",
-            &[number("RHO", Dim::KilogramsPerCubicMetre, "density").positive()],
-            "density of the material",
-        )
-        .default("7850"),
-        aqwa("-EMODULUS", &[number("E", Dim::Pascals, "Young's modulus").positive()], "Young's modulus")
-            .default("&DEFAULT"),
-        CA,
-        aqwa(
-            "-CD",
-            &[number("Cd", Dim::None, "transverse drag coefficient").not_negative()],
-            "transverse drag 0.5 rho Cd V2 OD",
-        )
-        .default("0.75"),
-        OptionSpec::new(
-            "-LABEL",
-            &[
-                ValueSpec::new("N1", Kind::Integer, "the node nearer to the anchor"),
-                ValueSpec::new("N2", Kind::Integer, "the node nearer to the vessel"),
-                ValueSpec::new("MATE", Kind::Integer, "its material group"),
-                ValueSpec::new("GEOM", Kind::Integer, "its geometry group"),
-            ],
-            "what the tables call its nodes and groups; of a section of one element",
-        )
-        .owner(Owner::Ours)
-        .default("numbers from 1 at the anchor"),
-    ],
+    options: &[LENGTH, REFINE, DENSITY, EMODULUS, CA, CD, LABEL],
     detail: "An AQWA tether or riser section, in kg, m and N in every unit system; one record a section.",
     example: "MEDIT\n~LEG TETHER 1.1 0.035 -LEN 250 -REFINE 10\nEND\n&STATUS CLASS ~LEG",
     ..CommandSpec::new("TETHER", "AQWA tether/riser section")
@@ -83,18 +79,18 @@ impl ConnectorClass for TetherClass {
             return Err(Diagnostic::error("the wall thickness T is larger than half of OD", args.place(1)));
         }
         let material = &record.defaults.material;
-        let elements = args.option("-REFINE").and_then(|g| g.values.first()).and_then(|v| v.integer());
+        let elements = args.option(&REFINE).and_then(|g| g.values.first()).and_then(|v| v.integer());
         self.0.push(TetherSection {
             outer_diameter: od,
             wall_thickness: thickness,
             length: checks::length(args, "TETHER")?,
             elements: elements.and_then(|n| usize::try_from(n).ok()).unwrap_or(1),
-            density: args.option_number("-DENSITY").unwrap_or(material.density),
-            youngs_modulus: args.option_number("-EMODULUS").unwrap_or(material.emodulus),
-            added_mass: args.option_number("-CA").unwrap_or(1.0),
-            drag: args.option_number("-CD").unwrap_or(0.75),
+            density: args.option_number(&DENSITY).unwrap_or(material.density),
+            youngs_modulus: args.option_number(&EMODULUS).unwrap_or(material.emodulus),
+            added_mass: args.option_number(&CA).unwrap_or(1.0),
+            drag: args.option_number(&CD).unwrap_or(0.75),
             label: args
-                .option("-LABEL")
+                .option(&LABEL)
                 .map(|g| [0, 1, 2, 3].map(|i| g.values.get(i).and_then(|v| v.integer()).unwrap_or(0))),
         });
         Ok(())

@@ -23,7 +23,7 @@ use windlass_base::values::{Args, Given, Value};
 /// An unknown or ambiguous option, an option given twice, a missing or surplus value, text for a number, a number out
 /// of range: each at its word, with what was expected.
 pub fn read(spec: &'static CommandSpec, command: Span, words: &[Word], units: UnitSystem) -> Outcome<Args> {
-    let mut args = Args { span: command, data: Vec::new(), options: Vec::new() };
+    let mut args = Args { span: command, declared: spec.options, data: Vec::new(), options: Vec::new() };
     let mut data: Vec<&Word> = Vec::new();
     // words behind an option that could have been its choice and are none of it
     let mut declined: Vec<(&Word, &'static OptionSpec, &'static ValueSpec)> = Vec::new();
@@ -39,7 +39,7 @@ pub fn read(spec: &'static CommandSpec, command: Span, words: &[Word], units: Un
             }
             let option = select::choose(&word.text, word.span, &what, spec.option_names())?;
             if !option.many
-                && let Some(first) = args.options.iter().find(|g| g.name == option.name)
+                && let Some(first) = args.options.iter().find(|given| given.is(option))
             {
                 return Err(Diagnostic::error(format!("{} is given twice", option.name), word.span)
                     .other(first.span, "first given here"));
@@ -48,7 +48,7 @@ pub fn read(spec: &'static CommandSpec, command: Span, words: &[Word], units: Un
             let owner = format!("{} of {}", option.name, spec.name);
             let values = convert(option.values, option.repeat, &owner, word.span, &refs(taken), units)
                 .map_err(|error| hint(error, &option.syntax()))?;
-            args.options.push(Given { name: option.name, span: word.span, values, after: data.len() });
+            args.options.push(Given { option, span: word.span, values, after: data.len() });
             at += 1 + taken.len();
             if let (Some(next), Some(value)) = (words.get(at), option.values.get(taken.len()))
                 && matches!(value.kind, Kind::Choice(_))
@@ -113,7 +113,7 @@ fn strays(spec: &CommandSpec, data: &[Value], behind: &[(&Word, &Given)]) -> Out
         };
         if let Some((word, given, (value, _))) = kinds.iter().find(|(word, _, (value, _))| by_place(word, value)) {
             return Err(Diagnostic::error(
-                format!("`{}` stands behind {}, which takes no further value", word.text, given.name),
+                format!("`{}` stands behind {}, which takes no further value", word.text, given.name()),
                 word.span,
             )
             .label(format!("{} of {} stands before the options", value.name, spec.name))
@@ -133,7 +133,7 @@ fn missing_option(word: &Word, given: &Given) -> String {
     if UNITS.contains(&word.text.to_ascii_lowercase().as_str()) {
         return "numbers have no units in a record: &DIMEN sets them".into();
     }
-    format!("is an option missing before it? {} has all its values", given.name)
+    format!("is an option missing before it? {} has all its values", given.name())
 }
 
 fn refs(words: &[Word]) -> Vec<&Word> {

@@ -2,16 +2,17 @@
 //! ships.
 //!
 //! # Example
-//! A record is read against the spec of its command: abbreviations, units and errors with places come of themselves.
+//! A record is read against the spec of its command: abbreviations, units and errors with places come of themselves. An
+//! option is looked up by the constant that the spec lists.
 //! ```
 //! use windlass_base::units::{Dim, LengthUnit, ForceUnit, UnitSystem};
 //! use windlass_language::source::Sources;
 //! use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 //! use windlass_language::{args, record};
 //!
-//! static LENGTH: [ValueSpec; 1] = [ValueSpec::new("L", Kind::Number(Dim::Length), "length")];
-//! static OPTIONS: [OptionSpec; 1] = [OptionSpec::new("-LENGTH", &LENGTH, "length of the segment")];
-//! static CHAIN: CommandSpec = CommandSpec { options: &OPTIONS, ..CommandSpec::new("CHAIN", "a chain") };
+//! const LENGTH: OptionSpec =
+//!     OptionSpec::new("-LENGTH", &[ValueSpec::new("L", Kind::Number(Dim::Length), "length")], "length of the segment");
+//! static CHAIN: CommandSpec = CommandSpec { options: &[LENGTH], ..CommandSpec::new("CHAIN", "a chain") };
 //!
 //! let mut sources = Sources::default();
 //! let text = "CHAIN -LEN 2*250";
@@ -20,7 +21,7 @@
 //! let words = record.words();
 //! let units = UnitSystem { length: LengthUnit::Meters, force: ForceUnit::Kilonewtons };
 //! let args = args::read(&CHAIN, words[0].span, &words[1..], units).map_err(|e| e.message)?;
-//! assert_eq!(args.option_number("-LENGTH"), Some(500.0));
+//! assert_eq!(args.option_number(&LENGTH), Some(500.0));
 //! # Ok::<(), String>(())
 //! ```
 

@@ -4,18 +4,7 @@
 
 use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use windlass_base::span::Span;
-
-/// Whose name a keyword is. A MOSES abbreviation stays valid whatever else is added: names of MOSES are looked at
-/// first, the others only where none of MOSES's fits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Owner {
-    /// From the MOSES documents.
-    Moses,
-    /// From the AQWA documents.
-    Aqwa,
-    /// Ours.
-    Ours,
-}
+pub use windlass_base::spec::Owner;
 
 /// What a keyword search found.
 #[derive(Clone, Debug, PartialEq, Eq)]

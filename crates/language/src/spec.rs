@@ -2,155 +2,10 @@
 //! and the printed manual all read these; nothing about a record's form is written twice.
 
 use super::select::Owner;
+use windlass_base::spec::values_syntax;
+pub use windlass_base::spec::{Kind, Need, OptionSpec, Range, ValueSpec};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::Noun;
-
-/// What a value is.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Kind {
-    /// A number or expression with a dimension; becomes SI.
-    Number(Dim),
-    /// A whole number.
-    Integer,
-    /// One of these words, by minimum uniqueness.
-    Choice(&'static [&'static str]),
-    /// A name of this sort.
-    Name(Noun),
-    /// One of these words, or a name of this sort; as typed.
-    ChoiceOrName(&'static [&'static str], Noun),
-    /// Any word.
-    Text,
-    /// A file name.
-    File,
-    /// A number whose dimension follows from the degree of freedom before it: stiffness.
-    StiffnessOfDof,
-    /// A number whose dimension follows from the degree of freedom before it: force or moment.
-    ForceOfDof,
-    /// A dashpot coefficient; its dimension follows from the exponent after it.
-    DampingCoefficient,
-}
-
-/// Whether a value must be there.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Need {
-    /// An error without it.
-    Required,
-    /// May be left out; the text says what holds then.
-    Optional(&'static str),
-}
-
-/// The range a number must lie in.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Range {
-    /// Anything finite.
-    Any,
-    /// Greater than zero.
-    Positive,
-    /// Zero or more.
-    NotNegative,
-    /// Between these, ends included (user units).
-    Within(f64, f64),
-}
-
-/// One value of a record or an option.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ValueSpec {
-    /// Its name in the manual, e.g. `OD`.
-    pub name: &'static str,
-    /// What it is.
-    pub kind: Kind,
-    /// Must it be there.
-    pub need: Need,
-    /// Where it must lie.
-    pub range: Range,
-    /// One line of help.
-    pub help: &'static str,
-}
-
-impl ValueSpec {
-    /// A value that must be there.
-    pub const fn new(name: &'static str, kind: Kind, help: &'static str) -> Self {
-        ValueSpec { name, kind, need: Need::Required, range: Range::Any, help }
-    }
-
-    /// The same, but it may be left out; `default` says what holds then.
-    pub const fn or(self, default: &'static str) -> Self {
-        ValueSpec { need: Need::Optional(default), ..self }
-    }
-
-    /// The same, but only greater than zero.
-    pub const fn positive(self) -> Self {
-        ValueSpec { range: Range::Positive, ..self }
-    }
-
-    /// The same, but zero or more.
-    pub const fn not_negative(self) -> Self {
-        ValueSpec { range: Range::NotNegative, ..self }
-    }
-
-    /// The same, but between two bounds (user units).
-    pub const fn within(self, low: f64, high: f64) -> Self {
-        ValueSpec { range: Range::Within(low, high), ..self }
-    }
-
-    /// True when the value must be there.
-    pub fn is_required(&self) -> bool {
-        self.need == Need::Required
-    }
-}
-
-/// An option with its values.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct OptionSpec {
-    /// With its leading `-`.
-    pub name: &'static str,
-    /// Other spellings of the same, in the documents' words.
-    pub aliases: &'static [&'static str],
-    /// Whose name it is.
-    pub owner: Owner,
-    /// Values in order.
-    pub values: &'static [ValueSpec],
-    /// The last this-many values repeat as a group (0: none do).
-    pub repeat: usize,
-    /// True when the option may be given more than once in a record.
-    pub many: bool,
-    /// One line of help.
-    pub help: &'static str,
-    /// What holds without the option.
-    pub default: &'static str,
-}
-
-impl OptionSpec {
-    /// A MOSES option.
-    pub const fn new(name: &'static str, values: &'static [ValueSpec], help: &'static str) -> Self {
-        OptionSpec { name, aliases: &[], owner: Owner::Moses, values, repeat: 0, many: false, help, default: "" }
-    }
-
-    /// The same with what holds when the option is not given.
-    pub const fn default(self, default: &'static str) -> Self {
-        OptionSpec { default, ..self }
-    }
-
-    /// The same, owned by somebody else than MOSES.
-    pub const fn owner(self, owner: Owner) -> Self {
-        OptionSpec { owner, ..self }
-    }
-
-    /// The same, its last `count` values repeating as a group.
-    pub const fn repeating(self, count: usize) -> Self {
-        OptionSpec { repeat: count, ..self }
-    }
-
-    /// The same, allowed more than once.
-    pub const fn many(self) -> Self {
-        OptionSpec { many: true, ..self }
-    }
-
-    /// The same with other spellings.
-    pub const fn aliases(self, aliases: &'static [&'static str]) -> Self {
-        OptionSpec { aliases, ..self }
-    }
-}
 
 /// How the text behind a command word is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -177,7 +32,7 @@ pub const fn joined<const N: usize>(first: &[OptionSpec], second: &[OptionSpec])
 }
 
 /// Whether a record of a command opens a menu, which an `END` of its own leaves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Opens {
     /// It opens none.
     Nothing,
@@ -188,12 +43,12 @@ pub enum Opens {
     /// The menu of the first name when at most this many words follow the command; with more that of the second.
     AtMostElse(&'static str, usize, &'static str),
     /// The menu of this name when it has this option, in full or not.
-    WithOption(&'static str, &'static str),
+    WithOption(&'static str, &'static OptionSpec),
     /// The menu of this name when at most this many words stand between the command and its first option; with more it is
     /// complete in itself.
     Short(&'static str, usize),
     /// The menu of the first name, unless it has this option, in full or not.
-    WithoutOption(&'static str, &'static str),
+    WithoutOption(&'static str, &'static OptionSpec),
     /// The menu of this name, unless a file of the job's gives the menu's records.
     UnlessFile(&'static str),
 }
@@ -271,28 +126,6 @@ impl CommandSpec {
         }
         text
     }
-}
-
-impl OptionSpec {
-    /// The option's form, e.g. `-CLUMP CW [CLEN]`.
-    pub fn syntax(&self) -> String {
-        format!("{}{}", self.name, values_syntax(self.values, self.repeat))
-    }
-}
-
-fn values_syntax(values: &[ValueSpec], repeat: usize) -> String {
-    let mut text = String::new();
-    for value in values {
-        if value.is_required() {
-            text.push_str(&format!(" {}", value.name));
-        } else {
-            text.push_str(&format!(" [{}]", value.name));
-        }
-    }
-    if repeat > 0 {
-        text.push_str(" ...");
-    }
-    text
 }
 
 /// What a value is, in words, for help and errors: `a number (kips)`, `TENSION or COMPRESSION`.

@@ -9,6 +9,7 @@ use super::fatigue::FatigueSegment;
 use super::line::{LineModel, Placement};
 use super::note::in_eight_figures;
 use super::tether::TetherSection;
+use crate::options::{C_SN, EI, EMODULUS, FYIELD, IG_STIFF, POI_RAT, TENSTR};
 use std::fmt::Debug;
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -59,7 +60,7 @@ impl Class {
                 self.object = build(&all)?;
             }
         }
-        self.ignored_stiffness |= record.args.has("-IG_STIFF");
+        self.ignored_stiffness |= record.args.option_if_declared(&IG_STIFF).is_some();
         self.records.push(record);
         Ok(())
     }
@@ -69,7 +70,7 @@ impl Class {
     pub fn fatigue_segments(&self) -> Vec<FatigueSegment> {
         let mut segments = self.object.fatigue_segments();
         for (segment, record) in segments.iter_mut().zip(&self.records) {
-            segment.curve = record.args.option_word("-C_SN").map(str::to_string);
+            segment.curve = record.args.option_if_declared(&C_SN).and_then(|g| g.word(0)).map(str::to_string);
         }
         segments
     }
@@ -89,18 +90,25 @@ pub struct WallMaterial {
 }
 
 impl Class {
+    /// Whether its segments bend, one a record: all but those of `-EI 0`.
+    pub fn bending_segments(&self) -> impl Iterator<Item = bool> {
+        let stiffness = |record: &ClassRecord| record.args.number_if_declared(&EI);
+        self.records.iter().map(move |record| stiffness(record) != Some(0.0))
+    }
+
     /// What the walls of its segments are made of, one a record: of its options, else of `&DEFAULT` when it was read.
     pub fn wall_materials(&self) -> Vec<WallMaterial> {
         let of = |record: &ClassRecord| {
-            let (args, usual) = (&record.args, &record.defaults.material);
-            let given = args.option_number("-FYIELD");
+            let usual = &record.defaults.material;
+            let number = |option| record.args.number_if_declared(option);
+            let given = number(&FYIELD);
             // as the break of a section: without a strength of its own, yield / 0.6
             let by_yield = given.map(|y| y / 0.6);
             WallMaterial {
                 yield_stress: given.unwrap_or(usual.yield_stress),
-                tensile: args.option_number("-TENSTR").or(by_yield).unwrap_or(usual.ultimate()),
-                modulus: args.option_number("-EMODULUS").unwrap_or(usual.emodulus),
-                poisson: args.option_number("-POI_RAT").unwrap_or(usual.poisson),
+                tensile: number(&TENSTR).or(by_yield).unwrap_or(usual.ultimate()),
+                modulus: number(&EMODULUS).unwrap_or(usual.emodulus),
+                poisson: number(&POI_RAT).unwrap_or(usual.poisson),
             }
         };
         self.records.iter().map(of).collect()

@@ -34,6 +34,7 @@ mod line;
 mod load;
 mod names;
 mod note;
+pub mod options;
 mod parameters;
 mod prescribed;
 mod scheme;

@@ -1,6 +1,7 @@
 //! Parts of a line from the records of ROD, B_CAT and H_CAT.
 
 use super::describe::{Description, Hold, JointMass, Part, Seabed, Strength};
+use crate::options as o;
 use crate::per_line::PerLineOptions;
 use crate::section::LineSection;
 use std::f64::consts::{FRAC_PI_4, PI};
@@ -32,8 +33,6 @@ const fn ours(name: &'static str, values: &'static [ValueSpec], help: &'static s
 /// Relaxation time of a fibre rope (s) where none is given: beyond waves, within the slow drift of a vessel.
 const RELAXES: f64 = 100.0;
 
-/// Bending stiffness: force times length squared.
-const BENDING: Dim = Dim::Derived { force: 1, length: 2, seconds: 0 };
 /// Force per rate of strain.
 const PER_RATE: Dim = Dim::Derived { force: 1, length: 0, seconds: 1 };
 /// Force per area and depth.
@@ -64,13 +63,6 @@ pub const CA: OptionSpec = ours(
     "added mass coefficients of the segment",
 )
 .default("1.0 0");
-/// `-EI`.
-pub const EI: OptionSpec = ours(
-    "-EI",
-    &[number("EI", BENDING, "bending stiffness; 0: a chain or rope, which cannot push").not_negative()],
-    "bending stiffness in place of the tube's",
-)
-.default("that of the tube");
 /// `-EA`.
 pub const EA: OptionSpec = ours(
     "-EA",
@@ -163,9 +155,9 @@ pub struct Flexure {
 }
 
 /// The values of an option, as far as they are given.
-fn given_or<const N: usize>(args: &Args, name: &str, default: [f64; N]) -> [f64; N] {
+fn given_or<const N: usize>(args: &Args, option: &OptionSpec, default: [f64; N]) -> [f64; N] {
     let mut made = default;
-    if let Some(given) = args.option(name) {
+    if let Some(given) = args.option_if_declared(option) {
         for (i, value) in made.iter_mut().enumerate() {
             *value = given.number(i).unwrap_or(*value);
         }
@@ -181,31 +173,31 @@ impl Flexure {
     pub fn read(record: &ClassRecord, section: &LineSection) -> Outcome<Flexure> {
         let args = &record.args;
         let material = &record.defaults.material;
-        let option = |name: &str| args.option_number(name);
+        let option = |option: &OptionSpec| args.number_if_declared(option);
         let typed = section.of_type.as_ref();
-        if let (Some(given), 0.0) = (args.option("-CLUMP_DRAG"), section.clump) {
+        if let (Some(given), 0.0) = (args.option_if_declared(&CLUMP_DRAG), section.clump) {
             return Err(Diagnostic::error("there is no clump or buoy whose drag this could be", given.span)
                 .help("-CLUMP of the same record has its weight"));
         }
         let inner = section.thickness.map(|t| section.od - 2.0 * t);
         // EI of the tube from its EA: I/A is (D2 + d2)/16
         let bending = inner.map(|d| section.ea * (section.od * section.od + d * d) / 16.0);
-        let bending = option("-EI").or(bending).unwrap_or(0.0);
+        let bending = option(&o::EI).or(bending).unwrap_or(0.0);
         // a bar that does not bend is a chain or rope: there is nothing in it, and no wall
         let tube = inner.is_some_and(|d| d > 0.0) || bending > 0.0;
         Ok(Flexure {
-            drag: option("-DRAGDIAMETER").or(typed.map(|t| t.drag)).unwrap_or(section.od),
-            wind: option("-WINDDIAMETER").or(typed.map(|t| t.wind)).unwrap_or(section.od),
-            added: option("-AMASDIAMETER").or(typed.map(|t| t.added_mass)).unwrap_or(section.od),
-            cd: given_or(args, "-CD", [typed.map_or(AQWA_CD, |t| t.line_type.drag.coefficient), AQWA_CX / PI, WIND_CD]),
-            ca: given_or(args, "-CA", [AQWA_CA, 0.0]),
+            drag: option(&o::DRAGDIAMETER).or(typed.map(|t| t.drag)).unwrap_or(section.od),
+            wind: option(&o::WINDDIAMETER).or(typed.map(|t| t.wind)).unwrap_or(section.od),
+            added: option(&o::AMASDIAMETER).or(typed.map(|t| t.added_mass)).unwrap_or(section.od),
+            cd: given_or(args, &CD, [typed.map_or(AQWA_CD, |t| t.line_type.drag.coefficient), AQWA_CX / PI, WIND_CD]),
+            ca: given_or(args, &CA, [AQWA_CA, 0.0]),
             axial: rope(args, law(args, section.ea)?)?,
-            damping: option("-AX_DAMPING").unwrap_or(0.0),
+            damping: option(&AX_DAMPING).unwrap_or(0.0),
             bending,
             tube: tube.then(|| {
-                [option("-POI_RAT").unwrap_or(material.poisson), option("-ALPHA").unwrap_or(material.expansion)]
+                [option(&o::POI_RAT).unwrap_or(material.poisson), option(&o::ALPHA).unwrap_or(material.expansion)]
             }),
-            clump: [0, 1].map(|i| args.option("-CLUMP_DRAG").and_then(|g| g.number(i))),
+            clump: [0, 1].map(|i| args.option_if_declared(&CLUMP_DRAG).and_then(|g| g.number(i))),
         })
     }
 
@@ -262,7 +254,7 @@ impl Flexure {
 
 /// The law of a fibre rope, whose static one is given; that itself of another line.
 fn rope(args: &Args, slow: Axial) -> Outcome<Axial> {
-    let Some(given) = args.option("-ROPE") else { return Ok(slow) };
+    let Some(given) = args.option_if_declared(&ROPE) else { return Ok(slow) };
     let fast = [given.number(0).unwrap_or(0.0), given.number(1).unwrap_or(0.0)];
     let stiffest = slow.at(0.0).1;
     if fast[0] <= stiffest {
@@ -274,7 +266,7 @@ fn rope(args: &Args, slow: Axial) -> Outcome<Axial> {
 
 /// Tension by strain.
 fn law(args: &Args, ea: f64) -> Outcome<Axial> {
-    let (polynomial, table) = (args.option("-EA"), args.option("-STRETCH"));
+    let (polynomial, table) = (args.option_if_declared(&EA), args.option_if_declared(&STRETCH));
     match (polynomial, table) {
         (Some(given), Some(other)) => {
             Err(Diagnostic::error("tension by strain is given twice", other.span).other(given.span, "and here"))
@@ -305,15 +297,15 @@ fn law(args: &Args, ea: f64) -> Outcome<Axial> {
 
 /// The bottom under a line, of its options.
 pub fn seabed(options: &PerLineOptions) -> Seabed {
-    let own = options.option("-SEABED");
+    let own = options.option(&SEABED);
     Seabed {
         stiffness: own.and_then(|g| g.number(0)),
         damping: own.and_then(|g| g.number(1)),
-        along: options.number("-FRICTION").unwrap_or(0.0),
+        along: options.number(&o::FRICTION).unwrap_or(0.0),
         across: own.and_then(|g| g.number(2)),
         // -SLOPE is positive where the depth increases toward the anchor
-        slope: options.number("-SLOPE"),
-        depth: options.number("-DEPANCHOR"),
+        slope: options.number(&o::SLOPE),
+        depth: options.number(&o::DEPANCHOR),
         with_anchor: false,
     }
 }

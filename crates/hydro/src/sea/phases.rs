@@ -4,6 +4,7 @@ use super::Component;
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::Rng;
 use std::f64::consts::TAU;
+use windlass_model::options::PHASES;
 use windlass_model::{ClassError, Environment, Phasing};
 
 /// Sees that phases which are given (`-PHASES`) are as many as the components.
@@ -17,7 +18,7 @@ pub fn one_each(env: &Environment, components: &[Component]) -> Result<(), Class
     let text = format!("-PHASES has {} phases for {} wave components", env.sea_phases.len(), components.len());
     let error = ClassError::new(text)
         .help("one each, in the order of &STATUS SEA_SPECTRUM; -COMPONENTS says how many there are");
-    let given = env.options.iter().find(|option| option.name == "-PHASES");
+    let given = env.options.iter().find(|given| given.is(&PHASES));
     Err(match given {
         Some(option) => error.at(option.span),
         None => error,

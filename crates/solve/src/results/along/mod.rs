@@ -72,7 +72,7 @@ pub(crate) fn sections(model: &Model, name: &str) -> Vec<Section> {
     });
     let class = connector.or(pipe).and_then(|(class, few)| Some((model.classes.get(&Model::key(class))?, few)));
     let Some((class, few)) = class else { return Vec::new() };
-    let bends = class.records.iter().map(|record| record.args.option_number("-EI") != Some(0.0));
+    let bends = class.bending_segments();
     let made = class.fatigue_segments().into_iter().zip(class.wall_materials()).zip(bends);
     let of = |((segment, material), bends): ((FatigueSegment, WallMaterial), bool)| {
         // a bar that does not bend is a chain or rope
