@@ -105,11 +105,16 @@ pub fn reported(table: &Table, selector: &str) -> Result<Vec<usize>, NoSuchColum
 mod tests {
     use super::*;
     use proptest::prelude::*;
-    use windlass_base::table::Digits;
+    use windlass_base::table::{Column, Digits};
     use windlass_base::units::Dim;
 
+    fn heads<'h>(list: impl IntoIterator<Item = (&'h str, &'h str)>) -> Table {
+        let column = |(group, name)| Column::new(group, name, Dim::None, Digits::Usual, [0.0]);
+        Table::from_columns("t", list.into_iter().map(column).collect())
+    }
+
     fn table(names: &[&str]) -> Table {
-        names.iter().fold(Table::new("t"), |t, n| t.column("G", n, Dim::None, Digits::Usual))
+        heads(names.iter().map(|name| ("G", *name)))
     }
 
     #[test]
@@ -126,15 +131,14 @@ mod tests {
     fn in_a_report_the_name_of_a_group_is_all_its_columns_and_a_column_of_that_name_goes_before() {
         let groups =
             [("", "Time"), ("A Location", "X"), ("A Location", "Y"), ("B Location", "X"), ("A Velocity", "VX")];
-        let table = groups.iter().fold(Table::new("t"), |t, (g, n)| t.column(g, n, Dim::None, Digits::Usual));
+        let table = heads(groups);
         assert_eq!(reported(&table, "LOCATION"), Ok(vec![0, 1, 2, 3]));
         // a pattern that fits columns by their long names chooses these alone
         assert_eq!(reported(&table, "a@"), Ok(vec![1, 2, 4]));
         assert_eq!(reported(&table, "B Location"), Ok(vec![0, 3]));
         assert_eq!(reported(&table, "X"), Ok(vec![1, 3]));
         assert!(choose(&table, "LOCATION").is_err() && reported(&table, "PLACE").is_err());
-        let named = Table::new("t").column("Force", "FX", Dim::None, Digits::Usual);
-        let named = named.column("Horizontal", "Force", Dim::None, Digits::Usual);
+        let named = heads([("Force", "FX"), ("Horizontal", "Force")]);
         assert_eq!(reported(&named, "Force"), Ok(vec![1]));
     }
 

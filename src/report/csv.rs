@@ -60,34 +60,27 @@ pub(super) fn heads(table: &Table, units: UnitSystem) -> Vec<String> {
 mod tests {
     use super::*;
     use proptest::prelude::*;
-    use windlass_base::table::Digits;
+    use windlass_base::table::{Column, Digits};
 
     #[test]
     fn heads_have_units_and_numbers_read_back_exactly() {
-        let mut table = Table::new("t").column("", "X", Dim::Length, Digits::Usual).column(
-            "",
-            "State, now",
-            Dim::None,
-            Digits::Usual,
-        );
-        table.push(vec![Cell::Number(1.0 / 3.0), "a,b".into()]).unwrap();
-        table.push(vec![Cell::Missing, "c".into()]).unwrap();
+        let table = Table::new("t")
+            .with_rows(&[(Some(1.0 / 3.0), "a,b"), (None, "c")])
+            .column("", "X", Dim::Length, Digits::Usual, |(x, _)| *x)
+            .text("State, now", |(_, state)| *state)
+            .build();
         let text = String::from_utf8(bytes(&table, UnitSystem::SI).unwrap()).unwrap();
         assert_eq!(text, "X (m),\"State, now\"\n0.3333333333333333,\"a,b\"\n,c\n");
     }
 
     #[test]
     fn text_that_a_spreadsheet_would_run_gets_an_apostrophe_and_numbers_do_not() {
-        let mut table = Table::new("t").column("", "=HYPERLINK(1)", Dim::None, Digits::Usual).column(
-            "",
-            "X",
-            Dim::None,
-            Digits::Usual,
-        );
         let texts = ["=cmd|' /C calc'!A0", "+1+1", "@SUM(A1)", "-2+3", "-", "-5", "+5", "-1e3", "x=1", "\t=1", "\r=1"];
-        for text in texts {
-            table.push(vec![text.into(), Cell::Number(-1.5)]).unwrap();
-        }
+        let table = Table::new("t")
+            .with_rows(&texts)
+            .text("=HYPERLINK(1)", |text| *text)
+            .column("", "X", Dim::None, Digits::Usual, |_| -1.5)
+            .build();
         let text = bytes(&table, UnitSystem::SI).unwrap();
         let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(text.as_slice());
         let first: Vec<String> = reader.records().map(|r| r.unwrap()[0].to_string()).collect();
@@ -114,20 +107,20 @@ mod tests {
     #[test]
     fn no_two_heads_are_alike() {
         let names = [("A", "F"), ("B", "F"), ("", "X"), ("", "X")];
-        let t = names.iter().fold(Table::new("t"), |t, (g, n)| t.column(g, n, Dim::Force, Digits::Usual));
+        let column = |(group, name): &(&str, &str)| Column::new(group, name, Dim::Force, Digits::Usual, [0.0]);
+        let t = Table::from_columns("t", names.iter().map(column).collect());
         assert_eq!(heads(&t, UnitSystem::SI), ["A: F (N)", "B: F (N)", "X (N) #3", "X (N) #4"]);
     }
 
     proptest! {
         #[test]
         fn a_file_reads_back_to_the_last_bit(rows in prop::collection::vec((any::<f64>(), any::<i64>(), "\\PC{0,8}|[,\"\n\r]{0,4}"), 0..20)) {
-            let mut t = Table::new("t")
-                .column("", "X", Dim::None, Digits::Usual)
-                .column("", "N", Dim::None, Digits::Usual)
-                .column("", "T", Dim::None, Digits::Usual);
-            for (x, n, text) in &rows {
-                t.push(vec![Cell::Number(*x), Cell::Integer(*n), Cell::Text(text.clone())]).unwrap();
-            }
+            let t = Table::new("t")
+                .with_rows(&rows)
+                .column("", "X", Dim::None, Digits::Usual, |(x, ..)| *x)
+                .column("", "N", Dim::None, Digits::Usual, |(_, n, _)| *n)
+                .text("T", |(.., text)| text)
+                .build();
             let file = bytes(&t, UnitSystem::SI).unwrap();
             let mut reader = csv::Reader::from_reader(file.as_slice());
             let read: Vec<csv::StringRecord> = reader.records().collect::<Result<_, _>>().unwrap();

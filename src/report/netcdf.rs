@@ -168,24 +168,21 @@ fn names<'a>(wanted: impl Iterator<Item = &'a str>) -> Vec<String> {
 mod tests {
     use super::*;
     use netcdf3::FileReader;
-    use windlass_base::table::{Cell, Digits};
+    use windlass_base::table::Digits;
     use windlass_base::units::Dim;
 
     #[test]
     fn a_file_reads_back_with_its_values_to_the_last_bit_its_units_names_and_text() {
-        let mut t = Table::new("A run")
-            .column("", "Time", Dim::Time, Digits::Usual)
-            .column("Tension", "Ten Top", Dim::Force, Digits::Usual)
-            .column("", "Crit. Seg", Dim::None, Digits::Usual)
-            .column("", "Name", Dim::None, Digits::Usual)
-            .column("", "2 wide", Dim::None, Digits::Usual);
         let tops = [1.0 / 3.0, -1e300, 5e-324];
-        for (n, top) in (0..).zip(tops) {
-            let time = if n == 2 { Cell::Missing } else { Cell::Number(0.1 * n as f64) };
-            let seg = if n == 1 { Cell::Missing } else { Cell::Integer(n) };
-            let name = ["A", "BOW", ""][n as usize];
-            t.push(vec![time, Cell::Number(top), seg, name.into(), Cell::Integer(n << 40)]).unwrap();
-        }
+        let rows = [(0i64, tops[0], "A"), (1, tops[1], "BOW"), (2, tops[2], "")];
+        let t = Table::new("A run")
+            .with_rows(&rows)
+            .column("", "Time", Dim::Time, Digits::Usual, |(n, ..)| (*n != 2).then_some(0.1 * *n as f64))
+            .column("Tension", "Ten Top", Dim::Force, Digits::Usual, |(_, top, _)| *top)
+            .column("", "Crit. Seg", Dim::None, Digits::Usual, |(n, ..)| (*n != 1).then_some(*n))
+            .text("Name", |(.., name)| *name)
+            .column("", "2 wide", Dim::None, Digits::Usual, |(n, ..)| *n << 40)
+            .build();
         let file = bytes(&t, UnitSystem::SI).unwrap();
         let mut reader = FileReader::open_seek_read("", Box::new(Cursor::new(file))).unwrap();
         {

@@ -202,10 +202,11 @@ mod tests {
     fn a_report_has_its_title_units_groups_and_aligned_rows() {
         let mut table = Table::new("Properties of Line A")
             .fact("Water Depth", 100.0 * 0.3048, Dim::Length)
-            .column("", "X", Dim::Length, Digits::Usual)
-            .column("Tension", "Top", Dim::Force, Digits::Usual)
-            .column("Tension", "T/TB", Dim::None, Digits::Decimals(3));
-        table.push(vec![0.3048.into(), 44_482.216_152_605.into(), 0.25.into()]).unwrap();
+            .with_rows(&[(0.3048, 44_482.216_152_605, 0.25)])
+            .column("", "X", Dim::Length, Digits::Usual, |row| row.0)
+            .column("Tension", "Top", Dim::Force, Digits::Usual, |row| row.1)
+            .column("Tension", "T/TB", Dim::None, Digits::Decimals(3), |row| row.2)
+            .build();
         table.note("said once");
         let head = PageHead { titles: ["Title".into(), String::new()], ..PageHead::default() };
         let text = render(&table, UnitSystem::default(), &head);

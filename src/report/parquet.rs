@@ -101,22 +101,20 @@ mod tests {
     use ::parquet::file::reader::{FileReader, SerializedFileReader};
     use ::parquet::record::Field;
     use std::io::Write;
-    use windlass_base::table::{Cell, Digits};
+    use windlass_base::table::Digits;
     use windlass_base::units::Dim;
 
     #[test]
     fn a_file_reads_back_with_its_values_to_the_last_bit_its_units_and_what_is_missing() {
-        let mut t = Table::new("A, of B")
-            .column("", "X", Dim::Length, Digits::Usual)
-            .column("Tension", "Top", Dim::Force, Digits::Usual)
-            .column("", "Segment", Dim::None, Digits::Usual)
-            .column("", "State", Dim::None, Digits::Usual);
         let tops = [1.0 / 3.0, f64::MIN_POSITIVE, -1e300, f64::NAN];
-        for (n, top) in (1..).zip(tops) {
-            let state = if n == 3 { Cell::Missing } else { "d\u{e9}pos\u{e9}".into() };
-            let x = if n == 2 { Cell::Missing } else { Cell::Number(f64::from(n)) };
-            t.push(vec![x, Cell::Number(top), Cell::Integer(i64::MAX - i64::from(n)), state]).unwrap();
-        }
+        let rows: Vec<(i64, f64)> = (1..).zip(tops).collect();
+        let t = Table::new("A, of B")
+            .with_rows(&rows)
+            .column("", "X", Dim::Length, Digits::Usual, |(n, _)| (*n != 2).then_some(*n as f64))
+            .column("Tension", "Top", Dim::Force, Digits::Usual, |(_, top)| *top)
+            .column("", "Segment", Dim::None, Digits::Usual, |(n, _)| i64::MAX - n)
+            .text("State", |(n, _)| (*n != 3).then_some("d\u{e9}pos\u{e9}"))
+            .build();
         let file = bytes(&t, UnitSystem::SI).unwrap();
         let mut kept = tempfile::tempfile().unwrap();
         kept.write_all(&file).unwrap();
@@ -144,7 +142,7 @@ mod tests {
 
     #[test]
     fn a_table_without_rows_is_refused() {
-        let t = Table::new("t").column("", "X", Dim::None, Digits::Usual);
+        let t = Table::new("t").with_rows(&[] as &[f64]).column("", "X", Dim::None, Digits::Usual, |x| *x).build();
         assert_eq!(bytes(&t, UnitSystem::SI), Err(StoreError::Empty));
     }
 }

@@ -5,7 +5,7 @@
 //! that dimension, whatever units the user has now.
 
 use super::csv::unguarded;
-use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::table::{Cell, Column, Digits, Table};
 use windlass_base::units::{Dim, ForceUnit, LengthUnit, UnitSystem};
 
 /// Why a text is no table.
@@ -105,7 +105,8 @@ impl Made {
         for (index, text) in heads.iter().enumerate() {
             let (name, dim, units) = head(unguarded(text.trim()));
             let name = if name.is_empty() { format!("Column {}", index + 1) } else { name };
-            made.table = made.table.column("", &name, dim, if dim == Dim::None { SIX } else { Digits::Usual });
+            let digits = if dim == Dim::None { SIX } else { Digits::Usual };
+            made.table.columns.push(Column::new("", &name, dim, digits, [] as [Cell; 0]));
             made.units.push(units);
         }
         Ok(made)
@@ -203,13 +204,13 @@ mod tests {
 
     #[test]
     fn what_store_wrote_reads_back_in_any_units() {
-        let mut t = Table::new("t")
-            .column("", "Time", Dim::Time, Digits::Usual)
-            .column("", "Ten Top", Dim::Force, Digits::Usual)
-            .column("", "Roll", Dim::Angle, Digits::Usual)
-            .column("", "State", Dim::None, Digits::Usual);
-        t.push(vec![0.5.into(), 1e6.into(), 0.25.into(), "a,b".into()]).unwrap();
-        t.push(vec![1.0.into(), Cell::Missing, (-0.5).into(), "c".into()]).unwrap();
+        let t = Table::new("t")
+            .with_rows(&[(0.5, Some(1e6), 0.25, "a,b"), (1.0, None, -0.5, "c")])
+            .column("", "Time", Dim::Time, Digits::Usual, |row| row.0)
+            .column("", "Ten Top", Dim::Force, Digits::Usual, |row| row.1)
+            .column("", "Roll", Dim::Angle, Digits::Usual, |row| row.2)
+            .text("State", |row| row.3)
+            .build();
         for units in [UnitSystem::default(), UnitSystem::SI] {
             let text = String::from_utf8(written::bytes(&t, units).unwrap()).unwrap();
             let read = csv("t", &text).unwrap();

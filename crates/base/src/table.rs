@@ -57,19 +57,6 @@ pub struct Table {
     pub absent: usize,
 }
 
-/// Why a table operation could not be done.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum TableError {
-    /// A row with another number of cells than the table has columns.
-    #[error("a row of {got} cells does not fit a table of {want} columns")]
-    RowLength {
-        /// Columns of the table.
-        want: usize,
-        /// Cells offered.
-        got: usize,
-    },
-}
-
 impl Cell {
     /// The number, if the cell holds one (integers count).
     pub fn number(&self) -> Option<f64> {
@@ -129,17 +116,16 @@ impl Table {
         Table { title: title.into(), ..Table::default() }
     }
 
-    /// Adds an empty column under a group head (empty text for none); returns the table for chaining.
-    pub fn column(mut self, group: &str, name: &str, dim: Dim, digits: Digits) -> Self {
-        self.columns.push(Column { name: name.into(), group: group.into(), dim, digits, cells: Vec::new() });
-        self
+    /// A table of complete columns. Columns shorter than the longest end in missing cells.
+    pub fn from_columns(title: impl Into<String>, columns: Vec<Column>) -> Self {
+        Table { title: title.into(), columns, ..Table::default() }.filled_up()
     }
 
-    /// A table of complete columns. Columns shorter than the longest end in missing cells.
-    pub fn from_columns(title: impl Into<String>, mut columns: Vec<Column>) -> Self {
-        let rows = columns.iter().map(|c| c.cells.len()).max().unwrap_or(0);
-        columns.iter_mut().for_each(|c| c.cells.resize(rows, Cell::Missing));
-        Table { title: title.into(), columns, ..Table::default() }
+    /// The table with its columns as long as the longest of them.
+    fn filled_up(mut self) -> Self {
+        let rows = self.columns.iter().map(|c| c.cells.len()).max().unwrap_or(0);
+        self.columns.iter_mut().for_each(|c| c.cells.resize(rows, Cell::Missing));
+        self
     }
 
     /// Begins the columns of a table whose rows these are.
@@ -162,20 +148,6 @@ impl Table {
     pub fn note_absent(&mut self, reason: impl std::fmt::Display) {
         self.absent += 1;
         self.notes.push(format!("warning: {reason}"));
-    }
-
-    /// Appends a row, one cell a column, SI.
-    ///
-    /// # Errors
-    /// [`TableError::RowLength`] when the number of cells is not the number of columns; the table is unchanged.
-    pub fn push(&mut self, row: Vec<Cell>) -> Result<(), TableError> {
-        if row.len() != self.columns.len() {
-            return Err(TableError::RowLength { want: self.columns.len(), got: row.len() });
-        }
-        for (column, cell) in self.columns.iter_mut().zip(row) {
-            column.cells.push(cell);
-        }
-        Ok(())
     }
 
     /// Number of rows.
@@ -262,9 +234,9 @@ impl<'r, R> TableBuilder<'r, R> {
         self
     }
 
-    /// The table with the columns added so far.
+    /// The table with the columns added so far. Columns it had before, of other rows, are made as long.
     pub fn build(self) -> Table {
-        self.table
+        self.table.filled_up()
     }
 }
 

@@ -52,7 +52,6 @@ pub fn add_model_column(table: &mut Table, model_of: impl Fn(&str) -> Option<&'s
         Cell::Text(name) => model_of(name).into(),
         _ => Cell::Missing,
     };
-    let cells = names.cells.iter().map(cell).collect();
-    let column = Column { name: "Model".into(), group: String::new(), dim: Dim::None, digits: Digits::Usual, cells };
-    table.columns.push(column);
+    let cells: Vec<Cell> = names.cells.iter().map(cell).collect();
+    table.columns.push(Column::new("", "Model", Dim::None, Digits::Usual, cells));
 }

@@ -2,10 +2,11 @@ use super::*;
 use windlass_base::units::FOOT;
 
 fn menu() -> Disposition {
-    let mut t = Table::new("t").column("", "X", Dim::Length, Digits::Usual).column("", "F", Dim::None, Digits::Usual);
-    for n in 1..=5 {
-        t.push(vec![Cell::Number(f64::from(n) * FOOT), Cell::Number(f64::from(n * n))]).unwrap();
-    }
+    let t = Table::new("t")
+        .with_rows(&[1.0, 2.0, 3.0, 4.0, 5.0])
+        .column("", "X", Dim::Length, Digits::Usual, |n| n * FOOT)
+        .column("", "F", Dim::None, Digits::Usual, |n| n * n)
+        .build();
     Disposition::new(t)
 }
 
@@ -85,10 +86,8 @@ fn cull_excludes_the_rows_inside_of_any_range_ends_included_in_user_units() {
 #[test]
 fn the_ends_of_a_range_hold_after_the_conversion_of_units() {
     let us = UnitSystem::default();
-    let mut t = Table::new("t").column("", "X", Dim::Length, Digits::Usual);
-    for n in 1..=2000 {
-        t.push(vec![Cell::Number(Dim::Length.to_si(f64::from(n) * 0.1, us))]).unwrap();
-    }
+    let lengths: Vec<f64> = (1..=2000).map(|n| Dim::Length.to_si(f64::from(n) * 0.1, us)).collect();
+    let t = Table::new("t").with_rows(&lengths).column("", "X", Dim::Length, Digits::Usual, |x| *x).build();
     let d = Disposition::new(t);
     for n in 1..=2000 {
         let at: f64 = format!("{}.{}", n / 10, n % 10).parse().unwrap();

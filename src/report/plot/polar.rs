@@ -132,17 +132,12 @@ mod tests {
     use windlass_base::table::Digits;
 
     fn table(distance: impl Fn(f64) -> f64) -> Table {
-        let mut t = Table::new("Watch").column("", "From", Dim::Angle, Digits::Usual).column(
-            "",
-            "Excursion",
-            Dim::Length,
-            Digits::Usual,
-        );
-        for n in 0..=24 {
-            let angle = f64::from(n) * 15.0_f64.to_radians();
-            t.push(vec![angle.into(), distance(angle).into()]).unwrap();
-        }
-        t
+        let angles: Vec<f64> = (0..=24).map(|n| f64::from(n) * 15.0_f64.to_radians()).collect();
+        Table::new("Watch")
+            .with_rows(&angles)
+            .column("", "From", Dim::Angle, Digits::Usual, |angle| *angle)
+            .column("", "Excursion", Dim::Length, Digits::Usual, |angle| distance(*angle))
+            .build()
     }
 
     #[test]

@@ -3,13 +3,12 @@ use proptest::prelude::*;
 use windlass_base::table::Digits;
 
 fn chart() -> Chart {
-    let mut t =
-        Table::new("Line A").column("", "X", Dim::Length, Digits::Usual).column("", "Force", Dim::Force, Digits::Usual);
-    for n in 0..30 {
-        let x = f64::from(n);
-        let y = if n == 10 { Cell::Missing } else { Cell::Number(x * x) };
-        t.push(vec![Cell::Number(x), y]).unwrap();
-    }
+    let xs: Vec<f64> = (0..30).map(f64::from).collect();
+    let t = Table::new("Line A")
+        .with_rows(&xs)
+        .column("", "X", Dim::Length, Digits::Usual, |x| *x)
+        .column("", "Force", Dim::Force, Digits::Usual, |x| (*x != 10.0).then_some(x * x))
+        .build();
     Chart::of(&t, UnitSystem::SI).unwrap()
 }
 
@@ -93,12 +92,12 @@ fn a_column_of_single_points_is_marks_that_no_line_hides_and_no_line_joins() {
 
 #[test]
 fn a_second_unit_has_an_axis_on_the_right_and_the_legend_tells_the_lines() {
-    let mut t = Table::new("t");
-    for (name, dim) in [("X", Dim::Length), ("Force", Dim::Force), ("On Bottom", Dim::Length)] {
-        t = t.column("", name, dim, Digits::Usual);
-    }
-    t.push(vec![1.0.into(), 2.0.into(), 3.0.into()]).unwrap();
-    t.push(vec![2.0.into(), 3.0.into(), 2.0.into()]).unwrap();
+    let t = Table::new("t")
+        .with_rows(&[(1.0, 2.0, 3.0), (2.0, 3.0, 2.0)])
+        .column("", "X", Dim::Length, Digits::Usual, |row| row.0)
+        .column("", "Force", Dim::Force, Digits::Usual, |row| row.1)
+        .column("", "On Bottom", Dim::Length, Digits::Usual, |row| row.2)
+        .build();
     let chart = Chart::of(&t, UnitSystem::SI).unwrap();
     assert_eq!((chart.y_label.as_str(), chart.right_label.as_deref()), ("Force (N)", Some("On Bottom (m)")));
     let svg = String::from_utf8(chart.svg().unwrap()).unwrap();
@@ -116,9 +115,9 @@ fn a_second_unit_has_an_axis_on_the_right_and_the_legend_tells_the_lines() {
 #[test]
 fn a_third_unit_and_an_axis_of_two_are_refused_and_curves_of_one_unit_may_be_parted() {
     let dims = [("X", Dim::Length), ("F", Dim::Force), ("G", Dim::Force), ("L", Dim::Length), ("T", Dim::Time)];
-    let mut t = dims.iter().fold(Table::new("t"), |t, (name, dim)| t.column("", name, *dim, Digits::Usual));
-    t.push((0..5).map(|n| f64::from(n).into()).collect()).unwrap();
-    t.push((0..5).map(|n| f64::from(n * n).into()).collect()).unwrap();
+    let column =
+        |(n, (name, dim)): (usize, (&str, Dim))| Column::new("", name, dim, Digits::Usual, [n as f64, (n * n) as f64]);
+    let t = Table::from_columns("t", dims.into_iter().enumerate().map(column).collect());
     let taken =
         |list: &[usize]| Table { columns: list.iter().map(|n| t.columns[*n].clone()).collect(), ..Table::new("t") };
     let refused = Err(PlotError::Units("L (m), T (s)".into()));

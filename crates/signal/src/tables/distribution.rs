@@ -1,10 +1,10 @@
 //! Histograms, exceedance and rainflow of series as tables.
 
-use super::{Record, SIX, column, made, numbers};
+use super::{Record, SIX, numbers};
 use crate::distribution::{self, levels};
 use crate::rainflow::{cycles, range_mean};
 use crate::{SeriesError, statistics};
-use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::table::{Cell, Column, Digits, Table};
 use windlass_base::units::Dim;
 
 /// Values counted into equal bins, with the share of each.
@@ -16,13 +16,13 @@ pub fn histogram(record: &Record, bins: usize) -> Result<Table, SeriesError> {
     for series in &record.series {
         let found = distribution::histogram(&series.values, bins)?;
         let (name, count) = (&series.name, series.values.len() as f64);
-        columns.push(column(name, "From", series.dim, SIX, numbers(found.iter().map(|b| b.low))));
-        columns.push(column(name, "To", series.dim, SIX, numbers(found.iter().map(|b| b.high))));
-        columns.push(column(name, "Count", Dim::None, Digits::Usual, found.iter().map(|b| b.count.into()).collect()));
+        columns.push(Column::new(name, "From", series.dim, SIX, numbers(found.iter().map(|b| b.low))));
+        columns.push(Column::new(name, "To", series.dim, SIX, numbers(found.iter().map(|b| b.high))));
+        columns.push(Column::new(name, "Count", Dim::None, Digits::Usual, found.iter().map(|b| b.count)));
         let shares = numbers(found.iter().map(|b| b.count as f64 / count));
-        columns.push(column(name, "Share", Dim::None, Digits::Decimals(6), shares));
+        columns.push(Column::new(name, "Share", Dim::None, Digits::Decimals(6), shares));
     }
-    Ok(made(format!("Histogram of {}", record.title), columns))
+    Ok(Table::from_columns(format!("Histogram of {}", record.title), columns))
 }
 
 /// Share of values, and of maxima between crossings of the mean, above equally spaced levels; beside them what a Gaussian
@@ -47,12 +47,18 @@ pub fn exceedance(record: &Record, count: usize) -> Result<Table, SeriesError> {
             if moments.deviation > 0.0 { Cell::Number((-0.5 * over * over).exp()) } else { Cell::Missing }
         };
         let name = &series.name;
-        columns.push(column(name, "Level", series.dim, SIX, numbers(at.iter().copied())));
-        columns.push(column(name, "Values", Dim::None, SIX, numbers(distribution::exceedance(&series.values, &at))));
-        columns.push(column(name, "Maxima", Dim::None, SIX, of_maxima));
-        columns.push(column(name, "Rayleigh", Dim::None, SIX, at.iter().map(rayleigh).collect()));
+        columns.push(Column::new(name, "Level", series.dim, SIX, numbers(at.iter().copied())));
+        columns.push(Column::new(
+            name,
+            "Values",
+            Dim::None,
+            SIX,
+            numbers(distribution::exceedance(&series.values, &at)),
+        ));
+        columns.push(Column::new(name, "Maxima", Dim::None, SIX, of_maxima));
+        columns.push(Column::new(name, "Rayleigh", Dim::None, SIX, at.iter().map(rayleigh)));
     }
-    let mut table = made(format!("Exceedance of {}", record.title), columns);
+    let mut table = Table::from_columns(format!("Exceedance of {}", record.title), columns);
     table.note("shares of values and of maxima between crossings of the mean that are greater than the level");
     Ok(table)
 }
@@ -68,7 +74,7 @@ pub fn rainflow(record: &Record, bins: usize, means: usize) -> Result<Table, Ser
         let found = cycles(&series.values)?;
         let (name, dim) = (&series.name, series.dim);
         let mut add = |head: &str, dim: Dim, digits: Digits, cells: Vec<Cell>| {
-            columns.push(column(name, head, dim, digits, cells));
+            columns.push(Column::new(name, head, dim, digits, cells));
         };
         let count = Digits::Decimals(1);
         if bins == 0 {
@@ -95,7 +101,7 @@ pub fn rainflow(record: &Record, bins: usize, means: usize) -> Result<Table, Ser
         }
         add("Cycles", Dim::None, count, of(4));
     }
-    let mut table = made(format!("Rainflow Cycles of {}", record.title), columns);
+    let mut table = Table::from_columns(format!("Rainflow Cycles of {}", record.title), columns);
     table.note("ASTM E1049, rainflow counting; ranges the series does not close are half cycles");
     Ok(table)
 }

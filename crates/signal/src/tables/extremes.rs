@@ -1,9 +1,9 @@
 //! Extremes of series as a table: Rayleigh, Weibull and Gumbel beside each other.
 
-use super::{Record, SIX, Series, column, made};
+use super::{Record, SIX, Series};
 use crate::extremes::{Extreme, FEWEST_BLOCKS, Gumbel, Weibull, block_maxima, rayleigh};
 use crate::{SeriesError, statistics};
-use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::table::{Cell, Column, Digits, Table};
 use windlass_base::units::Dim;
 
 /// What extremes are sought for.
@@ -34,7 +34,7 @@ struct Found {
 /// A series that does not vary or crosses its mean fewer than twice; no method that answers for any of them.
 pub fn extremes(record: &Record, asked: Extremes) -> Result<Table, SeriesError> {
     let methods = ["Rayleigh", "Weibull", "Gumbel"];
-    let mut columns = vec![column("", "Method", Dim::None, Digits::Usual, methods.map(Cell::from).to_vec())];
+    let mut columns = vec![Column::new("", "Method", Dim::None, Digits::Usual, methods)];
     let (mut notes, mut answered) = (Vec::new(), false);
     for series in &record.series {
         let found = of_series(record, series, asked)?;
@@ -54,7 +54,7 @@ pub fn extremes(record: &Record, asked: Extremes) -> Result<Table, SeriesError> 
             f.extreme.interval.map(|i| sign * take(i)).into()
         };
         let mut add = |name: &str, dim: Dim, digits: Digits, cells: Vec<Cell>| {
-            columns.push(column(&series.name, name, dim, digits, cells));
+            columns.push(Column::new(&series.name, name, dim, digits, cells));
         };
         add("Most Probable", series.dim, SIX, of(&|f| Cell::Number(sign * f.extreme.most_probable)));
         add("Expected", series.dim, SIX, of(&|f| Cell::Number(sign * f.extreme.expected)));
@@ -68,7 +68,7 @@ pub fn extremes(record: &Record, asked: Extremes) -> Result<Table, SeriesError> 
         return Err(SeriesError::Refused(notes.join("; ")));
     }
     let what = if asked.lows { "Smallest Values" } else { "Largest Values" };
-    let mut table = made(format!("{what} of {}", record.title), columns)
+    let mut table = Table::from_columns(format!("{what} of {}", record.title), columns)
         .fact("Duration", asked.duration, Dim::Time)
         .fact("Record", record.length(), Dim::Time);
     table.note("Rayleigh: a Gaussian narrow-banded process of this deviation and up-crossing period");

@@ -1,9 +1,9 @@
 //! Harmonic analysis of series as a table.
 
-use super::{Record, SIX, column, made, numbers};
+use super::{Record, SIX, numbers};
 use crate::SeriesError;
 use crate::harmonics::{Harmonic, analyse, find_period};
-use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::table::{Cell, Column, Digits, Table};
 use windlass_base::units::Dim;
 
 /// What is asked of a harmonic analysis.
@@ -30,28 +30,26 @@ pub fn harmonics(record: &Record, asked: Analysis) -> Result<Table, SeriesError>
     let orders: Vec<Cell> = (0..=asked.orders).map(Cell::from).collect();
     let periods = std::iter::once(Cell::Missing).chain((1..=asked.orders).map(|k| Cell::Number(period / k as f64)));
     let mut columns = vec![
-        column("", "Order", Dim::None, Digits::Usual, orders),
-        column("", "Period", Dim::Time, SIX, periods.collect()),
+        Column::new("", "Order", Dim::None, Digits::Usual, orders),
+        Column::new("", "Period", Dim::Time, SIX, periods),
     ];
     let mut facts = Vec::new();
     let mut cycles = 0;
     for series in &record.series {
         let found = analyse(&record.times, &series.values, period, asked.orders, asked.cycles)?;
         let amplitudes = std::iter::once(found.mean).chain(found.harmonics.iter().map(|h| h.amplitude));
-        columns.push(column(&series.name, "Amplitude", series.dim, SIX, numbers(amplitudes)));
+        columns.push(Column::new(&series.name, "Amplitude", series.dim, SIX, numbers(amplitudes)));
         // a harmonic that rounding left has no phase
         let size = found.harmonics.iter().fold(found.mean.abs(), |m, h| m.max(h.amplitude));
         let phase = |h: &Harmonic| if h.amplitude > ROUNDING * size { Cell::Number(h.phase) } else { Cell::Missing };
         let phases = std::iter::once(Cell::Missing).chain(found.harmonics.iter().map(phase));
-        columns.push(column(&series.name, "Phase", Dim::Angle, Digits::Usual, phases.collect()));
+        columns.push(Column::new(&series.name, "Phase", Dim::Angle, Digits::Usual, phases));
         facts.push((format!("Residual rms of {}", series.name), found.residual, series.dim));
         cycles = found.cycles;
     }
-    let mut table = made(format!("Harmonics of {}", record.title), columns).fact("Period", period, Dim::Time).fact(
-        "Cycles Used",
-        cycles,
-        Dim::None,
-    );
+    let mut table = Table::from_columns(format!("Harmonics of {}", record.title), columns)
+        .fact("Period", period, Dim::Time)
+        .fact("Cycles Used", cycles, Dim::None);
     for (name, value, dim) in facts {
         table = table.fact(&name, value, dim);
     }

@@ -84,22 +84,6 @@ impl Record {
     }
 }
 
-/// A table with a column for every head: group, name, dimension, digits, cells. Columns of unlike length are filled up with
-/// empty cells.
-fn made(title: String, columns: Vec<Column>) -> Table {
-    let rows = columns.iter().map(|c| c.cells.len()).max().unwrap_or(0);
-    let mut table = Table::new(title);
-    for mut column in columns {
-        column.cells.resize(rows, Cell::Missing);
-        table.columns.push(column);
-    }
-    table
-}
-
-fn column(group: &str, name: &str, dim: Dim, digits: Digits, cells: Vec<Cell>) -> Column {
-    Column { name: name.into(), group: group.into(), dim, digits, cells }
-}
-
 /// Six figures: what a reader needs of a result whose size is not known beforehand.
 const SIX: Digits = Digits::Scientific(6);
 
@@ -113,11 +97,11 @@ mod tests {
 
     #[test]
     fn a_record_is_a_time_and_series_without_gaps() {
-        let mut t =
-            Table::new("t").column("", "Time", Dim::Time, Digits::Usual).column("A", "F", Dim::Force, Digits::Usual);
-        for i in 0..3 {
-            t.push(vec![Cell::Number(f64::from(i)), Cell::Integer(5)]).unwrap();
-        }
+        let mut t = Table::new("t")
+            .with_rows(&[0.0, 1.0, 2.0])
+            .column("", "Time", Dim::Time, Digits::Usual, |time| *time)
+            .column("A", "F", Dim::Force, Digits::Usual, |_| 5usize)
+            .build();
         let r = Record::of(&t).unwrap();
         assert_eq!((r.series[0].name.as_str(), r.length()), ("A: F", 3.0));
         t.columns[1].cells[1] = Cell::Missing;

@@ -1,10 +1,10 @@
 //! Spectra of series as tables.
 
-use super::{Record, SIX, Series, column, made, numbers};
+use super::{Record, SIX, Series, numbers};
 use crate::spectra::{self, Density, SpectralMoments, Window};
 use crate::{SeriesError, sampling};
 use std::f64::consts::TAU;
-use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::table::{Cell, Column, Digits, Table};
 use windlass_base::units::Dim;
 
 /// What the density of a quantity measures: its square times seconds. `None` where no unit of that is kept.
@@ -60,8 +60,8 @@ pub fn density(record: &Record, length: Option<usize>) -> Result<Table, SeriesEr
     let Some((_, first)) = found.first() else { return Err(SeriesError::Constant) };
     let frequencies = first.frequencies.get(1..).unwrap_or_default();
     let mut columns = vec![
-        column("", "Frequency", Dim::Frequency, SIX, numbers(frequencies.iter().copied())),
-        column("", "Period", Dim::Time, SIX, periods(frequencies)),
+        Column::new("", "Frequency", Dim::Frequency, SIX, numbers(frequencies.iter().copied())),
+        Column::new("", "Period", Dim::Time, SIX, periods(frequencies)),
     ];
     let mut notes = Vec::new();
     for (series, density) in &found {
@@ -70,9 +70,9 @@ pub fn density(record: &Record, length: Option<usize>) -> Result<Table, SeriesEr
             notes.push(format!("the density of {} is in SI units", series.name));
         }
         let values = density.values.iter().skip(1).copied();
-        columns.push(column(&series.name, "Density", dim.unwrap_or(Dim::None), SIX, numbers(values)));
+        columns.push(Column::new(&series.name, "Density", dim.unwrap_or(Dim::None), SIX, numbers(values)));
     }
-    let mut table = made(format!("Spectrum of {}", record.title), columns);
+    let mut table = Table::from_columns(format!("Spectrum of {}", record.title), columns);
     table = table.fact("Segments Averaged", first.segments, Dim::None);
     table.note(
         "Welch's method, Hann window, half overlap; the sum of densities times the step of frequency is the variance",
@@ -109,13 +109,13 @@ pub fn amplitudes(record: &Record) -> Result<Table, SeriesError> {
             if let Some(first) = period.first_mut() {
                 *first = Cell::Missing;
             }
-            columns.push(column("", "Frequency", Dim::Frequency, SIX, numbers(found.frequencies)));
-            columns.push(column("", "Period", Dim::Time, SIX, period));
+            columns.push(Column::new("", "Frequency", Dim::Frequency, SIX, numbers(found.frequencies)));
+            columns.push(Column::new("", "Period", Dim::Time, SIX, period));
         }
-        columns.push(column(&series.name, "Amplitude", series.dim, SIX, numbers(found.amplitudes)));
-        columns.push(column(&series.name, "Phase", Dim::Angle, Digits::Usual, numbers(found.phases)));
+        columns.push(Column::new(&series.name, "Amplitude", series.dim, SIX, numbers(found.amplitudes)));
+        columns.push(Column::new(&series.name, "Phase", Dim::Angle, Digits::Usual, numbers(found.phases)));
     }
-    let mut table = made(format!("Amplitudes of {}", record.title), columns);
+    let mut table = Table::from_columns(format!("Amplitudes of {}", record.title), columns);
     table.note("sum of amplitude cos(frequency (t - first time) + phase); no window; the first row is the mean");
     if resampled {
         table.note(RESAMPLED);

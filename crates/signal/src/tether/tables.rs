@@ -40,13 +40,9 @@ fn of_place(place: &Place) -> Result<Vec<Global>, SeriesError> {
     place.channels.iter().map(|channel| global(channel.values)).collect()
 }
 
-fn head(channel: &Channel) -> Column {
-    let (group, name) = (channel.group.to_string(), channel.name.to_string());
-    Column { name, group, dim: channel.dim, digits: channel.digits, cells: Vec::new() }
-}
-
-fn plain(name: &str, dim: Dim, digits: Digits, cells: Vec<Cell>) -> Column {
-    Column { name: name.into(), group: String::new(), dim, digits, cells }
+/// The column of a channel.
+fn channel_column(channel: &Channel, cells: impl IntoIterator<Item = f64>) -> Column {
+    Column::new(channel.group, channel.name, channel.dim, channel.digits, cells)
 }
 
 /// A quantity of the statistics of type 1: its words and where it stands.
@@ -72,14 +68,11 @@ const ROWS: [Row; 10] = [
 /// As [`global`].
 pub fn type_one(title: &str, place: &Place) -> Result<Table, SeriesError> {
     let found = of_place(place)?;
-    let mut table = Table::new(title).fact("Distance", place.distance, Dim::Length);
-    let labels = ROWS.iter().map(|(label, _)| Cell::Text((*label).into())).collect();
-    table.columns.push(plain("Parameter", Dim::None, Digits::Usual, labels));
+    let mut columns = vec![Column::new("", "Parameter", Dim::None, Digits::Usual, ROWS.map(|(label, _)| label))];
     for (channel, of) in place.channels.iter().zip(&found) {
-        let cells = ROWS.iter().map(|(_, value)| Cell::Number(value(of))).collect();
-        table.columns.push(Column { cells, ..head(channel) });
+        columns.push(channel_column(channel, ROWS.map(|(_, value)| value(of))));
     }
-    Ok(table)
+    Ok(Table::from_columns(title, columns).fact("Distance", place.distance, Dim::Length))
 }
 
 /// The pages of the statistics of type 2, in their order.
@@ -107,9 +100,10 @@ pub fn type_two(title: &str, what: &str, places: &[Place]) -> Result<Vec<Table>,
         numbers.push(Cell::Text(last.into()));
         let mut distances: Vec<Cell> = places.iter().map(|p| Cell::Number(p.distance)).collect();
         distances.push(Cell::Missing);
-        let mut table = Table::new(format!("{title}: {name}"));
-        table.columns.push(plain(what, Dim::None, Digits::Usual, numbers));
-        table.columns.push(plain("Distance", Dim::Length, Digits::Decimals(2), distances));
+        let mut columns = vec![
+            Column::new("", what, Dim::None, Digits::Usual, numbers),
+            Column::new("", "Distance", Dim::Length, Digits::Decimals(2), distances),
+        ];
         for (at, channel) in places.first().map_or(&[][..], |p| &p.channels).iter().enumerate() {
             let values: Vec<f64> = found.iter().map(|of| of.get(at).map_or(f64::NAN, value)).collect();
             let summary = match index {
@@ -117,10 +111,9 @@ pub fn type_two(title: &str, what: &str, places: &[Place]) -> Result<Vec<Table>,
                 3 => values.iter().copied().fold(f64::INFINITY, f64::min),
                 _ => values.iter().sum::<f64>() / values.len() as f64,
             };
-            let cells = values.into_iter().chain([summary]).map(Cell::Number).collect();
-            table.columns.push(Column { cells, ..head(channel) });
+            columns.push(channel_column(channel, values.into_iter().chain([summary])));
         }
-        table
+        Table::from_columns(format!("{title}: {name}"), columns)
     };
     Ok(PAGES.iter().enumerate().map(page).collect())
 }
@@ -130,20 +123,19 @@ pub type AtEnd = (usize, f64, EndFatigue);
 
 /// Half cycles by stress range at the place of most damage of every end (figure 7.9).
 pub fn histogram(title: &str, ends: &[AtEnd]) -> Table {
-    let mut table = Table::new(title);
     let width = ends.first().map_or(0.0, |(_, _, found)| found.ranges.width);
-    let bins = (1..=BINS).map(|bin| Cell::Integer(bin as i64)).collect();
-    table.columns.push(plain("Bin", Dim::None, Digits::Usual, bins));
-    for (name, shift) in [("From", 0), ("To", 1)] {
-        let cells = (0..BINS).map(|bin| Cell::Number((bin + shift) as f64 * width)).collect();
-        let column = plain(name, STRESS, Digits::Scientific(5), cells);
-        table.columns.push(Column { group: "Stress Range".into(), ..column });
-    }
+    let edge = |shift: usize| (0..BINS).map(move |bin| (bin + shift) as f64 * width);
+    let mut columns = vec![
+        Column::new("", "Bin", Dim::None, Digits::Usual, 1..=BINS),
+        Column::new("Stress Range", "From", STRESS, Digits::Scientific(5), edge(0)),
+        Column::new("Stress Range", "To", STRESS, Digits::Scientific(5), edge(1)),
+    ];
     for (element, distance, found) in ends {
-        let cells = found.ranges.counts.iter().map(|n| Cell::Integer(*n as i64)).collect();
-        let column = plain(&format!("{distance:.2} m"), Dim::None, Digits::Usual, cells);
-        table.columns.push(Column { group: format!("Element {element}"), ..column });
+        let (group, name) = (format!("Element {element}"), format!("{distance:.2} m"));
+        let counts = found.ranges.counts.iter().map(|n| *n as i64);
+        columns.push(Column::new(&group, &name, Dim::None, Digits::Usual, counts));
     }
+    let mut table = Table::from_columns(title, columns);
     table.note("half cycles of the rainflow at the place round the circumference that has the most damage");
     table
 }
@@ -173,18 +165,19 @@ pub fn fatigue(title: &str, ends: &[AtEnd]) -> Table {
         ("Max Bending Stress", "Cyc/Hour", Dim::None, degrees, |f| f.peak_cycles * 3600.0, larger),
         ("Max Bending Stress", "Peak", STRESS, THREE, |f| f.expected_peak, larger),
     ];
-    let mut table = Table::new(title);
     let mut elements: Vec<Cell> = ends.iter().map(|(element, _, _)| Cell::Integer(*element as i64)).collect();
     elements.push(Cell::Text("Worst".into()));
     let mut distances: Vec<Cell> = ends.iter().map(|(_, distance, _)| Cell::Number(*distance)).collect();
     distances.push(Cell::Missing);
-    table.columns.push(plain("Elem", Dim::None, Digits::Usual, elements));
-    table.columns.push(plain("Distance", Dim::Length, Digits::Decimals(2), distances));
+    let mut columns = vec![
+        Column::new("", "Elem", Dim::None, Digits::Usual, elements),
+        Column::new("", "Distance", Dim::Length, Digits::Decimals(2), distances),
+    ];
     for (group, name, dim, digits, value, worst) in fields {
         let values: Vec<f64> = ends.iter().map(|(_, _, found)| value(found)).collect();
-        let last = values.iter().copied().reduce(worst).map_or(Cell::Missing, Cell::Number);
-        let cells = values.into_iter().map(Cell::Number).chain([last]).collect();
-        table.columns.push(Column { group: group.into(), ..plain(name, dim, digits, cells) });
+        let last = values.iter().copied().reduce(worst);
+        let cells = values.into_iter().map(Some).chain([last]);
+        columns.push(Column::new(group, name, dim, digits, cells));
     }
-    table
+    Table::from_columns(title, columns)
 }

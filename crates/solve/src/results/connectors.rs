@@ -2,9 +2,9 @@
 
 use super::super::system::SolveError;
 use super::super::time::{Layout, Run};
-use super::forces::{add, wrench_columns};
+use super::forces::{add, no_wrench, wrench_columns};
 use super::settled::{Rest, Settling};
-use super::{Event, Magnitude, columns, filled, headed, timed};
+use super::{Event, EventTable, Magnitude, headed};
 use nalgebra::Vector3;
 use windlass_base::geometry::Place;
 use windlass_base::pose::Pose;
@@ -48,28 +48,49 @@ pub fn connector_forces(
 ) -> Result<Table, SolveError> {
     let layout = &run.history.layout;
     let several = links.len() > 1;
-    let mut table = timed("Connector Forces");
+    let chosen: Vec<_> =
+        links.iter().filter_map(|link| layout.links.get(*link).map(|columns| (*link, columns))).collect();
     let (mut settling, mut remembering) = (Vec::new(), Vec::new());
-    for columns_of in links.iter().filter_map(|l| layout.links.get(*l)) {
-        let name = columns_of.name.as_str();
-        if !several {
-            table = table.fact("Connector", name, Dim::None).fact("Model", run.model.idealisation(name), Dim::None);
-        }
-        let group = headed(several, name, "Force");
-        table = columns(table, &group, &["FX", "FY", "FZ", "Mag."], Dim::Force).column(
-            &group,
-            "Mag./Break",
-            Dim::None,
-            Digits::Decimals(3),
-        );
-        table = columns(table, &headed(several, name, "On Bottom"), &["Length"], Dim::Length);
-        table = columns(table, &headed(several, name, "Anchor"), &["V. Pull", "H. Pull"], Dim::Force);
-        let made = Settling::of(&run.model, name)?;
+    for (_, columns) in &chosen {
+        let made = Settling::of(&run.model, &columns.name)?;
         if made.is_none() {
-            remembering.push(name);
+            remembering.push(columns.name.as_str());
         }
         settling.push(made);
     }
+    let mut places = Vec::new();
+    let mut table = EventTable::new("Connector Forces", (&run.history, events), |row| {
+        poses(layout, row, &mut places);
+        let mut list = Vec::new();
+        for ((link, columns), settling) in chosen.iter().zip(&mut settling) {
+            let acting = force(layout, *link, row);
+            let length = row.get(columns.active + 1).copied().filter(|l| l.is_finite());
+            let rest = match settling {
+                Some(settling) if acting.is_some() => settling.at(&places, length).map_err(|e| at_time(e, row))?,
+                _ => Rest::NONE,
+            };
+            list.push((acting.unwrap_or(Vector3::repeat(f64::NAN)), rest));
+        }
+        Ok(list)
+    })?;
+    for (index, (_, columns)) in chosen.iter().enumerate() {
+        let name = columns.name.as_str();
+        if !several {
+            table = table.fact("Connector", name, Dim::None).fact("Model", run.model.idealisation(name), Dim::None);
+        }
+        let rest = |all: &Vec<(Vector3<f64>, Rest)>| all.get(index).map_or(Rest::NONE, |(_, rest)| *rest);
+        let group = headed(several, name, "Force");
+        table = table
+            .columns(&group, ["FX", "FY", "FZ", "Mag."], Dim::Force, |all| {
+                all.get(index).map_or([f64::NAN; 4], |(force, _)| magnitude.with(force))
+            })
+            .column(&group, "Mag./Break", Dim::None, Digits::Decimals(3), |all| rest(all).ratio)
+            .columns(&headed(several, name, "On Bottom"), ["Length"], Dim::Length, |all| [rest(all).grounded])
+            .columns(&headed(several, name, "Anchor"), ["V. Pull", "H. Pull"], Dim::Force, |all| {
+                [rest(all).vertical, rest(all).horizontal]
+            });
+    }
+    let mut table = table.build();
     if !remembering.is_empty() {
         table.note(format!(
             "{}: its force does not follow from where its ends are; Mag./Break, bottom and anchor are left out (of a line that moves by \
@@ -84,22 +105,7 @@ pub fn connector_forces(
     table.note(
         "Mag./Break is the largest tension of a segment over its own break; the length on the bottom is unstretched",
     );
-    let mut places = Vec::new();
-    filled((&run.history, events), table, &mut |row, made| {
-        poses(layout, row, &mut places);
-        for (link, settling) in links.iter().zip(&mut settling) {
-            let Some(columns_of) = layout.links.get(*link) else { continue };
-            let acting = force(layout, *link, row);
-            magnitude.push(&acting.unwrap_or(Vector3::repeat(f64::NAN)), made);
-            let length = row.get(columns_of.active + 1).copied().filter(|l| l.is_finite());
-            let rest = match settling {
-                Some(settling) if acting.is_some() => settling.at(&places, length).map_err(|e| at_time(e, row))?,
-                _ => Rest::NONE,
-            };
-            made.extend([rest.ratio, rest.grounded, rest.vertical, rest.horizontal]);
-        }
-        Ok(())
-    })
+    Ok(table)
 }
 
 /// How connectors of a run, by their numbers, are idealised.
@@ -121,13 +127,19 @@ fn at_time(error: SolveError, row: &[f64]) -> SolveError {
 /// None of its own.
 pub fn magnitudes(run: &Run, links: &[usize], magnitude: Magnitude, events: &[Event]) -> Result<Table, SolveError> {
     let layout = &run.history.layout;
-    let names: Vec<&str> = links.iter().filter_map(|l| layout.links.get(*l)).map(|l| l.name.as_str()).collect();
-    let mut table = columns(timed("Magnitude of Connector Forces"), "Force Magnitude", &names, Dim::Force);
+    let mut table = EventTable::new("Magnitude of Connector Forces", (&run.history, events), |row| {
+        let size = |link: &usize| force(layout, *link, row).map_or(f64::NAN, |f| magnitude.of(&f));
+        Ok(links.iter().map(size).collect::<Vec<f64>>())
+    })?;
+    for (index, link) in links.iter().enumerate() {
+        let Some(columns) = layout.links.get(*link) else { continue };
+        table = table.column("Force Magnitude", &columns.name, Dim::Force, Digits::Usual, |sizes| {
+            sizes.get(index).copied().unwrap_or(f64::NAN)
+        });
+    }
+    let mut table = table.build();
     table.notes.extend(idealisations(run, links));
-    filled((&run.history, events), table, &mut |row, made| {
-        made.extend(links.iter().map(|link| force(layout, *link, row).map_or(f64::NAN, |f| magnitude.of(&f))));
-        Ok(())
-    })
+    Ok(table)
 }
 
 /// The sum of the forces of all connectors on bodies of a run, about their origins, global axes.
@@ -137,23 +149,27 @@ pub fn magnitudes(run: &Run, links: &[usize], magnitude: Magnitude, events: &[Ev
 pub fn total_forces(run: &Run, bodies: &[usize], magnitude: Magnitude, events: &[Event]) -> Result<Table, SolveError> {
     let layout = &run.history.layout;
     let several = bodies.len() > 1;
-    let mut table = timed("Total Force of Connectors").fact("Moments About", "the origins of the bodies", Dim::None);
-    for (name, _) in bodies.iter().filter_map(|b| layout.bodies.get(*b)) {
-        if !several {
-            table = table.fact("Body", name.as_str(), Dim::None);
-        }
-        table = wrench_columns(table, &headed(several, name, "Connectors"));
-    }
-    filled((&run.history, events), table, &mut |row, made| {
-        for body in bodies {
+    let mut table = EventTable::new("Total Force of Connectors", (&run.history, events), |row| {
+        let of_body = |body: &usize| {
             let mut sum = [Vector3::zeros(); 2];
             for category in [Category::FlexConnectors, Category::RigidConnectors] {
                 add(row, layout.category(*body, category), &mut sum);
             }
-            sum.iter().for_each(|v| magnitude.push(v, made));
+            sum
+        };
+        Ok(bodies.iter().map(of_body).collect::<Vec<_>>())
+    })?
+    .fact("Moments About", "the origins of the bodies", Dim::None);
+    for (index, body) in bodies.iter().enumerate() {
+        let Some((name, _)) = layout.bodies.get(*body) else { continue };
+        if !several {
+            table = table.fact("Body", name.as_str(), Dim::None);
         }
-        Ok(())
-    })
+        table = wrench_columns(table, &headed(several, name, "Connectors"), magnitude, |sums| {
+            sums.get(index).copied().unwrap_or_else(no_wrench)
+        });
+    }
+    Ok(table.build())
 }
 
 /// The length of the first segment of connectors of a run, which a winch changes. One without a length has none.
@@ -163,14 +179,14 @@ pub fn total_forces(run: &Run, bodies: &[usize], magnitude: Magnitude, events: &
 pub fn lengths(run: &Run, links: &[usize], events: &[Event]) -> Result<Table, SolveError> {
     let layout = &run.history.layout;
     let chosen: Vec<_> = links.iter().filter_map(|l| layout.links.get(*l)).collect();
-    let names: Vec<&str> = chosen.iter().map(|l| l.name.as_str()).collect();
-    let mut table = columns(timed("Lengths of Connectors"), "First Segment", &names, Dim::Length);
-    table.note("unstretched; of a connector while it acts");
-    filled((&run.history, events), table, &mut |row, made| {
-        for link in &chosen {
+    let mut table = EventTable::new("Lengths of Connectors", (&run.history, events), |row| Ok(row.to_vec()))?;
+    for link in chosen {
+        table = table.column("First Segment", &link.name, Dim::Length, Digits::Usual, |row| {
             let acts = row.get(link.active).is_some_and(|a| *a > 0.0);
-            made.push(row.get(link.active + 1).copied().filter(|_| acts).unwrap_or(f64::NAN));
-        }
-        Ok(())
-    })
+            row.get(link.active + 1).copied().filter(|_| acts).unwrap_or(f64::NAN)
+        });
+    }
+    let mut table = table.build();
+    table.note("unstretched; of a connector while it acts");
+    Ok(table)
 }

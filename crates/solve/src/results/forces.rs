@@ -2,16 +2,30 @@
 
 use super::super::system::SolveError;
 use super::super::time::Run;
-use super::{Event, Magnitude, columns, filled, headed, timed};
+use super::{Event, EventTable, Magnitude, headed};
 use nalgebra::Vector3;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_hydro::Category;
 
 /// Adds the columns of a force and a moment.
-pub(super) fn wrench_columns(table: Table, group: &str) -> Table {
-    let table = columns(table, group, &["FX", "FY", "FZ", "F Mag."], Dim::Force);
-    columns(table, group, &["MX", "MY", "MZ", "M Mag."], Dim::Moment)
+pub(super) fn wrench_columns<T>(
+    table: EventTable<T>,
+    group: &str,
+    magnitude: Magnitude,
+    wrench: impl Fn(&T) -> [Vector3<f64>; 2],
+) -> EventTable<T> {
+    table.columns(group, ["FX", "FY", "FZ", "F Mag."], Dim::Force, |row| magnitude.with(&wrench(row)[0])).columns(
+        group,
+        ["MX", "MY", "MZ", "M Mag."],
+        Dim::Moment,
+        |row| magnitude.with(&wrench(row)[1]),
+    )
+}
+
+/// A force and a moment without numbers.
+pub(super) fn no_wrench() -> [Vector3<f64>; 2] {
+    [Vector3::repeat(f64::NAN); 2]
 }
 
 /// Adds a force and a moment, which begin at `from` of a row.
@@ -31,15 +45,35 @@ pub(super) fn add(row: &[f64], from: Option<usize>, sum: &mut [Vector3<f64>; 2])
 pub fn body_forces(run: &Run, bodies: &[usize], magnitude: Magnitude, events: &[Event]) -> Result<Table, SolveError> {
     let layout = &run.history.layout;
     let several = bodies.len() > 1;
-    let mut table = timed("Forces on Bodies").fact("Moments About", "the origins of the bodies", Dim::None);
-    for (name, _) in bodies.iter().filter_map(|b| layout.bodies.get(*b)) {
+    // by body the wrenches of the categories, then their sum
+    let mut table = EventTable::new("Forces on Bodies", (&run.history, events), |row| {
+        let of_body = |body: &usize| {
+            let mut total = [Vector3::zeros(); 2];
+            let mut list = Vec::new();
+            for category in &layout.categories {
+                let mut own = [Vector3::zeros(); 2];
+                add(row, layout.category(*body, *category), &mut own);
+                total.iter_mut().zip(own).for_each(|(sum, v)| *sum += v);
+                list.push(own);
+            }
+            list.push(total);
+            list
+        };
+        Ok(bodies.iter().map(of_body).collect::<Vec<_>>())
+    })?
+    .fact("Moments About", "the origins of the bodies", Dim::None);
+    for (index, body) in bodies.iter().enumerate() {
+        let Some((name, _)) = layout.bodies.get(*body) else { continue };
         if !several {
             table = table.fact("Body", name.as_str(), Dim::None);
         }
-        for group in layout.categories.iter().map(|c| c.name()).chain(["TOTAL"]) {
-            table = wrench_columns(table, &headed(several, name, group));
+        for (which, group) in layout.categories.iter().map(|c| c.name()).chain(["TOTAL"]).enumerate() {
+            let own =
+                |all: &Vec<Vec<_>>| all.get(index).and_then(|list| list.get(which)).copied().unwrap_or_else(no_wrench);
+            table = wrench_columns(table, &headed(several, name, group), magnitude, own);
         }
     }
+    let mut table = table.build();
     table.note("TOTAL is with inertia: what the step left, and what holds degrees of freedom that do not move");
     if layout.categories.contains(&Category::WaveMean) {
         table.note(
@@ -47,17 +81,5 @@ pub fn body_forces(run: &Run, bodies: &[usize], magnitude: Magnitude, events: &[
              diffraction and radiation make; #DRIFT or DATABASE give it as W_DRIFT. The mean drag of members is in V_DRAG",
         );
     }
-    filled((&run.history, events), table, &mut |row, made| {
-        for body in bodies {
-            let mut total = [Vector3::zeros(); 2];
-            for category in &layout.categories {
-                let mut own = [Vector3::zeros(); 2];
-                add(row, layout.category(*body, *category), &mut own);
-                own.iter().for_each(|v| magnitude.push(v, made));
-                total.iter_mut().zip(own).for_each(|(sum, v)| *sum += v);
-            }
-            total.iter().for_each(|v| magnitude.push(v, made));
-        }
-        Ok(())
-    })
+    Ok(table)
 }

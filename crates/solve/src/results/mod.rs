@@ -42,21 +42,10 @@ impl Magnitude {
         vector.iter().zip(self.0).filter(|(_, counts)| *counts).fold(0.0_f64, |sum, (v, _)| sum.hypot(*v))
     }
 
-    /// Adds a vector and its magnitude to the numbers of a row.
-    fn push(&self, vector: &Vector3<f64>, row: &mut Vec<f64>) {
-        row.extend(vector.iter());
-        row.push(self.of(vector));
+    /// A vector and its magnitude.
+    fn with(&self, vector: &Vector3<f64>) -> [f64; 4] {
+        [vector.x, vector.y, vector.z, self.of(vector)]
     }
-}
-
-/// A table whose first column is the time.
-fn timed(title: impl Into<String>) -> Table {
-    Table::new(title).column("", "Time", Dim::Time, Digits::Usual)
-}
-
-/// Adds columns of one group and dimension.
-fn columns(table: Table, group: &str, names: &[&str], dim: Dim) -> Table {
-    names.iter().fold(table, |t, name| t.column(group, name, dim, Digits::Usual))
 }
 
 /// The head of a group: of one thing its own, of several with the name of the thing in front.
@@ -64,45 +53,113 @@ fn headed(several: bool, name: &str, group: &str) -> String {
     if several { format!("{name} {group}") } else { group.to_string() }
 }
 
-/// Appends the numbers that a stored row comes to.
-type Make<'m> = dyn FnMut(&[f64], &mut Vec<f64>) -> Result<(), SolveError> + 'm;
-
-/// Fills a table of [`timed`]: `make` appends the numbers behind the time that a stored row comes to. Those of an instant between
-/// two rows lie on the straight line between theirs, as in MOSES; where only one of the two has a number, it is that of the row before.
-/// What is no number is left out.
+/// A table with a row an event under construction: what each stored row comes to is known, columns are added one by one, each with
+/// its number of a stored row. The first column is the time.
 ///
-/// # Errors
-/// What `make` says.
-fn filled((history, events): (&History, &[Event]), mut table: Table, make: &mut Make) -> Result<Table, SolveError> {
-    let width = history.layout.width.max(1);
-    let mut fill = |at: usize, made: &mut (usize, Vec<f64>)| {
-        let row = history.values.get(at * width..(at + 1) * width).unwrap_or_default();
-        made.0 = at;
-        made.1.clear();
-        made.1.extend(row.first());
-        make(row, &mut made.1)
-    };
-    let (mut low, mut high) = ((usize::MAX, Vec::new()), (usize::MAX, Vec::new()));
-    for event in events {
-        if low.0 != event.row {
-            if high.0 == event.row {
-                std::mem::swap(&mut low, &mut high);
-            } else {
-                fill(event.row, &mut low)?;
+/// The numbers of an instant between two rows lie on the straight line between theirs, as in MOSES; where only one of the two has a
+/// number, it is that of the row before. What is not finite is left out.
+struct EventTable<T> {
+    table: Table,
+    /// The times of the stored rows that events need, and what they come to.
+    samples: Vec<(f64, T)>,
+    /// For each event the samples of the stored rows around it, and how far it is between them.
+    instants: Vec<Instant>,
+}
+
+/// An event between two samples.
+struct Instant {
+    before: usize,
+    behind: Option<usize>,
+    share: f64,
+}
+
+impl<T> EventTable<T> {
+    /// The table of some events; `sample` says what a stored row comes to.
+    ///
+    /// # Errors
+    /// What `sample` says.
+    fn new(
+        title: impl Into<String>,
+        (history, events): (&History, &[Event]),
+        mut sample: impl FnMut(&[f64]) -> Result<T, SolveError>,
+    ) -> Result<Self, SolveError> {
+        let width = history.layout.width.max(1);
+        let (mut rows, mut samples): (Vec<usize>, Vec<(f64, T)>) = (Vec::new(), Vec::new());
+        let mut take = |at: usize| {
+            // events are in order: a row that is needed again was one of the last two
+            if let Some(found) = (rows.len().saturating_sub(2)..rows.len()).find(|i| rows.get(*i) == Some(&at)) {
+                return Ok(found);
             }
+            let row = history.values.get(at * width..(at + 1) * width).unwrap_or_default();
+            samples.push((row.first().copied().unwrap_or(f64::NAN), sample(row)?));
+            rows.push(at);
+            Ok(samples.len() - 1)
+        };
+        let mut instants = Vec::new();
+        for event in events {
+            let before = take(event.row)?;
+            let behind = if event.share > 0.0 { Some(take(event.row + 1)?) } else { None };
+            instants.push(Instant { before, behind, share: event.share });
         }
-        if event.share > 0.0 && high.0 != event.row + 1 {
-            fill(event.row + 1, &mut high)?;
-        }
-        for (index, column) in table.columns.iter_mut().enumerate() {
-            let of = |made: &(usize, Vec<f64>)| made.1.get(index).copied().filter(|v| v.is_finite());
-            let value = match (of(&low), of(&high).filter(|_| event.share > 0.0)) {
-                (Some(a), Some(b)) => Some(a + event.share * (b - a)),
-                (a, _) => a,
-            };
-            // zero has no sign
-            column.cells.push(value.map_or(Cell::Missing, |v| Cell::Number(v + 0.0)));
-        }
+        let mut made = EventTable { table: Table::new(title), samples, instants };
+        made.add("", ["Time"], Dim::Time, Digits::Usual, |(time, _)| [*time]);
+        Ok(made)
     }
-    Ok(table)
+
+    /// Adds columns by what a sample is.
+    fn add<const N: usize>(
+        &mut self,
+        group: &str,
+        names: [&str; N],
+        dim: Dim,
+        digits: Digits,
+        values: impl Fn(&(f64, T)) -> [f64; N],
+    ) {
+        let found: Vec<[f64; N]> = self.samples.iter().map(values).collect();
+        let rows: Vec<[Option<f64>; N]> = self
+            .instants
+            .iter()
+            .map(|at| {
+                let before = found.get(at.before).copied().unwrap_or([f64::NAN; N]);
+                let behind = at.behind.and_then(|i| found.get(i).copied()).unwrap_or([f64::NAN; N]);
+                let mut mixed = [None; N];
+                for (value, (a, b)) in mixed.iter_mut().zip(before.into_iter().zip(behind)) {
+                    *value = match (a.is_finite(), b.is_finite()) {
+                        (true, true) => Some(a + at.share * (b - a)),
+                        (true, false) => Some(a),
+                        (false, _) => None,
+                    };
+                }
+                // zero has no sign
+                mixed.map(|value| value.map(|v| v + 0.0))
+            })
+            .collect();
+        self.table =
+            std::mem::take(&mut self.table).with_rows(&rows).columns(group, names, dim, digits, |row| *row).build();
+    }
+
+    /// Adds a column with its number of a stored row, SI.
+    fn column(self, group: &str, name: &str, dim: Dim, digits: Digits, value: impl Fn(&T) -> f64) -> Self {
+        let mut made = self;
+        made.add(group, [name], dim, digits, |(_, sample)| [value(sample)]);
+        made
+    }
+
+    /// Adds columns of one group and dimension with their numbers of a stored row, SI.
+    fn columns<const N: usize>(self, group: &str, names: [&str; N], dim: Dim, values: impl Fn(&T) -> [f64; N]) -> Self {
+        let mut made = self;
+        made.add(group, names, dim, Digits::Usual, |(_, sample)| values(sample));
+        made
+    }
+
+    /// Adds a fact to the sub-header.
+    fn fact(mut self, name: &str, value: impl Into<Cell>, dim: Dim) -> Self {
+        self.table = self.table.fact(name, value, dim);
+        self
+    }
+
+    /// The table with the columns added so far.
+    fn build(self) -> Table {
+        self.table
+    }
 }

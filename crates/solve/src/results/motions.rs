@@ -2,7 +2,7 @@
 
 use super::super::system::SolveError;
 use super::super::time::{OF_BODY, Run};
-use super::{Event, Magnitude, columns, filled, headed, timed};
+use super::{Event, EventTable, Magnitude, headed};
 use nalgebra::Vector3;
 use windlass_base::geometry::Place;
 use windlass_base::pose::Pose;
@@ -68,45 +68,91 @@ pub fn trajectory(run: &Run, bodies: &[usize], told: &Told, events: &[Event]) ->
     let (layout, model) = (&run.history.layout, &run.model);
     let several = bodies.len() > 1;
     let depth = model.surroundings().depth.unwrap_or(f64::NAN);
-    let mut table = timed("Trajectory");
+    let first = run.history.values.get(..layout.width).unwrap_or_default();
     let mut chosen = Vec::new();
     for body in bodies {
         let Some((name, key)) = layout.bodies.get(*body) else { continue };
         let mass = model.bodies.get(key).map(|b| Mass::of(model.parts_of(b), model.defaults.gravity));
         let own = mass.filter(|_| told.centre).map_or(Vector3::zeros(), |m| m.centre);
         let from = layout.body(*body);
-        let first = run.history.values.get(..layout.width).unwrap_or_default();
-        chosen.push((from, own, moving(first, from, own)));
+        chosen.push((name, from, own, moving(first, from, own)));
+    }
+    let mut table = EventTable::new("Trajectory", (&run.history, events), |row| {
+        Ok(chosen
+            .iter()
+            .map(|(_, from, own, start)| Displaced::new(moving(row, *from, *own), start, told.local))
+            .collect())
+    })?;
+    let none = Displaced::default();
+    for (index, (name, ..)) in chosen.iter().enumerate() {
         if !several {
             table = table.fact("Body", name.as_str(), Dim::None);
         }
+        let body = |all: &Vec<Displaced>| all.get(index).copied().unwrap_or(none);
+        let with = |vector: &Vector3<f64>| told.magnitude.with(vector);
         let head = |group: &str| headed(several, name, group);
-        table = columns(table, &head("Location"), &["X", "Y", "Z", "Mag."], Dim::Length);
-        table = columns(table, &head("Location"), &["Roll", "Pitch", "Yaw"], Dim::Angle);
-        table = columns(table, &head("Velocity"), &["VX", "VY", "VZ", "V Mag."], Dim::Velocity);
-        table = columns(table, &head("Velocity"), &["VRX", "VRY", "VRZ"], Dim::AngularVelocity);
-        table = columns(table, &head("Acceleration"), &["AX", "AY", "AZ", "A Mag."], Dim::Acceleration);
-        table = columns(table, &head("Acceleration"), &["ARX", "ARY", "ARZ"], Dim::AngularAcceleration);
-        table = columns(table, &head("Bottom"), &["Clearance"], Dim::Length);
-        table = columns(table, &head("Displacement"), &["DX", "DY", "DZ", "D Mag."], Dim::Length);
-        table = columns(table, &head("Displacement"), &["DRoll", "DPitch", "DYaw"], Dim::Angle);
+        table = table
+            .columns(&head("Location"), ["X", "Y", "Z", "Mag."], Dim::Length, |all| with(&body(all).at))
+            .columns(&head("Location"), ["Roll", "Pitch", "Yaw"], Dim::Angle, |all| body(all).turn)
+            .columns(&head("Velocity"), ["VX", "VY", "VZ", "V Mag."], Dim::Velocity, |all| with(&body(all).velocity[0]))
+            .columns(&head("Velocity"), ["VRX", "VRY", "VRZ"], Dim::AngularVelocity, |all| body(all).velocity[1].into())
+            .columns(&head("Acceleration"), ["AX", "AY", "AZ", "A Mag."], Dim::Acceleration, |all| {
+                with(&body(all).acceleration[0])
+            })
+            .columns(&head("Acceleration"), ["ARX", "ARY", "ARZ"], Dim::AngularAcceleration, |all| {
+                body(all).acceleration[1].into()
+            })
+            .columns(&head("Bottom"), ["Clearance"], Dim::Length, |all| [body(all).at.z + depth])
+            .columns(&head("Displacement"), ["DX", "DY", "DZ", "D Mag."], Dim::Length, |all| with(&body(all).moved))
+            .columns(&head("Displacement"), ["DRoll", "DPitch", "DYaw"], Dim::Angle, |all| body(all).turned);
     }
-    table = table.fact("Of", if told.centre { "the centre of gravity" } else { "the origin" }, Dim::None);
-    table = table.fact("Axes", if told.local { "of the body" } else { "global" }, Dim::None);
-    filled((&run.history, events), table, &mut |row, made| {
-        for (from, own, start) in &chosen {
-            let now = moving(row, *from, *own);
-            let along = |v: Vector3<f64>| if told.local { now.pose.axes.transpose() * v } else { v };
-            told.magnitude.push(&now.at, made);
-            made.extend(now.turn);
-            for [point, turning] in [now.velocity, now.acceleration] {
-                told.magnitude.push(&along(point), made);
-                made.extend(along(turning).iter());
-            }
-            made.push(now.at.z + depth);
-            told.magnitude.push(&along(now.at - start.at), made);
-            made.extend(now.turn.iter().zip(start.turn).map(|(a, b)| a - b));
+    let of = if told.centre { "the centre of gravity" } else { "the origin" };
+    let axes = if told.local { "of the body" } else { "global" };
+    Ok(table.fact("Of", of, Dim::None).fact("Axes", axes, Dim::None).build())
+}
+
+/// A point of a body and how far it is from where it was at the start; vectors along the axes asked for.
+#[derive(Clone, Copy)]
+struct Displaced {
+    /// Where it is, global (m).
+    at: Vector3<f64>,
+    /// Roll, pitch, yaw (rad).
+    turn: [f64; 3],
+    /// Of the point (m/s), and of the rotation (rad/s).
+    velocity: [Vector3<f64>; 2],
+    /// Of the point (m/s2), and of the rotation (rad/s2).
+    acceleration: [Vector3<f64>; 2],
+    /// From the start (m, rad).
+    moved: Vector3<f64>,
+    turned: [f64; 3],
+}
+
+impl Default for Displaced {
+    /// No numbers.
+    fn default() -> Self {
+        let nothing = Vector3::repeat(f64::NAN);
+        Displaced {
+            at: nothing,
+            turn: [f64::NAN; 3],
+            velocity: [nothing; 2],
+            acceleration: [nothing; 2],
+            moved: nothing,
+            turned: [f64::NAN; 3],
         }
-        Ok(())
-    })
+    }
+}
+
+impl Displaced {
+    fn new(now: Moving, start: &Moving, local: bool) -> Self {
+        let along = |v: Vector3<f64>| if local { now.pose.axes.transpose() * v } else { v };
+        let ([roll, pitch, yaw], [roll0, pitch0, yaw0]) = (now.turn, start.turn);
+        Displaced {
+            at: now.at,
+            turn: now.turn,
+            velocity: now.velocity.map(along),
+            acceleration: now.acceleration.map(along),
+            moved: along(now.at - start.at),
+            turned: [roll - roll0, pitch - pitch0, yaw - yaw0],
+        }
+    }
 }

@@ -3,7 +3,7 @@
 use super::super::system::SolveError;
 use super::super::time::Run;
 use super::motions::moving;
-use super::{Event, Magnitude, columns, filled, headed, timed};
+use super::{Event, EventTable, Magnitude, headed};
 use nalgebra::Vector3;
 use windlass_base::geometry::Position;
 use windlass_base::table::Table;
@@ -37,23 +37,10 @@ pub fn points(
     let layout = &run.history.layout;
     let still = run.model.surroundings().tide;
     let several = chosen.len() > 1;
-    let mut table = timed("Points of Interest");
-    for point in chosen {
-        if !several {
-            table = table.fact("Point", point.name.as_str(), Dim::None);
-        }
-        let head = |group: &str| headed(several, &point.name, group);
-        table = columns(table, &head("Location"), &["X", "Y", "Z", "Mag."], Dim::Length);
-        table = columns(table, &head("Velocity"), &["VX", "VY", "VZ", "V Mag."], Dim::Velocity);
-        table = columns(table, &head("Acceleration"), &["AX", "AY", "AZ", "A Mag."], Dim::Acceleration);
-        table = columns(table, &head("Motion"), &["DX", "DY", "DZ", "D Mag."], Dim::Length);
-        table = columns(table, &head("Waves"), &["W. Elv", "Clearance"], Dim::Length);
-    }
-    table = table.fact("Axes", if local { "of the body" } else { "global" }, Dim::None);
-    filled((&run.history, events), table, &mut |row, made| {
+    let mut table = EventTable::new("Points of Interest", (&run.history, events), |row| {
         let time = row.first().copied().unwrap_or(0.0);
         let waves = run.sea_at(time).map(|sea| (sea.level, sea.at(time)));
-        for point in chosen {
+        let of_point = |point: &TrackedPoint| {
             let own = Vector3::from(point.at);
             let now = point.body.map(|body| moving(row, layout.body(body), own));
             let along = |v: Vector3<f64>| match &now {
@@ -61,16 +48,54 @@ pub fn points(
                 _ => v,
             };
             let at = now.as_ref().map_or(own, |n| n.at);
-            magnitude.push(&at, made);
-            magnitude.push(&along(now.as_ref().map_or(Vector3::zeros(), |n| n.velocity[0])), made);
-            magnitude.push(&along(now.as_ref().map_or(Vector3::zeros(), |n| n.acceleration[0])), made);
-            magnitude.push(&along(at - Vector3::from(point.marked)), made);
             let (level, elevation) = match &waves {
                 Some((level, sea)) => (*level, sea.elevation(at.x, at.y)),
                 None => (still, 0.0),
             };
-            made.extend([elevation, at.z - level - elevation]);
+            PointRow {
+                at,
+                velocity: along(now.as_ref().map_or(Vector3::zeros(), |n| n.velocity[0])),
+                acceleration: along(now.as_ref().map_or(Vector3::zeros(), |n| n.acceleration[0])),
+                moved: along(at - Vector3::from(point.marked)),
+                elevation,
+                clearance: at.z - level - elevation,
+            }
+        };
+        Ok(chosen.iter().map(of_point).collect::<Vec<_>>())
+    })?;
+    for (index, point) in chosen.iter().enumerate() {
+        if !several {
+            table = table.fact("Point", point.name.as_str(), Dim::None);
         }
-        Ok(())
-    })
+        let with = |all: &Vec<PointRow>, vector: fn(&PointRow) -> &Vector3<f64>| {
+            all.get(index).map_or([f64::NAN; 4], |row| magnitude.with(vector(row)))
+        };
+        let head = |group: &str| headed(several, &point.name, group);
+        table = table
+            .columns(&head("Location"), ["X", "Y", "Z", "Mag."], Dim::Length, |all| with(all, |row| &row.at))
+            .columns(&head("Velocity"), ["VX", "VY", "VZ", "V Mag."], Dim::Velocity, |all| {
+                with(all, |row| &row.velocity)
+            })
+            .columns(&head("Acceleration"), ["AX", "AY", "AZ", "A Mag."], Dim::Acceleration, |all| {
+                with(all, |row| &row.acceleration)
+            })
+            .columns(&head("Motion"), ["DX", "DY", "DZ", "D Mag."], Dim::Length, |all| with(all, |row| &row.moved))
+            .columns(&head("Waves"), ["W. Elv", "Clearance"], Dim::Length, |all| {
+                all.get(index).map_or([f64::NAN; 2], |row| [row.elevation, row.clearance])
+            });
+    }
+    Ok(table.fact("Axes", if local { "of the body" } else { "global" }, Dim::None).build())
+}
+
+/// A point at a stored instant.
+struct PointRow {
+    /// Global (m).
+    at: Vector3<f64>,
+    /// (m/s), (m/s2) and from where it was marked (m), along the axes asked for.
+    velocity: Vector3<f64>,
+    acceleration: Vector3<f64>,
+    moved: Vector3<f64>,
+    /// Of the waves above the mean level (m), and of the point above the waves.
+    elevation: f64,
+    clearance: f64,
 }

@@ -136,7 +136,7 @@ pub fn check(line: &Line, code: &Code, events: &[Event]) -> Result<Table, SolveE
             }
         }
     }
-    let mut table = told(line, code, &checked, &worst)?;
+    let mut table = told(line, code, &checked, &worst);
     if lrfd && rest.iter().any(Option::is_none) {
         table.note(match length.is_finite() {
             true => {
@@ -160,47 +160,38 @@ fn acting(node: &NodeRow, section: &Section) -> Acting {
     Acting { moment: bent.moment(), effective: node.effective, wall: section.pulled(node), inside, outside }
 }
 
-fn told(line: &Line, code: &Code, checked: &[Checked], worst: &[Option<Worst>]) -> Result<Table, SolveError> {
+fn told(line: &Line, code: &Code, checked: &[Checked], worst: &[Option<Worst>]) -> Table {
     let bends = line.columns.bends;
     let by_code = checked.iter().any(|c| !matches!(c, Checked::Break(_)));
-    let mut table = Table::new("Unity Checks Along a Line")
+    let table = Table::new("Unity Checks Along a Line")
         .fact("Line", line.name, Dim::None)
         .fact("Model", DYNAMIC, Dim::None)
-        .fact("Code", if by_code { code.name() } else { Code::Break.name() }, Dim::None)
-        .column("", "Node", Dim::None, Digits::Usual)
-        .column("", "Arc", Dim::Length, Digits::Usual)
-        .column("", "Check", Dim::None, Digits::Usual)
-        .column("Largest", "Used", Dim::None, Digits::Decimals(3))
-        .column("Largest", "At", Dim::Time, Digits::Usual)
-        .column("Then", "Tension", Dim::Force, Digits::Usual);
+        .fact("Code", if by_code { code.name() } else { Code::Break.name() }, Dim::None);
+    let rows: Vec<(usize, &Worst)> =
+        worst.iter().enumerate().filter_map(|(index, found)| Some((index + 1, found.as_ref()?))).collect();
+    let mut table = table
+        .with_rows(&rows)
+        .column("", "Node", Dim::None, Digits::Usual, |(number, _)| *number)
+        .column("", "Arc", Dim::Length, Digits::Usual, |(_, found)| found.arc)
+        .text("Check", |(_, found)| checked.get(found.segment).map(Checked::name))
+        .column("Largest", "Used", Dim::None, Digits::Decimals(3), |(_, found)| found.used)
+        .column("Largest", "At", Dim::Time, Digits::Usual, |(_, found)| found.time)
+        .column("Then", "Tension", Dim::Force, Digits::Usual, |(_, found)| found.acting.effective);
     if bends {
-        table = table.column("Then", "Moment", Dim::Moment, Digits::Usual).column(
+        table = table.column("Then", "Moment", Dim::Moment, Digits::Usual, |(_, found)| found.acting.moment).column(
             "Then",
             "Net Pressure",
             Dim::Stress,
             Digits::Usual,
+            |(_, found)| found.acting.inside - found.acting.outside,
         );
     }
+    let mut table = table.build();
     let mut most: Option<(usize, Worst)> = None;
-    for (index, found) in worst.iter().enumerate() {
-        let Some(found) = found else { continue };
+    for (number, found) in rows {
         if most.is_none_or(|(_, m)| found.used > m.used) {
-            most = Some((index + 1, *found));
+            most = Some((number, *found));
         }
-        let name = checked.get(found.segment).map(Checked::name);
-        let mut cells = vec![
-            (index + 1).into(),
-            found.arc.into(),
-            name.into(),
-            found.used.into(),
-            found.time.into(),
-            found.acting.effective.into(),
-        ];
-        if bends {
-            cells.push(found.acting.moment.into());
-            cells.push((found.acting.inside - found.acting.outside).into());
-        }
-        table.push(cells).map_err(|e| line.wrong(e.to_string()))?;
     }
     if let Some((node, Worst { used, time, .. })) = most {
         // sums of steps are off in their last digits
@@ -225,5 +216,5 @@ fn told(line: &Line, code: &Code, checked: &[Checked], worst: &[Option<Worst>]) 
     if checked.iter().any(|c| matches!(c, Checked::Break(_))) {
         table.note("BREAK is tension over breaking tension");
     }
-    Ok(table)
+    table
 }

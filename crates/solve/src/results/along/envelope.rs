@@ -4,10 +4,9 @@ use super::{CLEARANCE, Line, segments_at, sides};
 use crate::results::Event;
 use crate::system::SolveError;
 use crate::time::{AlongEnvelope, Quantity};
-use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_model::DYNAMIC;
-use windlass_signal::line::envelope::Seen;
 
 /// Quantities told, with the head of their columns and the sign they have there.
 const TOLD: [(&str, &str, Quantity, Dim); 6] = [
@@ -45,33 +44,13 @@ pub fn envelope(line: &Line, events: &[Event]) -> Result<Table, SolveError> {
             _ => columns.bends,
         })
         .collect();
-    let mut table = Table::new("Envelope Along a Line")
-        .fact("Line", line.name, Dim::None)
-        .fact("Model", DYNAMIC, Dim::None)
-        .column("", "Node", Dim::None, Digits::Usual)
-        .column("", "Arc", Dim::Length, Digits::Usual);
-    for (group, sign, _, dim) in &told {
-        let digits = if *sign == "C" { CLEARANCE } else { Digits::Usual };
-        for part in ["Min", "Mean", "Max"] {
-            table = table.column(group, &format!("{sign} {part}"), *dim, digits);
-        }
-    }
-    let mut table = table.column("", "Used", Dim::None, Digits::Decimals(3));
+    let mut rows = Vec::new();
     let length = line.places.last().and_then(|p| seen.seen(*p, Quantity::Arc)).map_or(f64::NAN, |s| s.mean);
     let (mut worst, mut wound): (Option<(f64, usize)>, bool) = (None, false);
     for (number, place) in line.numbered() {
         let of = |quantity: Quantity| seen.seen(place, quantity);
         let arc = of(Quantity::Arc).map(|s| s.mean);
         wound |= of(Quantity::Arc).is_some_and(|s| s.most.value - s.least.value > 1e-6 * length);
-        let mut cells: Vec<Cell> = vec![number.into(), arc.into()];
-        for (.., quantity, _) in &told {
-            let found: Option<Seen> = of(*quantity);
-            cells.extend([
-                found.map(|s| s.least.value).into(),
-                found.map(|s| s.mean).into(),
-                found.map(|s| s.most.value).into(),
-            ]);
-        }
         let used = arc.zip(of(Quantity::Effective)).and_then(|(arc, tension)| {
             let stress = [Quantity::VonMisesBefore, Quantity::VonMisesBehind].map(of);
             let sides = sides(&line.sections, segments_at(&line.sections, length - arc));
@@ -85,9 +64,23 @@ pub fn envelope(line: &Line, events: &[Event]) -> Result<Table, SolveError> {
         {
             worst = Some((used, number));
         }
-        cells.push(used.into());
-        table.push(cells).map_err(|e| line.wrong(e.to_string()))?;
+        rows.push((number, place, arc, used));
     }
+    let mut table = Table::new("Envelope Along a Line")
+        .fact("Line", line.name, Dim::None)
+        .fact("Model", DYNAMIC, Dim::None)
+        .with_rows(&rows)
+        .column("", "Node", Dim::None, Digits::Usual, |(number, ..)| *number)
+        .column("", "Arc", Dim::Length, Digits::Usual, |(_, _, arc, _)| *arc);
+    for (group, sign, quantity, dim) in told {
+        let digits = if *sign == "C" { CLEARANCE } else { Digits::Usual };
+        let names = ["Min", "Mean", "Max"].map(|part| format!("{sign} {part}"));
+        table = table.columns(group, names.each_ref().map(String::as_str), *dim, digits, |(_, place, ..)| {
+            let found = seen.seen(*place, *quantity);
+            found.map_or([None; 3], |s| [s.least.value, s.mean, s.most.value].map(Some))
+        });
+    }
+    let mut table = table.column("", "Used", Dim::None, Digits::Decimals(3), |(.., used)| *used).build();
     if let Some((used, node)) = worst {
         table.note(format!("most is used at node {node}: {used:.3}"));
     }

@@ -3,7 +3,7 @@
 use super::Line;
 use crate::results::Event;
 use crate::system::SolveError;
-use windlass_base::table::{Cell, Digits, Table};
+use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_model::{ClassError, DYNAMIC, FatigueKind, FatigueSelection};
 use windlass_signal::SeriesError;
@@ -65,27 +65,7 @@ pub fn along(
             Dim::None,
         );
     }
-    table = table
-        .column("", "Node", Dim::None, Digits::Usual)
-        .column("", "Arc", Dim::Length, Digits::Usual)
-        .column("", "Segment", Dim::None, Digits::Usual)
-        .column("", "Curve", Dim::None, Digits::Usual)
-        .column("", "Cycles", Dim::None, Digits::Decimals(1));
-    if by(FatigueKind::Stress) {
-        table = table.column("Largest Range", "Stress", Dim::Stress, Digits::Scientific(3));
-    }
-    if by(FatigueKind::Tension) {
-        table = table.column("Largest Range", "T/TB", Dim::None, Digits::Decimals(4));
-    }
-    if round_tubes {
-        table = table.column("", "Point", Dim::Angle, Digits::Decimals(1));
-    }
-    let mut table = table.column("", "Damage", Dim::None, Digits::Scientific(4)).column(
-        "",
-        "Life, Years",
-        Dim::None,
-        Digits::Scientific(4),
-    );
+    let mut rows = Vec::new();
     let mut worst: Option<(f64, usize)> = None;
     for (index, sides) in records.iter().enumerate() {
         let mut most = None;
@@ -106,24 +86,35 @@ pub fn along(
         if worst.is_none_or(|(most, _)| found.damage > most) {
             worst = Some((found.damage, index + 1));
         }
-        let of_kind = |kind: FatigueKind| Cell::from((curve.kind == kind).then_some(found.largest));
-        let mut cells: Vec<Cell> = vec![
-            (index + 1).into(),
-            record.arc.into(),
-            (record.segment + 1).into(),
-            curve.name.as_str().into(),
-            found.cycles.into(),
-        ];
-        cells.extend([FatigueKind::Stress, FatigueKind::Tension].into_iter().filter(|k| by(*k)).map(of_kind));
-        if round_tubes {
-            cells.push(found.angle.into());
-        }
-        cells.extend([found.damage.into(), years.into()]);
-        table.push(cells).map_err(|e| line.wrong(e.to_string()))?;
+        rows.push(FatigueRow { node: index + 1, record, curve, found, years });
     }
-    if table.rows() == 0 {
+    if rows.is_empty() {
         return Err(line.wrong("fatigue needs more than one instant at which it acts"));
     }
+    let largest = |row: &FatigueRow, kind: FatigueKind| (row.curve.kind == kind).then_some(row.found.largest);
+    let mut columns = table
+        .with_rows(&rows)
+        .column("", "Node", Dim::None, Digits::Usual, |row| row.node)
+        .column("", "Arc", Dim::Length, Digits::Usual, |row| row.record.arc)
+        .column("", "Segment", Dim::None, Digits::Usual, |row| row.record.segment + 1)
+        .text("Curve", |row| &row.curve.name)
+        .column("", "Cycles", Dim::None, Digits::Decimals(1), |row| row.found.cycles);
+    if by(FatigueKind::Stress) {
+        columns = columns.column("Largest Range", "Stress", Dim::Stress, Digits::Scientific(3), |row| {
+            largest(row, FatigueKind::Stress)
+        });
+    }
+    if by(FatigueKind::Tension) {
+        columns = columns
+            .column("Largest Range", "T/TB", Dim::None, Digits::Decimals(4), |row| largest(row, FatigueKind::Tension));
+    }
+    if round_tubes {
+        columns = columns.column("", "Point", Dim::Angle, Digits::Decimals(1), |row| row.found.angle);
+    }
+    let mut table = columns
+        .column("", "Damage", Dim::None, Digits::Scientific(4), |row| row.found.damage)
+        .column("", "Life, Years", Dim::None, Digits::Scientific(4), |row| row.years)
+        .build();
     if let Some((damage, node)) = worst.filter(|(damage, _)| *damage > 0.0) {
         table.note(format!("most damage is at node {node}: {damage:.4E}"));
     }
@@ -139,6 +130,17 @@ fn note_once(table: &mut Table, curve: &Curve) {
     if !table.notes.contains(&text) {
         table.note(text);
     }
+}
+
+/// A node with the side of it that has the most damage.
+struct FatigueRow<'r> {
+    /// From 1.
+    node: usize,
+    record: &'r Record,
+    curve: &'r Curve,
+    found: NodeDamage,
+    /// Years until the damage is 1; none without damage.
+    years: Option<f64>,
 }
 
 /// What a node bore while it was there.

@@ -1,7 +1,7 @@
 //! Where a line is at an instant, with its forces there; and its nodes over time.
 
 use super::{CLEARANCE, Line};
-use crate::results::{Event, columns, filled, timed};
+use crate::results::{Event, EventTable};
 use crate::system::SolveError;
 use crate::time::{BentRow, NodeRow};
 use windlass_base::table::{Cell, Digits, Table};
@@ -17,30 +17,31 @@ pub enum Where {
     Arc(f64),
 }
 
-/// Columns of a node behind its place.
-fn forces(mut table: Table, group: &str, bends: bool) -> Table {
-    table = columns(table, group, &["X", "Y", "Z"], Dim::Length).column(group, "Clearance", Dim::Length, CLEARANCE);
-    table = columns(table, group, &["Tension"], Dim::Force);
-    if bends {
-        table = columns(table, group, &["Wall", "Shear"], Dim::Force);
-        table = columns(table, group, &["Moment", "M1", "M2"], Dim::Moment);
-        table = columns(table, group, &["Von Mises"], Dim::Stress);
-    }
-    table
-}
+/// A number of a node, with its column: name, dimension, digits.
+type NodeColumn = (&'static str, Dim, Digits, fn(&NodeRow) -> Option<f64>);
 
-/// The numbers of these columns.
-fn told(node: Option<&NodeRow>, bends: bool, out: &mut Vec<f64>) {
-    let Some(node) = node else {
-        out.extend(std::iter::repeat_n(f64::NAN, if bends { 11 } else { 5 }));
-        return;
-    };
-    out.extend(node.position);
-    out.extend([node.clearance, node.effective]);
-    if let Some(bent) = &node.bent {
-        let BentRow { wall, shear, bends: [one, other], .. } = *bent;
-        out.extend([wall, shear, bent.moment(), one, other, bent.worse()]);
-    }
+/// Columns of every node behind its place.
+const NODE: [NodeColumn; 5] = [
+    ("X", Dim::Length, Digits::Usual, |node| Some(node.position[0])),
+    ("Y", Dim::Length, Digits::Usual, |node| Some(node.position[1])),
+    ("Z", Dim::Length, Digits::Usual, |node| Some(node.position[2])),
+    ("Clearance", Dim::Length, CLEARANCE, |node| Some(node.clearance)),
+    ("Tension", Dim::Force, Digits::Usual, |node| Some(node.effective)),
+];
+
+/// Columns of a node of a line that bends, behind them.
+const BENT: [NodeColumn; 6] = [
+    ("Wall", Dim::Force, Digits::Usual, |node| node.bent.map(|b| b.wall)),
+    ("Shear", Dim::Force, Digits::Usual, |node| node.bent.map(|b| b.shear)),
+    ("Moment", Dim::Moment, Digits::Usual, |node| node.bent.map(|b| b.moment())),
+    ("M1", Dim::Moment, Digits::Usual, |node| node.bent.map(|b| b.bends[0])),
+    ("M2", Dim::Moment, Digits::Usual, |node| node.bent.map(|b| b.bends[1])),
+    ("Von Mises", Dim::Stress, Digits::Usual, |node| node.bent.map(|b| b.worse())),
+];
+
+/// The columns of the nodes of a line.
+fn node_columns(bends: bool) -> impl Iterator<Item = &'static NodeColumn> {
+    NODE.iter().chain(BENT.iter().filter(move |_| bends))
 }
 
 /// The line at an event: its nodes from the first end.
@@ -52,24 +53,22 @@ pub fn shape(line: &Line, event: &Event) -> Result<Table, SolveError> {
     line.row(event, &mut row);
     let bends = line.columns.bends;
     let time = row.first().copied().unwrap_or(f64::NAN);
+    // a node that a winch has not made yet has no row
+    let numbered = line.numbered();
+    let nodes: Vec<(usize, NodeRow)> =
+        numbered.filter_map(|(number, place)| Some((number, line.columns.node(place, &row)?))).collect();
     let mut table = Table::new("Along a Line at an Instant")
         .fact("Line", line.name, Dim::None)
         .fact("Model", DYNAMIC, Dim::None)
         .fact("Time", time, Dim::Time)
-        .column("", "Node", Dim::None, Digits::Usual)
-        .column("", "Arc", Dim::Length, Digits::Usual);
-    table = forces(table, "", bends).column("", "Used", Dim::None, Digits::Decimals(3));
-    let mut numbers = Vec::new();
-    for (number, place) in line.numbered() {
-        // a node that a winch has not made yet has no row
-        let Some(node) = line.columns.node(place, &row) else { continue };
-        let mut cells: Vec<Cell> = vec![number.into(), node.arc.into()];
-        numbers.clear();
-        told(Some(&node), bends, &mut numbers);
-        cells.extend(numbers.iter().map(|v| if v.is_finite() { Cell::Number(v + 0.0) } else { Cell::Missing }));
-        cells.push(line.used(&node, &row).into());
-        table.push(cells).map_err(|e| line.wrong(e.to_string()))?;
+        .with_rows(&nodes)
+        .column("", "Node", Dim::None, Digits::Usual, |(number, _)| *number)
+        .column("", "Arc", Dim::Length, Digits::Usual, |(_, node)| node.arc);
+    for (name, dim, digits, value) in node_columns(bends) {
+        table =
+            table.column("", name, *dim, *digits, |(_, node)| value(node).filter(|v| v.is_finite()).map(|v| v + 0.0));
     }
+    let mut table = table.column("", "Used", Dim::None, Digits::Decimals(3), |(_, node)| line.used(node, &row)).build();
     if table.rows() == 0 {
         table.note("the line does not act then");
     }
@@ -82,10 +81,9 @@ pub fn shape(line: &Line, event: &Event) -> Result<Table, SolveError> {
 /// A node that the line has not, a distance beyond its ends at every event.
 pub fn histories(line: &Line, wanted: &[Where], events: &[Event]) -> Result<Table, SolveError> {
     let (run, bends) = (line.run, line.columns.bends);
-    let mut table = timed("Places Along a Line").fact("Line", line.name, Dim::None).fact("Model", DYNAMIC, Dim::None);
-    let mut places = Vec::new();
+    let (mut places, mut groups, mut arcs) = (Vec::new(), Vec::new(), Vec::new());
     for (index, place) in wanted.iter().enumerate() {
-        let group = match place {
+        match place {
             Where::Node(number) => {
                 let found = number.checked_sub(1).and_then(|i| line.places.get(i));
                 let found = found.ok_or_else(|| {
@@ -93,27 +91,36 @@ pub fn histories(line: &Line, wanted: &[Where], events: &[Event]) -> Result<Tabl
                     SolveError::new(ClassError::new(text))
                 })?;
                 places.push(Ok(*found));
-                format!("Node {number}")
+                groups.push(format!("Node {number}"));
             }
             Where::Arc(arc) => {
                 places.push(Err(*arc));
                 let name = format!("Place {}", index + 1);
-                table = table.fact(&name, *arc, Dim::Length);
-                name
+                arcs.push((name.clone(), *arc));
+                groups.push(name);
             }
-        };
-        table = forces(table, &group, bends);
-    }
-    let table = filled((&run.history, events), table, &mut |row, made| {
-        for place in &places {
-            let node = match place {
-                Ok(place) => line.columns.node(*place, row),
-                Err(arc) => line.at_arc(*arc, row),
-            };
-            told(node.as_ref(), bends, made);
         }
-        Ok(())
-    })?;
+    }
+    let mut table = EventTable::new("Places Along a Line", (&run.history, events), |row| {
+        let node = |place: &Result<usize, f64>| match place {
+            Ok(place) => line.columns.node(*place, row),
+            Err(arc) => line.at_arc(*arc, row),
+        };
+        Ok(places.iter().map(node).collect::<Vec<Option<NodeRow>>>())
+    })?
+    .fact("Line", line.name, Dim::None)
+    .fact("Model", DYNAMIC, Dim::None);
+    for (name, arc) in &arcs {
+        table = table.fact(name, *arc, Dim::Length);
+    }
+    for (index, group) in groups.iter().enumerate() {
+        for (name, dim, digits, value) in node_columns(bends) {
+            table = table.column(group, name, *dim, *digits, |nodes| {
+                nodes.get(index).and_then(Option::as_ref).and_then(value).unwrap_or(f64::NAN)
+            });
+        }
+    }
+    let table = table.build();
     let empty = |c: &&windlass_base::table::Column| c.cells.iter().all(|c| *c == Cell::Missing);
     if wanted.iter().any(|w| matches!(w, Where::Arc(_)))
         && let Some(column) = table.columns.iter().filter(|c| c.name == "Tension").find(empty)

@@ -1,7 +1,7 @@
 //! What a pipe does to each of its supports over time.
 
 use super::Line;
-use crate::results::{Event, Magnitude, columns, filled, timed};
+use crate::results::{Event, EventTable, Magnitude};
 use crate::system::SolveError;
 use nalgebra::Vector3;
 use windlass_base::table::Table;
@@ -20,21 +20,25 @@ pub fn supports(line: &Line, magnitude: Magnitude, events: &[Event]) -> Result<T
         _ => return Err(line.wrong("it lies on no supports: a pipe assembly does")),
     };
     let acts = |name: &&String| model.connectors.get(&Model::key(name)).is_some_and(|c| c.active);
-    let mut table = timed("Forces on Supports").fact("Line", line.name, Dim::None);
-    let mut places = Vec::new();
+    let (mut places, mut grounded) = (Vec::new(), Vec::new());
     for (end, name) in names.iter().filter(acts).enumerate() {
         let Some(at) = layout.wrench(line.link, end) else {
-            table.note(format!("{name} stands in the ground, and the run keeps no force on it"));
+            grounded.push(format!("{name} stands in the ground, and the run keeps no force on it"));
             continue;
         };
-        table = columns(table, name, &["FX", "FY", "FZ", "Mag."], Dim::Force);
-        places.push(at);
+        places.push((name, at));
     }
-    filled((&line.run.history, events), table, &mut |row, made| {
-        for at in &places {
-            let force = row.get(*at..at + 3).map_or(Vector3::repeat(f64::NAN), Vector3::from_column_slice);
-            magnitude.push(&force, made);
-        }
-        Ok(())
-    })
+    let mut table = EventTable::new("Forces on Supports", (&line.run.history, events), |row| {
+        let force = |at: usize| row.get(at..at + 3).map_or(Vector3::repeat(f64::NAN), Vector3::from_column_slice);
+        Ok(places.iter().map(|(_, at)| magnitude.with(&force(*at))).collect::<Vec<_>>())
+    })?
+    .fact("Line", line.name, Dim::None);
+    for (index, (name, _)) in places.iter().enumerate() {
+        table = table.columns(name, ["FX", "FY", "FZ", "Mag."], Dim::Force, |forces| {
+            forces.get(index).copied().unwrap_or([f64::NAN; 4])
+        });
+    }
+    let mut table = table.build();
+    table.notes.extend(grounded);
+    Ok(table)
 }

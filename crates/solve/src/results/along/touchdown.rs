@@ -1,7 +1,7 @@
 //! Where a line meets the bottom.
 
 use super::Line;
-use crate::results::{Event, columns, filled, timed};
+use crate::results::{Event, EventTable};
 use crate::system::SolveError;
 use crate::time::NodeRow;
 use windlass_base::table::{Digits, Table};
@@ -14,34 +14,58 @@ use windlass_model::DYNAMIC;
 /// # Errors
 /// None of its own.
 pub fn touchdown(line: &Line, events: &[Event]) -> Result<Table, SolveError> {
-    let mut table = timed("Touchdown").fact("Line", line.name, Dim::None).fact("Model", DYNAMIC, Dim::None);
-    table = table.column("First Node on Bottom", "Node", Dim::None, Digits::Decimals(0));
-    table = columns(table, "First Node on Bottom", &["Node Arc"], Dim::Length);
-    table = columns(table, "First Node on Bottom", &["Tension"], Dim::Force);
-    table = columns(table, "Touchdown", &["Arc", "X", "Y", "Z"], Dim::Length);
-    table = columns(table, "On Bottom", &["Length"], Dim::Length);
-    let mut table = filled((&line.run.history, events), table, &mut |row, made| {
+    let mut table = EventTable::new("Touchdown", (&line.run.history, events), |row| {
         let there: Vec<(usize, NodeRow)> =
             line.numbered().filter_map(|(number, place)| Some((number, line.columns.node(place, row)?))).collect();
         let Some(first) = there.iter().position(|(_, n)| n.clearance <= 0.0) else {
-            let grounded = if there.is_empty() { f64::NAN } else { 0.0 };
-            made.extend([[f64::NAN; 7].as_slice(), &[grounded]].concat());
-            return Ok(());
+            return Ok(Touchdown { grounded: if there.is_empty() { f64::NAN } else { 0.0 }, ..Touchdown::NONE });
         };
-        let Some((number, node)) = there.get(first) else { return Ok(()) };
+        let Some((number, node)) = there.get(first) else { return Ok(Touchdown::NONE) };
         let before = |back: usize| first.checked_sub(back).and_then(|i| there.get(i)).map(|(_, n)| n);
-        let (arc, at) = met(before(2), before(1), node);
+        let (arc, place) = met(before(2), before(1), node);
         let lies = |pair: &&[(usize, NodeRow)]| pair.iter().all(|(_, n)| n.clearance <= 0.0);
         let pairs = there.windows(2).filter(lies).filter_map(|p| Some(p.last()?.1.arc - p.first()?.1.arc));
-        made.extend([*number as f64, node.arc, node.effective, arc]);
-        made.extend(at);
-        made.push(pairs.sum());
-        Ok(())
-    })?;
+        let (node_arc, tension) = (node.arc, node.effective);
+        Ok(Touchdown { node: *number as f64, node_arc, tension, arc, place, grounded: pairs.sum() })
+    })?
+    .fact("Line", line.name, Dim::None)
+    .fact("Model", DYNAMIC, Dim::None)
+    .column("First Node on Bottom", "Node", Dim::None, Digits::Decimals(0), |t| t.node)
+    .columns("First Node on Bottom", ["Node Arc"], Dim::Length, |t| [t.node_arc])
+    .columns("First Node on Bottom", ["Tension"], Dim::Force, |t| [t.tension])
+    .columns("Touchdown", ["Arc"], Dim::Length, |t| [t.arc])
+    .columns("Touchdown", ["X", "Y", "Z"], Dim::Length, |t| t.place)
+    .columns("On Bottom", ["Length"], Dim::Length, |t| [t.grounded])
+    .build();
     table.note(
         "Touchdown lies between the first node on the bottom and the one before, where a parabola through the two nodes before comes down",
     );
     Ok(table)
+}
+
+/// Where a line meets the bottom; what is not there is not a number.
+struct Touchdown {
+    /// Number of the first node on the bottom, from 1, its distance from the first end (m) and its tension (N).
+    node: f64,
+    node_arc: f64,
+    tension: f64,
+    /// Distance (m) and place (m) at which the line begins to lie.
+    arc: f64,
+    place: [f64; 3],
+    /// Unstretched length on the bottom (m).
+    grounded: f64,
+}
+
+impl Touchdown {
+    /// Of a line that does not touch down.
+    const NONE: Self = Touchdown {
+        node: f64::NAN,
+        node_arc: f64::NAN,
+        tension: f64::NAN,
+        arc: f64::NAN,
+        place: [f64::NAN; 3],
+        grounded: f64::NAN,
+    };
 }
 
 /// The unstretched distance and the place at which a line comes down between the last node off the bottom and the first on it. A
