@@ -126,18 +126,18 @@ fn only<'a>(args: &'a Args, options: &[OptionSpec], of: &str) -> Outcome<&'a Giv
 }
 
 fn when(model: &Model, given: &Given, units: UnitSystem) -> Outcome<When> {
-    let place = given.values.first().map_or(given.span, |v| v.span);
-    let name = given.word(0).unwrap_or_default();
-    let number = |i: usize| given.number(i).unwrap_or(0.0);
+    let place = given.first_place();
+    let name = given.first_word().unwrap_or_default();
+    let number = |key| given.number(key).unwrap_or(0.0);
     let line = || match model.assemblies.get(&Model::key(line_name(name))) {
         Some(pipe) if pipe.name == PIPE => Ok(Watched::Tension(pipe.name.clone())),
         _ => find(&model.connectors, name, "connector", place).map(|c| Watched::Tension(c.name.clone())),
     };
     let dof = || -> Outcome<(Watched, f64)> {
         let body = find(&model.bodies, name, "body", place)?;
-        let dof = DOFS.iter().position(|f| Some(*f) == given.word(1)).unwrap_or(0);
+        let dof = DOFS.iter().position(|f| Some(*f) == given.word(const { ABOVE.word("DOF") })).unwrap_or(0);
         let dim = if dof < 3 { Dim::Length } else { Dim::Angle };
-        Ok((Watched::Dof(body.name.clone(), dof), dim.to_si(number(2), units)))
+        Ok((Watched::Dof(body.name.clone(), dof), dim.to_si(number(const { ABOVE.number("V") }), units)))
     };
     let point = || {
         let found = find(&model.points, name, "point", place)?;
@@ -147,13 +147,13 @@ fn when(model: &Model, given: &Given, units: UnitSystem) -> Outcome<When> {
         }
     };
     Ok(match given {
-        _ if given.is(&AT) => When::At(number(0)),
-        _ if given.is(&TENSION) => When::Above(line()?, number(1)),
-        _ if given.is(&SLACK) => When::Below(line()?, number(1)),
+        _ if given.is(&AT) => When::At(number(const { AT.number("T") })),
+        _ if given.is(&TENSION) => When::Above(line()?, number(const { TENSION.number("F") })),
+        _ if given.is(&SLACK) => When::Below(line()?, number(const { SLACK.number("F") })),
         _ if given.is(&ABOVE) => dof().map(|(watched, value)| When::Above(watched, value))?,
         _ if given.is(&BELOW) => dof().map(|(watched, value)| When::Below(watched, value))?,
-        _ if given.is(&HIGH) => When::Above(point()?, number(1)),
-        _ => When::Below(point()?, number(1)),
+        _ if given.is(&HIGH) => When::Above(point()?, number(const { HIGH.number("Z") })),
+        _ => When::Below(point()?, number(const { LOW.number("Z") })),
     })
 }
 
@@ -165,10 +165,12 @@ fn what(model: &Model, given: &Given) -> Outcome<What> {
     Ok(match given {
         _ if given.is(&RELEASE) => What::Release(names(usize::MAX)?),
         _ if given.is(&ACTIVATE) => What::Activate(names(usize::MAX)?),
-        _ if given.is(&WINCH) => What::Winch(names(1)?, given.number(1).unwrap_or(0.0), given.number(2)),
+        _ if given.is(&WINCH) => {
+            let [rate, length] = const { WINCH.numbers(["RATE", "LENGTH"]) };
+            What::Winch(names(1)?, given.number(rate).unwrap_or(0.0), given.number(length))
+        }
         _ if given.is(&ENVIRONMENT) => {
-            let (name, place) =
-                (given.word(0).unwrap_or_default(), given.values.first().map_or(given.span, |v| v.span));
+            let (name, place) = (given.first_word().unwrap_or_default(), given.first_place());
             What::Environment(find(&model.environments, name, "environment", place)?.name.clone())
         }
         _ => What::Stop,

@@ -201,7 +201,7 @@ impl Said {
 
 /// What an option asks for at the fairlead.
 fn aim(given: &Given) -> Option<Condition> {
-    let force = given.number(0)?;
+    let force = given.first_number()?;
     match given {
         _ if given.is(&L_HORIZONTAL) || given.is(&A_HORIZONTAL) => Some(Condition::Horizontal(force)),
         _ if given.is(&L_TENSION) || given.is(&A_TENSION) => Some(Condition::Tension(force)),
@@ -216,7 +216,7 @@ fn change(model: &Model, made: &mut Connector, given: &Given, said: &mut Said) -
         return Ok(if made.active { "active" } else { "inactive" }.into());
     }
     if given.is(&DYNAMICS) {
-        let elements = given.values.first().and_then(|v| v.integer()).and_then(|n| usize::try_from(n).ok());
+        let elements = given.first_integer().and_then(|n| usize::try_from(n).ok());
         made.dynamics = elements.filter(|n| *n > 0);
         // what makes no such line is refused here, not in a run
         model.element(made)?;
@@ -233,7 +233,7 @@ fn change(model: &Model, made: &mut Connector, given: &Given, said: &mut Said) -
         return Err(ClassError::new(text).help("name the point on the body first in its CONNECTOR record"));
     }
     let old = (model.first_length(made), made.anchor);
-    let value = given.number(0).unwrap_or(0.0);
+    let value = given.first_number().unwrap_or(0.0);
     let mut also = String::new();
     let lengthened = given.is(&LENGTH) || given.is(&L_DELTA);
     let pulled = given.is(&L_HORIZONTAL) || given.is(&L_TENSION);
@@ -262,7 +262,7 @@ fn change(model: &Model, made: &mut Connector, given: &Given, said: &mut Said) -
         }
         _ if given.is(&ANCHOR) => {
             alone(made)?;
-            let [y, z] = [1, 2].map(|i| given.number(i).unwrap_or(0.0));
+            let [y, z] = given.numbers_or_zero(const { ANCHOR.numbers(["Y", "Z"]) });
             move_anchor(model, made, [value, y]);
             if let Some(anchor) = &mut made.anchor {
                 anchor.elevation = Some(z);

@@ -34,16 +34,16 @@ pub(super) const T_PRESSURE: OptionSpec = OptionSpec::new(
 /// # Errors
 /// A name that is not there.
 pub(super) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<()> {
-    let name = given.word(0).unwrap_or_default();
-    let span = given.values.first().map_or(given.span, |v| v.span);
+    let name = given.first_word().unwrap_or_default();
+    let span = given.first_place();
     match given {
         _ if given.is(&BATHYMETRY) => {
             find(&job.model.bathymetries, name, "bathymetry", span)?;
-            env.bathymetry = Some(formula(given));
+            env.bathymetry = Some(formula(given, None));
         }
         _ if given.is(&T_PRESSURE) => {
             find(&job.model.fillings, name, "set of T_PRESSURE data", span)?;
-            env.filling = Some(formula(given));
+            env.filling = Some(formula(given, None));
         }
         _ => {}
     }

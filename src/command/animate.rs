@@ -101,13 +101,14 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let run =
         job.run.as_ref().ok_or_else(|| Diagnostic::error("there is no run yet", args.span).help("TDOM makes one"))?;
     let events = args.option(&EVENTS);
-    let event = |n: usize| events.and_then(|g| g.number(n));
-    let points = args.option(&POINTS_OPTION).and_then(|g| g.values.first()).and_then(|v| v.integer());
+    let [begin, end, increment] =
+        const { EVENTS.numbers(["BEG", "END", "INC"]) }.map(|key| events.and_then(|given| given.number(key)));
+    let points = args.option_integer(&POINTS_OPTION);
     let chosen = Chosen::of(call, 1, &job.model);
     let take = Take {
         connector: &|c| chosen.takes(c),
         body: &|b| chosen.takes(b),
-        window: event(0).map(|begin| Window { begin, end: event(1), increment: event(2) }),
+        window: begin.map(|begin| Window { begin, end, increment }),
         points: points.and_then(|n| usize::try_from(n).ok()).unwrap_or(POINTS),
         stop: &|| job.interrupted(),
     };

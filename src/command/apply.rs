@@ -47,9 +47,14 @@ fn run(job: &mut super::Job, call: &Call) -> Outcome<Effect> {
     };
     let mut made = job.model.multipliers.clone();
     for given in &args.options {
-        let (Some(name), Some(value)) = (given.word(0), given.number(1)) else { continue };
+        if given.is_any(&[FRACTION, PERCENT]) {
+            continue;
+        }
+        let (Some(name), Some(value)) = (given.first_word(), given.number(const { FORCE.number("VALUE") })) else {
+            continue;
+        };
         if given.is(&LOAD_GROUP) {
-            let span = given.values.first().map_or(given.span, |v| v.span);
+            let span = given.first_place();
             find(&job.model.parts, name, "part", span)?;
             made.parts.insert(Model::key(name), value * unit);
         } else {

@@ -48,7 +48,8 @@ pub fn modes(job: &Job, call: &Call) -> Outcome<Vec<Table>> {
 /// A connector or body that cannot be evaluated.
 pub fn stiffness(job: &Job, call: &Call, chosen: &Chosen) -> Outcome<Vec<Table>> {
     let wrong = |e| told(e, &job.model, call.args.place(0), job.units);
-    let about: Option<Position> = call.args.option(&ABOUT).map(|g| [0, 1, 2].map(|i| g.number(i).unwrap_or(0.0)));
+    let about: Option<Position> =
+        call.args.option(&ABOUT).map(|given| given.numbers_or_zero(const { ABOUT.numbers(["X", "Y", "Z"]) }));
     let system = System::of(&job.model, &[]).map_err(wrong)?;
     let mut state = system.state(&job.model);
     system.evaluate(&mut state).map_err(wrong)?;

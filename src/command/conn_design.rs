@@ -106,7 +106,7 @@ fn named<'a>(job: &'a Job, args: &Args) -> Outcome<(&'a Connector, &'a Class)> {
 /// The configuration a record asks for: the ends as they are, or that of one option.
 fn condition(args: &Args) -> Outcome<Condition> {
     let mut given = args.options.iter().filter_map(|g| {
-        let value = g.number(0)?;
+        let value = g.first_number()?;
         let made = match g {
             _ if g.is(&HORIZONTAL) => Condition::Horizontal(value),
             _ if g.is(&TENSION) => Condition::Tension(value),

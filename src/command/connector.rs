@@ -128,9 +128,10 @@ pub fn build_connector(job: &mut Job, args: &Args) -> Outcome<()> {
         class: class.name.clone(),
         points: points.iter().map(|p| p.name.clone()).collect(),
         anchor: None,
-        tug: args
-            .option(&TUG)
-            .map(|g| Tug { direction: g.number(0).unwrap_or(0.0), distance: g.number(1).unwrap_or(0.0) }),
+        tug: args.option(&TUG).map(|given| {
+            let [direction, distance] = given.numbers_or_zero(const { TUG.numbers(["ANG", "DIST"]) });
+            Tug { direction, distance }
+        }),
         tether: tether::read(args)?,
         offsets: [vector(&GO1), vector(&GO2)],
         defined: Default::default(),
@@ -144,7 +145,7 @@ pub fn build_connector(job: &mut Job, args: &Args) -> Outcome<()> {
     let ground = Pose { axes: Pose::default().axes, ..first };
     made.defined = [first, model.end_pose(&made, 1).unwrap_or(ground)];
     made.anchor = args.option(&ANCHOR).map(|given| {
-        let (direction, distance) = (given.number(0).unwrap_or(0.0), given.number(1).unwrap_or(0.0));
+        let [direction, distance] = given.numbers_or_zero(const { ANCHOR.numbers(["THET", "DTA"]) });
         let [x, y, _] = model.end(&made, 0).unwrap_or_default();
         let (cos, sin) = unit_vector(direction);
         Anchor { direction, distance, at: [x + distance * cos, y + distance * sin], elevation: None }

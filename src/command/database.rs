@@ -154,7 +154,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (key, name) = (Model::key(&body.name), body.name.clone());
     let mass = Mass::of(job.model.parts_of(body), job.model.defaults.gravity).mass;
     let (source, mut data) = read(job, args)?;
-    let at = args.option(&AT).map_or([0.0; 3], |g| [0, 1, 2].map(|i| g.number(i).unwrap_or(0.0)));
+    let at = args.option(&AT).map_or([0.0; 3], |given| given.numbers_or_zero(const { AT.numbers(["X", "Y", "Z"]) }));
     data.reference += Vector3::from(at);
     if yes(args, &SYMMETRIC, false) {
         data = mirrored(data);
@@ -225,7 +225,7 @@ fn unlike(data: &Database, mass: f64) -> Option<String> {
 
 /// Whether an option says yes.
 fn yes(args: &Args, option: &OptionSpec, usual: bool) -> bool {
-    args.option(option).map_or(usual, |g| g.word(0) != Some("NO"))
+    args.option(option).map_or(usual, |g| g.first_word() != Some("NO"))
 }
 
 /// How slow drift is found.
@@ -234,7 +234,7 @@ fn method(args: &Args, data: &Database) -> Outcome<DriftMethod> {
         return Ok(if data.qtf.is_some() { DriftMethod::Full } else { DriftMethod::Newman });
     };
     let lacks = |what: &str| Diagnostic::error(format!("{} has no {what}", data.source), given.span);
-    match given.word(0) {
+    match given.first_word() {
         Some("NONE") => Ok(DriftMethod::None),
         Some("QTF") if data.qtf.is_none() => Err(lacks("QTF")),
         Some("QTF") => Ok(DriftMethod::Full),
@@ -255,13 +255,9 @@ fn read(job: &Job, args: &Args) -> Outcome<(Span, Database)> {
     if let Some(second) = given.next() {
         return Err(Diagnostic::error("a body has one database", second.span).other(source.span, "first given here"));
     }
-    let name = source.word(0).unwrap_or_default();
-    let span = source.values.first().map_or(source.span, |v| v.span);
-    let body = args
-        .option(&INDEX)
-        .and_then(|g| g.values.first())
-        .and_then(|v| v.integer())
-        .and_then(|n| usize::try_from(n).ok());
+    let name = source.first_word().unwrap_or_default();
+    let span = source.first_place();
+    let body = args.option_integer(&INDEX).and_then(|n| usize::try_from(n).ok());
     let around = job.model.surroundings();
     let (density, gravity, depth) = (around.water_density, around.gravity, around.depth);
     let made = match source {

@@ -6,7 +6,7 @@ use super::{Call, Command, Effect, Job};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::{Place, Position, unit_vector};
 use windlass_base::units::Dim;
-use windlass_base::values::{Given, Noun};
+use windlass_base::values::{Given, Noun, Value};
 use windlass_language::name as rule;
 use windlass_language::spec::{CommandSpec, Form, Kind, OptionSpec, ValueSpec, joined};
 use windlass_model::{Body, Coordinates, EntityKind, GROUND, Model, Part, Point, Shape, find};
@@ -212,7 +212,7 @@ fn interest(job: &mut Job, call: &Call) -> Outcome<Effect> {
     Ok(Effect::Done)
 }
 
-fn place_of(values: &[windlass_base::values::Value]) -> Place {
+fn place_of(values: &[Value]) -> Place {
     let numbers = values.iter().filter(|v| v.word().is_none()).map(|v| v.number().unwrap_or(0.0));
     let mut six = [0.0; 6];
     for (slot, value) in six.iter_mut().zip(numbers) {
@@ -265,10 +265,9 @@ fn instate(job: &mut Job, call: &Call) -> Outcome<Effect> {
         return Err(Diagnostic::error("-PREVIOUS stands alone", given.span));
     }
     for given in &call.args.options {
-        let body = given.word(0).map(|name| {
-            find(&model.bodies, name, "body", given.values.first().map_or(given.span, |v| v.span))
-                .map(|b| Model::key(&b.name))
-        });
+        let body = given
+            .first_word()
+            .map(|name| find(&model.bodies, name, "body", given.first_place()).map(|b| Model::key(&b.name)));
         match given {
             _ if given.is(&PREVIOUS) => {
                 for body in model.bodies.values_mut() {
@@ -281,8 +280,9 @@ fn instate(job: &mut Job, call: &Call) -> Outcome<Effect> {
                 let body = key.and_then(|key| model.bodies.get_mut(&key)).ok_or_else(|| {
                     Diagnostic::error("no body is described yet", given.span).help("&DESCRIBE BODY describes one")
                 })?;
-                let from = usize::from(given.word(0).is_some() || given.values.first().is_some_and(|v| !v.is_given()));
-                let at = |i: usize| given.number(from + i).unwrap_or(0.0);
+                let from =
+                    usize::from(given.first_word().is_some() || given.values.first().is_some_and(|v| !v.is_given()));
+                let at = |i: usize| given.values.get(from + i).and_then(Value::number).unwrap_or(0.0);
                 body.place.shift[2] = -at(0);
                 body.place.turn = [at(1), at(2), body.place.turn[2]];
             }

@@ -111,9 +111,9 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let mut effect = Effect::Done;
     let mut remarks = Vec::new();
     for given in &call.args.options {
-        let on = given.word(0).is_none_or(|w| w != "NO");
-        let whole = given.values.first().and_then(|v| v.integer()).unwrap_or(0);
-        let word = given.word(0).unwrap_or_default();
+        let on = given.first_word().is_none_or(|w| w != "NO");
+        let whole = given.first_integer().unwrap_or(0);
+        let word = given.first_word().unwrap_or_default();
         match given {
             _ if given.is(&BATCH) => settings.batch = on,
             _ if given.is(&LIMERROR) => settings.error_limit = whole,
@@ -124,14 +124,14 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             _ if given.is(&FIG_NUM) => settings.figure_number = whole,
             _ if given.is(&AUXIN) || given.is(&IAUXIN) => settings.auxiliary = Some(beside_root(job, word)),
             _ if given.is(&COMIN) || given.is(&ICOMIN) => {
-                let path = existing(job, word, given.values.first().map_or(given.span, |v| v.span))?;
+                let path = existing(job, word, given.first_place())?;
                 effect = Effect::Insert { name: word.to_string(), path, tag: super::PLAIN };
             }
             _ if given.is(&RECORDS) => effect = Effect::Budget(u64::try_from(whole).unwrap_or(u64::MAX)),
             _ if given.is(&PLOT_SIZE) => {
-                let size =
-                    |i: usize| given.values.get(i).and_then(|v| v.integer()).and_then(|n| usize::try_from(n).ok());
-                settings.plot_size = size(0).zip(size(1));
+                let size = |key| given.integer(key).and_then(|n| usize::try_from(n).ok());
+                let [columns, lines] = const { [PLOT_SIZE.integer("COLUMNS"), PLOT_SIZE.integer("LINES")] };
+                settings.plot_size = size(columns).zip(size(lines));
             }
             _ => remarks.push((format!("{} has no effect in windlass", given.name()), given.span)),
         }

@@ -9,8 +9,7 @@ use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
-use windlass_base::values::Noun;
-use windlass_base::values::{Args, Given};
+use windlass_base::values::{Args, Noun};
 use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
 
 /// Where these commands are offered.
@@ -162,11 +161,15 @@ pub(super) fn selectors(args: &Args, from: usize) -> Vec<&str> {
 }
 
 fn rows(args: &Args) -> RowChoice {
-    let whole = |g: &Given, i: usize| g.values.get(i).and_then(|v| v.integer()).unwrap_or(0);
     RowChoice {
-        record: args.option_if_declared(&RECORD).map(|g| (whole(g, 0), whole(g, 1))),
+        record: args.option_if_declared(&RECORD).map(|given| {
+            let [from, to] =
+                const { [RECORD.integer("I"), RECORD.integer("J")] }.map(|key| given.integer(key).unwrap_or(0));
+            (from, to)
+        }),
         values: args.option_if_declared(&VALUES).map(|g| {
-            (g.word(0).unwrap_or_default().to_string(), g.number(1).unwrap_or(0.0), g.number(2).unwrap_or(0.0))
+            let [least, most] = g.numbers_or_zero(const { VALUES.numbers(["MIN", "MAX"]) });
+            (g.word(const { VALUES.word("COLUMN") }).unwrap_or_default().to_string(), least, most)
         }),
         from: None,
     }
@@ -206,7 +209,7 @@ pub(super) fn send(job: &mut Job, args: &Args, text: &str) -> Outcome<()> {
     let hard = args.has(&HARD) || args.has(&BOTH);
     let heading = args
         .option_if_declared(&HEADING)
-        .and_then(|given| given.word(0))
+        .and_then(|given| given.first_word())
         .map(|h| format!("{h}\n\n"))
         .unwrap_or_default();
     let text = format!("{heading}{text}");

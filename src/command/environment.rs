@@ -5,10 +5,9 @@
 use super::plausible::shown;
 use super::{Call, Command, Effect, Job, ambient_options, plausible, probability, sea_options, wind_options};
 use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
-use windlass_base::span::Span;
+use windlass_base::spec::ValueKey;
 use windlass_base::units::Dim;
-use windlass_base::values::Noun;
-use windlass_base::values::{Args, Given};
+use windlass_base::values::{Args, Given, Noun, Value};
 use windlass_language::name as rule;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
@@ -273,7 +272,7 @@ fn leaves_water(job: &Job, args: &Args, env: &Environment) -> Outcome<()> {
         Some(depth) if depth + around.tide <= 0.0 => {
             let shown = |length: f64| Dim::Length.from_si(length, job.units);
             let text = format!("a depth of {} with a tide of {} leaves no water", shown(depth), shown(around.tide));
-            Err(Diagnostic::error(text, place(given, 0)))
+            Err(Diagnostic::error(text, given.first_place()))
         }
         _ => Ok(()),
     }
@@ -290,58 +289,58 @@ pub(super) fn periods(given: &Given) -> Outcome<()> {
     Ok(())
 }
 
-fn place(given: &Given, index: usize) -> Span {
-    given.values.get(index).map_or(given.span, |v| v.span)
-}
-
 /// Puts what an option says into an environment.
 ///
 /// # Errors
 /// An option that contradicts itself, or names what is not there.
 pub(super) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<()> {
-    let at = |i: usize| given.number(i);
+    let value = given.first_number();
     match given {
-        _ if given.is(&WATER) => env.water_density = at(0),
-        _ if given.is(&SPGWATER) => env.water_density = at(0).map(|s| 1000.0 * s),
-        _ if given.is(&DEPTH) => env.depth = at(0),
-        _ if given.is(&TIDE) => env.tide = at(0),
-        _ if given.is(&RAMP) => env.ramp = at(0),
-        _ if given.is(&SPREAD_OPTION) => env.spreading = at(0),
-        _ if given.is(&SP_TYPE_OPTION) => env.sea_period = Some(formula(given)),
+        _ if given.is(&WATER) => env.water_density = value,
+        _ if given.is(&SPGWATER) => env.water_density = value.map(|s| 1000.0 * s),
+        _ if given.is(&DEPTH) => env.depth = value,
+        _ if given.is(&TIDE) => env.tide = value,
+        _ if given.is(&RAMP) => env.ramp = value,
+        _ if given.is(&SPREAD_OPTION) => env.spreading = value,
+        _ if given.is(&SP_TYPE_OPTION) => env.sea_period = Some(formula(given, None)),
         _ if given.is(&SEA_OPTION) => env.sea = Some(sea(job, given)?),
         _ if given.is(&A_SEA_OPTION) => env.added_sea = Some(sea(job, given)?),
         _ if given.is(&TIME) => {
-            let (observed, step) = (at(0).unwrap_or(0.0), at(1).unwrap_or(0.0));
+            const OBSERVED: ValueKey<f64> = TIME.number("TOBSERV");
+            const STEP: ValueKey<f64> = TIME.number("DELTA_TIME");
+            const TRANSIENT: ValueKey<f64> = TIME.number("TTRA_SET");
+            let [observed, step] = given.numbers_or_zero([OBSERVED, STEP]);
             if step > observed {
-                return Err(Diagnostic::error("the time step is longer than the time observed", place(given, 1)));
+                return Err(Diagnostic::error("the time step is longer than the time observed", given.place(STEP)));
             }
-            if let Some(transient) = at(2).filter(|transient| observed > 0.0 && *transient >= observed) {
+            if let Some(transient) =
+                given.number(TRANSIENT).filter(|transient| observed > 0.0 && *transient >= observed)
+            {
                 let text = format!(
                     "the transient set aside, {}, leaves nothing of the {} observed",
                     shown(transient, Dim::Time, job.units),
                     shown(observed, Dim::Time, job.units)
                 );
-                return Err(
-                    Diagnostic::error(text, place(given, 2)).help("TTRA_SET is part of TOBSERV, at its beginning")
-                );
+                return Err(Diagnostic::error(text, given.place(TRANSIENT))
+                    .help("TTRA_SET is part of TOBSERV, at its beginning"));
             }
             env.time = Some(TimeWindow {
                 observed,
                 step,
-                transient: at(2),
-                cycles: given.values.get(3).and_then(|v| v.integer()),
+                transient: given.number(TRANSIENT),
+                cycles: given.integer(const { TIME.integer("NCYCLES") }),
             });
         }
         _ if given.is(&CURRENT) => env.current = Some(current(job, given)?),
         _ if given.is(&S_PERIOD) || given.is(&MD_PERIOD) || given.is(&E_PERIOD) => periods(given)?,
         _ if given.is(&probability::PROBABILITY) => probability::check(given)?,
         _ if given.is(&C_HISTORY) => {
-            known_curve(job, given, 0, CurveKind::CurrentHistory)?;
-            env.current_history = Some(formula(given));
+            known_curve(job, given.values.first(), given, CurveKind::CurrentHistory)?;
+            env.current_history = Some(formula(given, None));
         }
         _ if given.is(&M_GROWTH) => {
-            known_curve(job, given, 0, CurveKind::MarineGrowth)?;
-            env.growth = Some(formula(given));
+            known_curve(job, given.values.first(), given, CurveKind::MarineGrowth)?;
+            env.growth = Some(formula(given, None));
         }
         _ => {}
     }
@@ -350,31 +349,38 @@ pub(super) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<
     sea_options::apply(env, given)
 }
 
-/// A name with its number.
-pub(super) fn formula(given: &Given) -> Formula {
-    Formula { kind: given.word(0).unwrap_or_default().to_string(), value: given.number(1), span: given.span }
+/// A name, with its number where the option has one.
+pub(super) fn formula(given: &Given, value: Option<ValueKey<f64>>) -> Formula {
+    let value = value.and_then(|key| given.number(key));
+    Formula { kind: given.first_word().unwrap_or_default().to_string(), value, span: given.span }
 }
 
 /// The spectra known without a curve.
 const SPECTRA: [&str; 8] = ["ISSC", "JONSWAP", "2JONSWAP", "OCHI", "OCHI_HUBBLE", "TORSETHAUGEN", "REGULAR", "STOKES"];
 
 fn sea(job: &Job, given: &Given) -> Outcome<Sea> {
-    let name = given.word(0).unwrap_or_default();
+    const NAME: ValueKey<str> = SEA_OPTION.word("NAME");
+    const DIRECTION: ValueKey<f64> = SEA_OPTION.number("DIR");
+    const HEIGHT: ValueKey<f64> = SEA_OPTION.number("HS");
+    const PERIOD: ValueKey<f64> = SEA_OPTION.number("PERIOD");
+    const GAMMA: ValueKey<f64> = SEA_OPTION.number("GAMMA");
+    let name = given.word(NAME).unwrap_or_default();
     spectrum(job, given, &SPECTRA)?;
-    let at = |i: usize| given.number(i).unwrap_or(0.0);
+    let [direction, height, period] = given.numbers_or_zero([DIRECTION, HEIGHT, PERIOD]);
+    let [at_direction, at_height, at_period, at_gamma] = [DIRECTION, HEIGHT, PERIOD, GAMMA].map(|key| given.place(key));
     Ok(Sea {
         spectrum: name.to_string(),
-        direction: at(1),
-        height: at(2),
-        period: at(3),
-        gamma: given.number(4),
-        places: [0, 1, 2, 3, 4].map(|i| place(given, i)),
+        direction,
+        height,
+        period,
+        gamma: given.number(GAMMA),
+        places: [given.place(NAME), at_direction, at_height, at_period, at_gamma],
     })
 }
 
 /// Sees that the first word names a known spectrum or a curve that is one.
 pub(super) fn spectrum(job: &Job, given: &Given, known: &[&str]) -> Outcome<()> {
-    let (name, span) = (given.word(0).unwrap_or_default(), place(given, 0));
+    let (name, span) = (given.first_word().unwrap_or_default(), given.first_place());
     if known.iter().any(|s| s.eq_ignore_ascii_case(name)) {
         return Ok(());
     }
@@ -395,13 +401,14 @@ pub(super) fn spectrum(job: &Job, given: &Given, known: &[&str]) -> Outcome<()> 
     }
 }
 
-pub(super) fn known_curve(job: &Job, given: &Given, index: usize, kind: CurveKind) -> Outcome<()> {
-    let name = given.values.get(index).and_then(|v| v.word()).unwrap_or_default();
-    let curve = find(&job.model.curves, name, "curve", place(given, index))?;
+pub(super) fn known_curve(job: &Job, named: Option<&Value>, given: &Given, kind: CurveKind) -> Outcome<()> {
+    let name = named.and_then(Value::word).unwrap_or_default();
+    let place = named.map_or(given.span, |value| value.span);
+    let curve = find(&job.model.curves, name, "curve", place)?;
     if curve.kind != kind {
         return Err(Diagnostic::error(
             format!("curve {name} is a {}, not a {}", curve.kind.name(), kind.name()),
-            place(given, index),
+            place,
         )
         .other(curve.span, "defined here"));
     }
@@ -410,7 +417,7 @@ pub(super) fn known_curve(job: &Job, given: &Given, index: usize, kind: CurveKin
 
 fn current(job: &Job, given: &Given) -> Outcome<Current> {
     let mut profiles = Vec::new();
-    for (index, pair) in given.values.chunks_exact(2).enumerate() {
+    for pair in given.groups() {
         let [what, direction] = pair else { continue };
         let direction = direction.number().unwrap_or(0.0);
         let word = what.word().unwrap_or_default();
@@ -429,7 +436,7 @@ fn current(job: &Job, given: &Given) -> Outcome<Current> {
                 .map_err(|why| Diagnostic::error("V of -CURRENT is too large", what.span).label(why))?;
             return Ok(Current::Uniform { velocity, direction });
         }
-        known_curve(job, given, 2 * index, CurveKind::CurrentProfile)?;
+        known_curve(job, Some(what), given, CurveKind::CurrentProfile)?;
         profiles.push((word.to_string(), direction));
     }
     Ok(Current::Profiles(profiles))

@@ -71,8 +71,8 @@ const MORE: ValueSpec = ValueSpec::new("DOF", Kind::Choice(&DOFS), "a further on
 
 /// The degrees of freedom one -IGNORE holds, each with the number of its body.
 fn ignored(model: &Model, given: &Given) -> Outcome<Vec<(usize, usize)>> {
-    let place = given.values.first().map_or(given.span, |v| v.span);
-    let body = find(&model.bodies, given.word(0).unwrap_or_default(), "body", place)?;
+    let place = given.first_place();
+    let body = find(&model.bodies, given.first_word().unwrap_or_default(), "body", place)?;
     let index = model.bodies.get_index_of(&Model::key(&body.name)).unwrap_or(0);
     let words = given.values.iter().skip(1).filter_map(|v| v.word());
     Ok(words.filter_map(|w| DOFS.iter().position(|f| *f == w)).map(|f| (index, f)).collect())
@@ -83,12 +83,13 @@ fn options(job: &Job, call: &Call) -> Outcome<Options> {
     let args = &call.args;
     let before = if args.has(&DEFAULTS) { Options::default() } else { job.equilibrium.clone() };
     let mut made = Options { ignored: Vec::new(), ..before };
-    if let Some(most) = args.option(&ITER_MAX).and_then(|g| g.values.first()).and_then(|v| v.integer()) {
+    if let Some(most) = args.option_integer(&ITER_MAX) {
         made.most = usize::try_from(most).unwrap_or(made.most);
     }
     if let Some(given) = args.option(&TOLERANCE_OPTION) {
-        let shift = given.number(0).unwrap_or(made.tolerance[0]);
-        made.tolerance = [shift, given.number(1).unwrap_or(shift)];
+        let [shift, turn] = const { TOLERANCE_OPTION.numbers([TOLERANCE.name, "R"]) }.map(|key| given.number(key));
+        let shift = shift.unwrap_or(made.tolerance[0]);
+        made.tolerance = [shift, turn.unwrap_or(shift)];
     }
     for given in args.all(&IGNORE) {
         made.ignored.extend(ignored(&job.model, given)?);

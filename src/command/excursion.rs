@@ -130,7 +130,9 @@ fn body<'a>(job: &'a Job, args: &Args) -> Outcome<(&'a Body, usize)> {
 /// The directions of -ANGLES.
 fn range(args: &Args) -> Outcome<Option<Vec<f64>>> {
     let Some(given) = args.option(&ANGLES) else { return Ok(None) };
-    let (Some(from), Some(to), Some(step)) = (given.number(0), given.number(1), given.number(2)) else {
+    let [Some(from), Some(to), Some(step)] =
+        const { ANGLES.numbers(["FROM", "TO", "STEP"]) }.map(|key| given.number(key))
+    else {
         return Ok(None);
     };
     let count = (to - from) / step + 1e-9;
@@ -197,7 +199,7 @@ fn moved(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let start = poses(job);
     let asked = Asked { name: &body.name, place: &body.place, start: &start, path, units: job.units };
     let made = if one {
-        let rows = args.option(&ROWS).and_then(|g| g.values.first()).and_then(|v| v.integer());
+        let rows = args.option_integer(&ROWS);
         along(&systems, &asked, rows.and_then(|n| usize::try_from(n).ok()).unwrap_or(30))
     } else {
         let at: Vec<(f64, String)> = args

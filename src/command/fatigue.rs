@@ -72,7 +72,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         return Err(Diagnostic::error("fatigue needs more than one instant", span));
     }
     let env = &run.model.environment;
-    let of_env = env.options.iter().find(|given| given.is(&environment::DURATION)).and_then(|g| g.number(0));
+    let of_env = env.options.iter().find(|given| given.is(&environment::DURATION)).and_then(|g| g.first_number());
     let duration = args.option_number(&DURATION).or(of_env).filter(|d| *d > 0.0).ok_or_else(|| {
         Diagnostic::error("how long the environment lasts is not said", args.span).help("-DURATION, here or of &ENV")
     })?;

@@ -236,7 +236,7 @@ fn place(job: &Job, args: &Args, index: usize) -> Outcome<(String, Position)> {
 }
 
 fn keep(job: &mut Job, args: &Args, (part, at): (String, Position), kind: LoadKind) -> Outcome<Effect> {
-    let fluid = match args.option_if_declared(&FLUID).and_then(|given| given.word(0)) {
+    let fluid = match args.option_if_declared(&FLUID).and_then(|given| given.first_word()) {
         Some("AIR") => Fluid::Air,
         Some(_) => Fluid::Water,
         None => Fluid::ByHeight,

@@ -63,8 +63,9 @@ pub const READING: &str = "A round member with flat ends between two points of t
 /// # Errors
 /// Two sorts of drag; coefficients of an interior.
 pub fn coefficients(args: &Args, permeability: f64) -> Outcome<Member> {
-    let given = |option: &OptionSpec| args.option(option).and_then(|g| g.number(0));
-    let own = OPTIONS.iter().find_map(|option| args.option(option).filter(|g| g.number(0).is_some_and(|c| c != 0.0)));
+    let given = |option: &OptionSpec| args.option_number(option);
+    let own =
+        OPTIONS.iter().find_map(|option| args.option(option).filter(|g| g.first_number().is_some_and(|c| c != 0.0)));
     if let Some(own) = own.filter(|_| permeability < 0.0) {
         return Err(Diagnostic::error(
             format!("{} is of what stands in the water, and an interior does not", own.name()),
@@ -86,8 +87,13 @@ pub fn coefficients(args: &Args, permeability: f64) -> Outcome<Member> {
         drag: cd,
         friction: given(&CDA_OPTION).unwrap_or(friction),
         added: given(&CA_OPTION).unwrap_or(added),
-        end_added: [given(&CAA_OPTION), args.option(&CAA_OPTION).and_then(|g| g.number(1)).or(given(&CAA_OPTION))]
-            .map(|caa| caa.unwrap_or(0.0)),
+        end_added: [
+            given(&CAA_OPTION),
+            args.option(&CAA_OPTION)
+                .and_then(|given| given.number(const { CAA_OPTION.number("C2") }))
+                .or(given(&CAA_OPTION)),
+        ]
+        .map(|caa| caa.unwrap_or(0.0)),
     })
 }
 

@@ -26,7 +26,7 @@ static SPEC: CommandSpec = CommandSpec {
 
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     if let Some(given) = call.args.option(&ACCEPT_MISSING) {
-        job.model.parameters.accept_missing = given.word(0) == Some("YES");
+        job.model.parameters.accept_missing = given.first_word() == Some("YES");
     }
     Ok(Effect::Done)
 }

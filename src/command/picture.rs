@@ -113,8 +113,8 @@ fn views(args: &Args) -> Outcome<Vec<View>> {
     if let (Some(given), Some(None)) = (exaggerate, fixed) {
         return Err(Diagnostic::error("a plan shows no heights to exaggerate", given.span));
     }
-    let stretch = exaggerate.and_then(|g| g.number(0)).unwrap_or(1.0);
-    let asked = from.and_then(|g| g.number(0));
+    let stretch = exaggerate.and_then(|g| g.first_number()).unwrap_or(1.0);
+    let asked = from.and_then(|g| g.first_number());
     Ok(match (word, fixed) {
         (_, Some(None)) => vec![View::plan()],
         (_, Some(Some(angle))) => vec![View::elevation(degrees(angle), stretch)],
@@ -127,7 +127,7 @@ fn views(args: &Args) -> Outcome<Vec<View>> {
 /// The file a record asks for, and whether its name takes the number of a figure; `None` for the terminal.
 fn file(job: &Job, args: &Args) -> Outcome<Option<(String, bool)>> {
     let format = args.option(&FORMAT);
-    let ending = match format.and_then(|g| g.word(0)) {
+    let ending = match format.and_then(|g| g.first_word()) {
         Some("PNG") => Some("png"),
         Some("SVG") => Some("svg"),
         Some(_) => None,
@@ -148,7 +148,7 @@ fn file(job: &Job, args: &Args) -> Outcome<Option<(String, bool)>> {
     let Some(given) = args.option(&FILE) else {
         return Ok(Some((format!("{}{}.{ending}", job.settings.figure_name, job.settings.figure_number), true)));
     };
-    let name = given.word(0).unwrap_or_default();
+    let name = given.first_word().unwrap_or_default();
     match (std::path::Path::new(name).extension(), format) {
         (None, _) => Ok(Some((format!("{name}.{ending}"), false))),
         (Some(own), Some(format)) if !own.eq_ignore_ascii_case(ending) => {

@@ -246,7 +246,9 @@ pub fn begun(job: &mut Job, args: &Args, name: &str, span: Span, shape: Shape) -
     // a member's drag is its own, unless -CS_CURRENT says other
     let by_area = member.is_none() || args.has(&CS_CURRENT);
     let mut factors = |option: &OptionSpec| {
-        let given = args.option(option).map(|g| (g.span, [0, 1, 2].map(|i| g.number(i).unwrap_or(1.0))));
+        let given = args.option(option).map(|given| {
+            (given.span, const { CS_WIND.numbers(["X", "Y", "Z"]) }.map(|key| given.number(key).unwrap_or(1.0)))
+        });
         if let Some((at, _)) = given.filter(|(_, cs)| permeability < 0.0 && *cs != [0.0; 3]) {
             job.remark(format!("an interior takes no wind and no current: {} of {name} is 0 0 0", option.name), at);
             return usual;

@@ -123,7 +123,8 @@ fn build(model: &mut Model, args: &Args) -> Outcome<()> {
     let Some(given) = args.option(&PIPE_TENSION) else {
         return Err(Diagnostic::error("PIPE lacks -PIPE_TENSION", args.span).help("form: -PIPE_TENSION TLOWER TUPPER"));
     };
-    let (lower, upper) = (given.number(0).unwrap_or(0.0), given.number(1));
+    let [lower, upper] = const { PIPE_TENSION.numbers(["TLOWER", "TUPPER"]) }.map(|key| given.number(key));
+    let lower = lower.unwrap_or(0.0);
     let upper = match (first, upper) {
         ("ROLLER", None) => {
             return Err(Diagnostic::error("the tensioner of rollers needs TUPPER of -PIPE_TENSION", given.span));

@@ -76,7 +76,7 @@ pub(super) fn doubts(model: &Model, env: &Environment, args: &Args, units: UnitS
         };
         if fastest > FASTEST_CURRENT {
             let (speed, gulf) = (shown(fastest, Dim::Velocity, units), shown(2.5, Dim::Velocity, units));
-            let at = option.values.first().map_or(option.span, |v| v.span);
+            let at = option.first_place();
             warn(format!("a current of {speed}: the Gulf Stream reaches {gulf}, tidal races four times as much"), at);
         }
     }

@@ -151,8 +151,11 @@ pub(super) fn last_run(job: &Job, span: Span) -> Outcome<&Run> {
 pub(super) fn asked<'a>(job: &'a Job, args: &Args) -> Outcome<(&'a Run, Vec<Event>)> {
     let run = last_run(job, args.span)?;
     let given = args.option(&EVENTS);
-    let window = given.and_then(|g| Some((g.number(0)?, g.number(1), g.number(2))));
-    let window = window.map(|(begin, end, increment)| Window { begin, end, increment });
+    let window = given.and_then(|g| {
+        let [begin, end] = const { EVENTS.numbers(["BEG", "END"]) }.map(|key| g.number(key));
+        let increment = g.number_if_declared(const { EVENTS.number("INC") });
+        Some(Window { begin: begin?, end, increment })
+    });
     let span = given.map_or(args.span, |g| g.span);
     let events = results::events(&run.history, window.as_ref()).map_err(|e| e.diagnostic(span, job.units))?;
     Ok((run, events))
@@ -187,7 +190,7 @@ fn magnitude(args: &Args) -> Magnitude {
 }
 
 fn local(args: &Args) -> bool {
-    args.option(&LOCAL).is_some_and(|g| g.word(0) != Some("NO"))
+    args.option(&LOCAL).is_some_and(|g| g.first_word() != Some("NO"))
 }
 
 /// The places among some names of those that a record chooses.

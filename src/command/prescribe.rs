@@ -83,7 +83,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             return Err(Diagnostic::error(format!("{} belongs to {}", option.name, of.name), given.span));
         }
     }
-    let file = (kind.word(0).unwrap_or_default(), kind.values.first().map_or(kind.span, |v| v.span));
+    let file = (kind.first_word().unwrap_or_default(), kind.first_place());
     let motion = match kind {
         _ if kind.is(&FREE) => None,
         _ if kind.is(&RAO) => {
@@ -124,10 +124,10 @@ fn kind(args: &Args) -> Outcome<&Given> {
 
 fn sinusoids(job: &Job, args: &Args) -> GivenMotion {
     let one = |given: &Given| {
-        let dof = DOFS.iter().position(|f| Some(*f) == given.word(0)).unwrap_or(0);
+        let dof = DOFS.iter().position(|f| Some(*f) == given.word(const { SINUSOID.word("DOF") })).unwrap_or(0);
         let dim = if dof < 3 { Dim::Length } else { Dim::Angle };
-        let number = |i: usize| given.number(i).unwrap_or(0.0);
-        Sinusoid { dof, amplitude: dim.to_si(number(1), job.units), period: number(2), phase: number(3) }
+        let [amplitude, period, phase] = given.numbers_or_zero(const { SINUSOID.numbers(["AMP", "PERIOD", "PHASE"]) });
+        Sinusoid { dof, amplitude: dim.to_si(amplitude, job.units), period, phase }
     };
     let list = args.options.iter().filter(|g| g.is(&SINUSOID)).map(one).collect();
     GivenMotion::Sinusoids { list, ramp: args.option_number(&RAMP).unwrap_or(0.0) }

@@ -1,6 +1,7 @@
 //! `-PROBABILITY` of `&ENV`: which extreme the statistics of FREQ_RESPONSE tell. What each word does is our reading.
 
 use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::spec::ValueKey;
 use windlass_base::units::Dim;
 use windlass_base::values::Given;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
@@ -20,11 +21,13 @@ pub(super) const PROBABILITY: OptionSpec = OptionSpec::new(
      hours (MAXIMUM) or seconds (TIME), the one that a share DATA of the peaks exceeds (PROBABILITY)",
 );
 
+const DATA: ValueKey<f64> = PROBABILITY.number("DATA");
+
 /// What a record says.
 fn read(given: &Given) -> Result<Extreme, &'static str> {
-    let data = given.number(1);
+    let data = given.number(DATA);
     let or = |usual: f64| data.unwrap_or(usual);
-    let made = match given.word(0) {
+    let made = match given.word(const { PROBABILITY.word("STAT") }) {
         Some("RMS") => Extreme::Times(or(1.0)),
         Some("SIGNIFICANT") => Extreme::Times(2.0 * or(1.0)),
         Some("MAXIMUM") => Extreme::MostProbable(3600.0 * or(3.0)),
@@ -43,7 +46,7 @@ fn read(given: &Given) -> Result<Extreme, &'static str> {
 /// # Errors
 /// A value that is none of its statistic.
 pub(super) fn check(given: &Given) -> Outcome<()> {
-    let place = given.values.get(1).map_or(given.span, |v| v.span);
+    let place = given.place(DATA);
     read(given).map(|_| ()).map_err(|text| Diagnostic::error(text, place))
 }
 

@@ -58,8 +58,8 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let mut selection = job.model.fatigue.clone();
     let mut chosen = Vec::new();
     for given in args.all(&SN) {
-        let name = given.word(0).unwrap_or_default();
-        let place = given.values.first().map_or(given.span, |v| v.span);
+        let name = given.word(const { SN.word("CURVE") }).unwrap_or_default();
+        let place = given.first_place();
         if given.values.len() > 1 {
             let made = defined(job, given, name)?;
             if selection.curves.insert(Model::key(name), made).is_some() {
@@ -79,11 +79,12 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         selection.chosen = chosen;
     }
     if let Some(given) = args.option(&THICK_SN) {
-        let number = |i: usize| given.number(i);
+        let [reference, power, most] =
+            const { THICK_SN.numbers(["TO", "POWER", "MAXCOR"]) }.map(|key| given.number(key));
         selection.thickness = Some(ThicknessCorrection {
-            reference: number(0).unwrap_or(1.0),
-            power: number(1).unwrap_or(0.0),
-            most: number(2).unwrap_or(f64::INFINITY),
+            reference: reference.unwrap_or(1.0),
+            power: power.unwrap_or(0.0),
+            most: most.unwrap_or(f64::INFINITY),
         });
     }
     job.model.fatigue = selection;
@@ -92,12 +93,16 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
 
 /// A curve of points.
 fn defined(job: &Job, given: &Given, name: &str) -> Outcome<FatigueCurve> {
-    let span = given.values.first().map_or(given.span, |v| v.span);
+    let span = given.first_place();
     rule::check(name, None, "fatigue curve", span)?;
-    let kind = if given.word(1) == Some("STRESS") { FatigueKind::Stress } else { FatigueKind::Tension };
+    let kind = if given.word(const { SN.word("TYPE") }) == Some("STRESS") {
+        FatigueKind::Stress
+    } else {
+        FatigueKind::Tension
+    };
     let dim = if kind == FatigueKind::Stress { Dim::Stress } else { Dim::None };
     let mut points = Vec::new();
-    for pair in given.values.get(2..).unwrap_or_default().chunks(2) {
+    for pair in given.groups() {
         let [range, cycles] = pair else {
             let at = pair.first().map_or(given.span, |v| v.span);
             return Err(Diagnostic::error("a range of a fatigue curve lacks its cycles", at));

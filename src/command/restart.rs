@@ -15,7 +15,7 @@ pub(super) fn go_on(job: &mut Job, made: &mut Run, again: &Given, span: Span) ->
     let folder = &mut job.output.folder;
     let path = folder.folder.join(FILE);
     let mut file = folder.reopen(FILE).map_err(|e| refused(e.to_string()))?;
-    let kept = run_log::read(&mut file, again.number(0).unwrap_or(f64::INFINITY));
+    let kept = run_log::read(&mut file, again.first_number().unwrap_or(f64::INFINITY));
     let kept = kept.map_err(|e| refused(format!("{}: {e}", path.display())))?;
     let books = made.settings.books;
     if kept.fingerprint != made.fingerprint() && kept.fingerprint == made.fingerprint_with(!books) {

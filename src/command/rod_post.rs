@@ -143,7 +143,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let tables = tables(job, args)?;
     if let Some(given) = args.option(&DISPOSE) {
-        let wanted = given.values.first().and_then(|v| v.integer()).unwrap_or(1);
+        let wanted = given.first_integer().unwrap_or(1);
         let index = usize::try_from(wanted - 1).unwrap_or(0);
         let Some(table) = tables.get(index).cloned() else {
             let text = format!("there is no table {wanted} here: there are {}", tables.len());
@@ -183,7 +183,7 @@ fn tables(job: &Job, args: &Args) -> Outcome<Vec<Table>> {
         "TOUCHDOWN" => along::touchdown(&line, &events),
         "SUPPORTS" => along::supports(&line, Magnitude::default(), &events),
         "FATIGUE" => {
-            let points = args.option(&POINTS).and_then(|g| g.values.first()).and_then(|v| v.integer());
+            let points = args.option_integer(&POINTS);
             let usual = Round::default();
             let round = Round {
                 points: points.and_then(|n| usize::try_from(n).ok()).unwrap_or(usual.points),
@@ -216,7 +216,7 @@ fn refuse_what_does_not_go(args: &Args, what: &str) -> Outcome<()> {
             return Err(Diagnostic::error(format!("{} goes with {of}, not with {what}", option.name), given.span));
         }
     }
-    let code = args.option(&CODE).and_then(|g| g.word(0)).unwrap_or("F201");
+    let code = args.option_word(&CODE).unwrap_or("F201");
     const BY: [(OptionSpec, &[&str]); 5] = [
         (SAFETY_OPTION, &["F201"]),
         (FACTORS, &["F201"]),
@@ -294,9 +294,9 @@ fn places(args: &Args, line: &Line) -> Outcome<Vec<Where>> {
 
 /// What CHECK checks by.
 fn code(args: &Args) -> Code {
-    let word = |option: &OptionSpec| args.option(option).and_then(|g| g.word(0));
+    let word = |option: &OptionSpec| args.option_word(option);
     let corroded = args.option_number(&CORROSION).unwrap_or(0.0);
-    let number = |option: &OptionSpec, index: usize| args.option(option).and_then(|g| g.number(index));
+    let number = |option: &OptionSpec, key| args.option(option).and_then(|given| given.number(key));
     match word(&CODE) {
         Some("2RD") => {
             let case = match word(&CASE) {
@@ -316,11 +316,11 @@ fn code(args: &Args) -> Code {
             };
             let factors = Factors {
                 class,
-                functional: number(&FACTORS, 0).unwrap_or(usual.functional),
-                environmental: number(&FACTORS, 1).unwrap_or(usual.environmental),
-                material: number(&FACTORS, 2).unwrap_or(usual.material),
-                ovality: number(&PIPE, 0).unwrap_or(usual.ovality),
-                fabrication: number(&PIPE, 1).unwrap_or(usual.fabrication),
+                functional: number(&FACTORS, const { FACTORS.number("GF") }).unwrap_or(usual.functional),
+                environmental: number(&FACTORS, const { FACTORS.number("GE") }).unwrap_or(usual.environmental),
+                material: number(&FACTORS, const { FACTORS.number("GM") }).unwrap_or(usual.material),
+                ovality: number(&PIPE, const { PIPE.number("F0") }).unwrap_or(usual.ovality),
+                fabrication: number(&PIPE, const { PIPE.number("AFAB") }).unwrap_or(usual.fabrication),
             };
             Code::Lrfd(factors, corroded)
         }

@@ -13,7 +13,7 @@ use windlass_solve::results::along::{lines_at_rest, natural_modes};
 /// # Errors
 /// No such line, one that has no answer where its ends stand, or one that has fewer modes.
 pub(super) fn tables(job: &Job, args: &Args, kind: &str, fits: &dyn Fn(&str) -> bool) -> Outcome<Vec<Table>> {
-    let number = args.option(&status::NUMBER).and_then(|g| g.values.first()).and_then(|v| v.integer());
+    let number = args.option_integer(&status::NUMBER);
     let number = number.and_then(|n| usize::try_from(n).ok()).unwrap_or(6);
     let found = match kind {
         "ROD_MODES" => natural_modes(&job.model, fits, number, args.has(&status::SHAPE)),

@@ -2,6 +2,7 @@
 
 use super::environment;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::spec::ValueKey;
 use windlass_base::units::Dim;
 use windlass_base::values::{Args, Given};
 use windlass_language::select::Owner;
@@ -58,16 +59,16 @@ pub(super) const STOKES: OptionSpec = OptionSpec::new(
 
 /// Takes one of these options, or one of MOSES's on the components.
 pub(super) fn apply(env: &mut Environment, given: &Given) -> Outcome<()> {
-    let whole = |i: usize| given.values.get(i).and_then(|v| v.integer()).and_then(|n| u64::try_from(n).ok());
+    let whole = || given.first_integer().and_then(|n| u64::try_from(n).ok());
     match given {
         _ if given.is(&COMPONENTS) => env.components = Some(components(given)?),
         _ if given.is(&environment::S_PERIOD) => env.sea_periods = given.numbers(),
         _ if given.is(&PHASES) => env.sea_phases = given.numbers(),
-        _ if given.is(&SEED) => env.phasing = whole(0).map(Phasing::Seeded),
-        _ if given.is(&environment::T_REINFORCE) => env.phasing = given.number(0).map(Phasing::Reinforced),
-        _ if given.is(&STOKES) => env.stokes = whole(0).and_then(|n| u8::try_from(n).ok()),
+        _ if given.is(&SEED) => env.phasing = whole().map(Phasing::Seeded),
+        _ if given.is(&environment::T_REINFORCE) => env.phasing = given.first_number().map(Phasing::Reinforced),
+        _ if given.is(&STOKES) => env.stokes = whole().and_then(|n| u8::try_from(n).ok()),
         _ if given.is(&STRETCHING) => {
-            env.stretching = Some(match given.word(0) {
+            env.stretching = Some(match given.first_word() {
                 Some("WHEELER") => Stretching::Wheeler,
                 Some("DELTA") => Stretching::Delta,
                 Some("EXPONENTIAL") => Stretching::Exponential,
@@ -100,18 +101,19 @@ pub(super) fn one_phasing(args: &Args) -> Outcome<()> {
 }
 
 fn components(given: &Given) -> Outcome<Components> {
-    let number = given.values.first().and_then(|v| v.integer()).and_then(|n| usize::try_from(n).ok()).unwrap_or(1);
-    let by_width = given.word(1).is_some_and(|w| w == BY_WIDTH);
-    let place = |i: usize| given.values.get(i).map_or(given.span, |v| v.span);
-    let limits = match (given.number(2), given.number(3)) {
+    let number = given.integer(const { COMPONENTS.integer("N") }).and_then(|n| usize::try_from(n).ok()).unwrap_or(1);
+    let by_width = given.word(const { COMPONENTS.word("TYPE") }).is_some_and(|w| w == BY_WIDTH);
+    const LOW: ValueKey<f64> = COMPONENTS.number("LOW");
+    const HIGH: ValueKey<f64> = COMPONENTS.number("HIGH");
+    let limits = match (given.number(LOW), given.number(HIGH)) {
         (Some(low), Some(high)) if high > low => Some([low, high]),
         (Some(_), Some(_)) => {
-            return Err(Diagnostic::error("the highest frequency is not above the lowest", place(3))
-                .other(place(2), "the lowest"));
+            return Err(Diagnostic::error("the highest frequency is not above the lowest", given.place(HIGH))
+                .other(given.place(LOW), "the lowest"));
         }
         (None, None) => None,
         _ => {
-            return Err(Diagnostic::error("a lowest frequency needs a highest one", place(2))
+            return Err(Diagnostic::error("a lowest frequency needs a highest one", given.place(LOW))
                 .help("form: -COMPONENTS N TYPE LOW HIGH"));
         }
     };

@@ -200,7 +200,7 @@ pub static HARMONIC: Command = Command {
 
 /// A whole number given with an option.
 fn whole(args: &Args, option: &OptionSpec) -> Option<usize> {
-    args.option(option).and_then(|g| g.values.first()?.integer()).and_then(|n| usize::try_from(n).ok())
+    args.option_integer(option).and_then(|n| usize::try_from(n).ok())
 }
 
 /// The record of the columns chosen, and what is to be said of the rows left out.

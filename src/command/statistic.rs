@@ -48,7 +48,7 @@ fn statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let wrong = |e: SeriesError| Diagnostic::error(e.to_string(), args.span);
     parts.push(statistic::cycles(&table, job.units).map_err(wrong)?);
     if let Some(given) = args.option(&DURATION) {
-        let duration = 3600.0 * given.number(0).unwrap_or_default();
+        let duration = 3600.0 * given.first_number().unwrap_or_default();
         let refused = |e: SeriesError| Diagnostic::error(e.to_string(), given.span);
         parts.push(statistic::expected_extremes(&table, duration, job.units).map_err(refused)?);
     }

@@ -192,7 +192,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     }
     job.verdict.over_break.append(&mut verdict.over_break);
     if let Some(given) = args.option(&DISPOSE) {
-        let wanted = given.values.first().and_then(|v| v.integer()).unwrap_or(1);
+        let wanted = given.first_integer().unwrap_or(1);
         let index = usize::try_from(wanted - 1).unwrap_or(0);
         let Some(table) = tables.get(index).cloned() else {
             let text = format!("{kind} makes no table {wanted} here: there are {}", tables.len());

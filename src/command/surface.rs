@@ -201,9 +201,9 @@ fn mesh(job: &mut Job, call: &Call) -> Outcome<Effect> {
         return Err(Diagnostic::error(text, span).help("-SCALE gives its unit"));
     }
     let scaled = panels.into_iter().map(|p| p.into_iter().map(|at| at.map(|x| scale * x)).collect()).collect();
-    let by = args
-        .option(&MOVE)
-        .map_or(Place::default(), |g| Place::new([0, 1, 2, 3, 4, 5].map(|i| g.number(i).unwrap_or(0.0))));
+    let by = args.option(&MOVE).map_or(Place::default(), |given| {
+        Place::new(given.numbers_or_zero(const { MOVE.numbers(["X", "Y", "Z", "RX", "RY", "RZ"]) }))
+    });
     whole(job, args, Shape::Panels(scaled).moved(&by))
 }
 

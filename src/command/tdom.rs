@@ -209,12 +209,12 @@ fn settings(job: &Job, args: &Args) -> Outcome<Settings> {
         return Err(Diagnostic::error(text, args.span)
             .help("the loads would come at once: a longer -RAMP, a shorter step, or -RAMP 0 to have them at once"));
     }
-    let said = |option: &OptionSpec| args.option(option).and_then(|g| g.word(0)).is_some_and(|w| w == "YES");
+    let said = |option: &OptionSpec| args.option_word(option).is_some_and(|w| w == "YES");
     let method = match args.option(&NEWMARK) {
-        Some(given) if given.word(0) == Some("NO") => Method::Corrector,
-        Some(given) => match given.number(1) {
+        Some(given) if given.first_word() == Some("NO") => Method::Corrector,
+        Some(given) => match given.number(const { NEWMARK.number("BETA") }) {
             Some(beta) => {
-                let scheme = Scheme::newmark(beta, given.number(2).unwrap_or(0.5));
+                let scheme = Scheme::newmark(beta, given.number(const { NEWMARK.number("ALPHA") }).unwrap_or(0.5));
                 if scheme.gamma < 0.5 {
                     return Err(Diagnostic::error("an ALPHA below 0.5 makes every motion grow", given.span));
                 }
@@ -228,9 +228,9 @@ fn settings(job: &Job, args: &Args) -> Outcome<Settings> {
     };
     let mut convergence = Convergence::default();
     if let Some(given) = args.option(&CONVERGE) {
-        let most = given.values.first().and_then(|v| v.integer()).and_then(|n| usize::try_from(n).ok());
+        let most = given.integer(const { CONVERGE.integer("NUMB") }).and_then(|n| usize::try_from(n).ok());
         convergence.most = most.unwrap_or(convergence.most);
-        convergence.tolerance = given.number(1).unwrap_or(convergence.tolerance);
+        convergence.tolerance = given.number(const { CONVERGE.number("TOL") }).unwrap_or(convergence.tolerance);
     }
     let whole = |option: &OptionSpec| {
         let given = args.option(option).and_then(|g| g.values.first()).and_then(|v| v.integer());
@@ -259,7 +259,7 @@ fn begun(job: &mut Job, args: &Args, settings: Settings) -> Outcome<(Run, Option
     let mut velocities = Vec::new();
     let mut began = None;
     if let Some(given) = args.option(&RESET) {
-        let time = given.number(0).unwrap_or(0.0);
+        let time = given.first_number().unwrap_or(0.0);
         velocities = reset(job, &mut model, time)
             .ok_or_else(|| Diagnostic::error("there is no run of these bodies to begin from", given.span))?;
         began = Some(format!("as the run before had the bodies at {} s", Dim::Time.from_si(time, job.units)));
@@ -310,7 +310,7 @@ fn reset(job: &Job, model: &mut Model, time: f64) -> Option<Vec<(usize, Six)>> {
 /// Warns of a scheme that damps dynamic lines too little.
 fn warn_of_throwing(job: &mut Job, args: &Args, method: &Method) {
     let Some(given) = args.option(&RHO).or(args.option(&NEWMARK)) else { return };
-    let damps = given.is(&RHO) && given.number(0).is_some_and(|r| r <= 0.2);
+    let damps = given.is(&RHO) && given.first_number().is_some_and(|r| r <= 0.2);
     if damps || usual(&job.model) != Method::with_moving_lines() {
         return;
     }
@@ -453,7 +453,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
 
 /// The quasi-static lines of a run that ended, replayed as dynamic lines; or why not, where there are such lines.
 fn screened(job: &Job, args: &Args, made: &Run, ending: Option<&Ending>) -> Result<Screening, Option<&'static str>> {
-    let off = args.option(&SCREEN).and_then(|g| g.word(0)) == Some("NO");
+    let off = args.option_word(&SCREEN) == Some("NO");
     let reason = match ending {
         _ if screening::quasi_static_lines(made).is_empty() => return Err(None),
         _ if off => "-SCREEN NO",

@@ -3,6 +3,7 @@
 //! Source: [AQWA-TETHER Appendix A] (cards TSPA, TSPV, TCAP, TIFL, TIMP, TLOW, TEGR, TLAC, TROC, TLAV, TROV).
 
 use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::spec::ValueKey;
 use windlass_base::units::Dim;
 use windlass_base::values::{Args, Given};
 use windlass_language::select::Owner;
@@ -124,24 +125,29 @@ pub fn read(args: &Args) -> Outcome<Option<TetherEnds>> {
     if installed.is_none() && towed.is_none() && !args.has(&GROUP) {
         return Ok(None);
     }
-    let three = |option: &OptionSpec| {
-        let numbers = args.option(option)?.numbers();
-        Some([0, 1, 2].map(|i| numbers.get(i).copied().unwrap_or(0.0)))
-    };
-    let two = |option: &OptionSpec| args.option(option).map(|g| [0, 1].map(|i| g.number(i).unwrap_or(0.0)));
+    let three =
+        |option: &OptionSpec, keys: [ValueKey<f64>; 3]| args.option(option).map(|given| given.numbers_or_zero(keys));
+    let two =
+        |option: &OptionSpec, keys: [ValueKey<f64>; 2]| args.option(option).map(|given| given.numbers_or_zero(keys));
     let swapped = |[first, second]: [f64; 2]| [second, first];
     let (used, springs) = if towed.is_some() {
-        (TetherUse::Towed, [three(&V_MOORING), three(&A_MOORING)])
+        (
+            TetherUse::Towed,
+            [&V_MOORING, &A_MOORING].map(|option| three(option, const { V_MOORING.numbers(["KX", "KY", "KZ"]) })),
+        )
     } else {
-        (TetherUse::Installed, [three(&V_SPRINGS), three(&A_SPRINGS)])
+        (
+            TetherUse::Installed,
+            [&V_SPRINGS, &A_SPRINGS].map(|option| three(option, const { V_SPRINGS.numbers(["IN", "RX", "RY"]) })),
+        )
     };
-    let group = args.option(&GROUP).and_then(|g| g.values.first()).and_then(|v| v.integer());
+    let group = args.option_integer(&GROUP);
     Ok(Some(TetherEnds {
         used,
         springs,
-        caps: two(&CAPS).map(swapped).unwrap_or_default(),
-        fluid: two(&FLUID).unwrap_or_default(),
-        impact: two(&IMPACT),
+        caps: two(&CAPS, const { CAPS.numbers(["AREA_A", "AREA_V"]) }).map(swapped).unwrap_or_default(),
+        fluid: two(&FLUID, const { FLUID.numbers(["P", "RHO"]) }).unwrap_or_default(),
+        impact: two(&IMPACT, const { IMPACT.numbers(["FACTOR", "HALF_LIFE"]) }),
         low_stop: args.option_number(&LOW_STOP),
         constraints: constraints(args)?,
         group: group.and_then(|n| usize::try_from(n).ok()).unwrap_or(1),
@@ -151,12 +157,14 @@ pub fn read(args: &Args) -> Outcome<Option<TetherEnds>> {
 fn constraints(args: &Args) -> Outcome<Vec<TetherConstraint>> {
     let mut found = Vec::new();
     for given in args.all(&CONSTRAINT) {
-        let gap = given.number(2);
-        if gap.is_some_and(|g| g > 0.0) && given.word(0) != Some("LATERAL_VESSEL") {
+        let gap = given.number(const { CONSTRAINT.number("GAP") });
+        let kind = given.word(const { CONSTRAINT.word("KIND") });
+        if gap.is_some_and(|g| g > 0.0) && kind != Some("LATERAL_VESSEL") {
             return Err(Diagnostic::error("only LATERAL_VESSEL has a gap", given.span));
         }
-        let node = given.values.get(1).and_then(|v| v.integer()).and_then(|n| usize::try_from(n).ok()).unwrap_or(1);
-        let hold = match given.word(0) {
+        let node =
+            given.integer(const { CONSTRAINT.integer("NODE") }).and_then(|n| usize::try_from(n).ok()).unwrap_or(1);
+        let hold = match kind {
             Some("LATERAL_FIXED") => TetherHold::LateralFixed,
             Some("ROTATIONAL_FIXED") => TetherHold::RotationalFixed,
             Some("LATERAL_VESSEL") => TetherHold::LateralVessel { gap: gap.unwrap_or(0.0) },

@@ -135,7 +135,8 @@ fn instants(run: &Tethered, args: &Args) -> Outcome<Vec<usize>> {
     let (begin, end, increment) = match args.option(&EVENTS) {
         None => (f64::NEG_INFINITY, f64::INFINITY, 0.0),
         Some(given) => {
-            (given.number(0).unwrap_or(0.0), given.number(1).unwrap_or(f64::INFINITY), given.number(2).unwrap_or(0.0))
+            let [begin, end, increment] = const { EVENTS.numbers(["BEG", "END", "INC"]) }.map(|key| given.number(key));
+            (begin.unwrap_or(0.0), end.unwrap_or(f64::INFINITY), increment.unwrap_or(0.0))
         }
     };
     let mut next = begin;
@@ -161,7 +162,7 @@ fn instants(run: &Tethered, args: &Args) -> Outcome<Vec<usize>> {
 
 /// Those of them that are within a time of a tether's going slack: the listing of [AQWA-TETHER 8.2] then has all tethers.
 fn slack_alone(run: &Tethered, given: Option<&Given>, list: Vec<usize>) -> Vec<usize> {
-    let Some(lasting) = given.and_then(|g| g.number(0)) else { return list };
+    let Some(lasting) = given.and_then(|g| g.first_number()) else { return list };
     let slack = 1e-6 * run.settings.step;
     let began: Vec<f64> = run.happened.iter().filter(|e| e.change == Change::Slack).map(|e| e.time).collect();
     let near = |place: &usize| {
@@ -173,8 +174,8 @@ fn slack_alone(run: &Tethered, given: Option<&Given>, list: Vec<usize>) -> Vec<u
 
 fn window(run: &Tethered, args: &Args) -> Statistics {
     let given = args.option(&EVENTS);
-    let from = given.and_then(|g| g.number(0)).unwrap_or(run.settings.transient);
-    let to = given.and_then(|g| g.number(1)).unwrap_or(f64::INFINITY);
+    let from = given.and_then(|given| given.number(const { EVENTS.number("BEG") })).unwrap_or(run.settings.transient);
+    let to = given.and_then(|given| given.number(const { EVENTS.number("END") })).unwrap_or(f64::INFINITY);
     Statistics::between(run, from, to)
 }
 
@@ -243,9 +244,9 @@ fn tether_tables(job: &Job, args: &Args) -> Outcome<Vec<Table>> {
 fn asked(args: &Args) -> Asked {
     let usual = Endurance::KILONEWTONS;
     let curve = args.option(&SN).map_or(usual, |g| Endurance {
-        concentration: g.number(0).unwrap_or(usual.concentration),
-        intercept: g.number(1).unwrap_or(usual.intercept),
-        slope: g.number(2).unwrap_or(usual.slope),
+        concentration: g.number(const { SN.number("SCF") }).unwrap_or(usual.concentration),
+        intercept: g.number(const { SN.number("A") }).unwrap_or(usual.intercept),
+        slope: g.number(const { SN.number("M") }).unwrap_or(usual.slope),
     });
     let hours = args.option_number(&HOURS).unwrap_or(3.0);
     Asked { duration: 1.0, curve: curve.scaled(1000.0), peak_time: hours * 3600.0 }
@@ -315,7 +316,7 @@ fn period(job: &Job) -> Option<f64> {
 /// Prints tables, or opens the disposition menu over one.
 fn out(job: &mut Job, args: &Args, tables: Vec<Table>) -> Outcome<Effect> {
     if let Some(given) = args.option(&DISPOSE) {
-        let wanted = given.values.first().and_then(|v| v.integer()).unwrap_or(1);
+        let wanted = given.first_integer().unwrap_or(1);
         let index = usize::try_from(wanted - 1).unwrap_or(0);
         let Some(table) = tables.get(index).cloned() else {
             let text = format!("there is no table {wanted} here: there are {}", tables.len());

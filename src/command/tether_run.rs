@@ -76,10 +76,11 @@ pub fn run(job: &mut Job, args: &Args) -> Outcome<Effect> {
         return Err(Diagnostic::error("the environment has no -TIME: how long, and with which step", span)
             .help("&ENV NAME -TIME TOBSERV DELTA_TIME"));
     };
-    let compatible = args.option(&TETHERS).and_then(|g| g.word(0)) == Some("AQWA");
-    let store = args.option(&tdom::STORE).and_then(|g| g.values.first()).and_then(|v| v.integer());
+    let compatible = args.option_word(&TETHERS) == Some("AQWA");
+    let store = args.option_integer(&tdom::STORE);
     let tow = args.option(&TOW).map(|given| {
-        let (speed, (cos, sin)) = (given.number(0).unwrap_or(0.0), unit_vector(given.number(1).unwrap_or(0.0)));
+        let [speed, direction] = given.numbers_or_zero(const { TOW.numbers(["V", "TO"]) });
+        let (cos, sin) = unit_vector(direction);
         [speed * cos, speed * sin]
     });
     let settings = Settings {

@@ -19,7 +19,7 @@ pub(super) fn tables(job: &Job, args: &Args, kind: &str, fits: &dyn Fn(&str) -> 
         return Err(Diagnostic::error("the model has no such tether that acts", args.span)
             .help("a connector of class type TETHER is one"));
     }
-    let number = args.option(&status::NUMBER).and_then(|g| g.values.first()).and_then(|v| v.integer());
+    let number = args.option_integer(&status::NUMBER);
     let number = number.and_then(|n| usize::try_from(n).ok()).unwrap_or(6);
     let mut tables = Vec::new();
     for name in names {

@@ -45,8 +45,12 @@ fn dimen(job: &mut Job, call: &Call) -> Outcome<Effect> {
                 })?;
             }
             _ => {
-                let length = if given.word(0) == Some("FEET") { LengthUnit::Feet } else { LengthUnit::Meters };
-                let force = match given.word(1) {
+                let length = if given.word(const { DIMEN_OPTION.word("LENGTH") }) == Some("FEET") {
+                    LengthUnit::Feet
+                } else {
+                    LengthUnit::Meters
+                };
+                let force = match given.word(const { DIMEN_OPTION.word("FORCE") }) {
                     Some("KIPS") => ForceUnit::Kips,
                     Some("L-TONS") => ForceUnit::LongTons,
                     Some("S-TONS") => ForceUnit::ShortTons,
@@ -56,7 +60,7 @@ fn dimen(job: &mut Job, call: &Call) -> Outcome<Effect> {
                 };
                 let feet = matches!(force, ForceUnit::Kips | ForceUnit::LongTons | ForceUnit::ShortTons);
                 if feet != (length == LengthUnit::Feet) {
-                    let span = given.values.get(1).map_or(given.span, |v| v.span);
+                    let span = given.place(const { DIMEN_OPTION.word("FORCE") });
                     let fitting =
                         if length == LengthUnit::Feet { "KIPS, L-TONS or S-TONS" } else { "K-NTS, M-TONS or N" };
                     return Err(Diagnostic::error("this force unit does not go with this length unit", span)
@@ -146,7 +150,7 @@ fn default(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let mut defaults = job.model.defaults;
     let mut saved = job.model.saved_defaults.clone();
     for given in &call.args.options {
-        let value = given.number(0).unwrap_or(0.0);
+        let value = given.first_number().unwrap_or(0.0);
         let material = &mut defaults.material;
         match given {
             _ if given.is(&SAVE_DEFAULTS) => saved.push(defaults),

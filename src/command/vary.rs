@@ -134,7 +134,7 @@ pub fn tabulate(
     held: Condition,
     args: &Args,
 ) -> Outcome<(Table, Missing)> {
-    let parameter = Parameter::of(vary.word(0).unwrap_or_default());
+    let parameter = Parameter::of(vary.first_word().unwrap_or_default());
     let (unit, around) = (parameter.dim().label(job.units), job.model.surroundings());
     let place = job.model.placement(connector);
     if parameter.is_condition()

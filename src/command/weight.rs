@@ -5,6 +5,7 @@
 use super::{Call, Command, Effect, Job};
 use nalgebra::{Matrix3, Vector3};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::spec::ValueKey;
 use windlass_base::units::eight_figures;
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::Given;
@@ -65,6 +66,9 @@ const MARGIN: OptionSpec = OptionSpec::new(
 )
 .many();
 
+/// The radii of gyration of `-TOTAL`.
+const RADII_OF_TOTAL: [ValueKey<f64>; 3] = TOTAL.numbers(["KX", "KY", "KZ"]);
+
 static SPEC: CommandSpec = CommandSpec {
     options: &[TOTAL, MARGIN],
     detail: "Options act in the order given. -TOTAL: radii of gyration are those of the whole body about axes through its centre of \
@@ -122,12 +126,12 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         return Err(Diagnostic::error("&WEIGHT lacks what to do", call.args.span).help("options: -TOTAL, -MARGIN"));
     }
     for given in &call.args.options {
-        let place = given.values.first().map_or(given.span, |v| v.span);
-        let body = find(&job.model.bodies, given.word(0).unwrap_or_default(), "body", place)?.clone();
+        let place = given.first_place();
+        let body = find(&job.model.bodies, given.first_word().unwrap_or_default(), "body", place)?.clone();
         match given {
             _ if given.is(&TOTAL) => {
                 let made = missing(job, given, &Mass::of(job.model.parts_of(&body), job.model.defaults.gravity))?;
-                if let [Some(x), Some(y), Some(z)] = [5, 6, 7].map(|i| given.number(i))
+                if let [Some(x), Some(y), Some(z)] = RADII_OF_TOTAL.map(|key| given.number(key))
                     && let Some(text) = no_body_has([x, y, z], job.units)
                 {
                     job.warn(text, given.span);
@@ -137,7 +141,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
                 }
             }
             _ => {
-                let factor = 1.0 + 0.01 * given.number(1).unwrap_or(0.0);
+                let factor = 1.0 + 0.01 * given.number(const { MARGIN.number("PERCENT") }).unwrap_or(0.0);
                 let key = Model::key(&body.name);
                 let own = job.model.parts.values_mut().filter(|p| Model::key(&p.body) == key);
                 let mut count = 0;
@@ -160,14 +164,17 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
 /// Weights there already that no positive weight can bring to the total.
 fn missing(job: &Job, given: &Given, now: &Mass) -> Outcome<Option<Weight>> {
     let (units, gravity) = (job.units, job.model.defaults.gravity);
-    let number = |i: usize| given.number(i).unwrap_or(0.0);
+    const WEIGHT: ValueKey<f64> = TOTAL.number("W");
+    const X: ValueKey<f64> = TOTAL.number("XCG");
+    const Y: ValueKey<f64> = TOTAL.number("YCG");
+    const Z: ValueKey<f64> = TOTAL.number("ZCG");
     let told = |value: f64, dim: Dim| format!("{} {}", eight_figures(dim.from_si(value, units)), dim.label(units));
-    let place = |i: usize| given.values.get(i).map_or(given.span, |v| v.span);
-    let (total, centre) = (number(1) / gravity, Vector3::new(number(2), number(3), number(4)));
+    let [weight, x, y, z] = given.numbers_or_zero([WEIGHT, X, Y, Z]);
+    let (total, centre) = (weight / gravity, Vector3::new(x, y, z));
     let lacking = total - now.mass;
     let size = 1e-9 * total;
     if lacking < -size {
-        return Err(Diagnostic::error("the weights there already weigh more than the total", place(1))
+        return Err(Diagnostic::error("the weights there already weigh more than the total", given.place(WEIGHT))
             .label(format!("they weigh {}", told(now.mass * gravity, Dim::Force))));
     }
     let moment = centre * total - now.centre * now.mass;
@@ -176,7 +183,7 @@ fn missing(job: &Job, given: &Given, now: &Mass) -> Outcome<Option<Weight>> {
         return if off <= 1e-9 * (centre.norm() + now.centre.norm()) {
             Ok(None)
         } else {
-            Err(Diagnostic::error("nothing is left to add, and the centre of gravity is elsewhere", place(2))
+            Err(Diagnostic::error("nothing is left to add, and the centre of gravity is elsewhere", given.place(X))
                 .label(format!("the weights there already make the total, {} from here", told(off, Dim::Length))))
         };
     }
@@ -185,15 +192,15 @@ fn missing(job: &Job, given: &Given, now: &Mass) -> Outcome<Option<Weight>> {
     let there =
         now.inertia_about(centre) + lacking * (Matrix3::identity() * arm.norm_squared() - arm * arm.transpose());
     let mut radii = [0.0; 3];
-    for (i, radius) in radii.iter_mut().enumerate() {
-        let Some(wanted) = given.number(5 + i).map(|k| total * k * k) else { continue };
+    for ((i, radius), key) in radii.iter_mut().enumerate().zip(RADII_OF_TOTAL) {
+        let Some(wanted) = given.number(key).map(|k| total * k * k) else { continue };
         let own = wanted - there[(i, i)];
         if own < -1e-9 * there[(i, i)] {
             let axis = ["x", "y", "z"].get(i).copied().unwrap_or_default();
             let most = told((there[(i, i)] / total).sqrt(), Dim::Length);
             return Err(Diagnostic::error(
                 format!("the weight to be added would need a negative moment of inertia about {axis}"),
-                place(5 + i),
+                given.place(key),
             )
             .label(format!("with what is there already the radius is at least {most}"))
             .help(format!(
@@ -204,7 +211,7 @@ fn missing(job: &Job, given: &Given, now: &Mass) -> Outcome<Option<Weight>> {
         }
         *radius = (own.max(0.0) / lacking).sqrt();
     }
-    let part = job.model.parts.get(&Model::key(given.word(0).unwrap_or_default()));
+    let part = job.model.parts.get(&Model::key(given.first_word().unwrap_or_default()));
     let place = part.map(|p| p.place).unwrap_or_default();
     if place.turn != [0.0; 3] {
         let text = "-TOTAL adds to the body's own part, and that is turned within the body";

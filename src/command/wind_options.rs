@@ -77,13 +77,14 @@ pub(super) const CORRELATION: OptionSpec = OptionSpec::new(
 pub(super) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<()> {
     match given {
         _ if given.is(&WIND) => {
-            env.wind = given.number(0).zip(given.number(1)).map(|(speed, direction)| Wind { speed, direction });
+            let [speed, direction] = const { WIND.numbers(["SPEED", "DIR"]) }.map(|key| given.number(key));
+            env.wind = speed.zip(direction).map(|(speed, direction)| Wind { speed, direction });
         }
-        _ if given.is(&PROFILE) => env.wind_profile = Some(formula(given)),
-        _ if given.is(&DESIGN) => env.design_wind = Some(formula(given)),
+        _ if given.is(&PROFILE) => env.wind_profile = Some(formula(given, Some(const { PROFILE.number("EXP") }))),
+        _ if given.is(&DESIGN) => env.design_wind = Some(formula(given, Some(const { DESIGN.number("DURATION") }))),
         _ if given.is(&W_SPECTRUM) => {
             spectrum(job, given, &GUSTS)?;
-            let named = formula(given);
+            let named = formula(given, None);
             env.gusts = Some(Formula { kind: named.kind.to_ascii_uppercase(), ..named });
         }
         _ if given.is(&PERIOD) => {
@@ -91,15 +92,17 @@ pub(super) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<
             env.gust_periods = given.numbers();
         }
         _ if given.is(&COMPONENTS) => {
-            let number = given.values.first().and_then(|v| v.integer()).and_then(|n| usize::try_from(n).ok());
-            env.gust_parts = number.map(|number| GustParts { number, intensity: given.number(1), span: given.span });
+            let number = given.integer(const { COMPONENTS.integer("N") }).and_then(|n| usize::try_from(n).ok());
+            let intensity = given.number(const { COMPONENTS.number("INTENSITY") });
+            env.gust_parts = number.map(|number| GustParts { number, intensity, span: given.span });
         }
         _ if given.is(&HISTORY) => {
-            known_curve(job, given, 0, CurveKind::WindHistory)?;
-            env.wind_history = Some(formula(given));
+            known_curve(job, given.values.first(), given, CurveKind::WindHistory)?;
+            env.wind_history = Some(formula(given, None));
         }
         _ if given.is(&CORRELATION) => {
-            env.drift_correlation = Some(Formula { kind: String::new(), value: given.number(0), span: given.span });
+            env.drift_correlation =
+                Some(Formula { kind: String::new(), value: given.first_number(), span: given.span });
         }
         _ => {}
     }

@@ -127,30 +127,6 @@ impl Value {
     }
 }
 
-/// What a value is looked up by.
-pub trait Key<T: ?Sized> {
-    /// Its place among the values.
-    fn index_in(&self, option: &OptionSpec) -> usize;
-}
-
-impl<T: ?Sized> Key<T> for ValueKey<T> {
-    fn index_in(&self, option: &OptionSpec) -> usize {
-        debug_assert!(
-            option.values.get(self.index).is_some_and(|value| value.name == self.name),
-            "{} is looked up in {}, which has it not",
-            self.name,
-            option.name
-        );
-        self.index
-    }
-}
-
-impl<T: ?Sized> Key<T> for usize {
-    fn index_in(&self, _: &OptionSpec) -> usize {
-        *self
-    }
-}
-
 impl Given {
     /// Whether this option was given.
     pub fn is(&self, option: &OptionSpec) -> bool {
@@ -167,14 +143,30 @@ impl Given {
         self.option.name
     }
 
-    /// A value of the option; `None` when it is left out.
-    pub fn value<T: ?Sized>(&self, key: impl Key<T>) -> Option<&Value> {
-        self.values.get(key.index_in(self.option))
+    /// A value of the option; `None` when it is left out. The option must have it.
+    pub fn value<T: ?Sized>(&self, key: ValueKey<T>) -> Option<&Value> {
+        debug_assert!(
+            self.has_value(key),
+            "{} is looked up in {}, which has no such value",
+            key.name,
+            self.option.name
+        );
+        self.values.get(key.index)
     }
 
     /// A number; `None` when it is left out.
-    pub fn number(&self, key: impl Key<f64>) -> Option<f64> {
+    pub fn number(&self, key: ValueKey<f64>) -> Option<f64> {
         self.value(key).and_then(Value::number)
+    }
+
+    /// A number that only some of the options of this name have; `None` where this one has it not.
+    pub fn number_if_declared(&self, key: ValueKey<f64>) -> Option<f64> {
+        self.has_value(key).then(|| self.number(key)).flatten()
+    }
+
+    /// Whether the option has such a value.
+    fn has_value<T: ?Sized>(&self, key: ValueKey<T>) -> bool {
+        self.option.values.get(key.index).is_some_and(|value| value.name == key.name)
     }
 
     /// Numbers; zeros for those that are left out.
@@ -183,18 +175,44 @@ impl Given {
     }
 
     /// A whole number; `None` when it is left out.
-    pub fn integer(&self, key: impl Key<i64>) -> Option<i64> {
+    pub fn integer(&self, key: ValueKey<i64>) -> Option<i64> {
         self.value(key).and_then(Value::integer)
     }
 
     /// A word; `None` when it is left out.
-    pub fn word(&self, key: impl Key<str>) -> Option<&str> {
+    pub fn word(&self, key: ValueKey<str>) -> Option<&str> {
         self.value(key).and_then(Value::word)
     }
 
     /// Where a value stands, or the option when it is left out.
-    pub fn place<T: ?Sized>(&self, key: impl Key<T>) -> Span {
+    pub fn place<T: ?Sized>(&self, key: ValueKey<T>) -> Span {
         self.value(key).map_or(self.span, |value| value.span)
+    }
+
+    /// The first value as a number: that of an option with one value, whichever it is.
+    pub fn first_number(&self) -> Option<f64> {
+        self.values.first().and_then(Value::number)
+    }
+
+    /// The first value as a whole number.
+    pub fn first_integer(&self) -> Option<i64> {
+        self.values.first().and_then(Value::integer)
+    }
+
+    /// The first value as a word.
+    pub fn first_word(&self) -> Option<&str> {
+        self.values.first().and_then(Value::word)
+    }
+
+    /// Where the first value stands, or the option when there is none.
+    pub fn first_place(&self) -> Span {
+        self.values.first().map_or(self.span, |value| value.span)
+    }
+
+    /// The groups of the values that repeat; the last one may be short.
+    pub fn groups(&self) -> impl Iterator<Item = &[Value]> {
+        let fixed = self.option.values.len().saturating_sub(self.option.repeat);
+        self.values.get(fixed..).unwrap_or_default().chunks(self.option.repeat.max(1))
     }
 
     /// The values that name a thing of this sort.
@@ -246,7 +264,7 @@ impl Args {
 
     /// The first number of such an option.
     pub fn number_if_declared(&self, option: &OptionSpec) -> Option<f64> {
-        self.option_if_declared(option).and_then(|given| given.number(0))
+        self.option_if_declared(option).and_then(Given::first_number)
     }
 
     /// Every occurrence of an option. The command must declare it.
@@ -268,19 +286,24 @@ impl Args {
 
     /// The first number of an option.
     pub fn option_number(&self, option: &OptionSpec) -> Option<f64> {
-        self.option(option).and_then(|given| given.number(0))
+        self.option(option).and_then(Given::first_number)
+    }
+
+    /// The first whole number of an option.
+    pub fn option_integer(&self, option: &OptionSpec) -> Option<i64> {
+        self.option(option).and_then(Given::first_integer)
     }
 
     /// The first word of an option.
     pub fn option_word(&self, option: &OptionSpec) -> Option<&str> {
-        self.option(option).and_then(|given| given.word(0))
+        self.option(option).and_then(Given::first_word)
     }
 
     /// A switch: `-NAME` or `-NAME YES` is true, `-NAME NO` false, absent the default.
     pub fn switch(&self, option: &OptionSpec, default: bool) -> bool {
         match self.option(option) {
             None => default,
-            Some(given) => given.word(0).is_none_or(|w| !w.eq_ignore_ascii_case("NO")),
+            Some(given) => given.first_word().is_none_or(|w| !w.eq_ignore_ascii_case("NO")),
         }
     }
 }

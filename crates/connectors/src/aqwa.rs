@@ -148,7 +148,10 @@ impl CatenarySection {
 }
 
 fn joint(args: &Args) -> Outcome<(Option<(&'static str, f64)>, Span)> {
-    let net = |given: &Given| given.number(0).unwrap_or(0.0) - given.number(1).unwrap_or(0.0);
+    let net = |given: &Given| {
+        let [mass, displaced] = given.numbers_or_zero(const { BUOY.numbers(["MASS", "DISPLACED"]) });
+        mass - displaced
+    };
     let (buoy, clump) = (args.option(&BUOY), args.option(&CLUMP));
     match (buoy, clump) {
         (Some(buoy), Some(clump)) => {
@@ -187,7 +190,7 @@ impl ConnectorClass for CatenaryClass {
             ea: option(&EA, 5.0e6 * mass),
             largest: option(&TMAX, 5.0e4 * mass),
             largest_is_given: args.has(&TMAX),
-            coefficients: args.option(&K).map(|g| [0, 1, 2].map(|i| g.number(i).unwrap_or(0.0))),
+            coefficients: args.option(&K).map(|given| given.numbers_or_zero(const { K.numbers(["k1", "k2", "k3"]) })),
             span: args.span,
             ca: option(&CA, 1.0),
             cd: option(&CD, 1.0),
@@ -198,7 +201,7 @@ impl ConnectorClass for CatenaryClass {
             joint_mass: args
                 .option(&BUOY)
                 .or(args.option(&CLUMP))
-                .map(|g| [0, 1, 2, 3].map(|i| g.number(i).unwrap_or(0.0))),
+                .map(|given| given.numbers_or_zero(const { BUOY.numbers(["MASS", "DISPLACED", "ADDED", "CDA"]) })),
             joint_span,
         };
         self.per_line.check(args, &PER_LINE)?;

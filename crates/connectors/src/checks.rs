@@ -2,6 +2,7 @@
 
 use super::options as o;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::spec::ValueKey;
 use windlass_base::values::{Args, Given};
 use windlass_model::{ClassError, Connection, Connector};
 
@@ -11,7 +12,7 @@ use windlass_model::{ClassError, Connection, Connector};
 /// A point with a force and no deflection or the other way round, two points with the same force, a force that does not grow, or a deflection that does not grow, at its value.
 pub fn py_curve(given: &Given) -> Outcome<Vec<(f64, f64)>> {
     let mut points: Vec<(f64, f64)> = Vec::new();
-    for pair in given.values.chunks_exact(2) {
+    for pair in given.groups() {
         let [p, y] = pair else { continue };
         let (Some(force), Some(deflection)) = (p.number(), y.number()) else { continue };
         if let Some((last_force, last_deflection)) = points.last() {
@@ -61,16 +62,22 @@ pub fn py_curves(args: &Args) -> Outcome<()> {
 /// What contradicts itself, at its value.
 pub fn piston(args: &Args) -> Outcome<()> {
     let Some(given) = args.option_if_declared(&o::PISTON) else { return Ok(()) };
-    let at = |index: usize| given.values.get(index).map_or(given.span, |v| v.span);
-    if let (Some(stroke), Some(nominal)) = (given.number(1), given.number(2))
+    const STROKE: ValueKey<f64> = o::PISTON.number("LT");
+    const NOMINAL: ValueKey<f64> = o::PISTON.number("LD");
+    const MOST: ValueKey<f64> = o::PISTON.number("TMAX");
+    const LEAST: ValueKey<f64> = o::PISTON.number("TMIN");
+    if let (Some(stroke), Some(nominal)) = (given.number(STROKE), given.number(NOMINAL))
         && nominal > stroke
     {
-        return Err(Diagnostic::error("the nominal position LD of -PISTON lies beyond its stroke LT", at(2)));
+        return Err(Diagnostic::error(
+            "the nominal position LD of -PISTON lies beyond its stroke LT",
+            given.place(NOMINAL),
+        ));
     }
-    match (given.word(0), given.number(5), given.number(6)) {
+    match (given.word(const { o::PISTON.word("TYPE") }), given.number(MOST), given.number(LEAST)) {
         (Some("MINMAX"), _, None) => Err(Diagnostic::error("-PISTON MINMAX needs TMIN", given.span)),
         (_, Some(most), Some(least)) if least >= most => {
-            Err(Diagnostic::error("TMIN of -PISTON must be smaller than TMAX", at(6)))
+            Err(Diagnostic::error("TMIN of -PISTON must be smaller than TMAX", given.place(LEAST)))
         }
         _ => Ok(()),
     }

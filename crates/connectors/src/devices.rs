@@ -33,10 +33,7 @@ pub const NOMINAL: &str = "here the piston of -PISTON stands at its nominal posi
 impl Devices {
     /// Of a line's options.
     pub fn read(options: &PerLineOptions) -> Devices {
-        let dashpot = options.option(&o::X_DAMPING_LINE).and_then(|given| {
-            let most = given.number(2).unwrap_or(f64::INFINITY);
-            Some(Dashpot { coefficient: given.number(0)?, exponent: given.number(1)?, most })
-        });
+        let dashpot = options.option(&o::X_DAMPING_LINE).and_then(Dashpot::from_given);
         let piston = options.option(&o::PISTON).and_then(Piston::read);
         Devices { piston, dashpot, convolution: convolution(options) }
     }

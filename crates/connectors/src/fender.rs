@@ -108,8 +108,7 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
     }
     let mut normal = Vector3::x();
     if let Some(given) = args.option(&NORMAL) {
-        let at = |i: usize| given.number(i).unwrap_or(0.0);
-        normal = Vector3::new(at(0), at(1), at(2))
+        normal = Vector3::from(given.numbers_or_zero(const { NORMAL.numbers(["X", "Y", "Z"]) }))
             .try_normalize(f64::MIN_POSITIVE)
             .ok_or_else(|| Diagnostic::error("-NORMAL has no direction: all three values are zero", given.span))?;
     }

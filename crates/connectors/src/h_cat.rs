@@ -118,7 +118,9 @@ struct Hanging {
 /// # Errors
 /// Both, at their places.
 pub fn check_record(before: &PerLineOptions, args: &Args, kind: &str) -> Outcome<()> {
-    if let Some(clump) = args.option(&o::CLUMP).filter(|c| c.number(0).is_some_and(|w| w < 0.0)) {
+    if let Some(clump) =
+        args.option(&o::CLUMP).filter(|clump| clump.number(const { o::CLUMP.number("CW") }).is_some_and(|w| w < 0.0))
+    {
         let article = if kind.starts_with(['A', 'E', 'H', 'S']) { "an" } else { "a" };
         return Err(Diagnostic::error(format!("{article} {kind} takes no spring buoy"), clump.span).help("use B_CAT"));
     }

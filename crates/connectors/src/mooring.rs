@@ -186,17 +186,18 @@ pub fn parts(
 /// The springs of -SEND and -X_PY at the two ends; the curve is in series at the first.
 pub fn end_springs(options: &PerLineOptions) -> [Option<StretchLaw>; 2] {
     let send = options.option(&o::SEND);
-    let spring = |i: usize| send.and_then(|g| g.number(i)).map(StretchLaw::Linear);
+    let [first, second] = const { o::SEND.numbers(["KE(1)", "KE(2)"]) }
+        .map(|key| send.and_then(|given| given.number(key)).map(StretchLaw::Linear));
     let curve = options.option(&o::X_PY).map(|given| {
-        let numbers: Vec<f64> = given.values.iter().filter_map(|v| v.number()).collect();
+        let numbers = given.numbers();
         let points = numbers.chunks_exact(2).filter_map(|pair| pair.first().copied().zip(pair.get(1).copied()));
         StretchLaw::Curve(points.filter(|(p, y)| *p > 0.0 || *y > 0.0).collect())
     });
-    let first = match (spring(0), curve) {
+    let first = match (first, curve) {
         (Some(spring), Some(curve)) => Some(StretchLaw::Series(vec![spring, curve])),
         (spring, curve) => spring.or(curve),
     };
-    [first, spring(1)]
+    [first, second]
 }
 
 /// The end springs with the long-term stiffness of a viscoelastic one in series at the first end
@@ -227,7 +228,7 @@ pub fn no_curve(name: &str, at: Span) -> ClassError {
 /// The curve that -CONVOLUTION names, with its place.
 pub fn convolution(options: &PerLineOptions) -> Option<(String, Span)> {
     let given = options.option(&o::CONVOLUTION)?;
-    given.values.first().and_then(|v| v.word()).map(|name| (name.to_string(), given.span))
+    given.first_word().map(|name| (name.to_string(), given.span))
 }
 
 /// A line whose other end is not known.

@@ -48,6 +48,6 @@ impl PerLineOptions {
 
     /// The first number of an option.
     pub fn number(&self, option: &OptionSpec) -> Option<f64> {
-        self.option(option).and_then(|g| g.number(0))
+        self.option(option).and_then(|g| g.first_number())
     }
 }

@@ -5,6 +5,7 @@
 //! while it can follow and the tension departs from it while it cannot; of MAX the way back to LD is as fast as VSHORT allows without
 //! passing TMAX; in statics it has all the time it needs, and starts at LD.
 
+use super::options::PISTON;
 use windlass_base::units::Dim;
 use windlass_base::values::Given;
 use windlass_model::ClassError;
@@ -87,15 +88,14 @@ struct OperatingPoint {
 impl Piston {
     /// From the values of its option, which [`super::checks::piston`] has checked.
     pub fn read(given: &Given) -> Option<Piston> {
-        let number = |i: usize| given.number(i);
         Some(Piston {
-            both: given.word(0) == Some("MINMAX"),
-            stroke: number(1)?,
-            nominal: number(2)?,
-            lengthening: number(3)?,
-            shortening: number(4)?,
-            most: number(5)?,
-            least: number(6).unwrap_or(0.0),
+            both: given.word(const { PISTON.word("TYPE") }) == Some("MINMAX"),
+            stroke: given.number(const { PISTON.number("LT") })?,
+            nominal: given.number(const { PISTON.number("LD") })?,
+            lengthening: given.number(const { PISTON.number("VLONG") })?,
+            shortening: given.number(const { PISTON.number("VSHORT") })?,
+            most: given.number(const { PISTON.number("TMAX") })?,
+            least: given.number(const { PISTON.number("TMIN") }).unwrap_or(0.0),
         })
     }
 

@@ -9,6 +9,7 @@ use nalgebra::Vector3;
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
+use windlass_base::spec::ValueKey;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
@@ -62,7 +63,9 @@ struct Roller {
 fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
     let Some(record) = records.last() else { return Err(Diagnostic::error("a class needs a record", Span::default())) };
     let args = &record.args;
-    let gaps = |option: &OptionSpec| args.option(option).and_then(|g| Some([g.number(0)?, g.number(1)?]));
+    let gaps = |option: &OptionSpec, [below, above]: [ValueKey<f64>; 2]| {
+        args.option(option).and_then(|g| Some([g.number(below)?, g.number(above)?]))
+    };
     let given = restraints(args, 1, 3)?;
     match args.word(0) {
         Some("TENSION") => {
@@ -83,7 +86,12 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
         }
     }
     let springs = Springs::of(args, all, false, Vec::new())?;
-    Ok(Arc::new(Roller { given, springs, sides: gaps(&Y_ROLLER), heights: gaps(&Z_ROLLER) }))
+    Ok(Arc::new(Roller {
+        given,
+        springs,
+        sides: gaps(&Y_ROLLER, const { Y_ROLLER.numbers(["Y-", "Y+"]) }),
+        heights: gaps(&Z_ROLLER, const { Z_ROLLER.numbers(["Z-", "Z+"]) }),
+    }))
 }
 
 impl Roller {

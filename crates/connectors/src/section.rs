@@ -10,6 +10,7 @@ use super::{checks, options as o};
 use std::f64::consts::FRAC_PI_4;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
+use windlass_base::spec::ValueKey;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::{Dim, UnitSystem, eight_figures};
 use windlass_base::values::{Args, Given};
@@ -115,17 +116,22 @@ impl OfType {
     }
 }
 
+/// The nominal diameter of `-TYPE`.
+const DIAMETER: ValueKey<f64> = o::TYPE.number("D");
+
 /// The type a record names, and its nominal diameter (m).
 fn typed(args: &Args) -> Outcome<Option<(&'static LineType, f64)>> {
     let Some(given) = args.option_if_declared(&o::TYPE) else { return Ok(None) };
-    let (Some(name), Some(diameter)) = (given.values.first(), given.number(1)) else { return Ok(None) };
+    let (Some(name), Some(diameter)) = (given.value(const { o::TYPE.word("NAME") }), given.number(DIAMETER)) else {
+        return Ok(None);
+    };
     let names = library().types.iter().map(|t| (t.name.as_str(), Owner::Ours, t));
     Ok(Some((choose(name.word().unwrap_or_default(), name.span, "line type", names)?, diameter)))
 }
 
 /// Where D of `-TYPE` stands.
 fn diameter_place(args: &Args) -> Span {
-    args.option_if_declared(&o::TYPE).and_then(|g| g.values.get(1)).map_or(args.span, |v| v.span)
+    args.option_if_declared(&o::TYPE).map_or(args.span, |given| given.place(DIAMETER))
 }
 
 /// What a record with `-TYPE` should tell its writer: a diameter outside the range of the formulas, and which options
@@ -222,8 +228,8 @@ impl LineSection {
             buoyancy_diameter: number(&o::BUOYDIAMETER).or(displaced).unwrap_or(od),
             breaking: breaking.unwrap_or(material.ultimate() * area),
             break_is_given: breaking.is_some(),
-            clump: clump.and_then(|c| c.number(0)).unwrap_or(0.0),
-            pendant: clump.and_then(|c| c.number(1)).unwrap_or(0.0),
+            clump: clump.and_then(|given| given.number(const { o::CLUMP.number("CW") })).unwrap_or(0.0),
+            pendant: clump.and_then(|given| given.number(const { o::CLUMP.number("CLEN") })).unwrap_or(0.0),
             refine: args
                 .option_if_declared(&o::REFINE)
                 .and_then(|g| g.values.first())

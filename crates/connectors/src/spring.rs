@@ -100,7 +100,12 @@ fn restrained(list: &[Restraint], dof: &str, symmetric: bool, at: Span) -> Outco
 fn convolutions(args: &Args, list: &[Restraint], symmetric: bool) -> Outcome<Vec<(usize, String, Span)>> {
     let mut seen: Vec<(usize, String, Span)> = Vec::new();
     for given in args.all(&o::CONVOLUTION_DF) {
-        let (Some(value), Some(name)) = (given.values.first(), given.values.get(1)) else { continue };
+        let (Some(value), Some(name)) = (
+            given.value(const { o::CONVOLUTION_DF.word("DF") }),
+            given.value(const { o::CONVOLUTION_DF.word("CVL_NAME") }),
+        ) else {
+            continue;
+        };
         let (Some(dof), Some(name_word)) = (value.word(), name.word()) else { continue };
         restrained(list, dof, symmetric, value.span)?;
         let Some(number) = index(dof) else { continue };

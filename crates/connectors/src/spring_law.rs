@@ -2,9 +2,10 @@
 //!
 //! Source: [MOSES-FLEX -X_PY, -X_DAMPING, -FRICTION].
 
+use super::options::X_DAMPING;
 use super::viscous::{Affine, Viscoelastic};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
-use windlass_base::values::Args;
+use windlass_base::values::{Args, Given};
 use windlass_language::spec::OptionSpec;
 
 /// Velocity below which a dashpot of an exponent below one is linear (m/s): its slope is without bound at rest.
@@ -80,9 +81,14 @@ pub struct Dashpot {
 impl Dashpot {
     /// That of an option `Co Ex Fo`.
     pub fn read(args: &Args, option: &OptionSpec) -> Option<Dashpot> {
-        let given = args.option_if_declared(option)?;
-        let most = given.number(2).unwrap_or(f64::INFINITY);
-        Some(Dashpot { coefficient: given.number(0)?, exponent: given.number(1)?, most })
+        args.option_if_declared(option).and_then(Dashpot::from_given)
+    }
+
+    /// From the values of a dashpot's option, that of any axis.
+    pub fn from_given(given: &Given) -> Option<Dashpot> {
+        let most = given.number(const { X_DAMPING.number("Fo") }).unwrap_or(f64::INFINITY);
+        let [coefficient, exponent] = const { X_DAMPING.numbers(["Co", "Ex"]) };
+        Some(Dashpot { coefficient: given.number(coefficient)?, exponent: given.number(exponent)?, most })
     }
 
     fn force(&self, speed: f64) -> Sized {

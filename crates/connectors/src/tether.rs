@@ -8,6 +8,7 @@ use super::{ClassKind, append_all, checks};
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::FRAC_PI_4;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::spec::ValueKey;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_language::select::Owner;
@@ -52,6 +53,10 @@ const LABEL: OptionSpec = OptionSpec::new(
 .owner(Owner::Ours)
 .default("numbers from 1 at the anchor");
 
+/// The values of `-LABEL`.
+const LABELS: [ValueKey<i64>; 4] =
+    [LABEL.integer("N1"), LABEL.integer("N2"), LABEL.integer("MATE"), LABEL.integer("GEOM")];
+
 static TETHER_SPEC: CommandSpec = CommandSpec {
     owner: Owner::Aqwa,
     data: &[
@@ -79,7 +84,7 @@ impl ConnectorClass for TetherClass {
             return Err(Diagnostic::error("the wall thickness T is larger than half of OD", args.place(1)));
         }
         let material = &record.defaults.material;
-        let elements = args.option(&REFINE).and_then(|g| g.values.first()).and_then(|v| v.integer());
+        let elements = args.option_integer(&REFINE);
         self.0.push(TetherSection {
             outer_diameter: od,
             wall_thickness: thickness,
@@ -89,9 +94,7 @@ impl ConnectorClass for TetherClass {
             youngs_modulus: args.option_number(&EMODULUS).unwrap_or(material.emodulus),
             added_mass: args.option_number(&CA).unwrap_or(1.0),
             drag: args.option_number(&CD).unwrap_or(0.75),
-            label: args
-                .option(&LABEL)
-                .map(|g| [0, 1, 2, 3].map(|i| g.values.get(i).and_then(|v| v.integer()).unwrap_or(0))),
+            label: args.option(&LABEL).map(|given| LABELS.map(|key| given.integer(key).unwrap_or(0))),
         });
         Ok(())
     }

@@ -70,7 +70,7 @@ impl Class {
     pub fn fatigue_segments(&self) -> Vec<FatigueSegment> {
         let mut segments = self.object.fatigue_segments();
         for (segment, record) in segments.iter_mut().zip(&self.records) {
-            segment.curve = record.args.option_if_declared(&C_SN).and_then(|g| g.word(0)).map(str::to_string);
+            segment.curve = record.args.option_if_declared(&C_SN).and_then(|g| g.first_word()).map(str::to_string);
         }
         segments
     }

@@ -6,6 +6,7 @@ use crate::per_line::PerLineOptions;
 use crate::section::LineSection;
 use std::f64::consts::{FRAC_PI_4, PI};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::spec::ValueKey;
 use windlass_base::units::Dim;
 use windlass_base::values::{Args, Given};
 use windlass_language::select::Owner;
@@ -155,12 +156,10 @@ pub struct Flexure {
 }
 
 /// The values of an option, as far as they are given.
-fn given_or<const N: usize>(args: &Args, option: &OptionSpec, default: [f64; N]) -> [f64; N] {
+fn given_or<const N: usize>(given: Option<&Given>, keys: [ValueKey<f64>; N], default: [f64; N]) -> [f64; N] {
     let mut made = default;
-    if let Some(given) = args.option_if_declared(option) {
-        for (i, value) in made.iter_mut().enumerate() {
-            *value = given.number(i).unwrap_or(*value);
-        }
+    for (value, key) in made.iter_mut().zip(keys) {
+        *value = given.and_then(|given| given.number(key)).unwrap_or(*value);
     }
     made
 }
@@ -189,15 +188,20 @@ impl Flexure {
             drag: option(&o::DRAGDIAMETER).or(typed.map(|t| t.drag)).unwrap_or(section.od),
             wind: option(&o::WINDDIAMETER).or(typed.map(|t| t.wind)).unwrap_or(section.od),
             added: option(&o::AMASDIAMETER).or(typed.map(|t| t.added_mass)).unwrap_or(section.od),
-            cd: given_or(args, &CD, [typed.map_or(AQWA_CD, |t| t.line_type.drag.coefficient), AQWA_CX / PI, WIND_CD]),
-            ca: given_or(args, &CA, [AQWA_CA, 0.0]),
+            cd: given_or(
+                args.option_if_declared(&CD),
+                const { CD.numbers(["CDN", "CDT", "CDW"]) },
+                [typed.map_or(AQWA_CD, |t| t.line_type.drag.coefficient), AQWA_CX / PI, WIND_CD],
+            ),
+            ca: given_or(args.option_if_declared(&CA), const { CA.numbers(["CAN", "CAT"]) }, [AQWA_CA, 0.0]),
             axial: rope(args, law(args, section.ea)?)?,
             damping: option(&AX_DAMPING).unwrap_or(0.0),
             bending,
             tube: tube.then(|| {
                 [option(&o::POI_RAT).unwrap_or(material.poisson), option(&o::ALPHA).unwrap_or(material.expansion)]
             }),
-            clump: [0, 1].map(|i| args.option_if_declared(&CLUMP_DRAG).and_then(|g| g.number(i))),
+            clump: const { CLUMP_DRAG.numbers(["CDA", "ADDED"]) }
+                .map(|key| args.option_if_declared(&CLUMP_DRAG).and_then(|given| given.number(key))),
         })
     }
 
@@ -255,13 +259,17 @@ impl Flexure {
 /// The law of a fibre rope, whose static one is given; that itself of another line.
 fn rope(args: &Args, slow: Axial) -> Outcome<Axial> {
     let Some(given) = args.option_if_declared(&ROPE) else { return Ok(slow) };
-    let fast = [given.number(0).unwrap_or(0.0), given.number(1).unwrap_or(0.0)];
+    let fast = given.numbers_or_zero(const { ROPE.numbers(["EAD", "B"]) });
     let stiffest = slow.at(0.0).1;
     if fast[0] <= stiffest {
         return Err(Diagnostic::error("the dynamic stiffness EAD must be larger than the static one", given.span)
             .help("-EA K1 or -STRETCH gives the static stiffness of the rope; without them it is that of OD and T"));
     }
-    Ok(Axial::Viscoelastic(Box::new(Viscoelastic { slow, fast, relaxation: given.number(2).unwrap_or(RELAXES) })))
+    Ok(Axial::Viscoelastic(Box::new(Viscoelastic {
+        slow,
+        fast,
+        relaxation: given.number(const { ROPE.number("TAU") }).unwrap_or(RELAXES),
+    })))
 }
 
 /// Tension by strain.
@@ -271,10 +279,12 @@ fn law(args: &Args, ea: f64) -> Outcome<Axial> {
         (Some(given), Some(other)) => {
             Err(Diagnostic::error("tension by strain is given twice", other.span).other(given.span, "and here"))
         }
-        (Some(given), None) => Ok(Axial::of_powers([0, 1, 2].map(|i| given.number(i).unwrap_or(0.0)).to_vec())),
+        (Some(given), None) => {
+            Ok(Axial::of_powers(given.numbers_or_zero(const { EA.numbers(["K1", "K2", "K3"]) }).to_vec()))
+        }
         (None, Some(given)) => {
             let mut points = vec![(0.0, 0.0)];
-            for pair in given.values.chunks_exact(2) {
+            for pair in given.groups() {
                 let [tension, strain] = pair else { continue };
                 let (Some(t), Some(e)) = (tension.number(), strain.number()) else { continue };
                 if (t, e) == (0.0, 0.0) && points.len() == 1 {
@@ -299,10 +309,10 @@ fn law(args: &Args, ea: f64) -> Outcome<Axial> {
 pub fn seabed(options: &PerLineOptions) -> Seabed {
     let own = options.option(&SEABED);
     Seabed {
-        stiffness: own.and_then(|g| g.number(0)),
-        damping: own.and_then(|g| g.number(1)),
+        stiffness: own.and_then(|given| given.number(const { SEABED.number("K") })),
+        damping: own.and_then(|given| given.number(const { SEABED.number("C") })),
         along: options.number(&o::FRICTION).unwrap_or(0.0),
-        across: own.and_then(|g| g.number(2)),
+        across: own.and_then(|given| given.number(const { SEABED.number("MUX") })),
         // -SLOPE is positive where the depth increases toward the anchor
         slope: options.number(&o::SLOPE),
         depth: options.number(&o::DEPANCHOR),
@@ -318,9 +328,13 @@ pub fn holds(clamps: &[Given], ends: [&Flexure; 2]) -> Outcome<[Option<Hold>; 2]
     let mut made = [None, None];
     let bends = ends.map(|f| f.bending > 0.0);
     for given in clamps {
-        let word = given.word(0).unwrap_or_default();
-        let hold = Hold { declination: given.number(1), stiffness: given.number(2) };
-        if let (Some(value), true) = (given.values.get(1), hold.declination.is_some_and(|d| !(0.0..=PI).contains(&d))) {
+        let word = given.word(const { CLAMP.word("WHICH") }).unwrap_or_default();
+        const DECLINATION: ValueKey<f64> = CLAMP.number("DEC");
+        const STIFFNESS: ValueKey<f64> = CLAMP.number("K");
+        let hold = Hold { declination: given.number(DECLINATION), stiffness: given.number(STIFFNESS) };
+        if let (Some(value), true) =
+            (given.value(DECLINATION), hold.declination.is_some_and(|d| !(0.0..=PI).contains(&d)))
+        {
             return Err(Diagnostic::error(
                 "DEC of -CLAMP is 0 straight down and 180 straight up, and between",
                 value.span,
