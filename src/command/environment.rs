@@ -2,6 +2,7 @@
 //!
 //! Source: [MOSES-REF env].
 
+use super::menu;
 use super::plausible::shown;
 use super::{Call, Command, Effect, Job, ambient_options, plausible, probability, sea_options, wind_options};
 use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
@@ -211,7 +212,7 @@ static ENV_SPEC: CommandSpec = CommandSpec {
 };
 
 static NAMED_SPEC: CommandSpec = CommandSpec {
-    menus: &["ENVIRONMENT"],
+    menus: &[&menu::ENVIRONMENT],
     data: &[ValueSpec::new("NAME", Kind::Name(Noun::New), "name to keep it under")],
     detail: "As &ENV, but the environment is kept and not put in force.",
     example: "&DATA ENVIRONMENT\nENV CALM -DEPTH 500\nEND",
@@ -340,7 +341,7 @@ pub(super) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<
         }
         _ if given.is(&M_GROWTH) => {
             known_curve(job, given.values.first(), given, CurveKind::MarineGrowth)?;
-            env.growth = Some(formula(given, None));
+            env.growth = Some(formula(given, Some(const { M_GROWTH.number("RHO") })));
         }
         _ => {}
     }
