@@ -2,6 +2,7 @@
 //!
 //! Source: [MOSES-REF conn_sling].
 
+use super::menu;
 use super::rigging::{self, Rigging};
 use super::{Call, Command, Effect, Job, Menu, junction};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -24,7 +25,7 @@ const VERTICAL: OptionSpec = OptionSpec::new("-VERTICAL", &[], "with -INITIAL: t
 const DEACTIVATE: OptionSpec = OptionSpec::new("-DEACTIVATE", &[], "the sets defined before no longer act");
 
 static SPEC: CommandSpec = CommandSpec {
-    menus: &["INMODEL", "MEDIT"],
+    menus: &[&menu::INMODEL, &menu::MEDIT],
     data: &[
         ValueSpec::new("TYPE", Kind::Choice(&["T-H_DEFINITION"]), "a tip-hook set"),
         ValueSpec::new("NAME", Kind::Name(Noun::New), "its name, and that of the hook"),

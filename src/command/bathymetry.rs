@@ -1,5 +1,6 @@
 //! `&BATHYMETRY`: the bottom over a grid, by records or from a file.
 
+use super::menu;
 use super::number_rows::rows;
 use super::{Call, Command, Effect, Job, Menu};
 use std::sync::Arc;
@@ -37,7 +38,7 @@ const DEPTHS: OptionSpec = OptionSpec::new("-DEPTHS", &[], "heights are depths b
 
 static SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
-    opens: Opens::WithoutOption("BATHYMETRY", &CSV),
+    opens: Opens::WithoutOption(&menu::BATHYMETRY, &CSV),
     data: &[ValueSpec::new("NAME", Kind::Name(Noun::New), "name of the bottom, for -BATHYMETRY of &ENV")],
     options: &[CSV, DEPTHS],
     detail: "The bottom as heights over a grid of x and y in global axes, whose spacing may vary. By records: X has the places of the columns, \
@@ -55,7 +56,7 @@ static SPEC: CommandSpec = CommandSpec {
 
 static X_SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
-    menus: &["BATHYMETRY"],
+    menus: &[&menu::BATHYMETRY],
     form: Form::Text,
     data: &[length("x", "place of a column, growing")],
     repeat: 1,
@@ -66,7 +67,7 @@ static X_SPEC: CommandSpec = CommandSpec {
 
 static Y_SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
-    menus: &["BATHYMETRY"],
+    menus: &[&menu::BATHYMETRY],
     form: Form::Text,
     data: &[length("y", "place of the row, growing from record to record"), length("z", "height at each X in turn")],
     repeat: 1,

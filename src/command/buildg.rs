@@ -3,6 +3,7 @@
 //! Source: [MOSES-REF men_buildg]. A file behind the option is ours.
 
 use super::device::{read_input, readable};
+use super::menu;
 use super::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
 use crate::report::readback::{self, ReadError};
@@ -20,7 +21,7 @@ const CSV: OptionSpec = OptionSpec::new("-CSV", &[FILE], "comma-separated values
 const BRIEF: OptionSpec = OptionSpec::new("-BRIEF", &[FILE], "labels, one a line, then rows of numbers");
 
 static SPEC: CommandSpec = CommandSpec {
-    opens: Opens::AtMostElse("BUILDG", 1, "DISPOSITION"),
+    opens: Opens::AtMostElse(&menu::BUILDG, 1, &menu::DISPOSITION),
     options: &[CSV, BRIEF],
     detail: "With a FILE it reads that and opens the disposition menu; without one the records that follow are the table, and \
              END opens the menu. A head that ends in a unit in parentheses, as STORE writes it, gives its column that unit, \
@@ -88,7 +89,7 @@ pub fn take(job: &mut Job, record: &Record) -> Outcome<Effect> {
 /// Records that make no table; what follows up to another END is then passed over.
 pub fn built(job: &mut Job, building: &Building, at: Option<Span>) -> Outcome<()> {
     open(job, building.brief, "the Table Given", &building.text).map_err(|e| {
-        job.menus.push(Menu::Refused("DISPOSITION"));
+        job.menus.push(Menu::Refused(&menu::DISPOSITION));
         Diagnostic::error(format!("the records of &BUILDG make no table: {e}"), at.unwrap_or(building.span))
             .other(building.span, "begun here")
             .help("lines are counted from the record behind &BUILDG")

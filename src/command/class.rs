@@ -1,5 +1,6 @@
 //! `~NAME TYPE ...`: defines a class, or adds a segment to one.
 
+use super::menu;
 use super::{Call, Command, Effect, Job, Menu, plausible};
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -17,7 +18,7 @@ use windlass_model::{Class, ClassRecord, Curve, CurveKind, Model, find};
 pub static CLASS: Command = Command { spec: &SPEC, edits: false, run };
 
 static SPEC: CommandSpec = CommandSpec {
-    menus: &["INMODEL", "MEDIT"],
+    menus: &[&menu::INMODEL, &menu::MEDIT],
     form: Form::Text,
     detail: "Repeating the name of a line class adds the next segment, fairlead first; for the other types it replaces the \
              class. In MEDIT the curves it names exist; in INMODEL they may be defined up to its END. &HELP ~CLASS TYPE \

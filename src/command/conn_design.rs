@@ -2,6 +2,7 @@
 
 use super::chosen::{Chosen, WARNING, raise};
 use super::disposition::{BOTH, HARD, send};
+use super::menu;
 use super::{Call, Command, Effect, Job, Menu, status, vary};
 use crate::report::disposition::Disposition;
 use crate::report::page;
@@ -49,8 +50,8 @@ const DISTANCE: OptionSpec = OptionSpec::new(
 .owner(Owner::Ours);
 
 static TABLE_SPEC: CommandSpec = CommandSpec {
-    opens: Opens::Menu("DISPOSITION"),
-    menus: &["CONN_DESIGN"],
+    opens: Opens::Menu(&menu::DISPOSITION),
+    menus: &[&menu::CONN_DESIGN],
     data: &[LINE],
     options: &[vary::VARY, HORIZONTAL, TENSION, DISTANCE],
     detail: "Thirty rows with horizontal forces T (n/29)**2 up to T, the table limit or the largest breaking tension of all \
@@ -69,8 +70,8 @@ static TABLE_SPEC: CommandSpec = CommandSpec {
 };
 
 static GEOMETRY_SPEC: CommandSpec = CommandSpec {
-    opens: Opens::Menu("DISPOSITION"),
-    menus: &["CONN_DESIGN"],
+    opens: Opens::Menu(&menu::DISPOSITION),
+    menus: &[&menu::CONN_DESIGN],
     data: &[LINE],
     options: &[HORIZONTAL, VERTICAL, TENSION, DISTANCE],
     detail: "The shape of the line between its ends as they are, or with one of the options; the fairlead keeps its height. \
@@ -85,7 +86,7 @@ static GEOMETRY_SPEC: CommandSpec = CommandSpec {
 };
 
 static PROPERTIES_SPEC: CommandSpec = CommandSpec {
-    menus: &["CONN_DESIGN"],
+    menus: &[&menu::CONN_DESIGN],
     data: &[
         ValueSpec::new("~CLASS", Kind::Name(Noun::Selector), "class, pattern or selector").or("all classes of lines")
     ],

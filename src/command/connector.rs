@@ -1,5 +1,6 @@
 //! `CONNECTOR`.
 
+use super::menu;
 use super::tether_ends as tether;
 use super::{Call, Command, Effect, Job, Menu};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -47,7 +48,7 @@ const EULER: OptionSpec = OptionSpec::new(
 .default("body axes of the first node");
 
 static CONNECTOR_SPEC: CommandSpec = CommandSpec {
-    menus: &["INMODEL", "MEDIT"],
+    menus: &[&menu::INMODEL, &menu::MEDIT],
     data: &[
         ValueSpec::new("NAME", Kind::Name(Noun::New), "name of the connector"),
         ValueSpec::new("~CLASS", Kind::Name(Noun::Class), "its class"),

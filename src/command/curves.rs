@@ -2,6 +2,7 @@
 //!
 //! Source: [MOSES-REF curv].
 
+use super::menu;
 use super::{Call, Command, Effect, Job, Menu};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
@@ -19,7 +20,7 @@ pub static DATA: Command = Command { spec: &SPEC, edits: false, run };
 
 static SPEC: CommandSpec = CommandSpec {
     form: Form::Text,
-    opens: Opens::AtMost("CURVES", 1),
+    opens: Opens::AtMost(&menu::CURVES, 1),
     data: &[ValueSpec::new("KIND", Kind::Choice(&["CURVES", "CONVOLUTION", "ENVIRONMENT"]), "what is defined")],
     detail: "&DATA CURVES TYPE NAME a1 b1 a2 b2 .. with TYPE C_PROFILE (depth, velocity), P_SPECTRUM (period, density), \
              F_SPECTRUM (frequency, density), M_GROWTH (elevation, added OD), W_HISTORY (time, knots), C_HISTORY (ours: time, factor of the current), LT_MULTIPLIER, \
@@ -37,7 +38,7 @@ static SPEC: CommandSpec = CommandSpec {
 
 const fn curve(name: &'static str, help: &'static str, example: &'static str) -> CommandSpec {
     CommandSpec {
-        menus: &["CURVES"],
+        menus: const { &[&menu::CURVES] },
         repeat: 2,
         detail: "At least two pairs, the first value growing from pair to pair. A name given again is redefined.",
         example,
@@ -210,7 +211,8 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         return Ok(Effect::Done);
     };
     // one curve in one record: read as the menu's record is
-    let kinds = super::offered("CURVES").filter(|c| !c.spec.menus.is_empty()).map(|c| (c.spec.name, c.spec.owner, c));
+    let kinds =
+        super::offered(&menu::CURVES).filter(|c| !c.spec.menus.is_empty()).map(|c| (c.spec.name, c.spec.owner, c));
     let command = choose(&kind.text, kind.span, "type of curve", kinds)?;
     let args = args::read(command.spec, kind.span, values, job.units)?;
     (command.run)(job, &Call { record: call.record, words, args })

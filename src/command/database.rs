@@ -1,6 +1,7 @@
 //! `DATABASE`: the hydrodynamic database of a body, read from the files of another program.
 
 use super::device::found;
+use super::menu;
 use super::{Call, Command, Effect, Job};
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
@@ -119,7 +120,7 @@ const HYDROSTATICS: OptionSpec = ours(
 
 static SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
-    menus: &["INMODEL", "MEDIT"],
+    menus: &[&menu::INMODEL, &menu::MEDIT],
     data: &[ValueSpec::new("BODY", Kind::Name(Noun::Body), "the body")],
     options: &[
         WAMIT,

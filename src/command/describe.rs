@@ -1,6 +1,7 @@
 //! `&DESCRIBE`, points, and `&INSTATE`.
 
 use super::chosen::Chosen;
+use super::menu;
 use super::piece::{self, OPTIONS};
 use super::{Call, Command, Effect, Job};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -68,7 +69,7 @@ static DESCRIBE_SPEC: CommandSpec = CommandSpec {
 };
 
 static POINT_SPEC: CommandSpec = CommandSpec {
-    menus: &["INMODEL", "MEDIT"],
+    menus: &[&menu::INMODEL, &menu::MEDIT],
     data: &[
         number("X", Dim::Length, "x, or the radius").or("0"),
         number("Y", Dim::Length, "y (with &DEFAULT -CYLINDER or -SPHERICAL: the angle in degrees)").or("0"),

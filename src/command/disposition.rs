@@ -2,6 +2,7 @@
 //!
 //! Source: [MOSES-REF disp_men].
 
+use super::menu;
 use super::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::{Disposition, DispositionError, RowChoice};
 use crate::report::page;
@@ -10,10 +11,10 @@ use windlass_base::span::Span;
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_base::values::{Args, Noun};
-use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
+use windlass_language::spec::{CommandSpec, Kind, MenuSpec, Opens, OptionSpec, ValueSpec};
 
 /// Where these commands are offered.
-pub(super) const MENU: &[&str] = &["DISPOSITION"];
+pub(super) const MENU: &[&MenuSpec] = &[&menu::DISPOSITION];
 /// A column of the table.
 pub(super) const COLUMN: ValueSpec =
     ValueSpec::new("COLUMN", Kind::Name(Noun::Selector), "number, a:b, or name with wild characters");
@@ -116,7 +117,7 @@ static C_SHIFT_SPEC: CommandSpec = CommandSpec {
     ..spec("C_SHIFT", "adds a number to columns")
 };
 static CULL_SPEC: CommandSpec = CommandSpec {
-    opens: Opens::Menu("DISPOSITION"),
+    opens: Opens::Menu(&menu::DISPOSITION),
     data: &[
         COLUMN,
         ValueSpec::new("EXL", Kind::Number(Dim::None), "lower end of a range to exclude (user units)"),

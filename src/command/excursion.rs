@@ -4,6 +4,7 @@
 
 use super::chosen::{note_caveats, raise};
 use super::equilibrium::told;
+use super::menu;
 use super::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
 use crate::report::format::number_in_full;
@@ -75,8 +76,8 @@ const AT: OptionSpec = OptionSpec::new(
 .owner(Owner::Ours);
 
 static MOVE_SPEC: CommandSpec = CommandSpec {
-    opens: Opens::Menu("DISPOSITION"),
-    menus: &["CONN_DESIGN"],
+    opens: Opens::Menu(&menu::DISPOSITION),
+    menus: &[&menu::CONN_DESIGN],
     data: &[BODY, ANGLE.or("0, and more of them: one row a direction")],
     repeat: 1,
     options: &[ANGLES, FREE, REMOVE, DISTANCE, ROWS, AT],
@@ -100,8 +101,8 @@ static MOVE_SPEC: CommandSpec = CommandSpec {
 
 static WATCH_SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
-    opens: Opens::Menu("DISPOSITION"),
-    menus: &["CONN_DESIGN"],
+    opens: Opens::Menu(&menu::DISPOSITION),
+    menus: &[&menu::CONN_DESIGN],
     data: &[
         BODY,
         ValueSpec::new("FORCE", Kind::Number(Dim::Force), "horizontal force at the body's origin").positive(),

@@ -5,6 +5,7 @@
 use super::chosen::note_caveats;
 use super::environment;
 use super::equilibrium::told;
+use super::menu;
 use super::prcpost::{CONNECTORS, asked_behind_transient, connectors};
 use super::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
@@ -44,8 +45,8 @@ const DFF: OptionSpec = OptionSpec::new(
 
 static SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
-    opens: Opens::Menu("DISPOSITION"),
-    menus: &["PRCPOST"],
+    opens: Opens::Menu(&menu::DISPOSITION),
+    menus: &[&menu::PRCPOST],
     data: CONNECTORS,
     repeat: 1,
     options: &[EVENTS, DURATION, ADD, DFF],

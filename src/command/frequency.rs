@@ -5,6 +5,7 @@
 use super::chosen::{WARNING, raise};
 use super::environment;
 use super::equilibrium::told;
+use super::menu;
 use super::{Call, Command, Effect, Job, Menu, probability};
 use crate::report::page;
 use std::f64::consts::TAU;
@@ -61,8 +62,8 @@ macro_rules! heaving {
 pub(super) use heaving;
 
 static MENU_SPEC: CommandSpec = CommandSpec {
-    menus: &["MAIN"],
-    opens: Opens::Menu("FREQ_RESPONSE"),
+    menus: &[&menu::MAIN],
+    opens: Opens::Menu(&menu::FREQ_RESPONSE),
     detail: "RAO or SRESPONSE finds the motions of all bodies about their present places, which &EQUI should have found: the stiffness \
              is that of everything there. MOTION, FR_POINT and CONFORCE then show them, STATISTICS tells what they come to in a sea. \
              Waves act on the bodies that have a DATABASE; they do not on members, whose drag meets the body alone, and gusts have no part in it.",
@@ -86,7 +87,7 @@ const HEADING: OptionSpec = OptionSpec::new(
 .default("those of the first body's database");
 
 static RAO_SPEC: CommandSpec = CommandSpec {
-    menus: &["FREQ_RESPONSE"],
+    menus: &[&menu::FREQ_RESPONSE],
     options: &[PERIOD.default("those of the databases"), HEADING],
     detail: "Motions in waves of unit amplitude, at each heading and period. Damping is that of radiated waves, #DAMP, #DRAG and \
              connectors, as it is at rest: what grows with the velocity has none. A new sea may then be given with STATISTICS. Slow drift \
@@ -99,7 +100,7 @@ static RAO_SPEC: CommandSpec = CommandSpec {
 };
 
 static SRESPONSE_SPEC: CommandSpec = CommandSpec {
-    menus: &["FREQ_RESPONSE"],
+    menus: &[&menu::FREQ_RESPONSE],
     data: &[ValueSpec::new("ENV", Kind::Name(Noun::Environment), "environment").or("the environment in force")],
     options: &[PERIOD.default("those of -E_PERIOD, else as the sea and the natural periods need them")],
     detail: "Motions in the seas of an environment, as spectra. Damping that grows with the velocity is linearised in that sea: it is the mean \

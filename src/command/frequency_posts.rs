@@ -6,6 +6,7 @@ use super::chosen::{Chosen, raise};
 use super::environment::{self, A_SEA_OPTION, SEA_OPTION, SP_TYPE_OPTION, SPREAD_OPTION};
 use super::equilibrium::told;
 use super::frequency::{Found, found, heaving, seas};
+use super::menu;
 use super::{Call, Command, Effect, Job, Menu, probability};
 use crate::report::disposition::Disposition;
 use nalgebra::Vector3;
@@ -41,8 +42,8 @@ const POINT: ValueSpec = ValueSpec::new("*PT", Kind::Name(Noun::Point), "point o
 
 static MOTION_SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
-    menus: &["FREQ_RESPONSE"],
-    opens: Opens::Menu("DISPOSITION"),
+    menus: &[&menu::FREQ_RESPONSE],
+    opens: Opens::Menu(&menu::DISPOSITION),
     data: &[ValueSpec::new("BODY", Kind::Name(Noun::Body), "the body").or("the first one")],
     detail: "Motions of the origin of a body along and about the global axes. After RAO: amplitudes in waves of an amplitude of one \
              length unit, and their lag behind the crest at the global origin. After SRESPONSE: spectral densities.",
@@ -50,8 +51,8 @@ static MOTION_SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("MOTION", "motions of a body")
 };
 static POINT_SPEC: CommandSpec = CommandSpec {
-    menus: &["FREQ_RESPONSE"],
-    opens: Opens::Menu("DISPOSITION"),
+    menus: &[&menu::FREQ_RESPONSE],
+    opens: Opens::Menu(&menu::DISPOSITION),
     data: &[POINT, POINT.or("none: the motion of the first")],
     options: &[VELOCITY, ACCELERATION],
     detail: "Motions of a point of a body, or of one point less those of another; as MOTION.",
@@ -60,8 +61,8 @@ static POINT_SPEC: CommandSpec = CommandSpec {
 };
 static FORCE_SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
-    menus: &["FREQ_RESPONSE"],
-    opens: Opens::Menu("DISPOSITION"),
+    menus: &[&menu::FREQ_RESPONSE],
+    opens: Opens::Menu(&menu::DISPOSITION),
     data: &[ValueSpec::new(":CONN", Kind::Name(Noun::Selector), "connector, pattern or selector").or("all")],
     repeat: 1,
     detail: "How the sizes of the forces of connectors on their first ends vary, by their stiffness and damping there: for a line its tension. \
@@ -79,8 +80,8 @@ const DURATION_OPTION: OptionSpec = OptionSpec::new(
 
 static STATISTICS_SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
-    menus: &["FREQ_RESPONSE"],
-    opens: Opens::Menu("DISPOSITION"),
+    menus: &[&menu::FREQ_RESPONSE],
+    opens: Opens::Menu(&menu::DISPOSITION),
     data: &[
         ValueSpec::new("WHAT", Kind::Choice(KINDS), "of what"),
         ValueSpec::new("NAME", Kind::Name(Noun::Selector), "a body; one or two points; connectors")

@@ -82,7 +82,7 @@ impl World for Job {
         if leaves || same.iter().any(|c| c.spec.menus.is_empty()) {
             return Some(Vec::new());
         }
-        let menus: Vec<&str> = same.iter().flat_map(|c| c.spec.menus).copied().collect();
+        let menus: Vec<&str> = same.iter().flat_map(|c| c.spec.menus).map(|menu| menu.name).collect();
         (!menus.is_empty()).then_some(menus)
     }
 

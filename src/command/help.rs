@@ -1,5 +1,6 @@
 //! `&HELP`: everything a spec says, in words.
 
+use super::menu::named;
 use super::{COMMANDS, Call, Command, Effect, Job, offered, status};
 use windlass_base::diagnostic::Outcome;
 use windlass_base::units::UnitSystem;
@@ -48,7 +49,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             } else if let Some(text) = function {
                 text
             } else {
-                let menu = job.menu().name();
+                let menu = job.menu().spec();
                 let here = COMMANDS
                     .iter()
                     .find(|c| c.spec.name.eq_ignore_ascii_case(&word.text) && c.spec.menus.contains(&menu));
@@ -89,9 +90,9 @@ fn overview(job: &Job) -> String {
     let menu = job.menu();
     let mut lines = vec![format!("Menu {} ({} leaves it). Its commands:", menu.name(), menu.end())];
     let line = |name: &str, help: &str| format!("   {name:<14} {help}");
-    lines.extend(offered(menu.name()).filter(|c| !c.spec.menus.is_empty()).map(|c| line(c.spec.name, c.spec.help)));
+    lines.extend(offered(menu.spec()).filter(|c| !c.spec.menus.is_empty()).map(|c| line(c.spec.name, c.spec.help)));
     lines.push("Commands of every menu:".into());
-    lines.extend(offered(menu.name()).filter(|c| c.spec.menus.is_empty()).map(|c| line(c.spec.name, c.spec.help)));
+    lines.extend(offered(menu.spec()).filter(|c| c.spec.menus.is_empty()).map(|c| line(c.spec.name, c.spec.help)));
     lines.push("Variables, branches, loops, macros:".into());
     lines.extend(CONTROL.iter().map(|s| line(s.name, s.help)));
     lines.push(
@@ -107,7 +108,7 @@ fn overview(job: &Job) -> String {
 pub fn describe(spec: &CommandSpec, lead: &str, units: UnitSystem) -> String {
     let mut lines = vec![format!("{}: {}", spec.name, spec.help), String::new(), format!("   {lead}{}", spec.syntax())];
     if !spec.menus.is_empty() {
-        lines.push(format!("   in menu {}", spec.menus.join(" or ")));
+        lines.push(format!("   in menu {}", named(spec.menus, " or ")));
     }
     match spec.owner {
         Owner::Moses => {}

@@ -3,6 +3,7 @@
 //! Source: [MOSES-REF static, hstatic], for the menu and RARM; the forms of the records are ours.
 
 use super::chosen::raise;
+use super::menu;
 use super::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -28,8 +29,8 @@ pub static RARM: Command = Command { spec: &RARM_SPEC, edits: false, run: rarm }
 const MOST: f64 = 1000.0;
 
 static HSTATICS_SPEC: CommandSpec = CommandSpec {
-    menus: &["MAIN"],
-    opens: Opens::Menu("HSTATICS"),
+    menus: &[&menu::MAIN],
+    opens: Opens::Menu(&menu::HSTATICS),
     data: &[ValueSpec::new("BODY", Kind::Name(Noun::Body), "the body").or("the body described last")],
     detail: "Hydrostatics of one body by itself: its connectors are left out. The configuration stays as it is.",
     example: "&DESCRIBE BODY TBRG\n&SURFACE\nBLOCK HULL 0 -50 0 400 50 20\nEND\n&WEIGHT -TOTAL TBRG 23000 200 0 12 38 118 120\n\
@@ -37,8 +38,8 @@ static HSTATICS_SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("HSTATICS", "hydrostatics of a body, up to END")
 };
 static CFORM_SPEC: CommandSpec = CommandSpec {
-    menus: &["HSTATICS"],
-    opens: Opens::Menu("DISPOSITION"),
+    menus: &[&menu::HSTATICS],
+    opens: Opens::Menu(&menu::DISPOSITION),
     data: &[
         ValueSpec::new("DRAFT", Kind::Number(Dim::Length), "first draft of the body's origin"),
         ValueSpec::new("INC", Kind::Number(Dim::Length), "step").positive(),
@@ -51,8 +52,8 @@ static CFORM_SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("CFORM", "curves of form")
 };
 static RARM_SPEC: CommandSpec = CommandSpec {
-    menus: &["HSTATICS"],
-    opens: Opens::Menu("DISPOSITION"),
+    menus: &[&menu::HSTATICS],
+    opens: Opens::Menu(&menu::DISPOSITION),
     data: &[
         ValueSpec::new("INC", Kind::Number(Dim::Angle), "step of roll"),
         ValueSpec::new("NUM", Kind::Integer, "number of steps").within(1.0, MOST),

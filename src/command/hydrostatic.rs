@@ -2,6 +2,7 @@
 //!
 //! Source: [AQWA-REF deck 7] (LSTF, BFEQ, ZCGE). The record is ours.
 
+use super::menu;
 use super::{Call, Command, Effect, Job};
 use nalgebra::{Matrix6, RowVector6};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -59,7 +60,7 @@ const KRZ: OptionSpec = ours("-KRZ", MOMENT_ROW, "row of the yaw moment");
 
 static SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
-    menus: &["INMODEL", "MEDIT"],
+    menus: &[&menu::INMODEL, &menu::MEDIT],
     data: &[
         ValueSpec::new("*PT", Kind::Name(Noun::Point), "the point it is about: the centre of gravity"),
         number("K33", Dim::ForcePerLength, "stiffness of heave").or("0, or as -KZ"),

@@ -3,6 +3,7 @@
 use super::bathymetry::Soundings;
 use super::buildg::Building;
 use super::frequency::Found;
+use super::menu;
 use super::pgen::Planes;
 use super::verdict::Verdict;
 use crate::report::disposition::Disposition;
@@ -18,6 +19,7 @@ use windlass_base::diagnostic::{Diagnostic, Severity};
 use windlass_base::span::Span;
 use windlass_base::units::UnitSystem;
 use windlass_base::values::Args;
+use windlass_language::spec::MenuSpec;
 use windlass_model::Model;
 use windlass_solve::Options;
 use windlass_solve::results::Exposed;
@@ -68,57 +70,44 @@ pub enum Menu {
     Soundings(Box<Soundings>),
     /// Sections of a hull being given by `PGEN`.
     Planes(Box<Planes>),
-    /// The menu of this name whose opener was refused: its commands are passed over up to its `END`.
-    Refused(&'static str),
+    /// The menu whose opener was refused: its commands are passed over up to its `END`.
+    Refused(&'static MenuSpec),
 }
 
 impl Menu {
+    /// What it is called and what leaves it.
+    pub fn spec(&self) -> &'static MenuSpec {
+        match self {
+            Menu::Main => &menu::MAIN,
+            Menu::Inmodel => &menu::INMODEL,
+            Menu::Medit => &menu::MEDIT,
+            Menu::ConnDesign => &menu::CONN_DESIGN,
+            Menu::Post => &menu::PRCPOST,
+            Menu::Disposition(_) => &menu::DISPOSITION,
+            Menu::Report { .. } => &menu::REPORT,
+            Menu::Environments => &menu::ENVIRONMENT,
+            Menu::Curves => &menu::CURVES,
+            Menu::Selectors => &menu::SELECT,
+            Menu::Surface => &menu::SURFACE,
+            Menu::Block => &menu::BLOCK,
+            Menu::Mesh => &menu::MESH,
+            Menu::Building(_) => &menu::BUILDG,
+            Menu::Soundings(_) => &menu::BATHYMETRY,
+            Menu::Planes(_) => &menu::PGEN,
+            Menu::Hydrostatics(_) => &menu::HSTATICS,
+            Menu::Frequency(_) => &menu::FREQ_RESPONSE,
+            Menu::Refused(menu) => menu,
+        }
+    }
+
     /// Its name, as specs and prompts use it.
     pub fn name(&self) -> &'static str {
-        match self {
-            Menu::Main => "MAIN",
-            Menu::Inmodel => "INMODEL",
-            Menu::Medit => "MEDIT",
-            Menu::ConnDesign => "CONN_DESIGN",
-            Menu::Post => "PRCPOST",
-            Menu::Disposition(_) => "DISPOSITION",
-            Menu::Report { .. } => "REPORT",
-            Menu::Environments => "ENVIRONMENT",
-            Menu::Curves => "CURVES",
-            Menu::Selectors => "SELECT",
-            Menu::Surface => "SURFACE",
-            Menu::Block => "BLOCK",
-            Menu::Mesh => "MESH",
-            Menu::Building(_) => "BUILDG",
-            Menu::Soundings(_) => "BATHYMETRY",
-            Menu::Planes(_) => "PGEN",
-            Menu::Hydrostatics(_) => "HSTATICS",
-            Menu::Frequency(_) => "FREQ_RESPONSE",
-            Menu::Refused(name) => name,
-        }
+        self.spec().name
     }
 
     /// The long form of `END`.
     pub fn end(&self) -> &'static str {
-        match self.name() {
-            "INMODEL" => "END_INMODEL",
-            "MEDIT" => "END_MEDIT",
-            "CONN_DESIGN" => "END_CONN_DESIGN",
-            "PRCPOST" => "END_PRCPOST",
-            "DISPOSITION" => "END_DISPOSE",
-            "REPORT" => "END_REPORT",
-            "ENVIRONMENT" | "CURVES" => "END_&DATA",
-            "SELECT" => "END_&SELECT",
-            "SURFACE" => "END_&SURFACE",
-            "BLOCK" => "END_BLOCK",
-            "MESH" => "END_MESH",
-            "BATHYMETRY" => "END_&BATHYMETRY",
-            "BUILDG" => "END_&BUILDG",
-            "PGEN" => "END_PGEN",
-            "HSTATICS" => "END_HSTATICS",
-            "FREQ_RESPONSE" => "END_FREQ_RESPONSE",
-            _ => "END",
-        }
+        self.spec().end
     }
 }
 

@@ -1,5 +1,6 @@
 //! `JUNCTION`: a point in the sea where lines meet.
 
+use super::menu;
 use super::{Call, Command, Effect, Job};
 use windlass_base::diagnostic::with_article;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -34,7 +35,7 @@ const DISPLACEMENT: OptionSpec = OptionSpec::new(
 
 static SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
-    menus: &["INMODEL", "MEDIT"],
+    menus: &[&menu::INMODEL, &menu::MEDIT],
     data: &[
         ValueSpec::new("NAME", Kind::Name(Noun::New), "its name"),
         number("X", Dim::Length, "global X where it begins").or("0"),

@@ -2,6 +2,7 @@
 
 mod input;
 
+use super::menu;
 use super::{Call, Command, Effect, Job, file};
 use crate::report::csv::guarded;
 use crate::report::files::{Growing, Place};
@@ -21,7 +22,7 @@ pub static LINES: Command = Command { spec: &LINES_SPEC, edits: false, run: line
 
 static LINES_SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
-    menus: &["CONN_DESIGN"],
+    menus: &[&menu::CONN_DESIGN],
     data: &[
         ValueSpec::new("IN", Kind::File, "CSV file to read; looked for where it says, then beside the script"),
         ValueSpec::new("OUT", Kind::File, "CSV file to write; .csv is added when it has no ending"),

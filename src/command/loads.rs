@@ -3,6 +3,7 @@
 //! Source: [MOSES-HELP lgroup]; `#AREA *PT AX AY AZ` as in [MOSES-RUNS sea_keep/cargo]. The
 //! order of the values of the others is ours: no source gives it.
 
+use super::menu;
 use super::{Call, Command, Effect, Job};
 use nalgebra::{Matrix6, Vector3};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -14,7 +15,7 @@ use windlass_base::values::Noun;
 use windlass_base::values::{Args, Given, Value};
 use windlass_hydro::heading::ByHeading;
 use windlass_language::select::Owner;
-use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
+use windlass_language::spec::{CommandSpec, Kind, MenuSpec, OptionSpec, ValueSpec};
 use windlass_model::{Fluid, GROUND, LoadKind, Model, PartLoad, find};
 
 /// #AREA.
@@ -34,7 +35,7 @@ pub static DAMP: Command =
 /// #AMASS.
 pub static AMASS: Command = Command { spec: &AMASS_SPEC, edits: false, run: added_mass };
 
-const MENUS: &[&str] = &["INMODEL", "MEDIT"];
+const MENUS: &[&MenuSpec] = &[&menu::INMODEL, &menu::MEDIT];
 const POINT: ValueSpec = ValueSpec::new("*PT", Kind::Name(Noun::Point), "a point of the part");
 const FLUID: OptionSpec = OptionSpec::new(
     "-FLUID",

@@ -4,13 +4,14 @@ use super::assembly::build_assembly;
 use super::class::known_curves;
 use super::connector::build_connector;
 use super::device::existing;
+use super::menu;
 use super::{Call, Command, Effect, INMODEL_FILE, Job, Menu, bathymetry, buildg, pgen, piece};
 use std::path::PathBuf;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_language::record::Word;
 use windlass_language::select::Owner;
-use windlass_language::spec::{CommandSpec, Kind, Opens, OptionSpec, ValueSpec};
+use windlass_language::spec::{CommandSpec, Kind, MenuSpec, Opens, OptionSpec, ValueSpec};
 use windlass_language::token::Kind as Lex;
 
 /// INMODEL.
@@ -30,8 +31,8 @@ const AQWA: OptionSpec = OptionSpec::new(
 .owner(Owner::Ours);
 
 static INMODEL_SPEC: CommandSpec = CommandSpec {
-    opens: Opens::UnlessFile("INMODEL"),
-    menus: &["MAIN"],
+    opens: Opens::UnlessFile(&menu::INMODEL),
+    menus: &[&menu::MAIN],
     options: &[AQWA],
     detail: "Reads model descriptions from ROOT.DAT, or from the file of &DEVICE -AUXIN; without either the records follow \
              up to END. A CONNECTOR may name classes and points that are defined later. -AQWA reads decks 1 to 17 of a deck of \
@@ -42,23 +43,23 @@ static INMODEL_SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("INMODEL", "reads the model")
 };
 static MEDIT_SPEC: CommandSpec = CommandSpec {
-    opens: Opens::Menu("MEDIT"),
-    menus: &["MAIN"],
+    opens: Opens::Menu(&menu::MEDIT),
+    menus: &[&menu::MAIN],
     detail: "Names must be defined before they are used.",
     example: "MEDIT\n*P 0 0 0\nEND",
     ..CommandSpec::new("MEDIT", "edits the model, up to END")
 };
 static CONN_DESIGN_SPEC: CommandSpec = CommandSpec {
-    opens: Opens::Menu("CONN_DESIGN"),
-    menus: &["MAIN"],
+    opens: Opens::Menu(&menu::CONN_DESIGN),
+    menus: &[&menu::MAIN],
     detail: "TABLE tabulates a line, GEOMETRY shapes it, MOVE moves a body until a line breaks, WATCH draws its watch circle.",
     example: "CONN_DESIGN\nEND",
     ..CommandSpec::new("CONN_DESIGN", "connector design, up to END")
 };
 
 static PRCPOST_SPEC: CommandSpec = CommandSpec {
-    opens: Opens::Menu("PRCPOST"),
-    menus: &["MAIN"],
+    opens: Opens::Menu(&menu::PRCPOST),
+    menus: &[&menu::MAIN],
     detail: "Of the last run of TDOM: TRAJECTORY of bodies, POINTS of interest, CONFORCE, CF_MAGNITUDE, TOT_CFORCE and C_LENGTH of \
              connectors, BODY_FORCE by category, FATIGUE of lines, TETHER and STRUCTURE of TDOM -TETHERS. Each opens the disposition menu. A run whose model has been changed since is told \
              as it was; points are taken where they stand in their bodies now.",
@@ -67,7 +68,7 @@ static PRCPOST_SPEC: CommandSpec = CommandSpec {
 };
 
 /// The menu that a record of this command opens, so that an `END` of its own belongs to it.
-pub fn opened_by(job: &Job, spec: &CommandSpec, words: &[Word]) -> Option<&'static str> {
+pub fn opened_by(job: &Job, spec: &CommandSpec, words: &[Word]) -> Option<&'static MenuSpec> {
     match spec.opens {
         Opens::Nothing => None,
         Opens::Menu(name) => Some(name),

@@ -47,6 +47,7 @@ mod lines;
 mod loads;
 mod loads_table;
 mod member;
+pub mod menu;
 mod menus;
 mod message;
 mod model_tables;
@@ -103,7 +104,7 @@ use windlass_base::diagnostic::Outcome;
 use windlass_base::values::Args;
 use windlass_language::record::{Record, Word};
 use windlass_language::select::Owner;
-use windlass_language::spec::CommandSpec;
+use windlass_language::spec::{CommandSpec, MenuSpec};
 
 /// A record on its way to a handler.
 pub struct Call<'a> {
@@ -309,6 +310,6 @@ pub fn internal_names() -> impl Iterator<Item = (&'static str, Owner)> {
 }
 
 /// The commands a menu offers: its own and those of every menu.
-pub fn offered(menu: &str) -> impl Iterator<Item = &'static Command> + Clone + use<'_> {
+pub fn offered(menu: &'static MenuSpec) -> impl Iterator<Item = &'static Command> + Clone {
     COMMANDS.iter().copied().filter(move |c| c.spec.menus.is_empty() || c.spec.menus.contains(&menu))
 }

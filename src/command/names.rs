@@ -1,5 +1,6 @@
 //! `DELETE` and `RENAME`: of anything in the model that has a name.
 
+use super::menu;
 use super::{Call, Command, Effect, Job};
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
@@ -19,7 +20,7 @@ pub static RENAME: Command = Command { spec: &RENAME_SPEC, edits: false, run: re
 
 static DELETE_SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
-    menus: &["INMODEL", "MEDIT"],
+    menus: &[&menu::INMODEL, &menu::MEDIT],
     data: &[ValueSpec::new("NAME", Kind::Name(Noun::Selector), "what to delete; wild characters may be used")],
     repeat: 1,
     detail: "Names are those of connectors, classes, points, assemblies, parts, bodies, pieces, curves, bathymetries, T_PRESSURE data, environments and selectors; a name \
@@ -33,7 +34,7 @@ static DELETE_SPEC: CommandSpec = CommandSpec {
 
 static RENAME_SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
-    menus: &["INMODEL", "MEDIT"],
+    menus: &[&menu::INMODEL, &menu::MEDIT],
     data: &[
         ValueSpec::new("OLD", Kind::Name(Noun::Selector), "present name"),
         ValueSpec::new("NEW", Kind::Name(Noun::Selector), "new name, with the same marker"),

@@ -2,6 +2,7 @@
 //!
 //! No source gives the form of these records; the reading is ours and stands in their help.
 
+use super::menu;
 use super::piece::{self, OPTIONS};
 use super::{Call, Command, Effect, Job, Menu};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -23,8 +24,8 @@ const fn number(name: &'static str, help: &'static str) -> ValueSpec {
 }
 
 static PGEN_SPEC: CommandSpec = CommandSpec {
-    menus: &["INMODEL", "MEDIT"],
-    opens: Opens::Menu("PGEN"),
+    menus: &[&menu::INMODEL, &menu::MEDIT],
+    opens: Opens::Menu(&menu::PGEN),
     data: &[ValueSpec::new("NAME", Kind::Name(Noun::New), "name of the piece")
         .or("the piece described last, which has no panels yet")],
     options: &OPTIONS,
@@ -49,7 +50,7 @@ const CARTESIAN: OptionSpec = OptionSpec::new(
 .repeating(2);
 
 static PLANE_SPEC: CommandSpec = CommandSpec {
-    menus: &["PGEN"],
+    menus: &[&menu::PGEN],
     data: &[number("X", "where the section is; without an option its points follow: Y1 Z1 Y2 Z2 ..")],
     repeat: 1,
     options: &[RECTANGLE, CARTESIAN],

@@ -2,6 +2,7 @@
 //!
 //! Source: [MOSES-REF pieces].
 
+use super::menu;
 use super::written::option_as_written;
 use super::{Call, Command, Effect, Job, member};
 use nalgebra::Vector3;
@@ -111,7 +112,7 @@ pub const READING: &str = "A piece belongs to the part described last and is giv
      that feel none. &STATUS PIECES lists CS, &STATUS LOADS the forces.";
 
 static PANEL_SPEC: CommandSpec = CommandSpec {
-    menus: &["INMODEL", "MEDIT", "BLOCK", "MESH"],
+    menus: &[&menu::INMODEL, &menu::MEDIT, &menu::BLOCK, &menu::MESH],
     form: Form::Text,
     data: &[ValueSpec::new("*P", Kind::Name(Noun::Point), "a corner: a point, or X Y Z")],
     repeat: 1,

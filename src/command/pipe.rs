@@ -2,6 +2,7 @@
 //!
 //! Source: [MOSES-REF conn_pipe].
 
+use super::menu;
 use super::{Call, Command, Effect, Job, Menu};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::units::Dim;
@@ -30,7 +31,7 @@ const PIPE_TENSION: OptionSpec = OptionSpec::new(
 );
 
 static SPEC: CommandSpec = CommandSpec {
-    menus: &["INMODEL", "MEDIT"],
+    menus: &[&menu::INMODEL, &menu::MEDIT],
     data: &[
         ValueSpec::new("~CLASS", Kind::Name(Noun::Class), "ROD class of the pipe"),
         ValueSpec::new(

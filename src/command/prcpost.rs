@@ -5,6 +5,7 @@
 
 use super::chosen::{Chosen, note_caveats};
 use super::equilibrium::told;
+use super::menu;
 use super::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -77,8 +78,8 @@ const EXAMPLE: &str = "MEDIT\n&DESCRIBE BODY BUOY -IGNORE Z RX RY RZ\n*P 0 0 0\n
 
 const fn spec(name: &'static str, data: &'static [ValueSpec], help: &'static str) -> CommandSpec {
     CommandSpec {
-        opens: Opens::Menu("DISPOSITION"),
-        menus: &["PRCPOST"],
+        opens: Opens::Menu(&menu::DISPOSITION),
+        menus: const { &[&menu::PRCPOST] },
         data,
         repeat: 1,
         example: EXAMPLE,

@@ -2,6 +2,7 @@
 
 mod input;
 
+use super::menu;
 use super::{Call, Command, Effect, Job};
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -48,7 +49,7 @@ const FREE: OptionSpec = OptionSpec::new("-FREE", &[], "forces move it again");
 
 static SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
-    menus: &["INMODEL", "MEDIT"],
+    menus: &[&menu::INMODEL, &menu::MEDIT],
     data: &[ValueSpec::new("BODY", Kind::Name(Noun::Body), "the body")],
     options: &[SINUSOID, RAMP, RAO, SYMMETRIC, FILE_OPTION, FREE],
     detail: "The body moves in TDOM as it is told, whatever pulls at it; its connectors and everything on them feel that. In equilibria it \

@@ -1,5 +1,6 @@
 //! `&REPORT`: a small menu that writes a report line by line.
 
+use super::menu;
 use super::message::underlined;
 use super::{Call, Command, Effect, Job, Menu};
 use crate::report::page::centre;
@@ -19,7 +20,7 @@ const HARD: OptionSpec = OptionSpec::new("-HARD", &[], "to the report file");
 const BOTH: OptionSpec = OptionSpec::new("-BOTH", &[], "to the screen and the report file");
 
 static REPORT_SPEC: CommandSpec = CommandSpec {
-    opens: Opens::Menu("REPORT"),
+    opens: Opens::Menu(&menu::REPORT),
     data: &[
         ValueSpec::new("H1", Kind::Text, "first heading").or("none"),
         ValueSpec::new("H2", Kind::Text, "second heading").or("none"),
@@ -33,7 +34,7 @@ static REPORT_SPEC: CommandSpec = CommandSpec {
 const fn writer(name: &'static str, help: &'static str) -> CommandSpec {
     CommandSpec {
         form: Form::Text,
-        menus: &["REPORT"],
+        menus: const { &[&menu::REPORT] },
         example: "&REPORT\nTYPE text\nCTYPE text\nCUTYPE text\nEND",
         ..CommandSpec::new(name, help)
     }

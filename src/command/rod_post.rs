@@ -3,6 +3,7 @@
 use super::chosen::raise;
 use super::disposition::{BOTH, HARD, send};
 use super::equilibrium::told;
+use super::menu;
 use super::prcpost::{asked, asked_behind_transient, last_run, transient_of};
 use super::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
@@ -112,8 +113,8 @@ const DISPOSE: OptionSpec = ours(
 
 static SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
-    menus: &["PRCPOST"],
-    opens: Opens::WithOption("DISPOSITION", &DISPOSE),
+    menus: &[&menu::PRCPOST],
+    opens: Opens::WithOption(&menu::DISPOSITION, &DISPOSE),
     data: &[
         ValueSpec::new("NAME", Kind::Name(Noun::Line), "a line of the run; &PIPE that of a pipe assembly"),
         ValueSpec::new("WHAT", Kind::Choice(WHAT), "what to tell of").or("ENVELOPE"),

@@ -2,6 +2,7 @@
 //!
 //! Source: [MOSES-REF ams_cmd_menu, men_select].
 
+use super::menu;
 use super::{Call, Command, Effect, Job, Menu};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
@@ -23,7 +24,7 @@ const EXCEPT: OptionSpec = OptionSpec::new("-EXCEPT", NAMES, "names taken out ag
 const OPTIONS: &[OptionSpec] = &[SELECT_OPTION, EXCEPT];
 
 static SPEC: CommandSpec = CommandSpec {
-    opens: Opens::AtMost("SELECT", 0),
+    opens: Opens::AtMost(&menu::SELECT, 0),
     data: &[ValueSpec::new(":NAME", Kind::Name(Noun::Selector), "the selector").or("a menu of selectors")],
     options: OPTIONS,
     detail: "@ stands for any run of characters, / for exactly one. A selector given again is replaced. &SELECT alone opens a \
@@ -33,7 +34,7 @@ static SPEC: CommandSpec = CommandSpec {
 };
 
 static SELECTOR_SPEC: CommandSpec = CommandSpec {
-    menus: &["SELECT"],
+    menus: &[&menu::SELECT],
     options: OPTIONS,
     detail: "The record is :NAME -SELECT NAME .. -EXCEPT NAME ..; what &SELECT does in one record.",
     example: "&SELECT\n:BOW -SELECT *ML@ -EXCEPT *MLD\n:STERN -SELECT *MLD\nEND\n&STATUS SELECTORS",

@@ -5,6 +5,7 @@
 use super::disposition::{
     ANY_COLUMN, COLUMN, MAG_USE, MENU, RECORD, VALUES, chosen_for_statistics, here, refused, selectors,
 };
+use super::menu;
 use super::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
 use crate::report::{page, statistic};
@@ -27,7 +28,7 @@ const EXAMPLE: &str = "&BUILDG -CSV\nTime (s),Tension (kips),Z (ft)\n0,100,0\n1,
 const fn spec(name: &'static str, help: &'static str) -> CommandSpec {
     CommandSpec {
         menus: MENU,
-        opens: Opens::Menu("DISPOSITION"),
+        opens: Opens::Menu(&menu::DISPOSITION),
         data: &[COLUMN, COLUMN, ANY_COLUMN],
         repeat: 1,
         example: EXAMPLE,

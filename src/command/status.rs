@@ -7,6 +7,7 @@ use super::disposition::{BOTH, HARD, send};
 use super::environment_table::environments;
 use super::forces::{forces, foundations};
 use super::loads_table::loads;
+use super::menu;
 use super::offsets::offsets;
 use super::prcpost::last_run;
 use super::verdict::Verdict;
@@ -115,7 +116,7 @@ static SPEC: CommandSpec = CommandSpec {
         .or("all"),
     ],
     repeat: 1,
-    opens: Opens::WithOption("DISPOSITION", &DISPOSE),
+    opens: Opens::WithOption(&menu::DISPOSITION, &DISPOSE),
     options: &[PLOT, body_status::ABOUT, NUMBER, SHAPE, AQWA, DISPOSE, HARD, BOTH],
     detail: "Alone it counts what the model holds. ENVIRONMENT alone is the one in force, with a NAME the one kept \
              under it. LINE_TYPES lists the chains and ropes that -TYPE of a line \

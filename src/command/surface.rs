@@ -6,6 +6,7 @@ use super::body_tables::pieces;
 use super::describe::PLACE;
 use super::device::existing;
 use super::member;
+use super::menu;
 use super::piece::{self, OPTIONS, READING};
 use super::{Call, Command, Effect, Job, Menu};
 use crate::report::page;
@@ -40,7 +41,7 @@ const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
 const NEW: ValueSpec = ValueSpec::new("NAME", Kind::Name(Noun::New), "name of the piece");
 
 static SURFACE_SPEC: CommandSpec = CommandSpec {
-    opens: Opens::Menu("SURFACE"),
+    opens: Opens::Menu(&menu::SURFACE),
     detail: READING,
     example: "&DESCRIBE BODY TBRG\n&SURFACE\nBLOCK HULL 0 -50 0 400 50 20 -PERM 1\nBLOCK POOL 180 -10 0 220 10 20 -PERM -1\n\
               LIST_BLOCK\nEND_&SURFACE\n&STATUS PIECES",
@@ -48,8 +49,8 @@ static SURFACE_SPEC: CommandSpec = CommandSpec {
 };
 
 static BLOCK_SPEC: CommandSpec = CommandSpec {
-    menus: &["SURFACE"],
-    opens: Opens::Short("BLOCK", 1),
+    menus: &[&menu::SURFACE],
+    opens: Opens::Short(&menu::BLOCK, 1),
     data: &[
         NEW,
         number("X1", Dim::Length, "a corner of a box").or("PANEL records follow, up to END_BLOCK"),
@@ -88,8 +89,8 @@ const OF_FILE: &[OptionSpec] = &[FORMAT, SCALE, MOVE];
 static MESH_OPTIONS: [OptionSpec; OPTIONS.len() + OF_FILE.len()] = joined(&OPTIONS, OF_FILE);
 
 static MESH_SPEC: CommandSpec = CommandSpec {
-    menus: &["SURFACE"],
-    opens: Opens::Short("MESH", 1),
+    menus: &[&menu::SURFACE],
+    opens: Opens::Short(&menu::MESH, 1),
     data: &[
         NEW,
         ValueSpec::new("FILE", Kind::File, "mesh file; looked for where it says, then beside the script")
@@ -110,7 +111,7 @@ static TUBE_OPTIONS: [OptionSpec; OPTIONS.len() + member::OPTIONS.len()] = joine
 
 static TUBE_SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
-    menus: &["SURFACE"],
+    menus: &[&menu::SURFACE],
     data: &[
         NEW,
         ValueSpec::new("*P1", Kind::Name(Noun::Point), "centre of one end"),
@@ -125,7 +126,7 @@ static TUBE_SPEC: CommandSpec = CommandSpec {
 };
 
 static MOVE_SPEC: CommandSpec = CommandSpec {
-    menus: &["SURFACE"],
+    menus: &[&menu::SURFACE],
     data: &[
         ValueSpec::new("NAME", Kind::Text, "the piece"),
         PLACE[0],
@@ -141,7 +142,7 @@ static MOVE_SPEC: CommandSpec = CommandSpec {
 };
 
 static LIST_SPEC: CommandSpec = CommandSpec {
-    menus: &["SURFACE"],
+    menus: &[&menu::SURFACE],
     detail: "What &STATUS PIECES reports.",
     example: "&DESCRIBE BODY TBRG\n&SURFACE\nBLOCK HULL 0 -50 0 400 50 20\nLIST_BLOCK\nEND",
     ..CommandSpec::new("LIST_BLOCK", "lists the pieces")

@@ -2,6 +2,7 @@
 //!
 //! [MOSES-FLEX ROD] names the command and says what it gives; no source gives its form, which is ours and stands in its help.
 
+use super::menu;
 use super::{Call, Command, Effect, Job};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::table::{Digits, Table};
@@ -48,7 +49,7 @@ const AT: OptionSpec = OptionSpec::new(
 .default("0: at the mean water level");
 
 static SPEC: CommandSpec = CommandSpec {
-    menus: &["INMODEL", "MEDIT"],
+    menus: &[&menu::INMODEL, &menu::MEDIT],
     data: &[
         ValueSpec::new("NAME", Kind::Name(Noun::New), "name of the data, for -T_PRESSURE of &ENV"),
         number("TEMP", Dim::TemperatureRise, "temperature of the pipe"),

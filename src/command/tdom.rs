@@ -3,6 +3,7 @@
 //! Source: [MOSES-REF timdom].
 
 use super::equilibrium::{told, warn_of_breaks, warn_of_lines};
+use super::menu;
 use super::restart::go_on;
 use super::verdict::over_break_in;
 use super::{Call, Command, Effect, Job, tether_run};
@@ -139,7 +140,7 @@ pub(super) const SCREEN: OptionSpec = OptionSpec::new(
 .default("YES");
 
 static SPEC: CommandSpec = CommandSpec {
-    menus: &["MAIN"],
+    menus: &[&menu::MAIN],
     options: &[
         NO_CAPSIZE,
         EQUI,

@@ -3,6 +3,7 @@
 //! Source: [AQWA-TETHER 2.1 to 2.3 and 7.3 to 7.10].
 
 use super::disposition::{BOTH, HARD, send};
+use super::menu;
 use super::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
 use crate::report::page;
@@ -76,8 +77,8 @@ const HOURS: OptionSpec = ours(
 
 static TETHER_SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
-    menus: &["PRCPOST"],
-    opens: Opens::WithOption("DISPOSITION", &DISPOSE),
+    menus: &[&menu::PRCPOST],
+    opens: Opens::WithOption(&menu::DISPOSITION, &DISPOSE),
     data: &[
         ValueSpec::new("NAME", Kind::Name(Noun::Connector), "a tether of the run"),
         ValueSpec::new("WHAT", Kind::Choice(WHAT), "what to tell of"),
@@ -104,8 +105,8 @@ const EXAMPLE: &str = "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n*E -100 0 -0.5\n&DESCR
 
 static STRUCTURE_SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
-    menus: &["PRCPOST"],
-    opens: Opens::WithOption("DISPOSITION", &DISPOSE),
+    menus: &[&menu::PRCPOST],
+    opens: Opens::WithOption(&menu::DISPOSITION, &DISPOSE),
     data: &[
         ValueSpec::new("WHAT", Kind::Choice(OF_STRUCTURE), "what to tell of").or("PAGES"),
         ValueSpec::new("*P", Kind::Name(Noun::Point), "points of the structure whose places are told").or("none"),

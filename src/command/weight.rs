@@ -2,6 +2,7 @@
 //!
 //! Source: [MOSES-HELP lgroup, modeling].
 
+use super::menu;
 use super::{Call, Command, Effect, Job};
 use nalgebra::{Matrix3, Vector3};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -29,7 +30,7 @@ const RADII: [ValueSpec; 3] = [
 ];
 
 static ITEM_SPEC: CommandSpec = CommandSpec {
-    menus: &["INMODEL", "MEDIT"],
+    menus: &[&menu::INMODEL, &menu::MEDIT],
     data: &[
         ValueSpec::new("*PT", Kind::Name(Noun::Point), "where it is"),
         number("W", Dim::Force, "the weight"),

@@ -1,6 +1,7 @@
 //! What the editor offers while a record is being typed: completion, hints, colours, and whether it goes on. All of it
 //! from the lexer and the specs.
 
+use crate::command::menu;
 use crate::command::{COMMANDS, offered, status_kinds};
 use crate::session::Session;
 use rustyline::completion::{Completer, FilenameCompleter, Pair};
@@ -17,15 +18,14 @@ use windlass_connectors::line_types::library;
 use windlass_language::flow::specs::CONTROL;
 use windlass_language::functions;
 use windlass_language::select::{Choice, keyword};
-use windlass_language::spec::{CommandSpec, Kind as ValueKind, ValueSpec};
+use windlass_language::spec::{CommandSpec, Kind as ValueKind, MenuSpec, ValueSpec};
 use windlass_language::token::{self, Kind, Token};
 use windlass_model::PIPE;
 
 /// Names to complete, taken from the session before each line.
 #[derive(Default)]
 pub struct Known {
-    menu: &'static str,
-    end: &'static str,
+    menu: Option<&'static MenuSpec>,
     bodies: Vec<String>,
     parts: Vec<String>,
     points: Vec<String>,
@@ -43,13 +43,17 @@ pub struct Known {
 }
 
 impl Known {
+    /// The menu the record is typed in.
+    fn menu(&self) -> &'static MenuSpec {
+        self.menu.unwrap_or(&menu::MAIN)
+    }
+
     /// Takes the names of the session as it is now.
     pub fn update(&mut self, session: &Session) {
         let model = &session.job.model;
         let menu = session.job.menu();
         *self = Known {
-            menu: menu.name(),
-            end: menu.end(),
+            menu: Some(menu.spec()),
             bodies: model.bodies.values().map(|b| b.name.clone()).collect(),
             parts: model.parts.values().map(|p| p.name.clone()).collect(),
             points: model.points.values().map(|p| p.name.clone()).collect(),
@@ -131,7 +135,7 @@ impl Assistant {
 }
 
 /// The spec of the record being typed: a command of the menu, or the class type after a class name.
-fn spec_of(menu: &str, text: &str, words: &[Token]) -> Option<(&'static CommandSpec, usize)> {
+fn spec_of(menu: &'static MenuSpec, text: &str, words: &[Token]) -> Option<(&'static CommandSpec, usize)> {
     let word = |i: usize| words.get(i).and_then(|t| text.get(t.range.clone()));
     let first = words.first()?;
     match first.kind {
@@ -222,18 +226,18 @@ impl Completer for Assistant {
             candidates.extend(known.variables.iter().filter(|v| begins(v, name)).map(|v| format!("%{v}")));
             return Ok((start, sorted(candidates)));
         }
-        let spec = spec_of(known.menu, head, &words);
+        let spec = spec_of(known.menu(), head, &words);
         if words.is_empty() {
             candidates.extend(
-                offered(known.menu)
+                offered(known.menu())
                     .map(|c| c.spec.name)
                     .filter(|n| !n.starts_with(['~', '*', ':']))
                     .map(str::to_string),
             );
             candidates.extend(CONTROL.iter().map(|s| s.name.to_string()));
             candidates.extend(known.macros.iter().chain(&known.classes).cloned());
-            if known.menu != "MAIN" {
-                candidates.push(known.end.to_string());
+            if known.menu() != &menu::MAIN {
+                candidates.push(known.menu().end.to_string());
             }
         } else if spec.is_some_and(|(spec, _)| spec.name == "&HELP") {
             if words.len() == 1 {
@@ -319,7 +323,7 @@ impl Hinter for Assistant {
         }
         let known = self.known.lock().ok()?;
         let words = token::words(line);
-        let (spec, from) = spec_of(known.menu, line, &words)?;
+        let (spec, from) = spec_of(known.menu(), line, &words)?;
         let value = expected_value(spec, line, &words, from).map(|(value, _)| value);
         let last = words.last().filter(|t| t.kind == Kind::Option).and_then(|t| line.get(t.range.clone()));
         let option = last.and_then(|name| match keyword(name, spec.option_names()) {

@@ -330,7 +330,7 @@ impl Session {
     fn resolve(&self, first: &Word) -> Outcome<Meaning> {
         let menu = self.job.menu();
         let internal = first.kind == Kind::Internal;
-        let names = offered(menu.name())
+        let names = offered(menu.spec())
             .filter(move |c| c.spec.name.starts_with('&') == internal && !c.spec.name.starts_with(['~', '*', ':']))
             .map(|c| (c.spec.name, c.spec.owner, c));
         let controls = CONTROL.iter().filter(move |_| internal).map(|s| (s.name, s.owner));

@@ -1,5 +1,6 @@
 //! What a word names in a menu, and what is said where it names nothing.
 
+use crate::command::menu::named;
 use crate::command::{COMMANDS, Command, Menu, offered};
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
@@ -10,7 +11,7 @@ use windlass_language::token::Kind;
 
 /// A description record's command, when the menu takes descriptions.
 pub(super) fn in_menu(name: &str, menu: &Menu, first: &Word) -> Outcome<&'static Command> {
-    offered(menu.name()).find(|c| c.spec.name == name).ok_or_else(|| {
+    offered(menu.spec()).find(|c| c.spec.name == name).ok_or_else(|| {
         let (what, help) = match first.kind {
             Kind::Selector => ("a selector", "&SELECT opens the menu of selectors; &SELECT :NAME .. defines one"),
             _ => ("a description record", "descriptions belong to INMODEL or MEDIT: enter MEDIT first"),
@@ -40,7 +41,7 @@ pub(super) fn unknown<'a>(
         .collect();
     match elsewhere {
         Some(command) => {
-            error.help.push(format!("{} belongs to menu {}", command.spec.name, command.spec.menus.join(" and ")));
+            error.help.push(format!("{} belongs to menu {}", command.spec.name, named(command.spec.menus, " and ")));
         }
         None => error.help.extend(did_you_mean(&first.text, candidates.iter().map(String::as_str))),
     }

@@ -2,7 +2,7 @@
 //! script for every command.
 
 use std::fs;
-use windlass::command::{COMMANDS, offered, opened_by};
+use windlass::command::{COMMANDS, menu, offered, opened_by};
 use windlass::report::files::JobFolder;
 use windlass::report::output::Output;
 use windlass::session::Session;
@@ -11,28 +11,7 @@ use windlass_connectors::CLASSES;
 use windlass_language::flow::specs::CONTROL;
 use windlass_language::record;
 use windlass_language::select::{Choice, Owner, keyword};
-use windlass_language::spec::{CommandSpec, Opens};
-
-const MENUS: [&str; 18] = [
-    "MAIN",
-    "INMODEL",
-    "MEDIT",
-    "CONN_DESIGN",
-    "PRCPOST",
-    "DISPOSITION",
-    "REPORT",
-    "ENVIRONMENT",
-    "CURVES",
-    "SELECT",
-    "SURFACE",
-    "BLOCK",
-    "MESH",
-    "PGEN",
-    "BUILDG",
-    "BATHYMETRY",
-    "HSTATICS",
-    "FREQ_RESPONSE",
-];
+use windlass_language::spec::{CommandSpec, MenuSpec, Opens};
 
 fn specs() -> Vec<&'static CommandSpec> {
     COMMANDS.iter().map(|c| c.spec).chain(CLASSES.iter().map(|k| k.spec)).chain(CONTROL).collect()
@@ -40,12 +19,12 @@ fn specs() -> Vec<&'static CommandSpec> {
 
 #[test]
 fn names_are_unique_in_every_menu() {
-    for menu in MENUS {
+    for menu in menu::ALL {
         let mut names: Vec<&str> = offered(menu).map(|c| c.spec.name).chain(CONTROL.iter().map(|s| s.name)).collect();
         let count = names.len();
         names.sort_unstable();
         names.dedup();
-        assert_eq!(names.len(), count, "a name stands twice in menu {menu}");
+        assert_eq!(names.len(), count, "a name stands twice in menu {}", menu.name);
     }
 }
 
@@ -78,7 +57,7 @@ fn an_abbreviation_unique_among_moses_names_stays_valid_whatever_is_added() {
             }
         }
     }
-    for menu in MENUS {
+    for menu in menu::ALL {
         let all = || {
             let commands = offered(menu).map(|c| (c.spec.name, c.spec.owner, c.spec.name));
             commands.chain(CONTROL.iter().map(|s| (s.name, s.owner, s.name)))
@@ -107,12 +86,12 @@ fn the_abbreviations_seen_in_published_samples_are_accepted() {
         let found = keyword(short, b_cat.option_names());
         assert!(matches!(found, Choice::One(o) if o.name == long), "{short}: {found:?}");
     }
-    let command = |word: &str, menu: &str| {
+    let command = |word: &str, menu: &'static MenuSpec| {
         let names = offered(menu).map(|c| (c.spec.name, c.spec.owner, c.spec.name));
         keyword(word, names.chain(CONTROL.iter().map(|s| (s.name, s.owner, s.name))).collect::<Vec<_>>().into_iter())
     };
-    assert_eq!(command("&INSTAT", "MAIN"), Choice::One("&INSTATE"));
-    assert_eq!(command("&SELEC", "MAIN"), Choice::One("&SELECT"));
+    assert_eq!(command("&INSTAT", &menu::MAIN), Choice::One("&INSTATE"));
+    assert_eq!(command("&SELEC", &menu::MAIN), Choice::One("&SELECT"));
     let connector = COMMANDS.iter().find(|c| c.spec.name == "CONNECTOR").unwrap().spec;
     assert!(matches!(keyword("-ANC", connector.option_names()), Choice::One(o) if o.name == "-ANCHOR"));
 }
@@ -165,13 +144,13 @@ fn a_command_opens_a_menu_in_its_example_exactly_when_its_spec_says_so() {
             let (read, _, _) = record::read(line, SourceId::default(), 0);
             let words = read.words();
             let first = words.first().map(|w| w.text.to_ascii_uppercase()).unwrap_or_default();
-            let command = offered(session.job.menu().name()).find(|c| c.spec.name == first);
+            let command = offered(session.job.menu().spec()).find(|c| c.spec.name == first);
             let said = command.and_then(|c| opened_by(&session.job, c.spec, &words));
             let depth = session.job.menus.len();
             session.interpreter.feed("example", line, 1);
             session.run();
             let found = (session.job.menus.len() > depth).then(|| session.job.menu().end());
-            let end = said.map(|name| windlass::command::Menu::Refused(name).end());
+            let end = said.map(|menu| menu.end);
             assert_eq!(end, found, "`{line}` in the example of {}", spec.name);
             opened.extend(command.filter(|_| found.is_some()).map(|c| c.spec.name));
         }

@@ -31,26 +31,35 @@ pub const fn joined<const N: usize>(first: &[OptionSpec], second: &[OptionSpec])
     all
 }
 
+/// A menu: what commands belong to, until a word leaves it. Two menus are the same when their names are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MenuSpec {
+    /// Its name, as prompts, help and messages use it.
+    pub name: &'static str,
+    /// The long form of `END`.
+    pub end: &'static str,
+}
+
 /// Whether a record of a command opens a menu, which an `END` of its own leaves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Opens {
     /// It opens none.
     Nothing,
-    /// The menu of this name.
-    Menu(&'static str),
-    /// The menu of this name when at most this many words follow the command; with more it is complete in itself.
-    AtMost(&'static str, usize),
-    /// The menu of the first name when at most this many words follow the command; with more that of the second.
-    AtMostElse(&'static str, usize, &'static str),
-    /// The menu of this name when it has this option, in full or not.
-    WithOption(&'static str, &'static OptionSpec),
-    /// The menu of this name when at most this many words stand between the command and its first option; with more it is
+    /// This menu.
+    Menu(&'static MenuSpec),
+    /// This menu when at most this many words follow the command; with more it is complete in itself.
+    AtMost(&'static MenuSpec, usize),
+    /// The first menu when at most this many words follow the command; with more the second.
+    AtMostElse(&'static MenuSpec, usize, &'static MenuSpec),
+    /// This menu when it has this option, in full or not.
+    WithOption(&'static MenuSpec, &'static OptionSpec),
+    /// This menu when at most this many words stand between the command and its first option; with more it is
     /// complete in itself.
-    Short(&'static str, usize),
-    /// The menu of the first name, unless it has this option, in full or not.
-    WithoutOption(&'static str, &'static OptionSpec),
-    /// The menu of this name, unless a file of the job's gives the menu's records.
-    UnlessFile(&'static str),
+    Short(&'static MenuSpec, usize),
+    /// The first menu, unless it has this option, in full or not.
+    WithoutOption(&'static MenuSpec, &'static OptionSpec),
+    /// This menu, unless a file of the job's gives the menu's records.
+    UnlessFile(&'static MenuSpec),
 }
 
 /// A command or a class record.
@@ -61,7 +70,7 @@ pub struct CommandSpec {
     /// Whose name it is.
     pub owner: Owner,
     /// Menus it belongs to; empty means every menu.
-    pub menus: &'static [&'static str],
+    pub menus: &'static [&'static MenuSpec],
     /// The menu it opens.
     pub opens: Opens,
     /// Words or raw text.
