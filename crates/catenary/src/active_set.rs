@@ -54,7 +54,7 @@ impl ActiveSet {
         let mut list = Vec::with_capacity(count);
         let (mut from, mut begins_with_leg) = (0, false);
         for i in 0..count {
-            if self.rests.get(i).copied().unwrap_or(false) {
+            if self.rests[i] {
                 list.push(Section { from, begins_with_leg, to: i, ends_with_leg: true });
                 (from, begins_with_leg) = (i, true);
             }

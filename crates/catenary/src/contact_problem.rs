@@ -33,7 +33,13 @@ impl<'a> ContactProblem<'a> {
         bottom: f64,
         near: Option<&LineSolution>,
     ) -> ContactProblem<'a> {
-        let near = near.filter(|n| n.held.len() == chain.elements.len());
+        // of the same elements and joints: from here on the lists of a policy are as long as those of the chain
+        let near = near.filter(|n| {
+            let policy = &n.policy;
+            n.held.len() == chain.elements.len()
+                && policy.rests.len() == chain.elements.len()
+                && policy.stands.len() == chain.pulls.len()
+        });
         ContactProblem {
             chain,
             top,
@@ -64,25 +70,18 @@ impl<'a> ContactProblem<'a> {
     /// The height of a joint that stands fast.
     fn height(&self, joint: usize) -> f64 {
         match self.policy.stands.get(joint) {
-            Some(JointStatus::Step(k)) => self.step(joint, *k).unwrap_or(0.0),
+            Some(JointStatus::Step(k)) => self.chain.pulls[joint].steps[*k].0,
             _ => 0.0,
         }
-    }
-
-    /// The height of a step of a joint's lift.
-    fn step(&self, joint: usize, step: usize) -> Option<f64> {
-        self.chain.pulls.get(joint)?.steps.get(step).map(|(z, _)| *z)
     }
 
     /// The chain under the present policy.
     fn solve(&self) -> Result<LineSolution, LineError> {
         let count = self.chain.elements.len();
         let mut rested = LineSolution { policy: self.policy.clone(), ..LineSolution::default() };
-        let start = |i: usize| {
-            let rests = self.policy.rests.get(i).copied().unwrap_or(false);
-            Held { h: if rests { self.h_touching } else { self.h }, rests, ..Held::default() }
-        };
-        rested.held = (0..count).map(start).collect();
+        let start =
+            |rests: &bool| Held { h: if *rests { self.h_touching } else { self.h }, rests: *rests, ..Held::default() };
+        rested.held = self.policy.rests.iter().map(start).collect();
         for section in self.policy.sections(count) {
             let from =
                 section.start_joint().map_or(if section.begins_with_leg { 0.0 } else { self.top }, |j| self.height(j));
@@ -115,13 +114,13 @@ impl<'a> ContactProblem<'a> {
             };
             rested.z.push(z);
         }
-        for (j, pull) in self.chain.pulls.iter().enumerate() {
-            let force = |h: Option<&Held>, f: fn(&Held) -> f64| h.map_or(0.0, f);
-            let line = force(rested.held.get(j), |h| h.v_lo) - force(rested.held.get(j + 1), |h| h.v_hi);
-            let (lift, reaction) = match self.policy.stands.get(j) {
-                Some(JointStatus::Free(k)) => (pull.passed(*k), 0.0),
-                Some(JointStatus::Step(_)) => (-line, 0.0),
-                _ => (pull.lift, -line - pull.lift),
+        let joints = self.chain.pulls.iter().zip(&self.policy.stands);
+        for ((pull, stand), (above, below)) in joints.zip(rested.held.iter().zip(rested.held.iter().skip(1))) {
+            let line = above.v_lo - below.v_hi;
+            let (lift, reaction) = match stand {
+                JointStatus::Free(k) => (pull.passed(*k), 0.0),
+                JointStatus::Step(_) => (-line, 0.0),
+                JointStatus::Bottom => (pull.lift, -line - pull.lift),
             };
             rested.lifts.push(lift);
             rested.reactions.push(reaction);
@@ -246,25 +245,26 @@ impl<'a> ContactProblem<'a> {
         // by how much a piece or joint is off, and what it becomes
         let mut pieces: Vec<(f64, usize)> = Vec::new();
         let mut joints: Vec<(f64, usize, JointStatus)> = Vec::new();
-        let end = |i: usize| rested.z.get(i).copied().unwrap_or(0.0);
-        for (i, (element, held)) in self.chain.elements.iter().zip(&rested.held).enumerate() {
+        // heights of the upper and the lower end of each piece
+        let ends = rested.z.iter().zip(rested.z.iter().skip(1));
+        let held = self.chain.elements.iter().zip(&rested.held).zip(ends.clone());
+        for (i, ((element, held), (high, low))) in held.enumerate() {
             if held.rests {
                 let broken = held.ground < -fine || held.v_hi < -small || held.v_lo > small;
                 if broken {
                     pieces.push(((-held.ground / length).max(1e-12), i));
                 }
             } else if element.can_rest() {
-                let lowest = self.lowest(element, held, end(i), end(i + 1));
+                let lowest = self.lowest(element, held, *high, *low);
                 if lowest < -fine {
                     pieces.push((-lowest / length, i));
                 }
             }
         }
-        for (j, stand) in rested.policy.stands.iter().enumerate() {
-            let Some(pull) = self.chain.pulls.get(j) else { continue };
-            let height = end(j + 1);
-            let step = |k: usize| self.step(j, k);
-            let lift = rested.lifts.get(j).copied().unwrap_or(0.0);
+        let loads = rested.lifts.iter().zip(&rested.reactions);
+        let joints_now = rested.policy.stands.iter().zip(&self.chain.pulls).zip(loads).zip(ends);
+        for (j, (((stand, pull), (&lift, &reaction)), (_, &height))) in joints_now.enumerate() {
+            let step = |k: usize| pull.steps.get(k).map(|(z, _)| *z);
             match *stand {
                 JointStatus::Free(k) => {
                     let floor = pull.on_bottom.then_some(0.0);
@@ -284,7 +284,6 @@ impl<'a> ContactProblem<'a> {
                     }
                 }
                 JointStatus::Bottom => {
-                    let reaction = rested.reactions.get(j).copied().unwrap_or(0.0);
                     if reaction < -small {
                         joints.push((-reaction / size, j, JointStatus::Free(0)));
                     }

@@ -9,6 +9,7 @@ use super::table::Row;
 /// One quantity against the distance.
 #[derive(Clone, Debug)]
 struct Curve {
+    /// Values and slopes at the points, as many as those.
     y: Vec<f64>,
     slope: Vec<f64>,
 }
@@ -43,11 +44,7 @@ impl Curve {
 
     /// Value and slope between points `i` and `i + 1`, `h` apart, at the share `t` of the way.
     fn at(&self, i: usize, h: f64, t: f64) -> (f64, f64) {
-        let (Some(y0), Some(y1), Some(s0), Some(s1)) =
-            (self.y.get(i), self.y.get(i + 1), self.slope.get(i), self.slope.get(i + 1))
-        else {
-            return (f64::NAN, f64::NAN);
-        };
+        let (y0, y1, s0, s1) = (self.y[i], self.y[i + 1], self.slope[i], self.slope[i + 1]);
         let (a, b) = (h * s0 - (y1 - y0), (y1 - y0) - h * s1);
         let u = 1.0 - t;
         let value = u * y0 + t * y1 + t * u * (a * u + b * t);
@@ -59,6 +56,7 @@ impl Curve {
 /// A line's table as functions of the horizontal distance.
 #[derive(Clone, Debug)]
 pub struct Interpolated {
+    /// Distances that grow, at least two; the curves have a point at each.
     x: Vec<f64>,
     force: Curve,
     vertical: Curve,
@@ -138,11 +136,11 @@ impl Interpolated {
     /// The interval that holds a distance (m): its number, its length (m), how far along it the distance is, from 0 to 1, and how
     /// far beyond the table (m).
     fn interval(&self, x: f64) -> (usize, f64, f64, f64) {
-        let (first, last) = (self.x.first().copied().unwrap_or(0.0), self.x.last().copied().unwrap_or(0.0));
-        let inside = x.clamp(first, last);
-        let i = self.x.partition_point(|v| *v <= inside).clamp(1, self.x.len().saturating_sub(1).max(1)) - 1;
-        let from = self.x.get(i).copied().unwrap_or(0.0);
-        let h = self.x.get(i + 1).copied().unwrap_or(from) - from;
+        let last = self.x.len() - 1;
+        let inside = x.clamp(self.x[0], self.x[last]);
+        let i = self.x.partition_point(|v| *v <= inside).clamp(1, last) - 1;
+        let from = self.x[i];
+        let h = self.x[i + 1] - from;
         (i, h, if h > 0.0 { (inside - from) / h } else { 0.0 }, x - inside)
     }
 

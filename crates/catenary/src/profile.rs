@@ -49,7 +49,7 @@ impl Profile {
         Profile { at: vec![0.0, 1.0], z: vec![elevation, elevation + slope], tilts: vec![Tilt::new(slope)] }
     }
 
-    /// From places (distance from the anchor, elevation), growing and at least two; neighbours in one plane are one face.
+    /// From places (distance from the anchor, elevation), growing and at least two, so that it has a face; neighbours in one plane are one face.
     pub fn new(places: &[(f64, f64)]) -> Profile {
         let mut kept: Vec<(f64, f64)> = Vec::with_capacity(places.len());
         let slope = |a: (f64, f64), b: (f64, f64)| (b.1 - a.1) / (b.0 - a.0);
@@ -73,17 +73,17 @@ impl Profile {
 
     /// The face at a distance from the anchor; 0 is the anchor's.
     pub fn face(&self, at: f64) -> usize {
-        self.at.partition_point(|v| *v <= at).clamp(1, self.faces().max(1)) - 1
+        self.at.partition_point(|v| *v <= at).clamp(1, self.faces()) - 1
     }
 
-    /// The inclination of a face.
+    /// The inclination of a face, a number below [`Profile::faces`].
     pub fn tilt(&self, face: usize) -> Tilt {
-        self.tilts.get(face).copied().unwrap_or(Tilt::FLAT)
+        self.tilts[face]
     }
 
-    /// A vertex: distance from the anchor and elevation.
+    /// A vertex, a number up to [`Profile::faces`]: distance from the anchor and elevation.
     pub fn vertex(&self, vertex: usize) -> (f64, f64) {
-        (self.at.get(vertex).copied().unwrap_or(0.0), self.z.get(vertex).copied().unwrap_or(0.0))
+        (self.at[vertex], self.z[vertex])
     }
 
     /// The elevation of a face's plane.

@@ -141,9 +141,8 @@ impl Line {
         let first = self.first_joint();
         let state = |(j, joint): (usize, &Joint)| {
             let at = j + first;
-            let (x, z) = places.get(at + 1).copied().unwrap_or_default();
-            let value = |list: &[f64]| list.get(at).copied().unwrap_or(0.0);
-            let (lift, reaction) = (value(&rested.lifts), value(&rested.reactions).max(0.0));
+            let (x, z) = places[at + 1];
+            let (lift, reaction) = (rested.lifts[at], rested.reactions[at].max(0.0));
             let buoy = match (joint, rested.policy.stands.get(at)) {
                 (Joint::SpringBuoy { .. } | Joint::Buoy { .. }, Some(stand)) => Some(match stand {
                     JointStatus::Free(0) | JointStatus::Bottom => Buoy::Sunk,
@@ -180,11 +179,11 @@ impl Line {
         let mut list = Vec::new();
         for (number, (index, element, held)) in self.lengths(rested).enumerate() {
             let Element::Length { segment, law, sees_bottom: false } = element else { continue };
-            let end = |i: usize| rested.z.get(i).copied().unwrap_or(0.0);
-            let mut lowest = end(index).min(end(index + 1));
+            let (high, low) = (rested.z[index], rested.z[index + 1]);
+            let mut lowest = high.min(low);
             if held.v_lo < 0.0 && held.v_hi > 0.0 && segment.weight > 0.0 {
                 let s = -held.v_lo / segment.weight;
-                lowest = end(index + 1) + stretch(segment, law.as_ref(), s, held.h, held.v_lo).z;
+                lowest = low + stretch(segment, law.as_ref(), s, held.h, held.v_lo).z;
             }
             if lowest < -scale {
                 list.push((number + 1, -lowest));
@@ -200,7 +199,7 @@ impl Line {
         let mut list = Vec::new();
         for (number, (index, element, held)) in self.lengths(rested).enumerate() {
             let Element::Length { segment, .. } = element else { continue };
-            let (_, low) = places.get(index + 1).copied().unwrap_or_default();
+            let (_, low) = places[index + 1];
             let lifted = self.joints.get(number).is_some_and(|j| matches!(j, Joint::Weight(w) if *w < 0.0));
             let mut highest = if lifted { low } else { f64::NEG_INFINITY };
             if segment.weight < 0.0 {

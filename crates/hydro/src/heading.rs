@@ -61,9 +61,9 @@ impl ByHeading {
         let [(first, ..), ..] = self.nodes.as_slice() else { return (Six::zeros(), Six::zeros()) };
         let turn = (heading - first).rem_euclid(TAU);
         let next = self.nodes.partition_point(|n| n.0 - first <= turn);
-        let node = |i: usize| self.nodes.get(i).copied().unwrap_or((0.0, Six::zeros(), Six::zeros()));
-        let (a, va, sa) = node(next.saturating_sub(1));
-        let (b, vb, sb) = if next < self.nodes.len() { node(next) } else { node(0) };
+        // behind the last comes the first
+        let (a, va, sa) = self.nodes[next.saturating_sub(1)];
+        let (b, vb, sb) = self.nodes[next % self.nodes.len()];
         let length = if next < self.nodes.len() { b - a } else { b + TAU - a };
         let t = (turn - (a - first)) / length;
         let (t2, t3) = (t * t, t * t * t);
@@ -78,7 +78,7 @@ impl ByHeading {
 /// Adds the slopes to nodes of one turn.
 fn with_slopes(all: &[(f64, Six)]) -> Vec<(f64, Six, Six)> {
     let count = all.len();
-    let node = |i: usize| all.get(i % count).copied().unwrap_or((0.0, Six::zeros()));
+    let node = |i: usize| all[i % count];
     let made = all.iter().enumerate().map(|(i, (at, value))| {
         let ((before, vb), (after, va)) = (node(i + count - 1), node(i + 1));
         let (back, on) = ((at - before).rem_euclid(TAU), (after - at).rem_euclid(TAU));

@@ -231,7 +231,7 @@ impl LowFrequency {
 
     fn gone_on(&self, at: &Underway, state: &[f64]) -> ([[f64; LowPass::STATES]; 3], Slow) {
         let mut signals = [[0.0; LowPass::STATES]; 3];
-        let kept = state.get(1..).unwrap_or_default();
+        let kept = &state[1..];
         signals.as_flattened_mut().iter_mut().zip(kept).for_each(|(signal, kept)| *signal = *kept);
         let Slow { origin, heading } = Slow::still(at.pose);
         // a heading goes on without a jump

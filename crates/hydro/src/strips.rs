@@ -111,7 +111,7 @@ impl<const D: usize> Strips<D> {
     /// The strips from a distance to another, each with where it ends.
     pub fn between(&self, low: f64, high: f64) -> impl Iterator<Item = (&Strip<D>, f64)> {
         let first = self.strips.partition_point(|s| s.from <= low).saturating_sub(1);
-        let rest = self.strips.get(first..).unwrap_or_default();
+        let rest = &self.strips[first..];
         let ends = rest.iter().skip(1).map(|s| s.from).chain(std::iter::once(f64::INFINITY));
         rest.iter().zip(ends).enumerate().take_while(move |(n, (s, _))| *n == 0 || s.from < high).map(|(_, s)| s)
     }

@@ -57,7 +57,8 @@ impl Rod {
                 (axis * (k * angle), if k > 0.0 { over } else { over.max(1e-300) })
             })
             .collect();
-        let (moments, torques) = if self.twists() { self.spatial_moments(state, ends) } else { (moments, Vec::new()) };
+        let (moments, torques) =
+            if self.twists() { self.spatial_moments(state, ends) } else { (moments, vec![0.0; last + 1]) };
         let across = carried(&edges, &ends[0]);
         let shears: Vec<Vector3<f64>> =
             (0..last).map(|i| (moments[i + 1].0 - moments[i].0) / self.elements[i].rest).collect();
@@ -115,7 +116,7 @@ impl Rod {
                     shear,
                     moment,
                     bends: [bending.dot(&director), bending.dot(&direction.cross(&director))],
-                    torque: torques.get(i).copied().unwrap_or(0.0),
+                    torque: torques[i],
                     curvature: if softest > 0.0 { moment / softest } else { bend(&edges, &moments, i) },
                     clearance: clearance(world, &x[i]),
                     pressures,

@@ -140,7 +140,7 @@ impl Meeting {
 
     /// A vector of its nodes at the point.
     pub fn at_point(&self, of: &[Vector3<f64>]) -> Vector3<f64> {
-        Piece::sum(self.shares.into_iter(), of.get(self.nodes()).unwrap_or_default())
+        Piece::sum(self.shares.into_iter(), &of[self.nodes()])
     }
 }
 
@@ -181,7 +181,7 @@ pub(super) fn supported(support: &Support, meeting: &Meeting, v: &[Vector3<f64>]
     let turned = slide.transpose();
     let (stiff, damp) = (turned * made.by_position * slide, turned * made.by_velocity * slide);
     // by the material at the crossing, which slides along the curve; and by the direction of the curve there
-    let dv = Piece::sum(slopes.into_iter(), v.get(meeting.nodes()).unwrap_or_default());
+    let dv = Piece::sum(slopes.into_iter(), &v[meeting.nodes()]);
     let by_edge = -(along * force.transpose()) / reach - damp * (along.dot(&velocity) / reach);
     let by_material = stiff - (damp * dv + by_edge * bend) * along.transpose() / reach;
     // the shares of the nodes change as it slides
@@ -236,7 +236,7 @@ impl Held {
         let meeting = meeting(smooth, support, x)?;
         let load = supported(support, &meeting, v)?;
         let mut carried = [SMatrix::<f64, 3, 6>::zeros(); FEW];
-        for (made, x) in carried.iter_mut().zip(x.get(meeting.nodes()).unwrap_or_default()) {
+        for (made, x) in carried.iter_mut().zip(&x[meeting.nodes()]) {
             made.fixed_view_mut::<3, 3>(0, 0).fill_with_identity();
             made.fixed_view_mut::<3, 3>(0, 3).copy_from(&-(x - support.place).cross_matrix());
         }

@@ -116,10 +116,10 @@ impl<'a> Walk<'a> {
     /// A connector without an answer there, bodies that do not come to rest.
     pub fn at(&mut self, excursion: f64) -> Result<Moved, SolveError> {
         let body = self.path.body;
-        let start = self.from.get(body).copied().unwrap_or_default();
+        let start = self.from[body];
         if self.path.free {
             let before: Vec<Pose> = self.state.poses.clone();
-            let gone = before.get(body).map_or(0.0, |p| (p.origin - start.origin).dot(&self.along));
+            let gone = (before[body].origin - start.origin).dot(&self.along);
             let strides = ((excursion - gone).abs() / (STRIDE * self.size)).ceil().clamp(1.0, MOST_STRIDES);
             for n in 1..=strides as usize {
                 let to = if n as f64 >= strides { excursion } else { gone + (excursion - gone) * n as f64 / strides };

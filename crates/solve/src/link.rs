@@ -2,7 +2,7 @@
 
 use super::system::SolveError;
 use super::time::RunRequirements;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 use std::sync::Arc;
 use windlass_base::pose::Pose;
 use windlass_model::{Ambient, Assembly, Connector, Element, LaidPipe, Model};
@@ -80,7 +80,7 @@ pub(super) fn pose_of(end: &Attachment, poses: &[Pose]) -> Pose {
     match end {
         Attachment::Ground(pose) => *pose,
         Attachment::Body(index, at) => {
-            let body = poses.get(*index).copied().unwrap_or_default();
+            let body = poses[*index];
             Pose { origin: body.point(*at), axes: body.axes }
         }
     }
@@ -90,6 +90,6 @@ pub(super) fn pose_of(end: &Attachment, poses: &[Pose]) -> Pose {
 pub(super) fn arm(end: &Attachment, poses: &[Pose]) -> Vector3<f64> {
     match end {
         Attachment::Ground(_) => Vector3::zeros(),
-        Attachment::Body(index, at) => poses.get(*index).map_or(Matrix3::identity(), |p| p.axes) * at,
+        Attachment::Body(index, at) => poses[*index].axes * at,
     }
 }

@@ -73,7 +73,7 @@ impl Connectors {
             let Some(link) = system.links.get(*index) else { continue };
             ends.clear();
             ends.extend(link.ends.iter().map(|end| End::still(pose_of(end, poses))));
-            let committed = system.states.get(link.states.clone()).unwrap_or_default();
+            let committed = &system.states[link.states.clone()];
             let at = Situation { ends: &ends, step: None, surroundings: &system.surroundings };
             link.element.wrenches(&at, committed, guess, &mut wrenches).map_err(SolveError::of(&link.name))?;
             let mut tension = 0.0;
@@ -112,7 +112,7 @@ impl System {
 
 fn summary(system: &System, link: &Link, poses: &[Pose]) -> Result<Summary, SolveError> {
     let ends: Vec<End> = link.ends.iter().map(|end| End::still(pose_of(end, poses))).collect();
-    let committed = system.states.get(link.states.clone()).unwrap_or_default();
+    let committed = &system.states[link.states.clone()];
     let at = Situation { ends: &ends, step: None, surroundings: &system.surroundings };
     link.element.summary(&at, committed).map_err(SolveError::of(&link.name))
 }

@@ -35,10 +35,8 @@ pub(super) fn parts(system: &System) -> Vec<Part> {
 /// The first body of a body's part; the way there is halved for the next time.
 fn leader(leads: &mut [usize], mut body: usize) -> usize {
     while let Some(next) = leads.get(body).copied().filter(|next| *next != body) {
-        let beyond = leads.get(next).copied().unwrap_or(next);
-        if let Some(lead) = leads.get_mut(body) {
-            *lead = beyond;
-        }
+        let beyond = leads[next];
+        leads[body] = beyond;
         body = beyond;
     }
     body

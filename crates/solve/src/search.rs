@@ -113,7 +113,7 @@ impl<'a> Search<'a> {
         let work = residual.dot(&step).abs();
         let from = Stand::of(state);
         let motions = unknowns.motions(from.poses.len(), &step, 1.0);
-        let ties = state.ties.predict(&|body| motions.get(body).copied().unwrap_or_default());
+        let ties = state.ties.predict(&|body| motions[body]);
         let place = |state: &mut State, share: f64| {
             state.poses = unknowns.moved(&from.poses, &step, share);
             state.ties.forces = between(&from.ties, &ties, share);

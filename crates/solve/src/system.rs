@@ -70,7 +70,7 @@ impl Node {
 
     /// Whether a degree of freedom moves as forces make it.
     pub fn moves(&self, dof: usize) -> bool {
-        self.prescribed.is_none() && self.free.get(dof).copied().unwrap_or(false)
+        self.prescribed.is_none() && self.free[dof]
     }
 }
 
@@ -186,10 +186,7 @@ impl System {
     /// Dynamic lines begin a run in these states, given for all connectors.
     pub(super) fn begin_moving(&mut self, states: &[f64]) {
         for link in self.links.iter().filter(|l| l.element.moves()) {
-            if let (Some(to), Some(from)) = (self.states.get_mut(link.states.clone()), states.get(link.states.clone()))
-            {
-                to.copy_from_slice(from);
-            }
+            self.states[link.states.clone()].copy_from_slice(&states[link.states.clone()]);
         }
     }
 
@@ -221,16 +218,14 @@ impl System {
         state.ties.begin(self.links.len(), self.nodes.len());
         state.guesses.resize_with(self.links.len(), || None);
         state.trial.resize(self.states.len(), 0.0);
-        let belongs = |body: usize| part.is_none_or(|p| p.get(body).copied().unwrap_or(false));
+        let belongs = |body: usize| part.is_none_or(|p| p[body]);
         let bodies: Vec<usize> = (0..self.nodes.len()).filter(|body| belongs(*body)).collect();
         for body in &bodies {
             state.residual.fixed_rows_mut::<6>(6 * body).fill(0.0);
             for column in &bodies {
                 state.stiffness.fixed_view_mut::<6, 6>(6 * body, 6 * column).fill(0.0);
             }
-            if let Some(pull) = state.pull.get_mut(*body) {
-                *pull = 0.0;
-            }
+            state.pull[*body] = 0.0;
         }
         for (index, (node, pose)) in self.nodes.iter().zip(&state.poses).enumerate().filter(|(i, _)| belongs(*i)) {
             for load in &node.floating.loads {
@@ -253,8 +248,8 @@ impl System {
             }
             ends.clear();
             ends.extend(link.ends.iter().map(|end| End::still(pose_of(end, &state.poses))));
-            let committed = self.states.get(link.states.clone()).unwrap_or_default();
-            let trial = state.trial.get_mut(link.states.clone()).unwrap_or_default();
+            let committed = &self.states[link.states.clone()];
+            let trial = &mut state.trial[link.states.clone()];
             let at = Situation { ends: &ends, step: None, surroundings: &self.surroundings };
             arms.clear();
             arms.extend(link.ends.iter().map(|end| arm(end, &state.poses)));
@@ -276,9 +271,7 @@ impl System {
                 let mut at = state.residual.fixed_rows_mut::<6>(6 * body);
                 at += carried(wrench, *own);
                 let force = wrench.fixed_rows::<3>(0).norm();
-                if let Some(pull) = state.pull.get_mut(*body) {
-                    *pull = pull.max(force);
-                }
+                state.pull[*body] = state.pull[*body].max(force);
                 for (j, (other, far)) in link.ends.iter().zip(&arms).enumerate() {
                     let Attachment::Body(column, _) = other else { continue };
                     let Some(block) = state.response.stiffness.get(count * i + j) else { continue };
@@ -309,8 +302,8 @@ impl System {
         let (mut response, mut trial) = (Response::default(), vec![0.0; self.states.len()]);
         for link in &self.links {
             let ends: Vec<End> = link.ends.iter().map(|end| End::still(pose_of(end, poses))).collect();
-            let committed = self.states.get(link.states.clone()).unwrap_or_default();
-            let own = trial.get_mut(link.states.clone()).unwrap_or_default();
+            let committed = &self.states[link.states.clone()];
+            let own = &mut trial[link.states.clone()];
             let at = Situation { ends: &ends, step: None, surroundings: &self.surroundings };
             let evaluated = link.element.evaluate(&at, committed, own, &mut None, &mut response);
             evaluated.map_err(SolveError::of(&link.name))?;
@@ -318,7 +311,7 @@ impl System {
             for (i, end) in link.ends.iter().enumerate() {
                 let Attachment::Body(body, _) = end else { continue };
                 let (own, count) = (arm(end, poses), link.ends.len());
-                let Some(wrench) = response.wrench.get(i) else { continue };
+                let wrench = &response.wrench[i];
                 let mut stiffness = turning(wrench, own);
                 // all ends on the body move with it
                 for (j, far) in link.ends.iter().enumerate() {
@@ -362,7 +355,7 @@ impl System {
     pub(super) fn unfactored(&self, what: &str, rows: &[usize], error: DenseError) -> SolveError {
         match error {
             DenseError::NotFinite { row, .. } => {
-                let at = rows.get(row).copied().unwrap_or(0);
+                let at = rows[row];
                 let name = self.nodes.get(at / 6).map(|n| n.name.clone());
                 let dof = DOFS.get(at % 6).copied().unwrap_or_default();
                 SolveError { who: name, error: ClassError::new(format!("the {what} in {dof} is not finite")) }

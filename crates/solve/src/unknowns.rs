@@ -31,10 +31,10 @@ impl<'a> Unknowns<'a> {
     /// Those of a part, `None` for all bodies, that keep some of their angles.
     pub fn of(system: &System, state: &State, options: &Options, (turns, part): (&'a [Turns], Option<&Part>)) -> Self {
         let (mut rows, mut inertia, mut measure) = (Vec::new(), Vec::new(), Vec::new());
-        let belongs = |body: usize| part.is_none_or(|p| p.get(body).copied().unwrap_or(false));
+        let belongs = |body: usize| part.is_none_or(|p| p[body]);
         for (body, node) in system.nodes.iter().enumerate().filter(|(body, _)| belongs(*body)) {
             let own = &node.floating.mass;
-            let pull = state.pull.get(body).copied().unwrap_or(0.0) / system.gravity;
+            let pull = state.pull[body] / system.gravity;
             let mass = if node.junction || own.mass <= 0.0 { own.mass.max(pull).max(1e-3) } else { own.mass };
             let about = own.inertia.trace() / 3.0 - mass * own.centre.norm_squared() * 2.0 / 3.0;
             let radius = if about > 1e-12 * mass { (about / mass).sqrt() } else { 1.0 };
@@ -69,12 +69,11 @@ impl<'a> Unknowns<'a> {
     }
 
     pub fn stiffness(&self, state: &State) -> DMatrix<f64> {
-        DMatrix::from_fn(self.rows.len(), self.rows.len(), |i, j| match (self.rows.get(i), self.rows.get(j)) {
-            (Some(rows), Some(columns)) => rows
-                .iter()
+        DMatrix::from_fn(self.rows.len(), self.rows.len(), |i, j| {
+            let (rows, columns) = (&self.rows[i], &self.rows[j]);
+            rows.iter()
                 .flat_map(|(r, one)| columns.iter().map(move |(c, other)| one * other * state.stiffness[(*r, *c)]))
-                .sum(),
-            _ => 0.0,
+                .sum()
         })
     }
 
@@ -97,11 +96,13 @@ impl<'a> Unknowns<'a> {
     }
 
     pub fn dof(&self, unknown: usize) -> usize {
-        self.rows.get(unknown).map_or(0, |[(r, _), _]| r % 6)
+        let [(row, _), _] = self.rows[unknown];
+        row % 6
     }
 
     pub fn body(&self, unknown: usize) -> usize {
-        self.rows.get(unknown).map_or(0, |[(r, _), _]| r / 6)
+        let [(row, _), _] = self.rows[unknown];
+        row / 6
     }
 
     /// The error of a stiffness that has no factors.

@@ -58,7 +58,7 @@ pub fn watch(
         system.applied = vec![(body, Six::new(-force * cos, -force * sin, 0.0, 0.0, 0.0, 0.0))];
         equilibrium(system, &mut state, &options).map_err(wrong)?;
         let lines = connectors.summaries(system, &state.poses).map_err(wrong)?;
-        list.push(Watched { direction: *direction, pose: state.poses.get(body).copied().unwrap_or_default(), lines });
+        list.push(Watched { direction: *direction, pose: state.poses[body], lines });
     }
     let names = connectors.names(system).map(str::to_string).collect();
     system.applied.clear();

@@ -249,7 +249,7 @@ impl<'a> Layout<'a> {
     }
 
     fn element_length(&self, element: usize) -> f64 {
-        self.elements.get(element).map_or(0.0, Element::length)
+        self.elements[element].length()
     }
 
     /// Elevation of the step of a joint's lift, if it has one.

@@ -213,7 +213,7 @@ impl Layout<'_> {
             Spare::Length(left) if left.value < room.value => (left, Next::Piece),
             _ => (room, Next::Joint),
         };
-        let weight = self.elements.get(from.element).map_or(0.0, Element::weight_per_length);
+        let weight = self.elements[from.element].weight_per_length();
         path.push(weight * length.value, What::Heap { from, length });
         path.spare = spare.less(length);
         cursor.at.s = from.s + length;
@@ -431,7 +431,7 @@ impl Layout<'_> {
             What::Slide { from } => Departure { point: from, face: None, piece: index, unknown },
             What::Heap { from, length, .. } => {
                 let cursor = Cursor { at: from, face: self.bottom.face(from.u.value), tension: Var::fixed(self.least) };
-                let weight = self.elements.get(from.element).map_or(0.0, Element::weight_per_length);
+                let weight = self.elements[from.element].weight_per_length();
                 if weight <= 0.0 {
                     return self.departure(cursor, (index, unknown));
                 }

@@ -58,7 +58,7 @@ impl Layout<'_> {
             while laid.stretches.get(at).is_some_and(|s| s.element == index) {
                 at += 1;
             }
-            let parts = laid.stretches.get(from..at).unwrap_or_default();
+            let parts = &laid.stretches[from..at];
             let (Some(head), Some(tail)) = (parts.first(), parts.last()) else { return Err(LineError::Empty) };
             let [u, z, low_h, low_v] = tail.low;
             places.push(place(u, z));

@@ -16,7 +16,7 @@ pub(super) fn between(list: &[f64], at: f64) -> Between {
     let next = list.partition_point(|w| *w <= at);
     match (next.checked_sub(1), list.get(next)) {
         (Some(low), Some(high)) => {
-            let first = list.get(low).copied().unwrap_or(at);
+            let first = list[low];
             (low, next, (at - first) / (high - first))
         }
         (Some(low), None) => (low, low, 0.0),
@@ -34,13 +34,13 @@ pub(super) fn around(headings: &[f64], heading: f64) -> Result<Between, ClassErr
         return Err(ClassError::new("the heading is no number"));
     }
     let next = headings.partition_point(|h| *h <= turn);
-    let (Some(first), Some(last)) = (headings.first(), headings.last()) else {
-        return Err(ClassError::new("the database has no headings"));
-    };
     let count = headings.len();
+    if count == 0 {
+        return Err(ClassError::new("the database has no headings"));
+    }
     let low = if next == 0 { count - 1 } else { next - 1 };
     let high = next % count;
-    let (a, b) = (headings.get(low).copied().unwrap_or(*last), headings.get(high).copied().unwrap_or(*first));
+    let (a, b) = (headings[low], headings[high]);
     let gap = if count == 1 { TAU } else { (b - a).rem_euclid(TAU) };
     let from = (turn - a).rem_euclid(TAU);
     // a heading that the list has needs no neighbour
@@ -150,7 +150,7 @@ fn phase_shift(data: &Database, heading: f64, frequency: f64) -> Result<Complex<
 pub fn drift_at(table: &DriftTable, heading: f64, frequency: f64) -> Result<[f64; 6], ClassError> {
     let (a, b, by_heading) = around(&table.headings, heading)?;
     let (i, j, by_frequency) = between(&table.frequencies, frequency);
-    let cell = |h: usize, f: usize| table.values.get(h).and_then(|v| v.get(f)).copied().unwrap_or_default();
+    let cell = |h: usize, f: usize| table.values[h][f];
     let line = |h: usize| {
         let (low, high) = (cell(h, i), cell(h, j));
         [0, 1, 2, 3, 4, 5].map(|k: usize| low[k] + (high[k] - low[k]) * by_frequency)
@@ -178,7 +178,7 @@ fn amplitudes_at(
         Some(last) if frequency > *last => last / frequency,
         _ => 1.0,
     };
-    let cell = |h: usize, f: usize| table.get(h).and_then(|v| v.get(f)).copied().unwrap_or_default();
+    let cell = |h: usize, f: usize| table[h][f];
     let line = |h: usize| {
         let (low, high) = (cell(h, i), cell(h, j));
         [0, 1, 2, 3, 4, 5].map(|k: usize| low[k] + (high[k] - low[k]) * by_frequency)

@@ -51,21 +51,16 @@ impl Linear {
     const STATES: usize = LAST + 8;
 
     fn begin(&self, ahead: &Underway, state: &mut [f64]) {
-        let Some((own, kept)) = state.split_at_mut_checked(HEADING) else { return };
+        let (own, kept) = state.split_at_mut(HEADING);
         let slow = self.slow.ahead(ahead, own);
         let rates = slow.rates(&ahead.pose.axes);
         kept.iter_mut()
             .zip(std::iter::once(&slow.heading).chain(rates.iter()))
             .for_each(|(kept, value)| *kept = *value);
-        if state.len() >= LAST {
-            state.copy_within(NEXT..LAST, ADDED);
-        }
+        state.copy_within(NEXT..LAST, ADDED);
     }
 
     fn commit(&self, at: &Underway, state: &mut [f64]) {
-        if state.len() < Linear::STATES {
-            return;
-        }
         let slow = Slow { heading: state[HEADING], ..Slow::default() };
         let (angle, rates) = (slow.rotation(&at.pose.axes), slow.rates(&at.pose.axes) * at.velocity.fixed_rows::<3>(3));
         let last = |from: usize| Vector3::new(state[LAST + from], state[LAST + from + 1], state[LAST + from + 2]);
@@ -77,17 +72,17 @@ impl Linear {
         (state[LAST], state[LAST + 1]) = (1.0, slow.heading);
         state[LAST + 2..LAST + 5].copy_from_slice(angle.as_slice());
         state[LAST + 5..LAST + 8].copy_from_slice(rates.as_slice());
-        self.slow.commit(at, state.get_mut(..HEADING).unwrap_or_default());
+        self.slow.commit(at, &mut state[..HEADING]);
     }
 
     /// The axes of the heading.
     fn axes(state: &[f64]) -> Matrix3<f64> {
-        Slow { heading: state.get(HEADING).copied().unwrap_or(0.0), ..Slow::default() }.axes()
+        Slow { heading: state[HEADING], ..Slow::default() }.axes()
     }
 
     /// From a rate of rotation (global axes) to rates of small rotations about the axes of the heading.
     fn rates(state: &[f64]) -> Matrix3<f64> {
-        Matrix3::from_iterator(state.iter().skip(RATES).copied().chain([0.0; 9]).take(9))
+        Matrix3::from_column_slice(&state[RATES..ADDED])
     }
 
     /// The rates of the place and of small rotations, in axes of the heading.
@@ -159,29 +154,27 @@ impl BodyLoad for RadiationLoad {
     }
 
     fn begin(&self, ahead: &Underway, state: &mut [f64]) -> Result<(), ClassError> {
-        if let Some((own, memory)) = state.split_at_mut_checked(Linear::STATES) {
-            self.linear.begin(ahead, own);
-            self.memory.begin(ahead.time, ahead.dt, memory);
-        }
+        let (own, memory) = state.split_at_mut(Linear::STATES);
+        self.linear.begin(ahead, own);
+        self.memory.begin(ahead.time, ahead.dt, memory);
         Ok(())
     }
 
     fn held(&self, at: &Underway, state: &[f64]) -> Option<Six> {
-        let (own, memory) = state.split_at_checked(Linear::STATES)?;
+        let (own, memory) = state.split_at(Linear::STATES);
         Some(Linear::global(&self.memory.force(&Linear::velocity(at, own), memory).0, own))
     }
 
     fn moving(&self, at: &Underway, state: &[f64]) -> Result<MovingLoad, ClassError> {
-        let (own, memory) = state.split_at_checked(Linear::STATES).unwrap_or_default();
+        let (own, memory) = state.split_at(Linear::STATES);
         let (force, damping) = self.memory.force(&Linear::velocity(at, own), memory);
         Ok(Linear::load(&force, &damping, own))
     }
 
     fn commit(&self, at: &Underway, state: &mut [f64]) {
-        if let Some((own, memory)) = state.split_at_mut_checked(Linear::STATES) {
-            self.memory.commit(at.time, at.dt, &Linear::velocity(at, own), memory);
-            self.linear.commit(at, own);
-        }
+        let (own, memory) = state.split_at_mut(Linear::STATES);
+        self.memory.commit(at.time, at.dt, &Linear::velocity(at, own), memory);
+        self.linear.commit(at, own);
     }
 }
 

@@ -103,8 +103,8 @@ fn damaged(data: &Database) -> Option<String> {
 fn unsymmetric(what: &str, list: &[Matrix6<f64>], frequencies: &[f64]) -> Option<String> {
     let mut worst = (ASYMMETRY, 0, 0, 0.0);
     // the largest of each direction over all frequencies: damping of long waves is all noise
-    let size: Vec<f64> = (0..6).map(|i| list.iter().map(|m| m[(i, i)].abs()).fold(0.0, f64::max)).collect();
-    let scale = |i: usize, j: usize| (size.get(i).unwrap_or(&0.0) * size.get(j).unwrap_or(&0.0)).sqrt();
+    let size = [0, 1, 2, 3, 4, 5].map(|i| list.iter().map(|m| m[(i, i)].abs()).fold(0.0, f64::max));
+    let scale = |i: usize, j: usize| (size[i] * size[j]).sqrt();
     for (matrix, frequency) in list.iter().zip(frequencies) {
         for i in 0..6 {
             for j in 0..i {

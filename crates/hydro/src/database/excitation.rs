@@ -41,7 +41,7 @@ impl Excitation {
         let mut list = Vec::new();
         for group in groups(sea) {
             let table = ByHeading::of(&group, &data.headings, |h, w, a| {
-                let heading = data.headings.get(h).copied().unwrap_or_default();
+                let heading = data.headings[h];
                 let x = about.excitation_at(heading, w)?;
                 Ok(std::array::from_fn(|n| if n < 6 { x[n].re * a } else { x[n - 6].im * a }))
             })?;
@@ -117,7 +117,7 @@ impl BodyLoad for Excitation {
 
     /// The force where the body is expected is that of the step.
     fn begin(&self, ahead: &Underway, state: &mut [f64]) -> Result<(), ClassError> {
-        let Some((own, state)) = state.split_at_mut_checked(LowFrequency::STATES) else { return Ok(()) };
+        let (own, state) = state.split_at_mut(LowFrequency::STATES);
         let force = self.on(&self.slow.ahead(ahead, own), ahead.time)?;
         state.iter_mut().zip(force.iter()).for_each(|(s, f)| *s = *f);
         Ok(())
@@ -137,16 +137,16 @@ impl BodyLoad for Excitation {
     }
 
     fn commit(&self, at: &Underway, state: &mut [f64]) {
-        self.slow.commit(at, state.get_mut(..LowFrequency::STATES).unwrap_or_default());
+        self.slow.commit(at, &mut state[..LowFrequency::STATES]);
     }
 }
 
 /// The force that a step has kept behind the low-frequency place.
 fn own(state: &[f64]) -> Load {
-    kept(state.get(LowFrequency::STATES..).unwrap_or_default())
+    kept(&state[LowFrequency::STATES..])
 }
 
-/// A force that a step has kept.
+/// A force that a step has kept, the first six of a state.
 pub(super) fn kept(state: &[f64]) -> Load {
-    Load { wrench: Six::from_fn(|i, _| state.get(i).copied().unwrap_or(0.0)), ..Load::none() }
+    Load { wrench: Six::from_column_slice(&state[..6]), ..Load::none() }
 }

@@ -39,6 +39,13 @@ struct Pair {
     weights: Vec<f64>,
 }
 
+impl Pair {
+    /// The weights from a number on; beyond the kernel nothing is left.
+    fn behind(&self, from: usize) -> &[f64] {
+        self.weights.get(from..).unwrap_or_default()
+    }
+}
+
 /// A kernel and its integrals at a lag.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Moments {
@@ -161,19 +168,15 @@ impl Memory {
         self.pairs.len()
     }
 
-    /// Prepares a step that ends at a time (s) and is so long (s): what is past is summed once. Before the first step the velocity has come from
+    /// Prepares a step, in a state of [`Memory::states`] values, that ends at a time (s) and is so long (s): what is past is summed once. Before the first step the velocity has come from
     /// nothing over one step of the grid.
     pub fn begin(&self, time: f64, dt: f64, state: &mut [f64]) {
-        if state.len() < self.states() {
-            return;
-        }
         let (head, rings) = state.split_at_mut(RINGS);
         if head[STARTED] == 0.0 {
             (head[TIME], head[GRID]) = (time - dt, time - dt);
         }
         let dt = (time - head[TIME]).max(0.0);
         let (last, newest) = (six(head, LAST), head[HEAD] as usize);
-        let velocity = |n: usize| Six::from_fn(|j, _| ring(rings, j, self.lags, newest).get(n).copied().unwrap_or(0.0));
         let (mut past, mut of_trial) = (Six::zeros(), Matrix6::zeros());
         let same = SAME * self.step;
         if dt > same {
@@ -182,7 +185,8 @@ impl Memory {
             past += of_last * last;
         }
         // from the end of the last step to the newest velocity of the grid, and from there to the next
-        let (first, mut near) = (velocity(0), dt);
+        let first = Six::from_fn(|j, _| ring(rings, j, self.lags, newest)[0]);
+        let mut near = dt;
         let since = head[TIME] - head[GRID];
         if since > same {
             let (of_last, of_first) = self.integrals.straight(dt, dt + since);
@@ -199,11 +203,11 @@ impl Memory {
     fn convolve(&self, near: f64, (rings, newest): (&[f64], usize), past: &mut Six) {
         let place = near / self.step;
         let whole = place.round();
-        let slice = |pair: &Pair| ring(rings, pair.column, self.lags, newest).get(1..).unwrap_or_default();
+        let slice = |pair: &Pair| &ring(rings, pair.column, self.lags, newest)[1..];
         // the weight of a lag of n steps is number n - 1
         if (place - whole).abs() < SAME {
             for pair in &self.pairs {
-                past[pair.row] += dot(pair.weights.get(whole as usize..).unwrap_or_default(), slice(pair));
+                past[pair.row] += dot(pair.behind(whole as usize), slice(pair));
             }
             return;
         }
@@ -215,7 +219,7 @@ impl Memory {
             let [before, at, after] = [near, lag, lag + self.step].map(|lag| self.integrals.at(lag).1);
             let weight = (before - at * 2.0 + after) / self.step;
             for pair in &self.pairs {
-                past[pair.row] += weight[(pair.row, pair.column)] * slice(pair).first().copied().unwrap_or(0.0);
+                past[pair.row] += weight[(pair.row, pair.column)] * slice(pair)[0];
             }
         }
         // the cubic through the weights of one lag before, two around and one behind
@@ -227,25 +231,22 @@ impl Memory {
             -x * y * (1.0 + x) / 6.0,
         ];
         for pair in &self.pairs {
-            let velocities = slice(pair).get(direct..).unwrap_or_default();
+            let velocities = &slice(pair)[direct..];
             for (n, factor) in cubic.into_iter().enumerate() {
                 let from = (whole + direct + n).saturating_sub(1);
-                past[pair.row] += factor * dot(pair.weights.get(from..).unwrap_or_default(), velocities);
+                past[pair.row] += factor * dot(pair.behind(from), velocities);
             }
         }
     }
 
     /// The force at a trial of the end of the step (body axes), and its change with the velocity, -dF/dv.
     pub fn force(&self, velocity: &Six, state: &[f64]) -> (Six, Matrix6<f64>) {
-        let damping = Matrix6::from_iterator((PRESENT..RINGS).map(|i| state.get(i).copied().unwrap_or(0.0)));
+        let damping = Matrix6::from_column_slice(&state[PRESENT..RINGS]);
         (-(six(state, PAST) + damping * velocity), damping)
     }
 
     /// The step is accepted: it ended at a time (s) with a velocity.
     pub fn commit(&self, time: f64, dt: f64, velocity: &Six, state: &mut [f64]) {
-        if state.len() < self.states() {
-            return;
-        }
         let (head, rings) = state.split_at_mut(RINGS);
         if head[STARTED] == 0.0 {
             (head[STARTED], head[TIME], head[GRID]) = (1.0, time - dt, time - dt);
@@ -286,12 +287,12 @@ impl Memory {
 /// The velocities of a direction, newest first.
 fn ring(rings: &[f64], direction: usize, lags: usize, newest: usize) -> &[f64] {
     let from = 2 * lags * direction + newest;
-    rings.get(from..from + lags).unwrap_or_default()
+    &rings[from..from + lags]
 }
 
 /// Six values of a state.
 fn six(state: &[f64], at: usize) -> Six {
-    Six::from_fn(|i, _| state.get(at + i).copied().unwrap_or(0.0))
+    Six::from_column_slice(&state[at..at + 6])
 }
 
 /// The sum of products, in eight sums side by side so that it runs in vectors, the widest of the machine; the order is fixed.

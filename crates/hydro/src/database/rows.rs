@@ -255,9 +255,7 @@ pub(super) fn by_wave(file: &SourceFile, rows: &[ModeRow]) -> Result<ByWave, Dat
     });
     let sizes = [headings.len(), frequencies.len(), modes.len()];
     let told = |[h, f, m]: [usize; 3]| {
-        let value = |axis: &[f64], i: usize| axis.get(i).copied().unwrap_or(0.0);
-        let (heading, frequency) = (value(&headings, h).to_degrees(), value(&frequencies, f));
-        let mode = value(&modes, m) + 1.0;
+        let (heading, frequency, mode) = (headings[h].to_degrees(), frequencies[f], modes[m] + 1.0);
         format!("for mode {mode}, heading {heading:.2} degrees, {frequency:.5} rad/s (period {:.4} s)", TAU / frequency)
     };
     let dense = complete(placed.collect(), sizes, |a, b| (a - b).norm() <= 1e-4 * size).map_err(|flaw| match flaw {

@@ -96,7 +96,7 @@ impl SlowDrift {
         let made = SlowDrift::mean(table, reference, sea)?;
         let lanes = made.groups.iter().map(|group| {
             ByHeading::of(group, &table.headings, |h, w, a| {
-                let heading = table.headings.get(h).copied().unwrap_or_default();
+                let heading = table.headings[h];
                 let [x, y, z, rx, ry, rz] = drift_at(table, heading, w)?.map(|d| d * a);
                 Ok([x, y, z, rx, ry, rz, a])
             })
@@ -127,9 +127,9 @@ impl SlowDrift {
         let (mut sum, mut change) = (Six::zeros(), Six::zeros());
         for (toward, list) in &self.means {
             let (a, b, share) = around(&self.headings, toward - yaw)?;
-            let at = |i: usize| list.get(i).copied().unwrap_or_default();
+            let at = |i: usize| list[i];
             sum += at(a) + (at(b) - at(a)) * share;
-            let turn = |i: usize| self.headings.get(i).copied().unwrap_or_default();
+            let turn = |i: usize| self.headings[i];
             let gap = (turn(b) - turn(a)).rem_euclid(std::f64::consts::TAU);
             if gap > 0.0 {
                 change -= (at(b) - at(a)) / gap;

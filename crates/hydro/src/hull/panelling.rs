@@ -35,7 +35,7 @@ struct Nodes {
 
 impl Nodes {
     fn place(&self, node: u32) -> Vector3<f64> {
-        self.at.get(node as usize).copied().unwrap_or_default()
+        self.at[node as usize]
     }
 
     fn add(&mut self, place: Vector3<f64>) -> u32 {
@@ -151,7 +151,7 @@ impl Panelling {
 
 /// The parallelograms of a surface, corners in turn, and the triangles that are left.
 fn paired(surface: &Surface) -> (Vec<[u32; 4]>, Vec<[u32; 3]>) {
-    let place = |n: u32| surface.vertices.get(n as usize).copied().unwrap_or_default();
+    let place = |n: u32| surface.vertices[n as usize];
     let length = |p: u32, q: u32| (place(q) - place(p)).norm();
     // each face turned so that its longest edge, where there is one, comes first
     let turned = |[a, b, c]: [u32; 3]| {
@@ -194,11 +194,11 @@ fn divide_parallelogram(nodes: &mut Nodes, [a, b, c, d]: [u32; 4], side: f64, do
     let (origin, along, up) = (nodes.place(a), nodes.place(b) - nodes.place(a), nodes.place(d) - nodes.place(a));
     let mut lines = vec![low];
     for j in 1..rows {
-        let mut line = vec![left.get(j).copied().unwrap_or(a)];
+        let mut line = vec![left[j]];
         for i in 1..columns {
             line.push(nodes.add(origin + along * (i as f64 / columns as f64) + up * (j as f64 / rows as f64)));
         }
-        line.push(right.get(j).copied().unwrap_or(b));
+        line.push(right[j]);
         lines.push(line);
     }
     lines.push(high);

@@ -278,14 +278,14 @@ impl BodyLoad for Members {
     fn commit(&self, at: &Underway, state: &mut [f64]) {
         let Some(way) = self.under_way.as_ref().filter(|way| way.has_waves()) else { return };
         let waves = way.moving(&self.rods, at, own(state)).load.wrench - way.drag(at, own(state)).0;
-        let slow = state.get_mut(..SlowWrench::STATES).unwrap_or_default();
+        let slow = &mut state[..SlowWrench::STATES];
         self.slow.commit(&waves, at.dt, slow);
     }
 }
 
 /// What members remember behind what is slow.
 fn own(state: &[f64]) -> &[f64] {
-    state.get(SlowWrench::STATES..).unwrap_or_default()
+    &state[SlowWrench::STATES..]
 }
 
 /// The pieces of a body that displace water, and that waves move by no pressure: neither members nor of `-DIFTYPE FK`, nor part

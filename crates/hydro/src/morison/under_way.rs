@@ -118,14 +118,14 @@ impl UnderWay {
         let sea = self.sea.as_ref().map(|sea| sea.at(ahead.time));
         let streams = steady.at(ahead.time);
         let water = Water { sea, steady, streams, origin: ahead.pose.origin, level: self.level };
-        let Some((head, rest)) = state.split_at_mut_checked(HEAD) else { return };
-        let Some((mut segments, mut stations)) = rest.split_at_mut_checked(SEGMENT * self.segments) else { return };
+        let (head, rest) = state.split_at_mut(HEAD);
+        let (mut segments, mut stations) = rest.split_at_mut(SEGMENT * self.segments);
         stations.fill(0.0);
         let (mut wave, mut mass) = (Six::zeros(), Matrix6::zeros());
         for rod in rods {
             let sizes = (SEGMENT * rod.segments.len(), EACH * rod.most_stations(self.kinks.len()));
-            let Some((own, others)) = segments.split_at_mut_checked(sizes.0) else { return };
-            let Some((slots, more)) = stations.split_at_mut_checked(sizes.1) else { return };
+            let (own, others) = segments.split_at_mut(sizes.0);
+            let (slots, more) = stations.split_at_mut(sizes.1);
             wave += self.member(&water, (rod, &rod.standing(ahead.pose)), (own, slots), &mut mass) * rod.factor;
             (segments, stations) = (others, more);
         }
@@ -224,8 +224,8 @@ impl UnderWay {
     /// Drag at a velocity of the body, and its change with that.
     pub(super) fn drag(&self, at: &Underway, state: &[f64]) -> (Six, Matrix6<f64>) {
         let mut sum = (Six::zeros(), Matrix6::zeros());
-        let (own, turn) = (three(at.velocity.as_slice()), three(at.velocity.as_slice().get(3..).unwrap_or_default()));
-        let stations = state.get(HEAD + SEGMENT * self.segments..).unwrap_or_default();
+        let (own, turn) = (three(at.velocity.as_slice()), three(&at.velocity.as_slice()[3..]));
+        let stations = &state[HEAD + SEGMENT * self.segments..];
         for station in stations.chunks_exact(EACH) {
             let [across, along, a, b, c, x, y, z, u, v, w] = station else { continue };
             if *across == 0.0 && *along == 0.0 {
@@ -245,7 +245,7 @@ impl UnderWay {
         let (drag, damping) = self.drag(at, state);
         let mut load = Load { wrench: drag + six(state, WAVE), stiffness: Matrix6::zeros() };
         let segments = rods.iter().flat_map(|rod| rod.segments.iter().map(move |tube| (rod, tube)));
-        for ((rod, tube), kept) in segments.zip(state.get(HEAD..).unwrap_or_default().chunks_exact(SEGMENT)) {
+        for ((rod, tube), kept) in segments.zip(state[HEAD..].chunks_exact(SEGMENT)) {
             let [over, near, ..] = kept else { continue };
             if *near == 0.0 {
                 continue;

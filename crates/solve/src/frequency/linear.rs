@@ -267,9 +267,8 @@ impl Linear {
         let scale: Vec<f64> = (0..size)
             .map(|i| (inertia[(i, i)].abs() * frequency * frequency + stiffness[(i, i)].abs()).sqrt().recip())
             .collect();
-        let at = |i: usize| scale.get(i).copied().unwrap_or(1.0);
         let scaled = DMatrix::from_fn(size, size, |i, j| {
-            Complex::new(real[(i, j)], -frequency * damping[(i, j)]) * (at(i) * at(j))
+            Complex::new(real[(i, j)], -frequency * damping[(i, j)]) * (scale[i] * scale[j])
         });
         let inverse = match Lu::new(scaled, &|| self.system.is_interrupted()).and_then(|lu| lu.inverse()) {
             Ok(inverse) => Some(inverse),
@@ -297,9 +296,9 @@ impl Linear {
         let follow = self.follow.map(|v| Complex::new(v, 0.0));
         let one = |force: &Motions| {
             let own = follow.tr_mul(force);
-            let own = DVector::from_fn(size, |i, _| own[i] * at(i));
+            let own = DVector::from_fn(size, |i, _| own[i] * scale[i]);
             let moved = &inverse * own;
-            let mut all = &follow * DVector::from_fn(size, |i, _| moved[i] * at(i));
+            let mut all = &follow * DVector::from_fn(size, |i, _| moved[i] * scale[i]);
             let least = ROUNDING * all.iter().fold(0.0, |most: f64, v| most.max(v.norm()));
             all.iter_mut().filter(|v| v.norm() < least).for_each(|v| *v = Complex::new(0.0, 0.0));
             all

@@ -56,7 +56,7 @@ impl Quantity {
 
     /// The three coordinates of a point of a body, given in the body (m).
     pub fn point(linear: &Linear, body: usize, at: Vector3<f64>) -> [Self; 3] {
-        let pose = linear.poses.get(body).copied().unwrap_or_default();
+        let pose = linear.poses[body];
         let (arm, start) = (pose.axes * at, pose.point(at));
         [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| {
             let mut made = Quantity { mean: start.dot(&axis), ..Quantity::dof(linear, body, 0) };
@@ -82,7 +82,7 @@ impl Quantity {
         let Some(link) = system.links.iter().find(|l| l.name.eq_ignore_ascii_case(name)) else { return Ok(None) };
         let Some(first) = link.ends.iter().position(|e| matches!(e, Attachment::Body(..))) else { return Ok(None) };
         let ends: Vec<End> = link.ends.iter().map(|e| End::still(pose_of(e, poses))).collect();
-        let committed = system.states.get(link.states.clone()).unwrap_or_default();
+        let committed = &system.states[link.states.clone()];
         let mut trial = committed.to_vec();
         let (mut rest, mut under_way) = (Response::default(), Response::default());
         let step = Some(TimeStep { time: 0.0, dt: 1.0 });

@@ -90,7 +90,7 @@ fn forces(
                 }
                 let mut force = Motions::zeros(size);
                 for (place, body) in drifting.iter().enumerate() {
-                    let at = linear.poses.get(*body).copied().unwrap_or_default().origin;
+                    let at = linear.poses[*body].origin;
                     let along = |angle: f64| at.x * angle.cos() + at.y * angle.sin();
                     let phase = Complex::from_polar(1.0, k_beside * along(*b) - k * along(*a));
                     let (Some(one), Some(two)) = (one.get(place), two.get(place)) else { continue };

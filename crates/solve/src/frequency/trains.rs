@@ -58,7 +58,7 @@ impl Trains {
                     made.irregular.push(Directional { spectrum, toward });
                 }
                 None => {
-                    let waves = sea.components.get(train.components).unwrap_or_default();
+                    let waves = &sea.components[train.components];
                     let one = |c: &windlass_hydro::sea::Component| {
                         (c.frequency, c.toward[1].atan2(c.toward[0]), 0.5 * c.amplitude * c.amplitude)
                     };

@@ -166,10 +166,7 @@ impl Accuracy {
         // integrals of the squares of the velocity without its mean
         let moved = |[v, vv, ..]: &[f64; 4]| if self.time > 0.0 { (vv - v * v / self.time).max(0.0) } else { 0.0 };
         let arms: Vec<Six> = system.nodes.iter().zip(motions).map(|(n, m)| arms(n, m)).collect();
-        let speed = |at: usize| {
-            let arm = arms.get(at / 6).map_or(0.0, |a| a[at % 6]);
-            self.sums.get(at).map_or(0.0, |s| arm * moved(s).sqrt())
-        };
+        let speed = |at: usize| arms[at / 6][at % 6] * moved(&self.sums[at]).sqrt();
         let fastest = (0..self.sums.len()).map(speed).fold(0.0, f64::max);
         if fastest <= STILL * self.time.sqrt() {
             return None;

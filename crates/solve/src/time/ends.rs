@@ -11,7 +11,7 @@ use windlass_model::End;
 pub(crate) fn end_of(end: &Attachment, motions: &[Motion], accelerates: bool) -> (End, Vector3<f64>) {
     let (body, at) = match end {
         Attachment::Ground(pose) => return (End::still(*pose), Vector3::zeros()),
-        Attachment::Body(body, at) => (motions.get(*body).copied().unwrap_or_default(), at),
+        Attachment::Body(body, at) => (motions[*body], at),
     };
     let pose = Pose { origin: body.pose.point(*at), axes: body.pose.axes };
     let arm = pose.origin - body.pose.origin;

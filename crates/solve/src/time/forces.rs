@@ -51,7 +51,7 @@ impl Memory {
             for load in &node.floating.loads {
                 let from = memory.loads.len();
                 memory.loads.resize(from + load.states(), 0.0);
-                load.start(memory.loads.get_mut(from..).unwrap_or_default());
+                load.start(&mut memory.loads[from..]);
                 ranges.push(from..memory.loads.len());
             }
             memory.ranges.push(ranges);
@@ -75,9 +75,7 @@ impl Memory {
                 |(category, r): &(Category, &Range<usize>)| *category == load.category() && r.len() == range.len();
             let Some(found) = earlier.iter().position(same) else { continue };
             let (_, from) = earlier.remove(found);
-            if let (Some(to), Some(from)) = (self.loads.get_mut(range.clone()), memory.loads.get(from.clone())) {
-                to.copy_from_slice(from);
-            }
+            self.loads[range.clone()].copy_from_slice(&memory.loads[from.clone()]);
         }
     }
 
@@ -96,7 +94,7 @@ impl Memory {
             let on_the_way = Underway { pose: &Pose { axes, ..motion.pose }, ..at };
             let mut more = Six::zeros();
             for (load, range) in node.floating.loads.iter().zip(ranges) {
-                let state = self.loads.get_mut(range.clone()).unwrap_or_default();
+                let state = &mut self.loads[range.clone()];
                 let before = load.held(&on_the_way, state);
                 load.begin(&at, state).map_err(SolveError::of(&node.name))?;
                 if let (Some(before), Some(now)) = (before, load.held(&on_the_way, state)) {
@@ -113,7 +111,7 @@ impl Memory {
         for ((node, ranges), motion) in system.nodes.iter().zip(&self.ranges).zip(motions) {
             let at = Underway { time, dt, pose: &motion.pose, velocity: &motion.velocity };
             for (load, range) in node.floating.loads.iter().zip(ranges).filter(|(_, r)| !r.is_empty()) {
-                load.commit(&at, self.loads.get_mut(range.clone()).unwrap_or_default());
+                load.commit(&at, &mut self.loads[range.clone()]);
             }
         }
     }
@@ -241,7 +239,7 @@ impl Forces {
             self.made.load.stiffness.fill(0.0);
             self.made.damping.fill(0.0);
             for (load, range) in memory.each(system, body) {
-                let state = memory.loads.get(range).unwrap_or_default();
+                let state = &memory.loads[range];
                 self.made.load.wrench.fill(0.0);
                 load.add(&at, state, &mut self.made).map_err(SolveError::of(&node.name))?;
                 let wrench = self.made.load.wrench;
@@ -302,8 +300,8 @@ impl Forces {
         let (flexible, rigid) = (place_of(Category::FlexConnectors), place_of(Category::RigidConnectors));
         for (index, link) in system.links.iter().enumerate() {
             self.place_ends(link, motions);
-            let committed = system.states.get(link.states.clone()).unwrap_or_default();
-            let trial = self.trial.get_mut(link.states.clone()).unwrap_or_default();
+            let committed = &system.states[link.states.clone()];
+            let trial = &mut self.trial[link.states.clone()];
             let Some(guess) = self.guesses.get_mut(index) else { continue };
             let step = (dt > 0.0).then_some(TimeStep { time, dt });
             let at = Situation { ends: &self.ends, step, surroundings: &system.surroundings };
@@ -340,16 +338,14 @@ impl Forces {
             let count = link.ends.len();
             for (i, (end, own)) in link.ends.iter().zip(&self.arms).enumerate() {
                 let Attachment::Body(body, _) = end else { continue };
-                let Some(wrench) = self.response.wrench.get(i) else { continue };
+                let wrench = &self.response.wrench[i];
                 let about = carried(wrench, *own);
                 let mut at = self.sum.fixed_rows_mut::<6>(6 * body);
                 at += about;
                 if let Some(told) = self.categories.get_mut(*body).and_then(|c| c.get_mut(category)) {
                     *told += about;
                 }
-                if let Some(pull) = self.pull.get_mut(*body) {
-                    *pull = pull.max(wrench.fixed_rows::<3>(0).norm());
-                }
+                self.pull[*body] = self.pull[*body].max(wrench.fixed_rows::<3>(0).norm());
                 for (j, (other, far)) in link.ends.iter().zip(&self.arms).enumerate() {
                     let Attachment::Body(column, _) = other else { continue };
                     if let Some(block) = self.response.stiffness.get(count * i + j) {
@@ -393,9 +389,7 @@ impl Forces {
         let crossed = arm.cross_matrix();
         let moment = arm.cross(&force);
         self.add(*body, category, &Six::new(force.x, force.y, force.z, moment.x, moment.y, moment.z));
-        if let Some(pull) = self.pull.get_mut(*body) {
-            *pull = pull.max(force.norm());
-        }
+        self.pull[*body] = self.pull[*body].max(force.norm());
         // the point moves by -[arm] times the rotation; an arm that turns keeps its force
         let by_turn = -(stiffness * crossed);
         let mut block = self.stiffness.fixed_view_mut::<6, 6>(6 * body, 6 * body);

@@ -273,7 +273,7 @@ fn nodes_of(
     let ends: Vec<_> = link.ends.iter().map(|end| end_of(end, motions, true).0).collect();
     let step = Some(TimeStep { time, dt: 0.0 });
     let at = Situation { ends: &ends, step, surroundings: &system.surroundings };
-    link.element.row(&at, system.states.get(link.states.clone()).unwrap_or_default(), guess, nodes)
+    link.element.row(&at, &system.states[link.states.clone()], guess, nodes)
 }
 
 fn at_time(error: ClassError, time: f64) -> ClassError {

@@ -18,11 +18,7 @@ impl Stepper {
         let mut inertia = (usize::MAX, Six::zeros(), 1.0);
         for (i, row) in self.rows.iter().enumerate() {
             let (body, dof) = (row.at / 6, row.at % 6);
-            let (Some(node), Some(trial), Some(mass)) =
-                (system.nodes.get(body), self.trial.get(body), self.masses.get(body))
-            else {
-                continue;
-            };
+            let (node, trial, mass) = (&system.nodes[body], &self.trial[body], &self.masses[body]);
             if inertia.0 != body {
                 let own = mass * trial.acceleration + gyroscopic(&node.floating.mass, trial);
                 let whole = |i: usize| mass[(i, i)] + forces.inertia[(6 * body + i, 6 * body + i)].max(0.0);
@@ -35,7 +31,7 @@ impl Stepper {
                 // of a rotation, times the radius of gyration
                 if dof < 3 { own } else { (own * inertia.2.max(f64::MIN_POSITIVE)).sqrt() }
             } else {
-                let pull = forces.pull.get(body).copied().unwrap_or(0.0);
+                let pull = forces.pull[body];
                 pull.max(1.0) / system.gravity
             };
             let share = left.abs() / measure;
@@ -59,11 +55,9 @@ impl Stepper {
         }
         let mut motions = vec![Six::zeros(); self.trial.len()];
         for (row, by) in self.rows.iter().zip(&self.moved) {
-            if let Some(motion) = motions.get_mut(row.at / 6) {
-                motion[row.at % 6] = if row.heavy { by * by_place } else { *by };
-            }
+            motions[row.at / 6][row.at % 6] = if row.heavy { by * by_place } else { *by };
         }
-        forces.ties.forces = forces.ties.predict(&|body| motions.get(body).copied().unwrap_or_default());
+        forces.ties.forces = forces.ties.predict(&|body| motions[body]);
     }
 
     /// What turning changes in the inertia of each body.
@@ -98,8 +92,9 @@ impl Stepper {
                 }
                 if row.heavy && column.heavy && at / 6 == to / 6 {
                     let place = (at % 6, to % 6);
-                    value += self.masses.get(at / 6).map_or(0.0, |m| m[place]);
-                    value += self.turned.get(at / 6).map_or(0.0, |[k, c]| k[place] * by_place + c[place] * by_velocity);
+                    value += self.masses[at / 6][place];
+                    let [by_turn, by_spin] = &self.turned[at / 6];
+                    value += by_turn[place] * by_place + by_spin[place] * by_velocity;
                 }
                 self.matrix[(i, j)] = value;
             }

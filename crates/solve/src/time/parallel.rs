@@ -56,7 +56,7 @@ fn evaluate(system: &System, lines: &mut [LineTask], step: Option<TimeStep>) {
     let one = |line: &mut LineTask| {
         let Some(link) = system.links.get(line.link) else { return };
         let at = Situation { ends: &line.ends, step, surroundings: &system.surroundings };
-        let committed = system.states.get(link.states.clone()).unwrap_or_default();
+        let committed = &system.states[link.states.clone()];
         let made = link.element.evaluate(&at, committed, &mut line.trial, &mut line.guess, &mut line.response);
         line.failed = made.err();
     };

@@ -27,7 +27,7 @@ impl Run {
     /// The books of the dynamic lines, by name, where they are kept.
     pub fn books(&self) -> Vec<(String, LineBooks)> {
         let of = |link: &Link| {
-            let state = self.system.states.get(link.states.clone()).unwrap_or_default();
+            let state = &self.system.states[link.states.clone()];
             link.element.books(state).map(|books| (link.name.clone(), books))
         };
         self.system.links.iter().filter_map(of).collect()

@@ -86,13 +86,13 @@ impl Stepper {
     pub(super) fn choose(&mut self, system: &System, forces: &Forces) {
         self.rows.clear();
         for (body, node) in system.nodes.iter().enumerate() {
-            let Some(mass) = self.masses.get(body) else { continue };
+            let mass = &self.masses[body];
             let largest = mass.diagonal().amax();
             for dof in 0..6 {
                 if node.moves(dof) {
                     let at = 6 * body + dof;
                     // what hangs on it may have inertia where it has none itself
-                    let carried = forces.inertia.get((at, at)).copied().unwrap_or(0.0);
+                    let carried = forces.inertia[(at, at)];
                     let heavy = mass[(dof, dof)] > 1e-12 * largest || carried > 1e-12 * largest;
                     self.rows.push(Row { at, heavy });
                 }
@@ -122,24 +122,24 @@ impl Stepper {
         let mut matrix = DMatrix::zeros(rows.len(), rows.len());
         let mut right = DVector::zeros(rows.len());
         for (i, at) in rows.iter().enumerate() {
-            let (Some(node), Some(motion)) = (system.nodes.get(at / 6), now.motions.get(at / 6)) else { continue };
+            let (node, motion) = (&system.nodes[at / 6], &now.motions[at / 6]);
             right[i] = now.forces.sum[*at] - gyroscopic(&node.floating.mass, motion)[at % 6];
             if node.prescribed.is_none() {
                 for (j, column) in rows.iter().enumerate() {
                     // the sum is that with the accelerations of before
                     let carried = now.forces.inertia[(*at, *column)];
-                    let before = now.motions.get(column / 6).map_or(0.0, |m| m.acceleration[column % 6]);
+                    let before = now.motions[column / 6].acceleration[column % 6];
                     right[i] += carried * before;
                     matrix[(i, j)] = carried;
                     if column / 6 == at / 6 {
-                        matrix[(i, j)] += self.masses.get(at / 6).map_or(0.0, |m| m[(at % 6, column % 6)]);
+                        matrix[(i, j)] += self.masses[at / 6][(at % 6, column % 6)];
                     }
                 }
             }
         }
         for (body, other, block) in now.forces.ties.blocks() {
-            let given = system.nodes.get(other).is_some_and(|n| n.prescribed.is_some());
-            let acceleration = now.motions.get(other).map_or(Six::zeros(), |m| m.acceleration);
+            let given = system.nodes[other].prescribed.is_some();
+            let acceleration = now.motions[other].acceleration;
             for (i, at) in rows.iter().enumerate().filter(|(_, at)| **at / 6 == body) {
                 if given {
                     right[i] -= SETTLING * block.row(at % 6).transpose().dot(&acceleration);
@@ -159,13 +159,11 @@ impl Stepper {
             motion.acceleration = Six::zeros();
         }
         for (i, at) in rows.iter().enumerate() {
-            if let Some(motion) = now.motions.get_mut(at / 6) {
-                motion.acceleration[at % 6] = solved[i];
-            }
+            now.motions[at / 6].acceleration[at % 6] = solved[i];
         }
         if !now.forces.ties.is_empty() {
             let accelerations: Vec<Six> = now.motions.iter().map(|m| m.acceleration * SETTLING).collect();
-            let ties = now.forces.ties.predict(&|body| accelerations.get(body).copied().unwrap_or_default());
+            let ties = now.forces.ties.predict(&|body| accelerations[body]);
             now.forces.ties.forces = ties;
             now.forces.evaluate(system, &now.memory, &now.motions, (now.time, dt))?;
         }
@@ -177,7 +175,7 @@ impl Stepper {
 
     /// The error of a mass matrix that cannot be solved: the degree of freedom with the least inertia.
     fn singular(&self, system: &System, rows: &[usize]) -> SolveError {
-        let inertia = |at: &usize| self.masses.get(at / 6).map_or(0.0, |m| m[(at % 6, at % 6)]);
+        let inertia = |at: &usize| self.masses[at / 6][(at % 6, at % 6)];
         let turning = rows.iter().filter(|at| *at % 6 >= 3);
         let least = turning.min_by(|a, b| inertia(a).total_cmp(&inertia(b))).or(rows.first()).copied().unwrap_or(0);
         let dof = DOFS.get(least % 6).copied().unwrap_or_default();

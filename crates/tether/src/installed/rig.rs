@@ -303,7 +303,7 @@ impl Rig {
 
 /// X, Y, RX, RY of a node from both planes' deflections and slopes.
 fn four([x, y]: [&[f64]; 2], node: usize) -> [f64; 4] {
-    let at = |list: &[f64], i: usize| list.get(2 * node + i).copied().unwrap_or_default();
+    let at = |list: &[f64], i: usize| list[2 * node + i];
     // 0 - x: no minus before a zero
     [at(x, 0), at(y, 0), 0.0 - at(y, 1), at(x, 1)]
 }

@@ -176,12 +176,12 @@ impl Axial {
         if self.uniform && at.standing == Standing::Taut {
             return at.bottom + 0.5 * self.weight * at.cosine;
         }
-        self.spans.get(element).map_or(0.0, |s| at.bottom + s.below[0] * at.cosine)
+        at.bottom + self.spans[element].below[0] * at.cosine
     }
 
     /// At the ends of an element, lower and upper: effective tension, wall tension (N), pressure outside and inside (Pa).
     pub fn ends(&self, element: usize, at: &Tension, water: &FlowAt) -> [[f64; 4]; 2] {
-        let Some(span) = self.spans.get(element) else { return [[0.0; 4]; 2] };
+        let span = &self.spans[element];
         let [low, _, high] = span.shares;
         let under = 2.0 * span.below[0] - span.below[1];
         [(low, under), (high, span.below[1])].map(|(share, below)| {

@@ -27,7 +27,7 @@ impl Bending {
         let mass = beam::mass(cell.mass[0] / stretch + cell.mass[1], length);
         let (bends, pulls) =
             (beam::stiffness(cell.bending, length), beam::geometric(axial.middle(element, stage.tension), length));
-        let ends = [element, element + 1].map(|node| self.shares.get(node).copied().unwrap_or_default());
+        let ends = [element, element + 1].map(|node| self.shares[node]);
         [0, 1].map(|plane| {
             let end = stage.axis.parts(stage.attachment.acceleration)[plane];
             let turn = end / stage.tension.length;
@@ -40,7 +40,7 @@ impl Bending {
             let mut sum = beam::times(&bends, &ahead);
             beam::add(&mut sum, 1.0, &beam::times(&pulls, &ahead));
             beam::add(&mut sum, 1.0, &beam::times(&mass, &all));
-            beam::add(&mut sum, -1.0, &self.loads[plane].get(element).copied().unwrap_or_default());
+            beam::add(&mut sum, -1.0, &self.loads[plane][element]);
             sum
         })
     }
@@ -59,7 +59,7 @@ impl Bending {
         [0, 1].map(|plane| {
             let x = beam::of_element(&motion[plane].place, last);
             let a = beam::of_element(&self.found[usize::from(!second)][plane], last);
-            let load = self.loads[plane].get(last).map_or(0.0, |l| l[2]);
+            let load = self.loads[plane][last][2];
             beam::dot(&bends[2], &x) + beam::dot(&pulls[2], &x) + beam::dot(&mass, &a) - load
         })
     }

@@ -47,7 +47,7 @@ impl Bending {
         let parts = |v: Vector3<f64>| axis.parts(v)[plane];
         let [rate, growth] =
             [parts(attachment.velocity) / tension.length, parts(attachment.acceleration) / tension.length];
-        let share = self.shares.get(unknown / 2).copied().unwrap_or_default();
+        let share = self.shares[unknown / 2];
         // the springs' rest counts at the ends alone
         let last = self.right.len() - 1;
         let rest = |end: usize| if unknown == [1, last][end] { self.rest[end][plane] } else { 0.0 };
@@ -94,7 +94,7 @@ impl Bending {
         for index in 0..self.openings.len() {
             let (unknown, gap) = self.openings[index];
             let motion = if second { &self.trial } else { &self.now };
-            let share = self.shares.get(unknown / 2).copied().unwrap_or_default();
+            let share = self.shares[unknown / 2];
             let [here, ..] = self.on_axis(share, stage);
             let [middle, ..] = self.opening(share, stage);
             let middle = stage.axis.parts(middle - here);
@@ -155,7 +155,7 @@ impl Bending {
             let element = unknown / 2;
             let load = |e: Option<usize>, i: usize| e.and_then(|e| self.loads[plane].get(e)).map_or(0.0, |l| l[i]);
             push -= load(Some(element), 0) + load(element.checked_sub(1), 2);
-            let share = self.shares.get(element).copied().unwrap_or_default();
+            let share = self.shares[element];
             let [at, ..] = self.opening(share, stage);
             self.pushes.push((stage.axis.across[plane] * -push, at));
         }

@@ -224,7 +224,7 @@ impl Bending {
                 beam::assemble(matrix, index, 1.0, &beam::geometric(pull, length));
             }
             beam::assemble(&mut self.mass, index, 1.0, &beam::mass(cell.mass[0] / stretch + cell.mass[1], length));
-            let start = self.shares.get(index).copied().unwrap_or_default();
+            let start = self.shares[index];
             let [x, y] = &mut self.loads;
             let (Some(x), Some(y)) = (x.get_mut(index), y.get_mut(index)) else { continue };
             (*x, *y) = ([0.0; 4], [0.0; 4]);
